@@ -1,0 +1,40 @@
+#pragma once
+/// What a reader throws when its input is wrong, and the exit status that it asks for.
+#include <stdexcept>
+#include <string>
+
+namespace counterflex {
+
+/// Exit statuses of the command line.
+enum class Exit : int {
+  done = 0,
+  internal = 1,
+  usage = 2,
+  program_text = 3,
+  machine_or_force = 4,
+  not_compensated = 5,
+  limit = 6,
+  transient_io = 75,
+  interrupted = 130,
+};
+
+/// A place in a file; line and column count from 1, columns in bytes; 0 where there is none.
+struct Location {
+  std::string file;
+  int line = 0;
+  int column = 0;
+};
+
+/// Bad input: `what()` is `file:line:column: error: message`, the message with the value seen and what is allowed.
+class InputError : public std::runtime_error {
+ public:
+  InputError(Exit exit, const Location& where, const std::string& message);
+  Exit exit() const { return exit_; }
+  const Location& where() const { return where_; }
+
+ private:
+  Exit exit_;
+  Location where_;
+};
+
+}  // namespace counterflex

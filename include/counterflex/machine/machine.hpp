@@ -1,0 +1,121 @@
+#pragma once
+/// A machine as data: what `machine.toml` says, checked, in SI units. A machine is a base, a platform and chains of
+/// elements between them; each element is a transform from the frame before it to the frame after it. Frames: machine
+/// M (the base), platform P (its origin is the reference point), tool tip T, work frame W.
+#include <limits>
+#include <map>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "counterflex/geometry/pose.hpp"
+
+namespace counterflex {
+
+enum class JointKind { prismatic, revolute };
+
+/// Motion along or about a unit `axis` of the frame before the joint; values in m or rad.
+struct Joint {
+  JointKind kind = JointKind::prismatic;
+  Vector3 axis = Vector3::UnitX();
+};
+
+/// A fixed transform.
+struct Rigid {
+  Pose X;
+};
+
+/// An assembly error: a fixed transform of the real machine, identity in the nominal one.
+struct AssemblyError {
+  std::string name;
+  Pose X;
+};
+
+/// A joint whose value is commanded. Actuators are numbered in the order of chains, then of elements (a group's
+/// branches in order, where the group stands).
+struct Actuator {
+  Joint joint;
+  double min = -std::numeric_limits<double>::infinity();
+  double max = std::numeric_limits<double>::infinity();
+  double home = 0;  ///< where inverse kinematics starts
+};
+
+/// A joint that moves freely, or against `stiffness` (N/m or N m/rad) with energy 1/2 k (q - rest)^2.
+struct Passive {
+  Joint joint;
+  double stiffness = 0;
+  double rest = 0;
+  bool rest_at_home = false;  ///< `rest` is the joint's value in the nominal home configuration
+  double home = 0;            ///< where inverse kinematics starts
+};
+
+/// Six coordinates theta = (p, phi), transform [Exp(phi), p], energy 1/2 (theta - theta_0)' K (theta - theta_0).
+/// K (6x6, symmetric positive semidefinite, SI) in the axes of the frame before the spring.
+struct Spring {
+  std::string name;
+  Matrix6 K = Matrix6::Zero();
+  Vector6 theta_0 = Vector6::Zero();
+};
+
+/// One elastic coordinate theta along or about an axis, energy 1/2 k theta^2.
+struct Compliance {
+  Joint joint;
+  double stiffness = 0;  ///< N/m or N m/rad, positive
+};
+
+struct Branch;
+
+/// Branches side by side between the frame before and the frame after; all end in the same frame.
+struct Group {
+  std::vector<Branch> branches;
+};
+
+using Element = std::variant<Rigid, AssemblyError, Actuator, Passive, Spring, Compliance, Group>;
+
+struct Branch {
+  std::string name;
+  std::vector<Element> elements;
+};
+
+/// From the machine frame to the platform frame: base transform, elements, platform transform, all in `elements`.
+using Chain = Branch;
+
+/// Components of the tip pose, in the order of six-vectors.
+enum class Component : int { x, y, z, rx, ry, rz };
+
+/// How a work offset was found: its true pose, or by touching the part with the imperfect machine.
+struct Datum {
+  std::optional<Vector3> touched_at;  ///< program coordinates (m); none: the offset is the true pose
+};
+
+struct WorkOffset {
+  Pose X_MW;
+  Datum datum;
+};
+
+/// How the control reads programs, where neither the program nor a flag says.
+struct ControlSettings {
+  std::string dialect = "auto";
+  std::string units;                                         ///< "mm", "inch" or empty: not known
+  std::optional<std::vector<std::string>> tool_change_moves;  ///< axes; none: all
+};
+
+struct Machine {
+  std::string name;
+  std::vector<Component> controlled;  ///< as many as there are actuators, or none
+  std::optional<Pose> home_X_MP;      ///< required for more than one chain
+  Pose X_PT;                          ///< tool tip in the platform frame
+  std::map<std::string, WorkOffset> work;
+  ControlSettings control;
+  double max_correction = 1e-3;  ///< m
+  std::vector<Chain> chains;
+};
+
+/// The machine without its assembly errors.
+Machine perfect(const Machine& machine);
+
+/// All actuators in their order.
+std::vector<Actuator> actuators(const Machine& machine);
+
+}  // namespace counterflex

@@ -1,0 +1,20 @@
+#include "counterflex/files/input_error.hpp"
+
+#include <fmt/format.h>
+
+namespace counterflex {
+namespace {
+
+std::string located(const Location& where, const std::string& message) {
+  if (where.file.empty()) return fmt::format("error: {}", message);
+  if (where.line == 0) return fmt::format("{}: error: {}", where.file, message);
+  if (where.column == 0) return fmt::format("{}:{}: error: {}", where.file, where.line, message);
+  return fmt::format("{}:{}:{}: error: {}", where.file, where.line, where.column, message);
+}
+
+}  // namespace
+
+InputError::InputError(Exit exit, const Location& where, const std::string& message)
+    : std::runtime_error(located(where, message)), exit_(exit), where_(where) {}
+
+}  // namespace counterflex

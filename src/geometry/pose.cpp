@@ -1,0 +1,33 @@
+#include "counterflex/geometry/pose.hpp"
+
+#include <Eigen/Geometry>
+
+namespace counterflex {
+
+Pose operator*(const Pose& X_AB, const Pose& X_BC) { return {X_AB.R * X_BC.R, X_AB.p + X_AB.R * X_BC.p}; }
+
+Vector3 operator*(const Pose& X_AB, const Vector3& p_B) { return X_AB.p + X_AB.R * p_B; }
+
+Pose inverse(const Pose& X_AB) { return {X_AB.R.transpose(), -(X_AB.R.transpose() * X_AB.p)}; }
+
+Pose translation(const Vector3& p) { return {Matrix3::Identity(), p}; }
+
+Pose rotation(const Matrix3& R) { return {R, Vector3::Zero()}; }
+
+Pose moved(const Pose& X_AB, const Vector6& step) {
+  return {exp_so3(step.tail<3>()) * X_AB.R, X_AB.p + step.head<3>()};
+}
+
+Vector6 difference(const Pose& to, const Pose& from) {
+  Vector6 d;
+  d << to.p - from.p, log_so3(to.R * from.R.transpose());
+  return d;
+}
+
+Vector6 wrench_at(const Vector6& F_B, const Vector3& p_AB) {
+  Vector6 F_A = F_B;
+  F_A.tail<3>() += p_AB.cross(F_B.head<3>());
+  return F_A;
+}
+
+}  // namespace counterflex
