@@ -30,4 +30,8 @@ struct Toolpath {
   std::vector<Segment> segments;
 };
 
+/// Builds the path of `program` in the machine frame. Moves with an axis that is not known at start and end give no
+/// segment; a move of no length gives none either.
+Toolpath build_toolpath(const Program& program, const Pose& X_MW);
+
 }  // namespace counterflex
