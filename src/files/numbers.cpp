@@ -8,8 +8,10 @@
 namespace counterflex {
 
 std::optional<double> read_number(std::string_view text) {
-  if (!text.empty() && text.front() == '+') text.remove_prefix(1);
-  if (text.empty() || text.front() == '+') return std::nullopt;
+  if (!text.empty() && text.front() == '+') {
+    text.remove_prefix(1);
+    if (!text.empty() && text.front() == '-') return std::nullopt;
+  }
   double value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
@@ -18,13 +20,16 @@ std::optional<double> read_number(std::string_view text) {
 
 std::string format_fixed(double value, int decimals) {
   char buffer[std::numeric_limits<double>::max_exponent10 + 64];
-  const auto end = std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::fixed, decimals).ptr;
+  const auto end =
+      std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::fixed, decimals).ptr;
   std::string text(buffer, end);
   const bool zero = std::none_of(text.begin(), text.end(), [](char c) { return c >= '1' && c <= '9'; });
   if (zero && text.front() == '-') text.erase(0, 1);
   return text;
 }
 
-double rounded(double value, int decimals) { return *read_number(format_fixed(value, decimals)); }
+double rounded(double value, int decimals) {
+  return *read_number(format_fixed(value, decimals));
+}
 
 }  // namespace counterflex

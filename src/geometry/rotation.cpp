@@ -6,8 +6,9 @@
 namespace counterflex {
 namespace {
 
-// The coefficients of Exp and its derivatives as functions of t = |phi|, with their series where the closed form
-// would lose digits:  a = sin t / t,  b = (1 - cos t) / t^2,  c = (t - sin t) / t^3, and db = b'/t, dc = c'/t.
+// The coefficients of Exp and its derivatives as functions of t = |phi|, with their series where the closed
+// form would lose digits:  a = sin t / t,  b = (1 - cos t) / t^2,  c = (t - sin t) / t^3, and db = b'/t, dc =
+// c'/t.
 struct Coefficients {
   double a, b, c, db, dc;
 };
@@ -97,7 +98,10 @@ Vector3 to_rpy(const Matrix3& R) {
   const double cos_pitch = std::hypot(R(0, 0), R(1, 0));
   const double pitch = std::atan2(-R(2, 0), cos_pitch);
   if (cos_pitch < 1e-12) return {0, pitch, std::atan2(-R(0, 1), R(1, 1))};
-  return {std::atan2(R(2, 1), R(2, 2)), pitch, std::atan2(R(1, 0), R(0, 0))};
+  // Roll is what remains after yaw has been taken out: near the poles both are ill conditioned, and only this
+  // keeps their sum accurate.
+  const double yaw = std::atan2(R(1, 0), R(0, 0)), s = std::sin(yaw), c = std::cos(yaw);
+  return {std::atan2(s * R(0, 2) - c * R(1, 2), c * R(1, 1) - s * R(0, 1)), pitch, yaw};
 }
 
 Matrix3 from_quaternion(const Eigen::Vector4d& wxyz) {

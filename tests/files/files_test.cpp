@@ -1,0 +1,132 @@
+#include "counterflex/files/files.hpp"
+
+#include <doctest/doctest.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+
+#include "counterflex/files/input_error.hpp"
+
+using namespace counterflex;
+namespace fs = std::filesystem;
+
+namespace {
+
+/// An empty folder that vanishes with the test.
+struct Folder {
+  fs::path path;
+  Folder() {
+    std::string name = (fs::temp_directory_path() / "counterflex_files_XXXXXX").string();
+    REQUIRE(::mkdtemp(name.data()) != nullptr);
+    path = name;
+  }
+  ~Folder() { fs::remove_all(path); }
+  std::string file(const std::string& name) const { return (path / name).string(); }
+  std::size_t count() const {
+    return static_cast<std::size_t>(std::distance(fs::directory_iterator(path), fs::directory_iterator()));
+  }
+};
+
+template <class Action>
+InputError error_of(Action action) {
+  try {
+    action();
+  } catch (const InputError& error) {
+    return error;
+  }
+  FAIL("no InputError was thrown");
+  return InputError(Exit::internal, {}, "");
+}
+
+bool mentions(const InputError& error, const std::string& text) {
+  return std::string(error.what()).find(text) != std::string::npos;
+}
+
+}  // namespace
+
+TEST_CASE("what is written is read back, every byte") {
+  const Folder folder;
+  std::string bytes = "G1 X1\r\n\0\xff end without line end";
+  bytes += '\0';
+  bytes += std::string(300000, 'x');
+  write_file(folder.file("a.ngc"), bytes);
+  CHECK(read_file(folder.file("a.ngc")) == bytes);
+  write_file(folder.file("a.ngc"), "");
+  CHECK(read_file(folder.file("a.ngc")).empty());
+  CHECK(folder.count() == 1);
+}
+
+TEST_CASE("a file that cannot be read is a usage error that names path and reason") {
+  const Folder folder;
+  const auto missing = error_of([&] { read_file(folder.file("no.ngc")); });
+  CHECK(missing.exit() == Exit::usage);
+  CHECK(mentions(missing, folder.file("no.ngc")));
+  CHECK(mentions(missing, "No such file or directory"));
+  const auto directory = error_of([&] { read_file(folder.path.string()); });
+  CHECK(directory.exit() == Exit::usage);
+  CHECK(mentions(directory, "Is a directory"));
+}
+
+TEST_CASE("a new file has the permissions 0644 less the umask, an old one keeps its own") {
+  const Folder folder;
+  const auto mode = [&] {
+    struct stat status {};
+    REQUIRE(::stat(folder.file("a").c_str(), &status) == 0);
+    return status.st_mode & 0777;
+  };
+  const mode_t before = ::umask(0027);
+  write_file(folder.file("a"), "1");
+  ::umask(before);
+  CHECK(mode() == 0640);
+  REQUIRE(::chmod(folder.file("a").c_str(), 0604) == 0);
+  write_file(folder.file("a"), "2");
+  CHECK(mode() == 0604);
+}
+
+TEST_CASE("a failed write names the path, asks for the transient status and leaves nothing behind") {
+  const Folder folder;
+  const auto no_folder = error_of([&] { write_file(folder.file("none/a"), "1"); });
+  CHECK(no_folder.exit() == Exit::transient_io);
+  CHECK(mentions(no_folder, folder.file("none/a")));
+  fs::create_directory(folder.path / "taken");
+  const auto taken = error_of([&] { write_file(folder.file("taken"), "1"); });
+  CHECK(taken.exit() == Exit::transient_io);
+  CHECK(mentions(taken, "Is a directory"));
+  CHECK(folder.count() == 1);
+}
+
+TEST_CASE("a folder without write permission is refused and the old file stays as it was") {
+  if (::geteuid() == 0) return;  // root may write anywhere
+  const Folder folder;
+  write_file(folder.file("a"), "old");
+  fs::permissions(folder.path, fs::perms::owner_read | fs::perms::owner_exec);
+  CHECK(error_of([&] { write_file(folder.file("a"), "new"); }).exit() == Exit::transient_io);
+  fs::permissions(folder.path, fs::perms::owner_all);
+  CHECK(read_file(folder.file("a")) == "old");
+  CHECK(folder.count() == 1);
+}
+
+TEST_CASE("a full device is an error, and a device is never replaced by a file") {
+  const auto full = error_of([] { write_file("/dev/full", "1"); });
+  CHECK(full.exit() == Exit::transient_io);
+  CHECK(mentions(full, "No space left on device"));
+  CHECK(fs::is_character_file("/dev/full"));
+}
+
+TEST_CASE("writing through a symbolic link replaces what it names and keeps the link") {
+  const Folder folder;
+  write_file(folder.file("real"), "old");
+  fs::create_symlink("real", folder.path / "link");
+  write_file(folder.file("link"), "new");
+  CHECK(fs::is_symlink(folder.path / "link"));
+  CHECK(read_file(folder.file("real")) == "new");
+}
+
+TEST_CASE("SHA-256 gives the digests of the standard's examples") {
+  CHECK(sha256("") == "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
+  CHECK(sha256("abc") == "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+  CHECK(sha256(std::string(1000000, 'a')) ==
+        "cdc76e5c9914fb9281a1c7e284d73e67f1809a48a497200e046d39ccc7112cd0");
+}

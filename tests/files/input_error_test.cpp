@@ -1,0 +1,24 @@
+#include "counterflex/files/input_error.hpp"
+
+#include <doctest/doctest.h>
+
+#include <string>
+
+using namespace counterflex;
+
+TEST_CASE("a diagnostic says where as far as it is known") {
+  const auto text = [](const Location& where) {
+    return std::string(InputError(Exit::usage, where, "m").what());
+  };
+  CHECK(text({"a.ngc", 3, 7}) == "a.ngc:3:7: error: m");
+  CHECK(text({"a.ngc", 3, 0}) == "a.ngc:3: error: m");
+  CHECK(text({"a.ngc", 0, 0}) == "a.ngc: error: m");
+  CHECK(text({}) == "error: m");
+}
+
+TEST_CASE("an input error keeps its exit status and its place") {
+  const InputError error(Exit::program_text, {"a.ngc", 3, 7}, "m");
+  CHECK(error.exit() == Exit::program_text);
+  CHECK(error.where().line == 3);
+  CHECK(error.where().column == 7);
+}

@@ -1,0 +1,74 @@
+#include "counterflex/toolpath/toolpath.hpp"
+
+#include <doctest/doctest.h>
+
+#include "counterflex/geometry/units.hpp"
+#include "support/programs.hpp"
+
+using namespace counterflex;
+using test::ProgramBuilder;
+
+TEST_CASE("path length and time count feed moves only") {
+  const Program program = ProgramBuilder({0, 0, 5})
+                              .rapid({10, 0, 5})
+                              .feed({10, 0, -1}, 60)
+                              .feed({13, 4, -1}, 300)
+                              .rapid({13, 4, 5})
+                              .feed({13, 4, 4}, 300)
+                              .program;
+  const auto segments = build_toolpath(program, Pose{}).segments;
+  REQUIRE(segments.size() == 5);
+  CHECK_FALSE(segments[0].cutting);
+  CHECK(segments[0].s_end == 0);
+  CHECK(segments[0].t_end == 0);
+  CHECK(segments[1].s_end == doctest::Approx(0.006));
+  CHECK(segments[1].t_end == doctest::Approx(6));
+  CHECK(segments[2].s_end == doctest::Approx(0.011));
+  CHECK(segments[2].t_end == doctest::Approx(7));
+  CHECK(segments[2].feed_m_s == doctest::Approx(0.005));
+  CHECK(segments[3].s_start == segments[2].s_end);
+  CHECK(segments[3].s_end == segments[2].s_end);
+  CHECK(segments[4].s_start == segments[3].s_end);
+  CHECK(segments[4].t_end == doctest::Approx(7.2));
+}
+
+TEST_CASE("the work frame places program coordinates in the machine") {
+  const Program program = ProgramBuilder({0, 0, 0}).feed({100, 0, 0}, 600).program;
+  const Pose X_MW{exp_so3({0, 0, 90 * deg}), {1, 2, 3}};
+  const auto path = build_toolpath(program, X_MW);
+  REQUIRE(path.segments.size() == 1);
+  const Segment& segment = path.segments[0];
+  CHECK((path.X_MW.p - X_MW.p).norm() == 0);
+  CHECK((segment.p_MT_start - Vector3(1, 2, 3)).norm() < 1e-15);
+  CHECK((segment.p_MT_end - Vector3(1, 2.1, 3)).norm() < 1e-15);
+  CHECK((segment.p_WT_end - Vector3(0.1, 0, 0)).norm() < 1e-15);
+}
+
+TEST_CASE("moves that start or end at an unknown place give no segment") {
+  ProgramBuilder builder({0, 0, 0});
+  builder.rapid({0, 0, 5}).feed({0, 0, 1}, 100).feed({0, 0, 0}, 100);
+  builder.program.moves[0].known_start = {true, true, false};
+  builder.program.moves[2].known_end = {false, true, true};
+  const auto segments = build_toolpath(builder.program, Pose{}).segments;
+  REQUIRE(segments.size() == 1);
+  CHECK(segments[0].move == 1);
+  CHECK(segments[0].line == builder.program.moves[1].line);
+  CHECK(segments[0].s_start == 0);
+}
+
+TEST_CASE("a move of no length gives no segment and keeps the path joined") {
+  const Program program =
+      ProgramBuilder({0, 0, 0}).feed({1, 0, 0}, 60).feed({1, 0, 0}, 60).feed({2, 0, 0}, 60).program;
+  const auto segments = build_toolpath(program, Pose{}).segments;
+  REQUIRE(segments.size() == 2);
+  CHECK(segments[1].move == 2);
+  CHECK(segments[1].s_start == segments[0].s_end);
+}
+
+TEST_CASE("without a programmed feed the clock stands still, the length does not") {
+  const auto segments = build_toolpath(ProgramBuilder({0, 0, 0}).feed({1, 0, 0}, 0).program, Pose{}).segments;
+  REQUIRE(segments.size() == 1);
+  CHECK(segments[0].feed_m_s == 0);
+  CHECK(segments[0].t_end == 0);
+  CHECK(segments[0].s_end == doctest::Approx(0.001));
+}
