@@ -1,0 +1,30 @@
+# bash completion of counterflex
+
+_counterflex_words() {
+  local forces='--forces --force --load-scale --blend-mm'
+  local program='--machine --dialect --units --work --tolerance-mm --method --max-correction-mm --decimals --threads'
+  case $1 in
+    compensate) echo "$program $forces --output --report --json --quiet --verbose --help" ;;
+    predict | verify) echo "$program $forces --report --json --quiet --verbose --help" ;;
+    analyze) echo "--machine --at --force --method --json --quiet --verbose --help" ;;
+    check) echo "--json --quiet --verbose --help" ;;
+    *) echo "compensate predict verify analyze check --version --help" ;;
+  esac
+}
+
+_counterflex() {
+  local current=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD - 1]} values=''
+  COMPREPLY=()
+  case $previous in
+    --method) values='direct nested linear' ;;
+    --dialect) values='auto' ;;
+    --units) values='mm inch' ;;
+    -m | --machine | -f | --forces | -o | --output | --report) return ;;  # files: readline completes them
+    *) if [[ $COMP_CWORD -eq 1 || $current == -* ]]; then
+         values=$(_counterflex_words "$([ "$COMP_CWORD" -gt 1 ] && echo "${COMP_WORDS[1]}")")
+       fi ;;
+  esac
+  mapfile -t COMPREPLY < <(compgen -W "$values" -- "$current")
+}
+
+complete -o default -F _counterflex counterflex
