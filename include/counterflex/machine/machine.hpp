@@ -1,7 +1,8 @@
 #pragma once
-/// A machine as data: what `machine.toml` says, checked, in SI units. A machine is a base, a platform and chains of
-/// elements between them; each element is a transform from the frame before it to the frame after it. Frames: machine
-/// M (the base), platform P (its origin is the reference point), tool tip T, work frame W.
+/// A machine as data: what `machine.toml` says, checked, in SI units. A machine is a base, a platform and
+/// chains of elements between them; each element is a transform from the frame before it to the frame after
+/// it. Frames: machine M (the base), platform P (its origin is the reference point), tool tip T, work frame
+/// W.
 #include <limits>
 #include <map>
 #include <optional>
@@ -32,8 +33,8 @@ struct AssemblyError {
   Pose X;
 };
 
-/// A joint whose value is commanded. Actuators are numbered in the order of chains, then of elements (a group's
-/// branches in order, where the group stands).
+/// A joint whose value is commanded. Actuators are numbered in the order of chains, then of elements (a
+/// group's branches in order, where the group stands).
 struct Actuator {
   Joint joint;
   double min = -std::numeric_limits<double>::infinity();
@@ -48,10 +49,12 @@ struct Passive {
   double rest = 0;
   bool rest_at_home = false;  ///< `rest` is the joint's value in the nominal home configuration
   double home = 0;            ///< where inverse kinematics starts
+  double min = -std::numeric_limits<double>::infinity();  ///< range as the file has it; nothing watches it
+  double max = std::numeric_limits<double>::infinity();
 };
 
-/// Six coordinates theta = (p, phi), transform [Exp(phi), p], energy 1/2 (theta - theta_0)' K (theta - theta_0).
-/// K (6x6, symmetric positive semidefinite, SI) in the axes of the frame before the spring.
+/// Six coordinates theta = (p, phi), transform [Exp(phi), p], energy 1/2 (theta - theta_0)' K (theta -
+/// theta_0). K (6x6, symmetric positive semidefinite, SI) in the axes of the frame before the spring.
 struct Spring {
   std::string name;
   Matrix6 K = Matrix6::Zero();
@@ -78,7 +81,8 @@ struct Branch {
   std::vector<Element> elements;
 };
 
-/// From the machine frame to the platform frame: base transform, elements, platform transform, all in `elements`.
+/// From the machine frame to the platform frame: base transform, elements, platform transform, all in
+/// `elements`.
 using Chain = Branch;
 
 /// Components of the tip pose, in the order of six-vectors.
@@ -97,7 +101,7 @@ struct WorkOffset {
 /// How the control reads programs, where neither the program nor a flag says.
 struct ControlSettings {
   std::string dialect = "auto";
-  std::string units;                                         ///< "mm", "inch" or empty: not known
+  std::string units;                                          ///< "mm", "inch" or empty: not known
   std::optional<std::vector<std::string>> tool_change_moves;  ///< axes; none: all
 };
 

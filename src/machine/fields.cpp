@@ -1,0 +1,162 @@
+#include "fields.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "suggest.hpp"
+
+namespace counterflex::machine_file {
+namespace {
+
+template <int N>
+Eigen::Matrix<double, N, 1> as_vector(const toml::node& node, const Label& label, const Reading& reading) {
+  const toml::array* array = node.as_array();
+  if (array == nullptr || array->size() != N)
+    reading.source.fail(node, fmt::format("{} must be {} numbers, not {}", label.text(), N, seen(node)));
+  Eigen::Matrix<double, N, 1> v;
+  for (std::size_t k = 0; k < N; ++k) {
+    const Label entry = label.i == 0 ? Label{label.name, k + 1} : Label{label.name, label.i, k + 1};
+    v[static_cast<int>(k)] = as_number((*array)[k], entry, reading);
+  }
+  return v;
+}
+
+double value_of(const std::string& reference, const toml::node& node, const Reading& reading) {
+  if (reading.fillings == nullptr)
+    reading.source.fail(
+        node, fmt::format("\"{}\" stands outside templates and branches, where nothing gives it a value",
+                          reference));
+  Fillings& fillings = *reading.fillings;
+  const auto found = fillings.values.find(std::string_view(reference).substr(1));
+  if (found == fillings.values.end())
+    reading.source.fail(*fillings.place,
+                        fmt::format("chain \"{}\" lacks values.{}, which its elements ask for in line {}",
+                                    fillings.chain, reference.substr(1), node.source().begin.line));
+  found->second.used = true;
+  return found->second.value;
+}
+
+}  // namespace
+
+std::string Label::text() const {
+  if (i == 0) return std::string(name);
+  return j == 0 ? fmt::format("{}[{}]", name, i) : fmt::format("{}[{}][{}]", name, i, j);
+}
+
+std::string seen(const toml::node& node) {
+  if (const auto* text = node.as_string()) return fmt::format("the string \"{}\"", text->get());
+  if (const auto* number = node.as_integer()) return fmt::format("{}", number->get());
+  if (const auto* number = node.as_floating_point()) return fmt::format("{}", number->get());
+  if (const auto* truth = node.as_boolean()) return truth->get() ? "true" : "false";
+  if (const auto* array = node.as_array())
+    return array->empty() ? "an empty array" : fmt::format("an array of {}", array->size());
+  return node.is_table() ? "a table" : "a date or time";
+}
+
+void check_keys(const toml::table& table, const std::vector<std::string_view>& allowed,
+                std::string_view owner, const Source& source) {
+  const toml::key* unknown = nullptr;
+  for (const auto& [key, value] : table) {
+    if (std::find(allowed.begin(), allowed.end(), key.str()) != allowed.end()) continue;
+    if (unknown == nullptr || before(key.source(), unknown->source())) unknown = &key;
+  }
+  if (unknown == nullptr) return;
+  source.fail(*unknown, fmt::format("unknown key \"{}\" in {}{}", unknown->str(), owner,
+                                    hint(unknown->str(), allowed, "allowed")));
+}
+
+const toml::node& required(const toml::table& table, std::string_view key, std::string_view owner,
+                           const toml::node& owner_node, const Source& source) {
+  const toml::node* node = table.get(key);
+  if (node == nullptr) source.fail(owner_node, fmt::format("{} has no \"{}\"", owner, key));
+  return *node;
+}
+
+const toml::table& as_table(const toml::node& node, std::string_view name, const Source& source) {
+  if (!node.is_table()) source.fail(node, fmt::format("{} must be a table, not {}", name, seen(node)));
+  return *node.as_table();
+}
+
+const toml::array& as_array(const toml::node& node, std::string_view name, const Source& source) {
+  if (!node.is_array()) source.fail(node, fmt::format("{} must be an array, not {}", name, seen(node)));
+  return *node.as_array();
+}
+
+std::string as_text(const toml::node& node, std::string_view name, const Source& source) {
+  const auto* text = node.as_string();
+  if (text == nullptr) source.fail(node, fmt::format("{} must be a string, not {}", name, seen(node)));
+  if (text->get().empty()) source.fail(node, fmt::format("{} is an empty string", name));
+  return text->get();
+}
+
+double as_number(const toml::node& node, const Label& label, const Reading& reading) {
+  if (const auto* number = node.as_integer()) return static_cast<double>(number->get());
+  if (const auto* number = node.as_floating_point(); number != nullptr && std::isfinite(number->get()))
+    return number->get();
+  if (const auto* text = node.as_string(); text != nullptr && text->get().starts_with('$'))
+    return value_of(text->get(), node, reading);
+  reading.source.fail(node, fmt::format("{} must be a finite number, not {}", label.text(), seen(node)));
+}
+
+double as_positive(const toml::node& node, const Label& label, const Reading& reading) {
+  const double value = as_number(node, label, reading);
+  if (!(value > 0))
+    reading.source.fail(node, fmt::format("{} is {}; it must be positive", label.text(), value));
+  return value;
+}
+
+double as_not_negative(const toml::node& node, const Label& label, const Reading& reading) {
+  const double value = as_number(node, label, reading);
+  if (!(value >= 0))
+    reading.source.fail(node, fmt::format("{} is {}; it must not be negative", label.text(), value));
+  return value;
+}
+
+Vector3 as_vector3(const toml::node& node, std::string_view name, const Reading& reading) {
+  return as_vector<3>(node, {name}, reading);
+}
+
+Eigen::Vector4d as_vector4(const toml::node& node, std::string_view name, const Reading& reading) {
+  return as_vector<4>(node, {name}, reading);
+}
+
+Vector6 as_vector6(const toml::node& node, std::string_view name, const Reading& reading) {
+  return as_vector<6>(node, {name}, reading);
+}
+
+Matrix6 as_matrix6(const toml::node& node, std::string_view name, const Reading& reading) {
+  const toml::array* rows = node.as_array();
+  if (rows == nullptr || rows->size() != 6)
+    reading.source.fail(node, fmt::format("{} must be 6 rows of 6 numbers, not {}", name, seen(node)));
+  Matrix6 matrix;
+  for (std::size_t i = 0; i < 6; ++i)
+    matrix.row(static_cast<int>(i)) = as_vector<6>((*rows)[i], {name, i + 1}, reading).transpose();
+  return matrix;
+}
+
+std::string_view one_of(const toml::table& table, const std::vector<std::string_view>& keys,
+                        std::string_view owner, const Source& source) {
+  std::string_view first;
+  for (const std::string_view key : keys) {
+    if (!table.contains(key)) continue;
+    if (first.empty()) {
+      first = key;
+      continue;
+    }
+    const bool in_order = before(key_of(table, first).source(), key_of(table, key).source());
+    const std::string_view second = in_order ? key : first;
+    source.fail(key_of(table, second), fmt::format("{} has both \"{}\" and \"{}\"; give one of {}", owner,
+                                                   in_order ? first : key, second, fmt::join(keys, ", ")));
+  }
+  return first;
+}
+
+void check_preload_home(const toml::node& preload, const std::string& instead, const Source& source) {
+  const auto* text = preload.as_string();
+  if (text != nullptr && text->get() == "home") return;
+  source.fail(preload, fmt::format("preload must be \"home\"{}, not {}", instead, seen(preload)));
+}
+
+}  // namespace counterflex::machine_file

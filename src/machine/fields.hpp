@@ -1,0 +1,80 @@
+#pragma once
+/// Reading typed values out of TOML nodes; every failure is an `InputError` at the value's place that says
+/// what was seen and what is allowed.
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "counterflex/geometry/pose.hpp"
+#include "source.hpp"
+
+namespace counterflex::machine_file {
+
+/// Something that the file defines under a name for others to use.
+template <class T>
+struct Given {
+  T value{};
+  const toml::key* key = nullptr;  ///< where it is defined
+  bool used = false;
+};
+
+template <class T>
+using GivenByName = std::map<std::string, Given<T>, std::less<>>;
+
+/// What a chain fills its template with. `place` is where a missing entry is reported.
+struct Fillings {
+  std::string chain;
+  const toml::node* place = nullptr;
+  GivenByName<double> values;
+  GivenByName<Pose> transforms;
+  GivenByName<Pose> errors;
+};
+
+/// How nodes are read: the file, and what "$name" stands for (nothing outside templates and branches).
+struct Reading {
+  const Source& source;
+  Fillings* fillings = nullptr;
+};
+
+/// What a number is called in messages: `name`, `name[i]` or `name[i][j]`, counted from 1.
+struct Label {
+  std::string_view name;
+  std::size_t i = 0;
+  std::size_t j = 0;
+  std::string text() const;
+};
+
+/// The value as a person would say it: `the string "x"`, `an array of 3`, `12.5`.
+std::string seen(const toml::node& node);
+
+/// Throws at the first key, in the order of the file, that is not `allowed`; `owner` says in what.
+void check_keys(const toml::table& table, const std::vector<std::string_view>& allowed,
+                std::string_view owner, const Source& source);
+
+/// The node under `key`. Throws at `owner_node` where it is missing.
+const toml::node& required(const toml::table& table, std::string_view key, std::string_view owner,
+                           const toml::node& owner_node, const Source& source);
+
+const toml::table& as_table(const toml::node& node, std::string_view name, const Source& source);
+const toml::array& as_array(const toml::node& node, std::string_view name, const Source& source);
+std::string as_text(const toml::node& node, std::string_view name, const Source& source);
+
+/// A finite number; "$name" where the reading has fillings.
+double as_number(const toml::node& node, const Label& label, const Reading& reading);
+double as_positive(const toml::node& node, const Label& label, const Reading& reading);
+double as_not_negative(const toml::node& node, const Label& label, const Reading& reading);
+
+Vector3 as_vector3(const toml::node& node, std::string_view name, const Reading& reading);
+Eigen::Vector4d as_vector4(const toml::node& node, std::string_view name, const Reading& reading);
+Vector6 as_vector6(const toml::node& node, std::string_view name, const Reading& reading);
+Matrix6 as_matrix6(const toml::node& node, std::string_view name, const Reading& reading);
+
+/// The one key of `keys` that `table` has; empty where it has none. Throws at the second of two.
+std::string_view one_of(const toml::table& table, const std::vector<std::string_view>& keys,
+                        std::string_view owner, const Source& source);
+
+/// Throws unless `preload` is "home"; `instead` ends the message with what else may be given.
+void check_preload_home(const toml::node& preload, const std::string& instead, const Source& source);
+
+}  // namespace counterflex::machine_file

@@ -1,0 +1,131 @@
+#include "read_elements.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "read_joint.hpp"
+#include "read_transform.hpp"
+#include "suggest.hpp"
+
+namespace counterflex::machine_file {
+namespace {
+
+constexpr std::size_t most_elements = 10000;
+
+const std::vector<std::string_view> kinds = {"rigid",  "error",      "actuator", "passive",
+                                             "spring", "compliance", "parallel"};
+
+Reading reading_of(Expansion& expansion) {
+  return {expansion.source, &expansion.fillings};
+}
+
+/// The entry called `name`, marked as used. Throws at `node` where there is none.
+template <class T>
+T& use(GivenByName<T>& defined, const std::string& name, std::string_view singular, const toml::node& node,
+       const Source& source) {
+  const auto found = defined.find(name);
+  if (found == defined.end())
+    source.fail(
+        node, fmt::format("there is no {} \"{}\"{}", singular, name, hint(name, names(defined), "defined")));
+  found->second.used = true;
+  return found->second.value;
+}
+
+Element read_rigid(const toml::table& table, Expansion& expansion) {
+  const toml::node& node = *table.get("rigid");
+  check_keys(table, {"rigid"}, "a rigid element", expansion.source);
+  if (!node.is_string()) return Rigid{read_transform(node, "rigid", reading_of(expansion))};
+  const std::string name = as_text(node, "rigid", expansion.source);
+  Fillings& fillings = expansion.fillings;
+  const auto found = fillings.transforms.find(name);
+  if (found == fillings.transforms.end())
+    expansion.source.fail(
+        *fillings.place,
+        fmt::format("chain \"{}\" lacks transforms.{}, which its elements ask for in line {}", fillings.chain,
+                    name, node.source().begin.line));
+  found->second.used = true;
+  return Rigid{found->second.value};
+}
+
+Element read_error(const toml::table& table, Expansion& expansion) {
+  const toml::node& node = *table.get("error");
+  check_keys(table, {"error"}, "an error slot", expansion.source);
+  const std::string name = as_text(node, "error", expansion.source);
+  if (!expansion.slots.insert(name).second)
+    expansion.source.fail(
+        node,
+        fmt::format("chain \"{}\" meets the error slot \"{}\" twice; each slot of a chain needs its own name",
+                    expansion.fillings.chain, name));
+  const auto given = expansion.fillings.errors.find(name);
+  if (given == expansion.fillings.errors.end()) return AssemblyError{name, Pose{}};
+  given->second.used = true;
+  return AssemblyError{name, given->second.value};
+}
+
+Element read_spring_element(const toml::table& table, Expansion& expansion) {
+  const toml::node& node = *table.get("spring");
+  check_keys(table, {"spring"}, "a spring element", expansion.source);
+  return use(expansion.library.springs, as_text(node, "spring", expansion.source), "spring", node,
+             expansion.source);
+}
+
+Branch read_branch(const toml::node& node, Expansion& expansion) {
+  const std::string name = as_text(node, "a branch's name", expansion.source);
+  const toml::node& list = *use(expansion.library.branches, name, "branch", node, expansion.source);
+  std::vector<std::string>& open = expansion.open_branches;
+  if (std::find(open.begin(), open.end(), name) != open.end())
+    expansion.source.fail(
+        node, fmt::format("branch \"{}\" is part of itself: {} > {}", name, fmt::join(open, " > "), name));
+  open.push_back(name);
+  Branch branch{name, read_elements(list, expansion)};
+  open.pop_back();
+  return branch;
+}
+
+Element read_group(const toml::table& table, Expansion& expansion) {
+  const toml::node& node = *table.get("parallel");
+  check_keys(table, {"parallel"}, "a parallel element", expansion.source);
+  const toml::array& list = as_array(node, "parallel", expansion.source);
+  if (list.empty())
+    expansion.source.fail(node, "parallel is empty; it must name the branches that stand side by side");
+  Group group;
+  for (const toml::node& name : list) group.branches.push_back(read_branch(name, expansion));
+  return group;
+}
+
+Element read_element(const toml::node& node, Expansion& expansion) {
+  const Source& source = expansion.source;
+  const toml::table& table = as_table(node, "an element", source);
+  const std::string_view kind = one_of(table, kinds, "an element", source);
+  if (kind.empty()) {
+    check_keys(table, kinds, "an element", source);
+    source.fail(node, fmt::format("an element is empty; it must be one of {}", fmt::join(kinds, ", ")));
+  }
+  if (kind == "rigid") return read_rigid(table, expansion);
+  if (kind == "error") return read_error(table, expansion);
+  if (kind == "actuator") return read_actuator(table, reading_of(expansion));
+  if (kind == "passive") return read_passive(table, reading_of(expansion));
+  if (kind == "spring") return read_spring_element(table, expansion);
+  if (kind == "compliance") return read_compliance(table, reading_of(expansion));
+  return read_group(table, expansion);
+}
+
+}  // namespace
+
+std::vector<Element> read_elements(const toml::node& node, Expansion& expansion) {
+  const toml::array& list = as_array(node, "elements", expansion.source);
+  if (list.empty()) expansion.source.fail(node, "elements is empty; a list has at least one element");
+  std::vector<Element> elements;
+  elements.reserve(list.size());
+  for (const toml::node& element : list) {
+    if (++expansion.element_count > most_elements)
+      expansion.source.fail(
+          element, fmt::format("chain \"{}\" has more than {} elements; branches that use branches multiply",
+                               expansion.fillings.chain, most_elements));
+    elements.push_back(read_element(element, expansion));
+  }
+  return elements;
+}
+
+}  // namespace counterflex::machine_file

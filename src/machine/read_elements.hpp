@@ -1,0 +1,24 @@
+#pragma once
+/// Lists of elements, expanded for one chain.
+#include <set>
+
+#include "library.hpp"
+
+namespace counterflex::machine_file {
+
+/// The expansion of one chain: what its lists draw on, and what has been met so far.
+struct Expansion {
+  const Source& source;
+  Library& library;
+  Fillings& fillings;
+  std::set<std::string> slots;             ///< error slots met
+  std::vector<std::string> open_branches;  ///< branches inside which the reader is, outermost first
+  std::size_t element_count = 0;
+};
+
+/// The elements listed by `node`, branches of groups included. Throws at unknown names, a branch inside
+/// itself, an error slot met twice, more than 10000 elements in a chain (branches that use branches
+/// multiply).
+std::vector<Element> read_elements(const toml::node& node, Expansion& expansion);
+
+}  // namespace counterflex::machine_file

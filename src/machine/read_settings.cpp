@@ -1,0 +1,121 @@
+#include "read_settings.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "counterflex/geometry/units.hpp"
+#include "read_transform.hpp"
+#include "suggest.hpp"
+
+namespace counterflex::machine_file {
+namespace {
+
+const std::vector<std::string_view> component_names = {"x", "y", "z", "rx", "ry", "rz"};
+
+const std::vector<std::string_view> dialects = {"auto",    "linuxcnc",   "grbl", "fanuc", "haas", "mach3",
+                                                "siemens", "heidenhain", "krl",  "rapid", "ls",   "urscript"};
+
+/// The text of `node`, which must be one of `allowed`.
+std::string as_choice(const toml::node& node, std::string_view name,
+                      const std::vector<std::string_view>& allowed, const Source& source) {
+  std::string text = as_text(node, name, source);
+  if (std::find(allowed.begin(), allowed.end(), text) == allowed.end())
+    source.fail(node, fmt::format("{} is \"{}\"{}", name, text, hint(text, allowed, "allowed")));
+  return text;
+}
+
+Datum read_datum(const toml::node& node, const Source& source) {
+  if (const auto* text = node.as_string(); text != nullptr && text->get() == "true") return {};
+  if (!node.is_table())
+    source.fail(node,
+                fmt::format("datum must be \"true\" or {{ touched_at_mm = [x, y, z] }}, not {}", seen(node)));
+  const toml::table& table = *node.as_table();
+  check_keys(table, {"touched_at_mm"}, "a datum", source);
+  const toml::node& touched = required(table, "touched_at_mm", "a datum", node, source);
+  return {Vector3(as_vector3(touched, "touched_at_mm", {source}) * mm)};
+}
+
+/// An axis letter, in upper case.
+std::string read_axis_letter(const toml::node& node, const Source& source) {
+  std::string axis = as_text(node, "an axis of tool_change_moves", source);
+  if (axis.size() == 1 && axis[0] >= 'a' && axis[0] <= 'z') axis[0] = static_cast<char>(axis[0] - 'a' + 'A');
+  if (axis.size() != 1 || std::string_view("XYZABCUVW").find(axis[0]) == std::string_view::npos)
+    source.fail(
+        node,
+        fmt::format("an axis of tool_change_moves is \"{}\"; allowed: X, Y, Z, A, B, C, U, V, W", axis));
+  return axis;
+}
+
+std::vector<std::string> read_tool_change_moves(const toml::node& node, const Source& source) {
+  std::vector<std::string> axes;
+  for (const toml::node& entry : as_array(node, "tool_change_moves", source)) {
+    const std::string axis = read_axis_letter(entry, source);
+    if (std::find(axes.begin(), axes.end(), axis) != axes.end())
+      source.fail(entry, fmt::format("tool_change_moves names {} twice", axis));
+    axes.push_back(axis);
+  }
+  return axes;
+}
+
+}  // namespace
+
+void read_controlled(const toml::table& document, const Source& source, Machine& machine) {
+  const toml::node* node = document.get("controlled");
+  if (node == nullptr) return;
+  std::array<bool, 6> listed{};
+  for (const toml::node& entry : as_array(*node, "controlled", source)) {
+    const std::string name = as_choice(entry, "a controlled component", component_names, source);
+    const auto index = static_cast<std::size_t>(
+        std::find(component_names.begin(), component_names.end(), name) - component_names.begin());
+    if (listed[index]) source.fail(entry, fmt::format("controlled names {} twice", name));
+    listed[index] = true;
+  }
+  for (int i = 0; i < 6; ++i)
+    if (listed[static_cast<std::size_t>(i)]) machine.controlled.push_back(static_cast<Component>(i));
+}
+
+void read_home(const toml::table& document, const Source& source, Machine& machine) {
+  if (const toml::node* node = document.get("home"))
+    machine.home_X_MP = read_transform(*node, "[home]", {source});
+}
+
+void read_tool(const toml::table& document, const Source& source, Machine& machine) {
+  if (const toml::node* node = document.get("tool")) machine.X_PT = read_transform(*node, "[tool]", {source});
+}
+
+void read_work(const toml::table& document, const Source& source, Machine& machine) {
+  const toml::node* node = document.get("work");
+  if (node == nullptr) return;
+  for (const auto& [key, entry] : as_table(*node, "work", source)) {
+    const std::string name = fmt::format("[work.{}]", key.str());
+    WorkOffset offset{read_transform(entry, name, {source}, {"datum"}), {}};
+    if (const toml::node* datum = entry.as_table()->get("datum")) offset.datum = read_datum(*datum, source);
+    machine.work.emplace(key.str(), offset);
+  }
+}
+
+void read_program(const toml::table& document, const Source& source, Machine& machine) {
+  const toml::node* node = document.get("program");
+  if (node == nullptr) return;
+  const toml::table& table = as_table(*node, "program", source);
+  check_keys(table, {"dialect", "units", "tool_change_moves"}, "[program]", source);
+  if (const toml::node* dialect = table.get("dialect"))
+    machine.control.dialect = as_choice(*dialect, "dialect", dialects, source);
+  if (const toml::node* units = table.get("units"))
+    machine.control.units = as_choice(*units, "units", {"mm", "inch"}, source);
+  if (const toml::node* moves = table.get("tool_change_moves"))
+    machine.control.tool_change_moves = read_tool_change_moves(*moves, source);
+}
+
+void read_limits(const toml::table& document, const Source& source, Machine& machine) {
+  const toml::node* node = document.get("limits");
+  if (node == nullptr) return;
+  const toml::table& table = as_table(*node, "limits", source);
+  check_keys(table, {"max_correction_mm"}, "[limits]", source);
+  if (const toml::node* most = table.get("max_correction_mm"))
+    machine.max_correction = as_positive(*most, {"max_correction_mm"}, {source}) * mm;
+}
+
+}  // namespace counterflex::machine_file

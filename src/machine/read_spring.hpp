@@ -1,0 +1,11 @@
+#pragma once
+/// Springs of six coordinates as the machine file writes them.
+#include "counterflex/machine/machine.hpp"
+#include "fields.hpp"
+
+namespace counterflex::machine_file {
+
+/// The table `[springs.NAME]`.
+Spring read_spring(const toml::node& node, const std::string& name, const Source& source);
+
+}  // namespace counterflex::machine_file

@@ -1,0 +1,42 @@
+#pragma once
+/// The text of a machine file as TOML, and where its nodes and keys stand.
+#include <toml++/toml.h>
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "counterflex/files/input_error.hpp"
+
+namespace counterflex::machine_file {
+
+/// Turns regions of toml++ (columns in code points) into locations (columns in bytes), and throws with them.
+/// Keeps a view of `text`, which must outlive it.
+class Source {
+ public:
+  Source(std::string_view text, std::string file);
+
+  /// The document. Throws `InputError` at the place of a syntax error.
+  toml::table parse() const;
+
+  Location at(const toml::source_region& region) const;
+  [[noreturn]] void fail(const toml::node& node, const std::string& message) const;
+  [[noreturn]] void fail(const toml::key& key, const std::string& message) const;
+  [[noreturn]] void fail_at_start(const std::string& message) const;
+
+ private:
+  [[noreturn]] void fail(const toml::source_region& region, const std::string& message) const;
+
+  std::string_view text_;
+  std::string file_;
+  std::vector<std::size_t> line_starts_;
+};
+
+/// Whether `a` stands before `b` in the file.
+bool before(const toml::source_region& a, const toml::source_region& b);
+
+/// The key of `table` that is spelt `name`; it must be there.
+const toml::key& key_of(const toml::table& table, std::string_view name);
+
+}  // namespace counterflex::machine_file

@@ -1,0 +1,56 @@
+#include "suggest.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+namespace counterflex::machine_file {
+namespace {
+
+/// Levenshtein's distance.
+std::size_t edits(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    std::size_t diagonal = std::exchange(row[0], i + 1);
+    for (std::size_t j = 0; j < b.size(); ++j) {
+      const std::size_t replaced = diagonal + (a[i] == b[j] ? 0 : 1);
+      diagonal = std::exchange(row[j + 1], std::min({replaced, row[j] + 1, row[j + 1] + 1}));
+    }
+  }
+  return row.back();
+}
+
+std::string_view stem(std::string_view name) {
+  return name.substr(0, name.find('_'));
+}
+
+}  // namespace
+
+std::string_view nearest(std::string_view name, const std::vector<std::string_view>& known) {
+  const std::size_t tolerated = std::max<std::size_t>(1, std::min<std::size_t>(3, name.size() / 3));
+  std::string_view best;
+  std::size_t fewest = tolerated + 1;
+  for (const std::string_view candidate : known) {
+    const std::size_t distance = edits(name, candidate);
+    if (distance < fewest && distance < candidate.size()) {
+      fewest = distance;
+      best = candidate;
+    }
+  }
+  if (!best.empty() || name.find('_') == std::string_view::npos) return best;
+  const auto same_stem = [&](std::string_view candidate) { return stem(candidate) == stem(name); };
+  const auto found = std::find_if(known.begin(), known.end(), same_stem);
+  return found == known.end() ? std::string_view{} : *found;
+}
+
+std::string hint(std::string_view name, const std::vector<std::string_view>& known, std::string_view kind) {
+  if (known.empty()) return "; there are none";
+  const std::string_view meant = nearest(name, known);
+  const std::string list = fmt::format("{}: {}", kind, fmt::join(known, ", "));
+  return meant.empty() ? "; " + list : fmt::format("; did you mean \"{}\"? {}", meant, list);
+}
+
+}  // namespace counterflex::machine_file

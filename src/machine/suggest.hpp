@@ -1,0 +1,17 @@
+#pragma once
+/// Help for misspelt names.
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace counterflex::machine_file {
+
+/// The entry of `known` that `name` was probably meant to be, or empty: few letters differ, or only the unit
+/// behind the first underscore does.
+std::string_view nearest(std::string_view name, const std::vector<std::string_view>& known);
+
+/// `; did you mean "..."? KIND: a, b, c`, to follow a message about an unknown name; without known names, `;
+/// there are none`.
+std::string hint(std::string_view name, const std::vector<std::string_view>& known, std::string_view kind);
+
+}  // namespace counterflex::machine_file
