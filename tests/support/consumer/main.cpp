@@ -1,8 +1,14 @@
-#include "counterflex/files/numbers.hpp"
+#include "counterflex/files/input_error.hpp"
 #include "counterflex/geometry/pose.hpp"
+#include "counterflex/machine/read_machine.hpp"
 
 int main() {
   const counterflex::Pose X = counterflex::translation({1, 2, 3});
-  const bool moved = ((X * counterflex::inverse(X)).p.norm() < 1e-15);
-  return moved && counterflex::format_fixed(0.0005, 3) == "0.001" ? 0 : 1;
+  if ((X * counterflex::inverse(X)).p.norm() > 1e-15) return 1;
+  try {
+    counterflex::read_machine("format = 'none'", "machine.toml");
+  } catch (const counterflex::InputError& error) {
+    return error.where().line == 1 ? 0 : 2;
+  }
+  return 3;
 }
