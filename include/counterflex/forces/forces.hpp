@@ -1,6 +1,6 @@
 #pragma once
-/// Cutting forces: profiles as shops have them, and the wrench that acts at every place of a toolpath. A wrench is what
-/// the workpiece does to the tool: (fx fy fz mx my mz), N and N m.
+/// Cutting forces: profiles as shops have them, and the wrench that acts at every place of a toolpath. A
+/// wrench is what the workpiece does to the tool: (fx fy fz mx my mz), N and N m.
 #include <optional>
 #include <string>
 #include <string_view>
@@ -17,7 +17,7 @@ enum class ForceKey { line, block_number, path_length, time };
 enum class ForceFrame { machine, work, tool, feed };
 
 struct ForceRow {
-  double key = 0;  ///< line, N, m or s
+  double key = 0;               ///< line, N, m or s
   Vector6 F = Vector6::Zero();  ///< on the tool, axes of the profile's frame
   Location where;
 };
@@ -30,17 +30,24 @@ struct ForceProfile {
   std::vector<ForceRow> rows;
 };
 
-/// Reads a CSV profile (DESIGN.md, "Force profiles"). Throws `InputError` (Exit::machine_or_force) naming the row.
+/// Reads a CSV profile: lines `# frame = machine | work | tool | feed`, `# sense = on_tool | on_workpiece`
+/// (both required),
+/// `# interpolation = step | linear` (step), `# at = tip | platform` (tip); other lines that begin with `#`
+/// are comments. Then a header row with one key column `line | n | s_mm | t_s`, `fx_N, fy_N, fz_N` and any of
+/// `mx_Nm, my_Nm, mz_Nm`, in any order; then rows with increasing keys. Forces on the workpiece change their
+/// sign. Throws `InputError` (Exit::machine_or_force) naming the row.
 ForceProfile read_force_csv(std::string_view text, const std::string& file);
 
 /// "FX,FY,FZ[,MX,MY,MZ]" in N and N m. Throws `InputError` (Exit::usage).
 Vector6 parse_force(std::string_view text);
 
-/// Where the forces of a run come from; at most one of `constant` and `profile`. Neither: the program's comments.
+/// Where the forces of a run come from; at most one of `constant` and `profile`. Neither: the program's
+/// comments.
 struct ForceSource {
   std::optional<Vector6> constant;  ///< machine axes, at the tip
   std::optional<ForceProfile> profile;
-  double blend = 2e-3;  ///< m; what acts is the mean over the last min(blend, half of the feed run) of feed path
+  double blend =
+      2e-3;  ///< m; what acts is the mean over the last min(blend, half of the feed run) of feed path
   double scale = 1.0;
 };
 
@@ -49,43 +56,84 @@ struct ForceNote {
   std::string what;
 };
 
-/// The wrench along a toolpath, machine axes, blended. Built once, then read from any thread.
+/// The wrench before blending, linear over [s0, s1] of cutting path length (m), machine axes; `integral` is
+/// that from the start of its feed run to s0 (N m, N m2).
+struct ForcePiece {
+  double s0 = 0;
+  double s1 = 0;
+  Vector6 F0 = Vector6::Zero();
+  Vector6 F1 = Vector6::Zero();
+  Vector6 integral = Vector6::Zero();
+};
+
+/// Feed moves between two rapids: cutting path length [s0, s1] (m), pieces and corners [first, end).
+struct FeedRun {
+  double s0 = 0;
+  double s1 = 0;
+  double blend = 0;  ///< m
+  std::size_t first_piece = 0;
+  std::size_t end_piece = 0;
+  std::size_t first_corner = 0;
+  std::size_t end_corner = 0;
+};
+
+/// On which side of a step a wrench is asked for.
+enum class Side { before, after };
+
+/// The wrench along a toolpath, machine axes, blended. Built once in linear time, then read from any thread;
+/// a query costs the logarithm of the number of moves.
+///
+/// With b = min(blend, half of the feed run), u the path length and f the unblended wrench, zero before the
+/// run:
+///
+///     F(s) = 1/b int_(s-b)^s f(u) du
+///
+/// A feed run is a sequence of cutting segments that join, without a rapid between.
 class PathForces {
  public:
   /// `R_MT` gives the wanted orientation of the tool in the machine frame, one a segment, or one for all.
-  /// Throws `InputError` (Exit::machine_or_force) naming the row whose key lies beyond the program or is missing.
+  /// Throws `InputError` (Exit::machine_or_force) naming the row whose key lies beyond the program, or that
+  /// leaves a cutting move without a force: the first row after the first cutting move, or the last of a
+  /// linear profile before the last.
   PathForces(const ForceSource& source, const Program& program, const Toolpath& path,
              const std::vector<Matrix3>& R_MT);
 
-  /// Wrench at `fraction` (0 to 1) of a segment; zero in rapid moves.
-  Vector6 at(std::size_t segment, double fraction) const;
+  /// Wrench at `fraction` (0 to 1) of a segment; zero in rapid moves. Steps occur with blend 0 only. At the
+  /// ends of a segment the wrench is the segment's own, whatever `side`: `at(i, 1)` is that before a step
+  /// between two segments, `at(i + 1, 0)` that after it.
+  Vector6 at(std::size_t segment, double fraction, Side side = Side::after) const;
 
   bool at_platform() const { return at_platform_; }
 
-  /// Fractions strictly inside a segment where the wrench has a corner or a step: no smooth interpolation across them.
+  /// Fractions strictly inside a segment where the wrench has a corner or a step, increasing: no smooth
+  /// interpolation across them. With a blend these are the starts and ends of ramps; where the profile itself
+  /// only changes its slope the mean has no corner.
   std::vector<double> breaks(std::size_t segment) const;
 
   const std::vector<ForceNote>& notes() const { return notes_; }
-  std::size_t ramps() const { return ramps_; }   ///< steps of the profile that the mean turned into ramps
-  std::size_t jumps() const { return jumps_; }   ///< steps that act as steps (blend 0)
+
+  /// Steps that the mean turned into ramps, and steps that act as steps (blend 0). The entry into a feed run,
+  /// from no force to the first one, is a step.
+  std::size_t ramps() const { return ramps_; }
+  std::size_t jumps() const { return jumps_; }
   double largest_step_N() const { return largest_step_N_; }
 
  private:
-  /// The unblended wrench, linear over [s0, s1] of cutting path length, with the run's integral up to s0.
-  struct Piece {
-    double s0, s1;
-    Vector6 F0, F1, integral;
+  /// Where a segment lies.
+  struct Place {
+    double s0 = 0;
+    double s1 = 0;
+    std::size_t run = 0;  ///< `no_run` for a rapid
   };
-  /// Feed moves between two rapids.
-  struct Run {
-    double s0, s1, blend;
-    std::size_t first_piece, last_piece;
-  };
+
+  void close_run(double blend);
+  void find_corners(FeedRun& run);
+
   bool at_platform_ = false;
-  std::vector<Piece> pieces_;
-  std::vector<Run> runs_;
-  std::vector<std::size_t> run_of_segment_;
-  std::vector<Segment> segments_;
+  std::vector<ForcePiece> pieces_;
+  std::vector<double> corners_;
+  std::vector<FeedRun> runs_;
+  std::vector<Place> places_;
   std::vector<ForceNote> notes_;
   std::size_t ramps_ = 0, jumps_ = 0;
   double largest_step_N_ = 0;

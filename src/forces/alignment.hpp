@@ -1,0 +1,24 @@
+#pragma once
+/// Where the rows of a profile act on a path.
+#include <vector>
+
+#include "counterflex/forces/forces.hpp"
+
+namespace counterflex {
+
+/// The profile's key over a segment: a range for lengths and times, one value for lines and block numbers.
+struct KeySpan {
+  double start = 0;
+  double end = 0;
+};
+
+/// The key of every segment, in SI; of rapids it means nothing. Throws `InputError` (Exit::machine_or_force)
+/// where the program has not what the key counts: a block number, or a feed.
+std::vector<KeySpan> align(const ForceProfile& profile, const Program& program, const Toolpath& path);
+
+/// Throws `InputError` (Exit::machine_or_force) naming the row that lies beyond the program or leaves a
+/// cutting move without a force.
+void check_cover(const ForceProfile& profile, const Program& program, const Toolpath& path,
+                 const std::vector<KeySpan>& keys);
+
+}  // namespace counterflex

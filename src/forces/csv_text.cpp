@@ -1,0 +1,40 @@
+#include "forces/csv_text.hpp"
+
+#include <algorithm>
+
+namespace counterflex::csv {
+namespace {
+
+bool blank(char c) {
+  return c == ' ' || c == '\t';
+}
+
+}  // namespace
+
+std::string_view trimmed(std::string_view text) {
+  while (!text.empty() && blank(text.front())) text.remove_prefix(1);
+  while (!text.empty() && blank(text.back())) text.remove_suffix(1);
+  return text;
+}
+
+std::vector<Field> split(std::string_view line, int first_column) {
+  std::vector<Field> fields;
+  for (std::size_t begin = 0;;) {
+    const std::size_t end = std::min(line.find(',', begin), line.size());
+    const std::string_view raw = line.substr(begin, end - begin), text = trimmed(raw);
+    const std::size_t indent = text.empty() ? 0 : static_cast<std::size_t>(text.data() - raw.data());
+    fields.push_back({text, first_column + static_cast<int>(begin + indent)});
+    if (end == line.size()) return fields;
+    begin = end + 1;
+  }
+}
+
+std::string_view take_line(std::string_view& text) {
+  const std::size_t end = text.find('\n');
+  std::string_view line = text.substr(0, end);
+  text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+  if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
+  return line;
+}
+
+}  // namespace counterflex::csv

@@ -1,0 +1,24 @@
+#pragma once
+/// Lines and fields of CSV text, with the places at which they stand.
+#include <string_view>
+#include <vector>
+
+namespace counterflex::csv {
+
+/// A field without the blanks around it; `column` counts bytes of the line from 1 (of an empty field: where
+/// it would stand).
+struct Field {
+  std::string_view text;
+  int column = 1;
+};
+
+/// `text` without blanks and tabs at both ends.
+std::string_view trimmed(std::string_view text);
+
+/// The fields between commas; `first_column` is that of the line's first byte.
+std::vector<Field> split(std::string_view line, int first_column = 1);
+
+/// Takes the next line off `text`, without its LF or CRLF.
+std::string_view take_line(std::string_view& text);
+
+}  // namespace counterflex::csv

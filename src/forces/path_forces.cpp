@@ -1,0 +1,227 @@
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <limits>
+
+#include "counterflex/forces/forces.hpp"
+#include "forces/alignment.hpp"
+#include "forces/unblended.hpp"
+
+namespace counterflex {
+namespace {
+
+constexpr std::size_t no_run = std::numeric_limits<std::size_t>::max();
+
+// Steps below this part of the wrench are rounding.
+constexpr double rounding = 1e-9;
+
+// Fractions closer than this to the end of a segment, or to each other, are the same place.
+constexpr double same_fraction = 1e-9;
+
+// Segments whose ends are closer than this join (m), and blends shorter than this are none.
+constexpr double joined_m = 1e-9;
+
+bool moves_rapidly(const Move& move) {
+  const auto known = [](const std::array<bool, 3>& axes) { return axes[0] && axes[1] && axes[2]; };
+  return move.motion == Motion::rapid && !(known(move.known_start) && known(move.known_end));
+}
+
+/// Whether cutting goes on from segment i - 1 to segment i, with no rapid between, not even one that gives no
+/// segment.
+bool joins_previous(const Program& program, const Toolpath& path, std::size_t i) {
+  const Segment& before = path.segments[i - 1];
+  const Segment& segment = path.segments[i];
+  const auto between = program.moves.begin();
+  return before.cutting && segment.cutting && (segment.p_MT_start - before.p_MT_end).norm() <= joined_m &&
+         std::none_of(between + static_cast<std::ptrdiff_t>(before.move) + 1,
+                      between + static_cast<std::ptrdiff_t>(segment.move), moves_rapidly);
+}
+
+/// The wrench of one segment in machine axes, appended to the pieces of its run.
+class Unblended {
+ public:
+  Unblended(const ForceSource& source, const Program& program, const Toolpath& path,
+            const std::vector<Matrix3>& R_MT)
+      : source_(source), program_(program), path_(path), R_MT_(R_MT) {
+    assert(R_MT.size() == 1 || R_MT.size() == path.segments.size());
+    if (!profile()) return;
+    keys_ = align(*profile(), program, path);
+    check_cover(*profile(), program, path, keys_);
+  }
+
+  /// The pieces of segment i; a plunge that loses lateral forces is noted.
+  void append_to(std::size_t i, std::size_t first_piece, std::vector<ForcePiece>& pieces,
+                 std::vector<ForceNote>& notes) const {
+    const Segment& segment = path_.segments[i];
+    if (!profile()) {
+      const Vector6 F = source_.scale * uniform(segment);
+      append({segment.s_start, segment.s_end, F, F, Vector6::Zero()}, first_piece, pieces);
+      return;
+    }
+    const ForceAxes axes = axes_of(profile()->frame, segment, path_.X_MW.R, R_MT_[R_MT_.size() == 1 ? 0 : i]);
+    bool lost = false;
+    for (ForcePiece piece : profile_pieces(*profile(), keys_[i], segment)) {
+      lost = lost || (axes.only_z && (lateral(piece.F0) || lateral(piece.F1)));
+      piece.F0 = source_.scale * in_machine_axes(axes, piece.F0);
+      piece.F1 = source_.scale * in_machine_axes(axes, piece.F1);
+      append(piece, first_piece, pieces);
+    }
+    if (lost)
+      notes.push_back({segment.line,
+                       "the feed is parallel to the tool axis: of the force in the feed frame only the z "
+                       "component acts"});
+  }
+
+ private:
+  const ForceProfile* profile() const {
+    return !source_.constant && source_.profile ? &*source_.profile : nullptr;
+  }
+
+  /// The constant, or what the program's comment says.
+  Vector6 uniform(const Segment& segment) const {
+    if (source_.constant) return *source_.constant;
+    return program_.moves[segment.move].force.value_or(Vector6::Zero());
+  }
+
+  static bool lateral(const Vector6& F) { return F[0] != 0 || F[1] != 0 || F[3] != 0 || F[4] != 0; }
+
+  const ForceSource& source_;
+  const Program& program_;
+  const Toolpath& path_;
+  const std::vector<Matrix3>& R_MT_;
+  std::vector<KeySpan> keys_;
+};
+
+Vector6 slope(const ForcePiece& piece) {
+  return (piece.F1 - piece.F0) / (piece.s1 - piece.s0);
+}
+
+Vector6 value(const ForcePiece& piece, double s) {
+  return piece.F0 + (s - piece.s0) * slope(piece);
+}
+
+/// From the start of the run to s.
+Vector6 integral(const ForcePiece& piece, double s) {
+  return piece.integral + (s - piece.s0) * value(piece, (piece.s0 + s) / 2);
+}
+
+bool differ(const Vector6& A, const Vector6& B) {
+  return (A - B).norm() > rounding * std::max(A.norm(), B.norm());
+}
+
+/// The piece of the run that holds s; where two meet, the one on `side`.
+const ForcePiece& piece_at(const std::vector<ForcePiece>& pieces, const FeedRun& run, double s, Side side) {
+  const auto first = pieces.begin() + static_cast<std::ptrdiff_t>(run.first_piece);
+  const auto last = pieces.begin() + static_cast<std::ptrdiff_t>(run.end_piece) - 1;
+  if (side == Side::before)
+    return *std::lower_bound(first, last, s,
+                             [](const ForcePiece& piece, double at) { return piece.s1 < at; });
+  return *std::partition_point(first, last, [s](const ForcePiece& piece) { return piece.s1 <= s; });
+}
+
+/// 1/b int_(s-b)^s f(u) du, f zero before the run.
+Vector6 mean(const std::vector<ForcePiece>& pieces, const FeedRun& run, double s) {
+  const bool full = s - run.blend >= run.s0;
+  const double from = full ? s - run.blend : run.s0, part = full ? 1 : (s - run.s0) / run.blend;
+  const ForcePiece& first = piece_at(pieces, run, from, Side::after);
+  const ForcePiece& last = piece_at(pieces, run, s, Side::before);
+  if (from >= s) return Vector6::Zero();
+  // Within one piece the mean is the value in the middle, free of the rounding of long integrals.
+  if (&first == &last) return part * value(first, (from + s) / 2);
+  return (integral(last, s) - integral(first, from)) / run.blend;
+}
+
+}  // namespace
+
+PathForces::PathForces(const ForceSource& source, const Program& program, const Toolpath& path,
+                       const std::vector<Matrix3>& R_MT)
+    : at_platform_(!source.constant && source.profile && source.profile->at_platform) {
+  const Unblended unblended(source, program, path, R_MT);
+  places_.reserve(path.segments.size());
+  bool open = false;
+  for (std::size_t i = 0; i < path.segments.size(); ++i) {
+    const Segment& segment = path.segments[i];
+    if (open && !joins_previous(program, path, i)) {
+      close_run(source.blend);
+      open = false;
+    }
+    if (segment.cutting && !open) {
+      runs_.push_back({segment.s_start, segment.s_start, 0, pieces_.size(), 0, 0, 0});
+      open = true;
+    }
+    places_.push_back({segment.s_start, segment.s_end, open ? runs_.size() - 1 : no_run});
+    if (open) unblended.append_to(i, runs_.back().first_piece, pieces_, notes_);
+  }
+  if (open) close_run(source.blend);
+}
+
+void PathForces::close_run(double blend) {
+  FeedRun& run = runs_.back();
+  run.end_piece = pieces_.size();
+  run.s1 = pieces_.back().s1;
+  run.blend = std::min(blend, (run.s1 - run.s0) / 2);
+  if (run.blend < joined_m) run.blend = 0;
+  Vector6 sum = Vector6::Zero();
+  for (std::size_t i = run.first_piece; i < run.end_piece; ++i) {
+    pieces_[i].integral = sum;
+    sum = integral(pieces_[i], pieces_[i].s1);
+  }
+  find_corners(run);
+}
+
+void PathForces::find_corners(FeedRun& run) {
+  run.first_corner = corners_.size();
+  std::size_t& steps = run.blend > 0 ? ramps_ : jumps_;
+  for (std::size_t i = run.first_piece; i < run.end_piece; ++i) {
+    const bool entry = i == run.first_piece;
+    const Vector6 before = entry ? Vector6::Zero() : pieces_[i - 1].F1;
+    const bool step = differ(before, pieces_[i].F0);
+    const bool bend = run.blend == 0 && !entry && differ(slope(pieces_[i - 1]), slope(pieces_[i]));
+    if (step) {
+      ++steps;
+      largest_step_N_ = std::max(largest_step_N_, (pieces_[i].F0 - before).head<3>().norm());
+    }
+    if (step || bend) corners_.push_back(pieces_[i].s0);
+  }
+  run.end_corner = corners_.size();
+}
+
+Vector6 PathForces::at(std::size_t segment, double fraction, Side side) const {
+  const Place& place = places_[segment];
+  if (place.run == no_run) return Vector6::Zero();
+  const FeedRun& run = runs_[place.run];
+  if (fraction <= 0) side = Side::after;
+  if (fraction >= 1) side = Side::before;
+  const double inside = place.s0 + fraction * (place.s1 - place.s0);
+  const double s = fraction >= 1 ? place.s1 : std::clamp(inside, place.s0, place.s1);
+  if (run.blend > 0) return mean(pieces_, run, s);
+  // A fraction that `breaks` gave may round to the other side of its step.
+  const double margin = (side == Side::before ? -1 : 1) * same_fraction * (place.s1 - place.s0);
+  const ForcePiece& piece = piece_at(pieces_, run, std::clamp(s + margin, place.s0, place.s1), side);
+  return value(piece, std::clamp(s, piece.s0, piece.s1));
+}
+
+std::vector<double> PathForces::breaks(std::size_t segment) const {
+  const Place& place = places_[segment];
+  if (place.run == no_run) return {};
+  const FeedRun& run = runs_[place.run];
+  std::vector<double> fractions;
+  const auto add = [&](double s) {
+    const double fraction = (s - place.s0) / (place.s1 - place.s0);
+    if (fraction > same_fraction && fraction < 1 - same_fraction) fractions.push_back(fraction);
+  };
+  // A step at p bends the mean at p and at p + b.
+  const auto end = corners_.begin() + static_cast<std::ptrdiff_t>(run.end_corner);
+  auto corner = std::lower_bound(corners_.begin() + static_cast<std::ptrdiff_t>(run.first_corner), end,
+                                 place.s0 - run.blend);
+  for (; corner != end && *corner < place.s1; ++corner) {
+    add(*corner);
+    if (run.blend > 0) add(*corner + run.blend);
+  }
+  std::sort(fractions.begin(), fractions.end());
+  const auto same = [](double a, double b) { return b - a < same_fraction; };
+  fractions.erase(std::unique(fractions.begin(), fractions.end(), same), fractions.end());
+  return fractions;
+}
+
+}  // namespace counterflex

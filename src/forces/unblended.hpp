@@ -1,0 +1,34 @@
+#pragma once
+/// The wrench as source and profile give it, before the mean is taken.
+#include <vector>
+
+#include "counterflex/forces/forces.hpp"
+#include "forces/alignment.hpp"
+
+namespace counterflex {
+
+/// The axes in which a force is given, in the machine frame.
+struct ForceAxes {
+  Matrix3 R_MF = Matrix3::Identity();
+  bool only_z = false;  ///< feed parallel to the tool: no lateral direction
+};
+
+/// Axes x, y, z of the feed frame: z the tool's, y = unit(z x feed), x = y x z.
+ForceAxes feed_axes(const Vector3& feed_M, const Matrix3& R_MT);
+
+/// The axes of `frame` on `segment`.
+ForceAxes axes_of(ForceFrame frame, const Segment& segment, const Matrix3& R_MW, const Matrix3& R_MT);
+
+/// F in machine axes.
+Vector6 in_machine_axes(const ForceAxes& axes, const Vector6& F);
+
+/// The profile over the keys of one segment, in the profile's frame: pieces on which it is linear. `s0`, `s1`
+/// are path lengths of the segment.
+std::vector<ForcePiece> profile_pieces(const ForceProfile& profile, const KeySpan& keys,
+                                       const Segment& segment);
+
+/// Appends `piece` to the pieces of a run that begin at `first`; one that goes on with the same constant is
+/// made longer.
+void append(const ForcePiece& piece, std::size_t first, std::vector<ForcePiece>& pieces);
+
+}  // namespace counterflex

@@ -1,0 +1,331 @@
+#include <doctest/doctest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <string>
+
+#include "forces/sample_path.hpp"
+
+using namespace counterflex;
+using test::forces_on;
+using test::from_csv;
+using test::ProgramBuilder;
+using test::sample_program;
+using test::wrench;
+
+namespace {
+
+const std::string on_tool = "# frame = machine\n# sense = on_tool\n";
+const std::string linear = on_tool + "# interpolation = linear\n";
+
+ForceSource constant(const Vector6& F, double blend) {
+  ForceSource source;
+  source.constant = F;
+  source.blend = blend;
+  return source;
+}
+
+/// One cut of `length_mm` along x at 10 mm/s in blocks of `block_mm`.
+Program straight(double length_mm, double block_mm) {
+  ProgramBuilder builder({0, 0, 0});
+  const int blocks = static_cast<int>(length_mm / block_mm + 0.5);
+  for (int i = 1; i <= blocks; ++i) builder.feed({i * block_mm, 0, 0}, 600);
+  return builder.program;
+}
+
+bool near(const Vector6& A, const Vector6& B, double tolerance = 1e-9) {
+  return (A - B).norm() <= tolerance;
+}
+
+}  // namespace
+
+TEST_CASE("rapids carry no force, feed moves the constant one, scaled") {
+  ForceSource source = constant(wrench(1, 2, 3, 4, 5, 6), 0);
+  source.scale = 0.5;
+  const auto forces = forces_on(sample_program(), source);
+  for (const double f : {0.0, 0.4, 1.0}) {
+    CHECK(forces.at(0, f) == Vector6::Zero());
+    CHECK(forces.at(1, f) == wrench(0.5, 1, 1.5, 2, 2.5, 3));
+    CHECK(forces.at(3, f) == Vector6::Zero());
+    CHECK(forces.at(5, f) == wrench(0.5, 1, 1.5, 2, 2.5, 3));
+  }
+  CHECK_FALSE(forces.at_platform());
+}
+
+TEST_CASE("the program's comments are modal, zero before the first, and steps act at block ends") {
+  ProgramBuilder builder({0, 0, 0});
+  builder.feed({1, 0, 0}, 60).with_force(wrench(100, 0, 0)).feed({2, 0, 0}, 60).feed({3, 0, 0}, 60);
+  builder.with_force(Vector6::Zero()).feed({4, 0, 0}, 60);
+  ForceSource source;
+  source.blend = 0;
+  const auto forces = forces_on(builder.program, source);
+  CHECK(forces.at(0, 1) == Vector6::Zero());
+  CHECK(forces.at(1, 0) == wrench(100, 0, 0));
+  CHECK(forces.at(2, 1) == wrench(100, 0, 0));
+  CHECK(forces.at(3, 0) == Vector6::Zero());
+  CHECK(forces.jumps() == 2);
+  CHECK(forces.ramps() == 0);
+  CHECK(forces.largest_step_N() == 100);
+  for (std::size_t i = 0; i < 4; ++i) CHECK(forces.breaks(i).empty());
+}
+
+TEST_CASE("a constant force rises over the blend after each rapid and then stays exactly itself") {
+  const auto forces = forces_on(sample_program(), constant(wrench(200, 0, -40), 2 * mm));
+  for (const std::size_t first : {1u, 4u}) {
+    CHECK(forces.at(first, 0) == Vector6::Zero());
+    CHECK(near(forces.at(first, 0.05), wrench(50, 0, -10)));
+    CHECK(near(forces.at(first, 0.2), wrench(200, 0, -40)));
+    CHECK(forces.at(first, 0.7) == wrench(200, 0, -40));
+    CHECK(forces.at(first + 1, 0) == wrench(200, 0, -40));
+    CHECK(forces.at(first + 1, 1) == wrench(200, 0, -40));
+    REQUIRE(forces.breaks(first).size() == 1);
+    CHECK(forces.breaks(first)[0] == doctest::Approx(0.2));
+    CHECK(forces.breaks(first + 1).empty());
+  }
+  CHECK(forces.ramps() == 2);
+  CHECK(forces.jumps() == 0);
+  CHECK(forces.largest_step_N() == doctest::Approx(std::hypot(200, 40)));
+}
+
+TEST_CASE("the blend is at most half of the feed run") {
+  const auto forces = forces_on(straight(3, 1), constant(wrench(10, 0, 0), 2 * mm));
+  CHECK(near(forces.at(0, 0.75), wrench(5, 0, 0)));
+  CHECK(near(forces.at(1, 0.5), wrench(10, 0, 0)));
+  CHECK(near(forces.at(2, 1), wrench(10, 0, 0)));
+}
+
+TEST_CASE("the wrench does not depend on how a cut is divided into blocks") {
+  const std::string rows = "s_mm,fx_N,fy_N,fz_N\n0,10,0,0\n3.3,200,5,0\n7.7,-40,0,9\n10,0,0,0\n";
+  for (const auto& header : {on_tool, linear}) {
+    const auto coarse = forces_on(straight(10, 10), from_csv(header + rows, 2 * mm));
+    const auto fine = forces_on(straight(10, 0.1), from_csv(header + rows, 2 * mm));
+    for (std::size_t i = 0; i < 100; ++i)
+      for (const double f : {0.0, 0.3, 1.0}) {
+        CAPTURE(i);
+        CHECK(near(fine.at(i, f), coarse.at(0, (static_cast<double>(i) + f) / 100), 1e-8));
+      }
+    CHECK(fine.ramps() == coarse.ramps());
+  }
+}
+
+TEST_CASE("the blended wrench is the mean of the unblended one over the last stretch of the run") {
+  const std::string rows = "t_s,fx_N,fy_N,fz_N\n0,10,0,0\n0.33,200,5,0\n0.91,-40,0,9\n2,0,0,0\n";
+  for (const auto& header : {on_tool, linear}) {
+    const Program program = straight(20, 4);
+    const auto plain = forces_on(program, from_csv(header + rows)),
+               blended = forces_on(program, from_csv(header + rows, 3 * mm));
+    const auto unblended = [&](double s_mm) {
+      const auto i = std::min<std::size_t>(static_cast<std::size_t>(s_mm / 4), 4);
+      return plain.at(i, s_mm / 4 - static_cast<double>(i));
+    };
+    for (const double s_mm : {0.5, 2.9, 3.1, 4.7, 9.9, 10.3, 19.0}) {
+      CAPTURE(s_mm);
+      Vector6 sum = Vector6::Zero();
+      const int n = 30000;
+      for (int k = 0; k < n; ++k) {
+        const double u = s_mm - 3 + 3 * (k + 0.5) / n;
+        if (u > 0) sum += unblended(u) / n;
+      }
+      const auto i = static_cast<std::size_t>(s_mm / 4);
+      CHECK(near(blended.at(i, s_mm / 4 - static_cast<double>(i)), sum, 0.02));
+    }
+  }
+}
+
+TEST_CASE("line and block number rows hold from their block until the next row's") {
+  const std::string forces_2_4 = ",100,0,0\n", forces_6 = ",50,0,0\n";
+  for (const auto& text : {"line,fx_N,fy_N,fz_N\n2" + forces_2_4 + "6" + forces_6,
+                           "n,fx_N,fy_N,fz_N\n15" + forces_2_4 + "41" + forces_6}) {
+    const auto forces = forces_on(sample_program(), from_csv(on_tool + text));
+    CHECK(forces.at(1, 0.5) == wrench(100, 0, 0));
+    CHECK(forces.at(2, 0.5) == wrench(100, 0, 0));
+    CHECK(forces.at(4, 1) == wrench(100, 0, 0));
+    CHECK(forces.at(5, 0) == wrench(50, 0, 0));
+    CHECK(forces.jumps() == 3);
+  }
+}
+
+TEST_CASE("linear interpolation over lines gives each block one force") {
+  const auto forces =
+      forces_on(sample_program(), from_csv(linear + "line,fx_N,fy_N,fz_N\n1,0,0,0\n6,50,0,0\n"));
+  for (const double f : {0.0, 1.0}) {
+    CHECK(near(forces.at(1, f), wrench(10, 0, 0)));
+    CHECK(near(forces.at(4, f), wrench(40, 0, 0)));
+    CHECK(near(forces.at(5, f), wrench(50, 0, 0)));
+  }
+}
+
+TEST_CASE("a step inside a segment has two sides, and a break where it stands") {
+  const auto forces =
+      forces_on(straight(10, 10), from_csv(on_tool + "s_mm,fx_N,fy_N,fz_N\n0,1,0,0\n3,2,0,0\n7,3,0,0\n"));
+  const auto breaks = forces.breaks(0);
+  REQUIRE(breaks.size() == 2);
+  CHECK(breaks[0] == doctest::Approx(0.3));
+  CHECK(breaks[1] == doctest::Approx(0.7));
+  for (int i = 0; i < 2; ++i) {
+    CHECK(forces.at(0, breaks[i], Side::before) == wrench(i + 1, 0, 0));
+    CHECK(forces.at(0, breaks[i], Side::after) == wrench(i + 2, 0, 0));
+  }
+  CHECK(forces.at(0, 0, Side::before) == wrench(1, 0, 0));
+  CHECK(forces.at(0, 1, Side::after) == wrench(3, 0, 0));
+}
+
+TEST_CASE("a linear profile runs through its rows, in length and in time") {
+  for (const auto& keys : {std::string("s_mm,fx_N,fy_N,fz_N\n0,0,0,0\n4,40,0,0\n10,10,0,0\n"),
+                           std::string("t_s,fx_N,fy_N,fz_N\n0,0,0,0\n0.4,40,0,0\n1,10,0,0\n")}) {
+    const auto forces = forces_on(straight(10, 5), from_csv(linear + keys));
+    CHECK(near(forces.at(0, 0.4), wrench(20, 0, 0)));
+    CHECK(near(forces.at(0, 0.8), wrench(40, 0, 0)));
+    CHECK(near(forces.at(1, 0), wrench(35, 0, 0)));
+    CHECK(near(forces.at(1, 1), wrench(10, 0, 0)));
+    REQUIRE(forces.breaks(0).size() == 1);
+    CHECK(forces.breaks(0)[0] == doctest::Approx(0.8));
+    CHECK(forces.jumps() == 0);
+  }
+}
+
+TEST_CASE("a step in time acts where the tool then is, whatever the feeds") {
+  const Program program =
+      ProgramBuilder({0, 0, 0}).feed({10, 0, 0}, 600).feed({20, 0, 0}, 300).program;  // 1 s, 2 s
+  const auto forces =
+      forces_on(program, from_csv(on_tool + "t_s,fx_N,fy_N,fz_N\n0,1,0,0\n0.5,2,0,0\n2,3,0,0\n"));
+  REQUIRE(forces.breaks(0).size() == 1);
+  CHECK(forces.breaks(0)[0] == doctest::Approx(0.5));
+  REQUIRE(forces.breaks(1).size() == 1);
+  CHECK(forces.breaks(1)[0] == doctest::Approx(0.5));
+}
+
+TEST_CASE("between breaks the blended wrench of a stepped profile is a straight line") {
+  const auto forces = forces_on(
+      straight(12, 6),
+      from_csv(on_tool + "s_mm,fx_N,fy_N,fz_N\n0,1,0,0\n3.2,20,0,5\n4.1,-7,0,0\n5,9,1,1\n", 2 * mm));
+  for (const std::size_t i : {0u, 1u}) {
+    auto knots = forces.breaks(i);
+    knots.insert(knots.begin(), 0);
+    knots.push_back(1);
+    for (std::size_t k = 0; k + 1 < knots.size(); ++k)
+      for (const double w : {0.2, 0.5, 0.9}) {
+        const Vector6 chord = (1 - w) * forces.at(i, knots[k]) + w * forces.at(i, knots[k + 1]);
+        CHECK(near(forces.at(i, (1 - w) * knots[k] + w * knots[k + 1]), chord, 1e-7));
+      }
+  }
+  CHECK(forces.ramps() == 4);
+}
+
+TEST_CASE("work and tool frames turn forces and moments by the part's and the tool's orientation") {
+  const Pose X_MW = rotation(exp_so3({0, 0, 90 * deg}));
+  const Matrix3 R_MT = exp_so3({90 * deg, 0, 0});
+  const std::string rows = "# sense = on_tool\nline,fx_N,fy_N,fz_N,mx_Nm,my_Nm,mz_Nm\n1,1,2,3,4,5,6\n";
+  const auto work = forces_on(sample_program(), from_csv("# frame = work\n" + rows), X_MW, R_MT);
+  CHECK(near(work.at(2, 0.5), wrench(-2, 1, 3, -5, 4, 6)));
+  const auto tool = forces_on(sample_program(), from_csv("# frame = tool\n" + rows), X_MW, R_MT);
+  CHECK(near(tool.at(2, 0.5), wrench(1, -3, 2, 4, -6, 5)));
+}
+
+TEST_CASE("each segment may have its own tool orientation") {
+  const Program program = straight(2, 1);
+  const auto path = build_toolpath(program, Pose{});
+  const auto source = from_csv("# frame = tool\n# sense = on_tool\nline,fx_N,fy_N,fz_N\n1,1,0,0\n");
+  const PathForces forces(source, program, path, {Matrix3::Identity(), exp_so3({0, 0, 90 * deg})});
+  CHECK(near(forces.at(0, 1), wrench(1, 0, 0)));
+  CHECK(near(forces.at(1, 0), wrench(0, 1, 0)));
+}
+
+TEST_CASE("in the feed frame x follows the feed, z is the tool's, and a plunge keeps z only and is listed") {
+  const auto source =
+      from_csv("# frame = feed\n# sense = on_tool\nline,fx_N,fy_N,fz_N,mx_Nm,my_Nm,mz_Nm\n1,1,2,3,4,5,6\n");
+  const auto forces = forces_on(sample_program(), source);
+  CHECK(near(forces.at(1, 0.5), wrench(0, 0, 3, 0, 0, 6)));
+  CHECK(near(forces.at(2, 0.5), wrench(1, 2, 3, 4, 5, 6)));    // along x
+  CHECK(near(forces.at(4, 0.5), wrench(-2, 1, 3, -5, 4, 6)));  // along y
+  CHECK(near(forces.at(5, 0.5), wrench(-1, -2, 3, -4, -5, 6)));
+  REQUIRE(forces.notes().size() == 1);
+  CHECK(forces.notes()[0].line == 2);
+}
+
+TEST_CASE("the feed frame of a slanted cut stands on the tool's axis, not on the feed") {
+  const Program ramp = ProgramBuilder({0, 0, 0}).feed({10, 0, -5}, 600).program;
+  const auto forces =
+      forces_on(ramp, from_csv("# frame = feed\n# sense = on_tool\nline,fx_N,fy_N,fz_N\n1,1,2,3\n"));
+  CHECK(near(forces.at(0, 0.5), wrench(1, 2, 3)));
+  CHECK(forces.notes().empty());
+}
+
+TEST_CASE("a plunge with an axial force only is not listed") {
+  const auto forces = forces_on(
+      sample_program(), from_csv("# frame = feed\n# sense = on_tool\nline,fx_N,fy_N,fz_N\n1,0,0,3\n"));
+  CHECK(forces.notes().empty());
+  CHECK(near(forces.at(1, 0.5), wrench(0, 0, 3)));
+}
+
+TEST_CASE("a rapid that gives no segment ends a feed run all the same") {
+  ProgramBuilder builder({0, 0, 0});
+  builder.feed({10, 0, 0}, 600).rapid({10, 0, 9}).rapid({10, 0, 0}).feed({20, 0, 0}, 600);
+  builder.program.moves[1].known_end[2] = builder.program.moves[2].known_start[2] = false;
+  const auto forces = forces_on(builder.program, constant(wrench(10, 0, 0), 2 * mm));
+  CHECK(near(forces.at(0, 1), wrench(10, 0, 0)));
+  CHECK(forces.at(1, 0) == Vector6::Zero());
+  CHECK(forces.ramps() == 2);
+}
+
+TEST_CASE("cuts that do not join are not one run") {
+  ProgramBuilder builder({0, 0, 0});
+  builder.feed({10, 0, 0}, 600);
+  builder.at_mm = {0, 5, 0};
+  builder.feed({10, 5, 0}, 600);
+  const auto forces = forces_on(builder.program, constant(wrench(10, 0, 0), 2 * mm));
+  CHECK(forces.at(1, 0) == Vector6::Zero());
+}
+
+TEST_CASE("a step at the end of the last cut, or a key rounded beyond it, is no error") {
+  const auto forces =
+      forces_on(straight(10, 10), from_csv(on_tool + "s_mm,fx_N,fy_N,fz_N\n0,1,0,0\n10.0000005,2,0,0\n"));
+  CHECK(forces.at(0, 1) == wrench(1, 0, 0));
+  CHECK(forces.breaks(0).empty());
+}
+
+TEST_CASE("keys that the program cannot have are errors at the first row") {
+  Program unnumbered = sample_program(), decreasing = sample_program(), no_feed = sample_program();
+  unnumbered.moves[0].block_number = unnumbered.moves[1].block_number = std::nullopt;
+  decreasing.moves[4].block_number = 5;
+  no_feed.moves[2].feed_mm_min = 0;
+  const auto by_n = from_csv(on_tool + "n,fx_N,fy_N,fz_N\n1,1,0,0\n");
+  CHECK_THROWS_WITH_AS(
+      forces_on(unnumbered, by_n),
+      "forces.csv:4:1: error: row 1: key n needs block numbers, the move in line 2 has none at or before it",
+      InputError);
+  CHECK_THROWS_WITH_AS(
+      forces_on(decreasing, by_n),
+      "forces.csv:4:1: error: row 1: key n needs block numbers that never decrease, line 5 has N5 after N30",
+      InputError);
+  CHECK_THROWS_WITH_AS(forces_on(no_feed, from_csv(on_tool + "t_s,fx_N,fy_N,fz_N\n0,1,0,0\n")),
+                       "forces.csv:4:1: error: row 1: key t_s needs a feed, the move in line 3 has none",
+                       InputError);
+}
+
+TEST_CASE("a profile that acts at the platform says so, a constant force never does") {
+  auto source = from_csv(on_tool + "# at = platform\nline,fx_N,fy_N,fz_N\n1,1,0,0\n");
+  CHECK(forces_on(sample_program(), source).at_platform());
+  source.constant = wrench(1, 0, 0);
+  CHECK_FALSE(forces_on(sample_program(), source).at_platform());
+}
+
+TEST_CASE("a program without cuts has no forces and takes any profile that it covers") {
+  const Program program = ProgramBuilder({0, 0, 0}).rapid({1, 0, 0}).rapid({2, 0, 0}).program;
+  const auto forces = forces_on(program, from_csv(on_tool + "line,fx_N,fy_N,fz_N\n2,1,0,0\n", 2 * mm));
+  CHECK(forces.at(1, 0.5) == Vector6::Zero());
+  CHECK(forces.ramps() == 0);
+}
+
+TEST_CASE("very long runs keep the blended wrench accurate") {
+  const std::size_t count = 200000;
+  const Program program = straight(100.0 * count, 100);
+  std::string text = on_tool + "line,fx_N,fy_N,fz_N\n";
+  for (std::size_t i = 1; i <= count; ++i)
+    text += std::to_string(i) + (i % 2 == 0 ? ",300,0,0\n" : ",200,0,0\n");
+  const auto forces = forces_on(program, from_csv(text, 2 * mm));
+  CHECK(forces.ramps() == count);
+  CHECK(near(forces.at(count - 1, 0.01), wrench(250, 0, 0), 1e-3));
+  CHECK(forces.at(count - 1, 0.5) == wrench(300, 0, 0));
+  CHECK(forces.breaks(count - 1).size() == 1);
+}
