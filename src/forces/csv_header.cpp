@@ -32,11 +32,13 @@ struct Setting {
   int key_column = 1, value_column = 1;
 };
 
-Setting parts_of(std::string_view line) {
+Setting parts_of(std::string_view line, int first_column) {
   const std::size_t equals = line.find('=');
   const std::string_view key = trimmed(line.substr(1, equals - 1)), rest = line.substr(equals + 1);
   const std::string_view value = trimmed(rest);
-  const auto column = [&](std::string_view part) { return static_cast<int>(part.data() - line.data()) + 1; };
+  const auto column = [&](std::string_view part) {
+    return static_cast<int>(part.data() - line.data()) + first_column;
+  };
   return {key, value, column(key), column(value.empty() ? rest : value)};
 }
 
@@ -78,7 +80,7 @@ bool is_setting(std::string_view line) {
 }
 
 void read_setting(std::string_view line, const Location& where, Settings& settings) {
-  const Setting setting = parts_of(line);
+  const Setting setting = parts_of(line, where.column);
   const auto choice = [&](bool given, const auto& allowed) { return choose(setting, where, given, allowed); };
   using Names2 = std::array<std::string_view, 2>;
   if (setting.key == "frame") {

@@ -210,14 +210,15 @@ std::vector<double> PathForces::breaks(std::size_t segment) const {
     const double fraction = (s - place.s0) / (place.s1 - place.s0);
     if (fraction > same_fraction && fraction < 1 - same_fraction) fractions.push_back(fraction);
   };
-  // A step at p bends the mean at p and at p + b.
+  const auto first = corners_.begin() + static_cast<std::ptrdiff_t>(run.first_corner);
   const auto end = corners_.begin() + static_cast<std::ptrdiff_t>(run.end_corner);
-  auto corner = std::lower_bound(corners_.begin() + static_cast<std::ptrdiff_t>(run.first_corner), end,
-                                 place.s0 - run.blend);
-  for (; corner != end && *corner < place.s1; ++corner) {
-    add(*corner);
-    if (run.blend > 0) add(*corner + run.blend);
-  }
+  const auto add_shifted = [&](double shift) {
+    for (auto p = std::lower_bound(first, end, place.s0 - shift); p != end && *p + shift < place.s1; ++p)
+      add(*p + shift);
+  };
+  // A step at p bends the mean at p and at p + b.
+  add_shifted(0);
+  if (run.blend > 0) add_shifted(run.blend);
   std::sort(fractions.begin(), fractions.end());
   const auto same = [](double a, double b) { return b - a < same_fraction; };
   fractions.erase(std::unique(fractions.begin(), fractions.end(), same), fractions.end());

@@ -87,17 +87,19 @@ void read_row(std::string_view text, Reader& reader) {
   reader.profile.rows.push_back(row);
 }
 
-void read_comment(std::string_view text, Reader& reader) {
-  if (!csv::is_setting(text)) return;
-  if (reader.header) fail(reader.at(1), "a setting after the header row, it must stand before");
-  csv::read_setting(text, reader.at(1), reader.settings);
+void read_comment(const Field& comment, Reader& reader) {
+  if (!csv::is_setting(comment.text)) return;
+  const Location where = reader.at(comment.column);
+  if (reader.header) fail(where, "a setting after the header row, it must stand before");
+  csv::read_setting(comment.text, where, reader.settings);
 }
 
 void read_line(std::string_view text, Reader& reader) {
-  if (csv::trimmed(text).empty()) {
+  const std::string_view shown = csv::trimmed(text);
+  if (shown.empty()) {
     if (reader.header && reader.empty_line == 0) reader.empty_line = reader.line;
-  } else if (text.front() == '#') {
-    read_comment(text, reader);
+  } else if (shown.front() == '#') {
+    read_comment({shown, static_cast<int>(shown.data() - text.data()) + 1}, reader);
   } else if (!reader.header) {
     reader.header_place = reader.at(1);
     csv::require_settings(reader.settings, reader.header_place);
