@@ -1,0 +1,89 @@
+#include "counterflex/statics/mechanism.hpp"
+
+#include <algorithm>
+
+namespace counterflex {
+namespace {
+
+Series compile_series(const Branch& branch, int& next_actuator, std::vector<Travel>& travel);
+
+// Adds one element to a series: `add(element)` for every kind of element.
+struct Compiler {
+  Series& series;
+  int& next_actuator;
+  std::vector<Travel>& travel;
+
+  void columns(Part& part, const std::vector<bool>& angular) {
+    part.column = series.columns;
+    for (bool a : angular) {
+      (part.kind == PartKind::actuator ? series.commanded : series.free).push_back(series.columns++);
+      series.angular.push_back(a);
+    }
+  }
+  void joint_column(Part& part) { columns(part, {part.joint.kind == JointKind::revolute}); }
+  void pose_columns(Part& part) { columns(part, {false, false, false, true, true, true}); }
+
+  Part operator()(const Rigid& e) const { return {.kind = PartKind::fixed, .X = e.X}; }
+  Part operator()(const AssemblyError& e) const {
+    return {.kind = PartKind::error, .X = e.X, .log_R = log_so3(e.X.R)};
+  }
+  Part operator()(const Actuator& e) {
+    Part part{.kind = PartKind::actuator, .joint = e.joint, .home = e.home, .actuator = next_actuator++};
+    travel.push_back({e.min, e.max, e.joint.kind});
+    series.actuators.push_back(part.actuator);
+    joint_column(part);
+    return part;
+  }
+  Part operator()(const Passive& e) {
+    Part part{.kind = PartKind::passive, .joint = e.joint, .k = e.stiffness, .rest = e.rest,
+              .rest_at_home = e.rest_at_home, .home = e.home};
+    joint_column(part);
+    return part;
+  }
+  Part operator()(const Compliance& e) {
+    Part part{.kind = PartKind::compliance, .joint = e.joint, .k = e.stiffness};
+    joint_column(part);
+    return part;
+  }
+  Part operator()(const Spring& e) {
+    Part part{.kind = PartKind::spring, .K = e.K, .theta_0 = e.theta_0};
+    pose_columns(part);
+    return part;
+  }
+  Part operator()(const Group& e) {
+    Part part{.kind = PartKind::group, .group = static_cast<int>(series.groups.size())};
+    SeriesGroup group;
+    for (const Branch& branch : e.branches) {
+      group.branches.push_back(compile_series(branch, next_actuator, travel));
+      const auto& inner = group.branches.back().actuators;
+      series.actuators.insert(series.actuators.end(), inner.begin(), inner.end());
+    }
+    series.groups.push_back(std::move(group));
+    pose_columns(part);
+    return part;
+  }
+};
+
+Series compile_series(const Branch& branch, int& next_actuator, std::vector<Travel>& travel) {
+  Series series;
+  series.name = branch.name;
+  Compiler compiler{series, next_actuator, travel};
+  for (const Element& element : branch.elements) series.parts.push_back(std::visit(compiler, element));
+  return series;
+}
+
+}  // namespace
+
+Mechanism compile(const Machine& machine) {
+  Mechanism mechanism;
+  mechanism.name = machine.name;
+  mechanism.controlled = machine.controlled;
+  std::sort(mechanism.controlled.begin(), mechanism.controlled.end());
+  mechanism.X_PT = machine.X_PT;
+  int next_actuator = 0;
+  for (const Chain& chain : machine.chains)
+    mechanism.chains.push_back(compile_series(chain, next_actuator, mechanism.travel));
+  return mechanism;
+}
+
+}  // namespace counterflex

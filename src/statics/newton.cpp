@@ -1,0 +1,164 @@
+#include "newton.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace counterflex {
+namespace {
+
+constexpr double closure_tolerance = 1e-12, step_tolerance = 1e-11;
+constexpr int most_iterations = 40;
+
+struct Step {
+  double largest = std::numeric_limits<double>::infinity();
+};
+
+// Condenses all chains; false where one of them is singular on its own.
+bool condense_all(const Model& model, bool with_actuators, const Units& units, StaticsWork::Impl& work) {
+  for (std::size_t i = 0; i < work.chains.size(); ++i)
+    if (!condense(model.mechanism.chains[i], units, with_actuators, work.chains[i])) return false;
+  return true;
+}
+
+//     [ sum K - K_load   sum G ] [ dxi  ]   [ F_applied - sum (F + dF) ]
+//     [ C_tip            0     ] [ drho ] = [ -error                   ]        in units of `Units`
+struct PlatformSystem {
+  Eigen::MatrixXd matrix;
+  Eigen::VectorXd rhs;
+};
+
+PlatformSystem assemble_platform(const Model& model, const Configuration& configuration, const Problem& problem,
+                                 const Units& units, const StaticsWork::Impl& work) {
+  const Mechanism& mechanism = model.mechanism;
+  const auto actuators = problem.X_MT ? static_cast<Eigen::Index>(mechanism.travel.size()) : 0;
+  PlatformSystem system{Eigen::MatrixXd::Zero(6 + actuators, 6 + actuators), Eigen::VectorXd::Zero(6 + actuators)};
+  const PlatformTerms terms = platform_terms(model, configuration, problem);
+  Matrix6 K = terms.A;
+  Vector6 rhs = -terms.gradient;
+  const Vector6 pose = units.of_pose();
+  for (std::size_t i = 0; i < work.chains.size(); ++i) {
+    K += work.chains[i].K;
+    rhs -= work.chains[i].dF;
+    if (!problem.X_MT) continue;
+    for (std::size_t a = 0; a < mechanism.chains[i].actuators.size(); ++a) {
+      const int number = mechanism.chains[i].actuators[a];
+      const double unit = units.of_column(mechanism.travel[number].kind == JointKind::revolute);
+      system.matrix.block<6, 1>(0, 6 + number) +=
+          work.chains[i].G.col(a).cwiseProduct(pose) * unit / units.energy();
+    }
+  }
+  system.matrix.topLeftCorner<6, 6>() = pose.asDiagonal() * K * pose.asDiagonal() / units.energy();
+  system.rhs.head<6>() = rhs.cwiseProduct(pose) / units.energy();
+  if (problem.X_MT) {
+    const Controlled tip =
+        to_controlled(tip_equations(mechanism, configuration.X_MP, *problem.X_MT), mechanism, units);
+    system.matrix.bottomLeftCorner(actuators, 6) = tip.rows;
+    system.rhs.tail(actuators) = tip.rhs;
+  }
+  return system;
+}
+
+bool condensed_step(const Model& model, const Problem& problem, const Units& units, StaticsWork::Impl& work,
+                    Configuration& configuration, Step& step) {
+  const Mechanism& mechanism = model.mechanism;
+  if (!condense_all(model, problem.X_MT != nullptr, units, work)) return false;
+  const PlatformSystem system = assemble_platform(model, configuration, problem, units, work);
+  const Eigen::FullPivLU<Eigen::MatrixXd> lu(system.matrix);
+  if (lu.rank() < system.matrix.cols()) return false;
+  const Eigen::VectorXd x = lu.solve(system.rhs);
+  const Vector6 dxi = x.head<6>().cwiseProduct(units.of_pose());
+  Eigen::VectorXd drho = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(mechanism.travel.size()));
+  if (problem.X_MT)
+    for (Eigen::Index a = 0; a < drho.size(); ++a)
+      drho[a] = x[6 + a] * units.of_column(mechanism.travel[a].kind == JointKind::revolute);
+  step.largest = std::max(dxi.head<3>().norm(), dxi.tail<3>().norm() * units.length);
+  for (std::size_t i = 0; i < work.chains.size(); ++i)
+    step.largest = std::max(step.largest, take_step(mechanism.chains[i], dxi, drho, units, work.chains[i],
+                                                    configuration.chains[i]));
+  configuration.X_MP = moved(configuration.X_MP, dxi);
+  return true;
+}
+
+// Where a chain cannot be condensed, the whole system takes the step.
+void whole_step(const Model& model, const Problem& problem, const Units& units, StaticsWork::Impl& work,
+                Configuration& configuration, Step& step) {
+  evaluate_all(model, configuration, problem.stage, work);
+  std::optional<Controlled> controlled;
+  if (problem.X_MT)
+    controlled = to_controlled(tip_equations(model.mechanism, configuration.X_MP, *problem.X_MT), model.mechanism, units);
+  const WholeStep whole = solve_whole(whole_system(model, configuration, problem, work), controlled, units);
+  step.largest = apply(model.mechanism, whole, units, configuration);
+}
+
+Residual residual_of(const Model& model, const Configuration& configuration, const Problem& problem, const Units& units,
+                     const StaticsWork::Impl& work) {
+  Residual residual;
+  for (std::size_t i = 0; i < work.chains.size(); ++i)
+    add_residual(model.mechanism.chains[i], configuration.chains[i], work.chains[i], units, residual);
+  const PlatformTerms terms = platform_terms(model, configuration, problem);
+  residual.force = std::max(residual.force, wrench_size(terms.gradient, units));
+  residual.largest = std::max(residual.largest, wrench_size(problem.load.F, units) * problem.stage.load);
+  if (!problem.X_MT) return residual;
+  const Controlled tip = to_controlled(tip_equations(model.mechanism, configuration.X_MP, *problem.X_MT), model.mechanism, units);
+  residual.closure = std::max(residual.closure, tip.rhs.cwiseAbs().maxCoeff() * units.length);
+  return residual;
+}
+
+}  // namespace
+
+AppliedWrench applied_wrench(const Mechanism& mechanism, const Pose& X_MP, const Load& load, double factor) {
+  AppliedWrench applied{factor * load.F, Matrix6::Zero()};
+  if (load.at_platform) return applied;
+  const Vector3 r = X_MP.R * mechanism.X_PT.p, f = applied.F.head<3>();
+  applied.F = wrench_at(applied.F, r);
+  applied.tangent.bottomRightCorner<3, 3>() = skew(f) * skew(r);  // d(r x f) = (w x r) x f = f x (r x w)
+  return applied;
+}
+
+void evaluate_all(const Model& model, const Configuration& configuration, const Stage& stage, StaticsWork::Impl& work) {
+  for (std::size_t i = 0; i < work.chains.size(); ++i)
+    evaluate(model.mechanism.chains[i], configuration.chains[i], configuration.X_MP, stage, Hessians::yes,
+             work.chains[i]);
+}
+
+PlatformTerms platform_terms(const Model& model, const Configuration& configuration, const Problem& problem) {
+  const AppliedWrench applied =
+      applied_wrench(model.mechanism, configuration.X_MP, problem.load, problem.stage.load);
+  PlatformTerms terms{-applied.F, -applied.tangent};
+  for (const SeriesState& chain : configuration.chains) terms.gradient += chain.F;
+  return terms;
+}
+
+WholeSystem whole_system(const Model& model, const Configuration& configuration, const Problem& problem,
+                         const StaticsWork::Impl& work) {
+  return assemble_whole(model.mechanism, work.chains, platform_terms(model, configuration, problem),
+                        {model.mechanism.length});
+}
+
+double force_tolerance(const Model& model, const Configuration& configuration, double largest_wrench) {
+  constexpr double eps = std::numeric_limits<double>::epsilon();
+  const Mechanism& mechanism = model.mechanism;
+  return 1e-9 * std::max(1.0, largest_wrench) +
+         16 * eps * mechanism.stiffest * (configuration.X_MP.p.norm() + mechanism.length);
+}
+
+NewtonResult newton(const Model& model, const Problem& problem, StaticsWork::Impl& work, Configuration& configuration) {
+  const Units units{model.mechanism.length};
+  NewtonResult result;
+  Step step;
+  for (; result.iterations < most_iterations; ++result.iterations) {
+    evaluate_all(model, configuration, problem.stage, work);
+    const Residual residual = residual_of(model, configuration, problem, units, work);
+    if (!std::isfinite(residual.closure + residual.force)) return result;
+    result.converged = residual.closure <= closure_tolerance && step.largest <= step_tolerance &&
+                       residual.force <= force_tolerance(model, configuration, residual.largest);
+    if (result.converged) return result;
+    if (!condensed_step(model, problem, units, work, configuration, step))
+      whole_step(model, problem, units, work, configuration, step);
+  }
+  return result;
+}
+
+}  // namespace counterflex

@@ -1,0 +1,186 @@
+#include "series.hpp"
+
+#include <algorithm>
+
+namespace counterflex {
+namespace {
+
+Pose error_pose(const Part& part, double s) { return {exp_so3(s * part.log_R), s * part.X.p}; }
+
+void translate_columns(const Part& part, const Pose& X, SeriesWork& work) {
+  work.v.middleCols<3>(part.column) = X.R;
+  work.w.middleCols<3>(part.column).setZero();
+}
+
+void rotate_columns(const Part& part, const Matrix3& axes, const Vector3& at, SeriesWork& work) {
+  work.w.middleCols<3>(part.column + 3) = axes;
+  work.point.middleCols<3>(part.column + 3).colwise() = at;
+}
+
+void place_joint(const Part& part, double value, Pose& X, SeriesWork& work) {
+  const Vector3 axis = X.R * part.joint.axis;
+  if (part.joint.kind == JointKind::prismatic) {
+    work.v.col(part.column) = axis;
+    work.w.col(part.column).setZero();
+    X.p += value * axis;
+  } else {
+    work.w.col(part.column) = axis;
+    work.point.col(part.column) = X.p;
+    X.R *= exp_so3(value * part.joint.axis);
+  }
+}
+
+void place_spring(const Part& part, const SeriesState& state, Pose& X, SeriesWork& work) {
+  const Vector3 p = state.x.segment<3>(part.column), phi = state.x.segment<3>(part.column + 3);
+  translate_columns(part, X, work);
+  X.p += X.R * p;
+  rotate_columns(part, X.R * left_jacobian(phi), X.p, work);
+  X.R *= exp_so3(phi);
+}
+
+void place_group(const Part& part, const Pose& X_group, Pose& X, SeriesWork& work) {
+  translate_columns(part, X, work);
+  X.p += X.R * X_group.p;
+  rotate_columns(part, X.R, X.p, work);
+  X.R *= X_group.R;
+}
+
+// Frames from start to end: axes and points of all columns, and where the end is.
+void place(const Series& series, const SeriesState& state, const Stage& stage, SeriesWork& work) {
+  Pose X;
+  for (const Part& part : series.parts) {
+    switch (part.kind) {
+      case PartKind::fixed: X = X * part.X; break;
+      case PartKind::error: X = X * error_pose(part, stage.errors); break;
+      case PartKind::actuator:
+      case PartKind::passive:
+      case PartKind::compliance: place_joint(part, state.x[part.column], X, work); break;
+      case PartKind::spring: place_spring(part, state, X, work); break;
+      case PartKind::group: place_group(part, state.groups[part.group].X, X, work); break;
+    }
+  }
+  work.end = X;
+  for (int c = 0; c < series.columns; ++c)  // v = w x (p_E - o)
+    if (series.angular[c]) work.v.col(c) = work.w.col(c).cross(X.p - work.point.col(c));
+}
+
+// Energy: its gradient, and its second derivatives into A.
+void add_energy(const Part& part, const SeriesState& state, const Stage& stage, SeriesWork& work) {
+  const int c = part.column;
+  if (part.kind == PartKind::passive || part.kind == PartKind::compliance) {
+    const double q_nominal = part.kind == PartKind::passive ? state.x_nominal[c] : 0;
+    const double rest = q_nominal + stage.preload * (part.rest - q_nominal);
+    work.gradient[c] += part.k * (state.x[c] - rest);
+    work.A(c, c) += part.k;
+  } else if (part.kind == PartKind::spring) {
+    work.gradient.segment<6>(c).noalias() += part.K * (state.x.segment<6>(c) - stage.preload * part.theta_0);
+    work.A.block<6, 6>(c, c) += part.K;
+  }
+}
+
+// Three rotations about one point: the coordinates of a rotation vector, or (D = 0) the twist of a group.
+//     H_jk = dw_j/dx_k . M + f . (w_j x v_k),    M = (p_E - o) x f + m
+void set_triple(const Part& part, const SeriesState& state, const Vector6& F, SeriesWork& work) {
+  const int c = part.column + 3;
+  const Vector3 r = work.end.p - work.point.col(c), f = F.head<3>();
+  const Vector3 M = r.cross(f) + F.tail<3>();
+  Matrix3 H = work.S.block<3, 3>(c, c).transpose();
+  if (part.kind == PartKind::spring) {
+    const auto D = left_jacobian_derivatives(state.x.segment<3>(c));
+    const Vector3 M_before = work.v.middleCols<3>(part.column).transpose() * M;  // axes of the frame before the spring
+    for (int k = 0; k < 3; ++k) H.col(k) += D[k].transpose() * M_before;
+  }
+  work.A.block<3, 3>(c, c) -= H;
+}
+
+// H = d(J'F)/dx with F held. For columns k upstream of j, S_jk = v_j . (f x w_k):
+//     H_jk = S_jk + w_j . (m x w_k),    H_kj = S_jk
+void subtract_hessian(const Series& series, const SeriesState& state, SeriesWork& work) {
+  const Vector3 f = state.F.head<3>(), m = state.F.tail<3>();
+  for (int k = 0; k < series.columns; ++k) work.f_x_w.col(k) = f.cross(work.w.col(k));
+  work.S.noalias() = work.v.transpose().lazyProduct(work.f_x_w);
+  for (int k = 0; k < series.columns; ++k) {
+    const Vector3 m_x_w = m.cross(work.w.col(k));
+    work.A(k, k) -= work.S(k, k);
+    for (int j = k + 1; j < series.columns; ++j) {
+      work.A(j, k) -= work.S(j, k) + work.w.col(j).dot(m_x_w);
+      work.A(k, j) -= work.S(j, k);
+    }
+  }
+}
+
+// The general formula was wrong inside a triple: its block is set anew.
+void mend_triples(const Series& series, const SeriesState& state, SeriesWork& work) {
+  for (const Part& part : series.parts) {
+    if (part.kind != PartKind::spring && part.kind != PartKind::group) continue;
+    const int c = part.column + 3;
+    if (part.kind == PartKind::spring) work.A.block<3, 3>(c, c) = part.K.bottomRightCorner<3, 3>();
+    else work.A.block<3, 3>(c, c).setZero();
+    set_triple(part, state, state.F, work);
+  }
+}
+
+}  // namespace
+
+SeriesWork make_work(const Series& series) {
+  SeriesWork work;
+  const int n = series.columns, size = 6 + static_cast<int>(series.free.size());
+  const int actuators = static_cast<int>(series.actuators.size());
+  work.v.setZero(3, n);
+  work.w.setZero(3, n);
+  work.point.setZero(3, n);
+  work.f_x_w.setZero(3, n);
+  work.S.setZero(n, n);
+  work.A.setZero(n, n);
+  work.gradient.setZero(n);
+  work.bordered.setZero(size, size);
+  work.rhs.setZero(size, 7 + actuators);
+  work.solution.setZero(size, 7 + actuators);
+  work.lu = Eigen::PartialPivLU<Eigen::MatrixXd>(size);
+  work.G.setZero(6, actuators);
+  for (const SeriesGroup& group : series.groups) {
+    work.groups.emplace_back();
+    for (const Series& branch : group.branches) work.groups.back().push_back(make_work(branch));
+  }
+  return work;
+}
+
+void evaluate(const Series& series, const SeriesState& state, const Pose& X_end, const Stage& stage, Hessians hessians,
+              SeriesWork& work) {
+  place(series, state, stage, work);
+  work.gap = difference(X_end, work.end);
+  work.gradient.setZero();
+  work.A.setZero();
+  if (hessians == Hessians::yes) subtract_hessian(series, state, work);
+  for (const Part& part : series.parts) add_energy(part, state, stage, work);
+  if (hessians == Hessians::yes) mend_triples(series, state, work);
+  for (const Part& part : series.parts) {
+    if (part.kind != PartKind::group) continue;
+    const GroupState& group = state.groups[part.group];
+    for (std::size_t b = 0; b < group.branches.size(); ++b) {
+      evaluate(series.groups[part.group].branches[b], group.branches[b], group.X, stage, hessians,
+               work.groups[part.group][b]);
+      work.gradient.segment<6>(part.column) += group.branches[b].F;
+    }
+  }
+  work.gradient.noalias() -= work.v.transpose() * state.F.head<3>();
+  work.gradient.noalias() -= work.w.transpose() * state.F.tail<3>();
+}
+
+double wrench_size(const Vector6& F, const Units& units) {
+  return std::max(F.head<3>().norm(), F.tail<3>().norm() / units.length);
+}
+
+void add_residual(const Series& series, const SeriesState& state, const SeriesWork& work, const Units& units,
+                  Residual& residual) {
+  residual.closure = std::max({residual.closure, work.gap.head<3>().norm(), work.gap.tail<3>().norm() * units.length});
+  for (int c : series.free)
+    residual.force =
+        std::max(residual.force, std::abs(work.gradient[c]) / (series.angular[c] ? units.length : 1.0));
+  residual.largest = std::max(residual.largest, wrench_size(state.F, units));
+  for (std::size_t g = 0; g < series.groups.size(); ++g)
+    for (std::size_t b = 0; b < series.groups[g].branches.size(); ++b)
+      add_residual(series.groups[g].branches[b], state.groups[g].branches[b], work.groups[g][b], units, residual);
+}
+
+}  // namespace counterflex

@@ -1,0 +1,218 @@
+#include "whole_system.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/QR>
+#include <Eigen/SVD>
+#include <algorithm>
+#include <limits>
+
+namespace counterflex {
+namespace {
+
+constexpr double zero_singular_value = 1e-13;  // relative: below it is rounding
+constexpr double moves_platform = 1e-6;        // share of a zero mode that lies in the platform's pose
+
+int count_columns(const Series& series) {
+  int count = series.columns;
+  for (const SeriesGroup& group : series.groups)
+    for (const Series& branch : group.branches) count += count_columns(branch);
+  return count;
+}
+
+int count_closures(const Series& series) {
+  int count = 6;
+  for (const SeriesGroup& group : series.groups)
+    for (const Series& branch : group.branches) count += count_closures(branch);
+  return count;
+}
+
+// Walks all series in one fixed order, each with the offsets of its variables and closures.
+struct Assembler {
+  const Units& units;
+  WholeSystem& system;
+  int variable = 0, closure = 0;
+
+  void series(const Series& series, const SeriesWork& work, int end_variable) {
+    const int v0 = variable, c0 = closure;
+    variable += series.columns;
+    closure += 6;
+    describe(series, v0);
+    const Vector6 pose = units.of_pose();
+    for (int j = 0; j < series.columns; ++j) {
+      const double scale = units.of_column(series.angular[j]);
+      Vector6 column;
+      column << work.v.col(j), work.w.col(j);
+      system.C.block<6, 1>(c0, v0 + j) = scale * column.cwiseQuotient(pose);
+      system.gradient[v0 + j] = scale / units.energy() * work.gradient[j];
+      for (int i = 0; i < series.columns; ++i)
+        system.A(v0 + i, v0 + j) = scale * units.of_column(series.angular[i]) / units.energy() * work.A(i, j);
+    }
+    system.C.block<6, 6>(c0, end_variable) = -Matrix6::Identity();
+    system.gap.segment<6>(c0) = work.gap.cwiseQuotient(pose);
+    for (const Part& part : series.parts)
+      if (part.kind == PartKind::group)
+        for (std::size_t b = 0; b < series.groups[part.group].branches.size(); ++b)
+          this->series(series.groups[part.group].branches[b], work.groups[part.group][b], v0 + part.column);
+  }
+
+  void describe(const Series& series, int v0) {
+    for (const Part& part : series.parts) {
+      if (part.column < 0) continue;
+      const bool elastic = part.kind == PartKind::spring || part.kind == PartKind::compliance;
+      const int size = part.kind == PartKind::spring || part.kind == PartKind::group ? 6 : 1;
+      for (int k = 0; k < size; ++k)
+        system.variables[v0 + part.column + k] = {series.angular[part.column + k], elastic, part.actuator};
+    }
+  }
+};
+
+// Columns of the variables that equilibrium determines: all, or all but the actuators.
+std::vector<int> unknowns(const WholeSystem& system, bool with_actuators) {
+  std::vector<int> list;
+  for (int i = 0; i < static_cast<int>(system.variables.size()); ++i)
+    if (with_actuators || system.variables[i].actuator < 0) list.push_back(i);
+  return list;
+}
+
+// The bordered matrix over unknown variables and closures; stationarity rows only of what is not an actuator.
+Eigen::MatrixXd bordered(const WholeSystem& system, const std::vector<int>& columns, const std::vector<int>& rows) {
+  const auto n = static_cast<int>(columns.size()), m = static_cast<int>(rows.size());
+  const auto closures = static_cast<int>(system.C.rows());
+  Eigen::MatrixXd B = Eigen::MatrixXd::Zero(m + closures, n + closures);
+  B.topLeftCorner(m, n) = system.A(rows, columns);
+  B.topRightCorner(m, closures) = -system.C(Eigen::all, rows).transpose();
+  B.bottomLeftCorner(closures, n) = system.C(Eigen::all, columns);
+  return B;
+}
+
+struct StepApplier {
+  const WholeStep& step;
+  const Units& units;
+  int variable = 0, closure = 0;
+  double largest = 0;
+
+  void series(const Series& series, SeriesState& state) {
+    const int v0 = variable;
+    variable += series.columns;
+    state.F += step.wrenches.segment<6>(closure);
+    closure += 6;
+    for (int j = 0; j < series.columns; ++j)
+      largest = std::max(largest, std::abs(step.variables[v0 + j]) * (series.angular[j] ? units.length : 1.0));
+    for (const Part& part : series.parts) {
+      if (part.column < 0) continue;
+      if (part.kind != PartKind::group) {
+        const int size = part.kind == PartKind::spring ? 6 : 1;
+        state.x.segment(part.column, size) += step.variables.segment(v0 + part.column, size);
+        continue;
+      }
+      GroupState& group = state.groups[part.group];
+      group.X = moved(group.X, step.variables.segment<6>(v0 + part.column));
+      for (std::size_t b = 0; b < group.branches.size(); ++b)
+        this->series(series.groups[part.group].branches[b], group.branches[b]);
+    }
+  }
+};
+
+}  // namespace
+
+WholeSystem assemble_whole(const Mechanism& mechanism, const std::vector<SeriesWork>& works, const PlatformTerms& platform,
+                           const Units& units) {
+  WholeSystem system;
+  int variables = 6, closures = 0;
+  for (const Series& chain : mechanism.chains) {
+    variables += count_columns(chain);
+    closures += count_closures(chain);
+  }
+  system.pose = variables - 6;
+  system.variables.resize(variables);
+  system.A.setZero(variables, variables);
+  system.C.setZero(closures, variables);
+  system.gradient.setZero(variables);
+  system.gap.setZero(closures);
+  Assembler assembler{units, system};
+  for (std::size_t i = 0; i < works.size(); ++i) assembler.series(mechanism.chains[i], works[i], system.pose);
+  const Vector6 pose = units.of_pose();
+  for (int k = 3; k < 6; ++k) system.variables[system.pose + k].angular = true;
+  system.gradient.tail<6>() = platform.gradient.cwiseProduct(pose) / units.energy();
+  system.A.bottomRightCorner<6, 6>() = pose.asDiagonal() * platform.A * pose.asDiagonal() / units.energy();
+  return system;
+}
+
+WholeStep solve_whole(const WholeSystem& system, const std::optional<Controlled>& controlled, const Units& units) {
+  const auto columns = unknowns(system, controlled.has_value()), rows = unknowns(system, false);
+  const auto closures = system.C.rows();
+  Eigen::MatrixXd B = bordered(system, columns, rows);
+  Eigen::VectorXd rhs(B.rows());
+  rhs << -system.gradient(rows), system.gap;
+  if (controlled) {
+    const auto n = controlled->rows.rows(), m = B.rows();
+    B.conservativeResize(m + n, Eigen::NoChange);
+    B.bottomRows(n).setZero();
+    B.block(m, static_cast<Eigen::Index>(columns.size()) - 6, n, 6) = controlled->rows;
+    rhs.conservativeResize(m + n);
+    rhs.tail(n) = controlled->rhs;
+  }
+  Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> decomposition;
+  decomposition.setThreshold(zero_singular_value);
+  decomposition.compute(B);
+  const Eigen::VectorXd x = decomposition.solve(rhs);
+  WholeStep step;
+  step.redundant = decomposition.rank() < B.cols();
+  step.variables.setZero(static_cast<Eigen::Index>(system.variables.size()));
+  for (std::size_t i = 0; i < columns.size(); ++i)
+    step.variables[columns[i]] = x[i] * units.of_column(system.variables[columns[i]].angular);
+  step.wrenches = x.tail(closures);
+  for (Eigen::Index c = 0; c < closures; ++c) step.wrenches[c] *= units.energy() / units.of_pose()[c % 6];
+  return step;
+}
+
+double apply(const Mechanism& mechanism, const WholeStep& step, const Units& units, Configuration& configuration) {
+  StepApplier applier{step, units};
+  for (std::size_t i = 0; i < mechanism.chains.size(); ++i)
+    applier.series(mechanism.chains[i], configuration.chains[i]);
+  const Vector6 pose_step = step.variables.tail<6>();
+  configuration.X_MP = moved(configuration.X_MP, pose_step);
+  return std::max({applier.largest, pose_step.head<3>().norm(), pose_step.tail<3>().norm() * units.length});
+}
+
+Condition condition(const WholeSystem& system, const Units& units) {
+  const auto columns = unknowns(system, false);
+  const Eigen::MatrixXd B = bordered(system, columns, columns);
+  const Eigen::BDCSVD<Eigen::MatrixXd> svd(B, Eigen::ComputeThinU | Eigen::ComputeThinV);
+  const auto& sigma = svd.singularValues();
+  const auto n = sigma.size(), pose = static_cast<Eigen::Index>(columns.size()) - 6;
+  Eigen::Index rank = n;
+  while (rank > 1 && sigma[rank - 1] <= zero_singular_value * sigma[0]) --rank;
+  Condition result;
+  const auto twist = [&](Eigen::Index i) { return Vector6(svd.matrixV().block<6, 1>(pose, i)); };
+  result.weakest = twist(rank - 1);
+  result.value = sigma[0] / sigma[rank - 1];
+  for (Eigen::Index i = rank; i < n; ++i) {
+    if (svd.matrixV().col(i).tail(system.C.rows()).norm() > moves_platform) result.indeterminate = true;
+    if (twist(i).norm() <= moves_platform) continue;
+    result.value = std::numeric_limits<double>::infinity();
+    result.weakest = twist(i);
+  }
+  result.weakest = result.weakest.cwiseProduct(units.of_pose());
+  return result;
+}
+
+double least_eigenvalue_ratio(const WholeSystem& system) {
+  const auto columns = unknowns(system, false);
+  const Eigen::MatrixXd C = system.C(Eigen::all, columns), A = system.A(columns, columns);
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr;
+  qr.setThreshold(1e-11);
+  qr.compute(C.transpose());
+  const auto nullity = C.cols() - qr.rank();
+  if (nullity == 0) return 0;
+  Eigen::MatrixXd Z = Eigen::MatrixXd::Zero(C.cols(), nullity);
+  Z.bottomRows(nullity).setIdentity();
+  Z.applyOnTheLeft(qr.householderQ().setLength(qr.rank()));
+  const Eigen::MatrixXd reduced = Z.transpose() * (0.5 * (A + A.transpose())) * Z;
+  const Eigen::VectorXd eigenvalues =
+      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(reduced, Eigen::EigenvaluesOnly).eigenvalues();
+  const double largest = eigenvalues.cwiseAbs().maxCoeff();
+  return largest > 0 ? eigenvalues[0] / largest : 0;
+}
+
+}  // namespace counterflex

@@ -1,0 +1,68 @@
+#pragma once
+/// The whole static system, uncondensed: all coordinates of all chains and branches, the platform's pose, and the wrenches
+/// of all closures. It decides what the condensed form cannot: `singular`, `unstable`, and steps of chains that are
+/// singular on their own. Nominal kinematics takes its closures from it. EQUATIONS.md, section 6.
+#include <optional>
+#include <vector>
+
+#include "series.hpp"
+
+namespace counterflex {
+
+/// What a variable is. Variables: columns of all series, then the platform's six.
+struct Variable {
+  bool angular = false;
+  bool elastic = false;  ///< a spring's or compliance's coordinate: zero in nominal kinematics
+  int actuator = -1;     ///< its number, where it is one
+};
+
+///     [ A  -C' ] [ dv      ]   [ -gradient ]
+///     [ C   0  ] [ dlambda ] = [  gap      ]        v: variables, lambda: wrenches of closures, all without unit
+struct WholeSystem {
+  std::vector<Variable> variables;
+  Eigen::MatrixXd A, C;
+  Eigen::VectorXd gradient, gap;
+  int pose = 0;  ///< first of the platform's variables
+};
+
+/// The platform's balance: sum of chain wrenches minus applied wrench, and the applied wrench's tangent.
+struct PlatformTerms {
+  Vector6 gradient = Vector6::Zero();
+  Matrix6 A = Matrix6::Zero();
+};
+
+/// From evaluated works (not condensed ones).
+WholeSystem assemble_whole(const Mechanism& mechanism, const std::vector<SeriesWork>& works, const PlatformTerms& platform,
+                           const Units& units);
+
+/// Equations that fix components of the tip: rows over the platform's variables, and their right-hand side.
+struct Controlled {
+  Eigen::MatrixXd rows;  ///< n x 6, without unit
+  Eigen::VectorXd rhs;
+};
+
+/// A step of variables and wrenches, in SI, in the order of `WholeSystem`.
+struct WholeStep {
+  Eigen::VectorXd variables, wrenches;
+  bool redundant = false;  ///< the minimum-norm choice among several
+};
+
+/// Minimum-norm solution. Actuators are held, unless `controlled` is given: then they are unknowns.
+WholeStep solve_whole(const WholeSystem& system, const std::optional<Controlled>& controlled, const Units& units);
+
+/// Adds a step to a configuration; returns its largest entry (m, rad times l).
+double apply(const Mechanism& mechanism, const WholeStep& step, const Units& units, Configuration& configuration);
+
+/// Condition of the system with actuators held, redundant closures and zero modes that move no platform taken out;
+/// infinite where a zero mode moves the platform. `weakest` is the platform's twist (m, rad; norm 1 without unit).
+struct Condition {
+  double value = 0;
+  Vector6 weakest = Vector6::Zero();
+  bool indeterminate = false;  ///< redundant closures were found: some wrenches are the minimum-norm ones
+};
+Condition condition(const WholeSystem& system, const Units& units);
+
+/// Smallest over largest eigenvalue of the symmetric part of A on the null space of C, actuators held.
+double least_eigenvalue_ratio(const WholeSystem& system);
+
+}  // namespace counterflex
