@@ -20,11 +20,17 @@
 namespace counterflex {
 namespace {
 
-[[noreturn]] void fail(Exit exit, const std::string& path, const char* doing) {
-  const int error = errno;
-  throw InputError(
-      exit, {path == "-" ? "" : path, 0, 0},
-      fmt::format("cannot {} {}: {}", doing, path == "-" ? "standard stream" : path, std::strerror(error)));
+/// Throws what `errno` says about reading or writing `path`.
+[[noreturn]] void fail_reading(const std::string& path) {
+  const std::string reason = std::strerror(errno);
+  if (path == "-") throw InputError(Exit::usage, {}, "cannot read standard input: " + reason);
+  throw InputError(Exit::usage, {path, 0, 0}, "cannot read the file: " + reason);
+}
+
+[[noreturn]] void fail_writing(const std::string& path) {
+  const std::string reason = std::strerror(errno);
+  if (path == "-") throw InputError(Exit::transient_io, {}, "cannot write standard output: " + reason);
+  throw InputError(Exit::transient_io, {path, 0, 0}, "cannot write the file: " + reason);
 }
 
 /// Closes on leaving; `close` before that to see the error.
@@ -55,7 +61,7 @@ bool write_all(int fd, std::string_view bytes) {
 
 /// Devices and pipes have no other name to rename from: they are written directly.
 void write_stream(const std::string& path, int fd, std::string_view bytes) {
-  if (!write_all(fd, bytes)) fail(Exit::transient_io, path, "write");
+  if (!write_all(fd, bytes)) fail_writing(path);
 }
 
 std::string folder_of(const std::string& path) {
@@ -88,13 +94,13 @@ void sync_folder(const std::string& folder) {
 void replace(const std::string& path, const std::string& target, const struct stat* old,
              std::string_view bytes) {
   const auto [name, fd] = create_beside(target);
-  if (fd < 0) fail(Exit::transient_io, path, "write");
+  if (fd < 0) fail_writing(path);
   Descriptor file(fd);
   if (!fill(file, old, bytes) || ::rename(name.c_str(), target.c_str()) != 0) {
     const int error = errno;
     ::unlink(name.c_str());
     errno = error;
-    fail(Exit::transient_io, path, "write");
+    fail_writing(path);
   }
   sync_folder(folder_of(target));
 }
@@ -103,13 +109,13 @@ void replace(const std::string& path, const std::string& target, const struct st
 
 std::string read_file(const std::string& path) {
   const Descriptor file(path == "-" ? STDIN_FILENO : ::open(path.c_str(), O_RDONLY | O_CLOEXEC));
-  if (file.get() < 0) fail(Exit::usage, path, "read");
+  if (file.get() < 0) fail_reading(path);
   std::string bytes;
   char buffer[1 << 16];
   for (;;) {
     const ssize_t n = ::read(file.get(), buffer, sizeof buffer);
     if (n < 0 && errno == EINTR) continue;
-    if (n < 0) fail(Exit::usage, path, "read");
+    if (n < 0) fail_reading(path);
     if (n == 0) return bytes;
     bytes.append(buffer, static_cast<std::size_t>(n));
   }
@@ -124,7 +130,7 @@ void write_file(const std::string& path, std::string_view bytes) {
   const bool exists = ::stat(path.c_str(), &old) == 0;
   if (exists && !S_ISREG(old.st_mode) && !S_ISDIR(old.st_mode)) {
     const Descriptor device(::open(path.c_str(), O_WRONLY | O_CLOEXEC));
-    if (device.get() < 0) fail(Exit::transient_io, path, "write");
+    if (device.get() < 0) fail_writing(path);
     return write_stream(path, device.get(), bytes);
   }
   // Through a symbolic link: the file that it names is replaced, the link stays.

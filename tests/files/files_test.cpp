@@ -1,9 +1,11 @@
 #include "counterflex/files/files.hpp"
 
 #include <doctest/doctest.h>
+#include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 
@@ -26,6 +28,21 @@ struct Folder {
   std::string file(const std::string& name) const { return (path / name).string(); }
   std::size_t count() const {
     return static_cast<std::size_t>(std::distance(fs::directory_iterator(path), fs::directory_iterator()));
+  }
+};
+
+/// A standard stream that is another file while this lives.
+struct Redirected {
+  int stream, saved;
+  Redirected(int fd, const std::string& path, int flags) : stream(fd), saved(::dup(fd)) {
+    const int file = ::open(path.c_str(), flags, 0600);
+    REQUIRE(file >= 0);
+    ::dup2(file, stream);
+    ::close(file);
+  }
+  ~Redirected() {
+    ::dup2(saved, stream);
+    ::close(saved);
   }
 };
 
@@ -113,6 +130,33 @@ TEST_CASE("a full device is an error, and a device is never replaced by a file")
   CHECK(full.exit() == Exit::transient_io);
   CHECK(mentions(full, "No space left on device"));
   CHECK(fs::is_character_file("/dev/full"));
+}
+
+TEST_CASE("a dash is standard input and standard output") {
+  const Folder folder;
+  {
+    std::fflush(stdout);
+    const Redirected output(STDOUT_FILENO, folder.file("out"), O_WRONLY | O_CREAT);
+    std::fputs("before ", stdout);
+    write_file("-", "bytes\r\n");
+  }
+  CHECK(read_file(folder.file("out")) == "before bytes\r\n");
+  const Redirected input(STDIN_FILENO, folder.file("out"), O_RDONLY);
+  CHECK(read_file("-") == "before bytes\r\n");
+}
+
+TEST_CASE("a standard output that takes no more is an error") {
+  std::string what;
+  Exit exit = Exit::done;
+  {
+    std::fflush(stdout);
+    const Redirected output(STDOUT_FILENO, "/dev/full", O_WRONLY);
+    const auto error = error_of([] { write_file("-", "bytes"); });
+    what = error.what();
+    exit = error.exit();
+  }
+  CHECK(exit == Exit::transient_io);
+  CHECK(what == "error: cannot write standard output: No space left on device");
 }
 
 TEST_CASE("writing through a symbolic link replaces what it names and keeps the link") {
