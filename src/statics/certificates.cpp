@@ -50,22 +50,21 @@ struct Bounds {
   double matrix = 1, inverse = 0, sensitivity = 0;
 };
 
-Bounds bounds(const Series& series, SeriesWork& work) {
+//     M = [ B  C ; C'  D ], S the Schur complement of B:    |M^-1| <= |B^-1| + (1 + |B^-1 C|)^2 |S^-1|
+Bounds bounds(const Series& series, const SeriesWork& work, const Units& units) {
   Bounds inner;
   for (std::size_t g = 0; g < series.groups.size(); ++g)
     for (std::size_t b = 0; b < series.groups[g].branches.size(); ++b) {
-      const Bounds branch = bounds(series.groups[g].branches[b], work.groups[g][b]);
+      const Bounds branch = bounds(series.groups[g].branches[b], work.groups[g][b], units);
       inner.matrix = std::max(inner.matrix, branch.matrix);
       inner.inverse = std::max(inner.inverse, branch.inverse);
       inner.sensitivity = std::max(inner.sensitivity, branch.sensitivity);
     }
-  const double own = work.bordered.cwiseAbs().colwise().sum().maxCoeff();
-  const double inverse = 1 / (work.lu.rcond() * own);
   const double spread = 1 + inner.sensitivity;
   Bounds result;
-  result.matrix = std::max(inner.matrix, own) + 1;
-  result.inverse = inner.inverse + spread * spread * inverse;
-  result.sensitivity = spread * work.solution.middleCols<6>(1).cwiseAbs().rowwise().sum().maxCoeff();
+  result.matrix = std::max(inner.matrix, work.bordered.norm()) + 1;
+  result.inverse = inner.inverse + spread * spread * work.lu.inverse().norm();
+  result.sensitivity = spread * (work.solution.middleCols<6>(1) * units.of_pose().asDiagonal()).norm();
   return result;
 }
 
@@ -91,17 +90,15 @@ bool surely_well_conditioned(const Mechanism& mechanism, std::vector<SeriesWork>
   Matrix6 K = -load_tangent;
   for (std::size_t i = 0; i < works.size(); ++i) {
     if (!condense(mechanism.chains[i], units, false, works[i])) return false;
-    const Bounds chain = bounds(mechanism.chains[i], works[i]);
+    const Bounds chain = bounds(mechanism.chains[i], works[i], units);
     inner.matrix = std::max(inner.matrix, chain.matrix);
     inner.inverse = std::max(inner.inverse, chain.inverse);
     inner.sensitivity = std::max(inner.sensitivity, chain.sensitivity);
     K += works[i].K;
   }
   K = units.of_pose().asDiagonal() * K * units.of_pose().asDiagonal() / units.energy();
-  const Eigen::PartialPivLU<Matrix6> lu(K);
-  const double inverse = lu.inverse().cwiseAbs().colwise().sum().maxCoeff();
   const double spread = 1 + inner.sensitivity;
-  const double bound = inner.inverse + spread * spread * inverse;
+  const double bound = inner.inverse + spread * spread * Matrix6(K.inverse()).norm();
   return std::isfinite(bound) && bound * (inner.matrix + static_cast<double>(works.size())) < limit;
 }
 

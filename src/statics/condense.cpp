@@ -1,5 +1,7 @@
 #include <algorithm>
 
+#include <Eigen/Geometry>
+
 #include "series.hpp"
 
 namespace counterflex {

@@ -1,3 +1,5 @@
+#include <Eigen/Geometry>
+
 #include "newton.hpp"
 
 #include <Eigen/LU>

@@ -1,3 +1,5 @@
+#include <Eigen/Geometry>
+
 #include "counterflex/statics/nominal.hpp"
 
 #include <Eigen/QR>

@@ -1,3 +1,5 @@
+#include <Eigen/Geometry>
+
 #include "tip.hpp"
 
 namespace counterflex {
