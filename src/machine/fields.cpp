@@ -55,6 +55,17 @@ std::string seen(const toml::node& node) {
   return node.is_table() ? "a table" : "a date or time";
 }
 
+std::string filled_by(const toml::node& node, const Reading& reading) {
+  const toml::array* array = node.as_array();
+  const bool filled = array == nullptr
+                          ? node.is_string()
+                          : std::any_of(array->begin(), array->end(),
+                                        [](const toml::node& entry) { return entry.is_string(); });
+  return filled && reading.fillings != nullptr
+             ? fmt::format(", as chain \"{}\" fills it", reading.fillings->chain)
+             : "";
+}
+
 void check_keys(const toml::table& table, const std::vector<std::string_view>& allowed,
                 std::string_view owner, const Source& source) {
   const toml::key* unknown = nullptr;
@@ -95,7 +106,8 @@ double as_number(const toml::node& node, const Label& label, const Reading& read
   if (const auto* number = node.as_integer()) return static_cast<double>(number->get());
   if (const auto* number = node.as_floating_point(); number != nullptr && std::isfinite(number->get()))
     return number->get();
-  if (const auto* text = node.as_string(); text != nullptr && text->get().starts_with('$'))
+  if (const auto* text = node.as_string();
+      text != nullptr && text->get().size() > 1 && text->get().starts_with('$'))
     return value_of(text->get(), node, reading);
   reading.source.fail(node, fmt::format("{} must be a finite number, not {}", label.text(), seen(node)));
 }
@@ -103,14 +115,16 @@ double as_number(const toml::node& node, const Label& label, const Reading& read
 double as_positive(const toml::node& node, const Label& label, const Reading& reading) {
   const double value = as_number(node, label, reading);
   if (!(value > 0))
-    reading.source.fail(node, fmt::format("{} is {}; it must be positive", label.text(), value));
+    reading.source.fail(
+        node, fmt::format("{} is {}{}; it must be positive", label.text(), value, filled_by(node, reading)));
   return value;
 }
 
 double as_not_negative(const toml::node& node, const Label& label, const Reading& reading) {
   const double value = as_number(node, label, reading);
   if (!(value >= 0))
-    reading.source.fail(node, fmt::format("{} is {}; it must not be negative", label.text(), value));
+    reading.source.fail(node, fmt::format("{} is {}{}; it must not be negative", label.text(), value,
+                                          filled_by(node, reading)));
   return value;
 }
 

@@ -48,6 +48,9 @@ struct Label {
 /// The value as a person would say it: `the string "x"`, `an array of 3`, `12.5`.
 std::string seen(const toml::node& node);
 
+/// `, as chain "..." fills it` for a value in which a "$name" stands, else empty.
+std::string filled_by(const toml::node& node, const Reading& reading);
+
 /// Throws at the first key, in the order of the file, that is not `allowed`; `owner` says in what.
 void check_keys(const toml::table& table, const std::vector<std::string_view>& allowed,
                 std::string_view owner, const Source& source);

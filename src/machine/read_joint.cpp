@@ -46,7 +46,9 @@ Vector3 read_axis(const toml::node& node, const Reading& reading) {
     reading.source.fail(node,
                         fmt::format("axis must be \"x\", \"y\", \"z\" or 3 numbers, not {}", seen(node)));
   const Vector3 axis = as_vector3(node, "axis", reading);
-  if (!(axis.norm() > 0)) reading.source.fail(node, "axis is a zero vector; it must have a direction");
+  if (!(axis.stableNorm() > 0))
+    reading.source.fail(
+        node, fmt::format("axis is a zero vector{}; it must have a direction", filled_by(node, reading)));
   return axis.stableNormalized();
 }
 
@@ -67,9 +69,11 @@ void read_travel(WithTravel& joint, const toml::table& table, const JointKeys& k
   joint.min = joint_value(table, keys.min, keys, joint.min, reading);
   joint.max = joint_value(table, keys.max, keys, joint.max, reading);
   if (joint.min < joint.max) return;
-  reading.source.fail(*table.get(keys.max),
-                      fmt::format("{} = {:.9g} is not above {} = {:.9g}", keys.max, joint.max / keys.unit,
-                                  keys.min, joint.min / keys.unit));
+  const toml::node& max = *table.get(keys.max);
+  std::string origin = filled_by(max, reading);
+  if (origin.empty()) origin = filled_by(*table.get(keys.min), reading);
+  reading.source.fail(max, fmt::format("{} = {:.9g} is not above {} = {:.9g}{}", keys.max,
+                                       joint.max / keys.unit, keys.min, joint.min / keys.unit, origin));
 }
 
 void read_preload(Passive& passive, const toml::table& table, const JointKeys& keys, std::string_view owner,

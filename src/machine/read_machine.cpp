@@ -33,7 +33,8 @@ void check_controlled(const toml::table& document, const Source& source, const M
                 fmt::format("the machine has {} actuators; with more than 6, controlled must be []", count));
   source.fail(
       node,
-      fmt::format("controlled names {} components, but there are {} actuators; it must name as many, or none",
+      fmt::format("controlled names {} of the tip's components, but the number of actuators is {}; it must "
+                  "name as many, or none",
                   machine.controlled.size(), count));
 }
 

@@ -12,8 +12,8 @@ namespace {
 Matrix3 read_quaternion(const toml::node& node, const Reading& reading) {
   const Eigen::Vector4d wxyz = as_vector4(node, "quat_wxyz", reading);
   if (!(std::abs(wxyz.norm() - 1) <= 1e-6))
-    reading.source.fail(node,
-                        fmt::format("quat_wxyz has the norm {}; it must be 1 within 1e-6", wxyz.norm()));
+    reading.source.fail(node, fmt::format("quat_wxyz has the norm {:.9g}{}; it must be 1 within 1e-6",
+                                          wxyz.norm(), filled_by(node, reading)));
   return from_quaternion(wxyz);
 }
 

@@ -30,7 +30,7 @@ std::string_view stem(std::string_view name) {
 }  // namespace
 
 std::string_view nearest(std::string_view name, const std::vector<std::string_view>& known) {
-  const std::size_t tolerated = std::max<std::size_t>(1, std::min<std::size_t>(3, name.size() / 3));
+  const std::size_t tolerated = std::min<std::size_t>(3, (name.size() + 2) / 3);
   std::string_view best;
   std::size_t fewest = tolerated + 1;
   for (const std::string_view candidate : known) {
@@ -40,8 +40,10 @@ std::string_view nearest(std::string_view name, const std::vector<std::string_vi
       best = candidate;
     }
   }
-  if (!best.empty() || name.find('_') == std::string_view::npos) return best;
-  const auto same_stem = [&](std::string_view candidate) { return stem(candidate) == stem(name); };
+  if (!best.empty()) return best;
+  const auto same_stem = [&](std::string_view candidate) {
+    return candidate.find('_') != std::string_view::npos && stem(candidate) == stem(name);
+  };
   const auto found = std::find_if(known.begin(), known.end(), same_stem);
   return found == known.end() ? std::string_view{} : *found;
 }

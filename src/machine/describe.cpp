@@ -1,0 +1,144 @@
+#include "counterflex/machine/describe.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "counterflex/geometry/units.hpp"
+#include "describe_elements.hpp"
+#include "phrases.hpp"
+#include "walk.hpp"
+
+namespace counterflex {
+namespace {
+
+constexpr std::string_view component_names[] = {"x", "y", "z", "rx", "ry", "rz"};
+
+std::string controlled_phrase(const Machine& machine) {
+  if (machine.controlled.empty()) return "nothing (analysis only)";
+  std::string text;
+  for (const Component component : machine.controlled)
+    text += fmt::format("{}{}", text.empty() ? "" : " ", component_names[static_cast<int>(component)]);
+  return text;
+}
+
+std::string home_phrase(const Machine& machine) {
+  if (!machine.home_X_MP) return "where the joints' home values put the platform";
+  if (is_identity(*machine.home_X_MP)) return "reference point at the machine's origin";
+  return "reference point at " + phrase(*machine.home_X_MP);
+}
+
+std::string tool_phrase(const Machine& machine) {
+  return is_identity(machine.X_PT) ? "tip at the reference point"
+                                   : "tip at " + phrase(machine.X_PT) + " from the platform";
+}
+
+std::string tool_change_phrase(const ControlSettings& control) {
+  if (!control.tool_change_moves) return "all axes";
+  if (control.tool_change_moves->empty()) return "no axis";
+  return fmt::format("{}", fmt::join(*control.tool_change_moves, " "));
+}
+
+void describe_settings(const Machine& machine, std::string& text) {
+  const auto line = [&](std::string_view what, const std::string& said) {
+    text += fmt::format("{:<12} {}\n", what, said);
+  };
+  line("machine", machine.name.empty() ? "without a name" : machine.name);
+  line("controlled", controlled_phrase(machine));
+  line("home", home_phrase(machine));
+  line("tool", tool_phrase(machine));
+  line("program", fmt::format("dialect {}, units {}, a tool change moves {}", machine.control.dialect,
+                              machine.control.units.empty() ? "not stated" : machine.control.units,
+                              tool_change_phrase(machine.control)));
+  line("correction", fmt::format("at most {:.9g} mm", machine.max_correction / mm));
+  if (machine.work.empty()) line("work", "no offsets: programs are in the machine frame");
+  for (const auto& [name, offset] : machine.work) {
+    const std::string datum = offset.datum.touched_at
+                                  ? "touched off with this machine at " + phrase_mm(*offset.datum.touched_at)
+                                  : "true datum";
+    line("work " + name,
+         fmt::format("{}; {}", is_identity(offset.X_MW) ? "the machine frame" : phrase(offset.X_MW), datum));
+  }
+}
+
+void describe_chains(const Machine& machine, std::string& text) {
+  int actuator = 0;
+  for (const Chain& chain : machine.chains) {
+    const Freedoms count = freedoms(chain);
+    text += fmt::format("\n{:<12} {}, {}, {}\n", "chain " + chain.name,
+                        counted(count.actuators, "actuator", "actuators"),
+                        counted(count.passives, "passive joint", "passive joints"),
+                        counted(count.elastic, "elastic coordinate", "elastic coordinates"));
+    describe_elements(chain.elements, 2, actuator, text);
+  }
+}
+
+void describe_springs(const Machine& machine, std::string& text) {
+  const std::vector<const Spring*> springs = distinct_springs(machine);
+  if (springs.empty()) return;
+  text += "\nsprings      diagonal of the stiffness, N/m and N m/rad\n";
+  for (const Spring* spring : springs) {
+    text += fmt::format("  {:<10}", spring->name);
+    for (int i = 0; i < 6; ++i) text += fmt::format(" {} {:<11.4g}", component_names[i], spring->K(i, i));
+    text.erase(text.find_last_not_of(' ') + 1);
+    text += "\n";
+    if (spring->theta_0.isZero(0)) continue;
+    text += fmt::format("  {:<10} preloaded: at rest at xyz {}, rotation vector {:.6g} {:.6g} {:.6g} deg\n",
+                        "", phrase_mm(spring->theta_0.head<3>()), spring->theta_0[3] / deg,
+                        spring->theta_0[4] / deg, spring->theta_0[5] / deg);
+  }
+}
+
+void describe_actuators(const Machine& machine, std::string& text) {
+  text += fmt::format("\n{:<12} {}\n", "actuators",
+                      actuators(machine).empty() ? "none" : "axis in the frame of its chain there, travel");
+  int number = 0;
+  for_each<Actuator>(machine, [&](const Chain& chain, const Actuator& a) {
+    text += fmt::format("  {:2}  {:<7} {:<24} {}\n", ++number, chain.name, phrase(a.joint),
+                        phrase_range(a.joint, a.min, a.max));
+  });
+}
+
+void describe_errors(const Machine& machine, std::string& text) {
+  std::string lines;
+  for_each<AssemblyError>(machine, [&](const Chain& chain, const AssemblyError& error) {
+    if (!is_identity(error.X))
+      lines += fmt::format("  {:<10} {:<10} {}\n", chain.name, error.name, phrase(error.X));
+  });
+  text += fmt::format("\n{:<12}{}\n{}", "errors of assembly", lines.empty() ? ": none" : "", lines);
+}
+
+}  // namespace
+
+Freedoms freedoms(const Chain& chain) {
+  Freedoms count;
+  for_each_element(chain.elements, [&](const Element& element) {
+    count.actuators += std::holds_alternative<Actuator>(element);
+    count.passives += std::holds_alternative<Passive>(element);
+    count.elastic +=
+        std::holds_alternative<Spring>(element) ? 6 : std::holds_alternative<Compliance>(element);
+  });
+  return count;
+}
+
+std::vector<const Spring*> distinct_springs(const Machine& machine) {
+  std::vector<const Spring*> springs;
+  for_each<Spring>(machine, [&](const Chain&, const Spring& spring) {
+    const auto same = [&](const Spring* other) { return other->name == spring.name; };
+    if (std::none_of(springs.begin(), springs.end(), same)) springs.push_back(&spring);
+  });
+  return springs;
+}
+
+std::string describe(const Machine& machine) {
+  std::string text;
+  describe_settings(machine, text);
+  describe_chains(machine, text);
+  describe_springs(machine, text);
+  describe_actuators(machine, text);
+  describe_errors(machine, text);
+  return text;
+}
+
+}  // namespace counterflex

@@ -1,0 +1,67 @@
+#include <doctest/doctest.h>
+
+#include "machine_texts.hpp"
+
+using namespace counterflex;
+
+TEST_CASE("a machine file needs no more than its format and a chain, and the rest has defaults") {
+  const Machine machine = machine_with("");
+  CHECK(machine.name.empty());
+  CHECK(machine.controlled.empty());
+  CHECK_FALSE(machine.home_X_MP.has_value());
+  CHECK(machine.X_PT.p.isZero(0));
+  CHECK(machine.work.empty());
+  CHECK(machine.control.dialect == "auto");
+  CHECK(machine.control.units.empty());
+  CHECK_FALSE(machine.control.tool_change_moves.has_value());
+  CHECK(machine.max_correction == 1e-3);
+}
+
+TEST_CASE("controlled components come in the order of six-vectors, whatever the file's order") {
+  const std::string three = "{ actuator = \"revolute\", axis = \"x\" }, " + x_axis + ", " + x_axis;
+  const Machine machine = machine_of(three, "controlled = [\"rz\", \"y\", \"x\"]\n");
+  CHECK(machine.controlled == std::vector{Component::x, Component::y, Component::rz});
+}
+
+TEST_CASE("an empty list of controlled components fits any number of actuators, seven too") {
+  std::string seven = x_axis;
+  for (int i = 1; i < 7; ++i) seven += ", " + x_axis;
+  CHECK(machine_of(seven, "controlled = []\n").controlled.empty());
+  CHECK(machine_of("{ rigid = {} }", "controlled = []\n").controlled.empty());
+}
+
+TEST_CASE("home and tool are transforms") {
+  const Machine machine =
+      machine_with("home.xyz_mm = [1, 2, 3]\n[tool]\nxyz_mm = [0, 0, -150]\nrpy_deg = [180, 0, 0]\n");
+  REQUIRE(machine.home_X_MP.has_value());
+  CHECK(machine.home_X_MP->p[2] == doctest::Approx(3e-3));
+  CHECK(machine.X_PT.p[2] == doctest::Approx(-0.15));
+  CHECK(machine.X_PT.R(2, 2) == doctest::Approx(-1));
+}
+
+TEST_CASE("work offsets have a pose and a datum that is true unless the file says where it was touched off") {
+  const Machine machine = machine_with(
+      "[work.G54]\nxyz_mm = [100, 0, 0]\ndatum = \"true\"\n[work.\"G59.1\"]\ndatum = { touched_at_mm = [1, "
+      "2, 3] }\n[work.G55]\n");
+  REQUIRE(machine.work.size() == 3);
+  CHECK(machine.work.at("G54").X_MW.p[0] == doctest::Approx(0.1));
+  CHECK_FALSE(machine.work.at("G54").datum.touched_at.has_value());
+  CHECK_FALSE(machine.work.at("G55").datum.touched_at.has_value());
+  REQUIRE(machine.work.at("G59.1").datum.touched_at.has_value());
+  CHECK(machine.work.at("G59.1").datum.touched_at->z() == doctest::Approx(3e-3));
+}
+
+TEST_CASE("the control's settings are kept, axes in upper case, and no axis differs from all axes") {
+  const ControlSettings control =
+      machine_with("[program]\ndialect = \"fanuc\"\nunits = \"inch\"\ntool_change_moves = [\"z\"]\n").control;
+  CHECK(control.dialect == "fanuc");
+  CHECK(control.units == "inch");
+  CHECK(control.tool_change_moves == std::vector<std::string>{"Z"});
+  const ControlSettings none = machine_with("[program]\ntool_change_moves = []\n").control;
+  REQUIRE(none.tool_change_moves.has_value());
+  CHECK(none.tool_change_moves->empty());
+}
+
+TEST_CASE("the limit of the correction is in millimetres") {
+  CHECK(machine_with("limits.max_correction_mm = 2.5\n").max_correction == doctest::Approx(2.5e-3));
+}
