@@ -54,14 +54,19 @@ TEST_CASE("rapids carry no force, feed moves the constant one, scaled") {
 
 TEST_CASE("the program's comments are modal, zero before the first, and steps act at block ends") {
   ProgramBuilder builder({0, 0, 0});
-  builder.feed({1, 0, 0}, 60).with_force(wrench(100, 0, 0)).feed({2, 0, 0}, 60).feed({3, 0, 0}, 60);
+  builder.feed({1, 0, 0}, 60)
+      .with_force(wrench(100, 0, 0, 0, 0, 7000))
+      .feed({2, 0, 0}, 60)
+      .feed({3, 0, 0}, 60);
   builder.with_force(Vector6::Zero()).feed({4, 0, 0}, 60);
   ForceSource source;
   source.blend = 0;
   const auto forces = forces_on(builder.program, source);
   CHECK(forces.at(0, 1) == Vector6::Zero());
-  CHECK(forces.at(1, 0) == wrench(100, 0, 0));
-  CHECK(forces.at(2, 1) == wrench(100, 0, 0));
+  CHECK(forces.at(0, 1, Side::after) == Vector6::Zero());
+  CHECK(forces.at(1, 0) == wrench(100, 0, 0, 0, 0, 7000));
+  CHECK(forces.at(1, 0, Side::before) == wrench(100, 0, 0, 0, 0, 7000));
+  CHECK(forces.at(2, 1) == wrench(100, 0, 0, 0, 0, 7000));
   CHECK(forces.at(3, 0) == Vector6::Zero());
   CHECK(forces.jumps() == 2);
   CHECK(forces.ramps() == 0);
@@ -168,6 +173,46 @@ TEST_CASE("a step inside a segment has two sides, and a break where it stands") 
   }
   CHECK(forces.at(0, 0, Side::before) == wrench(1, 0, 0));
   CHECK(forces.at(0, 1, Side::after) == wrench(3, 0, 0));
+}
+
+TEST_CASE("the two sides of every break are those of its step, wherever rounding puts it") {
+  const Program program = straight(91, 9.1);
+  std::string text = on_tool + "s_mm,fx_N,fy_N,fz_N\n0,0,0,0\n";
+  for (int i = 1; i <= 120; ++i) text += std::to_string(0.7123 * i) + "," + std::to_string(i) + ",0,0\n";
+  const auto forces = forces_on(program, from_csv(text));
+  int steps = 0;
+  for (std::size_t i = 0; i < 10; ++i)
+    for (const double f : forces.breaks(i)) {
+      CAPTURE(i);
+      CAPTURE(f);
+      CHECK(forces.at(i, f, Side::before)[0] == steps);
+      CHECK(forces.at(i, f, Side::after)[0] == ++steps);
+    }
+  CHECK(steps == 120);
+}
+
+TEST_CASE("a constant stretch of a linear profile ends where the slope begins") {
+  const auto forces =
+      forces_on(straight(10, 5), from_csv(linear + "s_mm,fx_N,fy_N,fz_N\n0,10,0,0\n5,10,0,0\n10,20,0,0\n"));
+  CHECK(forces.at(0, 0.9) == wrench(10, 0, 0));
+  CHECK(near(forces.at(1, 0.5), wrench(15, 0, 0)));
+}
+
+TEST_CASE("a row a rounding error before the end of a segment acts at the end") {
+  ForceSource source;
+  source.blend = 0;
+  source.profile.emplace();
+  source.profile->key = ForceKey::time;
+  source.profile->linear = true;
+  const Program program = straight(2, 1);
+  const double t = build_toolpath(program, Pose{}).segments[0].t_end, end = 2 * t;
+  source.profile->rows = {
+      {0, wrench(1, 0, 0), {}}, {std::nextafter(t, 0.0), wrench(2, 0, 0), {}}, {end, wrench(5, 0, 0), {}}};
+  const auto forces = forces_on(program, source);
+  CHECK(near(forces.at(0, 1), wrench(2, 0, 0)));
+  CHECK(near(forces.at(1, 0), wrench(2, 0, 0)));
+  CHECK(near(forces.at(1, 0.5), wrench(3.5, 0, 0)));
+  CHECK(forces.breaks(0).empty());
 }
 
 TEST_CASE("a linear profile runs through its rows, in length and in time") {
@@ -277,11 +322,23 @@ TEST_CASE("cuts that do not join are not one run") {
   CHECK(forces.at(1, 0) == Vector6::Zero());
 }
 
-TEST_CASE("a step at the end of the last cut, or a key rounded beyond it, is no error") {
+TEST_CASE("keys rounded by a micrometre or a millisecond past the ends of the program still fit it") {
+  for (const char* rows :
+       {"s_mm,fx_N,fy_N,fz_N\n0.0005,1,0,0\n9.9995,2,0,0\n", "s_mm,fx_N,fy_N,fz_N\n0,1,0,0\n10.0005,2,0,0\n",
+        "t_s,fx_N,fy_N,fz_N\n0.0005,1,0,0\n0.9995,2,0,0\n", "t_s,fx_N,fy_N,fz_N\n0,1,0,0\n1.0005,2,0,0\n"}) {
+    CAPTURE(rows);
+    const auto forces = forces_on(straight(10, 10), from_csv(linear + rows));
+    CHECK(near(forces.at(0, 0), wrench(1, 0, 0), 1e-3));
+    CHECK(near(forces.at(0, 1), wrench(2, 0, 0), 1e-3));
+  }
+}
+
+TEST_CASE("a step at the end of the last cut never acts") {
   const auto forces =
-      forces_on(straight(10, 10), from_csv(on_tool + "s_mm,fx_N,fy_N,fz_N\n0,1,0,0\n10.0000005,2,0,0\n"));
+      forces_on(straight(10, 10), from_csv(on_tool + "s_mm,fx_N,fy_N,fz_N\n0,1,0,0\n10,2,0,0\n"));
   CHECK(forces.at(0, 1) == wrench(1, 0, 0));
   CHECK(forces.breaks(0).empty());
+  CHECK(forces.jumps() == 1);
 }
 
 TEST_CASE("keys that the program cannot have are errors at the first row") {
