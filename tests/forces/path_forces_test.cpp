@@ -1,43 +1,22 @@
 #include <doctest/doctest.h>
 
-#include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <string>
 
 #include "forces/sample_path.hpp"
 
 using namespace counterflex;
+using test::constant;
 using test::forces_on;
 using test::from_csv;
+using test::linear;
+using test::near;
+using test::on_tool;
 using test::ProgramBuilder;
 using test::sample_program;
+using test::straight;
 using test::wrench;
-
-namespace {
-
-const std::string on_tool = "# frame = machine\n# sense = on_tool\n";
-const std::string linear = on_tool + "# interpolation = linear\n";
-
-ForceSource constant(const Vector6& F, double blend) {
-  ForceSource source;
-  source.constant = F;
-  source.blend = blend;
-  return source;
-}
-
-/// One cut of `length_mm` along x at 10 mm/s in blocks of `block_mm`.
-Program straight(double length_mm, double block_mm) {
-  ProgramBuilder builder({0, 0, 0});
-  const int blocks = static_cast<int>(length_mm / block_mm + 0.5);
-  for (int i = 1; i <= blocks; ++i) builder.feed({i * block_mm, 0, 0}, 600);
-  return builder.program;
-}
-
-bool near(const Vector6& A, const Vector6& B, double tolerance = 1e-9) {
-  return (A - B).norm() <= tolerance;
-}
-
-}  // namespace
 
 TEST_CASE("rapids carry no force, feed moves the constant one, scaled") {
   ForceSource source = constant(wrench(1, 2, 3, 4, 5, 6), 0);
@@ -137,29 +116,6 @@ TEST_CASE("the blended wrench is the mean of the unblended one over the last str
   }
 }
 
-TEST_CASE("line and block number rows hold from their block until the next row's") {
-  const std::string forces_2_4 = ",100,0,0\n", forces_6 = ",50,0,0\n";
-  for (const auto& text : {"line,fx_N,fy_N,fz_N\n2" + forces_2_4 + "6" + forces_6,
-                           "n,fx_N,fy_N,fz_N\n15" + forces_2_4 + "41" + forces_6}) {
-    const auto forces = forces_on(sample_program(), from_csv(on_tool + text));
-    CHECK(forces.at(1, 0.5) == wrench(100, 0, 0));
-    CHECK(forces.at(2, 0.5) == wrench(100, 0, 0));
-    CHECK(forces.at(4, 1) == wrench(100, 0, 0));
-    CHECK(forces.at(5, 0) == wrench(50, 0, 0));
-    CHECK(forces.jumps() == 3);
-  }
-}
-
-TEST_CASE("linear interpolation over lines gives each block one force") {
-  const auto forces =
-      forces_on(sample_program(), from_csv(linear + "line,fx_N,fy_N,fz_N\n1,0,0,0\n6,50,0,0\n"));
-  for (const double f : {0.0, 1.0}) {
-    CHECK(near(forces.at(1, f), wrench(10, 0, 0)));
-    CHECK(near(forces.at(4, f), wrench(40, 0, 0)));
-    CHECK(near(forces.at(5, f), wrench(50, 0, 0)));
-  }
-}
-
 TEST_CASE("a step inside a segment has two sides, and a break where it stands") {
   const auto forces =
       forces_on(straight(10, 10), from_csv(on_tool + "s_mm,fx_N,fy_N,fz_N\n0,1,0,0\n3,2,0,0\n7,3,0,0\n"));
@@ -176,68 +132,20 @@ TEST_CASE("a step inside a segment has two sides, and a break where it stands") 
 }
 
 TEST_CASE("the two sides of every break are those of its step, wherever rounding puts it") {
-  const Program program = straight(91, 9.1);
   std::string text = on_tool + "s_mm,fx_N,fy_N,fz_N\n0,0,0,0\n";
   for (int i = 1; i <= 120; ++i) text += std::to_string(0.7123 * i) + "," + std::to_string(i) + ",0,0\n";
-  const auto forces = forces_on(program, from_csv(text));
-  int steps = 0;
-  for (std::size_t i = 0; i < 10; ++i)
-    for (const double f : forces.breaks(i)) {
-      CAPTURE(i);
-      CAPTURE(f);
-      CHECK(forces.at(i, f, Side::before)[0] == steps);
-      CHECK(forces.at(i, f, Side::after)[0] == ++steps);
-    }
-  CHECK(steps == 120);
-}
-
-TEST_CASE("a constant stretch of a linear profile ends where the slope begins") {
-  const auto forces =
-      forces_on(straight(10, 5), from_csv(linear + "s_mm,fx_N,fy_N,fz_N\n0,10,0,0\n5,10,0,0\n10,20,0,0\n"));
-  CHECK(forces.at(0, 0.9) == wrench(10, 0, 0));
-  CHECK(near(forces.at(1, 0.5), wrench(15, 0, 0)));
-}
-
-TEST_CASE("a row a rounding error before the end of a segment acts at the end") {
-  ForceSource source;
-  source.blend = 0;
-  source.profile.emplace();
-  source.profile->key = ForceKey::time;
-  source.profile->linear = true;
-  const Program program = straight(2, 1);
-  const double t = build_toolpath(program, Pose{}).segments[0].t_end, end = 2 * t;
-  source.profile->rows = {
-      {0, wrench(1, 0, 0), {}}, {std::nextafter(t, 0.0), wrench(2, 0, 0), {}}, {end, wrench(5, 0, 0), {}}};
-  const auto forces = forces_on(program, source);
-  CHECK(near(forces.at(0, 1), wrench(2, 0, 0)));
-  CHECK(near(forces.at(1, 0), wrench(2, 0, 0)));
-  CHECK(near(forces.at(1, 0.5), wrench(3.5, 0, 0)));
-  CHECK(forces.breaks(0).empty());
-}
-
-TEST_CASE("a linear profile runs through its rows, in length and in time") {
-  for (const auto& keys : {std::string("s_mm,fx_N,fy_N,fz_N\n0,0,0,0\n4,40,0,0\n10,10,0,0\n"),
-                           std::string("t_s,fx_N,fy_N,fz_N\n0,0,0,0\n0.4,40,0,0\n1,10,0,0\n")}) {
-    const auto forces = forces_on(straight(10, 5), from_csv(linear + keys));
-    CHECK(near(forces.at(0, 0.4), wrench(20, 0, 0)));
-    CHECK(near(forces.at(0, 0.8), wrench(40, 0, 0)));
-    CHECK(near(forces.at(1, 0), wrench(35, 0, 0)));
-    CHECK(near(forces.at(1, 1), wrench(10, 0, 0)));
-    REQUIRE(forces.breaks(0).size() == 1);
-    CHECK(forces.breaks(0)[0] == doctest::Approx(0.8));
-    CHECK(forces.jumps() == 0);
+  for (const double block_mm : {9.1, 91.0}) {
+    const auto path = build_toolpath(straight(91, block_mm), Pose{});
+    const auto forces = forces_on(straight(91, block_mm), from_csv(text));
+    int steps = 0;
+    for (std::size_t i = 0; i < path.segments.size(); ++i)
+      for (const double f : forces.breaks(i)) {
+        CAPTURE(f);
+        CHECK(forces.at(i, f, Side::before)[0] == steps);
+        CHECK(forces.at(i, f, Side::after)[0] == ++steps);
+      }
+    CHECK(steps == 120);
   }
-}
-
-TEST_CASE("a step in time acts where the tool then is, whatever the feeds") {
-  const Program program =
-      ProgramBuilder({0, 0, 0}).feed({10, 0, 0}, 600).feed({20, 0, 0}, 300).program;  // 1 s, 2 s
-  const auto forces =
-      forces_on(program, from_csv(on_tool + "t_s,fx_N,fy_N,fz_N\n0,1,0,0\n0.5,2,0,0\n2,3,0,0\n"));
-  REQUIRE(forces.breaks(0).size() == 1);
-  CHECK(forces.breaks(0)[0] == doctest::Approx(0.5));
-  REQUIRE(forces.breaks(1).size() == 1);
-  CHECK(forces.breaks(1)[0] == doctest::Approx(0.5));
 }
 
 TEST_CASE("between breaks the blended wrench of a stepped profile is a straight line") {
@@ -255,52 +163,6 @@ TEST_CASE("between breaks the blended wrench of a stepped profile is a straight 
       }
   }
   CHECK(forces.ramps() == 4);
-}
-
-TEST_CASE("work and tool frames turn forces and moments by the part's and the tool's orientation") {
-  const Pose X_MW = rotation(exp_so3({0, 0, 90 * deg}));
-  const Matrix3 R_MT = exp_so3({90 * deg, 0, 0});
-  const std::string rows = "# sense = on_tool\nline,fx_N,fy_N,fz_N,mx_Nm,my_Nm,mz_Nm\n1,1,2,3,4,5,6\n";
-  const auto work = forces_on(sample_program(), from_csv("# frame = work\n" + rows), X_MW, R_MT);
-  CHECK(near(work.at(2, 0.5), wrench(-2, 1, 3, -5, 4, 6)));
-  const auto tool = forces_on(sample_program(), from_csv("# frame = tool\n" + rows), X_MW, R_MT);
-  CHECK(near(tool.at(2, 0.5), wrench(1, -3, 2, 4, -6, 5)));
-}
-
-TEST_CASE("each segment may have its own tool orientation") {
-  const Program program = straight(2, 1);
-  const auto path = build_toolpath(program, Pose{});
-  const auto source = from_csv("# frame = tool\n# sense = on_tool\nline,fx_N,fy_N,fz_N\n1,1,0,0\n");
-  const PathForces forces(source, program, path, {Matrix3::Identity(), exp_so3({0, 0, 90 * deg})});
-  CHECK(near(forces.at(0, 1), wrench(1, 0, 0)));
-  CHECK(near(forces.at(1, 0), wrench(0, 1, 0)));
-}
-
-TEST_CASE("in the feed frame x follows the feed, z is the tool's, and a plunge keeps z only and is listed") {
-  const auto source =
-      from_csv("# frame = feed\n# sense = on_tool\nline,fx_N,fy_N,fz_N,mx_Nm,my_Nm,mz_Nm\n1,1,2,3,4,5,6\n");
-  const auto forces = forces_on(sample_program(), source);
-  CHECK(near(forces.at(1, 0.5), wrench(0, 0, 3, 0, 0, 6)));
-  CHECK(near(forces.at(2, 0.5), wrench(1, 2, 3, 4, 5, 6)));    // along x
-  CHECK(near(forces.at(4, 0.5), wrench(-2, 1, 3, -5, 4, 6)));  // along y
-  CHECK(near(forces.at(5, 0.5), wrench(-1, -2, 3, -4, -5, 6)));
-  REQUIRE(forces.notes().size() == 1);
-  CHECK(forces.notes()[0].line == 2);
-}
-
-TEST_CASE("the feed frame of a slanted cut stands on the tool's axis, not on the feed") {
-  const Program ramp = ProgramBuilder({0, 0, 0}).feed({10, 0, -5}, 600).program;
-  const auto forces =
-      forces_on(ramp, from_csv("# frame = feed\n# sense = on_tool\nline,fx_N,fy_N,fz_N\n1,1,2,3\n"));
-  CHECK(near(forces.at(0, 0.5), wrench(1, 2, 3)));
-  CHECK(forces.notes().empty());
-}
-
-TEST_CASE("a plunge with an axial force only is not listed") {
-  const auto forces = forces_on(
-      sample_program(), from_csv("# frame = feed\n# sense = on_tool\nline,fx_N,fy_N,fz_N\n1,0,0,3\n"));
-  CHECK(forces.notes().empty());
-  CHECK(near(forces.at(1, 0.5), wrench(0, 0, 3)));
 }
 
 TEST_CASE("a rapid that gives no segment ends a feed run all the same") {
@@ -322,56 +184,11 @@ TEST_CASE("cuts that do not join are not one run") {
   CHECK(forces.at(1, 0) == Vector6::Zero());
 }
 
-TEST_CASE("keys rounded by a micrometre or a millisecond past the ends of the program still fit it") {
-  for (const char* rows :
-       {"s_mm,fx_N,fy_N,fz_N\n0.0005,1,0,0\n9.9995,2,0,0\n", "s_mm,fx_N,fy_N,fz_N\n0,1,0,0\n10.0005,2,0,0\n",
-        "t_s,fx_N,fy_N,fz_N\n0.0005,1,0,0\n0.9995,2,0,0\n", "t_s,fx_N,fy_N,fz_N\n0,1,0,0\n1.0005,2,0,0\n"}) {
-    CAPTURE(rows);
-    const auto forces = forces_on(straight(10, 10), from_csv(linear + rows));
-    CHECK(near(forces.at(0, 0), wrench(1, 0, 0), 1e-3));
-    CHECK(near(forces.at(0, 1), wrench(2, 0, 0), 1e-3));
-  }
-}
-
-TEST_CASE("a step at the end of the last cut never acts") {
-  const auto forces =
-      forces_on(straight(10, 10), from_csv(on_tool + "s_mm,fx_N,fy_N,fz_N\n0,1,0,0\n10,2,0,0\n"));
-  CHECK(forces.at(0, 1) == wrench(1, 0, 0));
-  CHECK(forces.breaks(0).empty());
-  CHECK(forces.jumps() == 1);
-}
-
-TEST_CASE("keys that the program cannot have are errors at the first row") {
-  Program unnumbered = sample_program(), decreasing = sample_program(), no_feed = sample_program();
-  unnumbered.moves[0].block_number = unnumbered.moves[1].block_number = std::nullopt;
-  decreasing.moves[4].block_number = 5;
-  no_feed.moves[2].feed_mm_min = 0;
-  const auto by_n = from_csv(on_tool + "n,fx_N,fy_N,fz_N\n1,1,0,0\n");
-  CHECK_THROWS_WITH_AS(
-      forces_on(unnumbered, by_n),
-      "forces.csv:4:1: error: row 1: key n needs block numbers, the move in line 2 has none at or before it",
-      InputError);
-  CHECK_THROWS_WITH_AS(
-      forces_on(decreasing, by_n),
-      "forces.csv:4:1: error: row 1: key n needs block numbers that never decrease, line 5 has N5 after N30",
-      InputError);
-  CHECK_THROWS_WITH_AS(forces_on(no_feed, from_csv(on_tool + "t_s,fx_N,fy_N,fz_N\n0,1,0,0\n")),
-                       "forces.csv:4:1: error: row 1: key t_s needs a feed, the move in line 3 has none",
-                       InputError);
-}
-
 TEST_CASE("a profile that acts at the platform says so, a constant force never does") {
   auto source = from_csv(on_tool + "# at = platform\nline,fx_N,fy_N,fz_N\n1,1,0,0\n");
   CHECK(forces_on(sample_program(), source).at_platform());
   source.constant = wrench(1, 0, 0);
   CHECK_FALSE(forces_on(sample_program(), source).at_platform());
-}
-
-TEST_CASE("a program without cuts has no forces and takes any profile that it covers") {
-  const Program program = ProgramBuilder({0, 0, 0}).rapid({1, 0, 0}).rapid({2, 0, 0}).program;
-  const auto forces = forces_on(program, from_csv(on_tool + "line,fx_N,fy_N,fz_N\n2,1,0,0\n", 2 * mm));
-  CHECK(forces.at(1, 0.5) == Vector6::Zero());
-  CHECK(forces.ramps() == 0);
 }
 
 TEST_CASE("very long runs keep the blended wrench accurate") {

@@ -1,5 +1,6 @@
 #pragma once
 /// A program for the tests of forces, and shorthands.
+#include <string>
 #include <vector>
 
 #include "counterflex/forces/forces.hpp"
@@ -42,6 +43,28 @@ inline ForceSource from_csv(const std::string& text, double blend = 0) {
   source.profile = read_force_csv(text, "forces.csv");
   source.blend = blend;
   return source;
+}
+
+inline const std::string on_tool = "# frame = machine\n# sense = on_tool\n";
+inline const std::string linear = on_tool + "# interpolation = linear\n";
+
+inline ForceSource constant(const Vector6& F, double blend) {
+  ForceSource source;
+  source.constant = F;
+  source.blend = blend;
+  return source;
+}
+
+/// One cut of `length_mm` along x at 10 mm/s in blocks of `block_mm`.
+inline Program straight(double length_mm, double block_mm) {
+  ProgramBuilder builder({0, 0, 0});
+  const int blocks = static_cast<int>(length_mm / block_mm + 0.5);
+  for (int i = 1; i <= blocks; ++i) builder.feed({i * block_mm, 0, 0}, 600);
+  return builder.program;
+}
+
+inline bool near(const Vector6& A, const Vector6& B, double tolerance = 1e-9) {
+  return (A - B).norm() <= tolerance;
 }
 
 }  // namespace counterflex::test
