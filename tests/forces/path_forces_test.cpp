@@ -141,8 +141,11 @@ TEST_CASE("the two sides of every break are those of its step, wherever rounding
     for (std::size_t i = 0; i < path.segments.size(); ++i)
       for (const double f : forces.breaks(i)) {
         CAPTURE(f);
-        CHECK(forces.at(i, f, Side::before)[0] == steps);
-        CHECK(forces.at(i, f, Side::after)[0] == ++steps);
+        for (const double off : {-1e-13, 0.0, 1e-13}) {
+          CHECK(forces.at(i, f + off, Side::before)[0] == steps);
+          CHECK(forces.at(i, f + off, Side::after)[0] == steps + 1);
+        }
+        ++steps;
       }
     CHECK(steps == 120);
   }

@@ -61,6 +61,8 @@ TEST_CASE("a row a rounding error before the end of a segment acts at the end") 
   CHECK(near(forces.at(1, 0), wrench(2, 0, 0)));
   CHECK(near(forces.at(1, 0.5), wrench(3.5, 0, 0)));
   CHECK(forces.breaks(0).empty());
+  source.blend = 0.5 * mm;
+  CHECK(near(forces_on(program, source).at(1, 0.5), wrench(2.75, 0, 0)));
 }
 
 TEST_CASE("a linear profile runs through its rows, in length and in time") {

@@ -77,7 +77,8 @@ struct FeedRun {
   std::size_t end_corner = 0;
 };
 
-/// On which side of a step a wrench is asked for.
+/// On which side of a step a wrench is asked for. A place within 1e-9 of a segment from a step is at the
+/// step.
 enum class Side { before, after };
 
 /// The wrench along a toolpath, machine axes, blended. Built once in linear time, then read from any thread;

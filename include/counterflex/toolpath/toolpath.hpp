@@ -1,5 +1,6 @@
 #pragma once
-/// Straight segments of the tool tip in the machine frame M: what a program asks for, without its text. Lengths in m.
+/// Straight segments of the tool tip in the machine frame M: what a program asks for, without its text.
+/// Lengths in m.
 #include <string>
 #include <vector>
 
@@ -17,10 +18,11 @@ struct Segment {
   Vector3 p_MT_end = Vector3::Zero();
   Vector3 p_WT_start = Vector3::Zero();  ///< the same in program coordinates
   Vector3 p_WT_end = Vector3::Zero();
-  double feed_m_s = 0;   ///< programmed feed; 0 where none is programmed
-  double s_start = 0;    ///< cutting path length at the start, from the program's start: feed moves only (m)
+  double feed_m_s = 0;  ///< programmed feed; 0 where none is programmed
+  double s_start = 0;   ///< cutting path length at the start, from the program's start: feed moves only (m)
   double s_end = 0;
-  double t_start = 0;    ///< time at the start at programmed feeds, feed moves only (s)
+  double t_start =
+      0;  ///< time at the start at programmed feeds, feed moves only; stands still without a feed (s)
   double t_end = 0;
 };
 
@@ -30,8 +32,8 @@ struct Toolpath {
   std::vector<Segment> segments;
 };
 
-/// Builds the path of `program` in the machine frame. Moves with an axis that is not known at start and end give no
-/// segment; a move of no length gives none either.
+/// Builds the path of `program` in the machine frame. Moves with an axis that is not known at start and end
+/// give no segment; a move of no length gives none either.
 Toolpath build_toolpath(const Program& program, const Pose& X_MW);
 
 }  // namespace counterflex
