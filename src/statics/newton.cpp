@@ -139,11 +139,10 @@ WholeSystem whole_system(const Model& model, const Configuration& configuration,
                         {model.mechanism.length});
 }
 
-double force_tolerance(const Model& model, const Configuration& configuration, double largest_wrench) {
+double force_tolerance(const Mechanism& mechanism, const Pose& X_MP, double largest_wrench) {
   constexpr double eps = std::numeric_limits<double>::epsilon();
-  const Mechanism& mechanism = model.mechanism;
   return 1e-9 * std::max(1.0, largest_wrench) +
-         16 * eps * mechanism.stiffest * (configuration.X_MP.p.norm() + mechanism.length);
+         16 * eps * mechanism.stiffest * (X_MP.p.norm() + mechanism.length);
 }
 
 NewtonResult newton(const Model& model, const Problem& problem, StaticsWork::Impl& work, Configuration& configuration) {
@@ -155,7 +154,7 @@ NewtonResult newton(const Model& model, const Problem& problem, StaticsWork::Imp
     const Residual residual = residual_of(model, configuration, problem, units, work);
     if (!std::isfinite(residual.closure + residual.force)) return result;
     result.converged = residual.closure <= closure_tolerance && step.largest <= step_tolerance &&
-                       residual.force <= force_tolerance(model, configuration, residual.largest);
+                       residual.force <= force_tolerance(model.mechanism, configuration.X_MP, residual.largest);
     if (result.converged) return result;
     if (!condensed_step(model, problem, units, work, configuration, step))
       whole_step(model, problem, units, work, configuration, step);

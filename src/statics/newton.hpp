@@ -9,6 +9,7 @@ namespace counterflex {
 
 struct StaticsWork::Impl {
   std::vector<SeriesWork> chains;
+  Eigen::VectorXd no_actuator_step;  ///< zeros, one an actuator
 };
 
 /// What one Newton solve should satisfy.
@@ -36,7 +37,7 @@ WholeSystem whole_system(const Model& model, const Configuration& configuration,
                          const StaticsWork::Impl& work);
 
 /// Bound on the force residual: 1e-9 max(1 N, W) + 16 eps k_max (p + l).
-double force_tolerance(const Model& model, const Configuration& configuration, double largest_wrench);
+double force_tolerance(const Mechanism& mechanism, const Pose& X_MP, double largest_wrench);
 
 struct NewtonResult {
   bool converged = false;

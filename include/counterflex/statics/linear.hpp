@@ -1,0 +1,26 @@
+#pragma once
+/// The linear theory of non-perfect chains (10)-(16): one step from the perfect nominal configuration.
+#include "counterflex/statics/equilibrium.hpp"
+
+namespace counterflex {
+
+/// First-order state of the machine:
+///
+///     dt = (sum K_i)^-1 (F + sum K_i eps_i + preload wrenches)      F_i = K_i (dt - eps_i)      theta_i = K_Ctheta,i dt_i
+///
+/// with `eps_i` the first-order displacement of a chain's unloaded end by its errors (groups condensed) and K_i its stiffness
+/// without Hessians, both at the nominal configuration. Source: Klimchik, Pashkevich, Chablat, eqs. (10)-(16); paper.md's
+/// traps 1 and 2 apply.
+struct LinearResult {
+  Status status = Status::not_converged;  ///< converged or singular
+  Vector6 dt_P = Vector6::Zero();         ///< at the reference point (m, rad; axes of M)
+  Vector6 dt_T = Vector6::Zero();         ///< the same motion at the tool tip
+  Configuration configuration;            ///< nominal plus the linear joint and spring coordinates and wrenches
+};
+LinearResult linear_deviation(const Model& model, const Configuration& nominal, const Load& load, const Stage& stage,
+                              StaticsWork& work);
+
+/// The linear target: `X_MT` with `dt_T` taken from its controlled components.
+Pose linear_target(const Model& model, const Pose& X_MT, const LinearResult& linear);
+
+}  // namespace counterflex

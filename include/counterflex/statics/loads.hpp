@@ -1,0 +1,27 @@
+#pragma once
+/// Loads in joints and springs at a configuration: largest absolute components, as in the paper's Table 2.
+#include <string>
+#include <vector>
+
+#include "counterflex/statics/equilibrium.hpp"
+
+namespace counterflex {
+
+/// Of one chain. Springs and compliances in their own frames, theta and K (theta - theta_0); what a group transmits (the
+/// moment at its end) in the frame of its first branch's first spring, the paper's tau_phi; passive revolute joints by
+/// their change from the nominal configuration. SI.
+struct ChainLoads {
+  std::string name;
+  Vector6 wrench = Vector6::Zero();  ///< that the platform exerts on the chain's end, at the reference point, axes of M
+  double moment_max = 0;
+  double spring_translation_max = 0;
+  double spring_rotation_max = 0;
+  double spring_force_max = 0;
+  double spring_torque_max = 0;
+  double group_moment_max = 0;
+  double passive_change_max = 0;
+};
+
+std::vector<ChainLoads> loads(const Model& model, const Configuration& configuration, const Stage& stage);
+
+}  // namespace counterflex

@@ -1,0 +1,115 @@
+#include "counterflex/statics/chain.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include "newton.hpp"
+
+namespace counterflex {
+namespace {
+
+constexpr double closure_tolerance = 1e-12, step_tolerance = 1e-11;
+constexpr int most_iterations = 200;  // the paper's iteration converges linearly
+
+double part_energy(const Part& part, const SeriesState& state, const Stage& stage) {
+  if (part.kind == PartKind::spring) {
+    const Vector6 theta = state.x.segment<6>(part.column) - stage.preload * part.theta_0;
+    return 0.5 * theta.dot(part.K * theta);
+  }
+  if (part.kind != PartKind::passive && part.kind != PartKind::compliance) return 0;
+  const double q_nominal = part.kind == PartKind::passive ? state.x_nominal[part.column] : 0;
+  const double q = state.x[part.column] - q_nominal - stage.preload * (part.rest - q_nominal);
+  return 0.5 * part.k * q * q;
+}
+
+}  // namespace
+
+ChainEquilibrium solve_chain(const Model& model, std::size_t i, const Pose& X_MP, const Stage& stage, ChainMethod method,
+                             SeriesState& state, StaticsWork& work) {
+  const Series& series = model.mechanism.chains[i];
+  const Units units{model.mechanism.length};
+  const Hessians hessians = method == ChainMethod::newton ? Hessians::yes : Hessians::no;
+  SeriesWork& chain = work.impl().chains[i];
+  const Eigen::VectorXd& no_actuator = work.impl().no_actuator_step;
+  ChainEquilibrium result;
+  double step = std::numeric_limits<double>::infinity();
+  for (; result.iterations < most_iterations; ++result.iterations) {
+    evaluate(series, state, X_MP, stage, hessians, chain);
+    Residual residual;
+    add_residual(series, state, chain, units, residual);
+    if (!std::isfinite(residual.closure + residual.force)) return result;
+    if (residual.closure <= closure_tolerance && step <= step_tolerance &&
+        residual.force <= force_tolerance(model.mechanism, X_MP, residual.largest)) {
+      result.status = Status::converged;
+      return result;
+    }
+    if (!condense(series, units, false, chain)) {
+      result.status = Status::singular;
+      return result;
+    }
+    step = take_step(series, Vector6::Zero(), no_actuator, units, chain, state);
+  }
+  return result;
+}
+
+ChainStiffness chain_stiffness(const Model& model, std::size_t i, const SeriesState& state, const Stage& stage,
+                               StaticsWork& work) {
+  const Series& series = model.mechanism.chains[i];
+  const Units units{model.mechanism.length};
+  SeriesWork& chain = work.impl().chains[i];
+  const Pose X_MP = chain_end(model, i, state, stage, work);
+  evaluate(series, state, X_MP, stage, Hessians::yes, chain);
+  ChainStiffness result;
+  result.available = condense(series, units, false, chain);
+  if (!result.available) return result;
+  result.K_C = chain.K;
+  const auto append = [&](Eigen::Matrix<double, Eigen::Dynamic, 6>& rows, std::size_t row) {
+    rows.conservativeResize(rows.rows() + 1, Eigen::NoChange);
+    rows.bottomRows<1>() =
+        units.of_column(series.angular[series.free[row]]) * chain.solution.block<1, 6>(6 + row, 1);
+  };
+  std::size_t row = 0;
+  for (const Part& part : series.parts) {
+    if (part.kind == PartKind::passive) append(result.K_Cq, row++);
+    if (part.kind == PartKind::compliance) append(result.K_Ctheta, row++);
+    if (part.kind == PartKind::group) row += 6;
+    if (part.kind == PartKind::spring)
+      for (int k = 0; k < 6; ++k) append(result.K_Ctheta, row++);
+  }
+  return result;
+}
+
+double elastic_energy(const Series& series, const SeriesState& state, const Stage& stage) {
+  double energy = 0;
+  for (const Part& part : series.parts) energy += part_energy(part, state, stage);
+  for (std::size_t g = 0; g < series.groups.size(); ++g)
+    for (std::size_t b = 0; b < series.groups[g].branches.size(); ++b)
+      energy += elastic_energy(series.groups[g].branches[b], state.groups[g].branches[b], stage);
+  return energy;
+}
+
+Eigen::MatrixXd chain_jacobian(const Model& model, std::size_t i, const SeriesState& state, const Stage& stage,
+                               StaticsWork& work) {
+  SeriesWork& chain = work.impl().chains[i];
+  evaluate(model.mechanism.chains[i], state, {}, stage, Hessians::no, chain);
+  Eigen::MatrixXd J(6, chain.v.cols());
+  J << chain.v, chain.w;
+  return J;
+}
+
+Eigen::MatrixXd chain_hessian(const Model& model, std::size_t i, const SeriesState& state, const Stage& stage,
+                              StaticsWork& work) {
+  SeriesWork& chain = work.impl().chains[i];
+  evaluate(model.mechanism.chains[i], state, {}, stage, Hessians::no, chain);
+  const Eigen::MatrixXd K = chain.A;
+  evaluate(model.mechanism.chains[i], state, {}, stage, Hessians::yes, chain);
+  return K - chain.A;
+}
+
+Pose chain_end(const Model& model, std::size_t i, const SeriesState& state, const Stage& stage, StaticsWork& work) {
+  SeriesWork& chain = work.impl().chains[i];
+  evaluate(model.mechanism.chains[i], state, {}, stage, Hessians::no, chain);
+  return chain.end;
+}
+
+}  // namespace counterflex

@@ -1,0 +1,23 @@
+#pragma once
+/// Following an equilibrium from the nominal configuration while errors, load and preloads grow.
+#include <functional>
+
+#include "newton.hpp"
+
+namespace counterflex {
+
+using EquilibriumSolver = std::function<NewtonResult(const Problem&, StaticsWork::Impl&, Configuration&)>;
+
+/// In at least four steps, smaller where one does not converge, stability watched at each. `solve` must leave the works
+/// evaluated at its solution.
+Equilibrium continue_from(const Model& model, const Configuration& nominal, Problem problem, const EquilibriumSolver& solve,
+                          StaticsWork::Impl& work);
+
+/// One solve from a start of the caller's choice, judged like the end of a continuation.
+Equilibrium refine(const Model& model, const Configuration& start, const Problem& problem, const EquilibriumSolver& solve,
+                   StaticsWork::Impl& work);
+
+/// Newton's method as such a solver.
+EquilibriumSolver newton_solver(const Model& model);
+
+}  // namespace counterflex

@@ -1,0 +1,111 @@
+#include "counterflex/statics/linear.hpp"
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+
+#include "newton.hpp"
+
+namespace counterflex {
+namespace {
+
+// eps of a series by its own errors: each error's (p, Log R), carried to the end by the nominal frames.
+Vector6 own_eps(const Series& series, const SeriesState& nominal, const Pose& end, double factor) {
+  Vector6 eps = Vector6::Zero();
+  Pose X;
+  for (const Part& part : series.parts) {
+    const auto joint_motion = [&](double value) {
+      return part.joint.kind == JointKind::prismatic ? translation(value * part.joint.axis)
+                                                     : rotation(exp_so3(value * part.joint.axis));
+    };
+    switch (part.kind) {
+      case PartKind::fixed: X = X * part.X; break;
+      case PartKind::error: {
+        const Vector3 w = factor * (X.R * part.log_R);
+        eps.head<3>() += factor * (X.R * part.X.p) + w.cross(end.p - X.p);
+        eps.tail<3>() += w;
+        break;
+      }
+      case PartKind::actuator:
+      case PartKind::passive: X = X * joint_motion(nominal.x[part.column]); break;
+      case PartKind::group: X = X * nominal.groups[part.group].X; break;
+      case PartKind::compliance:
+      case PartKind::spring: break;
+    }
+  }
+  return eps;
+}
+
+// A perfect chain closes at the nominal pose; a chain with errors ends eps beside it.
+void open_gaps(const Series& series, const SeriesState& nominal, double factor, SeriesWork& work) {
+  work.gap -= own_eps(series, nominal, work.end, factor);
+  for (std::size_t g = 0; g < series.groups.size(); ++g)
+    for (std::size_t b = 0; b < series.groups[g].branches.size(); ++b)
+      open_gaps(series.groups[g].branches[b], nominal.groups[g].branches[b], factor, work.groups[g][b]);
+}
+
+void evaluate_linear(const Model& model, const Configuration& nominal, const Stage& stage, StaticsWork::Impl& work) {
+  const Stage without_errors{0, stage.load, stage.preload};
+  for (std::size_t i = 0; i < nominal.chains.size(); ++i) {
+    evaluate(model.mechanism.chains[i], nominal.chains[i], nominal.X_MP, without_errors, Hessians::no, work.chains[i]);
+    open_gaps(model.mechanism.chains[i], nominal.chains[i], stage.errors, work.chains[i]);
+  }
+}
+
+bool condensed(const Model& model, const Vector6& F, const Units& units, StaticsWork::Impl& work, LinearResult& result) {
+  const Mechanism& mechanism = model.mechanism;
+  Matrix6 K = Matrix6::Zero();
+  Vector6 rhs = F;
+  for (std::size_t i = 0; i < work.chains.size(); ++i) {
+    if (!condense(mechanism.chains[i], units, false, work.chains[i])) return false;
+    K += work.chains[i].K;
+    rhs -= work.chains[i].dF;
+  }
+  const Vector6 pose = units.of_pose();
+  const Eigen::FullPivLU<Matrix6> lu(pose.asDiagonal() * K * pose.asDiagonal() / units.energy());
+  if (!lu.isInvertible()) return false;
+  result.dt_P = pose.cwiseProduct(Vector6(lu.solve(pose.cwiseProduct(rhs) / units.energy())));
+  for (std::size_t i = 0; i < work.chains.size(); ++i)
+    take_step(mechanism.chains[i], result.dt_P, work.no_actuator_step, units, work.chains[i],
+              result.configuration.chains[i]);
+  result.configuration.X_MP = moved(result.configuration.X_MP, result.dt_P);
+  return true;
+}
+
+// Where a chain has no stiffness of its own: the same linear equations, uncondensed.
+bool uncondensed(const Model& model, const Configuration& nominal, const Vector6& F, const Stage& stage,
+                 const Units& units, StaticsWork::Impl& work, LinearResult& result) {
+  evaluate_linear(model, nominal, stage, work);
+  const WholeSystem system = assemble_whole(model.mechanism, work.chains, {-F, Matrix6::Zero()}, units);
+  if (!(condition(system, units).value < 1e10)) return false;
+  const WholeStep step = solve_whole(system, std::nullopt, units);
+  result.dt_P = step.variables.tail<6>();
+  result.configuration = nominal;
+  apply(model.mechanism, step, units, result.configuration);
+  return true;
+}
+
+}  // namespace
+
+LinearResult linear_deviation(const Model& model, const Configuration& nominal, const Load& load, const Stage& stage,
+                              StaticsWork& work) {
+  const Units units{model.mechanism.length};
+  const Vector6 F = applied_wrench(model.mechanism, nominal.X_MP, load, stage.load).F;
+  LinearResult result;
+  result.configuration = nominal;
+  evaluate_linear(model, nominal, stage, work.impl());
+  result.status = condensed(model, F, units, work.impl(), result) ||
+                          uncondensed(model, nominal, F, stage, units, work.impl(), result)
+                      ? Status::converged
+                      : Status::singular;
+  result.dt_T = result.dt_P;
+  result.dt_T.head<3>() += result.dt_P.tail<3>().cross(nominal.X_MP.R * model.mechanism.X_PT.p);
+  return result;
+}
+
+Pose linear_target(const Model& model, const Pose& X_MT, const LinearResult& linear) {
+  Vector6 shift = Vector6::Zero();
+  for (int c : fixed_components(model.mechanism)) shift[c] = -linear.dt_T[c];
+  return moved(X_MT, shift);
+}
+
+}  // namespace counterflex

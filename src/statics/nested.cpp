@@ -1,0 +1,116 @@
+#include "counterflex/statics/nested.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "continuation.hpp"
+#include "counterflex/statics/chain.hpp"
+
+namespace counterflex {
+namespace {
+
+constexpr double closure_tolerance = 1e-12, step_tolerance = 1e-11;
+constexpr int most_outer = 100, most_inner = 60;
+
+// (2) for every chain at the platform's pose; false where one has no solution of its own.
+bool solve_chains(const Model& model, const Stage& stage, Configuration& configuration, StaticsWork& work,
+                  NewtonResult& result) {
+  for (std::size_t i = 0; i < configuration.chains.size(); ++i) {
+    const auto chain = solve_chain(model, i, configuration.X_MP, stage, ChainMethod::paper, configuration.chains[i], work);
+    result.iterations += chain.iterations;
+    if (chain.status != Status::converged) return false;
+  }
+  return true;
+}
+
+// (18): sum of the chains' loaded stiffnesses.
+bool sum_stiffness(const Model& model, const Stage& stage, const Configuration& configuration, StaticsWork& work,
+                   Matrix6& K) {
+  const ManipulatorStiffness sum = stiffness(model, configuration, stage, work);
+  K = sum.K;
+  return sum.available;
+}
+
+// (20)-(21): t <- t + (sum K_C - K_load)^-1 (F - f(t)), every chain anew at every t.
+NewtonResult equilibrium_by_chains(const Model& model, const Problem& problem, Configuration& configuration,
+                                   StaticsWork& work) {
+  const Units units{model.mechanism.length};
+  const Configuration start = configuration;
+  NewtonResult result;
+  double step = std::numeric_limits<double>::infinity();
+  for (int iteration = 0; iteration < most_inner; ++iteration) {
+    Matrix6 K;
+    if (!solve_chains(model, problem.stage, configuration, work, result) ||
+        !sum_stiffness(model, problem.stage, configuration, work, K)) {
+      configuration = start;
+      return newton(model, problem, work.impl(), configuration);
+    }
+    const PlatformTerms terms = platform_terms(model, configuration, problem);
+    double largest = wrench_size(problem.load.F, units);
+    for (const SeriesState& chain : configuration.chains) largest = std::max(largest, wrench_size(chain.F, units));
+    const double tolerance = force_tolerance(model.mechanism, configuration.X_MP, largest);
+    result.converged = step <= step_tolerance && wrench_size(terms.gradient, units) <= tolerance;
+    if (result.converged) break;
+    const Vector6 dt = (K + terms.A).partialPivLu().solve(-terms.gradient);
+    if (!dt.allFinite()) return result;
+    step = std::max(dt.head<3>().norm(), dt.tail<3>().norm() * units.length);
+    configuration.X_MP = moved(configuration.X_MP, dt);
+  }
+  evaluate_all(model, configuration, problem.stage, work.impl());
+  return result;
+}
+
+// The loaded configuration with the actuators of a new nominal one.
+Configuration with_actuators_of(const Model& model, const Configuration& nominal, Configuration loaded) {
+  set_actuator_values(model.mechanism, actuator_values(model.mechanism, nominal), loaded);
+  return loaded;
+}
+
+Vector6 controlled_part(const Mechanism& mechanism, const Vector6& all) {
+  Vector6 part = Vector6::Zero();
+  for (int c : fixed_components(mechanism)) part[c] = all[c];
+  return part;
+}
+
+double size_of(const Vector6& deviation, const Units& units) {
+  return std::max(deviation.head<3>().norm(), deviation.tail<3>().norm() * units.length);
+}
+
+}  // namespace
+
+Equilibrium solve_target_nested(const Model& model, const Configuration& nominal, const Pose& X_MT, const Load& load,
+                                const Stage& goal, StaticsWork& work) {
+  const Units units{model.mechanism.length};
+  const Problem problem{load, goal, nullptr};
+  const EquilibriumSolver by_chains = [&](const Problem& p, StaticsWork::Impl&, Configuration& c) {
+    return equilibrium_by_chains(model, p, c, work);
+  };
+  Equilibrium result = continue_from(model, nominal, problem, by_chains, work.impl());
+  Configuration commanded = nominal;
+  Pose X_t0F = tip(model.mechanism, nominal);
+  double error = std::numeric_limits<double>::infinity(), alpha = 1;
+  for (int outer = 0; outer < most_outer; ++outer) {
+    if (result.status != Status::converged) return result;
+    const Vector6 d = controlled_part(model.mechanism, deviation(tip(model.mechanism, result.configuration), X_MT));
+    const double size = size_of(d, units);
+    if (size <= closure_tolerance) return result;
+    if (size > error) alpha /= 2;
+    error = size;
+    X_t0F = moved(X_t0F, -alpha * d);  // (23)
+    const NominalResult next = follow(model, commanded, X_t0F);
+    if (next.status != Status::converged) {
+      result.status = next.status;
+      return result;
+    }
+    commanded = next.configuration;
+    const int iterations = result.iterations;
+    result = refine(model, with_actuators_of(model, commanded, result.configuration), problem, by_chains, work.impl());
+    result.iterations += iterations;
+  }
+  result.status = Status::not_converged;
+  return result;
+}
+
+}  // namespace counterflex
