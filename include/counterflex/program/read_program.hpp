@@ -1,19 +1,27 @@
 #pragma once
 /// Reads a machining program.
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "counterflex/program/program.hpp"
 
 namespace counterflex {
 
 struct ReadOptions {
-  std::string dialect = "auto";           ///< auto, linuxcnc, ... ; auto: an O-number means fanuc, else linuxcnc
-  std::optional<LengthUnit> unit;         ///< where the program does not say before its first move
-  std::vector<char> tool_change_moves = {'X', 'Y', 'Z'};  ///< axes unknown after a tool change
+  std::string dialect =
+      "auto";  ///< auto, linuxcnc, grbl, fanuc, haas; auto: an O-number means fanuc, else linuxcnc
+  std::optional<LengthUnit> unit;  ///< where the program does not say before its first move
+  std::optional<std::vector<char>>
+      tool_change_moves;  ///< axes of "XYZ" unknown after a tool change; none: the
+                          ///< dialect's, no axis for linuxcnc and grbl, else all
+  IntegerWords integer_words = IntegerWords::unsaid;
 };
 
-/// Reads `text`, keeping every byte. `file` names it in diagnostics. Throws `InputError` (Exit::program_text) with line
-/// and column for text that is wrong and for words that are not understood yet: nothing is passed over.
+/// Reads `text`, keeping every byte. `file` names it in diagnostics. Throws `InputError` with line and column
+/// for text that is wrong and for words that are not understood yet (Exit::program_text;
+/// Exit::machine_or_force for a FORCE comment): nothing is passed over. A dialect that does not exist is
+/// Exit::usage.
 Program read_program(std::string text, const std::string& file, const ReadOptions& options);
 
 /// Whether the header of a corrected program stands in `text` (a comment that begins "COUNTERFLEX 1").

@@ -1,5 +1,8 @@
 #pragma once
-/// Writes a corrected program: the input's bytes with changed coordinate words and inserted moves, nothing else.
+/// Writes a corrected program: the input's bytes with changed coordinate words and inserted moves, nothing
+/// else.
+#include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -8,37 +11,54 @@
 namespace counterflex {
 
 struct WriteOptions {
-  int decimals = -1;                ///< digits after the point of changed and inserted words; -1: the word's own, at least the dialect's resolution
+  int decimals = -1;  ///< digits after the point of changed and inserted words; -1: the word's own, at least
+                      ///< the dialect's resolution
   std::vector<std::string> header;  ///< texts of the header's comments, without comment characters
 };
 
-/// New end of one move, and moves inserted before it (same motion and feed), in program coordinates, mm.
+/// New end of one move, and moves inserted before it, in program coordinates, mm.
 struct MoveEdit {
   std::size_t move = 0;  ///< index into Program::moves
-  std::vector<Vector3> inserted_mm;
+  std::optional<Vector3>
+      jump_mm{};  ///< a feed move to this point goes first, also before a rapid; needs `may_jump`
+  std::vector<Vector3> inserted_mm{};  ///< points on the way, same motion and feed; need `may_split`
   Vector3 end_mm = Vector3::Zero();
 };
 
-/// Digits after the point with which the end of `move` is written, by axis, and those of points inserted before it.
+/// Digits after the point with which the end of `move` is written, by axis, and those of points inserted
+/// before it.
 struct Decimals {
   std::array<int, 3> end;
   int inserted;
 };
 Decimals decimals_of(const Move& move, const WriteOptions& options);
 
-/// A point in program coordinates (mm) as it is read back from text with `decimals` digits in the move's unit.
+/// A point in program coordinates (mm) as it is read back from text with `decimals` digits in the move's
+/// unit.
 Vector3 as_written_mm(const Vector3& p_mm, LengthUnit unit, const std::array<int, 3>& decimals);
+
+/// Where the emitted text holds the tool, in program coordinates (mm); nothing for an axis that is unknown.
+using HeldPosition = std::array<std::optional<double>, 3>;
+
+/// The position that the emitted text holds after `move`, given the one before it, when its end is edited to
+/// `end_mm`: a word that is within half its last digit of its original stays, a word that is absent is
+/// inserted only where the held position is further away than that, and where it may be. `rewrite` follows
+/// exactly this, word by word.
+HeldPosition held_after(const Move& move, const HeldPosition& before, const Vector3& end_mm,
+                        const WriteOptions& options);
 
 struct Rewritten {
   std::string text;
   std::size_t changed_words = 0;
-  std::size_t inserted_words = 0;
+  std::size_t inserted_words = 0;  ///< in blocks of the input
   std::size_t inserted_blocks = 0;
 };
 
-/// Applies `edits`, in the order of moves, at most one a move. A move without an edit keeps its text. A word whose new
-/// value rounds to its original stays as it is; an axis word is inserted only where the position that the emitted text
-/// holds otherwise differs.
+/// Applies `edits`, in the order of moves, at most one a move. A move without an edit keeps its text; an axis
+/// that is unknown at a move's end and has no word there is left alone. Inserted points that the resolution
+/// cannot tell from the one before give no block. Throws `InputError` (Exit::program_text) for an integer
+/// word in a block that must be rewritten (see IntegerWords) and for a block that would be longer than the
+/// control reads.
 Rewritten rewrite(const Program& program, const std::vector<MoveEdit>& edits, const WriteOptions& options);
 
 }  // namespace counterflex

@@ -1,0 +1,89 @@
+#include "program/dialect.hpp"
+
+#include <array>
+
+namespace counterflex {
+namespace {
+
+constexpr Dialect linuxcnc{.name = "linuxcnc", .line_limit = 255};
+
+constexpr Dialect grbl{
+    .name = "grbl", .line_limit = 80, .limit_counts_comments = false, .g61_is_exact_stop = false};
+
+constexpr Dialect shop_control(std::string_view name) {
+  return {.name = name,
+          .semicolon_comments = false,
+          .motion_ends_with_g80 = false,
+          .tool_change_moves_axes = true,
+          .integer_words_doubtful = true,
+          .g61_is_exact_stop = true,
+          .h_and_d_stand_alone = true,
+          .dwell_takes_axis_words = true,
+          .machine_state_codes = true};
+}
+
+constexpr Dialect fanuc = shop_control("fanuc");
+constexpr Dialect haas = shop_control("haas");
+constexpr std::array dialects{&linuxcnc, &grbl, &fanuc, &haas};
+
+bool is_blank(char c) {
+  return c == ' ' || c == '\t' || c == '\r';
+}
+
+/// `line` without leading blanks and comments.
+std::string_view first_words(std::string_view line) {
+  while (!line.empty()) {
+    if (is_blank(line.front())) {
+      line.remove_prefix(1);
+    } else if (line.front() == comment_open) {
+      const std::size_t close = line.find(comment_close);
+      line = close == std::string_view::npos ? std::string_view() : line.substr(close + 1);
+    } else {
+      break;
+    }
+  }
+  return line;
+}
+
+/// "O1001" and nothing but blanks and comments; LinuxCNC's "O100 sub" is no number of a program.
+bool is_program_number(std::string_view line) {
+  line = first_words(line);
+  if (line.empty() || (line.front() != 'O' && line.front() != 'o')) return false;
+  std::size_t end = 1;
+  while (end < line.size() && line[end] >= '0' && line[end] <= '9') ++end;
+  if (end == 1) return false;
+  const std::string_view rest = first_words(line.substr(end));
+  return rest.empty() || rest.front() == ';';
+}
+
+bool says_nothing(std::string_view line) {
+  line = first_words(line);
+  return line.empty() || line.front() == ';' || line.front() == '%';
+}
+
+}  // namespace
+
+const Dialect* find_dialect(std::string_view name) {
+  for (const Dialect* dialect : dialects)
+    if (dialect->name == name) return dialect;
+  return nullptr;
+}
+
+std::string dialect_names() {
+  std::string names = "auto";
+  for (const Dialect* dialect : dialects) names.append(", ").append(dialect->name);
+  return names;
+}
+
+const Dialect& detect_dialect(std::string_view text) {
+  while (!text.empty()) {
+    const std::size_t end = text.find('\n');
+    const std::string_view line = text.substr(0, end);
+    if (!says_nothing(line)) return is_program_number(line) ? fanuc : linuxcnc;
+    if (end == std::string_view::npos) break;
+    text.remove_prefix(end + 1);
+  }
+  return linuxcnc;
+}
+
+}  // namespace counterflex

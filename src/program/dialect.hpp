@@ -1,0 +1,48 @@
+#pragma once
+/// What differs between controls that read G-code, as data.
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+#include "counterflex/program/program.hpp"
+
+namespace counterflex {
+
+struct Dialect {
+  std::string_view name;
+  std::size_t line_limit = 0;         ///< characters of a line; 0: none known
+  bool limit_counts_comments = true;  ///< whether blanks and comments count
+  bool semicolon_comments = true;     ///< else ';' may only end a block
+  bool motion_ends_with_g80 = true;   ///< else G80 falls back to G0
+  bool tool_change_moves_axes = false;
+  bool integer_words_doubtful = false;  ///< X5 may mean 5 units or 5 increments
+  bool g61_is_exact_stop = false;       ///< else G61 is exact path
+  bool h_and_d_stand_alone = false;     ///< H and D are modal words of their own
+  bool dwell_takes_axis_words = false;  ///< G4 X1.5 dwells
+  bool machine_state_codes = false;     ///< codes of shop controls: G9, G15, G44, G50, G69, G187 ...
+};
+
+inline constexpr char comment_open = '(';
+inline constexpr char comment_close = ')';
+
+/// The dialect of that name, or nullptr.
+const Dialect* find_dialect(std::string_view name);
+
+/// Names for diagnostics, with commas.
+std::string dialect_names();
+
+/// What "auto" means for `text`: fanuc where the first line that says anything holds an O-number, else
+/// linuxcnc.
+const Dialect& detect_dialect(std::string_view text);
+
+/// Digits after the point of the resolution: 0.001 mm, 0.0001 inch.
+constexpr int resolution_decimals(LengthUnit unit) {
+  return unit == LengthUnit::mm ? 3 : 4;
+}
+
+/// How many mm one unit is.
+constexpr double mm_per(LengthUnit unit) {
+  return unit == LengthUnit::mm ? 1.0 : 25.4;
+}
+
+}  // namespace counterflex

@@ -1,0 +1,225 @@
+#include "program/lex.hpp"
+
+#include <fmt/format.h>
+
+#include "counterflex/files/numbers.hpp"
+
+namespace counterflex {
+namespace {
+
+bool is_blank(char c) {
+  return c == ' ' || c == '\t';
+}
+bool is_digit(char c) {
+  return c >= '0' && c <= '9';
+}
+bool is_letter(char c) {
+  return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z');
+}
+char upper(char c) {
+  return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
+}
+
+/// One line being read from `at` to `end`.
+struct Scanner {
+  std::string_view text;
+  const std::string& file;
+  const Dialect& dialect;
+  Block& block;
+  std::size_t at;
+  std::size_t end;
+
+  char peek() const { return at < end ? text[at] : '\0'; }
+  void skip_blanks() {
+    while (at < end && is_blank(text[at])) ++at;
+  }
+  [[noreturn]] void refuse_at(std::size_t where, const std::string& message) const {
+    refuse(file, block, where, message);
+  }
+};
+
+std::string shown(char c) {
+  const auto byte = static_cast<unsigned char>(c);
+  return byte < 0x20 || byte >= 0x7f ? fmt::format("byte 0x{:02X}", byte) : fmt::format("'{}'", c);
+}
+
+/// A number begins at `at`; blanks inside it belong to it. Leaves `at` behind its last character.
+void read_number_word(Scanner& s, Word& word) {
+  const std::size_t begin = s.at;
+  std::size_t last = begin;
+  std::size_t characters = 0;
+  int digits = 0;
+  for (std::size_t i = begin; i < s.end; ++i) {
+    const char c = s.text[i];
+    if (is_blank(c)) continue;
+    const bool sign = (c == '+' || c == '-') && characters == 0;
+    const bool point = c == '.' && !word.point;
+    if (!sign && !point && !is_digit(c)) break;
+    if (point) word.point = true;
+    if (is_digit(c)) ++digits, word.decimals += word.point ? 1 : 0;
+    ++characters;
+    last = i + 1;
+  }
+  word.number = {begin, last};
+  s.at = last;
+  if (digits == 0) return;
+  std::optional<double> value;
+  if (characters == last - begin) {
+    value = read_number(part(s.text, word.number));
+  } else {
+    std::string dense;
+    for (const char c : part(s.text, word.number))
+      if (!is_blank(c)) dense += c;
+    value = read_number(dense);
+  }
+  if (!value) s.refuse_at(begin, fmt::format("{} is no number that can be held", part(s.text, word.number)));
+  word.value = *value;
+}
+
+[[noreturn]] void refuse_missing_number(Scanner& s, const Word& word) {
+  s.at = word.span.begin + 1;
+  s.skip_blanks();
+  const char next = s.peek();
+  if (next == '#' || next == '[')
+    s.refuse_at(s.at, fmt::format("'{}': variables and expressions are not read yet", next));
+  if (next == '=') s.refuse_at(s.at, fmt::format("'{}=': assignments are not read", word.letter));
+  std::size_t stop = s.at;
+  while (stop < s.end && is_letter(s.text[stop])) ++stop;
+  const std::string_view instead = s.text.substr(s.at, stop - s.at);
+  if (instead.size() > 1)
+    s.refuse_at(word.span.begin, fmt::format("{} has no number: '{}' follows it", word.letter, instead));
+  s.refuse_at(word.span.begin, fmt::format("{} has no number", word.letter));
+}
+
+/// An exponent or a second number right behind the number of a word.
+void check_after_number(const Scanner& s, const Word& word) {
+  const char next = s.peek();
+  if ((next == 'e' || next == 'E') && s.at + 1 < s.end) {
+    const char after = s.text[s.at + 1];
+    if (is_digit(after) || after == '+' || after == '-')
+      s.refuse_at(s.at, fmt::format("{}{}{}{}: a number has no exponent here", word.letter,
+                                    part(s.text, word.number), next, after));
+  }
+  if (next == ',') s.refuse_at(s.at, "',': decimals follow a point, and corner words are not read yet");
+}
+
+void check_program_word(const Scanner& s, const Word& word) {
+  std::size_t i = s.at;
+  while (i < s.end && is_blank(s.text[i])) ++i;
+  if (i < s.end && is_letter(s.text[i]))
+    s.refuse_at(word.span.begin, fmt::format("{}: O-words are not read yet", part(s.text, word.span)));
+}
+
+void lex_word(Scanner& s) {
+  Word word;
+  word.letter = upper(s.peek());
+  word.span = {s.at, s.at + 1};
+  ++s.at;
+  s.skip_blanks();
+  if (word.letter == 'O' && s.peek() == '<')
+    s.refuse_at(word.span.begin, "O-words and subprograms are not read yet");
+  read_number_word(s, word);
+  const bool has_digits = part(s.text, word.number).find_first_of("0123456789") != std::string_view::npos;
+  if (!has_digits) refuse_missing_number(s, word);
+  word.span.end = s.at;
+  check_after_number(s, word);
+  if (word.letter == 'O') check_program_word(s, word);
+  s.block.words.push_back(word);
+}
+
+void lex_comment(Scanner& s) {
+  const std::size_t open = s.at;
+  for (++s.at; s.at < s.end && s.text[s.at] != comment_close; ++s.at)
+    if (s.text[s.at] == comment_open) s.refuse_at(s.at, "a comment stands inside a comment");
+  if (s.at == s.end) s.refuse_at(open, "the comment is not closed on its line");
+  s.block.comments.push_back({open + 1, s.at});
+  ++s.at;
+}
+
+void lex_semicolon(Scanner& s) {
+  const std::size_t begin = s.at + 1;
+  const std::string_view rest = s.text.substr(begin, s.end - begin);
+  if (!s.dialect.semicolon_comments && rest.find_first_not_of(" \t;") != std::string_view::npos)
+    s.refuse_at(s.at, fmt::format("';' ends a block in dialect {}; a comment stands in round brackets",
+                                  s.dialect.name));
+  s.block.comments.push_back({begin, s.end});
+  s.at = s.end;
+}
+
+void lex_block_delete(Scanner& s) {
+  const std::size_t begin = s.at;
+  const bool after_number =
+      s.block.words.size() == 1 && s.block.words[0].letter == 'N' && s.dialect.machine_state_codes;
+  if (!empty(s.block.block_delete) || !(s.block.words.empty() || after_number))
+    s.refuse_at(begin, "'/' may only stand at the beginning of a block");
+  ++s.at;
+  if (s.dialect.machine_state_codes && is_digit(s.peek())) ++s.at;
+  s.block.block_delete = {begin, s.at};
+}
+
+void refuse_conflict_marker(const Scanner& s) {
+  for (const std::string_view marker : {"<<<<<<<", "=======", ">>>>>>>", "|||||||"})
+    if (s.text.substr(s.at, s.end - s.at).starts_with(marker))
+      s.refuse_at(s.at, fmt::format("'{}' is a conflict marker of a version control system", marker));
+}
+
+[[noreturn]] void refuse_character(const Scanner& s) {
+  const char c = s.peek();
+  refuse_conflict_marker(s);
+  if (c == '#' || c == '[')
+    s.refuse_at(s.at, fmt::format("'{}': variables and expressions are not read yet", c));
+  s.refuse_at(s.at, fmt::format("{} is not allowed here", shown(c)));
+}
+
+void lex_percent(Scanner& s) {
+  ++s.at;
+  s.skip_blanks();
+  if (s.at != s.end) s.refuse_at(s.at, "a '%' stands alone on its line");
+  s.block.percent = true;
+}
+
+}  // namespace
+
+bool next_line(std::string_view text, Block& block) {
+  const std::size_t begin = block.line_end.end;
+  if (begin >= text.size()) return false;
+  const std::size_t newline = text.find('\n', begin);
+  const std::size_t next = newline == std::string_view::npos ? text.size() : newline + 1;
+  std::size_t end = newline == std::string_view::npos ? next : newline;
+  while (end > begin && text[end - 1] == '\r') --end;
+  block.span = {begin, end};
+  block.line_end = {end, next};
+  ++block.line;
+  return true;
+}
+
+void lex(std::string_view text, const std::string& file, const Dialect& dialect, Block& block) {
+  block.words.clear();
+  block.comments.clear();
+  block.block_delete = {};
+  block.percent = false;
+  Scanner s{text, file, dialect, block, block.span.begin, block.span.end};
+  s.skip_blanks();
+  if (s.peek() == '%') return lex_percent(s);
+  for (; s.at < s.end; s.skip_blanks()) {
+    const char c = s.peek();
+    if (is_letter(c)) {
+      lex_word(s);
+    } else if (c == comment_open) {
+      lex_comment(s);
+    } else if (c == ';') {
+      lex_semicolon(s);
+    } else if (c == '/') {
+      lex_block_delete(s);
+    } else {
+      refuse_character(s);
+    }
+  }
+}
+
+void refuse(const std::string& file, const Block& block, std::size_t at, const std::string& message,
+            Exit exit) {
+  throw InputError(exit, {file, block.line, static_cast<int>(at - block.span.begin) + 1}, message);
+}
+
+}  // namespace counterflex

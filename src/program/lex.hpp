@@ -1,0 +1,56 @@
+#pragma once
+/// Lines of G-code and the words in them, as spans of the text: letters, numbers, comments, and no meaning.
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "counterflex/files/input_error.hpp"
+#include "counterflex/program/program.hpp"
+#include "program/dialect.hpp"
+
+namespace counterflex {
+
+struct Word {
+  char letter = 0;  ///< upper case
+  Span span;        ///< letter and number
+  Span number;
+  double value = 0;
+  int decimals = 0;
+  bool point = false;
+};
+
+/// One line. Its vectors are reused from line to line.
+struct Block {
+  int line = 0;
+  Span span;          ///< without the line end
+  Span line_end;      ///< empty at a last line without one
+  Span block_delete;  ///< '/' and the switch number that may follow it; empty where there is none
+  bool percent = false;
+  std::vector<Word> words;
+  std::vector<Span> comments;  ///< what stands inside the comment characters
+};
+
+inline std::string_view part(std::string_view text, Span span) {
+  return text.substr(span.begin, span.end - span.begin);
+}
+inline bool empty(Span span) {
+  return span.begin == span.end;
+}
+
+/// An O-number alone on its line.
+inline bool is_program_number(const Block& block) {
+  return block.words.size() == 1 && block.words[0].letter == 'O';
+}
+
+/// Advances `block` to the line after `block.line_end`; false at the end of `text`. A default Block stands
+/// before the first line.
+bool next_line(std::string_view text, Block& block);
+
+/// Finds the words and comments of the line at `block.span`. Throws `InputError` for what is no G-code.
+void lex(std::string_view text, const std::string& file, const Dialect& dialect, Block& block);
+
+/// Throws an `InputError` that points at byte `at` of `block`.
+[[noreturn]] void refuse(const std::string& file, const Block& block, std::size_t at,
+                         const std::string& message, Exit exit = Exit::program_text);
+
+}  // namespace counterflex

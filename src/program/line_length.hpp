@@ -1,0 +1,23 @@
+#pragma once
+/// How long a control finds a line.
+#include <string_view>
+
+#include "program/dialect.hpp"
+
+namespace counterflex {
+
+/// Characters of `line` that count towards `dialect.line_limit`.
+inline std::size_t counted_length(const Dialect& dialect, std::string_view line) {
+  if (dialect.limit_counts_comments) return line.size();
+  std::size_t length = 0;
+  bool comment = false;
+  for (const char c : line) {
+    if (c == ';' && !comment) break;
+    if (c == comment_open) comment = true;
+    if (!comment && c != ' ' && c != '\t') ++length;
+    if (c == comment_close) comment = false;
+  }
+  return length;
+}
+
+}  // namespace counterflex

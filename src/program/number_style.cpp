@@ -1,0 +1,54 @@
+#include "program/number_style.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "counterflex/files/numbers.hpp"
+
+namespace counterflex {
+namespace {
+
+int decimals_in(std::string_view number) {
+  const std::size_t point = number.find('.');
+  if (point == std::string_view::npos) return 0;
+  return static_cast<int>(std::count_if(number.begin() + static_cast<std::ptrdiff_t>(point), number.end(),
+                                        [](char c) { return c >= '0' && c <= '9'; }));
+}
+
+bool has_leading_zero(std::string_view number) {
+  const std::size_t first = number.find_first_of("0123456789.");
+  return first == std::string_view::npos || number[first] != '.';
+}
+
+/// Drops zeros from the end until `least` digits after the point are left.
+void drop_zeros(std::string& text, int least) {
+  const std::size_t point = text.find('.');
+  while (text.back() == '0' && text.size() - point - 1 > static_cast<std::size_t>(least)) text.pop_back();
+}
+
+void drop_leading_zero(std::string& text) {
+  const std::size_t zero = text.front() == '-' ? 1 : 0;
+  if (text[zero] == '0' && text.size() > zero + 2 && text[zero + 1] == '.') text.erase(zero, 1);
+}
+
+}  // namespace
+
+std::string inserted_number(double value, int decimals) {
+  std::string text = format_fixed(value, decimals);
+  if (decimals == 0) text += '.';
+  return text;
+}
+
+std::string changed_number(std::string_view original, double value, int decimals) {
+  std::string text = inserted_number(value, decimals);
+  drop_zeros(text, std::min(decimals_in(original), decimals));
+  if (!has_leading_zero(original)) drop_leading_zero(text);
+  if (original.starts_with('+') && text.front() != '-') text.insert(text.begin(), '+');
+  return text;
+}
+
+bool rounds_to(double original, double wanted, int decimals) {
+  return std::abs(wanted - original) <= 0.5 * std::pow(10.0, -decimals);
+}
+
+}  // namespace counterflex

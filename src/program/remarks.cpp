@@ -1,0 +1,84 @@
+#include "program/remarks.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "program/line_length.hpp"
+
+namespace counterflex {
+namespace {
+
+constexpr std::size_t most_remarks = 1000;
+
+/// "0.0039 inch = 0.09906 mm", or the bare number where the unit is not known yet.
+std::string length_text(double value, const ModalState& state) {
+  if (!state.unit) return fmt::format("{} in the program's unit", value);
+  if (*state.unit == LengthUnit::mm) return fmt::format("{} mm", value);
+  return fmt::format("{} inch = {:.6g} mm", value, value * mm_per(*state.unit));
+}
+
+std::string blend_text(const Reading& reading) {
+  const Word* p = reading.sorted.word('P');
+  const Word* q = reading.sorted.word('Q');
+  if (p == nullptr) return "G64 without P: the control may leave the path by any distance";
+  std::string text = fmt::format("G64 P{}: the control may leave the path by {}", p->value,
+                                 length_text(p->value, reading.state));
+  const double merged = q != nullptr ? q->value : p->value;
+  if (merged > 0)
+    text += fmt::format(" and merges moves within {} of a line: smaller corrections can vanish",
+                        length_text(merged, reading.state));
+  return text;
+}
+
+}  // namespace
+
+void add_remark(Program& program, int line, std::string what) {
+  if (program.remarks.size() >= most_remarks) return;
+  const bool known = std::any_of(program.remarks.begin(), program.remarks.end(),
+                                 [&](const Remark& remark) { return remark.what == what; });
+  if (!known) program.remarks.push_back({line, std::move(what)});
+}
+
+void remark_path_mode(const Block& block, Reading& reading) {
+  if (reading.sorted.has(Action::blend)) add_remark(reading.program, block.line, blend_text(reading));
+  if (const FoundG* smooth = reading.sorted.find(Action::smooth))
+    add_remark(
+        reading.program, block.line,
+        fmt::format("G{}: the control smooths the path; corrections smaller than its tolerance can vanish",
+                    smooth->word->value));
+}
+
+void remark_tool_length(const Block& block, Reading& reading) {
+  const FoundG* length = reading.sorted.find(Action::tool_length);
+  if (length == nullptr) return;
+  const Word* h = reading.sorted.word('H');
+  const std::string number = h == nullptr ? std::string() : fmt::format(" H{}", h->value);
+  add_remark(reading.program, block.line,
+             fmt::format("G{}{}: the program does not hold the tool's length; that of [tool] is used",
+                         length->word->value, number));
+}
+
+void remark_machine_codes(const Block& block, Reading& reading) {
+  for (const FoundM& m : reading.sorted.m)
+    if (m.action == MAction::machine)
+      add_remark(reading.program, block.line,
+                 fmt::format("M{}: set by the machine's builder; taken as moving no axis", m.code));
+}
+
+void remark_length(const Block& block, Reading& reading) {
+  const std::size_t limit = reading.dialect.line_limit;
+  const std::string_view line = part(reading.program.text, block.span);
+  if (limit == 0 || line.size() + 10 <= limit) return;  // what an inserted word or two may need
+  const std::size_t length = counted_length(reading.dialect, line);
+  if (length > limit) {
+    add_remark(reading.program, block.line,
+               fmt::format("the line has {} characters; {} reads {}", length, reading.dialect.name, limit));
+  } else if (length + 10 > limit) {
+    add_remark(reading.program, block.line,
+               fmt::format("the line has {} of the {} characters that {} reads: little room for corrections",
+                           length, limit, reading.dialect.name));
+  }
+}
+
+}  // namespace counterflex
