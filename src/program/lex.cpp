@@ -72,7 +72,9 @@ void read_number_word(Scanner& s, Word& word) {
       if (!is_blank(c)) dense += c;
     value = read_number(dense);
   }
-  if (!value) s.refuse_at(begin, fmt::format("{} is no number that can be held", part(s.text, word.number)));
+  if (!value)
+    s.refuse_at(word.span.begin,
+                fmt::format("{}: a number of {} digits is beyond what can be held", word.letter, digits));
   word.value = *value;
 }
 
@@ -88,7 +90,7 @@ void read_number_word(Scanner& s, Word& word) {
   const std::string_view instead = s.text.substr(s.at, stop - s.at);
   if (instead.size() > 1)
     s.refuse_at(word.span.begin, fmt::format("{} has no number: '{}' follows it", word.letter, instead));
-  s.refuse_at(word.span.begin, fmt::format("{} has no number", word.letter));
+  s.refuse_at(word.span.begin, fmt::format("{}{} has no number", word.letter, part(s.text, word.number)));
 }
 
 /// An exponent or a second number right behind the number of a word.
