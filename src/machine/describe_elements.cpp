@@ -13,6 +13,8 @@ template <class... Cases>
 struct Match : Cases... {
   using Cases::operator()...;
 };
+template <class... Cases>
+Match(Cases...) -> Match<Cases...>;  // Clang 14 does not deduce it
 
 struct Line {
   std::string kind;

@@ -12,6 +12,7 @@ namespace counterflex::machine_file {
 namespace {
 
 constexpr std::size_t most_elements = 10000;
+constexpr std::size_t deepest_nesting = 32;
 
 const std::vector<std::string_view> kinds = {"rigid",  "error",      "actuator", "passive",
                                              "spring", "compliance", "parallel"};
@@ -77,6 +78,9 @@ Branch read_branch(const toml::node& node, Expansion& expansion) {
   if (std::find(open.begin(), open.end(), name) != open.end())
     expansion.source.fail(
         node, fmt::format("branch \"{}\" is part of itself: {} > {}", name, fmt::join(open, " > "), name));
+  if (open.size() == deepest_nesting)
+    expansion.source.fail(
+        node, fmt::format("branch \"{}\" lies more than {} branches deep", name, deepest_nesting));
   open.push_back(name);
   Branch branch{name, read_elements(list, expansion)};
   open.pop_back();

@@ -17,8 +17,8 @@ struct Expansion {
 };
 
 /// The elements listed by `node`, branches of groups included. Throws at unknown names, a branch inside
-/// itself, an error slot met twice, more than 10000 elements in a chain (branches that use branches
-/// multiply).
+/// itself or more than 32 deep, an error slot met twice, more than 10000 elements in a chain (branches that
+/// use branches multiply).
 std::vector<Element> read_elements(const toml::node& node, Expansion& expansion);
 
 }  // namespace counterflex::machine_file
