@@ -1,0 +1,50 @@
+#pragma once
+/// Short ways for tests to read a program and to edit it.
+#include <string>
+
+#include "counterflex/files/input_error.hpp"
+#include "counterflex/program/read_program.hpp"
+#include "counterflex/program/rewrite.hpp"
+
+namespace counterflex::test {
+
+inline Program read(const std::string& text, const std::string& dialect = "auto") {
+  ReadOptions options;
+  options.dialect = dialect;
+  return read_program(text, "p.ngc", options);
+}
+
+/// The diagnostic with which `action` is refused, or "none".
+template <typename Action>
+std::string diagnostic_of(Action action) {
+  try {
+    action();
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "none";
+}
+
+/// Every move sent to where the program already sends it.
+inline std::vector<MoveEdit> edits_to_original(const Program& program) {
+  std::vector<MoveEdit> edits;
+  for (std::size_t i = 0; i < program.moves.size(); ++i)
+    edits.push_back({.move = i, .end_mm = program.moves[i].end_mm});
+  return edits;
+}
+
+/// Every move shifted by `d_mm`.
+inline std::vector<MoveEdit> shifted(const Program& program, const Vector3& d_mm) {
+  std::vector<MoveEdit> edits = edits_to_original(program);
+  for (MoveEdit& edit : edits) edit.end_mm += d_mm;
+  return edits;
+}
+
+/// `text` rewritten with one edit of its last move.
+inline std::string with_last_move(const std::string& text, MoveEdit edit, const std::string& dialect = "auto") {
+  const Program program = read(text, dialect);
+  edit.move = program.moves.size() - 1;
+  return rewrite(program, {edit}, {}).text;
+}
+
+}  // namespace counterflex::test
