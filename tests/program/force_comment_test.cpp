@@ -7,7 +7,8 @@ using namespace counterflex::test;
 
 TEST_CASE("a FORCE comment acts from its own block until the next one") {
   const Program program = read(
-      "G21 G0 X1\n(FORCE FX=215 FY=-10 FZ=-25.5 MX=1 MY=21.5)\nG1 X2 F100\nX3 (force fz=+3)\nX4\n(FORCE OFF)\nX5\n");
+      "G21 G0 X1\n(FORCE FX=215 FY=-10 FZ=-25.5 MX=1 MY=21.5)\nG1 X2 F100\nX3 (force fz=+3)\nX4\n(FORCE "
+      "OFF)\nX5\n");
   Vector6 first;
   first << 215, -10, -25.5, 1, 21.5, 0;
   Vector6 second;

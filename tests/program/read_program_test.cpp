@@ -19,7 +19,8 @@ std::string number_text(const Program& program, const Move& move, std::size_t ax
 }  // namespace
 
 TEST_CASE("motion, units, feed, spindle, offset and block number are modal") {
-  const Program program = read("%\nG20 G90 G54\nN10 G0 X1. Y2. Z.5\nS800 M3\nN20 G1 Z-.25 F10.\nX-1.5 Y2.\n%\n");
+  const Program program =
+      read("%\nG20 G90 G54\nN10 G0 X1. Y2. Z.5\nS800 M3\nN20 G1 Z-.25 F10.\nX-1.5 Y2.\n%\n");
   REQUIRE(program.moves.size() == 3);
   const Move& plunge = program.moves[1];
   CHECK(plunge.motion == Motion::feed);
@@ -115,7 +116,8 @@ TEST_CASE("a tool length that changes without Z makes Z unknown; with Z the tip 
   CHECK(known.moves[2].known_start == Known{true, true, true});
   CHECK_FALSE(known.moves[1].may_insert_words);
   REQUIRE(known.remarks.size() == 1);
-  CHECK(known.remarks[0].what == "G43 H1: the program does not hold the tool's length; that of [tool] is used");
+  CHECK(known.remarks[0].what ==
+        "G43 H1: the program does not hold the tool's length; that of [tool] is used");
 }
 
 TEST_CASE("after G80 fanuc and haas fall back to G0, linuxcnc and grbl need a motion") {
@@ -204,11 +206,13 @@ TEST_CASE("G64 is remarked with its tolerance in mm, once for each") {
   CHECK(program.remarks[0].what == "G64 without P: the control may leave the path by any distance");
   CHECK(program.remarks[1].line == 3);
   CHECK(program.remarks[1].what ==
-        "G64 P0.004: the control may leave the path by 0.004 inch = 0.1016 mm and merges moves within 0.002 inch = "
+        "G64 P0.004: the control may leave the path by 0.004 inch = 0.1016 mm and merges moves within 0.002 "
+        "inch = "
         "0.0508 mm of a line: smaller corrections can vanish");
-  CHECK(program.remarks[2].what ==
-        "G64 P0.1: the control may leave the path by 0.1 mm and merges moves within 0.1 mm of a line: smaller "
-        "corrections can vanish");
+  CHECK(
+      program.remarks[2].what ==
+      "G64 P0.1: the control may leave the path by 0.1 mm and merges moves within 0.1 mm of a line: smaller "
+      "corrections can vanish");
 }
 
 TEST_CASE("lines near or over the control's limit are remarked") {

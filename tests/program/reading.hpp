@@ -41,7 +41,8 @@ inline std::vector<MoveEdit> shifted(const Program& program, const Vector3& d_mm
 }
 
 /// `text` rewritten with one edit of its last move.
-inline std::string with_last_move(const std::string& text, MoveEdit edit, const std::string& dialect = "auto") {
+inline std::string with_last_move(const std::string& text, MoveEdit edit,
+                                  const std::string& dialect = "auto") {
   const Program program = read(text, dialect);
   edit.move = program.moves.size() - 1;
   return rewrite(program, {edit}, {}).text;
