@@ -5,7 +5,8 @@
 namespace counterflex {
 namespace {
 
-constexpr Dialect linuxcnc{.name = "linuxcnc", .line_limit = 255};
+constexpr Dialect linuxcnc{
+    .name = "linuxcnc", .line_limit = 255, .feed_mode_ends_feed = true, .feed_before_unit = true};
 
 constexpr Dialect grbl{
     .name = "grbl", .line_limit = 80, .limit_counts_comments = false, .g61_is_exact_stop = false};

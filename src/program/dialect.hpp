@@ -14,6 +14,9 @@ struct Dialect {
   bool limit_counts_comments = true;  ///< whether blanks and comments count
   bool semicolon_comments = true;     ///< else ';' may only end a block
   bool motion_ends_with_g80 = true;   ///< else G80 falls back to G0
+  bool feed_mode_ends_feed =
+      false;  ///< F must be programmed anew after any G93, G94 or G95, else after a change
+  bool feed_before_unit = false;  ///< F beside G20 or G21 is read in the unit before
   bool tool_change_moves_axes = false;
   bool integer_words_doubtful = false;  ///< X5 may mean 5 units or 5 increments
   bool g61_is_exact_stop = false;       ///< else G61 is exact path

@@ -31,16 +31,17 @@ void apply_comments(const Block& block, Reading& r) {
 }
 
 void apply_feed_and_spindle(Reading& r) {
+  const std::optional<LengthUnit> unit_before = r.state.unit;
   if (r.sorted.has(Action::inch)) r.state.unit = LengthUnit::inch;
   if (r.sorted.has(Action::mm)) r.state.unit = LengthUnit::mm;
   const bool per_turn = r.sorted.has(Action::feed_per_turn);
   if (per_turn || r.sorted.has(Action::feed_per_minute)) {
-    if (per_turn != r.state.feed_per_turn) r.state.feed = 0;  // F must be programmed anew
+    if (per_turn != r.state.feed_per_turn || r.dialect.feed_mode_ends_feed) r.state.feed = 0;
     r.state.feed_per_turn = per_turn;
   }
   if (const Word* f = r.sorted.word('F')) {
     r.state.feed = f->value;
-    r.state.feed_unit = r.state.unit;
+    r.state.feed_unit = r.dialect.feed_before_unit && unit_before ? unit_before : r.state.unit;
   }
   // The S of some controls' dwell is a number of turns.
   if (const Word* s = r.sorted.word('S'); s != nullptr && !r.sorted.has(Action::dwell))
@@ -124,11 +125,12 @@ double length_mm(const Reading& r, const Word& word) {
 void allow_changes(const Reading& r, Move& move) {
   const SortedBlock& b = r.sorted;
   const bool feed = move.motion == Motion::feed;
+  const bool unit = b.has(Action::inch) || b.has(Action::mm);  // a copied F would change its unit
   const bool tool_length = b.has(Action::tool_length) || b.has(Action::no_tool_length);
   const bool acts_at_end = b.has(MAction::acts_after) || b.has(MAction::end) || b.has(MAction::tool_change) ||
                            b.has(MAction::machine);
   move.may_insert_words = !tool_length;
-  move.may_split = feed && !move.exact_stop && !tool_length && !acts_at_end;
+  move.may_split = feed && !move.exact_stop && !tool_length && !unit && !acts_at_end;
   const bool only_motion = b.g.empty() || (b.g.size() == 1 && b.g[0].code->group == Group::motion);
   const bool start_known = move.known_start[0] && move.known_start[1] && move.known_start[2];
   move.may_jump = start_known && move.feed_mm_min > 0 && !move.exact_stop && !acts_at_end &&

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cassert>
 
+#include "program/force_comment.hpp"
 #include "program/held_position.hpp"
 #include "program/line_length.hpp"
 #include "program/number_style.hpp"
@@ -61,6 +62,18 @@ std::string separator_of(const Original& o, const std::string& otherwise) {
   return std::string(is_axis(*(last - 1)) ? gap : gap.substr(0, 1));
 }
 
+/// Whether the block holds other words than motion, axes, F and N, or sets the force: it acts from its
+/// beginning.
+bool acts_itself(const Original& o) {
+  return std::any_of(o.block.words.begin(), o.block.words.end(),
+                     [](const Word& word) {
+                       return !is_axis(word) && !is_motion(word) && word.letter != 'F' && word.letter != 'N';
+                     }) ||
+         std::any_of(o.block.comments.begin(), o.block.comments.end(), [&](Span comment) {
+           return read_force_comment(o.program.text, o.program.file, o.block, comment).has_value();
+         });
+}
+
 Original lex_again(const Program& program, const Move& move, const ProgramStyle& style) {
   Original o{program, *find_dialect(program.dialect), move};
   o.block.line = move.line;
@@ -72,9 +85,7 @@ Original lex_again(const Program& program, const Move& move, const ProgramStyle&
                    : program.text.substr(move.block.end, newline + 1 - move.block.end);
   o.separator = separator_of(o, style.separator);
   o.lower_case = is_lower(program.text[last_axis_word(o.block).span.begin]);
-  o.acts_itself = std::any_of(o.block.words.begin(), o.block.words.end(), [](const Word& word) {
-    return !is_axis(word) && !is_motion(word) && word.letter != 'F' && word.letter != 'N';
-  });
+  o.acts_itself = acts_itself(o);
   return o;
 }
 

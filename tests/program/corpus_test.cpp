@@ -25,7 +25,7 @@ TEST_CASE("every program of a folder of real ones is refused at a place or comes
       CHECK(rewrite(program, edits_to_original(program), {}).text == text);
       ++read_back;
     } catch (const InputError& error) {
-      MESSAGE(error.what());
+      MESSAGE(std::string(error.what()));
       CHECK(error.where().line > 0);
       CHECK(error.where().column > 0);
     }

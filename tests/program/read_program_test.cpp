@@ -154,6 +154,13 @@ TEST_CASE("feed per turn is multiplied by the spindle's speed") {
   CHECK(program.moves[2].feed_mm_min == 50);
 }
 
+TEST_CASE("linuxcnc forgets F at any feed mode, and reads F beside a unit in the unit before") {
+  CHECK(read("G21 F100\nG94 G1 X1.\n").moves[0].feed_mm_min == 0);
+  CHECK(read("G21 F100\nG94 G1 X1.\n", "grbl").moves[0].feed_mm_min == 100);
+  CHECK(read("G21\nG20 F10\nG1 X1.\n").moves[0].feed_mm_min == 10);
+  CHECK(read("G21\nG20 F10\nG1 X1.\n", "fanuc").moves[0].feed_mm_min == doctest::Approx(254));
+}
+
 TEST_CASE("an O-number means fanuc, else the program is linuxcnc's") {
   CHECK(read("%\n(HEAD)\nO1001 (PART)\nG21 G0 X1.\n").dialect == "fanuc");
   CHECK(read("%\n(O1001)\nG21 G0 X1.\nM30\nO1001\n").dialect == "linuxcnc");
@@ -186,6 +193,7 @@ TEST_CASE("only a feed move without exact stop or words that act at its end may 
     CHECK_FALSE(may_split(std::string("X1. ") + m));
   }
   CHECK_FALSE(may_split("G43 H1 Z1."));
+  CHECK_FALSE(may_split("G20 X1."));
   CHECK_FALSE(may_split("G61.1 X1."));
   CHECK_FALSE(may_split("G61\nX1.", "fanuc"));
   CHECK_FALSE(may_split("G9 X1.", "haas"));

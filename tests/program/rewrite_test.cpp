@@ -112,6 +112,12 @@ TEST_CASE("a block with other words is itself the first piece") {
             "N10 G1 G54 X1. Y0.25 Z0. F100 S900 M3\nG1 X2.000 F100\nG1 X3.000 Y0.000 F100\nM5\n");
 }
 
+TEST_CASE("a block that sets the force is itself the first piece") {
+  const MoveEdit edit{.inserted_mm = {{1, 0.25, 0}}, .end_mm = {3, 0, 0}};
+  CHECK(with_last_move(std::string(start) + "G1 X3. F100 (FORCE FX=5)\n", edit) ==
+        std::string(start) + "G1 X1. Y0.250 F100 (FORCE FX=5)\nG1 X3.000 Y0.000 F100\n");
+}
+
 TEST_CASE("points that the resolution cannot tell apart give no block") {
   const MoveEdit edit{.inserted_mm = {{0.0001, 0, 0}, {1, 0, 0}, {1.0002, 0, 0}}, .end_mm = {3, 0, 0}};
   const Program program = read(std::string(start) + "G1 X3. F100\n");
