@@ -1,0 +1,64 @@
+#pragma once
+/// A machine at single poses: deviation, stiffness, loads in joints and springs, and the corrected target. SI
+/// inside; mm and degrees in the JSON and the text.
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "counterflex/compensation/options.hpp"
+#include "counterflex/statics/loads.hpp"
+
+namespace counterflex {
+
+/// The target that puts the loaded, imperfect machine's tip on the wanted pose.
+struct CorrectedTarget {
+  Pose X_MT;            ///< nominal forward kinematics of `rho`; `linear`: the linear target
+  Eigen::VectorXd rho;  ///< actuator values (m, rad)
+  Status status = Status::not_converged;  ///< pose and actuators are meaningful only when `converged`, or
+                                          ///< `outside_travel`
+};
+
+struct PoseAnalysis {
+  Pose X_MT;  ///< wanted tip: what is controlled as asked for, the rest by nominal kinematics
+  Method method = Method::direct;
+  Status status = Status::not_converged;  ///< of the deviation; what follows is meaningful when `converged`
+  std::string why;                        ///< in words where `status` is another
+  Vector6 deviation =
+      Vector6::Zero();          ///< position (m), rotation vector of R_actual R_target' (rad), axes of M
+  Matrix6 K = Matrix6::Zero();  ///< SI, at the reference point; at the nominal pose for `linear`, else at the
+                                ///< loaded one
+  bool stiffness_available = false;          ///< every chain has a stiffness of its own
+  Eigen::VectorXd rho;                       ///< nominal actuator values of the wanted pose (m, rad)
+  std::optional<CorrectedTarget> corrected;  ///< none where the machine controls nothing
+  std::vector<ChainLoads> chains;
+  Vector6 weakest =
+      Vector6::Zero();   ///< the twist of least stiffness (unit norm, lengths in units of l); zero: unknown
+  double condition = 0;  ///< of the static system; 0: not computed
+  double stability = 0;  ///< see `stability` in statics/equilibrium.hpp; 0: not computed
+};
+
+/// The pose `X_MT` of the tip (in the controlled components; all six where nothing is controlled) under
+/// `load`. Never throws: what could not be solved is a status.
+PoseAnalysis analyze_pose(const Model& model, const Pose& X_MT, const Load& load, Method method);
+
+struct AnalysisReport {
+  std::string version;  ///< of the tool
+  std::string machine;
+  Load load;
+  std::vector<Travel> travel;  ///< by actuator: says mm or deg
+  std::vector<PoseAnalysis> poses;
+};
+
+/// Every pose of `poses` in order.
+AnalysisReport analyze(const Model& model, const std::vector<Pose>& poses, const Load& load, Method method,
+                       const std::string& version);
+
+/// "counterflex-analysis 1" of DESIGN, indented by two spaces, one newline at the end. What was not computed
+/// is null.
+std::string to_json(const AnalysisReport& report);
+
+/// Tables for people: deviations of all poses, loads by chain, actuators, corrected targets, stiffness.
+/// ASCII, at most 100 columns wide.
+std::string to_text(const AnalysisReport& report);
+
+}  // namespace counterflex

@@ -1,0 +1,33 @@
+#pragma once
+/// A run's report as JSON, as CSV, and as text for a terminal. The same report gives the same bytes: no time
+/// stamps, no locale, a fixed order of keys.
+#include <string>
+#include <vector>
+
+#include "counterflex/compensation/waypoint.hpp"
+#include "counterflex/report/report.hpp"
+
+namespace counterflex {
+
+/// "counterflex-report 1" of DESIGN, indented by two spaces, one newline at the end. Lengths are rounded to
+/// 1e-7 mm, angles to 1e-7 deg. What was not computed is null (`summary.after` of a prediction).
+std::string to_json(const RunReport& report);
+
+/// Which columns of the CSV were computed; the others keep their place and are empty.
+struct CsvColumns {
+  bool attribution = true;  ///< geometry_, load_, superposition_; with `corrected` also air_
+  bool corrected = true;    ///< after_, correction_: not for a prediction
+};
+
+/// One row a waypoint that is not `between`, in order; `index` counts from 0; `cutting` is 0 or 1. Rotations
+/// of the correction follow as correction_rx_deg, correction_ry_deg, correction_rz_deg.
+std::string to_csv(const std::vector<Waypoint>& waypoints, const CsvColumns& columns);
+
+/// The summary that a person reads, lines of at most 100 characters, ASCII. Deviations in mm with four
+/// decimals. `colour` adds ANSI sequences, nothing else.
+std::string summary_text(const RunReport& report, bool colour);
+
+/// "NAME: 2.0734 mm before, 0.0041 mm after (model residual)": a run in one line, without a newline.
+std::string one_line(const RunReport& report);
+
+}  // namespace counterflex

@@ -1,0 +1,124 @@
+#pragma once
+/// What a run did, measured: everything that the report's JSON and the summary on the terminal say. Lengths
+/// in mm, angles in degrees, as reports show them.
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "counterflex/compensation/compensate.hpp"
+#include "counterflex/machine/machine.hpp"
+#include "counterflex/report/statistics.hpp"
+
+namespace counterflex {
+
+enum class Command { compensate, predict, verify };
+
+/// A file that the run read. `name` is its role: "program", "machine", "forces", "corrected".
+struct InputFile {
+  std::string name;
+  std::string path;
+  std::string sha256;
+};
+
+struct OptionValue {
+  std::string name;  ///< as on the command line, without the dashes
+  std::variant<bool, double, std::string> value;
+};
+
+/// What only the caller of a run knows. Inputs and options keep their order in the report.
+struct RunFacts {
+  std::string version;  ///< of the tool
+  std::vector<InputFile> inputs;
+  std::vector<OptionValue> options;
+  std::vector<Remark>
+      warnings;              ///< besides the program's remarks and the forces' notes, which are added here
+  std::string work_offset;   ///< the one that was used ("G54"); empty: none
+  std::string output;        ///< path of the corrected program; empty: none was written
+  bool attribution = false;  ///< the waypoints' geometry, load, superposition and air were solved
+};
+
+/// A list that is capped; `count` is what it would hold otherwise.
+template <typename T>
+struct Capped {
+  std::vector<T> rows;
+  std::size_t count = 0;
+};
+
+struct WorstRow {
+  int line = 0;
+  double before_mm = 0;
+  double after_mm = 0;
+};
+
+/// Something largest, and the line of the original program where it is.
+struct Largest {
+  double mm = 0;
+  int line = 0;
+};
+
+/// Where each part of the deviation before comes from.
+struct Sources {
+  DeviationStatistics geometry, load, superposition;
+};
+
+struct ForceSummary {
+  double largest_N = 0;   ///< force acting on a feed move
+  double largest_Nm = 0;  ///< and moment
+  std::size_t ramps = 0;  ///< steps of the profile that act as ramps
+  std::size_t jumps = 0;  ///< steps that act as steps
+  double largest_step_N = 0;
+};
+
+struct BlockCounts {
+  std::size_t total = 0;      ///< of the original program: lines with a word
+  std::size_t moves = 0;      ///< of these, moves
+  std::size_t corrected = 0;  ///< moves whose words changed
+  std::size_t inserted = 0;   ///< blocks added
+  Capped<LeftAlone> left_alone;
+};
+
+/// Size of the program text.
+struct TextSize {
+  std::size_t blocks = 0;
+  std::size_t bytes = 0;
+};
+
+struct RunReport {
+  Command command = Command::compensate;
+  RunFacts facts;  ///< its `warnings` stay the caller's own; all are in `warnings` below
+  std::string machine;
+  Method method = Method::direct;
+  double tolerance_mm = 0;
+  double path_mm = 0;  ///< length of the feed moves
+  DeviationStatistics before;
+  std::optional<DeviationStatistics> after;  ///< model residual; none for `predict`
+  std::optional<Sources> sources;            ///< with attribution
+  std::optional<Largest>
+      air;  ///< largest deviation of a feed move of the corrected program without the force
+  std::optional<Largest> correction;  ///< largest change of a target
+  BlockCounts blocks;
+  TextSize text_before;
+  std::optional<TextSize> text_after;
+  ForceSummary forces;
+  Capped<Remark> warnings;
+  std::vector<WorstRow> worst;  ///< at most ten lines, the largest `after` first (`before` for `predict`)
+  std::string work;             ///< where program coordinates were taken to be, in words
+  std::string datum;            ///< what the offset was taken to mean, in words
+  std::optional<Failure> failure;
+};
+
+/// What is listed of blocks left alone and of warnings.
+inline constexpr std::size_t listed_at_most = 100;
+
+/// Measures a run. `waypoints` are those of the original program (`predict`), or of the corrected one; a run
+/// that failed may have any part of them. `machine` is the one of the job. Never throws; allocates.
+RunReport report_prediction(const Machine& machine, const Job& job, const RunFacts& facts,
+                            const std::vector<Waypoint>& waypoints, const std::optional<Failure>& failure);
+RunReport report_compensation(const Machine& machine, const Job& job, const RunFacts& facts,
+                              const Compensation& compensation);
+RunReport report_verification(const Machine& machine, const Job& job, const RunFacts& facts,
+                              const Program& corrected, const std::vector<Waypoint>& waypoints,
+                              const std::optional<Failure>& failure);
+
+}  // namespace counterflex
