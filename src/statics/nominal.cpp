@@ -68,6 +68,7 @@ KinematicSystem linearise(const Mechanism& mechanism, const Configuration& confi
 }
 
 Eigen::VectorXd minimum_norm(const Eigen::MatrixXd& J, const Eigen::VectorXd& rhs) {
+  if (J.size() == 0) return Eigen::VectorXd::Zero(J.cols());  // nothing moves: springs alone between base and platform
   Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> decomposition;
   decomposition.setThreshold(rank_threshold);
   decomposition.compute(J);
@@ -255,6 +256,7 @@ bool within_travel(const Mechanism& mechanism, const Eigen::VectorXd& rho) {
 
 ActuatorJacobian actuator_jacobian(const Model& model, const Configuration& nominal) {
   const Mechanism& mechanism = model.mechanism;
+  if (mechanism.travel.empty()) return {Eigen::MatrixXd::Zero(6, 0), 1};
   const Units units{mechanism.length};
   const WholeSystem whole = closures(mechanism, nominal, units);
   const auto free = moving_columns(whole, {false, true});
