@@ -44,6 +44,9 @@ Program read_program(std::string text, const std::string& file, const ReadOption
   program.dialect = dialect.name;
   program.integer_words = options.integer_words;
 
+  // Growing step by step would copy every move several times.
+  program.moves.reserve(static_cast<std::size_t>(std::count(program.text.begin(), program.text.end(), '\n')) +
+                        1);
   Reading reading{dialect, options, tool_change_axes(dialect, options), program};
   reading.state.unit = options.unit;
   Block block;

@@ -62,7 +62,9 @@ Rewritten rewrite(const Program& program, const std::vector<MoveEdit>& edits, co
     for (; next < edit.move; ++next) held = held_after_original(program.moves[next], held);
     const Span block = program.moves[edit.move].block;
     out.text.append(program.text, copied, block.begin - copied);
+    const std::size_t inserted = out.inserted_blocks;
     rewrite_block(program, style, edit, options, held, out);
+    out.blocks_of_edit.push_back(out.inserted_blocks - inserted);
     copied = block.end;
     ++next;
   }

@@ -3,17 +3,9 @@
 #include <string>
 
 #include "counterflex/program/rewrite.hpp"
-#include "program/lex.hpp"
+#include "program/original_block.hpp"
 
 namespace counterflex {
-
-/// The style of a program, for blocks that do not show one.
-struct ProgramStyle {
-  std::string separator;  ///< between words
-  std::string line_end;
-};
-
-ProgramStyle style_of(const Program& program);
 
 /// Appends the text of the block of `edit` and of the blocks inserted around it to `out.text`, without the
 /// block's own line end, counts in `out`, and moves `held` to the position that the text then holds. Throws

@@ -52,6 +52,7 @@ struct Rewritten {
   std::size_t changed_words = 0;
   std::size_t inserted_words = 0;  ///< in blocks of the input
   std::size_t inserted_blocks = 0;
+  std::vector<std::size_t> blocks_of_edit;  ///< blocks inserted for each edit: its jump and its points
 };
 
 /// Applies `edits`, in the order of moves, at most one a move. A move without an edit keeps its text; an axis

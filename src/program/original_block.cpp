@@ -1,0 +1,112 @@
+#include "program/original_block.hpp"
+
+#include <algorithm>
+#include <cassert>
+
+#include "program/force_comment.hpp"
+
+namespace counterflex {
+
+bool is_axis(const Word& word) {
+  return word.letter >= 'X' && word.letter <= 'Z';
+}
+bool is_motion(const Word& word) {
+  return word.letter == 'G' && (word.value == 0 || word.value == 1);
+}
+
+const Word& last_axis_word(const Block& block) {
+  const auto last = std::find_if(block.words.rbegin(), block.words.rend(), is_axis);
+  assert(last != block.words.rend());
+  return *last;
+}
+
+namespace {
+
+bool is_lower(char c) {
+  return c >= 'a' && c <= 'z';
+}
+
+/// What stands before the last axis word, where that is blanks or nothing behind another word.
+std::string separator_of(const Original& o, const std::string& otherwise) {
+  const Word* last = &last_axis_word(o.block);
+  if (last == o.block.words.data()) return otherwise;
+  const std::string_view gap = o.text({(last - 1)->span.end, last->span.begin});
+  if (gap.find_first_not_of(" \t") != std::string_view::npos) return otherwise;
+  return std::string(is_axis(*(last - 1)) ? gap : gap.substr(0, 1));
+}
+
+/// Whether the block holds other words than motion, axes, F and N, or sets the force: it acts from its
+/// beginning.
+bool acts_itself(const Original& o) {
+  return std::any_of(o.block.words.begin(), o.block.words.end(),
+                     [](const Word& word) {
+                       return !is_axis(word) && !is_motion(word) && word.letter != 'F' && word.letter != 'N';
+                     }) ||
+         std::any_of(o.block.comments.begin(), o.block.comments.end(), [&](Span comment) {
+           return read_force_comment(o.program.text, o.program.file, o.block, comment).has_value();
+         });
+}
+
+}  // namespace
+
+Original lex_again(const Program& program, const Move& move, const ProgramStyle& style) {
+  Original o{program, *find_dialect(program.dialect), move};
+  o.block.line = move.line;
+  o.block.span = move.block;
+  lex(program.text, program.file, o.dialect, o.block);
+  const std::size_t newline = program.text.find('\n', move.block.end);
+  o.line_end = newline == std::string::npos
+                   ? style.line_end
+                   : program.text.substr(move.block.end, newline + 1 - move.block.end);
+  o.separator = separator_of(o, style.separator);
+  o.lower_case = is_lower(program.text[last_axis_word(o.block).span.begin]);
+  o.acts_itself = acts_itself(o);
+  return o;
+}
+
+char letter_of(const Original& o, char upper) {
+  return o.lower_case ? static_cast<char>(upper - 'A' + 'a') : upper;
+}
+
+std::string motion_text(const Original& o) {
+  const auto motion = std::find_if(o.block.words.begin(), o.block.words.end(), is_motion);
+  return motion == o.block.words.end() ? std::string() : std::string(o.text(motion->span));
+}
+
+std::string feed_text(const Original& o) {
+  const auto feed =
+      std::find_if(o.block.words.begin(), o.block.words.end(), [](auto& w) { return w.letter == 'F'; });
+  return feed == o.block.words.end() || o.move.motion == Motion::rapid ? std::string()
+                                                                       : std::string(o.text(feed->span));
+}
+
+std::string block_delete_text(const Original& o) {
+  Span span = o.block.block_delete;
+  if (empty(span)) return {};
+  while (span.end < o.block.span.end && o.program.text[span.end] == ' ') ++span.end;
+  return std::string(o.text(span));
+}
+
+bool ends_in_semicolon(const Original& o) {
+  return !o.dialect.semicolon_comments && o.text(o.block.span).find(';') != std::string_view::npos;
+}
+
+ProgramStyle style_of(const Program& program) {
+  ProgramStyle style{" ", "\n"};
+  const std::size_t newline = program.text.find('\n');
+  if (newline != std::string::npos && newline > 0 && program.text[newline - 1] == '\r')
+    style.line_end = "\r\n";
+  for (const Move& move : program.moves) {
+    if (!move.words[0] || !move.words[1] || move.words[1]->number.begin < move.words[0]->number.end) continue;
+    const std::size_t begin = move.words[0]->number.end;
+    const std::string_view gap = part(program.text, {begin, move.words[1]->number.begin});
+    const std::size_t letter = gap.find_first_of("Yy");
+    if (letter != std::string_view::npos && gap.find_first_not_of(" \t") == letter) {
+      style.separator = gap.substr(0, letter);
+      break;
+    }
+  }
+  return style;
+}
+
+}  // namespace counterflex
