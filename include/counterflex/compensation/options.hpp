@@ -1,0 +1,44 @@
+#pragma once
+/// What a run is asked to do, and the data that all stages of compensation read.
+#include <string>
+
+#include "counterflex/files/input_error.hpp"
+#include "counterflex/forces/forces.hpp"
+#include "counterflex/program/read_program.hpp"
+#include "counterflex/program/rewrite.hpp"
+#include "counterflex/statics/nominal.hpp"
+#include "counterflex/toolpath/toolpath.hpp"
+
+namespace counterflex {
+
+enum class Method { direct, nested, linear };
+
+struct CompensationOptions {
+  Method method = Method::direct;
+  double tolerance = 5e-6;       ///< m: norm of the tip's controlled position error at equal fraction of a segment
+  double max_correction = 1e-3;  ///< m
+  double blend = 2e-3;           ///< m: 0 makes steps of the force jumps of the correction, at rapids too
+  int threads = 1;
+  WriteOptions write;
+};
+
+/// One program on one machine. Borrowed: everything outlives the job.
+struct Job {
+  const Model& model;
+  const Program& program;
+  const Toolpath& path;          ///< wanted tip path in M: X_MW and the datum's shift applied
+  const PathForces& forces;
+  Pose X_MW;                     ///< as the control has it: a target in M is written as X_MW^-1 of it
+  Vector3 datum_shift = Vector3::Zero();  ///< wanted minus commanded position of the original program, axes of M (m)
+  CompensationOptions options;
+  ReadOptions read;  ///< with which the program was read: its corrected text is read anew in the same way
+};
+
+/// Why a run was refused: exit status, line of the original program, and what happened.
+struct Failure {
+  Exit exit = Exit::not_compensated;
+  int line = 0;
+  std::string what;
+};
+
+}  // namespace counterflex

@@ -1,0 +1,19 @@
+#pragma once
+/// Work in chunks of fixed size: what a chunk computes depends on the chunk alone, never on the number of threads.
+#include <cstddef>
+#include <functional>
+
+namespace counterflex {
+
+inline constexpr std::size_t chunk_size = 32;
+
+struct Chunk {
+  std::size_t index, begin, end;  ///< items [begin, end)
+};
+
+inline std::size_t chunk_count(std::size_t items) { return (items + chunk_size - 1) / chunk_size; }
+
+/// Calls `work` once for every chunk of `items`, on `threads` threads. Exceptions are passed on after all threads ended.
+void for_each_chunk(std::size_t items, int threads, const std::function<void(const Chunk&)>& work);
+
+}  // namespace counterflex

@@ -1,0 +1,110 @@
+#include "curve.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace counterflex {
+namespace {
+
+constexpr double smallest_interval = 1e-5;
+constexpr int samples = 16;
+
+Vector3 lagrange(const std::vector<CurveNode>& nodes, double u) {
+  Vector3 sum = Vector3::Zero();
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    double weight = 1;
+    for (std::size_t j = 0; j < nodes.size(); ++j)
+      if (j != i) weight *= (u - nodes[j].u) / (nodes[i].u - nodes[j].u);
+    sum += weight * nodes[i].c;
+  }
+  return sum;
+}
+
+// Interval a..b with its middle solved: quarters test the parabola; what it misses is halved.
+bool refine(const CurveNode& a, const CurveNode& m, const CurveNode& b, double accuracy, const CorrectionAt& solve,
+            CorrectionCurve& curve) {
+  CurveNode q, r;
+  if (!solve((a.u + m.u) / 2, q) || !solve((m.u + b.u) / 2, r)) return false;
+  const std::vector<CurveNode> parabola{a, m, b};
+  const double miss = std::max((lagrange(parabola, q.u) - q.c).norm(), (lagrange(parabola, r.u) - r.c).norm());
+  // The five nodes together are better than the parabola by about an order: 8 times is asked of it.
+  if (miss < 8 * accuracy || b.u - a.u < smallest_interval) {
+    curve.add({{a, q, m, r, b}});
+    return true;
+  }
+  return refine(a, q, m, accuracy, solve, curve) && refine(m, r, b, accuracy, solve, curve);
+}
+
+double miss_between(const CorrectionCurve& curve, const std::vector<double>& corners, double u0, double u1) {
+  const Vector3 c0 = curve.at(u0), c1 = curve.at(u1);
+  double largest = 0;
+  const auto look = [&](double u) {
+    const double w = (u - u0) / (u1 - u0);
+    largest = std::max(largest, (curve.at(u) - (1 - w) * c0 - w * c1).norm());
+  };
+  for (int k = 1; k < samples; ++k) look(u0 + (u1 - u0) * k / samples);
+  for (double corner : corners)
+    if (corner > u0 && corner < u1) look(corner);
+  return largest;
+}
+
+// The farthest end that a straight line from u0 reaches within the tolerance.
+double reach(const CorrectionCurve& curve, const std::vector<double>& corners, double u0, double tolerance) {
+  const double end = curve.end();
+  if (miss_between(curve, corners, u0, end) <= tolerance) return end;
+  double good = u0, bad = end;
+  for (int k = 0; k < 40 && bad - good > 1e-6; ++k) {
+    const double u = (good + bad) / 2;
+    (miss_between(curve, corners, u0, u) <= tolerance ? good : bad) = u;
+  }
+  return good > u0 ? good : bad;
+}
+
+std::vector<double> greedy(const CorrectionCurve& curve, const std::vector<double>& corners, double tolerance) {
+  std::vector<double> knots;
+  for (double u = curve.begin(); u < curve.end();) {
+    u = reach(curve, corners, u, tolerance);
+    knots.push_back(u);
+  }
+  return knots;
+}
+
+}  // namespace
+
+Vector3 CorrectionCurve::at(double u) const {
+  const auto after = std::upper_bound(intervals_.begin(), intervals_.end(), u,
+                                      [](double v, const CurveInterval& i) { return v < i.nodes.back().u; });
+  const CurveInterval& interval = after == intervals_.end() ? intervals_.back() : *after;
+  return lagrange(interval.nodes, u);
+}
+
+bool sample_curve(const CurveNode& a, const CurveNode& b, double accuracy, const CorrectionAt& solve,
+                  CorrectionCurve& curve) {
+  CurveNode m;
+  if (!solve((a.u + b.u) / 2, m)) return false;
+  // A second difference far below the accuracy: the line is the curve.
+  if ((m.c - (a.c + b.c) / 2).norm() < accuracy / 4) {
+    curve.add({{a, m, b}});
+    return true;
+  }
+  return refine(a, m, b, accuracy, solve, curve);
+}
+
+std::vector<double> choose_knots(const CorrectionCurve& curve, const std::vector<double>& corners, double tolerance) {
+  std::vector<double> knots = greedy(curve, corners, tolerance);
+  if (knots.size() < 2) return knots;
+  double low = 0, high = tolerance;  // the least tolerance that needs no more knots
+  for (int k = 0; k < 8; ++k) {
+    const double middle = (low + high) / 2;
+    std::vector<double> even = greedy(curve, corners, middle);
+    if (even.size() > knots.size()) {
+      low = middle;
+    } else {
+      high = middle;
+      knots = std::move(even);
+    }
+  }
+  return knots;
+}
+
+}  // namespace counterflex

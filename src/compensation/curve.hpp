@@ -1,0 +1,46 @@
+#pragma once
+/// The solved correction along one segment, as a curve that can be read anywhere.
+#include <functional>
+#include <vector>
+
+#include "counterflex/geometry/types.hpp"
+
+namespace counterflex {
+
+struct CurveNode {
+  double u = 0;                   ///< fraction of the segment
+  Vector3 c = Vector3::Zero();    ///< target minus wanted position, M (m)
+};
+
+/// A stretch without corners: the polynomial through its nodes.
+struct CurveInterval {
+  std::vector<CurveNode> nodes;
+};
+
+class CorrectionCurve {
+ public:
+  /// The correction at `u`; at a step between two intervals that of the later one.
+  Vector3 at(double u) const;
+
+  double begin() const { return intervals_.front().nodes.front().u; }
+  double end() const { return intervals_.back().nodes.back().u; }
+  const std::vector<CurveInterval>& intervals() const { return intervals_; }
+  void add(CurveInterval interval) { intervals_.push_back(std::move(interval)); }
+
+ private:
+  std::vector<CurveInterval> intervals_;
+};
+
+/// Solves the correction at a fraction; false stops the sampling.
+using CorrectionAt = std::function<bool(double u, CurveNode& node)>;
+
+/// Samples [a.u, b.u] until the polynomial through the nodes predicts further ones within `accuracy` (m), at least at its
+/// middle. False where `solve` was.
+bool sample_curve(const CurveNode& a, const CurveNode& b, double accuracy, const CorrectionAt& solve,
+                  CorrectionCurve& curve);
+
+/// Knots (fractions, the last one the curve's end) such that between them, at sixteenths and at `corners`, the straight
+/// line between two of them is within `tolerance` (m) of the curve: as few as possible, then evened out.
+std::vector<double> choose_knots(const CorrectionCurve& curve, const std::vector<double>& corners, double tolerance);
+
+}  // namespace counterflex

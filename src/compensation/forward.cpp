@@ -1,0 +1,153 @@
+#include <algorithm>
+#include <cmath>
+
+#include "counterflex/compensation/waypoint.hpp"
+#include "path_solver.hpp"
+#include "track.hpp"
+
+namespace counterflex {
+namespace {
+
+constexpr int odd_sixteenths = 8;
+constexpr double quiet_share = 0.1;  // of the tolerance: pieces whose correction changes less are sampled once inside
+
+// Solves the pieces of one chunk forward, one after another.
+class ForwardSolver {
+ public:
+  ForwardSolver(const Job& job, const Questions& questions, const Configuration& start)
+      : job_(job), questions_(questions), solver_(job, start) {}
+
+  bool solve(const Piece& piece, ForwardRun& out) {
+    piece_ = &piece;
+    if (piece.segment == no_segment) position_ = {.line = piece.line, .p_MT_start = piece.wanted, .p_MT_end = piece.wanted};
+    segment_ = piece.segment == no_segment ? &position_ : &job_.path.segments[piece.segment];
+    if (questions_.inside && !piece.end_only) {
+      const int count = samples();
+      for (int k = 0; k < count; ++k)
+        if (!solve_at((2 * k + 1) / (2.0 * count), true, 1.0 / (count + 1), out)) return false;
+      return solve_at(1, false, 1.0 / (count + 1), out);
+    }
+    return solve_at(1, false, 1, out);
+  }
+
+ private:
+  int samples() const {
+    const Vector3 c0 = piece_->from - point_on(*segment_, piece_->u0), c1 = piece_->to - point_on(*segment_, piece_->u1);
+    return (c1 - c0).norm() > quiet_share * job_.options.tolerance ? odd_sixteenths : 1;
+  }
+
+  // Deviation of the tip from the wanted pose for a command; false with a failure where it is not solved.
+  bool deviate(const Vector3& target, const Load& load, const Stage& stage, Vector6& result) {
+    const ActualSolution actual = solver_.actual(target, load, stage);
+    iterations_ += actual.iterations;
+    status_ = actual.status;
+    if (actual.status == Status::converged) result = deviation(actual.X_MT, wanted_);
+    return actual.status == Status::converged;
+  }
+
+  bool attribute(const Vector3& original, const Vector3& emitted, const Load& load, Waypoint& w) {
+    Vector6 unloaded_perfect;
+    if (!deviate(original, {}, {1, 0, 1}, w.geometry) || !deviate(original, load, {0, 1, 1}, w.load) ||
+        !deviate(original, {}, {0, 0, 1}, unloaded_perfect) || !deviate(emitted, {}, {1, 0, 1}, w.air))
+      return false;
+    w.superposition = w.geometry + w.load - unloaded_perfect;
+    return true;
+  }
+
+  bool solve_at(double v, bool between, double share, ForwardRun& out) {
+    const double u = piece_->u0 + v * (piece_->u1 - piece_->u0);
+    const Vector3 emitted = piece_->from + v * (piece_->to - piece_->from);
+    Waypoint w;
+    w.p_MT = point_on(*segment_, u);
+    const Load load = piece_->segment == no_segment
+                          ? Load{}
+                          : Load{job_.forces.at(piece_->segment, u, Side::before), job_.forces.at_platform()};
+    describe(u, between, share, load, w);
+    iterations_ = 0;
+    wanted_ = solver_.wanted(w.p_MT, status_);
+    const Vector3 original = w.p_MT - job_.datum_shift;
+    bool solved = status_ == Status::converged && deviate(emitted, load, {}, w.after);
+    if (solved && !between && questions_.before) solved = deviate(original, load, {}, w.before);
+    if (solved && !between && questions_.attribution) solved = attribute(original, emitted, load, w);
+    w.correction.head<3>() = emitted - original;
+    w.status = status_;
+    w.iterations = iterations_;
+    out.waypoints.push_back(w);
+    if (!solved) out.failure = status_failure(status_, segment_->line);
+    return solved;
+  }
+
+  void describe(double u, bool between, double share, const Load& load, Waypoint& w) const {
+    const Vector3 path = segment_->p_MT_end - segment_->p_MT_start;
+    w.segment = piece_->segment;
+    w.fraction = u;
+    w.line = segment_->line;
+    w.cutting = segment_->cutting;
+    w.between = between;
+    w.exempt = piece_->exempt;
+    w.weight = segment_->cutting ? share * (piece_->u1 - piece_->u0) * path.norm() : 0;
+    w.s = segment_->s_start + u * (segment_->s_end - segment_->s_start);
+    w.direction = path.norm() > 0 ? Vector3(path.normalized()) : Vector3(Vector3::Zero());
+    w.tool_axis = tip(job_.model.mechanism, solver_.nominal()).R.col(2);
+    w.wrench = load.F;
+  }
+
+  const Job& job_;
+  const Questions& questions_;
+  PathSolver solver_;
+  const Piece* piece_ = nullptr;
+  Segment position_;  // stands for a segment where there is none
+  const Segment* segment_ = nullptr;
+  Pose wanted_;
+  Status status_ = Status::converged;
+  int iterations_ = 0;
+};
+
+}  // namespace
+
+ForwardRun solve_forward_along(const Job& job, const std::vector<Piece>& pieces, const Questions& questions) {
+  const NominalTrack nominal = track(job);
+  if (nominal.failure) return {{}, nominal.failure};
+  std::vector<ForwardRun> runs(chunk_count(pieces.size()));
+  for_each_chunk(pieces.size(), job.options.threads, [&](const Chunk& chunk) {
+    const std::size_t segment = pieces[chunk.begin].segment;
+    const Configuration& start = segment == no_segment ? job.model.home : nominal.starts[segment / chunk_size];
+    ForwardSolver solver(job, questions, start);
+    for (std::size_t i = chunk.begin; i < chunk.end; ++i)
+      if (!solver.solve(pieces[i], runs[chunk.index])) return;
+  });
+  ForwardRun all;
+  for (ForwardRun& run : runs) {
+    all.waypoints.insert(all.waypoints.end(), run.waypoints.begin(), run.waypoints.end());
+    if (!run.failure) continue;
+    all.failure = run.failure;
+    break;
+  }
+  return all;
+}
+
+std::vector<Piece> original_pieces(const Job& job, double spacing) {
+  std::vector<Piece> pieces;
+  for (std::size_t s = 0; s < job.path.segments.size(); ++s) {
+    const Segment& segment = job.path.segments[s];
+    std::vector<double> ends;
+    if (segment.cutting) {
+      ends = job.forces.breaks(s);
+      const auto count = std::max<long>(1, std::lround(std::ceil((segment.s_end - segment.s_start) / spacing)));
+      for (long k = 1; k < count; ++k) ends.push_back(static_cast<double>(k) / static_cast<double>(count));
+      std::sort(ends.begin(), ends.end());
+    }
+    ends.push_back(1);
+    double u0 = 0;
+    for (double u : ends) {
+      if (u <= u0) continue;
+      const Vector3 from = point_on(segment, u0) - job.datum_shift, to = point_on(segment, u) - job.datum_shift;
+      pieces.push_back({.segment = s, .line = segment.line, .u0 = u0, .u1 = u, .from = from, .to = to,
+                        .end_only = !segment.cutting});
+      u0 = u;
+    }
+  }
+  return pieces;
+}
+
+}  // namespace counterflex

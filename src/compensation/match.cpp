@@ -1,0 +1,150 @@
+// Which moves of a corrected program belong to which of the original: inserted blocks come before the block that they
+// split, follow its path, and carry no number.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <vector>
+
+#include "counterflex/compensation/compensate.hpp"
+#include "counterflex/geometry/units.hpp"
+#include "emit.hpp"
+
+namespace counterflex {
+namespace {
+
+// The block without its axis words and blanks: what correction never changes.
+std::string skeleton(const Program& program, const Move& move) {
+  std::string text;
+  std::size_t at = move.block.begin;
+  std::vector<Span> numbers;
+  for (const auto& word : move.words)
+    if (word) numbers.push_back(word->number);
+  std::sort(numbers.begin(), numbers.end(), [](Span a, Span b) { return a.begin < b.begin; });
+  const auto keep = [&](std::size_t end) {
+    for (; at < end; ++at)
+      if (program.text[at] != ' ' && program.text[at] != '\t') text += program.text[at];
+  };
+  for (const Span& number : numbers) {
+    keep(number.begin);
+    if (!text.empty()) text.pop_back();  // the letter
+    at = number.end;
+  }
+  keep(move.block.end);
+  return text;
+}
+
+class Matcher {
+ public:
+  Matcher(const Job& job, const Program& corrected) : job_(job), corrected_(corrected) {}
+
+  std::vector<Piece> run() {
+    const auto& originals = job_.program.moves;
+    if (corrected_.moves.size() < originals.size()) fail(originals.back(), "the corrected program has fewer moves");
+    std::size_t surplus = corrected_.moves.size() - originals.size();
+    for (std::size_t m = 0; m < originals.size(); ++m) {
+      const bool last = m + 1 == originals.size();
+      const std::size_t own = last ? next_ + surplus : find(m, surplus);
+      take(m, own);
+      surplus -= own - next_;
+      next_ = own + 1;
+    }
+    return std::move(pieces_);
+  }
+
+ private:
+  [[noreturn]] void fail(const Move& move, const std::string& what) const {
+    throw InputError(Exit::not_compensated, {job_.program.file, move.line, 1}, what + " (verify)");
+  }
+
+  // Index of the corrected move that is original move m: same skeleton, and where its correction continues the last one.
+  std::size_t find(std::size_t m, std::size_t surplus) const {
+    const Move& original = job_.program.moves[m];
+    const std::string wanted = skeleton(job_.program, original);
+    std::size_t best = std::numeric_limits<std::size_t>::max();
+    double best_miss = std::numeric_limits<double>::infinity();
+    for (std::size_t j = next_; j <= next_ + surplus; ++j) {
+      const Move& candidate = corrected_.moves[j];
+      if (candidate.motion == original.motion && skeleton(corrected_, candidate) == wanted) {
+        const double miss = (candidate.end_mm - original.end_mm - correction_mm_).norm();
+        if (miss < best_miss - 1e-9) best = j, best_miss = miss;
+      }
+      if (candidate.block_number && candidate.block_number == original.block_number) break;
+      if (j > next_ && leaves(original, corrected_.moves[j - 1], candidate)) break;
+    }
+    if (best == std::numeric_limits<std::size_t>::max()) fail(original, "this move has no counterpart in the corrected program");
+    return best;
+  }
+
+  // Whether going on from a to b no longer comes closer to the end of the original move.
+  bool leaves(const Move& original, const Move& a, const Move& b) const {
+    const Vector3 end = original.end_mm + correction_mm_;
+    return (b.end_mm - end).norm() > (a.end_mm - end).norm() + job_.options.max_correction / mm;
+  }
+
+  void take(std::size_t m, std::size_t own) {
+    const Move& original = job_.program.moves[m];
+    const bool has_segment = segment_ < job_.path.segments.size() && job_.path.segments[segment_].move == m;
+    if (has_segment) take_segment(own);
+    const bool known = original.known_end[0] && original.known_end[1] && original.known_end[2];
+    if (known) correction_mm_ = corrected_.moves[own].end_mm - original.end_mm;
+    if (known && !has_segment)
+      pieces_.push_back({.segment = no_segment, .line = original.line, .from = position(own), .to = position(own),
+                         .wanted = target_of(job_, original.end_mm) + job_.datum_shift, .end_only = true});
+  }
+
+  // First fractions of inserted points: by their place along the segment, the correction there interpolated.
+  void take_segment(std::size_t own) {
+    const Segment& segment = job_.path.segments[segment_];
+    const Vector3 along = segment.p_MT_end - segment.p_MT_start;
+    const Vector3 start = next_ == 0 ? segment.p_MT_start : position(next_ - 1);
+    const Vector3 c0 = start - segment.p_MT_start, c1 = position(own) - segment.p_MT_end;
+    double u0 = 0;
+    for (std::size_t j = next_; j <= own; ++j) {
+      double u = 1;
+      if (j < own) {
+        const Vector3 shift = along + c1 - c0;  // position = start + u along + (1 - u) c0 + u c1
+        u = std::clamp((position(j) - segment.p_MT_start - c0).dot(shift) / shift.squaredNorm(), u0, 1.0);
+      }
+      Piece piece{.segment = segment_, .line = segment.line, .u0 = u0, .u1 = u,
+                  .from = j == next_ ? start : position(j - 1), .to = position(j), .end_only = !segment.cutting,
+                  .exempt = !job_.program.moves[segment.move].may_split};
+      if (u > u0) pieces_.push_back(piece);
+      u0 = u;
+    }
+    ++segment_;
+  }
+
+  Vector3 position(std::size_t j) const { return target_of(job_, corrected_.moves[j].end_mm); }
+
+  const Job& job_;
+  const Program& corrected_;
+  std::vector<Piece> pieces_;
+  std::size_t next_ = 0, segment_ = 0;
+  Vector3 correction_mm_ = Vector3::Zero();
+};
+
+// An inserted point stands where it puts the tip: its fraction is that of the tip's place along the segment.
+void refine_fractions(const Job& job, std::vector<Piece>& pieces) {
+  for (int iteration = 0; iteration < 3; ++iteration) {
+    const ForwardRun run = solve_forward_along(job, pieces, {.before = false, .attribution = false, .inside = false});
+    if (run.failure) return;  // said again by whoever solves the pieces
+    for (std::size_t i = 0; i + 1 < pieces.size(); ++i) {
+      if (pieces[i].u1 >= 1 || pieces[i].segment == no_segment) continue;
+      const Segment& segment = job.path.segments[pieces[i].segment];
+      const double length = (segment.p_MT_end - segment.p_MT_start).norm();
+      const double u = pieces[i].u1 + run.waypoints[i].after.head<3>().dot(run.waypoints[i].direction) / length;
+      pieces[i].u1 = pieces[i + 1].u0 = std::clamp(u, pieces[i].u0, 1.0);
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<Piece> match_programs(const Job& job, const Program& corrected) {
+  std::vector<Piece> pieces = Matcher(job, corrected).run();
+  refine_fractions(job, pieces);
+  return pieces;
+}
+
+}  // namespace counterflex

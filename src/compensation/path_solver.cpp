@@ -1,0 +1,143 @@
+#include "path_solver.hpp"
+
+#include <algorithm>
+
+#include "counterflex/statics/linear.hpp"
+#include "counterflex/statics/nested.hpp"
+
+namespace counterflex {
+namespace {
+
+constexpr int most_outer_iterations = 60;
+constexpr double outer_tolerance = 1e-11;
+
+bool controls_only_positions(const Mechanism& mechanism) {
+  return std::all_of(mechanism.controlled.begin(), mechanism.controlled.end(),
+                     [](Component c) { return c <= Component::z; });
+}
+
+void copy_nominal(const SeriesState& nominal, SeriesState& state) {
+  state.x_nominal = nominal.x;
+  for (std::size_t g = 0; g < state.groups.size(); ++g)
+    for (std::size_t b = 0; b < state.groups[g].branches.size(); ++b)
+      copy_nominal(nominal.groups[g].branches[b], state.groups[g].branches[b]);
+}
+
+// A loaded neighbour as the start for a new nominal configuration.
+Configuration neighbour(const Configuration& loaded, const Configuration& nominal) {
+  Configuration start = loaded;
+  for (std::size_t i = 0; i < start.chains.size(); ++i) copy_nominal(nominal.chains[i], start.chains[i]);
+  return start;
+}
+
+bool everything_acts(const Stage& stage) { return stage.errors == 1 && stage.load == 1 && stage.preload == 1; }
+
+}  // namespace
+
+Load load_at(const Job& job, std::size_t segment, double fraction) {
+  return {job.forces.at(segment, fraction), job.forces.at_platform()};
+}
+
+PathSolver::PathSolver(const Job& job, Configuration start)
+    : job_(job),
+      R_MT_home_(tip(job.model.mechanism, job.model.home).R),
+      work_(job.model.mechanism),
+      nominal_(std::move(start)),
+      writes_all_controlled_(controls_only_positions(job.model.mechanism)) {}
+
+Status PathSolver::go_to(const Vector3& p_MT) {
+  NominalResult result = follow(job_.model, nominal_, {R_MT_home_, p_MT});
+  if (result.status == Status::converged) nominal_ = std::move(result.configuration);
+  return result.status;
+}
+
+Pose PathSolver::wanted(const Vector3& p_MT, Status& status) {
+  status = go_to(p_MT);
+  Pose X_MT = tip(job_.model.mechanism, nominal_);
+  X_MT.p = p_MT;
+  return X_MT;
+}
+
+// A warm start may fail where a cold one does not; the continuation decides.
+Equilibrium PathSolver::forward(const Load& load, const Stage& stage) {
+  const bool warm = loaded_ && everything_acts(stage);
+  if (warm) {
+    Configuration start = neighbour(*loaded_, nominal_);
+    set_actuator_values(job_.model.mechanism, actuator_values(job_.model.mechanism, nominal_), start);
+    Equilibrium refined = refine_forward(job_.model, start, load, stage, work_);
+    if (refined.status == Status::converged) {
+      loaded_ = refined.configuration;
+      return refined;
+    }
+  }
+  Equilibrium solved = solve_forward(job_.model, nominal_, load, stage, work_);
+  if (solved.status == Status::converged && everything_acts(stage)) loaded_ = solved.configuration;
+  return solved;
+}
+
+ActualSolution PathSolver::actual(const Vector3& target, const Load& load, const Stage& stage) {
+  ActualSolution result;
+  result.status = go_to(target);
+  if (result.status != Status::converged) return result;
+  const Equilibrium solved = forward(load, stage);
+  result.status = solved.status;
+  result.iterations = solved.iterations;
+  result.X_MT = tip(job_.model.mechanism, solved.configuration);
+  return result;
+}
+
+// Where the machine controls an orientation that the program does not state, only positions can be written: (23) on them.
+TargetSolution PathSolver::by_outer_iteration(const Vector3& p_MT, const Load& load) {
+  TargetSolution result;
+  result.target = p_MT;
+  for (int i = 0; i < most_outer_iterations; ++i) {
+    const ActualSolution reached = actual(result.target, load, {});
+    result.status = reached.status;
+    result.iterations += reached.iterations;
+    if (reached.status != Status::converged) return result;
+    const Vector3 miss = reached.X_MT.p - p_MT;
+    if (miss.norm() < outer_tolerance) return result;
+    result.target -= miss;
+  }
+  result.status = Status::not_converged;
+  return result;
+}
+
+TargetSolution PathSolver::by_method(const Vector3& p_MT, const Load& load) {
+  const Model& model = job_.model;
+  const Pose X_MT{tip(model.mechanism, nominal_).R, p_MT};
+  Equilibrium solved;
+  if (job_.options.method == Method::nested) {
+    solved = solve_target_nested(model, nominal_, X_MT, load, {}, work_);
+  } else {
+    if (loaded_) solved = refine_target(model, neighbour(*loaded_, nominal_), X_MT, load, {}, work_);
+    if (solved.status != Status::converged) solved = solve_target(model, nominal_, X_MT, load, {}, work_);
+  }
+  TargetSolution result{solved.status, p_MT, solved.iterations};
+  if (solved.status != Status::converged) return result;
+  if (job_.options.method == Method::direct) loaded_ = solved.configuration;
+  const Eigen::VectorXd rho = actuator_values(model.mechanism, solved.configuration);
+  const NominalResult commanded = nominal_forward(model, nominal_, rho);
+  result.status = commanded.status;
+  result.target = tip(model.mechanism, commanded.configuration).p;
+  for (int c = 0; c < 3; ++c)  // what is not controlled is not written
+    if (std::count(model.mechanism.controlled.begin(), model.mechanism.controlled.end(), Component{c}) == 0)
+      result.target[c] = p_MT[c];
+  if (result.status == Status::converged && !within_travel(model.mechanism, rho))
+    result.status = Status::outside_travel;
+  return result;
+}
+
+TargetSolution PathSolver::target(const Vector3& p_MT, const Load& load) {
+  TargetSolution result;
+  result.status = go_to(p_MT);
+  if (result.status != Status::converged) return result;
+  if (job_.options.method == Method::linear) {
+    const LinearResult linear = linear_deviation(job_.model, nominal_, load, {}, work_);
+    const Pose X_MT{tip(job_.model.mechanism, nominal_).R, p_MT};
+    return {linear.status, linear_target(job_.model, X_MT, linear).p, 1};
+  }
+  return writes_all_controlled_ ? by_method(p_MT, load) : by_outer_iteration(p_MT, load);
+}
+
+}  // namespace counterflex

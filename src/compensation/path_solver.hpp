@@ -1,0 +1,60 @@
+#pragma once
+/// Solves waypoints one after another along a path, each from its neighbour.
+#include <optional>
+
+#include "counterflex/compensation/options.hpp"
+#include "counterflex/statics/equilibrium.hpp"
+
+namespace counterflex {
+
+/// A command that puts the tip where it is wanted.
+struct TargetSolution {
+  Status status = Status::not_converged;
+  Vector3 target = Vector3::Zero();  ///< position to write, in M (m)
+  int iterations = 0;
+};
+
+/// Where the tip stands for a command.
+struct ActualSolution {
+  Status status = Status::not_converged;
+  Pose X_MT;
+  int iterations = 0;
+};
+
+class PathSolver {
+ public:
+  /// `start`: a nominal configuration on the branch, near the first waypoint.
+  PathSolver(const Job& job, Configuration start);
+
+  /// The wanted pose of the tip at a position: its controlled orientation is home's, uncontrolled components are those of
+  /// nominal kinematics. Sets `status` where there is none.
+  Pose wanted(const Vector3& p_MT, Status& status);
+
+  TargetSolution target(const Vector3& p_MT, const Load& load);
+  ActualSolution actual(const Vector3& target, const Load& load, const Stage& stage);
+
+  const Configuration& nominal() const { return nominal_; }
+
+ private:
+  Status go_to(const Vector3& p_MT);
+  Equilibrium forward(const Load& load, const Stage& stage);
+  TargetSolution by_outer_iteration(const Vector3& p_MT, const Load& load);
+  TargetSolution by_method(const Vector3& p_MT, const Load& load);
+
+  const Job& job_;
+  Matrix3 R_MT_home_;
+  StaticsWork work_;
+  Configuration nominal_;
+  std::optional<Configuration> loaded_;    ///< last solution with everything acting
+  bool writes_all_controlled_;             ///< the program can state every component that the machine controls
+};
+
+/// The load at a place of the path.
+Load load_at(const Job& job, std::size_t segment, double fraction);
+
+/// Position on a wanted segment.
+inline Vector3 point_on(const Segment& segment, double u) {
+  return segment.p_MT_start + u * (segment.p_MT_end - segment.p_MT_start);
+}
+
+}  // namespace counterflex

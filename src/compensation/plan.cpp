@@ -1,0 +1,175 @@
+#include "plan.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/SVD>
+#include <algorithm>
+
+#include "counterflex/compensation/compensate.hpp"
+#include "counterflex/geometry/units.hpp"
+#include "curve.hpp"
+#include "path_solver.hpp"
+
+namespace counterflex {
+namespace {
+
+constexpr double jump_share = 0.1;      // of the tolerance: larger steps of the correction are jumped
+constexpr double curve_share = 0.01;    // of the tolerance: accuracy of the sampled curve
+constexpr double gain_probe = 50e-6;    // m
+constexpr double gain_margin = 1.01;
+
+// Plans the segments of one chunk, one after another.
+class ChunkPlanner {
+ public:
+  ChunkPlanner(const Job& job, const Configuration& start) : job_(job), solver_(job, start) {}
+
+  std::optional<Failure> plan(std::size_t index, PlannedSegment& planned) {
+    index_ = index;
+    segment_ = &job_.path.segments[index];
+    failure_.reset();
+    const bool done = segment_->cutting ? plan_cut(planned) : plan_rapid(planned);
+    if (!done && !failure_) failure_ = status_failure(Status::not_converged, segment_->line);
+    return failure_;
+  }
+
+ private:
+  bool solve(double u, Side side, CurveNode& node) {
+    const Vector3 wanted = point_on(*segment_, u);
+    const TargetSolution solution = solver_.target(wanted, {job_.forces.at(index_, u, side), job_.forces.at_platform()});
+    if (solution.status != Status::converged) {
+      failure_ = status_failure(solution.status, segment_->line);
+      return false;
+    }
+    node = {u, solution.target - wanted};
+    return within_limit(node.c);
+  }
+
+  // The correction is what the control is told differently; a datum's shift belongs to the part.
+  bool within_limit(const Vector3& c) {
+    const double size = (c + job_.datum_shift).norm();
+    if (size <= job_.options.max_correction) return true;
+    failure_ = {Exit::limit, segment_->line,
+                fmt::format("the correction would be {:.3f} mm, more than the limit of {:.3f} mm", size / mm,
+                            job_.options.max_correction / mm)};
+    return false;
+  }
+
+  bool plan_rapid(PlannedSegment& planned) {
+    CurveNode start, end;
+    planned.starts_anywhere = job_.options.blend > 0;  // where the cut ended
+    if (!planned.starts_anywhere && !solve(0, Side::after, start)) return false;
+    if (!solve(1, Side::before, end)) return false;
+    planned.start_target = segment_->p_MT_start + start.c;
+    planned.knots = {{1, segment_->p_MT_end + end.c}};
+    return true;
+  }
+
+  // Continuous stretches between steps of the force, each with its own knots.
+  bool plan_cut(PlannedSegment& planned) {
+    std::vector<double> limits = job_.forces.breaks(index_);
+    limits.insert(limits.begin(), 0);
+    limits.push_back(1);
+    CurveNode a, b;
+    if (!solve(0, Side::after, a)) return false;
+    planned.start_target = segment_->p_MT_start + a.c;
+    CorrectionCurve stretch;
+    for (std::size_t i = 1; i < limits.size(); ++i) {
+      if (!solve(limits[i], Side::before, b)) return false;
+      const CorrectionAt inside = [this](double u, CurveNode& node) { return solve(u, Side::after, node); };
+      if (!sample_curve(a, b, curve_share * job_.options.tolerance, inside, stretch)) return false;
+      a = b;
+      if (i + 1 < limits.size() && !solve(limits[i], Side::after, a)) return false;
+      const bool step = (a.c - b.c).norm() > jump_share * job_.options.tolerance;
+      if (!step && i + 1 < limits.size()) continue;
+      if (!add_knots(stretch, limits, planned)) return false;
+      if (step) planned.knots.push_back({a.u, point_on(*segment_, a.u) + a.c});
+      stretch = {};
+    }
+    if (!job_.program.moves[segment_->move].may_split) forbid_splitting(planned);
+    return true;
+  }
+
+  bool add_knots(const CorrectionCurve& stretch, const std::vector<double>& corners, PlannedSegment& planned) {
+    const double rounding = rounding_allowance(job_.program.moves[segment_->move], job_.options.write);
+    std::vector<double> knots = choose_knots(stretch, corners, job_.options.tolerance - rounding);
+    if (knots.size() > 1) {
+      if (!measure_gain()) return false;
+      knots = choose_knots(stretch, corners, job_.options.tolerance / gain_ - rounding);
+    }
+    for (double u : knots) {
+      // At a stretch's end the curve is continued on the left of the step.
+      const Vector3 c = u == stretch.end() ? stretch.intervals().back().nodes.back().c : stretch.at(u);
+      planned.knots.push_back({u, point_on(*segment_, u) + c});
+    }
+    return true;
+  }
+
+  // How much the tip moves for a change of target, at most: largest singular value, once a chunk.
+  bool measure_gain() {
+    if (gain_ > 0) return true;
+    const Load load = load_at(job_, index_, 1);
+    Matrix3 gain;
+    Vector3 reached[2];
+    for (int axis = 0; axis < 3; ++axis) {
+      for (int side = 0; side < 2; ++side) {
+        const Vector3 target = segment_->p_MT_end + (side ? -gain_probe : gain_probe) * Vector3::Unit(axis);
+        const ActualSolution actual = solver_.actual(target, load, {});
+        if (actual.status != Status::converged) {
+          failure_ = status_failure(actual.status, segment_->line);
+          return false;
+        }
+        reached[side] = actual.X_MT.p;
+      }
+      gain.col(axis) = (reached[0] - reached[1]) / (2 * gain_probe);
+    }
+    gain_ = gain_margin * Eigen::JacobiSVD<Matrix3>(gain).singularValues()[0];
+    return true;
+  }
+
+  // The block must stay one: its end is corrected, and what its inside misses is said.
+  void forbid_splitting(PlannedSegment& planned) {
+    if (planned.knots.size() < 2) return;
+    const Vector3 c0 = planned.start_target - segment_->p_MT_start, c1 = planned.knots.back().target - segment_->p_MT_end;
+    for (const Knot& knot : planned.knots) {
+      const Vector3 c = knot.target - point_on(*segment_, knot.u);
+      planned.unsplit_miss = std::max(planned.unsplit_miss, (c - (1 - knot.u) * c0 - knot.u * c1).norm());
+    }
+    planned.knots.erase(planned.knots.begin(), planned.knots.end() - 1);
+  }
+
+  const Job& job_;
+  PathSolver solver_;
+  std::size_t index_ = 0;
+  const Segment* segment_ = nullptr;
+  double gain_ = 0;
+  std::optional<Failure> failure_;
+};
+
+}  // namespace
+
+double rounding_allowance(const Move& move, const WriteOptions& options) {
+  const Decimals decimals = decimals_of(move, options);
+  int fewest = std::min({decimals.end[0], decimals.end[1], decimals.end[2], decimals.inserted});
+  double digit = move.unit == LengthUnit::inch ? inch : mm;
+  for (; fewest > 0; --fewest) digit /= 10;
+  return 0.5 * digit * std::sqrt(3.0);
+}
+
+Plan plan(const Job& job, const NominalTrack& track) {
+  Plan result;
+  result.segments.resize(job.path.segments.size());
+  std::vector<std::optional<Failure>> failures(chunk_count(result.segments.size()));
+  for_each_chunk(result.segments.size(), job.options.threads, [&](const Chunk& chunk) {
+    ChunkPlanner planner(job, track.starts[chunk.index]);
+    for (std::size_t i = chunk.begin; i < chunk.end && !failures[chunk.index]; ++i)
+      failures[chunk.index] = planner.plan(i, result.segments[i]);
+  });
+  for (auto& failure : failures)
+    if (failure) {
+      result.failure = std::move(failure);
+      break;
+    }
+  return result;
+}
+
+}  // namespace counterflex

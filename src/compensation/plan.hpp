@@ -1,0 +1,27 @@
+#pragma once
+/// What should be commanded along every segment: targets at knots, before they are rounded and written.
+#include "track.hpp"
+
+namespace counterflex {
+
+struct Knot {
+  double u = 1;                       ///< fraction of the segment
+  Vector3 target = Vector3::Zero();   ///< M (m)
+};
+
+struct PlannedSegment {
+  Vector3 start_target = Vector3::Zero();  ///< where the segment should begin (M, m)
+  bool starts_anywhere = false;            ///< a rapid begins where the move before it ended
+  std::vector<Knot> knots;                 ///< the last one is its end; a step within is two knots at one fraction
+  double unsplit_miss = 0;  ///< m: largest deviation inside, where points would have been needed but must not be inserted
+};
+
+struct Plan {
+  std::vector<PlannedSegment> segments;
+  std::optional<Failure> failure;
+};
+
+/// Plans all segments, in parallel over chunks.
+Plan plan(const Job& job, const NominalTrack& track);
+
+}  // namespace counterflex

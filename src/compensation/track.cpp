@@ -1,0 +1,35 @@
+#include "track.hpp"
+
+#include <fmt/format.h>
+
+#include "path_solver.hpp"
+
+namespace counterflex {
+
+Failure status_failure(Status status, int line) {
+  if (status == Status::outside_travel)
+    return {Exit::limit, line, "an actuator leaves its range (outside_travel)"};
+  return {Exit::not_compensated, line, fmt::format("the machine's equilibrium is not solved here: {}", to_string(status))};
+}
+
+NominalTrack track(const Job& job) {
+  NominalTrack result;
+  PathSolver solver(job, job.model.home);
+  const auto go = [&](const Vector3& p, int line) {
+    Status status;
+    solver.wanted(p, status);
+    if (status == Status::converged) return true;
+    result.failure = status_failure(status, line);
+    return false;
+  };
+  for (std::size_t i = 0; i < job.path.segments.size(); ++i) {
+    const Segment& segment = job.path.segments[i];
+    const bool joins = i > 0 && job.path.segments[i - 1].p_MT_end == segment.p_MT_start;
+    if (!joins && !go(segment.p_MT_start, segment.line)) return result;
+    if (i % chunk_size == 0) result.starts.push_back(solver.nominal());
+    if (!go(segment.p_MT_end, segment.line)) return result;
+  }
+  return result;
+}
+
+}  // namespace counterflex
