@@ -90,10 +90,10 @@ struct RunReport {
   std::string machine;
   Method method = Method::direct;
   double tolerance_mm = 0;
-  double path_mm = 0;  ///< length of the feed moves
-  DeviationStatistics before;
-  std::optional<DeviationStatistics> after;  ///< model residual; none for `predict`
-  std::optional<Sources> sources;            ///< with attribution
+  double path_mm = 0;                         ///< length of the feed moves
+  std::optional<DeviationStatistics> before;  ///< none where a run failed before anything was solved
+  std::optional<DeviationStatistics> after;   ///< model residual; none for `predict`, and like `before`
+  std::optional<Sources> sources;             ///< with attribution
   std::optional<Largest>
       air;  ///< largest deviation of a feed move of the corrected program without the force
   std::optional<Largest> correction;  ///< largest change of a target

@@ -1,0 +1,30 @@
+#pragma once
+/// Values of JSON documents: rounded, so that a last bit does not show, and null where there is no number.
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "counterflex/files/numbers.hpp"
+#include "counterflex/geometry/types.hpp"
+
+namespace counterflex {
+
+using Json = nlohmann::ordered_json;
+
+inline Json number(double value, int decimals) {
+  if (!std::isfinite(value)) return nullptr;
+  return rounded(value, decimals);
+}
+
+template <typename Vector>
+Json numbers(const Vector& values, int decimals) {
+  Json list = Json::array();
+  for (Eigen::Index i = 0; i < values.size(); ++i) list.push_back(number(values[i], decimals));
+  return list;
+}
+
+/// Text with bytes that are no UTF-8 is written with replacement characters.
+inline std::string dump(const Json& document) {
+  return document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace counterflex

@@ -1,0 +1,78 @@
+#include "measure.hpp"
+
+#include <algorithm>
+#include <map>
+#include <optional>
+
+#include "counterflex/geometry/units.hpp"
+
+namespace counterflex {
+
+namespace {
+
+constexpr double no_correction = 1e-12;  // m: rounding of coordinates that were moved to M and back
+
+struct Collector {
+  Measures m;
+  std::map<int, WorstRow> lines;
+  double weight_between =
+      0;  // of samples since the last end of a piece: all but `after` is known at ends alone
+  std::optional<std::size_t> last_changed;
+
+  static DeviationSample sample(const Waypoint& w, const Vector6& deviation, double weight) {
+    return {deviation, w.direction, w.tool_axis, weight, w.line};
+  }
+
+  void keep(Largest& largest, double length, int line) const {
+    if (length / mm > largest.mm) largest = {length / mm, line};
+  }
+
+  void add_target(const Waypoint& w) {
+    const double length = w.correction.head<3>().norm();
+    keep(m.correction, length, w.line);
+    if (length < no_correction || last_changed == w.segment) return;
+    last_changed = w.segment;
+    ++m.segments_changed;
+  }
+
+  void add_end(const Waypoint& w, double weight) {
+    m.before.add(sample(w, w.before, weight));
+    m.geometry.add(sample(w, w.geometry, weight));
+    m.load.add(sample(w, w.load, weight));
+    m.superposition.add(sample(w, w.superposition, weight));
+    keep(m.air, w.air.head<3>().norm(), w.line);
+    WorstRow& row = lines[w.line];
+    row.before_mm = std::max(row.before_mm, w.before.head<3>().norm() / mm);
+  }
+
+  void add_cutting(const Waypoint& w) {
+    m.after.add(sample(w, w.after, w.weight));
+    m.path_mm += w.weight / mm;
+    m.largest_N = std::max(m.largest_N, w.wrench.head<3>().norm());
+    m.largest_Nm = std::max(m.largest_Nm, w.wrench.tail<3>().norm());
+    WorstRow& row = lines[w.line];
+    row.line = w.line;
+    row.after_mm = std::max(row.after_mm, w.after.head<3>().norm() / mm);
+    weight_between += w.weight;
+    if (w.between) return;
+    add_end(w, weight_between);
+    weight_between = 0;
+  }
+
+  void add(const Waypoint& w) {
+    if (w.status != Status::converged) return;
+    if (!w.between) add_target(w);
+    if (w.cutting) add_cutting(w);
+  }
+};
+
+}  // namespace
+
+Measures measure(const std::vector<Waypoint>& waypoints) {
+  Collector collector;
+  for (const Waypoint& w : waypoints) collector.add(w);
+  for (const auto& [line, row] : collector.lines) collector.m.by_line.push_back(row);
+  return std::move(collector.m);
+}
+
+}  // namespace counterflex

@@ -1,0 +1,132 @@
+#include <fmt/core.h>
+
+#include "counterflex/report/formats.hpp"
+#include "json_numbers.hpp"
+#include "names.hpp"
+
+namespace counterflex {
+
+namespace {
+
+constexpr int digits = 7;  // 1e-7 mm, 1e-7 deg
+
+Json statistics_json(const DeviationStatistics& s) {
+  return {{"max_mm", number(s.max_mm, digits)},
+          {"rms_mm", number(s.rms_mm, digits)},
+          {"mean_mm", number(s.mean_mm, digits)},
+          {"p95_mm", number(s.p95_mm, digits)},
+          {"max_line", s.max_line},
+          {"max_axis_mm", numbers(s.max_axis_mm, digits)},
+          {"max_rotation_deg", number(s.max_rotation_deg, digits)},
+          {"max_along_mm", number(s.max_along_mm, digits)},
+          {"max_across_mm", number(s.max_across_mm, digits)},
+          {"max_tool_axis_mm", number(s.max_tool_axis_mm, digits)}};
+}
+
+Json optional_statistics(const std::optional<DeviationStatistics>& s) {
+  return s ? statistics_json(*s) : Json(nullptr);
+}
+
+Json inputs_json(const std::vector<InputFile>& inputs) {
+  Json result = Json::object();
+  for (const InputFile& input : inputs) result[input.name] = {{"path", input.path}, {"sha256", input.sha256}};
+  return result;
+}
+
+Json options_json(const std::vector<OptionValue>& options) {
+  Json result = Json::object();
+  for (const OptionValue& option : options)
+    std::visit([&](const auto& value) { result[option.name] = value; }, option.value);
+  return result;
+}
+
+Json largest_json(const std::optional<Largest>& largest) {
+  if (!largest) return nullptr;
+  return {{"max_mm", number(largest->mm, digits)}, {"line", largest->line}};
+}
+
+Json sources_json(const std::optional<Sources>& sources) {
+  if (!sources) return nullptr;
+  return {{"geometry", statistics_json(sources->geometry)},
+          {"load", statistics_json(sources->load)},
+          {"superposition", statistics_json(sources->superposition)}};
+}
+
+Json summary_json(const RunReport& report) {
+  return {{"before", optional_statistics(report.before)},  {"after", optional_statistics(report.after)},
+          {"sources", sources_json(report.sources)},       {"air", largest_json(report.air)},
+          {"correction", largest_json(report.correction)}, {"path_mm", number(report.path_mm, digits)}};
+}
+
+Json forces_json(const ForceSummary& forces) {
+  return {{"largest_N", number(forces.largest_N, 4)},
+          {"largest_Nm", number(forces.largest_Nm, 4)},
+          {"ramps", forces.ramps},
+          {"jumps", forces.jumps},
+          {"largest_step_N", number(forces.largest_step_N, 4)}};
+}
+
+Json blocks_json(const BlockCounts& blocks) {
+  Json left_alone = Json::array();
+  for (const LeftAlone& block : blocks.left_alone.rows)
+    left_alone.push_back({{"line", block.line}, {"why", block.why}});
+  return {{"total", blocks.total},
+          {"moves", blocks.moves},
+          {"corrected", blocks.corrected},
+          {"inserted", blocks.inserted},
+          {"left_alone_count", blocks.left_alone.count},
+          {"left_alone", std::move(left_alone)}};
+}
+
+Json text_json(const RunReport& report) {
+  const auto& after = report.text_after;
+  return {{"blocks_before", report.text_before.blocks},
+          {"blocks_after", after ? Json(after->blocks) : Json(nullptr)},
+          {"bytes_before", report.text_before.bytes},
+          {"bytes_after", after ? Json(after->bytes) : Json(nullptr)}};
+}
+
+Json warnings_json(const std::vector<Remark>& warnings) {
+  Json list = Json::array();
+  for (const Remark& warning : warnings) list.push_back({{"line", warning.line}, {"what", warning.what}});
+  return list;
+}
+
+Json worst_json(const RunReport& report) {
+  Json list = Json::array();
+  for (const WorstRow& row : report.worst)
+    list.push_back({{"line", row.line},
+                    {"before_mm", number(row.before_mm, digits)},
+                    {"after_mm", report.after ? number(row.after_mm, digits) : Json(nullptr)}});
+  return list;
+}
+
+Json failure_json(const std::optional<Failure>& failure) {
+  if (!failure) return nullptr;
+  return {{"exit", static_cast<int>(failure->exit)}, {"line", failure->line}, {"what", failure->what}};
+}
+
+}  // namespace
+
+std::string to_json(const RunReport& report) {
+  const std::string& output = report.facts.output;
+  Json document = {{"schema", "counterflex-report 1"},
+                   {"tool", fmt::format("counterflex {}", report.facts.version)},
+                   {"command", name_of(report.command)},
+                   {"machine", report.machine},
+                   {"inputs", inputs_json(report.facts.inputs)},
+                   {"output", output.empty() ? Json(nullptr) : Json(output)},
+                   {"options", options_json(report.facts.options)},
+                   {"failure", failure_json(report.failure)},
+                   {"summary", summary_json(report)},
+                   {"forces", forces_json(report.forces)},
+                   {"blocks", blocks_json(report.blocks)},
+                   {"text", text_json(report)},
+                   {"assumptions", {{"work", report.work}, {"datum", report.datum}}},
+                   {"warning_count", report.warnings.count},
+                   {"warnings", warnings_json(report.warnings.rows)},
+                   {"worst", worst_json(report)}};
+  return dump(document);
+}
+
+}  // namespace counterflex

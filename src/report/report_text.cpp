@@ -1,0 +1,216 @@
+#include <fmt/core.h>
+
+#include <algorithm>
+
+#include "counterflex/files/numbers.hpp"
+#include "counterflex/report/formats.hpp"
+#include "names.hpp"
+#include "text_layout.hpp"
+
+namespace counterflex {
+
+namespace {
+
+constexpr std::size_t shown_blocks = 5;
+constexpr std::size_t shown_warnings = 8;
+constexpr std::size_t shown_worst = 5;
+
+std::string mm4(double value) {
+  return format_fixed(value, 4);
+}
+
+std::string counted(std::size_t count, const char* one) {
+  return fmt::format("{} {}{}", count, one, count == 1 ? "" : "s");
+}
+
+std::string file_name(const RunReport& report, const std::string& role) {
+  for (const InputFile& input : report.facts.inputs)
+    if (input.name == role) return input.path == "-" ? "standard input" : input.path;
+  return "the program";
+}
+
+std::string title(const RunReport& report, const Ink& ink) {
+  const std::string what = fmt::format("{} {}", name_of(report.command), file_name(report, "program"));
+  std::string text = ink.bold(what) + "\n";
+  text +=
+      wrapped("  ", fmt::format("on {}", report.machine.empty() ? "an unnamed machine" : report.machine), 2);
+  if (report.command == Command::predict) return text;
+  return text +
+         wrapped("  ",
+                 fmt::format("method {}, tolerance {} mm", name_of(report.method), mm4(report.tolerance_mm)),
+                 2);
+}
+
+std::string failure_text(const RunReport& report, const Ink& ink) {
+  if (!report.failure) return "";
+  const Failure& failure = *report.failure;
+  const std::string where = failure.line > 0 ? fmt::format("line {}: ", failure.line) : "";
+  std::string text =
+      "\n" + ink.bad("Failed") + fmt::format(" (exit status {})\n", static_cast<int>(failure.exit));
+  text += wrapped("  ", where + failure.what, 4);
+  if (report.command == Command::compensate) text += "  No corrected program was written.\n";
+  return text;
+}
+
+// One line of the table: a label, before, and after where it is known.
+std::string row(const std::string& label, const std::string& before, const std::string& after) {
+  std::string text = fmt::format("  {:<34}{:>12}{:>14}", label, before, after);
+  text.erase(text.find_last_not_of(' ') + 1);
+  return text + "\n";
+}
+
+std::string row(const std::string& label, const RunReport& report, double DeviationStatistics::*value) {
+  return row(label, mm4(*report.before.*value), report.after ? mm4(*report.after.*value) : "");
+}
+
+std::string axis_row(const char* label, const RunReport& report, int axis) {
+  return row(label, mm4(report.before->max_axis_mm[axis]),
+             report.after ? mm4(report.after->max_axis_mm[axis]) : "");
+}
+
+std::string factor(const RunReport& report) {
+  const double before = report.before->max_mm, after = report.after->max_mm;
+  if (after <= 0 || before < 10 * after) return "";
+  return fmt::format("  The largest deviation becomes {} times smaller.\n", format_fixed(before / after, 0));
+}
+
+std::string deviation_table(const RunReport& report, const Ink& ink) {
+  if (!report.before) return "";
+  const bool corrected = report.after.has_value();
+  std::string text = "\n" + ink.bold("Deviation of the tool tip") +
+                     fmt::format(" on {} mm of feed moves, in mm\n", format_fixed(report.path_mm, 3));
+  text += row("", "before", corrected ? "after *" : "");
+  text += row("largest", report, &DeviationStatistics::max_mm);
+  text += row("  in program line", std::to_string(report.before->max_line),
+              corrected ? std::to_string(report.after->max_line) : "");
+  text += row("95 % of the length is below", report, &DeviationStatistics::p95_mm);
+  text += row("root mean square", report, &DeviationStatistics::rms_mm);
+  text += row("mean", report, &DeviationStatistics::mean_mm);
+  text += axis_row("largest in x", report, 0) + axis_row("largest in y", report, 1) +
+          axis_row("largest in z", report, 2);
+  text += row("largest across the path", report, &DeviationStatistics::max_across_mm);
+  text += row("largest along the tool axis", report, &DeviationStatistics::max_tool_axis_mm);
+  text += row("largest along the path (harmless)", report, &DeviationStatistics::max_along_mm);
+  text += row("largest rotation, in deg", report, &DeviationStatistics::max_rotation_deg);
+  if (!corrected) return text;
+  return text + "  * model residual: what the model leaves, not the accuracy of the part\n" + factor(report);
+}
+
+std::string source_row(const char* label, const DeviationStatistics& s) {
+  return fmt::format("  {:<34}{:>12}{:>12}{:>12}{:>12}\n", label, mm4(s.max_axis_mm.x()),
+                     mm4(s.max_axis_mm.y()), mm4(s.max_axis_mm.z()), mm4(s.max_mm));
+}
+
+std::string sources_text(const RunReport& report, const Ink& ink) {
+  if (!report.sources) return "";
+  const Sources& sources = *report.sources;
+  std::string text = "\n" + ink.bold("Where it comes from") + ", largest values in mm\n";
+  text += fmt::format("  {:<34}{:>12}{:>12}{:>12}{:>12}\n", "", "x", "y", "z", "in space");
+  text += source_row("geometry: errors of assembly alone", sources.geometry);
+  text += source_row("load: cutting forces alone", sources.load);
+  text += source_row("superposition: sum of the two", sources.superposition);
+  return text + source_row("both acting together", *report.before);
+}
+
+std::string worst_text(const RunReport& report, const Ink& ink) {
+  if (report.worst.size() < 2) return "";
+  std::string text = "\n" + ink.bold("Worst lines") + ", largest deviation in mm\n";
+  text += row("", "before", report.after ? "after *" : "");
+  for (std::size_t i = 0; i < std::min(shown_worst, report.worst.size()); ++i) {
+    const WorstRow& worst = report.worst[i];
+    text += row(fmt::format("line {}", worst.line), mm4(worst.before_mm),
+                report.after ? mm4(worst.after_mm) : "");
+  }
+  return text;
+}
+
+std::string program_text(const RunReport& report, const Ink& ink) {
+  const BlockCounts& blocks = report.blocks;
+  std::string text = "\n" + ink.bold("Program") + "\n";
+  if (report.command == Command::predict)
+    return text + fmt::format("  {}, {}\n", counted(blocks.total, "block"), counted(blocks.moves, "move"));
+  text += fmt::format("  {} of {} corrected, {} added\n", blocks.corrected, counted(blocks.moves, "move"),
+                      counted(blocks.inserted, "point"));
+  if (report.text_after)
+    text += fmt::format("  {} -> {} blocks, {} -> {} bytes\n", report.text_before.blocks,
+                        report.text_after->blocks, report.text_before.bytes, report.text_after->bytes);
+  if (report.correction && report.correction->mm > 0)
+    text += fmt::format("  largest correction {} mm, line {}\n", mm4(report.correction->mm),
+                        report.correction->line);
+  return text;
+}
+
+std::string force_text(const RunReport& report, const Ink& ink) {
+  const ForceSummary& forces = report.forces;
+  std::string text = "\n" + ink.bold("Cutting force") + "\n";
+  if (forces.largest_N == 0 && forces.largest_Nm == 0)
+    return text + "  none: the geometry alone is at work\n";
+  text += fmt::format("  up to {} N and {} N m on the tool\n", format_fixed(forces.largest_N, 1),
+                      format_fixed(forces.largest_Nm, 2));
+  if (forces.ramps + forces.jumps > 0)
+    text += fmt::format("  {} of it acting as ramps, {} as jumps; the largest is {} N\n",
+                        counted(forces.ramps, "step"), forces.jumps, format_fixed(forces.largest_step_N, 1));
+  if (report.air && report.air->mm > 0)
+    text += wrapped(
+        "  ",
+        fmt::format(
+            "Without the force (dry run, spring pass, broken insert) the corrected program is off by up "
+            "to {} mm, line {}.",
+            mm4(report.air->mm), report.air->line),
+        2);
+  return text;
+}
+
+std::string line_prefix(int line) {
+  return line > 0 ? fmt::format("  line {}: ", line) : "  ";
+}
+
+std::string more(std::size_t shown, std::size_t count) {
+  return count > shown ? fmt::format("  and {} more\n", count - shown) : "";
+}
+
+std::string left_alone_text(const RunReport& report, const Ink& ink) {
+  const Capped<LeftAlone>& list = report.blocks.left_alone;
+  if (list.count == 0) return "";
+  std::string text =
+      "\n" + ink.warning(fmt::format("Not corrected: {}", counted(list.count, "block"))) + "\n";
+  const std::size_t shown = std::min(shown_blocks, list.rows.size());
+  for (std::size_t i = 0; i < shown; ++i)
+    text += wrapped(line_prefix(list.rows[i].line), list.rows[i].why, 4);
+  return text + more(shown, list.count);
+}
+
+std::string warnings_text(const RunReport& report, const Ink& ink) {
+  const Capped<Remark>& list = report.warnings;
+  if (list.count == 0) return "";
+  std::string text = "\n" + ink.warning(counted(list.count, "warning")) + "\n";
+  const std::size_t shown = std::min(shown_warnings, list.rows.size());
+  for (std::size_t i = 0; i < shown; ++i)
+    text += wrapped(line_prefix(list.rows[i].line), list.rows[i].what, 4);
+  return text + more(shown, list.count);
+}
+
+std::string assumptions_text(const RunReport& report, const Ink& ink) {
+  return "\n" + ink.bold("Taken for granted") + "\n" + wrapped("  ", report.work, 2) +
+         wrapped("  ", report.datum, 2);
+}
+
+}  // namespace
+
+std::string summary_text(const RunReport& report, bool colour) {
+  const Ink ink{colour};
+  std::string text = title(report, ink) + failure_text(report, ink);
+  text += deviation_table(report, ink) + sources_text(report, ink) + worst_text(report, ink);
+  text += program_text(report, ink) + force_text(report, ink);
+  return text + left_alone_text(report, ink) + warnings_text(report, ink) + assumptions_text(report, ink);
+}
+
+std::string one_line(const RunReport& report) {
+  std::string text = file_name(report, "program") + ": ";
+  if (!report.before) return text + "not solved";
+  text += mm4(report.before->max_mm) + " mm before";
+  if (report.after) text += fmt::format(", {} mm after (model residual)", mm4(report.after->max_mm));
+  return text;
+}
+
+}  // namespace counterflex

@@ -1,0 +1,27 @@
+#pragma once
+/// Text for terminals: emphasis and wrapped paragraphs.
+#include <string>
+#include <string_view>
+
+namespace counterflex {
+
+inline constexpr std::size_t text_width = 100;
+
+/// ANSI emphasis, or none.
+struct Ink {
+  bool colour = false;
+  std::string bold(std::string_view text) const { return paint(text, "\033[1m"); }
+  std::string good(std::string_view text) const { return paint(text, "\033[32m"); }
+  std::string warning(std::string_view text) const { return paint(text, "\033[33m"); }
+  std::string bad(std::string_view text) const { return paint(text, "\033[1;31m"); }
+
+ private:
+  std::string paint(std::string_view text, std::string_view code) const;
+};
+
+/// `text` in lines of at most `text_width` bytes after `first`, which stands before the first line; the
+/// others are indented by `indent` blanks. Breaks at blanks; a word that is longer than a line stays whole.
+/// Ends with a newline.
+std::string wrapped(std::string_view first, std::string_view text, std::size_t indent);
+
+}  // namespace counterflex
