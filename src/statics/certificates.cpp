@@ -15,6 +15,7 @@ namespace {
 //     A + rho J'J > 0  =>  A > 0 on the null space of J;      K = (J (A + rho J'J)^-1 J')^-1 - rho
 std::optional<Matrix6> symmetric_end_stiffness(const Series& series, const SeriesWork& work, const Units& units) {
   const auto n = static_cast<Eigen::Index>(series.free.size());
+  if (n == 0) return std::nullopt;  // a rigid bar
   Eigen::MatrixXd A(n, n), J(6, n);
   for (Eigen::Index i = 0; i < n; ++i) {
     const int c = series.free[i];

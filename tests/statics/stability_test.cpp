@@ -1,0 +1,178 @@
+/// Condition and stability of a configuration, and the cheap proofs of them.
+#include "counterflex/statics/chain.hpp"
+#include "laws_states.hpp"
+#include "newton.hpp"
+
+using namespace counterflex;
+using namespace counterflex::laws;
+
+namespace {
+
+const char* const all_machines[] = {"orthoglide_case_b",  "hexapod_free_joints", "hexapod_joint_springs",
+                                    "serial6r_joints",    "serial6r_link6",      "laws_mixed",
+                                    "bar_buckling",       "antagonistic",        "cantilever",
+                                    "two_chains_coupled", "parallel_bars_pinned"};
+
+// All machines in configurations that are more and more unlike an equilibrium.
+template <class Check>
+void for_any_configurations(unsigned seed, const Check& check) {
+  for (const std::string name : all_machines) {
+    CAPTURE(name);
+    const Model model = model_of(name);
+    StaticsWork work(model.mechanism);
+    Random random(seed);
+    for (const double size : {0.0, 0.01, 0.3})
+      for (const double wrench : {0.0, 1.0, 30.0, 1000.0}) {
+        CAPTURE(size);
+        CAPTURE(wrench);
+        const Load load{random.six(500 * wrench, 200 * wrench), false};
+        check(model, shaken(model.mechanism, model.home, random, size, wrench), load, work);
+      }
+  }
+}
+
+Vector6 push(double P) {
+  return -P * unit(0);
+}
+
+// A machine elsewhere: every chain and the home pose after X.
+Machine placed(Machine machine, const Pose& X) {
+  for (Chain& chain : machine.chains) chain.elements.insert(chain.elements.begin(), Rigid{X});
+  if (machine.home_X_MP) machine.home_X_MP = X * *machine.home_X_MP;
+  return machine;
+}
+
+Load turned(const Load& load, const Matrix3& R) {
+  Load result = load;
+  result.F << R * load.F.head<3>(), R * load.F.tail<3>();
+  return result;
+}
+
+}  // namespace
+
+TEST_CASE("a proof of stability is never wrong, and is found for most ordinary configurations") {
+  int proved = 0, unproved = 0, unstable = 0;
+  for_any_configurations(71, [&](const Model& model, const Configuration& c, const Load& load,
+                                 StaticsWork& work) {
+    const double ratio = stability(model, c, load, {}, work);
+    unstable += ratio < -1e-9;
+    evaluate_all(model, c, {}, work.impl());
+    const Matrix6 tangent = applied_wrench(model.mechanism, c.X_MP, load, 1).tangent;
+    const bool sure = surely_stable(model.mechanism, work.impl().chains, tangent, {model.mechanism.length});
+    if (sure) CHECK(ratio > 0);
+    (sure ? proved : unproved)++;
+  });
+  CHECK(proved > 20);
+  CHECK(unproved > 20);
+  CHECK(unstable > 20);
+}
+
+TEST_CASE("a bound on the condition is never below it, and is found for ordinary configurations") {
+  int proved = 0, near = 0;
+  for_any_configurations(
+      72, [&](const Model& model, const Configuration& c, const Load& load, StaticsWork& work) {
+        const double exact = static_condition(model, c, load, {}, work);
+        const Matrix6 tangent = applied_wrench(model.mechanism, c.X_MP, load, 1).tangent;
+        for (double limit = 10; limit < 1e11; limit *= 10) {
+          evaluate_all(model, c, {}, work.impl());
+          if (!surely_well_conditioned(model.mechanism, work.impl().chains, tangent, {model.mechanism.length},
+                                       limit))
+            continue;
+          CHECK(exact < limit);
+          ++proved;
+          near += exact > limit / 1e4;
+          break;
+        }
+      });
+  CHECK(proved > 60);
+  CHECK(near > 0);
+}
+
+TEST_CASE("the judgement of a solution is that of the eigenvalues, proof or no proof") {
+  for_any_configurations(
+      73, [&](const Model& model, const Configuration& c, const Load& load, StaticsWork& work) {
+        evaluate_all(model, c, {}, work.impl());
+        const bool stable = is_stable(model, c, {load, {}, nullptr}, work.impl());
+        CHECK(stable == (stability(model, c, load, {}, work) >= -1e-9));
+      });
+}
+
+TEST_CASE("the reference machines stay below a condition of 2e5") {
+  for (const Trial& trial : controlled_machines()) {
+    if (trial.name == "laws_mixed") continue;
+    CAPTURE(trial.name);
+    const Model model = model_of(trial.name);
+    StaticsWork work(model.mechanism);
+    Random random(74);
+    for (int n = 0; n < 3; ++n) {
+      const Configuration nominal = somewhere(model, trial, random).configuration;
+      const Load load = random.load(trial);
+      const Equilibrium e = solve_forward(model, nominal, load, {}, work);
+      REQUIRE(e.status == Status::converged);
+      CHECK(static_condition(model, e.configuration, load, {}, work) < 2e5);
+      CHECK(stability(model, e.configuration, load, {}, work) > -1e-9);
+    }
+  }
+}
+
+TEST_CASE("turning and moving the whole machine leaves its stability as it is and turns the answer") {
+  const Pose X{exp_so3({0.7, -1.1, 0.4}), {0.3, -0.2, 0.5}};
+  for (const Trial& trial : controlled_machines()) {
+    CAPTURE(trial.name);
+    const Machine machine = machine_of(trial.name);
+    const Model here = prepare(machine), there = prepare(placed(machine, X));
+    StaticsWork work_here(here.mechanism), work_there(there.mechanism);
+    CHECK(there.mechanism.length == doctest::Approx(here.mechanism.length).epsilon(1e-12));
+    Random random(75);
+    const Load load = random.load(trial), load_there = turned(load, X.R);
+    const Equilibrium a = solve_forward(here, here.home, load, {}, work_here);
+    const Equilibrium b = solve_forward(there, there.home, load_there, {}, work_there);
+    REQUIRE(a.status == Status::converged);
+    REQUIRE(b.status == Status::converged);
+    CHECK(difference(b.configuration.X_MP, X * a.configuration.X_MP).norm() < 1e-10);
+    const double ratio = stability(here, a.configuration, load, {}, work_here);
+    CHECK(std::abs(stability(there, b.configuration, load_there, {}, work_there) - ratio) <
+          1e-10 + 1e-6 * std::abs(ratio));
+    const double condition = static_condition(here, a.configuration, load, {}, work_here);
+    CHECK(static_condition(there, b.configuration, load_there, {}, work_there) ==
+          doctest::Approx(condition).epsilon(1e-6));
+  }
+}
+
+TEST_CASE(
+    "a straight pinned strut is stable below 2 k / a and unstable above, although its ends do not show it") {
+  const Model model = model_of("bar_buckling");  // k = 500 N m/rad, a = 0.2 m: 5000 N
+  StaticsWork work(model.mechanism);
+  for (const double P : {1000.0, 4990.0}) {
+    CAPTURE(P);
+    const Equilibrium e = solve_forward(model, model.home, {push(P), false}, {}, work);
+    CHECK(e.status == Status::converged);
+    CHECK(stability(model, e.configuration, {push(P), false}, {}, work) > 0);
+    CHECK(chain_stiffness(model, 0, e.configuration.chains[0], {}, work).K_C(2, 2) < 0);
+  }
+  for (const double P : {5010.0, 8000.0}) {
+    CAPTURE(P);
+    CHECK(solve_forward(model, model.home, {push(P), false}, {}, work).status == Status::unstable);
+  }
+}
+
+TEST_CASE("a buckled start finds the buckled form, which is stable above 2 k / a") {
+  const Model model = model_of("bar_buckling");
+  StaticsWork work(model.mechanism);
+  Configuration start = model.home;  // half angle of the kink
+  const double alpha = 0.4;
+  SeriesState& strut = start.chains[0];
+  for (const Part& part : model.mechanism.chains[0].parts) {
+    if (part.kind == PartKind::spring) strut.x[part.column + 4] = 2 * alpha;
+    if (part.kind == PartKind::passive) strut.x[part.column] = -alpha;
+  }
+  const double P = 5200, closed = P * 0.2 / (2 * 500);
+  const Equilibrium e = refine_forward(model, start, {push(P), false}, {}, work);
+  REQUIRE(e.status == Status::converged);
+  double kink = 0;
+  for (const Part& part : model.mechanism.chains[0].parts)
+    if (part.kind == PartKind::spring) kink = e.configuration.chains[0].x[part.column + 4];
+  const double half = std::abs(kink) / 2;
+  CHECK(half / std::sin(half) == doctest::Approx(closed).epsilon(1e-9));  // alpha / sin(alpha) = P a / 2k
+  CHECK(stability(model, e.configuration, {push(P), false}, {}, work) > 0);
+}
