@@ -1,0 +1,52 @@
+#include "check.hpp"
+
+#include <fmt/format.h>
+
+#include <optional>
+
+#include "commands.hpp"
+#include "outputs.hpp"
+
+namespace counterflex::cli {
+namespace {
+
+bool is_machine(const std::string& path) {
+  return path.ends_with(".toml");
+}
+
+Checked check_file(const std::string& path, const Options& options, const MachineInput* machine,
+                   Console& console) {
+  try {
+    return is_machine(path) ? check_machine(path, options) : check_program(path, options, machine, console);
+  } catch (const InputError& error) {
+    console.error(error.what());
+    return {"", {{"file", path}, {"error", error.what()}}, error.exit()};
+  }
+}
+
+}  // namespace
+
+std::string row(std::string_view what, std::string_view said) {
+  return fmt::format("{:<12} {}\n", what, said);
+}
+
+Exit run_check(const Options& options, Console& console) {
+  std::optional<MachineInput> machine;
+  if (!options.machine.empty()) machine = read_machine_input(options);
+  nlohmann::ordered_json files = nlohmann::ordered_json::array();
+  Exit exit = Exit::done;
+  std::string text;
+  for (const std::string& path : options.files) {
+    Checked checked = check_file(path, options, machine ? &*machine : nullptr, console);
+    if (exit == Exit::done) exit = checked.exit;
+    if (!checked.text.empty()) text += (text.empty() ? "" : "\n\n") + checked.text;
+    files.push_back(std::move(checked.json));
+  }
+  console.finish_warnings();
+  if (options.json)
+    text = nlohmann::ordered_json{{"schema", "counterflex-check 1"}, {"files", files}}.dump(2) + "\n";
+  write_result(text);
+  return exit;
+}
+
+}  // namespace counterflex::cli

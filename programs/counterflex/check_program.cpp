@@ -1,0 +1,193 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <optional>
+
+#include "check.hpp"
+#include "counterflex/geometry/units.hpp"
+#include "work.hpp"
+
+namespace counterflex::cli {
+namespace {
+
+constexpr double inf = std::numeric_limits<double>::infinity();
+
+/// What the moves of a program add up to; lengths in mm, program coordinates.
+struct MoveFacts {
+  std::size_t rapids = 0, feeds = 0, without_feed = 0, with_force = 0;
+  Vector3 least = Vector3::Constant(inf), most = Vector3::Constant(-inf);
+  double slowest = inf, fastest = 0;  ///< mm/min
+  double cutting_mm = 0, cutting_s = 0;
+  std::vector<std::string> offsets;
+  std::vector<LengthUnit> units;
+};
+
+template <typename T>
+void add_once(std::vector<T>& list, const T& value) {
+  if (std::find(list.begin(), list.end(), value) == list.end()) list.push_back(value);
+}
+
+void add_move(const Move& move, MoveFacts& facts) {
+  ++(move.motion == Motion::feed ? facts.feeds : facts.rapids);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto i = static_cast<Eigen::Index>(axis);
+    if (!move.known_end[axis]) continue;
+    facts.least[i] = std::min(facts.least[i], move.end_mm[i]);
+    facts.most[i] = std::max(facts.most[i], move.end_mm[i]);
+  }
+  add_once(facts.offsets, move.work_offset);
+  add_once(facts.units, move.unit);
+  facts.with_force += move.force.has_value();
+  if (move.motion != Motion::feed) return;
+  facts.without_feed += move.feed_mm_min <= 0;
+  if (move.feed_mm_min <= 0) return;
+  facts.slowest = std::min(facts.slowest, move.feed_mm_min);
+  facts.fastest = std::max(facts.fastest, move.feed_mm_min);
+}
+
+MoveFacts facts_of(const Program& program) {
+  MoveFacts facts;
+  for (const Move& move : program.moves) add_move(move, facts);
+  const Toolpath path = build_toolpath(program, {});
+  if (path.segments.empty()) return facts;
+  facts.cutting_mm = path.segments.back().s_end / mm;
+  facts.cutting_s = path.segments.back().t_end;
+  return facts;
+}
+
+std::string units_text(const MoveFacts& facts) {
+  std::string text;
+  for (const LengthUnit unit : facts.units) {
+    text += text.empty() ? "" : " and ";
+    text += unit == LengthUnit::mm ? "mm" : "inch";
+  }
+  return text.empty() ? "no move says" : text;
+}
+
+std::string feeds_text(const MoveFacts& facts) {
+  std::string text = facts.fastest == 0
+                         ? "none programmed"
+                         : fmt::format("{:.6g} to {:.6g} mm/min", facts.slowest, facts.fastest);
+  if (facts.without_feed > 0) text += fmt::format("; {} feed moves without F", facts.without_feed);
+  return text;
+}
+
+std::string extents_text(const MoveFacts& facts) {
+  std::string text;
+  for (int i = 0; i < 3; ++i) {
+    text += fmt::format("{}{} ", i == 0 ? "" : ", ", "XYZ"[i]);
+    text += facts.least[i] > facts.most[i] ? "unknown"
+                                           : fmt::format("{:.6g} to {:.6g}", facts.least[i], facts.most[i]);
+  }
+  return text + " mm";
+}
+
+std::string offsets_text(const MoveFacts& facts) {
+  std::string text;
+  for (const std::string& offset : facts.offsets) {
+    text += text.empty() ? "" : ", ";
+    text += offset.empty() ? "none selected" : offset;
+  }
+  return text.empty() ? "none selected" : text;
+}
+
+std::string text_of(const Program& program, const MoveFacts& facts) {
+  std::string text = row("file", program.file) + row("program", fmt::format("dialect {}", program.dialect));
+  text += row("units", units_text(facts));
+  text += row("blocks", fmt::format("{}, of them {} moves: {} feeds, {} rapids", program.block_count,
+                                    program.moves.size(), facts.feeds, facts.rapids));
+  text += row("cutting",
+              fmt::format("{:.6g} mm, {:.6g} s at programmed feeds", facts.cutting_mm, facts.cutting_s));
+  text += row("feeds", feeds_text(facts));
+  text += row("extents", extents_text(facts));
+  text += row("offsets", offsets_text(facts));
+  if (facts.with_force > 0)
+    text += row("forces", fmt::format("FORCE comments act on {} moves", facts.with_force));
+  if (is_corrected(program))
+    text += row("header", "COUNTERFLEX 1: a corrected program, not compensated again");
+  if (!program.left_alone.empty()) text += "\nnot corrected\n";
+  for (const LeftAlone& block : program.left_alone)
+    text += fmt::format("  line {:<6} {}\n", block.line, block.why);
+  if (!program.remarks.empty()) text += "\nremarks\n";
+  for (const Remark& remark : program.remarks)
+    text += fmt::format("  line {:<6} {}\n", remark.line, remark.what);
+  return text;
+}
+
+nlohmann::ordered_json extent_json(double value) {
+  if (!std::isfinite(value)) return nullptr;
+  return value;
+}
+
+nlohmann::ordered_json json_of(const Program& program, const MoveFacts& facts) {
+  nlohmann::ordered_json json{{"file", program.file},
+                              {"kind", "program"},
+                              {"dialect", program.dialect},
+                              {"units", units_text(facts)},
+                              {"corrected", is_corrected(program)},
+                              {"blocks", program.block_count},
+                              {"moves", program.moves.size()},
+                              {"feeds", facts.feeds},
+                              {"rapids", facts.rapids},
+                              {"cutting_mm", facts.cutting_mm},
+                              {"cutting_s", facts.cutting_s},
+                              {"offsets", facts.offsets}};
+  auto& extents = json["extents_mm"] = nlohmann::ordered_json::object();
+  for (int i = 0; i < 3; ++i)
+    extents[std::string(1, "xyz"[i])] = {extent_json(facts.least[i]), extent_json(facts.most[i])};
+  json["left_alone"] = json["remarks"] = nlohmann::ordered_json::array();
+  for (const LeftAlone& block : program.left_alone)
+    json["left_alone"].push_back({{"line", block.line}, {"why", block.why}});
+  for (const Remark& remark : program.remarks)
+    json["remarks"].push_back({{"line", remark.line}, {"what", remark.what}});
+  return json;
+}
+
+/// The first end of a segment that the nominal machine does not reach.
+std::optional<Failure> first_unreached(const Model& model, const Toolpath& path) {
+  const Matrix3 R_home = tip(model.mechanism, model.home).R;
+  Configuration at = model.home;
+  for (const Segment& segment : path.segments) {
+    NominalResult next = follow(model, at, {R_home, segment.p_MT_end});
+    if (next.status != Status::converged)
+      return Failure{
+          Exit::not_compensated, segment.line,
+          fmt::format("the machine does not reach the end of this move: {}", to_string(next.status))};
+    at = std::move(next.configuration);
+    if (!within_travel(model.mechanism, actuator_values(model.mechanism, at)))
+      return Failure{Exit::limit, segment.line,
+                     "an actuator leaves its travel on the way to the end of this move"};
+  }
+  return std::nullopt;
+}
+
+void check_reach(const Program& program, const MachineInput& input, Checked& checked, Console& console) {
+  const WorkPlace work = place_work(input.machine, input.model, shown_name(input.file.path), program);
+  if (!work.assumption.empty()) console.warning(program.file, 0, work.assumption);
+  const Toolpath path = build_toolpath(program, wanted_frame(work));
+  const auto failure = first_unreached(input.model, path);
+  checked.json["reached"] = !failure;
+  if (!failure) {
+    checked.text +=
+        row("reach", fmt::format("{} reaches the ends of all moves", shown_name(input.file.path)));
+    return;
+  }
+  checked.text += row("reach", fmt::format("line {}: {}", failure->line, failure->what));
+  checked.exit = failure->exit;
+  console.error(located(program.file, *failure));
+}
+
+}  // namespace
+
+Checked check_program(const std::string& path, const Options& options, const MachineInput* machine,
+                      Console& console) {
+  const ProgramInput input =
+      read_program_input("program", path, options, machine ? &machine->machine : nullptr);
+  const MoveFacts facts = facts_of(input.program);
+  Checked checked{text_of(input.program, facts), json_of(input.program, facts), Exit::done};
+  if (machine != nullptr) check_reach(input.program, *machine, checked, console);
+  return checked;
+}
+
+}  // namespace counterflex::cli

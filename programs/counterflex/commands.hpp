@@ -1,0 +1,16 @@
+#pragma once
+/// The commands. Each throws `InputError` for what is wrong with its inputs, before anything is written, and
+/// returns the exit status otherwise.
+#include "console.hpp"
+#include "counterflex/files/input_error.hpp"
+#include "options.hpp"
+
+namespace counterflex::cli {
+
+Exit run_compensate(const Options& options, Console& console);
+Exit run_predict(const Options& options, Console& console);
+Exit run_verify(const Options& options, Console& console);
+Exit run_analyze(const Options& options, Console& console);
+Exit run_check(const Options& options, Console& console);
+
+}  // namespace counterflex::cli

@@ -1,0 +1,103 @@
+#include "console.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <cstdlib>
+
+namespace counterflex::cli {
+namespace {
+
+constexpr int warnings_shown = 20;
+
+bool colours_on(int descriptor) {
+  const char* no_colour = std::getenv("NO_COLOR");
+  const char* terminal = std::getenv("TERM");
+  if (no_colour != nullptr && *no_colour != '\0') return false;
+  return ::isatty(descriptor) == 1 && terminal != nullptr && std::string_view(terminal) != "dumb";
+}
+
+/// `word` of a diagnostic in colour, where it first stands as ": word: ", or at the beginning.
+std::string painted(std::string_view diagnostic, std::string_view word, int colour) {
+  std::string text(diagnostic);
+  const std::string marked = fmt::format("{}: ", word);
+  const std::size_t at = text.starts_with(marked) ? 0 : text.find(": " + marked);
+  if (at == std::string::npos) return text;
+  return text.replace(at == 0 ? 0 : at + 2, word.size() + 1,
+                      fmt::format("\033[1;{}m{}:\033[0m", colour, word));
+}
+
+/// What cannot be said on standard error cannot be said at all: no reason to fail.
+void say(const std::string& text) {
+  std::fputs(text.c_str(), stderr);
+}
+
+}  // namespace
+
+Console::Console(const Options& options)
+    : quiet_(options.quiet),
+      verbose_(options.verbose && !options.quiet),
+      terminal_(::isatty(STDERR_FILENO) == 1),
+      colour_(colours_on(STDERR_FILENO)),
+      colour_out_(colours_on(STDOUT_FILENO)) {}
+
+Console::~Console() {
+  erase_progress();
+}
+
+void Console::erase_progress() {
+  if (showing_progress_) say("\r\033[K");
+  showing_progress_ = false;
+}
+
+void Console::warning(const std::string& file, int line, std::string_view what) {
+  if (quiet_ || ++warnings_[file] > warnings_shown) return;
+  erase_progress();
+  const std::string text = line > 0 ? fmt::format("{}:{}: warning: {}", file, line, what)
+                                    : fmt::format("{}: warning: {}", file, what);
+  say((colour_ ? painted(text, "warning", 35) : text) + "\n");
+}
+
+void Console::finish_warnings() {
+  for (const auto& [file, count] : warnings_)
+    if (!quiet_ && count > warnings_shown)
+      say(fmt::format("{}: {} more warnings; a report lists them\n", file, count - warnings_shown));
+  warnings_.clear();
+}
+
+void Console::detail(std::string_view what) {
+  if (!verbose_) return;
+  erase_progress();
+  say(fmt::format("{}\n", what));
+}
+
+void Console::note(std::string_view text) {
+  if (quiet_) return;
+  erase_progress();
+  say(std::string(text));
+}
+
+void Console::progress(std::string_view what) {
+  if (quiet_ || !terminal_) return;
+  erase_progress();
+  say(fmt::format("{} ...", what));
+  std::fflush(stderr);
+  showing_progress_ = true;
+}
+
+void Console::error(std::string_view diagnostic) {
+  erase_progress();
+  say((colour_ ? painted(diagnostic, "error", 31) : std::string(diagnostic)) + "\n");
+}
+
+std::string located(const std::string& file, const Failure& failure) {
+  if (failure.line > 0) return fmt::format("{}:{}:1: error: {}", file, failure.line, failure.what);
+  return fmt::format("{}: error: {}", file, failure.what);
+}
+
+std::string shown_name(const std::string& path) {
+  return path == "-" ? "<stdin>" : path;
+}
+
+}  // namespace counterflex::cli

@@ -1,0 +1,57 @@
+#pragma once
+/// Standard error: warnings, what is being done, and errors. Results go to standard output, not through here.
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "counterflex/compensation/options.hpp"
+#include "options.hpp"
+
+namespace counterflex::cli {
+
+class Console {
+ public:
+  explicit Console(const Options& options);
+  ~Console();
+  Console(const Console&) = delete;
+  Console& operator=(const Console&) = delete;
+
+  /// "file:line: warning: what"; at most 20 of a file, `finish_warnings` counts the others. Line 0: none.
+  void warning(const std::string& file, int line, std::string_view what);
+  void finish_warnings();
+
+  /// Told with --verbose only.
+  void detail(std::string_view what);
+
+  /// A text of several lines, unless --quiet.
+  void note(std::string_view text);
+
+  /// What is going on at the moment, on one line that the next output replaces; only where standard error is
+  /// a terminal.
+  void progress(std::string_view what);
+
+  /// A diagnostic as `InputError::what()` has it.
+  void error(std::string_view diagnostic);
+
+  /// Whether text on standard output may hold colours.
+  bool colour_out() const { return colour_out_; }
+
+  /// And text on standard error.
+  bool colour_error() const { return colour_; }
+
+ private:
+  void erase_progress();
+
+  bool quiet_, verbose_, terminal_, colour_, colour_out_;
+  bool showing_progress_ = false;
+  std::map<std::string, int> warnings_;
+};
+
+/// "file:line:1: error: what"; without a line "file: error: what".
+std::string located(const std::string& file, const Failure& failure);
+
+/// How diagnostics name a file: "-" as "<stdin>".
+std::string shown_name(const std::string& path);
+
+}  // namespace counterflex::cli

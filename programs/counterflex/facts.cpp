@@ -1,0 +1,88 @@
+#include "facts.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cctype>
+
+#include "counterflex/geometry/units.hpp"
+#include "version.hpp"
+
+namespace counterflex::cli {
+namespace {
+
+std::string name_of(Method method) {
+  switch (method) {
+    case Method::direct:
+      return "direct";
+    case Method::nested:
+      return "nested";
+    case Method::linear:
+      return "linear";
+  }
+  return {};
+}
+
+std::string text_of(const Vector6& F) {
+  return fmt::format("{},{},{},{},{},{}", F[0], F[1], F[2], F[3], F[4], F[5]);
+}
+
+std::string upper(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+  return text;
+}
+
+std::string short_hash(const InputFile& file) {
+  return upper(file.sha256.substr(0, 16));
+}
+
+/// Millimetres of what was given in millimetres: 0.005, not 0.0049999999.
+double in_mm(double length) {
+  return std::round(length / mm * 1e12) / 1e12;
+}
+
+std::vector<OptionValue> reading_options(const Options& options, const Run& run) {
+  std::vector<OptionValue> values{{"dialect", run.program.program.dialect}};
+  if (options.units)
+    values.push_back({"units", std::string(*options.units == LengthUnit::mm ? "mm" : "inch")});
+  if (options.integer_words != IntegerWords::unsaid)
+    values.push_back({"integer-words",
+                      std::string(options.integer_words == IntegerWords::units ? "units" : "increments")});
+  for (const std::string& work : options.work) values.push_back({"work", work});
+  return values;
+}
+
+}  // namespace
+
+RunFacts facts_of(const Options& options, const Run& run) {
+  RunFacts facts;
+  facts.version = version;
+  facts.work_offset = run.work.name;
+  facts.attribution = true;
+  facts.inputs = {run.program.file, run.machine.file};
+  if (run.force_input.file) facts.inputs.push_back(*run.force_input.file);
+  facts.options = {{"method", name_of(options.method)},
+                   {"tolerance-mm", in_mm(run.options.tolerance)},
+                   {"max-correction-mm", in_mm(run.options.max_correction)},
+                   {"load-scale", options.load_scale},
+                   {"blend-mm", in_mm(options.blend)}};
+  if (options.force) facts.options.push_back({"force", text_of(*options.force)});
+  if (options.decimals >= 0) facts.options.push_back({"decimals", static_cast<double>(options.decimals)});
+  for (OptionValue& value : reading_options(options, run)) facts.options.push_back(std::move(value));
+  return facts;
+}
+
+std::vector<std::string> header_of(const Run& run) {
+  std::vector<std::string> lines{
+      fmt::format("COUNTERFLEX 1 VERSION {} METHOD {}", upper(version), upper(name_of(run.options.method))),
+      "COUNTERFLEX 1 PROGRAM " + short_hash(run.program.file),
+      "COUNTERFLEX 1 MACHINE " + short_hash(run.machine.file)};
+  if (run.force_input.file) lines.push_back("COUNTERFLEX 1 FORCES " + short_hash(*run.force_input.file));
+  if (run.force_input.source.constant)
+    lines.push_back("COUNTERFLEX 1 FORCE " + upper(text_of(*run.force_input.source.constant)));
+  return lines;
+}
+
+}  // namespace counterflex::cli

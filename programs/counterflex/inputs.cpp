@@ -1,0 +1,137 @@
+#include "inputs.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "counterflex/files/files.hpp"
+#include "counterflex/geometry/units.hpp"
+#include "counterflex/machine/read_machine.hpp"
+#include "values.hpp"
+
+namespace counterflex::cli {
+namespace {
+
+constexpr double largest_condition = 1e6;  // as for waypoints
+
+void override_work(const Options& options, Machine& machine) {
+  for (const std::string& text : options.work) {
+    const auto [name, X_MW] = work_of(text);
+    machine.work[name] = WorkOffset{X_MW, {}};
+  }
+}
+
+std::optional<LengthUnit> unit_of(const Options& options, const Machine* machine) {
+  if (options.units || machine == nullptr || machine->control.units.empty()) return options.units;
+  return machine->control.units == "inch" ? LengthUnit::inch : LengthUnit::mm;
+}
+
+InputFile input_file(const std::string& role, const std::string& path, const std::string& bytes) {
+  return {role, path, sha256(bytes)};
+}
+
+}  // namespace
+
+std::string read_input(const std::string& path, Exit unreadable) {
+  std::error_code ignored;
+  if (path != "-" && std::filesystem::is_directory(path, ignored))
+    throw InputError(unreadable, {path}, "cannot read the file: it is a folder");
+  try {
+    return read_file(path);
+  } catch (const InputError& error) {
+    if (unreadable == error.exit()) throw;
+    const std::string what = error.what();
+    const std::size_t at = what.find("cannot read");
+    throw InputError(unreadable, error.where(), at == std::string::npos ? what : what.substr(at));
+  }
+}
+
+void refuse_home(const Model& model, const std::string& file) {
+  if (model.home_status != Status::converged)
+    throw InputError(
+        Exit::machine_or_force, {file},
+        fmt::format("home does not close: its chains miss each other by {:.3g} (m and rad), at most 1e-7 is "
+                    "allowed; check [home], the joints' home values and the chains' lengths",
+                    model.home_gap));
+  if (model.mechanism.travel.empty()) return;
+  const double condition = actuator_jacobian(model, model.home).condition;
+  if (condition <= largest_condition) return;
+  throw InputError(
+      Exit::machine_or_force, {file},
+      fmt::format("home is singular: the matrix from actuators to the tip has condition {:.3g}, at most "
+                  "1e6 is allowed; give joints other home values (home_deg, home_mm), or [home]",
+                  condition));
+}
+
+MachineInput read_machine_input(const Options& options) {
+  const std::string text = read_input(options.machine, Exit::machine_or_force);
+  const std::string name = shown_name(options.machine);
+  MachineInput input{input_file("machine", options.machine, text), read_machine(text, name), {}};
+  override_work(options, input.machine);
+  input.model = prepare(input.machine);
+  refuse_home(input.model, name);
+  return input;
+}
+
+ReadOptions read_options(const Options& options, const Machine* machine) {
+  ReadOptions read;
+  if (machine != nullptr) read.dialect = machine->control.dialect;
+  if (options.dialect) read.dialect = *options.dialect;
+  read.unit = unit_of(options, machine);
+  read.integer_words = options.integer_words;
+  if (machine != nullptr && machine->control.tool_change_moves) {
+    read.tool_change_moves.emplace();
+    for (const std::string& axis : *machine->control.tool_change_moves)
+      read.tool_change_moves->push_back(axis[0]);
+  }
+  return read;
+}
+
+ProgramInput read_program_input(const std::string& role, const std::string& path, const Options& options,
+                                const Machine* machine) {
+  std::string text = read_input(path, Exit::usage);
+  const InputFile file = input_file(role, path, text);
+  return {file, read_program(std::move(text), shown_name(path), read_options(options, machine))};
+}
+
+void warn_of(const Program& program, Console& console) {
+  for (const Remark& remark : program.remarks) console.warning(program.file, remark.line, remark.what);
+  for (const LeftAlone& block : program.left_alone)
+    console.warning(program.file, block.line, "not corrected: " + block.why);
+}
+
+void refuse_two_forces(const Options& options, const Program& program) {
+  if (options.force && options.forces)
+    throw InputError(Exit::usage, {}, "--force and --forces are both given; one of them says the force");
+  if (!options.force && !options.forces) return;
+  const auto move = std::find_if(program.moves.begin(), program.moves.end(),
+                                 [](const Move& m) { return m.force.has_value(); });
+  if (move == program.moves.end()) return;
+  throw InputError(
+      Exit::usage, {program.file, move->line},
+      fmt::format("the program's FORCE comments and {} are both given; one of them says the force",
+                  options.force ? "--force" : "--forces"));
+}
+
+ForceInput read_force_input(const Options& options, const Program& program) {
+  refuse_two_forces(options, program);
+  ForceInput input;
+  input.source.blend = options.blend;
+  input.source.scale = options.load_scale;
+  input.source.constant = options.force;
+  if (!options.forces) return input;
+  const std::string extension = std::filesystem::path(*options.forces).extension().string();
+  if (extension == ".toml")
+    throw InputError(Exit::machine_or_force, {*options.forces},
+                     "cutting-force models are not read yet; .csv is");
+  if (extension != ".csv")
+    throw InputError(Exit::usage, {*options.forces},
+                     fmt::format("a force file is .csv or .toml, not '{}'", extension));
+  const std::string text = read_input(*options.forces, Exit::machine_or_force);
+  input.file = input_file("forces", *options.forces, text);
+  input.source.profile = read_force_csv(text, *options.forces);
+  return input;
+}
+
+}  // namespace counterflex::cli

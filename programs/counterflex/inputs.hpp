@@ -1,0 +1,55 @@
+#pragma once
+/// Reads what a run needs, and places it in the machine frame. All throw `InputError` with the exit status of
+/// what is wrong.
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "console.hpp"
+#include "counterflex/forces/forces.hpp"
+#include "counterflex/program/read_program.hpp"
+#include "counterflex/report/report.hpp"
+#include "counterflex/statics/equilibrium.hpp"
+#include "options.hpp"
+
+namespace counterflex::cli {
+
+/// A file's bytes. Unreadable: exit status `unreadable`.
+std::string read_input(const std::string& path, Exit unreadable);
+
+/// A machine with its work table overridden by --work, and its model, whose home is fit to start from.
+struct MachineInput {
+  InputFile file;
+  Machine machine;
+  Model model;
+};
+MachineInput read_machine_input(const Options& options);
+
+/// Throws (Exit::machine_or_force) where home misses its closures or is singular.
+void refuse_home(const Model& model, const std::string& file);
+
+/// How `options`, and `machine` where they are silent, say that programs are read.
+ReadOptions read_options(const Options& options, const Machine* machine);
+
+struct ProgramInput {
+  InputFile file;
+  Program program;
+};
+ProgramInput read_program_input(const std::string& role, const std::string& path, const Options& options,
+                                const Machine* machine);
+
+/// Warns of what the reader remarked and left alone.
+void warn_of(const Program& program, Console& console);
+
+/// Where the forces come from; `file` is empty unless from one.
+struct ForceInput {
+  std::optional<InputFile> file;
+  ForceSource source;
+};
+ForceInput read_force_input(const Options& options, const Program& program);
+
+/// Refuses more than one of --force, a force file, and FORCE comments (Exit::usage).
+void refuse_two_forces(const Options& options, const Program& program);
+
+}  // namespace counterflex::cli

@@ -1,0 +1,61 @@
+/// counterflex: bends a machining program the other way.
+#include <exception>
+#include <string>
+
+#include "command_line.hpp"
+#include "commands.hpp"
+#include "signals.hpp"
+
+namespace counterflex::cli {
+namespace {
+
+Exit run_command(const Options& options, Console& console) {
+  switch (options.command) {
+    case Command::compensate:
+      return run_compensate(options, console);
+    case Command::predict:
+      return run_predict(options, console);
+    case Command::verify:
+      return run_verify(options, console);
+    case Command::analyze:
+      return run_analyze(options, console);
+    case Command::check:
+      return run_check(options, console);
+  }
+  return Exit::internal;
+}
+
+/// Turns whatever `run` throws into a diagnostic and an exit status.
+template <typename Run>
+Exit guarded(Console& console, const Run& run) {
+  try {
+    return run();
+  } catch (const InputError& error) {
+    console.error(error.what());
+    return error.exit();
+  } catch (const std::exception& error) {
+    console.error(std::string("error: internal error: ") + error.what());
+  } catch (...) {
+    console.error("error: internal error");
+  }
+  return Exit::internal;
+}
+
+Exit run(int argc, char** argv) {
+  Console plain{Options{}};
+  return guarded(plain, [&] {
+    const auto command_line = read_command_line(argc, argv);
+    if (const Exit* exit = std::get_if<Exit>(&command_line)) return *exit;
+    const Options& options = std::get<Options>(command_line);
+    Console console(options);
+    return guarded(console, [&] { return run_command(options, console); });
+  });
+}
+
+}  // namespace
+}  // namespace counterflex::cli
+
+int main(int argc, char** argv) {
+  counterflex::cli::end_on_signals();
+  return static_cast<int>(counterflex::cli::run(argc, argv));
+}

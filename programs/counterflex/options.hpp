@@ -1,0 +1,46 @@
+#pragma once
+/// What the command line says, as plain data. Texts that need a file to make sense of them stay texts.
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "counterflex/compensation/options.hpp"
+#include "counterflex/program/program.hpp"
+
+namespace counterflex::cli {
+
+enum class Command { compensate, predict, verify, analyze, check };
+
+struct Options {
+  Command command = Command::check;
+
+  std::string program;             ///< verify: the original
+  std::string corrected;           ///< verify alone
+  std::vector<std::string> files;  ///< check alone
+  std::string machine;             ///< empty: none, which check alone allows
+
+  std::optional<std::string> forces;  ///< a file
+  std::optional<Vector6> force;       ///< N, N m
+  double load_scale = 1;
+  double blend = 2e-3;  ///< m
+
+  std::optional<std::string> dialect;
+  std::optional<LengthUnit> units;
+  IntegerWords integer_words = IntegerWords::unsaid;
+  std::vector<std::string> work;  ///< "G54=X,Y,Z[,RX,RY,RZ]"
+  std::vector<std::string> at;    ///< "X,Y,Z[,R,P,Y]"
+
+  Method method = Method::direct;
+  double tolerance = 5e-6;               ///< m
+  std::optional<double> max_correction;  ///< m; none: the machine file's
+  int decimals = -1;                     ///< -1: each word's own
+  int threads = 1;
+
+  std::optional<std::string> output;
+  std::optional<std::string> report;  ///< stem
+  bool json = false;
+  bool quiet = false;
+  bool verbose = false;
+};
+
+}  // namespace counterflex::cli

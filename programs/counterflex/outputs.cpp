@@ -1,0 +1,102 @@
+#include "outputs.hpp"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+
+#include "counterflex/files/files.hpp"
+#include "counterflex/files/input_error.hpp"
+#include "signals.hpp"
+
+namespace counterflex::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// By file where both exist, else by name.
+bool same_file(const std::string& a, const std::string& b) {
+  if (a == "-" || b == "-") return false;
+  std::error_code error;
+  if (fs::equivalent(a, b, error)) return true;
+  return fs::weakly_canonical(a, error) == fs::weakly_canonical(b, error);
+}
+
+std::vector<std::string> inputs_of(const Options& options) {
+  std::vector<std::string> inputs{options.program, options.machine};
+  if (!options.corrected.empty()) inputs.push_back(options.corrected);
+  if (options.forces) inputs.push_back(*options.forces);
+  return inputs;
+}
+
+void check_place(const std::string& path) {
+  if (path == "-") return;
+  std::error_code ignored;
+  if (path.empty() || fs::is_directory(path, ignored))
+    throw InputError(Exit::usage, {},
+                     fmt::format("cannot write to '{}': it is not the name of a file", path));
+  const fs::path folder = fs::path(path).parent_path();
+  if (!folder.empty() && !fs::is_directory(folder, ignored))
+    throw InputError(Exit::transient_io, {path}, "cannot write the file: its folder does not exist");
+}
+
+void check_paths(const std::vector<std::string>& outputs, const std::vector<std::string>& inputs) {
+  for (std::size_t i = 0; i < outputs.size(); ++i) {
+    check_place(outputs[i]);
+    for (const std::string& input : inputs)
+      if (same_file(outputs[i], input))
+        throw InputError(Exit::usage, {outputs[i]},
+                         fmt::format("is the input {}, which is never overwritten", input));
+    for (std::size_t k = 0; k < i; ++k)
+      if (same_file(outputs[i], outputs[k]))
+        throw InputError(Exit::usage, {outputs[i]}, "is to hold two different outputs");
+  }
+}
+
+}  // namespace
+
+std::string default_output(const std::string& program) {
+  if (program == "-") return "-";
+  const fs::path path(program);
+  return (path.parent_path() / (path.stem().string() + ".comp" + path.extension().string())).string();
+}
+
+OutputPaths output_paths(const Options& options) {
+  OutputPaths paths;
+  std::vector<std::string> outputs;
+  if (options.command == Command::compensate) {
+    paths.program = options.output.value_or(default_output(options.program));
+    outputs.push_back(paths.program);
+  }
+  if (options.report) {
+    if (options.report->empty() || *options.report == "-")
+      throw InputError(Exit::usage, {},
+                       "--report takes the stem of the names of two files, not standard output");
+    paths.report_json = *options.report + ".json";
+    paths.report_csv = *options.report + ".csv";
+    outputs.insert(outputs.end(), {paths.report_json, paths.report_csv});
+  }
+  if (paths.program == "-" && options.json)
+    throw InputError(
+        Exit::usage, {},
+        "the program and the document of --json cannot both go to standard output; give -o a file");
+  check_paths(outputs, inputs_of(options));
+  return paths;
+}
+
+void write_files(const std::vector<OutputFile>& files) {
+  {
+    const HeldSignals held;
+    for (const OutputFile& file : files)
+      if (!file.path.empty() && file.path != "-") write_file(file.path, file.bytes);
+  }
+  for (const OutputFile& file : files)
+    if (file.path == "-") write_result(file.bytes);
+}
+
+void write_result(std::string_view text) {
+  write_file("-", text);
+}
+
+}  // namespace counterflex::cli

@@ -1,0 +1,131 @@
+#include "run.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "counterflex/geometry/units.hpp"
+#include "facts.hpp"
+
+namespace counterflex::cli {
+namespace {
+
+/// Standard input can be read once.
+void refuse_stdin_twice(const Options& options) {
+  const std::string forces = options.forces.value_or("");
+  int count = 0;
+  for (const std::string* path : {&options.program, &options.corrected, &options.machine, &forces})
+    count += *path == "-";
+  if (count > 1) throw InputError(Exit::usage, {}, "standard input (-) can be only one of the inputs");
+}
+
+/// Orientations of the tool along the path: one for all where every move has home's, else one a segment.
+std::vector<Matrix3> tool_orientations(const Model& model, const Toolpath& path, const ForceSource& source) {
+  const Matrix3 R_home = tip(model.mechanism, model.home).R;
+  const bool needed = source.profile && (source.profile->frame == ForceFrame::tool ||
+                                         source.profile->frame == ForceFrame::feed);
+  if (!needed || path.segments.empty()) return {R_home};
+  std::vector<Matrix3> R_MT;
+  Configuration at = model.home;
+  for (const Segment& segment : path.segments) {
+    NominalResult next = follow(model, at, {R_home, (segment.p_MT_start + segment.p_MT_end) / 2});
+    if (next.status == Status::converged) at = std::move(next.configuration);  // else said where it is solved
+    R_MT.push_back(tip(model.mechanism, at).R);
+  }
+  return R_MT;
+}
+
+/// A component of the position that the machine does not control has to keep its value.
+void refuse_uncontrolled_moves(const Run& run) {
+  const auto& controlled = run.machine.machine.controlled;
+  if (controlled.empty() || run.path.segments.empty()) return;
+  const Vector3 first = run.path.segments.front().p_MT_start;
+  for (int c = 0; c < 3; ++c) {
+    if (std::find(controlled.begin(), controlled.end(), static_cast<Component>(c)) != controlled.end())
+      continue;
+    for (const Segment& segment : run.path.segments)
+      for (const Vector3& p : {segment.p_MT_start, segment.p_MT_end})
+        if (std::abs(p[c] - first[c]) > 1e-9)
+          throw InputError(
+              Exit::program_text, {run.program.program.file, segment.line, 1},
+              fmt::format("the move changes {} of the machine frame from {:.6g} to {:.6g} mm, which the "
+                          "machine does not control",
+                          "xyz"[c], first[c] / mm, p[c] / mm));
+  }
+}
+
+CompensationOptions compensation_options(const Options& options, const Machine& machine) {
+  CompensationOptions result;
+  result.method = options.method;
+  result.tolerance = options.tolerance;
+  result.max_correction = options.max_correction.value_or(machine.max_correction);
+  result.threads = options.threads;
+  result.write.decimals = options.decimals;
+  return result;
+}
+
+void warn_of_run(Run& run, Console& console) {
+  const Program& program = run.program.program;
+  warn_of(program, console);
+  for (const ForceNote& note : run.forces->notes()) console.warning(program.file, note.line, note.what);
+  if (!run.work.assumption.empty()) run.facts.warnings.push_back({0, run.work.assumption});
+  for (const Remark& warning : run.facts.warnings) console.warning(program.file, warning.line, warning.what);
+  console.detail(fmt::format("{}: dialect {}, {} blocks, {} moves, {} segments", program.file,
+                             program.dialect, program.block_count, program.moves.size(),
+                             run.path.segments.size()));
+}
+
+}  // namespace
+
+Job Run::job() const {
+  return {machine.model, program.program, path, *forces, work.X_MW, work.datum_shift, options};
+}
+
+std::unique_ptr<Run> prepare_run(const Options& options, Console& console) {
+  refuse_stdin_twice(options);
+  console.progress("reading");
+  auto run = std::make_unique<Run>();
+  run->machine = read_machine_input(options);
+  run->program = read_program_input("program", options.program, options, &run->machine.machine);
+  const Program& program = run->program.program;
+  run->force_input = read_force_input(options, program);
+  run->work = place_work(run->machine.machine, run->machine.model, shown_name(options.machine), program);
+  run->path = build_toolpath(program, wanted_frame(run->work));
+  refuse_uncontrolled_moves(*run);
+  const ForceSource& source = run->force_input.source;
+  run->forces.emplace(source, program, run->path, tool_orientations(run->machine.model, run->path, source));
+  run->options = compensation_options(options, run->machine.machine);
+  run->facts = facts_of(options, *run);
+  warn_of_run(*run, console);
+  return run;
+}
+
+void refuse_what_cannot_be_compensated(const Run& run) {
+  const Program& program = run.program.program;
+  if (run.machine.machine.controlled.empty())
+    throw InputError(
+        Exit::machine_or_force, {shown_name(run.machine.file.path)},
+        "controlled = [] allows analysis alone; name the components of the tip that the program controls");
+  if (is_corrected(program))
+    throw InputError(
+        Exit::program_text, {program.file, 1, 1},
+        "the header says that this program is already corrected (COUNTERFLEX 1); nothing is compensated "
+        "twice");
+}
+
+void deliver(const Options& options, const OutputPaths& paths, const RunReport& report,
+             const std::vector<Waypoint>& waypoints, const std::string* program, Console& console) {
+  const CsvColumns columns{true, report.command != counterflex::Command::predict};
+  std::vector<OutputFile> files;
+  if (!paths.report_json.empty()) files.push_back({paths.report_json, to_json(report)});
+  if (!paths.report_csv.empty()) files.push_back({paths.report_csv, to_csv(waypoints, columns)});
+  if (program != nullptr) files.push_back({paths.program, *program});
+  write_files(files);
+  console.finish_warnings();
+  if (options.json) return write_result(to_json(report));
+  if (paths.program == "-") return console.note(summary_text(report, console.colour_error()));
+  write_result(summary_text(report, console.colour_out()));
+}
+
+}  // namespace counterflex::cli

@@ -1,0 +1,23 @@
+#pragma once
+/// Interrupts. A run that is interrupted leaves with status 130 and with nothing half-written.
+#include <csignal>
+
+namespace counterflex::cli {
+
+/// From here on SIGINT, SIGTERM and SIGHUP end the program with status 130, unless they were ignored before;
+/// a pipe that nobody reads any more makes writing fail.
+void end_on_signals();
+
+/// While it lives, these signals wait: for the writing of files that belong together.
+class HeldSignals {
+ public:
+  HeldSignals();
+  ~HeldSignals();
+  HeldSignals(const HeldSignals&) = delete;
+  HeldSignals& operator=(const HeldSignals&) = delete;
+
+ private:
+  sigset_t before_;
+};
+
+}  // namespace counterflex::cli

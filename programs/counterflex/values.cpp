@@ -1,0 +1,87 @@
+#include "values.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+
+#include "counterflex/files/input_error.hpp"
+#include "counterflex/files/numbers.hpp"
+#include "counterflex/geometry/units.hpp"
+
+namespace counterflex::cli {
+namespace {
+
+std::vector<std::string_view> split(std::string_view text) {
+  std::vector<std::string_view> parts;
+  for (;;) {
+    const std::size_t comma = text.find(',');
+    std::string_view part = text.substr(0, comma);
+    part.remove_prefix(std::min(part.find_first_not_of(' '), part.size()));
+    parts.push_back(part.substr(0, part.find_last_not_of(' ') + 1));
+    if (comma == std::string_view::npos) return parts;
+    text.remove_prefix(comma + 1);
+  }
+}
+
+/// G54 ... G59, G59.1 ... G59.3, in upper case.
+std::string offset_name(std::string_view text) {
+  std::string name(text);
+  if (!name.empty() && name[0] == 'g') name[0] = 'G';
+  constexpr std::string_view names[] = {"G54", "G55", "G56", "G57", "G58", "G59", "G59.1", "G59.2", "G59.3"};
+  if (std::find(std::begin(names), std::end(names), name) == std::end(names))
+    throw InputError(
+        Exit::usage, {},
+        fmt::format("--work: '{}' is not a work offset; G54 to G59 and G59.1 to G59.3 are", text));
+  return name;
+}
+
+}  // namespace
+
+double number_of(std::string_view name, std::string_view text, Range range) {
+  const auto value = read_number(text);
+  if (value && (range.open ? *value > range.least : *value >= range.least)) return *value;
+  throw InputError(Exit::usage, {},
+                   fmt::format("{} is '{}', must be a finite number {} {}", name, text,
+                               range.open ? "above" : "of at least", range.least));
+}
+
+int integer_of(std::string_view name, std::string_view text, int least, int most) {
+  int value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error == std::errc{} && end == text.data() + text.size() && value >= least && value <= most)
+    return value;
+  throw InputError(Exit::usage, {},
+                   fmt::format("{} is '{}', must be a whole number from {} to {}", name, text, least, most));
+}
+
+PoseText pose_of(std::string_view name, std::string_view text) {
+  const auto parts = split(text);
+  if (parts.size() != 3 && parts.size() != 6)
+    throw InputError(
+        Exit::usage, {},
+        fmt::format("{}: '{}' has {} numbers, must be three lengths in mm, or these and three angles in "
+                    "degrees",
+                    name, text, parts.size()));
+  Vector6 values = Vector6::Zero();
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const auto value = read_number(parts[i]);
+    if (!value)
+      throw InputError(Exit::usage, {},
+                       fmt::format("{}: '{}' in '{}' must be a finite number", name, parts[i], text));
+    values[static_cast<Eigen::Index>(i)] = *value;
+  }
+  return {Pose{from_rpy(values.tail<3>() * deg), values.head<3>() * mm}, parts.size() == 6};
+}
+
+std::pair<std::string, Pose> work_of(std::string_view text) {
+  const std::size_t equals = text.find('=');
+  if (equals == std::string_view::npos)
+    throw InputError(
+        Exit::usage, {},
+        fmt::format("--work: '{}' must be an offset and its pose, as G54=X,Y,Z[,RX,RY,RZ]", text));
+  const std::string name = offset_name(text.substr(0, equals));
+  return {name, pose_of("--work " + name, text.substr(equals + 1)).X};
+}
+
+}  // namespace counterflex::cli

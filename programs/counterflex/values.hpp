@@ -1,0 +1,33 @@
+#pragma once
+/// Values inside of command line arguments. All throw `InputError` (Exit::usage) naming the argument and what
+/// is allowed.
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "counterflex/geometry/pose.hpp"
+
+namespace counterflex::cli {
+
+/// A finite number of at least `least`, or more than it where `open`.
+struct Range {
+  double least = 0;
+  bool open = false;
+};
+double number_of(std::string_view name, std::string_view text, Range range);
+
+/// An integer in [least, most].
+int integer_of(std::string_view name, std::string_view text, int least, int most);
+
+/// "X,Y,Z" or "X,Y,Z,R,P,Y": mm, and roll, pitch, yaw in degrees (identity where they are not given).
+struct PoseText {
+  Pose X;
+  bool has_orientation = false;
+};
+PoseText pose_of(std::string_view name, std::string_view text);
+
+/// "G54=X,Y,Z[,RX,RY,RZ]".
+std::pair<std::string, Pose> work_of(std::string_view text);
+
+}  // namespace counterflex::cli

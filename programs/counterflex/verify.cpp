@@ -1,0 +1,27 @@
+#include "commands.hpp"
+#include "run.hpp"
+
+namespace counterflex::cli {
+
+Exit run_verify(const Options& options, Console& console) {
+  const OutputPaths paths = output_paths(options);
+  const auto run = prepare_run(options, console);
+  refuse_what_cannot_be_compensated(*run);
+  const ProgramInput corrected =
+      read_program_input("corrected", options.corrected, options, &run->machine.machine);
+  run->facts.inputs.push_back(corrected.file);
+  const Job job = run->job();
+  const std::vector<Piece> pieces = match_programs(job, corrected.program);
+  console.progress("solving");
+  const ForwardRun forward =
+      solve_forward_along(job, pieces, {.before = true, .attribution = true, .inside = true});
+  const auto failure = forward.failure ? forward.failure : tolerance_failure(job, forward.waypoints);
+  const RunReport report = report_verification(run->machine.machine, job, run->facts, corrected.program,
+                                               forward.waypoints, failure);
+  deliver(options, paths, report, forward.waypoints, nullptr, console);
+  if (!failure) return Exit::done;
+  console.error(located(job.program.file, *failure));
+  return failure->exit;
+}
+
+}  // namespace counterflex::cli

@@ -1,0 +1,7 @@
+#pragma once
+
+namespace counterflex::cli {
+
+extern const char* const version;
+
+}  // namespace counterflex::cli
