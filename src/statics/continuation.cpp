@@ -53,7 +53,7 @@ Equilibrium continue_from(const Model& model, const Configuration& nominal, Prob
     Configuration next = result.configuration;
     const NewtonResult solved = solve(problem, work, next);
     result.iterations += solved.iterations;
-    if (!solved.converged) {
+    if (!solved.converged || solved.jumped) {  // a jump: past a limit point, to an equilibrium on another branch
       if ((step /= 2) < smallest_step) return result;
       continue;
     }

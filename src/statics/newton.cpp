@@ -11,6 +11,7 @@ namespace counterflex {
 namespace {
 
 constexpr double closure_tolerance = 1e-12, step_tolerance = 1e-11;
+constexpr double jump_floor = 1e-4;
 constexpr int most_iterations = 40;
 
 struct Step {
@@ -108,6 +109,26 @@ Residual residual_of(const Model& model, const Configuration& configuration, con
   return residual;
 }
 
+struct Place {
+  Pose X_MP;
+  Eigen::VectorXd rho;
+};
+
+// How far platform and actuators are from `start`, in units of l.
+Eigen::VectorXd travelled(const Mechanism& mechanism, const Place& start, const Configuration& now, const Units& units) {
+  const Eigen::VectorXd drho = actuator_values(mechanism, now) - start.rho;
+  Eigen::VectorXd way(6 + drho.size());
+  way.head<6>() = difference(now.X_MP, start.X_MP).cwiseQuotient(units.of_pose());
+  for (Eigen::Index a = 0; a < drho.size(); ++a)
+    way[6 + a] = drho[a] / units.of_column(mechanism.travel[a].kind == JointKind::revolute);
+  return way;
+}
+
+bool is_jump(const Eigen::VectorXd& way, const Eigen::VectorXd& predicted) {
+  const double surplus = (way - predicted).norm();
+  return surplus > jump_floor && surplus > 0.5 * predicted.norm();
+}
+
 }  // namespace
 
 AppliedWrench applied_wrench(const Mechanism& mechanism, const Pose& X_MP, const Load& load, double factor) {
@@ -147,6 +168,8 @@ double force_tolerance(const Mechanism& mechanism, const Pose& X_MP, double larg
 
 NewtonResult newton(const Model& model, const Problem& problem, StaticsWork::Impl& work, Configuration& configuration) {
   const Units units{model.mechanism.length};
+  const Place start{configuration.X_MP, actuator_values(model.mechanism, configuration)};
+  Eigen::VectorXd predicted = Eigen::VectorXd::Zero(6 + static_cast<Eigen::Index>(model.mechanism.travel.size()));
   NewtonResult result;
   Step step;
   for (; result.iterations < most_iterations; ++result.iterations) {
@@ -155,9 +178,13 @@ NewtonResult newton(const Model& model, const Problem& problem, StaticsWork::Imp
     if (!std::isfinite(residual.closure + residual.force)) return result;
     result.converged = residual.closure <= closure_tolerance && step.largest <= step_tolerance &&
                        residual.force <= force_tolerance(model.mechanism, configuration.X_MP, residual.largest);
-    if (result.converged) return result;
+    if (result.converged) {
+      result.jumped = is_jump(travelled(model.mechanism, start, configuration, units), predicted);
+      return result;
+    }
     if (!condensed_step(model, problem, units, work, configuration, step))
       whole_step(model, problem, units, work, configuration, step);
+    if (result.iterations == 0) predicted = travelled(model.mechanism, start, configuration, units);
   }
   return result;
 }

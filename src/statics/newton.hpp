@@ -42,6 +42,7 @@ double force_tolerance(const Mechanism& mechanism, const Pose& X_MP, double larg
 struct NewtonResult {
   bool converged = false;
   int iterations = 0;
+  bool jumped = false;  ///< platform or actuators ended elsewhere than the tangent at the start leads: by more than half
 };
 /// On success the works are evaluated at the solution.
 NewtonResult newton(const Model& model, const Problem& problem, StaticsWork::Impl& work, Configuration& configuration);
