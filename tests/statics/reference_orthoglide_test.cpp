@@ -50,3 +50,16 @@ TEST_CASE("case B of the milling line has the figures of the paper") {
   CHECK(std::abs(line.assembly_start.z() + 0.99) < 0.005);
   CHECK(std::abs(line.assembly_end.z() - 0.92) < 0.005);
 }
+
+TEST_CASE("case B's total x goes through zero near y = 80 mm") {
+  Bench bench(reference_machine("orthoglide_case_b"));
+  const auto total_x = [&](double y) {
+    const Pose X_MT = translation(Vector3(-73.65, y, -73.65) * mm);
+    const Load cut{(Vector6() << 215, -10, -25, 1, 21.5, 0).finished()};
+    const Equilibrium solved = solve_forward(bench.model, bench.at(X_MT), cut, all, bench.work);
+    REQUIRE(solved.status == Status::converged);
+    return bench.deviation(solved.configuration, X_MT)[0];
+  };
+  CHECK(total_x(75) < 0);
+  CHECK(total_x(85) > 0);
+}

@@ -90,6 +90,13 @@ inline void check_state(const Bench& bench, const Equilibrium& solved, const Pos
   if (expected.compliance_loads)
     check_near("loads of compliances", loads_of_compliances(bench.model, solved.configuration),
                *expected.compliance_loads, wrench_tolerance(*expected.compliance_loads));
+  if (expected.springs.empty()) return;
+  const auto springs = spring_deflections(bench.model, solved.configuration);
+  REQUIRE(springs.size() == expected.springs.size());
+  for (std::size_t i = 0; i < springs.size(); ++i) {
+    check_near("spring translation", springs[i].head<3>(), expected.springs[i].head<3>(), length_tolerance);
+    check_near("spring rotation", springs[i].tail<3>(), expected.springs[i].tail<3>(), angle_tolerance);
+  }
 }
 
 inline void check_compensation(Bench& bench, const Configuration& nominal, const ReferenceCase& reference,
