@@ -2,6 +2,7 @@
 /// Values of JSON documents: rounded, so that a last bit does not show, and null where there is no number.
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <string>
 
 #include "counterflex/files/numbers.hpp"
 #include "counterflex/geometry/types.hpp"
@@ -22,9 +23,8 @@ Json numbers(const Vector& values, int decimals) {
   return list;
 }
 
-/// Text with bytes that are no UTF-8 is written with replacement characters.
-inline std::string dump(const Json& document) {
-  return document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
-}
+/// The document indented by two spaces, lists of plain values on one line, ending in a newline. Text with
+/// bytes that are no UTF-8 is written with replacement characters.
+std::string dump(const Json& document);
 
 }  // namespace counterflex

@@ -1,5 +1,6 @@
 #include <array>
 
+#include "counterflex/compensation/waypoint.hpp"
 #include "counterflex/files/numbers.hpp"
 #include "counterflex/geometry/units.hpp"
 #include "counterflex/report/formats.hpp"

@@ -15,6 +15,10 @@ constexpr std::size_t shown_blocks = 5;
 constexpr std::size_t shown_warnings = 8;
 constexpr std::size_t shown_worst = 5;
 
+std::string line_break() {
+  return std::string(1, '\n');
+}
+
 std::string mm4(double value) {
   return format_fixed(value, 4);
 }
@@ -46,7 +50,7 @@ std::string failure_text(const RunReport& report, const Ink& ink) {
   const Failure& failure = *report.failure;
   const std::string where = failure.line > 0 ? fmt::format("line {}: ", failure.line) : "";
   std::string text =
-      "\n" + ink.bad("Failed") + fmt::format(" (exit status {})\n", static_cast<int>(failure.exit));
+      line_break() + ink.bad("Failed") + fmt::format(" (exit status {})\n", static_cast<int>(failure.exit));
   text += wrapped("  ", where + failure.what, 4);
   if (report.command == Command::compensate) text += "  No corrected program was written.\n";
   return text;
@@ -77,7 +81,7 @@ std::string factor(const RunReport& report) {
 std::string deviation_table(const RunReport& report, const Ink& ink) {
   if (!report.before) return "";
   const bool corrected = report.after.has_value();
-  std::string text = "\n" + ink.bold("Deviation of the tool tip") +
+  std::string text = line_break() + ink.bold("Deviation of the tool tip") +
                      fmt::format(" on {} mm of feed moves, in mm\n", format_fixed(report.path_mm, 3));
   text += row("", "before", corrected ? "after *" : "");
   text += row("largest", report, &DeviationStatistics::max_mm);
@@ -104,7 +108,7 @@ std::string source_row(const char* label, const DeviationStatistics& s) {
 std::string sources_text(const RunReport& report, const Ink& ink) {
   if (!report.sources) return "";
   const Sources& sources = *report.sources;
-  std::string text = "\n" + ink.bold("Where it comes from") + ", largest values in mm\n";
+  std::string text = line_break() + ink.bold("Where it comes from") + ", largest values in mm\n";
   text += fmt::format("  {:<34}{:>12}{:>12}{:>12}{:>12}\n", "", "x", "y", "z", "in space");
   text += source_row("geometry: errors of assembly alone", sources.geometry);
   text += source_row("load: cutting forces alone", sources.load);
@@ -114,7 +118,7 @@ std::string sources_text(const RunReport& report, const Ink& ink) {
 
 std::string worst_text(const RunReport& report, const Ink& ink) {
   if (report.worst.size() < 2) return "";
-  std::string text = "\n" + ink.bold("Worst lines") + ", largest deviation in mm\n";
+  std::string text = line_break() + ink.bold("Worst lines") + ", largest deviation in mm\n";
   text += row("", "before", report.after ? "after *" : "");
   for (std::size_t i = 0; i < std::min(shown_worst, report.worst.size()); ++i) {
     const WorstRow& worst = report.worst[i];
@@ -126,7 +130,7 @@ std::string worst_text(const RunReport& report, const Ink& ink) {
 
 std::string program_text(const RunReport& report, const Ink& ink) {
   const BlockCounts& blocks = report.blocks;
-  std::string text = "\n" + ink.bold("Program") + "\n";
+  std::string text = line_break() + ink.bold("Program") + "\n";
   if (report.command == Command::predict)
     return text + fmt::format("  {}, {}\n", counted(blocks.total, "block"), counted(blocks.moves, "move"));
   text += fmt::format("  {} of {} corrected, {} added\n", blocks.corrected, counted(blocks.moves, "move"),
@@ -142,7 +146,7 @@ std::string program_text(const RunReport& report, const Ink& ink) {
 
 std::string force_text(const RunReport& report, const Ink& ink) {
   const ForceSummary& forces = report.forces;
-  std::string text = "\n" + ink.bold("Cutting force") + "\n";
+  std::string text = line_break() + ink.bold("Cutting force") + "\n";
   if (forces.largest_N == 0 && forces.largest_Nm == 0)
     return text + "  none: the geometry alone is at work\n";
   text += fmt::format("  up to {} N and {} N m on the tool\n", format_fixed(forces.largest_N, 1),
@@ -173,7 +177,7 @@ std::string left_alone_text(const RunReport& report, const Ink& ink) {
   const Capped<LeftAlone>& list = report.blocks.left_alone;
   if (list.count == 0) return "";
   std::string text =
-      "\n" + ink.warning(fmt::format("Not corrected: {}", counted(list.count, "block"))) + "\n";
+      line_break() + ink.warning(fmt::format("Not corrected: {}", counted(list.count, "block"))) + "\n";
   const std::size_t shown = std::min(shown_blocks, list.rows.size());
   for (std::size_t i = 0; i < shown; ++i)
     text += wrapped(line_prefix(list.rows[i].line), list.rows[i].why, 4);
@@ -183,7 +187,7 @@ std::string left_alone_text(const RunReport& report, const Ink& ink) {
 std::string warnings_text(const RunReport& report, const Ink& ink) {
   const Capped<Remark>& list = report.warnings;
   if (list.count == 0) return "";
-  std::string text = "\n" + ink.warning(counted(list.count, "warning")) + "\n";
+  std::string text = line_break() + ink.warning(counted(list.count, "warning")) + "\n";
   const std::size_t shown = std::min(shown_warnings, list.rows.size());
   for (std::size_t i = 0; i < shown; ++i)
     text += wrapped(line_prefix(list.rows[i].line), list.rows[i].what, 4);
@@ -191,7 +195,7 @@ std::string warnings_text(const RunReport& report, const Ink& ink) {
 }
 
 std::string assumptions_text(const RunReport& report, const Ink& ink) {
-  return "\n" + ink.bold("Taken for granted") + "\n" + wrapped("  ", report.work, 2) +
+  return line_break() + ink.bold("Taken for granted") + "\n" + wrapped("  ", report.work, 2) +
          wrapped("  ", report.datum, 2);
 }
 

@@ -10,6 +10,11 @@
 
 namespace counterflex {
 
+/// Whether the numbers beside a status mean something: travel is a limit of the machine, not of the solution.
+inline bool has_values(Status status) {
+  return status == Status::converged || status == Status::outside_travel;
+}
+
 /// The target that puts the loaded, imperfect machine's tip on the wanted pose.
 struct CorrectedTarget {
   Pose X_MT;            ///< nominal forward kinematics of `rho`; `linear`: the linear target
@@ -21,8 +26,10 @@ struct CorrectedTarget {
 struct PoseAnalysis {
   Pose X_MT;  ///< wanted tip: what is controlled as asked for, the rest by nominal kinematics
   Method method = Method::direct;
-  Status status = Status::not_converged;  ///< of the deviation; what follows is meaningful when `converged`
-  std::string why;                        ///< in words where `status` is another
+  /// Of the deviation; what follows is meaningful when `converged`, or `outside_travel` (of the nominal
+  /// actuators).
+  Status status = Status::not_converged;
+  std::string why;  ///< in words where `status` is another
   Vector6 deviation =
       Vector6::Zero();          ///< position (m), rotation vector of R_actual R_target' (rad), axes of M
   Matrix6 K = Matrix6::Zero();  ///< SI, at the reference point; at the nominal pose for `linear`, else at the
@@ -32,9 +39,13 @@ struct PoseAnalysis {
   std::optional<CorrectedTarget> corrected;  ///< none where the machine controls nothing
   std::vector<ChainLoads> chains;
   Vector6 weakest =
-      Vector6::Zero();   ///< the twist of least stiffness (unit norm, lengths in units of l); zero: unknown
-  double condition = 0;  ///< of the static system; 0: not computed
-  double stability = 0;  ///< see `stability` in statics/equilibrium.hpp; 0: not computed
+      Vector6::Zero();  ///< the twist of least stiffness (unit norm, lengths in units of l); zero: unknown
+  double weakest_stiffness = 0;  ///< in that direction (N/m); 0: not computed
+  Vector3 softest =
+      Vector3::Zero();           ///< direction (M) in which a force at the reference point moves it furthest
+  double softest_stiffness = 0;  ///< force over motion in that direction (N/m); 0: not computed
+  double condition = 0;          ///< of the static system; 0: not computed
+  double stability = 0;          ///< see `stability` in statics/equilibrium.hpp; 0: not computed
 };
 
 /// The pose `X_MT` of the tip (in the controlled components; all six where nothing is controlled) under

@@ -1,0 +1,178 @@
+#include "counterflex/report/analysis.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+
+#include "counterflex/statics/linear.hpp"
+#include "counterflex/statics/nested.hpp"
+
+namespace counterflex {
+
+namespace {
+
+constexpr Stage everything{};
+
+// What was solved at one pose, whatever the method.
+struct Solved {
+  Status status;
+  Vector6 deviation;
+  Configuration configuration;  // of the loads
+  Configuration stiff;          // of the stiffness
+  Stage stiff_stage;
+  Vector6 weakest;
+};
+
+Status with_travel(const Mechanism& mechanism, const Eigen::VectorXd& rho, Status status) {
+  if (status == Status::converged && !within_travel(mechanism, rho)) return Status::outside_travel;
+  return status;
+}
+
+std::string words(Status status, bool nominal) {
+  switch (status) {
+    case Status::converged:
+      return "";
+    case Status::not_converged:
+      return "the iteration did not converge";
+    case Status::unreachable:
+      return "the perfect machine cannot reach the pose from home";
+    case Status::singular:
+      return nominal ? "the perfect machine is singular here or on the way from home"
+                     : "the static system is singular";
+    case Status::unstable:
+      return "the equilibrium is unstable, here or as the load grows";
+    case Status::outside_travel:
+      return "an actuator leaves its range";
+  }
+  return "";
+}
+
+Solved solve_linear(const Model& model, const Configuration& nominal, const Load& load, StaticsWork& work) {
+  const LinearResult linear = linear_deviation(model, nominal, load, everything, work);
+  return {linear.status, linear.dt_T, linear.configuration, nominal, nominal_stage, Vector6::Zero()};
+}
+
+Solved solve_finite(const Model& model, const Configuration& nominal, const Pose& X_MT, const Load& load,
+                    StaticsWork& work) {
+  const Equilibrium loaded = solve_forward(model, nominal, load, everything, work);
+  const Vector6 d = deviation(tip(model.mechanism, loaded.configuration), X_MT);
+  return {loaded.status, d, loaded.configuration, loaded.configuration, everything, loaded.weakest};
+}
+
+CorrectedTarget corrected_linearly(const Model& model, const Configuration& nominal, const Pose& X_MT,
+                                   const Load& load, StaticsWork& work) {
+  CorrectedTarget result;
+  const LinearResult linear = linear_deviation(model, nominal, load, everything, work);
+  result.status = linear.status;
+  if (linear.status != Status::converged) return result;
+  result.X_MT = linear_target(model, X_MT, linear);
+  const NominalResult commanded = follow(model, nominal, result.X_MT);
+  result.status = commanded.status;
+  if (commanded.status == Status::converged)
+    result.rho = actuator_values(model.mechanism, commanded.configuration);
+  return result;
+}
+
+CorrectedTarget corrected_finitely(const Model& model, const Configuration& nominal, const Pose& X_MT,
+                                   const Load& load, Method method, StaticsWork& work) {
+  const auto solve = method == Method::nested ? solve_target_nested : solve_target;
+  const Equilibrium solved = solve(model, nominal, X_MT, load, everything, work);
+  CorrectedTarget result;
+  result.status = solved.status;
+  if (solved.status != Status::converged) return result;
+  result.rho = actuator_values(model.mechanism, solved.configuration);
+  const NominalResult commanded = nominal_forward(model, nominal, result.rho);
+  result.status = commanded.status;
+  if (commanded.status == Status::converged) result.X_MT = tip(model.mechanism, commanded.configuration);
+  return result;
+}
+
+CorrectedTarget corrected_target(const Model& model, const Configuration& nominal, const Pose& X_MT,
+                                 const Load& load, Method method, StaticsWork& work) {
+  CorrectedTarget result = method == Method::linear
+                               ? corrected_linearly(model, nominal, X_MT, load, work)
+                               : corrected_finitely(model, nominal, X_MT, load, method, work);
+  result.status = with_travel(model.mechanism, result.rho, result.status);
+  return result;
+}
+
+// The sign of an eigenvector is free.
+template <typename Vector>
+void show_largest_positive(Vector& v) {
+  Eigen::Index largest = 0;
+  v.cwiseAbs().maxCoeff(&largest);
+  if (v[largest] < 0) v = -v;
+}
+
+// The unit twist (lengths in units of `length`) that costs least energy, and its stiffness in N/m.
+void find_weakest(const Matrix6& K, double length, PoseAnalysis& result) {
+  Vector6 units = Vector6::Ones();
+  units.tail<3>().setConstant(1 / length);
+  const Matrix6 scaled = units.asDiagonal() * K * units.asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<Matrix6> solver((scaled + scaled.transpose()) / 2);
+  result.weakest = solver.eigenvectors().col(0);
+  result.weakest_stiffness = solver.eigenvalues()[0];
+  show_largest_positive(result.weakest);
+}
+
+// What a pure force meets: the translational block of the compliance.
+void find_softest(const Matrix6& K, PoseAnalysis& result) {
+  const Eigen::FullPivLU<Matrix6> lu(K);
+  if (!lu.isInvertible()) return;
+  const Matrix3 C = lu.inverse().topLeftCorner<3, 3>();
+  const Eigen::SelfAdjointEigenSolver<Matrix3> solver((C + C.transpose()) / 2);
+  result.softest = solver.eigenvectors().col(2);
+  result.softest_stiffness = 1 / solver.eigenvalues()[2];
+  show_largest_positive(result.softest);
+}
+
+void describe(const Model& model, const Solved& solved, const Load& load, StaticsWork& work,
+              PoseAnalysis& result) {
+  result.deviation = solved.deviation;
+  result.chains = loads(model, solved.configuration, everything);
+  const ManipulatorStiffness sum = stiffness(model, solved.stiff, solved.stiff_stage, work);
+  result.K = sum.K;
+  result.stiffness_available = sum.available;
+  if (sum.available) {
+    find_weakest(sum.K, model.mechanism.length, result);
+    find_softest(sum.K, result);
+  }
+  const Load acting = result.method == Method::linear ? Load{} : load;
+  result.condition = static_condition(model, solved.stiff, acting, solved.stiff_stage, work);
+  result.stability = stability(model, solved.stiff, acting, solved.stiff_stage, work);
+}
+
+}  // namespace
+
+PoseAnalysis analyze_pose(const Model& model, const Pose& X_MT, const Load& load, Method method) {
+  StaticsWork work(model.mechanism);
+  PoseAnalysis result;
+  result.X_MT = X_MT;
+  result.method = method;
+  const NominalResult nominal = follow(model, model.home, X_MT);
+  result.status = nominal.status;
+  result.why = words(nominal.status, true);
+  if (nominal.status != Status::converged) return result;
+  result.X_MT = tip(model.mechanism, nominal.configuration);
+  result.rho = actuator_values(model.mechanism, nominal.configuration);
+  const Solved solved = method == Method::linear
+                            ? solve_linear(model, nominal.configuration, load, work)
+                            : solve_finite(model, nominal.configuration, result.X_MT, load, work);
+  result.status = with_travel(model.mechanism, result.rho, solved.status);
+  result.why = words(result.status, false);
+  if (has_values(result.status))
+    describe(model, solved, load, work, result);
+  else
+    result.weakest = solved.weakest;
+  if (!model.mechanism.controlled.empty())
+    result.corrected = corrected_target(model, nominal.configuration, result.X_MT, load, method, work);
+  return result;
+}
+
+AnalysisReport analyze(const Model& model, const std::vector<Pose>& poses, const Load& load, Method method,
+                       const std::string& version) {
+  AnalysisReport report{version, model.mechanism.name, load, model.mechanism.travel, {}};
+  for (const Pose& X_MT : poses) report.poses.push_back(analyze_pose(model, X_MT, load, method));
+  return report;
+}
+
+}  // namespace counterflex

@@ -1,0 +1,150 @@
+#include <fmt/core.h>
+
+#include "counterflex/compensation/options.hpp"
+#include "counterflex/files/numbers.hpp"
+#include "counterflex/geometry/units.hpp"
+#include "counterflex/report/analysis.hpp"
+#include "names.hpp"
+#include "text_layout.hpp"
+
+namespace counterflex {
+
+namespace {
+
+std::string number(double value, int decimals) {
+  return format_fixed(value, decimals);
+}
+
+std::string cells(const Vector3& v, int decimals, int width) {
+  return fmt::format("{:>{}}{:>{}}{:>{}}", number(v.x(), decimals), width, number(v.y(), decimals), width,
+                     number(v.z(), decimals), width);
+}
+
+std::string title(const AnalysisReport& report) {
+  std::string text = report.machine.empty() ? "Machine without a name" : report.machine;
+  if (!report.poses.empty()) text += fmt::format(", method {}", name_of(report.poses.front().method));
+  const Vector6& F = report.load.F;
+  if (F.isZero(0)) return text + ", no load\n";
+  return text + fmt::format("\nload ({}, {}, {}) N, ({}, {}, {}) N m at the {}, machine axes\n",
+                            number(F[0], 2), number(F[1], 2), number(F[2], 2), number(F[3], 3),
+                            number(F[4], 3), number(F[5], 3),
+                            report.load.at_platform ? "platform's reference point" : "tool tip");
+}
+
+std::string deviations(const AnalysisReport& report) {
+  std::string text = "\nDeviation of the tool tip, actual minus wanted\n";
+  text += fmt::format("  {:>3}{:>31}{:>28}{:>27}\n", "", "wanted x y z, mm", "deviation, mm",
+                      "rotation vector, deg");
+  for (std::size_t i = 0; i < report.poses.size(); ++i) {
+    const PoseAnalysis& pose = report.poses[i];
+    text += fmt::format("  {:>3}{}", i + 1, cells(pose.X_MT.p / mm, 3, 11));
+    if (has_values(pose.status))
+      text += cells(pose.deviation.head<3>() / mm, 4, 9) + cells(pose.deviation.tail<3>() / deg, 4, 9) + "\n";
+    else
+      text += fmt::format("   {}\n", to_string(pose.status));
+  }
+  for (std::size_t i = 0; i < report.poses.size(); ++i)
+    if (!report.poses[i].why.empty())
+      text += wrapped("", fmt::format("  pose {}: {}", i + 1, report.poses[i].why), 4);
+  return text;
+}
+
+std::string chain_row(std::size_t index, const ChainLoads& chain) {
+  return fmt::format("  {:>3} {:<12.12}{:>10}{:>10}{:>10}{:>10}{:>10}{:>10}{:>10}{:>10}\n", index, chain.name,
+                     number(chain.wrench.head<3>().cwiseAbs().maxCoeff(), 2), number(chain.moment_max, 2),
+                     number(chain.group_moment_max, 2), number(chain.spring_translation_max / mm, 3),
+                     number(chain.spring_rotation_max / deg, 3), number(chain.spring_force_max, 2),
+                     number(chain.spring_torque_max, 2), number(chain.passive_change_max / deg, 3));
+}
+
+std::string chain_loads(const AnalysisReport& report) {
+  std::string text = "\nLoads in the chains, largest components\n";
+  text += fmt::format("  {:>3} {:<12}{:>10}{:>10}{:>10}{:>10}{:>10}{:>10}{:>10}{:>10}\n", "", "", "end",
+                      "end", "group", "spring", "spring", "spring", "spring", "passive");
+  text += fmt::format("  {:>3} {:<12}{:>10}{:>10}{:>10}{:>10}{:>10}{:>10}{:>10}{:>10}\n", "", "chain", "N",
+                      "N m", "N m", "mm", "deg", "N", "N m", "deg");
+  for (std::size_t i = 0; i < report.poses.size(); ++i)
+    for (const ChainLoads& chain : report.poses[i].chains) text += chain_row(i + 1, chain);
+  return text;
+}
+
+std::string actuator_values_text(const Eigen::VectorXd& rho, const std::vector<Travel>& travel) {
+  std::string text;
+  for (Eigen::Index k = 0; k < rho.size(); ++k) {
+    const bool slides = travel[k].kind == JointKind::prismatic;
+    text += fmt::format("{:>11} {:<3}", number(rho[k] / (slides ? mm : deg), 4), slides ? "mm" : "deg");
+  }
+  text.erase(text.find_last_not_of(' ') + 1);
+  return text;
+}
+
+std::string actuators(const AnalysisReport& report) {
+  std::string text = "\nActuators\n";
+  for (std::size_t i = 0; i < report.poses.size(); ++i) {
+    const PoseAnalysis& pose = report.poses[i];
+    if (pose.rho.size() == 0) continue;
+    text += fmt::format("  {:>3} nominal {}\n", i + 1, actuator_values_text(pose.rho, report.travel));
+    if (pose.corrected && has_values(pose.corrected->status))
+      text += fmt::format("         ->   {}\n", actuator_values_text(pose.corrected->rho, report.travel));
+  }
+  return text;
+}
+
+std::string corrected_targets(const AnalysisReport& report) {
+  std::string text = "\nCorrected targets\n";
+  text += fmt::format("  {:>3}{:>33}{:>33}\n", "", "x y z, mm", "roll pitch yaw, deg");
+  for (std::size_t i = 0; i < report.poses.size(); ++i) {
+    const PoseAnalysis& pose = report.poses[i];
+    if (!pose.corrected) {
+      if (pose.rho.size() > 0)
+        text += fmt::format("  {:>3}   none: the machine controls no component of the tip\n", i + 1);
+      continue;
+    }
+    text += fmt::format("  {:>3}", i + 1);
+    if (has_values(pose.corrected->status))
+      text += cells(pose.corrected->X_MT.p / mm, 4, 11) + cells(to_rpy(pose.corrected->X_MT.R) / deg, 4, 11);
+    text += fmt::format("   {}\n", to_string(pose.corrected->status));
+  }
+  return text;
+}
+
+std::string softest(const PoseAnalysis& pose) {
+  if (pose.softest_stiffness == 0) return "      singular: some force is not resisted\n";
+  return fmt::format("      softest to a force along ({}, {}, {}): {} N/um\n", number(pose.softest.x(), 3),
+                     number(pose.softest.y(), 3), number(pose.softest.z(), 3),
+                     number(pose.softest_stiffness * um, 3));
+}
+
+// What is zero but for rounding is shown as zero.
+double clean(const Matrix6& K, int i, int j) {
+  const double scale = K.block<3, 3>(i < 3 ? 0 : 3, j < 3 ? 0 : 3).cwiseAbs().maxCoeff();
+  return std::abs(K(i, j)) < 1e-9 * scale ? 0.0 : K(i, j);
+}
+
+std::string stiffness_of(std::size_t index, const PoseAnalysis& pose) {
+  if (!pose.stiffness_available)
+    return fmt::format("  {:>3} none: a chain has no stiffness of its own at its end\n", index);
+  std::string text;
+  for (int i = 0; i < 6; ++i) {
+    text += i == 0 ? fmt::format("  {:>3} ", index) : "      ";
+    for (int j = 0; j < 6; ++j) text += fmt::format("{:>13.4e}", clean(pose.K, i, j));
+    text += "\n";
+  }
+  return text + softest(pose);
+}
+
+std::string stiffnesses(const AnalysisReport& report) {
+  std::string text = "\nStiffness at the reference point, N/m, N/rad, N m/m, N m/rad\n";
+  for (std::size_t i = 0; i < report.poses.size(); ++i)
+    if (has_values(report.poses[i].status)) text += stiffness_of(i + 1, report.poses[i]);
+  return text;
+}
+
+}  // namespace
+
+std::string to_text(const AnalysisReport& report) {
+  return title(report) + deviations(report) + chain_loads(report) + actuators(report) +
+         corrected_targets(report) + stiffnesses(report);
+}
+
+}  // namespace counterflex
