@@ -2,112 +2,20 @@
 
 #include "counterflex/statics/nominal.hpp"
 
+#include <Eigen/LU>
 #include <Eigen/QR>
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "tip.hpp"
+#include "kinematics.hpp"
 
 namespace counterflex {
 namespace {
 
-constexpr double closure_tolerance = 1e-12, step_tolerance = 1e-11, home_tolerance = 1e-7;
-constexpr double rank_threshold = 1e-10, largest_condition = 1e6, jump_floor = 1e-4, smallest_fraction = 1e-5;
-const Units kinematic_units{1.0};  // angles scaled by 1 m
-
-// What moves in a kinematic solve.
-struct Moving {
-  bool actuators, platform;
-};
-
-std::vector<int> moving_columns(const WholeSystem& system, Moving moving) {
-  std::vector<int> list;
-  for (int i = 0; i < static_cast<int>(system.variables.size()); ++i) {
-    const bool pose = i >= system.pose;
-    if (pose ? moving.platform
-             : !system.variables[i].elastic && (moving.actuators || system.variables[i].actuator < 0))
-      list.push_back(i);
-  }
-  return list;
-}
-
-WholeSystem closures(const Mechanism& mechanism, const Configuration& configuration, const Units& units) {
-  std::vector<SeriesWork> works;
-  for (std::size_t i = 0; i < mechanism.chains.size(); ++i) {
-    works.push_back(make_work(mechanism.chains[i]));
-    evaluate(mechanism.chains[i], configuration.chains[i], configuration.X_MP, nominal_stage, Hessians::no, works[i]);
-  }
-  return assemble_whole(mechanism, works, {}, units);
-}
-
-// One linearisation: closures, and the target's rows where there is one.
-struct KinematicSystem {
-  std::vector<int> columns;
-  Eigen::MatrixXd J;
-  Eigen::VectorXd error;
-  Eigen::Index variables;
-};
-
-KinematicSystem linearise(const Mechanism& mechanism, const Configuration& configuration, Moving moving,
-                          const Pose* X_MT) {
-  const WholeSystem whole = closures(mechanism, configuration, kinematic_units);
-  KinematicSystem system{moving_columns(whole, moving), {}, whole.gap, static_cast<Eigen::Index>(whole.variables.size())};
-  system.J = whole.C(Eigen::all, system.columns);
-  if (!X_MT) return system;
-  const Controlled target =
-      to_controlled(tip_equations(mechanism, configuration.X_MP, *X_MT), mechanism, kinematic_units);
-  const auto closures_count = system.J.rows(), n = target.rows.rows();
-  system.J.conservativeResize(closures_count + n, Eigen::NoChange);
-  system.J.bottomRows(n).setZero();
-  system.J.bottomRightCorner(n, 6) = target.rows;
-  system.error.conservativeResize(closures_count + n);
-  system.error.tail(n) = target.rhs;
-  return system;
-}
-
-Eigen::VectorXd minimum_norm(const Eigen::MatrixXd& J, const Eigen::VectorXd& rhs) {
-  if (J.size() == 0) return Eigen::VectorXd::Zero(J.cols());  // nothing moves: springs alone between base and platform
-  Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> decomposition;
-  decomposition.setThreshold(rank_threshold);
-  decomposition.compute(J);
-  return decomposition.solve(rhs);
-}
-
-double step_configuration(const Mechanism& mechanism, const KinematicSystem& system, const Eigen::VectorXd& x,
-                          Configuration& configuration) {
-  WholeStep step;
-  step.variables.setZero(system.variables);
-  step.variables(system.columns) = x;
-  step.wrenches.setZero(system.error.size());
-  return apply(mechanism, step, kinematic_units, configuration);
-}
-
-// Damped Gauss-Newton; returns the final norm of the closures (and the target), m and rad.
-double gauss_newton(const Mechanism& mechanism, Moving moving, const Pose* X_MT, Configuration& configuration) {
-  KinematicSystem system = linearise(mechanism, configuration, moving, X_MT);
-  double error = system.error.norm();
-  for (int iteration = 0; iteration < 50; ++iteration) {
-    const Eigen::VectorXd x = minimum_norm(system.J, system.error);
-    const Configuration before = configuration;
-    double step = 0, damping = 1;
-    for (;; damping /= 2) {
-      configuration = before;
-      step = step_configuration(mechanism, system, damping * x, configuration);
-      KinematicSystem next = linearise(mechanism, configuration, moving, X_MT);
-      const double next_error = next.error.norm();
-      if (next_error < error || next_error < closure_tolerance || damping < 1e-3) {
-        system = std::move(next);
-        error = next_error;
-        break;
-      }
-    }
-    if (error < closure_tolerance && step < step_tolerance) break;
-    if (step < 1e-15 || !std::isfinite(error)) break;
-  }
-  return error;
-}
+constexpr double home_tolerance = 1e-7;
+constexpr double largest_condition = 1e6, jump_floor = 1e-4, smallest_fraction = 1e-5;
 
 void mark_nominal(SeriesState& state) {
   state.x_nominal = state.x;
@@ -143,7 +51,7 @@ void find_home(const Machine& machine, Model& model) {
   }
   if (machine.home_X_MP) model.home.X_MP = *machine.home_X_MP;
   const Moving moving = machine.home_X_MP ? Moving{true, false} : Moving{false, true};
-  model.home_gap = gauss_newton(mechanism, moving, nullptr, model.home);
+  model.home_gap = Kinematics(mechanism, moving).solve(nullptr, model.home);
   model.home_status = model.home_gap < home_tolerance ? Status::converged : Status::unreachable;
   mark_nominal(model.home);
 }
@@ -200,20 +108,18 @@ Pose between(const Pose& from, const Pose& to, double fraction) {
   return moved(from, fraction * difference(to, from));
 }
 
-// Whether an actuator step is what the Jacobian at its start predicts.
-bool is_jump(const Model& model, const ActuatorJacobian& jacobian, const Eigen::VectorXd& drho, const Pose& from,
+// Whether an actuator step is not what the Jacobian at its start predicts.
+bool is_jump(const Mechanism& mechanism, const InverseJacobian& jacobian, const Eigen::VectorXd& drho, const Pose& from,
              const Pose& to) {
-  const auto components = fixed_components(model.mechanism);
-  if (jacobian.J.rows() != jacobian.J.cols()) return false;
+  if (jacobian.matrix.rows() != jacobian.matrix.cols()) return false;
   const Vector6 all = difference(to, from);
-  Eigen::VectorXd dt = all(components);
-  Eigen::VectorXd predicted = jacobian.J.partialPivLu().solve(dt), surplus = drho - predicted;
+  Eigen::VectorXd predicted = jacobian.matrix * all(fixed_components(mechanism)), surplus = drho - predicted;
   for (Eigen::Index i = 0; i < drho.size(); ++i) {
-    const double unit = model.mechanism.travel[i].kind == JointKind::prismatic ? model.mechanism.length : 1.0;
+    const double unit = mechanism.travel[i].kind == JointKind::prismatic ? mechanism.length : 1.0;
     predicted[i] /= unit;
     surplus[i] /= unit;
   }
-  return surplus.norm() > jump_floor && surplus.norm() > 0.5 * predicted.norm();
+  return surplus.norm() > jump_floor && !(surplus.norm() <= 0.5 * predicted.norm());
 }
 
 // Zero modes of the closures with actuators held that move the platform: a singularity of the parallel kind.
@@ -258,7 +164,9 @@ ActuatorJacobian actuator_jacobian(const Model& model, const Configuration& nomi
   const Mechanism& mechanism = model.mechanism;
   if (mechanism.travel.empty()) return {Eigen::MatrixXd::Zero(6, 0), 1};
   const Units units{mechanism.length};
-  const WholeSystem whole = closures(mechanism, nominal, units);
+  std::vector<SeriesWork> works;
+  for (const Series& chain : mechanism.chains) works.push_back(make_work(chain));
+  const WholeSystem whole = Kinematics::closures(mechanism, works, nominal, units);
   const auto free = moving_columns(whole, {false, true});
   std::vector<int> commanded(mechanism.travel.size());
   for (int i = 0; i < static_cast<int>(whole.variables.size()); ++i)
@@ -284,13 +192,14 @@ ActuatorJacobian actuator_jacobian(const Model& model, const Configuration& nomi
 
 NominalResult nominal_forward(const Model& model, const Configuration& from, const Eigen::VectorXd& rho) {
   const Mechanism& mechanism = model.mechanism;
+  Kinematics kinematics(mechanism, {false, true});
   const Eigen::VectorXd start = actuator_values(mechanism, from);
   NominalResult result{Status::unreachable, from};
   double done = 0, step = 1;
   while (done < 1) {
     Configuration next = result.configuration;
     set_actuator_values(mechanism, start + std::min(1.0, done + step) * (rho - start), next);
-    if (gauss_newton(mechanism, {false, true}, nullptr, next) > closure_tolerance * 10) {
+    if (!(kinematics.solve(nullptr, next) <= closure_tolerance * 10)) {
       if ((step /= 2) < smallest_fraction) return result;
       continue;
     }
@@ -302,34 +211,74 @@ NominalResult nominal_forward(const Model& model, const Configuration& from, con
   return result;
 }
 
-NominalResult follow(const Model& model, const Configuration& from, const Pose& X_MT) {
-  const Mechanism& mechanism = model.mechanism;
-  const Pose start = tip(mechanism, from);
-  NominalResult result{Status::unreachable, from};
+struct NominalPath::Impl {
+  const Model& model;
+  Kinematics kinematics;
+  InverseJacobian jacobian;
+  bool has_jacobian = false;
+
+  // Solves for the next target on the way; false where it is not reached or a branch jump shows.
+  bool advance(const Pose& now, const Pose& goal, Configuration& configuration) {
+    const Mechanism& mechanism = model.mechanism;
+    if (!has_jacobian) look_at(now, configuration);
+    const Eigen::VectorXd before = actuator_values(mechanism, configuration);
+    Configuration next = configuration;
+    closed = kinematics.solve(&goal, next) < closure_tolerance * 10;
+    const Eigen::VectorXd drho = actuator_values(mechanism, next) - before;
+    if (!closed || is_jump(mechanism, jacobian, drho, now, goal)) {
+      has_jacobian = false;
+      return false;
+    }
+    configuration = std::move(next);
+    look_at(goal, configuration);
+    return true;
+  }
+
+  void look_at(const Pose& X_MT, const Configuration& configuration) {
+    kinematics.linearise(configuration, &X_MT);
+    jacobian = kinematics.inverse_jacobian();
+    has_jacobian = true;
+  }
+
+  bool closed = false;
+};
+
+NominalPath::NominalPath(const Model& model, Configuration start)
+    : impl_(std::make_unique<Impl>(Impl{model, Kinematics(model.mechanism, {true, true}), {}})),
+      configuration_(std::move(start)) {}
+NominalPath::~NominalPath() = default;
+NominalPath::NominalPath(NominalPath&&) noexcept = default;
+
+Status NominalPath::go_to(const Pose& X_MT) {
+  const Mechanism& mechanism = impl_->model.mechanism;
+  const Pose start = tip(mechanism, configuration_);
+  Configuration reached = configuration_;
   double done = 0, step = 1;
   while (done < 1) {
-    const ActuatorJacobian jacobian = actuator_jacobian(model, result.configuration);
-    const double reached = std::min(1.0, done + step);
-    const Pose now = between(start, X_MT, done), goal = between(start, X_MT, reached);
-    Configuration next = result.configuration;
-    const bool closed = gauss_newton(mechanism, {true, true}, &goal, next) < closure_tolerance * 10;
-    const Eigen::VectorXd drho =
-        actuator_values(mechanism, next) - actuator_values(mechanism, result.configuration);
-    if (!closed || is_jump(model, jacobian, drho, now, goal)) {
-      step /= 2;
-      if (step >= smallest_fraction) continue;
-      result.status = closed || jacobian.condition > largest_condition ? Status::singular : Status::unreachable;
-      return result;
+    const double next = std::min(1.0, done + step);
+    if (impl_->advance(between(start, X_MT, done), between(start, X_MT, next), reached)) {
+      done = next;
+      continue;
     }
-    done = reached;
-    result.configuration = std::move(next);
+    if ((step /= 2) >= smallest_fraction) continue;
+    const bool at_singularity = impl_->closed || impl_->jacobian.condition > largest_condition;
+    impl_->has_jacobian = false;
+    return at_singularity ? Status::singular : Status::unreachable;
   }
-  mark_nominal(result.configuration);
-  const bool has_actuators = !mechanism.travel.empty();
-  result.status = has_actuators && actuator_jacobian(model, result.configuration).condition > largest_condition
-                      ? Status::singular
-                      : Status::converged;
-  return result;
+  mark_nominal(reached);
+  const bool judged = !mechanism.controlled.empty() && !mechanism.travel.empty();
+  if (judged && impl_->jacobian.condition > largest_condition) {
+    impl_->has_jacobian = false;
+    return Status::singular;
+  }
+  configuration_ = std::move(reached);
+  return Status::converged;
+}
+
+NominalResult follow(const Model& model, const Configuration& from, const Pose& X_MT) {
+  NominalPath path(model, from);
+  const Status status = path.go_to(X_MT);
+  return {status, path.configuration()};
 }
 
 }  // namespace counterflex

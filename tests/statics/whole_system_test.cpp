@@ -1,0 +1,102 @@
+/// The whole static system beside the condensed one: two ways to the same step.
+#include "whole_system.hpp"
+
+#include <Eigen/LU>
+
+#include "laws_support.hpp"
+#include "newton.hpp"
+
+using namespace counterflex;
+using namespace counterflex::laws;
+
+namespace {
+
+void compare(const SeriesState& a, const SeriesState& b, double force) {
+  CHECK((a.x - b.x).norm() < 1e-10);
+  CHECK((a.F - b.F).norm() < 1e-7 * force);
+  for (std::size_t g = 0; g < a.groups.size(); ++g) {
+    CHECK(difference(a.groups[g].X, b.groups[g].X).norm() < 1e-10);
+    for (std::size_t i = 0; i < a.groups[g].branches.size(); ++i)
+      compare(a.groups[g].branches[i], b.groups[g].branches[i], force);
+  }
+}
+
+// A Newton step by condensing chains: sum of stiffnesses, then every chain's own step.
+Configuration condensed_step(const Model& model, Configuration c, const Problem& problem, const Units& units,
+                             StaticsWork::Impl& work) {
+  const PlatformTerms terms = platform_terms(model, c, problem);
+  Matrix6 K = terms.A;
+  Vector6 rhs = -terms.gradient;
+  for (std::size_t i = 0; i < work.chains.size(); ++i) {
+    REQUIRE(condense(model.mechanism.chains[i], units, false, work.chains[i]));
+    K += work.chains[i].K;
+    rhs -= work.chains[i].dF;
+  }
+  const Vector6 dxi = K.fullPivLu().solve(rhs);
+  for (std::size_t i = 0; i < work.chains.size(); ++i)
+    take_step(model.mechanism.chains[i], dxi, work.no_actuator_step, units, work.chains[i], c.chains[i]);
+  c.X_MP = moved(c.X_MP, dxi);
+  return c;
+}
+
+}  // namespace
+
+TEST_CASE("the whole system takes the same Newton step as the condensed one") {
+  for (const Trial& trial : controlled_machines()) {
+    CAPTURE(trial.name);
+    const Model model = model_of(trial.name);
+    const Units units{model.mechanism.length};
+    StaticsWork work(model.mechanism);
+    Random random(101);
+    const Configuration nominal = somewhere(model, trial, random).configuration;
+    const Equilibrium e = solve_forward(model, nominal, random.load(trial), {}, work);
+    REQUIRE(e.status == Status::converged);
+    const Problem problem{random.load(trial), {0.9, 1, 0.8}, nullptr};  // from here the step is not small
+    evaluate_all(model, e.configuration, problem.stage, work.impl());
+    Configuration whole = e.configuration;
+    const WholeStep step = solve_whole(whole_system(model, whole, problem, work.impl()), std::nullopt, units);
+    CHECK_FALSE(step.redundant);
+    CHECK(apply(model.mechanism, step, units, whole) > 1e-6);
+    const Configuration condensed = condensed_step(model, e.configuration, problem, units, work.impl());
+    CHECK(difference(whole.X_MP, condensed.X_MP).norm() < 1e-10);
+    for (std::size_t i = 0; i < whole.chains.size(); ++i) compare(whole.chains[i], condensed.chains[i], 100);
+  }
+}
+
+TEST_CASE("with actuators unknown and a target, the whole system's solution is the condensed one's") {
+  for (const std::string name : {"orthoglide_case_b", "laws_mixed", "serial6r_link6"}) {
+    CAPTURE(name);
+    const Model model = model_of(name);
+    const Units units{model.mechanism.length};
+    StaticsWork work(model.mechanism);
+    const Load load{(Vector6() << 60, -40, 30, 2, -1, 3).finished(), false};
+    const Pose X_MT = tip(model.mechanism, model.home);
+    const Equilibrium direct = solve_target(model, model.home, X_MT, load, {}, work);
+    REQUIRE(direct.status == Status::converged);
+    Configuration c = direct.configuration;
+    set_actuator_values(model.mechanism, actuator_values(model.mechanism, c).array() + 1e-4, c);
+    const Problem problem{load, {}, &X_MT};
+    for (int i = 0; i < 12; ++i) {
+      evaluate_all(model, c, {}, work.impl());
+      const auto target = to_controlled(tip_equations(model.mechanism, c.X_MP, X_MT), model.mechanism, units);
+      apply(model.mechanism, solve_whole(whole_system(model, c, problem, work.impl()), target, units), units,
+            c);
+    }
+    const auto of = [&](const Configuration& of_c) { return actuator_values(model.mechanism, of_c); };
+    CHECK((of(c) - of(direct.configuration)).cwiseAbs().maxCoeff() < 1e-10);
+    CHECK(difference(c.X_MP, direct.configuration.X_MP).norm() < 1e-10);
+  }
+}
+
+TEST_CASE(
+    "the least eigenvalue of a body on one spring is its least stiffness over its largest, in units of l") {
+  const Model model = model_of_text(R"(controlled = []
+[springs.s]
+stiffness_diag_si = [1e6, 2e6, 4e6, 30000, 50000, 10000]
+[[chain]]
+name = "only"
+elements = [{ spring = "s" }, { rigid = { xyz_mm = [0, 0, 0] } }])");
+  StaticsWork work(model.mechanism);
+  CHECK(model.mechanism.length == 0.1);  // so 10000 N m/rad stand for 1e6 N/m, and 50000 for 5e6
+  CHECK(stability(model, model.home, {}, {}, work) == doctest::Approx(1e6 / 5e6).epsilon(1e-9));
+}
