@@ -42,18 +42,16 @@ PathSolver::PathSolver(const Job& job, Configuration start)
     : job_(job),
       R_MT_home_(tip(job.model.mechanism, job.model.home).R),
       work_(job.model.mechanism),
-      nominal_(std::move(start)),
+      nominal_(job.model, std::move(start)),
       writes_all_controlled_(controls_only_positions(job.model.mechanism)) {}
 
 Status PathSolver::go_to(const Vector3& p_MT) {
-  NominalResult result = follow(job_.model, nominal_, {R_MT_home_, p_MT});
-  if (result.status == Status::converged) nominal_ = std::move(result.configuration);
-  return result.status;
+  return nominal_.go_to({R_MT_home_, p_MT});
 }
 
 Pose PathSolver::wanted(const Vector3& p_MT, Status& status) {
   status = go_to(p_MT);
-  Pose X_MT = tip(job_.model.mechanism, nominal_);
+  Pose X_MT = tip(job_.model.mechanism, nominal());
   X_MT.p = p_MT;
   return X_MT;
 }
@@ -62,15 +60,15 @@ Pose PathSolver::wanted(const Vector3& p_MT, Status& status) {
 Equilibrium PathSolver::forward(const Load& load, const Stage& stage) {
   const bool warm = loaded_ && everything_acts(stage);
   if (warm) {
-    Configuration start = neighbour(*loaded_, nominal_);
-    set_actuator_values(job_.model.mechanism, actuator_values(job_.model.mechanism, nominal_), start);
+    Configuration start = neighbour(*loaded_, nominal());
+    set_actuator_values(job_.model.mechanism, actuator_values(job_.model.mechanism, nominal()), start);
     Equilibrium refined = refine_forward(job_.model, start, load, stage, work_);
     if (refined.status == Status::converged) {
       loaded_ = refined.configuration;
       return refined;
     }
   }
-  Equilibrium solved = solve_forward(job_.model, nominal_, load, stage, work_);
+  Equilibrium solved = solve_forward(job_.model, nominal(), load, stage, work_);
   if (solved.status == Status::converged && everything_acts(stage)) loaded_ = solved.configuration;
   return solved;
 }
@@ -105,19 +103,19 @@ TargetSolution PathSolver::by_outer_iteration(const Vector3& p_MT, const Load& l
 
 TargetSolution PathSolver::by_method(const Vector3& p_MT, const Load& load) {
   const Model& model = job_.model;
-  const Pose X_MT{tip(model.mechanism, nominal_).R, p_MT};
+  const Pose X_MT{tip(model.mechanism, nominal()).R, p_MT};
   Equilibrium solved;
   if (job_.options.method == Method::nested) {
-    solved = solve_target_nested(model, nominal_, X_MT, load, {}, work_);
+    solved = solve_target_nested(model, nominal(), X_MT, load, {}, work_);
   } else {
-    if (loaded_) solved = refine_target(model, neighbour(*loaded_, nominal_), X_MT, load, {}, work_);
-    if (solved.status != Status::converged) solved = solve_target(model, nominal_, X_MT, load, {}, work_);
+    if (loaded_) solved = refine_target(model, neighbour(*loaded_, nominal()), X_MT, load, {}, work_);
+    if (solved.status != Status::converged) solved = solve_target(model, nominal(), X_MT, load, {}, work_);
   }
   TargetSolution result{solved.status, p_MT, solved.iterations};
   if (solved.status != Status::converged) return result;
   if (job_.options.method == Method::direct) loaded_ = solved.configuration;
   const Eigen::VectorXd rho = actuator_values(model.mechanism, solved.configuration);
-  const NominalResult commanded = nominal_forward(model, nominal_, rho);
+  const NominalResult commanded = nominal_forward(model, nominal(), rho);
   result.status = commanded.status;
   result.target = tip(model.mechanism, commanded.configuration).p;
   for (int c = 0; c < 3; ++c)  // what is not controlled is not written
@@ -133,8 +131,8 @@ TargetSolution PathSolver::target(const Vector3& p_MT, const Load& load) {
   result.status = go_to(p_MT);
   if (result.status != Status::converged) return result;
   if (job_.options.method == Method::linear) {
-    const LinearResult linear = linear_deviation(job_.model, nominal_, load, {}, work_);
-    const Pose X_MT{tip(job_.model.mechanism, nominal_).R, p_MT};
+    const LinearResult linear = linear_deviation(job_.model, nominal(), load, {}, work_);
+    const Pose X_MT{tip(job_.model.mechanism, nominal()).R, p_MT};
     return {linear.status, linear_target(job_.model, X_MT, linear).p, 1};
   }
   return writes_all_controlled_ ? by_method(p_MT, load) : by_outer_iteration(p_MT, load);

@@ -33,7 +33,7 @@ class PathSolver {
   TargetSolution target(const Vector3& p_MT, const Load& load);
   ActualSolution actual(const Vector3& target, const Load& load, const Stage& stage);
 
-  const Configuration& nominal() const { return nominal_; }
+  const Configuration& nominal() const { return nominal_.configuration(); }
 
  private:
   Status go_to(const Vector3& p_MT);
@@ -44,7 +44,7 @@ class PathSolver {
   const Job& job_;
   Matrix3 R_MT_home_;
   StaticsWork work_;
-  Configuration nominal_;
+  NominalPath nominal_;
   std::optional<Configuration> loaded_;    ///< last solution with everything acting
   bool writes_all_controlled_;             ///< the program can state every component that the machine controls
 };

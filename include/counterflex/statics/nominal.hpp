@@ -1,6 +1,8 @@
 #pragma once
 /// Nominal kinematics: the rigid, perfect machine of which the controller knows. Springs, compliances and errors are
 /// identities, passive joints are free. EQUATIONS.md, section 1.
+#include <memory>
+
 #include "counterflex/statics/configuration.hpp"
 #include "counterflex/statics/status.hpp"
 
@@ -28,6 +30,22 @@ struct NominalResult {
 /// actuator step differs from its prediction by more than half. `unreachable` where closures cannot be met, `singular` at
 /// a branch jump or where the matrix from actuators to controlled components has a condition above 1e6.
 NominalResult follow(const Model& model, const Configuration& from, const Pose& X_MT);
+
+/// The same from target to target; it keeps what it learned at the last one. Where a target is not reached the
+/// configuration stays.
+class NominalPath {
+ public:
+  NominalPath(const Model& model, Configuration start);
+  ~NominalPath();
+  NominalPath(NominalPath&&) noexcept;
+  Status go_to(const Pose& X_MT);
+  const Configuration& configuration() const { return configuration_; }
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+  Configuration configuration_;
+};
 
 /// Forward kinematics: the nominal configuration of actuator values `rho`, on the branch of `from`.
 NominalResult nominal_forward(const Model& model, const Configuration& from, const Eigen::VectorXd& rho);
