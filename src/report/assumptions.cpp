@@ -15,7 +15,7 @@ std::string three(const Vector3& v, int decimals) {
 }
 
 std::string place(const Pose& X) {
-  std::string text = three(X.p / mm, 4) + " mm";
+  std::string text = three(X.p / mm, 4) + " mm in the machine frame";
   const Vector3 rpy = to_rpy(X.R) / deg;
   if (rpy.cwiseAbs().maxCoeff() > 5e-5)
     text += fmt::format(", turned by roll, pitch, yaw {} deg", three(rpy, 4));
@@ -26,8 +26,7 @@ std::string place(const Pose& X) {
 
 std::string work_in_words(const Machine& machine, const Job& job, const std::string& work_offset) {
   if (!work_offset.empty())
-    return fmt::format("{} puts the program's origin at {} in the machine frame.", work_offset,
-                       place(job.X_MW));
+    return fmt::format("{} puts the program's origin at {}.", work_offset, place(job.X_MW));
   const std::string reason =
       machine.work.empty() ? "the machine file has no work offsets" : "no work offset is in use";
   return fmt::format("Program coordinates were taken as machine coordinates: {}.", reason);

@@ -151,9 +151,12 @@ std::string force_text(const RunReport& report, const Ink& ink) {
     return text + "  none: the geometry alone is at work\n";
   text += fmt::format("  up to {} N and {} N m on the tool\n", format_fixed(forces.largest_N, 1),
                       format_fixed(forces.largest_Nm, 2));
+  if (forces.ramps > 0)
+    text += fmt::format("  {} of the profile acting as ramps\n", counted(forces.ramps, "step"));
+  if (forces.jumps > 0)
+    text += fmt::format("  {} of the profile acting as jumps\n", counted(forces.jumps, "step"));
   if (forces.ramps + forces.jumps > 0)
-    text += fmt::format("  {} of it acting as ramps, {} as jumps; the largest is {} N\n",
-                        counted(forces.ramps, "step"), forces.jumps, format_fixed(forces.largest_step_N, 1));
+    text += fmt::format("  largest step {} N\n", format_fixed(forces.largest_step_N, 1));
   if (report.air && report.air->mm > 0)
     text += wrapped(
         "  ",

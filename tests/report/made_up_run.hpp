@@ -1,0 +1,78 @@
+#pragma once
+/// A small run whose numbers are known without solving anything: three feed moves and a rapid, waypoints made
+/// up.
+#include "counterflex/geometry/units.hpp"
+#include "counterflex/program/read_program.hpp"
+#include "counterflex/report/report.hpp"
+
+namespace counterflex::test {
+
+inline const char* const made_up_program =
+    "(made up)\n"
+    "G21 G90 G0 X0 Y0 Z5\n"
+    "G0 Z0\n"
+    "G1 X100 F600\n"
+    "Y50\n"
+    "X90 Z-5\n"
+    "M30\n";
+
+/// Borrowing made easy: everything that a Job refers to, in one place.
+struct MadeUpRun {
+  Machine machine;
+  Model model;
+  Program program = read_program(made_up_program, "made_up.ngc", {});
+  Toolpath path = build_toolpath(program, Pose{});
+  ForceSource source = [] {
+    ForceSource s;
+    s.constant = (Vector6() << 30, -40, 0, 0, 0, 2).finished();
+    return s;
+  }();
+  PathForces forces{source, program, path, {Matrix3::Identity()}};
+  Job job{model, program, path, forces, Pose{}, Vector3::Zero(), {}};
+  RunFacts facts;
+
+  MadeUpRun() {
+    machine.name = "Mill";
+    facts.version = "0.1.0";
+    facts.inputs = {{"program", "made_up.ngc", std::string(64, 'a')},
+                    {"machine", "mill.toml", std::string(64, 'b')}};
+    facts.options = {{"tolerance-mm", 0.005}, {"method", std::string("direct")}, {"json", false}};
+    facts.attribution = true;
+  }
+  MadeUpRun(const MadeUpRun&) = delete;
+};
+
+/// A waypoint of a feed move with a position deviation before (mm), a hundredth of it after.
+inline Waypoint cut(std::size_t segment, int line, double weight_mm, const Vector3& before_mm) {
+  Waypoint w;
+  w.segment = segment;
+  w.line = line;
+  w.cutting = true;
+  w.weight = weight_mm * mm;
+  w.direction = Vector3::UnitX();
+  w.wrench << 30, -40, 0, 0, 0, 2;
+  w.before.head<3>() = before_mm * mm;
+  w.after = w.before / 100;
+  w.geometry = w.before / 4;
+  w.load = w.before / 2;
+  w.superposition = w.geometry + w.load;
+  w.air = -w.load;
+  w.correction = -w.before;
+  w.iterations = 7;
+  return w;
+}
+
+/// Before: 0.3 mm on 100 mm, 0.5 mm on 50 mm, nothing on the rest.
+inline std::vector<Waypoint> made_up_waypoints() {
+  std::vector<Waypoint> list = {cut(1, 4, 75, Vector3(0, 0.3, 0)), cut(1, 4, 25, Vector3(0, 0.3, 0)),
+                                cut(2, 5, 50, Vector3(0.3, 0, -0.4)), cut(3, 6, 10, Vector3::Zero())};
+  list[0].between = true;  // only `after` is known there, and it is the worst
+  list[0].before.setConstant(1);
+  list[0].after.head<3>() = Vector3(0, 0, 0.006) * mm;
+  Waypoint rapid = cut(0, 3, 0, Vector3(9, 9, 9));
+  rapid.cutting = false;
+  list.insert(list.begin(), rapid);
+  return list;
+}
+
+}  // namespace counterflex::test

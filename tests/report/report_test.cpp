@@ -1,0 +1,192 @@
+#include "counterflex/report/report.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "made_up_run.hpp"
+
+using namespace counterflex;
+using namespace counterflex::test;
+
+namespace {
+
+Compensation made_up_compensation() {
+  Compensation c;
+  c.text = made_up_program + std::string("G1 X1\n");
+  c.waypoints = made_up_waypoints();
+  c.left_alone = {{5, "exact stop: not split"}};
+  c.counts.inserted_blocks = 2;
+  c.corrected_moves = 3;
+  c.largest_correction = 0.5 * mm;
+  c.largest_correction_line = 5;
+  return c;
+}
+
+}  // namespace
+
+TEST_CASE("the deviation before is that of feed moves at the ends of pieces, weighed with the whole piece") {
+  const MadeUpRun run;
+  const RunReport report = report_compensation(run.machine, run.job, run.facts, made_up_compensation());
+  REQUIRE(report.before);
+  CHECK(report.before->max_mm == doctest::Approx(0.5));
+  CHECK(report.before->max_line == 5);
+  CHECK(report.before->mean_mm == doctest::Approx((100 * 0.3 + 50 * 0.5) / 160));
+  CHECK(report.before->rms_mm == doctest::Approx(std::sqrt((100 * 0.09 + 50 * 0.25) / 160)));
+  CHECK(report.before->max_axis_mm.isApprox(Vector3(0.3, 0.3, 0.4)));
+  CHECK(report.before->max_across_mm == doctest::Approx(0.3));
+  CHECK(report.before->max_along_mm == doctest::Approx(0.3));
+  CHECK(report.before->max_tool_axis_mm == doctest::Approx(0.4));
+  CHECK(report.path_mm == doctest::Approx(160));
+}
+
+TEST_CASE("the model residual counts the samples between the ends") {
+  const MadeUpRun run;
+  const RunReport report = report_compensation(run.machine, run.job, run.facts, made_up_compensation());
+  REQUIRE(report.after);
+  CHECK(report.after->max_mm == doctest::Approx(0.006));
+  CHECK(report.after->max_line == 4);
+  CHECK(report.after->mean_mm == doctest::Approx((75 * 0.006 + 25 * 0.003 + 50 * 0.005) / 160));
+}
+
+TEST_CASE("a compensation reports its counts, sizes, sources and what happens without the force") {
+  const MadeUpRun run;
+  const RunReport report = report_compensation(run.machine, run.job, run.facts, made_up_compensation());
+  CHECK(report.blocks.total == 6);
+  CHECK(report.blocks.moves == 5);
+  CHECK(report.blocks.corrected == 3);
+  CHECK(report.blocks.inserted == 2);
+  CHECK(report.text_before.bytes == run.program.text.size());
+  REQUIRE(report.text_after);
+  CHECK(report.text_after->blocks == 8);
+  CHECK(report.text_after->bytes == run.program.text.size() + 6);
+  REQUIRE(report.sources);
+  CHECK(report.sources->geometry.max_mm == doctest::Approx(0.125));
+  CHECK(report.sources->load.max_mm == doctest::Approx(0.25));
+  CHECK(report.sources->superposition.max_mm == doctest::Approx(0.375));
+  REQUIRE(report.air);
+  CHECK(report.air->mm == doctest::Approx(0.25));
+  CHECK(report.air->line == 5);
+  REQUIRE(report.correction);
+  CHECK(report.correction->mm == doctest::Approx(0.5));
+  CHECK(report.forces.largest_N == doctest::Approx(50));
+  CHECK(report.forces.largest_Nm == doctest::Approx(2));
+  CHECK(report.forces.ramps == run.forces.ramps());
+}
+
+TEST_CASE("the worst lines are ordered by the residual, or by the deviation where there is none") {
+  const MadeUpRun run;
+  const RunReport corrected = report_compensation(run.machine, run.job, run.facts, made_up_compensation());
+  REQUIRE(corrected.worst.size() == 3);
+  CHECK(corrected.worst[0].line == 4);
+  CHECK(corrected.worst[0].before_mm == doctest::Approx(0.3));
+  CHECK(corrected.worst[0].after_mm == doctest::Approx(0.006));
+  CHECK(corrected.worst[1].line == 5);
+  const RunReport predicted = report_prediction(run.machine, run.job, run.facts, made_up_waypoints(), {});
+  CHECK(predicted.worst[0].line == 5);
+  CHECK(predicted.worst[2].line == 6);
+}
+
+TEST_CASE("at most ten worst lines are listed") {
+  const MadeUpRun run;
+  std::vector<Waypoint> waypoints;
+  for (int line = 1; line <= 25; ++line) waypoints.push_back(cut(1, line, 1, Vector3(0.001 * line, 0, 0)));
+  const RunReport report = report_prediction(run.machine, run.job, run.facts, waypoints, {});
+  REQUIRE(report.worst.size() == 10);
+  CHECK(report.worst.front().line == 25);
+  CHECK(report.worst.back().line == 16);
+}
+
+TEST_CASE("lists are ordered by line and capped, counts are kept") {
+  MadeUpRun run;
+  for (int i = 0; i < 250; ++i) {
+    run.program.left_alone.push_back({1000 - i, "why"});
+    run.facts.warnings.push_back({500 - i, "what"});
+  }
+  const RunReport report = report_prediction(run.machine, run.job, run.facts, made_up_waypoints(), {});
+  CHECK(report.blocks.left_alone.count == 250);
+  CHECK(report.blocks.left_alone.rows.size() == listed_at_most);
+  CHECK(report.blocks.left_alone.rows.front().line == 751);
+  CHECK(report.warnings.count == 250 + run.program.remarks.size() + run.forces.notes().size());
+  CHECK(report.warnings.rows.size() == listed_at_most);
+}
+
+TEST_CASE("a plunge that feels no lateral force is among the warnings") {
+  MadeUpRun run;
+  run.program = read_program("G21 G90 G0 X0 Y0 Z5\nG1 Z0 F100\nX10\n", "p.ngc", {});
+  run.path = build_toolpath(run.program, Pose{});
+  ForceSource source;
+  source.profile =
+      read_force_csv("# frame = feed\n# sense = on_tool\nline,fx_N,fy_N,fz_N\n1,10,20,30\n", "f.csv");
+  run.forces = PathForces(source, run.program, run.path, {Matrix3::Identity()});
+  const RunReport report = report_prediction(run.machine, run.job, run.facts, {}, {});
+  REQUIRE(run.forces.notes().size() == 1);
+  REQUIRE(report.warnings.count == 1);
+  CHECK(report.warnings.rows[0].line == 2);
+  CHECK(report.warnings.rows[0].what == run.forces.notes()[0].what);
+}
+
+TEST_CASE("what was not solved gives no deviation: a failed run is not a perfect one") {
+  const MadeUpRun run;
+  const Failure failure{Exit::not_compensated, 4, "singular"};
+  Compensation none;
+  none.failure = failure;
+  const RunReport nothing = report_compensation(run.machine, run.job, run.facts, none);
+  CHECK_FALSE(nothing.before);
+  CHECK_FALSE(nothing.after);
+  CHECK_FALSE(nothing.sources);
+  CHECK_FALSE(nothing.air);
+  CHECK_FALSE(nothing.text_after);
+  REQUIRE(nothing.failure);
+  CHECK(nothing.failure->line == 4);
+  std::vector<Waypoint> waypoints = made_up_waypoints();
+  waypoints.push_back(cut(3, 6, 10, Vector3(7, 7, 7)));
+  waypoints.back().status = Status::singular;
+  const RunReport partly = report_prediction(run.machine, run.job, run.facts, waypoints, failure);
+  CHECK(partly.before->max_mm == doctest::Approx(0.5));
+}
+
+TEST_CASE("a verification counts the moves and blocks of the second program") {
+  const MadeUpRun run;
+  Program corrected = run.program;
+  corrected.block_count += 4;
+  const RunReport report =
+      report_verification(run.machine, run.job, run.facts, corrected, made_up_waypoints(), {});
+  CHECK(report.command == Command::verify);
+  CHECK(report.blocks.inserted == 4);
+  CHECK(report.blocks.corrected == 3);  // the rapid and two feed moves; the last has no correction
+  CHECK(report.text_after->blocks == 10);
+  CHECK(report.correction->mm == doctest::Approx(std::sqrt(3 * 81.0)));
+}
+
+TEST_CASE("a prediction has no residual") {
+  const MadeUpRun run;
+  const RunReport report = report_prediction(run.machine, run.job, run.facts, made_up_waypoints(), {});
+  CHECK(report.before->max_mm == doctest::Approx(0.5));
+  CHECK_FALSE(report.after);
+  CHECK_FALSE(report.air);
+  CHECK_FALSE(report.correction);
+  CHECK_FALSE(report.text_after);
+}
+
+TEST_CASE("the report says in words where the program's coordinates lie and what the offset means") {
+  MadeUpRun run;
+  const auto report = [&] { return report_prediction(run.machine, run.job, run.facts, {}, {}); };
+  CHECK(report().work ==
+        "Program coordinates were taken as machine coordinates: the machine file has no work offsets.");
+  run.machine.work["G54"] = {};
+  run.facts.work_offset = "G54";
+  run.job.X_MW = {from_rpy(Vector3(0, 0, 90) * deg), Vector3(10, -20, 0.5) * mm};
+  CHECK(report().work ==
+        "G54 puts the program's origin at (10.0000, -20.0000, 0.5000) mm in the machine frame, turned by "
+        "roll, pitch, "
+        "yaw (0.0000, 0.0000, 90.0000) deg.");
+  CHECK(report().datum ==
+        "The work frame was taken to be truly there, not found by touching the part off with this machine.");
+  run.machine.work["G54"].datum.touched_at = Vector3(1, 2, 3) * mm;
+  run.job.datum_shift = Vector3(0.1, 0, -0.2) * mm;
+  CHECK(report().datum.find(
+            "touched off with this machine at (1.0000, 2.0000, 3.0000) mm in program coordinates") !=
+        std::string::npos);
+  CHECK(report().datum.find("(0.1000, 0.0000, -0.2000) mm in the machine frame") != std::string::npos);
+}
