@@ -2,12 +2,13 @@
 
 _counterflex_words() {
   local forces='--forces --force --load-scale --blend-mm'
-  local program='--machine --dialect --units --work --tolerance-mm --method --max-correction-mm --decimals --threads'
+  local reading='--machine --dialect --units --integer-words --work'
+  local program="$reading --tolerance-mm --method --max-correction-mm --decimals --threads"
   case $1 in
     compensate) echo "$program $forces --output --report --json --quiet --verbose --help" ;;
     predict | verify) echo "$program $forces --report --json --quiet --verbose --help" ;;
     analyze) echo "--machine --at --force --method --json --quiet --verbose --help" ;;
-    check) echo "--json --quiet --verbose --help" ;;
+    check) echo "$reading --json --quiet --verbose --help" ;;
     *) echo "compensate predict verify analyze check --version --help" ;;
   esac
 }
@@ -17,7 +18,8 @@ _counterflex() {
   COMPREPLY=()
   case $previous in
     --method) values='direct nested linear' ;;
-    --dialect) values='auto' ;;
+    --dialect) values='auto linuxcnc grbl fanuc haas' ;;
+    --integer-words) values='units increments' ;;
     --units) values='mm inch' ;;
     -m | --machine | -f | --forces | -o | --output | --report) return ;;  # files: readline completes them
     *) if [[ $COMP_CWORD -eq 1 || $current == -* ]]; then

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "counterflex/geometry/units.hpp"
+#include "counterflex/report/formats.hpp"
 #include "facts.hpp"
 
 namespace counterflex::cli {

@@ -1,0 +1,54 @@
+# What the tests of the command line share. A test is a script that sources this with the program and the JSON reader as
+# its arguments; it works in a folder of its own, which holds copies of data/.
+set -uo pipefail
+counterflex=$(realpath "$1") json_value=$(realpath "$2")
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cp "$(dirname "${BASH_SOURCE[0]}")"/data/* "$work"
+cd "$work" || exit 1
+failures=0 sentence=''
+
+it() { sentence=$1; }
+
+fail() {
+  printf 'FAILED: %s: %s\n' "$sentence" "$1"
+  failures=$((failures + 1))
+}
+
+# Runs counterflex with the arguments after the status $1 that it must have; out and err hold its streams.
+runs() {
+  local expected=$1 status
+  shift
+  "$counterflex" "$@" >out 2>err </dev/null
+  status=$?
+  [ "$status" = "$expected" ] || fail "status $status instead of $expected of 'counterflex $*': $(head -c 600 err)"
+}
+
+says() { grep -qF -e "$2" "$1" || fail "'$2' is not in $1: $(head -c 600 "$1")"; }
+says_not() { ! grep -qF -e "$2" "$1" || fail "'$2' is in $1"; }
+is_empty() { [ ! -s "$1" ] || fail "$1 is not empty: $(head -c 300 "$1")"; }
+is_there() { [ -s "$1" ] || fail "$1 is missing or empty"; }
+is_not_there() { [ ! -e "$1" ] || fail "$1 is there"; }
+same() { cmp -s "$1" "$2" || fail "$1 and $2 differ"; }
+
+# The value at JSON pointer $2 of the file $1 is $3.
+has() {
+  local value
+  value=$("$json_value" "$2" <"$1" 2>&1) || { fail "$1: $value"; return; }
+  [ "$value" = "$3" ] || fail "$2 of $1 is $value instead of $3"
+}
+
+# Nothing but the inputs and what this harness writes.
+nothing_written() {
+  local extra
+  extra=$(ls -A | grep -vxF -e "$(ls "$data_at_start")" -e out -e err)
+  [ -z "$extra" ] || { fail "left behind: $extra"; rm -rf -- $extra; }
+}
+
+data_at_start=$(dirname "$(realpath "${BASH_SOURCE[0]}")")/data
+
+finish() {
+  [ "$failures" = 0 ] && { echo "all as it should be"; exit 0; }
+  echo "$failures failed"
+  exit 1
+}
