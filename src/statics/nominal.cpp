@@ -3,6 +3,7 @@
 #include "counterflex/statics/nominal.hpp"
 
 #include <Eigen/LU>
+#include <Eigen/LU>
 #include <Eigen/QR>
 #include <Eigen/SVD>
 #include <algorithm>
@@ -122,6 +123,11 @@ bool is_jump(const Mechanism& mechanism, const InverseJacobian& jacobian, const 
   return surplus.norm() > jump_floor && !(surplus.norm() <= 0.5 * predicted.norm());
 }
 
+bool determinant_is_positive(const InverseJacobian& jacobian) {
+  const auto& J = jacobian.matrix;
+  return J.rows() != J.cols() || J.rows() == 0 || J.determinant() > 0;
+}
+
 // Zero modes of the closures with actuators held that move the platform: a singularity of the parallel kind.
 bool platform_is_loose(const Eigen::MatrixXd& J_free) {
   const Eigen::BDCSVD<Eigen::MatrixXd> svd(J_free, Eigen::ComputeFullV);
@@ -229,8 +235,13 @@ struct NominalPath::Impl {
       has_jacobian = false;
       return false;
     }
+    const bool positive = determinant_is_positive(jacobian);
+    look_at(goal, next);
+    if (determinant_is_positive(jacobian) != positive) {  // a singularity was crossed on the way
+      has_jacobian = false;
+      return false;
+    }
     configuration = std::move(next);
-    look_at(goal, configuration);
     return true;
   }
 
@@ -266,13 +277,9 @@ Status NominalPath::go_to(const Pose& X_MT) {
     return at_singularity ? Status::singular : Status::unreachable;
   }
   mark_nominal(reached);
-  const bool judged = !mechanism.controlled.empty() && !mechanism.travel.empty();
-  if (judged && impl_->jacobian.condition > largest_condition) {
-    impl_->has_jacobian = false;
-    return Status::singular;
-  }
   configuration_ = std::move(reached);
-  return Status::converged;
+  const bool judged = !mechanism.controlled.empty() && !mechanism.travel.empty();
+  return judged && impl_->jacobian.condition > largest_condition ? Status::singular : Status::converged;
 }
 
 NominalResult follow(const Model& model, const Configuration& from, const Pose& X_MT) {
