@@ -170,8 +170,53 @@ TEST_CASE("a segment through a fold of the arm is singular, not a jump to anothe
   const Model model = model_of_text(text);
   const NominalResult start = follow(model, model.home, in_plane(0.2, 0));
   REQUIRE(start.status == Status::converged);
-  CHECK(follow(model, start.configuration, in_plane(-0.2, 0)).status == Status::singular);
+  for (const double x : {-0.2, -0.13, -0.05, -0.011, -0.37}) {
+    CAPTURE(x);
+    CHECK(follow(model, start.configuration, in_plane(x, 0)).status == Status::singular);
+  }
   CHECK(follow(model, start.configuration, in_plane(0, 0.2)).status == Status::converged);
+}
+
+TEST_CASE("a segment close beside a fold keeps its branch, or is refused") {
+  std::string text = two_links;
+  text.replace(text.find("xyz_mm = [300"), 13, "xyz_mm = [200");
+  const Model model = model_of_text(text);
+  for (const double y : {0.05, 0.01, 0.001, 1e-5, -1e-5, -0.001, -0.01, -0.05})
+    for (const double x : {-0.2, -0.13, -0.05}) {
+      CAPTURE(x);
+      CAPTURE(y);
+      const NominalResult start = follow(model, model.home, in_plane(0.2, y));
+      REQUIRE(start.status == Status::converged);
+      REQUIRE(std::sin(actuator_values(model.mechanism, start.configuration)[1]) > 0);
+      const NominalResult end = follow(model, start.configuration, in_plane(x, y));
+      if (std::abs(y) > 0.005) CHECK(end.status == Status::converged);
+      if (end.status == Status::converged)
+        CHECK(std::sin(actuator_values(model.mechanism, end.configuration)[1]) > 0);
+    }
+}
+
+TEST_CASE("a path from target to target is what following each from the last one is") {
+  for_random_poses(95, 1, [](const Model& model, const Configuration&, const Trial& trial, Random& random) {
+    NominalPath path(model, model.home);
+    Configuration last = model.home;
+    for (int n = 0; n < 4; ++n) {
+      const Pose X_MT = tip(model.mechanism, somewhere(model, trial, random).configuration);
+      const NominalResult one = follow(model, last, X_MT);
+      CHECK(path.go_to(X_MT) == one.status);
+      CHECK(largest_difference(path.configuration(), one.configuration) < 1e-9);
+      last = one.configuration;
+    }
+  });
+}
+
+TEST_CASE("a path stays where it was when a target is not reached, and goes on from there") {
+  const Model model = model_of_text(two_links);
+  NominalPath path(model, model.home);
+  REQUIRE(path.go_to(in_plane(0.3, 0.2)) == Status::converged);
+  const Configuration before = path.configuration();
+  CHECK(path.go_to(in_plane(0.9, 0)) != Status::converged);
+  CHECK(largest_difference(path.configuration(), before) < 1e-15);
+  CHECK(path.go_to(in_plane(0.2, 0.3)) == Status::converged);
 }
 
 TEST_CASE("a target at the edge of reach, where the arm is straight, is singular") {
