@@ -15,9 +15,10 @@ constexpr double no_correction = 1e-12;  // m: rounding of coordinates that were
 struct Collector {
   Measures m;
   std::map<int, WorstRow> lines;
-  double weight_between =
-      0;  // of samples since the last end of a piece: all but `after` is known at ends alone
   std::optional<std::size_t> last_changed;
+  double piece_weight = 0;  // of the piece under way: all but `after` is known at the ends of pieces alone
+  std::optional<Waypoint> end;  // the last one, and what it weighs so far
+  double end_weight = 0;
 
   static DeviationSample sample(const Waypoint& w, const Vector6& deviation, double weight) {
     return {deviation, w.direction, w.tool_axis, weight, w.line};
@@ -35,7 +36,22 @@ struct Collector {
     ++m.segments_changed;
   }
 
-  void add_end(const Waypoint& w, double weight) {
+  // Trapezoids: a piece weighs on both of its ends, or on its last one alone where no feed move precedes it.
+  void add_end(const Waypoint& w) {
+    const double share = end ? piece_weight / 2 : 0;
+    end_weight += share;
+    finish_end();
+    end = w;
+    end_weight = piece_weight - share;
+    piece_weight = 0;
+  }
+
+  void finish_end() {
+    if (end) measure_end(*end, end_weight);
+    end.reset();
+  }
+
+  void measure_end(const Waypoint& w, double weight) {
     m.before.add(sample(w, w.before, weight));
     m.geometry.add(sample(w, w.geometry, weight));
     m.load.add(sample(w, w.load, weight));
@@ -53,16 +69,17 @@ struct Collector {
     WorstRow& row = lines[w.line];
     row.line = w.line;
     row.after_mm = std::max(row.after_mm, w.after.head<3>().norm() / mm);
-    weight_between += w.weight;
-    if (w.between) return;
-    add_end(w, weight_between);
-    weight_between = 0;
+    piece_weight += w.weight;
+    if (!w.between) add_end(w);
   }
 
   void add(const Waypoint& w) {
     if (w.status != Status::converged) return;
     if (!w.between) add_target(w);
-    if (w.cutting) add_cutting(w);
+    if (w.cutting)
+      add_cutting(w);
+    else
+      finish_end();
   }
 };
 
@@ -71,6 +88,7 @@ struct Collector {
 Measures measure(const std::vector<Waypoint>& waypoints) {
   Collector collector;
   for (const Waypoint& w : waypoints) collector.add(w);
+  collector.finish_end();
   for (const auto& [line, row] : collector.lines) collector.m.by_line.push_back(row);
   return std::move(collector.m);
 }

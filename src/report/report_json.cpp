@@ -58,9 +58,11 @@ Json summary_json(const RunReport& report) {
           {"correction", largest_json(report.correction)}, {"path_mm", number(report.path_mm, digits)}};
 }
 
-Json forces_json(const ForceSummary& forces) {
-  return {{"largest_N", number(forces.largest_N, 4)},
-          {"largest_Nm", number(forces.largest_Nm, 4)},
+Json forces_json(const RunReport& report) {
+  const ForceSummary& forces = report.forces;
+  const auto known = [&](double value) { return report.before ? number(value, 4) : Json(nullptr); };
+  return {{"largest_N", known(forces.largest_N)},
+          {"largest_Nm", known(forces.largest_Nm)},
           {"ramps", forces.ramps},
           {"jumps", forces.jumps},
           {"largest_step_N", number(forces.largest_step_N, 4)}};
@@ -119,7 +121,7 @@ std::string to_json(const RunReport& report) {
                    {"options", options_json(report.facts.options)},
                    {"failure", failure_json(report.failure)},
                    {"summary", summary_json(report)},
-                   {"forces", forces_json(report.forces)},
+                   {"forces", forces_json(report)},
                    {"blocks", blocks_json(report.blocks)},
                    {"text", text_json(report)},
                    {"assumptions", {{"work", report.work}, {"datum", report.datum}}},

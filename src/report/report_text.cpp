@@ -33,16 +33,21 @@ std::string file_name(const RunReport& report, const std::string& role) {
   return "the program";
 }
 
+std::string what_was_done(const RunReport& report) {
+  const std::string program = file_name(report, "program");
+  if (report.command == Command::verify)
+    return fmt::format("verify {} for {}", file_name(report, "corrected"), program);
+  return fmt::format("{} {}", name_of(report.command), program);
+}
+
 std::string title(const RunReport& report, const Ink& ink) {
-  const std::string what = fmt::format("{} {}", name_of(report.command), file_name(report, "program"));
-  std::string text = ink.bold(what) + "\n";
-  text +=
-      wrapped("  ", fmt::format("on {}", report.machine.empty() ? "an unnamed machine" : report.machine), 2);
+  std::string text = ink.bold(what_was_done(report)) + "\n";
+  const std::string machine = report.machine.empty() ? "an unnamed machine" : report.machine;
+  text += wrapped("  ", fmt::format("on {}", machine), 2);
   if (report.command == Command::predict) return text;
-  return text +
-         wrapped("  ",
-                 fmt::format("method {}, tolerance {} mm", name_of(report.method), mm4(report.tolerance_mm)),
-                 2);
+  const std::string method =
+      report.command == Command::compensate ? fmt::format("method {}, ", name_of(report.method)) : "";
+  return text + fmt::format("  {}tolerance {} mm\n", method, mm4(report.tolerance_mm));
 }
 
 std::string failure_text(const RunReport& report, const Ink& ink) {
@@ -130,6 +135,7 @@ std::string worst_text(const RunReport& report, const Ink& ink) {
 
 std::string program_text(const RunReport& report, const Ink& ink) {
   const BlockCounts& blocks = report.blocks;
+  if (report.failure && !report.text_after) return "";
   std::string text = line_break() + ink.bold("Program") + "\n";
   if (report.command == Command::predict)
     return text + fmt::format("  {}, {}\n", counted(blocks.total, "block"), counted(blocks.moves, "move"));
@@ -146,6 +152,7 @@ std::string program_text(const RunReport& report, const Ink& ink) {
 
 std::string force_text(const RunReport& report, const Ink& ink) {
   const ForceSummary& forces = report.forces;
+  if (!report.before) return "";
   std::string text = line_break() + ink.bold("Cutting force") + "\n";
   if (forces.largest_N == 0 && forces.largest_Nm == 0)
     return text + "  none: the geometry alone is at work\n";

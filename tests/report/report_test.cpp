@@ -25,14 +25,14 @@ Compensation made_up_compensation() {
 
 }  // namespace
 
-TEST_CASE("the deviation before is that of feed moves at the ends of pieces, weighed with the whole piece") {
+TEST_CASE("the deviation before is that of feed moves at the ends of pieces, weighed by trapezoids") {
   const MadeUpRun run;
   const RunReport report = report_compensation(run.machine, run.job, run.facts, made_up_compensation());
   REQUIRE(report.before);
   CHECK(report.before->max_mm == doctest::Approx(0.5));
   CHECK(report.before->max_line == 5);
-  CHECK(report.before->mean_mm == doctest::Approx((100 * 0.3 + 50 * 0.5) / 160));
-  CHECK(report.before->rms_mm == doctest::Approx(std::sqrt((100 * 0.09 + 50 * 0.25) / 160)));
+  CHECK(report.before->mean_mm == doctest::Approx((125 * 0.3 + 30 * 0.5) / 160));
+  CHECK(report.before->rms_mm == doctest::Approx(std::sqrt((125 * 0.09 + 30 * 0.25) / 160)));
   CHECK(report.before->max_axis_mm.isApprox(Vector3(0.3, 0.3, 0.4)));
   CHECK(report.before->max_across_mm == doctest::Approx(0.3));
   CHECK(report.before->max_along_mm == doctest::Approx(0.3));

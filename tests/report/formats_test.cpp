@@ -1,0 +1,326 @@
+#include "counterflex/report/formats.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <sstream>
+
+#include "made_up_run.hpp"
+
+using namespace counterflex;
+using namespace counterflex::test;
+
+namespace {
+
+Compensation small_compensation() {
+  Compensation c;
+  c.text = "G1 X1\n";
+  c.waypoints = {cut(1, 4, 100, Vector3(0, 0.3, -0.4))};
+  c.left_alone = {{5, "exact stop: not split"}};
+  c.counts.inserted_blocks = 2;
+  c.corrected_moves = 3;
+  c.largest_correction = 0.5 * mm;
+  c.largest_correction_line = 4;
+  return c;
+}
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::istringstream stream(text);
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  return lines;
+}
+
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+}  // namespace
+
+TEST_CASE("the JSON of a compensation has every key, in this order") {
+  const MadeUpRun run;
+  const RunReport report = report_compensation(run.machine, run.job, run.facts, small_compensation());
+  const std::string hash_a(64, 'a'), hash_b(64, 'b');
+  CHECK(to_json(report) == R"({
+  "schema": "counterflex-report 1",
+  "tool": "counterflex 0.1.0",
+  "command": "compensate",
+  "machine": "Mill",
+  "inputs": {
+    "program": {
+      "path": "made_up.ngc",
+      "sha256": ")" + hash_a + R"("
+    },
+    "machine": {
+      "path": "mill.toml",
+      "sha256": ")" + hash_b + R"("
+    }
+  },
+  "output": null,
+  "options": {
+    "tolerance-mm": 0.005,
+    "method": "direct",
+    "json": false
+  },
+  "failure": null,
+  "summary": {
+    "before": {
+      "max_mm": 0.5,
+      "rms_mm": 0.5,
+      "mean_mm": 0.5,
+      "p95_mm": 0.5,
+      "max_line": 4,
+      "max_axis_mm": [0.0, 0.3, 0.4],
+      "max_rotation_deg": 0.0,
+      "max_along_mm": 0.0,
+      "max_across_mm": 0.3,
+      "max_tool_axis_mm": 0.4
+    },
+    "after": {
+      "max_mm": 0.005,
+      "rms_mm": 0.005,
+      "mean_mm": 0.005,
+      "p95_mm": 0.005,
+      "max_line": 4,
+      "max_axis_mm": [0.0, 0.003, 0.004],
+      "max_rotation_deg": 0.0,
+      "max_along_mm": 0.0,
+      "max_across_mm": 0.003,
+      "max_tool_axis_mm": 0.004
+    },
+    "sources": {
+      "geometry": {
+        "max_mm": 0.125,
+        "rms_mm": 0.125,
+        "mean_mm": 0.125,
+        "p95_mm": 0.125,
+        "max_line": 4,
+        "max_axis_mm": [0.0, 0.075, 0.1],
+        "max_rotation_deg": 0.0,
+        "max_along_mm": 0.0,
+        "max_across_mm": 0.075,
+        "max_tool_axis_mm": 0.1
+      },
+      "load": {
+        "max_mm": 0.25,
+        "rms_mm": 0.25,
+        "mean_mm": 0.25,
+        "p95_mm": 0.25,
+        "max_line": 4,
+        "max_axis_mm": [0.0, 0.15, 0.2],
+        "max_rotation_deg": 0.0,
+        "max_along_mm": 0.0,
+        "max_across_mm": 0.15,
+        "max_tool_axis_mm": 0.2
+      },
+      "superposition": {
+        "max_mm": 0.375,
+        "rms_mm": 0.375,
+        "mean_mm": 0.375,
+        "p95_mm": 0.375,
+        "max_line": 4,
+        "max_axis_mm": [0.0, 0.225, 0.3],
+        "max_rotation_deg": 0.0,
+        "max_along_mm": 0.0,
+        "max_across_mm": 0.225,
+        "max_tool_axis_mm": 0.3
+      }
+    },
+    "air": {
+      "max_mm": 0.25,
+      "line": 4
+    },
+    "correction": {
+      "max_mm": 0.5,
+      "line": 4
+    },
+    "path_mm": 100.0
+  },
+  "forces": {
+    "largest_N": 50.0,
+    "largest_Nm": 2.0,
+    "ramps": 1,
+    "jumps": 0,
+    "largest_step_N": 50.0
+  },
+  "blocks": {
+    "total": 6,
+    "moves": 5,
+    "corrected": 3,
+    "inserted": 2,
+    "left_alone_count": 1,
+    "left_alone": [
+      {
+        "line": 5,
+        "why": "exact stop: not split"
+      }
+    ]
+  },
+  "text": {
+    "blocks_before": 6,
+    "blocks_after": 8,
+    "bytes_before": 65,
+    "bytes_after": 6
+  },
+  "assumptions": {
+    "work": "Program coordinates were taken as machine coordinates: the machine file has no work offsets.",
+    "datum": "The work frame was taken to be truly there, not found by touching the part off with this machine."
+  },
+  "warning_count": 0,
+  "warnings": [],
+  "worst": [
+    {
+      "line": 4,
+      "before_mm": 0.5,
+      "after_mm": 0.005
+    }
+  ]
+}
+)");
+}
+
+TEST_CASE("the JSON of a failure says so, and holds null where nothing was solved") {
+  const MadeUpRun run;
+  Compensation none;
+  none.failure = Failure{Exit::limit, 4, "too far"};
+  const std::string json = to_json(report_compensation(run.machine, run.job, run.facts, none));
+  CHECK(contains(json, "\"failure\": {\n    \"exit\": 6,\n    \"line\": 4,\n    \"what\": \"too far\"\n  }"));
+  CHECK(contains(json, "\"before\": null,\n    \"after\": null,\n    \"sources\": null,\n    \"air\": null"));
+  CHECK(contains(json, "\"largest_N\": null"));
+}
+
+TEST_CASE("text that is no UTF-8 does not spoil the JSON") {
+  MadeUpRun run;
+  run.facts.warnings = {{1, "comment \xff"}};
+  const std::string json = to_json(report_prediction(run.machine, run.job, run.facts, {}, {}));
+  CHECK(contains(json, "comment \xEF\xBF\xBD"));
+}
+
+TEST_CASE("the CSV has the documented columns and a row for every waypoint that is not between") {
+  std::vector<Waypoint> waypoints = {cut(0, 4, 1, Vector3(1, 0, 0)), cut(0, 4, 1, Vector3(0.1, -0.2, 0.3))};
+  waypoints[0].between = true;
+  waypoints[1].s = 0.1;
+  waypoints[1].p_MT = Vector3(0.001, 0.002, -0.003);
+  waypoints[1].before.tail<3>() = Vector3(0.5, -0.25, 0) * deg;
+  const auto lines = lines_of(to_csv(waypoints, {}));
+  REQUIRE(lines.size() == 2);
+  CHECK(
+      lines[0] ==
+      "index,line,cutting,s_mm,x_mm,y_mm,z_mm,fx_N,fy_N,fz_N,mx_Nm,my_Nm,mz_Nm,"
+      "before_dx_mm,before_dy_mm,before_dz_mm,before_drx_deg,before_dry_deg,before_drz_deg,"
+      "geometry_dx_mm,geometry_dy_mm,geometry_dz_mm,geometry_drx_deg,geometry_dry_deg,geometry_drz_deg,"
+      "load_dx_mm,load_dy_mm,load_dz_mm,load_drx_deg,load_dry_deg,load_drz_deg,"
+      "superposition_dx_mm,superposition_dy_mm,superposition_dz_mm,"
+      "superposition_drx_deg,superposition_dry_deg,superposition_drz_deg,"
+      "after_dx_mm,after_dy_mm,after_dz_mm,after_drx_deg,after_dry_deg,after_drz_deg,"
+      "air_dx_mm,air_dy_mm,air_dz_mm,air_drx_deg,air_dry_deg,air_drz_deg,"
+      "correction_x_mm,correction_y_mm,correction_z_mm,correction_rx_deg,correction_ry_deg,correction_rz_deg,"
+      "status,iterations");
+  const std::string zeros = ",0.0000000,0.0000000,0.0000000";
+  CHECK(
+      lines[1] ==
+      "0,4,1,100.000000,1.000000,2.000000,-3.000000,30.000000,-40.000000,0.000000,0.000000,0.000000,2.000000,"
+      "0.1000000,-0.2000000,0.3000000,0.5000000,-0.2500000,0.0000000,"
+      "0.0250000,-0.0500000,0.0750000" +
+          zeros + ",0.0500000,-0.1000000,0.1500000" + zeros + ",0.0750000,-0.1500000,0.2250000" + zeros +
+          ",0.0010000,-0.0020000,0.0030000" + zeros + ",-0.0500000,0.1000000,-0.1500000" + zeros +
+          ",-0.1000000,0.2000000,-0.3000000" + zeros + ",converged,7");
+}
+
+TEST_CASE("columns that were not computed keep their place and are empty") {
+  std::vector<Waypoint> waypoints = {cut(0, 4, 1, Vector3(1, 2, 3)), cut(0, 4, 1, Vector3(1, 2, 3))};
+  waypoints[1].status = Status::singular;
+  const auto lines = lines_of(to_csv(waypoints, {true, false}));
+  REQUIRE(lines.size() == 3);
+  for (const std::string& line : lines) CHECK(std::count(line.begin(), line.end(), ',') == 56);
+  CHECK(contains(lines[1], std::string(19, ',') + "converged,7"));
+  CHECK(contains(lines[2], ",2.000000" + std::string(43, ',') + "singular,7"));
+}
+
+TEST_CASE("the summary shows before and after, and calls what is left a model residual") {
+  MadeUpRun run;
+  run.facts.warnings = {{0, "a general warning"}, {6, "a warning"}};
+  const std::string text =
+      summary_text(report_compensation(run.machine, run.job, run.facts, small_compensation()), false);
+  CAPTURE(text);
+  CHECK(contains(text, "compensate made_up.ngc\n  on Mill\n  method direct, tolerance 0.0050 mm\n"));
+  CHECK(contains(text, "  largest                                 0.5000        0.0050\n"));
+  CHECK(contains(text, "model residual: what the model leaves, not the accuracy of the part"));
+  CHECK(contains(text, "100 times smaller"));
+  CHECK(contains(text,
+                 "  load: cutting forces alone              0.0000      0.1500      0.2000      0.2500\n"));
+  CHECK(contains(text, "  3 of 5 moves corrected, 2 points added\n"));
+  CHECK(contains(text, "corrected program is off by up to\n  0.2500 mm, line 4.\n"));
+  CHECK(contains(text, "Not corrected: 1 block\n  line 5: exact stop: not split\n"));
+  CHECK(contains(text, "2 warnings\n  a general warning\n  line 6: a warning\n"));
+  CHECK(contains(text, "Taken for granted\n  Program coordinates were taken as machine coordinates"));
+}
+
+TEST_CASE("the summary of a prediction shows no residual") {
+  const MadeUpRun run;
+  const std::string text =
+      summary_text(report_prediction(run.machine, run.job, run.facts, made_up_waypoints(), {}), false);
+  CHECK(contains(text, "  largest                                 0.5000\n"));
+  CHECK_FALSE(contains(text, "after"));
+  CHECK_FALSE(contains(text, "residual"));
+}
+
+TEST_CASE("the summary of a failure says what failed and shows no numbers that are not known") {
+  const MadeUpRun run;
+  Compensation none;
+  none.failure = Failure{Exit::limit, 4, "the correction is too large"};
+  const std::string text = summary_text(report_compensation(run.machine, run.job, run.facts, none), false);
+  CHECK(contains(text,
+                 "Failed (exit status 6)\n  line 4: the correction is too large\n  No corrected program was "
+                 "written.\n"));
+  CHECK_FALSE(contains(text, "Deviation of the tool tip"));
+  CHECK_FALSE(contains(text, "Cutting force"));
+}
+
+TEST_CASE("long lists are cut short in the summary, with their number") {
+  MadeUpRun run;
+  for (int line = 1; line <= 30; ++line) run.program.left_alone.push_back({line, "why"});
+  const std::string text = summary_text(report_prediction(run.machine, run.job, run.facts, {}, {}), false);
+  CHECK(contains(text, "Not corrected: 30 blocks\n  line 1: why\n"));
+  CHECK(contains(text, "  line 5: why\n  and 25 more\n"));
+}
+
+TEST_CASE("the summary is at most 100 characters wide and has no trailing blanks") {
+  MadeUpRun run;
+  std::string sentence;
+  for (int i = 0; i < 60; ++i) sentence += "word" + std::to_string(i) + " ";
+  run.facts.warnings = {{123456, sentence}};
+  run.machine.work["G54"].datum.touched_at = Vector3(1, 2, 3);
+  run.facts.work_offset = "G54";
+  const std::string text =
+      summary_text(report_compensation(run.machine, run.job, run.facts, small_compensation()), false);
+  for (const std::string& line : lines_of(text)) {
+    CAPTURE(line);
+    CHECK(line.size() <= 100);
+    CHECK((line.empty() || line.back() != ' '));
+  }
+}
+
+TEST_CASE("colour adds escape sequences and nothing else") {
+  const MadeUpRun run;
+  const RunReport report = report_compensation(run.machine, run.job, run.facts, small_compensation());
+  const std::string plain = summary_text(report, false), coloured = summary_text(report, true);
+  CHECK_FALSE(contains(plain, "\033"));
+  std::string stripped;
+  for (std::size_t i = 0; i < coloured.size(); ++i) {
+    if (coloured[i] == '\033')
+      i = coloured.find('m', i);
+    else
+      stripped += coloured[i];
+  }
+  CHECK(stripped == plain);
+  CHECK(coloured != plain);
+}
+
+TEST_CASE("a run in one line names the program, before and after") {
+  const MadeUpRun run;
+  CHECK(one_line(report_compensation(run.machine, run.job, run.facts, small_compensation())) ==
+        "made_up.ngc: 0.5000 mm before, 0.0050 mm after (model residual)");
+  CHECK(one_line(report_prediction(run.machine, run.job, run.facts, made_up_waypoints(), {})) ==
+        "made_up.ngc: 0.5000 mm before");
+}
