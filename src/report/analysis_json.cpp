@@ -86,7 +86,7 @@ Json pose_json(const PoseAnalysis& pose, const std::vector<Travel>& travel) {
           {"softest_stiffness_N_per_m", soft ? significant(pose.softest_stiffness) : Json(nullptr)},
           {"condition", if_known(significant(pose.condition))},
           {"stability", if_known(significant(pose.stability))},
-          {"actuators", pose.rho.size() > 0 ? actuators(pose.rho, travel) : Json(nullptr)},
+          {"actuators", known || pose.rho.size() > 0 ? actuators(pose.rho, travel) : Json(nullptr)},
           {"corrected", corrected_json(pose, travel)},
           {"chains", chains_json(pose.chains)}};
 }

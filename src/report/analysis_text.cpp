@@ -79,6 +79,7 @@ std::string actuator_values_text(const Eigen::VectorXd& rho, const std::vector<T
 }
 
 std::string actuators(const AnalysisReport& report) {
+  if (report.travel.empty()) return "";
   std::string text = "\nActuators\n";
   for (std::size_t i = 0; i < report.poses.size(); ++i) {
     const PoseAnalysis& pose = report.poses[i];
@@ -96,7 +97,7 @@ std::string corrected_targets(const AnalysisReport& report) {
   for (std::size_t i = 0; i < report.poses.size(); ++i) {
     const PoseAnalysis& pose = report.poses[i];
     if (!pose.corrected) {
-      if (pose.rho.size() > 0)
+      if (has_values(pose.status))
         text += fmt::format("  {:>3}   none: the machine controls no component of the tip\n", i + 1);
       continue;
     }

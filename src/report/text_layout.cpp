@@ -1,5 +1,7 @@
 #include "text_layout.hpp"
 
+#include <algorithm>
+
 namespace counterflex {
 
 std::string Ink::paint(std::string_view text, std::string_view code) const {

@@ -23,7 +23,8 @@ struct CsvColumns {
 /// of the correction follow as correction_rx_deg, correction_ry_deg, correction_rz_deg.
 std::string to_csv(const std::vector<Waypoint>& waypoints, const CsvColumns& columns);
 
-/// The summary that a person reads, lines of at most 100 characters, ASCII. Deviations in mm with four
+/// The summary that a person reads: lines of at most 100 characters (paths and other long words stay whole).
+/// Deviations in mm with four
 /// decimals. `colour` adds ANSI sequences, nothing else.
 std::string summary_text(const RunReport& report, bool colour);
 

@@ -1,0 +1,278 @@
+#include "counterflex/report/analysis.hpp"
+
+#include <doctest/doctest.h>
+
+#include <Eigen/LU>
+#include <sstream>
+
+#include "counterflex/geometry/units.hpp"
+#include "counterflex/machine/read_machine.hpp"
+
+using namespace counterflex;
+
+namespace {
+
+Model model_of(const std::string& name) {
+  return prepare(load_machine(std::string(COUNTERFLEX_SOURCE_DIR) + "/tests/statics/data/" + name + ".toml"));
+}
+
+const Model& orthoglide() {
+  static const Model model = model_of("orthoglide_case_b");
+  return model;
+}
+
+Pose at_mm(double x, double y, double z) {
+  return translation(Vector3(x, y, z) * mm);
+}
+
+// Q0 to Q4 of the paper.
+std::vector<Pose> corners() {
+  return {at_mm(0, 0, 0), at_mm(126.35, 126.35, 126.35), at_mm(-73.65, -73.65, -73.65),
+          at_mm(126.35, 126.35, -73.65), at_mm(-73.65, -73.65, 126.35)};
+}
+
+Load cut() {
+  return {(Vector6() << 215, -10, -25, 1, 21.5, 0).finished()};
+}
+
+void check_near(const Vector3& actual, const Vector3& expected, double tolerance) {
+  CAPTURE(actual.transpose());
+  CAPTURE(expected.transpose());
+  CHECK((actual - expected).cwiseAbs().maxCoeff() <= tolerance);
+}
+
+double largest_moment(const PoseAnalysis& pose) {
+  double result = 0;
+  for (const ChainLoads& chain : pose.chains) result = std::max(result, chain.moment_max);
+  return result;
+}
+
+double largest_group_moment(const PoseAnalysis& pose) {
+  double result = 0;
+  for (const ChainLoads& chain : pose.chains) result = std::max(result, chain.group_moment_max);
+  return result;
+}
+
+double largest_spring_rotation(const PoseAnalysis& pose) {
+  double result = 0;
+  for (const ChainLoads& chain : pose.chains) result = std::max(result, chain.spring_rotation_max);
+  return result;
+}
+
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+}  // namespace
+
+// Source: the linear formulas (13), (15), (16) with the parameters identified for the paper's machine; its
+// Table 2 agrees within its print.
+TEST_CASE("the linear analysis of the Orthoglide after assembly gives Table 2 of the paper") {
+  const double dt[5][3] = {{-0.002, -0.002, -0.002},
+                           {0.410, 0.410, 0.410},
+                           {-0.960, -0.960, -0.960},
+                           {-0.911, 1.311, 0.578},
+                           {0.928, -0.095, -0.247}};
+  const double rotation[5][3] = {{0.030, 0.030, 0.030},
+                                 {-0.622, -0.622, -0.622},
+                                 {0.214, 0.214, 0.214},
+                                 {-0.192, -0.484, 0.441},
+                                 {0.332, 0.220, -0.299}};
+  const double bars_deg[5] = {0.94, 1.71, 0.80, 1.52, 1.31};
+  const AnalysisReport report = analyze(orthoglide(), corners(), {}, Method::linear, "0.1.0");
+  REQUIRE(report.poses.size() == 5);
+  for (int i = 0; i < 5; ++i) {
+    CAPTURE(i);
+    const PoseAnalysis& pose = report.poses[i];
+    REQUIRE(pose.status == Status::converged);
+    check_near(pose.deviation.head<3>() / mm, Eigen::Map<const Vector3>(dt[i]), 0.00051);
+    check_near(pose.deviation.tail<3>() / deg, Eigen::Map<const Vector3>(rotation[i]), 0.00061);
+    CHECK(std::abs(largest_spring_rotation(pose) / deg - bars_deg[i]) < 0.006);
+  }
+  const double moments[3] = {2.09, 8.92, 1.48}, group_moments[3] = {2.09, 11.96, 1.74};
+  for (int i = 0; i < 3; ++i) {
+    CHECK(std::abs(largest_moment(report.poses[i]) - moments[i]) < 0.0051);
+    CHECK(std::abs(largest_group_moment(report.poses[i]) - group_moments[i]) < 0.0051);
+  }
+  CHECK(std::abs(largest_group_moment(report.poses[4]) - 4.00) < 0.0051);
+}
+
+// Source: tests/statics/data/orthoglide_assembly.json, computed by an independent solver.
+TEST_CASE("the direct analysis of the Orthoglide after assembly is that of an independent solver") {
+  const double dp_mm[5][3] = {{-0.007944182, -0.007944182, -0.007944182},
+                              {0.400775744, 0.400775744, 0.400775744},
+                              {-0.98655742, -0.98655742, -0.98655742},
+                              {-0.93050963, 1.307834928, 0.573971072},
+                              {0.923042006, -0.105355717, -0.253314768}};
+  const double drot_deg[5][3] = {{0.029606722, 0.029606722, 0.029606722},
+                                 {-0.624474275, -0.624474275, -0.624474275},
+                                 {0.217693752, 0.217693752, 0.217693752},
+                                 {-0.191701732, -0.488749766, 0.438270342},
+                                 {0.32983496, 0.218184742, -0.297880104}};
+  const AnalysisReport report = analyze(orthoglide(), corners(), {}, Method::direct, "0.1.0");
+  for (int i = 0; i < 5; ++i) {
+    CAPTURE(i);
+    check_near(report.poses[i].deviation.head<3>() / mm, Eigen::Map<const Vector3>(dp_mm[i]), 2e-9);
+    check_near(report.poses[i].deviation.tail<3>() / deg, Eigen::Map<const Vector3>(drot_deg[i]), 2e-9);
+  }
+}
+
+// Source: tests/statics/data/orthoglide_line.json, case B at y = 126.35.
+TEST_CASE(
+    "direct and nested analysis under the milling load give the corrected target of an independent solver") {
+  for (const Method method : {Method::direct, Method::nested}) {
+    const PoseAnalysis pose = analyze_pose(orthoglide(), at_mm(-73.65, 126.35, -73.65), cut(), method);
+    REQUIRE(pose.status == Status::converged);
+    check_near(pose.deviation.head<3>() / mm, {0.1021297766, -0.3779462547, 0.7415413124}, 2e-9);
+    check_near(pose.rho / mm, {-37.0172828971, 144.3562361658, -37.0172828971}, 2e-9);
+    REQUIRE(pose.corrected);
+    CHECK(pose.corrected->status == Status::converged);
+    check_near(pose.corrected->rho / mm, {-36.744478233, 144.9481660443, -37.5580653903}, 2e-9);
+    check_near((pose.corrected->X_MT.p - pose.X_MT.p) / mm, {-0.1031457055, 0.3775806572, -0.743259099},
+               2e-9);
+  }
+}
+
+TEST_CASE("the linear corrected target takes the linear deviation from the wanted one") {
+  const PoseAnalysis pose = analyze_pose(orthoglide(), at_mm(20, -30, 10), cut(), Method::linear);
+  REQUIRE(pose.corrected);
+  check_near(pose.corrected->X_MT.p, pose.X_MT.p - pose.deviation.head<3>(), 1e-15);
+  CHECK(pose.corrected->X_MT.R.isIdentity(1e-12));
+}
+
+TEST_CASE("the chains' wrenches balance the load") {
+  const PoseAnalysis pose = analyze_pose(orthoglide(), at_mm(20, -30, 10), cut(), Method::direct);
+  Vector6 sum = Vector6::Zero();
+  for (const ChainLoads& chain : pose.chains) sum += chain.wrench;
+  CHECK((sum - cut().F).norm() < 1e-6);
+}
+
+TEST_CASE(
+    "without load the stiffness of the linear analysis is symmetric, and its softest direction yields most") {
+  const PoseAnalysis pose = analyze_pose(orthoglide(), at_mm(126.35, 126.35, -73.65), {}, Method::linear);
+  REQUIRE(pose.stiffness_available);
+  CHECK((pose.K - pose.K.transpose()).norm() < 1e-9 * pose.K.norm());
+  const Matrix3 C = pose.K.inverse().topLeftCorner<3, 3>();
+  CHECK(pose.softest.dot(C * pose.softest) == doctest::Approx(1 / pose.softest_stiffness).epsilon(1e-9));
+  for (const Vector3& e : {Vector3(Vector3::UnitX()), Vector3(Vector3::UnitY()), Vector3(Vector3::UnitZ())})
+    CHECK(e.dot(C * e) <= 1 / pose.softest_stiffness * (1 + 1e-9));
+}
+
+TEST_CASE("a pose outside the actuators' travel is analyzed and says so") {
+  const PoseAnalysis pose = analyze_pose(orthoglide(), at_mm(-140, 0, 0), {}, Method::direct);
+  CHECK(pose.status == Status::outside_travel);
+  CHECK(pose.why == "an actuator leaves its range");
+  CHECK(pose.deviation.norm() > 0);
+  CHECK(pose.chains.size() == 3);
+}
+
+TEST_CASE("a pose out of reach has a status, words, and nulls instead of numbers") {
+  AnalysisReport report = analyze(orthoglide(), {at_mm(5000, 0, 0)}, {}, Method::direct, "0.1.0");
+  CHECK(report.poses[0].status != Status::converged);
+  CHECK_FALSE(report.poses[0].why.empty());
+  const std::string json = to_json(report);
+  for (const char* key :
+       {"displacement_mm", "rotation_deg", "stiffness_si", "actuators", "corrected", "condition"})
+    CHECK(contains(json, std::string("\"") + key + "\": null"));
+  CHECK(contains(json, "\"chains\": []"));
+  CHECK(contains(to_text(report), "pose 1: " + report.poses[0].why));
+}
+
+TEST_CASE("a machine that controls nothing is analyzed without a corrected target") {
+  const Model model = model_of("two_chains_equal");
+  const AnalysisReport report =
+      analyze(model, {tip(model.mechanism, model.home)}, {(Vector6() << 1, 0, 0, 0, 0, 0).finished()},
+              Method::direct, "0.1.0");
+  REQUIRE(report.poses[0].status == Status::converged);
+  CHECK_FALSE(report.poses[0].corrected);
+  CHECK(contains(to_json(report), "\"corrected\": null"));
+  CHECK(contains(to_text(report), "none: the machine controls no component of the tip"));
+}
+
+TEST_CASE("the JSON of an analysis has its keys in order and lists on one line") {
+  AnalysisReport report;
+  report.version = "0.1.0";
+  report.machine = "Two axes";
+  report.load.F << 1, 2, 3, 0, 0, 0;
+  report.travel = {{-1, 1, JointKind::prismatic}, {-1, 1, JointKind::revolute}};
+  PoseAnalysis pose;
+  pose.X_MT = at_mm(1, 2, 3);
+  pose.status = Status::converged;
+  pose.deviation << 1e-4, 0, 0, 0, 0, 0.5 * deg;
+  pose.rho = Eigen::Vector2d(10 * mm, 20 * deg);
+  pose.K = 1e6 * Matrix6::Identity();
+  pose.stiffness_available = true;
+  pose.corrected = CorrectedTarget{at_mm(0.9, 2, 3), Eigen::Vector2d(9.9 * mm, 20 * deg), Status::converged};
+  pose.chains = {{"leg", (Vector6() << 1, 2, 3, 0, 0, 0).finished(), 4, 5 * mm, 6 * deg, 7, 8, 9, 10 * deg}};
+  report.poses = {pose};
+  CHECK(to_json(report) == R"({
+  "schema": "counterflex-analysis 1",
+  "tool": "counterflex 0.1.0",
+  "machine": "Two axes",
+  "wrench_N_Nm": [1.0, 2.0, 3.0, 0.0, 0.0, 0.0],
+  "wrench_at": "tip",
+  "poses": [
+    {
+      "target_mm": [1.0, 2.0, 3.0],
+      "target_rpy_deg": [0.0, 0.0, 0.0],
+      "method": "direct",
+      "status": "converged",
+      "why": null,
+      "displacement_mm": [0.1, 0.0, 0.0],
+      "rotation_deg": [0.0, 0.0, 0.5],
+      "stiffness_si": [
+        [1000000.0, 0.0, 0.0, 0.0, 0.0, 0.0],
+        [0.0, 1000000.0, 0.0, 0.0, 0.0, 0.0],
+        [0.0, 0.0, 1000000.0, 0.0, 0.0, 0.0],
+        [0.0, 0.0, 0.0, 1000000.0, 0.0, 0.0],
+        [0.0, 0.0, 0.0, 0.0, 1000000.0, 0.0],
+        [0.0, 0.0, 0.0, 0.0, 0.0, 1000000.0]
+      ],
+      "weakest_direction": null,
+      "weakest_stiffness_N_per_m": 0.0,
+      "softest_direction": null,
+      "softest_stiffness_N_per_m": null,
+      "condition": 0.0,
+      "stability": 0.0,
+      "actuators": [10.0, 20.0],
+      "corrected": {
+        "target_mm": [0.9, 2.0, 3.0],
+        "rpy_deg": [0.0, 0.0, 0.0],
+        "actuators": [9.9, 20.0],
+        "status": "converged"
+      },
+      "chains": [
+        {
+          "name": "leg",
+          "wrench_N_Nm": [1.0, 2.0, 3.0, 0.0, 0.0, 0.0],
+          "moment_max_Nm": 4.0,
+          "spring_translation_max_mm": 5.0,
+          "spring_rotation_max_deg": 6.0,
+          "spring_force_max_N": 7.0,
+          "spring_torque_max_Nm": 8.0,
+          "group_moment_max_Nm": 9.0,
+          "passive_change_max_deg": 10.0
+        }
+      ]
+    }
+  ]
+}
+)");
+}
+
+TEST_CASE("the tables of an analysis fit 100 columns, without trailing blanks") {
+  const AnalysisReport report = analyze(orthoglide(), corners(), cut(), Method::direct, "0.1.0");
+  const std::string text = to_text(report);
+  CHECK(contains(text,
+                 "Orthoglide, method direct\nload (215.00, -10.00, -25.00) N, (1.000, 21.500, 0.000) N m"));
+  CHECK(contains(
+      text,
+      "    2    126.350    126.350    126.350   1.0279   0.0400  -0.0771  -0.1820  -0.4070  -0.2052\n"));
+  CHECK(contains(text, "    1 nominal      0.0000 mm      0.0000 mm      0.0000 mm\n"));
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) {
+    CAPTURE(line);
+    CHECK(line.size() <= 100);
+    CHECK((line.empty() || line.back() != ' '));
+  }
+}
