@@ -1,6 +1,7 @@
 #include "measure.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <optional>
 
@@ -11,6 +12,7 @@ namespace counterflex {
 namespace {
 
 constexpr double no_correction = 1e-12;  // m: rounding of coordinates that were moved to M and back
+constexpr double same_place = 1e-9;      // m
 
 struct Collector {
   Measures m;
@@ -19,6 +21,7 @@ struct Collector {
   double piece_weight = 0;  // of the piece under way: all but `after` is known at the ends of pieces alone
   std::optional<Waypoint> end;  // the last one, and what it weighs so far
   double end_weight = 0;
+  std::optional<Waypoint> rapid;  // the last waypoint, where it ends a rapid
 
   static DeviationSample sample(const Waypoint& w, const Vector6& deviation, double weight) {
     return {deviation, w.direction, w.tool_axis, weight, w.line};
@@ -36,8 +39,21 @@ struct Collector {
     ++m.segments_changed;
   }
 
-  // Trapezoids: a piece weighs on both of its ends, or on its last one alone where no feed move precedes it.
+  // The end of a rapid is where the feed move after it starts; its force has not yet grown there.
+  void begin_at_rapid(const Waypoint& w) {
+    const double gap = std::abs((w.p_MT - rapid->p_MT).norm() - piece_weight);
+    if (!end && gap < same_place) {
+      end = *rapid;
+      end->line = w.line;
+      end->direction = w.direction;
+      end_weight = 0;
+    }
+    rapid.reset();
+  }
+
+  // Trapezoids: a piece weighs on both of its ends, or on its last one alone where the other is not known.
   void add_end(const Waypoint& w) {
+    if (rapid) begin_at_rapid(w);
     const double share = end ? piece_weight / 2 : 0;
     end_weight += share;
     finish_end();
@@ -76,10 +92,9 @@ struct Collector {
   void add(const Waypoint& w) {
     if (w.status != Status::converged) return;
     if (!w.between) add_target(w);
-    if (w.cutting)
-      add_cutting(w);
-    else
-      finish_end();
+    if (w.cutting) return add_cutting(w);
+    finish_end();
+    rapid = w;
   }
 };
 

@@ -24,8 +24,7 @@ struct CsvColumns {
 std::string to_csv(const std::vector<Waypoint>& waypoints, const CsvColumns& columns);
 
 /// The summary that a person reads: lines of at most 100 characters (paths and other long words stay whole).
-/// Deviations in mm with four
-/// decimals. `colour` adds ANSI sequences, nothing else.
+/// Deviations in mm with four decimals. `colour` adds ANSI sequences, nothing else.
 std::string summary_text(const RunReport& report, bool colour);
 
 /// "NAME: 2.0734 mm before, 0.0041 mm after (model residual)": a run in one line, without a newline.
