@@ -23,6 +23,8 @@ class ForwardSolver {
     segment_ = piece.segment == no_segment ? &position_ : &job_.path.segments[piece.segment];
     if (questions_.inside && !piece.end_only) {
       const int count = samples();
+      // Without a blend the force may begin with a step, which no end of a piece before sees.
+      if (job_.options.blend == 0 && !solve_at(0, true, 0, out)) return false;
       for (int k = 0; k < count; ++k)
         if (!solve_at((2 * k + 1) / (2.0 * count), true, 1.0 / (count + 1), out)) return false;
       return solve_at(1, false, 1.0 / (count + 1), out);
@@ -61,7 +63,8 @@ class ForwardSolver {
     w.p_MT = point_on(*segment_, u);
     const Load load = piece_->segment == no_segment
                           ? Load{}
-                          : Load{job_.forces.at(piece_->segment, u, Side::before), job_.forces.at_platform()};
+                          : Load{job_.forces.at(piece_->segment, u, v == 0 ? Side::after : Side::before),
+                                 job_.forces.at_platform()};
     describe(u, between, share, load, w);
     iterations_ = 0;
     wanted_ = solver_.wanted(w.p_MT, status_);
