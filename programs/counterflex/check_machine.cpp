@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "check.hpp"
+#include "counterflex/files/numbers.hpp"
 #include "counterflex/geometry/units.hpp"
 #include "counterflex/machine/describe.hpp"
 #include "counterflex/machine/read_machine.hpp"
@@ -77,7 +78,8 @@ struct Value {
 };
 
 Value in_unit(double value, JointKind kind) {
-  return kind == JointKind::prismatic ? Value{value / mm, "mm"} : Value{value / deg, "deg"};
+  const bool length = kind == JointKind::prismatic;
+  return {rounded(value / (length ? mm : deg), 9), length ? "mm" : "deg"};  // without the noise of solving
 }
 
 std::vector<std::string> notes_of(const Machine& machine, const Model& model, const HomeFacts& home) {

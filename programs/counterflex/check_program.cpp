@@ -147,15 +147,13 @@ nlohmann::ordered_json json_of(const Program& program, const MoveFacts& facts) {
 /// The first end of a segment that the nominal machine does not reach.
 std::optional<Failure> first_unreached(const Model& model, const Toolpath& path) {
   const Matrix3 R_home = tip(model.mechanism, model.home).R;
-  Configuration at = model.home;
+  NominalPath nominal(model, model.home);
   for (const Segment& segment : path.segments) {
-    NominalResult next = follow(model, at, {R_home, segment.p_MT_end});
-    if (next.status != Status::converged)
-      return Failure{
-          Exit::not_compensated, segment.line,
-          fmt::format("the machine does not reach the end of this move: {}", to_string(next.status))};
-    at = std::move(next.configuration);
-    if (!within_travel(model.mechanism, actuator_values(model.mechanism, at)))
+    const Status status = nominal.go_to({R_home, segment.p_MT_end});
+    if (status != Status::converged)
+      return Failure{Exit::not_compensated, segment.line,
+                     fmt::format("the machine does not reach the end of this move: {}", to_string(status))};
+    if (!within_travel(model.mechanism, actuator_values(model.mechanism, nominal.configuration())))
       return Failure{Exit::limit, segment.line,
                      "an actuator leaves its travel on the way to the end of this move"};
   }

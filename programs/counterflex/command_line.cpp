@@ -22,6 +22,11 @@ CLI::Option* value_option(CLI::App& app, const std::string& name, const std::str
   return option->type_name(type)->take_last();
 }
 
+/// Without the list that the library would add to the help.
+CLI::Validator one_of(std::vector<std::string> allowed) {
+  return CLI::IsMember(std::move(allowed)).description("");
+}
+
 void add_inputs(CLI::App& app, Options& options) {
   app.add_option("-m,--machine", options.machine, "The machine file")->type_name("MACHINE")->required();
 }
@@ -49,13 +54,13 @@ void add_reading(CLI::App& app, Options& options) {
   value_option(
       app, "--units", "mm|inch", "Units before the program states its own",
       [&](const std::string& text) { options.units = text == "mm" ? LengthUnit::mm : LengthUnit::inch; })
-      ->check(CLI::IsMember({"mm", "inch"}));
+      ->check(one_of({"mm", "inch"}));
   value_option(app, "--integer-words", "units|increments",
                "What length words without a point mean to a fanuc or haas control",
                [&](const std::string& text) {
                  options.integer_words = text == "units" ? IntegerWords::units : IntegerWords::increments;
                })
-      ->check(CLI::IsMember({"units", "increments"}));
+      ->check(one_of({"units", "increments"}));
   app.add_option("--work", options.work,
                  "A work offset in the machine frame, mm and degrees; may be repeated")
       ->type_name("G54=X,Y,Z[,RX,RY,RZ]")
@@ -69,7 +74,7 @@ void add_method(CLI::App& app, Options& options) {
                                   : text == "linear" ? Method::linear
                                                      : Method::direct;
                })
-      ->check(CLI::IsMember({"direct", "nested", "linear"}));
+      ->check(one_of({"direct", "nested", "linear"}));
 }
 
 void add_correction(CLI::App& app, Options& options) {

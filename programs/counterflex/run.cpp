@@ -28,11 +28,11 @@ std::vector<Matrix3> tool_orientations(const Model& model, const Toolpath& path,
                                          source.profile->frame == ForceFrame::feed);
   if (!needed || path.segments.empty()) return {R_home};
   std::vector<Matrix3> R_MT;
-  Configuration at = model.home;
+  NominalPath nominal(model, model.home);
   for (const Segment& segment : path.segments) {
-    NominalResult next = follow(model, at, {R_home, (segment.p_MT_start + segment.p_MT_end) / 2});
-    if (next.status == Status::converged) at = std::move(next.configuration);  // else said where it is solved
-    R_MT.push_back(tip(model.mechanism, at).R);
+    nominal.go_to(
+        {R_home, (segment.p_MT_start + segment.p_MT_end) / 2});  // a failure is said where it is solved
+    R_MT.push_back(tip(model.mechanism, nominal.configuration()).R);
   }
   return R_MT;
 }

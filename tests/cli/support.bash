@@ -2,9 +2,10 @@
 # its arguments; it works in a folder of its own, which holds copies of data/.
 set -uo pipefail
 counterflex=$(realpath "$1") json_value=$(realpath "$2")
+inputs=$(cd "$(dirname "${BASH_SOURCE[0]}")/data" && pwd)
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-cp "$(dirname "${BASH_SOURCE[0]}")"/data/* "$work"
+cp "$inputs"/* "$work"
 cd "$work" || exit 1
 failures=0 sentence=''
 
@@ -41,11 +42,9 @@ has() {
 # Nothing but the inputs and what this harness writes.
 nothing_written() {
   local extra
-  extra=$(ls -A | grep -vxF -e "$(ls "$data_at_start")" -e out -e err)
+  extra=$(ls -A | grep -vxF -e "$(ls "$inputs")" -e out -e err)
   [ -z "$extra" ] || { fail "left behind: $extra"; rm -rf -- $extra; }
 }
-
-data_at_start=$(dirname "$(realpath "${BASH_SOURCE[0]}")")/data
 
 finish() {
   [ "$failures" = 0 ] && { echo "all as it should be"; exit 0; }
