@@ -39,8 +39,8 @@ class ForwardSolver {
   }
 
   // Deviation of the tip from the wanted pose for a command; false with a failure where it is not solved.
-  bool deviate(const Vector3& target, const Load& load, const Stage& stage, Vector6& result) {
-    const ActualSolution actual = solver_.actual(target, load, stage);
+  bool deviate(const Vector3& target, const Load& load, const Stage& stage, Start start, Vector6& result) {
+    const ActualSolution actual = solver_.actual(target, load, stage, start);
     iterations_ += actual.iterations;
     status_ = actual.status;
     if (actual.status == Status::converged) result = deviation(actual.X_MT, wanted_);
@@ -49,8 +49,11 @@ class ForwardSolver {
 
   bool attribute(const Vector3& original, const Vector3& emitted, const Load& load, Waypoint& w) {
     Vector6 unloaded_perfect;
-    if (!deviate(original, {}, {1, 0, 1}, w.geometry) || !deviate(original, load, {0, 1, 1}, w.load) ||
-        !deviate(original, {}, {0, 0, 1}, unloaded_perfect) || !deviate(emitted, {}, {1, 0, 1}, w.air))
+    const auto solve = [this](const Vector3& target, const Load& with, const Stage& stage, Vector6& result) {
+      return deviate(target, with, stage, Start::nominal, result);
+    };
+    if (!solve(original, {}, {1, 0, 1}, w.geometry) || !solve(original, load, {0, 1, 1}, w.load) ||
+        !solve(original, {}, {0, 0, 1}, unloaded_perfect) || !solve(emitted, {}, {1, 0, 1}, w.air))
       return false;
     w.superposition = w.geometry + w.load - unloaded_perfect;
     return true;
@@ -69,8 +72,10 @@ class ForwardSolver {
     iterations_ = 0;
     wanted_ = solver_.wanted(w.p_MT, status_);
     const Vector3 original = w.p_MT - job_.datum_shift;
-    bool solved = status_ == Status::converged && deviate(emitted, load, {}, w.after);
-    if (solved && !between && questions_.before) solved = deviate(original, load, {}, w.before);
+    // What is written is proven from the nominal configuration on; samples between its ends begin at their neighbour.
+    const Start start = between ? Start::neighbour : Start::nominal;
+    bool solved = status_ == Status::converged && deviate(emitted, load, {}, start, w.after);
+    if (solved && !between && questions_.before) solved = deviate(original, load, {}, Start::neighbour, w.before);
     if (solved && !between && questions_.attribution) solved = attribute(original, emitted, load, w);
     w.correction.head<3>() = emitted - original;
     w.status = status_;

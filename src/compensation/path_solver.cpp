@@ -57,8 +57,8 @@ Pose PathSolver::wanted(const Vector3& p_MT, Status& status) {
 }
 
 // A warm start may fail where a cold one does not; the continuation decides.
-Equilibrium PathSolver::forward(const Load& load, const Stage& stage) {
-  const bool warm = loaded_ && everything_acts(stage);
+Equilibrium PathSolver::forward(const Load& load, const Stage& stage, Start from) {
+  const bool warm = from == Start::neighbour && loaded_ && everything_acts(stage);
   if (warm) {
     Configuration start = neighbour(*loaded_, nominal());
     set_actuator_values(job_.model.mechanism, actuator_values(job_.model.mechanism, nominal()), start);
@@ -73,11 +73,11 @@ Equilibrium PathSolver::forward(const Load& load, const Stage& stage) {
   return solved;
 }
 
-ActualSolution PathSolver::actual(const Vector3& target, const Load& load, const Stage& stage) {
+ActualSolution PathSolver::actual(const Vector3& target, const Load& load, const Stage& stage, Start start) {
   ActualSolution result;
   result.status = go_to(target);
   if (result.status != Status::converged) return result;
-  const Equilibrium solved = forward(load, stage);
+  const Equilibrium solved = forward(load, stage, start);
   result.status = solved.status;
   result.iterations = solved.iterations;
   result.X_MT = tip(job_.model.mechanism, solved.configuration);

@@ -21,6 +21,10 @@ struct ActualSolution {
   int iterations = 0;
 };
 
+/// Where a forward solve begins: at the neighbour's solution, or at the nominal configuration, from where stability is
+/// watched all the way.
+enum class Start { neighbour, nominal };
+
 class PathSolver {
  public:
   /// `start`: a nominal configuration on the branch, near the first waypoint.
@@ -31,13 +35,13 @@ class PathSolver {
   Pose wanted(const Vector3& p_MT, Status& status);
 
   TargetSolution target(const Vector3& p_MT, const Load& load);
-  ActualSolution actual(const Vector3& target, const Load& load, const Stage& stage);
+  ActualSolution actual(const Vector3& target, const Load& load, const Stage& stage, Start start = Start::neighbour);
 
   const Configuration& nominal() const { return nominal_.configuration(); }
 
  private:
   Status go_to(const Vector3& p_MT);
-  Equilibrium forward(const Load& load, const Stage& stage);
+  Equilibrium forward(const Load& load, const Stage& stage, Start start);
   TargetSolution by_outer_iteration(const Vector3& p_MT, const Load& load);
   TargetSolution by_method(const Vector3& p_MT, const Load& load);
 
