@@ -92,7 +92,17 @@ ProgramInput read_program_input(const std::string& role, const std::string& path
                                 const Machine* machine) {
   std::string text = read_input(path, Exit::usage);
   const InputFile file = input_file(role, path, text);
-  return {file, read_program(std::move(text), shown_name(path), read_options(options, machine))};
+  try {
+    return {file, read_program(std::move(text), shown_name(path), read_options(options, machine))};
+  } catch (const InputError& error) {
+    const bool dialect_of_machine = error.exit() == Exit::usage && machine != nullptr && !options.dialect;
+    if (!dialect_of_machine) throw;
+    throw InputError(
+        Exit::program_text, {shown_name(path)},
+        fmt::format(
+            "programs in the machine file's dialect, \"{}\", are not read yet; --dialect names another",
+            machine->control.dialect));
+  }
 }
 
 void warn_of(const Program& program, Console& console) {
