@@ -87,6 +87,8 @@ class Emitter {
     }
     correction_ = solution.target - wanted;
     correction_known_ = true;
+    out_.failure = limit_failure(job_, correction_, move.line);
+    if (out_.failure) return;
     for (std::size_t p : pending_) {
       const Move& earlier = job_.program.moves[p];
       if (move.block_index - earlier.block_index <= look_ahead)

@@ -1,7 +1,5 @@
 #include "plan.hpp"
 
-#include <fmt/format.h>
-
 #include <Eigen/SVD>
 #include <algorithm>
 
@@ -41,17 +39,8 @@ class ChunkPlanner {
       return false;
     }
     node = {u, solution.target - wanted};
-    return within_limit(node.c);
-  }
-
-  // The correction is what the control is told differently; a datum's shift belongs to the part.
-  bool within_limit(const Vector3& c) {
-    const double size = (c + job_.datum_shift).norm();
-    if (size <= job_.options.max_correction) return true;
-    failure_ = {Exit::limit, segment_->line,
-                fmt::format("the correction would be {:.3f} mm, more than the limit of {:.3f} mm", size / mm,
-                            job_.options.max_correction / mm)};
-    return false;
+    failure_ = limit_failure(job_, node.c, segment_->line);
+    return !failure_;
   }
 
   bool plan_rapid(PlannedSegment& planned) {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "counterflex/geometry/units.hpp"
 #include "path_solver.hpp"
 
 namespace counterflex {
@@ -10,6 +11,14 @@ Failure status_failure(Status status, int line) {
   if (status == Status::outside_travel)
     return {Exit::limit, line, "an actuator leaves its range (outside_travel)"};
   return {Exit::not_compensated, line, fmt::format("the machine's equilibrium is not solved here: {}", to_string(status))};
+}
+
+std::optional<Failure> limit_failure(const Job& job, const Vector3& beyond_wanted, int line) {
+  const double size = (beyond_wanted + job.datum_shift).norm();
+  if (size <= job.options.max_correction) return std::nullopt;
+  return Failure{Exit::limit, line,
+                 fmt::format("the correction would be {:.3f} mm, more than the limit of {:.3f} mm", size / mm,
+                             job.options.max_correction / mm)};
 }
 
 NominalTrack track(const Job& job) {

@@ -229,7 +229,7 @@ struct NominalPath::Impl {
     if (!has_jacobian) look_at(now, configuration);
     const Eigen::VectorXd before = actuator_values(mechanism, configuration);
     Configuration next = configuration;
-    closed = kinematics.solve(&goal, next) < closure_tolerance * 10;
+    const bool closed = kinematics.solve(&goal, next) < closure_tolerance * 10;
     const Eigen::VectorXd drho = actuator_values(mechanism, next) - before;
     if (!closed || is_jump(mechanism, jacobian, drho, now, goal)) {
       has_jacobian = false;
@@ -250,8 +250,6 @@ struct NominalPath::Impl {
     jacobian = kinematics.inverse_jacobian();
     has_jacobian = true;
   }
-
-  bool closed = false;
 };
 
 NominalPath::NominalPath(const Model& model, Configuration start)
@@ -272,9 +270,10 @@ Status NominalPath::go_to(const Pose& X_MT) {
       continue;
     }
     if ((step /= 2) >= smallest_fraction) continue;
-    const bool at_singularity = impl_->closed || impl_->jacobian.condition > largest_condition;
     impl_->has_jacobian = false;
-    return at_singularity ? Status::singular : Status::unreachable;
+    // What can be reached, but not on this way, lies behind a singularity.
+    Configuration beyond = reached;
+    return impl_->kinematics.solve(&X_MT, beyond) < closure_tolerance * 10 ? Status::singular : Status::unreachable;
   }
   mark_nominal(reached);
   configuration_ = std::move(reached);
