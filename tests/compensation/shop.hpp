@@ -1,0 +1,99 @@
+#pragma once
+/// A shop floor in memory: a machine, a program and forces, from which tests make jobs.
+#include <doctest/doctest.h>
+
+#include <memory>
+#include <string>
+
+#include "counterflex/compensation/compensate.hpp"
+#include "counterflex/files/files.hpp"
+#include "counterflex/geometry/units.hpp"
+#include "counterflex/machine/read_machine.hpp"
+#include "counterflex/statics/equilibrium.hpp"
+
+namespace counterflex::test {
+
+inline const std::string orthoglide_b = COUNTERFLEX_SOURCE_DIR "/tests/statics/data/orthoglide_case_b.toml";
+inline const std::string orthoglide_a = COUNTERFLEX_SOURCE_DIR "/tests/statics/data/orthoglide_case_a.toml";
+inline const std::string orthoglide_perfect =
+    COUNTERFLEX_SOURCE_DIR "/tests/statics/data/orthoglide_perfect.toml";
+inline const std::string hexapod = COUNTERFLEX_SOURCE_DIR "/tests/statics/data/hexapod_free_joints.toml";
+inline const std::string robot = COUNTERFLEX_SOURCE_DIR "/tests/statics/data/serial6r_joints.toml";
+inline const std::string strut = COUNTERFLEX_SOURCE_DIR "/tests/statics/data/bar_buckling.toml";
+inline const std::string mill = COUNTERFLEX_SOURCE_DIR "/samples/mill3/machine.toml";
+inline const std::string groove = COUNTERFLEX_SOURCE_DIR "/samples/orthoglide-groove/groove.ngc";
+
+/// The paper's milling wrench (N, N m).
+inline Vector6 milling() {
+  return (Vector6() << 215, -10, -25, 1, 21.5, 0).finished();
+}
+
+/// What a test asks for; everything else is a run's default. Lengths in m.
+struct Order {
+  Machine machine;
+  std::string text;
+  ForceSource force{};
+  Method method = Method::direct;
+  double tolerance = 5e-6;
+  double max_correction = 5e-3;
+  int decimals = -1;
+  int threads = 1;
+  Pose X_MW{};
+  Vector3 datum_shift = Vector3::Zero();
+};
+
+/// Keeps alive what a job borrows.
+struct Shop {
+  explicit Shop(const Order& order)
+      : model(prepare(order.machine)), program(read_program(order.text, "part.ngc", {})), X_MW(order.X_MW) {
+    REQUIRE(model.home_status == Status::converged);
+    path = build_toolpath(program, {X_MW.R, X_MW.p + order.datum_shift});
+    forces.emplace(order.force, program, path, std::vector<Matrix3>{tip(model.mechanism, model.home).R});
+    options.method = order.method;
+    options.tolerance = order.tolerance;
+    options.max_correction = order.max_correction;
+    options.blend = order.force.blend;
+    options.threads = order.threads;
+    options.write.decimals = order.decimals;
+    datum_shift = order.datum_shift;
+  }
+
+  Job job() const { return {model, program, path, *forces, X_MW, datum_shift, options, {}}; }
+  Compensation run(bool attribution = false) const { return compensate(job(), attribution); }
+
+  Model model;
+  Program program;
+  Toolpath path;
+  Pose X_MW;
+  std::optional<PathForces> forces;
+  CompensationOptions options;
+  Vector3 datum_shift;
+};
+
+inline ForceSource constant_force(const Vector6& F, double blend = 2e-3) {
+  ForceSource source;
+  source.constant = F;
+  source.blend = blend;
+  return source;
+}
+
+inline ForceSource step_profile(const std::string& rows, double blend) {
+  ForceSource source;
+  source.profile =
+      read_force_csv("# frame = machine\n# sense = on_tool\ns_mm, fx_N, fy_N, fz_N\n" + rows, "forces.csv");
+  source.blend = blend;
+  return source;
+}
+
+/// The run's result, which must be without failure.
+inline Compensation compensated(const Shop& shop, bool attribution = false) {
+  Compensation result = shop.run(attribution);
+  if (result.failure) {
+    CAPTURE(result.failure->line);
+    FAIL_CHECK(result.failure->what);
+  }
+  REQUIRE(!result.failure);
+  return result;
+}
+
+}  // namespace counterflex::test
