@@ -3,7 +3,6 @@
 #include "counterflex/statics/nominal.hpp"
 
 #include <Eigen/LU>
-#include <Eigen/LU>
 #include <Eigen/QR>
 #include <Eigen/SVD>
 #include <algorithm>
