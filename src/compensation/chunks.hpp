@@ -1,5 +1,6 @@
 #pragma once
-/// Work in chunks of fixed size: what a chunk computes depends on the chunk alone, never on the number of threads.
+/// Work in chunks of fixed size: what a chunk computes depends on the chunk alone, never on the number of
+/// threads.
 #include <cstddef>
 #include <functional>
 
@@ -11,9 +12,12 @@ struct Chunk {
   std::size_t index, begin, end;  ///< items [begin, end)
 };
 
-inline std::size_t chunk_count(std::size_t items) { return (items + chunk_size - 1) / chunk_size; }
+inline std::size_t chunk_count(std::size_t items) {
+  return (items + chunk_size - 1) / chunk_size;
+}
 
-/// Calls `work` once for every chunk of `items`, on `threads` threads. Exceptions are passed on after all threads ended.
+/// Calls `work` once for every chunk of `items`, on `threads` threads. Exceptions are passed on after all
+/// threads ended.
 void for_each_chunk(std::size_t items, int threads, const std::function<void(const Chunk&)>& work);
 
 }  // namespace counterflex

@@ -10,16 +10,37 @@
 namespace counterflex {
 namespace {
 
-void note_largest_correction(const Job& job, const Plan& plan, Compensation& result) {
+void note_correction(double size, int line, Compensation& result) {
+  if (size <= result.largest_correction) return;
+  result.largest_correction = size;
+  result.largest_correction_line = line;
+}
+
+void note_planned_corrections(const Job& job, const Plan& plan, Compensation& result) {
   for (std::size_t s = 0; s < plan.segments.size(); ++s)
     for (const Knot& knot : plan.segments[s].knots) {
       const Segment& segment = job.path.segments[s];
       const Vector3 wanted = segment.p_MT_start + knot.u * (segment.p_MT_end - segment.p_MT_start);
-      const double size = (knot.target - wanted + job.datum_shift).norm();
-      if (size <= result.largest_correction) continue;
-      result.largest_correction = size;
-      result.largest_correction_line = segment.line;
+      note_correction((knot.target - wanted + job.datum_shift).norm(), segment.line, result);
     }
+}
+
+// Positions that come from unknown ones have no segment.
+void note_first_corrections(const Job& job, const Emission& emission, Compensation& result) {
+  for (std::size_t e = 0; e < emission.edits.size(); ++e) {
+    if (!emission.first_known[e]) continue;
+    const Move& move = job.program.moves[emission.edits[e].move];
+    note_correction((emission.edits[e].end_mm - move.end_mm).norm() * mm, move.line, result);
+  }
+}
+
+// Words that are written too coarsely for the tolerance cannot meet it.
+std::optional<Failure> decimals_failure(const Job& job) {
+  for (const Segment& segment : job.path.segments) {
+    const double rounding = rounding_allowance(job.program.moves[segment.move], job.options.write);
+    if (rounding >= job.options.tolerance) return few_decimals_failure(job, rounding, segment.line);
+  }
+  return std::nullopt;
 }
 
 }  // namespace
@@ -30,24 +51,28 @@ std::optional<Failure> tolerance_failure(const Job& job, const std::vector<Waypo
     for (Component c : job.model.mechanism.controlled)
       if (c <= Component::z) miss[static_cast<int>(c)] = w.after[static_cast<int>(c)];
     if (miss.norm() <= job.options.tolerance || (w.exempt && w.between)) continue;
-    return Failure{Exit::not_compensated, w.line,
-                   fmt::format("verification failed: the tip misses the path by {:.4f} mm at {:.1f} % of this move, the "
-                               "tolerance is {:.4f} mm",
-                               miss.norm() / mm, 100 * w.fraction, job.options.tolerance / mm)};
+    return Failure{
+        Exit::not_compensated, w.line,
+        fmt::format("verification failed: the tip misses the path by {:.4f} mm at {:.1f} % of this move, the "
+                    "tolerance is {:.4f} mm",
+                    miss.norm() / mm, 100 * w.fraction, job.options.tolerance / mm)};
   }
   return std::nullopt;
 }
 
 Compensation compensate(const Job& job, bool attribution) {
   Compensation result;
+  result.failure = decimals_failure(job);
+  if (result.failure) return result;
   const NominalTrack nominal = track(job);
   const Plan planned = nominal.failure ? Plan{{}, nominal.failure} : plan(job, nominal);
   if (planned.failure) {
     result.failure = planned.failure;
     return result;
   }
-  note_largest_correction(job, planned, result);
+  note_planned_corrections(job, planned, result);
   Emission emission = emit(job, planned);
+  note_first_corrections(job, emission, result);
   result.left_alone = emission.left_alone;
   result.failure = emission.failure;
   if (result.failure) return result;
@@ -55,7 +80,7 @@ Compensation compensate(const Job& job, bool attribution) {
   result.counts = rewrite(job.program, emission.edits, job.options.write);
   result.text = std::move(result.counts.text);
   const Program corrected = read_program(result.text, job.program.file, job.read);
-  const std::vector<Piece> pieces = emitted_pieces(job, planned, emission, result.counts, corrected);
+  const std::vector<Piece> pieces = emitted_pieces(job, emission, result.counts, corrected);
   ForwardRun verified = solve_forward_along(job, pieces, {true, attribution, true});
   result.waypoints = std::move(verified.waypoints);
   result.failure = verified.failure ? verified.failure : tolerance_failure(job, result.waypoints);

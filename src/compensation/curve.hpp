@@ -8,8 +8,8 @@
 namespace counterflex {
 
 struct CurveNode {
-  double u = 0;                   ///< fraction of the segment
-  Vector3 c = Vector3::Zero();    ///< target minus wanted position, M (m)
+  double u = 0;                 ///< fraction of the segment
+  Vector3 c = Vector3::Zero();  ///< target minus wanted position, M (m)
 };
 
 /// A stretch without corners: the polynomial through its nodes.
@@ -34,13 +34,15 @@ class CorrectionCurve {
 /// Solves the correction at a fraction; false stops the sampling.
 using CorrectionAt = std::function<bool(double u, CurveNode& node)>;
 
-/// Samples [a.u, b.u] until the polynomial through the nodes predicts further ones within `accuracy` (m), at least at its
-/// middle. False where `solve` was.
+/// Samples [a.u, b.u] until the polynomial through the nodes predicts further ones within `accuracy` (m), at
+/// least at its middle. False where `solve` was.
 bool sample_curve(const CurveNode& a, const CurveNode& b, double accuracy, const CorrectionAt& solve,
                   CorrectionCurve& curve);
 
-/// Knots (fractions, the last one the curve's end) such that between them, at sixteenths and at `corners`, the straight
-/// line between two of them is within `tolerance` (m) of the curve: as few as possible, then evened out.
-std::vector<double> choose_knots(const CorrectionCurve& curve, const std::vector<double>& corners, double tolerance);
+/// Knots (fractions, the last one the curve's end) such that between them, at sixteenths and at `corners`,
+/// the straight line between two of them is within `tolerance` (m) of the curve: as few as possible, then
+/// evened out.
+std::vector<double> choose_knots(const CorrectionCurve& curve, const std::vector<double>& corners,
+                                 double tolerance);
 
 }  // namespace counterflex

@@ -1,6 +1,9 @@
 #include "emit.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
 
 #include "counterflex/geometry/units.hpp"
 #include "path_solver.hpp"
@@ -11,7 +14,9 @@ namespace {
 constexpr std::size_t look_ahead = 64;  // blocks
 constexpr double jump_share = 0.1;      // of the tolerance
 
-bool all(const std::array<bool, 3>& known) { return known[0] && known[1] && known[2]; }
+bool all(const std::array<bool, 3>& known) {
+  return known[0] && known[1] && known[2];
+}
 
 // Goes through the moves in order and keeps the correction (M, m) that holds where the tool is.
 class Emitter {
@@ -39,8 +44,10 @@ class Emitter {
  private:
   Vector3 written(const Vector3& target) const { return X_WM_ * target / mm; }
 
-  void add(MoveEdit edit, std::size_t segment, std::vector<double> fractions, bool first_known = false) {
+  void add(MoveEdit edit, std::size_t segment, std::vector<double> fractions, bool first_known = false,
+           bool exempt = false) {
     out_.first_known.push_back(first_known);
+    out_.exempt.push_back(exempt);
     out_.edits.push_back(std::move(edit));
     out_.segment.push_back(segment);
     out_.fractions.push_back(std::move(fractions));
@@ -53,18 +60,24 @@ class Emitter {
     MoveEdit edit{.move = segment.move};
     std::vector<double> fractions;
     const Vector3 start_c = planned.start_target - segment.p_MT_start;
-    const bool jumps = !planned.starts_anywhere && correction_known_ && move.may_jump &&
-                       (start_c - correction_).norm() > jump_share * job_.options.tolerance;
-    if (jumps) edit.jump_mm = written(planned.start_target);
-    for (std::size_t k = 0; k + 1 < planned.knots.size(); ++k) edit.inserted_mm.push_back(written(planned.knots[k].target));
+    const double jump = planned.starts_anywhere || !correction_known_ ? 0 : (start_c - correction_).norm();
+    const bool jumps = jump > jump_share * job_.options.tolerance;
+    if (jumps && move.may_jump) edit.jump_mm = written(planned.start_target);
+    // A block that must stay one begins where the last one ended.
+    const double unsplit_miss =
+        planned.unsplit_miss + (jumps && segment.cutting && !move.may_split ? jump : 0);
+    for (std::size_t k = 0; k + 1 < planned.knots.size(); ++k)
+      edit.inserted_mm.push_back(written(planned.knots[k].target));
     for (const Knot& knot : planned.knots) fractions.push_back(knot.u);
     edit.end_mm = written(planned.knots.back().target);
     correction_ = planned.knots.back().target - segment.p_MT_end;
     correction_known_ = true;
-    if (planned.unsplit_miss > 0)
-      out_.left_alone.push_back({segment.line, "not split, its end is corrected: between its ends the deviation may reach " +
-                                                   std::to_string(planned.unsplit_miss / mm) + " mm"});
-    add(std::move(edit), s, std::move(fractions));
+    if (unsplit_miss > 0)
+      out_.left_alone.push_back(
+          {segment.line,
+           fmt::format("not split, its end is corrected: between its ends the deviation may reach {:.4f} mm",
+                       unsplit_miss / mm)});
+    add(std::move(edit), s, std::move(fractions), false, unsplit_miss > 0);
   }
 
   Vector3 shifted(const Move& move) const {
@@ -101,7 +114,8 @@ class Emitter {
   }
 
   void leave_alone(const Move& move) {
-    out_.left_alone.push_back({move.line, "an axis has no known position here, and none follows within 64 blocks"});
+    out_.left_alone.push_back(
+        {move.line, "an axis has no known position here, and none follows within 64 blocks"});
   }
 
   void leave_pending_alone() {
@@ -118,40 +132,88 @@ class Emitter {
   bool correction_known_ = false;
 };
 
+// A point that an edit asks the text to come to.
+struct Stop {
+  Vector3 p_mm;
+  std::array<int, 3> decimals;
+  double u;
+  bool jump;
+};
+
+std::vector<Stop> stops_of(const Job& job, const MoveEdit& edit, const std::vector<double>& fractions) {
+  const Decimals decimals = decimals_of(job.program.moves[edit.move], job.options.write);
+  const std::array<int, 3> inside{decimals.inserted, decimals.inserted, decimals.inserted};
+  std::vector<Stop> stops;
+  if (edit.jump_mm) stops.push_back({*edit.jump_mm, inside, 0, true});
+  for (std::size_t k = 0; k < edit.inserted_mm.size(); ++k)
+    stops.push_back({edit.inserted_mm[k], inside, fractions[k], false});
+  stops.push_back({edit.end_mm, decimals.end, fractions.back(), false});
+  return stops;
+}
+
 // Where the commands of a program stand, move by move.
 class PieceReader {
  public:
   PieceReader(const Job& job, const Program& corrected) : job_(job), corrected_(corrected) {}
 
-  // The next `count` moves command a segment's parts that end at `fractions`; a jump may come first.
-  void read(std::size_t segment, const std::vector<double>& fractions, std::size_t count, bool exempt,
+  // The next `count` moves command a segment's stops; rewriting gave no block to those that rounding
+  // swallowed.
+  void read(std::size_t segment, const std::vector<Stop>& stops, std::size_t count, bool exempt,
             std::vector<Piece>& pieces) {
-    if (fractions.empty()) return skip(count);
     const Segment& wanted = job_.path.segments[segment];
-    if (count > fractions.size()) skip(count - fractions.size());
-    const std::size_t dropped = fractions.size() - std::min(count, fractions.size());
+    std::size_t swallowed = stops.size() - count;
     double u0 = 0;
-    for (std::size_t k = dropped; k < fractions.size(); ++k) {
+    for (const Stop& stop : stops) {
       const Vector3 from = here();
-      skip(1);
-      Piece piece{.segment = segment, .line = wanted.line, .u0 = u0, .u1 = fractions[k], .from = from, .to = here(),
-                  .end_only = !wanted.cutting, .exempt = exempt};
-      if (piece.u1 > piece.u0 || !wanted.cutting) pieces.push_back(piece);
-      u0 = fractions[k];
+      const bool dropped = swallowed > 0 && is_held(stop, job_.program.moves[wanted.move].unit);
+      if (dropped)
+        --swallowed;
+      else
+        skip(1);
+      if (stop.jump || (dropped && stop.u < 1)) continue;
+      if (stop.u > u0 || !wanted.cutting)
+        pieces.push_back({.segment = segment,
+                          .line = wanted.line,
+                          .u0 = u0,
+                          .u1 = stop.u,
+                          .from = from,
+                          .to = here(),
+                          .end_only = !wanted.cutting,
+                          .exempt = exempt});
+      u0 = stop.u;
     }
   }
 
   // A single position: the next `count` moves end at it.
   void read_position(const Move& original, std::size_t count, std::vector<Piece>& pieces) {
     skip(count);
-    pieces.push_back({.segment = no_segment, .line = original.line, .from = here(), .to = here(),
-                      .wanted = target_of(job_, original.end_mm) + job_.datum_shift, .end_only = true});
+    pieces.push_back({.segment = no_segment,
+                      .line = original.line,
+                      .from = here(),
+                      .to = here(),
+                      .wanted = target_of(job_, original.end_mm) + job_.datum_shift,
+                      .end_only = true});
   }
 
   void skip(std::size_t count) { next_ += count; }
 
  private:
-  Vector3 here() const { return next_ == 0 ? Vector3::Zero() : target_of(job_, corrected_.moves[next_ - 1].end_mm); }
+  // Whether the text holds the stop already, and the next move does not say it again.
+  bool is_held(const Stop& stop, LengthUnit unit) const {
+    if (next_ == 0) return false;
+    const Vector3& held_mm = corrected_.moves[next_ - 1].end_mm;
+    if (next_ < corrected_.moves.size() && corrected_.moves[next_].end_mm == held_mm) return false;
+    for (Eigen::Index axis = 0; axis < 3; ++axis) {
+      const double digit = std::pow(10.0, -stop.decimals[static_cast<std::size_t>(axis)]) *
+                           (unit == LengthUnit::inch ? inch / mm : 1);
+      if (std::abs(stop.p_mm[axis] - held_mm[axis]) > 0.5 * digit * (1 + 1e-9)) return false;
+    }
+    return true;
+  }
+
+  Vector3 here() const {
+    return next_ == 0 ? Vector3::Zero() : target_of(job_, corrected_.moves[next_ - 1].end_mm);
+  }
 
   const Job& job_;
   const Program& corrected_;
@@ -160,25 +222,31 @@ class PieceReader {
 
 }  // namespace
 
-Vector3 target_of(const Job& job, const Vector3& p_mm) { return job.X_MW * (p_mm * mm); }
+Vector3 target_of(const Job& job, const Vector3& p_mm) {
+  return job.X_MW * (p_mm * mm);
+}
 
-Emission emit(const Job& job, const Plan& plan) { return Emitter(job, plan).run(); }
+Emission emit(const Job& job, const Plan& plan) {
+  return Emitter(job, plan).run();
+}
 
-std::vector<Piece> emitted_pieces(const Job& job, const Plan& plan, const Emission& emission, const Rewritten& rewritten,
+std::vector<Piece> emitted_pieces(const Job& job, const Emission& emission, const Rewritten& rewritten,
                                   const Program& corrected) {
   std::vector<Piece> pieces;
   PieceReader reader(job, corrected);
   std::size_t move = 0;
   for (std::size_t e = 0; e < emission.edits.size(); ++e) {
-    reader.skip(emission.edits[e].move - move);
-    const std::size_t segment = emission.segment[e];
-    const bool exempt = segment != no_segment && plan.segments[segment].unsplit_miss > 0;
+    const MoveEdit& edit = emission.edits[e];
+    reader.skip(edit.move - move);
     const std::size_t count = rewritten.blocks_of_edit[e] + 1;
     if (emission.first_known[e])
-      reader.read_position(job.program.moves[emission.edits[e].move], count, pieces);
+      reader.read_position(job.program.moves[edit.move], count, pieces);
+    else if (emission.segment[e] == no_segment)
+      reader.skip(count);
     else
-      reader.read(segment, emission.fractions[e], count, exempt, pieces);
-    move = emission.edits[e].move + 1;
+      reader.read(emission.segment[e], stops_of(job, edit, emission.fractions[e]), count, emission.exempt[e],
+                  pieces);
+    move = edit.move + 1;
   }
   return pieces;
 }

@@ -30,7 +30,9 @@ Configuration neighbour(const Configuration& loaded, const Configuration& nomina
   return start;
 }
 
-bool everything_acts(const Stage& stage) { return stage.errors == 1 && stage.load == 1 && stage.preload == 1; }
+bool everything_acts(const Stage& stage) {
+  return stage.errors == 1 && stage.load == 1 && stage.preload == 1;
+}
 
 }  // namespace
 
@@ -47,6 +49,12 @@ PathSolver::PathSolver(const Job& job, Configuration start)
 
 Status PathSolver::go_to(const Vector3& p_MT) {
   return nominal_.go_to({R_MT_home_, p_MT});
+}
+
+Status PathSolver::travel_status() const {
+  const Mechanism& mechanism = job_.model.mechanism;
+  return within_travel(mechanism, actuator_values(mechanism, nominal())) ? Status::converged
+                                                                         : Status::outside_travel;
 }
 
 Pose PathSolver::wanted(const Vector3& p_MT, Status& status) {
@@ -84,7 +92,8 @@ ActualSolution PathSolver::actual(const Vector3& target, const Load& load, const
   return result;
 }
 
-// Where the machine controls an orientation that the program does not state, only positions can be written: (23) on them.
+// Where the machine controls an orientation that the program does not state, only positions can be written:
+// (23) on them.
 TargetSolution PathSolver::by_outer_iteration(const Vector3& p_MT, const Load& load) {
   TargetSolution result;
   result.target = p_MT;
@@ -94,7 +103,10 @@ TargetSolution PathSolver::by_outer_iteration(const Vector3& p_MT, const Load& l
     result.iterations += reached.iterations;
     if (reached.status != Status::converged) return result;
     const Vector3 miss = reached.X_MT.p - p_MT;
-    if (miss.norm() < outer_tolerance) return result;
+    if (miss.norm() < outer_tolerance) {
+      result.status = travel_status();
+      return result;
+    }
     result.target -= miss;
   }
   result.status = Status::not_converged;
@@ -126,15 +138,21 @@ TargetSolution PathSolver::by_method(const Vector3& p_MT, const Load& load) {
   return result;
 }
 
+TargetSolution PathSolver::by_linear_theory(const Vector3& p_MT, const Load& load) {
+  const LinearResult linear = linear_deviation(job_.model, nominal(), load, {}, work_);
+  if (linear.status != Status::converged) return {linear.status, p_MT, 1};
+  const Pose X_MT{tip(job_.model.mechanism, nominal()).R, p_MT};
+  TargetSolution result{Status::converged, linear_target(job_.model, X_MT, linear).p, 1};
+  result.status = go_to(result.target);
+  if (result.status == Status::converged) result.status = travel_status();
+  return result;
+}
+
 TargetSolution PathSolver::target(const Vector3& p_MT, const Load& load) {
   TargetSolution result;
   result.status = go_to(p_MT);
   if (result.status != Status::converged) return result;
-  if (job_.options.method == Method::linear) {
-    const LinearResult linear = linear_deviation(job_.model, nominal(), load, {}, work_);
-    const Pose X_MT{tip(job_.model.mechanism, nominal()).R, p_MT};
-    return {linear.status, linear_target(job_.model, X_MT, linear).p, 1};
-  }
+  if (job_.options.method == Method::linear) return by_linear_theory(p_MT, load);
   return writes_all_controlled_ ? by_method(p_MT, load) : by_outer_iteration(p_MT, load);
 }
 

@@ -21,8 +21,8 @@ struct ActualSolution {
   int iterations = 0;
 };
 
-/// Where a forward solve begins: at the neighbour's solution, or at the nominal configuration, from where stability is
-/// watched all the way.
+/// Where a forward solve begins: at the neighbour's solution, or at the nominal configuration, from where
+/// stability is watched all the way.
 enum class Start { neighbour, nominal };
 
 class PathSolver {
@@ -30,27 +30,30 @@ class PathSolver {
   /// `start`: a nominal configuration on the branch, near the first waypoint.
   PathSolver(const Job& job, Configuration start);
 
-  /// The wanted pose of the tip at a position: its controlled orientation is home's, uncontrolled components are those of
-  /// nominal kinematics. Sets `status` where there is none.
+  /// The wanted pose of the tip at a position: its controlled orientation is home's, uncontrolled components
+  /// are those of nominal kinematics. Sets `status` where there is none.
   Pose wanted(const Vector3& p_MT, Status& status);
 
   TargetSolution target(const Vector3& p_MT, const Load& load);
-  ActualSolution actual(const Vector3& target, const Load& load, const Stage& stage, Start start = Start::neighbour);
+  ActualSolution actual(const Vector3& target, const Load& load, const Stage& stage,
+                        Start start = Start::neighbour);
 
   const Configuration& nominal() const { return nominal_.configuration(); }
 
  private:
   Status go_to(const Vector3& p_MT);
+  Status travel_status() const;  ///< of the nominal configuration that was gone to last
   Equilibrium forward(const Load& load, const Stage& stage, Start start);
   TargetSolution by_outer_iteration(const Vector3& p_MT, const Load& load);
+  TargetSolution by_linear_theory(const Vector3& p_MT, const Load& load);
   TargetSolution by_method(const Vector3& p_MT, const Load& load);
 
   const Job& job_;
   Matrix3 R_MT_home_;
   StaticsWork work_;
   NominalPath nominal_;
-  std::optional<Configuration> loaded_;    ///< last solution with everything acting
-  bool writes_all_controlled_;             ///< the program can state every component that the machine controls
+  std::optional<Configuration> loaded_;  ///< last solution with everything acting
+  bool writes_all_controlled_;           ///< the program can state every component that the machine controls
 };
 
 /// The load at a place of the path.

@@ -1,5 +1,7 @@
 #include "plan.hpp"
 
+#include <fmt/format.h>
+
 #include <Eigen/SVD>
 #include <algorithm>
 
@@ -11,9 +13,11 @@
 namespace counterflex {
 namespace {
 
-constexpr double jump_share = 0.1;      // of the tolerance: larger steps of the correction are jumped
-constexpr double curve_share = 0.01;    // of the tolerance: accuracy of the sampled curve
-constexpr double gain_probe = 50e-6;    // m
+constexpr double jump_share = 0.1;    // of the tolerance: larger steps of the correction are jumped
+constexpr double curve_share = 0.01;  // of the tolerance: accuracy of the sampled curve
+constexpr double least_share =
+    0.02;  // of the tolerance: what rounding must leave of it where points are inserted
+constexpr double gain_probe = 50e-6;  // m
 constexpr double gain_margin = 1.01;
 
 // Plans the segments of one chunk, one after another.
@@ -33,7 +37,8 @@ class ChunkPlanner {
  private:
   bool solve(double u, Side side, CurveNode& node) {
     const Vector3 wanted = point_on(*segment_, u);
-    const TargetSolution solution = solver_.target(wanted, {job_.forces.at(index_, u, side), job_.forces.at_platform()});
+    const TargetSolution solution =
+        solver_.target(wanted, {job_.forces.at(index_, u, side), job_.forces.at_platform()});
     if (solution.status != Status::converged) {
       failure_ = status_failure(solution.status, segment_->line);
       return false;
@@ -78,12 +83,18 @@ class ChunkPlanner {
     return true;
   }
 
-  bool add_knots(const CorrectionCurve& stretch, const std::vector<double>& corners, PlannedSegment& planned) {
+  bool add_knots(const CorrectionCurve& stretch, const std::vector<double>& corners,
+                 PlannedSegment& planned) {
+    const double tolerance = job_.options.tolerance, least = least_share * tolerance;
     const double rounding = rounding_allowance(job_.program.moves[segment_->move], job_.options.write);
-    std::vector<double> knots = choose_knots(stretch, corners, job_.options.tolerance - rounding);
+    std::vector<double> knots = choose_knots(stretch, corners, std::max(tolerance - rounding, least));
     if (knots.size() > 1) {
       if (!measure_gain()) return false;
-      knots = choose_knots(stretch, corners, job_.options.tolerance / gain_ - rounding);
+      if (tolerance / gain_ - rounding < least) {
+        failure_ = few_decimals_failure(job_, rounding, segment_->line);
+        return false;
+      }
+      knots = choose_knots(stretch, corners, tolerance / gain_ - rounding);
     }
     for (double u : knots) {
       // At a stretch's end the curve is continued on the left of the step.
@@ -118,7 +129,8 @@ class ChunkPlanner {
   // The block must stay one: its end is corrected, and what its inside misses is said.
   void forbid_splitting(PlannedSegment& planned) {
     if (planned.knots.size() < 2) return;
-    const Vector3 c0 = planned.start_target - segment_->p_MT_start, c1 = planned.knots.back().target - segment_->p_MT_end;
+    const Vector3 c0 = planned.start_target - segment_->p_MT_start,
+                  c1 = planned.knots.back().target - segment_->p_MT_end;
     for (const Knot& knot : planned.knots) {
       const Vector3 c = knot.target - point_on(*segment_, knot.u);
       planned.unsplit_miss = std::max(planned.unsplit_miss, (c - (1 - knot.u) * c0 - knot.u * c1).norm());
@@ -142,6 +154,14 @@ double rounding_allowance(const Move& move, const WriteOptions& options) {
   double digit = move.unit == LengthUnit::inch ? inch : mm;
   for (; fewest > 0; --fewest) digit /= 10;
   return 0.5 * digit * std::sqrt(3.0);
+}
+
+Failure few_decimals_failure(const Job& job, double rounding, int line) {
+  return {Exit::usage, line,
+          fmt::format("words are rounded by up to {:.3g} mm here, which leaves too little of the tolerance "
+                      "of {:.3g} mm; it "
+                      "needs more --decimals",
+                      rounding / mm, job.options.tolerance / mm)};
 }
 
 Plan plan(const Job& job, const NominalTrack& track) {

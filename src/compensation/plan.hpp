@@ -5,21 +5,25 @@
 namespace counterflex {
 
 struct Knot {
-  double u = 1;                       ///< fraction of the segment
-  Vector3 target = Vector3::Zero();   ///< M (m)
+  double u = 1;                      ///< fraction of the segment
+  Vector3 target = Vector3::Zero();  ///< M (m)
 };
 
 struct PlannedSegment {
   Vector3 start_target = Vector3::Zero();  ///< where the segment should begin (M, m)
   bool starts_anywhere = false;            ///< a rapid begins where the move before it ended
-  std::vector<Knot> knots;                 ///< the last one is its end; a step within is two knots at one fraction
-  double unsplit_miss = 0;  ///< m: largest deviation inside, where points would have been needed but must not be inserted
+  std::vector<Knot> knots;  ///< the last one is its end; a step within is two knots at one fraction
+  double unsplit_miss =
+      0;  ///< m: largest deviation inside, where points would have been needed but must not be inserted
 };
 
 struct Plan {
   std::vector<PlannedSegment> segments;
   std::optional<Failure> failure;
 };
+
+/// The failure of words that are rounded by up to `rounding` (m), too much for the tolerance.
+Failure few_decimals_failure(const Job& job, double rounding, int line);
 
 /// Plans all segments, in parallel over chunks.
 Plan plan(const Job& job, const NominalTrack& track);

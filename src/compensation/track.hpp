@@ -1,12 +1,14 @@
 #pragma once
-/// Nominal kinematics along the whole path, once and in order: it keeps the branch, and lets chunks start anywhere.
+/// Nominal kinematics along the whole path, once and in order: it keeps the branch, and lets chunks start
+/// anywhere.
 #include "chunks.hpp"
 #include "counterflex/compensation/waypoint.hpp"
 
 namespace counterflex {
 
 struct NominalTrack {
-  std::vector<Configuration> starts;  ///< by chunk of segments: nominal configuration at its first segment's start
+  std::vector<Configuration>
+      starts;  ///< by chunk of segments: nominal configuration at its first segment's start
   std::optional<Failure> failure;
 };
 
@@ -15,8 +17,8 @@ NominalTrack track(const Job& job);
 /// The failure that a status at a line stands for: travel is a limit, all else is not compensated.
 Failure status_failure(Status status, int line);
 
-/// The failure of a correction (emitted minus commanded position, m) larger than the limit. `beyond_wanted` is the target
-/// minus the wanted position: a datum's shift comes on top of it.
+/// The failure of a correction (emitted minus commanded position, m) larger than the limit. `beyond_wanted`
+/// is the target minus the wanted position: a datum's shift comes on top of it.
 std::optional<Failure> limit_failure(const Job& job, const Vector3& beyond_wanted, int line);
 
 }  // namespace counterflex

@@ -1,0 +1,119 @@
+// Machines whose deviation is known in closed form: none, a shift, a shear.
+#include <fmt/format.h>
+
+#include "judge.hpp"
+
+using namespace counterflex;
+using namespace counterflex::test;
+
+namespace {
+
+/// Three prismatic actuators, X, Y, Z, with an error in front and a tilt between; rigid.
+Machine gantry(const std::string& displaced, const std::string& y_to_x = "{}",
+               const std::string& z_to_y = "{}") {
+  return read_machine(fmt::format(R"(format = "counterflex-machine 1"
+controlled = ["x", "y", "z"]
+[[chain]]
+name = "axes"
+elements = [
+  {{ error = "mount" }},
+  {{ actuator = "prismatic", axis = "x", min_mm = -500, max_mm = 500 }},
+  {{ error = "y_to_x" }},
+  {{ actuator = "prismatic", axis = "y", min_mm = -500, max_mm = 500 }},
+  {{ error = "z_to_y" }},
+  {{ actuator = "prismatic", axis = "z", min_mm = -500, max_mm = 500 }},
+]
+errors.mount = {{ xyz_mm = [{}] }}
+errors.y_to_x = {}
+errors.z_to_y = {}
+)",
+                                  displaced, y_to_x, z_to_y),
+                      "gantry.toml");
+}
+
+const char* const part =
+    "%\n(PART)\nN10 G21 G90 G94\nN20 G0 X10. Y-20. Z30.\nN30 G0 Z2.\nN40 G1 Z-1.5 F200\nN50 X110.25 F600\n"
+    "N60 Y130.\nN70 G1 X-90. Y-80. Z12.\nN80 G0 Z50.\nN90 M30\n%\n";
+
+std::vector<Move> moves_of(const std::string& text) {
+  return read_program(text, "part.ngc", {}).moves;
+}
+
+}  // namespace
+
+TEST_CASE("a perfect machine without forces gives back every byte") {
+  const std::string text = read_file(groove);
+  const std::string without_force = text.substr(0, text.find("(FORCE FX")) + text.substr(text.find("N50"));
+  for (const std::string& program : {without_force, std::string(part)})
+    for (const Method method : {Method::direct, Method::nested, Method::linear}) {
+      const Shop shop({.machine = load_machine(orthoglide_perfect), .text = program, .method = method});
+      const Compensation result = compensated(shop);
+      CHECK(result.text == program);
+      CHECK(result.counts.changed_words == 0);
+      CHECK(result.counts.inserted_blocks == 0);
+    }
+}
+
+TEST_CASE("a perfect machine without forces gives back lines that end in CR LF, without a last one") {
+  const std::string text = "g21 g90\r\ng0 x1.0005y2z-3.\r\n\r\n G1 x 4.25 F100 ; caf\xe9\r\nm30";
+  const Shop shop({.machine = load_machine(orthoglide_perfect), .text = text});
+  CHECK(compensated(shop).text == text);
+}
+
+TEST_CASE("a rigid gantry that stands displaced is sent back by exactly the displacement") {
+  const Shop shop({.machine = gantry("0.5, -0.25, 0.125"), .text = part});
+  const Compensation result = compensated(shop);
+  CHECK(result.counts.inserted_blocks == 0);
+  const std::vector<Move> before = moves_of(part), after = moves_of(result.text);
+  REQUIRE(before.size() == after.size());
+  for (std::size_t m = 0; m < before.size(); ++m) {
+    CAPTURE(before[m].line);
+    CHECK((after[m].end_mm - before[m].end_mm - Vector3(-0.5, 0.25, -0.125)).norm() < 1e-9);
+  }
+  CHECK(result.largest_correction == doctest::Approx(Vector3(0.5, 0.25, 0.125).norm() * mm));
+}
+
+TEST_CASE("out of square axes are corrected by the inverse of their affine map, without points") {
+  for (const double sign : {1.0, -1.0}) {
+    CAPTURE(sign);
+    const double angle = sign * 1e-3;
+    const std::string tilt = fmt::format("{{ rpy_deg = [0, 0, {}] }}", angle / deg);
+    const Shop shop({.machine = gantry("0, 0, 0", tilt), .text = part});
+    const Compensation result = compensated(shop);
+    CHECK(result.counts.inserted_blocks == 0);
+    const std::vector<Move> before = moves_of(part), after = moves_of(result.text);
+    REQUIRE(before.size() == after.size());
+    for (std::size_t m = 0; m < before.size(); ++m) {
+      CAPTURE(before[m].line);
+      // Reached (x - y sin a, y cos a, z) for commanded (x, y, z).
+      const Vector3& p = before[m].end_mm;
+      const double y = p.y() / std::cos(angle);
+      const Vector3 expected(p.x() + y * std::sin(angle), y, p.z());
+      CHECK((after[m].end_mm - expected).cwiseAbs().maxCoeff() <= 0.5e-3 + 1e-9);
+    }
+  }
+}
+
+TEST_CASE("a work offset turns the correction into program coordinates") {
+  const Pose X_MW{from_rpy(Vector3(0, 0, 90) * deg), Vector3(50, 20, 0) * mm};
+  const Shop shop({.machine = gantry("0.5, -0.25, 0.125"), .text = part, .X_MW = X_MW});
+  const std::vector<Move> before = moves_of(part), after = moves_of(compensated(shop).text);
+  REQUIRE(before.size() == after.size());
+  for (std::size_t m = 0; m < before.size(); ++m)
+    CHECK((after[m].end_mm - before[m].end_mm - Vector3(0.25, 0.5, -0.125)).norm() < 1e-9);
+}
+
+TEST_CASE(
+    "words that round to their originals are untouched, others are inserted only where rounding asks for "
+    "them") {
+  // A tilt of Z against X alone: x moves by 1 um for each mm of z.
+  const Shop shop({.machine = gantry("0, 0, 0", "{}", fmt::format("{{ rpy_deg = [0, {}, 0] }}", 1e-3 / deg)),
+                   .text = "G21 G90\nG0 X0. Y0. Z0.\nG1 Z-0.4 F100\nG1 Z-40.\nX10.\nG1 Y5.\nZ0.\nM30\n"});
+  const std::vector<std::string> lines = lines_of(compensated(shop).text);
+  CHECK(lines[1] == "G0 X0. Y0. Z0.");
+  CHECK(lines[2] == "G1 Z-0.4 F100");
+  CHECK(lines[3] == "G1 Z-40. X0.040");
+  CHECK(lines[4] == "X10.04");
+  CHECK(lines[5] == "G1 Y5.");
+  CHECK(lines[6] == "Z0. X10.000");
+}
