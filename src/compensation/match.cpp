@@ -1,5 +1,5 @@
-// Which moves of a corrected program belong to which of the original: inserted blocks come before the block that they
-// split, follow its path, and carry no number.
+// Which moves of a corrected program belong to which of the original: inserted blocks come before the block
+// that they split, follow its path, and carry no number.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -12,6 +12,9 @@
 
 namespace counterflex {
 namespace {
+
+constexpr double longest_jump_mm = 1;  // longer first pieces are taken for pieces
+constexpr double jump_length = 3;      // in allowances for rounding: shorter pieces are jumps
 
 // The block without its axis words and blanks: what correction never changes.
 std::string skeleton(const Program& program, const Move& move) {
@@ -34,13 +37,18 @@ std::string skeleton(const Program& program, const Move& move) {
   return text;
 }
 
+bool all(const std::array<bool, 3>& known) {
+  return known[0] && known[1] && known[2];
+}
+
 class Matcher {
  public:
   Matcher(const Job& job, const Program& corrected) : job_(job), corrected_(corrected) {}
 
   std::vector<Piece> run() {
     const auto& originals = job_.program.moves;
-    if (corrected_.moves.size() < originals.size()) fail(originals.back(), "the corrected program has fewer moves");
+    if (corrected_.moves.size() < originals.size())
+      fail(originals.back(), "the corrected program has fewer moves");
     std::size_t surplus = corrected_.moves.size() - originals.size();
     for (std::size_t m = 0; m < originals.size(); ++m) {
       const bool last = m + 1 == originals.size();
@@ -57,23 +65,50 @@ class Matcher {
     throw InputError(Exit::not_compensated, {job_.program.file, move.line, 1}, what + " (verify)");
   }
 
-  // Index of the corrected move that is original move m: same skeleton, and where its correction continues the last one.
+  // Index of the corrected move that is original move m: same skeleton, and where its correction continues
+  // the last one.
   std::size_t find(std::size_t m, std::size_t surplus) const {
     const Move& original = job_.program.moves[m];
     const std::string wanted = skeleton(job_.program, original);
+    const Vector3 end = original.end_mm + correction_at_start(original, surplus);
     std::size_t best = std::numeric_limits<std::size_t>::max();
     double best_miss = std::numeric_limits<double>::infinity();
     for (std::size_t j = next_; j <= next_ + surplus; ++j) {
       const Move& candidate = corrected_.moves[j];
       if (candidate.motion == original.motion && skeleton(corrected_, candidate) == wanted) {
-        const double miss = (candidate.end_mm - original.end_mm - correction_mm_).norm();
+        const double miss = (candidate.end_mm - end).norm();
         if (miss < best_miss - 1e-9) best = j, best_miss = miss;
       }
       if (candidate.block_number && candidate.block_number == original.block_number) break;
       if (j > next_ && leaves(original, corrected_.moves[j - 1], candidate)) break;
     }
-    if (best == std::numeric_limits<std::size_t>::max()) fail(original, "this move has no counterpart in the corrected program");
+    if (best == std::numeric_limits<std::size_t>::max())
+      fail(original, "this move has no counterpart in the corrected program");
+    return last_piece(original, end, best, best_miss, next_ + surplus);
+  }
+
+  // A block whose words act at its beginning is itself the first piece: the others follow it.
+  std::size_t last_piece(const Move& original, const Vector3& end_mm, std::size_t own, double miss,
+                         std::size_t last) const {
+    std::size_t best = own;
+    for (std::size_t j = own + 1; original.may_split && j <= last; ++j) {
+      const Move& candidate = corrected_.moves[j];
+      if (candidate.block_number || candidate.motion != original.motion ||
+          leaves(original, corrected_.moves[j - 1], candidate))
+        break;
+      const double other = (candidate.end_mm - end_mm).norm();
+      if (other < miss - 1e-9) best = j, miss = other;
+    }
     return best;
+  }
+
+  // The correction with which a move is entered (mm): a first piece that hardly leaves the start is a jump to
+  // another one.
+  Vector3 correction_at_start(const Move& original, std::size_t surplus) const {
+    if (surplus == 0 || original.motion != Motion::feed || !all(original.known_start)) return correction_mm_;
+    const Vector3 first = corrected_.moves[next_].end_mm - original.start_mm;
+    const double length = (original.end_mm - original.start_mm).norm();
+    return (first - correction_mm_).norm() < std::min(0.2 * length, longest_jump_mm) ? first : correction_mm_;
   }
 
   // Whether going on from a to b no longer comes closer to the end of the original move.
@@ -86,11 +121,15 @@ class Matcher {
     const Move& original = job_.program.moves[m];
     const bool has_segment = segment_ < job_.path.segments.size() && job_.path.segments[segment_].move == m;
     if (has_segment) take_segment(own);
-    const bool known = original.known_end[0] && original.known_end[1] && original.known_end[2];
+    const bool known = all(original.known_end);
     if (known) correction_mm_ = corrected_.moves[own].end_mm - original.end_mm;
-    if (known && !has_segment)
-      pieces_.push_back({.segment = no_segment, .line = original.line, .from = position(own), .to = position(own),
-                         .wanted = target_of(job_, original.end_mm) + job_.datum_shift, .end_only = true});
+    if (known && !has_segment && !all(original.known_start))
+      pieces_.push_back({.segment = no_segment,
+                         .line = original.line,
+                         .from = position(own),
+                         .to = position(own),
+                         .wanted = target_of(job_, original.end_mm) + job_.datum_shift,
+                         .end_only = true});
   }
 
   // First fractions of inserted points: by their place along the segment, the correction there interpolated.
@@ -106,8 +145,13 @@ class Matcher {
         const Vector3 shift = along + c1 - c0;  // position = start + u along + (1 - u) c0 + u c1
         u = std::clamp((position(j) - segment.p_MT_start - c0).dot(shift) / shift.squaredNorm(), u0, 1.0);
       }
-      Piece piece{.segment = segment_, .line = segment.line, .u0 = u0, .u1 = u,
-                  .from = j == next_ ? start : position(j - 1), .to = position(j), .end_only = !segment.cutting,
+      Piece piece{.segment = segment_,
+                  .line = segment.line,
+                  .u0 = u0,
+                  .u1 = u,
+                  .from = j == next_ ? start : position(j - 1),
+                  .to = position(j),
+                  .end_only = !segment.cutting,
                   .exempt = !job_.program.moves[segment.move].may_split};
       if (u > u0) pieces_.push_back(piece);
       u0 = u;
@@ -127,16 +171,39 @@ class Matcher {
 // An inserted point stands where it puts the tip: its fraction is that of the tip's place along the segment.
 void refine_fractions(const Job& job, std::vector<Piece>& pieces) {
   for (int iteration = 0; iteration < 3; ++iteration) {
-    const ForwardRun run = solve_forward_along(job, pieces, {.before = false, .attribution = false, .inside = false});
+    const ForwardRun run =
+        solve_forward_along(job, pieces, {.before = false, .attribution = false, .inside = false});
     if (run.failure) return;  // said again by whoever solves the pieces
     for (std::size_t i = 0; i + 1 < pieces.size(); ++i) {
       if (pieces[i].u1 >= 1 || pieces[i].segment == no_segment) continue;
       const Segment& segment = job.path.segments[pieces[i].segment];
       const double length = (segment.p_MT_end - segment.p_MT_start).norm();
-      const double u = pieces[i].u1 + run.waypoints[i].after.head<3>().dot(run.waypoints[i].direction) / length;
+      const double u =
+          pieces[i].u1 + run.waypoints[i].after.head<3>().dot(run.waypoints[i].direction) / length;
       pieces[i].u1 = pieces[i + 1].u0 = std::clamp(u, pieces[i].u0, 1.0);
     }
   }
+}
+
+// A jump of the correction goes nowhere along the path: what it passes through is judged by nobody.
+void drop_jumps(const Job& job, std::vector<Piece>& pieces) {
+  std::vector<Piece> kept;
+  std::optional<double> u0;  // where the piece after a dropped one begins
+  for (Piece piece : pieces) {
+    if (u0) piece.u0 = *u0;
+    u0.reset();
+    if (piece.segment != no_segment && !piece.end_only && piece.u1 < 1) {
+      const Segment& segment = job.path.segments[piece.segment];
+      const double rounding = rounding_allowance(job.program.moves[segment.move], job.options.write);
+      const double length = (piece.u1 - piece.u0) * (segment.p_MT_end - segment.p_MT_start).norm();
+      if (length < jump_length * rounding) {
+        u0 = piece.u0;
+        continue;
+      }
+    }
+    kept.push_back(piece);
+  }
+  pieces = std::move(kept);
 }
 
 }  // namespace
@@ -144,6 +211,7 @@ void refine_fractions(const Job& job, std::vector<Piece>& pieces) {
 std::vector<Piece> match_programs(const Job& job, const Program& corrected) {
   std::vector<Piece> pieces = Matcher(job, corrected).run();
   refine_fractions(job, pieces);
+  drop_jumps(job, pieces);
   return pieces;
 }
 

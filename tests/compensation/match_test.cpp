@@ -1,0 +1,125 @@
+// Judging a corrected program by its text alone.
+#include "judge.hpp"
+
+using namespace counterflex;
+using namespace counterflex::test;
+
+namespace {
+
+const char* const part =
+    "G21 G90\nN10 G0 X-60. Y-60. Z-60.\nN20 G1 Y60. F600\nX40. Z-40.\nG0 Z20.\nG0 X0.\nG1 Z10.\nX30.\nX30. "
+    "Y61.\nM30\n";
+
+ForwardRun judged(const Shop& shop, const std::string& text) {
+  return solve_forward_along(shop.job(), match_programs(shop.job(), read_program(text, "corrected.ngc", {})),
+                             {});
+}
+
+double largest_after(const std::vector<Waypoint>& waypoints, int line) {
+  double largest = 0;
+  for (const Waypoint& w : waypoints)
+    if (w.line == line) largest = std::max(largest, w.after.head<3>().norm());
+  return largest;
+}
+
+std::string replaced(std::string text, const std::string& what, const std::string& by) {
+  const std::size_t at = text.find(what);
+  REQUIRE(at != std::string::npos);
+  return text.replace(at, what.size(), by);
+}
+
+}  // namespace
+
+TEST_CASE("a corrected program read anew deviates as its compensation says") {
+  for (const double blend : {2e-3, 0.0}) {
+    CAPTURE(blend);
+    const Shop shop(
+        {.machine = load_machine(orthoglide_b), .text = part, .force = constant_force(milling(), blend)});
+    const Compensation result = compensated(shop);
+    const ForwardRun run = judged(shop, result.text);
+    REQUIRE(!run.failure);
+    const auto failure = tolerance_failure(shop.job(), run.waypoints);
+    CHECK(!failure);
+    if (failure) MESSAGE(failure->line << ": " << failure->what);
+    for (int line = 2; line <= 9; ++line) {
+      CAPTURE(line);
+      // Along the path the fractions are inferred from where the tip stands, so that a digit may lie between.
+      CHECK(std::abs(largest_after(run.waypoints, line) - largest_after(result.waypoints, line)) < 0.9e-6);
+    }
+  }
+}
+
+TEST_CASE("steps of the force inside a move survive the judgement of the text") {
+  const Shop shop({.machine = load_machine(orthoglide_b),
+                   .text = "G21 G90\nG0 X-60. Y-60. Z-60.\nG1 Y60. F600\nM30\n",
+                   .force = step_profile("0, 100, 0, 0\n50, 140, 0, 0\n90, 0, 200, 0\n", 0)});
+  const ForwardRun run = judged(shop, compensated(shop).text);
+  REQUIRE(!run.failure);
+  const auto failure = tolerance_failure(shop.job(), run.waypoints);
+  CHECK(!failure);
+  if (failure) MESSAGE(failure->what);
+}
+
+TEST_CASE("one coordinate that is changed by some hundredths is found, with its line") {
+  const Shop shop({.machine = load_machine(orthoglide_b), .text = part, .force = constant_force(milling())});
+  const Compensation result = compensated(shop);
+  const Program corrected = read_program(result.text, "corrected.ngc", {});
+  for (std::size_t m = 0; m < corrected.moves.size(); ++m)
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const auto& word = corrected.moves[m].words[axis];
+      if (!word) continue;
+      // Along the path an inserted point may stand elsewhere: the tip stays on the path.
+      const Vector3 step = corrected.moves[m].end_mm - corrected.moves[m].start_mm;
+      if (std::abs(step[static_cast<Eigen::Index>(axis)]) > 0.9 * step.norm()) continue;
+      CAPTURE(corrected.moves[m].line);
+      CAPTURE(axis);
+      const double value = corrected.moves[m].end_mm[static_cast<Eigen::Index>(axis)] + 0.05;
+      const std::string text =
+          replaced(result.text.substr(word->number.begin),
+                   result.text.substr(word->number.begin, word->number.end - word->number.begin),
+                   std::to_string(value).substr(0, std::to_string(value).find('.') + 4));
+      const ForwardRun run = judged(shop, result.text.substr(0, word->number.begin) + text);
+      REQUIRE(!run.failure);
+      const auto failure = tolerance_failure(shop.job(), run.waypoints);
+      REQUIRE(failure);
+      CHECK(failure->exit == Exit::not_compensated);
+      CHECK(failure->line >= 2);
+      CHECK(failure->line <= 9);
+    }
+}
+
+TEST_CASE("a changed end is found in its own move") {
+  const Shop shop({.machine = load_machine(orthoglide_b), .text = part, .force = constant_force(milling())});
+  const Compensation result = compensated(shop);
+  const Move changed = read_program(result.text, "corrected.ngc", {}).moves.back();
+  REQUIRE(changed.words[1]);
+  std::string text = result.text;
+  text.replace(changed.words[1]->number.begin, changed.words[1]->number.end - changed.words[1]->number.begin,
+               "61.900");
+  const auto failure = tolerance_failure(shop.job(), judged(shop, text).waypoints);
+  REQUIRE(failure);
+  CHECK(failure->line == 9);
+}
+
+TEST_CASE("a program with a move missing has no counterpart for it") {
+  const Shop shop({.machine = load_machine(orthoglide_b), .text = part, .force = constant_force(milling())});
+  std::vector<std::string> lines = lines_of(compensated(shop).text);
+  for (const std::string start : {"N20", "G0 Z", "N10"}) {
+    CAPTURE(start);
+    std::string text;
+    for (const std::string& line : lines)
+      if (!line.starts_with(start)) text += line + "\n";
+    CHECK_THROWS_AS(match_programs(shop.job(), read_program(text, "corrected.ngc", {})), InputError);
+  }
+}
+
+TEST_CASE("the original itself misses its path by the deviation before") {
+  const Shop shop({.machine = load_machine(orthoglide_b), .text = part, .force = constant_force(milling())});
+  const ForwardRun run = judged(shop, part);
+  REQUIRE(!run.failure);
+  for (const Waypoint& w : run.waypoints) {
+    if (w.between) continue;
+    CHECK((w.after - w.before).norm() < 1e-9);
+  }
+  CHECK(tolerance_failure(shop.job(), run.waypoints));
+}

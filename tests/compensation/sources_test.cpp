@@ -1,0 +1,159 @@
+// What waypoints say: deviations and where they come from, datums, orientations, threads.
+#include <fmt/format.h>
+
+#include "judge.hpp"
+
+using namespace counterflex;
+using namespace counterflex::test;
+
+namespace {
+
+const char* const part = "G21 G90\nG0 X-60. Y-60. Z-60.\nG1 Y60. F600\nX40. Z-40.\nG0 Z20.\nM30\n";
+
+std::string many_cuts(int count) {
+  std::string text = "G21 G90\nG0 X10. Y10. Z0.\nG1 F500\n";
+  for (int i = 0; i < count; ++i)
+    text += fmt::format("G1 X{:.3f} Y{:.3f} Z{:.2f}\n", 40 * std::cos(0.37 * i), 30 * std::sin(0.53 * i),
+                        0.1 * i);
+  return text + "M30\n";
+}
+
+Vector6 cold_deviation(const Shop& shop, const Vector3& target, const Vector3& wanted, const Vector6& F,
+                       const Stage& stage) {
+  Vector6 d = Vector6::Zero();
+  d.head<3>() = cold_tip(shop, target, F, stage) - wanted;
+  return d;
+}
+
+bool same(const Waypoint& a, const Waypoint& b) {
+  return a.segment == b.segment && a.fraction == b.fraction && a.after == b.after && a.before == b.before &&
+         a.correction == b.correction && a.air == b.air && a.iterations == b.iterations &&
+         a.weight == b.weight;
+}
+
+}  // namespace
+
+TEST_CASE("geometry, load, superposition and air are those of independent solves") {
+  for (const std::string& file : {orthoglide_b, mill}) {
+    CAPTURE(file);
+    Order order{.machine = load_machine(file), .text = part, .force = constant_force(milling())};
+    if (file == mill) order.X_MW.p = Vector3(150, 100, -240) * mm;
+    const Shop shop(order);
+    double largest = 0;
+    for (const Waypoint& w : compensated(shop, true).waypoints) {
+      if (w.between) continue;
+      const Vector3 emitted = w.p_MT + w.correction.head<3>();
+      const auto near = [&](const Vector6& said, const Vector3& target, const Vector6& F,
+                            const Stage& stage) {
+        return (said - cold_deviation(shop, target, w.p_MT, F, stage)).head<3>().norm() < 1e-9;
+      };
+      CHECK(near(w.before, w.p_MT, w.wrench, {1, 1, 1}));
+      CHECK(near(w.after, emitted, w.wrench, {1, 1, 1}));
+      CHECK(near(w.geometry, w.p_MT, Vector6::Zero(), {1, 0, 1}));
+      CHECK(near(w.load, w.p_MT, w.wrench, {0, 1, 1}));
+      CHECK(near(w.air, emitted, Vector6::Zero(), {1, 0, 1}));
+      CHECK((w.superposition - w.geometry - w.load).norm() < 1e-12);
+      largest = std::max(largest, (w.superposition - w.before).head<3>().norm());
+    }
+    // Errors and loads add up but for a little, and not exactly.
+    CHECK(largest > 1e-9);
+    CHECK(largest < 0.1e-3);
+  }
+}
+
+TEST_CASE(
+    "at the point where a datum was touched off the correction is zero, elsewhere it is relative to it") {
+  const Machine machine = load_machine(orthoglide_b);
+  const std::string text = "G21 G90\nG0 X20. Y-40. Z10.\nG0 X60.\nG1 Y40. F300\nM30\n";
+  const Vector3 touched = Vector3(20, -40, 10) * mm;
+  const Shop plain({.machine = machine, .text = text});
+  const Vector3 shift = cold_tip(plain, touched, Vector6::Zero()) - touched;
+  REQUIRE(shift.norm() > 0.1e-3);
+  const Shop shop({.machine = machine, .text = text, .datum_shift = shift});
+  const Compensation result = compensated(shop);
+  CHECK(lines_of(result.text)[1] == "G0 X20. Y-40. Z10.");
+  CHECK(result.waypoints.front().before.norm() > 0);
+  CHECK(result.waypoints.front().before.head<3>().norm() < 1e-9);
+  CHECK(dense_miss(shop, result, 50).size <= 5e-6);
+  for (const Waypoint& w : result.waypoints)
+    CHECK((cold_tip(shop, w.p_MT - shift + w.correction.head<3>(), Vector6::Zero()) - w.p_MT -
+           w.after.head<3>())
+              .norm() < 1e-9);
+}
+
+TEST_CASE("bytes and waypoints do not depend on the number of threads") {
+  for (const double blend : {2e-3, 0.0}) {
+    Order order{.machine = load_machine(orthoglide_b),
+                .text = many_cuts(150),
+                .force = constant_force(milling(), blend)};
+    const Compensation one = compensated(Shop(order), true);
+    for (const int threads : {2, 3}) {
+      CAPTURE(threads);
+      order.threads = threads;
+      const Compensation other = compensated(Shop(order), true);
+      CHECK(one.text == other.text);
+      REQUIRE(one.waypoints.size() == other.waypoints.size());
+      for (std::size_t i = 0; i < one.waypoints.size(); ++i)
+        CHECK(same(one.waypoints[i], other.waypoints[i]));
+    }
+  }
+}
+
+TEST_CASE("the failure that is named does not depend on the number of threads") {
+  Order order{
+      .machine = load_machine(orthoglide_b), .text = many_cuts(150), .force = constant_force(milling())};
+  order.max_correction = 0.2e-3;
+  const auto one = Shop(order).run().failure;
+  REQUIRE(one);
+  for (const int threads : {2, 3}) {
+    order.threads = threads;
+    const auto other = Shop(order).run().failure;
+    REQUIRE(other);
+    CHECK(other->line == one->line);
+    CHECK(other->what == one->what);
+  }
+}
+
+TEST_CASE(
+    "a machine that controls six components is compensated in position by a program that states no more") {
+  struct Where {
+    std::string machine, text;
+  };
+  for (const Where& where :
+       {Where{hexapod, "G21 G90\nG0 X0. Y0. Z870.\nG1 X60. F600\nG1 Y80. Z900.\nG0 X0.\nM30\n"},
+        Where{robot, "G21 G90\nG0 X1800. Y-100. Z900.\nG1 Y150. F600\nG1 X1850. Z950.\nG0 Y0.\nM30\n"}}) {
+    CAPTURE(where.machine);
+    const Shop shop({.machine = load_machine(where.machine),
+                     .text = where.text,
+                     .force = constant_force((Vector6() << 300, -200, 100, 0, 0, 0).finished())});
+    const Compensation result = compensated(shop);
+    CHECK(dense_miss(shop, result, 20).size <= 5e-6);
+    double before = 0, turned = 0;
+    for (const Waypoint& w : result.waypoints) {
+      before = std::max(before, w.before.head<3>().norm());
+      turned = std::max(turned, w.after.tail<3>().norm());
+      CHECK(w.correction.tail<3>().norm() == 0);
+    }
+    CHECK(before > 50e-6);
+    CHECK(turned > 1e-6);
+  }
+}
+
+TEST_CASE("the pieces of the original cover its feed moves once, cut where the force has corners") {
+  const Shop shop({.machine = load_machine(orthoglide_b), .text = part, .force = constant_force(milling())});
+  double length = 0, u = 1;
+  bool corner = false;
+  for (const Piece& piece : original_pieces(shop.job(), 7e-3)) {
+    const Segment& segment = shop.path.segments[piece.segment];
+    CHECK(piece.end_only == !segment.cutting);
+    if (!segment.cutting) continue;
+    CHECK(piece.u0 == (u == 1 ? 0 : u));
+    u = piece.u1;
+    const double size = (piece.to - piece.from).norm();
+    CHECK(size <= 7e-3 + 1e-12);
+    length += size;
+    corner = corner || std::abs(piece.u1 - 2.0 / 120) < 1e-9;
+  }
+  CHECK(length == doctest::Approx(shop.path.segments.back().s_end));
+  CHECK(corner);
+}
