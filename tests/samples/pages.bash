@@ -1,0 +1,42 @@
+# Pages of documentation whose quotations are made by running what they show. To be sourced with the program as argument.
+#
+# In a page
+#   - a block ```console holds commands, lines that begin with "$ ", each followed by what it prints;
+#   - a block after the line <!-- file PATH --> holds that file, from the top folder.
+# Everything else is left as it is. Commands run one after another in a copy of the samples, in the page's own folder.
+set -uo pipefail
+counterflex=$(realpath "$1")
+top=$(cd -P "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cp -r "$top/samples" "$work/samples"
+mkdir "$work/.bin" && ln -s "$counterflex" "$work/.bin/counterflex"
+pages=(README.md samples/*/README.md)
+
+run_command() (
+  cd "$work/$1" || exit 1
+  PATH=$work/.bin:$PATH NO_COLOR=1 LC_ALL=C bash -c "$2" </dev/null 2>&1
+)
+
+# Prints page $1, a path from the top folder, with its quotations made anew.
+regenerated() {
+  local page=$1 folder line inside='' file=''
+  folder=$(dirname "$page")
+  while IFS= read -r line; do
+    case "$inside:$line" in
+      ':<!-- file '*' -->') file=${line#'<!-- file '} file=${file%' -->'} ;;
+      ':```console') inside=console ;;
+      ':```'*) inside=text; if [ -n "$file" ]; then printf '%s\n' "$line"; cat "$top/$file"; inside=file file=''; continue; fi ;;
+      *':```') inside='' ;;
+      'file:'*) continue ;;
+      'console:$ '*) printf '%s\n' "$line"; run_command "$folder" "${line#'$ '}"; continue ;;
+      'console:'*) continue ;;
+    esac
+    printf '%s\n' "$line"
+  done <"$top/$page"
+}
+
+# The picture of the first page, from the reports that its sample's page has written.
+regenerated_picture() (
+  cd "$work/samples/orthoglide-groove" && "$top/tests/samples/draw_deviation" before.csv after.csv after.json
+)
