@@ -153,10 +153,23 @@ class Matcher {
                   .to = position(j),
                   .end_only = !segment.cutting,
                   .exempt = !job_.program.moves[segment.move].may_split};
+      const std::optional<double> step = j + 1 < own ? step_at(j, u) : std::nullopt;
+      if (step) piece.u1 = u = std::max(*step, u0);
       if (u > u0) pieces_.push_back(piece);
       u0 = u;
+      if (step) ++j;  // the jump itself: what follows begins at its end
     }
     ++segment_;
+  }
+
+  // The fraction of the force's step that the moves j and j + 1, near fraction u, stand on both sides of.
+  std::optional<double> step_at(std::size_t j, double u) const {
+    const Segment& segment = job_.path.segments[segment_];
+    const double longest = longest_jump_mm * mm, length = (segment.p_MT_end - segment.p_MT_start).norm();
+    if (job_.options.blend > 0 || (position(j + 1) - position(j)).norm() > longest) return std::nullopt;
+    for (const double step : job_.forces.breaks(segment_))
+      if (std::abs(step - u) * length < longest) return step;
+    return std::nullopt;
   }
 
   Vector3 position(std::size_t j) const { return target_of(job_, corrected_.moves[j].end_mm); }
@@ -168,6 +181,13 @@ class Matcher {
   Vector3 correction_mm_ = Vector3::Zero();
 };
 
+// Whether the fraction of a piece's end is known: an end of a segment, or a step of the force.
+bool is_settled(const Job& job, const Piece& piece) {
+  if (piece.u1 >= 1 || piece.segment == no_segment) return true;
+  const std::vector<double> breaks = job.forces.breaks(piece.segment);
+  return job.options.blend == 0 && std::find(breaks.begin(), breaks.end(), piece.u1) != breaks.end();
+}
+
 // An inserted point stands where it puts the tip: its fraction is that of the tip's place along the segment.
 void refine_fractions(const Job& job, std::vector<Piece>& pieces) {
   for (int iteration = 0; iteration < 3; ++iteration) {
@@ -175,7 +195,7 @@ void refine_fractions(const Job& job, std::vector<Piece>& pieces) {
         solve_forward_along(job, pieces, {.before = false, .attribution = false, .inside = false});
     if (run.failure) return;  // said again by whoever solves the pieces
     for (std::size_t i = 0; i + 1 < pieces.size(); ++i) {
-      if (pieces[i].u1 >= 1 || pieces[i].segment == no_segment) continue;
+      if (is_settled(job, pieces[i])) continue;
       const Segment& segment = job.path.segments[pieces[i].segment];
       const double length = (segment.p_MT_end - segment.p_MT_start).norm();
       const double u =
