@@ -61,6 +61,7 @@ CompensationOptions compensation_options(const Options& options, const Machine& 
   result.method = options.method;
   result.tolerance = options.tolerance;
   result.max_correction = options.max_correction.value_or(machine.max_correction);
+  result.blend = options.blend;
   result.threads = options.threads;
   result.write.decimals = options.decimals;
   return result;
@@ -80,7 +81,7 @@ void warn_of_run(Run& run, Console& console) {
 }  // namespace
 
 Job Run::job() const {
-  return {machine.model, program.program, path, *forces, work.X_MW, work.datum_shift, options};
+  return {machine.model, program.program, path, *forces, work.X_MW, work.datum_shift, options, read};
 }
 
 std::unique_ptr<Run> prepare_run(const Options& options, Console& console) {
@@ -88,6 +89,7 @@ std::unique_ptr<Run> prepare_run(const Options& options, Console& console) {
   console.progress("reading");
   auto run = std::make_unique<Run>();
   run->machine = read_machine_input(options);
+  run->read = read_options(options, &run->machine.machine);
   run->program = read_program_input("program", options.program, options, &run->machine.machine);
   const Program& program = run->program.program;
   run->force_input = read_force_input(options, program);

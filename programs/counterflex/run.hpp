@@ -19,6 +19,7 @@ struct Run {
   Toolpath path;  ///< wanted
   std::optional<PathForces> forces;
   CompensationOptions options;
+  ReadOptions read;  ///< with which the program was read
   RunFacts facts;
 
   Job job() const;

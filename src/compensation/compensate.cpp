@@ -38,7 +38,7 @@ void note_first_corrections(const Job& job, const Emission& emission, Compensati
 std::optional<Failure> decimals_failure(const Job& job) {
   for (const Segment& segment : job.path.segments) {
     const double rounding = rounding_allowance(job.program.moves[segment.move], job.options.write);
-    if (rounding >= job.options.tolerance) return few_decimals_failure(job, rounding, segment.line);
+    if (rounding >= job.options.tolerance) return few_decimals_failure(job, segment);
   }
   return std::nullopt;
 }

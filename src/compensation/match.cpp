@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <limits>
 #include <vector>
 
 #include "counterflex/compensation/compensate.hpp"
+#include "counterflex/files/numbers.hpp"
 #include "counterflex/geometry/units.hpp"
 #include "emit.hpp"
 
@@ -35,6 +37,20 @@ std::string skeleton(const Program& program, const Move& move) {
   }
   keep(move.block.end);
   return text;
+}
+
+// Whether a skeleton says no more than an inserted piece may: motion and F (N beside them). Comments are no
+// words.
+bool is_plain(const std::string& skeleton) {
+  for (std::size_t i = 0; i < skeleton.size() && skeleton[i] != ';'; ++i) {
+    const char c = static_cast<char>(std::toupper(static_cast<unsigned char>(skeleton[i])));
+    if (c == '(') i = std::min(skeleton.find(')', i), skeleton.size() - 1);
+    if (c < 'A' || c > 'Z' || c == 'F' || c == 'N') continue;
+    const std::size_t end = std::min(skeleton.find_first_not_of("0123456789.", i + 1), skeleton.size());
+    const auto code = read_number(std::string_view(skeleton).substr(i + 1, end - i - 1));
+    if (c != 'G' || !code || (*code != 0 && *code != 1)) return false;
+  }
+  return true;
 }
 
 bool all(const std::array<bool, 3>& known) {
@@ -79,6 +95,7 @@ class Matcher {
         const double miss = (candidate.end_mm - end).norm();
         if (miss < best_miss - 1e-9) best = j, best_miss = miss;
       }
+      if (!is_plain(wanted)) break;  // no piece says the same: it is the first block, or none
       if (candidate.block_number && candidate.block_number == original.block_number) break;
       if (j > next_ && leaves(original, corrected_.moves[j - 1], candidate)) break;
     }
@@ -91,10 +108,11 @@ class Matcher {
   std::size_t last_piece(const Move& original, const Vector3& end_mm, std::size_t own, double miss,
                          std::size_t last) const {
     std::size_t best = own;
-    for (std::size_t j = own + 1; original.may_split && j <= last; ++j) {
+    const bool first = original.may_split && !is_plain(skeleton(job_.program, original));
+    for (std::size_t j = own + 1; first && j <= last; ++j) {
       const Move& candidate = corrected_.moves[j];
       if (candidate.block_number || candidate.motion != original.motion ||
-          leaves(original, corrected_.moves[j - 1], candidate))
+          !is_plain(skeleton(corrected_, candidate)) || leaves(original, corrected_.moves[j - 1], candidate))
         break;
       const double other = (candidate.end_mm - end_mm).norm();
       if (other < miss - 1e-9) best = j, miss = other;

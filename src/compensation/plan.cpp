@@ -4,6 +4,7 @@
 
 #include <Eigen/SVD>
 #include <algorithm>
+#include <cmath>
 
 #include "counterflex/compensation/compensate.hpp"
 #include "counterflex/geometry/units.hpp"
@@ -91,7 +92,7 @@ class ChunkPlanner {
     if (knots.size() > 1) {
       if (!measure_gain()) return false;
       if (tolerance / gain_ - rounding < least) {
-        failure_ = few_decimals_failure(job_, rounding, segment_->line);
+        failure_ = few_decimals_failure(job_, *segment_);
         return false;
       }
       knots = choose_knots(stretch, corners, tolerance / gain_ - rounding);
@@ -148,20 +149,28 @@ class ChunkPlanner {
 
 }  // namespace
 
-double rounding_allowance(const Move& move, const WriteOptions& options) {
-  const Decimals decimals = decimals_of(move, options);
-  int fewest = std::min({decimals.end[0], decimals.end[1], decimals.end[2], decimals.inserted});
-  double digit = move.unit == LengthUnit::inch ? inch : mm;
-  for (; fewest > 0; --fewest) digit /= 10;
-  return 0.5 * digit * std::sqrt(3.0);
+namespace {
+
+double rounding_of(LengthUnit unit, int decimals) {
+  return 0.5 * (unit == LengthUnit::inch ? inch : mm) * std::pow(10.0, -decimals) * std::sqrt(3.0);
 }
 
-Failure few_decimals_failure(const Job& job, double rounding, int line) {
-  return {Exit::usage, line,
-          fmt::format("words are rounded by up to {:.3g} mm here, which leaves too little of the tolerance "
-                      "of {:.3g} mm; it "
-                      "needs more --decimals",
-                      rounding / mm, job.options.tolerance / mm)};
+}  // namespace
+
+double rounding_allowance(const Move& move, const WriteOptions& options) {
+  const Decimals decimals = decimals_of(move, options);
+  return rounding_of(move.unit,
+                     std::min({decimals.end[0], decimals.end[1], decimals.end[2], decimals.inserted}));
+}
+
+Failure few_decimals_failure(const Job& job, const Segment& segment) {
+  const Move& move = job.program.moves[segment.move];
+  int enough = 0;
+  while (rounding_of(move.unit, enough) > job.options.tolerance / 2) ++enough;
+  return {Exit::usage, segment.line,
+          fmt::format("words are rounded by up to {:.3g} mm here, which leaves too little of the tolerance of "
+                      "{:.3g} mm; it needs --decimals {}",
+                      rounding_allowance(move, job.options.write) / mm, job.options.tolerance / mm, enough)};
 }
 
 Plan plan(const Job& job, const NominalTrack& track) {

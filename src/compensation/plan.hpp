@@ -23,7 +23,7 @@ struct Plan {
 };
 
 /// The failure of words that are rounded by up to `rounding` (m), too much for the tolerance.
-Failure few_decimals_failure(const Job& job, double rounding, int line);
+Failure few_decimals_failure(const Job& job, const Segment& segment);
 
 /// Plans all segments, in parallel over chunks.
 Plan plan(const Job& job, const NominalTrack& track);

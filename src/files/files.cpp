@@ -129,8 +129,9 @@ void write_file(const std::string& path, std::string_view bytes) {
   struct stat old {};
   const bool exists = ::stat(path.c_str(), &old) == 0;
   if (exists && !S_ISREG(old.st_mode) && !S_ISDIR(old.st_mode)) {
-    const Descriptor device(::open(path.c_str(), O_WRONLY | O_CLOEXEC));
-    if (device.get() < 0) fail_writing(path);
+    // A pipe that nobody reads would hold the run for ever: it is an error.
+    const Descriptor device(::open(path.c_str(), O_WRONLY | O_CLOEXEC | O_NONBLOCK));
+    if (device.get() < 0 || ::fcntl(device.get(), F_SETFL, O_WRONLY) != 0) fail_writing(path);
     return write_stream(path, device.get(), bytes);
   }
   // Through a symbolic link: the file that it names is replaced, the link stays.

@@ -125,15 +125,15 @@ double length_mm(const Reading& r, const Word& word) {
 void allow_changes(const Reading& r, Move& move) {
   const SortedBlock& b = r.sorted;
   const bool feed = move.motion == Motion::feed;
-  const bool unit = b.has(Action::inch) || b.has(Action::mm);  // a copied F would change its unit
+  const bool unit = b.has(Action::inch) || b.has(Action::mm);  // an F copied before it would change its unit
   const bool tool_length = b.has(Action::tool_length) || b.has(Action::no_tool_length);
   const bool acts_at_end = b.has(MAction::acts_after) || b.has(MAction::end) || b.has(MAction::tool_change) ||
                            b.has(MAction::machine);
   move.may_insert_words = !tool_length;
-  move.may_split = feed && !move.exact_stop && !tool_length && !unit && !acts_at_end;
+  move.may_split = feed && !move.exact_stop && !tool_length && !acts_at_end;
   const bool only_motion = b.g.empty() || (b.g.size() == 1 && b.g[0].code->group == Group::motion);
   const bool start_known = move.known_start[0] && move.known_start[1] && move.known_start[2];
-  move.may_jump = start_known && move.feed_mm_min > 0 && !move.exact_stop && !acts_at_end &&
+  move.may_jump = start_known && move.feed_mm_min > 0 && !move.exact_stop && !acts_at_end && !unit &&
                   (feed ? move.may_split : only_motion);
 }
 
