@@ -60,6 +60,19 @@ TEST_CASE("steps of the force inside a move survive the judgement of the text") 
   if (failure) MESSAGE(failure->what);
 }
 
+TEST_CASE("blocks that act at their beginning are told from each other and from their pieces") {
+  for (const std::string cuts : {"G1 X40. M8\nG1 Y40. M8\n", "G1 X40.\nG1 Y40. M8\nG1 X-40. M8\n",
+                                 "G1 Z40. M8\nG1 Z40.\nG1 Z-30. M8\nG1 Y40. Z16.\n"}) {
+    CAPTURE(cuts);
+    const Shop shop({.machine = load_machine(orthoglide_b),
+                     .text = "G21 G90\nG0 X-60. Y-60. Z-60.\nF500\n" + cuts + "M30\n",
+                     .force = constant_force(milling())});
+    const ForwardRun run = judged(shop, compensated(shop).text);
+    REQUIRE(!run.failure);
+    CHECK(!tolerance_failure(shop.job(), run.waypoints));
+  }
+}
+
 TEST_CASE("one coordinate that is changed by some hundredths is found, with its line") {
   const Shop shop({.machine = load_machine(orthoglide_b), .text = part, .force = constant_force(milling())});
   const Compensation result = compensated(shop);
