@@ -6,6 +6,7 @@
 # Everything else is left as it is. Commands run one after another in a copy of the samples, in the page's own folder.
 set -uo pipefail
 counterflex=$(realpath "$1")
+[ -x "$counterflex" ] || { echo "$1 is not there" >&2; exit 1; }
 top=$(cd -P "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
