@@ -60,7 +60,7 @@ std::string units_text(const MoveFacts& facts) {
   std::string text;
   for (const LengthUnit unit : facts.units) {
     text += text.empty() ? "" : " and ";
-    text += unit == LengthUnit::mm ? "mm" : "inch";
+    text += unit == LengthUnit::millimetres ? "mm" : "inch";
   }
   return text.empty() ? "no move says" : text;
 }

@@ -53,7 +53,7 @@ void add_reading(CLI::App& app, Options& options) {
                [&](const std::string& text) { options.dialect = text; });
   value_option(
       app, "--units", "mm|inch", "Units before the program states its own",
-      [&](const std::string& text) { options.units = text == "mm" ? LengthUnit::mm : LengthUnit::inch; })
+      [&](const std::string& text) { options.units = text == "mm" ? LengthUnit::millimetres : LengthUnit::inches; })
       ->check(one_of({"mm", "inch"}));
   value_option(app, "--integer-words", "units|increments",
                "What length words without a point mean to a fanuc or haas control",

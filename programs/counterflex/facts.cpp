@@ -46,7 +46,7 @@ double in_mm(double length) {
 std::vector<OptionValue> reading_options(const Options& options, const Run& run) {
   std::vector<OptionValue> values{{"dialect", run.program.program.dialect}};
   if (options.units)
-    values.push_back({"units", std::string(*options.units == LengthUnit::mm ? "mm" : "inch")});
+    values.push_back({"units", std::string(*options.units == LengthUnit::millimetres ? "mm" : "inch")});
   if (options.integer_words != IntegerWords::unsaid)
     values.push_back({"integer-words",
                       std::string(options.integer_words == IntegerWords::units ? "units" : "increments")});

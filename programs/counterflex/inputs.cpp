@@ -24,7 +24,7 @@ void override_work(const Options& options, Machine& machine) {
 
 std::optional<LengthUnit> unit_of(const Options& options, const Machine* machine) {
   if (options.units || machine == nullptr || machine->control.units.empty()) return options.units;
-  return machine->control.units == "inch" ? LengthUnit::inch : LengthUnit::mm;
+  return machine->control.units == "inch" ? LengthUnit::inches : LengthUnit::millimetres;
 }
 
 InputFile input_file(const std::string& role, const std::string& path, const std::string& bytes) {

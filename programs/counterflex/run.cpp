@@ -56,6 +56,36 @@ void refuse_uncontrolled_moves(const Run& run) {
   }
 }
 
+bool controls(const Machine& machine, int component) {
+  const auto& list = machine.controlled;
+  return std::find(list.begin(), list.end(), static_cast<Component>(component)) != list.end();
+}
+
+/// Axes of the program along which the machine has nothing to control.
+std::array<bool, 3> uncontrolled_axes(const Machine& machine, const Matrix3& R_MW) {
+  std::array<bool, 3> axes{};
+  if (machine.controlled.empty()) return axes;
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    bool moves_controlled = false;
+    for (int c = 0; c < 3; ++c)
+      moves_controlled = moves_controlled || (controls(machine, c) && std::abs(R_MW(c, axis)) > 1e-12);
+    axes[static_cast<std::size_t>(axis)] = !moves_controlled;
+  }
+  return axes;
+}
+
+/// Orientations that the machine controls, and that a program of X, Y and Z does not state.
+void warn_of_orientation(Run& run) {
+  const Machine& machine = run.machine.machine;
+  if (std::none_of(machine.controlled.begin(), machine.controlled.end(),
+                   [](Component c) { return c > Component::z; }))
+    return;
+  run.facts.warnings.push_back({0,
+                                "the machine controls the tool's orientation, which the program does not "
+                                "state: home's is commanded, and its "
+                                "error stays (see the largest rotation)"});
+}
+
 CompensationOptions compensation_options(const Options& options, const Machine& machine) {
   CompensationOptions result;
   result.method = options.method;
@@ -94,12 +124,15 @@ std::unique_ptr<Run> prepare_run(const Options& options, Console& console) {
   const Program& program = run->program.program;
   run->force_input = read_force_input(options, program);
   run->work = place_work(run->machine.machine, run->machine.model, shown_name(options.machine), program);
+  run->ignored = uncontrolled_axes(run->machine.machine, run->work.X_MW.R);
+  ignore_axes(run->program.program, run->ignored);
   run->path = build_toolpath(program, wanted_frame(run->work));
   refuse_uncontrolled_moves(*run);
   const ForceSource& source = run->force_input.source;
   run->forces.emplace(source, program, run->path, tool_orientations(run->machine.model, run->path, source));
   run->options = compensation_options(options, run->machine.machine);
   run->facts = facts_of(options, *run);
+  warn_of_orientation(*run);
   warn_of_run(*run, console);
   return run;
 }

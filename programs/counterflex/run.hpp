@@ -16,6 +16,7 @@ struct Run {
   ProgramInput program;
   ForceInput force_input;
   WorkPlace work;
+  std::array<bool, 3> ignored{};  ///< program axes along which the machine controls nothing
   Toolpath path;  ///< wanted
   std::optional<PathForces> forces;
   CompensationOptions options;

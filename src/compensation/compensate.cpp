@@ -27,10 +27,10 @@ void note_planned_corrections(const Job& job, const Plan& plan, Compensation& re
 
 // Positions that come from unknown ones have no segment.
 void note_first_corrections(const Job& job, const Emission& emission, Compensation& result) {
-  for (std::size_t e = 0; e < emission.edits.size(); ++e) {
-    if (!emission.first_known[e]) continue;
-    const Move& move = job.program.moves[emission.edits[e].move];
-    note_correction((emission.edits[e].end_mm - move.end_mm).norm() * mm, move.line, result);
+  for (const EmittedMove& emitted : emission.moves) {
+    if (emitted.kind != EmittedMove::Kind::first_known) continue;
+    const Move& move = job.program.moves[emitted.edit.move];
+    note_correction((emitted.edit.end_mm - move.end_mm).norm() * mm, move.line, result);
   }
 }
 
@@ -50,7 +50,7 @@ std::optional<Failure> tolerance_failure(const Job& job, const std::vector<Waypo
     Vector3 miss = Vector3::Zero();
     for (Component c : job.model.mechanism.controlled)
       if (c <= Component::z) miss[static_cast<int>(c)] = w.after[static_cast<int>(c)];
-    if (miss.norm() <= job.options.tolerance || (w.exempt && w.between)) continue;
+    if (miss.norm() <= job.options.tolerance || w.exempt) continue;
     return Failure{
         Exit::not_compensated, w.line,
         fmt::format("verification failed: the tip misses the path by {:.4f} mm at {:.1f} % of this move, the "
@@ -76,8 +76,8 @@ Compensation compensate(const Job& job, bool attribution) {
   result.left_alone = emission.left_alone;
   result.failure = emission.failure;
   if (result.failure) return result;
-  result.corrected_moves = emission.edits.size();
-  result.counts = rewrite(job.program, emission.edits, job.options.write);
+  result.corrected_moves = emission.moves.size() - emission.left_alone.size();
+  result.counts = rewrite(job.program, edits_of(emission), job.options.write);
   result.text = std::move(result.counts.text);
   const Program corrected = read_program(result.text, job.program.file, job.read);
   const std::vector<Piece> pieces = emitted_pieces(job, emission, result.counts, corrected);

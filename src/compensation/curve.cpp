@@ -21,12 +21,13 @@ Vector3 lagrange(const std::vector<CurveNode>& nodes, double u) {
 }
 
 // Interval a..b with its middle solved: quarters test the parabola; what it misses is halved.
-bool refine(const CurveNode& a, const CurveNode& m, const CurveNode& b, double accuracy, const CorrectionAt& solve,
-            CorrectionCurve& curve) {
+bool refine(const CurveNode& a, const CurveNode& m, const CurveNode& b, double accuracy,
+            const CorrectionAt& solve, CorrectionCurve& curve) {
   CurveNode q, r;
   if (!solve((a.u + m.u) / 2, q) || !solve((m.u + b.u) / 2, r)) return false;
   const std::vector<CurveNode> parabola{a, m, b};
-  const double miss = std::max((lagrange(parabola, q.u) - q.c).norm(), (lagrange(parabola, r.u) - r.c).norm());
+  const double miss =
+      std::max((lagrange(parabola, q.u) - q.c).norm(), (lagrange(parabola, r.u) - r.c).norm());
   // The five nodes together are better than the parabola by about an order: 8 times is asked of it.
   if (miss < 8 * accuracy || b.u - a.u < smallest_interval) {
     curve.add({{a, q, m, r, b}});
@@ -60,7 +61,8 @@ double reach(const CorrectionCurve& curve, const std::vector<double>& corners, d
   return good > u0 ? good : bad;
 }
 
-std::vector<double> greedy(const CorrectionCurve& curve, const std::vector<double>& corners, double tolerance) {
+std::vector<double> greedy(const CorrectionCurve& curve, const std::vector<double>& corners,
+                           double tolerance) {
   std::vector<double> knots;
   for (double u = curve.begin(); u < curve.end();) {
     u = reach(curve, corners, u, tolerance);
@@ -90,7 +92,8 @@ bool sample_curve(const CurveNode& a, const CurveNode& b, double accuracy, const
   return refine(a, m, b, accuracy, solve, curve);
 }
 
-std::vector<double> choose_knots(const CorrectionCurve& curve, const std::vector<double>& corners, double tolerance) {
+std::vector<double> choose_knots(const CorrectionCurve& curve, const std::vector<double>& corners,
+                                 double tolerance) {
   std::vector<double> knots = greedy(curve, corners, tolerance);
   if (knots.size() < 2) return knots;
   double low = 0, high = tolerance;  // the least tolerance that needs no more knots

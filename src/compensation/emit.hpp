@@ -6,16 +6,28 @@
 
 namespace counterflex {
 
+/// One move of the original with its edit.
+struct EmittedMove {
+  enum class Kind {
+    segment,      ///< solved along its segment
+    shifted,      ///< goes nowhere, or from where nobody knows: it keeps a correction
+    first_known,  ///< its end is the first position that is known in all axes
+  };
+  MoveEdit edit;
+  Kind kind = Kind::shifted;
+  std::size_t segment = no_segment;
+  std::vector<double> fractions{};  ///< of its inserted points and its end on its segment
+  bool exempt = false;              ///< listed: its inside may miss the tolerance
+  bool exempt_end = false;          ///< listed: its end may, too
+};
+
 struct Emission {
-  std::vector<MoveEdit> edits;
-  /// By edit: fractions of its inserted points and its end on its segment; empty where it has none.
-  std::vector<std::vector<double>> fractions;
-  std::vector<std::size_t> segment;  ///< by edit; no_segment where it has none
-  std::vector<bool> first_known;     ///< by edit: its end is the first position that is known in all axes
-  std::vector<bool> exempt;          ///< by edit: listed as not split, its inside may miss the tolerance
+  std::vector<EmittedMove> moves;
   std::vector<LeftAlone> left_alone;
   std::optional<Failure> failure;
 };
+
+std::vector<MoveEdit> edits_of(const Emission& emission);
 
 /// Edits for all moves: segments as planned; moves that go nowhere keep the correction that holds there;
 /// moves made before all axes are known take that of the first position that is (look-ahead of 64 blocks).

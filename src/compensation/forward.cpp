@@ -9,7 +9,8 @@ namespace counterflex {
 namespace {
 
 constexpr int odd_sixteenths = 8;
-constexpr double quiet_share = 0.1;  // of the tolerance: pieces whose correction changes less are sampled once inside
+constexpr double quiet_share =
+    0.1;  // of the tolerance: pieces whose correction changes less are sampled once inside
 
 // Solves the pieces of one chunk forward, one after another.
 class ForwardSolver {
@@ -17,14 +18,16 @@ class ForwardSolver {
   ForwardSolver(const Job& job, const Questions& questions, const Configuration& start)
       : job_(job), questions_(questions), solver_(job, start) {}
 
-  bool solve(const Piece& piece, ForwardRun& out) {
+  // `begins_anew`: the command jumped there, so that no piece before has been judged at its start.
+  bool solve(const Piece& piece, bool begins_anew, ForwardRun& out) {
     piece_ = &piece;
-    if (piece.segment == no_segment) position_ = {.line = piece.line, .p_MT_start = piece.wanted, .p_MT_end = piece.wanted};
+    if (piece.segment == no_segment)
+      position_ = {.line = piece.line, .p_MT_start = piece.wanted, .p_MT_end = piece.wanted};
     segment_ = piece.segment == no_segment ? &position_ : &job_.path.segments[piece.segment];
     if (questions_.inside && !piece.end_only) {
       const int count = samples();
-      // Without a blend the force may begin with a step, which no end of a piece before sees.
-      if (job_.options.blend == 0 && !solve_at(0, true, 0, out)) return false;
+      // Without a blend the force may begin with a step, which no end of a piece before sees either.
+      if ((begins_anew || job_.options.blend == 0) && !solve_at(0, true, 0, out)) return false;
       for (int k = 0; k < count; ++k)
         if (!solve_at((2 * k + 1) / (2.0 * count), true, 1.0 / (count + 1), out)) return false;
       return solve_at(1, false, 1.0 / (count + 1), out);
@@ -34,7 +37,8 @@ class ForwardSolver {
 
  private:
   int samples() const {
-    const Vector3 c0 = piece_->from - point_on(*segment_, piece_->u0), c1 = piece_->to - point_on(*segment_, piece_->u1);
+    const Vector3 c0 = piece_->from - point_on(*segment_, piece_->u0),
+                  c1 = piece_->to - point_on(*segment_, piece_->u1);
     return (c1 - c0).norm() > quiet_share * job_.options.tolerance ? odd_sixteenths : 1;
   }
 
@@ -72,10 +76,12 @@ class ForwardSolver {
     iterations_ = 0;
     wanted_ = solver_.wanted(w.p_MT, status_);
     const Vector3 original = w.p_MT - job_.datum_shift;
-    // What is written is proven from the nominal configuration on; samples between its ends begin at their neighbour.
+    // What is written is proven from the nominal configuration on; samples between its ends begin at their
+    // neighbour.
     const Start start = between ? Start::neighbour : Start::nominal;
     bool solved = status_ == Status::converged && deviate(emitted, load, {}, start, w.after);
-    if (solved && !between && questions_.before) solved = deviate(original, load, {}, Start::neighbour, w.before);
+    if (solved && !between && questions_.before)
+      solved = deviate(original, load, {}, Start::neighbour, w.before);
     if (solved && !between && questions_.attribution) solved = attribute(original, emitted, load, w);
     w.correction.head<3>() = emitted - original;
     w.status = status_;
@@ -92,7 +98,7 @@ class ForwardSolver {
     w.line = segment_->line;
     w.cutting = segment_->cutting;
     w.between = between;
-    w.exempt = piece_->exempt;
+    w.exempt = between ? piece_->exempt : piece_->exempt_end;
     w.weight = segment_->cutting ? share * (piece_->u1 - piece_->u0) * path.norm() : 0;
     w.s = segment_->s_start + u * (segment_->s_end - segment_->s_start);
     w.direction = path.norm() > 0 ? Vector3(path.normalized()) : Vector3(Vector3::Zero());
@@ -119,10 +125,13 @@ ForwardRun solve_forward_along(const Job& job, const std::vector<Piece>& pieces,
   std::vector<ForwardRun> runs(chunk_count(pieces.size()));
   for_each_chunk(pieces.size(), job.options.threads, [&](const Chunk& chunk) {
     const std::size_t segment = pieces[chunk.begin].segment;
-    const Configuration& start = segment == no_segment ? job.model.home : nominal.starts[segment / chunk_size];
+    const Configuration& start =
+        segment == no_segment ? job.model.home : nominal.starts[segment / chunk_size];
     ForwardSolver solver(job, questions, start);
-    for (std::size_t i = chunk.begin; i < chunk.end; ++i)
-      if (!solver.solve(pieces[i], runs[chunk.index])) return;
+    for (std::size_t i = chunk.begin; i < chunk.end; ++i) {
+      const bool begins_anew = i == 0 || pieces[i].from != pieces[i - 1].to;
+      if (!solver.solve(pieces[i], begins_anew, runs[chunk.index])) return;
+    }
   });
   ForwardRun all;
   for (ForwardRun& run : runs) {
@@ -141,7 +150,8 @@ std::vector<Piece> original_pieces(const Job& job, double spacing) {
     std::vector<double> ends;
     if (segment.cutting) {
       ends = job.forces.breaks(s);
-      const auto count = std::max<long>(1, std::lround(std::ceil((segment.s_end - segment.s_start) / spacing)));
+      const auto count =
+          std::max<long>(1, std::lround(std::ceil((segment.s_end - segment.s_start) / spacing)));
       for (long k = 1; k < count; ++k) ends.push_back(static_cast<double>(k) / static_cast<double>(count));
       std::sort(ends.begin(), ends.end());
     }
@@ -149,8 +159,14 @@ std::vector<Piece> original_pieces(const Job& job, double spacing) {
     double u0 = 0;
     for (double u : ends) {
       if (u <= u0) continue;
-      const Vector3 from = point_on(segment, u0) - job.datum_shift, to = point_on(segment, u) - job.datum_shift;
-      pieces.push_back({.segment = s, .line = segment.line, .u0 = u0, .u1 = u, .from = from, .to = to,
+      const Vector3 from = point_on(segment, u0) - job.datum_shift,
+                    to = point_on(segment, u) - job.datum_shift;
+      pieces.push_back({.segment = s,
+                        .line = segment.line,
+                        .u0 = u0,
+                        .u1 = u,
+                        .from = from,
+                        .to = to,
                         .end_only = !segment.cutting});
       u0 = u;
     }

@@ -11,12 +11,14 @@
 #include "counterflex/files/numbers.hpp"
 #include "counterflex/geometry/units.hpp"
 #include "emit.hpp"
+#include "same_program.hpp"
 
 namespace counterflex {
 namespace {
 
-constexpr double longest_jump_mm = 1;  // longer first pieces are taken for pieces
-constexpr double jump_length = 3;      // in allowances for rounding: shorter pieces are jumps
+constexpr double longest_jump_mm = 1;   // longer first pieces are taken for pieces
+constexpr double inner_end = 1 - 1e-9;  // only the last piece ends a move
+constexpr double jump_length = 3;       // in allowances for rounding: shorter pieces are jumps
 
 // The block without its axis words and blanks: what correction never changes.
 std::string skeleton(const Program& program, const Move& move) {
@@ -100,7 +102,8 @@ class Matcher {
       if (j > next_ && leaves(original, corrected_.moves[j - 1], candidate)) break;
     }
     if (best == std::numeric_limits<std::size_t>::max())
-      fail(original, "this move has no counterpart in the corrected program");
+      fail(original,
+           "no move of the corrected program continues this one with the same words (motion, F, S, M)");
     return last_piece(original, end, best, best_miss, next_ + surplus);
   }
 
@@ -147,7 +150,8 @@ class Matcher {
                          .from = position(own),
                          .to = position(own),
                          .wanted = target_of(job_, original.end_mm) + job_.datum_shift,
-                         .end_only = true});
+                         .end_only = true,
+                         .exempt_end = !original.may_insert_words});
   }
 
   // First fractions of inserted points: by their place along the segment, the correction there interpolated.
@@ -161,7 +165,8 @@ class Matcher {
       double u = 1;
       if (j < own) {
         const Vector3 shift = along + c1 - c0;  // position = start + u along + (1 - u) c0 + u c1
-        u = std::clamp((position(j) - segment.p_MT_start - c0).dot(shift) / shift.squaredNorm(), u0, 1.0);
+        u = std::clamp((position(j) - segment.p_MT_start - c0).dot(shift) / shift.squaredNorm(), u0,
+                       inner_end);
       }
       Piece piece{.segment = segment_,
                   .line = segment.line,
@@ -170,7 +175,8 @@ class Matcher {
                   .from = j == next_ ? start : position(j - 1),
                   .to = position(j),
                   .end_only = !segment.cutting,
-                  .exempt = !job_.program.moves[segment.move].may_split};
+                  .exempt = !job_.program.moves[segment.move].may_split,
+                  .exempt_end = !job_.program.moves[segment.move].may_insert_words};
       const std::optional<double> step = j + 1 < own ? step_at(j, u) : std::nullopt;
       if (step) piece.u1 = u = std::max(*step, u0);
       if (u > u0) pieces_.push_back(piece);
@@ -218,7 +224,7 @@ void refine_fractions(const Job& job, std::vector<Piece>& pieces) {
       const double length = (segment.p_MT_end - segment.p_MT_start).norm();
       const double u =
           pieces[i].u1 + run.waypoints[i].after.head<3>().dot(run.waypoints[i].direction) / length;
-      pieces[i].u1 = pieces[i + 1].u0 = std::clamp(u, pieces[i].u0, 1.0);
+      pieces[i].u1 = pieces[i + 1].u0 = std::clamp(u, pieces[i].u0, inner_end);
     }
   }
 }
@@ -247,9 +253,11 @@ void drop_jumps(const Job& job, std::vector<Piece>& pieces) {
 }  // namespace
 
 std::vector<Piece> match_programs(const Job& job, const Program& corrected) {
+  check_other_lines(job.program, corrected);
   std::vector<Piece> pieces = Matcher(job, corrected).run();
   refine_fractions(job, pieces);
   drop_jumps(job, pieces);
+  check_all_moves(job, corrected, pieces);
   return pieces;
 }
 

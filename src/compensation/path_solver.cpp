@@ -59,9 +59,7 @@ Status PathSolver::travel_status() const {
 
 Pose PathSolver::wanted(const Vector3& p_MT, Status& status) {
   status = go_to(p_MT);
-  Pose X_MT = tip(job_.model.mechanism, nominal());
-  X_MT.p = p_MT;
-  return X_MT;
+  return tip(job_.model.mechanism, nominal());
 }
 
 // A warm start may fail where a cold one does not; the continuation decides.

@@ -152,7 +152,7 @@ class ChunkPlanner {
 namespace {
 
 double rounding_of(LengthUnit unit, int decimals) {
-  return 0.5 * (unit == LengthUnit::inch ? inch : mm) * std::pow(10.0, -decimals) * std::sqrt(3.0);
+  return 0.5 * (unit == LengthUnit::inches ? inch : mm) * std::pow(10.0, -decimals) * std::sqrt(3.0);
 }
 
 }  // namespace
@@ -167,10 +167,11 @@ Failure few_decimals_failure(const Job& job, const Segment& segment) {
   const Move& move = job.program.moves[segment.move];
   int enough = 0;
   while (rounding_of(move.unit, enough) > job.options.tolerance / 2) ++enough;
-  return {Exit::usage, segment.line,
-          fmt::format("words are rounded by up to {:.3g} mm here, which leaves too little of the tolerance of "
-                      "{:.3g} mm; it needs --decimals {}",
-                      rounding_allowance(move, job.options.write) / mm, job.options.tolerance / mm, enough)};
+  return {
+      Exit::usage, segment.line,
+      fmt::format("words are rounded by up to {:.3g} mm here, which leaves too little of the tolerance of "
+                  "{:.3g} mm; it needs --decimals {}",
+                  rounding_allowance(move, job.options.write) / mm, job.options.tolerance / mm, enough)};
 }
 
 Plan plan(const Job& job, const NominalTrack& track) {

@@ -10,7 +10,8 @@ namespace counterflex {
 Failure status_failure(Status status, int line) {
   if (status == Status::outside_travel)
     return {Exit::limit, line, "an actuator leaves its range (outside_travel)"};
-  return {Exit::not_compensated, line, fmt::format("the machine's equilibrium is not solved here: {}", to_string(status))};
+  return {Exit::not_compensated, line,
+          fmt::format("the machine's equilibrium is not solved here: {}", to_string(status))};
 }
 
 std::optional<Failure> limit_failure(const Job& job, const Vector3& beyond_wanted, int line) {

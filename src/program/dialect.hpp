@@ -40,12 +40,12 @@ const Dialect& detect_dialect(std::string_view text);
 
 /// Digits after the point of the resolution: 0.001 mm, 0.0001 inch.
 constexpr int resolution_decimals(LengthUnit unit) {
-  return unit == LengthUnit::mm ? 3 : 4;
+  return unit == LengthUnit::millimetres ? 3 : 4;
 }
 
 /// How many mm one unit is.
 constexpr double mm_per(LengthUnit unit) {
-  return unit == LengthUnit::mm ? 1.0 : 25.4;
+  return unit == LengthUnit::millimetres ? 1.0 : 25.4;
 }
 
 }  // namespace counterflex

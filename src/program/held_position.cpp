@@ -20,6 +20,7 @@ double component(const Vector3& p, std::size_t axis) {
 Coordinate settle_inserted(const Move& move, std::size_t axis, std::optional<double> held_mm,
                            double wanted_mm, int decimals) {
   const double unit = mm_per(move.unit);
+  if (move.ignored[axis]) return {false, 0, held_mm};
   if (!move.known_end[axis]) return {false, 0, std::nullopt};
   if (held_mm && rounds_to(*held_mm / unit, wanted_mm / unit, decimals)) return {false, 0, held_mm};
   return written(move, wanted_mm / unit, decimals);

@@ -32,8 +32,8 @@ void apply_comments(const Block& block, Reading& r) {
 
 void apply_feed_and_spindle(Reading& r) {
   const std::optional<LengthUnit> unit_before = r.state.unit;
-  if (r.sorted.has(Action::inch)) r.state.unit = LengthUnit::inch;
-  if (r.sorted.has(Action::mm)) r.state.unit = LengthUnit::mm;
+  if (r.sorted.has(Action::inch)) r.state.unit = LengthUnit::inches;
+  if (r.sorted.has(Action::mm)) r.state.unit = LengthUnit::millimetres;
   const bool per_turn = r.sorted.has(Action::feed_per_turn);
   if (per_turn || r.sorted.has(Action::feed_per_minute)) {
     if (per_turn != r.state.feed_per_turn || r.dialect.feed_mode_ends_feed) r.state.feed = 0;
@@ -118,7 +118,7 @@ bool is_increments(const Reading& r, const Word& word) {
 double length_mm(const Reading& r, const Word& word) {
   const LengthUnit unit = *r.state.unit;
   if (!is_increments(r, word)) return word.value * mm_per(unit);
-  return word.value / (unit == LengthUnit::mm ? 1e3 : 1e4) * mm_per(unit);
+  return word.value / (unit == LengthUnit::millimetres ? 1e3 : 1e4) * mm_per(unit);
 }
 
 /// Words with which inserted points would change what a block does.

@@ -14,7 +14,7 @@ constexpr std::size_t most_remarks = 1000;
 /// "0.0039 inch = 0.09906 mm", or the bare number where the unit is not known yet.
 std::string length_text(double value, const ModalState& state) {
   if (!state.unit) return fmt::format("{} in the program's unit", value);
-  if (*state.unit == LengthUnit::mm) return fmt::format("{} mm", value);
+  if (*state.unit == LengthUnit::millimetres) return fmt::format("{} mm", value);
   return fmt::format("{} inch = {:.6g} mm", value, value * mm_per(*state.unit));
 }
 

@@ -35,6 +35,12 @@ void advance(Segment& segment, double s, double t) {
 
 }  // namespace
 
+void ignore_axes(Program& program, const std::array<bool, 3>& ignored) {
+  for (Move& move : program.moves)
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      if (ignored[axis]) move.ignored[axis] = move.known_start[axis] = move.known_end[axis] = true;
+}
+
 Toolpath build_toolpath(const Program& program, const Pose& X_MW) {
   Toolpath path{X_MW, {}};
   path.segments.reserve(program.moves.size());

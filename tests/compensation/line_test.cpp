@@ -136,5 +136,5 @@ TEST_CASE("an inch program is corrected in inches") {
   const Compensation result = compensated(shop);
   CHECK(dense_miss(shop, result, 100).size <= 5e-6);
   for (const Move& move : read_program(result.text, "corrected.ngc", {}).moves)
-    CHECK(move.unit == LengthUnit::inch);
+    CHECK(move.unit == LengthUnit::inches);
 }

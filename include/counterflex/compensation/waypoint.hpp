@@ -11,16 +11,19 @@ namespace counterflex {
 
 inline constexpr std::size_t no_segment = static_cast<std::size_t>(-1);
 
-/// One straight piece of what is written into a program, and the part [u0, u1] of a wanted segment that it should
-/// follow. Positions of targets in M (m). A rapid, or a move whose start is unknown, is judged at its end alone.
+/// One straight piece of what is written into a program, and the part [u0, u1] of a wanted segment that it
+/// should follow. Positions of targets in M (m). A rapid, or a move whose start is unknown, is judged at its
+/// end alone.
 struct Piece {
-  std::size_t segment = 0;  ///< index into Toolpath::segments; no_segment for a position reached from an unknown one
-  int line = 0;             ///< of the original program
+  std::size_t segment =
+      0;         ///< index into Toolpath::segments; no_segment for a position reached from an unknown one
+  int line = 0;  ///< of the original program
   double u0 = 0, u1 = 1;
   Vector3 from = Vector3::Zero(), to = Vector3::Zero();
   Vector3 wanted = Vector3::Zero();  ///< wanted position where there is no segment, M (m)
   bool end_only = false;
-  bool exempt = false;  ///< listed as not split: its inside may miss the tolerance
+  bool exempt = false;      ///< listed as not split: its inside may miss the tolerance
+  bool exempt_end = false;  ///< listed as not written in all axes: its end may miss it, too
 };
 
 /// Six-vectors: position (m), rotation vector (rad), axes of M, actual minus wanted.
@@ -31,19 +34,19 @@ struct Waypoint {
   bool cutting = false;
   bool between = false;  ///< a sample inside a piece: only `after` is known
   bool exempt = false;
-  double weight = 0;     ///< share of the cutting length (m)
-  double s = 0;          ///< cutting path length (m)
-  Vector3 p_MT = Vector3::Zero();        ///< wanted tip
-  Vector3 direction = Vector3::Zero();   ///< unit vector of the path, zero where it has none
-  Vector3 tool_axis = Vector3::UnitZ();  ///< unit, from tip to spindle
-  Vector6 wrench = Vector6::Zero();      ///< acting, axes of M
-  Vector6 before = Vector6::Zero();      ///< the original program's target, solved forward
-  Vector6 after = Vector6::Zero();       ///< the emitted target, solved forward
-  Vector6 geometry = Vector6::Zero();    ///< before, assembly errors alone
-  Vector6 load = Vector6::Zero();        ///< before, forces alone
+  double weight = 0;                        ///< share of the cutting length (m)
+  double s = 0;                             ///< cutting path length (m)
+  Vector3 p_MT = Vector3::Zero();           ///< wanted tip
+  Vector3 direction = Vector3::Zero();      ///< unit vector of the path, zero where it has none
+  Vector3 tool_axis = Vector3::UnitZ();     ///< unit, from tip to spindle
+  Vector6 wrench = Vector6::Zero();         ///< acting, axes of M
+  Vector6 before = Vector6::Zero();         ///< the original program's target, solved forward
+  Vector6 after = Vector6::Zero();          ///< the emitted target, solved forward
+  Vector6 geometry = Vector6::Zero();       ///< before, assembly errors alone
+  Vector6 load = Vector6::Zero();           ///< before, forces alone
   Vector6 superposition = Vector6::Zero();  ///< geometry + load - D(0, 0)
-  Vector6 air = Vector6::Zero();         ///< the emitted target without force
-  Vector6 correction = Vector6::Zero();  ///< emitted target minus the original program's
+  Vector6 air = Vector6::Zero();            ///< the emitted target without force
+  Vector6 correction = Vector6::Zero();     ///< emitted target minus the original program's
   Status status = Status::converged;
   int iterations = 0;
 };
@@ -60,12 +63,13 @@ struct ForwardRun {
   std::optional<Failure> failure;   ///< the first waypoint that could not be solved
 };
 
-/// Solves the machine forward along `pieces` (guarantee 1 of DESIGN): every end, and samples between. Parallel over
-/// chunks of fixed size, so that results do not depend on Job's threads. What differs from the wanted path is a matter for
-/// the caller; only a status other than converged is a failure here.
+/// Solves the machine forward along `pieces` (guarantee 1 of DESIGN): every end, and samples between.
+/// Parallel over chunks of fixed size, so that results do not depend on Job's threads. What differs from the
+/// wanted path is a matter for the caller; only a status other than converged is a failure here.
 ForwardRun solve_forward_along(const Job& job, const std::vector<Piece>& pieces, const Questions& questions);
 
-/// The pieces of the original program itself: feed segments cut where the force has corners and to at most `spacing` (m).
+/// The pieces of the original program itself: feed segments cut where the force has corners and to at most
+/// `spacing` (m).
 std::vector<Piece> original_pieces(const Job& job, double spacing);
 
 }  // namespace counterflex

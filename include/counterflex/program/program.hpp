@@ -19,7 +19,7 @@ struct Span {
   std::size_t end = 0;
 };
 
-enum class LengthUnit { mm, inch };
+enum class LengthUnit { millimetres, inches };
 
 /// What a length word without a point means: `unsaid` reads it in units, but a block that holds such a word
 /// and must be rewritten is refused where the dialect knows both readings; `increments` are 0.001 mm or
@@ -40,10 +40,11 @@ struct Move {
   std::size_t block_index = 0;  ///< counts the program's blocks with words, from 0
   Span block;                   ///< the whole line, without its line end
   Motion motion = Motion::rapid;
-  LengthUnit unit = LengthUnit::mm;
+  LengthUnit unit = LengthUnit::millimetres;
   std::array<std::optional<AxisWord>, 3> words;  ///< X, Y, Z where the block has them
   std::array<bool, 3> known_start{};             ///< whether the position before the move is known, by axis
   std::array<bool, 3> known_end{};               ///< and after it
+  std::array<bool, 3> ignored{};  ///< axes that nobody corrects: no word is inserted for them
   Vector3 start_mm = Vector3::Zero();
   Vector3 end_mm = Vector3::Zero();
   double feed_mm_min = 0;            ///< modal F; 0 where none has been programmed

@@ -1,6 +1,7 @@
 #pragma once
 /// Straight segments of the tool tip in the machine frame M: what a program asks for, without its text.
 /// Lengths in m.
+#include <array>
 #include <string>
 #include <vector>
 
@@ -31,6 +32,9 @@ struct Toolpath {
   Pose X_MW;
   std::vector<Segment> segments;
 };
+
+/// Makes program axes count as known throughout that no target needs: those that the machine does not control.
+void ignore_axes(Program& program, const std::array<bool, 3>& ignored);
 
 /// Builds the path of `program` in the machine frame. Moves with an axis that is not known at start and end
 /// give no segment; a move of no length gives none either.

@@ -1,0 +1,122 @@
+#include <cmath>
+
+#include "counterflex/geometry/units.hpp"
+#include "emit.hpp"
+
+namespace counterflex {
+namespace {
+
+// A point that an edit asks the text to come to.
+struct Stop {
+  Vector3 p_mm;
+  std::array<int, 3> decimals;
+  double u;
+  bool jump;
+};
+
+std::vector<Stop> stops_of(const Job& job, const MoveEdit& edit, const std::vector<double>& fractions) {
+  const Decimals decimals = decimals_of(job.program.moves[edit.move], job.options.write);
+  const std::array<int, 3> inside{decimals.inserted, decimals.inserted, decimals.inserted};
+  std::vector<Stop> stops;
+  if (edit.jump_mm) stops.push_back({*edit.jump_mm, inside, 0, true});
+  for (std::size_t k = 0; k < edit.inserted_mm.size(); ++k)
+    stops.push_back({edit.inserted_mm[k], inside, fractions[k], false});
+  stops.push_back({edit.end_mm, decimals.end, fractions.back(), false});
+  return stops;
+}
+
+// Where the commands of a program stand, move by move.
+class PieceReader {
+ public:
+  PieceReader(const Job& job, const Program& corrected) : job_(job), corrected_(corrected) {}
+
+  // The next `count` moves command a segment's stops; rewriting gave no block to those that rounding
+  // swallowed.
+  void read(const EmittedMove& move, const std::vector<Stop>& stops, std::size_t count,
+            std::vector<Piece>& pieces) {
+    const Segment& wanted = job_.path.segments[move.segment];
+    std::size_t swallowed = stops.size() - count;
+    double u0 = 0;
+    for (const Stop& stop : stops) {
+      const Vector3 from = here();
+      const bool dropped = swallowed > 0 && is_held(stop, job_.program.moves[wanted.move].unit);
+      if (dropped)
+        --swallowed;
+      else
+        skip(1);
+      if (stop.jump || (dropped && stop.u < 1)) continue;
+      if (stop.u > u0 || !wanted.cutting)
+        pieces.push_back({.segment = move.segment,
+                          .line = wanted.line,
+                          .u0 = u0,
+                          .u1 = stop.u,
+                          .from = from,
+                          .to = here(),
+                          .end_only = !wanted.cutting,
+                          .exempt = move.exempt,
+                          .exempt_end = move.exempt_end});
+      u0 = stop.u;
+    }
+  }
+
+  // A single position: the next `count` moves end at it.
+  void read_position(const EmittedMove& move, std::size_t count, std::vector<Piece>& pieces) {
+    const Move& original = job_.program.moves[move.edit.move];
+    skip(count);
+    pieces.push_back({.segment = no_segment,
+                      .line = original.line,
+                      .from = here(),
+                      .to = here(),
+                      .wanted = target_of(job_, original.end_mm) + job_.datum_shift,
+                      .end_only = true,
+                      .exempt_end = move.exempt_end});
+  }
+
+  void skip(std::size_t count) { next_ += count; }
+
+ private:
+  // Whether the text holds the stop already, and the next move does not say it again.
+  bool is_held(const Stop& stop, LengthUnit unit) const {
+    if (next_ == 0) return false;
+    const Vector3& held_mm = corrected_.moves[next_ - 1].end_mm;
+    if (next_ < corrected_.moves.size() && corrected_.moves[next_].end_mm == held_mm) return false;
+    for (Eigen::Index axis = 0; axis < 3; ++axis) {
+      const double digit = std::pow(10.0, -stop.decimals[static_cast<std::size_t>(axis)]) *
+                           (unit == LengthUnit::inches ? inch / mm : 1);
+      if (std::abs(stop.p_mm[axis] - held_mm[axis]) > 0.5 * digit * (1 + 1e-9)) return false;
+    }
+    return true;
+  }
+
+  Vector3 here() const {
+    return next_ == 0 ? Vector3::Zero() : target_of(job_, corrected_.moves[next_ - 1].end_mm);
+  }
+
+  const Job& job_;
+  const Program& corrected_;
+  std::size_t next_ = 0;
+};
+
+}  // namespace
+
+std::vector<Piece> emitted_pieces(const Job& job, const Emission& emission, const Rewritten& rewritten,
+                                  const Program& corrected) {
+  std::vector<Piece> pieces;
+  PieceReader reader(job, corrected);
+  std::size_t next = 0;
+  for (std::size_t e = 0; e < emission.moves.size(); ++e) {
+    const EmittedMove& move = emission.moves[e];
+    reader.skip(move.edit.move - next);
+    const std::size_t count = rewritten.blocks_of_edit[e] + 1;
+    if (move.kind == EmittedMove::Kind::first_known)
+      reader.read_position(move, count, pieces);
+    else if (move.kind == EmittedMove::Kind::shifted)
+      reader.skip(count);
+    else
+      reader.read(move, stops_of(job, move.edit, move.fractions), count, pieces);
+    next = move.edit.move + 1;
+  }
+  return pieces;
+}
+
+}  // namespace counterflex

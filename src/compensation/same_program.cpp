@@ -1,0 +1,82 @@
+#include "same_program.hpp"
+
+#include <fmt/format.h>
+
+#include <string_view>
+
+#include "emit.hpp"
+
+namespace counterflex {
+namespace {
+
+struct Line {
+  int number;
+  std::string_view text;
+};
+
+bool is_header(std::string_view line) {
+  return line.find("COUNTERFLEX 1") != std::string_view::npos;
+}
+
+// The lines of a program that hold no move, without line ends.
+std::vector<Line> other_lines(const Program& program) {
+  std::vector<Line> lines;
+  const std::string_view text = program.text;
+  std::size_t move = 0;
+  int number = 1;
+  for (std::size_t begin = 0; begin < text.size(); ++number) {
+    const std::size_t end = std::min(text.find('\n', begin), text.size());
+    std::string_view line = text.substr(begin, end - begin);
+    if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
+    while (move < program.moves.size() && program.moves[move].line < number) ++move;
+    const bool moves = move < program.moves.size() && program.moves[move].line == number;
+    if (!moves && !is_header(line)) lines.push_back({number, line});
+    begin = end + 1;
+  }
+  return lines;
+}
+
+[[noreturn]] void fail(const Program& corrected, int line, const std::string& what) {
+  throw InputError(Exit::not_compensated, {corrected.file, line, 1}, what);
+}
+
+bool all_known(const Move& move) {
+  return move.known_end[0] && move.known_end[1] && move.known_end[2];
+}
+
+}  // namespace
+
+void check_other_lines(const Program& original, const Program& corrected) {
+  const auto wanted = other_lines(original), found = other_lines(corrected);
+  for (std::size_t i = 0; i < found.size(); ++i)
+    if (i >= wanted.size() || found[i].text != wanted[i].text)
+      fail(corrected, found[i].number,
+           i < wanted.size()
+               ? fmt::format("differs from line {} of the original, which is no move and must stay as it is",
+                             wanted[i].number)
+               : std::string("the original has no such line"));
+  if (found.size() < wanted.size())
+    fail(corrected, found.empty() ? 1 : found.back().number,
+         fmt::format("line {} of the original is missing after this line", wanted[found.size()].number));
+}
+
+void check_all_moves(const Job& job, const Program& corrected, const std::vector<Piece>& pieces) {
+  std::size_t next = 0;
+  std::optional<Vector3> here;
+  for (const Move& move : corrected.moves) {
+    if (!all_known(move)) continue;
+    const Vector3 p = target_of(job, move.end_mm);
+    const auto at = [&](const Vector3& q) { return (p - q).norm() < 1e-9; };
+    if (next < pieces.size() && at(pieces[next].to))
+      ++next;
+    else if (!(next < pieces.size() && at(pieces[next].from)) &&
+             !(here && (p - *here).norm() < job.options.tolerance))
+      fail(corrected, move.line, "this move leaves the path of the original");
+    here = p;
+  }
+  if (next < pieces.size())
+    fail(corrected, corrected.moves.empty() ? 1 : corrected.moves.back().line,
+         fmt::format("no move follows the original's line {}", pieces[next].line));
+}
+
+}  // namespace counterflex
