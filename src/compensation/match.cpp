@@ -63,17 +63,20 @@ class Matcher {
  public:
   Matcher(const Job& job, const Program& corrected) : job_(job), corrected_(corrected) {}
 
+  // Stretch by stretch between lines that hold no move: what was inserted for a move lies in its own.
   std::vector<Piece> run() {
+    const auto stretch = other_lines_before(job_.program), found = other_lines_before(corrected_);
     const auto& originals = job_.program.moves;
-    if (corrected_.moves.size() < originals.size())
-      fail(originals.back(), "the corrected program has fewer moves");
-    std::size_t surplus = corrected_.moves.size() - originals.size();
-    for (std::size_t m = 0; m < originals.size(); ++m) {
-      const bool last = m + 1 == originals.size();
-      const std::size_t own = last ? next_ + surplus : find(m, surplus);
-      take(m, own);
-      surplus -= own - next_;
-      next_ = own + 1;
+    for (std::size_t m = 0; m < originals.size();) {
+      const std::size_t end = std::upper_bound(stretch.begin(), stretch.end(), stretch[m]) - stretch.begin();
+      const std::size_t found_end = std::upper_bound(found.begin(), found.end(), stretch[m]) - found.begin();
+      if (found_end < next_ + (end - m)) fail(originals[m], "the corrected program has fewer moves here");
+      for (; m < end; ++m) {
+        const std::size_t surplus = found_end - next_ - (end - m);
+        const std::size_t own = m + 1 == end ? next_ + surplus : find(m, surplus);
+        take(m, own);
+        next_ = own + 1;
+      }
     }
     return std::move(pieces_);
   }

@@ -46,6 +46,17 @@ bool all_known(const Move& move) {
 
 }  // namespace
 
+std::vector<std::size_t> other_lines_before(const Program& program) {
+  const auto others = other_lines(program);
+  std::vector<std::size_t> counts;
+  std::size_t count = 0;
+  for (const Move& move : program.moves) {
+    while (count < others.size() && others[count].number < move.line) ++count;
+    counts.push_back(count);
+  }
+  return counts;
+}
+
 void check_other_lines(const Program& original, const Program& corrected) {
   const auto wanted = other_lines(original), found = other_lines(corrected);
   for (std::size_t i = 0; i < found.size(); ++i)

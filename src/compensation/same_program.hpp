@@ -4,6 +4,10 @@
 
 namespace counterflex {
 
+/// By move: how many lines that hold no move (the header aside) come before it. An inserted block stands
+/// beside the block that it belongs to, so that both have the same count.
+std::vector<std::size_t> other_lines_before(const Program& program);
+
 /// Everything but moves and the header has to be the original's, line by line. Throws `InputError`
 /// (Exit::not_compensated) at the first line of the corrected program that is not.
 void check_other_lines(const Program& original, const Program& corrected);
