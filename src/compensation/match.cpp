@@ -107,7 +107,22 @@ class Matcher {
     if (best == std::numeric_limits<std::size_t>::max())
       fail(original,
            "no move of the corrected program continues this one with the same words (motion, F, S, M)");
-    return last_piece(original, end, best, best_miss, next_ + surplus);
+    return before_jump(m, last_piece(original, end, best, best_miss, next_ + surplus));
+  }
+
+  // Where the force steps between this move and the next, the next one's jump stands right behind this one's
+  // end, and may look more like it than the end itself.
+  std::size_t before_jump(std::size_t m, std::size_t own) const {
+    if (!steps_after(m) || own == next_) return own;
+    const Vector3 step = corrected_.moves[own].end_mm - corrected_.moves[own - 1].end_mm;
+    return step.norm() < longest_jump_mm ? own - 1 : own;
+  }
+
+  bool steps_after(std::size_t m) const {
+    const auto& segments = job_.path.segments;
+    if (job_.options.blend > 0 || segment_ + 1 >= segments.size() || segments[segment_].move != m)
+      return false;
+    return job_.forces.at(segment_, 1) != job_.forces.at(segment_ + 1, 0);
   }
 
   // A block whose words act at its beginning is itself the first piece: the others follow it.

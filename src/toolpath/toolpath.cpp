@@ -35,10 +35,25 @@ void advance(Segment& segment, double s, double t) {
 
 }  // namespace
 
+namespace {
+
+// Where the position is unknown it is taken to be the next one programmed, so that nothing seems to move.
+void ignore_axis(Program& program, std::size_t axis) {
+  const auto k = static_cast<Eigen::Index>(axis);
+  double next_mm = 0;
+  for (auto move = program.moves.rbegin(); move != program.moves.rend(); ++move) {
+    if (!move->known_end[axis]) move->end_mm[k] = next_mm;
+    if (!move->known_start[axis]) move->start_mm[k] = move->end_mm[k];
+    next_mm = move->start_mm[k];
+    move->ignored[axis] = move->known_start[axis] = move->known_end[axis] = true;
+  }
+}
+
+}  // namespace
+
 void ignore_axes(Program& program, const std::array<bool, 3>& ignored) {
-  for (Move& move : program.moves)
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      if (ignored[axis]) move.ignored[axis] = move.known_start[axis] = move.known_end[axis] = true;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    if (ignored[axis]) ignore_axis(program, axis);
 }
 
 Toolpath build_toolpath(const Program& program, const Pose& X_MW) {

@@ -40,6 +40,7 @@ struct Order {
   int threads = 1;
   Pose X_MW{};
   Vector3 datum_shift = Vector3::Zero();
+  std::array<bool, 3> ignored{};  ///< program axes that the machine does not control
 };
 
 /// Keeps alive what a job borrows.
@@ -47,6 +48,7 @@ struct Shop {
   explicit Shop(const Order& order)
       : model(prepare(order.machine)), program(read_program(order.text, "part.ngc", {})), X_MW(order.X_MW) {
     REQUIRE(model.home_status == Status::converged);
+    ignore_axes(program, order.ignored);
     path = build_toolpath(program, {X_MW.R, X_MW.p + order.datum_shift});
     forces.emplace(order.force, program, path, std::vector<Matrix3>{tip(model.mechanism, model.home).R});
     options.method = order.method;

@@ -72,3 +72,18 @@ TEST_CASE("without a programmed feed the clock stands still, the length does not
   CHECK(segments[0].t_end == 0);
   CHECK(segments[0].s_end == doctest::Approx(0.001));
 }
+
+TEST_CASE("an axis that is ignored is known throughout and seems to stand still before it is programmed") {
+  Program program = ProgramBuilder({0, 0, 0}).rapid({10, 0, 0}).rapid({10, 0, 5}).feed({20, 0, 5}, 100).program;
+  for (std::size_t m = 0; m < 2; ++m) program.moves[m].known_start[2] = false;
+  program.moves[0].known_end[2] = false;
+  ignore_axes(program, {false, false, true});
+  for (const Move& move : program.moves) {
+    CHECK(move.ignored[2]);
+    CHECK_FALSE(move.ignored[0]);
+    CHECK(move.known_start[2]);
+    CHECK(move.start_mm.z() == 5);
+    CHECK(move.end_mm.z() == 5);
+  }
+  CHECK(build_toolpath(program, Pose{}).segments.size() == 2);  // the move of Z alone goes nowhere
+}

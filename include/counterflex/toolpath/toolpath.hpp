@@ -33,7 +33,8 @@ struct Toolpath {
   std::vector<Segment> segments;
 };
 
-/// Makes program axes count as known throughout that no target needs: those that the machine does not control.
+/// Makes program axes count as known throughout that no target needs, those that the machine does not control: where
+/// such a position is unknown it is taken to be the next one programmed. No word is inserted for them.
 void ignore_axes(Program& program, const std::array<bool, 3>& ignored);
 
 /// Builds the path of `program` in the machine frame. Moves with an axis that is not known at start and end
