@@ -12,18 +12,6 @@
 namespace counterflex::cli {
 namespace {
 
-std::string name_of(Method method) {
-  switch (method) {
-    case Method::direct:
-      return "direct";
-    case Method::nested:
-      return "nested";
-    case Method::linear:
-      return "linear";
-  }
-  return {};
-}
-
 std::string text_of(const Vector6& F) {
   return fmt::format("{},{},{},{},{},{}", F[0], F[1], F[2], F[3], F[4], F[5]);
 }
@@ -63,7 +51,7 @@ RunFacts facts_of(const Options& options, const Run& run) {
   facts.attribution = true;
   facts.inputs = {run.program.file, run.machine.file};
   if (run.force_input.file) facts.inputs.push_back(*run.force_input.file);
-  facts.options = {{"method", name_of(options.method)},
+  facts.options = {{"method", std::string(to_string(options.method))},
                    {"tolerance-mm", in_mm(run.options.tolerance)},
                    {"max-correction-mm", in_mm(run.options.max_correction)},
                    {"load-scale", options.load_scale},
@@ -76,7 +64,7 @@ RunFacts facts_of(const Options& options, const Run& run) {
 
 std::vector<std::string> header_of(const Run& run) {
   std::vector<std::string> lines{
-      fmt::format("COUNTERFLEX 1 VERSION {} METHOD {}", upper(version), upper(name_of(run.options.method))),
+      fmt::format("COUNTERFLEX 1 VERSION {} METHOD {}", upper(version), upper(std::string(to_string(run.options.method)))),
       "COUNTERFLEX 1 PROGRAM " + short_hash(run.program.file),
       "COUNTERFLEX 1 MACHINE " + short_hash(run.machine.file)};
   if (run.force_input.file) lines.push_back("COUNTERFLEX 1 FORCES " + short_hash(*run.force_input.file));

@@ -76,7 +76,8 @@ Compensation compensate(const Job& job, bool attribution) {
   result.left_alone = emission.left_alone;
   result.failure = emission.failure;
   if (result.failure) return result;
-  result.corrected_moves = emission.moves.size() - emission.left_alone.size();
+  result.corrected_moves = static_cast<std::size_t>(std::count_if(
+      emission.moves.begin(), emission.moves.end(), [](const EmittedMove& move) { return !move.in_part; }));
   result.counts = rewrite(job.program, edits_of(emission), job.options.write);
   result.text = std::move(result.counts.text);
   const Program corrected = read_program(result.text, job.program.file, job.read);

@@ -64,7 +64,7 @@ class Emitter {
     for (const Knot& knot : planned.knots) emitted.fractions.push_back(knot.u);
     const Vector3 correction = planned.knots.back().target - segment.p_MT_end;
     const Vector3 kept = correction_that_can_be_written(move, correction);
-    emitted.exempt_end = kept != correction;
+    emitted.exempt_end = emitted.in_part = kept != correction;
     emitted.edit.end_mm = written(segment.p_MT_end + kept);
     correction_ = kept;
     correction_known_ = true;
@@ -117,6 +117,7 @@ class Emitter {
          "that holds "
          "there");
     add_shifted(m, Kind::shifted);
+    out_.moves.back().in_part = true;
   }
 
   // The first position that is known in all axes: its correction serves the words before it as well.
@@ -149,6 +150,7 @@ class Emitter {
       list(move, "a feed move from a position that is not known: its end is corrected without cutting force");
     add_shifted(m, Kind::first_known);
     out_.moves.back().exempt_end = kept != correction;
+    out_.moves.back().in_part = kept != correction || move.motion == Motion::feed;
   }
 
   void list_held_words(const Move& move, const Vector3& miss) {

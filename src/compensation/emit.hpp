@@ -17,6 +17,7 @@ struct EmittedMove {
   Kind kind = Kind::shifted;
   std::size_t segment = no_segment;
   std::vector<double> fractions{};  ///< of its inserted points and its end on its segment
+  bool in_part = false;             ///< listed: held, or corrected without its force
   bool exempt = false;              ///< listed: its inside may miss the tolerance
   bool exempt_end = false;          ///< listed: its end may, too
 };

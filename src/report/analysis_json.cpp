@@ -74,7 +74,7 @@ Json pose_json(const PoseAnalysis& pose, const std::vector<Travel>& travel) {
   const auto if_known = [&](Json value) { return known ? value : Json(nullptr); };
   return {{"target_mm", numbers(Vector3(pose.X_MT.p / mm), digits)},
           {"target_rpy_deg", numbers(Vector3(to_rpy(pose.X_MT.R) / deg), digits)},
-          {"method", name_of(pose.method)},
+          {"method", std::string(to_string(pose.method))},
           {"status", to_string(pose.status)},
           {"why", pose.why.empty() ? Json(nullptr) : Json(pose.why)},
           {"displacement_mm", if_known(numbers(Vector3(pose.deviation.head<3>() / mm), digits))},

@@ -22,7 +22,7 @@ std::string cells(const Vector3& v, int decimals, int width) {
 
 std::string title(const AnalysisReport& report) {
   std::string text = report.machine.empty() ? "Machine without a name" : report.machine;
-  if (!report.poses.empty()) text += fmt::format(", method {}", name_of(report.poses.front().method));
+  if (!report.poses.empty()) text += fmt::format(", method {}", to_string(report.poses.front().method));
   const Vector6& F = report.load.F;
   if (F.isZero(0)) return text + ", no load\n";
   return text + fmt::format("\nload ({}, {}, {}) N, ({}, {}, {}) N m at the {}, machine axes\n",

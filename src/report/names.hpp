@@ -16,16 +16,4 @@ inline const char* name_of(Command command) {
   return "";
 }
 
-inline const char* name_of(Method method) {
-  switch (method) {
-    case Method::direct:
-      return "direct";
-    case Method::nested:
-      return "nested";
-    case Method::linear:
-      return "linear";
-  }
-  return "";
-}
-
 }  // namespace counterflex

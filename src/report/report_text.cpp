@@ -46,7 +46,7 @@ std::string title(const RunReport& report, const Ink& ink) {
   text += wrapped("  ", fmt::format("on {}", machine), 2);
   if (report.command == Command::predict) return text;
   const std::string method =
-      report.command == Command::compensate ? fmt::format("method {}, ", name_of(report.method)) : "";
+      report.command == Command::compensate ? fmt::format("method {}, ", to_string(report.method)) : "";
   return text + fmt::format("  {}tolerance {} mm\n", method, mm4(report.tolerance_mm));
 }
 

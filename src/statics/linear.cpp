@@ -4,6 +4,7 @@
 #include <Eigen/LU>
 
 #include "newton.hpp"
+#include "part_pose.hpp"
 
 namespace counterflex {
 namespace {
@@ -13,24 +14,12 @@ Vector6 own_eps(const Series& series, const SeriesState& nominal, const Pose& en
   Vector6 eps = Vector6::Zero();
   Pose X;
   for (const Part& part : series.parts) {
-    const auto joint_motion = [&](double value) {
-      return part.joint.kind == JointKind::prismatic ? translation(value * part.joint.axis)
-                                                     : rotation(exp_so3(value * part.joint.axis));
-    };
-    switch (part.kind) {
-      case PartKind::fixed: X = X * part.X; break;
-      case PartKind::error: {
-        const Vector3 w = factor * (X.R * part.log_R);
-        eps.head<3>() += factor * (X.R * part.X.p) + w.cross(end.p - X.p);
-        eps.tail<3>() += w;
-        break;
-      }
-      case PartKind::actuator:
-      case PartKind::passive: X = X * joint_motion(nominal.x[part.column]); break;
-      case PartKind::group: X = X * nominal.groups[part.group].X; break;
-      case PartKind::compliance:
-      case PartKind::spring: break;
+    if (part.kind == PartKind::error) {
+      const Vector3 w = factor * (X.R * part.log_R);
+      eps.head<3>() += factor * (X.R * part.X.p) + w.cross(end.p - X.p);
+      eps.tail<3>() += w;
     }
+    X = X * part_pose(part, nominal, nominal_stage);
   }
   return eps;
 }

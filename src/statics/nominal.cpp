@@ -10,6 +10,7 @@
 #include <limits>
 
 #include "kinematics.hpp"
+#include "part_pose.hpp"
 
 namespace counterflex {
 namespace {
@@ -68,15 +69,10 @@ struct FrameDistances {
         sum += (X.p - reference).norm();
         ++count;
       }
-      if (part.kind == PartKind::fixed) X = X * part.X;
-      if (part.kind == PartKind::actuator || part.kind == PartKind::passive) {
-        const Vector3 motion = state.x[part.column] * part.joint.axis;
-        X = X * (part.joint.kind == JointKind::prismatic ? translation(motion) : rotation(exp_so3(motion)));
-      }
-      if (part.kind != PartKind::group) continue;
-      for (std::size_t b = 0; b < state.groups[part.group].branches.size(); ++b)
-        add(series.groups[part.group].branches[b], state.groups[part.group].branches[b], X, reference);
-      X = X * state.groups[part.group].X;
+      if (part.kind == PartKind::group)
+        for (std::size_t b = 0; b < state.groups[part.group].branches.size(); ++b)
+          add(series.groups[part.group].branches[b], state.groups[part.group].branches[b], X, reference);
+      X = X * part_pose(part, state, nominal_stage);
     }
   }
 };

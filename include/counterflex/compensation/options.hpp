@@ -1,6 +1,7 @@
 #pragma once
 /// What a run is asked to do, and the data that all stages of compensation read.
 #include <string>
+#include <string_view>
 
 #include "counterflex/files/input_error.hpp"
 #include "counterflex/forces/forces.hpp"
@@ -12,6 +13,7 @@
 namespace counterflex {
 
 enum class Method { direct, nested, linear };
+std::string_view to_string(Method method);
 
 struct CompensationOptions {
   Method method = Method::direct;
