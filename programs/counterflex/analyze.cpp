@@ -21,21 +21,38 @@ std::vector<Pose> wanted_poses(const Options& options, const Model& model) {
   return poses;
 }
 
-/// Says which poses were not solved; whether there was none.
-bool all_solved(const AnalysisReport& report, const Options& options, Console& console) {
-  bool all = true;
+/// What `--at` says of components that the machine does not control, and where it stands instead.
+void warn_of_uncontrolled(const PoseAnalysis& pose, const Pose& asked, const std::string& at,
+                          Console& console) {
+  const Vector6 difference = deviation(pose.X_MT, asked);
+  const bool turned = pose_of("--at", at).has_orientation && difference.tail<3>().norm() > 1e-9;
+  if (difference.head<3>().norm() < 1e-9 && !turned) return;
+  console.warning(
+      "--at " + at, 0,
+      "the machine does not control all components of this pose; those of the nominal machine are taken");
+}
+
+/// Says which poses were not solved; the exit status that they ask for.
+Exit judge(const AnalysisReport& report, const std::vector<Pose>& asked, const Options& options,
+           Console& console) {
+  Exit exit = Exit::done;
   for (std::size_t i = 0; i < report.poses.size(); ++i) {
     const PoseAnalysis& pose = report.poses[i];
-    if (pose.status != Status::converged) {
+    const bool corrected = !pose.corrected || pose.corrected->status == Status::converged;
+    const Status status =
+        pose.status == Status::converged && !corrected ? pose.corrected->status : pose.status;
+    if (pose.status != Status::converged)
       console.error(fmt::format("--at {}: error: {}{}", options.at[i], to_string(pose.status),
                                 pose.why.empty() ? "" : ": " + pose.why));
-      all = false;
-    } else if (pose.corrected && pose.corrected->status != Status::converged) {
-      console.warning("--at " + options.at[i], 0,
-                      fmt::format("no target corrects this pose: {}", to_string(pose.corrected->status)));
-    }
+    else if (!corrected)
+      console.error(
+          fmt::format("--at {}: error: no target corrects this pose: {}", options.at[i], to_string(status)));
+    else
+      warn_of_uncontrolled(pose, asked[i], options.at[i], console);
+    if (status == Status::converged || exit == Exit::not_compensated) continue;
+    exit = status == Status::outside_travel ? Exit::limit : Exit::not_compensated;
   }
-  return all;
+  return exit;
 }
 
 }  // namespace
@@ -45,10 +62,10 @@ Exit run_analyze(const Options& options, Console& console) {
   const MachineInput input = read_machine_input(options);
   const Load load{options.force.value_or(Vector6::Zero()), false};
   console.progress("solving");
-  const AnalysisReport report =
-      analyze(input.model, wanted_poses(options, input.model), load, options.method, version);
+  const std::vector<Pose> asked = wanted_poses(options, input.model);
+  const AnalysisReport report = analyze(input.model, asked, load, options.method, version);
   write_result(options.json ? to_json(report) : to_text(report));
-  return all_solved(report, options, console) ? Exit::done : Exit::not_compensated;
+  return judge(report, asked, options, console);
 }
 
 }  // namespace counterflex::cli

@@ -51,9 +51,10 @@ void add_forces(CLI::App& app, Options& options) {
 void add_reading(CLI::App& app, Options& options) {
   value_option(app, "--dialect", "NAME", "auto, linuxcnc, grbl, fanuc or haas; the machine file's, or auto",
                [&](const std::string& text) { options.dialect = text; });
-  value_option(
-      app, "--units", "mm|inch", "Units before the program states its own",
-      [&](const std::string& text) { options.units = text == "mm" ? LengthUnit::millimetres : LengthUnit::inches; })
+  value_option(app, "--units", "mm|inch", "Units before the program states its own",
+               [&](const std::string& text) {
+                 options.units = text == "mm" ? LengthUnit::millimetres : LengthUnit::inches;
+               })
       ->check(one_of({"mm", "inch"}));
   value_option(app, "--integer-words", "units|increments",
                "What length words without a point mean to a fanuc or haas control",

@@ -63,10 +63,10 @@ RunFacts facts_of(const Options& options, const Run& run) {
 }
 
 std::vector<std::string> header_of(const Run& run) {
-  std::vector<std::string> lines{
-      fmt::format("COUNTERFLEX 1 VERSION {} METHOD {}", upper(version), upper(std::string(to_string(run.options.method)))),
-      "COUNTERFLEX 1 PROGRAM " + short_hash(run.program.file),
-      "COUNTERFLEX 1 MACHINE " + short_hash(run.machine.file)};
+  std::vector<std::string> lines{fmt::format("COUNTERFLEX 1 VERSION {} METHOD {}", upper(version),
+                                             upper(std::string(to_string(run.options.method)))),
+                                 "COUNTERFLEX 1 PROGRAM " + short_hash(run.program.file),
+                                 "COUNTERFLEX 1 MACHINE " + short_hash(run.machine.file)};
   if (run.force_input.file) lines.push_back("COUNTERFLEX 1 FORCES " + short_hash(*run.force_input.file));
   if (run.force_input.source.constant)
     lines.push_back("COUNTERFLEX 1 FORCE " + upper(text_of(*run.force_input.source.constant)));

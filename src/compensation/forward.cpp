@@ -80,6 +80,10 @@ class ForwardSolver {
     // neighbour.
     const Start start = between ? Start::neighbour : Start::nominal;
     bool solved = status_ == Status::converged && deviate(emitted, load, {}, start, w.after);
+    if (solved && !solver_.in_travel()) {
+      status_ = Status::outside_travel;
+      solved = false;
+    }
     if (solved && !between && questions_.before)
       solved = deviate(original, load, {}, Start::neighbour, w.before);
     if (solved && !between && questions_.attribution) solved = attribute(original, emitted, load, w);

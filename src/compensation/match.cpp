@@ -156,20 +156,43 @@ class Matcher {
     return (b.end_mm - end).norm() > (a.end_mm - end).norm() + job_.options.max_correction / mm;
   }
 
+  // Inserted blocks say motion, axes and F, and the F is the one that acts.
+  void check_inserted(const Move& original, std::size_t own) const {
+    const std::string wanted = skeleton(job_.program, original);
+    std::size_t own_blocks = 0;
+    for (std::size_t j = next_; j <= own; ++j) {
+      const Move& move = corrected_.moves[j];
+      const std::string found = skeleton(corrected_, move);
+      if (found == wanted) ++own_blocks;
+      const bool plain =
+          is_plain(found) && found.find_first_of("(;") == std::string::npos && !move.block_number;
+      const bool same_motion = move.motion == original.motion || (j < own && move.motion == Motion::feed);
+      const bool same_feed = move.motion == Motion::rapid || move.feed_mm_min == original.feed_mm_min;
+      if ((found != wanted && !plain) || !same_motion || !same_feed)
+        throw InputError(Exit::not_compensated, {corrected_.file, move.line, 1},
+                         "an inserted block may state motion, axes and the feed that acts, nothing else");
+    }
+    if (own_blocks == 0 || (own_blocks > 1 && !is_plain(wanted)))
+      fail(original, "its words stand in no block, or in several, of the corrected program");
+  }
+
   void take(std::size_t m, std::size_t own) {
     const Move& original = job_.program.moves[m];
+    check_inserted(original, own);
     const bool has_segment = segment_ < job_.path.segments.size() && job_.path.segments[segment_].move == m;
     if (has_segment) take_segment(own);
     const bool known = all(original.known_end);
     if (known) correction_mm_ = corrected_.moves[own].end_mm - original.end_mm;
     if (known && !has_segment && !all(original.known_start))
-      pieces_.push_back({.segment = no_segment,
-                         .line = original.line,
-                         .from = position(own),
-                         .to = position(own),
-                         .wanted = target_of(job_, original.end_mm) + job_.datum_shift,
-                         .end_only = true,
-                         .exempt_end = !original.may_insert_words});
+      pieces_.push_back(
+          {.segment = no_segment,
+           .line = original.line,
+           .from = position(own),
+           .to = position(own),
+           .wanted = target_of(job_, original.end_mm) + job_.datum_shift,
+           .end_only = true,
+           .exempt_end = !original.may_insert_words || (skipped_ && original.motion == Motion::feed)});
+    skipped_ = original.block_delete || (skipped_ && !known);
   }
 
   // First fractions of inserted points: by their place along the segment, the correction there interpolated.
@@ -221,6 +244,7 @@ class Matcher {
   std::vector<Piece> pieces_;
   std::size_t next_ = 0, segment_ = 0;
   Vector3 correction_mm_ = Vector3::Zero();
+  bool skipped_ = false;  // a '/' block made the position unknown: feed moves behind it are held, not judged
 };
 
 // Whether the fraction of a piece's end is known: an end of a segment, or a step of the force.

@@ -146,6 +146,10 @@ TargetSolution PathSolver::by_linear_theory(const Vector3& p_MT, const Load& loa
   return result;
 }
 
+bool PathSolver::in_travel() const {
+  return within_travel(job_.model.mechanism, actuator_values(job_.model.mechanism, nominal()));
+}
+
 TargetSolution PathSolver::target(const Vector3& p_MT, const Load& load) {
   TargetSolution result;
   result.status = go_to(p_MT);

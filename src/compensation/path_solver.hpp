@@ -38,6 +38,9 @@ class PathSolver {
   ActualSolution actual(const Vector3& target, const Load& load, const Stage& stage,
                         Start start = Start::neighbour);
 
+  /// Whether the actuators of the last command are in their ranges.
+  bool in_travel() const;
+
   const Configuration& nominal() const { return nominal_.configuration(); }
 
  private:

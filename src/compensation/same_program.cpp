@@ -14,8 +14,9 @@ struct Line {
   std::string_view text;
 };
 
+// A comment of the header and nothing else.
 bool is_header(std::string_view line) {
-  return line.find("COUNTERFLEX 1") != std::string_view::npos;
+  return line.rfind("(COUNTERFLEX 1", 0) == 0 && line.find(')') == line.size() - 1;
 }
 
 // The lines of a program that hold no move, without line ends.

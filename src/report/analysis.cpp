@@ -1,5 +1,7 @@
 #include "counterflex/report/analysis.hpp"
 
+#include <fmt/format.h>
+
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 
@@ -20,6 +22,7 @@ struct Solved {
   Configuration stiff;          // of the stiffness
   Stage stiff_stage;
   Vector6 weakest;
+  bool indeterminate = false;
 };
 
 Status with_travel(const Mechanism& mechanism, const Eigen::VectorXd& rho, Status status) {
@@ -55,7 +58,8 @@ Solved solve_finite(const Model& model, const Configuration& nominal, const Pose
                     StaticsWork& work) {
   const Equilibrium loaded = solve_forward(model, nominal, load, everything, work);
   const Vector6 d = deviation(tip(model.mechanism, loaded.configuration), X_MT);
-  return {loaded.status, d, loaded.configuration, loaded.configuration, everything, loaded.weakest};
+  return {loaded.status,       d, loaded.configuration, loaded.configuration, everything, loaded.weakest,
+          loaded.indeterminate};
 }
 
 CorrectedTarget corrected_linearly(const Model& model, const Configuration& nominal, const Pose& X_MT,
@@ -163,6 +167,14 @@ PoseAnalysis analyze_pose(const Model& model, const Pose& X_MT, const Load& load
     describe(model, solved, load, work, result);
   else
     result.weakest = solved.weakest;
+  result.indeterminate = solved.indeterminate;
+  if (solved.status == Status::singular && !solved.weakest.isZero(0))
+    result.why += fmt::format(
+        "; its weakest direction is ({:.3f}, {:.3f}, {:.3f}; {:.3f}, {:.3f}, {:.3f}), lengths in units "
+        "of {:.4g} m",
+        solved.weakest[0] / model.mechanism.length, solved.weakest[1] / model.mechanism.length,
+        solved.weakest[2] / model.mechanism.length, solved.weakest[3], solved.weakest[4], solved.weakest[5],
+        model.mechanism.length);
   if (!model.mechanism.controlled.empty())
     result.corrected = corrected_target(model, nominal.configuration, result.X_MT, load, method, work);
   return result;

@@ -84,6 +84,7 @@ Json pose_json(const PoseAnalysis& pose, const std::vector<Travel>& travel) {
           {"weakest_stiffness_N_per_m", stiff ? significant(pose.weakest_stiffness) : Json(nullptr)},
           {"softest_direction", soft ? numbers(pose.softest, digits) : Json(nullptr)},
           {"softest_stiffness_N_per_m", soft ? significant(pose.softest_stiffness) : Json(nullptr)},
+          {"indeterminate_wrenches", pose.indeterminate},
           {"condition", if_known(significant(pose.condition))},
           {"stability", if_known(significant(pose.stability))},
           {"actuators", known || pose.rho.size() > 0 ? actuators(pose.rho, travel) : Json(nullptr)},

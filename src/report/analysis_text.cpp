@@ -59,6 +59,9 @@ std::string chain_row(std::size_t index, const ChainLoads& chain) {
 
 std::string chain_loads(const AnalysisReport& report) {
   std::string text = "\nLoads in the chains, largest components\n";
+  for (std::size_t i = 0; i < report.poses.size(); ++i)
+    if (report.poses[i].indeterminate)
+      text += fmt::format("  pose {}: redundant rigid closures, the wrenches are the smallest of many\n", i + 1);
   text += fmt::format("  {:>3} {:<12}{:>10}{:>10}{:>10}{:>10}{:>10}{:>10}{:>10}{:>10}\n", "", "", "end",
                       "end", "group", "spring", "spring", "spring", "spring", "passive");
   text += fmt::format("  {:>3} {:<12}{:>10}{:>10}{:>10}{:>10}{:>10}{:>10}{:>10}{:>10}\n", "", "chain", "N",

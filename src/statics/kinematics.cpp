@@ -126,14 +126,14 @@ double Kinematics::solve(const Pose* X_MT, Configuration& configuration) {
   return size;
 }
 
-// Zero modes that move an actuator or the platform: the target does not determine them.
+// Zero modes that move an actuator: the target does not determine it.
 bool Kinematics::has_free_motion() const {
   const Eigen::BDCSVD<Eigen::MatrixXd> svd(J_, Eigen::ComputeFullV);
   const auto& sigma = svd.singularValues();
   for (Eigen::Index i = 0; i < J_.cols(); ++i) {
     if (i < sigma.size() && sigma[i] > rank_threshold * sigma[0]) continue;
     const Eigen::VectorXd mode = svd.matrixV().col(i);
-    if (mode.tail<6>().norm() > consistent || mode(actuator_columns_).norm() > consistent) return true;
+    if (mode(actuator_columns_).norm() > consistent) return true;
   }
   return false;
 }

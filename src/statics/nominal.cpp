@@ -1,7 +1,6 @@
-#include <Eigen/Geometry>
-
 #include "counterflex/statics/nominal.hpp"
 
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <Eigen/QR>
 #include <Eigen/SVD>
@@ -17,6 +16,8 @@ namespace {
 
 constexpr double home_tolerance = 1e-7;
 constexpr double largest_condition = 1e6, jump_floor = 1e-4, smallest_fraction = 1e-5;
+constexpr double largest_step =
+    0.5;  // of an actuator at once, in units of l or rad: two folds lie further apart
 
 void mark_nominal(SeriesState& state) {
   state.x_nominal = state.x;
@@ -36,7 +37,8 @@ void start_at_joint_homes(const Series& series, SeriesState& state, SeriesWork& 
     if (part.kind != PartKind::group) continue;
     GroupState& group = state.groups[part.group];
     for (std::size_t b = 0; b < group.branches.size(); ++b)
-      start_at_joint_homes(series.groups[part.group].branches[b], group.branches[b], work.groups[part.group][b]);
+      start_at_joint_homes(series.groups[part.group].branches[b], group.branches[b],
+                           work.groups[part.group][b]);
     group.X = work.groups[part.group][0].end;
   }
   evaluate(series, state, {}, nominal_stage, Hessians::no, work);
@@ -105,16 +107,19 @@ Pose between(const Pose& from, const Pose& to, double fraction) {
 }
 
 // Whether an actuator step is not what the Jacobian at its start predicts.
-bool is_jump(const Mechanism& mechanism, const InverseJacobian& jacobian, const Eigen::VectorXd& drho, const Pose& from,
-             const Pose& to) {
+bool is_jump(const Mechanism& mechanism, const InverseJacobian& jacobian, const Eigen::VectorXd& drho,
+             const Pose& from, const Pose& to) {
   if (jacobian.matrix.rows() != jacobian.matrix.cols()) return false;
   const Vector6 all = difference(to, from);
   Eigen::VectorXd predicted = jacobian.matrix * all(fixed_components(mechanism)), surplus = drho - predicted;
+  double longest = 0;
   for (Eigen::Index i = 0; i < drho.size(); ++i) {
     const double unit = mechanism.travel[i].kind == JointKind::prismatic ? mechanism.length : 1.0;
     predicted[i] /= unit;
     surplus[i] /= unit;
+    longest = std::max(longest, std::abs(drho[i]) / unit);
   }
+  if (longest > largest_step) return true;
   return surplus.norm() > jump_floor && !(surplus.norm() <= 0.5 * predicted.norm());
 }
 
@@ -123,13 +128,14 @@ bool determinant_is_positive(const InverseJacobian& jacobian) {
   return J.rows() != J.cols() || J.rows() == 0 || J.determinant() > 0;
 }
 
-// Zero modes of the closures with actuators held that move the platform: a singularity of the parallel kind.
-bool platform_is_loose(const Eigen::MatrixXd& J_free) {
+// Zero modes of the closures with actuators held that move what is controlled: a singularity of the parallel
+// kind.
+bool platform_is_loose(const Eigen::MatrixXd& J_free, const Eigen::MatrixXd& controlled_rows) {
   const Eigen::BDCSVD<Eigen::MatrixXd> svd(J_free, Eigen::ComputeFullV);
   const auto& sigma = svd.singularValues();
   for (Eigen::Index i = 0; i < J_free.cols(); ++i) {
     const bool zero = i >= sigma.size() || sigma[i] <= rank_threshold * sigma[0];
-    if (zero && svd.matrixV().col(i).tail<6>().norm() > 1e-6) return true;
+    if (zero && (controlled_rows * svd.matrixV().col(i).tail<6>()).norm() > 1e-6) return true;
   }
   return false;
 }
@@ -178,11 +184,12 @@ ActuatorJacobian actuator_jacobian(const Model& model, const Configuration& nomi
   decomposition.compute(J_free);
   const Eigen::MatrixXd motion = -decomposition.solve(Eigen::MatrixXd(whole.C(Eigen::all, commanded)));
   const TipEquations rows = tip_equations(mechanism, nominal.X_MP, tip(mechanism, nominal));
-  const Eigen::MatrixXd J = to_controlled(rows, mechanism, units).rows * motion.bottomRows(6);
+  const Eigen::MatrixXd controlled_rows = to_controlled(rows, mechanism, units).rows;
+  const Eigen::MatrixXd J = controlled_rows * motion.bottomRows(6);
   ActuatorJacobian result;
   const Eigen::VectorXd sigma = Eigen::JacobiSVD<Eigen::MatrixXd>(J).singularValues();
   result.condition = sigma.size() == 0 ? 1 : sigma[0] / sigma[sigma.size() - 1];
-  if (decomposition.rank() < J_free.cols() && platform_is_loose(J_free))
+  if (decomposition.rank() < J_free.cols() && platform_is_loose(J_free, controlled_rows))
     result.condition = std::numeric_limits<double>::infinity();
   const auto components = fixed_components(mechanism);
   result.J = units.of_pose()(components).asDiagonal() * J;
@@ -268,7 +275,8 @@ Status NominalPath::go_to(const Pose& X_MT) {
     impl_->has_jacobian = false;
     // What can be reached, but not on this way, lies behind a singularity.
     Configuration beyond = reached;
-    return impl_->kinematics.solve(&X_MT, beyond) < closure_tolerance * 10 ? Status::singular : Status::unreachable;
+    return impl_->kinematics.solve(&X_MT, beyond) < closure_tolerance * 10 ? Status::singular
+                                                                           : Status::unreachable;
   }
   mark_nominal(reached);
   configuration_ = std::move(reached);

@@ -232,6 +232,7 @@ TEST_CASE("the JSON of an analysis has its keys in order and lists on one line")
       "weakest_stiffness_N_per_m": 0.0,
       "softest_direction": null,
       "softest_stiffness_N_per_m": null,
+      "indeterminate_wrenches": false,
       "condition": 0.0,
       "stability": 0.0,
       "actuators": [10.0, 20.0],

@@ -12,6 +12,7 @@ namespace {
 constexpr double shift = 0.5e-3, turn = 1 * deg;
 // The paper's iteration neglects Hessians; it needs smaller loads.
 constexpr double of_paper = 0.04;
+constexpr int steps = 8;
 
 struct Solved {
   SeriesState state;
@@ -22,9 +23,15 @@ struct Solved {
 Solved solve(const Model& model, std::size_t i, const Pose& X, const Configuration& start, ChainMethod method,
              StaticsWork& work) {
   Solved solved{start.chains[i], {}, 0};
-  const auto result = solve_chain(model, i, X, {}, method, solved.state, work);
-  solved.status = result.status;
-  solved.iterations = result.iterations;
+  const Pose from = chain_end(model, i, start.chains[i], {}, work);
+  // Half a millimetre is thousands of newtons: the end is led there, or Newton's way depends on rounding.
+  for (int k = 1; k <= steps; ++k) {
+    const Pose X_k = moved(from, static_cast<double>(k) / steps * difference(X, from));
+    const auto result = solve_chain(model, i, k < steps ? X_k : X, {}, method, solved.state, work);
+    solved.status = result.status;
+    solved.iterations = result.iterations;
+    if (result.status != Status::converged) break;
+  }
   return solved;
 }
 

@@ -44,6 +44,7 @@ struct PoseAnalysis {
   Vector3 softest =
       Vector3::Zero();           ///< direction (M) in which a force at the reference point moves it furthest
   double softest_stiffness = 0;  ///< force over motion in that direction (N/m); 0: not computed
+  bool indeterminate = false;    ///< redundant rigid closures: the chains' wrenches are the minimum-norm ones of many
   double condition = 0;          ///< of the static system; 0: not computed
   double stability = 0;          ///< see `stability` in statics/equilibrium.hpp; 0: not computed
 };
