@@ -14,10 +14,6 @@ namespace {
 constexpr std::size_t look_ahead = 64;  // blocks
 constexpr double jump_share = 0.1;      // of the tolerance
 
-bool all(const std::array<bool, 3>& known) {
-  return known[0] && known[1] && known[2];
-}
-
 // Goes through the moves in order and keeps the correction (M, m) that holds where the tool is.
 class Emitter {
  public:
@@ -31,15 +27,15 @@ class Emitter {
       const bool holds = skipped_ && correction_known_;
       if (has_segment)
         emit_segment(next_segment_++);
-      else if (all(move.known_start) && all(move.known_end))
+      else if (all_known(move.known_start) && all_known(move.known_end))
         emit_shifted(m);
-      else if (holds && (move.motion == Motion::feed || !all(move.known_end)))
+      else if (holds && (move.motion == Motion::feed || !all_known(move.known_end)))
         emit_held(m);
-      else if (all(move.known_end))
+      else if (all_known(move.known_end))
         emit_first_known(m);
       else
         pending_.push_back(m);
-      skipped_ = move.block_delete || (skipped_ && !all(move.known_end));
+      skipped_ = move.block_delete || (skipped_ && !all_known(move.known_end));
     }
     leave_pending_alone();
     return std::move(out_);

@@ -55,10 +55,6 @@ bool is_plain(const std::string& skeleton) {
   return true;
 }
 
-bool all(const std::array<bool, 3>& known) {
-  return known[0] && known[1] && known[2];
-}
-
 class Matcher {
  public:
   Matcher(const Job& job, const Program& corrected) : job_(job), corrected_(corrected) {}
@@ -144,7 +140,7 @@ class Matcher {
   // The correction with which a move is entered (mm): a first piece that hardly leaves the start is a jump to
   // another one.
   Vector3 correction_at_start(const Move& original, std::size_t surplus) const {
-    if (surplus == 0 || original.motion != Motion::feed || !all(original.known_start)) return correction_mm_;
+    if (surplus == 0 || original.motion != Motion::feed || !all_known(original.known_start)) return correction_mm_;
     const Vector3 first = corrected_.moves[next_].end_mm - original.start_mm;
     const double length = (original.end_mm - original.start_mm).norm();
     return (first - correction_mm_).norm() < std::min(0.2 * length, longest_jump_mm) ? first : correction_mm_;
@@ -181,9 +177,9 @@ class Matcher {
     check_inserted(original, own);
     const bool has_segment = segment_ < job_.path.segments.size() && job_.path.segments[segment_].move == m;
     if (has_segment) take_segment(own);
-    const bool known = all(original.known_end);
+    const bool known = all_known(original.known_end);
     if (known) correction_mm_ = corrected_.moves[own].end_mm - original.end_mm;
-    if (known && !has_segment && !all(original.known_start))
+    if (known && !has_segment && !all_known(original.known_start))
       pieces_.push_back(
           {.segment = no_segment,
            .line = original.line,

@@ -41,10 +41,6 @@ std::vector<Line> other_lines(const Program& program) {
   throw InputError(Exit::not_compensated, {corrected.file, line, 1}, what);
 }
 
-bool all_known(const Move& move) {
-  return move.known_end[0] && move.known_end[1] && move.known_end[2];
-}
-
 }  // namespace
 
 std::vector<std::size_t> other_lines_before(const Program& program) {
@@ -76,7 +72,7 @@ void check_all_moves(const Job& job, const Program& corrected, const std::vector
   std::size_t next = 0;
   std::optional<Vector3> here;
   for (const Move& move : corrected.moves) {
-    if (!all_known(move)) continue;
+    if (!all_known(move.known_end)) continue;
     const Vector3 p = target_of(job, move.end_mm);
     const auto at = [&](const Vector3& q) { return (p - q).norm() < 1e-9; };
     if (next < pieces.size() && at(pieces[next].to))

@@ -27,14 +27,14 @@ constexpr Dialect fanuc = shop_control("fanuc");
 constexpr Dialect haas = shop_control("haas");
 constexpr std::array dialects{&linuxcnc, &grbl, &fanuc, &haas};
 
-bool is_blank(char c) {
+bool is_blank_or_return(char c) {
   return c == ' ' || c == '\t' || c == '\r';
 }
 
 /// `line` without leading blanks and comments.
 std::string_view first_words(std::string_view line) {
   while (!line.empty()) {
-    if (is_blank(line.front())) {
+    if (is_blank_or_return(line.front())) {
       line.remove_prefix(1);
     } else if (line.front() == comment_open) {
       const std::size_t close = line.find(comment_close);

@@ -10,9 +10,9 @@ namespace counterflex {
 
 namespace {
 
-constexpr int digits = 9;  // 1e-9 mm, deg, N, N m
+constexpr int analysis_digits = 9;  // 1e-9 mm, deg, N, N m
 
-// Twelve significant digits.
+// Twelve significant analysis_digits.
 Json significant(double value) {
   if (!std::isfinite(value)) return nullptr;
   return *read_number(fmt::format("{:.11e}", value));
@@ -33,7 +33,7 @@ Json matrix(const Matrix6& K) {
 Json actuators(const Eigen::VectorXd& rho, const std::vector<Travel>& travel) {
   Json list = Json::array();
   for (Eigen::Index k = 0; k < rho.size(); ++k)
-    list.push_back(number(rho[k] / (travel[k].kind == JointKind::prismatic ? mm : deg), digits));
+    list.push_back(number(rho[k] / (travel[k].kind == JointKind::prismatic ? mm : deg), analysis_digits));
   return list;
 }
 
@@ -43,22 +43,22 @@ Json corrected_json(const PoseAnalysis& pose, const std::vector<Travel>& travel)
   const std::string status(to_string(corrected.status));
   if (!has_values(corrected.status))
     return {{"target_mm", nullptr}, {"rpy_deg", nullptr}, {"actuators", nullptr}, {"status", status}};
-  return {{"target_mm", numbers(Vector3(corrected.X_MT.p / mm), digits)},
-          {"rpy_deg", numbers(Vector3(to_rpy(corrected.X_MT.R) / deg), digits)},
+  return {{"target_mm", numbers(Vector3(corrected.X_MT.p / mm), analysis_digits)},
+          {"rpy_deg", numbers(Vector3(to_rpy(corrected.X_MT.R) / deg), analysis_digits)},
           {"actuators", actuators(corrected.rho, travel)},
           {"status", status}};
 }
 
 Json chain_json(const ChainLoads& chain) {
   return {{"name", chain.name},
-          {"wrench_N_Nm", numbers(chain.wrench, digits)},
-          {"moment_max_Nm", number(chain.moment_max, digits)},
-          {"spring_translation_max_mm", number(chain.spring_translation_max / mm, digits)},
-          {"spring_rotation_max_deg", number(chain.spring_rotation_max / deg, digits)},
-          {"spring_force_max_N", number(chain.spring_force_max, digits)},
-          {"spring_torque_max_Nm", number(chain.spring_torque_max, digits)},
-          {"group_moment_max_Nm", number(chain.group_moment_max, digits)},
-          {"passive_change_max_deg", number(chain.passive_change_max / deg, digits)}};
+          {"wrench_N_Nm", numbers(chain.wrench, analysis_digits)},
+          {"moment_max_Nm", number(chain.moment_max, analysis_digits)},
+          {"spring_translation_max_mm", number(chain.spring_translation_max / mm, analysis_digits)},
+          {"spring_rotation_max_deg", number(chain.spring_rotation_max / deg, analysis_digits)},
+          {"spring_force_max_N", number(chain.spring_force_max, analysis_digits)},
+          {"spring_torque_max_Nm", number(chain.spring_torque_max, analysis_digits)},
+          {"group_moment_max_Nm", number(chain.group_moment_max, analysis_digits)},
+          {"passive_change_max_deg", number(chain.passive_change_max / deg, analysis_digits)}};
 }
 
 Json chains_json(const std::vector<ChainLoads>& chains) {
@@ -72,17 +72,17 @@ Json pose_json(const PoseAnalysis& pose, const std::vector<Travel>& travel) {
   const bool soft = stiff && pose.softest_stiffness != 0;
   const bool direction = !pose.weakest.isZero(0);
   const auto if_known = [&](Json value) { return known ? value : Json(nullptr); };
-  return {{"target_mm", numbers(Vector3(pose.X_MT.p / mm), digits)},
-          {"target_rpy_deg", numbers(Vector3(to_rpy(pose.X_MT.R) / deg), digits)},
+  return {{"target_mm", numbers(Vector3(pose.X_MT.p / mm), analysis_digits)},
+          {"target_rpy_deg", numbers(Vector3(to_rpy(pose.X_MT.R) / deg), analysis_digits)},
           {"method", std::string(to_string(pose.method))},
           {"status", to_string(pose.status)},
           {"why", pose.why.empty() ? Json(nullptr) : Json(pose.why)},
-          {"displacement_mm", if_known(numbers(Vector3(pose.deviation.head<3>() / mm), digits))},
-          {"rotation_deg", if_known(numbers(Vector3(pose.deviation.tail<3>() / deg), digits))},
+          {"displacement_mm", if_known(numbers(Vector3(pose.deviation.head<3>() / mm), analysis_digits))},
+          {"rotation_deg", if_known(numbers(Vector3(pose.deviation.tail<3>() / deg), analysis_digits))},
           {"stiffness_si", stiff ? matrix(pose.K) : Json(nullptr)},
           {"weakest_direction", direction ? six(pose.weakest) : Json(nullptr)},
           {"weakest_stiffness_N_per_m", stiff ? significant(pose.weakest_stiffness) : Json(nullptr)},
-          {"softest_direction", soft ? numbers(pose.softest, digits) : Json(nullptr)},
+          {"softest_direction", soft ? numbers(pose.softest, analysis_digits) : Json(nullptr)},
           {"softest_stiffness_N_per_m", soft ? significant(pose.softest_stiffness) : Json(nullptr)},
           {"indeterminate_wrenches", pose.indeterminate},
           {"condition", if_known(significant(pose.condition))},
@@ -100,7 +100,7 @@ std::string to_json(const AnalysisReport& report) {
   const Json document = {{"schema", "counterflex-analysis 1"},
                          {"tool", fmt::format("counterflex {}", report.version)},
                          {"machine", report.machine},
-                         {"wrench_N_Nm", numbers(report.load.F, digits)},
+                         {"wrench_N_Nm", numbers(report.load.F, analysis_digits)},
                          {"wrench_at", report.load.at_platform ? "platform" : "tip"},
                          {"poses", std::move(poses)}};
   return dump(document);

@@ -1,6 +1,5 @@
 // Cheap proofs, from the condensed matrices, that a configuration is stable and well conditioned. They can only say yes;
 // where they do not, the whole system decides. EQUATIONS.md, section 7.
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <limits>

@@ -8,8 +8,7 @@
 namespace counterflex {
 namespace {
 
-constexpr double closure_tolerance = 1e-12, step_tolerance = 1e-11;
-constexpr int most_iterations = 200;  // the paper's iteration converges linearly
+constexpr int most_chain_steps = 200;  // the paper's iteration converges linearly
 
 double part_energy(const Part& part, const SeriesState& state, const Stage& stage) {
   if (part.kind == PartKind::spring) {
@@ -33,7 +32,7 @@ ChainEquilibrium solve_chain(const Model& model, std::size_t i, const Pose& X_MP
   const Eigen::VectorXd& no_actuator = work.impl().no_actuator_step;
   ChainEquilibrium result;
   double step = std::numeric_limits<double>::infinity();
-  for (; result.iterations < most_iterations; ++result.iterations) {
+  for (; result.iterations < most_chain_steps; ++result.iterations) {
     evaluate(series, state, X_MP, stage, hessians, chain);
     Residual residual;
     add_residual(series, state, chain, units, residual);

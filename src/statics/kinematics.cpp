@@ -1,14 +1,13 @@
 #include "kinematics.hpp"
 
-#include <Eigen/SVD>
 #include <cmath>
 #include <limits>
 
 namespace counterflex {
 namespace {
 
-constexpr double step_tolerance = 1e-11, slow_contraction = 0.1, consistent = 1e-6;
-constexpr int most_iterations = 60;
+constexpr double slow_contraction = 0.1, consistent = 1e-6;
+constexpr int most_kinematic_steps = 60;
 const Units kinematic_units{1.0};  // angles scaled by 1 m
 
 void collect_gaps(const SeriesWork& work, Eigen::VectorXd& gaps, Eigen::Index& at) {
@@ -100,7 +99,7 @@ double Kinematics::step(const Eigen::VectorXd& x, Configuration& configuration) 
 double Kinematics::solve(const Pose* X_MT, Configuration& configuration) {
   Eigen::VectorXd error = errors(X_MT, configuration);
   double size = error.norm();
-  for (int iteration = 0; iteration < most_iterations; ++iteration) {
+  for (int iteration = 0; iteration < most_kinematic_steps; ++iteration) {
     const bool fresh = !is_linearised_;
     if (fresh) linearise(configuration, X_MT);
     if (J_.size() == 0) return size;  // nothing moves: springs alone between base and platform

@@ -1,8 +1,8 @@
 #pragma once
 /// Closures of the nominal machine, linearised and solved: Gauss-Newton with steps of minimum norm. EQUATIONS.md, section 1.
-#include <Eigen/QR>
 
 #include "tip.hpp"
+#include "tolerances.hpp"
 
 namespace counterflex {
 
@@ -54,7 +54,6 @@ class Kinematics {
   Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> decomposition_;
 };
 
-inline constexpr double closure_tolerance = 1e-12;
 inline constexpr double rank_threshold = 1e-10;
 
 /// Columns of a whole system that move in a kinematic solve.

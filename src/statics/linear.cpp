@@ -1,7 +1,6 @@
 #include "counterflex/statics/linear.hpp"
 
 #include <Eigen/Geometry>
-#include <Eigen/LU>
 
 #include "newton.hpp"
 #include "part_pose.hpp"

@@ -1,6 +1,5 @@
 #include "counterflex/statics/nested.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -11,7 +10,6 @@
 namespace counterflex {
 namespace {
 
-constexpr double closure_tolerance = 1e-12, step_tolerance = 1e-11;
 constexpr int most_outer = 100, most_inner = 60;
 
 // (2) for every chain at the platform's pose; false where one has no solution of its own.

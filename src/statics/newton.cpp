@@ -2,7 +2,6 @@
 
 #include "newton.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -10,9 +9,7 @@
 namespace counterflex {
 namespace {
 
-constexpr double closure_tolerance = 1e-12, step_tolerance = 1e-11;
-constexpr double jump_floor = 1e-4;
-constexpr int most_iterations = 40;
+constexpr int most_newton_steps = 40;
 
 struct Step {
   double largest = std::numeric_limits<double>::infinity();
@@ -172,7 +169,7 @@ NewtonResult newton(const Model& model, const Problem& problem, StaticsWork::Imp
   Eigen::VectorXd predicted = Eigen::VectorXd::Zero(6 + static_cast<Eigen::Index>(model.mechanism.travel.size()));
   NewtonResult result;
   Step step;
-  for (; result.iterations < most_iterations; ++result.iterations) {
+  for (; result.iterations < most_newton_steps; ++result.iterations) {
     evaluate_all(model, configuration, problem.stage, work);
     const Residual residual = residual_of(model, configuration, problem, units, work);
     if (!std::isfinite(residual.closure + residual.force)) return result;

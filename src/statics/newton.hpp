@@ -4,6 +4,7 @@
 
 #include "counterflex/statics/equilibrium.hpp"
 #include "tip.hpp"
+#include "tolerances.hpp"
 
 namespace counterflex {
 

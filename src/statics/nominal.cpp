@@ -1,9 +1,6 @@
 #include "counterflex/statics/nominal.hpp"
 
 #include <Eigen/Geometry>
-#include <Eigen/LU>
-#include <Eigen/QR>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -15,7 +12,7 @@ namespace counterflex {
 namespace {
 
 constexpr double home_tolerance = 1e-7;
-constexpr double largest_condition = 1e6, jump_floor = 1e-4, smallest_fraction = 1e-5;
+constexpr double largest_condition = 1e6, smallest_fraction = 1e-5;
 constexpr double largest_step =
     0.5;  // of an actuator at once, in units of l or rad: two folds lie further apart
 

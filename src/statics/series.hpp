@@ -1,9 +1,8 @@
 #pragma once
 /// One series at one state: its Jacobian, Hessian and residuals, and its condensation to the end's wrench. The same code
 /// serves a chain between base and platform and a branch between the two frames of a group. EQUATIONS.md, sections 2-4.
-#include <Eigen/LU>
-
 #include "counterflex/statics/configuration.hpp"
+#include "decompositions.hpp"
 
 namespace counterflex {
 

@@ -7,10 +7,6 @@
 namespace counterflex {
 namespace {
 
-bool all(const std::array<bool, 3>& known) {
-  return known[0] && known[1] && known[2];
-}
-
 Segment segment_of(const Move& move, std::size_t index, const Pose& X_MW) {
   Segment segment;
   segment.move = index;
@@ -62,7 +58,7 @@ Toolpath build_toolpath(const Program& program, const Pose& X_MW) {
   double s = 0, t = 0;
   for (std::size_t i = 0; i < program.moves.size(); ++i) {
     const Move& move = program.moves[i];
-    if (!all(move.known_start) || !all(move.known_end) || move.start_mm == move.end_mm) continue;
+    if (!all_known(move.known_start) || !all_known(move.known_end) || move.start_mm == move.end_mm) continue;
     Segment& segment = path.segments.emplace_back(segment_of(move, i, X_MW));
     advance(segment, s, t);
     s = segment.s_end;

@@ -11,11 +11,11 @@ namespace {
 const char* const part = "G21 G90\nG0 X-60. Y-60. Z-60.\nG1 Y60. F600\nX40. Z-40.\nG0 Z20.\nM30\n";
 
 std::string many_cuts(int count) {
-  std::string text = "G21 G90\nG0 X10. Y10. Z0.\nG1 F500\n";
+  std::string program = "G21 G90\nG0 X10. Y10. Z0.\nG1 F500\n";
   for (int i = 0; i < count; ++i)
-    text += fmt::format("G1 X{:.3f} Y{:.3f} Z{:.2f}\n", 40 * std::cos(0.37 * i), 30 * std::sin(0.53 * i),
+    program += fmt::format("G1 X{:.3f} Y{:.3f} Z{:.2f}\n", 40 * std::cos(0.37 * i), 30 * std::sin(0.53 * i),
                         0.1 * i);
-  return text + "M30\n";
+  return program + "M30\n";
 }
 
 Vector6 cold_deviation(const Shop& shop, const Vector3& target, const Vector3& wanted, const Vector6& F,

@@ -7,8 +7,10 @@
 
 #include "counterflex/geometry/units.hpp"
 #include "counterflex/machine/read_machine.hpp"
+#include "support/text.hpp"
 
 using namespace counterflex;
+using namespace counterflex::test;
 
 namespace {
 
@@ -31,7 +33,7 @@ std::vector<Pose> corners() {
           at_mm(126.35, 126.35, -73.65), at_mm(-73.65, -73.65, 126.35)};
 }
 
-Load cut() {
+Load cutting_load() {
   return {(Vector6() << 215, -10, -25, 1, 21.5, 0).finished()};
 }
 
@@ -57,10 +59,6 @@ double largest_spring_rotation(const PoseAnalysis& pose) {
   double result = 0;
   for (const ChainLoads& chain : pose.chains) result = std::max(result, chain.spring_rotation_max);
   return result;
-}
-
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
 }
 
 }  // namespace
@@ -121,7 +119,7 @@ TEST_CASE("the direct analysis of the Orthoglide after assembly is that of an in
 TEST_CASE(
     "direct and nested analysis under the milling load give the corrected target of an independent solver") {
   for (const Method method : {Method::direct, Method::nested}) {
-    const PoseAnalysis pose = analyze_pose(orthoglide(), at_mm(-73.65, 126.35, -73.65), cut(), method);
+    const PoseAnalysis pose = analyze_pose(orthoglide(), at_mm(-73.65, 126.35, -73.65), cutting_load(), method);
     REQUIRE(pose.status == Status::converged);
     check_near(pose.deviation.head<3>() / mm, {0.1021297766, -0.3779462547, 0.7415413124}, 2e-9);
     check_near(pose.rho / mm, {-37.0172828971, 144.3562361658, -37.0172828971}, 2e-9);
@@ -134,17 +132,17 @@ TEST_CASE(
 }
 
 TEST_CASE("the linear corrected target takes the linear deviation from the wanted one") {
-  const PoseAnalysis pose = analyze_pose(orthoglide(), at_mm(20, -30, 10), cut(), Method::linear);
+  const PoseAnalysis pose = analyze_pose(orthoglide(), at_mm(20, -30, 10), cutting_load(), Method::linear);
   REQUIRE(pose.corrected);
   check_near(pose.corrected->X_MT.p, pose.X_MT.p - pose.deviation.head<3>(), 1e-15);
   CHECK(pose.corrected->X_MT.R.isIdentity(1e-12));
 }
 
 TEST_CASE("the chains' wrenches balance the load") {
-  const PoseAnalysis pose = analyze_pose(orthoglide(), at_mm(20, -30, 10), cut(), Method::direct);
+  const PoseAnalysis pose = analyze_pose(orthoglide(), at_mm(20, -30, 10), cutting_load(), Method::direct);
   Vector6 sum = Vector6::Zero();
   for (const ChainLoads& chain : pose.chains) sum += chain.wrench;
-  CHECK((sum - cut().F).norm() < 1e-6);
+  CHECK((sum - cutting_load().F).norm() < 1e-6);
 }
 
 TEST_CASE(
@@ -262,7 +260,7 @@ TEST_CASE("the JSON of an analysis has its keys in order and lists on one line")
 }
 
 TEST_CASE("the tables of an analysis fit 100 columns, without trailing blanks") {
-  const AnalysisReport report = analyze(orthoglide(), corners(), cut(), Method::direct, "0.1.0");
+  const AnalysisReport report = analyze(orthoglide(), corners(), cutting_load(), Method::direct, "0.1.0");
   const std::string text = to_text(report);
   CHECK(contains(text,
                  "Orthoglide, method direct\nload (215.00, -10.00, -25.00) N, (1.000, 21.500, 0.000) N m"));

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "made_up_run.hpp"
+#include "support/text.hpp"
 
 using namespace counterflex;
 using namespace counterflex::test;
@@ -29,10 +30,6 @@ std::vector<std::string> lines_of(const std::string& text) {
   std::vector<std::string> lines;
   for (std::string line; std::getline(stream, line);) lines.push_back(line);
   return lines;
-}
-
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
 }
 
 }  // namespace

@@ -35,6 +35,10 @@ inline std::vector<Trial> controlled_machines() {
           {"laws_mixed", 0.03, 0.06, 150, 8}};
 }
 
+inline double largest_component(const Vector3& v) {
+  return v.cwiseAbs().maxCoeff();
+}
+
 inline Machine machine_of(const std::string& name) {
   return load_machine(COUNTERFLEX_SOURCE_DIR "/tests/statics/data/" + name + ".toml");
 }

@@ -44,10 +44,6 @@ LinearResult assembly_at(const Model& model, const Vector3& at_mm, StaticsWork& 
   return linear;
 }
 
-double largest(const Vector3& v) {
-  return v.cwiseAbs().maxCoeff();
-}
-
 }  // namespace
 
 TEST_CASE(
@@ -56,7 +52,7 @@ TEST_CASE(
   StaticsWork work(model.mechanism);
   for (const Printed& row : table) {
     CAPTURE(std::string(row.point));
-    CHECK(largest(assembly_at(model, row.at_mm, work).dt_T.head<3>() / mm - row.A_mm) < 0.0051);
+    CHECK(largest_component(assembly_at(model, row.at_mm, work).dt_T.head<3>() / mm - row.A_mm) < 0.0051);
   }
 }
 
@@ -68,9 +64,9 @@ TEST_CASE(
     CAPTURE(std::string(row.point));
     const LinearResult linear = assembly_at(model, row.at_mm, work);
     // y at Q4 is -0.0948 where -0.10 is printed; all others round to the print.
-    CHECK(largest(linear.dt_T.head<3>() / mm - row.B_mm) < 0.0053);
+    CHECK(largest_component(linear.dt_T.head<3>() / mm - row.B_mm) < 0.0053);
     // Rotations were fitted: at Q3 and Q4 a component is one unit of the last printed digit away.
-    CHECK(largest(linear.dt_T.tail<3>() / deg - row.B_deg) < 0.0115);
+    CHECK(largest_component(linear.dt_T.tail<3>() / deg - row.B_deg) < 0.0115);
   }
 }
 
@@ -82,8 +78,8 @@ TEST_CASE(
   for (const Identified& row : identified) {
     CAPTURE(row.at_mm.transpose());
     const LinearResult linear = assembly_at(model, row.at_mm, work);
-    CHECK(largest(linear.dt_T.head<3>() / mm - row.B_mm) < 0.00051);
-    CHECK(largest(linear.dt_T.tail<3>() / deg - row.B_deg) < 0.00051);
+    CHECK(largest_component(linear.dt_T.head<3>() / mm - row.B_mm) < 0.00051);
+    CHECK(largest_component(linear.dt_T.tail<3>() / deg - row.B_deg) < 0.00051);
   }
 }
 

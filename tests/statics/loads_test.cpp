@@ -16,10 +16,6 @@ std::vector<ChainLoads> loads_of(const Model& model, const Vector6& F, Configura
   return loads(model, configuration, {});
 }
 
-double largest(const Vector3& v) {
-  return v.cwiseAbs().maxCoeff();
-}
-
 // A spring turned by 90 degrees about z, then two equal bars side by side whose springs are turned by 45
 // degrees about y.
 const char* const turned_springs = R"(controlled = []
@@ -56,7 +52,7 @@ TEST_CASE(
   CHECK(chain.spring_force_max == doctest::Approx(300).epsilon(0.01));
   CHECK(chain.spring_torque_max == doctest::Approx(40).epsilon(0.01));
   const Vector3 moment = from_rpy({0, 45 * deg, 0}).transpose() * Vector3(1, 2, 40);
-  CHECK(chain.group_moment_max == doctest::Approx(largest(moment)).epsilon(0.01));
+  CHECK(chain.group_moment_max == doctest::Approx(largest_component(moment)).epsilon(0.01));
   CHECK(chain.group_moment_max < 30);  // 40 / sqrt 2, not 40
   CHECK(chain.passive_change_max == 0);
 }

@@ -34,6 +34,11 @@ struct AxisWord {
 
 enum class Motion { rapid, feed };
 
+/// Whether a position is known on all three axes.
+inline bool all_known(const std::array<bool, 3>& known) {
+  return known[0] && known[1] && known[2];
+}
+
 /// A move: a block that changes or repeats the position of the tool under G0 or G1.
 struct Move {
   int line = 0;
