@@ -180,7 +180,7 @@ nlohmann::ordered_json home_json(const Model& model, const HomeFacts& home) {
 Checked check_machine(const std::string& path, const Options&) {
   const Machine machine = read_machine(read_input(path, Exit::machine_or_force), path);
   const Model model = prepare(machine);
-  refuse_home(model, path);
+  refuse_home(model, machine.home_at);
   const HomeFacts home = look_at_home(model);
   const auto notes = notes_of(machine, model, home);
 

@@ -47,10 +47,10 @@ std::string read_input(const std::string& path, Exit unreadable) {
   }
 }
 
-void refuse_home(const Model& model, const std::string& file) {
+void refuse_home(const Model& model, const Location& home_at) {
   if (model.home_status != Status::converged)
     throw InputError(
-        Exit::machine_or_force, {file},
+        Exit::machine_or_force, home_at,
         fmt::format("home does not close: its chains miss each other by {:.3g} (m and rad), at most 1e-7 is "
                     "allowed; check [home], the joints' home values and the chains' lengths",
                     model.home_gap));
@@ -58,7 +58,7 @@ void refuse_home(const Model& model, const std::string& file) {
   const double condition = actuator_jacobian(model, model.home).condition;
   if (condition <= largest_condition) return;
   throw InputError(
-      Exit::machine_or_force, {file},
+      Exit::machine_or_force, home_at,
       fmt::format("home is singular: the matrix from actuators to the tip has condition {:.3g}, at most "
                   "1e6 is allowed; give joints other home values (home_deg, home_mm), or [home]",
                   condition));
@@ -70,7 +70,7 @@ MachineInput read_machine_input(const Options& options) {
   MachineInput input{input_file("machine", options.machine, text), read_machine(text, name), {}};
   override_work(options, input.machine);
   input.model = prepare(input.machine);
-  refuse_home(input.model, name);
+  refuse_home(input.model, input.machine.home_at);
   return input;
 }
 

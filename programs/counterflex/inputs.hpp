@@ -26,8 +26,8 @@ struct MachineInput {
 };
 MachineInput read_machine_input(const Options& options);
 
-/// Throws (Exit::machine_or_force) where home misses its closures or is singular.
-void refuse_home(const Model& model, const std::string& file);
+/// Throws (Exit::machine_or_force, at the place of home) where home misses its closures or is singular.
+void refuse_home(const Model& model, const Location& home_at);
 
 /// How `options`, and `machine` where they are silent, say that programs are read.
 ReadOptions read_options(const Options& options, const Machine* machine);

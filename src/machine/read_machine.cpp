@@ -63,6 +63,7 @@ Machine read_machine(std::string_view text, const std::string& file) {
   read_program(document, source, machine);
   read_limits(document, source, machine);
   machine.chains = read_chains(document, source);
+  if (!machine.home_X_MP) machine.home_at = source.at(document.get("chain")->as_array()->get(0)->source());
   check_controlled(document, source, machine);
   check_home(document, source, machine);
   return machine;

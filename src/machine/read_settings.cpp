@@ -77,8 +77,10 @@ void read_controlled(const toml::table& document, const Source& source, Machine&
 }
 
 void read_home(const toml::table& document, const Source& source, Machine& machine) {
-  if (const toml::node* node = document.get("home"))
-    machine.home_X_MP = read_transform(*node, "[home]", {source});
+  const toml::node* node = document.get("home");
+  if (node == nullptr) return;
+  machine.home_X_MP = read_transform(*node, "[home]", {source});
+  machine.home_at = source.at(key_of(document, "home").source());
 }
 
 void read_tool(const toml::table& document, const Source& source, Machine& machine) {

@@ -10,6 +10,7 @@
 #include <variant>
 #include <vector>
 
+#include "counterflex/files/input_error.hpp"
 #include "counterflex/geometry/pose.hpp"
 
 namespace counterflex {
@@ -109,6 +110,7 @@ struct Machine {
   std::string name;
   std::vector<Component> controlled;  ///< as many as there are actuators, or none
   std::optional<Pose> home_X_MP;      ///< required for more than one chain
+  Location home_at;                   ///< where the file says home: [home], or else the first chain
   Pose X_PT;                          ///< tool tip in the platform frame
   std::map<std::string, WorkOffset> work;
   ControlSettings control;
