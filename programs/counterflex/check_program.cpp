@@ -28,7 +28,7 @@ void add_once(std::vector<T>& list, const T& value) {
   if (std::find(list.begin(), list.end(), value) == list.end()) list.push_back(value);
 }
 
-void add_move(const Move& move, MoveFacts& facts) {
+void add_move(const Program& program, const Move& move, MoveFacts& facts) {
   ++(move.motion == Motion::feed ? facts.feeds : facts.rapids);
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const auto i = static_cast<Eigen::Index>(axis);
@@ -36,7 +36,7 @@ void add_move(const Move& move, MoveFacts& facts) {
     facts.least[i] = std::min(facts.least[i], move.end_mm[i]);
     facts.most[i] = std::max(facts.most[i], move.end_mm[i]);
   }
-  add_once(facts.offsets, move.work_offset);
+  add_once(facts.offsets, program.work_offsets[move.offset]);
   add_once(facts.units, move.unit);
   facts.with_force += move.force.has_value();
   if (move.motion != Motion::feed) return;
@@ -48,8 +48,8 @@ void add_move(const Move& move, MoveFacts& facts) {
 
 MoveFacts facts_of(const Program& program) {
   MoveFacts facts;
-  for (const Move& move : program.moves) add_move(move, facts);
-  const Toolpath path = build_toolpath(program, {});
+  for (const Move& move : program.moves) add_move(program, move, facts);
+  const Toolpath path = build_toolpath(program, one_frame(program, {}));
   if (path.segments.empty()) return facts;
   facts.cutting_mm = path.segments.back().s_end / mm;
   facts.cutting_s = path.segments.back().t_end;
@@ -149,7 +149,7 @@ std::optional<Failure> first_unreached(const Model& model, const Toolpath& path)
   const Matrix3 R_home = tip(model.mechanism, model.home).R;
   NominalPath nominal(model, model.home);
   for (const Segment& segment : path.segments) {
-    const Status status = nominal.go_to({R_home, segment.p_MT_end});
+    const Status status = nominal.go_to({R_home, segment.wanted.end});
     if (status != Status::converged)
       return Failure{Exit::not_compensated, segment.line,
                      fmt::format("the machine does not reach the end of this move: {}", to_string(status))};
@@ -163,7 +163,7 @@ std::optional<Failure> first_unreached(const Model& model, const Toolpath& path)
 void check_reach(const Program& program, const MachineInput& input, Checked& checked, Console& console) {
   const WorkPlace work = place_work(input.machine, input.model, shown_name(input.file.path), program);
   if (!work.assumption.empty()) console.warning(program.file, 0, work.assumption);
-  const Toolpath path = build_toolpath(program, wanted_frame(work));
+  const Toolpath path = build_toolpath(program, work.frames);
   const auto failure = first_unreached(input.model, path);
   checked.json["reached"] = !failure;
   if (!failure) {

@@ -47,7 +47,6 @@ std::vector<OptionValue> reading_options(const Options& options, const Run& run)
 RunFacts facts_of(const Options& options, const Run& run) {
   RunFacts facts;
   facts.version = version;
-  facts.work_offset = run.work.name;
   facts.attribution = true;
   facts.inputs = {run.program.file, run.machine.file};
   if (run.force_input.file) facts.inputs.push_back(*run.force_input.file);

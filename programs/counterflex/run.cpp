@@ -31,7 +31,7 @@ std::vector<Matrix3> tool_orientations(const Model& model, const Toolpath& path,
   NominalPath nominal(model, model.home);
   for (const Segment& segment : path.segments) {
     nominal.go_to(
-        {R_home, (segment.p_MT_start + segment.p_MT_end) / 2});  // a failure is said where it is solved
+        {R_home, (segment.wanted.start + segment.wanted.end) / 2});  // a failure is said where it is solved
     R_MT.push_back(tip(model.mechanism, nominal.configuration()).R);
   }
   return R_MT;
@@ -41,12 +41,12 @@ std::vector<Matrix3> tool_orientations(const Model& model, const Toolpath& path,
 void refuse_uncontrolled_moves(const Run& run) {
   const auto& controlled = run.machine.machine.controlled;
   if (controlled.empty() || run.path.segments.empty()) return;
-  const Vector3 first = run.path.segments.front().p_MT_start;
+  const Vector3 first = run.path.segments.front().wanted.start;
   for (int c = 0; c < 3; ++c) {
     if (std::find(controlled.begin(), controlled.end(), static_cast<Component>(c)) != controlled.end())
       continue;
     for (const Segment& segment : run.path.segments)
-      for (const Vector3& p : {segment.p_MT_start, segment.p_MT_end})
+      for (const Vector3& p : {segment.wanted.start, segment.wanted.end})
         if (std::abs(p[c] - first[c]) > 1e-9)
           throw InputError(
               Exit::program_text, {run.program.program.file, segment.line, 1},
@@ -62,13 +62,14 @@ bool controls(const Machine& machine, int component) {
 }
 
 /// Axes of the program along which the machine has nothing to control.
-std::array<bool, 3> uncontrolled_axes(const Machine& machine, const Matrix3& R_MW) {
+std::array<bool, 3> uncontrolled_axes(const Machine& machine, const std::vector<WorkFrame>& frames) {
   std::array<bool, 3> axes{};
   if (machine.controlled.empty()) return axes;
   for (Eigen::Index axis = 0; axis < 3; ++axis) {
     bool moves_controlled = false;
-    for (int c = 0; c < 3; ++c)
-      moves_controlled = moves_controlled || (controls(machine, c) && std::abs(R_MW(c, axis)) > 1e-12);
+    for (const WorkFrame& frame : frames)
+      for (int c = 0; c < 3; ++c)
+        moves_controlled = moves_controlled || (controls(machine, c) && std::abs(frame.X_MW.R(c, axis)) > 1e-12);
     axes[static_cast<std::size_t>(axis)] = !moves_controlled;
   }
   return axes;
@@ -111,7 +112,7 @@ void warn_of_run(Run& run, Console& console) {
 }  // namespace
 
 Job Run::job() const {
-  return {machine.model, program.program, path, *forces, work.X_MW, work.datum_shift, options, read};
+  return {machine.model, program.program, path, *forces, options, read};
 }
 
 std::unique_ptr<Run> prepare_run(const Options& options, Console& console) {
@@ -124,9 +125,9 @@ std::unique_ptr<Run> prepare_run(const Options& options, Console& console) {
   const Program& program = run->program.program;
   run->force_input = read_force_input(options, program);
   run->work = place_work(run->machine.machine, run->machine.model, shown_name(options.machine), program);
-  run->ignored = uncontrolled_axes(run->machine.machine, run->work.X_MW.R);
+  run->ignored = uncontrolled_axes(run->machine.machine, run->work.frames);
   ignore_axes(run->program.program, run->ignored);
-  run->path = build_toolpath(program, wanted_frame(run->work));
+  run->path = build_toolpath(program, run->work.frames);
   refuse_uncontrolled_moves(*run);
   const ForceSource& source = run->force_input.source;
   run->forces.emplace(source, program, run->path, tool_orientations(run->machine.model, run->path, source));

@@ -10,20 +10,6 @@ namespace {
 
 constexpr const char* power_on_offset = "G54";
 
-/// The one offset that acts in all moves; empty where none is selected.
-std::string selected_offset(const Program& program) {
-  for (const Move& move : program.moves)
-    if (move.work_offset != program.moves.front().work_offset)
-      throw InputError(
-          Exit::program_text, {program.file, move.line, 1},
-          fmt::format(
-              "{} is selected after moves under {}; programs with more than one work offset are not read yet",
-              move.work_offset,
-              program.moves.front().work_offset.empty() ? "the offset that was active before"
-                                                        : program.moves.front().work_offset));
-  return program.moves.empty() ? std::string() : program.moves.front().work_offset;
-}
-
 std::string names(const Machine& machine) {
   std::string text;
   for (const auto& [name, offset] : machine.work) text += (text.empty() ? "" : ", ") + name;
@@ -50,32 +36,35 @@ Vector3 deviation_at(const Model& model, const Vector3& p_MT, const std::string&
   return tip(model.mechanism, actual.configuration).p - tip(model.mechanism, nominal.configuration).p;
 }
 
+WorkFrame place_offset(const Machine& machine, const Model& model, const std::string& machine_file,
+                       const std::string& selected) {
+  const std::string name = selected.empty() ? power_on_offset : selected;
+  const auto found = machine.work.find(name);
+  if (found == machine.work.end())
+    throw InputError(
+        Exit::machine_or_force, {machine_file},
+        fmt::format("no [work.{}], which the program {}; the offsets are {} (--work gives others)", name,
+                    selected.empty() ? "starts with, selecting none" : "selects", names(machine)));
+  WorkFrame frame{name, found->second.X_MW};
+  if (const auto& touched = found->second.datum.touched_at)
+    frame.datum_shift = deviation_at(model, frame.X_MW * *touched, machine_file, name);
+  return frame;
+}
+
 }  // namespace
 
 WorkPlace place_work(const Machine& machine, const Model& model, const std::string& machine_file,
                      const Program& program) {
-  if (machine.work.empty()) return {};
-  WorkPlace place;
-  place.name = selected_offset(program);
-  if (place.name.empty()) {
-    place.name = power_on_offset;
-    place.assumption = "the program selects no work offset; G54, which controls start with, is assumed";
-  }
-  const auto found = machine.work.find(place.name);
-  if (found == machine.work.end())
-    throw InputError(
-        Exit::machine_or_force, {machine_file},
-        fmt::format("no [work.{}], which the program {}; the offsets are {} (--work gives others)",
-                    place.name, place.assumption.empty() ? "selects" : "starts with, selecting none",
-                    names(machine)));
-  place.X_MW = found->second.X_MW;
-  if (const auto& touched = found->second.datum.touched_at)
-    place.datum_shift = deviation_at(model, place.X_MW * *touched, machine_file, place.name);
+  WorkPlace place{std::vector<WorkFrame>(program.work_offsets.size()), {}};
+  if (machine.work.empty()) return place;
+  std::vector<bool> used(program.work_offsets.size());
+  for (const Move& move : program.moves) used[move.offset] = true;
+  for (std::size_t i = 0; i < used.size(); ++i)
+    if (used[i]) place.frames[i] = place_offset(machine, model, machine_file, program.work_offsets[i]);
+  if (used[0])
+    place.assumption =
+        "the program selects no work offset at first; G54, which controls start with, is assumed";
   return place;
-}
-
-Pose wanted_frame(const WorkPlace& work) {
-  return {work.X_MW.R, work.X_MW.p + work.datum_shift};
 }
 
 }  // namespace counterflex::cli

@@ -20,8 +20,8 @@ void note_planned_corrections(const Job& job, const Plan& plan, Compensation& re
   for (std::size_t s = 0; s < plan.segments.size(); ++s)
     for (const Knot& knot : plan.segments[s].knots) {
       const Segment& segment = job.path.segments[s];
-      const Vector3 wanted = segment.p_MT_start + knot.u * (segment.p_MT_end - segment.p_MT_start);
-      note_correction((knot.target - wanted + job.datum_shift).norm(), segment.line, result);
+      const Vector3 wanted = point_at(segment.wanted, knot.u);
+      note_correction((knot.target - wanted + job.path.frames[segment.frame].datum_shift).norm(), segment.line, result);
     }
 }
 

@@ -17,7 +17,7 @@ constexpr double jump_share = 0.1;      // of the tolerance
 // Goes through the moves in order and keeps the correction (M, m) that holds where the tool is.
 class Emitter {
  public:
-  Emitter(const Job& job, const Plan& plan) : job_(job), plan_(plan), X_WM_(inverse(job.X_MW)) {}
+  Emitter(const Job& job, const Plan& plan) : job_(job), plan_(plan) {}
 
   Emission run() {
     for (std::size_t m = 0; m < job_.program.moves.size() && !out_.failure; ++m) {
@@ -44,24 +44,25 @@ class Emitter {
  private:
   using Kind = EmittedMove::Kind;
 
-  Vector3 written(const Vector3& target) const { return X_WM_ * target / mm; }
+  const WorkFrame& frame(const Move& move) const { return job_.path.frames[move.offset]; }
+  Vector3 written(const Move& move, const Vector3& target) const { return inverse(frame(move).X_MW) * target / mm; }
 
   void emit_segment(std::size_t s) {
     const Segment& segment = job_.path.segments[s];
     const PlannedSegment& planned = plan_.segments[s];
     const Move& move = job_.program.moves[segment.move];
     EmittedMove emitted{.edit = {.move = segment.move}, .kind = Kind::segment, .segment = s};
-    const Vector3 start_c = planned.start_target - segment.p_MT_start;
+    const Vector3 start_c = planned.start_target - segment.wanted.start;
     const double jump = planned.starts_anywhere || !correction_known_ ? 0 : (start_c - correction_).norm();
     const bool jumps = jump > jump_share * job_.options.tolerance;
-    if (jumps && move.may_jump) emitted.edit.jump_mm = written(planned.start_target);
+    if (jumps && move.may_jump) emitted.edit.jump_mm = written(move, planned.start_target);
     for (std::size_t k = 0; k + 1 < planned.knots.size(); ++k)
-      emitted.edit.inserted_mm.push_back(written(planned.knots[k].target));
+      emitted.edit.inserted.push_back({written(move, planned.knots[k].target)});
     for (const Knot& knot : planned.knots) emitted.fractions.push_back(knot.u);
-    const Vector3 correction = planned.knots.back().target - segment.p_MT_end;
+    const Vector3 correction = planned.knots.back().target - segment.wanted.end;
     const Vector3 kept = correction_that_can_be_written(move, correction);
     emitted.exempt_end = emitted.in_part = kept != correction;
-    emitted.edit.end_mm = written(segment.p_MT_end + kept);
+    emitted.edit.end_mm = written(move, segment.wanted.end + kept);
     correction_ = kept;
     correction_known_ = true;
     // A block that must stay one begins where the last one ended.
@@ -80,8 +81,9 @@ class Emitter {
   // Where no axis words may be inserted, absent axes keep the correction that they have.
   Vector3 correction_that_can_be_written(const Move& move, const Vector3& correction) const {
     if (move.may_insert_words || !correction_known_) return correction;
-    Vector3 c_W = X_WM_.R * correction;
-    const Vector3 held_W = X_WM_.R * correction_;
+    const Matrix3& R_MW = frame(move).X_MW.R;
+    Vector3 c_W = R_MW.transpose() * correction;
+    const Vector3 held_W = R_MW.transpose() * correction_;
     const double rounding = rounding_allowance(move, job_.options.write);
     bool all_written = true;
     for (Eigen::Index axis = 0; axis < 3; ++axis) {
@@ -90,11 +92,11 @@ class Emitter {
       c_W[axis] = held_W[axis];
       all_written = false;
     }
-    return all_written ? correction : Vector3(job_.X_MW.R * c_W);
+    return all_written ? correction : Vector3(R_MW * c_W);
   }
 
   Vector3 shifted(const Move& move) const {
-    return move.end_mm + X_WM_.R * (correction_ + job_.datum_shift) / mm;
+    return move.end_mm + frame(move).X_MW.R.transpose() * (correction_ + frame(move).datum_shift) / mm;
   }
 
   void add_shifted(std::size_t m, Kind kind) {
@@ -119,7 +121,7 @@ class Emitter {
   // The first position that is known in all axes: its correction serves the words before it as well.
   void emit_first_known(std::size_t m) {
     const Move& move = job_.program.moves[m];
-    const Vector3 wanted = target_of(job_, move.end_mm) + job_.datum_shift;
+    const Vector3 wanted = wanted_of(job_, move);
     PathSolver solver(job_, job_.model.home);
     const TargetSolution solution = solver.target(wanted, {});
     if (solution.status != Status::converged) {
@@ -128,7 +130,7 @@ class Emitter {
     }
     const Vector3 correction = solution.target - wanted,
                   kept = correction_that_can_be_written(move, correction);
-    out_.failure = limit_failure(job_, correction, move.line);
+    out_.failure = limit_failure(job_, correction + frame(move).datum_shift, move.line);
     if (out_.failure) return;
     correction_ = kept;
     correction_known_ = true;
@@ -167,7 +169,6 @@ class Emitter {
 
   const Job& job_;
   const Plan& plan_;
-  Pose X_WM_;
   Emission out_;
   std::size_t next_segment_ = 0;
   std::vector<std::size_t> pending_;
@@ -178,8 +179,12 @@ class Emitter {
 
 }  // namespace
 
-Vector3 target_of(const Job& job, const Vector3& p_mm) {
-  return job.X_MW * (p_mm * mm);
+Vector3 target_of(const Job& job, const Move& move) {
+  return job.path.frames[move.offset].X_MW * (move.end_mm * mm);
+}
+
+Vector3 wanted_of(const Job& job, const Move& move) {
+  return wanted_frame(job.path.frames[move.offset]) * (move.end_mm * mm);
 }
 
 Emission emit(const Job& job, const Plan& plan) {

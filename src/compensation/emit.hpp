@@ -38,7 +38,10 @@ Emission emit(const Job& job, const Plan& plan);
 std::vector<Piece> emitted_pieces(const Job& job, const Emission& emission, const Rewritten& rewritten,
                                   const Program& corrected);
 
-/// A position in program coordinates (mm) as a target in M (m).
-Vector3 target_of(const Job& job, const Vector3& p_mm);
+/// The end of a move as a target in M (m).
+Vector3 target_of(const Job& job, const Move& move);
+
+/// The end of a move of the original as a wanted position in M (m).
+Vector3 wanted_of(const Job& job, const Move& move);
 
 }  // namespace counterflex

@@ -22,7 +22,7 @@ class ForwardSolver {
   bool solve(const Piece& piece, bool begins_anew, ForwardRun& out) {
     piece_ = &piece;
     if (piece.segment == no_segment)
-      position_ = {.line = piece.line, .p_MT_start = piece.wanted, .p_MT_end = piece.wanted};
+      position_ = {.line = piece.line, .frame = piece.frame, .wanted = {piece.wanted, piece.wanted, {}}};
     segment_ = piece.segment == no_segment ? &position_ : &job_.path.segments[piece.segment];
     if (questions_.inside && !piece.end_only) {
       const int count = samples();
@@ -37,8 +37,8 @@ class ForwardSolver {
 
  private:
   int samples() const {
-    const Vector3 c0 = piece_->from - point_on(*segment_, piece_->u0),
-                  c1 = piece_->to - point_on(*segment_, piece_->u1);
+    const Vector3 c0 = piece_->commanded.start - point_at(segment_->wanted, piece_->u0),
+                  c1 = piece_->commanded.end - point_at(segment_->wanted, piece_->u1);
     return (c1 - c0).norm() > quiet_share * job_.options.tolerance ? odd_sixteenths : 1;
   }
 
@@ -65,9 +65,9 @@ class ForwardSolver {
 
   bool solve_at(double v, bool between, double share, ForwardRun& out) {
     const double u = piece_->u0 + v * (piece_->u1 - piece_->u0);
-    const Vector3 emitted = piece_->from + v * (piece_->to - piece_->from);
+    const Vector3 emitted = point_at(piece_->commanded, v);
     Waypoint w;
-    w.p_MT = point_on(*segment_, u);
+    w.p_MT = point_at(segment_->wanted, u);
     const Load load = piece_->segment == no_segment
                           ? Load{}
                           : Load{job_.forces.at(piece_->segment, u, v == 0 ? Side::after : Side::before),
@@ -75,7 +75,7 @@ class ForwardSolver {
     describe(u, between, share, load, w);
     iterations_ = 0;
     wanted_ = solver_.wanted(w.p_MT, status_);
-    const Vector3 original = w.p_MT - job_.datum_shift;
+    const Vector3 original = w.p_MT - job_.path.frames[segment_->frame].datum_shift;
     // What is written is proven from the nominal configuration on; samples between its ends begin at their
     // neighbour.
     const Start start = between ? Start::neighbour : Start::nominal;
@@ -96,16 +96,15 @@ class ForwardSolver {
   }
 
   void describe(double u, bool between, double share, const Load& load, Waypoint& w) const {
-    const Vector3 path = segment_->p_MT_end - segment_->p_MT_start;
     w.segment = piece_->segment;
     w.fraction = u;
     w.line = segment_->line;
     w.cutting = segment_->cutting;
     w.between = between;
     w.exempt = between ? piece_->exempt : piece_->exempt_end;
-    w.weight = segment_->cutting ? share * (piece_->u1 - piece_->u0) * path.norm() : 0;
+    w.weight = segment_->cutting ? share * (piece_->u1 - piece_->u0) * length(segment_->wanted) : 0;
     w.s = segment_->s_start + u * (segment_->s_end - segment_->s_start);
-    w.direction = path.norm() > 0 ? Vector3(path.normalized()) : Vector3(Vector3::Zero());
+    w.direction = direction_at(segment_->wanted, u);
     w.tool_axis = tip(job_.model.mechanism, solver_.nominal()).R.col(2);
     w.wrench = load.F;
   }
@@ -133,7 +132,7 @@ ForwardRun solve_forward_along(const Job& job, const std::vector<Piece>& pieces,
         segment == no_segment ? job.model.home : nominal.starts[segment / chunk_size];
     ForwardSolver solver(job, questions, start);
     for (std::size_t i = chunk.begin; i < chunk.end; ++i) {
-      const bool begins_anew = i == 0 || pieces[i].from != pieces[i - 1].to;
+      const bool begins_anew = i == 0 || pieces[i].commanded.start != pieces[i - 1].commanded.end;
       if (!solver.solve(pieces[i], begins_anew, runs[chunk.index])) return;
     }
   });
@@ -163,14 +162,13 @@ std::vector<Piece> original_pieces(const Job& job, double spacing) {
     double u0 = 0;
     for (double u : ends) {
       if (u <= u0) continue;
-      const Vector3 from = point_on(segment, u0) - job.datum_shift,
-                    to = point_on(segment, u) - job.datum_shift;
+      const Pose back{Matrix3::Identity(), -job.path.frames[segment.frame].datum_shift};
       pieces.push_back({.segment = s,
                         .line = segment.line,
                         .u0 = u0,
                         .u1 = u,
-                        .from = from,
-                        .to = to,
+                        .frame = segment.frame,
+                        .commanded = back * stretch(segment.wanted, u0, u),
                         .end_only = !segment.cutting});
       u0 = u;
     }

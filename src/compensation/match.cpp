@@ -183,9 +183,9 @@ class Matcher {
       pieces_.push_back(
           {.segment = no_segment,
            .line = original.line,
-           .from = position(own),
-           .to = position(own),
-           .wanted = target_of(job_, original.end_mm) + job_.datum_shift,
+           .frame = original.offset,
+           .commanded = {position(own), position(own), {}},
+           .wanted = wanted_of(job_, original),
            .end_only = true,
            .exempt_end = !original.may_insert_words || (skipped_ && original.motion == Motion::feed)});
     skipped_ = original.block_delete || (skipped_ && !known);
@@ -194,23 +194,23 @@ class Matcher {
   // First fractions of inserted points: by their place along the segment, the correction there interpolated.
   void take_segment(std::size_t own) {
     const Segment& segment = job_.path.segments[segment_];
-    const Vector3 along = segment.p_MT_end - segment.p_MT_start;
-    const Vector3 start = next_ == 0 ? segment.p_MT_start : position(next_ - 1);
-    const Vector3 c0 = start - segment.p_MT_start, c1 = position(own) - segment.p_MT_end;
+    const Vector3 along = segment.wanted.end - segment.wanted.start;
+    const Vector3 start = next_ == 0 ? segment.wanted.start : position(next_ - 1);
+    const Vector3 c0 = start - segment.wanted.start, c1 = position(own) - segment.wanted.end;
     double u0 = 0;
     for (std::size_t j = next_; j <= own; ++j) {
       double u = 1;
       if (j < own) {
         const Vector3 shift = along + c1 - c0;  // position = start + u along + (1 - u) c0 + u c1
-        u = std::clamp((position(j) - segment.p_MT_start - c0).dot(shift) / shift.squaredNorm(), u0,
+        u = std::clamp((position(j) - segment.wanted.start - c0).dot(shift) / shift.squaredNorm(), u0,
                        inner_end);
       }
       Piece piece{.segment = segment_,
                   .line = segment.line,
                   .u0 = u0,
                   .u1 = u,
-                  .from = j == next_ ? start : position(j - 1),
-                  .to = position(j),
+                  .frame = segment.frame,
+                  .commanded = {j == next_ ? start : position(j - 1), position(j), {}},
                   .end_only = !segment.cutting,
                   .exempt = !job_.program.moves[segment.move].may_split,
                   .exempt_end = !job_.program.moves[segment.move].may_insert_words};
@@ -226,14 +226,14 @@ class Matcher {
   // The fraction of the force's step that the moves j and j + 1, near fraction u, stand on both sides of.
   std::optional<double> step_at(std::size_t j, double u) const {
     const Segment& segment = job_.path.segments[segment_];
-    const double longest = longest_jump_mm * mm, length = (segment.p_MT_end - segment.p_MT_start).norm();
+    const double longest = longest_jump_mm * mm, length = (segment.wanted.end - segment.wanted.start).norm();
     if (job_.options.blend > 0 || (position(j + 1) - position(j)).norm() > longest) return std::nullopt;
     for (const double step : job_.forces.breaks(segment_))
       if (std::abs(step - u) * length < longest) return step;
     return std::nullopt;
   }
 
-  Vector3 position(std::size_t j) const { return target_of(job_, corrected_.moves[j].end_mm); }
+  Vector3 position(std::size_t j) const { return target_of(job_, corrected_.moves[j]); }
 
   const Job& job_;
   const Program& corrected_;
@@ -259,7 +259,7 @@ void refine_fractions(const Job& job, std::vector<Piece>& pieces) {
     for (std::size_t i = 0; i + 1 < pieces.size(); ++i) {
       if (is_settled(job, pieces[i])) continue;
       const Segment& segment = job.path.segments[pieces[i].segment];
-      const double length = (segment.p_MT_end - segment.p_MT_start).norm();
+      const double length = (segment.wanted.end - segment.wanted.start).norm();
       const double u =
           pieces[i].u1 + run.waypoints[i].after.head<3>().dot(run.waypoints[i].direction) / length;
       pieces[i].u1 = pieces[i + 1].u0 = std::clamp(u, pieces[i].u0, inner_end);
@@ -277,7 +277,7 @@ void drop_jumps(const Job& job, std::vector<Piece>& pieces) {
     if (piece.segment != no_segment && !piece.end_only && piece.u1 < 1) {
       const Segment& segment = job.path.segments[piece.segment];
       const double rounding = rounding_allowance(job.program.moves[segment.move], job.options.write);
-      const double length = (piece.u1 - piece.u0) * (segment.p_MT_end - segment.p_MT_start).norm();
+      const double length = (piece.u1 - piece.u0) * (segment.wanted.end - segment.wanted.start).norm();
       if (length < jump_length * rounding) {
         u0 = piece.u0;
         continue;

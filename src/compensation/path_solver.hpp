@@ -62,9 +62,4 @@ class PathSolver {
 /// The load at a place of the path.
 Load load_at(const Job& job, std::size_t segment, double fraction);
 
-/// Position on a wanted segment.
-inline Vector3 point_on(const Segment& segment, double u) {
-  return segment.p_MT_start + u * (segment.p_MT_end - segment.p_MT_start);
-}
-
 }  // namespace counterflex

@@ -19,8 +19,8 @@ std::vector<Stop> stops_of(const Job& job, const MoveEdit& edit, const std::vect
   const std::array<int, 3> inside{decimals.inserted, decimals.inserted, decimals.inserted};
   std::vector<Stop> stops;
   if (edit.jump_mm) stops.push_back({*edit.jump_mm, inside, 0, true});
-  for (std::size_t k = 0; k < edit.inserted_mm.size(); ++k)
-    stops.push_back({edit.inserted_mm[k], inside, fractions[k], false});
+  for (std::size_t k = 0; k < edit.inserted.size(); ++k)
+    stops.push_back({edit.inserted[k].end_mm, inside, fractions[k], false});
   stops.push_back({edit.end_mm, decimals.end, fractions.back(), false});
   return stops;
 }
@@ -50,8 +50,8 @@ class PieceReader {
                           .line = wanted.line,
                           .u0 = u0,
                           .u1 = stop.u,
-                          .from = from,
-                          .to = here(),
+                          .frame = wanted.frame,
+                          .commanded = {from, here(), {}},
                           .end_only = !wanted.cutting,
                           .exempt = move.exempt,
                           .exempt_end = move.exempt_end});
@@ -65,9 +65,9 @@ class PieceReader {
     skip(count);
     pieces.push_back({.segment = no_segment,
                       .line = original.line,
-                      .from = here(),
-                      .to = here(),
-                      .wanted = target_of(job_, original.end_mm) + job_.datum_shift,
+                      .frame = original.offset,
+                      .commanded = {here(), here(), {}},
+                      .wanted = wanted_of(job_, original),
                       .end_only = true,
                       .exempt_end = move.exempt_end});
   }
@@ -89,7 +89,7 @@ class PieceReader {
   }
 
   Vector3 here() const {
-    return next_ == 0 ? Vector3::Zero() : target_of(job_, corrected_.moves[next_ - 1].end_mm);
+    return next_ == 0 ? Vector3::Zero() : target_of(job_, corrected_.moves[next_ - 1]);
   }
 
   const Job& job_;

@@ -37,7 +37,7 @@ class ChunkPlanner {
 
  private:
   bool solve(double u, Side side, CurveNode& node) {
-    const Vector3 wanted = point_on(*segment_, u);
+    const Vector3 wanted = point_at(segment_->wanted, u);
     const TargetSolution solution =
         solver_.target(wanted, {job_.forces.at(index_, u, side), job_.forces.at_platform()});
     if (solution.status != Status::converged) {
@@ -45,7 +45,7 @@ class ChunkPlanner {
       return false;
     }
     node = {u, solution.target - wanted};
-    failure_ = limit_failure(job_, node.c, segment_->line);
+    failure_ = limit_failure(job_, node.c + job_.path.frames[segment_->frame].datum_shift, segment_->line);
     return !failure_;
   }
 
@@ -54,8 +54,8 @@ class ChunkPlanner {
     planned.starts_anywhere = job_.options.blend > 0;  // where the cut ended
     if (!planned.starts_anywhere && !solve(0, Side::after, start)) return false;
     if (!solve(1, Side::before, end)) return false;
-    planned.start_target = segment_->p_MT_start + start.c;
-    planned.knots = {{1, segment_->p_MT_end + end.c}};
+    planned.start_target = segment_->wanted.start + start.c;
+    planned.knots = {{1, segment_->wanted.end + end.c}};
     return true;
   }
 
@@ -66,7 +66,7 @@ class ChunkPlanner {
     limits.push_back(1);
     CurveNode a, b;
     if (!solve(0, Side::after, a)) return false;
-    planned.start_target = segment_->p_MT_start + a.c;
+    planned.start_target = segment_->wanted.start + a.c;
     CorrectionCurve stretch;
     for (std::size_t i = 1; i < limits.size(); ++i) {
       if (!solve(limits[i], Side::before, b)) return false;
@@ -77,7 +77,7 @@ class ChunkPlanner {
       const bool step = (a.c - b.c).norm() > jump_share * job_.options.tolerance;
       if (!step && i + 1 < limits.size()) continue;
       if (!add_knots(stretch, limits, planned)) return false;
-      if (step) planned.knots.push_back({a.u, point_on(*segment_, a.u) + a.c});
+      if (step) planned.knots.push_back({a.u, point_at(segment_->wanted, a.u) + a.c});
       stretch = {};
     }
     if (!job_.program.moves[segment_->move].may_split) forbid_splitting(planned);
@@ -100,7 +100,7 @@ class ChunkPlanner {
     for (double u : knots) {
       // At a stretch's end the curve is continued on the left of the step.
       const Vector3 c = u == stretch.end() ? stretch.intervals().back().nodes.back().c : stretch.at(u);
-      planned.knots.push_back({u, point_on(*segment_, u) + c});
+      planned.knots.push_back({u, point_at(segment_->wanted, u) + c});
     }
     return true;
   }
@@ -113,7 +113,7 @@ class ChunkPlanner {
     Vector3 reached[2];
     for (int axis = 0; axis < 3; ++axis) {
       for (int side = 0; side < 2; ++side) {
-        const Vector3 target = segment_->p_MT_end + (side ? -gain_probe : gain_probe) * Vector3::Unit(axis);
+        const Vector3 target = segment_->wanted.end + (side ? -gain_probe : gain_probe) * Vector3::Unit(axis);
         const ActualSolution actual = solver_.actual(target, load, {});
         if (actual.status != Status::converged) {
           failure_ = status_failure(actual.status, segment_->line);
@@ -130,10 +130,10 @@ class ChunkPlanner {
   // The block must stay one: its end is corrected, and what its inside misses is said.
   void forbid_splitting(PlannedSegment& planned) {
     if (planned.knots.size() < 2) return;
-    const Vector3 c0 = planned.start_target - segment_->p_MT_start,
-                  c1 = planned.knots.back().target - segment_->p_MT_end;
+    const Vector3 c0 = planned.start_target - segment_->wanted.start,
+                  c1 = planned.knots.back().target - segment_->wanted.end;
     for (const Knot& knot : planned.knots) {
-      const Vector3 c = knot.target - point_on(*segment_, knot.u);
+      const Vector3 c = knot.target - point_at(segment_->wanted, knot.u);
       planned.unsplit_miss = std::max(planned.unsplit_miss, (c - (1 - knot.u) * c0 - knot.u * c1).norm());
     }
     planned.knots.erase(planned.knots.begin(), planned.knots.end() - 1);

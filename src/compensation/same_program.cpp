@@ -73,11 +73,11 @@ void check_all_moves(const Job& job, const Program& corrected, const std::vector
   std::optional<Vector3> here;
   for (const Move& move : corrected.moves) {
     if (!all_known(move.known_end)) continue;
-    const Vector3 p = target_of(job, move.end_mm);
+    const Vector3 p = target_of(job, move);
     const auto at = [&](const Vector3& q) { return (p - q).norm() < 1e-9; };
-    if (next < pieces.size() && at(pieces[next].to))
+    if (next < pieces.size() && at(pieces[next].commanded.end))
       ++next;
-    else if (!(next < pieces.size() && at(pieces[next].from)) &&
+    else if (!(next < pieces.size() && at(pieces[next].commanded.start)) &&
              !(here && (p - *here).norm() < job.options.tolerance))
       fail(corrected, move.line, "this move leaves the path of the original");
     here = p;

@@ -14,8 +14,8 @@ Failure status_failure(Status status, int line) {
           fmt::format("the machine's equilibrium is not solved here: {}", to_string(status))};
 }
 
-std::optional<Failure> limit_failure(const Job& job, const Vector3& beyond_wanted, int line) {
-  const double size = (beyond_wanted + job.datum_shift).norm();
+std::optional<Failure> limit_failure(const Job& job, const Vector3& correction, int line) {
+  const double size = correction.norm();
   if (size <= job.options.max_correction) return std::nullopt;
   return Failure{Exit::limit, line,
                  fmt::format("the correction would be {:.3f} mm, more than the limit of {:.3f} mm", size / mm,
@@ -34,10 +34,10 @@ NominalTrack track(const Job& job) {
   };
   for (std::size_t i = 0; i < job.path.segments.size(); ++i) {
     const Segment& segment = job.path.segments[i];
-    const bool joins = i > 0 && job.path.segments[i - 1].p_MT_end == segment.p_MT_start;
-    if (!joins && !go(segment.p_MT_start, segment.line)) return result;
+    const bool joins = i > 0 && job.path.segments[i - 1].wanted.end == segment.wanted.start;
+    if (!joins && !go(segment.wanted.start, segment.line)) return result;
     if (i % chunk_size == 0) result.starts.push_back(solver.nominal());
-    if (!go(segment.p_MT_end, segment.line)) return result;
+    if (!go(segment.wanted.end, segment.line)) return result;
   }
   return result;
 }

@@ -17,8 +17,7 @@ NominalTrack track(const Job& job);
 /// The failure that a status at a line stands for: travel is a limit, all else is not compensated.
 Failure status_failure(Status status, int line);
 
-/// The failure of a correction (emitted minus commanded position, m) larger than the limit. `beyond_wanted`
-/// is the target minus the wanted position: a datum's shift comes on top of it.
-std::optional<Failure> limit_failure(const Job& job, const Vector3& beyond_wanted, int line);
+/// The failure of a correction (emitted minus commanded position, m) larger than the limit.
+std::optional<Failure> limit_failure(const Job& job, const Vector3& correction, int line);
 
 }  // namespace counterflex

@@ -32,7 +32,7 @@ bool joins_previous(const Program& program, const Toolpath& path, std::size_t i)
   const Segment& before = path.segments[i - 1];
   const Segment& segment = path.segments[i];
   const auto between = program.moves.begin();
-  return before.cutting && segment.cutting && (segment.p_MT_start - before.p_MT_end).norm() <= joined_m &&
+  return before.cutting && segment.cutting && (segment.wanted.start - before.wanted.end).norm() <= joined_m &&
          std::none_of(between + static_cast<std::ptrdiff_t>(before.move) + 1,
                       between + static_cast<std::ptrdiff_t>(segment.move), moves_rapidly);
 }
@@ -58,7 +58,7 @@ class Unblended {
       append({segment.s_start, segment.s_end, F, F, Vector6::Zero()}, first_piece, pieces);
       return;
     }
-    const ForceAxes axes = axes_of(profile()->frame, segment, path_.X_MW.R, R_MT_[R_MT_.size() == 1 ? 0 : i]);
+    const ForceAxes axes = axes_of(profile()->frame, segment, path_.frames[segment.frame].X_MW.R, R_MT_[R_MT_.size() == 1 ? 0 : i]);
     bool lost = false;
     for (ForcePiece piece : profile_pieces(*profile(), keys_[i], segment)) {
       lost = lost || (axes.only_z && (lateral(piece.F0) || lateral(piece.F1)));

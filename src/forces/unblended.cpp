@@ -53,7 +53,7 @@ ForceAxes axes_of(ForceFrame frame, const Segment& segment, const Matrix3& R_MW,
     case ForceFrame::feed:
       break;
   }
-  return feed_axes(segment.p_MT_end - segment.p_MT_start, R_MT);
+  return feed_axes(segment.wanted.end - segment.wanted.start, R_MT);
 }
 
 Vector6 in_machine_axes(const ForceAxes& axes, const Vector6& F) {

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "program/force_comment.hpp"
 #include "program/remarks.hpp"
 
@@ -66,12 +68,19 @@ void apply_tool_length(const Block& block, Reading& r) {
   remark_tool_length(block, r);
 }
 
+std::size_t index_of_offset(Program& program, const std::string& name) {
+  const auto found = std::find(program.work_offsets.begin(), program.work_offsets.end(), name);
+  if (found == program.work_offsets.end()) program.work_offsets.push_back(name);
+  return static_cast<std::size_t>(std::find(program.work_offsets.begin(), program.work_offsets.end(), name) -
+                                  program.work_offsets.begin());
+}
+
 void apply_work_offset(Reading& r) {
   const FoundG* offset = r.sorted.find(Action::work_offset);
   if (offset == nullptr) return;
-  const std::string name = fmt::format("G{}", offset->word->value);
-  if (name != r.state.work_offset) forget_all(r.state);
-  r.state.work_offset = name;
+  const std::size_t index = index_of_offset(r.program, fmt::format("G{}", offset->word->value));
+  if (index != r.state.work_offset) forget_all(r.state);
+  r.state.work_offset = index;
 }
 
 void apply_path_mode(const Block& block, Reading& r) {
@@ -163,7 +172,7 @@ void add_move(const Block& block, Reading& r) {
   move.feed_mm_min = feed_mm_min(r.state);
   move.spindle_rpm = r.state.spindle_rpm;
   if (const Word* n = r.sorted.word('N')) move.block_number = static_cast<long>(n->value);
-  move.work_offset = r.state.work_offset;
+  move.offset = r.state.work_offset;
   move.force = r.state.force;
   move.block_delete = !empty(block.block_delete);
   move.exact_stop = r.state.exact_stop || r.sorted.has(Action::stop_once);

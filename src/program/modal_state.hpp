@@ -25,7 +25,7 @@ struct ModalState {
   std::optional<LengthUnit> feed_unit;  ///< the unit when it was programmed
   bool feed_per_turn = false;
   double spindle_rpm = 0;
-  std::string work_offset;
+  std::size_t work_offset = 0;  ///< index into Program::work_offsets
   bool exact_stop = false;
   std::optional<double> tool_length;  ///< number of H; 0: off; none: not known
   std::optional<Vector6> force;

@@ -142,7 +142,7 @@ Plan plan(const Original& o, const MoveEdit& edit, const WriteOptions& options) 
   const std::array<int, 3> inside{decimals.inserted, decimals.inserted, decimals.inserted};
   Plan plan;
   if (edit.jump_mm) plan.stops.push_back({*edit.jump_mm, inside, true});
-  for (const Vector3& point_mm : edit.inserted_mm) plan.stops.push_back({point_mm, inside});
+  for (const Via& via : edit.inserted) plan.stops.push_back({via.end_mm, inside});
   plan.stops.push_back({edit.end_mm, decimals.end});
   const bool first = o.acts_itself && o.move.motion == Motion::feed;
   plan.own = first ? 0 : plan.stops.size() - 1;
@@ -164,7 +164,7 @@ std::string own_text(const Original& o, const Stop& stop, bool after_jump, HeldP
 void rewrite_block(const Program& program, const ProgramStyle& style, const MoveEdit& edit,
                    const WriteOptions& options, HeldPosition& held, Rewritten& out) {
   const Move& move = program.moves[edit.move];
-  assert(edit.inserted_mm.empty() || move.may_split);
+  assert(edit.inserted.empty() || move.may_split);
   assert(!edit.jump_mm || move.may_jump);
   const Original o = lex_again(program, move, style);
   const Plan todo = plan(o, edit, options);

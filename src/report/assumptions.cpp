@@ -2,6 +2,9 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
+#include <vector>
+
 #include "counterflex/files/numbers.hpp"
 #include "counterflex/geometry/units.hpp"
 
@@ -24,24 +27,47 @@ std::string place(const Pose& X) {
 
 }  // namespace
 
-std::string work_in_words(const Machine& machine, const Job& job, const std::string& work_offset) {
-  if (!work_offset.empty())
-    return fmt::format("{} puts the program's origin at {}.", work_offset, place(job.X_MW));
+namespace {
+
+// Frames of offsets that were used, each once.
+std::vector<const WorkFrame*> named_frames(const Job& job) {
+  std::vector<const WorkFrame*> frames;
+  for (const WorkFrame& frame : job.path.frames) {
+    const bool known =
+        std::any_of(frames.begin(), frames.end(), [&](const WorkFrame* f) { return f->name == frame.name; });
+    if (!frame.name.empty() && !known) frames.push_back(&frame);
+  }
+  return frames;
+}
+
+}  // namespace
+
+std::string work_in_words(const Machine& machine, const Job& job) {
+  std::string text;
+  for (const WorkFrame* frame : named_frames(job))
+    text += fmt::format("{}{} puts the program's origin at {}.", text.empty() ? "" : " ", frame->name,
+                        place(frame->X_MW));
+  if (!text.empty()) return text;
   const std::string reason =
       machine.work.empty() ? "the machine file has no work offsets" : "no work offset is in use";
   return fmt::format("Program coordinates were taken as machine coordinates: {}.", reason);
 }
 
-std::string datum_in_words(const Machine& machine, const Job& job, const std::string& work_offset) {
-  const auto offset = machine.work.find(work_offset);
-  if (offset == machine.work.end() || !offset->second.datum.touched_at)
-    return "The work frame was taken to be truly there, not found by touching the part off with this "
-           "machine.";
-  return fmt::format(
-      "The part was touched off with this machine at {} mm in program coordinates: the machine's unloaded "
-      "deviation "
-      "there, {} mm in the machine frame, is part of the work frame, and corrections are relative to it.",
-      three(*offset->second.datum.touched_at / mm, 4), three(job.datum_shift / mm, 4));
+std::string datum_in_words(const Machine& machine, const Job& job) {
+  std::string text;
+  for (const WorkFrame* frame : named_frames(job)) {
+    const auto offset = machine.work.find(frame->name);
+    if (offset == machine.work.end() || !offset->second.datum.touched_at) continue;
+    text += fmt::format(
+        "{}The part was touched off with this machine at {} mm in coordinates of {}: the machine's unloaded "
+        "deviation there, {} mm in the machine frame, is part of the work frame, and corrections are "
+        "relative to it.",
+        text.empty() ? "" : " ", three(*offset->second.datum.touched_at / mm, 4), frame->name,
+        three(frame->datum_shift / mm, 4));
+  }
+  if (!text.empty()) return text;
+  return "The work frame was taken to be truly there, not found by touching the part off with this "
+         "machine.";
 }
 
 }  // namespace counterflex

@@ -5,9 +5,9 @@
 namespace counterflex {
 
 /// Where program coordinates were taken to be.
-std::string work_in_words(const Machine& machine, const Job& job, const std::string& work_offset);
+std::string work_in_words(const Machine& machine, const Job& job);
 
 /// What the work offset was taken to mean.
-std::string datum_in_words(const Machine& machine, const Job& job, const std::string& work_offset);
+std::string datum_in_words(const Machine& machine, const Job& job);
 
 }  // namespace counterflex

@@ -28,7 +28,8 @@ struct Collector {
   }
 
   void keep(Largest& largest, double length, int line) const {
-    if (length / mm > largest.mm) largest = {length / mm, line};
+    if (largest.line == 0 || length / mm > largest.mm + 1e-12) largest.line = line;  // the first but for rounding
+    largest.mm = std::max(largest.mm, length / mm);
   }
 
   void add_target(const Waypoint& w) {

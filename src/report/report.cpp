@@ -67,8 +67,8 @@ RunReport common(const Machine& machine, const Job& job, const RunFacts& facts, 
   report.text_before = {job.program.block_count, job.program.text.size()};
   report.forces = force_summary(job, measures);
   report.warnings = listed(all_warnings(job, facts));
-  report.work = work_in_words(machine, job, facts.work_offset);
-  report.datum = datum_in_words(machine, job, facts.work_offset);
+  report.work = work_in_words(machine, job);
+  report.datum = datum_in_words(machine, job);
   return report;
 }
 

@@ -7,26 +7,33 @@
 namespace counterflex {
 namespace {
 
-Segment segment_of(const Move& move, std::size_t index, const Pose& X_MW) {
+Curve scaled(Curve curve, double factor) {
+  curve.start *= factor;
+  curve.end *= factor;
+  if (curve.arc) curve.arc->centre *= factor;
+  return curve;
+}
+
+Segment segment_of(const Move& move, std::size_t index, const std::vector<WorkFrame>& frames) {
   Segment segment;
   segment.move = index;
   segment.line = move.line;
   segment.cutting = move.motion == Motion::feed;
-  segment.p_WT_start = move.start_mm * mm;
-  segment.p_WT_end = move.end_mm * mm;
-  segment.p_MT_start = X_MW * segment.p_WT_start;
-  segment.p_MT_end = X_MW * segment.p_WT_end;
+  segment.frame = move.offset;
+  segment.wanted = wanted_frame(frames[move.offset]) * scaled(curve_of(move), mm);
   segment.feed_m_s = move.feed_mm_min * mm / 60;
   return segment;
 }
 
 /// Feed moves count, rapids stand still; so does the clock where no feed is programmed.
-void advance(Segment& segment, double s, double t) {
-  const double length = segment.cutting ? (segment.p_WT_end - segment.p_WT_start).norm() : 0;
+void advance(const Move& move, Segment& segment, double s, double t) {
+  const double way = segment.cutting ? length(segment.wanted) : 0;
   segment.s_start = s;
-  segment.s_end = s + length;
+  segment.s_end = s + way;
   segment.t_start = t;
-  segment.t_end = segment.feed_m_s > 0 ? t + length / segment.feed_m_s : t;
+  segment.t_end = segment.feed_m_s > 0 ? t + way / segment.feed_m_s : t;
+  if (segment.cutting && move.feed_mode == FeedMode::inverse_time && move.feed_per_min > 0)
+    segment.t_end = t + 60 / move.feed_per_min;
 }
 
 }  // namespace
@@ -47,20 +54,38 @@ void ignore_axis(Program& program, std::size_t axis) {
 
 }  // namespace
 
+std::vector<WorkFrame> one_frame(const Program& program, const WorkFrame& frame) {
+  return std::vector<WorkFrame>(program.work_offsets.size(), frame);
+}
+
+Pose wanted_frame(const WorkFrame& frame) {
+  return {frame.X_MW.R, frame.X_MW.p + frame.datum_shift};
+}
+
+Curve curve_of(const Move& move) {
+  Curve curve{move.start_mm, move.end_mm, {}};
+  if (!move.arc) return curve;
+  const Vector3 normal = (move.arc->clockwise ? -1 : 1) * Vector3::Unit(move.arc->normal);
+  curve.arc = Arc{move.arc->centre_mm, normal,
+                  sweep_between(move.start_mm, move.end_mm, move.arc->centre_mm, normal, move.arc->turns)};
+  return curve;
+}
+
 void ignore_axes(Program& program, const std::array<bool, 3>& ignored) {
   for (std::size_t axis = 0; axis < 3; ++axis)
     if (ignored[axis]) ignore_axis(program, axis);
 }
 
-Toolpath build_toolpath(const Program& program, const Pose& X_MW) {
-  Toolpath path{X_MW, {}};
+Toolpath build_toolpath(const Program& program, const std::vector<WorkFrame>& frames) {
+  Toolpath path{frames, {}};
   path.segments.reserve(program.moves.size());
   double s = 0, t = 0;
   for (std::size_t i = 0; i < program.moves.size(); ++i) {
     const Move& move = program.moves[i];
-    if (!all_known(move.known_start) || !all_known(move.known_end) || move.start_mm == move.end_mm) continue;
-    Segment& segment = path.segments.emplace_back(segment_of(move, i, X_MW));
-    advance(segment, s, t);
+    if (!all_known(move.known_start) || !all_known(move.known_end)) continue;
+    if (move.start_mm == move.end_mm && !move.arc) continue;
+    Segment& segment = path.segments.emplace_back(segment_of(move, i, frames));
+    advance(move, segment, s, t);
     s = segment.s_end;
     t = segment.t_end;
   }

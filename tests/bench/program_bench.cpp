@@ -22,7 +22,7 @@ std::vector<MoveEdit> edits_of(const Program& program) {
     const Move& move = program.moves[i];
     edits.push_back({.move = i, .end_mm = move.end_mm + shift});
     if (i % 10 == 0 && move.may_split)
-      edits.back().inserted_mm.push_back((move.start_mm + move.end_mm) / 2 + shift);
+      edits.back().inserted.push_back({(move.start_mm + move.end_mm) / 2 + shift});
   }
   return edits;
 }

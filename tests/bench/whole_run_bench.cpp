@@ -13,7 +13,7 @@ namespace {
 void compensate_face(benchmark::State& state) {
   const Model& model = orthoglide().model;
   const Program program = read_program(face_program(1000), "face.ngc", {});
-  const Toolpath path = build_toolpath(program, Pose{});
+  const Toolpath path = build_toolpath(program, one_frame(program, {}));
   const PathForces forces({}, program, path, {tip(model.mechanism, model.home).R});
   CompensationOptions options;
   options.max_correction = 5e-3;

@@ -84,7 +84,7 @@ inline Miss dense_miss(const Shop& shop, const std::vector<Commanded>& pieces, i
     for (int k = 0; k <= inside + 1; ++k) {
       const double v = k / (inside + 1.0), u = piece.u0 + v * (piece.u1 - piece.u0);
       const Segment& segment = shop.path.segments[piece.segment];
-      const Vector3 wanted = segment.p_MT_start + u * (segment.p_MT_end - segment.p_MT_start);
+      const Vector3 wanted = segment.wanted.start + u * (segment.wanted.end - segment.wanted.start);
       const Vector6 F = shop.forces->at(piece.segment, u, k == 0 ? Side::after : Side::before);
       const Vector3 reached = cold_tip(shop, piece.from + v * (piece.to - piece.from), F);
       if ((reached - wanted).norm() > worst.size) worst = {(reached - wanted).norm(), segment.line, u};

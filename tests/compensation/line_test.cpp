@@ -20,7 +20,7 @@ std::vector<Vector3> dense_correction(const Shop& shop, std::size_t segment, int
   Vector3 guess = Vector3::Zero();
   for (int k = 0; k <= count; ++k) {
     const double u = static_cast<double>(k) / count;
-    const Vector3 wanted = line.p_MT_start + u * (line.p_MT_end - line.p_MT_start);
+    const Vector3 wanted = line.wanted.start + u * (line.wanted.end - line.wanted.start);
     for (int i = 0; i < 30; ++i) {
       const Vector3 miss = cold_tip(shop, wanted + guess, shop.forces->at(segment, u)) - wanted;
       guess -= miss;

@@ -49,7 +49,7 @@ struct Shop {
       : model(prepare(order.machine)), program(read_program(order.text, "part.ngc", {})), X_MW(order.X_MW) {
     REQUIRE(model.home_status == Status::converged);
     ignore_axes(program, order.ignored);
-    path = build_toolpath(program, {X_MW.R, X_MW.p + order.datum_shift});
+    path = build_toolpath(program, one_frame(program, {{}, X_MW, order.datum_shift}));
     forces.emplace(order.force, program, path, std::vector<Matrix3>{tip(model.mechanism, model.home).R});
     options.method = order.method;
     options.tolerance = order.tolerance;
@@ -60,7 +60,7 @@ struct Shop {
     datum_shift = order.datum_shift;
   }
 
-  Job job() const { return {model, program, path, *forces, X_MW, datum_shift, options, {}}; }
+  Job job() const { return {model, program, path, *forces, options, {}}; }
   Compensation run(bool attribution = false) const { return compensate(job(), attribution); }
 
   Model model;

@@ -149,7 +149,7 @@ TEST_CASE("the pieces of the original cover its feed moves once, cut where the f
     if (!segment.cutting) continue;
     CHECK(piece.u0 == (u == 1 ? 0 : u));
     u = piece.u1;
-    const double size = (piece.to - piece.from).norm();
+    const double size = (piece.commanded.end - piece.commanded.start).norm();
     CHECK(size <= 7e-3 + 1e-12);
     length += size;
     corner = corner || std::abs(piece.u1 - 2.0 / 120) < 1e-9;

@@ -135,7 +135,7 @@ TEST_CASE("the two sides of every break are those of its step, wherever rounding
   std::string text = on_tool + "s_mm,fx_N,fy_N,fz_N\n0,0,0,0\n";
   for (int i = 1; i <= 120; ++i) text += std::to_string(0.7123 * i) + "," + std::to_string(i) + ",0,0\n";
   for (const double block_mm : {9.1, 91.0}) {
-    const auto path = build_toolpath(straight(91, block_mm), Pose{});
+    const auto path = build_toolpath(straight(91, block_mm), {{}});
     const auto forces = forces_on(straight(91, block_mm), from_csv(text));
     int steps = 0;
     for (std::size_t i = 0; i < path.segments.size(); ++i)

@@ -35,7 +35,7 @@ inline Program sample_program() {
 
 inline PathForces forces_on(const Program& program, const ForceSource& source, const Pose& X_MW = {},
                             const Matrix3& R_MT = Matrix3::Identity()) {
-  return PathForces(source, program, build_toolpath(program, X_MW), {R_MT});
+  return PathForces(source, program, build_toolpath(program, one_frame(program, {{}, X_MW})), {R_MT});
 }
 
 inline ForceSource from_csv(const std::string& text, double blend = 0) {

@@ -53,7 +53,7 @@ TEST_CASE("a row a rounding error before the end of a segment acts at the end") 
   source.profile->key = ForceKey::time;
   source.profile->linear = true;
   const Program program = straight(2, 1);
-  const double t = build_toolpath(program, Pose{}).segments[0].t_end, end = 2 * t;
+  const double t = build_toolpath(program, one_frame(program, {})).segments[0].t_end, end = 2 * t;
   source.profile->rows = {
       {0, wrench(1, 0, 0), {}}, {std::nextafter(t, 0.0), wrench(2, 0, 0), {}}, {end, wrench(5, 0, 0), {}}};
   const auto forces = forces_on(program, source);
@@ -102,7 +102,7 @@ TEST_CASE("work and tool frames turn forces and moments by the part's and the to
 
 TEST_CASE("each segment may have its own tool orientation") {
   const Program program = straight(2, 1);
-  const auto path = build_toolpath(program, Pose{});
+  const auto path = build_toolpath(program, one_frame(program, {}));
   const auto source = from_csv("# frame = tool\n# sense = on_tool\nline,fx_N,fy_N,fz_N\n1,1,0,0\n");
   const PathForces forces(source, program, path, {Matrix3::Identity(), exp_so3({0, 0, 90 * deg})});
   CHECK(near(forces.at(0, 1), wrench(1, 0, 0)));

@@ -88,7 +88,7 @@ TEST_CASE("what a skippable block inserts is unknown afterwards and programmed a
 
 TEST_CASE(
     "pieces of a split move precede it and copy motion, feed and block delete, but no N and no comment") {
-  const MoveEdit edit{.inserted_mm = {{1, 0.25, 0}, {2, 0.25, 0}}, .end_mm = {3, 0, 0}};
+  const MoveEdit edit{.inserted = {{{1, 0.25, 0}}, {{2, 0.25, 0}}}, .end_mm = {3, 0, 0}};
   CHECK(rewritten("N10 G01 X3. F100. (edge)\n", {3, 0, 0}) == "N10 G01 X3. F100. (edge)\n");
   CHECK(with_last_move(std::string(start) + "N10 G01 X3. F100. (edge)\r\n", edit) ==
         std::string(start) +
@@ -98,7 +98,7 @@ TEST_CASE(
 }
 
 TEST_CASE("a last line without a line end gets none, and its pieces the file's") {
-  const MoveEdit edit{.inserted_mm = {{1, 0, 0.5}}, .end_mm = {2, 0, 0}};
+  const MoveEdit edit{.inserted = {{{1, 0, 0.5}}}, .end_mm = {2, 0, 0}};
   CHECK(with_last_move("G21 G0 X0. Y0. Z0.\r\nG1 X2. F100", edit) ==
         "G21 G0 X0. Y0. Z0.\r\nG1 X1.000 Z0.500 F100\r\nG1 X2. Z0.000 F100");
   CHECK(with_last_move("G21 G0 X0. Y0. Z0.\r\nG1 X2. F100 M8", edit) ==
@@ -106,23 +106,23 @@ TEST_CASE("a last line without a line end gets none, and its pieces the file's")
 }
 
 TEST_CASE("a block with other words is itself the first piece") {
-  const MoveEdit edit{.inserted_mm = {{1, 0.25, 0}, {2, 0.25, 0}}, .end_mm = {3, 0, 0}};
+  const MoveEdit edit{.inserted = {{{1, 0.25, 0}}, {{2, 0.25, 0}}}, .end_mm = {3, 0, 0}};
   CHECK(with_last_move(std::string(start) + "N10 G1 G54 X3. Y0. Z0. F100 S900 M3\nM5\n", edit) ==
         std::string(start) +
             "N10 G1 G54 X1. Y0.25 Z0. F100 S900 M3\nG1 X2.000 F100\nG1 X3.000 Y0.000 F100\nM5\n");
 }
 
 TEST_CASE("a block that sets the force is itself the first piece") {
-  const MoveEdit edit{.inserted_mm = {{1, 0.25, 0}}, .end_mm = {3, 0, 0}};
+  const MoveEdit edit{.inserted = {{{1, 0.25, 0}}}, .end_mm = {3, 0, 0}};
   CHECK(with_last_move(std::string(start) + "G1 X3. F100 (FORCE FX=5)\n", edit) ==
         std::string(start) + "G1 X1. Y0.250 F100 (FORCE FX=5)\nG1 X3.000 Y0.000 F100\n");
 }
 
 TEST_CASE("points that the resolution cannot tell apart give no block") {
-  const MoveEdit edit{.inserted_mm = {{0.0001, 0, 0}, {1, 0, 0}, {1.0002, 0, 0}}, .end_mm = {3, 0, 0}};
+  const MoveEdit edit{.inserted = {{{0.0001, 0, 0}}, {{1, 0, 0}}, {{1.0002, 0, 0}}}, .end_mm = {3, 0, 0}};
   const Program program = read(std::string(start) + "G1 X3. F100\n");
   const Rewritten out =
-      rewrite(program, {{.move = 1, .inserted_mm = edit.inserted_mm, .end_mm = edit.end_mm}}, {});
+      rewrite(program, {{.move = 1, .inserted = edit.inserted, .end_mm = edit.end_mm}}, {});
   CHECK(out.text == std::string(start) + "G1 X1.000 F100\nG1 X3. F100\n");
   CHECK(out.inserted_blocks == 1);
 }

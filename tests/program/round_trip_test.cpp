@@ -34,7 +34,7 @@ std::vector<MoveEdit> split(const Program& program) {
     if (!move.may_split || move.known_start != std::array{true, true, true}) continue;
     for (const double s : {0.25, 0.5, 0.75}) {
       const Vector3 p = move.start_mm + s * (move.end_mm - move.start_mm);
-      edit.inserted_mm.push_back(p + correction(p));
+      edit.inserted.push_back({p + correction(p)});
     }
   }
   return edits;

@@ -288,7 +288,7 @@ TEST_CASE("the summary is at most 100 characters wide and has no trailing blanks
   for (int i = 0; i < 60; ++i) sentence += "word" + std::to_string(i) + " ";
   run.facts.warnings = {{123456, sentence}};
   run.machine.work["G54"].datum.touched_at = Vector3(1, 2, 3);
-  run.facts.work_offset = "G54";
+  run.path.frames[0].name = "G54";
   const std::string text =
       summary_text(report_compensation(run.machine, run.job, run.facts, small_compensation()), false);
   for (const std::string& line : lines_of(text)) {

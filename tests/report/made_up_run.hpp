@@ -21,14 +21,14 @@ struct MadeUpRun {
   Machine machine;
   Model model;
   Program program = read_program(made_up_program, "made_up.ngc", {});
-  Toolpath path = build_toolpath(program, Pose{});
+  Toolpath path = build_toolpath(program, one_frame(program, {}));
   ForceSource source = [] {
     ForceSource s;
     s.constant = (Vector6() << 30, -40, 0, 0, 0, 2).finished();
     return s;
   }();
   PathForces forces{source, program, path, {Matrix3::Identity()}};
-  Job job{model, program, path, forces, Pose{}, Vector3::Zero(), {}};
+  Job job{model, program, path, forces, {}, {}};
   RunFacts facts;
 
   MadeUpRun() {

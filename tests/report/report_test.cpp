@@ -126,7 +126,7 @@ TEST_CASE("lists are ordered by line and capped, counts are kept") {
 TEST_CASE("a plunge that feels no lateral force is among the warnings") {
   MadeUpRun run;
   run.program = read_program("G21 G90 G0 X0 Y0 Z5\nG1 Z0 F100\nX10\n", "p.ngc", {});
-  run.path = build_toolpath(run.program, Pose{});
+  run.path = build_toolpath(run.program, one_frame(run.program, {}));
   ForceSource source;
   source.profile =
       read_force_csv("# frame = feed\n# sense = on_tool\nline,fx_N,fy_N,fz_N\n1,10,20,30\n", "f.csv");
@@ -187,8 +187,8 @@ TEST_CASE("the report says in words where the program's coordinates lie and what
   CHECK(report().work ==
         "Program coordinates were taken as machine coordinates: the machine file has no work offsets.");
   run.machine.work["G54"] = {};
-  run.facts.work_offset = "G54";
-  run.job.X_MW = {from_rpy(Vector3(0, 0, 90) * deg), Vector3(10, -20, 0.5) * mm};
+  run.path.frames[0].name = "G54";
+  run.path.frames[0].X_MW = {from_rpy(Vector3(0, 0, 90) * deg), Vector3(10, -20, 0.5) * mm};
   CHECK(report().work ==
         "G54 puts the program's origin at (10.0000, -20.0000, 0.5000) mm in the machine frame, turned by "
         "roll, pitch, "
@@ -196,9 +196,9 @@ TEST_CASE("the report says in words where the program's coordinates lie and what
   CHECK(report().datum ==
         "The work frame was taken to be truly there, not found by touching the part off with this machine.");
   run.machine.work["G54"].datum.touched_at = Vector3(1, 2, 3) * mm;
-  run.job.datum_shift = Vector3(0.1, 0, -0.2) * mm;
+  run.path.frames[0].datum_shift = Vector3(0.1, 0, -0.2) * mm;
   CHECK(report().datum.find(
-            "touched off with this machine at (1.0000, 2.0000, 3.0000) mm in program coordinates") !=
+            "touched off with this machine at (1.0000, 2.0000, 3.0000) mm in coordinates of G54") !=
         std::string::npos);
   CHECK(report().datum.find("(0.1000, 0.0000, -0.2000) mm in the machine frame") != std::string::npos);
 }

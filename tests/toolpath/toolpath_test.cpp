@@ -16,7 +16,7 @@ TEST_CASE("path length and time count feed moves only") {
                               .rapid({13, 4, 5})
                               .feed({13, 4, 4}, 300)
                               .program;
-  const auto segments = build_toolpath(program, Pose{}).segments;
+  const auto segments = build_toolpath(program, one_frame(program, {})).segments;
   REQUIRE(segments.size() == 5);
   CHECK_FALSE(segments[0].cutting);
   CHECK(segments[0].s_end == 0);
@@ -35,13 +35,12 @@ TEST_CASE("path length and time count feed moves only") {
 TEST_CASE("the work frame places program coordinates in the machine") {
   const Program program = ProgramBuilder({0, 0, 0}).feed({100, 0, 0}, 600).program;
   const Pose X_MW{exp_so3({0, 0, 90 * deg}), {1, 2, 3}};
-  const auto path = build_toolpath(program, X_MW);
+  const auto path = build_toolpath(program, one_frame(program, {{}, X_MW}));
   REQUIRE(path.segments.size() == 1);
   const Segment& segment = path.segments[0];
-  CHECK((path.X_MW.p - X_MW.p).norm() == 0);
-  CHECK((segment.p_MT_start - Vector3(1, 2, 3)).norm() < 1e-15);
-  CHECK((segment.p_MT_end - Vector3(1, 2.1, 3)).norm() < 1e-15);
-  CHECK((segment.p_WT_end - Vector3(0.1, 0, 0)).norm() < 1e-15);
+  CHECK((segment.wanted.start - Vector3(1, 2, 3)).norm() < 1e-15);
+  CHECK((segment.wanted.end - Vector3(1, 2.1, 3)).norm() < 1e-15);
+  CHECK(path.frames[segment.frame].X_MW.p == X_MW.p);
 }
 
 TEST_CASE("moves that start or end at an unknown place give no segment") {
@@ -49,7 +48,7 @@ TEST_CASE("moves that start or end at an unknown place give no segment") {
   builder.rapid({0, 0, 5}).feed({0, 0, 1}, 100).feed({0, 0, 0}, 100);
   builder.program.moves[0].known_start = {true, true, false};
   builder.program.moves[2].known_end = {false, true, true};
-  const auto segments = build_toolpath(builder.program, Pose{}).segments;
+  const auto segments = build_toolpath(builder.program, one_frame(builder.program, {})).segments;
   REQUIRE(segments.size() == 1);
   CHECK(segments[0].move == 1);
   CHECK(segments[0].line == builder.program.moves[1].line);
@@ -59,14 +58,14 @@ TEST_CASE("moves that start or end at an unknown place give no segment") {
 TEST_CASE("a move of no length gives no segment and keeps the path joined") {
   const Program program =
       ProgramBuilder({0, 0, 0}).feed({1, 0, 0}, 60).feed({1, 0, 0}, 60).feed({2, 0, 0}, 60).program;
-  const auto segments = build_toolpath(program, Pose{}).segments;
+  const auto segments = build_toolpath(program, one_frame(program, {})).segments;
   REQUIRE(segments.size() == 2);
   CHECK(segments[1].move == 2);
   CHECK(segments[1].s_start == segments[0].s_end);
 }
 
 TEST_CASE("without a programmed feed the clock stands still, the length does not") {
-  const auto segments = build_toolpath(ProgramBuilder({0, 0, 0}).feed({1, 0, 0}, 0).program, Pose{}).segments;
+  const auto segments = build_toolpath(ProgramBuilder({0, 0, 0}).feed({1, 0, 0}, 0).program, {{}}).segments;
   REQUIRE(segments.size() == 1);
   CHECK(segments[0].feed_m_s == 0);
   CHECK(segments[0].t_end == 0);
@@ -85,5 +84,5 @@ TEST_CASE("an axis that is ignored is known throughout and seems to stand still 
     CHECK(move.start_mm.z() == 5);
     CHECK(move.end_mm.z() == 5);
   }
-  CHECK(build_toolpath(program, Pose{}).segments.size() == 2);  // the move of Z alone goes nowhere
+  CHECK(build_toolpath(program, one_frame(program, {})).segments.size() == 2);  // the move of Z alone goes nowhere
 }

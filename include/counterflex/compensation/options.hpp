@@ -28,11 +28,8 @@ struct CompensationOptions {
 struct Job {
   const Model& model;
   const Program& program;
-  const Toolpath& path;  ///< wanted tip path in M: X_MW and the datum's shift applied
+  const Toolpath& path;  ///< wanted tip path in M, and the frames of the program's work offsets
   const PathForces& forces;
-  Pose X_MW;  ///< as the control has it: a target in M is written as X_MW^-1 of it
-  Vector3 datum_shift =
-      Vector3::Zero();  ///< wanted minus commanded position of the original program, axes of M (m)
   CompensationOptions options;
   ReadOptions read;  ///< with which the program was read: its corrected text is read anew in the same way
 };

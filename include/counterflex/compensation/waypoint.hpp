@@ -11,7 +11,7 @@ namespace counterflex {
 
 inline constexpr std::size_t no_segment = static_cast<std::size_t>(-1);
 
-/// One straight piece of what is written into a program, and the part [u0, u1] of a wanted segment that it
+/// One line or arc of what is written into a program, and the part [u0, u1] of a wanted segment that it
 /// should follow. Positions of targets in M (m). A rapid, or a move whose start is unknown, is judged at its
 /// end alone.
 struct Piece {
@@ -19,7 +19,8 @@ struct Piece {
       0;         ///< index into Toolpath::segments; no_segment for a position reached from an unknown one
   int line = 0;  ///< of the original program
   double u0 = 0, u1 = 1;
-  Vector3 from = Vector3::Zero(), to = Vector3::Zero();
+  std::size_t frame = 0;  ///< index into Toolpath::frames
+  Curve commanded;
   Vector3 wanted = Vector3::Zero();  ///< wanted position where there is no segment, M (m)
   bool end_only = false;
   bool exempt = false;      ///< listed as not split: its inside may miss the tolerance

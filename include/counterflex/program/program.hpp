@@ -26,20 +26,56 @@ enum class LengthUnit { millimetres, inches };
 /// 0.0001 inch.
 enum class IntegerWords { unsaid, units, increments };
 
-/// One axis word of a move as the text holds it.
+/// One word of a move that holds a length, as the text holds it.
 struct AxisWord {
   Span number;       ///< the number's characters, without the letter
   int decimals = 0;  ///< digits after the point
 };
 
+/// How a move goes: a feed move is a line unless it holds an arc.
 enum class Motion { rapid, feed };
+
+/// What F means: a length a minute (turns of the spindle are converted), or G93, moves a minute.
+enum class FeedMode { length, inverse_time };
+
+/// The arc of a feed move under G2 or G3, in program coordinates, mm. Start and end are the move's.
+struct ArcMove {
+  int normal = 2;                       ///< axis that the plane's normal is: 2 G17, 1 G18, 0 G19
+  bool clockwise = false;               ///< G2: seen against the normal
+  Vector3 centre_mm = Vector3::Zero();  ///< at the height of the start
+  int turns = 0;                        ///< full turns besides the way from start to end
+  bool absolute_centre = false;         ///< G90.1: I J K are coordinates, else they count from the start
+  std::array<std::optional<AxisWord>, 3> centre_words;  ///< I, J, K where the block has them
+  std::optional<AxisWord> radius_word;                  ///< R or CR=: then there are no I J K
+  double radius_mm = 0;                                 ///< as written: negative for more than half a turn
+};
+
+/// A hole: a move under G73, G76, G81 to G89. The move's X and Y words and end are those of the hole; its
+/// end's Z is where the cycle leaves the tool. Coordinates as for the move.
+struct CycleMove {
+  double bottom_mm = 0;   ///< Z of the bottom and R of the retract plane that act here, sticky from earlier
+  double retract_mm = 0;  ///< holes or programmed, as absolute coordinates
+  std::optional<AxisWord> bottom_word, retract_word;  ///< Z and R where the block has them
+  bool may_insert_bottom = true;                      ///< an absolute Z may be added to a block that omits it
+  bool first = false;                                 ///< programs the cycle: those that follow repeat it
+  bool returns_to_retract = false;  ///< G99: the cycle leaves the tool at `retract_mm`, else where it began
+  int repeats = 1;                  ///< L or K
+};
+
+/// How a move is corrected.
+enum class Handling {
+  own,    ///< by the correction of its own end
+  held,   ///< it keeps the correction with which it is entered: a rigid shift of its absolute words
+  group,  ///< by the one shift of its contour group under G41 or G42
+};
 
 /// Whether a position is known on all three axes.
 inline bool all_known(const std::array<bool, 3>& known) {
   return known[0] && known[1] && known[2];
 }
 
-/// A move: a block that changes or repeats the position of the tool under G0 or G1.
+/// A move: a block that changes or repeats the position of the tool under G0 to G3 or a cycle, or that moves
+/// it in a way that this reader does not follow: then all it says is `fixed` and what is unknown afterwards.
 struct Move {
   int line = 0;
   std::size_t block_index = 0;  ///< counts the program's blocks with words, from 0
@@ -49,17 +85,27 @@ struct Move {
   std::array<std::optional<AxisWord>, 3> words;  ///< X, Y, Z where the block has them
   std::array<bool, 3> known_start{};             ///< whether the position before the move is known, by axis
   std::array<bool, 3> known_end{};               ///< and after it
-  std::array<bool, 3> ignored{};  ///< axes that nobody corrects: no word is inserted for them
+  std::array<bool, 3> ignored{};                 ///< axes that nobody corrects: no word is inserted for them
+  std::array<bool, 3> fixed{};  ///< axes that the block sets to a place of its own which no edit can shift
+                                ///< (an expression, a subprogram): a correction that holds there must be zero
+  bool relative = false;  ///< G91: words are differences from the start
+  Handling handling = Handling::own;
+  int group = 0;  ///< number of its contour group, from 1; 0: none
+  std::optional<ArcMove> arc;
+  std::optional<CycleMove> cycle;
   Vector3 start_mm = Vector3::Zero();
   Vector3 end_mm = Vector3::Zero();
   double feed_mm_min = 0;            ///< modal F; 0 where none has been programmed
   double spindle_rpm = 0;            ///< modal S
   std::optional<long> block_number;  ///< N
-  std::string work_offset;           ///< "G54", ... as selected here; empty before any
-  std::optional<Vector6> force;      ///< modal (FORCE ...) comment, (N, N m) on the tool, machine frame; zero
-                                     ///< after (FORCE OFF); a comment acts from the block that holds it
-  bool block_delete = false;         ///< a '/' block: what it sets is unknown to the blocks after it
-  bool exact_stop = false;           ///< the control stops at the end (G9, G61 of Fanuc, G61.1 of LinuxCNC)
+  std::size_t offset = 0;            ///< index into Program::work_offsets
+  long tool = 0;                     ///< T in the spindle; 0: none known
+  FeedMode feed_mode = FeedMode::length;
+  double feed_per_min = 0;       ///< F of a G93 move: 1/min
+  std::optional<Vector6> force;  ///< modal (FORCE ...) comment, (N, N m) on the tool, machine frame; zero
+                                 ///< after (FORCE OFF); a comment acts from the block that holds it
+  bool block_delete = false;     ///< a '/' block: what it sets is unknown to the blocks after it
+  bool exact_stop = false;       ///< the control stops at the end (G9, G61 of Fanuc, G61.1 of LinuxCNC)
   bool may_split =
       false;  ///< points may be inserted: a feed move, no exact stop, no word that acts at its end
   bool may_jump = false;  ///< a feed move may be inserted before it: start and feed are known, no exact stop
@@ -84,6 +130,7 @@ struct Program {
   std::string dialect;  ///< the one that was read, never "auto"
   IntegerWords integer_words = IntegerWords::unsaid;
   std::vector<Move> moves;
+  std::vector<std::string> work_offsets{""};  ///< "G54", "G54.1 P3", ...; the first: none selected yet
   std::vector<LeftAlone> left_alone;
   std::vector<Remark> remarks;
   std::size_t block_count = 0;  ///< lines with at least one word

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "counterflex/geometry/curve.hpp"
 #include "counterflex/program/program.hpp"
 
 namespace counterflex {
@@ -16,13 +17,23 @@ struct WriteOptions {
   std::vector<std::string> header;  ///< texts of the header's comments, without comment characters
 };
 
+/// A point on the way of a move, and how it is come to: straight, or about a centre in the move's own plane
+/// and sense.
+struct Via {
+  Vector3 end_mm = Vector3::Zero();
+  std::optional<Vector3> centre_mm{};
+};
+
 /// New end of one move, and moves inserted before it, in program coordinates, mm.
 struct MoveEdit {
   std::size_t move = 0;  ///< index into Program::moves
   std::optional<Vector3>
       jump_mm{};  ///< a feed move to this point goes first, also before a rapid; needs `may_jump`
-  std::vector<Vector3> inserted_mm{};  ///< points on the way, same motion and feed; need `may_split`
+  std::vector<Via> inserted{};  ///< points on the way, same motion and feed; need `may_split`
   Vector3 end_mm = Vector3::Zero();
+  std::optional<Vector3> centre_mm{};  ///< of an arc's last piece; none where the move is an arc: it is
+                                       ///< written as chords through the inserted points, under G1
+  std::optional<double> bottom_mm{}, retract_mm{};  ///< of a cycle: its Z and R as absolute coordinates
 };
 
 /// Digits after the point with which the end of `move` is written, by axis, and those of points inserted
@@ -46,6 +57,12 @@ using HeldPosition = std::array<std::optional<double>, 3>;
 /// exactly this, word by word.
 HeldPosition held_after(const Move& move, const HeldPosition& before, const Vector3& end_mm,
                         const WriteOptions& options);
+
+/// What a control reads of a piece of a move that is written to go from `before` to `via`, in words rounded
+/// to their digits: start, end, and for an arc the centre that I J K or R then give. `is_end`: the piece ends
+/// at the move's own end, whose words may have digits of their own. Needs all of `before`.
+Curve as_written(const Move& move, const HeldPosition& before, const Via& via, bool is_end,
+                 const WriteOptions& options);
 
 struct Rewritten {
   std::string text;

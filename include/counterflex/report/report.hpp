@@ -33,7 +33,6 @@ struct RunFacts {
   std::vector<OptionValue> options;
   std::vector<Remark>
       warnings;              ///< besides the program's remarks and the forces' notes, which are added here
-  std::string work_offset;   ///< the one that was used ("G54"); empty: none
   std::string output;        ///< path of the corrected program; empty: none was written
   bool attribution = false;  ///< the waypoints' geometry, load, superposition and air were solved
 };

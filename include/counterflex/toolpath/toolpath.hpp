@@ -1,44 +1,60 @@
 #pragma once
-/// Straight segments of the tool tip in the machine frame M: what a program asks for, without its text.
+/// Lines and arcs of the tool tip in the machine frame M: what a program asks for, without its text.
 /// Lengths in m.
 #include <array>
 #include <string>
 #include <vector>
 
-#include "counterflex/geometry/pose.hpp"
+#include "counterflex/geometry/curve.hpp"
 #include "counterflex/program/program.hpp"
 
 namespace counterflex {
 
-/// One linear move. Rapid segments carry no cutting force and are corrected at their end only.
+/// Where a work offset puts program coordinates.
+struct WorkFrame {
+  std::string name{};  ///< of the offset that was used ("G54"); empty: program coordinates are M
+  Pose X_MW;           ///< as the control has it: a target in M is written as X_MW^-1 of it
+  Vector3 datum_shift =
+      Vector3::Zero();  ///< wanted minus commanded position of the original program, axes of M (m)
+};
+
+/// The same frame for all offsets of `program`.
+std::vector<WorkFrame> one_frame(const Program& program, const WorkFrame& frame);
+
+/// The wanted place of program coordinates: X_MW with the datum's shift.
+Pose wanted_frame(const WorkFrame& frame);
+
+/// One move. Rapid segments carry no cutting force and are corrected at their end only.
 struct Segment {
   std::size_t move = 0;  ///< index into Program::moves
   int line = 0;
-  bool cutting = false;  ///< a feed move (G1)
-  Vector3 p_MT_start = Vector3::Zero();
-  Vector3 p_MT_end = Vector3::Zero();
-  Vector3 p_WT_start = Vector3::Zero();  ///< the same in program coordinates
-  Vector3 p_WT_end = Vector3::Zero();
-  double feed_m_s = 0;  ///< programmed feed; 0 where none is programmed
-  double s_start = 0;   ///< cutting path length at the start, from the program's start: feed moves only (m)
+  bool cutting = false;   ///< a feed move (G1, G2, G3)
+  std::size_t frame = 0;  ///< index into Toolpath::frames
+  Curve wanted;           ///< of the tip, in M
+  double feed_m_s = 0;    ///< programmed feed; 0 where none is programmed
+  double s_start = 0;     ///< cutting path length at the start, from the program's start: feed moves only (m)
   double s_end = 0;
   double t_start =
       0;  ///< time at the start at programmed feeds, feed moves only; stands still without a feed (s)
   double t_end = 0;
 };
 
-/// The path: all moves whose start and end are known in every axis. `X_MW` places program coordinates in M.
+/// The path: all moves whose start and end are known in every axis.
 struct Toolpath {
-  Pose X_MW;
+  std::vector<WorkFrame> frames;  ///< by index into Program::work_offsets
   std::vector<Segment> segments;
 };
 
-/// Makes program axes count as known throughout that no target needs, those that the machine does not control: where
-/// such a position is unknown it is taken to be the next one programmed. No word is inserted for them.
+/// Makes program axes count as known throughout that no target needs, those that the machine does not
+/// control: where such a position is unknown it is taken to be the next one programmed. No word is inserted
+/// for them.
 void ignore_axes(Program& program, const std::array<bool, 3>& ignored);
 
-/// Builds the path of `program` in the machine frame. Moves with an axis that is not known at start and end
-/// give no segment; a move of no length gives none either.
-Toolpath build_toolpath(const Program& program, const Pose& X_MW);
+/// The move's way in program coordinates, mm.
+Curve curve_of(const Move& move);
+
+/// Builds the path of `program` in the machine frame; `frames` are those of its work offsets. Moves with an
+/// axis that is not known at start and end give no segment; a move of no length gives none either.
+Toolpath build_toolpath(const Program& program, const std::vector<WorkFrame>& frames);
 
 }  // namespace counterflex

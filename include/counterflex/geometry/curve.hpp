@@ -1,0 +1,44 @@
+#pragma once
+/// Straight lines and arcs by fraction of their length or angle. Lengths in any one unit, angles in rad.
+#include <optional>
+
+#include "counterflex/geometry/pose.hpp"
+
+namespace counterflex {
+
+/// A way around an axis on which radius and height change linearly with the angle: an arc, a helix, or the
+/// spiral of an arc whose ends are not equally far from its centre.
+struct Arc {
+  Vector3 centre = Vector3::Zero();   ///< a point of the axis
+  Vector3 normal = Vector3::UnitZ();  ///< unit vector of the axis; the way is counter-clockwise about it
+  double sweep = 0;                   ///< angle from start to end, positive (rad)
+};
+
+/// A line or an arc between two points.
+struct Curve {
+  Vector3 start = Vector3::Zero();
+  Vector3 end = Vector3::Zero();
+  std::optional<Arc> arc{};
+};
+
+/// The point at fraction `u` of the line's length or the arc's angle; its start and end exactly at 0 and 1.
+Vector3 point_at(const Curve& curve, double u);
+
+/// Unit vector along the curve at `u`; zero where the curve has no length.
+Vector3 direction_at(const Curve& curve, double u);
+
+/// Of a spiral to within a millionth of the change of its radius.
+double length(const Curve& curve);
+
+/// The same curve between fractions `u0` < `u1`.
+Curve stretch(const Curve& curve, double u0, double u1);
+
+/// The curve in frame A of one given in frame B.
+Curve operator*(const Pose& X_AB, const Curve& curve);
+
+/// The angle in (0, 2 pi] from `start` to `end` about an axis, counter-clockwise about `normal`: 2 pi where
+/// both have the same direction to within 1e-12 rad. With `turns` full turns more.
+double sweep_between(const Vector3& start, const Vector3& end, const Vector3& centre, const Vector3& normal,
+                     int turns = 0);
+
+}  // namespace counterflex
