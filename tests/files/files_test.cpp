@@ -10,26 +10,13 @@
 #include <filesystem>
 
 #include "counterflex/files/input_error.hpp"
+#include "files/folder.hpp"
 
 using namespace counterflex;
+using namespace counterflex::test;
 namespace fs = std::filesystem;
 
 namespace {
-
-/// An empty folder that vanishes with the test.
-struct Folder {
-  fs::path path;
-  Folder() {
-    std::string name = (fs::temp_directory_path() / "counterflex_files_XXXXXX").string();
-    REQUIRE(::mkdtemp(name.data()) != nullptr);
-    path = name;
-  }
-  ~Folder() { fs::remove_all(path); }
-  std::string file(const std::string& name) const { return (path / name).string(); }
-  std::size_t count() const {
-    return static_cast<std::size_t>(std::distance(fs::directory_iterator(path), fs::directory_iterator()));
-  }
-};
 
 /// A standard stream that is another file while this lives.
 struct Redirected {

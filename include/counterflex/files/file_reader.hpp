@@ -1,0 +1,30 @@
+#pragma once
+/// Files of any size, read in order.
+#include <cstddef>
+#include <memory>
+#include <string>
+
+namespace counterflex {
+
+/// A file's bytes from its beginning, as often as wanted; "-" is standard input. What can be read only once,
+/// a pipe, is copied to a nameless temporary file first. All members throw `InputError` (Exit::usage) where
+/// the file cannot be read.
+class FileReader {
+ public:
+  explicit FileReader(const std::string& path);
+  ~FileReader();
+  FileReader(FileReader&&) noexcept;
+
+  /// Appends up to `most` bytes to `bytes`; how many, 0 only at the end.
+  std::size_t append(std::string& bytes, std::size_t most);
+  void rewind();
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+/// SHA-256 of the whole file, which is at its beginning afterwards: 64 lower-case hexadecimal digits.
+std::string sha256(FileReader& file);
+
+}  // namespace counterflex

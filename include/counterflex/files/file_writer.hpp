@@ -1,0 +1,28 @@
+#pragma once
+/// Files that appear whole or not at all.
+#include <memory>
+#include <string>
+#include <string_view>
+
+namespace counterflex {
+
+/// A file that is written in order to a temporary name in its folder, and gets its own name when it is
+/// published; if it never is, nothing of it stays. Through a symbolic link the file that it names is
+/// replaced, with its mode. "-" is standard output: that, pipes and devices receive everything at once when
+/// it is published. All members throw `InputError` (Exit::transient_io) naming the path where it cannot be
+/// written.
+class FileWriter {
+ public:
+  explicit FileWriter(const std::string& path);
+  ~FileWriter();
+  FileWriter(FileWriter&&) noexcept;
+
+  void write(std::string_view bytes);
+  void publish();
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace counterflex

@@ -1,0 +1,51 @@
+#include "files/descriptor.hpp"
+
+#include <fcntl.h>
+
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+
+#include "counterflex/files/input_error.hpp"
+
+namespace counterflex {
+
+void fail_reading(const std::string& path) {
+  const std::string reason = std::strerror(errno);
+  if (path == "-") throw InputError(Exit::usage, {}, "cannot read standard input: " + reason);
+  throw InputError(Exit::usage, {path, 0, 0}, "cannot read the file: " + reason);
+}
+
+void fail_writing(const std::string& path) {
+  const std::string reason = std::strerror(errno);
+  if (path == "-") throw InputError(Exit::transient_io, {}, "cannot write standard output: " + reason);
+  throw InputError(Exit::transient_io, {path, 0, 0}, "cannot write the file: " + reason);
+}
+
+bool write_all(int fd, std::string_view bytes) {
+  while (!bytes.empty()) {
+    const ssize_t n = ::write(fd, bytes.data(), bytes.size());
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0) return false;
+    bytes.remove_prefix(static_cast<std::size_t>(n));
+  }
+  return true;
+}
+
+ssize_t read_some(int fd, char* to, std::size_t most) {
+  for (;;) {
+    const ssize_t n = ::read(fd, to, most);
+    if (n >= 0 || errno != EINTR) return n;
+  }
+}
+
+Descriptor nameless_file() {
+  std::error_code ignored;
+  std::string name = (std::filesystem::temp_directory_path(ignored) / "counterflex-XXXXXX").string();
+  Descriptor file(::mkostemp(name.data(), O_CLOEXEC));
+  if (file.get() >= 0) ::unlink(name.c_str());
+  return file;
+}
+
+}  // namespace counterflex

@@ -1,0 +1,107 @@
+#include "counterflex/files/file_reader.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <openssl/evp.h>
+#include <sys/stat.h>
+
+#include <cerrno>
+#include <stdexcept>
+#include <vector>
+
+#include "counterflex/files/files.hpp"
+#include "files/descriptor.hpp"
+
+namespace counterflex {
+
+namespace {
+
+// What comes from a pipe, in a file that can be read again.
+Descriptor copied(const std::string& path, const Descriptor& pipe) {
+  Descriptor file = nameless_file();
+  if (file.get() < 0) fail_reading(path);
+  std::vector<char> buffer(portion);
+  for (;;) {
+    const ssize_t n = read_some(pipe.get(), buffer.data(), buffer.size());
+    if (n < 0 || !write_all(file.get(), {buffer.data(), static_cast<std::size_t>(n)})) fail_reading(path);
+    if (n == 0) break;
+  }
+  return file;
+}
+
+// Follows a hash through portions of bytes.
+class Hash {
+ public:
+  Hash() : context_(EVP_MD_CTX_new(), &EVP_MD_CTX_free) {
+    if (context_ == nullptr || EVP_DigestInit_ex(context_.get(), EVP_sha256(), nullptr) != 1) fail();
+  }
+  void add(std::string_view bytes) {
+    if (EVP_DigestUpdate(context_.get(), bytes.data(), bytes.size()) != 1) fail();
+  }
+  std::string digits() {
+    unsigned char digest[EVP_MAX_MD_SIZE];
+    unsigned int size = 0;
+    if (EVP_DigestFinal_ex(context_.get(), digest, &size) != 1) fail();
+    std::string text;
+    for (unsigned int i = 0; i < size; ++i) text += fmt::format("{:02x}", digest[i]);
+    return text;
+  }
+
+ private:
+  [[noreturn]] static void fail() { throw std::runtime_error("SHA-256 is not available"); }
+  std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> context_;
+};
+
+}  // namespace
+
+struct FileReader::State {
+  std::string path;
+  Descriptor file{};
+  off_t start = 0;  ///< of what standard input still holds
+};
+
+FileReader::FileReader(const std::string& path) : state_(new State{.path = path}) {
+  Descriptor file(path == "-" ? STDIN_FILENO : ::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+  struct stat facts {};
+  if (file.get() < 0 || ::fstat(file.get(), &facts) != 0) fail_reading(path);
+  if (S_ISDIR(facts.st_mode)) {
+    errno = EISDIR;
+    fail_reading(path);
+  }
+  const bool regular = S_ISREG(facts.st_mode);
+  if (regular) state_->start = ::lseek(file.get(), 0, SEEK_CUR);
+  state_->file = regular ? std::move(file) : copied(path, file);
+  rewind();
+}
+
+FileReader::~FileReader() = default;
+FileReader::FileReader(FileReader&&) noexcept = default;
+
+std::size_t FileReader::append(std::string& bytes, std::size_t most) {
+  const std::size_t before = bytes.size();
+  bytes.resize(before + most);
+  const ssize_t n = read_some(state_->file.get(), bytes.data() + before, most);
+  bytes.resize(before + static_cast<std::size_t>(n > 0 ? n : 0));
+  if (n < 0) fail_reading(state_->path);
+  return static_cast<std::size_t>(n);
+}
+
+void FileReader::rewind() {
+  if (::lseek(state_->file.get(), state_->start, SEEK_SET) < 0) fail_reading(state_->path);
+}
+
+std::string sha256(FileReader& file) {
+  Hash hash;
+  file.rewind();
+  for (std::string bytes; file.append(bytes, portion) > 0; bytes.clear()) hash.add(bytes);
+  file.rewind();
+  return hash.digits();
+}
+
+std::string sha256(std::string_view bytes) {
+  Hash hash;
+  hash.add(bytes);
+  return hash.digits();
+}
+
+}  // namespace counterflex

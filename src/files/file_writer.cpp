@@ -1,0 +1,116 @@
+#include "counterflex/files/file_writer.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+
+#include <atomic>
+#include <cerrno>
+#include <cstdio>
+#include <filesystem>
+#include <vector>
+
+#include "files/descriptor.hpp"
+
+namespace counterflex {
+
+namespace {
+
+std::string folder_of(const std::string& path) {
+  const std::string folder = std::filesystem::path(path).parent_path().string();
+  return folder.empty() ? "." : folder;
+}
+
+/// A new file beside `path` that nobody else has.
+std::pair<std::string, int> create_beside(const std::string& path) {
+  static std::atomic<unsigned> counter{0};
+  for (;;) {
+    std::string name = fmt::format("{}.{}-{}.tmp", path, ::getpid(), counter++);
+    const int fd = ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
+    if (fd >= 0 || errno != EEXIST) return {std::move(name), fd};
+  }
+}
+
+/// Makes the rename survive a power cut where the file system can; where it cannot, the file is there all the
+/// same.
+void sync_folder(const std::string& folder) {
+  const Descriptor descriptor(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  if (descriptor.get() >= 0) (void)::fsync(descriptor.get());
+}
+
+/// Devices and pipes have no other name to rename from.
+bool is_stream(mode_t mode) {
+  return !S_ISREG(mode) && !S_ISDIR(mode);
+}
+
+/// A pipe that nobody reads would hold the run for ever: it is an error.
+Descriptor open_stream(const std::string& path) {
+  if (path == "-") {
+    std::fflush(stdout);
+    return Descriptor(STDOUT_FILENO);
+  }
+  Descriptor device(::open(path.c_str(), O_WRONLY | O_CLOEXEC | O_NONBLOCK));
+  if (device.get() < 0 || ::fcntl(device.get(), F_SETFL, O_WRONLY) != 0) fail_writing(path);
+  return device;
+}
+
+}  // namespace
+
+struct FileWriter::State {
+  std::string path;
+  std::string target{};     ///< the file that gets the name; empty for streams
+  std::string temporary{};  ///< its name until then
+  Descriptor file{};
+  std::string buffer{};
+
+  ~State() {
+    if (!temporary.empty()) ::unlink(temporary.c_str());
+  }
+  void flush() {
+    if (!write_all(file.get(), buffer)) fail_writing(path);
+    buffer.clear();
+  }
+};
+
+FileWriter::FileWriter(const std::string& path) : state_(new State{.path = path}) {
+  struct stat facts {};
+  const bool exists = path != "-" && ::stat(path.c_str(), &facts) == 0;
+  if (path == "-" || (exists && is_stream(facts.st_mode))) {
+    state_->file = nameless_file();
+  } else {
+    std::error_code ignored;
+    state_->target = exists ? std::filesystem::canonical(path, ignored).string() : path;
+    if (state_->target.empty()) state_->target = path;
+    auto [name, fd] = create_beside(state_->target);
+    state_->file = Descriptor(fd);
+    if (fd >= 0) state_->temporary = std::move(name);
+    if (fd >= 0 && exists && ::fchmod(fd, facts.st_mode & 07777) != 0) fail_writing(path);
+  }
+  if (state_->file.get() < 0) fail_writing(path);
+}
+
+FileWriter::~FileWriter() = default;
+FileWriter::FileWriter(FileWriter&&) noexcept = default;
+
+void FileWriter::write(std::string_view bytes) {
+  state_->buffer += bytes;
+  if (state_->buffer.size() >= portion) state_->flush();
+}
+
+void FileWriter::publish() {
+  State& s = *state_;
+  s.flush();
+  if (!s.target.empty()) {
+    if (::fsync(s.file.get()) != 0 || !s.file.close() || ::rename(s.temporary.c_str(), s.target.c_str()) != 0)
+      fail_writing(s.path);
+    s.temporary.clear();
+    return sync_folder(folder_of(s.target));
+  }
+  const Descriptor stream = open_stream(s.path);
+  if (::lseek(s.file.get(), 0, SEEK_SET) != 0) fail_writing(s.path);
+  std::vector<char> bytes(portion);
+  for (ssize_t n; (n = read_some(s.file.get(), bytes.data(), bytes.size())) != 0;)
+    if (n < 0 || !write_all(stream.get(), {bytes.data(), static_cast<std::size_t>(n)})) fail_writing(s.path);
+}
+
+}  // namespace counterflex

@@ -1,0 +1,69 @@
+#include "counterflex/files/file_writer.hpp"
+
+#include <thread>
+
+#include "counterflex/files/file_reader.hpp"
+#include "counterflex/files/files.hpp"
+#include "files/folder.hpp"
+
+using namespace counterflex;
+using namespace counterflex::test;
+
+TEST_CASE("a file that is written has its name only once it is published") {
+  const Folder folder;
+  const std::string path = folder.file("out.ngc");
+  {
+    FileWriter file(path);
+    file.write("G1 X1\n");
+    file.write(std::string(1 << 20, 'x'));
+    CHECK(!std::filesystem::exists(path));
+    file.publish();
+    CHECK(read_file(path) == "G1 X1\n" + std::string(1 << 20, 'x'));
+  }
+  CHECK(folder.count() == 1);
+}
+
+TEST_CASE("a file that is never published leaves nothing, and the old one as it was") {
+  const Folder folder;
+  write_file(folder.file("out.ngc"), "old");
+  { FileWriter(folder.file("out.ngc")).write(std::string(1 << 20, 'x')); }
+  { FileWriter(folder.file("new.ngc")).write("x"); }
+  CHECK(read_file(folder.file("out.ngc")) == "old");
+  CHECK(folder.count() == 1);
+}
+
+TEST_CASE("a file is read in portions, and again from its beginning") {
+  const Folder folder;
+  write_file(folder.file("in.ngc"), "0123456789");
+  FileReader file(folder.file("in.ngc"));
+  std::string bytes = "<";
+  CHECK(file.append(bytes, 4) == 4);
+  CHECK(file.append(bytes, 100) == 6);
+  CHECK(file.append(bytes, 100) == 0);
+  CHECK(bytes == "<0123456789");
+  file.rewind();
+  bytes.clear();
+  CHECK(file.append(bytes, 2) == 2);
+  CHECK(sha256(file) == sha256("0123456789"));
+  CHECK(file.append(bytes, 2) == 2);
+  CHECK(bytes == "0101");
+}
+
+TEST_CASE("a pipe is read as often as a file") {
+  const Folder folder;
+  const std::string path = folder.file("pipe");
+  REQUIRE(::mkfifo(path.c_str(), 0600) == 0);
+  std::thread writer([&] {
+    const int fd = ::open(path.c_str(), O_WRONLY);
+    CHECK(::write(fd, "G0 X1\n", 6) == 6);
+    ::close(fd);
+  });
+  FileReader file(path);
+  writer.join();
+  for (int time = 0; time < 2; ++time, file.rewind()) {
+    std::string bytes;
+    while (file.append(bytes, 4) > 0) {
+    }
+    CHECK(bytes == "G0 X1\n");
+  }
+}
