@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "counterflex/program/rewrite.hpp"
+#include "program/reading.hpp"
 #include "program/small_reader.hpp"
 #include "program/synthetic_arcs.hpp"
 
@@ -117,7 +118,13 @@ void check_masked(const Program& program, const std::vector<MoveEdit>& edits) {
 }
 
 void check_read_back(const Program& program, const std::vector<MoveEdit>& edits) {
-  const Program again = read_small(rewrite(program, edits, {}).text);
+  const std::string text = rewrite(program, edits, {}).text;
+  const Program again = read_small(text);
+  const Program again_here = read(text);
+  REQUIRE(again.moves.size() == again_here.moves.size());
+  for (std::size_t m = 0; m < again.moves.size(); ++m)
+    if (all_known(again.moves[m].known_start))
+      check_same(way_of(again_here.moves[m]), way_of(again.moves[m]));
   HeldPosition held{};
   std::size_t next = 0;
   for (std::size_t m = 0; m < program.moves.size(); ++m) {
