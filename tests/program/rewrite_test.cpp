@@ -121,8 +121,7 @@ TEST_CASE("a block that sets the force is itself the first piece") {
 TEST_CASE("points that the resolution cannot tell apart give no block") {
   const MoveEdit edit{.inserted = {{{0.0001, 0, 0}}, {{1, 0, 0}}, {{1.0002, 0, 0}}}, .end_mm = {3, 0, 0}};
   const Program program = read(std::string(start) + "G1 X3. F100\n");
-  const Rewritten out =
-      rewrite(program, {{.move = 1, .inserted = edit.inserted, .end_mm = edit.end_mm}}, {});
+  const Rewritten out = rewrite(program, {{.move = 1, .inserted = edit.inserted, .end_mm = edit.end_mm}}, {});
   CHECK(out.text == std::string(start) + "G1 X1.000 F100\nG1 X3. F100\n");
   CHECK(out.inserted_blocks == 1);
 }
@@ -132,7 +131,7 @@ TEST_CASE("a feed move before a rapid is a G1, and the rapid says G0 itself") {
   const MoveEdit edit{.jump_mm = Vector3(1, 0.25, 0), .end_mm = {1, 0, 5}};
   CHECK(with_last_move(text, edit) == std::string(start) + "G1 X1. F100\nG0\nG1 Y0.250\nG0 Z5. Y0.000\n");
   CHECK(with_last_move(std::string(start) + "G1 X1. F100\nG00 Z5.\n", edit) ==
-        std::string(start) + "G1 X1. F100\nG1 Y0.250\nG00 Z5. Y0.000\n");
+        std::string(start) + "G1 X1. F100\nG01 Y0.250\nG00 Z5. Y0.000\n");
   CHECK(with_last_move(std::string(start) + "G1 X1. F100\nX2.\n",
                        {.jump_mm = Vector3(1, 0.25, 0), .end_mm = {2, 0.25, 0}}) ==
         std::string(start) + "G1 X1. F100\nY0.250\nX2.\n");
