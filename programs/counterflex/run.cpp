@@ -30,8 +30,7 @@ std::vector<Matrix3> tool_orientations(const Model& model, const Toolpath& path,
   std::vector<Matrix3> R_MT;
   NominalPath nominal(model, model.home);
   for (const Segment& segment : path.segments) {
-    nominal.go_to(
-        {R_home, (segment.wanted.start + segment.wanted.end) / 2});  // a failure is said where it is solved
+    nominal.go_to({R_home, point_at(segment.wanted, 0.5)});  // a failure is said where it is solved
     R_MT.push_back(tip(model.mechanism, nominal.configuration()).R);
   }
   return R_MT;

@@ -21,8 +21,12 @@ Segment segment_of(const Move& move, std::size_t index, const std::vector<WorkFr
   segment.cutting = move.motion == Motion::feed;
   segment.frame = move.offset;
   segment.wanted = wanted_frame(frames[move.offset]) * scaled(curve_of(move), mm);
-  segment.feed_m_s = move.feed_mm_min * mm / 60;
   return segment;
+}
+
+/// Under G93 F says how long the move takes, whatever its length.
+double feed_m_s(const Move& move, double way) {
+  return move.feed_mode == FeedMode::inverse_time ? way * move.feed_per_min / 60 : move.feed_mm_min * mm / 60;
 }
 
 /// Feed moves count, rapids stand still; so does the clock where no feed is programmed.
@@ -31,9 +35,8 @@ void advance(const Move& move, Segment& segment, double s, double t) {
   segment.s_start = s;
   segment.s_end = s + way;
   segment.t_start = t;
+  segment.feed_m_s = feed_m_s(move, way);
   segment.t_end = segment.feed_m_s > 0 ? t + way / segment.feed_m_s : t;
-  if (segment.cutting && move.feed_mode == FeedMode::inverse_time && move.feed_per_min > 0)
-    segment.t_end = t + 60 / move.feed_per_min;
 }
 
 }  // namespace

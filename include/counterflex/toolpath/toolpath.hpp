@@ -31,7 +31,7 @@ struct Segment {
   bool cutting = false;   ///< a feed move (G1, G2, G3)
   std::size_t frame = 0;  ///< index into Toolpath::frames
   Curve wanted;           ///< of the tip, in M
-  double feed_m_s = 0;    ///< programmed feed; 0 where none is programmed
+  double feed_m_s = 0;    ///< programmed feed, under G93 that of this move; 0 where none is programmed
   double s_start = 0;     ///< cutting path length at the start, from the program's start: feed moves only (m)
   double s_end = 0;
   double t_start =
