@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "check.hpp"
+#include "check_plan.hpp"
 #include "counterflex/geometry/units.hpp"
 #include "work.hpp"
 
@@ -106,9 +107,7 @@ std::string text_of(const Program& program, const MoveFacts& facts) {
     text += row("forces", fmt::format("FORCE comments act on {} moves", facts.with_force));
   if (is_corrected(program))
     text += row("header", "COUNTERFLEX 1: a corrected program, not compensated again");
-  if (!program.left_alone.empty()) text += "\nnot corrected\n";
-  for (const LeftAlone& block : program.left_alone)
-    text += fmt::format("  line {:<6} {}\n", block.line, block.why);
+  text += plan_text(motion_plan(program));
   if (!program.remarks.empty()) text += "\nremarks\n";
   for (const Remark& remark : program.remarks)
     text += fmt::format("  line {:<6} {}\n", remark.line, remark.what);
@@ -136,6 +135,7 @@ nlohmann::ordered_json json_of(const Program& program, const MoveFacts& facts) {
   auto& extents = json["extents_mm"] = nlohmann::ordered_json::object();
   for (int i = 0; i < 3; ++i)
     extents[std::string(1, "xyz"[i])] = {extent_json(facts.least[i]), extent_json(facts.most[i])};
+  json["plan"] = plan_json(motion_plan(program));
   json["left_alone"] = json["remarks"] = nlohmann::ordered_json::array();
   for (const LeftAlone& block : program.left_alone)
     json["left_alone"].push_back({{"line", block.line}, {"why", block.why}});
@@ -180,8 +180,9 @@ void check_reach(const Program& program, const MachineInput& input, Checked& che
 
 Checked check_program(const std::string& path, const Options& options, const MachineInput* machine,
                       Console& console) {
-  const ProgramInput input =
-      read_program_input("program", path, options, machine ? &machine->machine : nullptr);
+  const Machine* of = machine != nullptr ? &machine->machine : nullptr;
+  const ProgramInput input = read_program_input("program", path, options, of,
+                                                read_options(options, of, read_tool_lengths(options, of)));
   const MoveFacts facts = facts_of(input.program);
   Checked checked{text_of(input.program, facts), json_of(input.program, facts), Exit::done};
   if (machine != nullptr) check_reach(input.program, *machine, checked, console);

@@ -66,6 +66,8 @@ void add_reading(CLI::App& app, Options& options) {
                  "A work offset in the machine frame, mm and degrees; may be repeated")
       ->type_name("G54=X,Y,Z[,RX,RY,RZ]")
       ->allow_extra_args(false);
+  value_option(app, "--tool-table", "FILE", "Tool lengths as LinuxCNC keeps them, mm",
+               [&](const std::string& text) { options.tool_table = text; });
 }
 
 void add_method(CLI::App& app, Options& options) {
@@ -102,6 +104,9 @@ void add_output(CLI::App& app, Options& options) {
 }
 
 void add_report(CLI::App& app, Options& options) {
+  value_option(
+      app, "--min-block-ms", "TIME", "Feed moves that take less are warned of [2]",
+      [&](const std::string& text) { options.min_block_ms = number_of("--min-block-ms", text, {0}); });
   value_option(app, "--report", "STEM", "Write STEM.json and STEM.csv",
                [&](const std::string& text) { options.report = text; });
 }

@@ -14,9 +14,9 @@ namespace {
 
 /// Standard input can be read once.
 void refuse_stdin_twice(const Options& options) {
-  const std::string forces = options.forces.value_or("");
+  const std::string forces = options.forces.value_or(""), tools = options.tool_table.value_or("");
   int count = 0;
-  for (const std::string* path : {&options.program, &options.corrected, &options.machine, &forces})
+  for (const std::string* path : {&options.program, &options.corrected, &options.machine, &forces, &tools})
     count += *path == "-";
   if (count > 1) throw InputError(Exit::usage, {}, "standard input (-) can be only one of the inputs");
 }
@@ -68,7 +68,8 @@ std::array<bool, 3> uncontrolled_axes(const Machine& machine, const std::vector<
     bool moves_controlled = false;
     for (const WorkFrame& frame : frames)
       for (int c = 0; c < 3; ++c)
-        moves_controlled = moves_controlled || (controls(machine, c) && std::abs(frame.X_MW.R(c, axis)) > 1e-12);
+        moves_controlled =
+            moves_controlled || (controls(machine, c) && std::abs(frame.X_MW.R(c, axis)) > 1e-12);
     axes[static_cast<std::size_t>(axis)] = !moves_controlled;
   }
   return axes;
@@ -119,8 +120,9 @@ std::unique_ptr<Run> prepare_run(const Options& options, Console& console) {
   console.progress("reading");
   auto run = std::make_unique<Run>();
   run->machine = read_machine_input(options);
-  run->read = read_options(options, &run->machine.machine);
-  run->program = read_program_input("program", options.program, options, &run->machine.machine);
+  run->tools = read_tool_lengths(options, &run->machine.machine);
+  run->read = read_options(options, &run->machine.machine, run->tools);
+  run->program = read_program_input("program", options.program, options, &run->machine.machine, run->read);
   const Program& program = run->program.program;
   run->force_input = read_force_input(options, program);
   run->work = place_work(run->machine.machine, run->machine.model, shown_name(options.machine), program);

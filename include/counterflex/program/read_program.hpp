@@ -1,5 +1,6 @@
 #pragma once
 /// Reads a machining program.
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -16,6 +17,7 @@ struct ReadOptions {
       tool_change_moves;  ///< axes of "XYZ" unknown after a tool change; none: the
                           ///< dialect's, no axis for linuxcnc and grbl, else all
   IntegerWords integer_words = IntegerWords::unsaid;
+  std::map<long, double> tool_lengths_mm{};  ///< by tool number
 };
 
 /// Reads `text`, keeping every byte. `file` names it in diagnostics. Throws `InputError` with line and column
