@@ -1,7 +1,7 @@
 # bash completion of counterflex
 
 _counterflex_words() {
-  local forces='--forces --force --load-scale --blend-mm'
+  local forces='--forces --force --load-scale --blend-mm --air-above'
   local reading='--machine --dialect --units --integer-words --work --tool-table'
   local program="$reading --tolerance-mm --method --max-correction-mm --decimals --threads"
   case $1 in

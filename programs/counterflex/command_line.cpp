@@ -46,6 +46,8 @@ void add_forces(CLI::App& app, Options& options) {
   value_option(app, "--blend-mm", "LENGTH",
                "A step of the force acts as a ramp over this length [2]; 0: as a jump",
                [&](const std::string& text) { options.blend = number_of("--blend-mm", text, {0}) * mm; });
+  value_option(app, "--air-above", "Z", "Feed moves wholly above this Z of the program carry no force, mm",
+               [&](const std::string& text) { options.air_above_mm = number_of("--air-above", text); });
 }
 
 void add_reading(CLI::App& app, Options& options) {

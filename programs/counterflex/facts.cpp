@@ -58,6 +58,7 @@ RunFacts facts_of(const Options& options, const Run& run) {
                    {"load-scale", options.load_scale},
                    {"blend-mm", in_mm(options.blend)}};
   if (options.force) facts.options.push_back({"force", text_of(*options.force)});
+  if (options.air_above_mm) facts.options.push_back({"air-above", *options.air_above_mm});
   if (options.decimals >= 0) facts.options.push_back({"decimals", static_cast<double>(options.decimals)});
   for (OptionValue& value : reading_options(options, run)) facts.options.push_back(std::move(value));
   return facts;

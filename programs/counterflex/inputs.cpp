@@ -144,6 +144,7 @@ ForceInput read_force_input(const Options& options, const Program& program) {
   ForceInput input;
   input.source.blend = options.blend;
   input.source.scale = options.load_scale;
+  input.source.air_above_mm = options.air_above_mm;
   input.source.constant = options.force;
   if (!options.forces) return input;
   const std::string extension = std::filesystem::path(*options.forces).extension().string();

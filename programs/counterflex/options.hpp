@@ -23,6 +23,7 @@ struct Options {
   std::optional<Vector6> force;       ///< N, N m
   double load_scale = 1;
   double blend = 2e-3;  ///< m
+  std::optional<double> air_above_mm;
 
   std::optional<std::string> dialect;
   std::optional<LengthUnit> units;

@@ -45,7 +45,7 @@ void refuse_uncontrolled_moves(const Run& run) {
     if (std::find(controlled.begin(), controlled.end(), static_cast<Component>(c)) != controlled.end())
       continue;
     for (const Segment& segment : run.path.segments)
-      for (const Vector3& p : {segment.wanted.start, segment.wanted.end})
+      for (const Vector3& p : points_along(segment.wanted))
         if (std::abs(p[c] - first[c]) > 1e-9)
           throw InputError(
               Exit::program_text, {run.program.program.file, segment.line, 1},
@@ -98,6 +98,19 @@ CompensationOptions compensation_options(const Options& options, const Machine& 
   return result;
 }
 
+/// The feed of a cycle is the control's own: no part of the path, so that no force acts there.
+void warn_of_cycles(Run& run) {
+  const Program& program = run.program.program;
+  const auto cycle = std::find_if(program.moves.begin(), program.moves.end(),
+                                  [](const Move& move) { return move.cycle.has_value(); });
+  const ForceSource& source = run.force_input.source;
+  const bool forces = source.constant || source.profile ||
+                      std::any_of(program.moves.begin(), program.moves.end(),
+                                  [](const Move& move) { return move.force && !move.force->isZero(0); });
+  if (cycle == program.moves.end() || !forces || source.scale == 0) return;
+  run.facts.warnings.push_back({cycle->line, "holes of cycles are corrected without the cutting force"});
+}
+
 void warn_of_run(Run& run, Console& console) {
   const Program& program = run.program.program;
   warn_of(program, console);
@@ -135,6 +148,7 @@ std::unique_ptr<Run> prepare_run(const Options& options, Console& console) {
   run->options = compensation_options(options, run->machine.machine);
   run->facts = facts_of(options, *run);
   warn_of_orientation(*run);
+  warn_of_cycles(*run);
   warn_of_run(*run, console);
   return run;
 }

@@ -43,6 +43,11 @@ double number_of(std::string_view name, std::string_view text, Range range) {
                                range.open ? "above" : "of at least", range.least));
 }
 
+double number_of(std::string_view name, std::string_view text) {
+  if (const auto value = read_number(text)) return *value;
+  throw InputError(Exit::usage, {}, fmt::format("{} is '{}', must be a finite number", name, text));
+}
+
 int integer_of(std::string_view name, std::string_view text, int least, int most) {
   int value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);

@@ -17,6 +17,9 @@ struct Range {
 };
 double number_of(std::string_view name, std::string_view text, Range range);
 
+/// Any finite number.
+double number_of(std::string_view name, std::string_view text);
+
 /// An integer in [least, most].
 int integer_of(std::string_view name, std::string_view text, int least, int most);
 

@@ -54,6 +54,10 @@ class Unblended {
   void append_to(std::size_t i, std::size_t first_piece, std::vector<ForcePiece>& pieces,
                  std::vector<ForceNote>& notes) const {
     const Segment& segment = path_.segments[i];
+    if (in_air(segment)) {
+      append({segment.s_start, segment.s_end}, first_piece, pieces);
+      return;
+    }
     if (!profile()) {
       const Vector6 F = source_.scale * uniform(segment);
       append({segment.s_start, segment.s_end, F, F, Vector6::Zero()}, first_piece, pieces);
@@ -82,6 +86,10 @@ class Unblended {
  private:
   const ForceProfile* profile() const {
     return !source_.constant && source_.profile ? &*source_.profile : nullptr;
+  }
+
+  bool in_air(const Segment& segment) const {
+    return source_.air_above_mm && extent_of(program_.moves[segment.move]).least.z() > *source_.air_above_mm;
   }
 
   /// Whether the first piece of a segment continues a wrench in the feed frame round a tangential junction.

@@ -1,6 +1,8 @@
 #include "counterflex/toolpath/toolpath.hpp"
 
 #include <array>
+#include <cmath>
+#include <numbers>
 
 #include "counterflex/geometry/units.hpp"
 
@@ -72,6 +74,32 @@ Curve curve_of(const Move& move) {
   curve.arc = Arc{move.arc->centre_mm, normal,
                   sweep_between(move.start_mm, move.end_mm, move.arc->centre_mm, normal, move.arc->turns)};
   return curve;
+}
+
+Extent extent_of(const Move& move) {
+  Extent extent{move.start_mm.cwiseMin(move.end_mm), move.start_mm.cwiseMax(move.end_mm)};
+  const Curve curve = curve_of(move);
+  if (!curve.arc) return extent;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (axis == move.arc->normal) continue;
+    for (const double side : {-1.0, 1.0}) {
+      const Vector3 outermost = curve.arc->centre + side * Vector3::Unit(axis);
+      const double u =
+          sweep_between(curve.start, outermost, curve.arc->centre, curve.arc->normal) / curve.arc->sweep;
+      if (u >= 1) continue;
+      const Vector3 p = point_at(curve, u);
+      extent.least = extent.least.cwiseMin(p);
+      extent.most = extent.most.cwiseMax(p);
+    }
+  }
+  return extent;
+}
+
+std::vector<Vector3> points_along(const Curve& curve) {
+  const int pieces = curve.arc ? 1 + static_cast<int>(curve.arc->sweep / (std::numbers::pi / 8)) : 1;
+  std::vector<Vector3> points;
+  for (int i = 0; i <= pieces; ++i) points.push_back(point_at(curve, static_cast<double>(i) / pieces));
+  return points;
 }
 
 void ignore_axes(Program& program, const std::array<bool, 3>& ignored) {

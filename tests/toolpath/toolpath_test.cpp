@@ -119,3 +119,34 @@ TEST_CASE("under G93 a move takes a minute over F, whatever its length, and its 
   CHECK(segments[0].feed_m_s == doctest::Approx(0.005));
   CHECK(segments[1].feed_m_s == doctest::Approx(0.015));
 }
+
+TEST_CASE("the extent of an arc holds its outermost points, of a line its ends") {
+  const Program program = ProgramBuilder({10, 0, 0})
+                              .arc({0, -10, 3}, {0, 0, 0}, 600)
+                              .feed({5, 5, -1}, 600)
+                              .feed({5, 5, -1}, 600)
+                              .about({5, 5, -11}, 0)
+                              .program;
+  const Extent helix = extent_of(program.moves[0]);  // three quarters
+  CHECK((helix.least - Vector3(-10, -10, 0)).norm() < 1e-12);
+  CHECK((helix.most - Vector3(10, 10, 3)).norm() < 1e-12);
+  const Extent line = extent_of(program.moves[1]);
+  CHECK(line.least == Vector3(0, -10, -1));
+  CHECK(line.most == Vector3(5, 5, 3));
+  const Extent circle = extent_of(program.moves[2]);  // G19
+  CHECK((circle.least - Vector3(5, -5, -21)).norm() < 1e-12);
+  CHECK((circle.most - Vector3(5, 15, -1)).norm() < 1e-12);
+}
+
+TEST_CASE("points along an arc are on it, near to each other, from its start to its end") {
+  const Program program =
+      ProgramBuilder({10, 0, 0}).arc({0, -10, 0}, {0, 0, 0}, 600).feed({1, 1, 1}, 600).program;
+  const auto points = points_along(curve_of(program.moves[0]));
+  CHECK(points.front() == program.moves[0].start_mm);
+  CHECK(points.back() == program.moves[0].end_mm);
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    CHECK(points[i].norm() == doctest::Approx(10));
+    CHECK((points[i] - points[i - 1]).norm() < 10 * 22.5 * deg);
+  }
+  CHECK(points_along(curve_of(program.moves[1])).size() == 2);
+}

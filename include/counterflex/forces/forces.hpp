@@ -49,6 +49,8 @@ struct ForceSource {
   double blend =
       2e-3;  ///< m; what acts is the mean over the last min(blend, half of the feed run) of feed path
   double scale = 1.0;
+  std::optional<double>
+      air_above_mm;  ///< Z of program coordinates: feed moves wholly above it carry no force
 };
 
 struct ForceNote {
