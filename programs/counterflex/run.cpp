@@ -21,19 +21,32 @@ void refuse_stdin_twice(const Options& options) {
   if (count > 1) throw InputError(Exit::usage, {}, "standard input (-) can be only one of the inputs");
 }
 
-/// Orientations of the tool along the path: one for all where every move has home's, else one a segment.
+constexpr int orientations_of_segment = 9;
+
+/// The nominal tool's at equal fractions of every segment, or in its middle.
+std::vector<Matrix3> sampled_orientations(const Model& model, const Toolpath& path, int each) {
+  const Matrix3 R_home = tip(model.mechanism, model.home).R;
+  std::vector<Matrix3> R_MT;
+  NominalPath nominal(model, model.home);
+  for (const Segment& segment : path.segments)
+    for (int k = 0; k < each; ++k) {
+      const double u = each == 1 ? 0.5 : static_cast<double>(k) / (each - 1);
+      nominal.go_to({R_home, point_at(segment.wanted, u)});  // a failure is said where it is solved
+      R_MT.push_back(tip(model.mechanism, nominal.configuration()).R);
+    }
+  return R_MT;
+}
+
+/// Orientations of the tool along the path: one for all where every move has home's, else several a segment.
 std::vector<Matrix3> tool_orientations(const Model& model, const Toolpath& path, const ForceSource& source) {
   const Matrix3 R_home = tip(model.mechanism, model.home).R;
   const bool needed = source.profile && (source.profile->frame == ForceFrame::tool ||
                                          source.profile->frame == ForceFrame::feed);
   if (!needed || path.segments.empty()) return {R_home};
-  std::vector<Matrix3> R_MT;
-  NominalPath nominal(model, model.home);
-  for (const Segment& segment : path.segments) {
-    nominal.go_to({R_home, point_at(segment.wanted, 0.5)});  // a failure is said where it is solved
-    R_MT.push_back(tip(model.mechanism, nominal.configuration()).R);
-  }
-  return R_MT;
+  const std::vector<Matrix3> in_the_middle = sampled_orientations(model, path, 1);
+  const bool turns = std::any_of(in_the_middle.begin(), in_the_middle.end(),
+                                 [&](const Matrix3& R) { return (R - R_home).norm() > 1e-9; });
+  return turns ? sampled_orientations(model, path, orientations_of_segment) : std::vector{R_home};
 }
 
 /// A component of the position that the machine does not control has to keep its value.

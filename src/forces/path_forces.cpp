@@ -2,6 +2,7 @@
 #include <array>
 #include <cassert>
 #include <limits>
+#include <span>
 
 #include "counterflex/forces/forces.hpp"
 #include "forces/alignment.hpp"
@@ -44,7 +45,7 @@ class Unblended {
   Unblended(const ForceSource& source, const Program& program, const Toolpath& path,
             const std::vector<Matrix3>& R_MT)
       : source_(source), program_(program), path_(path), R_MT_(R_MT) {
-    assert(R_MT.size() == 1 || R_MT.size() == path.segments.size());
+    assert(R_MT.size() == 1 || (!R_MT.empty() && R_MT.size() % path.segments.size() == 0));
     if (!profile()) return;
     keys_ = align(*profile(), program, path);
     check_cover(*profile(), program, path, keys_);
@@ -63,8 +64,7 @@ class Unblended {
       append({segment.s_start, segment.s_end, F, F, Vector6::Zero()}, first_piece, pieces);
       return;
     }
-    const AxesAlong axes(profile()->frame, segment, path_.frames[segment.frame].X_MW.R,
-                         R_MT_[R_MT_.size() == 1 ? 0 : i]);
+    const AxesAlong axes(profile()->frame, segment, path_.frames[segment.frame].X_MW.R, orientations(i));
     const bool only_z = axes.at(0.5, 1).only_z;
     bool lost = false, inside = false;
     for (const ForcePiece& given : profile_pieces(*profile(), keys_[i], segment)) {
@@ -88,15 +88,23 @@ class Unblended {
     return !source_.constant && source_.profile ? &*source_.profile : nullptr;
   }
 
+  /// Of the tool on segment i.
+  std::span<const Matrix3> orientations(std::size_t i) const {
+    if (R_MT_.size() == 1) return R_MT_;
+    const std::size_t each = R_MT_.size() / path_.segments.size();
+    return std::span(R_MT_).subspan(i * each, each);
+  }
+
   bool in_air(const Segment& segment) const {
     return source_.air_above_mm && extent_of(program_.moves[segment.move]).least.z() > *source_.air_above_mm;
   }
 
-  /// Whether the first piece of a segment continues a wrench in the feed frame round a tangential junction.
+  /// Whether the first piece of a segment continues a wrench in axes that turn, as round a tangential
+  /// junction.
   bool goes_on_round(const ForcePiece& piece, std::size_t first_piece,
                      const std::vector<ForcePiece>& pieces) const {
-    return profile()->frame == ForceFrame::feed && pieces.size() > first_piece &&
-           nearly_same(pieces.back().F1, piece.F0);
+    const bool turns = profile()->frame == ForceFrame::feed || profile()->frame == ForceFrame::tool;
+    return turns && pieces.size() > first_piece && nearly_same(pieces.back().F1, piece.F0);
   }
 
   /// The constant, or what the program's comment says.

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "counterflex/geometry/rotation.hpp"
+
 namespace counterflex {
 namespace {
 
@@ -69,10 +71,29 @@ bool nearly_same(const Vector6& A, const Vector6& B) {
   return (A - B).norm() <= same_tangent * std::max(A.norm(), B.norm());
 }
 
+bool AxesAlong::turn() const {
+  const bool of_tool = frame_ == ForceFrame::tool || frame_ == ForceFrame::feed;
+  return of_tool && (R_MT_.size() > 1 || (frame_ == ForceFrame::feed && segment_.wanted.arc));
+}
+
+int AxesAlong::pieces() const {
+  const int of_arc = segment_.wanted.arc ? 1 + static_cast<int>(segment_.wanted.arc->sweep / widest_turn) : 1;
+  return std::max(of_arc, static_cast<int>(R_MT_.size()) - 1);
+}
+
+Matrix3 AxesAlong::tool_at(double fraction) const {
+  if (R_MT_.size() == 1) return R_MT_[0];
+  const double place = std::clamp(fraction, 0.0, 1.0) * static_cast<double>(R_MT_.size() - 1);
+  const std::size_t i = std::min(static_cast<std::size_t>(place), R_MT_.size() - 2);
+  const Vector3 turn = log_so3(R_MT_[i].transpose() * R_MT_[i + 1]);
+  return R_MT_[i] * exp_so3((place - static_cast<double>(i)) * turn);
+}
+
 ForceAxes AxesAlong::at(double fraction, double towards) const {
-  const ForceAxes axes = axes_of(frame_, direction_at(segment_.wanted, fraction), R_MW_, R_MT_);
-  if (!turn() || !axes.only_z) return axes;
-  return axes_of(frame_, direction_at(segment_.wanted, fraction + beside * towards), R_MW_, R_MT_);
+  const Matrix3 R_MT = tool_at(fraction);
+  const ForceAxes axes = axes_of(frame_, direction_at(segment_.wanted, fraction), R_MW_, R_MT);
+  if (!segment_.wanted.arc || !axes.only_z) return axes;
+  return axes_of(frame_, direction_at(segment_.wanted, fraction + beside * towards), R_MW_, R_MT);
 }
 
 std::vector<ForcePiece> turned_pieces(const ForcePiece& piece, const Segment& segment,
@@ -81,7 +102,7 @@ std::vector<ForcePiece> turned_pieces(const ForcePiece& piece, const Segment& se
   if (!axes.turn())
     return {{piece.s0, piece.s1, turning.after(piece.s0), turning.before(piece.s1), Vector6::Zero()}};
   const double part = (piece.s1 - piece.s0) / (segment.s_end - segment.s_start);
-  const int count = 1 + static_cast<int>(part * segment.wanted.arc->sweep / widest_turn);
+  const int count = 1 + static_cast<int>(part * axes.pieces());
   std::vector<ForcePiece> pieces;
   const auto limit = [&](int i) {
     return i == count ? piece.s1 : piece.s0 + (piece.s1 - piece.s0) * i / count;

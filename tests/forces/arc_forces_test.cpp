@@ -124,3 +124,19 @@ TEST_CASE("a constant force and forces in machine axes do not turn on arcs") {
       forces_on(line_quarter_line(), from_csv(test::on_tool + "line,fx_N,fy_N,fz_N\n1,1,2,3\n"));
   CHECK(forces.at(1, 0.7) == wrench(1, 2, 3));
 }
+
+TEST_CASE("a tool that turns along its way takes a force in its frame with it, without corners") {
+  const Program program = ProgramBuilder({0, 0, 0}).feed({10, 0, 0}, 600).feed({20, 0, 0}, 600).program;
+  const auto path = build_toolpath(program, one_frame(program, {}));
+  std::vector<Matrix3> R_MT;  // 20 degrees on the first move, 40 on the second, evenly
+  for (const double angle : {0.0, 10.0, 20.0, 20.0, 40.0, 60.0}) R_MT.push_back(exp_so3({0, 0, angle * deg}));
+  const auto source = from_csv("# frame = tool\n# sense = on_tool\nline,fx_N,fy_N,fz_N\n1,100,30,-5\n");
+  const PathForces forces(source, program, path, R_MT);
+  for (const double u : {0.0, 0.1, 0.5, 0.77, 1.0}) {
+    CHECK(near(forces.at(0, u), turned(20 * u * deg, 100, 30, -5), 1e-4 * 105));
+    CHECK(near(forces.at(1, u), turned((20 + 40 * u) * deg, 100, 30, -5), 1e-4 * 105));
+  }
+  CHECK(forces.breaks(0).empty());
+  CHECK(forces.breaks(1).empty());
+  CHECK(forces.jumps() == 1);
+}

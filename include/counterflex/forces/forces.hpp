@@ -96,7 +96,8 @@ enum class Side { before, after };
 /// A feed run is a sequence of cutting segments that join, without a rapid between.
 class PathForces {
  public:
-  /// `R_MT` gives the wanted orientation of the tool in the machine frame, one a segment, or one for all.
+  /// `R_MT` gives the wanted orientation of the tool in the machine frame: one for all, one a segment, or for
+  /// each segment as many, at equal fractions from its start to its end, between which the tool turns evenly.
   /// Throws `InputError` (Exit::machine_or_force) naming the row whose key lies beyond the program, or that
   /// leaves a cutting move without a force: the first row after the first cutting move, or the last of a
   /// linear profile before the last.
