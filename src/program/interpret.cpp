@@ -112,7 +112,7 @@ void check_reference(const Block& block, const Reading& r, const FoundG& referen
 /// Gives the axis words to the code that uses them.
 void apply_axis_words(const Block& block, Reading& r) {
   if (r.sorted.g.empty() && r.sorted.m.empty()) {
-    if (has_words_of_motion(r)) read_modal_move(block, r);
+    if (!r.state.entering_data && has_words_of_motion(r)) read_modal_move(block, r);
     return;
   }
   if (const FoundG* reference = r.sorted.find(Action::reference_move)) {
@@ -162,7 +162,7 @@ void apply_codes(const Block& block, Reading& r) {
 }
 
 Context context_of(const Reading& r) {
-  if (r.in_body() || r.state.doubts != 0) return Context::unknown;
+  if (r.in_body() || r.state.doubts != 0 || r.state.entering_data) return Context::unknown;
   switch (r.state.motion) {
     case MotionMode::clockwise:
     case MotionMode::counter_clockwise:

@@ -56,10 +56,10 @@ void read_call(const Block& block, Reading& r) {
   leave_alone(block, r, "a subprogram is called");
   finish_move(block, r, std::move(move));
   end_contour(r);
-  r.state.doubts |= doubtful_motion | doubtful_distance | doubtful_plane | doubtful_centres | doubtful_level |
-                    doubtful_cutter;
-  add_remark(r.program, block.line,
-             "subprograms are taken to leave the unit, the work offset and the tool length as they are");
+  r.state.doubts |= doubtful_motion | doubtful_distance | doubtful_plane | doubtful_centres | doubtful_level;
+  add_remark(
+      r.program, block.line,
+      "subprograms are taken to leave the unit, the work offset, the tool length and G40 to G42 as they are");
 }
 
 }  // namespace counterflex

@@ -107,7 +107,7 @@ class Corrected:
         pairs, wrong = compare.pairs_of(steps, written, self.line_of)
         if wrong:
             raise text.Mismatch(wrong)
-        return pairs
+        return compare.give_back(pairs, self.facts)
 
 
 def judged_text(shop, program, findings):

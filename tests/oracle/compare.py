@@ -48,6 +48,19 @@ def pairs_of(steps, corrected, line_of):
     return [Pair(line, run, others) for (line, run), (_, others) in zip(originals, versions)], ''
 
 
+def give_back(pairs, facts):
+    """Pieces that follow their block, because it says more than where to go, stand before the next: where a step there
+    ends nearer to the block's end than the block does, it and those before it are the block's."""
+    for pair, following in zip(pairs, pairs[1:]):
+        if not facts[pair.line]['goes_first'] or len(pair.steps) > 1:
+            continue
+        ends = [distance(c.end, pair.steps[0].end) for c in [pair.corrected[-1]] + following.corrected[:-1]]
+        count = ends.index(min(ends))
+        pair.corrected += following.corrected[:count]
+        following.corrected = following.corrected[count:]
+    return pairs
+
+
 def difference(p, q):
     return [a - b for a, b in zip(p, q)]
 

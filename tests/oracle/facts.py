@@ -4,6 +4,12 @@ import re
 MACHINE_POSITION = re.compile(r'(?<![A-Z])G\s*0*(28|30|53)(?!\d)', re.I)
 
 
+def has_other_words(code):
+    """Whether a block that is split must be the first piece: it says more than where to go."""
+    words = re.sub(r'G\s*0*[0-3](?![\d.])|[XYZIJKRFN]\s*[-+]?[\d. ]+|[\s/]', '', code, flags=re.I)
+    return bool(words)
+
+
 def facts_of(lines):
     """A dict by line number (from 1) of plain lines."""
     facts, inches, side = {}, None, False
@@ -18,6 +24,7 @@ def facts_of(lines):
             'machine': bool(MACHINE_POSITION.search(code)),
             'doubtful': code.lstrip().startswith('/') or bool(re.search(r'[\[#]', code)),
             'side': side,
+            'goes_first': has_other_words(code),
             'radius': float(radius.group(1)) if radius else None,
         }
         if re.search(r'G\s*40(?!\d)', code, re.I): side = False

@@ -35,13 +35,15 @@ class FieldCheck:
     def __init__(self, gantry, facts, left_alone, tolerance):
         self.gantry, self.facts, self.tolerance = gantry, facts, tolerance
         self.skipped = left_alone | contour_lines(facts)
-        self.known = [False] * 3
+        self.known, self.offset = [False] * 3, None
         self.findings = Findings()
 
     def run(self, pairs):
         for pair in pairs:
             fact = self.facts[pair.line]
             self.findings.total += 1
+            if pair.steps[0].offset != self.offset:  # where that takes the other axes is not in the program
+                self.known, self.offset = [False] * 3, pair.steps[0].offset
             if fact['machine'] or pair.line in self.skipped or fact['doubtful']:
                 self.forget(fact)
                 continue
@@ -60,10 +62,13 @@ class FieldCheck:
         return difference(q, step.offset)
 
     def judge(self, pair, started):
+        o = pair.steps[0]
+        if o.kind == 'rapid' and distance(o.start, o.end) < 1e-9:
+            return  # to where a cycle has left the tool: it keeps the correction of the hole
         self.findings.judged += 1
         if len(pair.steps) > 1:
             return self.cycle(pair)
-        o, c = pair.steps[0], pair.corrected[-1]
+        c = pair.corrected[-1]
         miss = distance(self.wanted(o, o.end), c.end)
         if miss > self.tolerance:
             return self.findings.add(pair, 'ends %.5f off: %s instead of %s' % (

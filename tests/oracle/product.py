@@ -7,7 +7,7 @@ import subprocess
 from dataclasses import dataclass, field
 
 FRAME_SHIFT = (0.5, -0.25, 0.125)  # mm: where the gantry of the constant shift really stands
-NO_UNITS = '--units'               # a program that says no units is refused with this hint
+NO_UNITS = 'before the unit is known'  # a program that says no units is refused with this
 
 
 @dataclass

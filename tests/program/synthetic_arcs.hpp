@@ -73,12 +73,10 @@ inline void SyntheticArcs::line() {
   end[0] = grid(end[0] + 1);
   // Behind a block that may be skipped everything is programmed anew, absolute.
   const bool skippable = block_.starts_with('/');
-  if (skippable && relative_) block_ += "G90", relative_ = false;
+  if (skippable && relative_) text_ += "G90\n", relative_ = false;
   end_words(end, false);
   finish();
   if (!skippable) return;
-  if (relative_) text_ += "G90\n";
-  relative_ = false;
   text_ += fmt::format("G1 X{} Y{} Z{} F30.\n", format_fixed(at_.x(), decimals_),
                        format_fixed(at_.y(), decimals_), format_fixed(at_.z(), decimals_));
   said_motion_ = 1;
