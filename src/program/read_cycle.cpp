@@ -103,7 +103,7 @@ void read_cycle(const Block& block, Reading& r) {
   keep_sticky(r, r.sorted.word('Z'), state.cycle.bottom);
   keep_sticky(r, r.sorted.word('R'), state.cycle.retract);
 
-  Move move = start_move(block, r, Motion::rapid);
+  Move& move = start_move(block, r, Motion::rapid);
   CycleMove hole;
   hole.repeats = repeats_of(r);
   hole.first = is_first(r);
@@ -122,7 +122,7 @@ void read_cycle(const Block& block, Reading& r) {
     fix_hole(r, move);
     leave_alone(block, r, why.empty() ? "the cycle's words are not all plain numbers in G17" : why);
   }
-  finish_move(block, r, std::move(move));
+  finish_move(r, move);
 }
 
 }  // namespace counterflex
