@@ -1,5 +1,7 @@
 #include "counterflex/geometry/curve.hpp"
 
+#include <Eigen/Geometry>
+
 #include <cmath>
 #include <numbers>
 
