@@ -91,7 +91,9 @@ Coordinate settle_axis(const Move& move, std::size_t axis, std::optional<double>
     return {{}, move.known_end[axis] ? std::optional(component(move.end_mm, axis)) : std::nullopt};
   if (!move.words[axis] || place == Place::inside)
     return settle_absent(move, axis, held_mm, wanted_mm, place, options);
-  return settle_present(move, axis, held_mm, wanted_mm, place, options);
+  Coordinate c = settle_present(move, axis, held_mm, wanted_mm, place, options);
+  if (!move.known_end[axis]) c.held_mm.reset();
+  return c;
 }
 
 HeldPosition held_at_start(const Move& move, HeldPosition before) {

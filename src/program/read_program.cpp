@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "program/interpret.hpp"
+#include "program/remarks.hpp"
 
 namespace counterflex {
 namespace {
@@ -34,6 +35,12 @@ bool is_mark(std::string_view comment) {
   return comment.starts_with(mark) && (comment.size() == mark.size() || comment[mark.size()] == ' ');
 }
 
+/// A second program behind the end of the first: nobody corrects it.
+void remark_rest(Program& program, const Block& last) {
+  if (program.text.find_first_not_of("% \t\r\n", last.line_end.end) != std::string::npos)
+    add_remark(program, last.line, "what stands behind the end of the program stays as it is");
+}
+
 }  // namespace
 
 Program read_program(std::string text, const std::string& file, const ReadOptions& options) {
@@ -59,6 +66,7 @@ Program read_program(std::string text, const std::string& file, const ReadOption
     opened = opened || block.percent;
     interpret(block, reading);
   }
+  if (reading.ended) remark_rest(program, block);
   return program;
 }
 

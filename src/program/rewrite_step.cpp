@@ -30,7 +30,7 @@ Step settle_step(const Move& move, const HeldPosition& before, const Via& via, i
     step.axes[axis] = settle_axis(move, axis, before[axis], component(via.end_mm, axis), place, options);
     step.after[axis] = step.axes[axis].held_mm;
   }
-  if (motion < 2) return step;
+  if (motion < 2 || !move.arc) return step;
   if (via.centre_mm) {
     // About an unknown start nothing is said anew: the arc stays as it stands.
     if (!plane_is_known(*move.arc, before) || !plane_is_known(*move.arc, step.after)) return step;
