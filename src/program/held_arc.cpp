@@ -6,6 +6,7 @@
 #include "counterflex/files/numbers.hpp"
 #include "program/arc_radius.hpp"
 #include "program/dialect.hpp"
+#include "program/number_style.hpp"
 
 namespace counterflex {
 namespace {
@@ -49,7 +50,7 @@ void settle_radius(const Move& move, const Vector3& centre_mm, Place place, cons
   WordNumber number = settle_number(move, arc.radius_word, arc.radius_mm / unit, wanted, place, options);
   const double half_chord = across(end - start, arc).norm() / 2 / unit;
   if (number.write && std::abs(number.value) < half_chord) {
-    const double digit = std::pow(10.0, -number.decimals);
+    const double digit = 1 / power_of_ten(number.decimals);
     number.value =
         rounded(std::copysign(std::ceil(half_chord / digit) * digit, number.value), number.decimals);
   }
@@ -61,7 +62,7 @@ void settle_radius(const Move& move, const Vector3& centre_mm, Place place, cons
 bool is_turned_around(const Move& move, const ArcWords& words, Place place, int decimals) {
   constexpr double digits_that_ends_may_miss = 2, angle_that_digits_may_add = 0.5;
   const ArcMove& arc = *move.arc;
-  const double digit_mm = std::pow(10.0, -decimals) * mm_per(move.unit);
+  const double digit_mm = mm_per(move.unit) / power_of_ten(decimals);
   const Curve& curve = words.curve;
   if (across(curve.end - curve.start, arc).norm() > digits_that_ends_may_miss * digit_mm) return false;
   const double original = sweep_of(arc, move.start_mm, move.end_mm, arc.centre_mm);

@@ -47,6 +47,12 @@ bool is_there(const Step& step) {
   return !step.arc && step.after == step.before;
 }
 
+bool says_anew(const Step& step) {
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    if (step.axes[axis].number.write || (step.arc && step.arc->centre[axis].write)) return true;
+  return step.arc && step.arc->radius.write;
+}
+
 Curve curve_of_step(const Step& step) {
   return step.arc ? step.arc->curve : Curve{point_of(step.before), point_of(step.after), {}};
 }
