@@ -2,6 +2,8 @@
 
 #include <array>
 
+#include "program/klartext_lex.hpp"
+
 namespace counterflex {
 namespace {
 
@@ -25,7 +27,8 @@ constexpr Dialect shop_control(std::string_view name) {
 
 constexpr Dialect fanuc = shop_control("fanuc");
 constexpr Dialect haas = shop_control("haas");
-constexpr std::array dialects{&linuxcnc, &grbl, &fanuc, &haas};
+constexpr Dialect heidenhain{.name = klartext_name, .tool_change_moves_axes = true};
+constexpr std::array dialects{&linuxcnc, &grbl, &fanuc, &haas, &heidenhain};
 
 bool is_blank_or_return(char c) {
   return c == ' ' || c == '\t' || c == '\r';
@@ -77,6 +80,7 @@ std::string dialect_names() {
 }
 
 const Dialect& detect_dialect(std::string_view text) {
+  if (is_klartext(text)) return heidenhain;
   while (!text.empty()) {
     const std::size_t end = text.find('\n');
     const std::string_view line = text.substr(0, end);

@@ -3,6 +3,8 @@
 #include <cassert>
 
 #include "program/held_position.hpp"
+#include "program/klartext_lex.hpp"
+#include "program/klartext_rewrite.hpp"
 #include "program/rewrite_block.hpp"
 
 namespace counterflex {
@@ -48,6 +50,7 @@ std::string header_text(const Program& program, const ProgramStyle& style, std::
 }  // namespace
 
 Rewritten rewrite(const Program& program, const std::vector<MoveEdit>& edits, const WriteOptions& options) {
+  if (program.dialect == klartext_name) return rewrite_klartext(program, edits, options);
   const ProgramStyle style = style_of(program);
   const std::size_t header = header_position(program);
   Rewritten out;
