@@ -1,41 +1,97 @@
 #include "program/held_position.hpp"
 
+#include <algorithm>
+
 #include "counterflex/files/numbers.hpp"
 #include "program/dialect.hpp"
+#include "program/held_cycle.hpp"
 #include "program/number_style.hpp"
 
 namespace counterflex {
 namespace {
 
-Coordinate written(const Move& move, double value, int decimals) {
-  return {true, value, rounded(value, decimals) * mm_per(move.unit)};
+int decimals_of_word(const Move& move, const std::optional<AxisWord>& word, Place place,
+                     const WriteOptions& options) {
+  if (options.decimals >= 0) return options.decimals;
+  const int resolution = resolution_decimals(move.unit);
+  return place == Place::end && word ? std::max(resolution, word->decimals) : resolution;
 }
 
-double component(const Vector3& p, std::size_t axis) {
-  return p[static_cast<Eigen::Index>(axis)];
+int decimals_of_kept(const Move& move, const AxisWord& word) {
+  return std::max(word.decimals, resolution_decimals(move.unit));
+}
+
+/// How often a relative word is gone.
+int times(const Move& move) {
+  return move.cycle ? std::max(move.cycle->repeats, 1) : 1;
+}
+
+/// The word as it stands.
+Coordinate keep(const Move& move, std::size_t axis, std::optional<double> held_mm) {
+  const double unit = mm_per(move.unit), end_mm = component(move.end_mm, axis);
+  if (!move.relative) return {{false, end_mm / unit, decimals_of_kept(move, *move.words[axis])}, end_mm};
+  const double way_mm = (end_mm - component(move.start_mm, axis)) / times(move);
+  const double value = shown_number(move, *move.words[axis], way_mm);
+  if (held_mm) *held_mm += times(move) * (value * unit);
+  return {{false, value, decimals_of_kept(move, *move.words[axis])}, held_mm};
+}
+
+/// A word written anew. Under G91 it says how far it is from where the text holds the axis, so that rounding
+/// never adds up.
+Coordinate write_anew(const Move& move, std::optional<double> held_mm, double wanted_mm, int decimals) {
+  const double unit = mm_per(move.unit);
+  const double wanted = move.relative ? (wanted_mm - *held_mm) / times(move) : wanted_mm;
+  const double value = rounded(wanted / unit, decimals);
+  const double read_mm = move.relative ? *held_mm + times(move) * (value * unit) : value * unit;
+  return {{true, value, decimals}, read_mm};
+}
+
+Coordinate settle_absent(const Move& move, std::size_t axis, std::optional<double> held_mm, double wanted_mm,
+                         Place place, const WriteOptions& options) {
+  const double unit = mm_per(move.unit);
+  if (move.ignored[axis]) return {{}, held_mm};
+  if (!move.known_end[axis]) return {{}, std::nullopt};
+  if (place != Place::inside && !move.may_insert_words) return {{}, held_mm};
+  const int decimals = decimals_of_word(move, std::nullopt, place, options);
+  if (held_mm && rounds_to(*held_mm / unit, wanted_mm / unit, decimals)) return {{}, held_mm};
+  if (move.relative && !held_mm) return {{}, held_mm};
+  return write_anew(move, held_mm, wanted_mm, decimals);
+}
+
+Coordinate settle_present(const Move& move, std::size_t axis, std::optional<double> held_mm, double wanted_mm,
+                          Place place, const WriteOptions& options) {
+  const double unit = mm_per(move.unit);
+  const int decimals = decimals_of_word(move, move.words[axis], place, options);
+  const Coordinate kept = keep(move, axis, held_mm);
+  if (!kept.held_mm || rounds_to(*kept.held_mm / unit, wanted_mm / unit, decimals)) return kept;
+  return write_anew(move, held_mm, wanted_mm, decimals);
 }
 
 }  // namespace
 
-Coordinate settle_inserted(const Move& move, std::size_t axis, std::optional<double> held_mm,
-                           double wanted_mm, int decimals) {
-  const double unit = mm_per(move.unit);
-  if (move.ignored[axis]) return {false, 0, held_mm};
-  if (!move.known_end[axis]) return {false, 0, std::nullopt};
-  if (held_mm && rounds_to(*held_mm / unit, wanted_mm / unit, decimals)) return {false, 0, held_mm};
-  return written(move, wanted_mm / unit, decimals);
+WordNumber settle_number(const Move& move, const std::optional<AxisWord>& word, double original,
+                         double wanted, Place place, const WriteOptions& options) {
+  const int decimals = decimals_of_word(move, word, place, options);
+  if (word && rounds_to(original, wanted, decimals)) return {false, original, decimals_of_kept(move, *word)};
+  return {true, rounded(wanted, decimals), decimals};
 }
 
-Coordinate settle_end(const Move& move, std::size_t axis, std::optional<double> held_mm, double wanted_mm,
-                      int decimals) {
-  if (!move.words[axis]) {
-    if (!move.may_insert_words) return {false, 0, held_mm};
-    return settle_inserted(move, axis, held_mm, wanted_mm, decimals);
-  }
-  const double unit = mm_per(move.unit);
-  const double original_mm = component(move.end_mm, axis);
-  if (rounds_to(original_mm / unit, wanted_mm / unit, decimals)) return {false, 0, original_mm};
-  return written(move, wanted_mm / unit, decimals);
+double shown_number(const Move& move, const AxisWord& word, double length_mm) {
+  // What is computed from differences is exact to far more digits than a word has, but not to the last bit.
+  constexpr int digits_that_difference_keeps = 9;
+  const int decimals = std::max(word.decimals, resolution_decimals(move.unit));
+  const double value = length_mm / mm_per(move.unit);
+  return decimals > digits_that_difference_keeps ? value : rounded(value, decimals);
+}
+
+Coordinate settle_axis(const Move& move, std::size_t axis, std::optional<double> held_mm, double wanted_mm,
+                       Place place, const WriteOptions& options) {
+  if (move.cycle && axis == 2) return settle_cycle_end(move, held_mm, wanted_mm, options);
+  if (move.fixed[axis])
+    return {{}, move.known_end[axis] ? std::optional(component(move.end_mm, axis)) : std::nullopt};
+  if (!move.words[axis] || place == Place::inside)
+    return settle_absent(move, axis, held_mm, wanted_mm, place, options);
+  return settle_present(move, axis, held_mm, wanted_mm, place, options);
 }
 
 HeldPosition held_at_start(const Move& move, HeldPosition before) {
@@ -45,35 +101,43 @@ HeldPosition held_at_start(const Move& move, HeldPosition before) {
 }
 
 HeldPosition held_after_original(const Move& move, const HeldPosition& before) {
-  HeldPosition held = held_at_start(move, before);
+  const HeldPosition start = held_at_start(move, before);
+  HeldPosition held = start;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    if (!move.words[axis]) continue;
-    held[axis] = component(move.end_mm, axis);
-    if (move.block_delete) held[axis].reset();
+    const double end_mm = component(move.end_mm, axis);
+    if (!move.known_end[axis] || move.fixed[axis]) {
+      held[axis] = move.known_end[axis] ? std::optional(end_mm) : std::nullopt;
+    } else if (move.cycle && axis == 2) {
+      held[axis] = settle_cycle_end(move, start[axis], move.cycle->retract_mm, {}).held_mm;
+    } else if (move.words[axis]) {
+      held[axis] = keep(move, axis, start[axis]).held_mm;
+    }
   }
+  doubt_skippable(move, start, held);
   return held;
+}
+
+void doubt_skippable(const Move& move, const HeldPosition& before, HeldPosition& held) {
+  if (!move.block_delete) return;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    if (move.words[axis] || before[axis] != held[axis]) held[axis].reset();
 }
 
 HeldPosition held_after(const Move& move, const HeldPosition& before, const Vector3& end_mm,
                         const WriteOptions& options) {
-  const Decimals decimals = decimals_of(move, options);
-  HeldPosition held = held_at_start(move, before);
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const Coordinate end = settle_end(move, axis, held[axis], component(end_mm, axis), decimals.end[axis]);
-    held[axis] = end.held_mm;
-    // Whether a skippable block has moved the axis, the text does not tell.
-    if (move.block_delete && (end.write || move.words[axis])) held[axis].reset();
-  }
+  const HeldPosition start = held_at_start(move, before);
+  HeldPosition held;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    held[axis] = settle_axis(move, axis, start[axis], component(end_mm, axis), Place::end, options).held_mm;
+  doubt_skippable(move, start, held);
   return held;
 }
 
 Decimals decimals_of(const Move& move, const WriteOptions& options) {
-  const int resolution = resolution_decimals(move.unit);
-  Decimals decimals{{resolution, resolution, resolution}, resolution};
-  if (options.decimals >= 0)
-    return {{options.decimals, options.decimals, options.decimals}, options.decimals};
+  Decimals decimals{};
+  decimals.inserted = decimals_of_word(move, std::nullopt, Place::inside, options);
   for (std::size_t axis = 0; axis < 3; ++axis)
-    if (move.words[axis]) decimals.end[axis] = std::max(resolution, move.words[axis]->decimals);
+    decimals.end[axis] = decimals_of_word(move, move.words[axis], Place::end, options);
   return decimals;
 }
 

@@ -4,24 +4,50 @@
 
 namespace counterflex {
 
+/// The number of one length word as it stands in the written text.
+struct WordNumber {
+  bool write = false;  ///< changed, or to be inserted
+  double value = 0;    ///< as a control reads it, in the move's unit
+  int decimals = 0;    ///< digits to write it with
+};
+
+/// A coordinate of a point, and the word that says it.
 struct Coordinate {
-  bool write = false;             ///< a word is changed or inserted
-  double value = 0;               ///< to be written, in the move's unit
+  WordNumber number;
   std::optional<double> held_mm;  ///< where the text holds the axis afterwards
 };
 
-/// Coordinate `axis` of the end of `move`, wanted at `wanted_mm`, with `held_mm` before the move.
-Coordinate settle_end(const Move& move, std::size_t axis, std::optional<double> held_mm, double wanted_mm,
-                      int decimals);
+/// Whose words come to a point.
+enum class Place {
+  end,         ///< the block's own, or an inserted block's that ends the move
+  own_inside,  ///< the block's own on the way: the rest follows in inserted blocks
+  inside       ///< an inserted block's on the way
+};
 
-/// Coordinate `axis` of a point in an inserted block.
-Coordinate settle_inserted(const Move& move, std::size_t axis, std::optional<double> held_mm,
-                           double wanted_mm, int decimals);
+/// The number of `word`, which shows `original`, when `wanted` is to be said (both in the move's unit): kept
+/// where it is within half its last digit. Without a word: that of one to be inserted.
+WordNumber settle_number(const Move& move, const std::optional<AxisWord>& word, double original,
+                         double wanted, Place place, const WriteOptions& options);
+
+/// The number that `word` shows, in the move's unit, from the length that was read from it.
+double shown_number(const Move& move, const AxisWord& word, double length_mm);
+
+/// Coordinate `axis` of a point of `move`, wanted at `wanted_mm`, with `held_mm` before it.
+Coordinate settle_axis(const Move& move, std::size_t axis, std::optional<double> held_mm, double wanted_mm,
+                       Place place, const WriteOptions& options);
 
 /// `before` without the axes that the program does not know at the start of `move`.
 HeldPosition held_at_start(const Move& move, HeldPosition before);
 
 /// What the text holds after `move` where it is not edited.
 HeldPosition held_after_original(const Move& move, const HeldPosition& before);
+
+/// Whether a skippable block or a piece of it has moved an axis, the text does not tell: forgets it.
+void doubt_skippable(const Move& move, const HeldPosition& before, HeldPosition& held);
+
+/// Component `axis` of `p`.
+inline double component(const Vector3& p, std::size_t axis) {
+  return p[static_cast<Eigen::Index>(axis)];
+}
 
 }  // namespace counterflex

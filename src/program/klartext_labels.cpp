@@ -1,6 +1,7 @@
 #include "program/klartext_labels.hpp"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <string>
 
@@ -87,15 +88,19 @@ bool holds(const std::vector<LineStretch>& stretches, int line) {
   return after != stretches.begin() && (after - 1)->last >= line;
 }
 
-bool only_arcs_use_poles(std::string_view text) {
+std::vector<int> poles_used_otherwise(std::string_view text) {
+  constexpr std::array<std::string_view, 8> polar{"LP", "CP", "CTP", "FPOL", "FL", "FC", "FLT", "FCT"};
+  std::vector<int> lines;
+  int pole = 0;
   KlartextBlock block;
   while (next_klartext_block(text, block)) {
-    for (const std::string_view polar : {"LP", "CP", "CTP", "FPOL", "FL", "FC", "FLT", "FCT"})
-      if (block.head == polar) return false;
-    const bool approach = block.head == "APPR" || block.head == "DEP";
-    if (approach && squeezed(after_head(text, block)).starts_with("P")) return false;
+    if (block.head == "CC") pole = block.line;
+    const bool approach =
+        (block.head == "APPR" || block.head == "DEP") && squeezed(after_head(text, block)).starts_with("P");
+    const bool uses = approach || std::find(polar.begin(), polar.end(), block.head) != polar.end();
+    if (uses && pole > 0 && (lines.empty() || lines.back() != pole)) lines.push_back(pole);
   }
-  return true;
+  return lines;
 }
 
 }  // namespace counterflex

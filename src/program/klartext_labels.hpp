@@ -17,7 +17,8 @@ std::vector<LineStretch> doubtful_stretches(std::string_view text);
 
 bool holds(const std::vector<LineStretch>& stretches, int line);
 
-/// Whether arcs may have their centre moved: no block of `text` uses a pole otherwise.
-bool only_arcs_use_poles(std::string_view text);
+/// Lines of the CC whose pole other blocks use than C, so that it cannot be moved with the arcs about it. In
+/// order.
+std::vector<int> poles_used_otherwise(std::string_view text);
 
 }  // namespace counterflex

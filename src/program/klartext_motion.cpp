@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "program/arc_radius.hpp"
 #include "program/dialect.hpp"
 #include "program/klartext_read.hpp"
 #include "program/remarks.hpp"
@@ -134,17 +135,12 @@ void place_coordinates(const KlartextBlock& block, KlartextReading& r, Move& mov
   }
 }
 
-/// The centre of an arc of given radius from start to end: on the left of the way there where the sense and
-/// the half that is meant say so. Nothing where the ends are further apart than the radius reaches.
+/// The centre of an arc of given radius; nothing where its ends are the same or further apart than it
+/// reaches.
 std::optional<Vector3> centre_of_radius(const Move& move, double radius, bool clockwise) {
-  const Vector3 chord = (move.end_mm - move.start_mm).cwiseProduct(Vector3(1, 1, 0));
-  const double half = 0.5 * chord.norm();
-  const double r = std::abs(radius);
-  if (half == 0 || half > r * 1.001) return std::nullopt;
-  const double height = std::sqrt(std::max(0.0, r * r - half * half));
-  const Vector3 left = Vector3(-chord.y(), chord.x(), 0) / (2 * half);
-  const double side = (clockwise ? -1 : 1) * (radius < 0 ? -1 : 1);
-  return Vector3(move.start_mm + 0.5 * chord + side * height * left);
+  const double half = 0.5 * (move.end_mm - move.start_mm).head<2>().norm();
+  if (half == 0 || half > std::abs(radius) * 1.001) return std::nullopt;
+  return centre_from_radius(move.start_mm, move.end_mm, radius, (clockwise ? -1 : 1) * Vector3::UnitZ());
 }
 
 void set_arc(const KlartextBlock& block, KlartextReading& r, Move& move, bool clockwise) {
@@ -175,8 +171,7 @@ void read_arc(const KlartextBlock& block, KlartextReading& r, Move& move) {
   const bool sense_known = sense != nullptr && !empty(sense->number);
   const bool plane = r.state.tool_along_z && find_word(r.words, "Z") == nullptr && !move.relative;
   const bool ends_known = move.known_start[0] && move.known_start[1] && r.state.known[0] && r.state.known[1];
-  if (r.arcs_followed && sense_known && plane && ends_known)
-    set_arc(block, r, move, r.program.text[sense->number.begin] == '-');
+  if (sense_known && plane && ends_known) set_arc(block, r, move, r.program.text[sense->number.begin] == '-');
   if (move.arc) return;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (!move.words[axis] && !move.fixed[axis]) continue;
@@ -323,7 +318,9 @@ void read_klartext_motion(const KlartextBlock& block, KlartextReading& r) {
 
 void read_klartext_pole(const KlartextBlock& block, KlartextReading& r) {
   r.state.pole.reset();
-  if (!lex_klartext_words(r.program.text, r.program.file, block, r.words) || r.words.size() != 2) return;
+  const bool moves = std::binary_search(r.polar.begin(), r.polar.end(), block.line);
+  if (!lex_klartext_words(r.program.text, r.program.file, block, r.words) || r.words.size() != 2 || moves)
+    return;
   KlartextPole pole;
   pole.just_set = true;
   for (std::size_t axis = 0; axis < 2; ++axis) {

@@ -190,7 +190,7 @@ void add_cycle_call(const KlartextBlock& block, KlartextReading& r) {
 void read_klartext(Program& program, const ReadOptions& options,
                    const std::array<bool, 3>& tool_change_axes) {
   KlartextReading reading{program, options, tool_change_axes, doubtful_stretches(program.text),
-                          only_arcs_use_poles(program.text)};
+                          poles_used_otherwise(program.text)};
   reading.state.unit = options.unit;
   KlartextBlock block;
   while (!reading.ended && next_klartext_block(program.text, block)) read_statement(block, reading);

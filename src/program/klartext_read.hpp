@@ -52,7 +52,7 @@ struct KlartextReading {
   const ReadOptions& options;
   std::array<bool, 3> tool_change_axes;
   std::vector<LineStretch> doubtful;
-  bool arcs_followed = true;
+  std::vector<int> polar;  ///< lines of the CC that arcs share with other blocks
   KlartextState state{};
   std::vector<KlartextWord> words{};
   bool ended = false;

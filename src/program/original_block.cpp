@@ -1,8 +1,11 @@
 #include "program/original_block.hpp"
 
-#include <algorithm>
-#include <cassert>
+#include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
+#include "program/codes.hpp"
 #include "program/force_comment.hpp"
 
 namespace counterflex {
@@ -10,14 +13,22 @@ namespace counterflex {
 bool is_axis(const Word& word) {
   return word.letter >= 'X' && word.letter <= 'Z';
 }
+bool is_centre(const Word& word) {
+  return (word.letter >= 'I' && word.letter <= 'K') || word.letter == 'R';
+}
 bool is_motion(const Word& word) {
-  return word.letter == 'G' && (word.value == 0 || word.value == 1);
+  return word.letter == 'G' && (word.value == 0 || word.value == 1 || word.value == 2 || word.value == 3);
+}
+bool says_motion(const Word& word, const Dialect& dialect) {
+  if (word.letter != 'G') return false;
+  const GCode* code = find_g_code(static_cast<int>(std::lround(word.value * 10)), dialect);
+  return is_motion(word) || (code != nullptr && code->group == Group::motion);
 }
 
-const Word& last_axis_word(const Block& block) {
-  const auto last = std::find_if(block.words.rbegin(), block.words.rend(), is_axis);
-  assert(last != block.words.rend());
-  return *last;
+const Word* find_word(const Block& block, char upper) {
+  const auto found =
+      std::find_if(block.words.begin(), block.words.end(), [&](auto& w) { return w.letter == upper; });
+  return found == block.words.end() ? nullptr : &*found;
 }
 
 namespace {
@@ -26,25 +37,40 @@ bool is_lower(char c) {
   return c >= 'a' && c <= 'z';
 }
 
-/// What stands before the last axis word, where that is blanks or nothing behind another word.
+/// The last axis word; without one the last word; nullptr where there is none.
+const Word* word_that_shows_style(const Block& block) {
+  const auto last = std::find_if(block.words.rbegin(), block.words.rend(), is_axis);
+  if (last != block.words.rend()) return &*last;
+  return block.words.empty() ? nullptr : &block.words.back();
+}
+
+/// What stands before that word, where that is blanks or nothing behind another word.
 std::string separator_of(const Original& o, const std::string& otherwise) {
-  const Word* last = &last_axis_word(o.block);
-  if (last == o.block.words.data()) return otherwise;
+  const Word* last = word_that_shows_style(o.block);
+  if (last == nullptr || last == o.block.words.data()) return otherwise;
   const std::string_view gap = o.text({(last - 1)->span.end, last->span.begin});
   if (gap.find_first_not_of(" \t") != std::string_view::npos) return otherwise;
   return std::string(is_axis(*(last - 1)) ? gap : gap.substr(0, 1));
 }
 
-/// Whether the block holds other words than motion, axes, F and N, or sets the force: it acts from its
-/// beginning.
+/// Whether the block holds other words than those of the move itself, F and N, or sets the force: it acts
+/// from its beginning.
 bool acts_itself(const Original& o) {
+  const bool arc = o.move.arc.has_value();
   return std::any_of(o.block.words.begin(), o.block.words.end(),
-                     [](const Word& word) {
-                       return !is_axis(word) && !is_motion(word) && word.letter != 'F' && word.letter != 'N';
+                     [&](const Word& word) {
+                       return !is_axis(word) && !is_motion(word) && word.letter != 'F' &&
+                              word.letter != 'N' && !(arc && (is_centre(word) || word.letter == 'P'));
                      }) ||
          std::any_of(o.block.comments.begin(), o.block.comments.end(), [&](Span comment) {
            return read_force_comment(o.program.text, o.program.file, o.block, comment).has_value();
          });
+}
+
+/// `number` of a G0 to G3 turned into `motion`, with its leading zero.
+std::string motion_number(std::string_view number, int motion) {
+  const bool two_digits = number.size() == 2 && number.front() == '0';
+  return fmt::format("{}{}", two_digits ? "0" : "", motion);
 }
 
 }  // namespace
@@ -59,7 +85,8 @@ Original lex_again(const Program& program, const Move& move, const ProgramStyle&
                    ? style.line_end
                    : program.text.substr(move.block.end, newline + 1 - move.block.end);
   o.separator = separator_of(o, style.separator);
-  o.lower_case = is_lower(program.text[last_axis_word(o.block).span.begin]);
+  const Word* shown = word_that_shows_style(o.block);
+  o.lower_case = shown != nullptr && is_lower(program.text[shown->span.begin]);
   o.acts_itself = acts_itself(o);
   return o;
 }
@@ -68,16 +95,18 @@ char letter_of(const Original& o, char upper) {
   return o.lower_case ? static_cast<char>(upper - 'A' + 'a') : upper;
 }
 
-std::string motion_text(const Original& o) {
-  const auto motion = std::find_if(o.block.words.begin(), o.block.words.end(), is_motion);
-  return motion == o.block.words.end() ? std::string() : std::string(o.text(motion->span));
+std::string motion_text(const Original& o, int motion) {
+  const auto word = std::find_if(o.block.words.begin(), o.block.words.end(), is_motion);
+  if (word == o.block.words.end()) return fmt::format("{}{}", letter_of(o, 'G'), motion);
+  if (word->value == motion) return std::string(o.text(word->span));
+  return std::string(o.text({word->span.begin, word->number.begin})) +
+         motion_number(o.text(word->number), motion);
 }
 
 std::string feed_text(const Original& o) {
-  const auto feed =
-      std::find_if(o.block.words.begin(), o.block.words.end(), [](auto& w) { return w.letter == 'F'; });
-  return feed == o.block.words.end() || o.move.motion == Motion::rapid ? std::string()
-                                                                       : std::string(o.text(feed->span));
+  const Word* feed = find_word(o.block, 'F');
+  const bool copied = feed != nullptr && o.move.motion == Motion::feed;
+  return copied ? std::string(o.text(feed->span)) : std::string();
 }
 
 std::string block_delete_text(const Original& o) {

@@ -24,7 +24,7 @@ struct Original {
   std::string line_end{};
   bool lower_case = false;
   bool acts_itself =
-      false;  ///< other words than motion, axes, F and N: it is the first piece of its own split
+      false;  ///< other words than motion, axes, centre, F and N: it is the first piece of its own split
 
   std::string_view text(Span span) const { return part(program.text, span); }
 };
@@ -33,16 +33,23 @@ Original lex_again(const Program& program, const Move& move, const ProgramStyle&
 
 bool is_axis(const Word& word);
 
-/// G0 or G1.
+/// I, J, K or R.
+bool is_centre(const Word& word);
+
+/// G0, G1, G2 or G3.
 bool is_motion(const Word& word);
 
-const Word& last_axis_word(const Block& block);
+/// A G code that says how the block moves.
+bool says_motion(const Word& word, const Dialect& dialect);
+
+/// The block's word `upper`, or nullptr.
+const Word* find_word(const Block& block, char upper);
 
 /// `upper` in the case of the block.
 char letter_of(const Original& original, char upper);
 
-/// The block's own G0 or G1; empty where it has none.
-std::string motion_text(const Original& original);
+/// G`motion`, as the block itself writes it where it does.
+std::string motion_text(const Original& original, int motion);
 
 /// The F word of a feed move; empty where there is none.
 std::string feed_text(const Original& original);

@@ -2,7 +2,6 @@
 
 #include <cassert>
 
-#include "program/held_position.hpp"
 #include "program/klartext_lex.hpp"
 #include "program/klartext_rewrite.hpp"
 #include "program/rewrite_block.hpp"
@@ -47,32 +46,63 @@ std::string header_text(const Program& program, const ProgramStyle& style, std::
   return text;
 }
 
+/// The text being written: everything before byte `copied` of the input is in `out`.
+struct Writing {
+  const Program& program;
+  const ProgramStyle style;
+  std::size_t copied = 0;
+  TextState state{};
+  Rewritten out{};
+};
+
+/// Copies what stands before byte `end`, where no move is. A motion word in it ends the doubt about the modal
+/// motion.
+void copy_until(std::size_t end, Writing& w) {
+  const Dialect& dialect = *find_dialect(w.program.dialect);
+  Block block;
+  block.line_end.end = w.copied;
+  while (w.state.restate_motion && block.line_end.end < end && next_line(w.program.text, block)) {
+    lex(w.program.text, w.program.file, dialect, block);
+    if (block.span.begin < end && sets_motion(block, dialect)) w.state.restate_motion = false;
+  }
+  w.out.text.append(w.program.text, w.copied, end - w.copied);
+  w.copied = end;
+}
+
+void pass_over(const Move& move, Writing& w) {
+  if (w.state.restate_motion) copy_until(move.block.begin, w);
+  if (!w.state.restate_motion) return pass_block(move, w.state);
+  copy_block(w.program, w.style, move, w.state, w.out);
+  w.copied = move.block.end;
+}
+
+void apply(const MoveEdit& edit, const WriteOptions& options, Writing& w) {
+  const Span block = w.program.moves[edit.move].block;
+  copy_until(block.begin, w);
+  const std::size_t inserted = w.out.inserted_blocks;
+  rewrite_block(w.program, w.style, edit, options, w.state, w.out);
+  w.out.blocks_of_edit.push_back(w.out.inserted_blocks - inserted);
+  w.copied = block.end;
+}
+
 }  // namespace
 
 Rewritten rewrite(const Program& program, const std::vector<MoveEdit>& edits, const WriteOptions& options) {
   if (program.dialect == klartext_name) return rewrite_klartext(program, edits, options);
-  const ProgramStyle style = style_of(program);
-  const std::size_t header = header_position(program);
-  Rewritten out;
-  out.text.reserve(program.text.size() + program.text.size() / 8);
-  out.text.append(program.text, 0, header).append(header_text(program, style, header, options));
-
-  HeldPosition held{};
-  std::size_t copied = header;
+  Writing w{program, style_of(program)};
+  w.copied = header_position(program);
+  w.out.text.reserve(program.text.size() + program.text.size() / 8);
+  w.out.text.append(program.text, 0, w.copied).append(header_text(program, w.style, w.copied, options));
   std::size_t next = 0;
   for (const MoveEdit& edit : edits) {
     assert(edit.move >= next && edit.move < program.moves.size());
-    for (; next < edit.move; ++next) held = held_after_original(program.moves[next], held);
-    const Span block = program.moves[edit.move].block;
-    out.text.append(program.text, copied, block.begin - copied);
-    const std::size_t inserted = out.inserted_blocks;
-    rewrite_block(program, style, edit, options, held, out);
-    out.blocks_of_edit.push_back(out.inserted_blocks - inserted);
-    copied = block.end;
+    for (; next < edit.move; ++next) pass_over(program.moves[next], w);
+    apply(edit, options, w);
     ++next;
   }
-  out.text.append(program.text, copied);
-  return out;
+  for (; next < program.moves.size() && w.state.restate_motion; ++next) pass_over(program.moves[next], w);
+  w.out.text.append(program.text, w.copied);
+  return std::move(w.out);
 }
 
 }  // namespace counterflex

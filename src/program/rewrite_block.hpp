@@ -1,16 +1,33 @@
 #pragma once
 /// The new text of one edited block and of the blocks inserted around it.
-#include <string>
-
 #include "counterflex/program/rewrite.hpp"
+#include "program/held_cycle.hpp"
 #include "program/original_block.hpp"
 
 namespace counterflex {
 
+/// What the text written so far leaves to the blocks that follow.
+struct TextState {
+  HeldPosition held{};
+  HeldCycle cycle{};
+  bool restate_motion = false;  ///< the modal motion may not be the original's: who relies on it must say it
+};
+
 /// Appends the text of the block of `edit` and of the blocks inserted around it to `out.text`, without the
-/// block's own line end, counts in `out`, and moves `held` to the position that the text then holds. Throws
-/// as `rewrite` does.
+/// block's own line end, counts in `out`, and moves `state` to what the text then holds. Throws as `rewrite`
+/// does.
 void rewrite_block(const Program& program, const ProgramStyle& style, const MoveEdit& edit,
-                   const WriteOptions& options, HeldPosition& held, Rewritten& out);
+                   const WriteOptions& options, TextState& state, Rewritten& out);
+
+/// Moves `state` on over the block of `move`, which is not edited and stays as it is.
+void pass_block(const Move& move, TextState& state);
+
+/// The same where `state.restate_motion`: appends the block's text, which says its motion where it would
+/// otherwise take an inserted one's.
+void copy_block(const Program& program, const ProgramStyle& style, const Move& move, TextState& state,
+                Rewritten& out);
+
+/// Whether the line of `block` sets the modal motion for certain.
+bool sets_motion(const Block& block, const Dialect& dialect);
 
 }  // namespace counterflex

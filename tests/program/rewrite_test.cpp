@@ -132,7 +132,7 @@ TEST_CASE("a feed move before a rapid is a G1, and the rapid says G0 itself") {
   const MoveEdit edit{.jump_mm = Vector3(1, 0.25, 0), .end_mm = {1, 0, 5}};
   CHECK(with_last_move(text, edit) == std::string(start) + "G1 X1. F100\nG0\nG1 Y0.250\nG0 Z5. Y0.000\n");
   CHECK(with_last_move(std::string(start) + "G1 X1. F100\nG00 Z5.\n", edit) ==
-        std::string(start) + "G1 X1. F100\nG1 Y0.250\nG00 Z5. Y0.000\n");
+        std::string(start) + "G1 X1. F100\nG01 Y0.250\nG00 Z5. Y0.000\n");
   CHECK(with_last_move(std::string(start) + "G1 X1. F100\nX2.\n",
                        {.jump_mm = Vector3(1, 0.25, 0), .end_mm = {2, 0.25, 0}}) ==
         std::string(start) + "G1 X1. F100\nY0.250\nX2.\n");

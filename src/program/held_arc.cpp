@@ -1,0 +1,99 @@
+#include "program/held_arc.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include "counterflex/files/numbers.hpp"
+#include "program/arc_radius.hpp"
+#include "program/dialect.hpp"
+
+namespace counterflex {
+namespace {
+
+Vector3 across(const Vector3& v, const ArcMove& arc) {
+  Vector3 flat = v;
+  flat[arc.normal] = 0;
+  return flat;
+}
+
+double sweep_of(const ArcMove& arc, const Vector3& start, const Vector3& end, const Vector3& centre_mm) {
+  return sweep_between(start, end, centre_mm, normal_of(arc));
+}
+
+/// I, J or K: counted from the start unless G90.1 acts.
+void settle_centre_word(const Move& move, std::size_t axis, const Vector3& start, double wanted_mm,
+                        Place place, const WriteOptions& options, ArcWords& words) {
+  const ArcMove& arc = *move.arc;
+  const double unit = mm_per(move.unit);
+  const double from_mm = arc.absolute_centre ? 0 : component(start, axis);
+  const double original_mm =
+      component(arc.centre_mm, axis) - (arc.absolute_centre ? 0 : component(move.start_mm, axis));
+  const auto& word = arc.centre_words[axis];
+  // A word that is absent says zero.
+  const double original = word ? shown_number(move, *word, original_mm) : 0;
+  WordNumber number = settle_number(move, word, original, (wanted_mm - from_mm) / unit, place, options);
+  if (!word && number.value == 0) number.write = false;
+  words.centre[axis] = number;
+  words.curve.arc->centre[static_cast<Eigen::Index>(axis)] = from_mm + number.value * unit;
+}
+
+/// R: the middle of the distances of both ends, never so short that it does not reach.
+void settle_radius(const Move& move, const Vector3& centre_mm, Place place, const WriteOptions& options,
+                   ArcWords& words) {
+  const ArcMove& arc = *move.arc;
+  const Vector3 &start = words.curve.start, &end = words.curve.end;
+  const double unit = mm_per(move.unit);
+  const double size_mm = 0.5 * (across(start - centre_mm, arc).norm() + across(end - centre_mm, arc).norm());
+  const bool longer = sweep_of(arc, start, end, centre_mm) > std::numbers::pi;
+  const double wanted = (longer ? -size_mm : size_mm) / unit;
+  WordNumber number = settle_number(move, arc.radius_word, arc.radius_mm / unit, wanted, place, options);
+  const double half_chord = across(end - start, arc).norm() / 2 / unit;
+  if (number.write && std::abs(number.value) < half_chord) {
+    const double digit = std::pow(10.0, -number.decimals);
+    number.value =
+        rounded(std::copysign(std::ceil(half_chord / digit) * digit, number.value), number.decimals);
+  }
+  words.radius = number;
+  words.curve.arc->centre = centre_from_radius(start, end, number.value * unit, normal_of(arc));
+}
+
+/// The digits of the ends have turned a piece that hardly moves around.
+bool is_turned_around(const Move& move, const ArcWords& words, Place place, int decimals) {
+  constexpr double digits_that_ends_may_miss = 2, angle_that_digits_may_add = 0.5;
+  const ArcMove& arc = *move.arc;
+  const double digit_mm = std::pow(10.0, -decimals) * mm_per(move.unit);
+  const Curve& curve = words.curve;
+  if (across(curve.end - curve.start, arc).norm() > digits_that_ends_may_miss * digit_mm) return false;
+  const double original = sweep_of(arc, move.start_mm, move.end_mm, arc.centre_mm);
+  const double most = place == Place::end ? original : std::fmin(original, std::numbers::pi);
+  return curve.arc->sweep > most + angle_that_digits_may_add;
+}
+
+}  // namespace
+
+Vector3 normal_of(const ArcMove& arc) {
+  return (arc.clockwise ? -1 : 1) * Vector3::Unit(arc.normal);
+}
+
+std::optional<ArcWords> settle_arc(const Move& move, const Vector3& start, const Vector3& end,
+                                   const Vector3& centre_mm, Place place, const WriteOptions& options) {
+  const ArcMove& arc = *move.arc;
+  ArcWords words;
+  words.curve = {start, end, Arc{start, normal_of(arc), 0}};
+  if (arc.radius_word) {
+    if (across(end - start, arc).isZero(0)) return std::nullopt;
+    settle_radius(move, centre_mm, place, options, words);
+  } else {
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      if (in_plane(arc, axis))
+        settle_centre_word(move, axis, start, component(centre_mm, axis), place, options, words);
+  }
+  words.curve.arc->sweep = sweep_of(arc, start, end, words.curve.arc->centre);
+  const bool whole_turns = place == Place::end && arc.turns > 0;
+  if (!whole_turns && is_turned_around(move, words, place, decimals_of(move, options).inserted))
+    return std::nullopt;
+  if (whole_turns) words.curve.arc->sweep += 2 * std::numbers::pi * arc.turns;
+  return words;
+}
+
+}  // namespace counterflex

@@ -1,0 +1,85 @@
+#include "program/held_cycle.hpp"
+
+#include "program/dialect.hpp"
+#include "program/number_style.hpp"
+
+namespace counterflex {
+namespace {
+
+/// Where a word's number counts from: zero, or under G91 `base_mm`.
+double origin(const Move& move, double base_mm) {
+  return move.relative ? base_mm : 0;
+}
+
+struct Settled {
+  WordNumber number;
+  double read_mm = 0;
+};
+
+/// The word that brings what stood at `original_mm` to `wanted_mm`; it counted from `original_base_mm` and
+/// now counts from `base_mm`.
+Settled settle_from(const Move& move, const AxisWord& word, double original_mm, double original_base_mm,
+                    double wanted_mm, double base_mm, const WriteOptions& options) {
+  const double unit = mm_per(move.unit);
+  const double shown = shown_number(move, word, original_mm - origin(move, original_base_mm));
+  const double wanted = (wanted_mm - origin(move, base_mm)) / unit;
+  const WordNumber number = settle_number(move, word, shown, wanted, Place::end, options);
+  const bool untouched = !number.write && !move.relative;
+  return {number, untouched ? original_mm : origin(move, base_mm) + number.value * unit};
+}
+
+Settled settle_retract(const Move& move, double held_z_mm, double retract_mm, const WriteOptions& options) {
+  const CycleMove& cycle = *move.cycle;
+  return settle_from(move, *cycle.retract_word, cycle.retract_mm, component(move.start_mm, 2), retract_mm,
+                     held_z_mm, options);
+}
+
+/// A word for a bottom that the text does not repeat already.
+WordNumber settle_repeated(const Move& move, std::optional<double> repeated_mm, double wanted_mm,
+                           const WriteOptions& options) {
+  const double unit = mm_per(move.unit);
+  const WordNumber number = settle_number(move, std::nullopt, 0, wanted_mm / unit, Place::inside, options);
+  const bool repeats = repeated_mm && rounds_to(*repeated_mm / unit, wanted_mm / unit, number.decimals);
+  return repeats ? WordNumber{} : number;
+}
+
+/// A cycle leaves Z where it was, or at the retract plane where that is higher or G99 says so.
+bool is_left_at_retract(const Move& move) {
+  return move.cycle->returns_to_retract || move.cycle->retract_mm >= component(move.start_mm, 2);
+}
+
+}  // namespace
+
+Coordinate settle_cycle_end(const Move& move, std::optional<double> held_z_mm, double retract_mm,
+                            const WriteOptions& options) {
+  if (!move.known_end[2]) return {{}, std::nullopt};
+  if (!is_left_at_retract(move) || !move.cycle->retract_word) return {{}, held_z_mm};
+  const double z_mm = held_z_mm.value_or(component(move.start_mm, 2));
+  return {{}, settle_retract(move, z_mm, retract_mm, options).read_mm};
+}
+
+CycleWords settle_cycle(const Move& move, std::optional<double> held_z_mm, std::optional<double> bottom_mm,
+                        std::optional<double> retract_mm, HeldCycle& held, const WriteOptions& options) {
+  const CycleMove& cycle = *move.cycle;
+  CycleWords words;
+  if (cycle.retract_word) {
+    const double z_mm = held_z_mm.value_or(component(move.start_mm, 2));
+    const Settled retract = settle_retract(move, z_mm, retract_mm.value_or(cycle.retract_mm), options);
+    words.retract = retract.number;
+    held.retract_mm = retract.read_mm;
+  }
+  if (cycle.bottom_word) {
+    const Settled bottom =
+        settle_from(move, *cycle.bottom_word, cycle.bottom_mm, cycle.retract_mm,
+                    bottom_mm.value_or(cycle.bottom_mm), held.retract_mm.value_or(cycle.retract_mm), options);
+    words.bottom = bottom.number;
+    held.bottom_mm = bottom.read_mm;
+  } else if (bottom_mm && cycle.may_insert_bottom && !move.relative) {
+    words.bottom = settle_repeated(move, held.bottom_mm, *bottom_mm, options);
+    if (words.bottom.write) held.bottom_mm = words.bottom.value * mm_per(move.unit);
+  }
+  if (move.block_delete) held = {};
+  return words;
+}
+
+}  // namespace counterflex

@@ -1,0 +1,25 @@
+#pragma once
+/// The text of one edited block, and of the blocks inserted around it, word by word.
+#include <string>
+
+#include "program/held_cycle.hpp"
+#include "program/original_block.hpp"
+#include "program/rewrite_step.hpp"
+
+namespace counterflex {
+
+/// What a block says besides the point it moves to.
+struct BesidesPoint {
+  bool state_motion = false;             ///< a block without a motion word must say it
+  std::optional<double> feed_per_min{};  ///< G93: F of this piece
+  CycleWords cycle{};
+};
+
+/// The block of `o` itself, moving by `step`, without its line end. Throws `InputError` where it would be
+/// longer than the control reads.
+std::string own_block(const Original& o, const Step& step, const BesidesPoint& besides, Rewritten& out);
+
+/// An inserted block that moves by `step`.
+std::string inserted_block(const Original& o, const Step& step, const BesidesPoint& besides);
+
+}  // namespace counterflex
