@@ -6,75 +6,76 @@
 namespace counterflex {
 namespace {
 
-constexpr std::string_view arcs = "arcs are not read yet";
-constexpr std::string_view cycles = "canned cycles are not read yet";
-constexpr std::string_view splines = "splines are not read yet";
-constexpr std::string_view threads = "threads and tapping are not read yet";
-constexpr std::string_view probing = "probing is not read yet";
-constexpr std::string_view contours = "cutter compensation is not read yet";
-constexpr std::string_view shifts = "shifts of coordinates are not read yet";
-constexpr std::string_view turns = "scaling, mirroring and rotation are not read yet";
-constexpr std::string_view polar = "polar coordinates are not read yet";
-constexpr std::string_view dynamic_tool = "dynamic tool offsets are not read yet";
-constexpr std::string_view five_axes = "tool centre point control is not read yet";
-constexpr std::string_view macros = "macro calls are not read yet";
+constexpr unsigned not_mach = any_family & ~mach3_family;
+constexpr unsigned linux_like = linuxcnc_family | grbl_family;
+constexpr unsigned haas_mach = haas_family | mach3_family;
 
-// In the order of their numbers.
+constexpr std::string_view points = "tool centre point control";
+
+// In the order of their numbers; of two with the same number, the families differ.
 constexpr std::array g_codes{
     GCode{0, Action::rapid, Group::motion},
     GCode{10, Action::feed, Group::motion},
-    GCode{20, Action::not_read, Group::motion, arcs},
-    GCode{30, Action::not_read, Group::motion, arcs},
+    GCode{20, Action::arc, Group::motion},
+    GCode{30, Action::arc, Group::motion},
     GCode{40, Action::dwell},
-    GCode{50, Action::not_read, Group::motion, splines},
-    GCode{51, Action::smooth, Group::none, {}, true},
-    GCode{52, Action::not_read, Group::motion, splines},
-    GCode{53, Action::not_read, Group::motion, splines},
-    GCode{70, Action::not_read, Group::none, "diameter programming is not read yet"},
-    GCode{80, Action::state},
-    GCode{90, Action::stop_once, Group::none, {}, true},
-    GCode{100, Action::not_read, Group::none, "setting offsets is not read yet"},
-    GCode{120, Action::not_read, Group::motion, cycles},
-    GCode{130, Action::not_read, Group::motion, cycles},
-    GCode{150, Action::state, Group::none, {}, true},
-    GCode{160, Action::not_read, Group::none, polar},
-    GCode{170, Action::state, Group::plane},
-    GCode{180, Action::state, Group::plane},
-    GCode{190, Action::state, Group::plane},
+    GCode{50, Action::spline, Group::motion, {}, linux_like},
+    GCode{50, Action::smooth, Group::none, {}, shop_families},
+    GCode{51, Action::spline, Group::motion, {}, linux_like},
+    GCode{51, Action::smooth, Group::none, {}, shop_families},
+    GCode{52, Action::spline, Group::motion, {}, linux_like},
+    GCode{53, Action::spline, Group::motion, {}, linux_like},
+    GCode{70, Action::not_read, Group::none, "diameter programming is not read yet", not_mach},
+    GCode{80, Action::smooth, Group::none, {}, shop_families},
+    GCode{80, Action::state, Group::none, {}, linux_like},
+    GCode{90, Action::stop_once, Group::none, {}, shop_families},
+    GCode{100, Action::set_data},
+    GCode{110, Action::state, Group::none, {}, shop_families},
+    GCode{120, Action::pocket, Group::none, {}, haas_mach},
+    GCode{130, Action::pocket, Group::none, {}, haas_mach},
+    GCode{150, Action::end_displace, Group::none, {}, shop_families | mach3_family, polar},
+    GCode{160, Action::displace, Group::none, "polar coordinates", shop_families | mach3_family, polar},
+    GCode{170, Action::plane, Group::plane},
+    GCode{180, Action::plane, Group::plane},
+    GCode{190, Action::plane, Group::plane},
     GCode{200, Action::inch, Group::unit},
     GCode{210, Action::mm, Group::unit},
+    GCode{220, Action::state, Group::none, {}, shop_families},
+    GCode{230, Action::state, Group::none, {}, shop_families},
+    GCode{270, Action::reference_move, Group::none, {}, shop_families},
     GCode{280, Action::reference_move},
-    GCode{281, Action::not_read, Group::none, "setting the reference point is not read yet"},
+    GCode{281, Action::state},
+    GCode{290, Action::own_way, Group::none, {}, shop_families},
     GCode{300, Action::reference_move},
-    GCode{301, Action::not_read, Group::none, "setting the reference point is not read yet"},
-    GCode{310, Action::not_read, Group::none, probing},
-    GCode{330, Action::not_read, Group::motion, threads},
-    GCode{331, Action::not_read, Group::motion, threads},
-    GCode{382, Action::not_read, Group::motion, probing},
-    GCode{383, Action::not_read, Group::motion, probing},
-    GCode{384, Action::not_read, Group::motion, probing},
-    GCode{385, Action::not_read, Group::motion, probing},
-    GCode{400, Action::state, Group::cutter},
-    GCode{410, Action::not_read, Group::cutter, contours},
-    GCode{411, Action::not_read, Group::cutter, contours},
-    GCode{420, Action::not_read, Group::cutter, contours},
-    GCode{421, Action::not_read, Group::cutter, contours},
+    GCode{301, Action::state},
+    GCode{310, Action::probe, Group::none, {}, shop_families | mach3_family},
+    GCode{330, Action::thread, Group::motion},
+    GCode{331, Action::thread, Group::motion},
+    GCode{382, Action::probe, Group::motion},
+    GCode{383, Action::probe, Group::motion},
+    GCode{384, Action::probe, Group::motion},
+    GCode{385, Action::probe, Group::motion},
+    GCode{400, Action::no_cutter, Group::cutter},
+    GCode{410, Action::cutter, Group::cutter},
+    GCode{411, Action::cutter, Group::cutter},
+    GCode{420, Action::cutter, Group::cutter},
+    GCode{421, Action::cutter, Group::cutter},
     GCode{430, Action::tool_length, Group::tool_length},
-    GCode{431, Action::not_read, Group::tool_length, dynamic_tool},
-    GCode{432, Action::not_read, Group::tool_length, dynamic_tool},
-    GCode{434, Action::not_read, Group::tool_length, five_axes},
-    GCode{435, Action::not_read, Group::tool_length, five_axes},
-    GCode{440, Action::tool_length, Group::tool_length, {}, true},
-    GCode{470, Action::not_read, Group::none, "engraving is not read yet"},
+    GCode{431, Action::tool_length, Group::tool_length},
+    GCode{432, Action::tool_length, Group::tool_length},
+    GCode{434, Action::displace, Group::tool_length, points, any_family, tool_point},
+    GCode{435, Action::displace, Group::tool_length, points, any_family, tool_point},
+    GCode{440, Action::tool_length, Group::tool_length, {}, shop_families | mach3_family},
+    GCode{470, Action::own_way, Group::none, {}, haas_family},
     GCode{490, Action::no_tool_length, Group::tool_length},
-    GCode{500, Action::state, Group::none, {}, true},
-    GCode{501, Action::state, Group::none, {}, true},
-    GCode{510, Action::not_read, Group::none, turns},
-    GCode{511, Action::not_read, Group::none, turns},
-    GCode{520, Action::not_read, Group::none, shifts},
+    GCode{500, Action::end_displace, Group::none, {}, shop_families | mach3_family, scaled},
+    GCode{501, Action::end_displace, Group::none, {}, shop_families, mirrored},
+    GCode{510, Action::displace, Group::none, "scaling", shop_families | mach3_family, scaled},
+    GCode{511, Action::displace, Group::none, "mirroring", shop_families, mirrored},
+    GCode{520, Action::shift, Group::none, "a shift by G52", any_family, shifted},
     GCode{530, Action::machine_move},
     GCode{540, Action::work_offset, Group::offset},
-    GCode{541, Action::not_read, Group::offset, "additional work offsets are not read yet"},
+    GCode{541, Action::work_offset, Group::offset, {}, shop_families},
     GCode{550, Action::work_offset, Group::offset},
     GCode{560, Action::work_offset, Group::offset},
     GCode{570, Action::work_offset, Group::offset},
@@ -85,42 +86,59 @@ constexpr std::array g_codes{
     GCode{593, Action::work_offset, Group::offset},
     GCode{610, Action::g61, Group::path},
     GCode{611, Action::exact_stop, Group::path},
+    GCode{620, Action::state, Group::path, {}, shop_families},
+    GCode{630, Action::state, Group::path, {}, shop_families},
     GCode{640, Action::blend, Group::path},
-    GCode{650, Action::not_read, Group::none, macros},
-    GCode{660, Action::not_read, Group::none, macros},
-    GCode{670, Action::state, Group::none, {}, true},
-    GCode{680, Action::not_read, Group::none, turns},
-    GCode{690, Action::state, Group::none, {}, true},
-    GCode{730, Action::not_read, Group::motion, cycles},
-    GCode{740, Action::not_read, Group::motion, cycles},
-    GCode{760, Action::not_read, Group::motion, cycles},
+    GCode{650, Action::call, Group::none, {}, shop_families},
+    GCode{660, Action::displace, Group::none, "a modal macro call", shop_families, modal_macro},
+    GCode{661, Action::displace, Group::none, "a modal macro call", shop_families, modal_macro},
+    GCode{670, Action::end_displace, Group::none, {}, shop_families, modal_macro},
+    GCode{680, Action::displace, Group::none, "rotation", shop_families | mach3_family, rotated},
+    GCode{682, Action::displace, Group::none, "a tilted plane", shop_families, rotated},
+    GCode{690, Action::end_displace, Group::none, {}, shop_families | mach3_family, rotated},
+    GCode{700, Action::inch, Group::unit, {}, mach3_family},
+    GCode{700, Action::own_way, Group::none, {}, haas_family},
+    GCode{710, Action::mm, Group::unit, {}, mach3_family},
+    GCode{710, Action::own_way, Group::none, {}, haas_family},
+    GCode{720, Action::own_way, Group::none, {}, haas_family},
+    GCode{730, Action::cycle, Group::motion},
+    GCode{740, Action::cycle, Group::motion},
+    GCode{760, Action::cycle, Group::motion, {}, shop_families | mach3_family},
+    GCode{760, Action::thread, Group::motion, {}, linux_like},
+    GCode{770, Action::cycle, Group::motion, {}, haas_family},
     GCode{800, Action::end_motion},
-    GCode{810, Action::not_read, Group::motion, cycles},
-    GCode{820, Action::not_read, Group::motion, cycles},
-    GCode{830, Action::not_read, Group::motion, cycles},
-    GCode{840, Action::not_read, Group::motion, cycles},
-    GCode{850, Action::not_read, Group::motion, cycles},
-    GCode{860, Action::not_read, Group::motion, cycles},
-    GCode{870, Action::not_read, Group::motion, cycles},
-    GCode{880, Action::not_read, Group::motion, cycles},
-    GCode{890, Action::not_read, Group::motion, cycles},
-    GCode{900, Action::state, Group::distance},
-    GCode{901, Action::state, Group::arc},
-    GCode{910, Action::not_read, Group::distance, "incremental positions are not read yet"},
-    GCode{911, Action::state, Group::arc},
-    GCode{920, Action::not_read, Group::none, shifts},
-    GCode{921, Action::not_read, Group::none, shifts},
-    GCode{922, Action::not_read, Group::none, shifts},
-    GCode{923, Action::not_read, Group::none, shifts},
-    GCode{930, Action::not_read, Group::feed_mode, "inverse time feed is not read yet"},
+    GCode{810, Action::cycle, Group::motion},
+    GCode{820, Action::cycle, Group::motion},
+    GCode{830, Action::cycle, Group::motion},
+    GCode{840, Action::cycle, Group::motion},
+    GCode{850, Action::cycle, Group::motion},
+    GCode{860, Action::cycle, Group::motion},
+    GCode{870, Action::cycle, Group::motion},
+    GCode{880, Action::cycle, Group::motion},
+    GCode{890, Action::cycle, Group::motion},
+    GCode{900, Action::absolute, Group::distance},
+    GCode{901, Action::absolute_centres, Group::arc},
+    GCode{910, Action::relative, Group::distance},
+    GCode{911, Action::relative_centres, Group::arc},
+    GCode{920, Action::displace, Group::none, "a position set by G92", any_family, set_position},
+    GCode{921, Action::end_displace, Group::none, {}, any_family, set_position},
+    GCode{922, Action::end_displace, Group::none, {}, any_family, set_position},
+    GCode{923, Action::displace, Group::none, "a position set by G92", any_family, set_position},
+    GCode{930, Action::inverse_time, Group::feed_mode},
     GCode{940, Action::feed_per_minute, Group::feed_mode},
     GCode{950, Action::feed_per_turn, Group::feed_mode},
-    GCode{960, Action::not_read, Group::spindle, "constant surface speed is not read yet"},
+    GCode{960, Action::surface_speed, Group::spindle},
     GCode{970, Action::state, Group::spindle},
-    GCode{980, Action::state, Group::retract},
-    GCode{990, Action::state, Group::retract},
-    GCode{1540, Action::not_read, Group::offset, "additional work offsets are not read yet"},
-    GCode{1870, Action::smooth, Group::none, {}, true},
+    GCode{980, Action::initial_level, Group::retract},
+    GCode{990, Action::retract_level, Group::retract},
+    GCode{1000, Action::end_displace, Group::none, {}, haas_family, mirrored},
+    GCode{1010, Action::displace, Group::none, "mirroring", haas_family, mirrored},
+    GCode{1030, Action::state, Group::none, {}, haas_family},
+    GCode{1430, Action::displace, Group::tool_length, points, haas_family, tool_point},
+    GCode{1500, Action::own_way, Group::none, {}, haas_family},
+    GCode{1540, Action::work_offset, Group::offset, {}, haas_family},
+    GCode{1870, Action::smooth, Group::none, {}, shop_families},
+    GCode{2340, Action::displace, Group::tool_length, points, haas_family, tool_point},
 };
 
 constexpr bool in_order() {
@@ -129,10 +147,21 @@ constexpr bool in_order() {
 }
 static_assert(in_order());
 
+constexpr std::size_t table_size = g_codes.back().tenths + 1;
+using FirstOf = std::array<std::uint8_t, table_size>;
+
+/// Place of the first code of a number, plus one; 0 where there is none.
+constexpr FirstOf first_of = [] {
+  FirstOf table{};
+  for (std::size_t i = g_codes.size(); i-- > 0;)
+    table[static_cast<std::size_t>(g_codes[i].tenths)] = static_cast<std::uint8_t>(i + 1);
+  return table;
+}();
+static_assert(g_codes.size() < 255);
+
 constexpr std::array acting_after{0, 1, 5, 9, 60};
-constexpr std::array harmless{3, 4, 7, 8, 19, 48, 49, 50, 51, 53, 61};
+constexpr std::array harmless{3, 4, 7, 8, 19, 29, 48, 49, 50, 51, 53, 61, 70, 71, 73};
 constexpr std::array with_parameters{52, 62, 63, 64, 65, 66, 67, 68};
-constexpr std::array refused{70, 71, 72, 73, 96, 97, 98, 99};
 
 template <typename Codes>
 bool contains(const Codes& codes, int code) {
@@ -142,20 +171,24 @@ bool contains(const Codes& codes, int code) {
 }  // namespace
 
 const GCode* find_g_code(int tenths, const Dialect& dialect) {
-  const auto found = std::lower_bound(g_codes.begin(), g_codes.end(), tenths,
-                                      [](const GCode& code, int wanted) { return code.tenths < wanted; });
-  if (found == g_codes.end() || found->tenths != tenths) return nullptr;
-  return found->shop_only && !dialect.machine_state_codes ? nullptr : &*found;
+  if (tenths < 0 || static_cast<std::size_t>(tenths) >= table_size) return nullptr;
+  const std::size_t first = first_of[static_cast<std::size_t>(tenths)];
+  if (first == 0) return nullptr;
+  for (const GCode* code = &g_codes[first - 1]; code != g_codes.end() && code->tenths == tenths; ++code)
+    if ((code->families & dialect.family) != 0) return code;
+  return nullptr;
 }
 
 MAction action_of_m(int code, const Dialect& dialect) {
   if (code == 2 || code == 30) return MAction::end;
   if (code == 6) return MAction::tool_change;
   if (contains(acting_after, code)) return MAction::acts_after;
+  if (code == 98 || code == 97 || (code == 198 && dialect.family != linuxcnc_family)) return MAction::call;
+  if (code == 99) return MAction::come_back;
+  if (code == 72) return MAction::restore;
   if (contains(harmless, code) || contains(with_parameters, code)) return MAction::state;
-  // M428, M429 and M430 switch the kinematics of LinuxCNC's five-axis machines.
-  const bool kinematics = !dialect.machine_state_codes && code >= 428 && code <= 430;
-  return contains(refused, code) || kinematics ? MAction::not_read : MAction::machine;
+  const bool switches = (linux_like & dialect.family) != 0 && code >= 428 && code <= 430;
+  return switches ? MAction::kinematics : MAction::machine;
 }
 
 }  // namespace counterflex

@@ -1,21 +1,30 @@
 #pragma once
 /// What G and M codes mean to this reader, as data.
+#include <cstdint>
 #include <string_view>
 
 #include "program/dialect.hpp"
 
 namespace counterflex {
 
-enum class Action {
+enum class Action : std::uint8_t {
   rapid,
   feed,
+  arc,         ///< G2, G3
+  cycle,       ///< G73, G74, G76, G81 to G89
+  probe,       ///< G31, G38: moves whose end is not known
+  spline,      ///< G5 of LinuxCNC: a curve of control points
+  thread,      ///< G33, LinuxCNC's G76
   end_motion,  ///< G80
+  pocket,      ///< G12, G13: cuts a round pocket about the place where it stands, and ends there
+  own_way,     ///< moves in a way of its own: G29, G47, G70 to G72 of Haas, G150
+  call,        ///< G65: runs a macro
   dwell,
   inch,
   mm,
   machine_move,    ///< G53: positions of the machine
   reference_move,  ///< G28, G30
-  tool_length,     ///< G43, G44
+  tool_length,     ///< G43, G44, G43.1
   no_tool_length,  ///< G49
   work_offset,
   stop_once,  ///< G9
@@ -25,12 +34,27 @@ enum class Action {
   smooth,      ///< G5.1, G187
   feed_per_minute,
   feed_per_turn,
-  state,    ///< followed by the control, harmless to straight lines
-  not_read  ///< known, and refused
+  inverse_time,      ///< G93
+  plane,             ///< G17, G18, G19
+  absolute,          ///< G90
+  relative,          ///< G91
+  absolute_centres,  ///< G90.1
+  relative_centres,  ///< G91.1
+  cutter,            ///< G41, G42
+  no_cutter,         ///< G40
+  initial_level,     ///< G98
+  retract_level,     ///< G99
+  displace,          ///< what it starts puts programmed positions elsewhere: `what` says it
+  end_displace,      ///< ends a `displace` of the same `bit`
+  shift,             ///< G52: displaces unless its words are zero
+  set_data,          ///< G10
+  state,             ///< followed by the control, harmless to moves; may own axis words
+  surface_speed,     ///< G96
+  not_read           ///< known, and refused
 };
 
 /// Codes of one group exclude each other in a block.
-enum class Group {
+enum class Group : std::uint8_t {
   none,
   motion,
   distance,
@@ -46,24 +70,43 @@ enum class Group {
   spindle
 };
 
+/// States in which programmed coordinates are not those of the work offset.
+enum Displacement : std::uint16_t {
+  shifted = 1,        ///< G52
+  set_position = 2,   ///< G92
+  scaled = 4,         ///< G51
+  rotated = 8,        ///< G68
+  polar = 16,         ///< G16
+  mirrored = 32,      ///< G101, G51.1
+  tool_point = 64,    ///< tool centre point control, dynamic offsets
+  modal_macro = 128,  ///< G66: every move calls a macro
+  rotary = 256,       ///< an axis besides X, Y and Z has left zero
+  data = 512,         ///< G10 has changed the work offset
+  kinematics = 1024   ///< switched
+};
+
 struct GCode {
   int tenths = 0;  ///< G59.1 is 591
   Action action = Action::state;
   Group group = Group::none;
-  std::string_view what{};  ///< of a code that is not read: what it would start
-  bool shop_only = false;   ///< not a code of linuxcnc and grbl
+  std::string_view what{};         ///< of a code that is not read or displaces: what it starts
+  unsigned families = any_family;  ///< dialects that know it so
+  std::uint16_t bit = 0;           ///< of a displacement
 };
 
 /// The code `tenths` in `dialect`, or nullptr.
 const GCode* find_g_code(int tenths, const Dialect& dialect);
 
-enum class MAction {
+enum class MAction : std::uint8_t {
   state,       ///< moves nothing, acts with or before the move of its block
   acts_after,  ///< stops, spindle off, coolant off: a block that holds one is not split
   tool_change,
-  end,      ///< M2, M30
-  machine,  ///< meaning set by the machine's builder: taken as moving nothing, with a remark
-  not_read
+  end,         ///< M2, M30
+  call,        ///< M98: runs a subprogram
+  come_back,   ///< M99
+  restore,     ///< M72: brings saved states back
+  kinematics,  ///< LinuxCNC's M428 to M430
+  machine      ///< meaning set by the machine's builder: taken as moving nothing, with a remark
 };
 
 MAction action_of_m(int code, const Dialect& dialect);

@@ -7,14 +7,25 @@
 namespace counterflex {
 namespace {
 
-constexpr Dialect linuxcnc{
-    .name = "linuxcnc", .line_limit = 255, .feed_mode_ends_feed = true, .feed_before_unit = true};
+constexpr Dialect linuxcnc{.name = "linuxcnc",
+                           .family = linuxcnc_family,
+                           .line_limit = 255,
+                           .feed_mode_ends_feed = true,
+                           .feed_before_unit = true,
+                           .number_anywhere = false,
+                           .o_words = true};
 
-constexpr Dialect grbl{
-    .name = "grbl", .line_limit = 80, .limit_counts_comments = false, .g61_is_exact_stop = false};
+constexpr Dialect grbl{.name = "grbl",
+                       .family = grbl_family,
+                       .line_limit = 80,
+                       .limit_counts_comments = false,
+                       .g61_is_exact_stop = false,
+                       .parentheses_nest = true,
+                       .comments_may_stay_open = true};
 
-constexpr Dialect shop_control(std::string_view name) {
+constexpr Dialect shop_control(std::string_view name, unsigned family) {
   return {.name = name,
+          .family = family,
           .semicolon_comments = false,
           .motion_ends_with_g80 = false,
           .tool_change_moves_axes = true,
@@ -22,13 +33,29 @@ constexpr Dialect shop_control(std::string_view name) {
           .g61_is_exact_stop = true,
           .h_and_d_stand_alone = true,
           .dwell_takes_axis_words = true,
-          .machine_state_codes = true};
+          .block_delete_numbers = true,
+          .reference_beside_motion = true,
+          .macro_words = true,
+          .parentheses_nest = true};
 }
 
-constexpr Dialect fanuc = shop_control("fanuc");
-constexpr Dialect haas = shop_control("haas");
+constexpr Dialect fanuc = shop_control("fanuc", fanuc_family);
+constexpr Dialect haas = shop_control("haas", haas_family);
+
+constexpr Dialect mach3{.name = "mach3",
+                        .family = mach3_family,
+                        .motion_ends_with_g80 = false,
+                        .tool_change_moves_axes = true,
+                        .g61_is_exact_stop = true,
+                        .h_and_d_stand_alone = true,
+                        .reference_beside_motion = true,
+                        .parentheses_nest = true,
+                        .comments_may_stay_open = true};
+
+/// Spelt otherwise than G-code, and read on its own.
 constexpr Dialect heidenhain{.name = klartext_name, .tool_change_moves_axes = true};
-constexpr std::array dialects{&linuxcnc, &grbl, &fanuc, &haas, &heidenhain};
+
+constexpr std::array dialects{&linuxcnc, &grbl, &fanuc, &haas, &mach3, &heidenhain};
 
 bool is_blank_or_return(char c) {
   return c == ' ' || c == '\t' || c == '\r';

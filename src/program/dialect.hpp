@@ -8,8 +8,20 @@
 
 namespace counterflex {
 
+/// Controls that share codes, as bits.
+enum Family : unsigned {
+  linuxcnc_family = 1,
+  grbl_family = 2,
+  fanuc_family = 4,
+  haas_family = 8,
+  mach3_family = 16,
+  shop_families = fanuc_family | haas_family,
+  any_family = 31
+};
+
 struct Dialect {
   std::string_view name;
+  unsigned family = linuxcnc_family;
   std::size_t line_limit = 0;         ///< characters of a line; 0: none known
   bool limit_counts_comments = true;  ///< whether blanks and comments count
   bool semicolon_comments = true;     ///< else ';' may only end a block
@@ -18,11 +30,17 @@ struct Dialect {
       false;  ///< F must be programmed anew after any G93, G94 or G95, else after a change
   bool feed_before_unit = false;  ///< F beside G20 or G21 is read in the unit before
   bool tool_change_moves_axes = false;
-  bool integer_words_doubtful = false;  ///< X5 may mean 5 units or 5 increments
-  bool g61_is_exact_stop = false;       ///< else G61 is exact path
-  bool h_and_d_stand_alone = false;     ///< H and D are modal words of their own
-  bool dwell_takes_axis_words = false;  ///< G4 X1.5 dwells
-  bool machine_state_codes = false;     ///< codes of shop controls: G9, G15, G44, G50, G69, G187 ...
+  bool integer_words_doubtful = false;   ///< X5 may mean 5 units or 5 increments
+  bool g61_is_exact_stop = false;        ///< else G61 is exact path
+  bool h_and_d_stand_alone = false;      ///< H and D are modal words of their own
+  bool dwell_takes_axis_words = false;   ///< G4 X1.5 dwells
+  bool block_delete_numbers = false;     ///< '/2', and '/' behind N
+  bool number_anywhere = true;           ///< N need not stand first
+  bool reference_beside_motion = false;  ///< G0 G28: else an error
+  bool macro_words = false;              ///< IF, GOTO, WHILE, and assignments up to the end of the line
+  bool o_words = false;                  ///< o<name> sub, if, while, call
+  bool parentheses_nest = false;         ///< a '(' in a comment is a character like others
+  bool comments_may_stay_open = false;   ///< up to the end of the line
 };
 
 inline constexpr char comment_open = '(';

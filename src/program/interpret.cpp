@@ -4,27 +4,19 @@
 
 #include <algorithm>
 
+#include "program/contour.hpp"
+#include "program/flow.hpp"
 #include "program/force_comment.hpp"
+#include "program/modal_words.hpp"
+#include "program/offsets.hpp"
+#include "program/other_moves.hpp"
+#include "program/read_arc.hpp"
+#include "program/read_cycle.hpp"
+#include "program/read_move.hpp"
 #include "program/remarks.hpp"
 
 namespace counterflex {
 namespace {
-
-constexpr std::array<char, 3> axis_letters{'X', 'Y', 'Z'};
-
-bool has_axis_word(const SortedBlock& sorted) {
-  return sorted.word('X') != nullptr || sorted.word('Y') != nullptr || sorted.word('Z') != nullptr;
-}
-
-const Word& first_axis_word(const Block& block) {
-  for (const Word& word : block.words)
-    if (word.letter >= 'X') return word;
-  return block.words.front();
-}
-
-void forget_all(ModalState& state) {
-  state.known.fill(false);
-}
 
 void apply_comments(const Block& block, Reading& r) {
   for (const Span& comment : block.comments)
@@ -32,223 +24,180 @@ void apply_comments(const Block& block, Reading& r) {
       r.state.force = force;
 }
 
-void apply_feed_and_spindle(Reading& r) {
-  const std::optional<LengthUnit> unit_before = r.state.unit;
-  if (r.sorted.has(Action::inch)) r.state.unit = LengthUnit::inches;
-  if (r.sorted.has(Action::mm)) r.state.unit = LengthUnit::millimetres;
-  const bool per_turn = r.sorted.has(Action::feed_per_turn);
-  if (per_turn || r.sorted.has(Action::feed_per_minute)) {
-    if (per_turn != r.state.feed_per_turn || r.dialect.feed_mode_ends_feed) r.state.feed = 0;
-    r.state.feed_per_turn = per_turn;
-  }
-  if (const Word* f = r.sorted.word('F')) {
-    r.state.feed = f->value;
-    r.state.feed_unit = r.dialect.feed_before_unit && unit_before ? unit_before : r.state.unit;
-  }
-  // The S of some controls' dwell is a number of turns.
-  if (const Word* s = r.sorted.word('S'); s != nullptr && !r.sorted.has(Action::dwell))
-    r.state.spindle_rpm = s->value;
-}
-
-void apply_tool_change(Reading& r) {
-  if (!r.sorted.has(MAction::tool_change)) return;
-  for (std::size_t axis = 0; axis < 3; ++axis)
-    if (r.tool_change_axes[axis]) r.state.known[axis] = false;
-}
-
-/// A change of the length shifts Z of the program while the machine stands still.
-void apply_tool_length(const Block& block, Reading& r) {
-  const bool on = r.sorted.has(Action::tool_length);
-  if (!on && !r.sorted.has(Action::no_tool_length)) return;
-  std::optional<double> length;
-  if (!on) length = 0;
-  if (const Word* h = r.sorted.word('H'); on && h != nullptr) length = h->value;
-  if (!length || length != r.state.tool_length) r.state.known[2] = false;
-  r.state.tool_length = length;
-  remark_tool_length(block, r);
-}
-
-std::size_t index_of_offset(Program& program, const std::string& name) {
-  const auto found = std::find(program.work_offsets.begin(), program.work_offsets.end(), name);
-  if (found == program.work_offsets.end()) program.work_offsets.push_back(name);
-  return static_cast<std::size_t>(std::find(program.work_offsets.begin(), program.work_offsets.end(), name) -
-                                  program.work_offsets.begin());
-}
-
-void apply_work_offset(Reading& r) {
-  const FoundG* offset = r.sorted.find(Action::work_offset);
-  if (offset == nullptr) return;
-  const std::size_t index = index_of_offset(r.program, fmt::format("G{}", offset->word->value));
-  if (index != r.state.work_offset) forget_all(r.state);
-  r.state.work_offset = index;
-}
-
-void apply_path_mode(const Block& block, Reading& r) {
-  if (r.sorted.has(Action::g61)) r.state.exact_stop = r.dialect.g61_is_exact_stop;
-  if (r.sorted.has(Action::exact_stop)) r.state.exact_stop = true;
-  if (r.sorted.has(Action::blend)) r.state.exact_stop = false;
-  remark_path_mode(block, r);
-}
-
-void apply_motion_mode(Reading& r) {
-  if (r.sorted.has(Action::end_motion))
-    r.state.motion = r.dialect.motion_ends_with_g80 ? MotionMode::cancelled : MotionMode::rapid;
-  if (r.sorted.has(Action::rapid)) r.state.motion = MotionMode::rapid;
-  if (r.sorted.has(Action::feed)) r.state.motion = MotionMode::feed;
-}
-
 void check_can_move(const Block& block, const Reading& r) {
   const Word& word = first_axis_word(block);
-  const auto fail = [&](const std::string& message) {
-    refuse(r.program.file, block, word.span.begin, message);
-  };
+  const auto fail = [&](const std::string& message) { refuse_word(block, r, word, message); };
+  if (!why_not_followed(r).empty()) return;
   if (r.state.motion == MotionMode::none)
     fail(fmt::format("{} without a motion: no G0 or G1 stands before it", word.letter));
   if (r.state.motion == MotionMode::cancelled)
     fail(fmt::format("{} without a motion: G80 ended it, and {} needs G0 or G1 anew", word.letter,
                      r.dialect.name));
-  if (r.state.motion == MotionMode::doubtful)
-    fail(fmt::format("{} without a motion: G0 or G1 stands in a block that '/' may skip", word.letter));
   if (!r.state.unit)
     fail(fmt::format("{} before the unit is known: program G20 or G21, or give mm or inch as the unit",
                      word.letter));
 }
 
-double feed_mm_min(const ModalState& state) {
-  const double feed = state.feed * mm_per(state.feed_unit.value_or(*state.unit));
-  return state.feed_per_turn ? feed * state.spindle_rpm : feed;
+void read_line(const Block& block, Reading& r, Motion motion) {
+  Move move = start_move(block, r, motion);
+  place_words(block, r, move);
+  finish_move(block, r, std::move(move));
 }
 
-bool is_increments(const Reading& r, const Word& word) {
-  return !word.point && r.options.integer_words == IntegerWords::increments &&
-         r.dialect.integer_words_doubtful;
-}
-
-double length_mm(const Reading& r, const Word& word) {
-  const LengthUnit unit = *r.state.unit;
-  if (!is_increments(r, word)) return word.value * mm_per(unit);
-  return word.value / (unit == LengthUnit::millimetres ? 1e3 : 1e4) * mm_per(unit);
-}
-
-/// Words with which inserted points would change what a block does.
-void allow_changes(const Reading& r, Move& move) {
-  const SortedBlock& b = r.sorted;
-  const bool feed = move.motion == Motion::feed;
-  const bool unit = b.has(Action::inch) || b.has(Action::mm);  // an F copied before it would change its unit
-  const bool tool_length = b.has(Action::tool_length) || b.has(Action::no_tool_length);
-  const bool acts_at_end = b.has(MAction::acts_after) || b.has(MAction::end) || b.has(MAction::tool_change) ||
-                           b.has(MAction::machine);
-  move.may_insert_words = !tool_length;
-  move.may_split = feed && !move.exact_stop && !tool_length && !acts_at_end;
-  const bool only_motion = b.g.empty() || (b.g.size() == 1 && b.g[0].code->group == Group::motion);
-  const bool start_known = move.known_start[0] && move.known_start[1] && move.known_start[2];
-  move.may_jump = start_known && move.feed_mm_min > 0 && !move.exact_stop && !acts_at_end && !unit &&
-                  (feed ? move.may_split : only_motion);
-}
-
-void place_words(Reading& r, Move& move) {
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const Word* word = r.sorted.word(axis_letters[axis]);
-    if (word == nullptr) continue;
-    move.words[axis] = AxisWord{word->number, word->decimals};
-    r.state.position_mm[static_cast<Eigen::Index>(axis)] = length_mm(r, *word);
-    r.state.known[axis] = true;
+/// The move of a block under the motion that acts.
+void read_modal_move(const Block& block, Reading& r) {
+  check_can_move(block, r);
+  switch (r.state.motion) {
+    case MotionMode::clockwise:
+    case MotionMode::counter_clockwise:
+      return read_arc(block, r);
+    case MotionMode::cycle:
+      return read_cycle(block, r);
+    case MotionMode::probe:
+      return read_held(block, r, "a probing move ends where it touches", false);
+    case MotionMode::spline:
+      return read_held(block, r, "a spline is not followed", true);
+    case MotionMode::thread:
+      return read_held(block, r, "a thread is not followed", false);
+    default:
+      return read_line(block, r, r.state.motion == MotionMode::feed ? Motion::feed : Motion::rapid);
   }
 }
 
-void add_move(const Block& block, Reading& r) {
-  check_can_move(block, r);
-  Move move;
-  move.line = block.line;
-  move.block_index = r.program.block_count - 1;
-  move.block = block.span;
-  move.motion = r.state.motion == MotionMode::feed ? Motion::feed : Motion::rapid;
-  move.unit = *r.state.unit;
-  move.known_start = r.state.known;
-  move.start_mm = r.state.position_mm;
-  place_words(r, move);
-  move.known_end = r.state.known;
-  move.end_mm = r.state.position_mm;
-  move.feed_mm_min = feed_mm_min(r.state);
-  move.spindle_rpm = r.state.spindle_rpm;
-  if (const Word* n = r.sorted.word('N')) move.block_number = static_cast<long>(n->value);
-  move.offset = r.state.work_offset;
-  move.force = r.state.force;
-  move.block_delete = !empty(block.block_delete);
-  move.exact_stop = r.state.exact_stop || r.sorted.has(Action::stop_once);
-  allow_changes(r, move);
-  r.program.moves.push_back(std::move(move));
+/// Whether the words of the block move the tool under the motion that acts.
+bool has_words_of_motion(const Reading& r) {
+  if (has_axis_word(r.sorted)) return true;
+  switch (r.state.motion) {
+    case MotionMode::clockwise:
+    case MotionMode::counter_clockwise:
+      return r.sorted.has_any("IJKR");
+    case MotionMode::cycle:
+      return r.sorted.has(Action::cycle) || r.sorted.has_any("RL");
+    default:
+      return false;
+  }
 }
 
-/// G53, G28, G30: where the axes are afterwards, the machine knows and the program does not.
-void leave_machine_move(const Block& block, Reading& r, const FoundG& found) {
-  const bool reference = found.code->action == Action::reference_move;
-  if (!reference && !has_axis_word(r.sorted))
-    refuse(r.program.file, block, found.word->span.begin, "G53 has no axis word");
-  for (std::size_t axis = 0; axis < 3; ++axis)
-    if (r.sorted.word(axis_letters[axis]) != nullptr) r.state.known[axis] = false;
-  if (!has_axis_word(r.sorted)) forget_all(r.state);
-  r.program.left_alone.push_back(
-      {block.line, fmt::format("G{} moves to a position of the machine", found.word->value)});
+const FoundG* find_own_motion(const SortedBlock& sorted) {
+  for (const FoundG& g : sorted.g) {
+    const Action action = g.code->action;
+    if (action == Action::own_way || action == Action::pocket || action == Action::call ||
+        (action == Action::probe && g.code->group == Group::none))
+      return &g;
+  }
+  return nullptr;
+}
+
+void read_own_motion(const Block& block, Reading& r, const FoundG& found) {
+  switch (found.code->action) {
+    case Action::own_way:
+      return read_own_way(block, r, found);
+    case Action::pocket:
+      return read_pocket(block, r);
+    case Action::call:
+      return read_call(block, r);
+    default:
+      return read_held(block, r, "a probing move ends where it touches", false);
+  }
+}
+
+/// G28 beside G0 is an error on some controls, G53 beside G28 on all.
+void check_reference(const Block& block, const Reading& r, const FoundG& reference) {
+  const bool other = r.sorted.has(Action::rapid) || r.sorted.has(Action::feed);
+  if (r.sorted.has(Action::machine_move) || (other && !r.dialect.reference_beside_motion))
+    refuse_word(block, r, *reference.word,
+                fmt::format("G{} stands beside another motion", reference.word->value));
 }
 
 /// Gives the axis words to the code that uses them.
 void apply_axis_words(const Block& block, Reading& r) {
-  const FoundG* machine = r.sorted.find(Action::machine_move);
-  const FoundG* reference = r.sorted.find(Action::reference_move);
-  const FoundG* dwell = r.sorted.find(Action::dwell);
-  const FoundG* smooth = r.sorted.find(Action::smooth);
-  const auto fail = [&](const FoundG& found, const std::string& message) {
-    refuse(r.program.file, block, found.word->span.begin, message);
-  };
-  if (reference != nullptr &&
-      (machine != nullptr || r.sorted.has(Action::rapid) || r.sorted.has(Action::feed)))
-    fail(*reference, fmt::format("G{} stands beside another motion", reference->word->value));
-  if (reference != nullptr) return leave_machine_move(block, r, *reference);
-  if (machine != nullptr) return leave_machine_move(block, r, *machine);
-  if (!has_axis_word(r.sorted)) return;
-  if (dwell != nullptr && r.dialect.dwell_takes_axis_words) return;
-  if (dwell != nullptr) fail(*dwell, "axis words stand beside a dwell");
-  if (smooth != nullptr) fail(*smooth, fmt::format("axis words stand beside G{}", smooth->word->value));
-  add_move(block, r);
+  if (r.sorted.g.empty() && r.sorted.m.empty()) {
+    if (has_words_of_motion(r)) read_modal_move(block, r);
+    return;
+  }
+  if (const FoundG* reference = r.sorted.find(Action::reference_move)) {
+    check_reference(block, r, *reference);
+    return leave_machine_move(block, r, *reference);
+  }
+  if (const FoundG* machine = r.sorted.find(Action::machine_move))
+    return leave_machine_move(block, r, *machine);
+  if (const FoundG* own = find_own_motion(r.sorted)) return read_own_motion(block, r, *own);
+  if (r.sorted.has(MAction::call)) return read_call(block, r);
+  if (!has_words_of_motion(r) || takes_axis_words(r)) return;
+  if (const FoundG* dwell = r.sorted.find(Action::dwell)) {
+    if (r.dialect.dwell_takes_axis_words) return;
+    refuse_word(block, r, *dwell->word, "axis words stand beside a dwell");
+  }
+  if (const FoundG* smooth = r.sorted.find(Action::smooth))
+    refuse_word(block, r, *smooth->word, fmt::format("axis words stand beside G{}", smooth->word->value));
+  read_modal_move(block, r);
 }
 
-/// What a block that may be skipped has set is in doubt afterwards.
-void doubt_skippable(const Block& block, Reading& r, const ModalState& before) {
-  ModalState& now = r.state;
-  const auto fail = [&](const char* what) {
-    refuse(r.program.file, block, block.block_delete.begin,
-           fmt::format("a block that '/' may skip sets the {}: what follows would be in doubt", what));
-  };
-  if (now.unit != before.unit) fail("unit");
-  if (now.work_offset != before.work_offset) fail("work offset");
-  if (now.motion != before.motion) now.motion = MotionMode::doubtful;
-  if (now.tool_length != before.tool_length) now.tool_length.reset(), now.known[2] = false;
-  now.exact_stop = now.exact_stop || before.exact_stop;
-  for (std::size_t axis = 0; axis < 3; ++axis)
-    if (r.sorted.word(axis_letters[axis]) != nullptr) now.known[axis] = false;
+/// A G or M that the control works out may do anything.
+void apply_unknown_code(const Block& block, Reading& r) {
+  r.state.doubts = all_doubts;
+  Move move = start_move(block, r, Motion::rapid);
+  for (std::size_t axis = 0; axis < 3; ++axis) fix_axis(r, move, axis);
+  leave_alone(block, r, "the number of a code is a variable or an expression");
+  finish_move(block, r, std::move(move));
 }
 
-void check_program_number(const Block& block, const Reading& r) {
-  const Word* o = r.sorted.word('O');
-  if (o == nullptr) return;
-  if (block.words.size() > 1 || r.program.block_count > 1)
-    refuse(r.program.file, block, o->span.begin,
-           fmt::format("O{}: subprograms are not read yet; a program's number stands alone and first",
-                       o->value));
+void end_doubtful_cutter(Reading& r) {
+  if (r.sorted.has(Action::cutter) || r.sorted.has(Action::no_cutter))
+    r.state.doubts &= static_cast<std::uint16_t>(~doubtful_cutter);
+}
+
+/// In the order in which controls act on them.
+void apply_codes(const Block& block, Reading& r) {
+  apply_feed_and_tool(r);
+  end_doubtful_cutter(r);
+  apply_modes(block, r);
+  apply_cutter(r);
+  apply_work_offset(block, r);
+  apply_tool_length(block, r);
+  apply_displacements(block, r);
+  apply_set_data(block, r);
+  if (r.sorted.has(MAction::restore)) r.state.doubts = all_doubts;
+  remark_machine_codes(block, r);
+}
+
+Context context_of(const Reading& r) {
+  if (r.in_body() || r.state.doubts != 0) return Context::unknown;
+  switch (r.state.motion) {
+    case MotionMode::clockwise:
+    case MotionMode::counter_clockwise:
+      return Context::arc;
+    case MotionMode::cycle:
+    case MotionMode::spline:
+    case MotionMode::thread:
+      return Context::cycle;
+    default:
+      return Context::plain;
+  }
 }
 
 void apply_words(const Block& block, Reading& r) {
-  sort_words(r.program.file, r.dialect, block, r.sorted);
-  check_program_number(block, r);
-  apply_feed_and_spindle(r);
-  apply_tool_change(r);
-  apply_work_offset(r);
-  apply_tool_length(block, r);
-  apply_path_mode(block, r);
-  apply_motion_mode(r);
-  remark_machine_codes(block, r);
-  apply_axis_words(block, r);
+  sort_words(r.program.file, r.dialect, block, context_of(r), r.sorted);
+  read_program_number(block, r);
+  apply_codes(block, r);
+  const std::size_t moves = r.program.moves.size();
+  r.sorted.unknown_code ? apply_unknown_code(block, r) : apply_axis_words(block, r);
+  if (r.program.moves.size() > moves) join_contour(r);
+}
+
+void read_words(const Block& block, Reading& r) {
+  if (empty(block.block_delete)) return apply_words(block, r);
+  // What a block that may be skipped has set is in doubt afterwards.
+  const ModalState before = r.state;
+  apply_words(block, r);
+  doubt_differences(before, r.state);
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    if (r.sorted.word(axis_letters[axis]) != nullptr) r.state.known[axis] = false;
+}
+
+void end_program(Reading& r) {
+  if (r.sorted.has(MAction::come_back)) come_back(r);
+  if (r.sorted.has(MAction::end) && (r.body.jumps || r.body.open.empty())) r.ended = true;
 }
 
 }  // namespace
@@ -256,16 +205,16 @@ void apply_words(const Block& block, Reading& r) {
 void interpret(const Block& block, Reading& r) {
   apply_comments(block, r);
   remark_length(block, r);
+  if (!says_something(block)) return;
+  if (!empty(block.flow_keyword)) {
+    if (block.words.empty() || block.words.front().letter == 'N') return read_flow(block, r);
+    refuse(r.program.file, block, block.flow_keyword.begin,
+           "words stand before a condition, a loop or a call");
+  }
   if (block.words.empty()) return;
   ++r.program.block_count;
-  if (empty(block.block_delete)) {
-    apply_words(block, r);
-    r.ended = r.sorted.has(MAction::end);
-  } else {
-    const ModalState before = r.state;
-    apply_words(block, r);
-    doubt_skippable(block, r, before);
-  }
+  read_words(block, r);
+  if (empty(block.block_delete)) end_program(r);
 }
 
 }  // namespace counterflex

@@ -1,25 +1,44 @@
 #pragma once
 /// Follows the modal state of a program block by block and finds its moves.
 #include <string>
+#include <vector>
 
 #include "counterflex/program/program.hpp"
 #include "counterflex/program/read_program.hpp"
 #include "program/lex.hpp"
 #include "program/modal_state.hpp"
+#include "program/outline.hpp"
 #include "program/sorted_block.hpp"
 
 namespace counterflex {
 
-/// What is needed to read one block after the other; `program` grows, nothing else is kept of a block that is
-/// past.
+/// The conditions, loops and subprograms around a block: what stands in them may run never or often.
+struct Body {
+  std::vector<std::string> open;  ///< of O-words: name and keyword; else the keyword
+  ModalState before{};            ///< where the outermost was opened
+  std::uint16_t doubts = 0;       ///< states that ways through the body leave different
+  bool subprogram = false;        ///< the outermost is one: it does not run where it stands
+  bool jumps = false;             ///< GOTO makes the whole program a body
+};
+
+/// What is needed to read one block after the other; `program` grows, and only moves of an unfinished contour
+/// are looked at again.
 struct Reading {
   const Dialect& dialect;
   const ReadOptions& options;
   std::array<bool, 3> tool_change_axes{};
   Program& program;
+  Outline outline{};
   ModalState state{};
   SortedBlock sorted{};
-  bool ended = false;  ///< M2 or M30 was read
+  Body body{};
+  int groups = 0;                 ///< contours begun
+  std::size_t run_begin = 0;      ///< the first move since the tool went to a place of the machine
+  bool lengths_set = false;       ///< G10 has changed tool lengths: those of the options no longer hold
+  bool after_subprogram = false;  ///< M99 has ended one: another program may follow
+  bool ended = false;             ///< M2 or M30 was read
+
+  bool in_body() const { return body.jumps || !body.open.empty(); }
 };
 
 /// Adds what `block` says to `reading`. Throws `InputError` for what is wrong or not read yet.

@@ -2,88 +2,75 @@
 
 #include <fmt/format.h>
 
+#include <array>
+
 #include "counterflex/files/numbers.hpp"
+#include "program/scanner.hpp"
 
 namespace counterflex {
 namespace {
-
-bool is_blank(char c) {
-  return c == ' ' || c == '\t';
-}
-bool is_digit(char c) {
-  return c >= '0' && c <= '9';
-}
-bool is_letter(char c) {
-  return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z');
-}
-char upper(char c) {
-  return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
-}
-
-/// One line being read from `at` to `end`.
-struct Scanner {
-  std::string_view text;
-  const std::string& file;
-  const Dialect& dialect;
-  Block& block;
-  std::size_t at;
-  std::size_t end;
-
-  char peek() const { return at < end ? text[at] : '\0'; }
-  void skip_blanks() {
-    while (at < end && is_blank(text[at])) ++at;
-  }
-  [[noreturn]] void refuse_at(std::size_t where, const std::string& message) const {
-    refuse(file, block, where, message);
-  }
-};
 
 std::string shown(char c) {
   const auto byte = static_cast<unsigned char>(c);
   return byte < 0x20 || byte >= 0x7f ? fmt::format("byte 0x{:02X}", byte) : fmt::format("'{}'", c);
 }
 
-/// A number begins at `at`; blanks inside it belong to it. Leaves `at` behind its last character.
-void read_number_word(Scanner& s, Word& word) {
+constexpr std::array powers_of_ten{1e0, 1e1, 1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
+                                   1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15};
+
+/// The value of a word with too many digits for exact products of integers.
+double value_of_many_digits(const Scanner& s, const Word& word, int digits) {
+  std::string dense;
+  for (const char c : part(s.text, word.number))
+    if (!is_blank(c)) dense += c;
+  const std::optional<double> value = read_number(dense);
+  if (!value)
+    s.refuse_at(word.span.begin,
+                fmt::format("{}: a number of {} digits is beyond what can be held", word.letter, digits));
+  return *value;
+}
+
+/// A number begins at `at`; blanks inside it belong to it. Leaves `at` behind its last character. False where
+/// there is no digit.
+bool read_number_word(Scanner& s, Word& word) {
   const std::size_t begin = s.at;
   std::size_t last = begin;
-  std::size_t characters = 0;
+  bool started = false;
   int digits = 0;
+  double mantissa = 0;
   for (std::size_t i = begin; i < s.end; ++i) {
     const char c = s.text[i];
-    if (is_blank(c)) continue;
-    const bool sign = (c == '+' || c == '-') && characters == 0;
-    const bool point = c == '.' && !word.point;
-    if (!sign && !point && !is_digit(c)) break;
-    if (point) word.point = true;
-    if (is_digit(c)) ++digits, word.decimals += word.point ? 1 : 0;
-    ++characters;
+    if (is_digit(c)) {
+      ++digits;
+      word.decimals += word.point ? 1 : 0;
+      mantissa = mantissa * 10 + (c - '0');
+    } else if (is_blank(c)) {
+      continue;
+    } else if (c == '.' && !word.point) {
+      word.point = true;
+    } else if (started || (c != '+' && c != '-')) {
+      break;
+    }
+    started = true;
     last = i + 1;
   }
   word.number = {begin, last};
   s.at = last;
-  if (digits == 0) return;
-  std::optional<double> value;
-  if (characters == last - begin) {
-    value = read_number(part(s.text, word.number));
+  if (digits == 0) return false;
+  // Integers below 10^15 and these powers of ten are exact, so that the quotient is the nearest double.
+  if (digits > 15) {
+    word.value = value_of_many_digits(s, word, digits);
   } else {
-    std::string dense;
-    for (const char c : part(s.text, word.number))
-      if (!is_blank(c)) dense += c;
-    value = read_number(dense);
+    const double size = mantissa / powers_of_ten[static_cast<std::size_t>(word.decimals)];
+    word.value = s.text[begin] == '-' ? -size : size;
   }
-  if (!value)
-    s.refuse_at(word.span.begin,
-                fmt::format("{}: a number of {} digits is beyond what can be held", word.letter, digits));
-  word.value = *value;
+  return true;
 }
 
 [[noreturn]] void refuse_missing_number(Scanner& s, const Word& word) {
   s.at = word.span.begin + 1;
   s.skip_blanks();
   const char next = s.peek();
-  if (next == '#' || next == '[')
-    s.refuse_at(s.at, fmt::format("'{}': variables and expressions are not read yet", next));
   if (next == '=') s.refuse_at(s.at, fmt::format("'{}=': assignments are not read", word.letter));
   std::size_t stop = s.at;
   while (stop < s.end && is_letter(s.text[stop])) ++stop;
@@ -105,37 +92,40 @@ void check_after_number(const Scanner& s, const Word& word) {
   if (next == ',') s.refuse_at(s.at, "',': decimals follow a point, and corner words are not read yet");
 }
 
-void check_program_word(const Scanner& s, const Word& word) {
-  std::size_t i = s.at;
-  while (i < s.end && is_blank(s.text[i])) ++i;
-  if (i < s.end && is_letter(s.text[i]))
-    s.refuse_at(word.span.begin, fmt::format("{}: O-words are not read yet", part(s.text, word.span)));
+/// A value that the control works out.
+void read_expression_word(Scanner& s, Word& word) {
+  word.literal = false;
+  const std::size_t begin = s.at;
+  skip_expression(s);
+  word.number = {begin, s.at};
 }
 
 void lex_word(Scanner& s) {
-  Word word;
+  Word& word = s.block.words.emplace_back();
   word.letter = upper(s.peek());
   word.span = {s.at, s.at + 1};
   ++s.at;
   s.skip_blanks();
-  if (word.letter == 'O' && s.peek() == '<')
-    s.refuse_at(word.span.begin, "O-words and subprograms are not read yet");
-  read_number_word(s, word);
-  const bool has_digits = part(s.text, word.number).find_first_of("0123456789") != std::string_view::npos;
-  if (!has_digits) refuse_missing_number(s, word);
+  const std::size_t begin = s.at;
+  if (!read_number_word(s, word)) {
+    s.at = begin;
+    if (part(s.text, word.number).find('.') != std::string_view::npos || !at_expression(s))
+      refuse_missing_number(s, word);
+    read_expression_word(s, word);
+  }
   word.span.end = s.at;
   check_after_number(s, word);
-  if (word.letter == 'O') check_program_word(s, word);
-  s.block.words.push_back(word);
 }
 
 void lex_comment(Scanner& s) {
   const std::size_t open = s.at;
   for (++s.at; s.at < s.end && s.text[s.at] != comment_close; ++s.at)
-    if (s.text[s.at] == comment_open) s.refuse_at(s.at, "a comment stands inside a comment");
-  if (s.at == s.end) s.refuse_at(open, "the comment is not closed on its line");
+    if (s.text[s.at] == comment_open && !s.dialect.parentheses_nest)
+      s.refuse_at(s.at, "a comment stands inside a comment");
+  if (s.at == s.end && !s.dialect.comments_may_stay_open)
+    s.refuse_at(open, "the comment is not closed on its line");
   s.block.comments.push_back({open + 1, s.at});
-  ++s.at;
+  if (s.at < s.end) ++s.at;
 }
 
 void lex_semicolon(Scanner& s) {
@@ -151,11 +141,11 @@ void lex_semicolon(Scanner& s) {
 void lex_block_delete(Scanner& s) {
   const std::size_t begin = s.at;
   const bool after_number =
-      s.block.words.size() == 1 && s.block.words[0].letter == 'N' && s.dialect.machine_state_codes;
+      s.block.words.size() == 1 && s.block.words[0].letter == 'N' && s.dialect.block_delete_numbers;
   if (!empty(s.block.block_delete) || !(s.block.words.empty() || after_number))
     s.refuse_at(begin, "'/' may only stand at the beginning of a block");
   ++s.at;
-  if (s.dialect.machine_state_codes && is_digit(s.peek())) ++s.at;
+  if (s.dialect.block_delete_numbers && is_digit(s.peek())) ++s.at;
   s.block.block_delete = {begin, s.at};
 }
 
@@ -168,8 +158,6 @@ void refuse_conflict_marker(const Scanner& s) {
 [[noreturn]] void refuse_character(const Scanner& s) {
   const char c = s.peek();
   refuse_conflict_marker(s);
-  if (c == '#' || c == '[')
-    s.refuse_at(s.at, fmt::format("'{}': variables and expressions are not read yet", c));
   s.refuse_at(s.at, fmt::format("{} is not allowed here", shown(c)));
 }
 
@@ -200,13 +188,19 @@ void lex(std::string_view text, const std::string& file, const Dialect& dialect,
   block.comments.clear();
   block.block_delete = {};
   block.percent = false;
+  block.assigns = false;
+  block.flow_keyword = block.flow_name = {};
   Scanner s{text, file, dialect, block, block.span.begin, block.span.end};
   s.skip_blanks();
   if (s.peek() == '%') return lex_percent(s);
   for (; s.at < s.end; s.skip_blanks()) {
     const char c = s.peek();
     if (is_letter(c)) {
-      lex_word(s);
+      const char next = s.at + 1 < s.end ? s.text[s.at + 1] : '\0';
+      const bool may_flow = is_letter(next) || (s.dialect.o_words && (c == 'o' || c == 'O'));
+      if (!may_flow || !lex_flow(s)) lex_word(s);
+    } else if (c == '#') {
+      skip_assignment(s);
     } else if (c == comment_open) {
       lex_comment(s);
     } else if (c == ';') {

@@ -1,5 +1,6 @@
 #pragma once
 /// Lines of G-code and the words in them, as spans of the text: letters, numbers, comments, and no meaning.
+/// Variables and expressions are found, not worked out.
 #include <string>
 #include <string_view>
 #include <vector>
@@ -14,9 +15,10 @@ struct Word {
   char letter = 0;  ///< upper case
   Span span;        ///< letter and number
   Span number;
-  double value = 0;
+  double value = 0;  ///< 0 where it is not literal
   int decimals = 0;
   bool point = false;
+  bool literal = true;  ///< a plain number, else a variable or an expression
 };
 
 /// One line. Its vectors are reused from line to line.
@@ -26,6 +28,9 @@ struct Block {
   Span line_end;      ///< empty at a last line without one
   Span block_delete;  ///< '/' and the switch number that may follow it; empty where there is none
   bool percent = false;
+  bool assigns = false;  ///< holds '#1='
+  Span flow_name;        ///< of an O-word: "100" or "<name>"
+  Span flow_keyword;     ///< of a line of flow: "sub", "GOTO"; empty where it is none
   std::vector<Word> words;
   std::vector<Span> comments;  ///< what stands inside the comment characters
 };
@@ -35,6 +40,11 @@ inline std::string_view part(std::string_view text, Span span) {
 }
 inline bool empty(Span span) {
   return span.begin == span.end;
+}
+
+/// Whether a line says anything to the control.
+inline bool says_something(const Block& block) {
+  return !block.words.empty() || block.assigns || !empty(block.flow_keyword);
 }
 
 /// An O-number alone on its line.

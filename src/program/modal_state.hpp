@@ -1,6 +1,7 @@
 #pragma once
-/// What a control remembers from block to block, as far as straight lines need it.
+/// What a control remembers from block to block, as far as the way of the tool needs it.
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <string>
 
@@ -8,12 +9,48 @@
 
 namespace counterflex {
 
-enum class MotionMode {
+enum class MotionMode : std::uint8_t {
   none,  ///< nothing programmed yet
   rapid,
   feed,
-  cancelled,  ///< after G80, where that leaves no motion
-  doubtful    ///< set in a block that '/' may skip
+  clockwise,
+  counter_clockwise,
+  cycle,
+  probe,
+  spline,
+  thread,
+  cancelled  ///< after G80, where that leaves no motion
+};
+
+enum class FeedUnit : std::uint8_t { per_minute, per_turn, inverse_time };
+
+/// States that may be what the text says or not: a block that '/' may skip, a condition or a subprogram that
+/// was called has set them. A block that sets them anew ends the doubt.
+enum Doubt : std::uint16_t {
+  doubtful_motion = 1,
+  doubtful_distance = 2,
+  doubtful_plane = 4,
+  doubtful_unit = 8,
+  doubtful_offset = 16,
+  doubtful_centres = 32,
+  doubtful_level = 64,
+  doubtful_cutter = 128,
+  all_doubts = 255
+};
+
+/// Sticky words of a canned cycle, in mm, absolute or differences as they were programmed.
+struct CycleState {
+  std::optional<double> bottom, retract;
+  std::optional<double> initial;  ///< Z where the series of cycles began
+  bool relative = false;          ///< the sticky words are differences
+  int tenths = 0;                 ///< the code
+};
+
+/// Where the moves stand to a contour under G41 or G42.
+enum class Contour : std::uint8_t {
+  none,
+  inside,  ///< G41 or G42 acts
+  leaving  ///< after G40, until a move along X or Y
 };
 
 struct ModalState {
@@ -23,12 +60,25 @@ struct ModalState {
   Vector3 position_mm = Vector3::Zero();
   double feed = 0;                      ///< as programmed
   std::optional<LengthUnit> feed_unit;  ///< the unit when it was programmed
-  bool feed_per_turn = false;
+  FeedUnit feed_mode = FeedUnit::per_minute;
   double spindle_rpm = 0;
+  int normal = 2;         ///< axis that the plane's normal is
+  bool relative = false;  ///< G91
+  bool absolute_centres = false;
+  bool returns_to_retract = false;  ///< G99
+  CycleState cycle;
   std::size_t work_offset = 0;  ///< index into Program::work_offsets
   bool exact_stop = false;
-  std::optional<double> tool_length;  ///< number of H; 0: off; none: not known
+  std::optional<double> tool_length;     ///< number of H; 0: off; none: not known
+  std::optional<double> tool_length_mm;  ///< where it is known
+  long tool_chosen = 0;                  ///< T
+  long tool = 0;                         ///< in the spindle
   std::optional<Vector6> force;
+  std::uint16_t doubts = 0;
+  std::uint16_t displaced = 0;    ///< bits of Displacement
+  std::uint16_t offsets_set = 0;  ///< by G10: a bit for each of G54 to G59.3, the highest for others
+  Contour contour = Contour::none;
+  int group = 0;  ///< of the contour
 };
 
 }  // namespace counterflex

@@ -55,6 +55,8 @@ Program read_program(std::string text, const std::string& file, const ReadOption
                         1);
   Reading reading{dialect, options, tool_change_axes(dialect, options), program};
   reading.state.unit = options.unit;
+  reading.outline = outline_of(program.text, dialect);
+  reading.body.jumps = reading.outline.jumps;
   Block block;
   bool opened = false;
   while (!reading.ended && next_line(program.text, block)) {

@@ -1,6 +1,7 @@
 #pragma once
 /// The words of one block by what they are, checked against each other.
 #include <array>
+#include <cstdint>
 #include <vector>
 
 #include "program/codes.hpp"
@@ -24,15 +25,23 @@ struct SortedBlock {
   std::array<const Word*, 26> letters{};  ///< all but G and M
   std::vector<FoundG> g;
   std::vector<FoundM> m;
+  std::uint64_t actions = 0;  ///< a bit for each Action in `g`
+  bool unknown_code = false;  ///< holds a G or M whose number the control works out
 
   const Word* word(char letter) const { return letters[static_cast<std::size_t>(letter - 'A')]; }
+  bool has_any(std::string_view wanted) const;
   const FoundG* find(Action action) const;
-  bool has(Action action) const { return find(action) != nullptr; }
+  bool has(Action action) const { return (actions >> static_cast<unsigned>(action) & 1) != 0; }
   bool has(MAction action) const;
 };
 
-/// Sorts `block` into `sorted`, whose vectors are reused. Throws `InputError` for words that are not known or
-/// not read yet, that stand twice, exclude each other, or that nothing in the block uses.
-void sort_words(const std::string& file, const Dialect& dialect, const Block& block, SortedBlock& sorted);
+/// Which words a block may hold beside those of its own codes.
+enum class Context { plain, arc, cycle, unknown };
+
+/// Sorts `block` into `sorted`, whose vectors are reused; `context` is the motion that acts where the block
+/// programs none. Throws `InputError` for words that are not known or not read yet, that stand twice, exclude
+/// each other, or that nothing in the block uses.
+void sort_words(const std::string& file, const Dialect& dialect, const Block& block, Context context,
+                SortedBlock& sorted);
 
 }  // namespace counterflex

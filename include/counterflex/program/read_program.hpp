@@ -1,5 +1,6 @@
 #pragma once
 /// Reads a machining program.
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -9,13 +10,16 @@
 namespace counterflex {
 
 struct ReadOptions {
-  std::string dialect = "auto";  ///< auto, linuxcnc, grbl, fanuc, haas, heidenhain; auto: BEGIN PGM means
-                                 ///< heidenhain, an O-number fanuc, else linuxcnc
+  std::string dialect = "auto";  ///< auto, linuxcnc, grbl, fanuc, haas, mach3, siemens, heidenhain; auto:
+                                 ///< BEGIN PGM means heidenhain, an O-number fanuc, words of its language
+                                 ///< siemens, else linuxcnc
   std::optional<LengthUnit> unit;  ///< where the program does not say before its first move
   std::optional<std::vector<char>>
       tool_change_moves;  ///< axes of "XYZ" unknown after a tool change; none: the
                           ///< dialect's, no axis for linuxcnc and grbl, else all
   IntegerWords integer_words = IntegerWords::unsaid;
+  std::map<long, double> tool_lengths_mm;  ///< by H, or the active tool's number where G43 has no H: with
+                                           ///< both lengths known Z stays known when they change
 };
 
 /// Reads `text`, keeping every byte. `file` names it in diagnostics. Throws `InputError` with line and column

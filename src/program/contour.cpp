@@ -1,0 +1,72 @@
+#include "program/contour.hpp"
+
+#include <algorithm>
+
+#include "program/read_move.hpp"
+
+namespace counterflex {
+namespace {
+
+bool goes_across(const Move& move) {
+  return move.words[0] || move.words[1];
+}
+
+bool may_join(const Move& move) {
+  return !move.cycle && !move.fixed[0] && !move.fixed[1] && !move.fixed[2] && move.handling != Handling::held;
+}
+
+void put_into(Move& move, int group) {
+  move.group = group;
+  move.handling = Handling::group;
+  move.may_split = move.may_jump = false;
+}
+
+/// The plunge before the contour, and the move across that goes to where it begins.
+void take_moves_before(Reading& r) {
+  std::vector<Move>& moves = r.program.moves;
+  for (std::size_t i = moves.size(); i-- > r.run_begin;) {
+    Move& move = moves[i];
+    // The moves that leave one contour may begin the next: both then have one shift.
+    if (move.group != 0) {
+      r.state.group = move.group;
+      for (std::size_t k = i; k < moves.size(); ++k)
+        if (may_join(moves[k]) || moves[k].group != 0) put_into(moves[k], r.state.group);
+      return;
+    }
+    if (!may_join(move)) return;
+    put_into(move, r.state.group);
+    if (goes_across(move)) return;
+  }
+}
+
+}  // namespace
+
+void apply_cutter(Reading& r) {
+  ModalState& state = r.state;
+  if (r.sorted.has(Action::cutter)) {
+    if (state.contour == Contour::none) {
+      state.group = r.groups + 1;
+      take_moves_before(r);
+      r.groups = std::max(state.group, r.groups);
+    }
+    state.contour = Contour::inside;
+  } else if (r.sorted.has(Action::no_cutter) && state.contour == Contour::inside) {
+    state.contour = Contour::leaving;
+  }
+}
+
+void join_contour(Reading& r) {
+  ModalState& state = r.state;
+  if (state.contour == Contour::none || r.program.moves.empty()) return;
+  Move& move = r.program.moves.back();
+  const bool last =
+      state.contour == Contour::leaving && !r.sorted.has(Action::no_cutter) && goes_across(move);
+  if (last || (state.contour == Contour::leaving && !may_join(move))) return end_contour(r);
+  if (may_join(move)) put_into(move, state.group);
+}
+
+void end_contour(Reading& r) {
+  if (r.state.contour == Contour::leaving) r.state.contour = Contour::none;
+}
+
+}  // namespace counterflex

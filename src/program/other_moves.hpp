@@ -1,0 +1,22 @@
+#pragma once
+/// Blocks that move the tool in ways that are followed only for what they leave behind.
+#include "program/interpret.hpp"
+
+namespace counterflex {
+
+/// G53, G28, G30: where the axes are afterwards, the machine knows and the program does not.
+void leave_machine_move(const Block& block, Reading& reading, const FoundG& found);
+
+/// Probing, splines, threads: shifted as a whole, their ends unknown where probing ends them.
+void read_held(const Block& block, Reading& reading, std::string_view what, bool end_known);
+
+/// A way of the control's own, from the block's words: it stays as it is.
+void read_own_way(const Block& block, Reading& reading, const FoundG& found);
+
+/// G12, G13: a round pocket about the place where the tool is.
+void read_pocket(const Block& block, Reading& reading);
+
+/// The call of a subprogram or macro: it may move anywhere and set any state.
+void read_call(const Block& block, Reading& reading);
+
+}  // namespace counterflex

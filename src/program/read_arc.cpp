@@ -1,0 +1,140 @@
+#include "program/read_arc.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "program/read_move.hpp"
+
+namespace counterflex {
+namespace {
+
+constexpr std::array<char, 3> centre_letters{'I', 'J', 'K'};
+
+/// Axes of the plane: from the first to the second is counter-clockwise about the normal.
+struct Plane {
+  std::size_t first, second;
+};
+
+Plane plane_of(int normal) {
+  return {static_cast<std::size_t>((normal + 1) % 3), static_cast<std::size_t>((normal + 2) % 3)};
+}
+
+bool is_plain(const Word* word) {
+  return word == nullptr || word->literal;
+}
+
+bool words_are_plain(const SortedBlock& sorted) {
+  for (const char letter : {'I', 'J', 'K', 'R', 'P'})
+    if (!is_plain(sorted.word(letter))) return false;
+  return true;
+}
+
+/// What no control would make an arc of.
+void check_words(const Block& block, const Reading& r) {
+  const bool centre = r.sorted.has_any("IJK");
+  const Word* radius = r.sorted.word('R');
+  if (centre && radius != nullptr) refuse_word(block, r, *radius, "an arc has either R or I, J and K");
+  if (!centre && radius == nullptr)
+    refuse_word(block, r, first_axis_word(block), "the arc has neither I, J, K nor R");
+  const Word* across = r.sorted.word(centre_letters[static_cast<std::size_t>(r.state.normal)]);
+  if (across != nullptr && across->literal && across->value != 0)
+    refuse_word(block, r, *across,
+                fmt::format("{} is no part of an arc's centre in the plane that acts", across->letter));
+  const Word* turns = r.sorted.word('P');
+  if (turns != nullptr && turns->literal && (turns->value < 1 || turns->value != std::floor(turns->value)))
+    refuse_word(block, r, *turns,
+                fmt::format("P{} is no number of turns: whole numbers from 1 are", turns->value));
+}
+
+/// Centre by I, J, K. In absolute form both must be there.
+void set_centre(const Block& block, const Reading& r, const Plane& plane, const Move& move, ArcMove& arc) {
+  arc.absolute_centre = r.state.absolute_centres;
+  for (std::size_t i = 0; i < 3; ++i)
+    if (const Word* word = r.sorted.word(centre_letters[i]))
+      arc.centre_words[i] = AxisWord{word->number, word->decimals};
+  for (const std::size_t axis : {plane.first, plane.second}) {
+    const Word* word = r.sorted.word(centre_letters[axis]);
+    if (word == nullptr && arc.absolute_centre)
+      refuse_word(block, r, block.words.front(),
+                  fmt::format("under G90.1 an arc needs {} in this plane", centre_letters[axis]));
+    const double value = word != nullptr ? length_mm(r, *word) : 0;
+    const Vector3& start = move.start_mm;
+    coordinate(arc.centre_mm, axis) =
+        value + (arc.absolute_centre ? 0 : start[static_cast<Eigen::Index>(axis)]);
+  }
+}
+
+/// Centre by R, as LinuxCNC finds it: the chord may be 0.05 mm longer than twice the radius. False where the
+/// end is the start.
+bool set_centre_of_radius(const Block& block, const Reading& r, const Plane& plane, const Vector3& end,
+                          const Move& move, ArcMove& arc) {
+  const Word& word = *r.sorted.word('R');
+  arc.radius_word = AxisWord{word.number, word.decimals};
+  arc.radius_mm = length_mm(r, word);
+  const auto a = static_cast<Eigen::Index>(plane.first), b = static_cast<Eigen::Index>(plane.second);
+  const double da = end[a] - move.start_mm[a], db = end[b] - move.start_mm[b];
+  const double half_chord = std::hypot(da, db) / 2, radius = std::abs(arc.radius_mm);
+  if (half_chord == 0) return false;
+  if (half_chord - radius > 0.05)
+    refuse_word(block, r, word,
+                fmt::format("R{}: the arc's ends are {:.6g} mm apart, more than twice the radius", word.value,
+                            2 * half_chord));
+  const bool to_the_right = arc.clockwise == (arc.radius_mm > 0);
+  const double theta = std::atan2(db, da) + (to_the_right ? -1 : 1) * std::numbers::pi / 2;
+  const double offset = half_chord >= radius ? 0 : std::sqrt(radius * radius - half_chord * half_chord);
+  arc.centre_mm[a] = move.start_mm[a] + da / 2 + offset * std::cos(theta);
+  arc.centre_mm[b] = move.start_mm[b] + db / 2 + offset * std::sin(theta);
+  return true;
+}
+
+/// The arc of `move`, whose words are placed; nothing where it is a way of no length.
+std::optional<ArcMove> arc_of(const Block& block, const Reading& r, const Move& move) {
+  ArcMove arc;
+  arc.normal = r.state.normal;
+  arc.clockwise = r.state.motion == MotionMode::clockwise;
+  arc.centre_mm[arc.normal] = move.start_mm[arc.normal];
+  if (const Word* p = r.sorted.word('P')) arc.turns = static_cast<int>(p->value) - 1;
+  const Plane plane = plane_of(arc.normal);
+  if (r.sorted.word('R') == nullptr) {
+    set_centre(block, r, plane, move, arc);
+  } else if (!set_centre_of_radius(block, r, plane, r.state.position_mm, move, arc)) {
+    return std::nullopt;
+  }
+  return arc;
+}
+
+/// An arc that cannot be followed: its plane's positions stay as they are, or where all of it counts from its
+/// start it goes along with that.
+void hold_arc(Reading& r, Move& move, const Plane& plane, bool start_known) {
+  move.may_insert_words = false;
+  move.handling = Handling::held;
+  const bool rigid = start_known && !(r.state.absolute_centres && r.sorted.has_any("IJK"));
+  if (rigid) return;
+  for (const std::size_t axis : {plane.first, plane.second})
+    if (r.sorted.word(axis_letters[axis]) != nullptr) fix_axis(r, move, axis);
+}
+
+}  // namespace
+
+void read_arc(const Block& block, Reading& r) {
+  Move move = start_move(block, r, Motion::feed);
+  const bool followed = why_not_followed(r).empty();
+  if (followed) check_words(block, r);
+  place_words(block, r, move);
+  const Plane plane = plane_of(r.state.normal);
+  const bool start_known = move.known_start[plane.first] && move.known_start[plane.second];
+  const bool end_known = r.state.known[plane.first] && r.state.known[plane.second];
+  const bool resolved = followed && start_known && end_known && words_are_plain(r.sorted);
+  if (resolved) move.arc = arc_of(block, r, move);
+  if (!move.arc) {
+    hold_arc(r, move, plane, start_known);
+    if (followed)
+      leave_alone(block, r, start_known ? "the arc is not known" : "the start of the arc is not known");
+  }
+  finish_move(block, r, std::move(move));
+}
+
+}  // namespace counterflex

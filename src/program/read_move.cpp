@@ -1,0 +1,186 @@
+#include "program/read_move.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "counterflex/geometry/curve.hpp"
+
+namespace counterflex {
+namespace {
+
+bool is_increments(const Reading& r, const Word& word) {
+  return !word.point && r.options.integer_words == IntegerWords::increments &&
+         r.dialect.integer_words_doubtful;
+}
+
+double feed_mm_min(const ModalState& state) {
+  if (!state.unit || state.feed_mode == FeedUnit::inverse_time) return 0;
+  const double feed = state.feed * mm_per(state.feed_unit.value_or(*state.unit));
+  return state.feed_mode == FeedUnit::per_turn ? feed * state.spindle_rpm : feed;
+}
+
+/// Length of the move's way (mm); 0 where it is not known.
+double way_mm(const Move& move) {
+  if (!all_known(move.known_start) || !all_known(move.known_end)) return 0;
+  if (!move.arc) return (move.end_mm - move.start_mm).norm();
+  const Vector3 normal = Vector3::Unit(move.arc->normal) * (move.arc->clockwise ? -1.0 : 1.0);
+  const double sweep =
+      sweep_between(move.start_mm, move.end_mm, move.arc->centre_mm, normal, move.arc->turns);
+  return length({move.start_mm, move.end_mm, Arc{move.arc->centre_mm, normal, sweep}});
+}
+
+/// G93: F holds for this block alone.
+void set_inverse_time(const Reading& r, Move& move) {
+  move.feed_mode = FeedMode::inverse_time;
+  const Word* f = r.sorted.word('F');
+  if (f == nullptr) return;
+  move.feed_per_min = f->value;
+  move.feed_mm_min = f->value * way_mm(move);
+}
+
+bool any(const std::array<bool, 3>& axes) {
+  return axes[0] || axes[1] || axes[2];
+}
+
+/// Words with which inserted points would change what a block does.
+void allow_changes(const Reading& r, Move& move) {
+  const SortedBlock& b = r.sorted;
+  const bool feed = move.motion == Motion::feed;
+  const bool unit = b.has(Action::inch) || b.has(Action::mm);  // an F copied before it would change its unit
+  const bool tool_length = b.has(Action::tool_length) || b.has(Action::no_tool_length);
+  const bool acts_at_end = b.has(MAction::acts_after) || b.has(MAction::end) || b.has(MAction::tool_change) ||
+                           b.has(MAction::machine);
+  const bool rigid = move.handling != Handling::own || any(move.fixed) || move.cycle.has_value();
+  move.may_insert_words = move.may_insert_words && !tool_length && !any(move.fixed);
+  move.may_split = feed && !rigid && !move.exact_stop && !tool_length && !acts_at_end;
+  const bool only_motion = b.g.empty() || (b.g.size() == 1 && b.g[0].code->group == Group::motion);
+  move.may_jump = all_known(move.known_start) && !rigid && move.feed_mm_min > 0 && !move.exact_stop &&
+                  !acts_at_end && !unit && (feed ? move.may_split : only_motion);
+}
+
+std::string_view displacement_text(std::uint16_t bits) {
+  if ((bits & rotary) != 0) return "an axis besides X, Y and Z has left zero";
+  if ((bits & tool_point) != 0) return "the control follows the tool's centre point";
+  if ((bits & kinematics) != 0) return "the kinematics were switched";
+  if ((bits & rotated) != 0) return "coordinates are rotated";
+  if ((bits & scaled) != 0) return "coordinates are scaled";
+  if ((bits & mirrored) != 0) return "coordinates are mirrored";
+  if ((bits & polar) != 0) return "coordinates are polar";
+  if ((bits & modal_macro) != 0) return "every move calls a macro";
+  if ((bits & data) != 0) return "G10 has set the work offset";
+  return (bits & shifted) != 0 ? "G52 shifts the coordinates" : "G92 has set the position";
+}
+
+std::string_view doubt_text(std::uint16_t doubts) {
+  if ((doubts & doubtful_unit) != 0) return "its unit is in doubt";
+  if ((doubts & doubtful_offset) != 0) return "its work offset is in doubt";
+  if ((doubts & doubtful_distance) != 0) return "whether G90 or G91 acts is in doubt";
+  if ((doubts & doubtful_cutter) != 0) return "whether G41 or G42 acts is in doubt";
+  return "its motion is in doubt";
+}
+
+void place_word(Reading& r, Move& move, std::size_t axis, const Word& word, bool followed) {
+  ModalState& state = r.state;
+  const bool relative = state.relative && (state.doubts & doubtful_distance) == 0;
+  if (!word.literal || !followed) {
+    move.fixed[axis] = !relative;
+    state.known[axis] = false;
+    return;
+  }
+  if (relative && !state.known[axis]) return fix_axis(r, move, axis);
+  move.words[axis] = AxisWord{word.number, word.decimals};
+  const double value = length_mm(r, word);
+  coordinate(state.position_mm, axis) = relative ? coordinate(state.position_mm, axis) + value : value;
+  state.known[axis] = true;
+}
+
+}  // namespace
+
+const Word& first_axis_word(const Block& block) {
+  for (const Word& word : block.words)
+    if (word.letter >= 'X') return word;
+  return block.words.front();
+}
+
+bool has_axis_word(const SortedBlock& sorted) {
+  return sorted.word('X') != nullptr || sorted.word('Y') != nullptr || sorted.word('Z') != nullptr;
+}
+
+std::string_view why_not_followed(const Reading& r) {
+  if (r.body.jumps) return "the program jumps: any block may run never or often";
+  if (r.in_body()) return "it stands in a condition, a loop or a subprogram";
+  if (r.state.displaced != 0) return displacement_text(r.state.displaced);
+  std::uint16_t doubts = r.state.doubts;
+  // Planes and centres matter to arcs and cycles alone, levels to cycles.
+  const bool curved = r.state.motion >= MotionMode::clockwise || (doubts & doubtful_motion) != 0;
+  if (!curved) doubts &= static_cast<std::uint16_t>(~(doubtful_plane | doubtful_centres));
+  if (r.state.motion != MotionMode::cycle) doubts &= static_cast<std::uint16_t>(~doubtful_level);
+  return doubts != 0 ? doubt_text(doubts) : std::string_view();
+}
+
+Move start_move(const Block& block, const Reading& r, Motion motion) {
+  Move move;
+  move.line = block.line;
+  move.block_index = r.program.block_count - 1;
+  move.block = block.span;
+  move.motion = motion;
+  move.unit = r.state.unit.value_or(LengthUnit::millimetres);
+  move.known_start = r.state.known;
+  move.start_mm = r.state.position_mm;
+  move.relative = r.state.relative;
+  move.feed_mm_min = feed_mm_min(r.state);
+  move.spindle_rpm = r.state.spindle_rpm;
+  if (const Word* n = r.sorted.word('N')) move.block_number = static_cast<long>(n->value);
+  move.offset = r.state.work_offset;
+  move.tool = r.state.tool;
+  move.force = r.state.force;
+  move.block_delete = !empty(block.block_delete);
+  move.exact_stop = r.state.exact_stop || r.sorted.has(Action::stop_once);
+  return move;
+}
+
+void fix_axis(Reading& r, Move& move, std::size_t axis) {
+  move.words[axis].reset();
+  move.fixed[axis] = true;
+  r.state.known[axis] = false;
+}
+
+void place_words(const Block& block, Reading& r, Move& move) {
+  const std::string_view why = why_not_followed(r);
+  bool all_plain = true;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const Word* word = r.sorted.word(axis_letters[axis]);
+    if (word == nullptr) continue;
+    place_word(r, move, axis, *word, why.empty());
+    all_plain = all_plain && word->literal;
+  }
+  if (!why.empty()) return leave_alone(block, r, why);
+  if (!all_plain) return leave_alone(block, r, "a position is a variable or an expression");
+  if (any(move.fixed)) leave_alone(block, r, "a relative position counts from an unknown one");
+}
+
+void finish_move(const Block&, Reading& r, Move move) {
+  move.known_end = r.state.known;
+  move.end_mm = r.state.position_mm;
+  if (r.state.feed_mode == FeedUnit::inverse_time && move.motion == Motion::feed) set_inverse_time(r, move);
+  allow_changes(r, move);
+  r.program.moves.push_back(std::move(move));
+}
+
+double length_mm(const Reading& r, const Word& word) {
+  const LengthUnit unit = r.state.unit.value_or(LengthUnit::millimetres);
+  if (!is_increments(r, word)) return word.value * mm_per(unit);
+  return word.value / (unit == LengthUnit::millimetres ? 1e3 : 1e4) * mm_per(unit);
+}
+
+void leave_alone(const Block& block, Reading& r, std::string_view why) {
+  if (r.program.left_alone.empty() || r.program.left_alone.back().why != why)
+    r.program.left_alone.push_back({block.line, std::string(why)});
+}
+
+void refuse_word(const Block& block, const Reading& r, const Word& word, const std::string& message) {
+  refuse(r.program.file, block, word.span.begin, message);
+}
+
+}  // namespace counterflex

@@ -1,0 +1,61 @@
+#pragma once
+/// One line that is being taken apart.
+#include <string>
+#include <string_view>
+
+#include "program/lex.hpp"
+
+namespace counterflex {
+
+inline bool is_blank(char c) {
+  return c == ' ' || c == '\t';
+}
+inline bool is_digit(char c) {
+  return c >= '0' && c <= '9';
+}
+inline bool is_letter(char c) {
+  return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z');
+}
+inline char upper(char c) {
+  return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
+}
+
+/// Reads from `at` to `end`.
+struct Scanner {
+  std::string_view text;
+  const std::string& file;
+  const Dialect& dialect;
+  Block& block;
+  std::size_t at;
+  std::size_t end;
+
+  char peek() const { return at < end ? text[at] : '\0'; }
+  void skip_blanks() {
+    while (at < end && is_blank(text[at])) ++at;
+  }
+  void skip_letters() {
+    while (at < end && is_letter(text[at])) ++at;
+  }
+  [[noreturn]] void refuse_at(std::size_t where, const std::string& message) const {
+    refuse(file, block, where, message);
+  }
+};
+
+/// Whether `text` is `upper_case` in any case.
+bool is_word(std::string_view text, std::string_view upper_case);
+
+/// Whether a value that only the control can work out begins at the scanner: a variable, an expression in
+/// brackets or a function, with or without a sign.
+bool at_expression(const Scanner& scanner);
+
+/// Passes over such a value. Throws `InputError` where it is cut short.
+void skip_expression(Scanner& scanner);
+
+/// Passes over `#1=...` or `#<name>=...`. Throws `InputError` where it is cut short.
+void skip_assignment(Scanner& scanner);
+
+/// Passes over a line of flow that begins here ("o100 sub", "IF [#1 GT 2] GOTO 10", "END1"), noting its name
+/// and keyword in the block; false where none does. Throws `InputError` where it is cut short.
+bool lex_flow(Scanner& scanner);
+
+}  // namespace counterflex
