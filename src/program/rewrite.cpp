@@ -20,7 +20,9 @@ std::size_t header_position(const Program& program) {
     const bool number = is_program_number(block);
     if ((block.percent && opened) || (!block.words.empty() && !number)) break;
     opened = opened || block.percent;
-    if (block.percent || number) position = block.line_end.end;
+    const bool path =
+        part(program.text, block.span).starts_with(";$PATH");  // belongs below a Sinumerik's '%'
+    if (block.percent || number || (path && opened)) position = block.line_end.end;
     if (number) break;
   }
   return position;
@@ -41,6 +43,11 @@ std::string header_text(const Program& program, const ProgramStyle& style, std::
                         const WriteOptions& options) {
   std::string text;
   if (!options.header.empty() && position > 0 && program.text[position - 1] != '\n') text += style.line_end;
+  if (find_dialect(program.dialect)->sinumerik_words) {
+    for (const std::string& line : options.header)
+      text.append(1, ';').append(comment_text(line)).append(style.line_end);
+    return text;
+  }
   for (const std::string& line : options.header)
     text += comment_open + comment_text(line) + comment_close + style.line_end;
   return text;
