@@ -32,6 +32,9 @@ class Shop:
     def options(self, program):
         return tuple(self.about(program).get('options', ()))
 
+    def gantry(self, program, **given):
+        return product.Gantry(program=self.about(program).get('program', ''), **given)
+
     def bench(self, offsets, lengths):
         return path.Bench(self.interpreter, self.folder, offsets, lengths)
 
@@ -59,7 +62,7 @@ def refusal(shop, program, run):
 
 def identity(shop, program):
     """A perfect machine without forces gives the input back, header aside."""
-    run = shop.runs.compensate(program, product.Gantry(offsets=AT_ORIGIN), options=shop.options(program))
+    run = shop.runs.compensate(program, shop.gantry(program, offsets=AT_ORIGIN), options=shop.options(program))
     name = os.path.basename(program)
     if shop.about(program).get('wrong'):
         return '' if run.refused_with_place(name) else 'was not refused at a place, exit %d: %s' % (run.status, run.said[-200:])
@@ -135,7 +138,7 @@ def against_interpreter(shop, program, gantry, lengths, check_of):
 
 
 def shift_with(shop, program, offsets, lengths):
-    gantry = product.Gantry(shift=product.FRAME_SHIFT, offsets=offsets)
+    gantry = shop.gantry(program, shift=product.FRAME_SHIFT, offsets=offsets)
     return against_interpreter(shop, program, gantry, lengths,
                                lambda both: compare.ShiftCheck(product.FRAME_SHIFT, both.facts, both.left_alone))
 
@@ -150,7 +153,7 @@ def shift_offsets(shop, program):
 
 
 def field(shop, program, sign):
-    gantry = product.Gantry(squareness=(sign * SQUARE, -sign * SQUARE, sign * SQUARE), offsets=OFFSETS)
+    gantry = shop.gantry(program, squareness=(sign * SQUARE, -sign * SQUARE, sign * SQUARE), offsets=OFFSETS)
 
     def check_of(both):
         return linear.FieldCheck(gantry, both.facts, both.left_alone, TOLERANCE + 2e-4)
@@ -167,8 +170,8 @@ def field_negative(shop, program):
 
 def masking(shop, program):
     """With numbers masked and what was inserted removed the corrected program is the original, byte for byte."""
-    for gantry in (product.Gantry(shift=product.FRAME_SHIFT, offsets=AT_ORIGIN),
-                   product.Gantry(squareness=(SQUARE, -SQUARE, SQUARE), offsets=AT_ORIGIN)):
+    for gantry in (shop.gantry(program, shift=product.FRAME_SHIFT, offsets=AT_ORIGIN),
+                   shop.gantry(program, squareness=(SQUARE, -SQUARE, SQUARE), offsets=AT_ORIGIN)):
         run = shop.runs.compensate(program, gantry, options=shop.options(program))
         if run.status != 0:
             return refusal(shop, program, run)
@@ -181,7 +184,7 @@ def masking(shop, program):
 
 def control_limits(shop, program):
     """No output line is too long and no arc refused, by LinuxCNC's rules and by GRBL's where the source keeps them."""
-    gantry = product.Gantry(squareness=(SQUARE, -SQUARE, SQUARE), offsets=AT_ORIGIN)
+    gantry = shop.gantry(program, squareness=(SQUARE, -SQUARE, SQUARE), offsets=AT_ORIGIN)
     run = shop.runs.compensate(program, gantry, options=shop.options(program))
     if run.status != 0:
         return refusal(shop, program, run)
@@ -211,7 +214,7 @@ def shares(shop, program):
     wanted = shop.about(program).get('share')
     if not wanted:
         return ''
-    report, said = shop.runs.plan(program, shop.options(program))
+    report, said = shop.runs.plan(program, shop.gantry(program, offsets=AT_ORIGIN), shop.options(program))
     if not report:
         return said[-300:]
     plan = plan_of(report)

@@ -4,7 +4,6 @@ import math
 from compare import Findings, difference, distance, short
 
 SAMPLES = 16     # on a written piece
-DENSE = 360      # on a wanted arc
 NEAR_CONTOUR = 12  # lines before and after a contour under G41 or G42 that have its one shift too
 
 
@@ -17,15 +16,17 @@ def contour_lines(facts):
     return near
 
 
-def to_polyline(p, points):
-    """Distance of `p` from the nearest of the chords between `points`."""
-    best = math.inf
-    for a, b in zip(points, points[1:]):
-        ab, ap = difference(b, a), difference(p, a)
-        length = sum(v * v for v in ab)
-        t = min(1.0, max(0.0, sum(x * y for x, y in zip(ab, ap)) / length)) if length > 0 else 0.0
-        best = min(best, math.dist(p, [x + t * v for x, v in zip(a, ab)]))
-    return best
+def fraction_of(step, p):
+    """The fraction of the step at which it is about nearest to `p`."""
+    if step.arc:
+        begin, sweep = step.angles()
+        a = step.arc
+        turned = math.atan2(p[a.second] - a.centre[1], p[a.first] - a.centre[0]) - begin
+        fractions = [(turned + 2 * math.pi * k) / sweep for k in range(-abs(a.turns) - 2, abs(a.turns) + 3)]
+        return min((min(1.0, max(0.0, u)) for u in fractions), key=lambda u: distance(step.at(u), p))
+    way = difference(step.end, step.start)
+    length = sum(v * v for v in way)
+    return min(1.0, max(0.0, sum(x * y for x, y in zip(way, difference(p, step.start))) / length)) if length > 0 else 0.0
 
 
 class FieldCheck:
@@ -84,11 +85,11 @@ class FieldCheck:
             self.findings.add(pair, 'a hole has its bottom at %s instead of %s' % (short(c.end), short(self.wanted(o, o.end))))
 
     def way(self, pair, o):
-        count = DENSE if o.arc else 1
-        points = [self.wanted(o, o.at(k / count)) for k in range(count + 1)]
         for c in pair.corrected:
             for k in range(1, SAMPLES):
-                miss = to_polyline(c.at(k / SAMPLES), points)
+                q = [a + b for a, b in zip(c.at(k / SAMPLES), o.offset)]
+                p = difference(self.gantry.reached(q), o.offset)
+                miss = distance(p, o.at(fraction_of(o, p)))
                 if miss > self.tolerance:
                     return self.findings.add(pair, 'goes %.5f off the wanted path' % miss)
         if o.arc:
