@@ -120,7 +120,7 @@ def judged_text(shop, program, findings):
     return ''
 
 
-def against_interpreter(shop, program, gantry, lengths, check_of):
+def against_interpreter(shop, program, gantry, lengths, check_of, skip=False):
     """`check_of` makes a check from a Corrected whose facts are known."""
     try:
         path.walk(shop.bench(gantry.offsets, lengths), plain.plain_lines(open(program, 'rb').read()))
@@ -131,20 +131,25 @@ def against_interpreter(shop, program, gantry, lengths, check_of):
         both = Corrected(shop, program, gantry, lengths)
         if both.run.status != 0:
             return refusal(shop, program, both.run)
-        pairs = both.walk()
+        pairs = both.walk(skip)
         return judged_text(shop, program, check_of(both).run(pairs))
     except text.Mismatch as error:
         return str(error)
 
 
-def shift_with(shop, program, offsets, lengths):
+def shift_with(shop, program, offsets, lengths, skip=False):
     gantry = shop.gantry(program, shift=product.FRAME_SHIFT, offsets=offsets)
     return against_interpreter(shop, program, gantry, lengths,
-                               lambda both: compare.ShiftCheck(product.FRAME_SHIFT, both.facts, both.left_alone))
+                               lambda both: compare.ShiftCheck(product.FRAME_SHIFT, both.facts, both.left_alone), skip)
 
 
 def shift(shop, program):
     return shift_with(shop, program, AT_ORIGIN, {})
+
+
+def shift_skipped(shop, program):
+    """Again with the control's switch for blocks with '/' on."""
+    return shift_with(shop, program, AT_ORIGIN, {}, skip=True)
 
 
 def shift_offsets(shop, program):
@@ -237,6 +242,6 @@ def plan_of(report):
     return None
 
 
-ALL = {'identity': identity, 'shift': shift, 'shift_offsets': shift_offsets, 'field_positive': field_positive,
-       'field_negative': field_negative, 'masking': masking, 'limits': control_limits, 'shares': shares}
-G_CODE_ONLY = {'shift', 'shift_offsets', 'field_positive', 'field_negative', 'limits'}
+ALL = {'identity': identity, 'shift': shift, 'shift_skipped': shift_skipped, 'shift_offsets': shift_offsets,
+       'field_positive': field_positive, 'field_negative': field_negative, 'masking': masking, 'limits': control_limits, 'shares': shares}
+G_CODE_ONLY = {'shift', 'shift_skipped', 'shift_offsets', 'field_positive', 'field_negative', 'limits'}

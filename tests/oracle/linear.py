@@ -2,6 +2,7 @@
 import math
 
 from compare import Findings, difference, distance, short
+from facts import unit_mm
 
 SAMPLES = 16     # on a written piece
 NEAR_CONTOUR = 12  # lines before and after a contour under G41 or G42 that have its one shift too
@@ -37,6 +38,7 @@ class FieldCheck:
         self.gantry, self.facts, self.tolerance = gantry, facts, tolerance
         self.skipped = left_alone | contour_lines(facts)
         self.known, self.offset = [False] * 3, None
+        self.contour = None  # the shift of the contour that the path is in
         self.findings = Findings()
 
     def run(self, pairs):
@@ -45,6 +47,7 @@ class FieldCheck:
             self.findings.total += 1
             if pair.steps[0].offset != self.offset:  # where that takes the other axes is not in the program
                 self.known, self.offset = [False] * 3, pair.steps[0].offset
+            self.same_in_contour(pair, fact)
             if fact['machine'] or pair.line in self.skipped or fact['doubtful']:
                 self.forget(fact)
                 continue
@@ -53,6 +56,16 @@ class FieldCheck:
             if all(self.known):
                 self.judge(pair, started)
         return self.findings
+
+    def same_in_contour(self, pair, fact):
+        """Under cutter radius compensation all ends have one shift, up to the rounding."""
+        if not fact['side']:
+            self.contour = None
+            return
+        shift = difference(pair.corrected[-1].end, pair.steps[-1].end)
+        self.contour = self.contour or shift
+        if distance(shift, self.contour) > 2 * unit_mm(fact):
+            self.findings.add(pair, 'a contour is shifted by %s, and by %s here' % (short(self.contour), short(shift)))
 
     def forget(self, fact):
         self.known = [k and a not in fact['axes'] and bool(fact['axes']) for a, k in enumerate(self.known)]
