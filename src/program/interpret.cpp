@@ -24,6 +24,10 @@ void apply_comments(const Block& block, Reading& r) {
       r.state.force = force;
 }
 
+bool has_codes(const SortedBlock& sorted) {
+  return !sorted.g.empty() || !sorted.m.empty();
+}
+
 void check_can_move(const Block& block, const Reading& r) {
   const Word& word = first_axis_word(block);
   const auto fail = [&](const std::string& message) { refuse_word(block, r, word, message); };
@@ -39,9 +43,9 @@ void check_can_move(const Block& block, const Reading& r) {
 }
 
 void read_line(const Block& block, Reading& r, Motion motion) {
-  Move move = start_move(block, r, motion);
+  Move& move = start_move(block, r, motion);
   place_words(block, r, move);
-  finish_move(block, r, std::move(move));
+  finish_move(r, move);
 }
 
 /// The move of a block under the motion that acts.
@@ -111,7 +115,7 @@ void check_reference(const Block& block, const Reading& r, const FoundG& referen
 
 /// Gives the axis words to the code that uses them.
 void apply_axis_words(const Block& block, Reading& r) {
-  if (r.sorted.g.empty() && r.sorted.m.empty()) {
+  if (!has_codes(r.sorted)) {
     if (!r.state.entering_data && has_words_of_motion(r)) read_modal_move(block, r);
     return;
   }
@@ -136,10 +140,10 @@ void apply_axis_words(const Block& block, Reading& r) {
 /// A G or M that the control works out may do anything.
 void apply_unknown_code(const Block& block, Reading& r) {
   r.state.doubts = all_doubts;
-  Move move = start_move(block, r, Motion::rapid);
+  Move& move = start_move(block, r, Motion::rapid);
   for (std::size_t axis = 0; axis < 3; ++axis) fix_axis(r, move, axis);
   leave_alone(block, r, "the number of a code is a variable or an expression");
-  finish_move(block, r, std::move(move));
+  finish_move(r, move);
 }
 
 void end_doubtful_cutter(Reading& r) {
@@ -179,7 +183,12 @@ Context context_of(const Reading& r) {
 void apply_words(const Block& block, Reading& r) {
   sort_words(r.program.file, r.dialect, block, context_of(r), r.sorted);
   read_program_number(block, r);
-  apply_codes(block, r);
+  if (has_codes(r.sorted)) {
+    apply_codes(block, r);
+  } else {
+    apply_feed_and_tool(r);
+    watch_other_axes(block, r);
+  }
   const std::size_t moves = r.program.moves.size();
   r.sorted.unknown_code ? apply_unknown_code(block, r) : apply_axis_words(block, r);
   if (r.program.moves.size() > moves) join_contour(r);
@@ -192,7 +201,7 @@ void read_words(const Block& block, Reading& r) {
   apply_words(block, r);
   doubt_differences(before, r.state);
   for (std::size_t axis = 0; axis < 3; ++axis)
-    if (r.sorted.word(axis_letters[axis]) != nullptr) r.state.known[axis] = false;
+    if (r.sorted.word(letters_of_axes[axis]) != nullptr) r.state.known[axis] = false;
 }
 
 void end_program(Reading& r) {

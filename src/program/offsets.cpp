@@ -84,14 +84,6 @@ void end_displacements(Reading& r) {
   }
 }
 
-/// A, B, C, U, V, W: those that stay zero are nothing.
-void watch_other_axes(const Block& block, Reading& r) {
-  if (r.sorted.has(Action::call) || r.sorted.has(Action::dwell) || r.sorted.has(Action::displace)) return;
-  for (const char letter : {'A', 'B', 'C', 'U', 'V', 'W'})
-    if (!is_zero_or_absent(r.sorted.word(letter)) && (r.state.displaced & rotary) == 0)
-      add_displacement(block, r, rotary);
-}
-
 bool sets_offset(const Word* l) {
   return l != nullptr && l->literal && (l->value == 2 || l->value == 20);
 }
@@ -138,6 +130,13 @@ void apply_tool_length(const Block& block, Reading& r) {
   state.tool_length = number;
   state.tool_length_mm = length_mm;
   if (!length_mm) remark_tool_length(block, r);
+}
+
+void watch_other_axes(const Block& block, Reading& r) {
+  if (r.sorted.has(Action::call) || r.sorted.has(Action::dwell) || r.sorted.has(Action::displace)) return;
+  for (const char letter : {'A', 'B', 'C', 'U', 'V', 'W'})
+    if (!is_zero_or_absent(r.sorted.word(letter)) && (r.state.displaced & rotary) == 0)
+      add_displacement(block, r, rotary);
 }
 
 void apply_displacements(const Block& block, Reading& r) {

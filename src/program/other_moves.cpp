@@ -13,7 +13,7 @@ void leave_machine_move(const Block& block, Reading& r, const FoundG& found) {
   if (!reference && !has_axis_word(r.sorted) && !r.sorted.has_any("ABCUVW") && !r.in_body())
     refuse_word(block, r, *found.word, "G53 has no axis word");
   for (std::size_t axis = 0; axis < 3; ++axis)
-    if (r.sorted.word(axis_letters[axis]) != nullptr) r.state.known[axis] = false;
+    if (r.sorted.word(letters_of_axes[axis]) != nullptr) r.state.known[axis] = false;
   if (!has_axis_word(r.sorted)) r.state.known.fill(false);
   end_contour(r);
   r.run_begin = r.program.moves.size();
@@ -22,39 +22,39 @@ void leave_machine_move(const Block& block, Reading& r, const FoundG& found) {
 }
 
 void read_held(const Block& block, Reading& r, std::string_view what, bool end_known) {
-  Move move = start_move(block, r, Motion::feed);
+  Move& move = start_move(block, r, Motion::feed);
   place_words(block, r, move);
   move.handling = Handling::held;
   move.may_insert_words = false;
   if (!end_known)
     for (std::size_t axis = 0; axis < 3; ++axis)
-      if (r.sorted.word(axis_letters[axis]) != nullptr) r.state.known[axis] = false;
+      if (r.sorted.word(letters_of_axes[axis]) != nullptr) r.state.known[axis] = false;
   if (why_not_followed(r).empty()) leave_alone(block, r, what);
-  finish_move(block, r, std::move(move));
+  finish_move(r, move);
 }
 
 void read_own_way(const Block& block, Reading& r, const FoundG& found) {
-  Move move = start_move(block, r, Motion::feed);
+  Move& move = start_move(block, r, Motion::feed);
   for (std::size_t axis = 0; axis < 3; ++axis) fix_axis(r, move, axis);
   leave_alone(block, r, fmt::format("G{} moves in a way of the control's own", found.word->value));
-  finish_move(block, r, std::move(move));
+  finish_move(r, move);
 }
 
 void read_pocket(const Block& block, Reading& r) {
-  Move move = start_move(block, r, Motion::feed);
+  Move& move = start_move(block, r, Motion::feed);
   place_words(block, r, move);
   move.handling = Handling::held;
   move.may_insert_words = false;
   if (why_not_followed(r).empty()) leave_alone(block, r, "the control cuts a round pocket");
-  finish_move(block, r, std::move(move));
+  finish_move(r, move);
 }
 
 void read_call(const Block& block, Reading& r) {
-  Move move = start_move(block, r, Motion::rapid);
+  Move& move = start_move(block, r, Motion::rapid);
   for (std::size_t axis = 0; axis < 3; ++axis) fix_axis(r, move, axis);
   move.relative = false;
   leave_alone(block, r, "a subprogram is called");
-  finish_move(block, r, std::move(move));
+  finish_move(r, move);
   end_contour(r);
   r.state.doubts |= doubtful_motion | doubtful_distance | doubtful_plane | doubtful_centres | doubtful_level;
   add_remark(

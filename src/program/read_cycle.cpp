@@ -60,7 +60,7 @@ void leave_hole(ModalState& state, const CycleMove& hole) {
 void place_hole(Reading& r, Move& move, int repeats, bool followed) {
   ModalState& state = r.state;
   for (std::size_t axis = 0; axis < 2; ++axis) {
-    const Word* word = r.sorted.word(axis_letters[axis]);
+    const Word* word = r.sorted.word(letters_of_axes[axis]);
     if (word == nullptr) continue;
     if (!word->literal || !followed || (state.relative && !state.known[axis])) {
       fix_axis(r, move, axis);
@@ -87,7 +87,7 @@ void begin_series(ModalState& state) {
 void fix_hole(Reading& r, Move& move) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const bool depth = axis == 2 && !r.state.relative;
-    if (depth || r.sorted.word(axis_letters[axis]) != nullptr) fix_axis(r, move, axis);
+    if (depth || r.sorted.word(letters_of_axes[axis]) != nullptr) fix_axis(r, move, axis);
   }
   move.cycle.reset();
 }
@@ -103,7 +103,7 @@ void read_cycle(const Block& block, Reading& r) {
   keep_sticky(r, r.sorted.word('Z'), state.cycle.bottom);
   keep_sticky(r, r.sorted.word('R'), state.cycle.retract);
 
-  Move move = start_move(block, r, Motion::rapid);
+  Move& move = start_move(block, r, Motion::rapid);
   CycleMove hole;
   hole.repeats = repeats_of(r);
   hole.first = is_first(r);
@@ -122,7 +122,7 @@ void read_cycle(const Block& block, Reading& r) {
     fix_hole(r, move);
     leave_alone(block, r, why.empty() ? "the cycle's words are not all plain numbers in G17" : why);
   }
-  finish_move(block, r, std::move(move));
+  finish_move(r, move);
 }
 
 }  // namespace counterflex
