@@ -79,7 +79,7 @@ std::string plan_text(const MotionPlan& plan) {
   if (plan.inverse_time > 0) text += row("feed mode", fmt::format("{} moves in G93", plan.inverse_time));
   if (plan.tools.size() > 1 || plan.tools.count(0) == 0) text += row("tools", tools_text(plan));
   return text + rows_text("held", plan.held_rows) + groups_text(plan.groups) +
-         rows_text("not corrected", plan.left_rows);
+         rows_text("not corrected", plan.left_rows) + rows_text("left as they are", plan.other_rows);
 }
 
 nlohmann::ordered_json plan_json(const MotionPlan& plan) {
@@ -94,6 +94,7 @@ nlohmann::ordered_json plan_json(const MotionPlan& plan) {
           {"held_rows", rows_json(plan.held_rows)},
           {"groups", groups_json(plan.groups)},
           {"not_corrected_rows", rows_json(plan.left_rows)},
+          {"other_rows", rows_json(plan.other_rows)},
           {"arcs", arcs},
           {"cycles", plan.cycles},
           {"relative", plan.relative},

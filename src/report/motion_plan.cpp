@@ -25,10 +25,10 @@ class Planner {
   MotionPlan run() {
     find_known_ends();
     for (std::size_t m = 0; m < program_.moves.size(); ++m) {
-      list_machine_positions(program_.moves[m].line);
+      list_other_blocks(program_.moves[m].line);
       add(m);
     }
-    list_machine_positions(0);
+    list_other_blocks(0);
     plan_.moves = plan_.corrected + plan_.held + plan_.grouped + plan_.not_corrected;
     return std::move(plan_);
   }
@@ -45,16 +45,16 @@ class Planner {
     }
   }
 
-  /// Blocks of the list before `line` (0: all) that are no moves; keeps the reason that acts.
-  void list_machine_positions(int line) {
+  /// Blocks of the list up to `line` (0: all) that are no moves; keeps the reason that acts.
+  void list_other_blocks(int line) {
     for (; next_left_ < left_.size() && (line == 0 || left_[next_left_].line <= line); ++next_left_) {
       const LeftAlone& block = left_[next_left_];
       if (block.line == line || is_move(block.line)) {
         reason_ = &block;
         continue;
       }
-      ++plan_.not_corrected;
-      add_to(plan_.left_rows, block.why, block.line, false);
+      plan_.not_corrected += block.machine_position;
+      add_to(block.machine_position ? plan_.left_rows : plan_.other_rows, block.why, block.line, false);
     }
   }
 

@@ -20,8 +20,9 @@ TEST_CASE(
     "moves that end at a known place are corrected, machine positions count among the moves and are not") {
   Program program = three_moves();
   program.moves[2].line = 5;
-  program.left_alone = {{4, "G53 moves to a position of the machine"},
-                        {9, "G28 moves to a position of the machine"}};
+  program.left_alone = {{4, "G53 moves to a position of the machine", true},
+                        {7, "G10 sets offsets"},
+                        {9, "G28 moves to a position of the machine", true}};
   const MotionPlan plan = motion_plan(program);
   CHECK(plan.moves == 5);
   CHECK(plan.corrected == 3);
@@ -30,6 +31,8 @@ TEST_CASE(
   CHECK(plan.left_rows[0].why == "G53 moves to a position of the machine");
   CHECK(plan.left_rows[0].lines == std::vector<int>{4});
   CHECK_FALSE(plan.left_rows[0].must_be_zero);
+  REQUIRE(plan.other_rows.size() == 1);  // no motion
+  CHECK(plan.other_rows[0].lines == std::vector<int>{7});
 }
 
 TEST_CASE(

@@ -116,6 +116,8 @@ struct Move {
 struct LeftAlone {
   int line = 0;
   std::string why;
+  bool machine_position =
+      false;  ///< the block moves axes to a place that the machine knows: no move of the program
 };
 
 /// A remark for the report.
