@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include "program/siemens_codes.hpp"
+
 namespace counterflex {
 namespace {
 
@@ -193,6 +195,7 @@ bool contains(const Codes& codes, int code) {
 }  // namespace
 
 const GCode* find_g_code(int tenths, const Dialect& dialect) {
+  if (dialect.family == siemens_family) return find_siemens_code(tenths);
   if (tenths < 0 || static_cast<std::size_t>(tenths) >= table_size) return nullptr;
   const std::size_t first = first_of[static_cast<std::size_t>(tenths)];
   if (first == 0) return nullptr;
@@ -202,6 +205,7 @@ const GCode* find_g_code(int tenths, const Dialect& dialect) {
 }
 
 MAction action_of_m(int code, const Dialect& dialect) {
+  if (dialect.family == siemens_family) return action_of_siemens_m(code);
   if (code == 2 || code == 30) return MAction::end;
   if (code == 6) return MAction::tool_change;
   if (contains(acting_after, code)) return MAction::acts_after;

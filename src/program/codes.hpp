@@ -83,7 +83,9 @@ enum Displacement : std::uint16_t {
   modal_macro = 128,  ///< G66: every move calls a macro
   rotary = 256,       ///< an axis besides X, Y and Z has left zero
   data = 512,         ///< G10 has changed the work offset
-  kinematics = 1024   ///< switched
+  kinematics = 1024,  ///< switched
+  framed = 2048,      ///< TRANS, ROT, SCALE, MIRROR of a Sinumerik
+  tilted = 4096       ///< CYCLE800
 };
 
 struct GCode {

@@ -2,6 +2,9 @@
 
 #include <array>
 
+#include "program/klartext_lex.hpp"
+#include "program/siemens_lex.hpp"
+
 namespace counterflex {
 namespace {
 
@@ -50,7 +53,21 @@ constexpr Dialect mach3{.name = "mach3",
                         .parentheses_nest = true,
                         .comments_may_stay_open = true};
 
-constexpr std::array dialects{&linuxcnc, &grbl, &fanuc, &haas, &mach3};
+constexpr Dialect siemens{.name = "siemens",
+                          .family = siemens_family,
+                          .line_limit = 512,
+                          .motion_ends_with_g80 = false,
+                          .tool_change_moves_axes = true,
+                          .h_and_d_stand_alone = true,
+                          .dwell_takes_axis_words = true,
+                          .reference_beside_motion = true,
+                          .sinumerik_words = true,
+                          .radius_name = "CR="};
+
+/// Spelt otherwise than G-code, and read on its own.
+constexpr Dialect heidenhain{.name = klartext_name, .tool_change_moves_axes = true};
+
+constexpr std::array dialects{&linuxcnc, &grbl, &fanuc, &haas, &mach3, &siemens, &heidenhain};
 
 bool is_blank_or_return(char c) {
   return c == ' ' || c == '\t' || c == '\r';
@@ -102,10 +119,12 @@ std::string dialect_names() {
 }
 
 const Dialect& detect_dialect(std::string_view text) {
+  if (is_klartext(text)) return heidenhain;
+  const std::string_view all = text;
   while (!text.empty()) {
     const std::size_t end = text.find('\n');
     const std::string_view line = text.substr(0, end);
-    if (!says_nothing(line)) return is_program_number(line) ? fanuc : linuxcnc;
+    if (!says_nothing(line)) return is_program_number(line) ? fanuc : is_siemens(all) ? siemens : linuxcnc;
     if (end == std::string_view::npos) break;
     text.remove_prefix(end + 1);
   }

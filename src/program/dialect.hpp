@@ -15,6 +15,7 @@ enum Family : unsigned {
   fanuc_family = 4,
   haas_family = 8,
   mach3_family = 16,
+  siemens_family = 32,
   shop_families = fanuc_family | haas_family,
   any_family = 31
 };
@@ -41,6 +42,8 @@ struct Dialect {
   bool o_words = false;                  ///< o<name> sub, if, while, call
   bool parentheses_nest = false;         ///< a '(' in a comment is a character like others
   bool comments_may_stay_open = false;   ///< up to the end of the line
+  bool sinumerik_words = false;          ///< X=IC(5), CR=4., R1=5, names, labels; ';' begins comments
+  std::string_view radius_name = "R";    ///< of an arc
 };
 
 inline constexpr char comment_open = '(';
@@ -52,8 +55,8 @@ const Dialect* find_dialect(std::string_view name);
 /// Names for diagnostics, with commas.
 std::string dialect_names();
 
-/// What "auto" means for `text`: fanuc where the first line that says anything holds an O-number, else
-/// linuxcnc.
+/// What "auto" means for `text`: heidenhain where it begins with BEGIN PGM, fanuc where the first line that
+/// says anything holds an O-number, siemens where there are words that only a Sinumerik reads, else linuxcnc.
 const Dialect& detect_dialect(std::string_view text);
 
 /// Digits after the point of the resolution: 0.001 mm, 0.0001 inch.

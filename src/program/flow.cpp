@@ -116,11 +116,24 @@ void read_macro_word(const Block& block, Reading& r, const FlowLine& line) {
   close_body(r);
 }
 
+bool opens_structure(const FlowLine& line) {
+  return line.is("IF") || line.is("WHILE") || line.is("FOR") || line.is("LOOP") || line.is("REPEAT");
+}
+
+/// IF to ENDIF, FOR to ENDFOR, LOOP to ENDLOOP, REPEAT to UNTIL of a Sinumerik.
+void read_structure(const Block& block, Reading& r, const FlowLine& line) {
+  if (opens_structure(line)) return open_body(r, std::string(line.keyword));
+  if (line.is("ELSE")) return note_differences(r);
+  if (r.body.open.empty()) refuse_end(block, r, line);
+  close_body(r);
+}
+
 }  // namespace
 
 void read_flow(const Block& block, Reading& r) {
   const std::string_view text = r.program.text;
   const FlowLine line{std::string(part(text, block.flow_name)), part(text, block.flow_keyword)};
+  if (r.dialect.sinumerik_words) return read_structure(block, r, line);
   r.dialect.o_words ? read_o_word(block, r, line) : read_macro_word(block, r, line);
 }
 

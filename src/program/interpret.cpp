@@ -14,6 +14,7 @@
 #include "program/read_cycle.hpp"
 #include "program/read_move.hpp"
 #include "program/remarks.hpp"
+#include "program/siemens_statements.hpp"
 
 namespace counterflex {
 namespace {
@@ -159,6 +160,7 @@ void apply_codes(const Block& block, Reading& r) {
   apply_cutter(r);
   apply_work_offset(block, r);
   apply_tool_length(block, r);
+  if (r.dialect.sinumerik_words) apply_tool_edge(r);
   apply_displacements(block, r);
   apply_set_data(block, r);
   if (r.sorted.has(MAction::restore)) r.state.doubts = all_doubts;
@@ -166,7 +168,8 @@ void apply_codes(const Block& block, Reading& r) {
 }
 
 Context context_of(const Reading& r) {
-  if (r.in_body() || r.state.doubts != 0 || r.state.entering_data) return Context::unknown;
+  const bool any_words = r.state.entering_data || (r.state.displaced & modal_macro) != 0;
+  if (r.in_body() || r.state.doubts != 0 || any_words) return Context::unknown;
   switch (r.state.motion) {
     case MotionMode::clockwise:
     case MotionMode::counter_clockwise:
@@ -209,6 +212,22 @@ void end_program(Reading& r) {
   if (r.sorted.has(MAction::end) && (r.body.jumps || r.body.open.empty())) r.ended = true;
 }
 
+void read_with_senses(const Block& block, Reading& r) {
+  if (!block.has_sense) return read_words(block, r);
+  read_words(with_senses(block, r), r);
+  r.block_relative.reset();
+}
+
+/// A line of a Sinumerik that says more than words.
+void read_statement(const Block& block, Reading& r) {
+  ++r.program.block_count;
+  begin_statement(block, r);
+  const bool words = !block.words.empty() && has_words_of_its_own(block, r);
+  if (words) read_with_senses(block, r);
+  end_statement(block, r);
+  if (words && empty(block.block_delete)) end_program(r);
+}
+
 }  // namespace
 
 void interpret(const Block& block, Reading& r) {
@@ -220,9 +239,10 @@ void interpret(const Block& block, Reading& r) {
     refuse(r.program.file, block, block.flow_keyword.begin,
            "words stand before a condition, a loop or a call");
   }
+  if (block.statement != Statement::none) return read_statement(block, r);
   if (block.words.empty()) return;
   ++r.program.block_count;
-  read_words(block, r);
+  read_with_senses(block, r);
   if (empty(block.block_delete)) end_program(r);
 }
 

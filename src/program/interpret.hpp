@@ -31,6 +31,7 @@ struct Reading {
   Outline outline{};
   ModalState state{};
   SortedBlock sorted{};
+  std::optional<bool> block_relative{};  ///< X=IC(5), X=AC(5): for this block, whatever is modal
   Body body{};
   int groups = 0;                 ///< contours begun
   std::size_t run_begin = 0;      ///< the first move since the tool went to a place of the machine
@@ -38,6 +39,7 @@ struct Reading {
   bool after_subprogram = false;  ///< M99 has ended one: another program may follow
   bool ended = false;             ///< M2 or M30 was read
 
+  bool relative() const { return block_relative.value_or(state.relative); }
   bool in_body() const { return body.jumps || !body.open.empty(); }
 };
 

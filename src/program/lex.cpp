@@ -6,6 +6,7 @@
 
 #include "counterflex/files/numbers.hpp"
 #include "program/scanner.hpp"
+#include "program/siemens_lex.hpp"
 
 namespace counterflex {
 namespace {
@@ -100,6 +101,8 @@ void read_expression_word(Scanner& s, Word& word) {
   word.number = {begin, s.at};
 }
 
+}  // namespace
+
 void lex_word(Scanner& s) {
   Word& word = s.block.words.emplace_back();
   word.letter = upper(s.peek());
@@ -116,6 +119,8 @@ void lex_word(Scanner& s) {
   word.span.end = s.at;
   check_after_number(s, word);
 }
+
+namespace {
 
 void lex_comment(Scanner& s) {
   const std::size_t open = s.at;
@@ -155,11 +160,15 @@ void refuse_conflict_marker(const Scanner& s) {
       s.refuse_at(s.at, fmt::format("'{}' is a conflict marker of a version control system", marker));
 }
 
-[[noreturn]] void refuse_character(const Scanner& s) {
+}  // namespace
+
+void refuse_character(const Scanner& s) {
   const char c = s.peek();
   refuse_conflict_marker(s);
   s.refuse_at(s.at, fmt::format("{} is not allowed here", shown(c)));
 }
+
+namespace {
 
 void lex_percent(Scanner& s) {
   ++s.at;
@@ -190,7 +199,10 @@ void lex(std::string_view text, const std::string& file, const Dialect& dialect,
   block.percent = false;
   block.assigns = false;
   block.flow_keyword = block.flow_name = {};
+  block.statement = Statement::none;
+  block.statement_is_bare = block.has_sense = false;
   Scanner s{text, file, dialect, block, block.span.begin, block.span.end};
+  if (dialect.sinumerik_words) return lex_siemens(s);
   s.skip_blanks();
   if (s.peek() == '%') return lex_percent(s);
   for (; s.at < s.end; s.skip_blanks()) {

@@ -1,6 +1,7 @@
 #pragma once
 /// Lines of G-code and the words in them, as spans of the text: letters, numbers, comments, and no meaning.
 /// Variables and expressions are found, not worked out.
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -11,6 +12,26 @@
 
 namespace counterflex {
 
+/// What a coordinate counts from: Sinumerik says it by the word where it likes.
+enum class Sense : std::uint8_t { modal, absolute, relative };
+
+/// What a line of a Sinumerik says besides its words.
+enum class Statement : std::uint8_t {
+  none,
+  call,           ///< a subprogram or a cycle, or words of a move that is not read
+  modal_call,     ///< MCALL: every move calls it; bare: no more
+  frame,          ///< TRANS, ROT ...: shifts or turns coordinates; bare: no more
+  added_frame,    ///< ATRANS, AROT ...
+  tilt,           ///< CYCLE800; bare: no more
+  transformed,    ///< TRAORI ...
+  transform_off,  ///< TRAFOOF
+  curve,          ///< CIP, CT, splines: a motion that is not read
+  arc_not_read,   ///< an arc whose centre is given in a form that is not read
+  smoothed,       ///< COMPCAD, CYCLE832
+  data,           ///< assigns to a variable of the control
+  end             ///< RET
+};
+
 struct Word {
   char letter = 0;  ///< upper case
   Span span;        ///< letter and number
@@ -19,6 +40,7 @@ struct Word {
   int decimals = 0;
   bool point = false;
   bool literal = true;  ///< a plain number, else a variable or an expression
+  Sense sense = Sense::modal;
 };
 
 /// One line. Its vectors are reused from line to line.
@@ -29,8 +51,11 @@ struct Block {
   Span block_delete;  ///< '/' and the switch number that may follow it; empty where there is none
   bool percent = false;
   bool assigns = false;  ///< holds '#1='
-  Span flow_name;        ///< of an O-word: "100" or "<name>"
-  Span flow_keyword;     ///< of a line of flow: "sub", "GOTO"; empty where it is none
+  Statement statement = Statement::none;
+  bool statement_is_bare = false;  ///< nothing follows its name
+  bool has_sense = false;          ///< a word says what it counts from
+  Span flow_name;                  ///< of an O-word: "100" or "<name>"
+  Span flow_keyword;               ///< of a line of flow: "sub", "GOTO"; empty where it is none
   std::vector<Word> words;
   std::vector<Span> comments;  ///< what stands inside the comment characters
 };
@@ -44,7 +69,8 @@ inline bool empty(Span span) {
 
 /// Whether a line says anything to the control.
 inline bool says_something(const Block& block) {
-  return !block.words.empty() || block.assigns || !empty(block.flow_keyword);
+  return !block.words.empty() || block.assigns || block.statement != Statement::none ||
+         !empty(block.flow_keyword);
 }
 
 /// An O-number alone on its line.

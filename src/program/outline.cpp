@@ -1,6 +1,7 @@
 #include "program/outline.hpp"
 
 #include "program/scanner.hpp"
+#include "program/siemens_lex.hpp"
 
 namespace counterflex {
 namespace {
@@ -56,6 +57,7 @@ void look_for(std::string_view text, char o, Outline& outline, std::vector<std::
 
 Outline outline_of(std::string_view text, const Dialect& dialect) {
   Outline outline;
+  if (dialect.sinumerik_words) outline.jumps = siemens_jumps(text);
   if ((dialect.family & (shop_families | mach3_family)) == 0) return outline;
   std::vector<std::size_t> numbers;
   look_for(text, 'O', outline, numbers);

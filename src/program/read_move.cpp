@@ -51,8 +51,11 @@ void allow_changes(const Reading& r, Move& move) {
   const bool tool_length = b.has(Action::tool_length) || b.has(Action::no_tool_length);
   const bool acts_at_end = b.has(MAction::acts_after) || b.has(MAction::end) || b.has(MAction::tool_change) ||
                            b.has(MAction::machine);
-  const bool rigid = move.handling != Handling::own || any(move.fixed) || move.cycle.has_value();
-  move.may_insert_words = move.may_insert_words && !tool_length && !any(move.fixed);
+  const bool rigid = r.relative() != r.state.relative || move.handling != Handling::own || any(move.fixed) ||
+                     move.cycle.has_value();
+  // Words and blocks that are inserted count as the modal state has it.
+  const bool counts_otherwise = r.relative() != r.state.relative;
+  move.may_insert_words = move.may_insert_words && !tool_length && !any(move.fixed) && !counts_otherwise;
   move.may_split = feed && !rigid && !move.exact_stop && !tool_length && !acts_at_end;
   const bool only_motion = b.g.empty() || (b.g.size() == 1 && b.g[0].code->group == Group::motion);
   move.may_jump = all_known(move.known_start) && !rigid && move.feed_mm_min > 0 && !move.exact_stop &&
@@ -68,6 +71,8 @@ std::string_view displacement_text(std::uint16_t bits) {
   if ((bits & mirrored) != 0) return "coordinates are mirrored";
   if ((bits & polar) != 0) return "coordinates are polar";
   if ((bits & modal_macro) != 0) return "every move calls a macro";
+  if ((bits & framed) != 0) return "a frame shifts or turns coordinates";
+  if ((bits & tilted) != 0) return "coordinates are tilted";
   if ((bits & data) != 0) return "G10 has set the work offset";
   return (bits & shifted) != 0 ? "G52 shifts the coordinates" : "G92 has set the position";
 }
@@ -82,7 +87,7 @@ std::string_view doubt_text(std::uint16_t doubts) {
 
 void place_word(Reading& r, Move& move, std::size_t axis, const Word& word, bool followed) {
   ModalState& state = r.state;
-  const bool relative = state.relative && (state.doubts & doubtful_distance) == 0;
+  const bool relative = r.relative() && (state.doubts & doubtful_distance) == 0;
   if (!word.literal || !followed) {
     move.fixed[axis] = !relative;
     state.known[axis] = false;
@@ -128,7 +133,7 @@ Move& start_move(const Block& block, Reading& r, Motion motion) {
   move.unit = r.state.unit.value_or(LengthUnit::millimetres);
   move.known_start = r.state.known;
   move.start_mm = r.state.position_mm;
-  move.relative = r.state.relative;
+  move.relative = r.relative();
   move.feed_mm_min = feed_mm_min(r.state);
   move.spindle_rpm = r.state.spindle_rpm;
   if (const Word* n = r.sorted.word('N')) move.block_number = static_cast<long>(n->value);

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "program/interpret.hpp"
+#include "program/klartext_read.hpp"
 #include "program/remarks.hpp"
 
 namespace counterflex {
@@ -51,6 +52,11 @@ Program read_program(std::string text, const std::string& file, const ReadOption
   program.dialect = dialect.name;
   program.integer_words = options.integer_words;
 
+  if (dialect.name == klartext_name) {
+    read_klartext(program, options, tool_change_axes(dialect, options));
+    return program;
+  }
+
   // Growing step by step would copy every move several times.
   program.moves.reserve(static_cast<std::size_t>(std::count(program.text.begin(), program.text.end(), '\n')) +
                         1);
@@ -71,6 +77,7 @@ Program read_program(std::string text, const std::string& file, const ReadOption
 }
 
 bool is_corrected(const Program& program) {
+  if (program.dialect == klartext_name) return is_corrected_klartext(program.text);
   const Dialect& dialect = *find_dialect(program.dialect);
   Block block;
   for (int percents = 0; next_line(program.text, block);) {

@@ -2,6 +2,8 @@
 
 #include <cassert>
 
+#include "program/klartext_lex.hpp"
+#include "program/klartext_rewrite.hpp"
 #include "program/rewrite_block.hpp"
 
 namespace counterflex {
@@ -18,7 +20,9 @@ std::size_t header_position(const Program& program) {
     const bool number = is_program_number(block);
     if ((block.percent && opened) || (!block.words.empty() && !number)) break;
     opened = opened || block.percent;
-    if (block.percent || number) position = block.line_end.end;
+    const bool path =
+        part(program.text, block.span).starts_with(";$PATH");  // belongs below a Sinumerik's '%'
+    if (block.percent || number || (path && opened)) position = block.line_end.end;
     if (number) break;
   }
   return position;
@@ -39,6 +43,11 @@ std::string header_text(const Program& program, const ProgramStyle& style, std::
                         const WriteOptions& options) {
   std::string text;
   if (!options.header.empty() && position > 0 && program.text[position - 1] != '\n') text += style.line_end;
+  if (find_dialect(program.dialect)->sinumerik_words) {
+    for (const std::string& line : options.header)
+      text.append(1, ';').append(comment_text(line)).append(style.line_end);
+    return text;
+  }
   for (const std::string& line : options.header)
     text += comment_open + comment_text(line) + comment_close + style.line_end;
   return text;
@@ -86,6 +95,7 @@ void apply(const MoveEdit& edit, const WriteOptions& options, Writing& w) {
 }  // namespace
 
 Rewritten rewrite(const Program& program, const std::vector<MoveEdit>& edits, const WriteOptions& options) {
+  if (program.dialect == klartext_name) return rewrite_klartext(program, edits, options);
   Writing w{program, style_of(program)};
   w.copied = header_position(program);
   w.out.text.reserve(program.text.size() + program.text.size() / 8);

@@ -29,6 +29,11 @@ std::string word_text(const Original& o, char letter, const WordNumber& number) 
   return fmt::format("{}{}", letter_of(o, letter), inserted_number(number.value, number.decimals));
 }
 
+std::string radius_text(const Original& o, const WordNumber& number) {
+  if (o.dialect.radius_name.size() == 1) return word_text(o, 'R', number);
+  return fmt::format("{}{}", o.dialect.radius_name, inserted_number(number.value, number.decimals));
+}
+
 void change_word(const Original& o, const AxisWord& word, const WordNumber& number, Changes& changes) {
   changes.list.push_back({word.number, changed_number(o.text(word.number), number.value, number.decimals)});
   ++changes.changed;
@@ -169,7 +174,7 @@ bool stands(const ArcMove& arc, std::size_t axis, const WordNumber& number) {
 
 void append_centre(const Original& o, const ArcWords& words, std::string& line) {
   const ArcMove& arc = *o.move.arc;
-  if (arc.radius_word) return append(o, word_text(o, 'R', words.radius), line);
+  if (arc.radius_word) return append(o, radius_text(o, words.radius), line);
   for (std::size_t axis = 0; axis < 3; ++axis)
     if (stands(arc, axis, words.centre[axis]))
       append(o, word_text(o, centre_letters[axis], words.centre[axis]), line);

@@ -41,6 +41,12 @@ struct Scanner {
   }
 };
 
+/// Takes a letter with its number into the block. Throws `InputError` where it has none.
+void lex_word(Scanner& scanner);
+
+/// Refuses the character at the scanner.
+[[noreturn]] void refuse_character(const Scanner& scanner);
+
 /// Whether `text` is `upper_case` in any case.
 bool is_word(std::string_view text, std::string_view upper_case);
 

@@ -166,7 +166,7 @@ TEST_CASE("an O-number means fanuc, else the program is linuxcnc's") {
   CHECK(read("%\n(O1001)\nG21 G0 X1.\nM30\nO1001\n").dialect == "linuxcnc");
   CHECK(read("O0001;\nG21;\nG0 X1.;\n").dialect == "fanuc");
   CHECK(diagnostic_of([] { read("G21\n", "siemens5"); }) ==
-        "p.ngc: error: dialect 'siemens5' is not known: auto, linuxcnc, grbl, fanuc, haas, mach3 are");
+        "p.ngc: error: dialect 'siemens5' is not known: auto, linuxcnc, grbl, fanuc, haas, mach3, siemens, heidenhain are");
 }
 
 TEST_CASE("integer words are units unless increments are asked for") {

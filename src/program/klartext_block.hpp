@@ -1,0 +1,41 @@
+#pragma once
+/// The new text of one edited Klartext block, and of those that are put around it.
+#include <string>
+
+#include "counterflex/program/rewrite.hpp"
+#include "program/klartext_lex.hpp"
+
+namespace counterflex {
+
+/// How a program writes what is inserted.
+struct KlartextStyle {
+  bool comma = false;     ///< decimals stand behind a comma
+  bool plus = false;      ///< "X+1"
+  bool numbered = false;  ///< blocks begin with numbers
+  std::string line_end = "\n";
+};
+
+KlartextStyle klartext_style(const Program& program);
+
+/// `value` as `style` writes it.
+std::string klartext_number(const KlartextStyle& style, double value, int decimals);
+
+/// What the text holds while it is being written.
+struct KlartextHeld {
+  HeldPosition position{};
+  std::optional<Vector3> pole_mm{};  ///< of the last CC
+};
+
+/// Characters put in place of a span of the program.
+struct KlartextChange {
+  Span span;
+  std::string text;
+};
+
+/// Appends to `changes` what `edit` asks for, in the order of the text, and counts in `out`. Inserted lines
+/// of a numbered program begin with the number 0.
+void rewrite_klartext_block(const Program& program, const KlartextStyle& style, const MoveEdit& edit,
+                            const WriteOptions& options, KlartextHeld& held,
+                            std::vector<KlartextChange>& changes, Rewritten& out);
+
+}  // namespace counterflex

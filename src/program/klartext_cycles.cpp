@@ -1,0 +1,136 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "counterflex/files/numbers.hpp"
+#include "program/klartext_read.hpp"
+#include "program/lex.hpp"
+#include "program/remarks.hpp"
+
+namespace counterflex {
+namespace {
+
+/// "7.1" of CYCL DEF 7.1 and where it ends; 0.0 where there is no number.
+struct CycleNumber {
+  int cycle = 0;
+  int line = 0;
+  std::size_t end = 0;
+};
+
+int take_integer(std::string_view text, std::size_t& at, std::size_t end) {
+  int value = 0;
+  for (; at < end && text[at] >= '0' && text[at] <= '9' && value < 100000; ++at)
+    value = 10 * value + (text[at] - '0');
+  return value;
+}
+
+CycleNumber number_of(std::string_view text, const KlartextBlock& block) {
+  CycleNumber number;
+  std::size_t at = text.find_first_of("0123456789", block.parts[0].begin);
+  const std::size_t end = block.parts[0].end;
+  if (at >= end) return number;
+  number.cycle = take_integer(text, at, end);
+  if (at < end && text[at] == '.') number.line = take_integer(text, ++at, end);
+  number.end = at;
+  return number;
+}
+
+/// Cycles that stay above or in the point where they are called: holes, taps, pockets about the point.
+bool acts_where_called(int cycle) {
+  constexpr std::array in_place{1,   2,   17,  18,  240, 241, 251, 252, 253,
+                                254, 256, 257, 262, 263, 264, 265, 267};
+  return std::find(in_place.begin(), in_place.end(), cycle) != in_place.end() ||
+         (cycle >= 200 && cycle <= 215);
+}
+
+constexpr std::string_view shifted_axes = "XYZABCUVW";
+
+void set_elsewhere(KlartextReading& r, int number, bool acts, const char* why) {
+  const bool acted = r.state.elsewhere.contains(number);
+  if (acts) r.state.elsewhere[number] = why;
+  if (!acts) r.state.elsewhere.erase(number);
+  if (acts || acted) r.state.known.fill(false), r.state.run_begin = r.program.moves.size();
+}
+
+/// The words behind the number of an old cycle's line; nothing where one of them is not known.
+bool lex_cycle_words(const KlartextBlock& block, std::size_t begin, KlartextReading& r) {
+  KlartextBlock words = block;
+  words.head.clear();
+  words.parts[0].begin = begin;
+  return lex_klartext_words(r.program.text, r.program.file, words, r.words);
+}
+
+void shift_datum(const KlartextBlock& block, const CycleNumber& number, KlartextReading& r) {
+  const bool read = lex_cycle_words(block, number.end, r);
+  for (const KlartextWord& word : r.words) {
+    const std::size_t axis = shifted_axes.find(word.key);
+    if (axis == std::string_view::npos) continue;
+    const bool zero = word.literal && word.value == 0;
+    if (!word.incremental || !zero) r.state.datum_shift[axis] = !zero;
+  }
+  const auto& shift = r.state.datum_shift;
+  const bool acts = !read || std::any_of(shift.begin(), shift.end(), [](bool on) { return on; });
+  set_elsewhere(r, 7, acts, "CYCL DEF 7 shifts coordinates");
+}
+
+/// "SCL1", "SCL1.000".
+bool is_scale_of_one(std::string_view rest) {
+  const std::size_t digit = std::min(rest.find_first_of("0123456789"), rest.size());
+  return read_number(rest.substr(digit)) == 1.0;
+}
+
+/// Mirror, rotation, scale, tilt: what they say acts unless it is neutral.
+void turn_coordinates(const KlartextBlock& block, const CycleNumber& number, KlartextReading& r) {
+  const std::string rest = squeezed(part(r.program.text, {number.end, block.parts[0].end}));
+  bool acts = rest.find_first_of("Q123456789") != std::string::npos;
+  if (number.cycle == 8 || number.cycle == 26) acts = !rest.empty();
+  if (number.cycle == 11) acts = !is_scale_of_one(rest);
+  set_elsewhere(r, number.cycle, acts, "mirrored, turned, scaled or tilted coordinates");
+}
+
+void select_preset(const KlartextBlock& block, KlartextReading& r) {
+  std::string all;
+  for (const Span& line : block.parts) all += squeezed(part(r.program.text, line));
+  const std::size_t q = all.find("Q339=");
+  const std::string preset = q == std::string::npos ? "?" : all.substr(q + 5);
+  r.state.known.fill(false);
+  r.state.run_begin = r.program.moves.size();
+  if (r.state.preset.empty()) {
+    r.state.preset = preset;
+    add_remark(r.program, block.line, fmt::format("CYCL DEF 247 selects preset {}", preset));
+    return;
+  }
+  set_elsewhere(r, 247, preset != r.state.preset || preset == "?", "another preset is selected");
+}
+
+void define_cycle(const KlartextBlock& block, KlartextReading& r) {
+  const CycleNumber number = number_of(r.program.text, block);
+  const int cycle = number.cycle;
+  if (cycle == 7 && number.line > 0) return shift_datum(block, number, r);
+  if ((cycle == 8 || cycle == 10 || cycle == 11 || cycle == 19 || cycle == 26) && number.line > 0)
+    return turn_coordinates(block, number, r);
+  if (cycle == 247) return select_preset(block, r);
+  if (cycle == 220 || cycle == 221)
+    return add_unfollowed_move(block, r, "patterns of cycles are left as they are");
+  if (cycle == 32 && number.line == 1)
+    add_remark(r.program, block.line,
+               fmt::format("CYCL DEF 32{}: the control smooths the path; corrections smaller than its "
+                           "tolerance can vanish",
+                           part(r.program.text, {number.end - 2, block.parts[0].end})));
+  const bool state_only = cycle == 7 || cycle == 8 || cycle == 9 || cycle == 10 || cycle == 11 ||
+                          cycle == 13 || cycle == 19 || cycle == 26 || cycle == 32;
+  if (!state_only && number.line == 0) r.state.cycle_acts_here = acts_where_called(cycle);
+}
+
+}  // namespace
+
+void read_klartext_cycle(const KlartextBlock& block, KlartextReading& r) {
+  const std::string rest = squeezed(after_head(r.program.text, block));
+  if (rest.starts_with("DEF")) return define_cycle(block, r);
+  const bool here = rest == "CALL" || (rest.starts_with("CALLM") && rest.size() > 5);
+  if (here) return add_cycle_call(block, r);
+  add_unfollowed_move(block, r, "cycles are left as they are");
+}
+
+}  // namespace counterflex

@@ -1,0 +1,376 @@
+#include "program/siemens_lex.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "counterflex/files/numbers.hpp"
+
+namespace counterflex {
+namespace {
+
+/// What a name at the beginning of a statement does to the moves that follow.
+struct SiemensName {
+  std::string_view name;
+  Statement statement;
+};
+
+// Names that are not listed are taken for subprograms or cycles.
+constexpr std::array siemens_names{
+    SiemensName{"TRANS", Statement::frame},
+    SiemensName{"ROT", Statement::frame},
+    SiemensName{"ROTS", Statement::frame},
+    SiemensName{"SCALE", Statement::frame},
+    SiemensName{"MIRROR", Statement::frame},
+    SiemensName{"ATRANS", Statement::added_frame},
+    SiemensName{"AROT", Statement::added_frame},
+    SiemensName{"AROTS", Statement::added_frame},
+    SiemensName{"ASCALE", Statement::added_frame},
+    SiemensName{"AMIRROR", Statement::added_frame},
+    SiemensName{"CYCLE800", Statement::tilt},
+    SiemensName{"TRAORI", Statement::transformed},
+    SiemensName{"TRANSMIT", Statement::transformed},
+    SiemensName{"TRACYL", Statement::transformed},
+    SiemensName{"TRAANG", Statement::transformed},
+    SiemensName{"TRAFOOF", Statement::transform_off},
+    SiemensName{"MCALL", Statement::modal_call},
+    SiemensName{"CYCLE832", Statement::smoothed},
+    SiemensName{"COMPCAD", Statement::smoothed},
+    SiemensName{"COMPCURV", Statement::smoothed},
+    SiemensName{"COMPON", Statement::smoothed},
+    SiemensName{"COMPSURF", Statement::smoothed},
+    SiemensName{"ASPLINE", Statement::curve},
+    SiemensName{"BSPLINE", Statement::curve},
+    SiemensName{"CSPLINE", Statement::curve},
+    SiemensName{"POLY", Statement::curve},
+    SiemensName{"CIP", Statement::curve},
+    SiemensName{"CT", Statement::curve},
+    SiemensName{"INVCW", Statement::curve},
+    SiemensName{"INVCCW", Statement::curve},
+    SiemensName{"RET", Statement::end},
+};
+
+// Neither move an axis nor change where moves go.
+constexpr std::array harmless_names{
+    "MSG",       "STOPRE",   "FFWON",     "FFWOF",   "SOFT",    "BRISK",       "DRIVE",     "CUT2D",
+    "CUT2DF",    "COMPOF",   "NORM",      "KONT",    "KONTC",   "KONTT",       "FGROUP",    "FGREF",
+    "FTOCON",    "FTOCOF",   "WORKPIECE", "SPOS",    "SPCON",   "SPCOF",       "SETMS",     "DISPLOF",
+    "DISPLON",   "SAVE",     "SBLOF",     "SBLON",   "UPATH",   "SPATH",       "CFC",       "CFTCP",
+    "CFIN",      "FIFOCTRL", "WALIMON",   "WALIMOF", "DYNNORM", "DYNPOS",      "DYNROUGH",  "DYNSEMIFIN",
+    "DYNFINISH", "DYNPREC",  "ORISOF",    "ORISON",  "ORIWKS",  "ORIMKS",      "ORIAXES",   "ORIVECT",
+    "ADIS",      "ADISPOS",  "DISC",      "ACC",     "LIMS",    "VELOLIM",     "JERKLIM",   "RTLION",
+    "RTLIOF",    "DEF",      "DEFINE",    "EXTERN",  "PROC",    "GROUP_BEGIN", "GROUP_END", "GOTO",
+    "GOTOF",     "GOTOB",    "GOTOC",     "GOTOS",   "CASE",    "SPINDLE",     "SYNFCT",    "STOPREC",
+};
+
+constexpr std::array<std::string_view, 13> structures{"IF",    "ELSE",    "ENDIF", "WHILE",   "ENDWHILE",
+                                                      "FOR",   "ENDFOR",  "LOOP",  "ENDLOOP", "REPEAT",
+                                                      "UNTIL", "REPEATB", "PROC"};
+
+// Say where a move goes; other names before '=' are variables.
+constexpr std::array position_names{"AP",   "RP",  "AR",   "OFFN",  "CHF", "CHR",  "RND",
+                                    "RNDM", "ANG", "DISR", "DISCL", "POS", "POSA", "FP"};
+
+bool is_name_character(char c) {
+  return is_letter(c) || is_digit(c) || c == '_' || c == '$';
+}
+
+std::string_view name_at(const Scanner& s) {
+  std::size_t end = s.at;
+  while (end < s.end && is_name_character(s.text[end])) ++end;
+  return s.text.substr(s.at, end - s.at);
+}
+
+bool has_digit_behind_letter(std::string_view name) {
+  return name.size() > 1 && std::all_of(name.begin() + 1, name.end(), is_digit);
+}
+
+/// Up to the comment.
+void skip_siemens_rest(Scanner& s) {
+  bool quoted = false;
+  for (; s.at < s.end && (quoted || s.peek() != ';'); ++s.at)
+    if (s.peek() == '"') quoted = !quoted;
+}
+
+/// A value: up to a blank, outside brackets and quotes.
+void skip_value(Scanner& s) {
+  int depth = 0;
+  bool quoted = false;
+  for (; s.at < s.end; ++s.at) {
+    const char c = s.peek();
+    if (c == '"') quoted = !quoted;
+    if (quoted) continue;
+    if (c == '(' || c == '[') ++depth;
+    if (c == ')' || c == ']') --depth;
+    if (depth <= 0 && (is_blank(c) || c == ';')) break;
+  }
+}
+
+int decimals_in_plain(std::string_view number) {
+  const std::size_t point = number.find('.');
+  return point == std::string_view::npos ? 0 : static_cast<int>(number.size() - point - 1);
+}
+
+std::optional<double> plain_number(std::string_view text) {
+  return text.find_first_not_of("+-.0123456789") == std::string_view::npos ? read_number(text) : std::nullopt;
+}
+
+/// "12.5", "AC(12.5)", "IC(-3)" of a word whose '=' has been passed; anything else is the control's to work
+/// out.
+void read_siemens_value(Scanner& s, Word& word) {
+  s.skip_blanks();
+  Span value{s.at, s.at};
+  skip_value(s);
+  word.span.end = value.end = s.at;
+  if (empty(value)) s.refuse_at(s.at - 1, fmt::format("{}= is followed by no value", word.letter));
+  const std::string_view text = part(s.text, value);
+  const bool absolute = is_word(text.substr(0, 3), "AC("), relative = is_word(text.substr(0, 3), "IC(");
+  if ((absolute || relative) && text.back() == ')') {
+    value = {value.begin + 3, value.end - 1};
+    word.sense = absolute ? Sense::absolute : Sense::relative;
+    s.block.has_sense = true;
+  }
+  word.number = value;
+  const auto number = plain_number(part(s.text, value));
+  word.literal = number.has_value();
+  word.value = number.value_or(0);
+  word.point = part(s.text, value).find('.') != std::string_view::npos;
+  word.decimals = decimals_in_plain(part(s.text, value));
+}
+
+/// "CR=4." is the radius of an arc, "TURN=2" its turns besides the way to its end.
+void read_named_word(Scanner& s, char letter, std::size_t name_length) {
+  Word& word = s.block.words.emplace_back();
+  word.letter = letter;
+  word.span.begin = s.at;
+  s.at += name_length;
+  s.skip_blanks();
+  ++s.at;
+  read_siemens_value(s, word);
+  if (letter == 'P') word.value += 1;
+}
+
+void state_machine_position(Scanner& s, std::string_view name) {
+  Word& word = s.block.words.emplace_back();
+  word.letter = 'G';
+  word.value = 153;
+  word.span = word.number = {s.at, s.at + name.size()};
+  s.at = word.span.end;
+}
+
+void state(Scanner& s, Statement statement) {
+  s.block.statement = statement;
+  const std::size_t begin = s.at;
+  s.at += name_at(s).size();
+  s.skip_blanks();
+  const bool no_arguments = s.text.substr(s.at, s.end - s.at).starts_with("()");
+  s.block.statement_is_bare = no_arguments || s.at == s.end || s.peek() == ';';
+  s.at = begin;
+  if (statement == Statement::curve) {
+    s.at += name_at(s).size();
+    return;
+  }
+  skip_siemens_rest(s);
+}
+
+bool lex_structure(Scanner& s, std::string_view name) {
+  const auto found = std::find_if(structures.begin(), structures.end(),
+                                  [&](std::string_view known) { return is_word(name, known); });
+  if (found == structures.end()) return false;
+  Span keyword{s.at, s.at + name.size()};
+  s.at = keyword.end;
+  s.skip_blanks();
+  const bool alone = s.at == s.end || s.peek() == ';';
+  const std::size_t rest = s.at;
+  skip_siemens_rest(s);
+  const bool jump = s.text.substr(rest, s.at - rest).find("GOTO") != std::string_view::npos;
+  // A part that is repeated by its labels makes the whole program a body, as jumps do.
+  const bool repeats_part = *found == "REPEATB" || (*found == "REPEAT" && !alone);
+  if (!jump && !repeats_part && *found != "PROC") s.block.flow_keyword = keyword;
+  return true;
+}
+
+/// A name with its value or arguments: "SPOS=0", "ACC[X]=80", "MSG(\"TEXT\")", "FFWON".
+void skip_harmless(Scanner& s, std::string_view name) {
+  if (is_word(name, "DEF") || is_word(name, "DEFINE") || is_word(name, "EXTERN") || is_word(name, "PROC") ||
+      is_word(name.substr(0, 4), "GOTO") || is_word(name, "CASE"))
+    return skip_siemens_rest(s);
+  s.at += name.size();
+  s.skip_blanks();
+  if (s.peek() == '(' || s.peek() == '[') skip_value(s), s.skip_blanks();
+  if (s.peek() != '=') return;
+  ++s.at;
+  s.skip_blanks();
+  skip_value(s);
+}
+
+/// Letters of words that carry a number of their own before '=': "R1=", "M3=", "S2=", "A3=".
+void skip_numbered_assignment(Scanner& s, std::string_view name) {
+  const char letter = upper(name[0]);
+  if (letter == 'A' || letter == 'B' || letter == 'C') return state(s, Statement::call);
+  s.block.assigns = true;
+  s.at += name.size();
+  while (s.peek() != '=') ++s.at;
+  ++s.at;
+  s.skip_blanks();
+  skip_value(s);
+}
+
+bool equals_follows(const Scanner& s, std::size_t behind) {
+  Scanner ahead = s;
+  ahead.at += behind;
+  ahead.skip_blanks();
+  return ahead.peek() == '=' && (ahead.at + 1 >= s.end || s.text[ahead.at + 1] != '=');
+}
+
+void lex_letter(Scanner& s) {
+  const char letter = upper(s.peek());
+  if (!equals_follows(s, 1)) return lex_word(s);
+  const std::size_t words = s.block.words.size();
+  read_named_word(s, letter, 1);
+  Word& word = s.block.words[words];
+  if (letter == 'P') word.value -= 1;
+  // A tool by its name, an M or S by a value: nothing that the moves depend on.
+  if (!word.literal && (letter == 'T' || letter == 'M' || letter == 'S' || letter == 'H' || letter == 'D'))
+    s.block.words.pop_back();
+  // Centres that are absolute under G90 make no arc that is followed.
+  if ((letter >= 'I' && letter <= 'K') && (!word.literal || word.sense == Sense::absolute))
+    s.block.statement = Statement::arc_not_read;
+}
+
+bool lex_label(Scanner& s, std::string_view name) {
+  const std::size_t behind = s.at + name.size();
+  if (behind >= s.end || s.text[behind] != ':' || (behind + 1 < s.end && s.text[behind + 1] == '='))
+    return false;
+  s.at = behind + 1;
+  return true;
+}
+
+void lex_name(Scanner& s, std::string_view name) {
+  if (is_word(name, "CR") && equals_follows(s, 2)) return read_named_word(s, 'R', 2);
+  if (is_word(name, "TURN") && equals_follows(s, 4)) return read_named_word(s, 'P', 4);
+  if (is_word(name, "SUPA")) return state_machine_position(s, name);
+  if (lex_structure(s, name)) return;
+  for (const SiemensName& known : siemens_names)
+    if (is_word(name, known.name)) return state(s, known.statement);
+  if (std::any_of(harmless_names.begin(), harmless_names.end(),
+                  [&](auto known) { return is_word(name, known); }))
+    return skip_harmless(s, name);
+  if (name.starts_with('$')) return state(s, Statement::data);
+  if (equals_follows(s, name.size()) || s.text.substr(s.at + name.size(), 1) == "[") {
+    const bool position = std::any_of(position_names.begin(), position_names.end(),
+                                      [&](auto known) { return is_word(name, known); });
+    if (position) return state(s, Statement::call);
+    s.block.assigns = true;
+    return skip_siemens_rest(s);
+  }
+  state(s, Statement::call);
+}
+
+bool is_modal_of_several_letters(std::string_view name) {
+  return name.size() > 1 && !has_digit_behind_letter(name) && is_letter(name[1]);
+}
+
+/// Letters in a row that are one word and the next: "G1X5Y2" is no name.
+bool is_run_of_words(std::string_view name) {
+  return name.size() > 1 && is_digit(name[1]) && std::any_of(name.begin() + 1, name.end(), is_letter);
+}
+
+void lex_siemens_word(Scanner& s) {
+  const std::string_view name = name_at(s);
+  const bool single = name.size() == 1 || is_run_of_words(name) || has_digit_behind_letter(name);
+  if (lex_label(s, name)) return;
+  if (!single || is_modal_of_several_letters(name)) return lex_name(s, name);
+  const char letter = upper(name[0]);
+  if (has_digit_behind_letter(name) && equals_follows(s, name.size()))
+    return skip_numbered_assignment(s, name);
+  if (letter == 'L' && has_digit_behind_letter(name)) return state(s, Statement::call);
+  lex_letter(s);
+}
+
+void lex_siemens_comment(Scanner& s) {
+  s.block.comments.push_back({s.at + 1, s.end});
+  s.at = s.end;
+}
+
+void lex_siemens_skip(Scanner& s) {
+  const std::size_t begin = s.at++;
+  if (is_digit(s.peek())) ++s.at;
+  s.block.block_delete = {begin, s.at};
+}
+
+constexpr std::size_t looked_at = 1 << 16;
+
+/// The part of a line before its comment, without what stands in round brackets.
+std::string statements_of(std::string_view line) {
+  std::string kept;
+  int depth = 0;
+  for (const char c : line) {
+    if (c == ';') break;
+    if (c == '(') kept += c, ++depth;
+    if (c == ')' && depth > 0) --depth;
+    if (depth == 0) kept += upper(c);
+  }
+  return kept;
+}
+
+}  // namespace
+
+bool is_siemens(std::string_view text) {
+  text = text.substr(0, looked_at);
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    const std::string_view line = text.substr(0, end);
+    if (line.starts_with("%_N_") || line.starts_with(";%_N_") || line.starts_with(";$PATH=")) return true;
+    if (line.find_first_of("#<") == std::string_view::npos) {
+      const std::string words = statements_of(line);
+      for (const std::string_view only :
+           {"CR=", "MSG(", "SUPA", "STOPRE", "MCALL", "CYCLE8", "GOTOF", "GOTOB", "TRAORI", "WORKPIECE(",
+            "=AC(", "=IC(", "G500 ", "COMPCAD"})
+        if (words.find(only) != std::string::npos) return true;
+    }
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  return false;
+}
+
+bool siemens_jumps(std::string_view text) {
+  Block block;
+  while (next_line(text, block)) {
+    const std::string_view line = part(text, block.span);
+    if (line.find("GOTO") == std::string_view::npos && line.find("REPEAT") == std::string_view::npos)
+      continue;
+    const std::string words = statements_of(line);
+    if (words.find("GOTO") != std::string::npos) return true;
+    const std::size_t repeat = words.find("REPEAT");
+    if (repeat != std::string::npos && words.find_first_not_of(" \t\r", repeat + 6) != std::string::npos)
+      return true;
+  }
+  return false;
+}
+
+void lex_siemens(Scanner& s) {
+  s.skip_blanks();
+  if (s.peek() == '%') {
+    s.block.percent = true;
+    return;
+  }
+  for (; s.at < s.end; s.skip_blanks()) {
+    const char c = s.peek();
+    if (is_letter(c) || c == '$' || c == '_') {
+      lex_siemens_word(s);
+    } else if (c == ';') {
+      lex_siemens_comment(s);
+    } else if (c == '/' && empty(s.block.block_delete)) {
+      lex_siemens_skip(s);
+    } else if (c == ':' && s.at + 1 < s.end && is_digit(s.text[s.at + 1])) {
+      ++s.at;
+      while (is_digit(s.peek())) ++s.at;
+    } else {
+      refuse_character(s);
+    }
+  }
+}
+
+}  // namespace counterflex

@@ -1,0 +1,107 @@
+#include "program/siemens_statements.hpp"
+
+#include <algorithm>
+
+#include "program/contour.hpp"
+#include "program/other_moves.hpp"
+#include "program/read_move.hpp"
+#include "program/remarks.hpp"
+
+namespace counterflex {
+namespace {
+
+bool is_length_word(const Word& word) {
+  return word.letter >= 'X' && word.letter <= 'Z';
+}
+
+/// Starts or ends a state that places programmed coordinates elsewhere.
+void displace_by_statement(const Block& block, Reading& r, std::uint16_t bit, bool acts) {
+  const bool acted = (r.state.displaced & bit) != 0;
+  const auto others = static_cast<std::uint16_t>(r.state.displaced & ~bit);
+  r.state.displaced = acts ? static_cast<std::uint16_t>(others | bit) : others;
+  if (!acts && !acted) return;
+  r.state.known.fill(false);
+  end_contour(r);
+  if (acts) leave_alone(block, r, why_not_followed(r));
+}
+
+void call_subprogram(const Block& block, Reading& r) {
+  r.sorted = {};
+  read_call(block, r);
+}
+
+}  // namespace
+
+void begin_statement(const Block& block, Reading& r) {
+  if (block.statement == Statement::curve) r.state.doubts |= doubtful_motion;
+}
+
+bool has_words_of_its_own(const Block& block, const Reading&) {
+  if (block.statement == Statement::curve || block.statement == Statement::smoothed) return true;
+  return std::none_of(block.words.begin(), block.words.end(), is_length_word);
+}
+
+void end_statement(const Block& block, Reading& r) {
+  switch (block.statement) {
+    case Statement::call:
+    case Statement::arc_not_read:
+      return call_subprogram(block, r);
+    case Statement::modal_call:
+      return displace_by_statement(block, r, modal_macro, !block.statement_is_bare);
+    case Statement::frame:
+      return displace_by_statement(block, r, framed, !block.statement_is_bare);
+    case Statement::added_frame:
+      return displace_by_statement(block, r, framed, true);
+    case Statement::tilt:
+      call_subprogram(block, r);
+      return displace_by_statement(block, r, tilted, !block.statement_is_bare);
+    case Statement::transformed:
+      return displace_by_statement(block, r, tool_point, true);
+    case Statement::transform_off:
+      return displace_by_statement(block, r, tool_point, false);
+    case Statement::smoothed:
+      return add_remark(r.program, block.line,
+                        "the control smooths the path; corrections smaller than its tolerance can vanish");
+    case Statement::data:
+      r.state.doubts |= doubtful_offset;
+      r.state.known.fill(false);
+      return leave_alone(block, r, "a variable of the control is set");
+    case Statement::end:
+      r.ended = true;
+      return;
+    default:
+      return;
+  }
+}
+
+Block with_senses(const Block& block, Reading& r) {
+  Block result = block;
+  bool modal = r.state.relative;
+  for (const Word& word : block.words)
+    if (word.letter == 'G' && (word.value == 90 || word.value == 91)) modal = word.value == 91;
+  bool all_relative = true, all_absolute = true;
+  const auto relative = [&](const Word& word) {
+    return word.sense == Sense::modal ? modal : word.sense == Sense::relative;
+  };
+  for (const Word& word : block.words) {
+    if (!is_length_word(word)) continue;
+    all_relative = all_relative && relative(word);
+    all_absolute = all_absolute && !relative(word);
+  }
+  if (!all_relative && !all_absolute)
+    for (Word& word : result.words)
+      if (is_length_word(word) && relative(word)) word.literal = false;
+  if (all_relative != modal) r.block_relative = all_relative;
+  return result;
+}
+
+void apply_tool_edge(Reading& r) {
+  if (r.sorted.has(MAction::tool_change)) r.state.tool_length = 1;
+  const Word* d = r.sorted.word('D');
+  if (d == nullptr || (d->literal && r.state.tool_length == d->value)) return;
+  r.state.known[2] = false;
+  r.state.tool_length.reset();
+  if (d->literal) r.state.tool_length = d->value;
+}
+
+}  // namespace counterflex

@@ -1,0 +1,274 @@
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "program/reading.hpp"
+
+using namespace counterflex;
+using namespace counterflex::test;
+
+namespace {
+
+/// A program in Klartext around `blocks`, numbered.
+std::string klartext(const std::vector<std::string>& blocks, const std::string& unit = "MM") {
+  std::string text = "0 BEGIN PGM COVER " + unit + "\n";
+  int number = 1;
+  for (const std::string& block : blocks) text += fmt::format("{} {}\n", number++, block);
+  return text + fmt::format("{} END PGM COVER {}\n", number, unit);
+}
+
+const Vector3 klartext_shift(0.5, -0.25, 0.125);
+
+/// `program` with every move that has a known end shifted, arcs with their centres.
+std::string klartext_shifted(const Program& program, const WriteOptions& options = {}) {
+  std::vector<MoveEdit> edits = shifted(program, klartext_shift);
+  for (MoveEdit& edit : edits)
+    if (const auto& arc = program.moves[edit.move].arc) edit.centre_mm = arc->centre_mm + klartext_shift;
+  return rewrite(program, edits, options).text;
+}
+
+std::string klartext_refusal(const std::vector<std::string>& blocks) {
+  return diagnostic_of([&] { read(klartext(blocks)); });
+}
+
+}  // namespace
+
+TEST_CASE("klartext is known by its first statement") {
+  CHECK(read("\r\n0 BEGIN PGM A MM\r\n1 END PGM A MM\r\n").dialect == "heidenhain");
+  CHECK(read("G21\nG0 X1\n").dialect == "linuxcnc");
+  CHECK(read("BEGIN PGM A INCH\nL X+1 FMAX\n").moves.at(0).end_mm.x() == doctest::Approx(25.4));
+}
+
+TEST_CASE("klartext: L moves with modal feed, rapid for one block, points and commas") {
+  const Program program = read(klartext({"TOOL CALL 3 Z S2500", "L X+10 Y-2,5 Z+50 R0 FMAX M3", "L Z-1. F250",
+                                         "L IX+5", "L X+20 F MAX", "L Y1"}));
+  REQUIRE(program.moves.size() == 5);
+  CHECK(program.moves[0].motion == Motion::rapid);
+  CHECK(program.moves[0].end_mm == Vector3(10, -2.5, 50));
+  CHECK(program.moves[0].tool == 3);
+  CHECK(program.moves[0].spindle_rpm == 2500);
+  CHECK(program.moves[1].feed_mm_min == 250);
+  CHECK(program.moves[2].relative);
+  CHECK(program.moves[2].end_mm.x() == 15);
+  CHECK(program.moves[3].motion == Motion::rapid);
+  CHECK(program.moves[4].motion == Motion::feed);
+  CHECK(program.moves[4].feed_mm_min == 250);
+}
+
+TEST_CASE("klartext: feeds of an inch program are tenths of an inch a minute") {
+  const Program program = read(klartext({"L X+1 F100"}, "INCH"));
+  CHECK(program.moves.at(0).feed_mm_min == doctest::Approx(254));
+}
+
+TEST_CASE(
+    "klartext: coordinates without a number and numbers that no control reads are refused at their place") {
+  CHECK(klartext_refusal({"L X+1 FMAX", "L Xnan Y1"}) ==
+        "p.ngc:3:5: error: X has no number: 'nan' follows it");
+  CHECK(klartext_refusal({"L Z nan FMAX"}) == "p.ngc:2:5: error: Z has no number: 'nan' follows it");
+  CHECK(klartext_refusal({"L X1e5"}) == "p.ngc:2:7: error: X1e5: a number has no exponent here");
+  CHECK(klartext_refusal({"L X100000"}) == "p.ngc:2:5: error: X100000: coordinates are at most 99999.9999");
+  CHECK(klartext_refusal({"CYCL DEF 7.1 Xnan"}) == "p.ngc:2:16: error: X has no number: 'nan' follows it");
+  CHECK(klartext_refusal({"<<<<<<< mine"}).starts_with("p.ngc:2:3: error: '<<<<<<<' is a conflict marker"));
+  CHECK(diagnostic_of([&] {
+          read("L X1 FMAX\n", "heidenhain");
+        }).starts_with("p.ngc:1:1: error: a move before the unit"));
+}
+
+TEST_CASE("klartext: what is not changed comes back byte for byte") {
+  const std::string text =
+      "0 BEGIN PGM 2.5D COVER MM\r\n1 CYCL DEF 247 PRESET ~\r\n    Q339=1 ;NUMBER\r\n\r\n2 * - FACE\r\n"
+      "3 TOOL CALL 1 Z S1500\r\n4  L  X+5,25   Y-7 R0 FMAX ; start\r\n5 L Z2 FMAX\r\n6 CC X+10 Y-7\r\n"
+      "7 C X+14,75 DR-\r\n8 CR X+5,25 R-4,8 DR+ F200\r\n9 CALL LBL 7\r\n10 L Z+50 FMAX M91\r\n11 FN18: "
+      "SYSREAD Q2 = ID270\r\n"
+      "12 M30\r\n13 END PGM 2.5D COVER MM\r\nmore";
+  const Program program = read(text);
+  std::vector<MoveEdit> edits = edits_to_original(program);
+  for (MoveEdit& edit : edits)
+    if (const auto& arc = program.moves[edit.move].arc) edit.centre_mm = arc->centre_mm;
+  CHECK(rewrite(program, edits, {}).text == text);
+  CHECK(rewrite(program, {}, {}).text == text);
+}
+
+TEST_CASE("klartext: words keep their comma, their sign style and their decimals") {
+  CHECK(klartext_shifted(read(klartext({"L X+10 Y-2,5 Z+50,1234 R0 FMAX M3"}))) ==
+        klartext({"L X+10,5 Y-2,75 Z+50,2484 R0 FMAX M3"}));
+  CHECK(klartext_shifted(read(klartext({"L X10 Y2.5 Z3. FMAX", "L X0.5"}))) ==
+        klartext({"L X10.5 Y2.25 Z3.125 FMAX", "L X1.0"}));
+}
+
+TEST_CASE("klartext: a word that the block omits is inserted behind its last coordinate where it is needed") {
+  const Program program = read(klartext({"L X+10 Y+10 Z+5 R0 FMAX", "L X+20 F200 M8"}));
+  const auto out =
+      rewrite(program, {{.move = 0, .end_mm = {10, 10, 5}}, {.move = 1, .end_mm = {20, 10.01, 5}}}, {});
+  CHECK(out.text == klartext({"L X+10 Y+10 Z+5 R0 FMAX", "L X+20 Y+10.010 F200 M8"}));
+  CHECK(out.inserted_words == 1);
+}
+
+TEST_CASE("klartext: incremental words write differences of what the text holds") {
+  const Program program = read(klartext({"L X+10 Y+10 Z+5 R0 FMAX", "L IX+5 F200", "L IX+5"}));
+  const auto out = rewrite(
+      program, {{.move = 1, .end_mm = {15.0014, 10, 5}}, {.move = 2, .end_mm = {20.0028, 10.25, 5}}}, {});
+  CHECK(out.text == klartext({"L X+10 Y+10 Z+5 R0 FMAX", "L IX+5.001 F200", "L IX+5.002 IY+0.250"}));
+}
+
+TEST_CASE("klartext: blocks are numbered anew without gaps when lines are inserted, and only then") {
+  const Program program = read(klartext({"L X+0 Y+0 Z+0 R0 FMAX", "L X+20 F200", "L Y+20"}));
+  const std::vector<MoveEdit> edits{{.move = 1, .inserted = {{{10, 0.1, 0}}}, .end_mm = {20, 0, 0}}};
+  CHECK(rewrite(program, edits, {}).text ==
+        klartext({"L X+0 Y+0 Z+0 R0 FMAX", "L X+10.000 Y+0.100 F200", "L X+20 Y+0.000 F200", "L Y+20"}));
+  const Program plain = read("BEGIN PGM A MM\nL X0 Y0 Z0 FMAX\nL X20 F200\nEND PGM A MM\n");
+  CHECK(rewrite(plain, {{.move = 1, .inserted = {{{10, 0.1, 0}}}, .end_mm = {20, 0, 0}}}, {}).text ==
+        "BEGIN PGM A MM\nL X0 Y0 Z0 FMAX\nL X10.000 Y0.100 F200\nL X20 Y0.000 F200\nEND PGM A MM\n");
+}
+
+TEST_CASE("klartext: the header stands behind BEGIN PGM as numbered comments and is found there") {
+  const Program program = read(klartext({"L X+0 Y+0 Z+0 R0 FMAX"}));
+  const std::string text = rewrite(program, {}, {.header = {"Counterflex 1 made", "~ two"}}).text;
+  CHECK(text == klartext({"; COUNTERFLEX 1 MADE", ";   TWO", "L X+0 Y+0 Z+0 R0 FMAX"}));
+  CHECK(is_corrected(read(text)));
+  CHECK_FALSE(is_corrected(program));
+}
+
+TEST_CASE(
+    "klartext: a block that starts a spindle is the first of its pieces, one that stops it is not divided") {
+  const Program program = read(klartext({"L X+0 Y+0 Z+0 FMAX", "L X+20 F200 M3", "L X+40 M5"}));
+  CHECK(rewrite(program, {{.move = 1, .inserted = {{{10, 0, 0}}}, .end_mm = {20, 0, 0}}}, {}).text ==
+        klartext({"L X+0 Y+0 Z+0 FMAX", "L X+10. F200 M3", "L X+20.000", "L X+40 M5"}));
+  CHECK(program.moves[1].may_split);
+  CHECK_FALSE(program.moves[2].may_split);
+}
+
+TEST_CASE("klartext: an arc about CC moves with its centre") {
+  const Program program =
+      read(klartext({"L X+0 Y+0 Z+0 FMAX", "CC X+10 Y+0", "C X+20 Y+0 DR- F300", "C X+0 Y+0 DR-"}));
+  REQUIRE(program.moves.size() == 3);
+  REQUIRE(program.moves[1].arc);
+  CHECK(program.moves[1].arc->clockwise);
+  CHECK(program.moves[1].arc->centre_mm == Vector3(10, 0, 0));
+  CHECK(klartext_shifted(program) == klartext({"L X+0.5 Y-0.25 Z+0.125 FMAX", "CC X+10.5 Y-0.25",
+                                               "C X+20.5 Y-0.25 DR- F300", "C X+0.5 Y-0.25 DR-"}));
+}
+
+TEST_CASE("klartext: an arc that shares its centre gets one of its own where that must differ") {
+  const Program program =
+      read(klartext({"L X+0 Y+0 Z+0 FMAX", "CC X+10 Y+0", "C X+20 Y+0 DR- F300", "C X+0 Y+0 DR-"}));
+  const std::vector<MoveEdit> edits{{.move = 1, .end_mm = {20, 0, 0}, .centre_mm = Vector3(10, 0.5, 0)}};
+  CHECK(rewrite(program, edits, {}).text ==
+        klartext({"L X+0 Y+0 Z+0 FMAX", "CC X+10 Y+0.5", "C X+20 Y+0 DR- F300", "CC X+10.000 Y+0.000",
+                  "C X+0 Y+0 DR-"}));
+}
+
+TEST_CASE("klartext: arcs are divided into arcs or lines") {
+  const Program program = read(klartext({"L X+0 Y+0 Z+0 FMAX", "CC X+10 Y+0", "C X+20 Y+0 DR- F300"}));
+  MoveEdit edit{.move = 1,
+                .inserted = {{{10, 10, 0}, Vector3(10, 0, 0)}},
+                .end_mm = {20, 0, 0},
+                .centre_mm = Vector3(10, 0, 0)};
+  CHECK(
+      rewrite(program, {edit}, {}).text ==
+      klartext({"L X+0 Y+0 Z+0 FMAX", "CC X+10 Y+0", "C X+10.000 Y+10.000 DR- F300", "C X+20 Y+0 DR- F300"}));
+  edit.inserted[0].centre_mm.reset();
+  edit.centre_mm.reset();
+  CHECK(rewrite(program, {edit}, {}).text ==
+        klartext({"L X+0 Y+0 Z+0 FMAX", "CC X+10 Y+0", "L X+10.000 Y+10.000 F300", "L X+20 Y+0 F300"}));
+}
+
+TEST_CASE("klartext: CR arcs turn about the centre that their radius and sign give") {
+  const Program program =
+      read(klartext({"L X+0 Y+0 Z+0 FMAX", "CR X+10 Y+10 R+10 DR- F100", "CR X+20 Y+0 R-10 DR+"}));
+  REQUIRE(program.moves[1].arc);
+  CHECK((program.moves[1].arc->centre_mm - Vector3(10, 0, 0)).norm() < 1e-12);
+  REQUIRE(program.moves[2].arc);
+  CHECK((program.moves[2].arc->centre_mm - Vector3(10, 0, 0)).norm() < 1e-12);
+  CHECK(klartext_shifted(program) ==
+        klartext(
+            {"L X+0.5 Y-0.25 Z+0.125 FMAX", "CR X+10.5 Y+9.75 R+10 DR- F100", "CR X+20.5 Y-0.25 R-10 DR+"}));
+}
+
+TEST_CASE("klartext: a contour under RL is one group from the move above its plunge to its retraction") {
+  const Program program = read(klartext({"L X+50 Y-7 R0 FMAX", "L Z+2 FMAX", "L Z-10 F200", "L Y+2 RL",
+                                         "L X+7", "L Y-7 R0", "L Z+2 FMAX", "L X+51 Y+62 FMAX"}));
+  std::vector<int> groups;
+  for (const Move& move : program.moves) groups.push_back(move.group);
+  CHECK(groups == std::vector<int>{1, 1, 1, 1, 1, 1, 1, 0});
+  CHECK(program.moves[3].handling == Handling::group);
+  CHECK(program.moves[7].handling == Handling::own);
+}
+
+TEST_CASE("klartext: Q parameters fix their axis, machine positions make theirs unknown") {
+  const Program program = read(klartext({"L X+0 Y+0 Z+0 FMAX", "L X+Q21 Y+5 F100", "L Z + Q13 FMAX",
+                                         "L X+1 IZ-Q2", "L Z-10 FMAX M91", "L X+2"}));
+  REQUIRE(program.moves.size() == 5);
+  CHECK(program.moves[1].fixed == std::array{true, false, false});
+  CHECK(program.moves[1].words[1]);
+  CHECK(program.moves[1].known_end == std::array{false, true, true});
+  CHECK(program.moves[2].fixed == std::array{false, false, true});
+  CHECK(program.moves[3].fixed == std::array{false, false, false});
+  CHECK(program.moves[4].known_start[2] == false);
+  CHECK(program.moves[4].line == 7);
+}
+
+TEST_CASE("klartext: what is not followed is a move fixed on all axes, with its reason") {
+  for (const std::string block :
+       {"CALL LBL 4", "CALL PGM B.H", "APPR LT X+1 Y+2 LEN10 RR F300", "LP PR+10 PA+20",
+        "PLANE SPATIAL SPA+10 SPB+0 SPC+0 STAY", "X+5 F100", "TCH PROBE 400", "FUNCTION TCPM F TCP"}) {
+    CAPTURE(block);
+    const Program program = read(klartext({"L X+0 Y+0 Z+0 FMAX", block, "L X+3"}));
+    REQUIRE(program.moves.size() == 3);
+    CHECK(program.moves[1].fixed == std::array{true, true, true});
+    CHECK(program.moves[2].known_start == std::array{false, false, false});
+    CHECK(program.left_alone.at(0).line == 3);
+  }
+}
+
+TEST_CASE("klartext: blocks that a label repeats, calls or passes over are not corrected") {
+  const Program program =
+      read(klartext({"L X+0 Y+0 Z+0 FMAX", "LBL 1", "L X+5 F100", "L IX+5", "CALL LBL 1 REP 2",
+                     "L X+7 Y+7 Z+7", "FN 9: IF +Q1 EQU +Q2 GOTO LBL 3", "L X+9", "LBL 3", "L X+8"}));
+  REQUIRE(program.moves.size() == 7);
+  CHECK(program.moves[1].fixed[0]);
+  CHECK_FALSE(program.moves[2].fixed[0]);
+  CHECK_FALSE(all_known(program.moves[2].known_end));
+  CHECK_FALSE(program.moves[4].fixed[0]);
+  CHECK(program.moves[5].fixed[0]);
+  CHECK_FALSE(program.moves[6].fixed[0]);
+}
+
+TEST_CASE("klartext: shifted, turned and tilted coordinates are fixed until they are set back") {
+  for (const auto& [on, off] : {std::pair{"CYCL DEF 7.1 X+10", "CYCL DEF 7.1 X+0"},
+                                {"CYCL DEF 10.1 ROT+30", "CYCL DEF 10.1 ROT+0"},
+                                {"CYCL DEF 8.1 X", "CYCL DEF 8.1"},
+                                {"CYCL DEF 11.1 SCL 0.99", "CYCL DEF 11.1 SCL 1"},
+                                {"PLANE SPATIAL SPA+1 SPB+0 SPC+0 STAY", "PLANE RESET STAY"}}) {
+    CAPTURE(on);
+    const Program program = read(klartext({on, "L X+1 Y+1 Z+1 F100", off, "L X+1 Y+1 Z+1"}));
+    const auto moving = [](const Move& move) { return move.words[0] || move.words[1]; };
+    CHECK(std::count_if(program.moves.begin(), program.moves.end(), moving) == 1);
+    CHECK(program.moves.back().fixed == std::array{false, false, false});
+  }
+}
+
+TEST_CASE("klartext: a cycle called in place keeps its hole's position and leaves the height unknown") {
+  const Program program =
+      read(klartext({"CYCL DEF 200 DRILLING ~\n    Q200=2 ;CLEARANCE ~\n    Q201=-20 ;DEPTH",
+                     "L X+10 Y+10 Z+50 R0 FMAX", "L X+20 FMAX M99", "CYCL CALL", "L X+30 FMAX"}));
+  REQUIRE(program.moves.size() == 4);
+  CHECK(program.moves[1].words[0]);
+  CHECK(program.moves[1].fixed == std::array{false, false, true});
+  CHECK(program.moves[2].fixed == std::array{false, false, true});
+  CHECK(program.moves[3].known_start == std::array{true, true, false});
+}
+
+TEST_CASE("klartext: forces stand in comments") {
+  const Program program = read(klartext({"L X+0 Y+0 Z+0 FMAX", "; FORCE FX=-30 FZ=12", "L X+5 F100"}));
+  REQUIRE(program.moves[1].force);
+  CHECK((*program.moves[1].force)[0] == -30);
+}
+
+TEST_CASE("klartext: corners by RND and CHF leave their moves whole") {
+  const Program program = read(klartext({"L X+0 Y+0 Z+0 F100", "L X+10", "RND R2", "L Y+10", "L X+0"}));
+  CHECK_FALSE(program.moves[1].may_split);
+  CHECK_FALSE(program.moves[2].may_split);
+  CHECK(program.moves[3].may_split);
+}

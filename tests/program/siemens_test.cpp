@@ -1,0 +1,176 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+
+#include "program/reading.hpp"
+
+using namespace counterflex;
+using namespace counterflex::test;
+
+namespace {
+
+Program siemens(const std::string& text) {
+  ReadOptions options;
+  options.dialect = "siemens";
+  options.unit = LengthUnit::millimetres;
+  return read_program(text, "p.mpf", options);
+}
+
+/// `text` with every move that has coordinates shifted.
+std::string siemens_shifted(const std::string& text) {
+  const Vector3 d(0.5, -0.25, 0.125);
+  const Program program = siemens(text);
+  std::vector<MoveEdit> edits;
+  for (std::size_t i = 0; i < program.moves.size(); ++i) {
+    const Move& move = program.moves[i];
+    if (!move.words[0] && !move.words[1] && !move.words[2]) continue;
+    edits.push_back({.move = i, .end_mm = move.end_mm + d});
+    if (move.arc) edits.back().centre_mm = move.arc->centre_mm + d;
+  }
+  return rewrite(program, edits, {}).text;
+}
+
+constexpr std::string_view siemens_start = "G90 G17 G71\nT=\"MILL_10\" M6\nG0 X0 Y0 Z50. D1 S2500 M3\n";
+
+}  // namespace
+
+TEST_CASE("siemens: words that only a Sinumerik reads tell the dialect, but not in comments of others") {
+  CHECK(read("N10 G90 G71\nN20 G2 X1. Y0. CR=4.\n").dialect == "siemens");
+  CHECK(read("%_N_COVER_MPF\n;$PATH=/_N_MPF_DIR\nG71 G0 X1\n").dialect == "siemens");
+  CHECK(read("G71\nMSG(\"ROUGH\")\nG0 X1\n").dialect == "siemens");
+  CHECK(read("(CR=4. MCALL)\nG21 G0 X1\n").dialect == "linuxcnc");
+  CHECK(read("O0001\nG21 G0 X1.\n(SUPA)\n").dialect == "fanuc");
+}
+
+TEST_CASE("siemens: lines come back byte for byte, whatever they hold") {
+  const std::string text =
+      "%_N_COVER_MPF\n;$PATH=/_N_MPF_DIR\nN10 G17 G90 G71 G500 ;siemens_start\nDEF REAL "
+      "_DEPTH=5.5\nWORKPIECE(,\"\",,\"BOX\",112)\n"
+      "N000020 T=\"MILL 10\" M6\nMSG(\"ROUGH; PART\")\nS=R3 M3=3 SPOS[2]=0 FFWON\nG0 SUPA Z500. D0\nG0 G153 "
+      "X0 D0\nG54 G0 X10 Y10 D1\nZ=50.5\n"
+      "R1=5 R2=R1*2\nG1 X=R1+5 Y=AC(12.5) Z=IC(-3) F=R9\nTRANS X10 Y5\nG1 X5\nTRANS\nCYCLE800()\nMCALL "
+      "CYCLE81(50,0,2,-10)\nX1 Y1\nMCALL\n"
+      "L100 P3\nPOCKET3(50,0,1)\nIF R1==5\nG1 X5\nELSE\nX6\nENDIF\nCOMPCAD\nCYCLE832(0.01,_ROUGH,1)\nG0 X1 "
+      "Y1 Z1 A0.0\nCIP X5 Y5 I1=3 J1=3\nG3 X1 Y2 CR=5 TURN=2\n"
+      "/G1 X4\n$P_UIFR[1]=CTRANS(X,5)\nSTOPRE\nM30\n%_N_OTHER_SPF\nanything";
+  const Program program = siemens(text);
+  std::vector<MoveEdit> edits = edits_to_original(program);
+  for (MoveEdit& edit : edits)
+    if (const auto& arc = program.moves[edit.move].arc) edit.centre_mm = arc->centre_mm;
+  CHECK(rewrite(program, edits, {}).text == text);
+  CHECK(program.moves.size() > 8);
+}
+
+TEST_CASE("siemens: values behind '=' are read and changed in place") {
+  const std::string text = std::string(siemens_start) + "G1 X=12.5 Y=AC(7) F500\nZ=-2.25\n";
+  const Program program = siemens(text);
+  REQUIRE(program.moves.size() == 3);
+  CHECK(program.moves[1].end_mm == Vector3(12.5, 7, 50));
+  CHECK(siemens_shifted(text) ==
+        "G90 G17 G71\nT=\"MILL_10\" M6\nG0 X0.5 Y-0.25 Z50.125 D1 S2500 M3\n"
+        "G1 X=13.0 Y=AC(6.75) F500\nZ=-2.125\n");
+}
+
+TEST_CASE("siemens: a block of incremental words is relative, a mixed one leaves them alone") {
+  const Program program =
+      siemens(std::string(siemens_start) + "G1 X=IC(5) Y=IC(-1) F500\nX10 Y=IC(2)\nG91\nX=AC(3) Y=AC(4)\n");
+  REQUIRE(program.moves.size() == 4);
+  CHECK(program.moves[1].relative);
+  CHECK(program.moves[1].end_mm.x() == 5);
+  CHECK_FALSE(program.moves[1].may_insert_words);
+  CHECK_FALSE(program.moves[2].relative);
+  CHECK(program.moves[2].fixed == std::array{false, true, false});
+  CHECK_FALSE(program.moves[3].relative);
+  CHECK(program.moves[3].end_mm.y() == 4);
+  CHECK(program.moves[3].known_end[1]);
+}
+
+TEST_CASE("siemens: expressions of R parameters fix their axis") {
+  const Program program = siemens(std::string(siemens_start) + "R1=5 R2=R1*2\nG1 X=R1+5 Y7 F500\n");
+  REQUIRE(program.moves.size() == 2);
+  CHECK(program.moves[1].fixed == std::array{true, false, false});
+  CHECK(program.moves[1].words[1]);
+}
+
+TEST_CASE("siemens: CR= arcs move with their ends and keep their form in pieces") {
+  const std::string text = std::string(siemens_start) + "G3 X10. Y10. CR=10. F200\n";
+  const Program program = siemens(text);
+  REQUIRE(program.moves.size() == 2);
+  REQUIRE(program.moves[1].arc);
+  CHECK((program.moves[1].arc->centre_mm - Vector3(0, 10, 50)).norm() < 1e-9);
+  CHECK(siemens_shifted(text).ends_with("G3 X10.5 Y9.75 CR=10. F200\n"));
+  const double s = 10 * std::sqrt(0.5);
+  const MoveEdit halves{.move = 1,
+                        .inserted = {{{s, 10 - s, 50}, Vector3(0, 10, 50)}},
+                        .end_mm = {10, 10, 50},
+                        .centre_mm = Vector3(0, 10, 50)};
+  CHECK(rewrite(program, {halves}, {})
+            .text.ends_with("G3 X7.071 Y2.929 CR=10.000 F200\nG3 X10. Y10. CR=10. F200\n"));
+}
+
+TEST_CASE("siemens: TURN counts turns besides the way to the end") {
+  const Program program = siemens(std::string(siemens_start) + "G3 X0 Y0 Z-2 I10 J0 TURN=2 F200\n");
+  REQUIRE(program.moves.back().arc);
+  CHECK(program.moves.back().arc->turns == 2);
+}
+
+TEST_CASE("siemens: machine positions make their axes unknown") {
+  for (const std::string line : {"G0 SUPA Z500. D0", "G0 G53 Z500", "G153 G0 Z500", "G74 Z1=0", "G75 Z0"}) {
+    CAPTURE(line);
+    const Program program = siemens(std::string(siemens_start) + line + "\nG0 X5\n");
+    REQUIRE(program.moves.size() == 2);
+    CHECK_FALSE(program.moves[1].known_start[2]);
+  }
+}
+
+TEST_CASE("siemens: frames, cycles and subprograms are not corrected, with their reasons") {
+  const auto fixed_after = [](const std::string& lines) {
+    const Program program = siemens(std::string(siemens_start) + lines);
+    return program.moves.back().fixed[0];
+  };
+  CHECK(fixed_after("TRANS X10\nG1 X5 Y5 F100\n"));
+  CHECK_FALSE(fixed_after("TRANS X10\nTRANS\nG1 X5 Y5 F100\n"));
+  CHECK(fixed_after("MCALL CYCLE81(50,0,2,-10)\nX5 Y5\n"));
+  CHECK_FALSE(fixed_after("MCALL CYCLE81(50,0,2,-10)\nMCALL\nX5 Y5\n"));
+  CHECK(fixed_after("CYCLE800(1,\"TC1\",0,57,0,0,0,0,30)\nG1 X5 Y5 F100\n"));
+  CHECK_FALSE(fixed_after("CYCLE800(1,\"TC1\",0,57,0,0,0,0,30)\nCYCLE800()\nG1 X5 Y5 F100\n"));
+  CHECK(fixed_after("TRAORI\nG1 X5 A3=0 B3=0 C3=1 F100\n"));
+  CHECK(fixed_after("L100 P2\n"));
+  CHECK(fixed_after("MY_DRILL(5,6)\n"));
+  CHECK(fixed_after("IF R1==1\nG1 X5 F100\nENDIF\n"));
+  CHECK(fixed_after("AGAIN: G1 X5 F100\nIF R1<5 GOTOB AGAIN\n"));
+  CHECK(fixed_after("CIP X5 Y5 I1=3 J1=3\n"));
+  CHECK(fixed_after("G1 X5 B30 F100\n"));
+  CHECK(siemens(std::string(siemens_start) + "L100\n").left_alone.at(0).why == "a subprogram is called");
+}
+
+TEST_CASE("siemens: G60 is an exact stop and G64 ends it") {
+  const Program program = siemens(std::string(siemens_start) + "G60 G1 X5 F100\nX6\nG64 X7\n");
+  REQUIRE(program.moves.size() == 4);
+  CHECK(program.moves[2].exact_stop);
+  CHECK_FALSE(program.moves[3].exact_stop);
+}
+
+TEST_CASE("siemens: another edge of the tool makes the height unknown, the first acts after a change") {
+  const Program program = siemens(std::string(siemens_start) + "G1 X5 D01 F100\nX6 D2\nX7\n");
+  REQUIRE(program.moves.size() == 4);
+  CHECK(program.moves[1].known_end[2]);
+  CHECK_FALSE(program.moves[3].known_start[2]);
+}
+
+TEST_CASE("siemens: the header stands in comments below the lines that must come first") {
+  const Program program = siemens("%_N_COVER_MPF\n;$PATH=/_N_MPF_DIR\nG71 G0 X1 SUPA\n");
+  const std::string text = rewrite(program, {}, {.header = {"Counterflex 1 made"}}).text;
+  CHECK(text == "%_N_COVER_MPF\n;$PATH=/_N_MPF_DIR\n;COUNTERFLEX 1 MADE\nG71 G0 X1 SUPA\n");
+  CHECK(is_corrected(read(text)));
+}
+
+TEST_CASE("siemens: what is no program is refused at its place") {
+  CHECK(diagnostic_of([] { siemens("G71\nG0 X\n"); }) == "p.mpf:2:4: error: X has no number");
+  CHECK(diagnostic_of([] { siemens("G71\nG0 X1e5\n"); }).starts_with("p.mpf:2:6: error: X1e5"));
+  CHECK(diagnostic_of([] { siemens("G71\n<<<<<<< mine\n"); }).starts_with("p.mpf:2:1: error: '<<<<<<<'"));
+  CHECK(diagnostic_of([] { siemens("G71\nG291\n"); }).starts_with("p.mpf:2:1: error: G291"));
+  CHECK(diagnostic_of([] {
+          siemens("G71\nG0 X=\n");
+        }).starts_with("p.mpf:2:5: error: X= is followed by no value"));
+}
