@@ -186,7 +186,7 @@ Context context_of(const Reading& r) {
 void apply_words(const Block& block, Reading& r) {
   sort_words(r.program.file, r.dialect, block, context_of(r), r.sorted);
   read_program_number(block, r);
-  if (has_codes(r.sorted)) {
+  if (has_codes(r.sorted) || r.dialect.sinumerik_words) {
     apply_codes(block, r);
   } else {
     apply_feed_and_tool(r);

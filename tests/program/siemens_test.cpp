@@ -44,7 +44,7 @@ TEST_CASE("siemens: words that only a Sinumerik reads tell the dialect, but not 
 
 TEST_CASE("siemens: lines come back byte for byte, whatever they hold") {
   const std::string text =
-      "%_N_COVER_MPF\n;$PATH=/_N_MPF_DIR\nN10 G17 G90 G71 G500 ;siemens_start\nDEF REAL "
+      "%_N_COVER_MPF\n;$PATH=/_N_MPF_DIR\nN10 G17 G90 G71 G500 ;start\nDEF REAL "
       "_DEPTH=5.5\nWORKPIECE(,\"\",,\"BOX\",112)\n"
       "N000020 T=\"MILL 10\" M6\nMSG(\"ROUGH; PART\")\nS=R3 M3=3 SPOS[2]=0 FFWON\nG0 SUPA Z500. D0\nG0 G153 "
       "X0 D0\nG54 G0 X10 Y10 D1\nZ=50.5\n"
