@@ -48,6 +48,7 @@ enum class Action : std::uint8_t {
   end_displace,      ///< ends a `displace` of the same `bit`
   shift,             ///< G52: displaces unless its words are zero
   set_data,          ///< G10
+  end_data,          ///< G11
   state,             ///< followed by the control, harmless to moves; may own axis words
   surface_speed,     ///< G96
   not_read           ///< known, and refused

@@ -44,9 +44,9 @@ void take_moves_before(Reading& r) {
 void apply_cutter(Reading& r) {
   ModalState& state = r.state;
   if (r.sorted.has(Action::cutter)) {
-    if (state.contour == Contour::none) {
+    if (state.contour != Contour::inside) {
       state.group = r.groups + 1;
-      take_moves_before(r);
+      if (why_not_followed(r).empty()) take_moves_before(r);
       r.groups = std::max(state.group, r.groups);
     }
     state.contour = Contour::inside;
@@ -57,7 +57,7 @@ void apply_cutter(Reading& r) {
 
 void join_contour(Reading& r) {
   ModalState& state = r.state;
-  if (state.contour == Contour::none || r.program.moves.empty()) return;
+  if (state.contour == Contour::none || !why_not_followed(r).empty()) return;
   Move& move = r.program.moves.back();
   const bool last =
       state.contour == Contour::leaving && !r.sorted.has(Action::no_cutter) && goes_across(move);

@@ -25,6 +25,10 @@ void apply_comments(const Block& block, Reading& r) {
       r.state.force = force;
 }
 
+bool has_codes(const SortedBlock& sorted) {
+  return !sorted.g.empty() || !sorted.m.empty();
+}
+
 void check_can_move(const Block& block, const Reading& r) {
   const Word& word = first_axis_word(block);
   const auto fail = [&](const std::string& message) { refuse_word(block, r, word, message); };
@@ -40,9 +44,9 @@ void check_can_move(const Block& block, const Reading& r) {
 }
 
 void read_line(const Block& block, Reading& r, Motion motion) {
-  Move move = start_move(block, r, motion);
+  Move& move = start_move(block, r, motion);
   place_words(block, r, move);
-  finish_move(block, r, std::move(move));
+  finish_move(r, move);
 }
 
 /// The move of a block under the motion that acts.
@@ -112,8 +116,8 @@ void check_reference(const Block& block, const Reading& r, const FoundG& referen
 
 /// Gives the axis words to the code that uses them.
 void apply_axis_words(const Block& block, Reading& r) {
-  if (r.sorted.g.empty() && r.sorted.m.empty()) {
-    if (has_words_of_motion(r)) read_modal_move(block, r);
+  if (!has_codes(r.sorted)) {
+    if (!r.state.entering_data && has_words_of_motion(r)) read_modal_move(block, r);
     return;
   }
   if (const FoundG* reference = r.sorted.find(Action::reference_move)) {
@@ -137,10 +141,10 @@ void apply_axis_words(const Block& block, Reading& r) {
 /// A G or M that the control works out may do anything.
 void apply_unknown_code(const Block& block, Reading& r) {
   r.state.doubts = all_doubts;
-  Move move = start_move(block, r, Motion::rapid);
+  Move& move = start_move(block, r, Motion::rapid);
   for (std::size_t axis = 0; axis < 3; ++axis) fix_axis(r, move, axis);
   leave_alone(block, r, "the number of a code is a variable or an expression");
-  finish_move(block, r, std::move(move));
+  finish_move(r, move);
 }
 
 void end_doubtful_cutter(Reading& r) {
@@ -156,7 +160,6 @@ void apply_codes(const Block& block, Reading& r) {
   apply_cutter(r);
   apply_work_offset(block, r);
   apply_tool_length(block, r);
-  if (r.dialect.sinumerik_words) apply_tool_edge(r);
   apply_displacements(block, r);
   apply_set_data(block, r);
   if (r.sorted.has(MAction::restore)) r.state.doubts = all_doubts;
@@ -164,7 +167,8 @@ void apply_codes(const Block& block, Reading& r) {
 }
 
 Context context_of(const Reading& r) {
-  if (r.in_body() || r.state.doubts != 0 || (r.state.displaced & modal_macro) != 0) return Context::unknown;
+  const bool open = r.in_body() || r.state.doubts != 0 || r.state.entering_data;
+  if (open || (r.state.displaced & modal_macro) != 0) return Context::unknown;
   switch (r.state.motion) {
     case MotionMode::clockwise:
     case MotionMode::counter_clockwise:
@@ -181,7 +185,13 @@ Context context_of(const Reading& r) {
 void apply_words(const Block& block, Reading& r) {
   sort_words(r.program.file, r.dialect, block, context_of(r), r.sorted);
   read_program_number(block, r);
-  apply_codes(block, r);
+  if (has_codes(r.sorted)) {
+    apply_codes(block, r);
+  } else {
+    apply_feed_and_tool(r);
+    watch_other_axes(block, r);
+  }
+  if (r.dialect.sinumerik_words) apply_tool_edge(r);
   const std::size_t moves = r.program.moves.size();
   r.sorted.unknown_code ? apply_unknown_code(block, r) : apply_axis_words(block, r);
   if (r.program.moves.size() > moves) join_contour(r);

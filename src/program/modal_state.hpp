@@ -43,7 +43,7 @@ struct CycleState {
   std::optional<double> bottom, retract;
   std::optional<double> initial;  ///< Z where the series of cycles began
   bool relative = false;          ///< the sticky words are differences
-  int tenths = 0;                 ///< the code
+  bool begun = false;
 };
 
 /// Where the moves stand to a contour under G41 or G42.
@@ -77,6 +77,7 @@ struct ModalState {
   std::uint16_t doubts = 0;
   std::uint16_t displaced = 0;    ///< bits of Displacement
   std::uint16_t offsets_set = 0;  ///< by G10: a bit for each of G54 to G59.3, the highest for others
+  bool entering_data = false;     ///< between G10 L50 and G11 blocks hold parameters
   Contour contour = Contour::none;
   int group = 0;  ///< of the contour
 };

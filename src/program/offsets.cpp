@@ -21,9 +21,11 @@ std::size_t index_of_offset(Program& program, const std::string& name) {
   return names.size() - 1;
 }
 
-/// "G54", "G59.3", "G54.1 P3": G154 of Haas is another name of G54.1, and so is P behind its G54.
+/// "G54", "G59.3", "G54.1 P3", which G154 P3 and G112 of Haas name too, and G54 P3 of Fanuc.
 std::optional<std::string> offset_name(const Reading& r, const FoundG& offset) {
   const Word* p = r.sorted.word('P');
+  if (offset.code->tenths >= 1100 && offset.code->tenths <= 1290)
+    return fmt::format("G54.1 P{}", offset.code->tenths / 10 - 109);
   const bool extended = offset.code->tenths == 541 || offset.code->tenths == 1540 ||
                         (offset.code->tenths == 540 && p != nullptr && r.dialect.macro_words &&
                          !r.sorted.has(MAction::call) && !r.sorted.has(Action::dwell));
@@ -82,14 +84,6 @@ void end_displacements(Reading& r) {
   }
 }
 
-/// A, B, C, U, V, W: those that stay zero are nothing.
-void watch_other_axes(const Block& block, Reading& r) {
-  if (r.sorted.has(Action::call) || r.sorted.has(Action::dwell) || r.sorted.has(Action::displace)) return;
-  for (const char letter : {'A', 'B', 'C', 'U', 'V', 'W'})
-    if (!is_zero_or_absent(r.sorted.word(letter)) && (r.state.displaced & rotary) == 0)
-      add_displacement(block, r, rotary);
-}
-
 bool sets_offset(const Word* l) {
   return l != nullptr && l->literal && (l->value == 2 || l->value == 20);
 }
@@ -138,6 +132,13 @@ void apply_tool_length(const Block& block, Reading& r) {
   if (!length_mm) remark_tool_length(block, r);
 }
 
+void watch_other_axes(const Block& block, Reading& r) {
+  if (r.sorted.has(Action::call) || r.sorted.has(Action::dwell) || r.sorted.has(Action::displace)) return;
+  for (const char letter : {'A', 'B', 'C', 'U', 'V', 'W'})
+    if (!is_zero_or_absent(r.sorted.word(letter)) && (r.state.displaced & rotary) == 0)
+      add_displacement(block, r, rotary);
+}
+
 void apply_displacements(const Block& block, Reading& r) {
   end_displacements(r);
   for (const FoundG& g : r.sorted.g)
@@ -158,8 +159,10 @@ void apply_displacements(const Block& block, Reading& r) {
 }
 
 void apply_set_data(const Block& block, Reading& r) {
+  if (r.sorted.has(Action::end_data)) r.state.entering_data = false;
   if (!r.sorted.has(Action::set_data)) return;
   const Word* l = r.sorted.word('L');
+  r.state.entering_data = r.dialect.macro_words && l != nullptr && l->value >= 50;
   leave_alone(block, r, "G10 sets offsets or tools");
   if (sets_tools(l)) {
     r.state.tool_length.reset();
@@ -182,6 +185,7 @@ void apply_set_data(const Block& block, Reading& r) {
 }
 
 bool takes_axis_words(const Reading& r) {
+  if (r.state.entering_data) return true;
   return std::any_of(r.sorted.g.begin(), r.sorted.g.end(), [](const FoundG& g) {
     switch (g.code->action) {
       case Action::set_data:

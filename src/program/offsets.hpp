@@ -10,8 +10,11 @@ void apply_work_offset(const Block& block, Reading& reading);
 /// both lengths are known, else Z is unknown.
 void apply_tool_length(const Block& block, Reading& reading);
 
-/// G52, G68, G51, G16, G66, G92, tool centre point control, and axes besides X, Y and Z.
+/// G52, G68, G51, G16, G66, G92, tool centre point control, and other axes.
 void apply_displacements(const Block& block, Reading& reading);
+
+/// A, B, C, U, V, W: those that stay zero are nothing, the first other one displaces all that follows.
+void watch_other_axes(const Block& block, Reading& reading);
 
 /// G10.
 void apply_set_data(const Block& block, Reading& reading);

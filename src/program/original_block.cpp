@@ -17,10 +17,11 @@ bool is_centre(const Word& word) {
   return (word.letter >= 'I' && word.letter <= 'K') || word.letter == 'R';
 }
 bool is_motion(const Word& word) {
-  return word.letter == 'G' && (word.value == 0 || word.value == 1 || word.value == 2 || word.value == 3);
+  return word.letter == 'G' && word.literal &&
+         (word.value == 0 || word.value == 1 || word.value == 2 || word.value == 3);
 }
 bool says_motion(const Word& word, const Dialect& dialect) {
-  if (word.letter != 'G') return false;
+  if (word.letter != 'G' || !word.literal) return false;
   const GCode* code = find_g_code(static_cast<int>(std::lround(word.value * 10)), dialect);
   return is_motion(word) || (code != nullptr && code->group == Group::motion);
 }

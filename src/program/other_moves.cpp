@@ -22,7 +22,7 @@ void leave_machine_move(const Block& block, Reading& r, const FoundG& found) {
 }
 
 void read_held(const Block& block, Reading& r, std::string_view what, bool end_known) {
-  Move move = start_move(block, r, Motion::feed);
+  Move& move = start_move(block, r, Motion::feed);
   place_words(block, r, move);
   move.handling = Handling::held;
   move.may_insert_words = false;
@@ -30,36 +30,36 @@ void read_held(const Block& block, Reading& r, std::string_view what, bool end_k
     for (std::size_t axis = 0; axis < 3; ++axis)
       if (r.sorted.word(axis_letters[axis]) != nullptr) r.state.known[axis] = false;
   if (why_not_followed(r).empty()) leave_alone(block, r, what);
-  finish_move(block, r, std::move(move));
+  finish_move(r, move);
 }
 
 void read_own_way(const Block& block, Reading& r, const FoundG& found) {
-  Move move = start_move(block, r, Motion::feed);
+  Move& move = start_move(block, r, Motion::feed);
   for (std::size_t axis = 0; axis < 3; ++axis) fix_axis(r, move, axis);
   leave_alone(block, r, fmt::format("G{} moves in a way of the control's own", found.word->value));
-  finish_move(block, r, std::move(move));
+  finish_move(r, move);
 }
 
 void read_pocket(const Block& block, Reading& r) {
-  Move move = start_move(block, r, Motion::feed);
+  Move& move = start_move(block, r, Motion::feed);
   place_words(block, r, move);
   move.handling = Handling::held;
   move.may_insert_words = false;
   if (why_not_followed(r).empty()) leave_alone(block, r, "the control cuts a round pocket");
-  finish_move(block, r, std::move(move));
+  finish_move(r, move);
 }
 
 void read_call(const Block& block, Reading& r) {
-  Move move = start_move(block, r, Motion::rapid);
+  Move& move = start_move(block, r, Motion::rapid);
   for (std::size_t axis = 0; axis < 3; ++axis) fix_axis(r, move, axis);
   move.relative = false;
   leave_alone(block, r, "a subprogram is called");
-  finish_move(block, r, std::move(move));
+  finish_move(r, move);
   end_contour(r);
-  r.state.doubts |= doubtful_motion | doubtful_distance | doubtful_plane | doubtful_centres | doubtful_level |
-                    doubtful_cutter;
-  add_remark(r.program, block.line,
-             "subprograms are taken to leave the unit, the work offset and the tool length as they are");
+  r.state.doubts |= doubtful_motion | doubtful_distance | doubtful_plane | doubtful_centres | doubtful_level;
+  add_remark(
+      r.program, block.line,
+      "subprograms are taken to leave the unit, the work offset, the tool length and G40 to G42 as they are");
 }
 
 }  // namespace counterflex

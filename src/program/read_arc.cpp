@@ -120,7 +120,7 @@ void hold_arc(Reading& r, Move& move, const Plane& plane, bool start_known) {
 }  // namespace
 
 void read_arc(const Block& block, Reading& r) {
-  Move move = start_move(block, r, Motion::feed);
+  Move& move = start_move(block, r, Motion::feed);
   const bool followed = why_not_followed(r).empty();
   if (followed) check_words(block, r);
   place_words(block, r, move);
@@ -134,7 +134,7 @@ void read_arc(const Block& block, Reading& r) {
     if (followed)
       leave_alone(block, r, start_known ? "the arc is not known" : "the start of the arc is not known");
   }
-  finish_move(block, r, std::move(move));
+  finish_move(r, move);
 }
 
 }  // namespace counterflex

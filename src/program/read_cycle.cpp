@@ -78,6 +78,8 @@ bool is_first(const Reading& r) {
 }
 
 void begin_series(ModalState& state) {
+  if (state.cycle.begun) return;
+  state.cycle.begun = true;
   if (state.known[2]) state.cycle.initial = state.position_mm.z();
 }
 
@@ -95,13 +97,13 @@ void fix_hole(Reading& r, Move& move) {
 void read_cycle(const Block& block, Reading& r) {
   ModalState& state = r.state;
   const std::string_view why = why_not_followed(r);
-  if (!state.cycle.initial) begin_series(state);
+  begin_series(state);
   // Shop controls keep the depth that was programmed under G90 also where G91 moves on to further holes.
   if (is_first(r) || r.sorted.has_any("ZR") || !r.dialect.macro_words) state.cycle.relative = state.relative;
   keep_sticky(r, r.sorted.word('Z'), state.cycle.bottom);
   keep_sticky(r, r.sorted.word('R'), state.cycle.retract);
 
-  Move move = start_move(block, r, Motion::rapid);
+  Move& move = start_move(block, r, Motion::rapid);
   CycleMove hole;
   hole.repeats = repeats_of(r);
   hole.first = is_first(r);
@@ -109,7 +111,7 @@ void read_cycle(const Block& block, Reading& r) {
   hole.bottom_word = axis_word(r.sorted.word('Z'));
   hole.retract_word = axis_word(r.sorted.word('R'));
   set_levels(state, hole);
-  place_hole(r, move, hole.repeats, why.empty());
+  if (hole.repeats > 0) place_hole(r, move, hole.repeats, why.empty());
   const bool followed = why.empty() && plain_words(r) && state.normal == 2 && state.cycle.bottom;
   if (hole.repeats > 0) leave_hole(state, hole);
   hole.may_insert_bottom = followed && !state.relative && !state.cycle.relative;
@@ -120,7 +122,7 @@ void read_cycle(const Block& block, Reading& r) {
     fix_hole(r, move);
     leave_alone(block, r, why.empty() ? "the cycle's words are not all plain numbers in G17" : why);
   }
-  finish_move(block, r, std::move(move));
+  finish_move(r, move);
 }
 
 }  // namespace counterflex

@@ -124,8 +124,8 @@ std::string_view why_not_followed(const Reading& r) {
   return doubts != 0 ? doubt_text(doubts) : std::string_view();
 }
 
-Move start_move(const Block& block, const Reading& r, Motion motion) {
-  Move move;
+Move& start_move(const Block& block, Reading& r, Motion motion) {
+  Move& move = r.program.moves.emplace_back();
   move.line = block.line;
   move.block_index = r.program.block_count - 1;
   move.block = block.span;
@@ -165,12 +165,11 @@ void place_words(const Block& block, Reading& r, Move& move) {
   if (any(move.fixed)) leave_alone(block, r, "a relative position counts from an unknown one");
 }
 
-void finish_move(const Block&, Reading& r, Move move) {
+void finish_move(Reading& r, Move& move) {
   move.known_end = r.state.known;
   move.end_mm = r.state.position_mm;
   if (r.state.feed_mode == FeedUnit::inverse_time && move.motion == Motion::feed) set_inverse_time(r, move);
   allow_changes(r, move);
-  r.program.moves.push_back(std::move(move));
 }
 
 double length_mm(const Reading& r, const Word& word) {

@@ -17,8 +17,8 @@ bool has_axis_word(const SortedBlock& sorted);
 /// that is in doubt.
 std::string_view why_not_followed(const Reading& reading);
 
-/// A move that begins where the tool is, with what is modal, and no words yet.
-Move start_move(const Block& block, const Reading& reading, Motion motion);
+/// Adds a move to the program that begins where the tool is, with what is modal, and no words yet.
+Move& start_move(const Block& block, Reading& reading, Motion motion);
 
 /// Takes the block's X, Y and Z into the move and the state; those that cannot be followed are fixed, their
 /// axes unknown.
@@ -27,8 +27,8 @@ void place_words(const Block& block, Reading& reading, Move& move);
 /// The axis goes to a place of the block's own which the program does not show.
 void fix_axis(Reading& reading, Move& move, std::size_t axis);
 
-/// Sets the end, decides what may be changed, and adds the move to the program.
-void finish_move(const Block& block, Reading& reading, Move move);
+/// Sets the end, and decides what may be changed.
+void finish_move(Reading& reading, Move& move);
 
 /// `word` as a length (mm).
 double length_mm(const Reading& reading, const Word& word);

@@ -6,6 +6,7 @@
 
 #include "program/interpret.hpp"
 #include "program/klartext_read.hpp"
+#include "program/remarks.hpp"
 
 namespace counterflex {
 namespace {
@@ -33,6 +34,12 @@ bool is_mark(std::string_view comment) {
   constexpr std::string_view mark = "COUNTERFLEX 1";
   comment.remove_prefix(std::min(comment.find_first_not_of(" \t"), comment.size()));
   return comment.starts_with(mark) && (comment.size() == mark.size() || comment[mark.size()] == ' ');
+}
+
+/// A second program behind the end of the first: nobody corrects it.
+void remark_rest(Program& program, const Block& last) {
+  if (program.text.find_first_not_of("% \t\r\n", last.line_end.end) != std::string::npos)
+    add_remark(program, last.line, "what stands behind the end of the program stays as it is");
 }
 
 }  // namespace
@@ -65,6 +72,7 @@ Program read_program(std::string text, const std::string& file, const ReadOption
     opened = opened || block.percent;
     interpret(block, reading);
   }
+  if (reading.ended) remark_rest(program, block);
   return program;
 }
 

@@ -62,15 +62,15 @@ struct Writing {
   Rewritten out{};
 };
 
-/// Copies what stands before byte `end`, where no move is. A motion word in it ends the doubt about the modal
-/// motion.
+/// Copies what stands before byte `end`, where no move is. A motion word or the end of a program in it ends
+/// the doubt about the modal motion.
 void copy_until(std::size_t end, Writing& w) {
   const Dialect& dialect = *find_dialect(w.program.dialect);
   Block block;
   block.line_end.end = w.copied;
   while (w.state.restate_motion && block.line_end.end < end && next_line(w.program.text, block)) {
     lex(w.program.text, w.program.file, dialect, block);
-    if (block.span.begin < end && sets_motion(block, dialect)) w.state.restate_motion = false;
+    if (block.span.begin < end && ends_motion(block, dialect)) w.state.restate_motion.reset();
   }
   w.out.text.append(w.program.text, w.copied, end - w.copied);
   w.copied = end;

@@ -22,8 +22,7 @@ struct Plan {
   std::size_t own = 0;
 };
 
-Plan plan(const Original& o, const MoveEdit& edit) {
-  const int motion = motion_of(o.move);
+Plan plan(const Original& o, const MoveEdit& edit, int motion) {
   Plan plan;
   if (edit.jump_mm) plan.stops.push_back({{*edit.jump_mm}, 1});
   for (const Via& via : edit.inserted) plan.stops.push_back({via, motion});
@@ -71,7 +70,7 @@ bool is_length(const Word& word, const Move& move) {
 void check_integer_words(const Original& o) {
   if (!o.dialect.integer_words_doubtful || o.program.integer_words != IntegerWords::unsaid) return;
   for (const Word& word : o.block.words)
-    if (is_length(word, o.move) && !word.point && word.value != 0)
+    if (is_length(word, o.move) && word.literal && !word.point && word.value != 0)
       refuse(o.program.file, o.block, word.span.begin,
              fmt::format(
                  "{}{} has no point, and the block must be rewritten: it may mean units or increments; say "
@@ -80,33 +79,41 @@ void check_integer_words(const Original& o) {
 }
 
 /// The motion that is modal between the pieces of one block.
-class ModalMotion {
- public:
-  ModalMotion(const Original& o, bool restate)
-      : relies_(!o.move.cycle && std::none_of(o.block.words.begin(), o.block.words.end(),
-                                              [&](auto& w) { return says_motion(w, o.dialect); })) {
-    if (!restate) modal_ = motion_of(o.move);
-  }
-
-  /// Whether a block that moves under `motion` must say so, where its own kind does not anyway.
-  bool must_state(int motion) {
-    const bool must = relies_ && modal_ != motion;
-    modal_ = motion;
-    return must;
-  }
-
- private:
-  bool relies_;
-  std::optional<int> modal_;
+struct ModalMotion {
+  int own = 0;                 ///< that of the block in the original
+  bool relies = false;         ///< the block does not say it
+  std::optional<int> written;  ///< that of the text before the next piece
 };
 
+ModalMotion modal_motion(const Original& o, std::optional<int> restate) {
+  const auto& words = o.block.words;
+  ModalMotion modal{motion_of(o.move), false, {}};
+  modal.relies = !o.move.cycle &&
+                 std::none_of(words.begin(), words.end(), [&](auto& w) { return says_motion(w, o.dialect); });
+  if (modal.relies && restate) modal.own = *restate;
+  if (!restate) modal.written = modal.own;
+  return modal;
+}
+
+/// Whether a piece that moves under `motion` must say so, where its own kind does not anyway.
+bool must_state(int motion, ModalMotion& modal) {
+  const bool must = modal.relies && modal.written != motion;
+  modal.written = motion;
+  return must;
+}
+
+/// What a block that relies on the modal motion must say behind this one, given what it had to say before.
+std::optional<int> restated_after(const Move& move, std::optional<int> before, const ModalMotion& modal) {
+  if (!move.cycle && modal.written != modal.own) return modal.own;
+  return move.block_delete ? before : std::nullopt;
+}
+
 std::string text_of(const Original& o, const std::vector<PlannedStep>& steps, const CycleWords& cycle,
-                    bool restate, Rewritten& out) {
-  ModalMotion modal(o, restate);
+                    ModalMotion& modal, Rewritten& out) {
   std::string text;
   bool own_is_past = false;
   for (const PlannedStep& piece : steps) {
-    const BesidesPoint besides{modal.must_state(piece.step.motion), piece.feed_per_min, cycle};
+    const BesidesPoint besides{must_state(piece.step.motion, modal), piece.feed_per_min, cycle};
     if (piece.own) {
       text += own_block(o, piece.step, besides, out);
     } else {
@@ -119,18 +126,26 @@ std::string text_of(const Original& o, const std::vector<PlannedStep>& steps, co
   return text;
 }
 
-/// A block that calls a subprogram or macro: its words are arguments.
-bool is_call(const Block& block) {
-  return std::any_of(block.words.begin(), block.words.end(), [](const Word& word) {
-    return word.letter == 'O' || (word.letter == 'M' && word.value >= 97 && word.value <= 99) ||
-           (word.letter == 'G' && word.value >= 65 && word.value < 68);
-  });
+/// Whether the block needs no other words for `edit`, which is most often so where little is to correct; then
+/// moves `state` on.
+bool stays(const MoveEdit& edit, const Move& move, const HeldPosition& before, const CycleWords& cycle,
+           const WriteOptions& options, TextState& state) {
+  if (edit.jump_mm || !edit.inserted.empty() || state.restate_motion) return false;
+  const int motion = motion_of(move);
+  const Step step = settle_step(move, before, {edit.end_mm, edit.centre_mm}, motion, Place::end, options);
+  if (step.motion != motion || says_anew(step) || cycle.bottom.write || cycle.retract.write) return false;
+  state.held = step.after;
+  doubt_skippable(move, before, state.held);
+  return true;
 }
 
-/// Whether what follows a block must say its motion, given whether it had to before.
-bool restates_after(const Move& move, bool before, int last_motion) {
-  if (move.cycle) return before && move.block_delete;
-  return last_motion != motion_of(move) || (before && move.block_delete);
+/// A block that calls a subprogram or macro: its words are arguments.
+bool is_call(const Block& block) {
+  return !empty(block.flow_keyword) ||
+         std::any_of(block.words.begin(), block.words.end(), [](const Word& word) {
+           return word.letter == 'O' || (word.letter == 'M' && word.value >= 97 && word.value <= 99) ||
+                  (word.letter == 'G' && word.value >= 65 && word.value < 68);
+         });
 }
 
 }  // namespace
@@ -140,18 +155,23 @@ void rewrite_block(const Program& program, const ProgramStyle& style, const Move
   const Move& move = program.moves[edit.move];
   assert(edit.inserted.empty() || move.may_split);
   assert(!edit.jump_mm || move.may_jump);
-  const Original o = lex_again(program, move, style);
   const HeldPosition before = held_at_start(move, state.held);
-  std::vector<PlannedStep> steps = settle_steps(o, plan(o, edit), before, options);
-  share_time(move, steps);
   CycleWords cycle;
   if (move.cycle)
     cycle = settle_cycle(move, before[2], edit.bottom_mm, edit.retract_mm, state.cycle, options);
-  const std::string text = text_of(o, steps, cycle, state.restate_motion, out);
+  if (stays(edit, move, before, cycle, options, state)) {
+    out.text += part(program.text, move.block);
+    return;
+  }
+  const Original o = lex_again(program, move, style);
+  ModalMotion modal = modal_motion(o, state.restate_motion);
+  std::vector<PlannedStep> steps = settle_steps(o, plan(o, edit, modal.own), before, options);
+  share_time(move, steps);
+  const std::string text = text_of(o, steps, cycle, modal, out);
   if (text != o.text(o.block.span)) check_integer_words(o);
   state.held = steps.back().step.after;
   doubt_skippable(move, before, state.held);
-  state.restate_motion = restates_after(move, state.restate_motion, steps.back().step.motion);
+  state.restate_motion = restated_after(move, state.restate_motion, modal);
   out.text += text;
 }
 
@@ -168,17 +188,22 @@ void copy_block(const Program& program, const ProgramStyle& style, const Move& m
     out.text += o.text(move.block);
     return;
   }
+  ModalMotion modal = modal_motion(o, state.restate_motion);
   Step as_it_stands;
-  as_it_stands.motion = motion_of(move);
-  ModalMotion modal(o, state.restate_motion);
-  const BesidesPoint besides{modal.must_state(as_it_stands.motion)};
-  out.text += own_block(o, as_it_stands, besides, out);
-  state.restate_motion = restates_after(move, state.restate_motion, as_it_stands.motion);
+  as_it_stands.motion = modal.own;
+  out.text += own_block(o, as_it_stands, {must_state(modal.own, modal)}, out);
+  state.restate_motion = restated_after(move, state.restate_motion, modal);
 }
 
-bool sets_motion(const Block& block, const Dialect& dialect) {
-  return empty(block.block_delete) && std::any_of(block.words.begin(), block.words.end(),
-                                                  [&](auto& w) { return says_motion(w, dialect); });
+bool ends_motion(const Block& block, const Dialect& dialect) {
+  const bool ends_program =
+      block.percent || !empty(block.flow_keyword) || is_program_number(block) ||
+      std::any_of(block.words.begin(), block.words.end(), [](const Word& word) {
+        return word.letter == 'M' && (word.value == 2 || word.value == 30 || word.value == 99);
+      });
+  const bool says =
+      std::any_of(block.words.begin(), block.words.end(), [&](auto& w) { return says_motion(w, dialect); });
+  return ends_program || (says && empty(block.block_delete));
 }
 
 }  // namespace counterflex

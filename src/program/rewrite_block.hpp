@@ -10,7 +10,8 @@ namespace counterflex {
 struct TextState {
   HeldPosition held{};
   HeldCycle cycle{};
-  bool restate_motion = false;  ///< the modal motion may not be the original's: who relies on it must say it
+  std::optional<int> restate_motion{};  ///< what a block that relies on the modal motion must say: that of
+                                        ///< the original, where inserted text may have left another
 };
 
 /// Appends the text of the block of `edit` and of the blocks inserted around it to `out.text`, without the
@@ -27,7 +28,7 @@ void pass_block(const Move& move, TextState& state);
 void copy_block(const Program& program, const ProgramStyle& style, const Move& move, TextState& state,
                 Rewritten& out);
 
-/// Whether the line of `block` sets the modal motion for certain.
-bool sets_motion(const Block& block, const Dialect& dialect);
+/// Whether no block behind the line of `block` can rely on a motion that was modal before it.
+bool ends_motion(const Block& block, const Dialect& dialect);
 
 }  // namespace counterflex

@@ -112,7 +112,8 @@ void motion_changes(const Original& o, int motion, bool state_motion, Changes& c
   const auto& words = o.block.words;
   const auto word = std::find_if(words.begin(), words.end(), is_motion);
   if (word != words.end()) {
-    if (word->value != motion) changes.list.push_back({word->span, motion_text(o, motion)});
+    // An arc that is not followed is no arc to `motion_of`, and stays what it is.
+    if (motion != motion_of(o.move)) changes.list.push_back({word->span, motion_text(o, motion)});
     return;
   }
   const bool said =
@@ -131,7 +132,7 @@ int feed_decimals(double feed) {
 }
 
 void feed_changes(const Original& o, double feed, Changes& changes) {
-  if (const Word* word = find_word(o.block, 'F'))
+  if (const Word* word = find_word(o.block, 'F'); word != nullptr && word->literal)
     changes.list.push_back({word->number, changed_number(o.text(word->number), feed, feed_decimals(feed))});
 }
 

@@ -28,8 +28,12 @@ std::string diagnostic_of(Action action) {
 /// Every move sent to where the program already sends it.
 inline std::vector<MoveEdit> edits_to_original(const Program& program) {
   std::vector<MoveEdit> edits;
-  for (std::size_t i = 0; i < program.moves.size(); ++i)
-    edits.push_back({.move = i, .end_mm = program.moves[i].end_mm});
+  for (std::size_t i = 0; i < program.moves.size(); ++i) {
+    const Move& move = program.moves[i];
+    MoveEdit& edit = edits.emplace_back(MoveEdit{.move = i, .end_mm = move.end_mm});
+    if (move.arc) edit.centre_mm = move.arc->centre_mm;
+    if (move.cycle) edit.bottom_mm = move.cycle->bottom_mm, edit.retract_mm = move.cycle->retract_mm;
+  }
   return edits;
 }
 

@@ -121,8 +121,7 @@ TEST_CASE("a block that sets the force is itself the first piece") {
 TEST_CASE("points that the resolution cannot tell apart give no block") {
   const MoveEdit edit{.inserted = {{{0.0001, 0, 0}}, {{1, 0, 0}}, {{1.0002, 0, 0}}}, .end_mm = {3, 0, 0}};
   const Program program = read(std::string(start) + "G1 X3. F100\n");
-  const Rewritten out =
-      rewrite(program, {{.move = 1, .inserted = edit.inserted, .end_mm = edit.end_mm}}, {});
+  const Rewritten out = rewrite(program, {{.move = 1, .inserted = edit.inserted, .end_mm = edit.end_mm}}, {});
   CHECK(out.text == std::string(start) + "G1 X1.000 F100\nG1 X3. F100\n");
   CHECK(out.inserted_blocks == 1);
 }

@@ -29,7 +29,8 @@ struct MoveEdit {
   std::size_t move = 0;  ///< index into Program::moves
   std::optional<Vector3>
       jump_mm{};  ///< a feed move to this point goes first, also before a rapid; needs `may_jump`
-  std::vector<Via> inserted{};  ///< points on the way, same motion and feed; need `may_split`
+  std::vector<Via> inserted{};  ///< points on the way, same motion and feed; need `may_split`; G93 shares the
+                                ///< block's time among them by length
   Vector3 end_mm = Vector3::Zero();
   std::optional<Vector3> centre_mm{};  ///< of an arc's last piece; none where the move is an arc: it is
                                        ///< written as chords through the inserted points, under G1
@@ -53,14 +54,19 @@ using HeldPosition = std::array<std::optional<double>, 3>;
 
 /// The position that the emitted text holds after `move`, given the one before it, when its end is edited to
 /// `end_mm`: a word that is within half its last digit of its original stays, a word that is absent is
-/// inserted only where the held position is further away than that, and where it may be. `rewrite` follows
-/// exactly this, word by word.
+/// inserted only where the held position is further away than that, and where it may be; under G91 a word
+/// says the way from the held position. `before` is what the last inserted point leaves (`as_written`). Of a
+/// cycle that leaves the tool at the plane that its R says, the Z of `end_mm` is that plane as it is edited.
+/// `rewrite` follows exactly this, word by word.
 HeldPosition held_after(const Move& move, const HeldPosition& before, const Vector3& end_mm,
                         const WriteOptions& options);
 
 /// What a control reads of a piece of a move that is written to go from `before` to `via`, in words rounded
 /// to their digits: start, end, and for an arc the centre that I J K or R then give. `is_end`: the piece ends
-/// at the move's own end, whose words may have digits of their own. Needs all of `before`.
+/// at the move's own end, whose words may have digits of their own, and makes the arc's full turns. A piece
+/// of an arc that the digits make a point, or would turn into a full circle, comes back without an arc: it is
+/// not written, or at the move's end as G1. Needs all of `before`. In a block that is itself the first piece
+/// of its move (it holds other words) axis words may keep a digit more.
 Curve as_written(const Move& move, const HeldPosition& before, const Via& via, bool is_end,
                  const WriteOptions& options);
 
@@ -72,11 +78,12 @@ struct Rewritten {
   std::vector<std::size_t> blocks_of_edit;  ///< blocks inserted for each edit: its jump and its points
 };
 
-/// Applies `edits`, in the order of moves, at most one a move. A move without an edit keeps its text; an axis
-/// that is unknown at a move's end and has no word there is left alone. Inserted points that the resolution
-/// cannot tell from the one before give no block. Throws `InputError` (Exit::program_text) for an integer
-/// word in a block that must be rewritten (see IntegerWords) and for a block that would be longer than the
-/// control reads.
+/// Applies `edits`, in the order of moves, at most one a move. A move without an edit keeps its text, but a
+/// block that relies on the modal motion says it behind an edit that left another; an axis that is unknown at
+/// a move's end and has no word there is left alone, and so is a fixed one. Inserted points that the
+/// resolution cannot tell from the one before give no block. Throws `InputError` (Exit::program_text) for an
+/// integer word in a block that must be rewritten (see IntegerWords) and for a block that would be longer
+/// than the control reads.
 Rewritten rewrite(const Program& program, const std::vector<MoveEdit>& edits, const WriteOptions& options);
 
 }  // namespace counterflex

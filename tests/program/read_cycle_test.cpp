@@ -1,0 +1,86 @@
+#include <doctest/doctest.h>
+
+#include "program/reading.hpp"
+
+using namespace counterflex;
+using namespace counterflex::test;
+
+TEST_CASE("a cycle's depth and retract plane are sticky, each block after it is a hole") {
+  const Program program = read("G21 G90 G0 X0 Y0 Z10\nG98 G81 X1 Y2 Z-5 R2 F100\nX3\nZ-6 Y4\nG80\nG0 X9\n");
+  REQUIRE(program.moves.size() == 5);
+  const Move& first = program.moves[1];
+  REQUIRE(first.cycle.has_value());
+  CHECK(first.cycle->first);
+  CHECK(first.cycle->bottom_mm == -5);
+  CHECK(first.cycle->retract_mm == 2);
+  CHECK(first.cycle->bottom_word.has_value());
+  CHECK_FALSE(first.words[2].has_value());
+  CHECK(first.end_mm == Vector3(1, 2, 10));
+  CHECK(first.handling == Handling::own);
+  CHECK_FALSE(first.may_split);
+  const Move& second = program.moves[2];
+  CHECK_FALSE(second.cycle->first);
+  CHECK(second.cycle->bottom_mm == -5);
+  CHECK_FALSE(second.cycle->bottom_word.has_value());
+  CHECK(second.cycle->may_insert_bottom);
+  CHECK(second.end_mm == Vector3(3, 2, 10));
+  CHECK(program.moves[3].cycle->bottom_mm == -6);
+  CHECK_FALSE(program.moves[4].cycle.has_value());
+}
+
+TEST_CASE("G99 leaves the tool at R, G98 where the series began, or at R where that is higher") {
+  const Program program =
+      read("G21 G90 G0 X0 Y0 Z10\nG99 G81 X1 Y2 Z-5 R2 F100\nG98 X3\nG80 G0 Z1\nG98 G82 X5 Z-5 R3 P.5\n");
+  CHECK(program.moves[1].end_mm.z() == 2);
+  CHECK(program.moves[1].cycle->returns_to_retract);
+  CHECK(program.moves[2].end_mm.z() == 10);
+  CHECK(program.moves[4].end_mm.z() == 3);
+}
+
+TEST_CASE("a cycle that begins at an unknown height leaves Z unknown under G98") {
+  const Program program = read("G21 G90 G0 X0 Y0\nG99 G81 X1 Y2 Z-5 R2 F100\nG98 X3\n");
+  CHECK(program.moves[1].known_end[2]);
+  CHECK_FALSE(program.moves[2].known_end[2]);
+}
+
+TEST_CASE("relative cycles and repeats are held") {
+  const Program program = read("O1\nG21 G90 G0 X0. Y0. Z10.\nG82 Z-5. R1. F100.\nG91 X2. L3\nY-1.\n");
+  CHECK(program.moves[1].handling == Handling::own);
+  const Move& row = program.moves[2];
+  CHECK(row.handling == Handling::held);
+  CHECK(row.cycle->repeats == 3);
+  CHECK(row.end_mm == Vector3(6, 0, 10));
+  CHECK(row.cycle->bottom_mm == -5);
+  CHECK_FALSE(row.cycle->may_insert_bottom);
+  CHECK(program.moves[3].end_mm == Vector3(6, -1, 10));
+}
+
+TEST_CASE("in a relative cycle R counts from the beginning and Z from R") {
+  const Program program = read("G21 G90 G0 X0 Y0 Z10\nG91 G81 X1 Z-4 R-7 F100\nG90 G80\n");
+  CHECK(program.moves[1].cycle->retract_mm == 3);
+  CHECK(program.moves[1].cycle->bottom_mm == -1);
+}
+
+TEST_CASE("a cycle without holes keeps its words and moves nothing") {
+  const Program program = read("O1\nG21 G90 G0 X0. Y0. Z10.\nG81 X7. Z-5. R1. F100. L0\nX2.\n");
+  CHECK(program.moves[1].end_mm == Vector3(0, 0, 10));
+  CHECK(program.moves[2].end_mm.x() == 2);
+  CHECK(program.moves[2].cycle->bottom_mm == -5);
+}
+
+TEST_CASE("a cycle with an expression is fixed") {
+  const Program program = read("G21 G90 G0 X0 Y0 Z10\nG81 X[1+2] Y2 Z-5 R2 F100\nX3 Z#1\n");
+  CHECK(program.moves[1].fixed[0]);
+  CHECK_FALSE(program.moves[1].known_end[0]);
+  CHECK(program.moves[2].fixed[2]);
+  CHECK_FALSE(program.moves[2].cycle.has_value());
+}
+
+TEST_CASE("every code of a drilling cycle is one, G76 of linuxcnc is a thread") {
+  for (const char* g : {"G73", "G74", "G76", "G81", "G82", "G83", "G84", "G85", "G86", "G87", "G88", "G89"}) {
+    CAPTURE(g);
+    const Program program = read(std::string("O1\nG21 G0 X0. Y0. Z5.\n") + g + " X1. Z-1. R1. F100.\nX2.\n");
+    CHECK(program.moves.at(2).cycle.has_value());
+  }
+  CHECK(read("G21 G0 X0 Y0 Z5\nG76 Z-1 P1 I-1 J.1 K.5\n").moves.at(1).handling == Handling::held);
+}

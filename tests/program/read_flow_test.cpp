@@ -1,0 +1,123 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+
+#include "program/reading.hpp"
+
+using namespace counterflex;
+using namespace counterflex::test;
+
+namespace {
+
+const std::string origin_block = "G21 G90 F100 G0 X0. Y0. Z10.\n";
+
+bool is_fixed(const Move& move) {
+  return move.fixed[0] || move.fixed[1] || move.fixed[2];
+}
+
+/// Which moves behind `origin_block` are fixed.
+std::vector<bool> fixed_moves(const std::string& text, const std::string& dialect = "linuxcnc") {
+  std::vector<bool> fixed;
+  const Program program = read(origin_block + text, dialect);
+  for (const Move& move : program.moves) fixed.push_back(is_fixed(move));
+  return {fixed.begin() + 1, fixed.end()};
+}
+
+using Fixed = std::vector<bool>;
+
+}  // namespace
+
+TEST_CASE("an expression or a variable fixes its axis and makes it unknown, until a plain word sets it") {
+  for (const char* value :
+       {"[1+2]", "#5", "#<width>", "-#5", "SIN[30]", "ATAN[1]/[2]", "[#1*[2+3]]", "##2", "#[1+2]"}) {
+    CAPTURE(value);
+    const Program program = read(origin_block + "G1 X" + value + " Y2\nX1\n");
+    const Move& move = program.moves[1];
+    CHECK(move.fixed == std::array<bool, 3>{true, false, false});
+    CHECK(move.known_end == std::array<bool, 3>{false, true, true});
+    CHECK_FALSE(move.words[0].has_value());
+    CHECK(move.end_mm.y() == 2);
+    CHECK_FALSE(move.may_split);
+    CHECK(program.left_alone.size() == 1);
+    CHECK(program.moves[2].known_end[0]);
+    CHECK_FALSE(is_fixed(program.moves[2]));
+  }
+}
+
+TEST_CASE("a relative expression is unknown and not fixed: a shift is carried along") {
+  const Program program = read(origin_block + "G91 X[1+2]\n");
+  CHECK_FALSE(program.moves[1].fixed[0]);
+  CHECK_FALSE(program.moves[1].known_end[0]);
+}
+
+TEST_CASE("assignments move nothing, and their values may be cut by a comment") {
+  CHECK(read(origin_block + "#1=5\n#<a_b> = [#1+2] (note)\n#5=-1.5 G1 X1\nN10 #[2]=SIN[30]\n").moves.size() ==
+        2);
+  CHECK(read("O1\n" + origin_block + "#100=#101+5.*2 (X9)\n#3000=1(ALARM)\n", "fanuc").moves.size() == 1);
+}
+
+TEST_CASE("F, S and T may be variables; a code that is one may do anything") {
+  const Program program =
+      read(origin_block +
+           "G1 X1 F#4 S[5*2]\nT#<tool> M6\nG#5 X2\nX3\nG90 G17 G21 G54 G90.1 G98 G40 G1 X4 Y4 Z4\nX5\n");
+  CHECK(program.moves[1].known_end[0]);
+  CHECK(program.moves[1].feed_mm_min == 0);
+  CHECK(program.moves[2].fixed == std::array<bool, 3>{true, true, true});
+  CHECK(is_fixed(program.moves[3]));
+  CHECK_FALSE(is_fixed(program.moves[4]));
+}
+
+TEST_CASE("what stands in conditions and loops of O-words is fixed, and unknown behind them") {
+  CHECK(fixed_moves("o1 if [#1 GT 2]\nX1\no1 else\nX2\no1 endif\nX3\n") == Fixed{true, true, false});
+  CHECK(fixed_moves("o1 while [#1 LT 2]\nX1\no1 endwhile\nX3\n") == Fixed{true, false});
+  CHECK(fixed_moves("o<a> do\nX1\no<a> while [#1 LT 2]\nX3\n") == Fixed{true, false});
+  CHECK(fixed_moves("O1 repeat [3]\nX1\no2 IF [1]\nX4\no2 endif\nX5\nO1 endrepeat\nX3\n") ==
+        Fixed{true, true, true, false});
+  const Program program = read(origin_block + "o1 if [1]\nX1\no1 endif\nX3\n");
+  CHECK(program.moves[2].known_start == std::array<bool, 3>{false, false, false});
+}
+
+TEST_CASE("a state that a condition sets is in doubt behind it, until a plain block sets it") {
+  CHECK(fixed_moves("o1 if [1]\nG91\no1 endif\nX3\nG90 X4\n") == Fixed{true, false});
+  CHECK(fixed_moves("o1 if [1]\nG1\no1 endif\nX3\nG0 X4\n") == Fixed{true, false});
+  CHECK(fixed_moves("o1 if [1]\nG55\no1 endif\nX3\nG54 X4\n") == Fixed{true, false});
+  CHECK(fixed_moves("o1 if [1]\nG20\no1 else\nG21\no1 endif\nX3\nG21 X4\n") == Fixed{true, false});
+}
+
+TEST_CASE("a subprogram's body does not run where it stands, a call may move anywhere") {
+  const Program body = read("o<cut> sub\nX1\nG1 Z[#1]\no<cut> endsub\n" + origin_block + "X5\n");
+  CHECK(is_fixed(body.moves[0]));
+  CHECK(is_fixed(body.moves[1]));
+  CHECK(body.moves[3].known_start == std::array<bool, 3>{true, true, true});
+  const Program call = read(origin_block + "o<cut> call [1] [2]\nG90 G0 X5\n");
+  CHECK(call.moves[1].fixed == std::array<bool, 3>{true, true, true});
+  CHECK(call.moves[1].known_end == std::array<bool, 3>{false, false, false});
+  CHECK_FALSE(is_fixed(call.moves[2]));
+  CHECK(fixed_moves("M98 P100\nX5\nG90 G0 X6\n", "fanuc") == Fixed{true, true, false});
+  CHECK(fixed_moves("G65 P9010 I1. J2. I3.\nG90 G17 G98 G40 G0 X6.\n", "fanuc") == Fixed{true, false});
+}
+
+TEST_CASE("subprograms by number that stand behind or before a program end at M99") {
+  const std::string main = origin_block + "M98 P2\nM30\n", sub = "G1 X5.\nM99\n";
+  CHECK(read("O1\n" + main + "O2\n" + sub).moves.size() == 2);
+  const Program before = read("O2\n" + sub + "O1\n" + main);
+  REQUIRE(before.moves.size() == 3);
+  CHECK(is_fixed(before.moves[0]));
+  CHECK_FALSE(is_fixed(before.moves[1]));
+  CHECK(is_fixed(before.moves[2]));
+  // A program alone runs over and over.
+  CHECK(fixed_moves("X1.\nM99\n", "fanuc") == Fixed{false});
+}
+
+TEST_CASE("a loop of Macro B is fixed, and GOTO makes the whole program so") {
+  CHECK(fixed_moves("WHILE [#1 LT 5] DO1\nX1.\nEND1\nG0 X2.\n", "fanuc") == Fixed{true, false});
+  CHECK(fixed_moves("IF [#1 EQ 0] THEN #2=5\nX2.\n", "fanuc") == Fixed{false});
+  CHECK(fixed_moves("X1.\nIF [#1 EQ 0] GOTO 10\nX2.\nN10 X3.\n", "haas") == Fixed{true, true, true});
+  CHECK(fixed_moves("X1.\n(GOTO WORK)\nX2.\n", "haas") == Fixed{false, false});
+}
+
+TEST_CASE("a second program behind the end stays, and is remarked") {
+  const Program program = read(origin_block + "M30\n%\nO2 whatever [\n");
+  CHECK(program.remarks.at(0).what == "what stands behind the end of the program stays as it is");
+  CHECK(read(origin_block + "M30\n%\n\n").remarks.empty());
+}

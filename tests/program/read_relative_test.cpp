@@ -1,0 +1,74 @@
+#include <doctest/doctest.h>
+
+#include "program/reading.hpp"
+
+using namespace counterflex;
+using namespace counterflex::test;
+
+namespace {
+
+using Axes = std::array<bool, 3>;
+
+}  // namespace
+
+TEST_CASE("under G91 words are differences and ends are absolute") {
+  const Program program = read("G21 G90 G0 X1 Y2 Z3\nG91 G1 X10 Z-1 F100\nY.5\nG90 X0\n");
+  CHECK(program.moves[1].relative);
+  CHECK(program.moves[1].end_mm == Vector3(11, 2, 2));
+  CHECK(program.moves[2].end_mm == Vector3(11, 2.5, 2));
+  CHECK_FALSE(program.moves[3].relative);
+  CHECK(program.moves[3].end_mm == Vector3(0, 2.5, 2));
+}
+
+TEST_CASE("a relative word on an unknown axis is fixed and leaves it unknown") {
+  const Program program = read("G21 G0 X1 Y2\nG91 Z5\nX1\n");
+  CHECK(program.moves[1].fixed == Axes{false, false, true});
+  CHECK(program.moves[1].known_end == Axes{true, true, false});
+  CHECK_FALSE(program.moves[1].words[2].has_value());
+  CHECK(program.left_alone.at(0).why == "a relative position counts from an unknown one");
+  CHECK(program.moves[2].fixed == Axes{false, false, false});
+}
+
+TEST_CASE("G28 G91 leaves G91 active, and its words are no target") {
+  const Program program = read("G21 G90 G0 X1 Y2 Z3\nG28 G91 Z0.\nX5\nG90 Z1\n");
+  REQUIRE(program.moves.size() == 3);
+  CHECK(program.moves[1].relative);
+  CHECK(program.moves[1].end_mm.x() == 6);
+  CHECK(program.moves[1].known_end == Axes{true, true, false});
+  CHECK_FALSE(program.moves[2].relative);
+}
+
+TEST_CASE("G0 may stand beside G28 on shop controls alone") {
+  CHECK(read("O1\nG21 G0 X1. Y2. Z3.\nG0 G91 G28 Z0.\n").left_alone.size() == 1);
+  CHECK(diagnostic_of([] { read("G21 G0 X1. Y2. Z3.\nG0 G91 G28 Z0.\n"); }) ==
+        "p.ngc:2:8: error: G28 stands beside another motion");
+}
+
+TEST_CASE("relative Z beside G43 counts from the programmed position on shop controls") {
+  const std::string text = "G21 G90 G0 X0. Y0. Z10.\nG91 G43 H2 Z-3.\n";
+  const Move shop = read("O1\n" + text).moves.back();
+  CHECK(shop.end_mm.z() == 7);
+  CHECK(shop.known_end[2]);
+  CHECK(read(text).moves.back().fixed[2]);
+}
+
+TEST_CASE("with known tool lengths Z shifts by their difference and stays known") {
+  ReadOptions options;
+  options.tool_lengths_mm = {{1, 50}, {2, 60}};
+  const Program program =
+      read_program("G21 G43 H1 G0 X0 Y0 Z10\nG43 H2\nX1\nG49\nX2\nT1 M6\nG43\nX3\nG43 H7\nX4\n", "", options);
+  CHECK(program.moves[1].start_mm.z() == 0);
+  CHECK(program.moves[2].start_mm.z() == 60);
+  CHECK(program.moves[3].start_mm.z() == 10);
+  CHECK(program.moves[3].known_start[2]);
+  CHECK_FALSE(program.moves[4].known_start[2]);
+  REQUIRE(program.remarks.size() == 1);
+  CHECK(program.remarks[0].line == 9);
+}
+
+TEST_CASE("T and M6 put a tool into the spindle, T alone does not") {
+  const Program program = read("G21 T3 G0 X1\nM6\nX2\nT5\nX3\n");
+  CHECK(program.moves[0].tool == 0);
+  CHECK(program.moves[1].tool == 3);
+  CHECK(program.moves[2].tool == 3);
+}

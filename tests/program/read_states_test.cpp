@@ -1,0 +1,130 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+
+#include "program/reading.hpp"
+
+using namespace counterflex;
+using namespace counterflex::test;
+
+namespace {
+
+const std::string known_start_block = "G21 G90 F100 G0 X0. Y0. Z10.\n";
+
+bool stays(const Move& move) {
+  return move.fixed[0] && !move.words[0] && !move.known_end[0];
+}
+
+}  // namespace
+
+TEST_CASE("under a state that puts positions elsewhere moves stay as they are, and behind it not") {
+  struct State {
+    const char *on, *off, *dialect, *why;
+  };
+  for (const State& s : {State{"G52 X5.", "G52 X0. Y0. Z0.", "fanuc", "G52 shifts the coordinates"},
+                         State{"G92 X5.", "G92.1", "linuxcnc", "G92 has set the position"},
+                         State{"G68 X0. Y0. R45.", "G69", "haas", "coordinates are rotated"},
+                         State{"G51 X0. Y0. P2.", "G50", "fanuc", "coordinates are scaled"},
+                         State{"G51.1 X0.", "G50.1 X0.", "fanuc", "coordinates are mirrored"},
+                         State{"G16", "G15", "fanuc", "coordinates are polar"},
+                         State{"G66 P9001", "G67", "fanuc", "every move calls a macro"},
+                         State{"G43.4 H1", "G49", "fanuc", "the control follows the tool's centre point"},
+                         State{"M428", "", "linuxcnc", "the kinematics were switched"},
+                         State{"A90.", "A0.", "linuxcnc", "an axis besides X, Y and Z has left zero"},
+                         State{"U.5", "", "linuxcnc", "an axis besides X, Y and Z has left zero"},
+                         State{"G10 L2 P1 X5", "", "linuxcnc", "G10 has set the work offset"},
+                         State{"G10 L20 P0 X5", "", "grbl", "G10 has set the work offset"}}) {
+    CAPTURE(s.on);
+    const std::string ends = s.off;
+    const Program program =
+        read(known_start_block + s.on + "\nX1.\n" + ends + "\nX2. Y2. Z2.\nX3.\n", s.dialect);
+    REQUIRE(program.moves.size() == 4);
+    CHECK(stays(program.moves[1]));
+    const auto& left = program.left_alone;
+    CHECK(std::any_of(left.begin(), left.end(), [&](const LeftAlone& l) { return l.why == s.why; }));
+    const bool for_good = ends.empty() || ends == "A0.";
+    CHECK(stays(program.moves[3]) == for_good);
+    CHECK(program.moves[2].known_start == std::array<bool, 3>{false, false, false});
+  }
+}
+
+TEST_CASE("axes besides X, Y and Z that stay zero are ignored, a shift of nothing is none") {
+  const Program program = read(known_start_block + "A0 B0. C-0.0 X1\nG52 X0 Y0\nX2\n");
+  CHECK(program.left_alone.empty());
+  CHECK(program.moves[2].known_start == std::array<bool, 3>{true, true, true});
+}
+
+TEST_CASE("G10 for another work offset acts when that is selected") {
+  const Program program = read(known_start_block + "G54 X1 Y1 Z1\nG10 L2 P2 X5\nX2\nG55 X3\nG54 X4\n");
+  CHECK_FALSE(stays(program.moves[2]));
+  CHECK(program.moves[2].known_start[0]);
+  CHECK(stays(program.moves[3]));
+  CHECK_FALSE(stays(program.moves[4]));
+}
+
+TEST_CASE("G10 for tools makes their known lengths void") {
+  ReadOptions options;
+  options.tool_lengths_mm = {{1, 50}};
+  const Program program =
+      read_program(known_start_block + "G49\nZ1\nG10 L1 P1 Z30\nG43 H1\nX1\n", "", options);
+  CHECK_FALSE(program.moves.back().known_start[2]);
+}
+
+TEST_CASE("parameters between G10 L50 and G11 move nothing") {
+  const Program program = read(known_start_block + "G10 L50\nN1815 P1 R00100000\nN3 R5\nG11\nX1.\n", "fanuc");
+  CHECK(program.moves.size() == 2);
+}
+
+TEST_CASE("additional work offsets have one name in all their spellings") {
+  const auto name = [](const std::string& code, const std::string& dialect) {
+    const Program program = read("G21 " + code + "\nG0 X1.\n", dialect);
+    return program.work_offsets[program.moves[0].offset];
+  };
+  CHECK(name("G54.1 P3", "fanuc") == "G54.1 P3");
+  CHECK(name("G54 P3", "fanuc") == "G54.1 P3");
+  CHECK(name("G154 P3", "haas") == "G54.1 P3");
+  CHECK(name("G112", "haas") == "G54.1 P3");
+  CHECK(name("G59.3", "linuxcnc") == "G59.3");
+}
+
+TEST_CASE("what a skippable block sets is in doubt, and no error") {
+  for (const char* block : {"/G20", "/G55", "/G1", "/G91"}) {
+    CAPTURE(block);
+    const Program program = read(known_start_block + block + "\nX1\nG21 G54 G0 G90 X2 Y2 Z2\nX3\n");
+    CHECK(stays(program.moves[1]));
+    CHECK_FALSE(stays(program.moves[3]));
+    CHECK(program.left_alone.at(0).line == 3);
+  }
+}
+
+TEST_CASE("probing, splines and threads are held; where probing ends is unknown") {
+  for (const char* block : {"G38.2 X5 F10", "G33 X5 K1", "G5 I1 J1 P1 Q1 X5 Y5"}) {
+    CAPTURE(block);
+    const Program program = read(known_start_block + block + "\n");
+    CHECK(program.moves[1].handling == Handling::held);
+    CHECK(program.moves[1].words[0].has_value());
+    CHECK_FALSE(program.moves[1].may_split);
+  }
+  CHECK_FALSE(read(known_start_block + "G38.2 X5 F10\n").moves[1].known_end[0]);
+  CHECK(read(known_start_block + "G31 X5. F10.\nX6.\n", "fanuc").moves[2].motion == Motion::rapid);
+}
+
+TEST_CASE("pockets end where they began, ways of the control's own stay") {
+  const Program pocket = read(known_start_block + "G13 Z-2. I5. K10. Q1. D1 F50.\nX1.\n", "haas");
+  CHECK(pocket.moves[1].handling == Handling::held);
+  CHECK(pocket.moves[1].end_mm == Vector3(0, 0, -2));
+  const Program text = read(known_start_block + "G47 P0 X1. Y2. I0. J.1 R.05 Z-.005 F15. E10.\n", "haas");
+  CHECK(text.moves[1].fixed == std::array<bool, 3>{true, true, true});
+}
+
+TEST_CASE("mach3 knows G70 and G71 as units, falls back to G0 and reads open comments") {
+  const Program program = read("G70 G0 X1\nG71 X1 (open\nG81 X2 Z-1 R1\nG80\nX3\n", "mach3");
+  CHECK(program.moves[0].end_mm.x() == doctest::Approx(25.4));
+  CHECK(program.moves[1].end_mm.x() == 1);
+  CHECK(program.moves[3].motion == Motion::rapid);
+}
+
+TEST_CASE("comments nest and N stands anywhere where the control lets them") {
+  CHECK(read("O1\nG21 G0 X1. (A (B C) N5\nN7 X2.\n").moves.size() == 2);
+  CHECK(read("G21 G0 X1 N5 (no end\n", "grbl").moves.at(0).block_number == 5);
+}

@@ -1,0 +1,138 @@
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "counterflex/geometry/curve.hpp"
+#include "counterflex/program/rewrite.hpp"
+#include "program/small_reader.hpp"
+
+using namespace counterflex;
+using namespace counterflex::test;
+
+namespace {
+
+constexpr char arc_start[] = "G21 G90 G17 G1 X10. Y0. Z0. F100.\n";
+
+/// The text behind `arc_start` when the last move of `blocks` is edited.
+std::string arc_rewritten(const std::string& blocks, MoveEdit edit, const std::string& dialect = "linuxcnc") {
+  const Program program = read_small(arc_start + blocks, dialect);
+  edit.move = program.moves.size() - 1;
+  return rewrite(program, {edit}, {}).text.substr(sizeof arc_start - 1);
+}
+
+/// The last move of `blocks` and all before it moved by `d`.
+std::string arc_moved(const std::string& blocks, const Vector3& d) {
+  const Program program = read_small(arc_start + blocks);
+  std::vector<MoveEdit> edits;
+  for (std::size_t i = 0; i < program.moves.size(); ++i) {
+    edits.push_back({.move = i, .end_mm = program.moves[i].end_mm + d});
+    if (program.moves[i].arc) edits.back().centre_mm = program.moves[i].arc->centre_mm + d;
+  }
+  const std::string text = rewrite(program, edits, {}).text;
+  return text.substr(text.find('\n') + 1);
+}
+
+}  // namespace
+
+TEST_CASE("an arc's own end and centre are written, and a word that rounds to what it was stays") {
+  const std::string quarter = "G3 X0. Y10. I-10. J0. F50.\n";
+  CHECK(arc_rewritten(quarter, {.end_mm = {0, 10, 0}, .centre_mm = Vector3::Zero()}) == quarter);
+  CHECK(arc_rewritten(quarter, {.end_mm = {0.0004, 10, 0}, .centre_mm = Vector3(0.0003, 0, 0)}) == quarter);
+  CHECK(arc_rewritten(quarter, {.end_mm = {0.01, 10.02, 0}, .centre_mm = Vector3(0.003, -0.004, 0)}) ==
+        "G3 X0.01 Y10.02 I-9.997 J-0.004 F50.\n");
+  CHECK(arc_rewritten(quarter, {.end_mm = {0, 10, 0.25}, .centre_mm = Vector3::Zero()}) ==
+        "G3 X0. Y10. Z0.250 I-10. J0. F50.\n");
+}
+
+TEST_CASE("moving everything moves an arc's end and leaves its I and J") {
+  CHECK(arc_moved("G3 X0. Y10. I-10. J0.\n", {0.5, -0.25, 0}) == "G3 X0.5 Y9.75 I-10. J0.\n");
+  CHECK(arc_moved("G3 X0. Y10. R10.\n", {0.5, -0.25, 0}) == "G3 X0.5 Y9.75 R10.\n");
+  CHECK(arc_moved("G2 I-10.\n", {0.5, -0.25, 0.125}) == "G2 I-10.\n");
+  CHECK(arc_moved("g3x0.y10.i-10.\n", {0.5, -0.25, 0.125}) == "g3x0.5y9.75i-10.\n");
+  CHECK(arc_moved("G90.1\nG3 X0. Y10. I0 J0\n", {0.5, -0.25, 0}) == "G90.1\nG3 X0.5 Y9.75 I0.5 J-0.25\n");
+}
+
+TEST_CASE("a word that an arc omits is inserted only where the correction asks for it") {
+  const MoveEdit edit{.end_mm = {-10, 0.02, 0}, .centre_mm = Vector3(0, 0.01, 0)};
+  CHECK(arc_rewritten("G3 X-10. I-10.\n", edit) == "G3 X-10. Y0.020 I-10. J0.010\n");
+  CHECK(arc_rewritten("G3 X-10. J0. I-10.\n", {.end_mm = {-10, 0, 0}, .centre_mm = Vector3::Zero()}) ==
+        "G3 X-10. J0. I-10.\n");
+  CHECK(arc_rewritten("G3 I-10. F50.\n", {.end_mm = {10.01, 0, 0}, .centre_mm = Vector3::Zero()}) ==
+        "G3 X10.010 I-10. F50.\n");
+  CHECK(arc_rewritten("G3I-10.F50.\n", {.end_mm = {10.01, 0, 0}, .centre_mm = Vector3(0, 0.5, 0)}) ==
+        "G3X10.010I-10.J0.500F50.\n");
+}
+
+TEST_CASE("a split arc is written as arcs in its own format, with N and comments on the block itself") {
+  const double s = std::sqrt(50);
+  MoveEdit edit{
+      .inserted = {{{s, s, 0}, Vector3::Zero()}}, .end_mm = {0, 10, 0}, .centre_mm = Vector3::Zero()};
+  CHECK(arc_rewritten("N7 G03 X0. Y10. I-10. J0. F50. (c)\n", edit) ==
+        "G03 X7.071 Y7.071 I-10.000 J0.000 F50.\nN7 G03 X0. Y10. I-7.071 J-7.071 F50. (c)\n");
+  CHECK(arc_rewritten("/g3x0.y10.i-10.\n", edit) == "/g3x7.071y7.071i-10.000\n/g3x0.y10.i-7.071j-7.071\n");
+  CHECK(arc_rewritten("G3 X0. Y10. R10.\n", edit) == "G3 X7.071 Y7.071 R10.000\nG3 X0. Y10. R10.\n");
+  CHECK(arc_rewritten("G90.1 G3 X0. Y10. I0 J0\n", edit) ==
+        "G90.1 G3 X7.071 Y7.071 I0 J0\nG3 X0.000 Y10.000 I0.000 J0.000\n");
+  edit.end_mm = {10, 0, 0};
+  edit.inserted = {{{-10, 0, 0}, Vector3::Zero()}};
+  CHECK(arc_rewritten("G2 I-10.\n", edit) == "G2 X-10.000 I-10.000\nG2 X10.000 I10.\n");
+}
+
+TEST_CASE("arcs of more than half a turn keep the sign of their radius") {
+  const double s = std::sqrt(50);
+  CHECK(arc_rewritten("G3 X0. Y-10. R-10.\n", {.end_mm = {0, -10.1, 0}, .centre_mm = Vector3(0, -0.05, 0)}) ==
+        "G3 X0. Y-10.1 R-10.025\n");
+  CHECK(arc_rewritten("G3 X0. Y-10. R-10.\n", {.inserted = {{{-s, s, 0}, Vector3::Zero()}},
+                                               .end_mm = {0, -10, 0},
+                                               .centre_mm = Vector3::Zero()}) ==
+        "G3 X-7.071 Y7.071 R10.000\nG3 X0. Y-10. R10.\n");
+}
+
+TEST_CASE("chords of an arc are G1 without I, J, K, R and P, and keep F") {
+  const double s = std::sqrt(50);
+  const MoveEdit edit{.inserted = {{{s, s, 0}}}, .end_mm = {0, 10, 0}};
+  CHECK(arc_rewritten("G03 X0. Y10. I-10. J0. F50.\n", edit) ==
+        "G01 X7.071 Y7.071 F50.\nG01 X0. Y10. F50.\n");
+  CHECK(arc_rewritten("N5 G3 X0. Y10. R10. P1 M8\n", edit) == "N5 G1 X7.071 Y7.071 M8\nG1 X0.000 Y10.000\n");
+  CHECK(arc_rewritten("g3x0.y10.i-10.\n", edit) == "g1x7.071y7.071\ng1x0.y10.\n");
+}
+
+TEST_CASE("a block that relies on the arc before it says its motion behind chords, and only that block") {
+  const std::string blocks = "G3 X0. Y10. I-10.\nX-10. Y0. J-10.\n";
+  const auto chorded = [](const std::string& text, std::size_t move) {
+    const Program program = read_small(arc_start + text);
+    return rewrite(program, {{.move = move, .end_mm = program.moves[move].end_mm}}, {})
+        .text.substr(sizeof arc_start - 1);
+  };
+  CHECK(chorded(blocks + "X0. Y-10. I10.\n", 1) == "G1 X0. Y10.\nG3 X-10. Y0. J-10.\nX0. Y-10. I10.\n");
+  CHECK(chorded(blocks + "X0. Y-10. I10.\n", 2) == "G3 X0. Y10. I-10.\nG1 X-10. Y0.\nG3 X0. Y-10. I10.\n");
+  CHECK(chorded("G3 X0. Y10. I-10.\nM8\nG1\nX5.\n", 1) == "G1 X0. Y10.\nM8\nG1\nX5.\n");
+  CHECK(chorded("G3 X0. Y10. I-10.\nG0 X5.\n", 1) == "G1 X0. Y10.\nG0 X5.\n");
+  CHECK(chorded("G3 X0. Y10. I-10.\n/X-10. Y0. J-10.\nX0. Y-10. I10.\n", 1) ==
+        "G1 X0. Y10.\n/G3 X-10. Y0. J-10.\nG3 X0. Y-10. I10.\n");
+}
+
+TEST_CASE("a piece whose end falls on its start is no full circle") {
+  MoveEdit edit{.inserted = {{{9.9999, 0.0003, 0}, Vector3::Zero()}},
+                .end_mm = {0, 10, 0},
+                .centre_mm = Vector3::Zero()};
+  CHECK(arc_rewritten("G3 X0. Y10. I-10.\n", edit) == "G3 X0. Y10. I-10.\n");
+  CHECK(arc_rewritten("G3 X10. Y0.001 I-10.\n", {.end_mm = {10, 0.0001, 0}, .centre_mm = Vector3::Zero()}) ==
+        "G1 X10. Y0.000\n");
+  CHECK(arc_rewritten("G3 X10. Y0.001 I-10.\n", {.end_mm = {10, -0.001, 0}, .centre_mm = Vector3::Zero()}) ==
+        "G1 X10. Y-0.001\n");
+}
+
+TEST_CASE("the pieces of a G93 move share its time by their lengths") {
+  const std::string text = "G93\nG1 X4. F10.\n";
+  CHECK(arc_rewritten(text, {.inserted = {{{9, 0, 0}}, {{7, 0, 0}}}, .end_mm = {4, 0, 0}}) ==
+        "G93\nG1 X9.000 F60.00000\nG1 X7.000 F30.00000\nG1 X4. F20.\n");
+  CHECK(arc_rewritten(text, {.end_mm = {4, 0.5, 0}}) == "G93\nG1 X4. Y0.500 F10.\n");
+  const double s = std::sqrt(50);
+  CHECK(arc_rewritten(
+            "G93 G3 X0. Y10. I-10. F10.\n",
+            {.inserted = {{{s, s, 0}, Vector3::Zero()}}, .end_mm = {0, 10, 0}, .centre_mm = Vector3::Zero()})
+            .find("F20.00000\n") != std::string::npos);
+}
