@@ -18,7 +18,7 @@ _counterflex() {
   COMPREPLY=()
   case $previous in
     --method) values='direct nested linear' ;;
-    --dialect) values='auto linuxcnc grbl fanuc haas' ;;
+    --dialect) values='auto linuxcnc grbl fanuc haas mach3 siemens heidenhain' ;;
     --integer-words) values='units increments' ;;
     --units) values='mm inch' ;;
     -m | --machine | --tool-table | -f | --forces | -o | --output | --report) return ;;  # files: readline completes them

@@ -51,7 +51,8 @@ void add_forces(CLI::App& app, Options& options) {
 }
 
 void add_reading(CLI::App& app, Options& options) {
-  value_option(app, "--dialect", "NAME", "auto, linuxcnc, grbl, fanuc or haas; the machine file's, or auto",
+  value_option(app, "--dialect", "NAME",
+               "auto, linuxcnc, grbl, fanuc, haas, mach3, siemens or heidenhain; the machine file's, or auto",
                [&](const std::string& text) { options.dialect = text; });
   value_option(app, "--units", "mm|inch", "Units before the program states its own",
                [&](const std::string& text) {

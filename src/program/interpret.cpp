@@ -204,7 +204,7 @@ void read_words(const Block& block, Reading& r) {
   apply_words(block, r);
   doubt_differences(before, r.state);
   for (std::size_t axis = 0; axis < 3; ++axis)
-    if (r.sorted.word(axis_letters[axis]) != nullptr) r.state.known[axis] = false;
+    if (r.sorted.word(letters_of_axes[axis]) != nullptr) r.state.known[axis] = false;
 }
 
 void end_program(Reading& r) {

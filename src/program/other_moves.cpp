@@ -13,7 +13,7 @@ void leave_machine_move(const Block& block, Reading& r, const FoundG& found) {
   if (!reference && !has_axis_word(r.sorted) && !r.sorted.has_any("ABCUVW") && !r.in_body())
     refuse_word(block, r, *found.word, "G53 has no axis word");
   for (std::size_t axis = 0; axis < 3; ++axis)
-    if (r.sorted.word(axis_letters[axis]) != nullptr) r.state.known[axis] = false;
+    if (r.sorted.word(letters_of_axes[axis]) != nullptr) r.state.known[axis] = false;
   if (!has_axis_word(r.sorted)) r.state.known.fill(false);
   end_contour(r);
   r.run_begin = r.program.moves.size();
@@ -28,7 +28,7 @@ void read_held(const Block& block, Reading& r, std::string_view what, bool end_k
   move.may_insert_words = false;
   if (!end_known)
     for (std::size_t axis = 0; axis < 3; ++axis)
-      if (r.sorted.word(axis_letters[axis]) != nullptr) r.state.known[axis] = false;
+      if (r.sorted.word(letters_of_axes[axis]) != nullptr) r.state.known[axis] = false;
   if (why_not_followed(r).empty()) leave_alone(block, r, what);
   finish_move(r, move);
 }

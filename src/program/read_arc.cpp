@@ -11,7 +11,7 @@
 namespace counterflex {
 namespace {
 
-constexpr std::array<char, 3> centre_letters{'I', 'J', 'K'};
+constexpr std::array<char, 3> letters_of_centre{'I', 'J', 'K'};
 
 /// Axes of the plane: from the first to the second is counter-clockwise about the normal.
 struct Plane {
@@ -39,7 +39,7 @@ void check_words(const Block& block, const Reading& r) {
   if (centre && radius != nullptr) refuse_word(block, r, *radius, "an arc has either R or I, J and K");
   if (!centre && radius == nullptr)
     refuse_word(block, r, first_axis_word(block), "the arc has neither I, J, K nor R");
-  const Word* across = r.sorted.word(centre_letters[static_cast<std::size_t>(r.state.normal)]);
+  const Word* across = r.sorted.word(letters_of_centre[static_cast<std::size_t>(r.state.normal)]);
   if (across != nullptr && across->literal && across->value != 0)
     refuse_word(block, r, *across,
                 fmt::format("{} is no part of an arc's centre in the plane that acts", across->letter));
@@ -53,13 +53,13 @@ void check_words(const Block& block, const Reading& r) {
 void set_centre(const Block& block, const Reading& r, const Plane& plane, const Move& move, ArcMove& arc) {
   arc.absolute_centre = r.state.absolute_centres;
   for (std::size_t i = 0; i < 3; ++i)
-    if (const Word* word = r.sorted.word(centre_letters[i]))
+    if (const Word* word = r.sorted.word(letters_of_centre[i]))
       arc.centre_words[i] = AxisWord{word->number, word->decimals};
   for (const std::size_t axis : {plane.first, plane.second}) {
-    const Word* word = r.sorted.word(centre_letters[axis]);
+    const Word* word = r.sorted.word(letters_of_centre[axis]);
     if (word == nullptr && arc.absolute_centre)
       refuse_word(block, r, block.words.front(),
-                  fmt::format("under G90.1 an arc needs {} in this plane", centre_letters[axis]));
+                  fmt::format("under G90.1 an arc needs {} in this plane", letters_of_centre[axis]));
     const double value = word != nullptr ? length_mm(r, *word) : 0;
     const Vector3& start = move.start_mm;
     coordinate(arc.centre_mm, axis) =
@@ -114,7 +114,7 @@ void hold_arc(Reading& r, Move& move, const Plane& plane, bool start_known) {
   const bool rigid = start_known && !(r.state.absolute_centres && r.sorted.has_any("IJK"));
   if (rigid) return;
   for (const std::size_t axis : {plane.first, plane.second})
-    if (r.sorted.word(axis_letters[axis]) != nullptr) fix_axis(r, move, axis);
+    if (r.sorted.word(letters_of_axes[axis]) != nullptr) fix_axis(r, move, axis);
 }
 
 }  // namespace

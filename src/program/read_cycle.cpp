@@ -60,7 +60,7 @@ void leave_hole(ModalState& state, const CycleMove& hole) {
 void place_hole(Reading& r, Move& move, int repeats, bool followed) {
   ModalState& state = r.state;
   for (std::size_t axis = 0; axis < 2; ++axis) {
-    const Word* word = r.sorted.word(axis_letters[axis]);
+    const Word* word = r.sorted.word(letters_of_axes[axis]);
     if (word == nullptr) continue;
     if (!word->literal || !followed || (state.relative && !state.known[axis])) {
       fix_axis(r, move, axis);
@@ -87,7 +87,7 @@ void begin_series(ModalState& state) {
 void fix_hole(Reading& r, Move& move) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const bool depth = axis == 2 && !r.state.relative;
-    if (depth || r.sorted.word(axis_letters[axis]) != nullptr) fix_axis(r, move, axis);
+    if (depth || r.sorted.word(letters_of_axes[axis]) != nullptr) fix_axis(r, move, axis);
   }
   move.cycle.reset();
 }

@@ -155,7 +155,7 @@ void place_words(const Block& block, Reading& r, Move& move) {
   const std::string_view why = why_not_followed(r);
   bool all_plain = true;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const Word* word = r.sorted.word(axis_letters[axis]);
+    const Word* word = r.sorted.word(letters_of_axes[axis]);
     if (word == nullptr) continue;
     place_word(r, move, axis, *word, why.empty());
     all_plain = all_plain && word->literal;

@@ -6,7 +6,7 @@
 
 namespace counterflex {
 
-inline constexpr std::array<char, 3> axis_letters{'X', 'Y', 'Z'};
+inline constexpr std::array<char, 3> letters_of_axes{'X', 'Y', 'Z'};
 
 /// The first word of X, Y or Z in the block, else its first word.
 const Word& first_axis_word(const Block& block);

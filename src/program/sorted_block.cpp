@@ -19,10 +19,6 @@ const FoundG* SortedBlock::find(Action action) const {
                         [&](const FoundG& found) { return found.code->action == action; });
 }
 
-bool SortedBlock::has(MAction action) const {
-  return std::any_of(m.begin(), m.end(), [&](const FoundM& found) { return found.action == action; });
-}
-
 namespace {
 
 struct Sorter {
@@ -67,7 +63,9 @@ void add_m(const Sorter& s, const Word& word) {
   if (word.value < 0 || word.value > 99999 || word.value != std::floor(word.value))
     s.fail(word, fmt::format("M{} is not a code: whole numbers from 0 to 99999 are", word.value));
   const int code = static_cast<int>(word.value);
-  s.sorted.m.push_back({action_of_m(code, s.dialect), code, &word});
+  const MAction action = action_of_m(code, s.dialect);
+  s.sorted.m.push_back({action, code, &word});
+  s.sorted.m_actions |= 1u << static_cast<unsigned>(action);
 }
 
 /// A macro call may give I, J and K several times.
@@ -122,7 +120,7 @@ void sort_words(const std::string& file, const Dialect& dialect, const Block& bl
   sorted.letters.fill(nullptr);
   sorted.g.clear();
   sorted.m.clear();
-  sorted.actions = 0;
+  sorted.actions = sorted.m_actions = 0;
   sorted.unknown_code = false;
   const Sorter s{file, dialect, block, sorted};
   for (const Word& word : block.words) {

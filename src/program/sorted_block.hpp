@@ -25,14 +25,15 @@ struct SortedBlock {
   std::array<const Word*, 26> letters{};  ///< all but G and M
   std::vector<FoundG> g;
   std::vector<FoundM> m;
-  std::uint64_t actions = 0;  ///< a bit for each Action in `g`
-  bool unknown_code = false;  ///< holds a G or M whose number the control works out
+  std::uint64_t actions = 0;    ///< a bit for each Action in `g`
+  std::uint32_t m_actions = 0;  ///< a bit for each MAction in `m`
+  bool unknown_code = false;    ///< holds a G or M whose number the control works out
 
   const Word* word(char letter) const { return letters[static_cast<std::size_t>(letter - 'A')]; }
   bool has_any(std::string_view wanted) const;
   const FoundG* find(Action action) const;
   bool has(Action action) const { return (actions >> static_cast<unsigned>(action) & 1) != 0; }
-  bool has(MAction action) const;
+  bool has(MAction action) const { return (m_actions >> static_cast<unsigned>(action) & 1) != 0; }
 };
 
 /// Which words a block may hold beside those of its own codes.

@@ -55,19 +55,16 @@ Remark long_line_warning(const LineLengths& lines) {
                       lines.longest_line)};
 }
 
+/// What the largest correction is beside a tolerance; the reader's remark says what that lets the control do.
 Remark tolerance_warning(const PathTolerance& tolerance, double correction_mm) {
-  if (!tolerance.path_mm)
-    return {tolerance.line,
-            fmt::format("G64 without P lets the control leave the path by any distance; the largest "
-                        "correction is {} mm",
-                        shown(correction_mm, 4))};
+  const std::string largest = fmt::format("the largest correction, {} mm,", shown(correction_mm, 4));
+  if (!tolerance.path_mm) return {tolerance.line, largest + " may vanish under G64 without P"};
   const double most = std::max(*tolerance.path_mm, tolerance.merge_mm.value_or(0));
   return {tolerance.line,
-          fmt::format(
-              "G64 lets the control leave the path by {:.6g} mm and merge moves within {:.6g} mm of a line: "
-              "the largest correction, {} mm, {}",
-              *tolerance.path_mm, tolerance.merge_mm.value_or(*tolerance.path_mm), shown(correction_mm, 4),
-              correction_mm <= most ? "may vanish" : "stays, smaller ones may vanish")};
+          correction_mm <= most
+              ? fmt::format("{} may vanish within the {:.6g} mm that G64 allows", largest, most)
+              : fmt::format("{} is more than the {:.6g} mm that G64 allows: only smaller ones may vanish",
+                            largest, most)};
 }
 
 Remark plunge_warning(const ControlFacts& control) {
