@@ -35,6 +35,7 @@ class Calls:
 
     def __init__(self):
         self.line = 0
+        self.spindle = 0
         self.printed = []
 
     def next_line(self, state):
@@ -54,7 +55,11 @@ class Calls:
     def get_axis_mask(self): return 7
     def get_block_delete(self): return int(skip)
 
+    def change_tool(self, tool):
+        self.spindle = tool
+
     def get_tool(self, tool):
+        tool = tool or self.spindle
         return (tool, 0., 0., self.lengths.get(tool, 0.)) + (0.,) * 9 + (0,)
 
 

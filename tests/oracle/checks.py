@@ -32,6 +32,9 @@ class Shop:
     def options(self, program):
         return tuple(self.about(program).get('options', ()))
 
+    def gantry(self, program, **given):
+        return product.Gantry(program=self.about(program).get('program', ''), **given)
+
     def bench(self, offsets, lengths):
         return path.Bench(self.interpreter, self.folder, offsets, lengths)
 
@@ -59,7 +62,7 @@ def refusal(shop, program, run):
 
 def identity(shop, program):
     """A perfect machine without forces gives the input back, header aside."""
-    run = shop.runs.compensate(program, product.Gantry(offsets=AT_ORIGIN), options=shop.options(program))
+    run = shop.runs.compensate(program, shop.gantry(program, offsets=AT_ORIGIN), options=shop.options(program))
     name = os.path.basename(program)
     if shop.about(program).get('wrong'):
         return '' if run.refused_with_place(name) else 'was not refused at a place, exit %d: %s' % (run.status, run.said[-200:])
@@ -117,7 +120,7 @@ def judged_text(shop, program, findings):
     return ''
 
 
-def against_interpreter(shop, program, gantry, lengths, check_of):
+def against_interpreter(shop, program, gantry, lengths, check_of, skip=False):
     """`check_of` makes a check from a Corrected whose facts are known."""
     try:
         path.walk(shop.bench(gantry.offsets, lengths), plain.plain_lines(open(program, 'rb').read()))
@@ -128,20 +131,25 @@ def against_interpreter(shop, program, gantry, lengths, check_of):
         both = Corrected(shop, program, gantry, lengths)
         if both.run.status != 0:
             return refusal(shop, program, both.run)
-        pairs = both.walk()
+        pairs = both.walk(skip)
         return judged_text(shop, program, check_of(both).run(pairs))
     except text.Mismatch as error:
         return str(error)
 
 
-def shift_with(shop, program, offsets, lengths):
-    gantry = product.Gantry(shift=product.FRAME_SHIFT, offsets=offsets)
+def shift_with(shop, program, offsets, lengths, skip=False):
+    gantry = shop.gantry(program, shift=product.FRAME_SHIFT, offsets=offsets)
     return against_interpreter(shop, program, gantry, lengths,
-                               lambda both: compare.ShiftCheck(product.FRAME_SHIFT, both.facts, both.left_alone))
+                               lambda both: compare.ShiftCheck(product.FRAME_SHIFT, both.facts, both.left_alone), skip)
 
 
 def shift(shop, program):
     return shift_with(shop, program, AT_ORIGIN, {})
+
+
+def shift_skipped(shop, program):
+    """Again with the control's switch for blocks with '/' on."""
+    return shift_with(shop, program, AT_ORIGIN, {}, skip=True)
 
 
 def shift_offsets(shop, program):
@@ -150,7 +158,7 @@ def shift_offsets(shop, program):
 
 
 def field(shop, program, sign):
-    gantry = product.Gantry(squareness=(sign * SQUARE, -sign * SQUARE, sign * SQUARE), offsets=OFFSETS)
+    gantry = shop.gantry(program, squareness=(sign * SQUARE, -sign * SQUARE, sign * SQUARE), offsets=OFFSETS)
 
     def check_of(both):
         return linear.FieldCheck(gantry, both.facts, both.left_alone, TOLERANCE + 2e-4)
@@ -167,8 +175,8 @@ def field_negative(shop, program):
 
 def masking(shop, program):
     """With numbers masked and what was inserted removed the corrected program is the original, byte for byte."""
-    for gantry in (product.Gantry(shift=product.FRAME_SHIFT, offsets=AT_ORIGIN),
-                   product.Gantry(squareness=(SQUARE, -SQUARE, SQUARE), offsets=AT_ORIGIN)):
+    for gantry in (shop.gantry(program, shift=product.FRAME_SHIFT, offsets=AT_ORIGIN),
+                   shop.gantry(program, squareness=(SQUARE, -SQUARE, SQUARE), offsets=AT_ORIGIN)):
         run = shop.runs.compensate(program, gantry, options=shop.options(program))
         if run.status != 0:
             return refusal(shop, program, run)
@@ -181,7 +189,7 @@ def masking(shop, program):
 
 def control_limits(shop, program):
     """No output line is too long and no arc refused, by LinuxCNC's rules and by GRBL's where the source keeps them."""
-    gantry = product.Gantry(squareness=(SQUARE, -SQUARE, SQUARE), offsets=AT_ORIGIN)
+    gantry = shop.gantry(program, squareness=(SQUARE, -SQUARE, SQUARE), offsets=AT_ORIGIN)
     run = shop.runs.compensate(program, gantry, options=shop.options(program))
     if run.status != 0:
         return refusal(shop, program, run)
@@ -211,7 +219,7 @@ def shares(shop, program):
     wanted = shop.about(program).get('share')
     if not wanted:
         return ''
-    report, said = shop.runs.plan(program, shop.options(program))
+    report, said = shop.runs.plan(program, shop.gantry(program, offsets=AT_ORIGIN), shop.options(program))
     if not report:
         return said[-300:]
     plan = plan_of(report)
@@ -234,6 +242,6 @@ def plan_of(report):
     return None
 
 
-ALL = {'identity': identity, 'shift': shift, 'shift_offsets': shift_offsets, 'field_positive': field_positive,
-       'field_negative': field_negative, 'masking': masking, 'limits': control_limits, 'shares': shares}
-G_CODE_ONLY = {'shift', 'shift_offsets', 'field_positive', 'field_negative', 'limits'}
+ALL = {'identity': identity, 'shift': shift, 'shift_skipped': shift_skipped, 'shift_offsets': shift_offsets,
+       'field_positive': field_positive, 'field_negative': field_negative, 'masking': masking, 'limits': control_limits, 'shares': shares}
+G_CODE_ONLY = {'shift', 'shift_skipped', 'shift_offsets', 'field_positive', 'field_negative', 'limits'}

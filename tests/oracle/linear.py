@@ -2,9 +2,9 @@
 import math
 
 from compare import Findings, difference, distance, short
+from facts import unit_mm
 
 SAMPLES = 16     # on a written piece
-DENSE = 360      # on a wanted arc
 NEAR_CONTOUR = 12  # lines before and after a contour under G41 or G42 that have its one shift too
 
 
@@ -17,15 +17,17 @@ def contour_lines(facts):
     return near
 
 
-def to_polyline(p, points):
-    """Distance of `p` from the nearest of the chords between `points`."""
-    best = math.inf
-    for a, b in zip(points, points[1:]):
-        ab, ap = difference(b, a), difference(p, a)
-        length = sum(v * v for v in ab)
-        t = min(1.0, max(0.0, sum(x * y for x, y in zip(ab, ap)) / length)) if length > 0 else 0.0
-        best = min(best, math.dist(p, [x + t * v for x, v in zip(a, ab)]))
-    return best
+def fraction_of(step, p):
+    """The fraction of the step at which it is about nearest to `p`."""
+    if step.arc:
+        begin, sweep = step.angles()
+        a = step.arc
+        turned = math.atan2(p[a.second] - a.centre[1], p[a.first] - a.centre[0]) - begin
+        fractions = [(turned + 2 * math.pi * k) / sweep for k in range(-abs(a.turns) - 2, abs(a.turns) + 3)]
+        return min((min(1.0, max(0.0, u)) for u in fractions), key=lambda u: distance(step.at(u), p))
+    way = difference(step.end, step.start)
+    length = sum(v * v for v in way)
+    return min(1.0, max(0.0, sum(x * y for x, y in zip(way, difference(p, step.start))) / length)) if length > 0 else 0.0
 
 
 class FieldCheck:
@@ -36,6 +38,7 @@ class FieldCheck:
         self.gantry, self.facts, self.tolerance = gantry, facts, tolerance
         self.skipped = left_alone | contour_lines(facts)
         self.known, self.offset = [False] * 3, None
+        self.contour = None  # the shift of the contour that the path is in
         self.findings = Findings()
 
     def run(self, pairs):
@@ -44,6 +47,7 @@ class FieldCheck:
             self.findings.total += 1
             if pair.steps[0].offset != self.offset:  # where that takes the other axes is not in the program
                 self.known, self.offset = [False] * 3, pair.steps[0].offset
+            self.same_in_contour(pair, fact)
             if fact['machine'] or pair.line in self.skipped or fact['doubtful']:
                 self.forget(fact)
                 continue
@@ -52,6 +56,16 @@ class FieldCheck:
             if all(self.known):
                 self.judge(pair, started)
         return self.findings
+
+    def same_in_contour(self, pair, fact):
+        """Under cutter radius compensation all ends have one shift, up to the rounding."""
+        if not fact['side']:
+            self.contour = None
+            return
+        shift = difference(pair.corrected[-1].end, pair.steps[-1].end)
+        self.contour = self.contour or shift
+        if distance(shift, self.contour) > 2 * unit_mm(fact):
+            self.findings.add(pair, 'a contour is shifted by %s, and by %s here' % (short(self.contour), short(shift)))
 
     def forget(self, fact):
         self.known = [k and a not in fact['axes'] and bool(fact['axes']) for a, k in enumerate(self.known)]
@@ -84,11 +98,11 @@ class FieldCheck:
             self.findings.add(pair, 'a hole has its bottom at %s instead of %s' % (short(c.end), short(self.wanted(o, o.end))))
 
     def way(self, pair, o):
-        count = DENSE if o.arc else 1
-        points = [self.wanted(o, o.at(k / count)) for k in range(count + 1)]
         for c in pair.corrected:
             for k in range(1, SAMPLES):
-                miss = to_polyline(c.at(k / SAMPLES), points)
+                q = [a + b for a, b in zip(c.at(k / SAMPLES), o.offset)]
+                p = difference(self.gantry.reached(q), o.offset)
+                miss = distance(p, o.at(fraction_of(o, p)))
                 if miss > self.tolerance:
                     return self.findings.add(pair, 'goes %.5f off the wanted path' % miss)
         if o.arc:

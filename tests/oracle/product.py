@@ -28,11 +28,13 @@ class Gantry:
     shift: tuple = (0.0, 0.0, 0.0)
     squareness: tuple = (0.0, 0.0, 0.0)
     offsets: dict = field(default_factory=dict)
+    program: str = ''  # lines of the table [program]
 
     def toml(self):
         yaw, roll, pitch = (math.degrees(a) for a in self.squareness)
         work = ''.join('[work."%s"]\nxyz_mm = [%r, %r, %r]\n' % (offset_name(n), *xyz) for n, xyz in self.offsets.items())
-        return ('format = "counterflex-machine 1"\nname = "gantry"\ncontrolled = ["x", "y", "z"]\n' + work +
+        return ('format = "counterflex-machine 1"\nname = "gantry"\ncontrolled = ["x", "y", "z"]\n' +
+                '[program]\n' + self.program + '\n' + work +
                 '[[chain]]\nname = "serial"\n'
                 'errors.frame = { xyz_mm = [%r, %r, %r] }\n' % self.shift +
                 'errors.second = { rpy_deg = [0, 0, %r] }\nerrors.third = { rpy_deg = [%r, %r, 0] }\n' % (yaw, roll, pitch) +
@@ -45,6 +47,11 @@ class Gantry:
         second = turn(2, yaw)
         third = product(second, product(turn(1, pitch), turn(0, roll)))
         return [1.0, 0.0, 0.0], [row[1] for row in second], [row[2] for row in third]
+
+    def reached(self, q):
+        """Where the tool stands when `q` is commanded (mm, machine frame)."""
+        columns = self.columns()
+        return [self.shift[a] + sum(columns[k][a] * q[k] for k in range(3)) for a in range(3)]
 
     def commanded(self, p):
         """What must be commanded so that the tool stands at `p` (mm, machine frame)."""
@@ -88,9 +95,7 @@ class Product:
 
     def compensate(self, program, gantry, lengths=None, options=()):
         """Compensates the program at the path `program`, in mm where it does not say; no forces. Returns a Run."""
-        machine, output = self.folder + '/machine.toml', self.folder + '/corrected' + os.path.splitext(program)[1]
-        with open(machine, 'w') as out:
-            out.write(gantry.toml())
+        machine, output = self.machine(gantry), self.folder + '/corrected' + os.path.splitext(program)[1]
         arguments = ['compensate', program, '-m', machine, '-o', output, '--json', '--max-correction-mm', '50', *options]
         if lengths and '--tool-table' in self.help:
             arguments += ['--tool-table', self.tool_table(lengths)]
@@ -103,12 +108,18 @@ class Product:
         report = json.loads(done.stdout) if done.returncode == 0 else {}
         return Run(done.returncode, text, report, done.stderr.decode('latin-1').strip())
 
-    def plan(self, program, options=()):
+    def machine(self, gantry):
+        path = self.folder + '/machine.toml'
+        with open(path, 'w') as out:
+            out.write(gantry.toml())
+        return path
+
+    def plan(self, program, gantry, options=()):
         """The plan that `check` prints of a program, and what it said."""
-        done = self.call(['check', program, '--json', *options])
+        done = self.call(['check', program, '-m', self.machine(gantry), '--json', *options])
         said = done.stderr.decode('latin-1').strip()
         if done.returncode == 3 and NO_UNITS in said and '--units' not in options:
-            return self.plan(program, (*options, '--units', 'mm'))
+            return self.plan(program, gantry, (*options, '--units', 'mm'))
         return (json.loads(done.stdout) if done.returncode == 0 else {}), said
 
     def tool_table(self, lengths):
