@@ -6,6 +6,7 @@
 #include "counterflex/files/numbers.hpp"
 #include "program/arc_radius.hpp"
 #include "program/dialect.hpp"
+#include "program/number_style.hpp"
 
 namespace counterflex {
 namespace {
@@ -49,7 +50,7 @@ void settle_radius(const Move& move, const Vector3& centre_mm, Place place, cons
   WordNumber number = settle_number(move, arc.radius_word, arc.radius_mm / unit, wanted, place, options);
   const double half_chord = across(end - start, arc).norm() / 2 / unit;
   if (number.write && std::abs(number.value) < half_chord) {
-    const double digit = std::pow(10.0, -number.decimals);
+    const double digit = 1 / power_of_ten(number.decimals);
     number.value =
         rounded(std::copysign(std::ceil(half_chord / digit) * digit, number.value), number.decimals);
   }
@@ -57,16 +58,18 @@ void settle_radius(const Move& move, const Vector3& centre_mm, Place place, cons
   words.curve.arc->centre = centre_from_radius(start, end, number.value * unit, normal_of(arc));
 }
 
-/// The digits of the ends have turned a piece that hardly moves around.
-bool is_turned_around(const Move& move, const ArcWords& words, Place place, int decimals) {
-  constexpr double digits_that_ends_may_miss = 2, angle_that_digits_may_add = 0.5;
+/// The most that a piece to `via` may turn: less than what its own move does, and unless it may be a full
+/// circle no more than `via` says.
+double most_sweep(const Move& move, const Curve& piece, const Via& via, Place place, int decimals) {
+  constexpr double digits_that_ends_may_miss = 2;
   const ArcMove& arc = *move.arc;
-  const double digit_mm = std::pow(10.0, -decimals) * mm_per(move.unit);
-  const Curve& curve = words.curve;
-  if (across(curve.end - curve.start, arc).norm() > digits_that_ends_may_miss * digit_mm) return false;
-  const double original = sweep_of(arc, move.start_mm, move.end_mm, arc.centre_mm);
-  const double most = place == Place::end ? original : std::fmin(original, std::numbers::pi);
-  return curve.arc->sweep > most + angle_that_digits_may_add;
+  const double whole = sweep_of(arc, move.start_mm, move.end_mm, arc.centre_mm);
+  if (place == Place::end && whole > std::numbers::pi) return whole;
+  const double told = sweep_of(arc, piece.start, via.end_mm, *via.centre_mm);
+  const double digit_mm = mm_per(move.unit) / power_of_ten(decimals);
+  const double chord = across(piece.end - piece.start, arc).norm();
+  const bool ends_may_have_passed = chord <= digits_that_ends_may_miss * digit_mm;
+  return std::fmin(whole, ends_may_have_passed ? std::fmin(told, std::numbers::pi) : told);
 }
 
 }  // namespace
@@ -75,24 +78,28 @@ Vector3 normal_of(const ArcMove& arc) {
   return (arc.clockwise ? -1 : 1) * Vector3::Unit(arc.normal);
 }
 
-std::optional<ArcWords> settle_arc(const Move& move, const Vector3& start, const Vector3& end,
-                                   const Vector3& centre_mm, Place place, const WriteOptions& options) {
+std::optional<ArcWords> settle_arc(const Move& move, const Vector3& start, const Vector3& end, const Via& via,
+                                   Place place, const WriteOptions& options) {
+  constexpr double angle_that_digits_may_add = 0.5;
   const ArcMove& arc = *move.arc;
   ArcWords words;
   words.curve = {start, end, Arc{start, normal_of(arc), 0}};
   if (arc.radius_word) {
     if (across(end - start, arc).isZero(0)) return std::nullopt;
-    settle_radius(move, centre_mm, place, options, words);
+    settle_radius(move, *via.centre_mm, place, options, words);
   } else {
     for (std::size_t axis = 0; axis < 3; ++axis)
       if (in_plane(arc, axis))
-        settle_centre_word(move, axis, start, component(centre_mm, axis), place, options, words);
+        settle_centre_word(move, axis, start, component(*via.centre_mm, axis), place, options, words);
   }
   words.curve.arc->sweep = sweep_of(arc, start, end, words.curve.arc->centre);
-  const bool whole_turns = place == Place::end && arc.turns > 0;
-  if (!whole_turns && is_turned_around(move, words, place, decimals_of(move, options).inserted))
-    return std::nullopt;
-  if (whole_turns) words.curve.arc->sweep += 2 * std::numbers::pi * arc.turns;
+  if (place == Place::end && arc.turns > 0) {
+    words.curve.arc->sweep += 2 * std::numbers::pi * arc.turns;
+    return words;
+  }
+  // Digits must not make a piece that hardly moves go around.
+  const double most = most_sweep(move, words.curve, via, place, decimals_of(move, options).inserted);
+  if (words.curve.arc->sweep > most + angle_that_digits_may_add) return std::nullopt;
   return words;
 }
 

@@ -1,6 +1,7 @@
 #include "program/held_position.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "counterflex/files/numbers.hpp"
 #include "program/dialect.hpp"
@@ -81,7 +82,9 @@ double shown_number(const Move& move, const AxisWord& word, double length_mm) {
   constexpr int digits_that_difference_keeps = 9;
   const int decimals = std::max(word.decimals, resolution_decimals(move.unit));
   const double value = length_mm / mm_per(move.unit);
-  return decimals > digits_that_difference_keeps ? value : rounded(value, decimals);
+  if (decimals > digits_that_difference_keeps) return value;
+  // A whole number over a power of ten is the very number that its text is read as.
+  return std::round(value * power_of_ten(decimals)) / power_of_ten(decimals);
 }
 
 Coordinate settle_axis(const Move& move, std::size_t axis, std::optional<double> held_mm, double wanted_mm,

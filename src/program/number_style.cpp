@@ -1,6 +1,7 @@
 #include "program/number_style.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "counterflex/files/numbers.hpp"
@@ -48,7 +49,13 @@ std::string changed_number(std::string_view original, double value, int decimals
 }
 
 bool rounds_to(double original, double wanted, int decimals) {
-  return std::abs(wanted - original) <= 0.5 * std::pow(10.0, -decimals);
+  return std::abs(wanted - original) <= 0.5 / power_of_ten(decimals);
+}
+
+double power_of_ten(int digits) {
+  constexpr std::array<double, 10> powers{1, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9};
+  const auto i = static_cast<std::size_t>(digits);
+  return digits >= 0 && i < powers.size() ? powers[i] : std::pow(10.0, digits);
 }
 
 }  // namespace counterflex

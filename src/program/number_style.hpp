@@ -16,4 +16,7 @@ std::string inserted_number(double value, int decimals);
 /// anew would be no more exact.
 bool rounds_to(double original, double wanted, int decimals);
 
+/// 10 to the power of `digits`, from 0 to 9 at least.
+double power_of_ten(int digits);
+
 }  // namespace counterflex

@@ -126,6 +126,19 @@ std::string text_of(const Original& o, const std::vector<PlannedStep>& steps, co
   return text;
 }
 
+/// Whether the block needs no other words for `edit`, which is most often so where little is to correct; then
+/// moves `state` on.
+bool stays(const MoveEdit& edit, const Move& move, const HeldPosition& before, const CycleWords& cycle,
+           const WriteOptions& options, TextState& state) {
+  if (edit.jump_mm || !edit.inserted.empty() || state.restate_motion) return false;
+  const int motion = motion_of(move);
+  const Step step = settle_step(move, before, {edit.end_mm, edit.centre_mm}, motion, Place::end, options);
+  if (step.motion != motion || says_anew(step) || cycle.bottom.write || cycle.retract.write) return false;
+  state.held = step.after;
+  doubt_skippable(move, before, state.held);
+  return true;
+}
+
 /// A block that calls a subprogram or macro: its words are arguments.
 bool is_call(const Block& block) {
   return !empty(block.flow_keyword) ||
@@ -142,14 +155,18 @@ void rewrite_block(const Program& program, const ProgramStyle& style, const Move
   const Move& move = program.moves[edit.move];
   assert(edit.inserted.empty() || move.may_split);
   assert(!edit.jump_mm || move.may_jump);
-  const Original o = lex_again(program, move, style);
   const HeldPosition before = held_at_start(move, state.held);
-  ModalMotion modal = modal_motion(o, state.restate_motion);
-  std::vector<PlannedStep> steps = settle_steps(o, plan(o, edit, modal.own), before, options);
-  share_time(move, steps);
   CycleWords cycle;
   if (move.cycle)
     cycle = settle_cycle(move, before[2], edit.bottom_mm, edit.retract_mm, state.cycle, options);
+  if (stays(edit, move, before, cycle, options, state)) {
+    out.text += part(program.text, move.block);
+    return;
+  }
+  const Original o = lex_again(program, move, style);
+  ModalMotion modal = modal_motion(o, state.restate_motion);
+  std::vector<PlannedStep> steps = settle_steps(o, plan(o, edit, modal.own), before, options);
+  share_time(move, steps);
   const std::string text = text_of(o, steps, cycle, modal, out);
   if (text != o.text(o.block.span)) check_integer_words(o);
   state.held = steps.back().step.after;

@@ -34,7 +34,7 @@ Step settle_step(const Move& move, const HeldPosition& before, const Via& via, i
   if (via.centre_mm) {
     // About an unknown start nothing is said anew: the arc stays as it stands.
     if (!plane_is_known(*move.arc, before) || !plane_is_known(*move.arc, step.after)) return step;
-    step.arc = settle_arc(move, point_of(before), point_of(step.after), *via.centre_mm, place, options);
+    step.arc = settle_arc(move, point_of(before), point_of(step.after), via, place, options);
     if (step.arc) return step;
     // What is left of the arc is less than the digits tell: the next piece makes up for it.
     if (place == Place::inside) step.after = before;
@@ -45,6 +45,12 @@ Step settle_step(const Move& move, const HeldPosition& before, const Via& via, i
 
 bool is_there(const Step& step) {
   return !step.arc && step.after == step.before;
+}
+
+bool says_anew(const Step& step) {
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    if (step.axes[axis].number.write || (step.arc && step.arc->centre[axis].write)) return true;
+  return step.arc && step.arc->radius.write;
 }
 
 Curve curve_of_step(const Step& step) {

@@ -23,6 +23,9 @@ Step settle_step(const Move& move, const HeldPosition& before, const Via& via, i
 /// Whether the text holds the point already: no block needs to be inserted for it.
 bool is_there(const Step& step);
 
+/// Whether a word of the block must be changed or inserted for `step`.
+bool says_anew(const Step& step);
+
 /// The way of `step`; an axis that is unknown counts as zero.
 Curve curve_of_step(const Step& step);
 

@@ -21,7 +21,8 @@ std::vector<MoveEdit> edits_of(const Program& program) {
   for (std::size_t i = 0; i < program.moves.size(); ++i) {
     const Move& move = program.moves[i];
     edits.push_back({.move = i, .end_mm = move.end_mm + shift});
-    if (i % 10 == 0 && move.may_split)
+    if (move.arc) edits.back().centre_mm = move.arc->centre_mm + shift;
+    if (i % 10 == 0 && move.may_split && !move.arc)
       edits.back().inserted.push_back({(move.start_mm + move.end_mm) / 2 + shift});
   }
   return edits;
@@ -34,8 +35,20 @@ void write(benchmark::State& state) {
   state.SetBytesProcessed(static_cast<std::int64_t>(state.iterations() * program.text.size()));
 }
 
+/// What a run does with text besides solving: every word goes through the reader and the writer.
+void read_and_write(benchmark::State& state) {
+  const std::string text = mould_program(static_cast<std::size_t>(state.range(0)) << 20);
+  const std::vector<MoveEdit> edits = edits_of(read_program(text, "mould.ngc", {}));
+  for (auto _ : state) {
+    const Program program = read_program(text, "mould.ngc", {});
+    benchmark::DoNotOptimize(rewrite(program, edits, {}).text.size());
+  }
+  state.SetBytesProcessed(static_cast<std::int64_t>(state.iterations() * text.size()));
+}
+
 BENCHMARK(read)->Name("text/read")->Arg(1000)->Arg(100000)->Unit(benchmark::kMicrosecond);
 BENCHMARK(write)->Name("text/rewrite")->Arg(1000)->Arg(100000)->Unit(benchmark::kMicrosecond);
+BENCHMARK(read_and_write)->Name("text/read_and_rewrite_MiB")->Arg(50)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace counterflex::bench

@@ -30,9 +30,11 @@ bool acts_from_its_beginning(const Program& program, const Move& move) {
   return block.find('M') != std::string_view::npos || block.find("G90") != std::string_view::npos;
 }
 
-/// Edits that move every end by its correction, in `pieces` pieces where a block may be split; arcs about a
-/// centre that goes with them, but one of `chorded` without (0: none).
-std::vector<MoveEdit> arc_edits(const Program& program, int pieces, std::size_t chorded = 0) {
+/// Edits that move every end by its correction, in `pieces` pieces where a block may be split and does not
+/// act from its beginning (or `also_acting`); arcs about a centre that goes with them, but one of `chorded`
+/// without (0: none).
+std::vector<MoveEdit> arc_edits(const Program& program, int pieces, std::size_t chorded = 0,
+                                bool also_acting = false) {
   std::vector<MoveEdit> edits;
   for (std::size_t m = 0; m < program.moves.size(); ++m) {
     const Move& move = program.moves[m];
@@ -44,7 +46,8 @@ std::vector<MoveEdit> arc_edits(const Program& program, int pieces, std::size_t 
       if (!move.arc || chords) return std::nullopt;
       return move.arc->centre_mm + arc_correction(point_at(way, u));
     };
-    const int parts = known && move.may_split && !acts_from_its_beginning(program, move) ? pieces : 1;
+    const bool whole = !also_acting && acts_from_its_beginning(program, move);
+    const int parts = known && move.may_split && !whole ? pieces : 1;
     for (int i = 1; i < parts; ++i) {
       const Vector3 p = point_at(way, static_cast<double>(i) / parts);
       edit.inserted.push_back({p + arc_correction(p), centre(static_cast<double>(i) / parts)});
@@ -220,4 +223,54 @@ TEST_CASE("all but the numbers of places, and what is inserted, stays byte for b
     CAPTURE(program.text);
     check_masked(program, arc_edits(program, 1 + i % 3));
   }
+}
+
+TEST_CASE("a block that is itself the first piece of its split ends where it was told, too") {
+  SyntheticArcs source(27);
+  for (int i = 0; i < arc_programs; ++i) {
+    const Program program = read_small(source.text(arc_blocks));
+    CAPTURE(program.text);
+    const std::vector<MoveEdit> edits = arc_edits(program, 3, 5, true);
+    const Rewritten out = rewrite(program, edits, {});
+    const Program again = read(out.text);
+    REQUIRE(again.moves.size() == program.moves.size() + out.inserted_blocks);
+    std::size_t next = 0;
+    for (std::size_t m = 0; m < program.moves.size(); ++m) {
+      next += out.blocks_of_edit[m] + 1;
+      const Move& last = again.moves[next - 1];
+      const Move& move = program.moves[m];
+      CAPTURE(move.line);
+      const double half = move.unit == LengthUnit::millimetres ? 0.5e-3 : 0.5e-4 * 25.4;
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        if (move.known_start[axis])
+          CHECK(std::abs((last.end_mm - edits[m].end_mm)[static_cast<Eigen::Index>(axis)]) <= half + 1e-9);
+    }
+  }
+}
+
+TEST_CASE("no piece of an arc of a few digits becomes a turn that was not there") {
+  SyntheticArcs source(28, 0.002, 0.03);
+  std::size_t arcs = 0, lines = 0;
+  for (int i = 0; i < arc_programs; ++i) {
+    const Program program = read_small(source.text(arc_blocks));
+    CAPTURE(program.text);
+    const std::vector<MoveEdit> edits = arc_edits(program, 1 + i % 4);
+    const Rewritten out = rewrite(program, edits, {});
+    const Program again = read_small(out.text);
+    std::size_t next = 0;
+    for (std::size_t m = 0; m < program.moves.size(); ++m) {
+      const Curve way = way_of(program.moves[m]);
+      double turned = 0;
+      for (std::size_t k = 0; k <= out.blocks_of_edit[m]; ++k, ++next) {
+        const Curve piece = way_of(again.moves[next]);
+        if (piece.arc) turned += piece.arc->sweep;
+        if (way.arc) ++(piece.arc ? arcs : lines);
+      }
+      CAPTURE(program.moves[m].line);
+      if (way.arc) CHECK(turned < way.arc->sweep + std::numbers::pi);
+    }
+    CHECK(next == again.moves.size());
+  }
+  CHECK(arcs > 10000);
+  CHECK(lines > 100);
 }
