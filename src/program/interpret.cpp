@@ -160,7 +160,6 @@ void apply_codes(const Block& block, Reading& r) {
   apply_cutter(r);
   apply_work_offset(block, r);
   apply_tool_length(block, r);
-  if (r.dialect.sinumerik_words) apply_tool_edge(r);
   apply_displacements(block, r);
   apply_set_data(block, r);
   if (r.sorted.has(MAction::restore)) r.state.doubts = all_doubts;
@@ -168,8 +167,8 @@ void apply_codes(const Block& block, Reading& r) {
 }
 
 Context context_of(const Reading& r) {
-  const bool macro_acts = (r.state.displaced & modal_macro) != 0;
-  if (r.in_body() || r.state.doubts != 0 || r.state.entering_data || macro_acts) return Context::unknown;
+  const bool open = r.in_body() || r.state.doubts != 0 || r.state.entering_data;
+  if (open || (r.state.displaced & modal_macro) != 0) return Context::unknown;
   switch (r.state.motion) {
     case MotionMode::clockwise:
     case MotionMode::counter_clockwise:
@@ -192,6 +191,7 @@ void apply_words(const Block& block, Reading& r) {
     apply_feed_and_tool(r);
     watch_other_axes(block, r);
   }
+  if (r.dialect.sinumerik_words) apply_tool_edge(r);
   const std::size_t moves = r.program.moves.size();
   r.sorted.unknown_code ? apply_unknown_code(block, r) : apply_axis_words(block, r);
   if (r.program.moves.size() > moves) join_contour(r);

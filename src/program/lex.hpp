@@ -18,7 +18,8 @@ enum class Sense : std::uint8_t { modal, absolute, relative };
 /// What a line of a Sinumerik says besides its words.
 enum class Statement : std::uint8_t {
   none,
-  call,           ///< a subprogram or a cycle, or words of a move that is not read
+  call,           ///< a subprogram, or words of a move that is not read
+  cycle,          ///< a cycle of the control: it leaves the modal states as they are
   modal_call,     ///< MCALL: every move calls it; bare: no more
   frame,          ///< TRANS, ROT ...: shifts or turns coordinates; bare: no more
   added_frame,    ///< ATRANS, AROT ...

@@ -124,6 +124,7 @@ void apply_tool_length(const Block& block, Reading& r) {
   const bool counts_on = r.dialect.macro_words && state.relative && r.sorted.word('Z') != nullptr;
   if (length_mm && state.tool_length_mm) {
     state.position_mm.z() += *state.tool_length_mm - *length_mm;
+    state.length_step_mm += *state.tool_length_mm - *length_mm;
   } else if ((!number || number != state.tool_length) && !counts_on) {
     state.known[2] = false;
   }

@@ -257,6 +257,8 @@ void lex_name(Scanner& s, std::string_view name) {
   if (std::any_of(harmless_names.begin(), harmless_names.end(),
                   [&](auto known) { return is_word(name, known); }))
     return skip_harmless(s, name);
+  for (const std::string_view family : {"CYCLE", "POCKET", "HOLES", "SLOT", "LONGHOLE"})
+    if (is_word(name.substr(0, family.size()), family)) return state(s, Statement::cycle);
   if (name.starts_with('$')) return state(s, Statement::data);
   if (equals_follows(s, name.size()) || s.text.substr(s.at + name.size(), 1) == "[") {
     const bool position = std::any_of(position_names.begin(), position_names.end(),

@@ -30,6 +30,16 @@ void call_subprogram(const Block& block, Reading& r) {
   read_call(block, r);
 }
 
+/// Cycles move as their arguments say, and restore what is modal.
+void run_cycle(const Block& block, Reading& r) {
+  r.sorted = {};
+  Move& move = start_move(block, r, Motion::feed);
+  for (std::size_t axis = 0; axis < 3; ++axis) fix_axis(r, move, axis);
+  leave_alone(block, r, "a cycle of the control is called");
+  finish_move(r, move);
+  r.run_begin = r.program.moves.size();
+}
+
 }  // namespace
 
 void begin_statement(const Block& block, Reading& r) {
@@ -46,6 +56,8 @@ void end_statement(const Block& block, Reading& r) {
     case Statement::call:
     case Statement::arc_not_read:
       return call_subprogram(block, r);
+    case Statement::cycle:
+      return run_cycle(block, r);
     case Statement::modal_call:
       return displace_by_statement(block, r, modal_macro, !block.statement_is_bare);
     case Statement::frame:
@@ -53,7 +65,7 @@ void end_statement(const Block& block, Reading& r) {
     case Statement::added_frame:
       return displace_by_statement(block, r, framed, true);
     case Statement::tilt:
-      call_subprogram(block, r);
+      run_cycle(block, r);
       return displace_by_statement(block, r, tilted, !block.statement_is_bare);
     case Statement::transformed:
       return displace_by_statement(block, r, tool_point, true);

@@ -30,7 +30,7 @@ std::string siemens_shifted(const std::string& text) {
   return rewrite(program, edits, {}).text;
 }
 
-constexpr std::string_view start = "G90 G17 G71\nT=\"MILL_10\" M6\nG0 X0 Y0 Z50. D1 S2500 M3\n";
+constexpr std::string_view siemens_start = "G90 G17 G71\nT=\"MILL_10\" M6\nG0 X0 Y0 Z50. D1 S2500 M3\n";
 
 }  // namespace
 
@@ -62,7 +62,7 @@ TEST_CASE("siemens: lines come back byte for byte, whatever they hold") {
 }
 
 TEST_CASE("siemens: values behind '=' are read and changed in place") {
-  const std::string text = std::string(start) + "G1 X=12.5 Y=AC(7) F500\nZ=-2.25\n";
+  const std::string text = std::string(siemens_start) + "G1 X=12.5 Y=AC(7) F500\nZ=-2.25\n";
   const Program program = siemens(text);
   REQUIRE(program.moves.size() == 3);
   CHECK(program.moves[1].end_mm == Vector3(12.5, 7, 50));
@@ -73,7 +73,7 @@ TEST_CASE("siemens: values behind '=' are read and changed in place") {
 
 TEST_CASE("siemens: a block of incremental words is relative, a mixed one leaves them alone") {
   const Program program =
-      siemens(std::string(start) + "G1 X=IC(5) Y=IC(-1) F500\nX10 Y=IC(2)\nG91\nX=AC(3) Y=AC(4)\n");
+      siemens(std::string(siemens_start) + "G1 X=IC(5) Y=IC(-1) F500\nX10 Y=IC(2)\nG91\nX=AC(3) Y=AC(4)\n");
   REQUIRE(program.moves.size() == 4);
   CHECK(program.moves[1].relative);
   CHECK(program.moves[1].end_mm.x() == 5);
@@ -86,14 +86,14 @@ TEST_CASE("siemens: a block of incremental words is relative, a mixed one leaves
 }
 
 TEST_CASE("siemens: expressions of R parameters fix their axis") {
-  const Program program = siemens(std::string(start) + "R1=5 R2=R1*2\nG1 X=R1+5 Y7 F500\n");
+  const Program program = siemens(std::string(siemens_start) + "R1=5 R2=R1*2\nG1 X=R1+5 Y7 F500\n");
   REQUIRE(program.moves.size() == 2);
   CHECK(program.moves[1].fixed == std::array{true, false, false});
   CHECK(program.moves[1].words[1]);
 }
 
 TEST_CASE("siemens: CR= arcs move with their ends and keep their form in pieces") {
-  const std::string text = std::string(start) + "G3 X10. Y10. CR=10. F200\n";
+  const std::string text = std::string(siemens_start) + "G3 X10. Y10. CR=10. F200\n";
   const Program program = siemens(text);
   REQUIRE(program.moves.size() == 2);
   REQUIRE(program.moves[1].arc);
@@ -109,7 +109,7 @@ TEST_CASE("siemens: CR= arcs move with their ends and keep their form in pieces"
 }
 
 TEST_CASE("siemens: TURN counts turns besides the way to the end") {
-  const Program program = siemens(std::string(start) + "G3 X0 Y0 Z-2 I10 J0 TURN=2 F200\n");
+  const Program program = siemens(std::string(siemens_start) + "G3 X0 Y0 Z-2 I10 J0 TURN=2 F200\n");
   REQUIRE(program.moves.back().arc);
   CHECK(program.moves.back().arc->turns == 2);
 }
@@ -117,7 +117,7 @@ TEST_CASE("siemens: TURN counts turns besides the way to the end") {
 TEST_CASE("siemens: machine positions make their axes unknown") {
   for (const std::string line : {"G0 SUPA Z500. D0", "G0 G53 Z500", "G153 G0 Z500", "G74 Z1=0", "G75 Z0"}) {
     CAPTURE(line);
-    const Program program = siemens(std::string(start) + line + "\nG0 X5\n");
+    const Program program = siemens(std::string(siemens_start) + line + "\nG0 X5\n");
     REQUIRE(program.moves.size() == 2);
     CHECK_FALSE(program.moves[1].known_start[2]);
   }
@@ -125,7 +125,7 @@ TEST_CASE("siemens: machine positions make their axes unknown") {
 
 TEST_CASE("siemens: frames, cycles and subprograms are not corrected, with their reasons") {
   const auto fixed_after = [](const std::string& lines) {
-    const Program program = siemens(std::string(start) + lines);
+    const Program program = siemens(std::string(siemens_start) + lines);
     return program.moves.back().fixed[0];
   };
   CHECK(fixed_after("TRANS X10\nG1 X5 Y5 F100\n"));
@@ -141,18 +141,18 @@ TEST_CASE("siemens: frames, cycles and subprograms are not corrected, with their
   CHECK(fixed_after("AGAIN: G1 X5 F100\nIF R1<5 GOTOB AGAIN\n"));
   CHECK(fixed_after("CIP X5 Y5 I1=3 J1=3\n"));
   CHECK(fixed_after("G1 X5 B30 F100\n"));
-  CHECK(siemens(std::string(start) + "L100\n").left_alone.at(0).why == "a subprogram is called");
+  CHECK(siemens(std::string(siemens_start) + "L100\n").left_alone.at(0).why == "a subprogram is called");
 }
 
 TEST_CASE("siemens: G60 is an exact stop and G64 ends it") {
-  const Program program = siemens(std::string(start) + "G60 G1 X5 F100\nX6\nG64 X7\n");
+  const Program program = siemens(std::string(siemens_start) + "G60 G1 X5 F100\nX6\nG64 X7\n");
   REQUIRE(program.moves.size() == 4);
   CHECK(program.moves[2].exact_stop);
   CHECK_FALSE(program.moves[3].exact_stop);
 }
 
 TEST_CASE("siemens: another edge of the tool makes the height unknown, the first acts after a change") {
-  const Program program = siemens(std::string(start) + "G1 X5 D01 F100\nX6 D2\nX7\n");
+  const Program program = siemens(std::string(siemens_start) + "G1 X5 D01 F100\nX6 D2\nX7\n");
   REQUIRE(program.moves.size() == 4);
   CHECK(program.moves[1].known_end[2]);
   CHECK_FALSE(program.moves[3].known_start[2]);
