@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cassert>
 
+#include "program/rewrite_numbers.hpp"
 #include "program/rewrite_words.hpp"
 
 namespace counterflex {

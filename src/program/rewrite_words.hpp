@@ -15,11 +15,6 @@ struct BesidesPoint {
   CycleWords cycle{};
 };
 
-/// Appends the block of `move`, moving by `step`, where no more than numbers of words that it has change;
-/// false, and nothing appended, where more does or the line would grow beyond `line_limit` (0: none).
-bool append_with_numbers(const Program& program, const Move& move, const Step& step, const CycleWords& cycle,
-                         std::size_t line_limit, Rewritten& out);
-
 /// The block of `o` itself, moving by `step`, without its line end. Throws `InputError` where it would be
 /// longer than the control reads.
 std::string own_block(const Original& o, const Step& step, const BesidesPoint& besides, Rewritten& out);
