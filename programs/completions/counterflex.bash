@@ -1,12 +1,12 @@
 # bash completion of counterflex
 
 _counterflex_words() {
-  local forces='--forces --force --load-scale --blend-mm'
-  local reading='--machine --dialect --units --integer-words --work'
+  local forces='--forces --force --load-scale --blend-mm --air-above'
+  local reading='--machine --dialect --units --integer-words --work --tool-table'
   local program="$reading --tolerance-mm --method --max-correction-mm --decimals --threads"
   case $1 in
-    compensate) echo "$program $forces --output --report --json --quiet --verbose --help" ;;
-    predict | verify) echo "$program $forces --report --json --quiet --verbose --help" ;;
+    compensate) echo "$program $forces --output --report --min-block-ms --json --quiet --verbose --help" ;;
+    predict | verify) echo "$program $forces --report --min-block-ms --json --quiet --verbose --help" ;;
     analyze) echo "--machine --at --force --method --json --quiet --verbose --help" ;;
     check) echo "$reading --json --quiet --verbose --help" ;;
     *) echo "compensate predict verify analyze check --version --help" ;;
@@ -21,7 +21,7 @@ _counterflex() {
     --dialect) values='auto linuxcnc grbl fanuc haas' ;;
     --integer-words) values='units increments' ;;
     --units) values='mm inch' ;;
-    -m | --machine | -f | --forces | -o | --output | --report) return ;;  # files: readline completes them
+    -m | --machine | --tool-table | -f | --forces | -o | --output | --report) return ;;  # files: readline completes them
     *) if [[ $COMP_CWORD -eq 1 || $current == -* ]]; then
          values=$(_counterflex_words "$([ "$COMP_CWORD" -gt 1 ] && echo "${COMP_WORDS[1]}")")
        fi ;;

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "check.hpp"
+#include "check_plan.hpp"
 #include "counterflex/geometry/units.hpp"
 #include "work.hpp"
 
@@ -30,11 +31,13 @@ void add_once(std::vector<T>& list, const T& value) {
 
 void add_move(const Program& program, const Move& move, MoveFacts& facts) {
   ++(move.motion == Motion::feed ? facts.feeds : facts.rapids);
+  const bool whole_way = move.arc && all_known(move.known_start) && all_known(move.known_end);
+  const Extent extent = whole_way ? extent_of(move) : Extent{move.end_mm, move.end_mm};
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const auto i = static_cast<Eigen::Index>(axis);
     if (!move.known_end[axis]) continue;
-    facts.least[i] = std::min(facts.least[i], move.end_mm[i]);
-    facts.most[i] = std::max(facts.most[i], move.end_mm[i]);
+    facts.least[i] = std::min(facts.least[i], extent.least[i]);
+    facts.most[i] = std::max(facts.most[i], extent.most[i]);
   }
   add_once(facts.offsets, program.work_offsets[move.offset]);
   add_once(facts.units, move.unit);
@@ -106,9 +109,7 @@ std::string text_of(const Program& program, const MoveFacts& facts) {
     text += row("forces", fmt::format("FORCE comments act on {} moves", facts.with_force));
   if (is_corrected(program))
     text += row("header", "COUNTERFLEX 1: a corrected program, not compensated again");
-  if (!program.left_alone.empty()) text += "\nnot corrected\n";
-  for (const LeftAlone& block : program.left_alone)
-    text += fmt::format("  line {:<6} {}\n", block.line, block.why);
+  text += plan_text(motion_plan(program));
   if (!program.remarks.empty()) text += "\nremarks\n";
   for (const Remark& remark : program.remarks)
     text += fmt::format("  line {:<6} {}\n", remark.line, remark.what);
@@ -136,6 +137,7 @@ nlohmann::ordered_json json_of(const Program& program, const MoveFacts& facts) {
   auto& extents = json["extents_mm"] = nlohmann::ordered_json::object();
   for (int i = 0; i < 3; ++i)
     extents[std::string(1, "xyz"[i])] = {extent_json(facts.least[i]), extent_json(facts.most[i])};
+  json["plan"] = plan_json(motion_plan(program));
   json["left_alone"] = json["remarks"] = nlohmann::ordered_json::array();
   for (const LeftAlone& block : program.left_alone)
     json["left_alone"].push_back({{"line", block.line}, {"why", block.why}});
@@ -144,18 +146,25 @@ nlohmann::ordered_json json_of(const Program& program, const MoveFacts& facts) {
   return json;
 }
 
-/// The first end of a segment that the nominal machine does not reach.
+/// What stops the nominal machine from going to `X_MT` in a move of `line`.
+std::optional<Failure> go_to(NominalPath& nominal, const Model& model, const Pose& X_MT, int line) {
+  const Status status = nominal.go_to(X_MT);
+  if (status != Status::converged)
+    return Failure{Exit::not_compensated, line,
+                   fmt::format("the machine does not reach the end of this move: {}", to_string(status))};
+  if (!within_travel(model.mechanism, actuator_values(model.mechanism, nominal.configuration())))
+    return Failure{Exit::limit, line, "an actuator leaves its travel on the way to the end of this move"};
+  return std::nullopt;
+}
+
+/// The first place, end of a line or on an arc, that the nominal machine does not reach.
 std::optional<Failure> first_unreached(const Model& model, const Toolpath& path) {
   const Matrix3 R_home = tip(model.mechanism, model.home).R;
   NominalPath nominal(model, model.home);
   for (const Segment& segment : path.segments) {
-    const Status status = nominal.go_to({R_home, segment.wanted.end});
-    if (status != Status::converged)
-      return Failure{Exit::not_compensated, segment.line,
-                     fmt::format("the machine does not reach the end of this move: {}", to_string(status))};
-    if (!within_travel(model.mechanism, actuator_values(model.mechanism, nominal.configuration())))
-      return Failure{Exit::limit, segment.line,
-                     "an actuator leaves its travel on the way to the end of this move"};
+    const std::vector<Vector3> points = points_along(segment.wanted);
+    for (std::size_t i = 1; i < points.size(); ++i)
+      if (const auto failure = go_to(nominal, model, {R_home, points[i]}, segment.line)) return failure;
   }
   return std::nullopt;
 }
@@ -180,8 +189,9 @@ void check_reach(const Program& program, const MachineInput& input, Checked& che
 
 Checked check_program(const std::string& path, const Options& options, const MachineInput* machine,
                       Console& console) {
-  const ProgramInput input =
-      read_program_input("program", path, options, machine ? &machine->machine : nullptr);
+  const Machine* of = machine != nullptr ? &machine->machine : nullptr;
+  const ProgramInput input = read_program_input("program", path, options, of,
+                                                read_options(options, of, read_tool_lengths(options, of)));
   const MoveFacts facts = facts_of(input.program);
   Checked checked{text_of(input.program, facts), json_of(input.program, facts), Exit::done};
   if (machine != nullptr) check_reach(input.program, *machine, checked, console);

@@ -46,6 +46,8 @@ void add_forces(CLI::App& app, Options& options) {
   value_option(app, "--blend-mm", "LENGTH",
                "A step of the force acts as a ramp over this length [2]; 0: as a jump",
                [&](const std::string& text) { options.blend = number_of("--blend-mm", text, {0}) * mm; });
+  value_option(app, "--air-above", "Z", "Feed moves wholly above this Z of the program carry no force, mm",
+               [&](const std::string& text) { options.air_above_mm = number_of("--air-above", text); });
 }
 
 void add_reading(CLI::App& app, Options& options) {
@@ -66,6 +68,8 @@ void add_reading(CLI::App& app, Options& options) {
                  "A work offset in the machine frame, mm and degrees; may be repeated")
       ->type_name("G54=X,Y,Z[,RX,RY,RZ]")
       ->allow_extra_args(false);
+  value_option(app, "--tool-table", "FILE", "Tool lengths as LinuxCNC keeps them, mm",
+               [&](const std::string& text) { options.tool_table = text; });
 }
 
 void add_method(CLI::App& app, Options& options) {
@@ -102,6 +106,9 @@ void add_output(CLI::App& app, Options& options) {
 }
 
 void add_report(CLI::App& app, Options& options) {
+  value_option(
+      app, "--min-block-ms", "TIME", "Feed moves that take less are warned of [2]",
+      [&](const std::string& text) { options.min_block_ms = number_of("--min-block-ms", text, {0}); });
   value_option(app, "--report", "STEM", "Write STEM.json and STEM.csv",
                [&](const std::string& text) { options.report = text; });
 }

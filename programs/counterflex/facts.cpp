@@ -50,12 +50,15 @@ RunFacts facts_of(const Options& options, const Run& run) {
   facts.attribution = true;
   facts.inputs = {run.program.file, run.machine.file};
   if (run.force_input.file) facts.inputs.push_back(*run.force_input.file);
+  if (run.tools.file) facts.inputs.push_back(*run.tools.file);
+  facts.min_block_ms = options.min_block_ms;
   facts.options = {{"method", std::string(to_string(options.method))},
                    {"tolerance-mm", in_mm(run.options.tolerance)},
                    {"max-correction-mm", in_mm(run.options.max_correction)},
                    {"load-scale", options.load_scale},
                    {"blend-mm", in_mm(options.blend)}};
   if (options.force) facts.options.push_back({"force", text_of(*options.force)});
+  if (options.air_above_mm) facts.options.push_back({"air-above", *options.air_above_mm});
   if (options.decimals >= 0) facts.options.push_back({"decimals", static_cast<double>(options.decimals)});
   for (OptionValue& value : reading_options(options, run)) facts.options.push_back(std::move(value));
   return facts;
@@ -67,6 +70,7 @@ std::vector<std::string> header_of(const Run& run) {
                                  "COUNTERFLEX 1 PROGRAM " + short_hash(run.program.file),
                                  "COUNTERFLEX 1 MACHINE " + short_hash(run.machine.file)};
   if (run.force_input.file) lines.push_back("COUNTERFLEX 1 FORCES " + short_hash(*run.force_input.file));
+  if (run.tools.file) lines.push_back("COUNTERFLEX 1 TOOLS " + short_hash(*run.tools.file));
   if (run.force_input.source.constant)
     lines.push_back("COUNTERFLEX 1 FORCE " + upper(text_of(*run.force_input.source.constant)));
   return lines;

@@ -8,6 +8,7 @@
 #include "counterflex/files/files.hpp"
 #include "counterflex/geometry/units.hpp"
 #include "counterflex/machine/read_machine.hpp"
+#include "counterflex/machine/tool_table.hpp"
 #include "values.hpp"
 
 namespace counterflex::cli {
@@ -74,12 +75,26 @@ MachineInput read_machine_input(const Options& options) {
   return input;
 }
 
-ReadOptions read_options(const Options& options, const Machine* machine) {
+ToolLengths read_tool_lengths(const Options& options, const Machine* machine) {
+  ToolLengths tools;
+  std::map<long, double> lengths;
+  if (options.tool_table) {
+    const std::string text = read_input(*options.tool_table, Exit::machine_or_force);
+    tools.file = input_file("tool-table", *options.tool_table, text);
+    lengths = read_tool_table(text, shown_name(*options.tool_table));
+  }
+  if (machine != nullptr) lengths.insert(machine->tool_lengths.begin(), machine->tool_lengths.end());
+  for (const auto& [tool, length] : lengths) tools.mm[tool] = length / mm;
+  return tools;
+}
+
+ReadOptions read_options(const Options& options, const Machine* machine, const ToolLengths& tools) {
   ReadOptions read;
   if (machine != nullptr) read.dialect = machine->control.dialect;
   if (options.dialect) read.dialect = *options.dialect;
   read.unit = unit_of(options, machine);
   read.integer_words = options.integer_words;
+  read.tool_lengths_mm = tools.mm;
   if (machine != nullptr && machine->control.tool_change_moves) {
     read.tool_change_moves.emplace();
     for (const std::string& axis : *machine->control.tool_change_moves)
@@ -89,11 +104,11 @@ ReadOptions read_options(const Options& options, const Machine* machine) {
 }
 
 ProgramInput read_program_input(const std::string& role, const std::string& path, const Options& options,
-                                const Machine* machine) {
+                                const Machine* machine, const ReadOptions& read) {
   std::string text = read_input(path, Exit::usage);
   const InputFile file = input_file(role, path, text);
   try {
-    return {file, read_program(std::move(text), shown_name(path), read_options(options, machine))};
+    return {file, read_program(std::move(text), shown_name(path), read)};
   } catch (const InputError& error) {
     const bool dialect_of_machine = error.exit() == Exit::usage && machine != nullptr && !options.dialect;
     if (!dialect_of_machine) throw;
@@ -129,6 +144,7 @@ ForceInput read_force_input(const Options& options, const Program& program) {
   ForceInput input;
   input.source.blend = options.blend;
   input.source.scale = options.load_scale;
+  input.source.air_above_mm = options.air_above_mm;
   input.source.constant = options.force;
   if (!options.forces) return input;
   const std::string extension = std::filesystem::path(*options.forces).extension().string();

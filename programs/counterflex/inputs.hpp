@@ -1,6 +1,7 @@
 #pragma once
 /// Reads what a run needs, and places it in the machine frame. All throw `InputError` with the exit status of
 /// what is wrong.
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -29,15 +30,22 @@ MachineInput read_machine_input(const Options& options);
 /// Throws (Exit::machine_or_force, at the place of home) where home misses its closures or is singular.
 void refuse_home(const Model& model, const Location& home_at);
 
+/// Lengths of tools by number: those of --tool-table, and of `machine` for tools that it does not name.
+struct ToolLengths {
+  std::optional<InputFile> file;
+  std::map<long, double> mm;
+};
+ToolLengths read_tool_lengths(const Options& options, const Machine* machine);
+
 /// How `options`, and `machine` where they are silent, say that programs are read.
-ReadOptions read_options(const Options& options, const Machine* machine);
+ReadOptions read_options(const Options& options, const Machine* machine, const ToolLengths& tools);
 
 struct ProgramInput {
   InputFile file;
   Program program;
 };
 ProgramInput read_program_input(const std::string& role, const std::string& path, const Options& options,
-                                const Machine* machine);
+                                const Machine* machine, const ReadOptions& read);
 
 /// Warns of what the reader remarked and left alone.
 void warn_of(const Program& program, Console& console);

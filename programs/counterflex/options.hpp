@@ -23,18 +23,21 @@ struct Options {
   std::optional<Vector6> force;       ///< N, N m
   double load_scale = 1;
   double blend = 2e-3;  ///< m
+  std::optional<double> air_above_mm;
 
   std::optional<std::string> dialect;
   std::optional<LengthUnit> units;
   IntegerWords integer_words = IntegerWords::unsaid;
-  std::vector<std::string> work;  ///< "G54=X,Y,Z[,RX,RY,RZ]"
-  std::vector<std::string> at;    ///< "X,Y,Z[,R,P,Y]"
+  std::vector<std::string> work;          ///< "G54=X,Y,Z[,RX,RY,RZ]"
+  std::optional<std::string> tool_table;  ///< a file
+  std::vector<std::string> at;            ///< "X,Y,Z[,R,P,Y]"
 
   Method method = Method::direct;
   double tolerance = 5e-6;               ///< m
   std::optional<double> max_correction;  ///< m; none: the machine file's
   int decimals = -1;                     ///< -1: each word's own
   int threads = 1;
+  double min_block_ms = 2;
 
   std::optional<std::string> output;
   std::optional<std::string> report;  ///< stem

@@ -27,6 +27,7 @@ std::vector<std::string> inputs_of(const Options& options) {
   std::vector<std::string> inputs{options.program, options.machine};
   if (!options.corrected.empty()) inputs.push_back(options.corrected);
   if (options.forces) inputs.push_back(*options.forces);
+  if (options.tool_table) inputs.push_back(*options.tool_table);
   return inputs;
 }
 

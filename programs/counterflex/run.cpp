@@ -14,27 +14,39 @@ namespace {
 
 /// Standard input can be read once.
 void refuse_stdin_twice(const Options& options) {
-  const std::string forces = options.forces.value_or("");
+  const std::string forces = options.forces.value_or(""), tools = options.tool_table.value_or("");
   int count = 0;
-  for (const std::string* path : {&options.program, &options.corrected, &options.machine, &forces})
+  for (const std::string* path : {&options.program, &options.corrected, &options.machine, &forces, &tools})
     count += *path == "-";
   if (count > 1) throw InputError(Exit::usage, {}, "standard input (-) can be only one of the inputs");
 }
 
-/// Orientations of the tool along the path: one for all where every move has home's, else one a segment.
+constexpr int orientations_of_segment = 9;
+
+/// The nominal tool's at equal fractions of every segment, or in its middle.
+std::vector<Matrix3> sampled_orientations(const Model& model, const Toolpath& path, int each) {
+  const Matrix3 R_home = tip(model.mechanism, model.home).R;
+  std::vector<Matrix3> R_MT;
+  NominalPath nominal(model, model.home);
+  for (const Segment& segment : path.segments)
+    for (int k = 0; k < each; ++k) {
+      const double u = each == 1 ? 0.5 : static_cast<double>(k) / (each - 1);
+      nominal.go_to({R_home, point_at(segment.wanted, u)});  // a failure is said where it is solved
+      R_MT.push_back(tip(model.mechanism, nominal.configuration()).R);
+    }
+  return R_MT;
+}
+
+/// Orientations of the tool along the path: one for all where every move has home's, else several a segment.
 std::vector<Matrix3> tool_orientations(const Model& model, const Toolpath& path, const ForceSource& source) {
   const Matrix3 R_home = tip(model.mechanism, model.home).R;
   const bool needed = source.profile && (source.profile->frame == ForceFrame::tool ||
                                          source.profile->frame == ForceFrame::feed);
   if (!needed || path.segments.empty()) return {R_home};
-  std::vector<Matrix3> R_MT;
-  NominalPath nominal(model, model.home);
-  for (const Segment& segment : path.segments) {
-    nominal.go_to(
-        {R_home, (segment.wanted.start + segment.wanted.end) / 2});  // a failure is said where it is solved
-    R_MT.push_back(tip(model.mechanism, nominal.configuration()).R);
-  }
-  return R_MT;
+  const std::vector<Matrix3> in_the_middle = sampled_orientations(model, path, 1);
+  const bool turns = std::any_of(in_the_middle.begin(), in_the_middle.end(),
+                                 [&](const Matrix3& R) { return (R - R_home).norm() > 1e-9; });
+  return turns ? sampled_orientations(model, path, orientations_of_segment) : std::vector{R_home};
 }
 
 /// A component of the position that the machine does not control has to keep its value.
@@ -46,7 +58,7 @@ void refuse_uncontrolled_moves(const Run& run) {
     if (std::find(controlled.begin(), controlled.end(), static_cast<Component>(c)) != controlled.end())
       continue;
     for (const Segment& segment : run.path.segments)
-      for (const Vector3& p : {segment.wanted.start, segment.wanted.end})
+      for (const Vector3& p : points_along(segment.wanted))
         if (std::abs(p[c] - first[c]) > 1e-9)
           throw InputError(
               Exit::program_text, {run.program.program.file, segment.line, 1},
@@ -69,7 +81,8 @@ std::array<bool, 3> uncontrolled_axes(const Machine& machine, const std::vector<
     bool moves_controlled = false;
     for (const WorkFrame& frame : frames)
       for (int c = 0; c < 3; ++c)
-        moves_controlled = moves_controlled || (controls(machine, c) && std::abs(frame.X_MW.R(c, axis)) > 1e-12);
+        moves_controlled =
+            moves_controlled || (controls(machine, c) && std::abs(frame.X_MW.R(c, axis)) > 1e-12);
     axes[static_cast<std::size_t>(axis)] = !moves_controlled;
   }
   return axes;
@@ -98,6 +111,19 @@ CompensationOptions compensation_options(const Options& options, const Machine& 
   return result;
 }
 
+/// The feed of a cycle is the control's own: no part of the path, so that no force acts there.
+void warn_of_cycles(Run& run) {
+  const Program& program = run.program.program;
+  const auto cycle = std::find_if(program.moves.begin(), program.moves.end(),
+                                  [](const Move& move) { return move.cycle.has_value(); });
+  const ForceSource& source = run.force_input.source;
+  const bool forces = source.constant || source.profile ||
+                      std::any_of(program.moves.begin(), program.moves.end(),
+                                  [](const Move& move) { return move.force && !move.force->isZero(0); });
+  if (cycle == program.moves.end() || !forces || source.scale == 0) return;
+  run.facts.warnings.push_back({cycle->line, "holes of cycles are corrected without the cutting force"});
+}
+
 void warn_of_run(Run& run, Console& console) {
   const Program& program = run.program.program;
   warn_of(program, console);
@@ -120,8 +146,9 @@ std::unique_ptr<Run> prepare_run(const Options& options, Console& console) {
   console.progress("reading");
   auto run = std::make_unique<Run>();
   run->machine = read_machine_input(options);
-  run->read = read_options(options, &run->machine.machine);
-  run->program = read_program_input("program", options.program, options, &run->machine.machine);
+  run->tools = read_tool_lengths(options, &run->machine.machine);
+  run->read = read_options(options, &run->machine.machine, run->tools);
+  run->program = read_program_input("program", options.program, options, &run->machine.machine, run->read);
   const Program& program = run->program.program;
   run->force_input = read_force_input(options, program);
   run->work = place_work(run->machine.machine, run->machine.model, shown_name(options.machine), program);
@@ -134,6 +161,7 @@ std::unique_ptr<Run> prepare_run(const Options& options, Console& console) {
   run->options = compensation_options(options, run->machine.machine);
   run->facts = facts_of(options, *run);
   warn_of_orientation(*run);
+  warn_of_cycles(*run);
   warn_of_run(*run, console);
   return run;
 }

@@ -14,10 +14,11 @@ namespace counterflex::cli {
 struct Run {
   MachineInput machine;
   ProgramInput program;
+  ToolLengths tools;
   ForceInput force_input;
   WorkPlace work;
   std::array<bool, 3> ignored{};  ///< program axes along which the machine controls nothing
-  Toolpath path;  ///< wanted
+  Toolpath path;                  ///< wanted
   std::optional<PathForces> forces;
   CompensationOptions options;
   ReadOptions read;  ///< with which the program was read

@@ -8,6 +8,7 @@
 #include "counterflex/files/input_error.hpp"
 #include "counterflex/files/numbers.hpp"
 #include "counterflex/geometry/units.hpp"
+#include "counterflex/machine/work_names.hpp"
 
 namespace counterflex::cli {
 namespace {
@@ -24,16 +25,12 @@ std::vector<std::string_view> split(std::string_view text) {
   }
 }
 
-/// G54 ... G59, G59.1 ... G59.3, in upper case.
 std::string offset_name(std::string_view text) {
-  std::string name(text);
-  if (!name.empty() && name[0] == 'g') name[0] = 'G';
-  constexpr std::string_view names[] = {"G54", "G55", "G56", "G57", "G58", "G59", "G59.1", "G59.2", "G59.3"};
-  if (std::find(std::begin(names), std::end(names), name) == std::end(names))
-    throw InputError(
-        Exit::usage, {},
-        fmt::format("--work: '{}' is not a work offset; G54 to G59 and G59.1 to G59.3 are", text));
-  return name;
+  const auto name = work_offset_name(text);
+  if (!name)
+    throw InputError(Exit::usage, {},
+                     fmt::format("--work: '{}' is not a work offset; {} are", text, work_offset_names));
+  return *name;
 }
 
 }  // namespace
@@ -44,6 +41,11 @@ double number_of(std::string_view name, std::string_view text, Range range) {
   throw InputError(Exit::usage, {},
                    fmt::format("{} is '{}', must be a finite number {} {}", name, text,
                                range.open ? "above" : "of at least", range.least));
+}
+
+double number_of(std::string_view name, std::string_view text) {
+  if (const auto value = read_number(text)) return *value;
+  throw InputError(Exit::usage, {}, fmt::format("{} is '{}', must be a finite number", name, text));
 }
 
 int integer_of(std::string_view name, std::string_view text, int least, int most) {

@@ -17,6 +17,9 @@ struct Range {
 };
 double number_of(std::string_view name, std::string_view text, Range range);
 
+/// Any finite number.
+double number_of(std::string_view name, std::string_view text);
+
 /// An integer in [least, most].
 int integer_of(std::string_view name, std::string_view text, int least, int most);
 
@@ -27,7 +30,7 @@ struct PoseText {
 };
 PoseText pose_of(std::string_view name, std::string_view text);
 
-/// "G54=X,Y,Z[,RX,RY,RZ]".
+/// "G54=X,Y,Z[,RX,RY,RZ]": the offset as programs name it, and its pose.
 std::pair<std::string, Pose> work_of(std::string_view text);
 
 }  // namespace counterflex::cli

@@ -7,7 +7,8 @@ Exit run_verify(const Options& options, Console& console) {
   const OutputPaths paths = output_paths(options);
   const auto run = prepare_run(options, console);
   refuse_what_cannot_be_compensated(*run);
-  ProgramInput corrected = read_program_input("corrected", options.corrected, options, &run->machine.machine);
+  ProgramInput corrected =
+      read_program_input("corrected", options.corrected, options, &run->machine.machine, run->read);
   ignore_axes(corrected.program, run->ignored);
   run->facts.inputs.push_back(corrected.file);
   const Job job = run->job();

@@ -1,6 +1,7 @@
 #include "work.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "counterflex/files/input_error.hpp"
 #include "counterflex/geometry/units.hpp"
@@ -36,6 +37,21 @@ Vector3 deviation_at(const Model& model, const Vector3& p_MT, const std::string&
   return tip(model.mechanism, actual.configuration).p - tip(model.mechanism, nominal.configuration).p;
 }
 
+/// Offsets in use that nobody has given a place: they cannot all be the machine frame.
+std::string no_table_warning(const Program& program, const std::vector<bool>& used) {
+  std::vector<std::string> in_use;
+  for (std::size_t i = 0; i < used.size(); ++i)
+    if (used[i])
+      in_use.push_back(program.work_offsets[i].empty() ? "none at first" : program.work_offsets[i]);
+  if (in_use.size() < 2) return "";
+  return fmt::format(
+      "the program uses the offsets {}, and no work offsets are given: all are taken as the machine frame "
+      "(--work, or "
+      "[work] "
+      "in the machine file, says where they are)",
+      fmt::join(in_use, ", "));
+}
+
 WorkFrame place_offset(const Machine& machine, const Model& model, const std::string& machine_file,
                        const std::string& selected) {
   const std::string name = selected.empty() ? power_on_offset : selected;
@@ -56,9 +72,12 @@ WorkFrame place_offset(const Machine& machine, const Model& model, const std::st
 WorkPlace place_work(const Machine& machine, const Model& model, const std::string& machine_file,
                      const Program& program) {
   WorkPlace place{std::vector<WorkFrame>(program.work_offsets.size()), {}};
-  if (machine.work.empty()) return place;
   std::vector<bool> used(program.work_offsets.size());
   for (const Move& move : program.moves) used[move.offset] = true;
+  if (machine.work.empty()) {
+    place.assumption = no_table_warning(program, used);
+    return place;
+  }
   for (std::size_t i = 0; i < used.size(); ++i)
     if (used[i]) place.frames[i] = place_offset(machine, model, machine_file, program.work_offsets[i]);
   if (used[0])

@@ -12,7 +12,8 @@ namespace counterflex::cli {
 struct WorkPlace {
   std::vector<WorkFrame>
       frames;  ///< by index into Program::work_offsets; nameless where the machine has no table of offsets
-  std::string assumption;  ///< worth a warning: moves before any offset is selected; empty: none
+  std::string assumption;  ///< worth a warning: moves before any offset is selected, several offsets without
+                           ///< a table; empty: none
 };
 
 /// The offsets that moves of `program` use, G54 where they select none, and their true places: a datum

@@ -17,20 +17,30 @@ void note_correction(double size, int line, Compensation& result) {
 }
 
 void note_planned_corrections(const Job& job, const Plan& plan, Compensation& result) {
-  for (std::size_t s = 0; s < plan.segments.size(); ++s)
-    for (const Knot& knot : plan.segments[s].knots) {
-      const Segment& segment = job.path.segments[s];
-      const Vector3 wanted = point_at(segment.wanted, knot.u);
-      note_correction((knot.target - wanted + job.path.frames[segment.frame].datum_shift).norm(), segment.line, result);
-    }
+  for (std::size_t s = 0; s < plan.segments.size(); ++s) {
+    const Segment& segment = job.path.segments[s];
+    const auto note = [&](const Vector3& c) {
+      note_correction((c + job.path.frames[segment.frame].datum_shift).norm(), segment.line, result);
+    };
+    const PlannedSegment& planned = plan.segments[s];
+    for (const Knot& knot : planned.knots) note(knot.target - point_at(segment.wanted, knot.u));
+    for (const Vector3& c : planned.group) note(c);
+    for (const CorrectionCurve& curve : planned.arc)
+      for (const CurveInterval& interval : curve.intervals())
+        for (const CurveNode& node : interval.nodes) note(node.c);
+  }
 }
 
-// Positions that come from unknown ones have no segment.
+// Positions that come from unknown ones, and holes, have no segment.
 void note_first_corrections(const Job& job, const Emission& emission, Compensation& result) {
   for (const EmittedMove& emitted : emission.moves) {
-    if (emitted.kind != EmittedMove::Kind::first_known) continue;
     const Move& move = job.program.moves[emitted.edit.move];
-    note_correction((emitted.edit.end_mm - move.end_mm).norm() * mm, move.line, result);
+    Vector3 shift = emitted.edit.end_mm - move.end_mm;
+    if (emitted.kind == EmittedMove::Kind::hole)
+      shift.z() = *emitted.edit.bottom_mm - move.cycle->bottom_mm;
+    else if (emitted.kind != EmittedMove::Kind::first_known)
+      continue;
+    note_correction(shift.norm() * mm, move.line, result);
   }
 }
 

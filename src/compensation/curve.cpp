@@ -36,7 +36,13 @@ bool refine(const CurveNode& a, const CurveNode& m, const CurveNode& b, double a
   return refine(a, q, m, accuracy, solve, curve) && refine(m, r, b, accuracy, solve, curve);
 }
 
-double miss_between(const CorrectionCurve& curve, const std::vector<double>& corners, double u0, double u1) {
+// A vector to be interpolated linearly between knots, with the places where it has corners.
+struct Interpolated {
+  const VectorAt& at;
+  const std::vector<double>& corners;
+};
+
+double miss_between(const Interpolated& curve, double u0, double u1) {
   const Vector3 c0 = curve.at(u0), c1 = curve.at(u1);
   double largest = 0;
   const auto look = [&](double u) {
@@ -44,28 +50,26 @@ double miss_between(const CorrectionCurve& curve, const std::vector<double>& cor
     largest = std::max(largest, (curve.at(u) - (1 - w) * c0 - w * c1).norm());
   };
   for (int k = 1; k < samples; ++k) look(u0 + (u1 - u0) * k / samples);
-  for (double corner : corners)
+  for (double corner : curve.corners)
     if (corner > u0 && corner < u1) look(corner);
   return largest;
 }
 
 // The farthest end that a straight line from u0 reaches within the tolerance.
-double reach(const CorrectionCurve& curve, const std::vector<double>& corners, double u0, double tolerance) {
-  const double end = curve.end();
-  if (miss_between(curve, corners, u0, end) <= tolerance) return end;
+double reach(const Interpolated& curve, double u0, double end, double tolerance) {
+  if (miss_between(curve, u0, end) <= tolerance) return end;
   double good = u0, bad = end;
   for (int k = 0; k < 40 && bad - good > 1e-6; ++k) {
     const double u = (good + bad) / 2;
-    (miss_between(curve, corners, u0, u) <= tolerance ? good : bad) = u;
+    (miss_between(curve, u0, u) <= tolerance ? good : bad) = u;
   }
   return good > u0 ? good : bad;
 }
 
-std::vector<double> greedy(const CorrectionCurve& curve, const std::vector<double>& corners,
-                           double tolerance) {
+std::vector<double> greedy(const Interpolated& curve, double u0, double end, double tolerance) {
   std::vector<double> knots;
-  for (double u = curve.begin(); u < curve.end();) {
-    u = reach(curve, corners, u, tolerance);
+  for (double u = u0; u < end;) {
+    u = reach(curve, u, end, tolerance);
     knots.push_back(u);
   }
   return knots;
@@ -92,14 +96,15 @@ bool sample_curve(const CurveNode& a, const CurveNode& b, double accuracy, const
   return refine(a, m, b, accuracy, solve, curve);
 }
 
-std::vector<double> choose_knots(const CorrectionCurve& curve, const std::vector<double>& corners,
+std::vector<double> choose_knots(const VectorAt& at, double u0, double u1, const std::vector<double>& corners,
                                  double tolerance) {
-  std::vector<double> knots = greedy(curve, corners, tolerance);
+  const Interpolated curve{at, corners};
+  std::vector<double> knots = greedy(curve, u0, u1, tolerance);
   if (knots.size() < 2) return knots;
   double low = 0, high = tolerance;  // the least tolerance that needs no more knots
   for (int k = 0; k < 8; ++k) {
     const double middle = (low + high) / 2;
-    std::vector<double> even = greedy(curve, corners, middle);
+    std::vector<double> even = greedy(curve, u0, u1, middle);
     if (even.size() > knots.size()) {
       low = middle;
     } else {
@@ -108,6 +113,12 @@ std::vector<double> choose_knots(const CorrectionCurve& curve, const std::vector
     }
   }
   return knots;
+}
+
+std::vector<double> choose_knots(const CorrectionCurve& curve, const std::vector<double>& corners,
+                                 double tolerance) {
+  const VectorAt at = [&curve](double u) { return curve.at(u); };
+  return choose_knots(at, curve.begin(), curve.end(), corners, tolerance);
 }
 
 }  // namespace counterflex

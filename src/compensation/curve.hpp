@@ -39,9 +39,15 @@ using CorrectionAt = std::function<bool(double u, CurveNode& node)>;
 bool sample_curve(const CurveNode& a, const CurveNode& b, double accuracy, const CorrectionAt& solve,
                   CorrectionCurve& curve);
 
-/// Knots (fractions, the last one the curve's end) such that between them, at sixteenths and at `corners`,
-/// the straight line between two of them is within `tolerance` (m) of the curve: as few as possible, then
-/// evened out.
+/// Something to be interpolated, at a fraction.
+using VectorAt = std::function<Vector3(double u)>;
+
+/// Knots (fractions, the last one `u1`) such that between them, at sixteenths and at `corners`, the straight
+/// line between two of them is within `tolerance` of `at`: as few as possible, then evened out.
+std::vector<double> choose_knots(const VectorAt& at, double u0, double u1, const std::vector<double>& corners,
+                                 double tolerance);
+
+/// The same for a whole correction, `tolerance` in m.
 std::vector<double> choose_knots(const CorrectionCurve& curve, const std::vector<double>& corners,
                                  double tolerance);
 

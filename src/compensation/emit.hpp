@@ -9,9 +9,10 @@ namespace counterflex {
 /// One move of the original with its edit.
 struct EmittedMove {
   enum class Kind {
-    segment,      ///< solved along its segment
+    segment,      ///< judged along its segment
     shifted,      ///< goes nowhere, or from where nobody knows: it keeps a correction
     first_known,  ///< its end is the first position that is known in all axes
+    hole,         ///< a cycle: the bottom of its hole is judged
   };
   MoveEdit edit;
   Kind kind = Kind::shifted;
@@ -32,6 +33,9 @@ std::vector<MoveEdit> edits_of(const Emission& emission);
 
 /// Edits for all moves: segments as planned; moves that go nowhere keep the correction that holds there;
 /// moves made before all axes are known take that of the first position that is (look-ahead of 64 blocks).
+/// Arcs are fitted to what the text holds before them; holes get the correction at their bottom, contour
+/// groups one shift; what is held keeps the correction with which it is entered. Where one cannot be held the
+/// emission fails (Exit::program_text).
 Emission emit(const Job& job, const Plan& plan);
 
 /// The pieces that the emitted text commands. `corrected` is that text, read anew.
@@ -41,7 +45,13 @@ std::vector<Piece> emitted_pieces(const Job& job, const Emission& emission, cons
 /// The end of a move as a target in M (m).
 Vector3 target_of(const Job& job, const Move& move);
 
+/// The way of a move whose start is known, as targets in M (m).
+Curve command_of(const Job& job, const Move& move);
+
 /// The end of a move of the original as a wanted position in M (m).
 Vector3 wanted_of(const Job& job, const Move& move);
+
+/// The bottom of a cycle's hole in program coordinates (mm).
+Vector3 bottom_of(const Move& move);
 
 }  // namespace counterflex

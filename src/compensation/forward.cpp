@@ -36,10 +36,18 @@ class ForwardSolver {
   }
 
  private:
+  // A piece along which the correction hardly changes is sampled once.
   int samples() const {
-    const Vector3 c0 = piece_->commanded.start - point_at(segment_->wanted, piece_->u0),
-                  c1 = piece_->commanded.end - point_at(segment_->wanted, piece_->u1);
-    return (c1 - c0).norm() > quiet_share * job_.options.tolerance ? odd_sixteenths : 1;
+    const auto correction = [this](double v) {
+      const double u = piece_->u0 + v * (piece_->u1 - piece_->u0);
+      return Vector3(point_at(piece_->commanded, v) - point_at(segment_->wanted, u));
+    };
+    const double quiet = quiet_share * job_.options.tolerance;
+    const Vector3 c0 = correction(0);
+    bool changes = (correction(1) - c0).norm() > quiet;
+    for (int k = 1; segment_->wanted.arc && k < odd_sixteenths; ++k)
+      changes = changes || (correction(k / static_cast<double>(odd_sixteenths)) - c0).norm() > quiet;
+    return changes ? odd_sixteenths : 1;
   }
 
   // Deviation of the tip from the wanted pose for a command; false with a failure where it is not solved.

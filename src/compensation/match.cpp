@@ -3,15 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <limits>
 #include <vector>
 
 #include "counterflex/compensation/compensate.hpp"
-#include "counterflex/files/numbers.hpp"
 #include "counterflex/geometry/units.hpp"
 #include "emit.hpp"
 #include "same_program.hpp"
+#include "skeleton.hpp"
 
 namespace counterflex {
 namespace {
@@ -20,39 +19,21 @@ constexpr double longest_jump_mm = 1;   // longer first pieces are taken for pie
 constexpr double inner_end = 1 - 1e-9;  // only the last piece ends a move
 constexpr double jump_length = 3;       // in allowances for rounding: shorter pieces are jumps
 
-// The block without its axis words and blanks: what correction never changes.
-std::string skeleton(const Program& program, const Move& move) {
-  std::string text;
-  std::size_t at = move.block.begin;
-  std::vector<Span> numbers;
-  for (const auto& word : move.words)
-    if (word) numbers.push_back(word->number);
-  std::sort(numbers.begin(), numbers.end(), [](Span a, Span b) { return a.begin < b.begin; });
-  const auto keep = [&](std::size_t end) {
-    for (; at < end; ++at)
-      if (program.text[at] != ' ' && program.text[at] != '\t') text += program.text[at];
-  };
-  for (const Span& number : numbers) {
-    keep(number.begin);
-    if (!text.empty()) text.pop_back();  // the letter
-    at = number.end;
-  }
-  keep(move.block.end);
-  return text;
+// How far a point on the way of a move is from its end, along the way (mm).
+double way_left(const Move& original, const Vector3& p_mm, const Vector3& end_mm, double near_mm) {
+  const double straight = (p_mm - end_mm).norm();
+  if (!original.arc || straight < near_mm) return straight;
+  const Curve curve = curve_of(original);
+  const Arc& arc = *curve.arc;
+  const Vector3 centre = arc.centre + end_mm - original.end_mm;
+  return sweep_between(p_mm, end_mm, centre, arc.normal) * (end_mm - centre).norm();
 }
 
-// Whether a skeleton says no more than an inserted piece may: motion and F (N beside them). Comments are no
-// words.
-bool is_plain(const std::string& skeleton) {
-  for (std::size_t i = 0; i < skeleton.size() && skeleton[i] != ';'; ++i) {
-    const char c = static_cast<char>(std::toupper(static_cast<unsigned char>(skeleton[i])));
-    if (c == '(') i = std::min(skeleton.find(')', i), skeleton.size() - 1);
-    if (c < 'A' || c > 'Z' || c == 'F' || c == 'N') continue;
-    const std::size_t end = std::min(skeleton.find_first_not_of("0123456789.", i + 1), skeleton.size());
-    const auto code = read_number(std::string_view(skeleton).substr(i + 1, end - i - 1));
-    if (c != 'G' || !code || (*code != 0 && *code != 1)) return false;
-  }
-  return true;
+bool makes_doubtful(const Move& move) {
+  bool lost = move.block_delete;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    lost = lost || move.fixed[axis] || (move.known_start[axis] && !move.known_end[axis]);
+  return lost;
 }
 
 class Matcher {
@@ -140,16 +121,18 @@ class Matcher {
   // The correction with which a move is entered (mm): a first piece that hardly leaves the start is a jump to
   // another one.
   Vector3 correction_at_start(const Move& original, std::size_t surplus) const {
-    if (surplus == 0 || original.motion != Motion::feed || !all_known(original.known_start)) return correction_mm_;
+    if (surplus == 0 || original.motion != Motion::feed || !all_known(original.known_start))
+      return correction_mm_;
     const Vector3 first = corrected_.moves[next_].end_mm - original.start_mm;
-    const double length = (original.end_mm - original.start_mm).norm();
+    const double length = counterflex::length(curve_of(original));
     return (first - correction_mm_).norm() < std::min(0.2 * length, longest_jump_mm) ? first : correction_mm_;
   }
 
   // Whether going on from a to b no longer comes closer to the end of the original move.
   bool leaves(const Move& original, const Move& a, const Move& b) const {
     const Vector3 end = original.end_mm + correction_mm_;
-    return (b.end_mm - end).norm() > (a.end_mm - end).norm() + job_.options.max_correction / mm;
+    const double near = job_.options.max_correction / mm;
+    return way_left(original, b.end_mm, end, near) > way_left(original, a.end_mm, end, near) + near;
   }
 
   // Inserted blocks say motion, axes and F, and the F is the one that acts.
@@ -163,7 +146,8 @@ class Matcher {
       const bool plain =
           is_plain(found) && found.find_first_of("(;") == std::string::npos && !move.block_number;
       const bool same_motion = move.motion == original.motion || (j < own && move.motion == Motion::feed);
-      const bool same_feed = move.motion == Motion::rapid || move.feed_mm_min == original.feed_mm_min;
+      const bool same_feed = move.motion == Motion::rapid || move.feed_mode == FeedMode::inverse_time ||
+                             move.feed_mm_min == original.feed_mm_min;
       if ((found != wanted && !plain) || !same_motion || !same_feed)
         throw InputError(Exit::not_compensated, {corrected_.file, move.line, 1},
                          "an inserted block may state motion, axes and the feed that acts, nothing else");
@@ -176,44 +160,77 @@ class Matcher {
     const Move& original = job_.program.moves[m];
     check_inserted(original, own);
     const bool has_segment = segment_ < job_.path.segments.size() && job_.path.segments[segment_].move == m;
-    if (has_segment) take_segment(own);
+    if (has_segment && original.cycle)
+      ++segment_;
+    else if (has_segment)
+      take_segment(own);
+    if (original.cycle && original.known_end[0] && original.known_end[1]) take_hole(original, own);
     const bool known = all_known(original.known_end);
     if (known) correction_mm_ = corrected_.moves[own].end_mm - original.end_mm;
-    if (known && !has_segment && !all_known(original.known_start))
-      pieces_.push_back(
-          {.segment = no_segment,
-           .line = original.line,
-           .frame = original.offset,
-           .commanded = {position(own), position(own), {}},
-           .wanted = wanted_of(job_, original),
-           .end_only = true,
-           .exempt_end = !original.may_insert_words || (skipped_ && original.motion == Motion::feed)});
-    skipped_ = original.block_delete || (skipped_ && !known);
+    if (known && !has_segment && !all_known(original.known_start) && !original.cycle)
+      pieces_.push_back({.segment = no_segment,
+                         .line = original.line,
+                         .frame = original.offset,
+                         .commanded = {position(own), position(own), {}},
+                         .wanted = wanted_of(job_, original),
+                         .end_only = true,
+                         .exempt_end = !is_own(original) || !original.may_insert_words ||
+                                       (skipped_ && original.motion == Motion::feed)});
+    skipped_ = makes_doubtful(original) || (skipped_ && !known);
+  }
+
+  static bool is_own(const Move& move) { return move.handling == Handling::own; }
+
+  void take_hole(const Move& original, std::size_t own) {
+    const Move& found = corrected_.moves[own];
+    if (!found.cycle) fail(original, "this cycle is none in the corrected program");
+    const WorkFrame& frame = job_.path.frames[original.offset];
+    const Vector3 bottom = frame.X_MW * (bottom_of(found) * mm);
+    const bool takes_z = original.cycle->bottom_word || original.cycle->may_insert_bottom;
+    pieces_.push_back({.segment = no_segment,
+                       .line = original.line,
+                       .frame = original.offset,
+                       .commanded = {bottom, bottom, {}},
+                       .wanted = wanted_frame(frame) * (bottom_of(original) * mm),
+                       .end_only = true,
+                       .exempt_end = !is_own(original) || !takes_z});
+  }
+
+  // The fraction of an inserted point, by its place along the segment: on a line
+  // position = start + u along + (1 - u) c0 + u c1.
+  static double fraction_at(const Curve& wanted, const Vector3& p, const Vector3& c0, const Vector3& c1) {
+    if (wanted.arc) {
+      const Vector3 about = wanted.arc->centre + (c0 + c1) / 2;
+      return sweep_between(wanted.start + c0, p, about, wanted.arc->normal) / wanted.arc->sweep;
+    }
+    const Vector3 shift = wanted.end - wanted.start + c1 - c0;
+    return (p - wanted.start - c0).dot(shift) / shift.squaredNorm();
+  }
+
+  Curve commanded(std::size_t j, const Vector3& from) const {
+    const Move& move = corrected_.moves[j];
+    return move.arc ? command_of(job_, move) : Curve{from, position(j), {}};
   }
 
   // First fractions of inserted points: by their place along the segment, the correction there interpolated.
   void take_segment(std::size_t own) {
     const Segment& segment = job_.path.segments[segment_];
-    const Vector3 along = segment.wanted.end - segment.wanted.start;
+    const Move& original = job_.program.moves[segment.move];
     const Vector3 start = next_ == 0 ? segment.wanted.start : position(next_ - 1);
     const Vector3 c0 = start - segment.wanted.start, c1 = position(own) - segment.wanted.end;
     double u0 = 0;
     for (std::size_t j = next_; j <= own; ++j) {
       double u = 1;
-      if (j < own) {
-        const Vector3 shift = along + c1 - c0;  // position = start + u along + (1 - u) c0 + u c1
-        u = std::clamp((position(j) - segment.wanted.start - c0).dot(shift) / shift.squaredNorm(), u0,
-                       inner_end);
-      }
+      if (j < own) u = std::clamp(fraction_at(segment.wanted, position(j), c0, c1), u0, inner_end);
       Piece piece{.segment = segment_,
                   .line = segment.line,
                   .u0 = u0,
                   .u1 = u,
                   .frame = segment.frame,
-                  .commanded = {j == next_ ? start : position(j - 1), position(j), {}},
+                  .commanded = commanded(j, j == next_ ? start : position(j - 1)),
                   .end_only = !segment.cutting,
-                  .exempt = !job_.program.moves[segment.move].may_split,
-                  .exempt_end = !job_.program.moves[segment.move].may_insert_words};
+                  .exempt = !is_own(original) || !original.may_split,
+                  .exempt_end = !is_own(original) || !original.may_insert_words};
       const std::optional<double> step = j + 1 < own ? step_at(j, u) : std::nullopt;
       if (step) piece.u1 = u = std::max(*step, u0);
       if (u > u0) pieces_.push_back(piece);
@@ -226,7 +243,7 @@ class Matcher {
   // The fraction of the force's step that the moves j and j + 1, near fraction u, stand on both sides of.
   std::optional<double> step_at(std::size_t j, double u) const {
     const Segment& segment = job_.path.segments[segment_];
-    const double longest = longest_jump_mm * mm, length = (segment.wanted.end - segment.wanted.start).norm();
+    const double longest = longest_jump_mm * mm, length = counterflex::length(segment.wanted);
     if (job_.options.blend > 0 || (position(j + 1) - position(j)).norm() > longest) return std::nullopt;
     for (const double step : job_.forces.breaks(segment_))
       if (std::abs(step - u) * length < longest) return step;
@@ -259,7 +276,7 @@ void refine_fractions(const Job& job, std::vector<Piece>& pieces) {
     for (std::size_t i = 0; i + 1 < pieces.size(); ++i) {
       if (is_settled(job, pieces[i])) continue;
       const Segment& segment = job.path.segments[pieces[i].segment];
-      const double length = (segment.wanted.end - segment.wanted.start).norm();
+      const double length = counterflex::length(segment.wanted);
       const double u =
           pieces[i].u1 + run.waypoints[i].after.head<3>().dot(run.waypoints[i].direction) / length;
       pieces[i].u1 = pieces[i + 1].u0 = std::clamp(u, pieces[i].u0, inner_end);
@@ -277,7 +294,7 @@ void drop_jumps(const Job& job, std::vector<Piece>& pieces) {
     if (piece.segment != no_segment && !piece.end_only && piece.u1 < 1) {
       const Segment& segment = job.path.segments[piece.segment];
       const double rounding = rounding_allowance(job.program.moves[segment.move], job.options.write);
-      const double length = (piece.u1 - piece.u0) * (segment.wanted.end - segment.wanted.start).norm();
+      const double length = (piece.u1 - piece.u0) * counterflex::length(segment.wanted);
       if (length < jump_length * rounding) {
         u0 = piece.u0;
         continue;

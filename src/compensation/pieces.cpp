@@ -51,12 +51,27 @@ class PieceReader {
                           .u0 = u0,
                           .u1 = stop.u,
                           .frame = wanted.frame,
-                          .commanded = {from, here(), {}},
+                          .commanded = dropped ? Curve{from, from, {}} : command(from),
                           .end_only = !wanted.cutting,
                           .exempt = move.exempt,
                           .exempt_end = move.exempt_end});
       u0 = stop.u;
     }
+  }
+
+  // The bottom of a hole.
+  void read_hole(const EmittedMove& move, std::size_t count, std::vector<Piece>& pieces) {
+    const Move& original = job_.program.moves[move.edit.move];
+    skip(count);
+    const WorkFrame& frame = job_.path.frames[original.offset];
+    const Vector3 bottom = frame.X_MW * (bottom_of(corrected_.moves[next_ - 1]) * mm);
+    pieces.push_back({.segment = no_segment,
+                      .line = original.line,
+                      .frame = original.offset,
+                      .commanded = {bottom, bottom, {}},
+                      .wanted = wanted_frame(frame) * (bottom_of(original) * mm),
+                      .end_only = true,
+                      .exempt_end = move.exempt_end});
   }
 
   // A single position: the next `count` moves end at it.
@@ -88,9 +103,13 @@ class PieceReader {
     return true;
   }
 
-  Vector3 here() const {
-    return next_ == 0 ? Vector3::Zero() : target_of(job_, corrected_.moves[next_ - 1]);
+  // The way of the last move, from where the text held the tool.
+  Curve command(const Vector3& from) const {
+    const Move& move = corrected_.moves[next_ - 1];
+    return move.arc ? command_of(job_, move) : Curve{from, here(), {}};
   }
+
+  Vector3 here() const { return next_ == 0 ? Vector3::Zero() : target_of(job_, corrected_.moves[next_ - 1]); }
 
   const Job& job_;
   const Program& corrected_;
@@ -110,6 +129,8 @@ std::vector<Piece> emitted_pieces(const Job& job, const Emission& emission, cons
     const std::size_t count = rewritten.blocks_of_edit[e] + 1;
     if (move.kind == EmittedMove::Kind::first_known)
       reader.read_position(move, count, pieces);
+    else if (move.kind == EmittedMove::Kind::hole)
+      reader.read_hole(move, count, pieces);
     else if (move.kind == EmittedMove::Kind::shifted)
       reader.skip(count);
     else

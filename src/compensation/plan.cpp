@@ -5,6 +5,7 @@
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "counterflex/compensation/compensate.hpp"
 #include "counterflex/geometry/units.hpp"
@@ -18,6 +19,8 @@ constexpr double jump_share = 0.1;    // of the tolerance: larger steps of the c
 constexpr double curve_share = 0.01;  // of the tolerance: accuracy of the sampled curve
 constexpr double least_share =
     0.02;  // of the tolerance: what rounding must leave of it where points are inserted
+constexpr double sampled_angle = std::numbers::pi / 2;
+constexpr int group_samples = 8;      // along each move of a contour group
 constexpr double gain_probe = 50e-6;  // m
 constexpr double gain_margin = 1.01;
 
@@ -30,12 +33,31 @@ class ChunkPlanner {
     index_ = index;
     segment_ = &job_.path.segments[index];
     failure_.reset();
-    const bool done = segment_->cutting ? plan_cut(planned) : plan_rapid(planned);
+    const bool done = plan_by_handling(planned);
     if (!done && !failure_) failure_ = status_failure(Status::not_converged, segment_->line);
     return failure_;
   }
 
  private:
+  // Cycles are solved at their bottom when they are written; what is held needs no solution.
+  bool plan_by_handling(PlannedSegment& planned) {
+    const Move& move = job_.program.moves[segment_->move];
+    if (move.handling == Handling::group) return plan_group(planned);
+    if (move.handling == Handling::held || move.cycle) return true;
+    return segment_->cutting ? plan_cut(planned) : plan_rapid(planned);
+  }
+
+  bool plan_group(PlannedSegment& planned) {
+    const int count = segment_->cutting ? group_samples : 1;
+    for (int k = 0; k <= count; ++k) {
+      CurveNode node;
+      if (k == 0 && !segment_->cutting) continue;  // a rapid begins with what was before the group
+      if (!solve(static_cast<double>(k) / count, k == count ? Side::before : Side::after, node)) return false;
+      planned.group.push_back(node.c);
+    }
+    return true;
+  }
+
   bool solve(double u, Side side, CurveNode& node) {
     const Vector3 wanted = point_at(segment_->wanted, u);
     const TargetSolution solution =
@@ -59,11 +81,23 @@ class ChunkPlanner {
     return true;
   }
 
-  // Continuous stretches between steps of the force, each with its own knots.
-  bool plan_cut(PlannedSegment& planned) {
+  // Where sampling begins anew: at corners of the force, and often enough around an arc that a wave of the
+  // correction does not pass for a line.
+  std::vector<double> sampling_limits() const {
     std::vector<double> limits = job_.forces.breaks(index_);
     limits.insert(limits.begin(), 0);
     limits.push_back(1);
+    if (!segment_->wanted.arc) return limits;
+    const int parts = static_cast<int>(std::ceil(segment_->wanted.arc->sweep / sampled_angle));
+    for (int k = 1; k < parts; ++k) limits.push_back(static_cast<double>(k) / parts);
+    std::sort(limits.begin(), limits.end());
+    limits.erase(std::unique(limits.begin(), limits.end()), limits.end());
+    return limits;
+  }
+
+  // Continuous stretches between steps of the force, each with its own knots.
+  bool plan_cut(PlannedSegment& planned) {
+    const std::vector<double> limits = sampling_limits();
     CurveNode a, b;
     if (!solve(0, Side::after, a)) return false;
     planned.start_target = segment_->wanted.start + a.c;
@@ -76,11 +110,27 @@ class ChunkPlanner {
       if (i + 1 < limits.size() && !solve(limits[i], Side::after, a)) return false;
       const bool step = (a.c - b.c).norm() > jump_share * job_.options.tolerance;
       if (!step && i + 1 < limits.size()) continue;
-      if (!add_knots(stretch, limits, planned)) return false;
-      if (step) planned.knots.push_back({a.u, point_at(segment_->wanted, a.u) + a.c});
+      if (!finish_stretch(stretch, limits, planned)) return false;
+      if (step && !segment_->wanted.arc)
+        planned.knots.push_back({a.u, point_at(segment_->wanted, a.u) + a.c});
       stretch = {};
     }
+    if (segment_->wanted.arc) return finish_arc(b, planned);
     if (!job_.program.moves[segment_->move].may_split) forbid_splitting(planned);
+    return true;
+  }
+
+  bool finish_stretch(const CorrectionCurve& stretch, const std::vector<double>& corners,
+                      PlannedSegment& planned) {
+    if (!segment_->wanted.arc) return add_knots(stretch, corners, planned);
+    planned.arc.push_back(stretch);
+    return true;
+  }
+
+  bool finish_arc(const CurveNode& end, PlannedSegment& planned) {
+    planned.knots = {{1, segment_->wanted.end + end.c}};
+    if (!measure_gain()) return false;
+    planned.gain = gain_;
     return true;
   }
 
@@ -91,17 +141,14 @@ class ChunkPlanner {
     std::vector<double> knots = choose_knots(stretch, corners, std::max(tolerance - rounding, least));
     if (knots.size() > 1) {
       if (!measure_gain()) return false;
-      if (tolerance / gain_ - rounding < least) {
+      const std::optional<double> room = room_between_points(job_, *segment_, gain_);
+      if (!room) {
         failure_ = few_decimals_failure(job_, *segment_);
         return false;
       }
-      knots = choose_knots(stretch, corners, tolerance / gain_ - rounding);
+      knots = choose_knots(stretch, corners, *room);
     }
-    for (double u : knots) {
-      // At a stretch's end the curve is continued on the left of the step.
-      const Vector3 c = u == stretch.end() ? stretch.intervals().back().nodes.back().c : stretch.at(u);
-      planned.knots.push_back({u, point_at(segment_->wanted, u) + c});
-    }
+    for (double u : knots) planned.knots.push_back({u, point_at(segment_->wanted, u) + stretch.at(u)});
     return true;
   }
 
@@ -172,6 +219,13 @@ Failure few_decimals_failure(const Job& job, const Segment& segment) {
       fmt::format("words are rounded by up to {:.3g} mm here, which leaves too little of the tolerance of "
                   "{:.3g} mm; it needs --decimals {}",
                   rounding_allowance(move, job.options.write) / mm, job.options.tolerance / mm, enough)};
+}
+
+std::optional<double> room_between_points(const Job& job, const Segment& segment, double gain) {
+  const double rounding = rounding_allowance(job.program.moves[segment.move], job.options.write);
+  const double room = job.options.tolerance / gain - rounding;
+  if (room < least_share * job.options.tolerance) return std::nullopt;
+  return room;
 }
 
 Plan plan(const Job& job, const NominalTrack& track) {

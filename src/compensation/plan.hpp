@@ -1,5 +1,6 @@
 #pragma once
 /// What should be commanded along every segment: targets at knots, before they are rounded and written.
+#include "curve.hpp"
 #include "track.hpp"
 
 namespace counterflex {
@@ -12,7 +13,11 @@ struct Knot {
 struct PlannedSegment {
   Vector3 start_target = Vector3::Zero();  ///< where the segment should begin (M, m)
   bool starts_anywhere = false;            ///< a rapid begins where the move before it ended
-  std::vector<Knot> knots;  ///< the last one is its end; a step within is two knots at one fraction
+  std::vector<Knot> knots;           ///< the last one is its end; a step within is two knots at one fraction
+  std::vector<CorrectionCurve> arc;  ///< of an arc: its correction between steps of the force; its text is
+                                     ///< fitted when it is known where the one before it ends
+  std::vector<Vector3> group;        ///< of a move of a contour group: corrections at places along it (M, m)
+  double gain = 1;                   ///< of an arc: the tip moves by at most this for a change of target
   double unsplit_miss =
       0;  ///< m: largest deviation inside, where points would have been needed but must not be inserted
 };
@@ -25,7 +30,11 @@ struct Plan {
 /// The failure of words that are rounded by up to `rounding` (m), too much for the tolerance.
 Failure few_decimals_failure(const Job& job, const Segment& segment);
 
-/// Plans all segments, in parallel over chunks.
+/// What must be left of the tolerance of a segment for corrections between points (m); nothing where rounding
+/// to the digits takes it all.
+std::optional<double> room_between_points(const Job& job, const Segment& segment, double gain);
+
+/// Plans all segments that are corrected on their own or in a group, in parallel over chunks.
 Plan plan(const Job& job, const NominalTrack& track);
 
 }  // namespace counterflex

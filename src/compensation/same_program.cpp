@@ -4,6 +4,7 @@
 
 #include <string_view>
 
+#include "counterflex/geometry/units.hpp"
 #include "emit.hpp"
 
 namespace counterflex {
@@ -72,15 +73,17 @@ void check_all_moves(const Job& job, const Program& corrected, const std::vector
   std::size_t next = 0;
   std::optional<Vector3> here;
   for (const Move& move : corrected.moves) {
-    if (!all_known(move.known_end)) continue;
-    const Vector3 p = target_of(job, move);
+    const bool hole = move.cycle && move.known_end[0] && move.known_end[1];
+    if (!all_known(move.known_end) && !hole) continue;
+    const Vector3 p =
+        hole ? job.path.frames[move.offset].X_MW * (bottom_of(move) * mm) : target_of(job, move);
     const auto at = [&](const Vector3& q) { return (p - q).norm() < 1e-9; };
     if (next < pieces.size() && at(pieces[next].commanded.end))
       ++next;
     else if (!(next < pieces.size() && at(pieces[next].commanded.start)) &&
              !(here && (p - *here).norm() < job.options.tolerance))
       fail(corrected, move.line, "this move leaves the path of the original");
-    here = p;
+    here = target_of(job, move);
   }
   if (next < pieces.size())
     fail(corrected, corrected.moves.empty() ? 1 : corrected.moves.back().line,

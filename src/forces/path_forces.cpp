@@ -2,9 +2,11 @@
 #include <array>
 #include <cassert>
 #include <limits>
+#include <span>
 
 #include "counterflex/forces/forces.hpp"
 #include "forces/alignment.hpp"
+#include "forces/turned.hpp"
 #include "forces/unblended.hpp"
 
 namespace counterflex {
@@ -43,7 +45,7 @@ class Unblended {
   Unblended(const ForceSource& source, const Program& program, const Toolpath& path,
             const std::vector<Matrix3>& R_MT)
       : source_(source), program_(program), path_(path), R_MT_(R_MT) {
-    assert(R_MT.size() == 1 || R_MT.size() == path.segments.size());
+    assert(R_MT.size() == 1 || (!R_MT.empty() && R_MT.size() % path.segments.size() == 0));
     if (!profile()) return;
     keys_ = align(*profile(), program, path);
     check_cover(*profile(), program, path, keys_);
@@ -53,18 +55,27 @@ class Unblended {
   void append_to(std::size_t i, std::size_t first_piece, std::vector<ForcePiece>& pieces,
                  std::vector<ForceNote>& notes) const {
     const Segment& segment = path_.segments[i];
+    if (in_air(segment)) {
+      append({segment.s_start, segment.s_end}, first_piece, pieces);
+      return;
+    }
     if (!profile()) {
       const Vector6 F = source_.scale * uniform(segment);
       append({segment.s_start, segment.s_end, F, F, Vector6::Zero()}, first_piece, pieces);
       return;
     }
-    const ForceAxes axes = axes_of(profile()->frame, segment, path_.frames[segment.frame].X_MW.R, R_MT_[R_MT_.size() == 1 ? 0 : i]);
-    bool lost = false;
-    for (ForcePiece piece : profile_pieces(*profile(), keys_[i], segment)) {
-      lost = lost || (axes.only_z && (lateral(piece.F0) || lateral(piece.F1)));
-      piece.F0 = source_.scale * in_machine_axes(axes, piece.F0);
-      piece.F1 = source_.scale * in_machine_axes(axes, piece.F1);
-      append(piece, first_piece, pieces);
+    const AxesAlong axes(profile()->frame, segment, path_.frames[segment.frame].X_MW.R, orientations(i));
+    const bool only_z = axes.at(0.5, 1).only_z;
+    bool lost = false, inside = false;
+    for (const ForcePiece& given : profile_pieces(*profile(), keys_[i], segment)) {
+      lost = lost || (only_z && (lateral(given.F0) || lateral(given.F1)));
+      for (ForcePiece piece : turned_pieces(given, segment, axes)) {
+        piece.F0 *= source_.scale;
+        piece.F1 *= source_.scale;
+        if (!inside) piece.goes_on = goes_on_round(piece, first_piece, pieces);
+        inside = true;
+        append(piece, first_piece, pieces);
+      }
     }
     if (lost)
       notes.push_back({segment.line,
@@ -75,6 +86,25 @@ class Unblended {
  private:
   const ForceProfile* profile() const {
     return !source_.constant && source_.profile ? &*source_.profile : nullptr;
+  }
+
+  /// Of the tool on segment i.
+  std::span<const Matrix3> orientations(std::size_t i) const {
+    if (R_MT_.size() == 1) return R_MT_;
+    const std::size_t each = R_MT_.size() / path_.segments.size();
+    return std::span(R_MT_).subspan(i * each, each);
+  }
+
+  bool in_air(const Segment& segment) const {
+    return source_.air_above_mm && extent_of(program_.moves[segment.move]).least.z() > *source_.air_above_mm;
+  }
+
+  /// Whether the first piece of a segment continues a wrench in axes that turn, as round a tangential
+  /// junction.
+  bool goes_on_round(const ForcePiece& piece, std::size_t first_piece,
+                     const std::vector<ForcePiece>& pieces) const {
+    const bool turns = profile()->frame == ForceFrame::feed || profile()->frame == ForceFrame::tool;
+    return turns && pieces.size() > first_piece && nearly_same(pieces.back().F1, piece.F0);
   }
 
   /// The constant, or what the program's comment says.
@@ -173,6 +203,7 @@ void PathForces::find_corners(FeedRun& run) {
   run.first_corner = corners_.size();
   std::size_t& steps = run.blend > 0 ? ramps_ : jumps_;
   for (std::size_t i = run.first_piece; i < run.end_piece; ++i) {
+    if (pieces_[i].goes_on) continue;
     const bool entry = i == run.first_piece;
     const Vector6 before = entry ? Vector6::Zero() : pieces_[i - 1].F1;
     const bool step = differ(before, pieces_[i].F0);

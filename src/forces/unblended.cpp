@@ -42,7 +42,7 @@ ForceAxes feed_axes(const Vector3& feed_M, const Matrix3& R_MT) {
   return axes;
 }
 
-ForceAxes axes_of(ForceFrame frame, const Segment& segment, const Matrix3& R_MW, const Matrix3& R_MT) {
+ForceAxes axes_of(ForceFrame frame, const Vector3& feed_M, const Matrix3& R_MW, const Matrix3& R_MT) {
   switch (frame) {
     case ForceFrame::machine:
       return {};
@@ -53,7 +53,7 @@ ForceAxes axes_of(ForceFrame frame, const Segment& segment, const Matrix3& R_MW,
     case ForceFrame::feed:
       break;
   }
-  return feed_axes(segment.wanted.end - segment.wanted.start, R_MT);
+  return feed_axes(feed_M, R_MT);
 }
 
 Vector6 in_machine_axes(const ForceAxes& axes, const Vector6& F) {

@@ -16,8 +16,8 @@ struct ForceAxes {
 /// Axes x, y, z of the feed frame: z the tool's, y = unit(z x feed), x = y x z.
 ForceAxes feed_axes(const Vector3& feed_M, const Matrix3& R_MT);
 
-/// The axes of `frame` on `segment`.
-ForceAxes axes_of(ForceFrame frame, const Segment& segment, const Matrix3& R_MW, const Matrix3& R_MT);
+/// The axes of `frame` where the tool moves along `feed_M`.
+ForceAxes axes_of(ForceFrame frame, const Vector3& feed_M, const Matrix3& R_MW, const Matrix3& R_MT);
 
 /// F in machine axes.
 Vector6 in_machine_axes(const ForceAxes& axes, const Vector6& F);

@@ -34,6 +34,13 @@ std::string tool_phrase(const Machine& machine) {
                                    : "tip at " + phrase(machine.X_PT) + " from the platform";
 }
 
+std::string tools_phrase(const Machine& machine) {
+  std::string text;
+  for (const auto& [tool, length] : machine.tool_lengths)
+    text += fmt::format("{}T{} {:.9g} mm", text.empty() ? "" : ", ", tool, length / mm);
+  return text + " long";
+}
+
 std::string tool_change_phrase(const ControlSettings& control) {
   if (!control.tool_change_moves) return "all axes";
   if (control.tool_change_moves->empty()) return "no axis";
@@ -48,6 +55,7 @@ void describe_settings(const Machine& machine, std::string& text) {
   line("controlled", controlled_phrase(machine));
   line("home", home_phrase(machine));
   line("tool", tool_phrase(machine));
+  if (!machine.tool_lengths.empty()) line("tools", tools_phrase(machine));
   line("program", fmt::format("dialect {}, units {}, a tool change moves {}", machine.control.dialect,
                               machine.control.units.empty() ? "not stated" : machine.control.units,
                               tool_change_phrase(machine.control)));

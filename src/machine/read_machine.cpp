@@ -51,7 +51,7 @@ Machine read_machine(std::string_view text, const std::string& file) {
   const toml::table document = source.parse();
   check_format(document, source);
   check_keys(document,
-             {"format", "name", "controlled", "home", "tool", "work", "program", "limits", "springs",
+             {"format", "name", "controlled", "home", "tool", "tools", "work", "program", "limits", "springs",
               "branches", "templates", "chain"},
              "a machine file", source);
   Machine machine;
@@ -59,6 +59,7 @@ Machine read_machine(std::string_view text, const std::string& file) {
   read_controlled(document, source, machine);
   read_home(document, source, machine);
   read_tool(document, source, machine);
+  read_tool_lengths(document, source, machine);
   read_work(document, source, machine);
   read_program(document, source, machine);
   read_limits(document, source, machine);

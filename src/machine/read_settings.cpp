@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 
 #include "counterflex/geometry/units.hpp"
+#include "counterflex/machine/work_names.hpp"
 #include "read_transform.hpp"
 #include "suggest.hpp"
 
@@ -35,6 +37,24 @@ Datum read_datum(const toml::node& node, const Source& source) {
   check_keys(table, {"touched_at_mm"}, "a datum", source);
   const toml::node& touched = required(table, "touched_at_mm", "a datum", node, source);
   return {Vector3(as_vector3(touched, "touched_at_mm", {source}) * mm)};
+}
+
+std::string read_offset_name(const toml::key& key, const Source& source) {
+  const auto name = work_offset_name(key.str());
+  if (!name)
+    source.fail(key, fmt::format("\"{}\" is not a work offset; {} are", key.str(), work_offset_names));
+  return *name;
+}
+
+/// T3 or 3.
+long read_tool_number(const toml::key& key, const Source& source) {
+  std::string_view digits = key.str();
+  if (digits.starts_with('T') || digits.starts_with('t')) digits.remove_prefix(1);
+  long number = -1;
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
+  if (error != std::errc{} || end != digits.data() + digits.size() || number < 0)
+    source.fail(key, fmt::format("\"{}\" is not a tool; it must be T and its number, as T3", key.str()));
+  return number;
 }
 
 /// An axis letter, in upper case.
@@ -87,14 +107,29 @@ void read_tool(const toml::table& document, const Source& source, Machine& machi
   if (const toml::node* node = document.get("tool")) machine.X_PT = read_transform(*node, "[tool]", {source});
 }
 
+void read_tool_lengths(const toml::table& document, const Source& source, Machine& machine) {
+  const toml::node* node = document.get("tools");
+  if (node == nullptr) return;
+  for (const auto& [key, entry] : as_table(*node, "tools", source)) {
+    const long number = read_tool_number(key, source);
+    const std::string name = fmt::format("[tools.{}]", key.str());
+    const toml::table& table = as_table(entry, name, source);
+    check_keys(table, {"length_mm"}, name, source);
+    const toml::node& length = required(table, "length_mm", name, entry, source);
+    if (!machine.tool_lengths.emplace(number, as_number(length, {"length_mm"}, {source}) * mm).second)
+      source.fail(key, fmt::format("tool {} stands in the file twice", number));
+  }
+}
+
 void read_work(const toml::table& document, const Source& source, Machine& machine) {
   const toml::node* node = document.get("work");
   if (node == nullptr) return;
   for (const auto& [key, entry] : as_table(*node, "work", source)) {
-    const std::string name = fmt::format("[work.{}]", key.str());
-    WorkOffset offset{read_transform(entry, name, {source}, {"datum"}), {}};
+    const std::string name = read_offset_name(key, source);
+    WorkOffset offset{read_transform(entry, fmt::format("[work.{}]", key.str()), {source}, {"datum"}), {}};
     if (const toml::node* datum = entry.as_table()->get("datum")) offset.datum = read_datum(*datum, source);
-    machine.work.emplace(key.str(), offset);
+    if (!machine.work.emplace(name, offset).second)
+      source.fail(key, fmt::format("work offset {} stands in the file twice", name));
   }
 }
 

@@ -18,7 +18,7 @@ void leave_machine_move(const Block& block, Reading& r, const FoundG& found) {
   end_contour(r);
   r.run_begin = r.program.moves.size();
   r.program.left_alone.push_back(
-      {block.line, fmt::format("G{} moves to a position of the machine", found.word->value)});
+      {block.line, fmt::format("G{} moves to a position of the machine", found.word->value), true});
 }
 
 void read_held(const Block& block, Reading& r, std::string_view what, bool end_known) {

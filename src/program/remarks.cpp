@@ -31,6 +31,21 @@ std::string blend_text(const Reading& reading) {
   return text;
 }
 
+void record_tolerance(const Block& block, Reading& reading) {
+  const double unit = mm_per(reading.state.unit.value_or(LengthUnit::millimetres));
+  const auto length = [&](char letter) -> std::optional<double> {
+    const Word* word = reading.sorted.word(letter);
+    if (word == nullptr) return std::nullopt;
+    return word->value * unit;
+  };
+  const PathTolerance tolerance{block.line, length('P'), length('Q')};
+  auto& known = reading.program.path_tolerances;
+  if (std::none_of(known.begin(), known.end(), [&](const PathTolerance& other) {
+        return other.path_mm == tolerance.path_mm && other.merge_mm == tolerance.merge_mm;
+      }))
+    known.push_back(tolerance);
+}
+
 }  // namespace
 
 void add_remark(Program& program, int line, std::string what) {
@@ -41,7 +56,10 @@ void add_remark(Program& program, int line, std::string what) {
 }
 
 void remark_path_mode(const Block& block, Reading& reading) {
-  if (reading.sorted.has(Action::blend)) add_remark(reading.program, block.line, blend_text(reading));
+  if (reading.sorted.has(Action::blend)) {
+    add_remark(reading.program, block.line, blend_text(reading));
+    record_tolerance(block, reading);
+  }
   if (const FoundG* smooth = reading.sorted.find(Action::smooth))
     add_remark(
         reading.program, block.line,

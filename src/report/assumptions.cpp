@@ -53,21 +53,53 @@ std::string work_in_words(const Machine& machine, const Job& job) {
   return fmt::format("Program coordinates were taken as machine coordinates: {}.", reason);
 }
 
+namespace {
+
+bool touched_off(const Machine& machine, const WorkFrame& frame) {
+  const auto offset = machine.work.find(frame.name);
+  return offset != machine.work.end() && offset->second.datum.touched_at.has_value();
+}
+
+std::string touched_in_words(const Machine& machine, const WorkFrame& frame) {
+  return fmt::format(
+      "The part was touched off with this machine at {} mm in coordinates of {}: the machine's unloaded "
+      "deviation there, {} mm in the machine frame, is part of the work frame, and corrections are "
+      "relative to it.",
+      three(*machine.work.at(frame.name).datum.touched_at / mm, 4), frame.name,
+      three(frame.datum_shift / mm, 4));
+}
+
+// One frame that is all there is needs no name.
+std::string true_in_words(const std::vector<const WorkFrame*>& frames, bool all) {
+  std::string names;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    names += i == 0 ? " " : i + 1 < frames.size() ? ", " : " and ";
+    names += frames[i]->name;
+  }
+  if (frames.size() < 2)
+    return fmt::format(
+        "The work frame{} was taken to be truly there, not found by touching the part off with this "
+        "machine.",
+        all ? "" : names);
+  return fmt::format(
+      "The work frames{} were taken to be truly there, not found by touching the part off with this "
+      "machine.",
+      names);
+}
+
+}  // namespace
+
 std::string datum_in_words(const Machine& machine, const Job& job) {
   std::string text;
+  std::vector<const WorkFrame*> true_frames;
   for (const WorkFrame* frame : named_frames(job)) {
-    const auto offset = machine.work.find(frame->name);
-    if (offset == machine.work.end() || !offset->second.datum.touched_at) continue;
-    text += fmt::format(
-        "{}The part was touched off with this machine at {} mm in coordinates of {}: the machine's unloaded "
-        "deviation there, {} mm in the machine frame, is part of the work frame, and corrections are "
-        "relative to it.",
-        text.empty() ? "" : " ", three(*offset->second.datum.touched_at / mm, 4), frame->name,
-        three(frame->datum_shift / mm, 4));
+    if (touched_off(machine, *frame))
+      text.append(text.empty() ? "" : " ").append(touched_in_words(machine, *frame));
+    else
+      true_frames.push_back(frame);
   }
-  if (!text.empty()) return text;
-  return "The work frame was taken to be truly there, not found by touching the part off with this "
-         "machine.";
+  if (text.empty()) return true_in_words(true_frames, true);
+  return true_frames.empty() ? text : text + " " + true_in_words(true_frames, false);
 }
 
 }  // namespace counterflex

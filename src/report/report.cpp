@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "assumptions.hpp"
+#include "control.hpp"
 #include "counterflex/geometry/units.hpp"
 #include "measure.hpp"
 
@@ -30,10 +31,12 @@ std::vector<WorstRow> worst(std::vector<WorstRow> rows, double WorstRow::*key) {
   return rows;
 }
 
-std::vector<Remark> all_warnings(const Job& job, const RunFacts& facts) {
-  std::vector<Remark> all = facts.warnings;
+std::vector<Remark> all_warnings(const Job& job, const RunReport& report) {
+  std::vector<Remark> all = report.facts.warnings;
   all.insert(all.end(), job.program.remarks.begin(), job.program.remarks.end());
   for (const ForceNote& note : job.forces.notes()) all.push_back({note.line, note.what});
+  const auto of_control = control_warnings(report.control, report.correction);
+  all.insert(all.end(), of_control.begin(), of_control.end());
   return all;
 }
 
@@ -66,10 +69,15 @@ RunReport common(const Machine& machine, const Job& job, const RunFacts& facts, 
   report.blocks.moves = job.program.moves.size();
   report.text_before = {job.program.block_count, job.program.text.size()};
   report.forces = force_summary(job, measures);
-  report.warnings = listed(all_warnings(job, facts));
   report.work = work_in_words(machine, job);
   report.datum = datum_in_words(machine, job);
   return report;
+}
+
+// Once everything else is known.
+void add_control(RunReport& report, const Job& job, const std::string* corrected) {
+  report.control = control_facts(job, report.facts, corrected);
+  report.warnings = listed(all_warnings(job, report));
 }
 
 void add_residual(RunReport& report, const Measures& measures) {
@@ -88,6 +96,7 @@ RunReport report_prediction(const Machine& machine, const Job& job, const RunFac
   report.command = Command::predict;
   report.worst = worst(measures.by_line, &WorstRow::before_mm);
   report.blocks.left_alone = listed(job.program.left_alone);
+  add_control(report, job, nullptr);
   return report;
 }
 
@@ -105,6 +114,7 @@ RunReport report_compensation(const Machine& machine, const Job& job, const RunF
   report.blocks.left_alone = listed(std::move(left_alone));
   if (!compensation.text.empty())
     report.text_after = TextSize{job.program.block_count + report.blocks.inserted, compensation.text.size()};
+  add_control(report, job, compensation.text.empty() ? nullptr : &compensation.text);
   return report;
 }
 
@@ -119,6 +129,7 @@ RunReport report_verification(const Machine& machine, const Job& job, const RunF
   report.blocks.inserted = corrected.block_count - std::min(corrected.block_count, job.program.block_count);
   report.blocks.left_alone = listed(job.program.left_alone);
   report.text_after = TextSize{corrected.block_count, corrected.text.size()};
+  add_control(report, job, &corrected.text);
   return report;
 }
 

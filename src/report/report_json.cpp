@@ -88,6 +88,39 @@ Json text_json(const RunReport& report) {
           {"bytes_after", after ? Json(after->bytes) : Json(nullptr)}};
 }
 
+Json short_blocks_json(const std::optional<ShortBlocks>& blocks) {
+  if (!blocks) return nullptr;
+  const bool any = blocks->count > 0;
+  return {{"limit_ms", number(blocks->limit_ms, 6)},
+          {"count", blocks->count},
+          {"first_line", any ? Json(blocks->first_line) : Json(nullptr)},
+          {"shortest_ms", any ? number(blocks->shortest_ms, 6) : Json(nullptr)},
+          {"shortest_line", any ? Json(blocks->shortest_line) : Json(nullptr)}};
+}
+
+Json lines_json(const std::optional<LineLengths>& lines) {
+  if (!lines || lines->limit == 0) return nullptr;
+  return {{"limit", lines->limit},
+          {"longest", lines->longest},
+          {"longest_line", lines->longest_line},
+          {"near_limit", lines->near}};
+}
+
+Json control_json(const ControlFacts& control) {
+  const auto optional = [](const std::optional<double>& value) {
+    return value ? number(*value, digits) : Json(nullptr);
+  };
+  Json tolerances = Json::array();
+  for (const PathTolerance& t : control.tolerances)
+    tolerances.push_back(
+        {{"line", t.line}, {"path_mm", optional(t.path_mm)}, {"merge_mm", optional(t.merge_mm)}});
+  return {{"short_blocks", short_blocks_json(control.short_blocks)},
+          {"lines", lines_json(control.lines)},
+          {"path_tolerances", std::move(tolerances)},
+          {"plunges", control.plunges},
+          {"rapids", control.rapids}};
+}
+
 Json warnings_json(const std::vector<Remark>& warnings) {
   Json list = Json::array();
   for (const Remark& warning : warnings) list.push_back({{"line", warning.line}, {"what", warning.what}});
@@ -124,6 +157,7 @@ std::string to_json(const RunReport& report) {
                    {"forces", forces_json(report)},
                    {"blocks", blocks_json(report.blocks)},
                    {"text", text_json(report)},
+                   {"control", control_json(report.control)},
                    {"assumptions", {{"work", report.work}, {"datum", report.datum}}},
                    {"warning_count", report.warnings.count},
                    {"warnings", warnings_json(report.warnings.rows)},

@@ -1,6 +1,8 @@
 #include "counterflex/toolpath/toolpath.hpp"
 
 #include <array>
+#include <cmath>
+#include <numbers>
 
 #include "counterflex/geometry/units.hpp"
 
@@ -21,8 +23,12 @@ Segment segment_of(const Move& move, std::size_t index, const std::vector<WorkFr
   segment.cutting = move.motion == Motion::feed;
   segment.frame = move.offset;
   segment.wanted = wanted_frame(frames[move.offset]) * scaled(curve_of(move), mm);
-  segment.feed_m_s = move.feed_mm_min * mm / 60;
   return segment;
+}
+
+/// Under G93 F says how long the move takes, whatever its length.
+double feed_m_s(const Move& move, double way) {
+  return move.feed_mode == FeedMode::inverse_time ? way * move.feed_per_min / 60 : move.feed_mm_min * mm / 60;
 }
 
 /// Feed moves count, rapids stand still; so does the clock where no feed is programmed.
@@ -31,9 +37,8 @@ void advance(const Move& move, Segment& segment, double s, double t) {
   segment.s_start = s;
   segment.s_end = s + way;
   segment.t_start = t;
+  segment.feed_m_s = feed_m_s(move, way);
   segment.t_end = segment.feed_m_s > 0 ? t + way / segment.feed_m_s : t;
-  if (segment.cutting && move.feed_mode == FeedMode::inverse_time && move.feed_per_min > 0)
-    segment.t_end = t + 60 / move.feed_per_min;
 }
 
 }  // namespace
@@ -69,6 +74,32 @@ Curve curve_of(const Move& move) {
   curve.arc = Arc{move.arc->centre_mm, normal,
                   sweep_between(move.start_mm, move.end_mm, move.arc->centre_mm, normal, move.arc->turns)};
   return curve;
+}
+
+Extent extent_of(const Move& move) {
+  Extent extent{move.start_mm.cwiseMin(move.end_mm), move.start_mm.cwiseMax(move.end_mm)};
+  const Curve curve = curve_of(move);
+  if (!curve.arc) return extent;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (axis == move.arc->normal) continue;
+    for (const double side : {-1.0, 1.0}) {
+      const Vector3 outermost = curve.arc->centre + side * Vector3::Unit(axis);
+      const double u =
+          sweep_between(curve.start, outermost, curve.arc->centre, curve.arc->normal) / curve.arc->sweep;
+      if (u >= 1) continue;
+      const Vector3 p = point_at(curve, u);
+      extent.least = extent.least.cwiseMin(p);
+      extent.most = extent.most.cwiseMax(p);
+    }
+  }
+  return extent;
+}
+
+std::vector<Vector3> points_along(const Curve& curve) {
+  const int pieces = curve.arc ? 1 + static_cast<int>(curve.arc->sweep / (std::numbers::pi / 8)) : 1;
+  std::vector<Vector3> points;
+  for (int i = 0; i <= pieces; ++i) points.push_back(point_at(curve, static_cast<double>(i) / pieces));
+  return points;
 }
 
 void ignore_axes(Program& program, const std::array<bool, 3>& ignored) {

@@ -4,11 +4,11 @@
 
 namespace counterflex::test {
 
-/// One straight piece that the text commands on a wanted segment.
+/// One line or arc that the text commands on a wanted segment.
 struct Commanded {
   std::size_t segment = 0;
   double u0 = 0, u1 = 1;
-  Vector3 from, to;  ///< targets in M (m)
+  Curve curve;  ///< targets in M (m)
 };
 
 /// A deviation of the tip, and where it is.
@@ -30,6 +30,19 @@ inline Vector3 cold_tip(const Shop& shop, const Vector3& target, const Vector6& 
   return tip(model.mechanism, solved.configuration).p;
 }
 
+/// What the moves of `text` command in M (m); of moves from unknown positions the end alone.
+inline std::vector<Curve> ways_of(const Shop& shop, const std::string& text) {
+  std::vector<Curve> ways;
+  for (const Move& move : read_program(text, "corrected.ngc", {}).moves) {
+    Curve way = curve_of(move);
+    way.start *= mm;
+    way.end *= mm;
+    if (way.arc) way.arc->centre *= mm;
+    ways.push_back(shop.X_MW * way);
+  }
+  return ways;
+}
+
 /// Positions in M (m) that the moves of `text` end at.
 inline std::vector<Vector3> ends_of(const Shop& shop, const std::string& text) {
   std::vector<Vector3> ends;
@@ -41,19 +54,19 @@ inline std::vector<Vector3> ends_of(const Shop& shop, const std::string& text) {
 /// The feed pieces of a corrected text. Fractions are those that the waypoints claim; that the text ends a
 /// move at every one of them is checked, that the tip is there the caller finds out.
 inline std::vector<Commanded> commanded(const Shop& shop, const Compensation& result) {
-  const std::vector<Vector3> ends = ends_of(shop, result.text);
+  const std::vector<Curve> ways = ways_of(shop, result.text);
   std::vector<Commanded> pieces;
   std::size_t next = 0, segment = no_segment;
   double u0 = 0;
   for (const Waypoint& w : result.waypoints) {
     if (w.between) continue;
     const Vector3 target = w.p_MT - shop.datum_shift + w.correction.head<3>();
-    while (next < ends.size() && (ends[next] - target).norm() > 1e-12) ++next;
+    while (next < ways.size() && (ways[next].end - target).norm() > 1e-12) ++next;
     CAPTURE(w.line);
-    REQUIRE(next < ends.size());
+    REQUIRE(next < ways.size());
     if (w.segment != segment) u0 = 0;
     segment = w.segment;
-    if (w.cutting) pieces.push_back({w.segment, u0, w.fraction, ends[next - 1], ends[next]});
+    if (w.cutting) pieces.push_back({w.segment, u0, w.fraction, ways[next]});
     u0 = w.fraction;
     ++next;
   }
@@ -84,9 +97,9 @@ inline Miss dense_miss(const Shop& shop, const std::vector<Commanded>& pieces, i
     for (int k = 0; k <= inside + 1; ++k) {
       const double v = k / (inside + 1.0), u = piece.u0 + v * (piece.u1 - piece.u0);
       const Segment& segment = shop.path.segments[piece.segment];
-      const Vector3 wanted = segment.wanted.start + u * (segment.wanted.end - segment.wanted.start);
+      const Vector3 wanted = point_at(segment.wanted, u);
       const Vector6 F = shop.forces->at(piece.segment, u, k == 0 ? Side::after : Side::before);
-      const Vector3 reached = cold_tip(shop, piece.from + v * (piece.to - piece.from), F);
+      const Vector3 reached = cold_tip(shop, point_at(piece.curve, v), F);
       if ((reached - wanted).norm() > worst.size) worst = {(reached - wanted).norm(), segment.line, u};
     }
   return worst;

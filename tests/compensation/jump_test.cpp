@@ -99,7 +99,7 @@ TEST_CASE("under exact stop a move is not split: its ends are corrected, and it 
       const Segment& segment = shop.path.segments[piece.segment];
       if (segment.line != 4) continue;
       const Vector6 F = shop.forces->at(piece.segment, 1, Side::before);
-      CHECK((cold_tip(shop, piece.to, F) - segment.wanted.end).norm() < 1e-6);
+      CHECK((cold_tip(shop, piece.curve.end, F) - segment.wanted.end).norm() < 1e-6);
     }
   }
 }

@@ -33,8 +33,9 @@ std::string replaced(std::string text, const std::string& what, const std::strin
 TEST_CASE("a corrected program read anew deviates as its compensation says") {
   for (const double blend : {2e-3, 0.0}) {
     CAPTURE(blend);
-    const Shop shop(
-        {.machine = load_machine(orthoglide_b), .text = two_feeds, .force = constant_force(milling(), blend)});
+    const Shop shop({.machine = load_machine(orthoglide_b),
+                     .text = two_feeds,
+                     .force = constant_force(milling(), blend)});
     const Compensation result = compensated(shop);
     const ForwardRun run = judged(shop, result.text);
     REQUIRE(!run.failure);
@@ -74,7 +75,8 @@ TEST_CASE("blocks that act at their beginning are told from each other and from 
 }
 
 TEST_CASE("one coordinate that is changed by some hundredths is found, with its line") {
-  const Shop shop({.machine = load_machine(orthoglide_b), .text = two_feeds, .force = constant_force(milling())});
+  const Shop shop(
+      {.machine = load_machine(orthoglide_b), .text = two_feeds, .force = constant_force(milling())});
   const Compensation result = compensated(shop);
   const Program corrected = read_program(result.text, "corrected.ngc", {});
   for (std::size_t m = 0; m < corrected.moves.size(); ++m)
@@ -102,7 +104,8 @@ TEST_CASE("one coordinate that is changed by some hundredths is found, with its 
 }
 
 TEST_CASE("a changed end is found in its own move") {
-  const Shop shop({.machine = load_machine(orthoglide_b), .text = two_feeds, .force = constant_force(milling())});
+  const Shop shop(
+      {.machine = load_machine(orthoglide_b), .text = two_feeds, .force = constant_force(milling())});
   const Compensation result = compensated(shop);
   const Move changed = read_program(result.text, "corrected.ngc", {}).moves.back();
   REQUIRE(changed.words[1]);
@@ -115,7 +118,8 @@ TEST_CASE("a changed end is found in its own move") {
 }
 
 TEST_CASE("a program with a move missing has no counterpart for it") {
-  const Shop shop({.machine = load_machine(orthoglide_b), .text = two_feeds, .force = constant_force(milling())});
+  const Shop shop(
+      {.machine = load_machine(orthoglide_b), .text = two_feeds, .force = constant_force(milling())});
   std::vector<std::string> lines = lines_of(compensated(shop).text);
   for (const std::string start : {"N20", "G0 Z", "N10"}) {
     CAPTURE(start);
@@ -127,7 +131,8 @@ TEST_CASE("a program with a move missing has no counterpart for it") {
 }
 
 TEST_CASE("the original itself misses its path by the deviation before") {
-  const Shop shop({.machine = load_machine(orthoglide_b), .text = two_feeds, .force = constant_force(milling())});
+  const Shop shop(
+      {.machine = load_machine(orthoglide_b), .text = two_feeds, .force = constant_force(milling())});
   const ForwardRun run = judged(shop, two_feeds);
   REQUIRE(!run.failure);
   for (const Waypoint& w : run.waypoints) {

@@ -44,18 +44,20 @@ TEST_CASE("moves that leave the path and come back are refused") {
 }
 
 TEST_CASE("a line that holds no move has to stay as it is") {
-  CHECK(refusal(replaced("G54", "G55")) ==
-        "changed.ngc:1:1: error: differs from line 1 of the original, which is no move and must stay as it is");
-  CHECK(refusal(replaced("M5\n", "")) ==
-        "changed.ngc:5:1: error: differs from line 5 of the original, which is no move and must stay as it is");
-  CHECK(refusal(replaced("M30\n", "M30\nM3\n")) ==
-        "changed.ngc:7:1: error: the original has no such line");
+  CHECK(
+      refusal(replaced("G54", "G55")) ==
+      "changed.ngc:1:1: error: differs from line 1 of the original, which is no move and must stay as it is");
+  CHECK(
+      refusal(replaced("M5\n", "")) ==
+      "changed.ngc:5:1: error: differs from line 5 of the original, which is no move and must stay as it is");
+  CHECK(refusal(replaced("M30\n", "M30\nM3\n")) == "changed.ngc:7:1: error: the original has no such line");
   CHECK(refusal(replaced("M30\n", "")) ==
         "changed.ngc:5:1: error: line 6 of the original is missing after this line");
 }
 
 TEST_CASE("words of a move that correction never changes have to stay") {
-  CHECK(refusal(replaced("F100", "F1000")) ==
-        "part.ngc:3:1: error: no move of the corrected program continues this one with the same words (motion, "
-        "F, S, M) (verify)");
+  CHECK(
+      refusal(replaced("F100", "F1000")) ==
+      "part.ngc:3:1: error: no move of the corrected program continues this one with the same words (motion, "
+      "F, S, M) (verify)");
 }

@@ -14,7 +14,7 @@ std::string many_cuts(int count) {
   std::string program = "G21 G90\nG0 X10. Y10. Z0.\nG1 F500\n";
   for (int i = 0; i < count; ++i)
     program += fmt::format("G1 X{:.3f} Y{:.3f} Z{:.2f}\n", 40 * std::cos(0.37 * i), 30 * std::sin(0.53 * i),
-                        0.1 * i);
+                           0.1 * i);
   return program + "M30\n";
 }
 

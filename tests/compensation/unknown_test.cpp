@@ -12,7 +12,8 @@ Machine gantry(const std::string& controlled = R"("x", "y", "z")", bool has_z = 
   return read_machine(R"(
 format = "counterflex-machine 1"
 name = "gantry"
-controlled = [)" + controlled + R"(]
+controlled = [)" + controlled +
+                          R"(]
 [springs.s]
 stiffness_diag_si = [1e6, 2e6, 4e6, 1e12, 1e12, 1e12]
 [[chain]]

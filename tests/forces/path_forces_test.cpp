@@ -206,3 +206,30 @@ TEST_CASE("very long runs keep the blended wrench accurate") {
   CHECK(forces.at(count - 1, 0.5) == wrench(300, 0, 0));
   CHECK(forces.breaks(count - 1).size() == 1);
 }
+
+TEST_CASE("feed moves wholly above the air's height carry no force, others and rapids as ever") {
+  ForceSource source = constant(wrench(100, 0, 0), 0);
+  source.air_above_mm = 4.9;
+  const auto forces = forces_on(sample_program(), source);  // cuts from Z10 to Z0, in Z0, and twice in Z5
+  CHECK(forces.at(1, 0.1) == wrench(100, 0, 0));
+  CHECK(forces.at(2, 0.5) == wrench(100, 0, 0));
+  for (const std::size_t i : {4u, 5u}) CHECK(forces.at(i, 0.5) == Vector6::Zero());
+  source.air_above_mm = 5;
+  CHECK(forces_on(sample_program(), source).at(4, 0.5) == wrench(100, 0, 0));
+  auto profile = from_csv(on_tool + "line,fx_N,fy_N,fz_N\n1,1,0,0\n");
+  profile.air_above_mm = 4.9;
+  CHECK(forces_on(sample_program(), profile).at(2, 0.5) == wrench(1, 0, 0));
+  CHECK(forces_on(sample_program(), profile).at(4, 0.5) == Vector6::Zero());
+}
+
+TEST_CASE("an upright arc is in the air only where its lowest point is") {
+  // counter-clockwise about Y from -X to X: over the top
+  const Program program = ProgramBuilder({-10, 0, 0}).feed({10, 0, 0}, 600).about({0, 0, 0}, 1).program;
+  const double lowest = extent_of(program.moves[0]).least.z();
+  CHECK(lowest == 0);
+  ForceSource source = constant(wrench(100, 0, 0), 0);
+  source.air_above_mm = lowest - 1e-6;
+  CHECK(forces_on(program, source).at(0, 0.5) == Vector6::Zero());
+  source.air_above_mm = lowest + 1e-6;
+  CHECK(forces_on(program, source).at(0, 0.5) == wrench(100, 0, 0));
+}

@@ -69,6 +69,6 @@ TEST_CASE("columns count bytes, also behind characters of more than one byte, CR
             head + "name = \"\xC3\xA4\xE2\x82\xAC\" # \xF0\x9F\x98\x80\r\nlimits = { \"\xC3\xA4\" = 1 }\r\n",
             "m.toml")
             .starts_with("m.toml:3:12: error: unknown key"));
-  CHECK(diagnostic_of(head + "work = { \"\xE2\x82\xAC\xC3\xA4\" = 5 }\r\n", "m.toml")
-            .starts_with("m.toml:2:20: error:"));
+  CHECK(diagnostic_of(head + "springs = { \"\xE2\x82\xAC\xC3\xA4\" = 5 }\r\n", "m.toml")
+            .starts_with("m.toml:2:23: error:"));
 }

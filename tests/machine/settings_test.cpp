@@ -1,5 +1,7 @@
 #include <doctest/doctest.h>
 
+#include "counterflex/machine/describe.hpp"
+#include "counterflex/machine/work_names.hpp"
 #include "machine_texts.hpp"
 
 using namespace counterflex;
@@ -60,6 +62,33 @@ TEST_CASE("the control's settings are kept, axes in upper case, and no axis diff
   const ControlSettings none = machine_with("[program]\ntool_change_moves = []\n").control;
   REQUIRE(none.tool_change_moves.has_value());
   CHECK(none.tool_change_moves->empty());
+}
+
+TEST_CASE("work offsets have the names that programs select them by, however they are spelt") {
+  const Machine machine =
+      machine_with("[work.g55]\n[work.\"G54.1P007\"]\n[work.\"g154 p99\"]\n[work.G505]\n");
+  for (const char* name : {"G55", "G54.1 P7", "G154 P99", "G505"}) {
+    CAPTURE(name);
+    CHECK(machine.work.count(name) == 1);
+  }
+}
+
+TEST_CASE("names that select no work offset are none") {
+  for (const char* name :
+       {"", "G", "G53", "G60", "G59.4", "G54.1", "G54.1 P0", "G54.1 P301", "G154 P100", "G54 P1", "G499",
+        "G600", "G54x", "54", "G-54", "G54.1 P-1", "G154", "G54.1 P1.5"}) {
+    CAPTURE(name);
+    CHECK_FALSE(work_offset_name(name).has_value());
+  }
+}
+
+TEST_CASE("tools have lengths, negative ones too, by number") {
+  const Machine machine = machine_with("[tools.T3]\nlength_mm = 72.5\n[tools.12]\nlength_mm = -4\n");
+  REQUIRE(machine.tool_lengths.size() == 2);
+  CHECK(machine.tool_lengths.at(3) == doctest::Approx(0.0725));
+  CHECK(machine.tool_lengths.at(12) == doctest::Approx(-0.004));
+  CHECK(describe(machine).find("tools        T3 72.5 mm, T12 -4 mm long\n") != std::string::npos);
+  CHECK(describe(machine_with("")).find("tools") == std::string::npos);
 }
 
 TEST_CASE("the limit of the correction is in millimetres") {

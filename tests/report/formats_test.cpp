@@ -159,6 +159,18 @@ TEST_CASE("the JSON of a compensation has every key, in this order") {
     "bytes_before": 65,
     "bytes_after": 6
   },
+  "control": {
+    "short_blocks": null,
+    "lines": {
+      "limit": 255,
+      "longest": 5,
+      "longest_line": 1,
+      "near_limit": 0
+    },
+    "path_tolerances": [],
+    "plunges": 0,
+    "rapids": 2
+  },
   "assumptions": {
     "work": "Program coordinates were taken as machine coordinates: the machine file has no work offsets.",
     "datum": "The work frame was taken to be truly there, not found by touching the part off with this machine."

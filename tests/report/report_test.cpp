@@ -202,3 +202,30 @@ TEST_CASE("the report says in words where the program's coordinates lie and what
         std::string::npos);
   CHECK(report().datum.find("(0.1000, 0.0000, -0.2000) mm in the machine frame") != std::string::npos);
 }
+
+TEST_CASE("what is assumed is said of every offset that the program uses") {
+  MadeUpRun run;
+  const auto report = [&] { return report_prediction(run.machine, run.job, run.facts, {}, {}); };
+  run.path.frames = {{"G54", Pose{}}, {"G55", translation({0.1, 0, 0})}, {"G56", translation({0.2, 0, 0})}};
+  for (const char* name : {"G54", "G55", "G56", "G59"}) run.machine.work[name] = {};
+  CHECK(report().work ==
+        "G54 puts the program's origin at (0.0000, 0.0000, 0.0000) mm in the machine frame. G55 puts the "
+        "program's "
+        "origin at (100.0000, 0.0000, 0.0000) mm in the machine frame. G56 puts the program's origin at "
+        "(200.0000, "
+        "0.0000, 0.0000) mm in the machine frame.");
+  CHECK(report().datum ==
+        "The work frames G54, G55 and G56 were taken to be truly there, not found by touching the part off "
+        "with "
+        "this machine.");
+  run.machine.work["G55"].datum.touched_at = Vector3(1, 2, 3) * mm;
+  const std::string mixed = report().datum;
+  CHECK(mixed.find("in coordinates of G55") != std::string::npos);
+  CHECK(mixed.ends_with(
+      "The work frames G54 and G56 were taken to be truly there, not found by touching the part off "
+      "with this machine."));
+  run.machine.work["G56"].datum.touched_at = Vector3(1, 2, 3) * mm;
+  CHECK(report().datum.ends_with(
+      "The work frame G54 was taken to be truly there, not found by touching the part off "
+      "with this machine."));
+}

@@ -20,6 +20,22 @@ struct ProgramBuilder {
     return add(Motion::feed, end_mm, feed_mm_min);
   }
 
+  /// An arc in G17, counter-clockwise unless `clockwise`.
+  ProgramBuilder& arc(const Vector3& end_mm, const Vector3& centre_mm, double feed_mm_min,
+                      bool clockwise = false) {
+    return add(Motion::feed, end_mm, feed_mm_min).about(centre_mm, 2, clockwise);
+  }
+
+  /// Makes the last move an arc about an axis in direction `normal` (0, 1 or 2).
+  ProgramBuilder& about(const Vector3& centre_mm, int normal, bool clockwise = false) {
+    ArcMove arc;
+    arc.normal = normal;
+    arc.clockwise = clockwise;
+    arc.centre_mm = centre_mm;
+    program.moves.back().arc = arc;
+    return *this;
+  }
+
   /// As a comment (FORCE ...) before the next move.
   ProgramBuilder& with_force(const Vector6& F) {
     force = F;

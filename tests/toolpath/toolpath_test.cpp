@@ -2,6 +2,8 @@
 
 #include <doctest/doctest.h>
 
+#include <cmath>
+
 #include "counterflex/geometry/units.hpp"
 #include "support/programs.hpp"
 
@@ -73,7 +75,8 @@ TEST_CASE("without a programmed feed the clock stands still, the length does not
 }
 
 TEST_CASE("an axis that is ignored is known throughout and seems to stand still before it is programmed") {
-  Program program = ProgramBuilder({0, 0, 0}).rapid({10, 0, 0}).rapid({10, 0, 5}).feed({20, 0, 5}, 100).program;
+  Program program =
+      ProgramBuilder({0, 0, 0}).rapid({10, 0, 0}).rapid({10, 0, 5}).feed({20, 0, 5}, 100).program;
   for (std::size_t m = 0; m < 2; ++m) program.moves[m].known_start[2] = false;
   program.moves[0].known_end[2] = false;
   ignore_axes(program, {false, false, true});
@@ -84,5 +87,66 @@ TEST_CASE("an axis that is ignored is known throughout and seems to stand still 
     CHECK(move.start_mm.z() == 5);
     CHECK(move.end_mm.z() == 5);
   }
-  CHECK(build_toolpath(program, one_frame(program, {})).segments.size() == 2);  // the move of Z alone goes nowhere
+  CHECK(build_toolpath(program, one_frame(program, {})).segments.size() ==
+        2);  // the move of Z alone goes nowhere
+}
+
+TEST_CASE("arcs and helices count with their own length, in path and time") {
+  const Program program = ProgramBuilder({10, 0, 0})
+                              .arc({0, 10, 0}, {0, 0, 0}, 600)
+                              .arc({0, 10, 0}, {0, 0, 0}, 600, true)
+                              .arc({0, -10, 5}, {0, 0, 0}, 300)
+                              .program;
+  const auto segments = build_toolpath(program, one_frame(program, {})).segments;
+  REQUIRE(segments.size() == 3);
+  const double quarter = 0.01 * 90 * deg, half_helix = std::hypot(2 * quarter, 0.005);
+  CHECK(segments[0].s_end == doctest::Approx(quarter));
+  CHECK(segments[0].t_end == doctest::Approx(quarter / 0.01));
+  CHECK(segments[1].s_end == doctest::Approx(5 * quarter));  // the whole circle
+  CHECK(segments[2].s_end == doctest::Approx(5 * quarter + half_helix));
+  CHECK(segments[2].t_end == doctest::Approx(5 * quarter / 0.01 + half_helix / 0.005));
+}
+
+TEST_CASE("under G93 a move takes a minute over F, whatever its length, and its feed follows") {
+  Program program = ProgramBuilder({10, 0, 0}).feed({0, 0, 0}, 600).feed({0, 30, 0}, 600).program;
+  for (Move& move : program.moves) {
+    move.feed_mode = FeedMode::inverse_time;
+    move.feed_per_min = 30;
+  }
+  const auto segments = build_toolpath(program, one_frame(program, {})).segments;
+  CHECK(segments[0].t_end == doctest::Approx(2));
+  CHECK(segments[1].t_end == doctest::Approx(4));
+  CHECK(segments[0].feed_m_s == doctest::Approx(0.005));
+  CHECK(segments[1].feed_m_s == doctest::Approx(0.015));
+}
+
+TEST_CASE("the extent of an arc holds its outermost points, of a line its ends") {
+  const Program program = ProgramBuilder({10, 0, 0})
+                              .arc({0, -10, 3}, {0, 0, 0}, 600)
+                              .feed({5, 5, -1}, 600)
+                              .feed({5, 5, -1}, 600)
+                              .about({5, 5, -11}, 0)
+                              .program;
+  const Extent helix = extent_of(program.moves[0]);  // three quarters
+  CHECK((helix.least - Vector3(-10, -10, 0)).norm() < 1e-12);
+  CHECK((helix.most - Vector3(10, 10, 3)).norm() < 1e-12);
+  const Extent line = extent_of(program.moves[1]);
+  CHECK(line.least == Vector3(0, -10, -1));
+  CHECK(line.most == Vector3(5, 5, 3));
+  const Extent circle = extent_of(program.moves[2]);  // G19
+  CHECK((circle.least - Vector3(5, -5, -21)).norm() < 1e-12);
+  CHECK((circle.most - Vector3(5, 15, -1)).norm() < 1e-12);
+}
+
+TEST_CASE("points along an arc are on it, near to each other, from its start to its end") {
+  const Program program =
+      ProgramBuilder({10, 0, 0}).arc({0, -10, 0}, {0, 0, 0}, 600).feed({1, 1, 1}, 600).program;
+  const auto points = points_along(curve_of(program.moves[0]));
+  CHECK(points.front() == program.moves[0].start_mm);
+  CHECK(points.back() == program.moves[0].end_mm);
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    CHECK(points[i].norm() == doctest::Approx(10));
+    CHECK((points[i] - points[i - 1]).norm() < 10 * 22.5 * deg);
+  }
+  CHECK(points_along(curve_of(program.moves[1])).size() == 2);
 }

@@ -49,6 +49,8 @@ struct ForceSource {
   double blend =
       2e-3;  ///< m; what acts is the mean over the last min(blend, half of the feed run) of feed path
   double scale = 1.0;
+  std::optional<double>
+      air_above_mm;  ///< Z of program coordinates: feed moves wholly above it carry no force
 };
 
 struct ForceNote {
@@ -64,6 +66,7 @@ struct ForcePiece {
   Vector6 F0 = Vector6::Zero();
   Vector6 F1 = Vector6::Zero();
   Vector6 integral = Vector6::Zero();
+  bool goes_on = false;  ///< smoothly from the piece before it: its start is no corner
 };
 
 /// Feed moves between two rapids: cutting path length [s0, s1] (m), pieces and corners [first, end).
@@ -81,8 +84,9 @@ struct FeedRun {
 /// step.
 enum class Side { before, after };
 
-/// The wrench along a toolpath, machine axes, blended. Built once in linear time, then read from any thread;
-/// a query costs the logarithm of the number of moves.
+/// The wrench along a toolpath, machine axes, blended. A wrench in the feed frame turns with the tangent of
+/// an arc: its pieces follow it to within 1e-4, and are no corners. Built once in linear time, then read from
+/// any thread; a query costs the logarithm of the number of moves.
 ///
 /// With b = min(blend, half of the feed run), u the path length and f the unblended wrench, zero before the
 /// run:
@@ -92,7 +96,8 @@ enum class Side { before, after };
 /// A feed run is a sequence of cutting segments that join, without a rapid between.
 class PathForces {
  public:
-  /// `R_MT` gives the wanted orientation of the tool in the machine frame, one a segment, or one for all.
+  /// `R_MT` gives the wanted orientation of the tool in the machine frame: one for all, one a segment, or for
+  /// each segment as many, at equal fractions from its start to its end, between which the tool turns evenly.
   /// Throws `InputError` (Exit::machine_or_force) naming the row whose key lies beyond the program, or that
   /// leaves a cutting move without a force: the first row after the first cutting move, or the last of a
   /// linear profile before the last.

@@ -108,11 +108,12 @@ struct ControlSettings {
 
 struct Machine {
   std::string name;
-  std::vector<Component> controlled;  ///< as many as there are actuators, or none
-  std::optional<Pose> home_X_MP;      ///< required for more than one chain
-  Location home_at;                   ///< where the file says home: [home], or else the first chain
-  Pose X_PT;                          ///< tool tip in the platform frame
-  std::map<std::string, WorkOffset> work;
+  std::vector<Component> controlled;       ///< as many as there are actuators, or none
+  std::optional<Pose> home_X_MP;           ///< required for more than one chain
+  Location home_at;                        ///< where the file says home: [home], or else the first chain
+  Pose X_PT;                               ///< tool tip in the platform frame
+  std::map<std::string, WorkOffset> work;  ///< by names that `work_offset_name` gives
+  std::map<long, double> tool_lengths;     ///< m, by tool number: what G43 H adds to Z
   ControlSettings control;
   double max_correction = 1e-3;  ///< m
   std::vector<Chain> chains;

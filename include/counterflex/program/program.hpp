@@ -88,7 +88,7 @@ struct Move {
   std::array<bool, 3> ignored{};                 ///< axes that nobody corrects: no word is inserted for them
   std::array<bool, 3> fixed{};  ///< axes that the block sets to a place of its own which no edit can shift
                                 ///< (an expression, a subprogram): a correction that holds there must be zero
-  bool relative = false;  ///< G91: words are differences from the start
+  bool relative = false;        ///< G91: words are differences from the start
   Handling handling = Handling::own;
   int group = 0;  ///< number of its contour group, from 1; 0: none
   std::optional<ArcMove> arc;
@@ -116,12 +116,21 @@ struct Move {
 struct LeftAlone {
   int line = 0;
   std::string why;
+  bool machine_position =
+      false;  ///< the block moves axes to a place that the machine knows: no move of the program
 };
 
 /// A remark for the report.
 struct Remark {
   int line = 0;
   std::string what;
+};
+
+/// How far a control is allowed to leave the path from a block on: G64 P Q.
+struct PathTolerance {
+  int line = 0;
+  std::optional<double> path_mm;   ///< P; none: any distance
+  std::optional<double> merge_mm;  ///< Q: moves that are this near to a line become one
 };
 
 struct Program {
@@ -133,7 +142,8 @@ struct Program {
   std::vector<std::string> work_offsets{""};  ///< "G54", "G54.1 P3", ...; the first: none selected yet
   std::vector<LeftAlone> left_alone;
   std::vector<Remark> remarks;
-  std::size_t block_count = 0;  ///< lines with at least one word
+  std::vector<PathTolerance> path_tolerances;  ///< each different one once
+  std::size_t block_count = 0;                 ///< lines with at least one word
 };
 
 }  // namespace counterflex

@@ -17,8 +17,8 @@ struct ReadOptions {
       tool_change_moves;  ///< axes of "XYZ" unknown after a tool change; none: the
                           ///< dialect's, no axis for linuxcnc and grbl, else all
   IntegerWords integer_words = IntegerWords::unsaid;
-  std::map<long, double> tool_lengths_mm;  ///< by H, or the active tool's number where G43 has no H: with
-                                           ///< both lengths known Z stays known when they change
+  std::map<long, double> tool_lengths_mm{};  ///< by H, or the active tool's number where G43 has no H: with
+                                             ///< both lengths known Z stays known when they change
 };
 
 /// Reads `text`, keeping every byte. `file` names it in diagnostics. Throws `InputError` with line and column

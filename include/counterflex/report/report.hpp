@@ -8,6 +8,7 @@
 
 #include "counterflex/compensation/compensate.hpp"
 #include "counterflex/machine/machine.hpp"
+#include "counterflex/program/line_lengths.hpp"
 #include "counterflex/report/statistics.hpp"
 
 namespace counterflex {
@@ -34,6 +35,7 @@ struct RunFacts {
   std::vector<Remark>
       warnings;              ///< besides the program's remarks and the forces' notes, which are added here
   std::string output;        ///< path of the corrected program; empty: none was written
+  double min_block_ms = 2;   ///< what takes less time is a short block
   bool attribution = false;  ///< the waypoints' geometry, load, superposition and air were solved
 };
 
@@ -83,6 +85,24 @@ struct TextSize {
   std::size_t bytes = 0;
 };
 
+/// Feed moves that take less than `limit_ms` at programmed feeds; lines of the program that has them.
+struct ShortBlocks {
+  double limit_ms = 0;
+  std::size_t count = 0;
+  int first_line = 0;
+  double shortest_ms = 0;
+  int shortest_line = 0;
+};
+
+/// What a control may make of a program.
+struct ControlFacts {
+  std::optional<ShortBlocks> short_blocks;  ///< of the corrected program; none where there is none
+  std::optional<LineLengths> lines;         ///< likewise
+  std::vector<PathTolerance> tolerances;    ///< of the original
+  std::size_t plunges = 0;                  ///< feed moves of the original straight down in Z
+  std::size_t rapids = 0;                   ///< and its rapids
+};
+
 struct RunReport {
   Command command = Command::compensate;
   RunFacts facts;  ///< its `warnings` stay the caller's own; all are in `warnings` below
@@ -99,6 +119,7 @@ struct RunReport {
   BlockCounts blocks;
   TextSize text_before;
   std::optional<TextSize> text_after;
+  ControlFacts control;
   ForceSummary forces;
   Capped<Remark> warnings;
   std::vector<WorstRow> worst;  ///< at most ten lines, the largest `after` first (`before` for `predict`)

@@ -31,7 +31,7 @@ struct Segment {
   bool cutting = false;   ///< a feed move (G1, G2, G3)
   std::size_t frame = 0;  ///< index into Toolpath::frames
   Curve wanted;           ///< of the tip, in M
-  double feed_m_s = 0;    ///< programmed feed; 0 where none is programmed
+  double feed_m_s = 0;    ///< programmed feed, under G93 that of this move; 0 where none is programmed
   double s_start = 0;     ///< cutting path length at the start, from the program's start: feed moves only (m)
   double s_end = 0;
   double t_start =
@@ -52,6 +52,17 @@ void ignore_axes(Program& program, const std::array<bool, 3>& ignored);
 
 /// The move's way in program coordinates, mm.
 Curve curve_of(const Move& move);
+
+/// The smallest box around the move's way, in program coordinates, mm; of a spiral arc to within the mismatch
+/// of its radii.
+struct Extent {
+  Vector3 least, most;
+};
+Extent extent_of(const Move& move);
+
+/// Places along a curve that tell how far it reaches: a line's ends, and points of an arc at most 22.5
+/// degrees apart. Begins with the start and ends with the end.
+std::vector<Vector3> points_along(const Curve& curve);
 
 /// Builds the path of `program` in the machine frame; `frames` are those of its work offsets. Moves with an
 /// axis that is not known at start and end give no segment; a move of no length gives none either.

@@ -1,0 +1,48 @@
+#pragma once
+/// What becomes of each block with motion, before any machine is known: which are corrected by themselves,
+/// which hold a shift, which stay as they are, and why.
+#include <array>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "counterflex/program/program.hpp"
+
+namespace counterflex {
+
+/// Blocks that share a fate and its reason.
+struct PlanRow {
+  std::string why;
+  std::size_t count = 0;
+  std::vector<int> lines;     ///< of the first of them, at most `lines_of_row`
+  bool must_be_zero = false;  ///< a correction that is not zero there is refused
+};
+
+inline constexpr std::size_t lines_of_row = 5;
+
+/// A contour under G41 or G42, which has one shift.
+struct PlanGroup {
+  int number = 0;
+  int first_line = 0, last_line = 0;
+  std::size_t moves = 0;
+};
+
+struct MotionPlan {
+  std::size_t moves = 0;          ///< blocks with motion, machine positions among them
+  std::size_t corrected = 0;      ///< by the correction of their own end
+  std::size_t held = 0;           ///< keep the correction with which they are entered
+  std::size_t grouped = 0;        ///< in contour groups
+  std::size_t not_corrected = 0;  ///< machine positions, unknown places, blocks that are not followed
+  std::vector<PlanRow> held_rows, left_rows;  ///< in the order of their first lines
+  std::vector<PlanRow> other_rows;            ///< blocks without motion that are not followed
+  std::vector<PlanGroup> groups;
+  std::array<std::size_t, 3> arcs{};  ///< in the planes XY, XZ, YZ
+  std::size_t cycles = 0, relative = 0, inverse_time = 0;
+  std::map<long, std::size_t> tools;  ///< moves by tool in the spindle; 0: none known
+};
+
+/// The plan of `program`. A word programmed before all axes are known counts as corrected where a position
+/// that is known follows within 64 blocks.
+MotionPlan motion_plan(const Program& program);
+
+}  // namespace counterflex

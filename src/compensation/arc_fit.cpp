@@ -1,0 +1,195 @@
+#include "arc_fit.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "counterflex/geometry/units.hpp"
+
+namespace counterflex {
+namespace {
+
+constexpr int fit_samples = 16;
+constexpr int fit_iterations = 4;
+constexpr double fit_step_mm = 1e-4;       // of numerical derivatives
+constexpr double pull_to_source = 4e-4;    // where the curve hardly tells the centre it stays where it was
+constexpr double centre_kept_share = 0.5;  // of the tolerance: a centre that misses by less is kept
+constexpr double most_sweep_change = 0.1;  // rad
+constexpr double same_mm = 1e-9;
+
+// What the pieces of one arc are compared with.
+struct Sample {
+  double v;      // fraction of the piece
+  Vector3 p_mm;  // commanded
+};
+
+std::vector<Sample> samples_of(const ArcTask& task, const ArcPiece& piece) {
+  std::vector<Sample> all;
+  const double span = piece.u1 - piece.u0;
+  for (int k = 1; k <= fit_samples; ++k) {
+    const double v = static_cast<double>(k) / fit_samples;
+    all.push_back({v, task.commanded(k == fit_samples ? piece.u1 : piece.u0 + v * span)});
+  }
+  for (double corner : task.corners)
+    if (corner > piece.u0 && corner < piece.u1)
+      all.push_back({(corner - piece.u0) / span, task.commanded(corner)});
+  return all;
+}
+
+// Two axes that span the plane, in any order.
+std::array<Eigen::Index, 2> plane_of(const Move& move) {
+  return {(move.arc->normal + 1) % 3, (move.arc->normal + 2) % 3};
+}
+
+double radius(const Arc& arc, const Vector3& p) {
+  const Vector3 arm = p - arc.centre;
+  return (arm - arm.dot(arc.normal) * arc.normal).norm();
+}
+
+double mismatch(const Curve& curve) {
+  return std::abs(radius(*curve.arc, curve.end) - radius(*curve.arc, curve.start));
+}
+
+double digit_mm(const ArcTask& task) {
+  const Decimals decimals = decimals_of(task.move, task.options);
+  int least = decimals.inserted;
+  for (const Eigen::Index axis : plane_of(task.move))
+    least = std::min(least, decimals.end[static_cast<std::size_t>(axis)]);
+  return std::pow(10.0, -least) * (task.move.unit == LengthUnit::inches ? inch / mm : 1);
+}
+
+// GRBL's rule; LinuxCNC's is wider.
+bool radii_are_accepted(const Curve& curve) {
+  const double miss = mismatch(curve);
+  return miss <= 0.005 || (miss <= 0.5 && miss <= 0.001 * radius(*curve.arc, curve.start));
+}
+
+bool is_sound(const ArcTask& task, const ArcPiece& piece, const Curve& read) {
+  if (!read.arc) return false;
+  const double sweep = (piece.u1 - piece.u0) * task.source.arc->sweep;
+  return std::abs(read.arc->sweep - sweep) < most_sweep_change &&
+         mismatch(read) <= mismatch(task.source) + digit_mm(task) + same_mm &&
+         (radii_are_accepted(read) || !radii_are_accepted(task.source));
+}
+
+double miss_of(const Curve& curve, const std::vector<Sample>& wanted) {
+  double largest = 0;
+  for (const Sample& s : wanted) largest = std::max(largest, (point_at(curve, s.v) - s.p_mm).norm());
+  return largest;
+}
+
+// Everything that the fit of one piece needs.
+class PieceFit {
+ public:
+  PieceFit(const ArcTask& task, const ArcPiece& piece)
+      : task_(task), piece_(piece), plane_(plane_of(task.move)), samples_(samples_of(task, piece)) {
+    for (Eigen::Index axis = 0; axis < 3; ++axis) start_[axis] = *piece.from[static_cast<std::size_t>(axis)];
+    end_ = samples_[fit_samples - 1].p_mm;
+  }
+
+  FittedArc run() const {
+    const Vector3 kept = start_ + task_.source.arc->centre - point_at(task_.source, piece_.u0);
+    FittedArc best = written(kept);
+    if (best.sound && best.miss_mm <= centre_kept_share * task_.tolerance_mm) return best;
+    const Vector3 fitted = fitted_centre(kept);
+    take_better(written(fitted), best);
+    if (!best.sound || best.miss_mm > task_.tolerance_mm) try_neighbours(fitted, best);
+    return best;
+  }
+
+ private:
+  FittedArc written(const Vector3& centre) const {
+    FittedArc fit{.via = {end_, centre}, .read = {}};
+    fit.read = as_written(task_.move, piece_.from, fit.via, piece_.is_end, task_.options);
+    fit.sound = is_sound(task_, piece_, fit.read);
+    fit.miss_mm = fit.read.arc ? miss_of(fit.read, samples_) : std::numeric_limits<double>::infinity();
+    return fit;
+  }
+
+  static void take_better(const FittedArc& other, FittedArc& best) {
+    if (other.sound != best.sound ? other.sound : other.miss_mm < best.miss_mm) best = other;
+  }
+
+  // The centre's own rounding may be what spoils the radii: the digits beside it.
+  void try_neighbours(const Vector3& centre, FittedArc& best) const {
+    const double digit = digit_mm(task_);
+    for (int a = -1; a <= 1; ++a)
+      for (int b = -1; b <= 1; ++b) {
+        Vector3 beside = centre;
+        beside[plane_[0]] += a * digit;
+        beside[plane_[1]] += b * digit;
+        if (a != 0 || b != 0) take_better(written(beside), best);
+      }
+  }
+
+  Eigen::VectorXd residuals(const Vector3& centre) const {
+    const Vector3& normal = task_.source.arc->normal;
+    const Curve curve{start_, end_, Arc{centre, normal, sweep_between(start_, end_, centre, normal)}};
+    Eigen::VectorXd r(3 * static_cast<Eigen::Index>(samples_.size()));
+    for (std::size_t k = 0; k < samples_.size(); ++k)
+      r.segment<3>(3 * static_cast<Eigen::Index>(k)) = point_at(curve, samples_[k].v) - samples_[k].p_mm;
+    return r;
+  }
+
+  // Gauss-Newton on the mean square of the misses, pulled a little to where the centre stood.
+  Vector3 fitted_centre(const Vector3& kept) const {
+    Vector3 centre = kept;
+    const double pull = pull_to_source * static_cast<double>(samples_.size());
+    for (int i = 0; i < fit_iterations; ++i) {
+      const Eigen::VectorXd r = residuals(centre);
+      Eigen::MatrixXd J(r.size(), 2);
+      for (int k = 0; k < 2; ++k)
+        J.col(k) = (residuals(centre + fit_step_mm * Vector3::Unit(plane_[k])) - r) / fit_step_mm;
+      const Eigen::Vector2d away(centre[plane_[0]] - kept[plane_[0]], centre[plane_[1]] - kept[plane_[1]]);
+      const Eigen::Matrix2d H = J.transpose() * J + pull * Eigen::Matrix2d::Identity();
+      const Eigen::Vector2d step = -H.inverse() * (J.transpose() * r + pull * away);
+      for (int k = 0; k < 2; ++k) centre[plane_[k]] += step[k];
+    }
+    return centre;
+  }
+
+  const ArcTask& task_;
+  const ArcPiece& piece_;
+  std::array<Eigen::Index, 2> plane_;
+  std::vector<Sample> samples_;
+  Vector3 start_ = Vector3::Zero(), end_ = Vector3::Zero();
+};
+
+}  // namespace
+
+FittedArc fit_arc(const ArcTask& task, const ArcPiece& piece) {
+  return PieceFit(task, piece).run();
+}
+
+bool keeps_words(const ArcTask& task, const ArcPiece& piece, const FittedArc& fit) {
+  if (!fit.read.arc) return false;
+  const Move& move = task.move;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto k = static_cast<Eigen::Index>(axis);
+    const bool absolute = move.words[axis] && !move.relative;
+    const double stays = absolute
+                             ? move.end_mm[k]
+                             : *piece.from[axis] + (move.words[axis] ? move.end_mm[k] - move.start_mm[k] : 0);
+    if (std::abs(fit.read.end[k] - stays) > same_mm) return false;
+  }
+  if (move.arc->radius_word)
+    return std::abs(radius(*fit.read.arc, fit.read.start) - std::abs(move.arc->radius_mm)) < 1e-6;
+  const Vector3 before = move.arc->centre_mm - (move.arc->absolute_centre ? Vector3::Zero() : move.start_mm),
+                now = fit.read.arc->centre - (move.arc->absolute_centre ? Vector3::Zero() : fit.read.start);
+  for (const Eigen::Index axis : plane_of(move))
+    if (std::abs(now[axis] - before[axis]) > same_mm) return false;
+  return true;
+}
+
+bool must_halve(const Move& move, const Curve& source) {
+  constexpr double degree = std::numbers::pi / 180;
+  const double sweep = source.arc->sweep, size = radius(*source.arc, source.start);
+  Vector3 chord = source.end - source.start;
+  chord -= chord.dot(source.arc->normal) * source.arc->normal;
+  if (sweep > 330 * degree || (sweep > 180 * degree && chord.norm() < 0.1 * size)) return true;
+  return move.arc->radius_word && sweep > 150 * degree && sweep < 210 * degree;
+}
+
+}  // namespace counterflex

@@ -1,0 +1,47 @@
+#pragma once
+/// Fits the words of an arc to a corrected one, judged on what a control reads.
+#include <functional>
+
+#include "counterflex/program/rewrite.hpp"
+#include "curve.hpp"
+
+namespace counterflex {
+
+/// An arc of a program and the curve that its commands should follow.
+struct ArcTask {
+  const Move& move;
+  const WriteOptions& options;
+  Curve source;        ///< the move's own way, program coordinates (mm)
+  VectorAt commanded;  ///< wanted position and correction at a fraction of it, program coordinates (mm)
+  std::vector<double> corners;  ///< fractions where the correction has corners
+  double tolerance_mm = 0;      ///< of the commanded curve, at equal fractions
+};
+
+/// A piece of the arc between two fractions, from where the text holds the tool.
+struct ArcPiece {
+  double u0 = 0, u1 = 1;
+  bool is_end = true;  ///< it ends with the move's own end
+  HeldPosition from;
+};
+
+/// An arc that could be written for a piece.
+struct FittedArc {
+  Via via;
+  Curve read;          ///< what a control reads
+  double miss_mm = 0;  ///< from the commanded curve, at sixteenths and corners
+  bool sound = false;  ///< radius rules of controls hold, and its sweep is the wanted one
+};
+
+/// The best arc for a piece: with the centre where it stood, seen from the start, if that is good enough,
+/// else with a fitted one. The mismatch of its radii is at most the source's and one digit, else it is not
+/// sound.
+FittedArc fit_arc(const ArcTask& task, const ArcPiece& piece);
+
+/// Whether nothing in the block's words changes when it is written as `fit`.
+bool keeps_words(const ArcTask& task, const ArcPiece& piece, const FittedArc& fit);
+
+/// Whether an arc that must change cannot stay one: a small shift of its end could turn a full circle into
+/// nothing, or an R near half a turn into none at all.
+bool must_halve(const Move& move, const Curve& source);
+
+}  // namespace counterflex

@@ -1,0 +1,172 @@
+// Blocks that are not corrected one by one: what they hold, and what cannot be held.
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "counterflex/geometry/units.hpp"
+#include "emitter.hpp"
+
+namespace counterflex {
+
+Vector3 Emitter::written(const Move& move, const Vector3& target) const {
+  return inverse(frame(move).X_MW) * target / mm;
+}
+
+Vector3 Emitter::shift_mm(const Move& move, const Vector3& correction) const {
+  return frame(move).X_MW.R.transpose() * (correction + frame(move).datum_shift) / mm;
+}
+
+Vector3 Emitter::held_shift_mm(const Move& move) const {
+  Vector3 shift = Vector3::Zero();
+  if (!correction_known_) return shift;
+  const Vector3 all = shift_mm(move, correction_);
+  for (Eigen::Index axis = 0; axis < 3; ++axis)
+    if (holds_[static_cast<std::size_t>(axis)]) shift[axis] = all[axis];
+  return shift;
+}
+
+void Emitter::set_shift(const Move& move, const Vector3& shift_mm) {
+  correction_ = frame(move).X_MW.R * (shift_mm * mm) - frame(move).datum_shift;
+  correction_known_ = true;
+}
+
+void Emitter::hold(const Vector3& correction, const std::array<bool, 3>& axes) {
+  correction_ = correction;
+  correction_known_ = true;
+  holds_ = axes;
+}
+
+bool Emitter::rounds_to_nothing(const Move& move, std::size_t axis, double shift_mm) const {
+  const int decimals = decimals_of(move, job_.options.write).end[axis];
+  const double unit = move.unit == LengthUnit::inches ? inch / mm : 1;
+  return std::abs(shift_mm) <= 0.5 * std::pow(10.0, -decimals) * unit * (1 + 1e-9);
+}
+
+// An axis that the program has lost (machine positions, tool changes) carries nothing any more; where only
+// '/' or another work offset makes it unknown it does.
+void Emitter::forget_lost_axes(std::size_t m) {
+  if (m == 0) return;
+  const Move &move = job_.program.moves[m], &last = job_.program.moves[m - 1];
+  if (last.block_delete || last.offset != move.offset) return;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    if (last.known_end[axis] && !move.known_start[axis]) holds_[axis] = false;
+}
+
+void Emitter::note_doubt(const Move& move) {
+  bool lost = move.block_delete;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    lost = lost || move.fixed[axis] || (move.known_start[axis] && !move.known_end[axis]);
+  doubtful_ = lost || (doubtful_ && !all_known(move.known_end));
+}
+
+// Axes that the block sets to a place of its own take no shift: there must be none. The others keep theirs.
+void Emitter::emit_fixed(std::size_t m) {
+  const Move& move = job_.program.moves[m];
+  leave_pending_alone();
+  const Vector3 shift = held_shift_mm(move);
+  bool edits = false;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double along = shift[static_cast<Eigen::Index>(axis)];
+    if (move.fixed[axis] && !rounds_to_nothing(move, axis, along))
+      return refuse(move,
+                    fmt::format("the block sets {} to a place of its own, and the correction of {:.4f} mm "
+                                "that holds there cannot be kept",
+                                "XYZ"[axis], along));
+    if (move.fixed[axis]) holds_[axis] = false;
+    edits = edits || (move.words[axis] && along != 0);
+  }
+  if (!edits) return pass(move);
+  put({.edit = {.move = m, .end_mm = move.end_mm + held_shift_mm(move)}, .in_part = true});
+}
+
+// The correction that holds, as a shift of the block's words: nothing is inserted to split it.
+void Emitter::emit_rigid(std::size_t m, Index s, Kind otherwise) {
+  const Move& move = job_.program.moves[m];
+  if (!pending_.empty() && !all_known(move.known_end)) return pending_.push_back(m);
+  leave_pending_alone();
+  if (!correction_known_) return leave_alone(move);
+  const Vector3 shift = held_shift_mm(move);
+  EmittedMove emitted{.edit = {.move = m, .end_mm = move.end_mm + shift}, .kind = otherwise};
+  if (move.arc) emitted.edit.centre_mm = move.arc->centre_mm + shift;
+  if (move.cycle) {
+    emitted.edit.bottom_mm = move.cycle->bottom_mm + shift.z();
+    emitted.edit.retract_mm = move.cycle->retract_mm + shift.z();
+  }
+  if (move.handling != Handling::own) {
+    emitted.in_part = emitted.exempt = emitted.exempt_end = true;
+    if (s && !move.cycle) emitted.kind = Kind::segment, emitted.segment = *s, emitted.fractions = {1};
+  }
+  put(std::move(emitted));
+}
+
+// After a block that '/' may skip, or that goes where the program does not say, the correction with which it
+// was entered holds.
+void Emitter::emit_doubtful(std::size_t m) {
+  const Move& move = job_.program.moves[m];
+  list(move,
+       "held: a block before it may be skipped ('/') or is not followed, so its start is not known; it keeps "
+       "the "
+       "correction that holds there");
+  const Vector3 shift = held_shift_mm(move);
+  put({.edit = {.move = m, .end_mm = move.end_mm + shift}, .in_part = true});
+  set_shift(move, shift);
+  for (std::size_t axis = 0; axis < 3; ++axis) holds_[axis] = holds_[axis] || move.known_end[axis];
+}
+
+void Emitter::leave_alone(const Move& move) {
+  list(move, "an axis has no known position here, and none follows within 64 blocks");
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    if (move.words[axis] && !move.relative) holds_[axis] = false;
+  pass(move);
+}
+
+void Emitter::leave_pending_alone() {
+  for (std::size_t p : pending_) leave_alone(job_.program.moves[p]);
+  pending_.clear();
+}
+
+void Emitter::list_held_words(const Move& move, const Vector3& miss) {
+  list(move,
+       fmt::format("a block with G43, G44 or G49 takes no further axis words: its end stays off by {:.4f} mm",
+                   miss.norm() / mm));
+}
+
+void Emitter::refuse(const Move& move, std::string what) {
+  if (!out_.failure) out_.failure = Failure{Exit::program_text, move.line, std::move(what)};
+}
+
+// Axes that nobody corrects may have no position in the text; any serves.
+HeldPosition Emitter::before(const Move& move) const {
+  HeldPosition held = held_;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    if (!held[axis]) held[axis] = move.start_mm[static_cast<Eigen::Index>(axis)];
+  return held;
+}
+
+void Emitter::go_through(const Move& move, const Via& via, HeldPosition& held) const {
+  const Curve read = as_written(move, held, via, false, job_.options.write);
+  for (Eigen::Index axis = 0; axis < 3; ++axis) held[static_cast<std::size_t>(axis)] = read.end[axis];
+}
+
+void Emitter::put(EmittedMove emitted) {
+  const MoveEdit& edit = emitted.edit;
+  const Move& move = job_.program.moves[edit.move];
+  if (edit.jump_mm || !edit.inserted.empty()) held_ = before(move);
+  if (edit.jump_mm) go_through(move, {*edit.jump_mm}, held_);
+  for (const Via& via : edit.inserted) go_through(move, via, held_);
+  held_ = held_after(move, held_, edit.end_mm, job_.options.write);
+  out_.moves.push_back(std::move(emitted));
+}
+
+void Emitter::pass(const Move& move) {
+  Vector3 end = move.end_mm;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto k = static_cast<Eigen::Index>(axis);
+    if (held_[axis] && move.relative && move.words[axis])
+      end[k] = *held_[axis] + move.end_mm[k] - move.start_mm[k];
+    if (held_[axis] && !move.words[axis]) end[k] = *held_[axis];
+  }
+  held_ = held_after(move, held_, end, job_.options.write);
+}
+
+}  // namespace counterflex

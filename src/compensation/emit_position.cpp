@@ -1,0 +1,94 @@
+// Positions that are solved by themselves: the first one that is known, and the bottoms of holes.
+#include <fmt/format.h>
+
+#include "counterflex/geometry/units.hpp"
+#include "emitter.hpp"
+
+namespace counterflex {
+namespace {
+
+constexpr std::size_t look_ahead = 64;  // blocks
+
+}  // namespace
+
+// The correction at a wanted position without cutting force; the emission fails where there is none.
+std::optional<Vector3> Emitter::solve_position(const Vector3& wanted, const Move& move) {
+  if (!solver_) solver_.emplace(job_, job_.model.home);
+  const TargetSolution solution = solver_->target(wanted, {});
+  if (solution.status != Status::converged) {
+    out_.failure = status_failure(solution.status, move.line);
+    return std::nullopt;
+  }
+  const Vector3 correction = solution.target - wanted;
+  out_.failure = limit_failure(job_, correction + frame(move).datum_shift, move.line);
+  if (out_.failure) return std::nullopt;
+  return correction;
+}
+
+// Words before the first known position take its correction, if they are near enough.
+void Emitter::give_to_pending(const Move& move) {
+  for (std::size_t p : pending_) {
+    const Move& earlier = job_.program.moves[p];
+    if (move.block_index - earlier.block_index > look_ahead) {
+      const std::array<bool, 3> holds = holds_;
+      leave_alone(earlier);
+      holds_ = holds;
+      continue;
+    }
+    put({.edit = {.move = p, .end_mm = earlier.end_mm + shift_mm(earlier, correction_)}});
+  }
+  pending_.clear();
+}
+
+// The first position that is known in all axes: its correction serves the words before it as well.
+void Emitter::emit_first_known(std::size_t m) {
+  const Move& move = job_.program.moves[m];
+  const std::optional<Vector3> correction = solve_position(wanted_of(job_, move), move);
+  if (!correction) return;
+  const Vector3 kept = correction_that_can_be_written(move, *correction);
+  hold(kept, {true, true, true});
+  give_to_pending(move);
+  if (kept != *correction)
+    list_held_words(move, *correction - kept);
+  else if (move.motion == Motion::feed)
+    list(move, "a feed move from a position that is not known: its end is corrected without cutting force");
+  put({.edit = {.move = m, .end_mm = move.end_mm + shift_mm(move, correction_)},
+       .kind = Kind::first_known,
+       .in_part = kept != *correction || move.motion == Motion::feed,
+       .exempt_end = kept != *correction});
+}
+
+// A hole is shifted by the correction at its bottom; the tool leaves it there, or at the height where it
+// began.
+void Emitter::emit_hole(std::size_t m) {
+  const Move& move = job_.program.moves[m];
+  const Vector3 bottom = wanted_frame(frame(move)) * (bottom_of(move) * mm);
+  const std::optional<Vector3> correction = solve_position(bottom, move);
+  if (!correction) return;
+  Vector3 shift = shift_mm(move, *correction);
+  const Vector3 entered = held_shift_mm(move);
+  EmittedMove emitted{.edit = {.move = m}, .kind = Kind::hole};
+  if (!move.cycle->bottom_word && !move.cycle->may_insert_bottom) {
+    const double miss = shift.z() - entered.z();
+    if (!rounds_to_nothing(move, 2, miss)) {
+      list(move, fmt::format("the block takes no Z word: the hole's bottom stays off by {:.4f} mm", miss));
+      emitted.in_part = emitted.exempt_end = true;
+    }
+    shift.z() = entered.z();
+  }
+  emitted.edit.bottom_mm = move.cycle->bottom_mm + shift.z();
+  emitted.edit.retract_mm = move.cycle->retract_mm + shift.z();
+  emitted.edit.end_mm = move.end_mm + shift;
+  const bool held_z = holds_[2];
+  set_shift(move, shift);
+  holds_ = {true, true, true};
+  give_to_pending(move);
+  put(std::move(emitted));
+  // Where the cycle leaves the tool its text tells.
+  if (held_[2]) shift.z() = *held_[2] - move.end_mm.z();
+  if (!move.known_end[2]) shift.z() = entered.z();
+  set_shift(move, shift);
+  holds_[2] = held_[2] || held_z;
+}
+
+}  // namespace counterflex

@@ -1,0 +1,94 @@
+#pragma once
+/// Goes through the moves of a program in order, keeps the correction that holds where the tool is, and what
+/// the emitted text holds.
+#include "arc_fit.hpp"
+#include "emit.hpp"
+#include "path_solver.hpp"
+
+namespace counterflex {
+
+inline constexpr double emitted_jump_share = 0.1;  // of the tolerance
+
+class Emitter {
+ public:
+  Emitter(const Job& job, const Plan& plan) : job_(job), plan_(plan) {}
+
+  Emission run();
+
+ private:
+  using Kind = EmittedMove::Kind;
+  using Index = std::optional<std::size_t>;  ///< of a segment, where a move has one
+
+  // emit.cpp
+  void emit_move(std::size_t m, Index s);
+  void emit_segment(std::size_t s);
+  void emit_line(const Segment& segment, const PlannedSegment& planned, EmittedMove& emitted);
+  void finish_segment(const Segment& segment, const PlannedSegment& planned, double jump,
+                      EmittedMove emitted);
+  bool put_jump(const Segment& segment, const PlannedSegment& planned, EmittedMove& emitted, double& jump);
+  Vector3 correction_that_can_be_written(const Move& move, const Vector3& correction) const;
+
+  // emit_arc.cpp
+  void emit_arc(const Segment& segment, const PlannedSegment& planned, EmittedMove& emitted,
+                double& unsplit_miss);
+  bool fit_pieces(const ArcTask& task, double u0, double u1, int halvings, bool whole, EmittedMove& emitted);
+  void put_one_arc(const ArcTask& task, EmittedMove& emitted, double& unsplit_miss);
+  void put_chords(const Segment& segment, const PlannedSegment& planned, const ArcTask& task,
+                  EmittedMove& emitted);
+
+  // emit_held.cpp
+  void emit_fixed(std::size_t m);
+  void emit_rigid(std::size_t m, Index s, Kind otherwise);
+  void emit_doubtful(std::size_t m);
+  void leave_pending_alone();
+  void forget_lost_axes(std::size_t m);
+  void note_doubt(const Move& move);
+
+  // emit_group.cpp
+  void emit_group(std::size_t m, Index s);
+  bool begin_group(std::size_t m, Index s);
+  std::optional<Vector3> group_shift_mm(std::size_t m, std::size_t s);
+  void check_step(const Move& move, const Vector3& before_mm);
+
+  // emit_position.cpp
+  void emit_first_known(std::size_t m);
+  void emit_hole(std::size_t m);
+  std::optional<Vector3> solve_position(const Vector3& wanted, const Move& move);
+  void give_to_pending(const Move& move);
+
+  // Corrections as shifts of the text, program coordinates (mm).
+  const WorkFrame& frame(const Move& move) const { return job_.path.frames[move.offset]; }
+  Vector3 written(const Move& move, const Vector3& target) const;
+  Vector3 shift_mm(const Move& move, const Vector3& correction) const;
+  Vector3 held_shift_mm(const Move& move) const;  ///< zero on axes that hold none
+  void set_shift(const Move& move, const Vector3& shift_mm);
+  void hold(const Vector3& correction, const std::array<bool, 3>& axes);
+  bool rounds_to_nothing(const Move& move, std::size_t axis, double shift_mm) const;
+
+  // The text's position.
+  HeldPosition before(const Move& move) const;
+  void go_through(const Move& move, const Via& via, HeldPosition& held) const;
+  void put(EmittedMove emitted);  ///< the next edit
+  void pass(const Move& move);    ///< a move without an edit
+
+  void list(const Move& move, std::string why) { out_.left_alone.push_back({move.line, std::move(why)}); }
+  void list_held_words(const Move& move, const Vector3& miss);
+  void leave_alone(const Move& move);
+  void refuse(const Move& move, std::string what);
+
+  const Job& job_;
+  const Plan& plan_;
+  Emission out_;
+  std::size_t next_segment_ = 0;
+  std::vector<std::size_t> pending_;      // moves before all axes are known
+  Vector3 correction_ = Vector3::Zero();  // target minus wanted position, M (m)
+  bool correction_known_ = false;
+  std::array<bool, 3> holds_{};  // program axes that carry it
+  bool doubtful_ = false;  // a block made a position unknown that carries the correction, and it still is
+  int group_ = 0;          // contour group that is being emitted
+  HeldPosition held_{};
+  HeldPosition piece_held_{};  // where the pieces of the move that is being fitted have come
+  std::optional<PathSolver> solver_;
+};
+
+}  // namespace counterflex

@@ -1,0 +1,104 @@
+#include "skeleton.hpp"
+
+#include <algorithm>
+#include <cctype>
+
+namespace counterflex {
+namespace {
+
+char upper(char c) {
+  return static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+}
+
+bool is_digit(char c) {
+  return c >= '0' && c <= '9';
+}
+
+std::vector<Span> rewritten_numbers(const Move& move) {
+  std::vector<Span> numbers;
+  const auto add = [&](const std::optional<AxisWord>& word) {
+    if (word) numbers.push_back(word->number);
+  };
+  for (const auto& word : move.words) add(word);
+  if (move.arc) {
+    for (const auto& word : move.arc->centre_words) add(word);
+    add(move.arc->radius_word);
+  }
+  if (move.cycle) {
+    add(move.cycle->bottom_word);
+    add(move.cycle->retract_word);
+  }
+  std::sort(numbers.begin(), numbers.end(), [](Span a, Span b) { return a.begin < b.begin; });
+  return numbers;
+}
+
+// Takes the letter off with which a word begins, or its name and sign of equality.
+void drop_letter(std::string& text) {
+  if (text.empty()) return;
+  const bool named = text.back() == '=';
+  text.pop_back();
+  while (named && !text.empty() && std::isalpha(static_cast<unsigned char>(text.back())) != 0)
+    text.pop_back();
+}
+
+// The end of a word of motion (G0 to G3, with zeros before the digit) at `i`; `i` where there is none.
+std::size_t motion_word_end(const std::string& text, std::size_t i) {
+  if (upper(text[i]) != 'G') return i;
+  std::size_t end = i + 1;
+  while (end + 1 < text.size() && text[end] == '0' && is_digit(text[end + 1])) ++end;
+  if (end >= text.size() || text[end] < '0' || text[end] > '3') return i;
+  const bool goes_on = end + 1 < text.size() && (is_digit(text[end + 1]) || text[end + 1] == '.');
+  return goes_on ? i : end + 1;
+}
+
+std::size_t feed_word_end(const std::string& text, std::size_t i) {
+  if (upper(text[i]) != 'F') return i;
+  return std::min(text.find_first_not_of("0123456789.", i + 1), text.size());
+}
+
+std::string without_motion(const std::string& text, bool drop_feed) {
+  std::string kept;
+  for (std::size_t i = 0; i < text.size();) {
+    if (text[i] == ';') return kept + text.substr(i);
+    std::size_t end = text[i] == '(' ? std::min(text.find(')', i), text.size() - 1) + 1 : i;
+    kept += text.substr(i, end - i);
+    if (end > i) {
+      i = end;
+      continue;
+    }
+    end = motion_word_end(text, i);
+    if (end == i && drop_feed) end = feed_word_end(text, i);
+    if (end == i) kept += text[end++];
+    i = end;
+  }
+  return kept;
+}
+
+}  // namespace
+
+std::string skeleton(const Program& program, const Move& move) {
+  std::string text;
+  std::size_t at = move.block.begin;
+  const auto keep = [&](std::size_t end) {
+    for (; at < end; ++at)
+      if (program.text[at] != ' ' && program.text[at] != '\t') text += program.text[at];
+  };
+  for (const Span& number : rewritten_numbers(move)) {
+    keep(number.begin);
+    drop_letter(text);
+    at = number.end;
+  }
+  keep(move.block.end);
+  return without_motion(text, move.feed_mode == FeedMode::inverse_time);
+}
+
+bool is_plain(const std::string& skeleton) {
+  for (std::size_t i = 0; i < skeleton.size() && skeleton[i] != ';'; ++i) {
+    const char c = upper(skeleton[i]);
+    if (c == '(') i = std::min(skeleton.find(')', i), skeleton.size() - 1);
+    if (c >= 'A' && c <= 'Z' && c != 'F' && c != 'N') return false;
+  }
+  return true;
+}
+
+}  // namespace counterflex

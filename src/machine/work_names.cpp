@@ -1,0 +1,51 @@
+#include "counterflex/machine/work_names.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+
+namespace counterflex {
+namespace {
+
+std::optional<int> digits(std::string_view text) {
+  int value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  const bool whole = error == std::errc{} && end == text.data() + text.size() && text[0] != '-';
+  return whole ? std::optional(value) : std::nullopt;
+}
+
+bool within(std::optional<int> value, int least, int most) {
+  return value && *value >= least && *value <= most;
+}
+
+/// Without blanks and in upper case.
+std::string closed_up(std::string_view text) {
+  std::string name;
+  for (const char c : text)
+    if (c != ' ') name += c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
+  return name;
+}
+
+bool stands_alone(std::string_view name) {
+  constexpr std::array<std::string_view, 3> with_point{"G59.1", "G59.2", "G59.3"};
+  if (std::find(with_point.begin(), with_point.end(), name) != with_point.end()) return true;
+  if (name.empty() || name[0] != 'G') return false;
+  const auto number = digits(name.substr(1));
+  return within(number, 54, 59) || within(number, 500, 599);
+}
+
+}  // namespace
+
+std::optional<std::string> work_offset_name(std::string_view text) {
+  const std::string name = closed_up(text);
+  if (stands_alone(name)) return name;
+  const std::size_t p = name.find('P');
+  if (p == std::string::npos) return std::nullopt;
+  const auto page = digits(std::string_view(name).substr(p + 1));
+  const std::string group = name.substr(0, p);
+  const bool known = (group == "G54.1" && within(page, 1, 300)) || (group == "G154" && within(page, 1, 99));
+  if (!known) return std::nullopt;
+  return group + " P" + std::to_string(*page);
+}
+
+}  // namespace counterflex

@@ -1,0 +1,156 @@
+#include "counterflex/report/motion_plan.hpp"
+
+#include <algorithm>
+#include <optional>
+
+namespace counterflex {
+namespace {
+
+constexpr std::size_t look_ahead = 64;  // blocks
+
+enum class Fate { corrected, held, grouped, left };
+
+bool any(const std::array<bool, 3>& axes) {
+  return axes[0] || axes[1] || axes[2];
+}
+
+/// Goes through the moves and the list of blocks left alone side by side, both in the order of lines.
+class Planner {
+ public:
+  explicit Planner(const Program& program) : program_(program), left_(program.left_alone) {
+    std::stable_sort(left_.begin(), left_.end(),
+                     [](const LeftAlone& a, const LeftAlone& b) { return a.line < b.line; });
+  }
+
+  MotionPlan run() {
+    find_known_ends();
+    for (std::size_t m = 0; m < program_.moves.size(); ++m) {
+      list_other_blocks(program_.moves[m].line);
+      add(m);
+    }
+    list_other_blocks(0);
+    plan_.moves = plan_.corrected + plan_.held + plan_.grouped + plan_.not_corrected;
+    return std::move(plan_);
+  }
+
+ private:
+  /// For each move the first one from it on that ends at a known place of its own.
+  void find_known_ends() {
+    next_known_.assign(program_.moves.size(), nullptr);
+    const Move* next = nullptr;
+    for (std::size_t m = program_.moves.size(); m-- > 0;) {
+      const Move& move = program_.moves[m];
+      if (move.handling == Handling::own && !any(move.fixed) && all_known(move.known_end)) next = &move;
+      next_known_[m] = next;
+    }
+  }
+
+  /// Blocks of the list up to `line` (0: all) that are no moves; keeps the reason that acts.
+  void list_other_blocks(int line) {
+    for (; next_left_ < left_.size() && (line == 0 || left_[next_left_].line <= line); ++next_left_) {
+      const LeftAlone& block = left_[next_left_];
+      if (block.line == line || is_move(block.line)) {
+        reason_ = &block;
+        continue;
+      }
+      plan_.not_corrected += block.machine_position;
+      add_to(block.machine_position ? plan_.left_rows : plan_.other_rows, block.why, block.line, false);
+    }
+  }
+
+  bool is_move(int line) const {
+    const auto at = std::lower_bound(program_.moves.begin(), program_.moves.end(), line,
+                                     [](const Move& move, int l) { return move.line < l; });
+    return at != program_.moves.end() && at->line == line;
+  }
+
+  Fate fate_of(std::size_t m) const {
+    const Move& move = program_.moves[m];
+    if (any(move.fixed)) return Fate::left;
+    if (move.handling == Handling::group) return Fate::grouped;
+    if (move.handling == Handling::held) return Fate::held;
+    if (all_known(move.known_end)) return Fate::corrected;
+    const Move* next = next_known_[m];
+    const bool near = next != nullptr && next->block_index - move.block_index <= look_ahead;
+    return near && !move.relative ? Fate::corrected : Fate::left;
+  }
+
+  void add(std::size_t m) {
+    const Move& move = program_.moves[m];
+    switch (fate_of(m)) {
+      case Fate::corrected:
+        ++plan_.corrected;
+        break;
+      case Fate::held:
+        ++plan_.held;
+        add_to(plan_.held_rows, why_held(move), move.line, false);
+        break;
+      case Fate::grouped:
+        ++plan_.grouped;
+        add_to_group(move);
+        break;
+      case Fate::left:
+        ++plan_.not_corrected;
+        add_to(plan_.left_rows, why_left(move), move.line, any(move.fixed));
+        break;
+    }
+    count_kind(move);
+  }
+
+  std::string why_held(const Move& move) const {
+    if (move.cycle) return "a cycle in G91 or with repeats holds the shift of its first hole";
+    return reason_at(move).value_or("holds the shift with which it is entered");
+  }
+
+  std::string why_left(const Move& move) const {
+    if (any(move.fixed)) return reason_at(move).value_or("moves to a place that no edit can shift");
+    std::string axes;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      if (!move.known_end[axis]) axes += "XYZ"[axis];
+    return "the position in " + axes + " is not known here, and none follows within 64 blocks";
+  }
+
+  /// A reason is listed once for a run of moves.
+  std::optional<std::string> reason_at(const Move& move) const {
+    if (reason_ == nullptr || reason_->line > move.line) return std::nullopt;
+    return reason_->why;
+  }
+
+  void add_to(std::vector<PlanRow>& rows, const std::string& why, int line, bool must_be_zero) const {
+    const auto same = [&](const PlanRow& row) { return row.why == why && row.must_be_zero == must_be_zero; };
+    auto row = std::find_if(rows.begin(), rows.end(), same);
+    if (row == rows.end()) row = rows.insert(rows.end(), {why, 0, {}, must_be_zero});
+    ++row->count;
+    if (row->lines.size() < lines_of_row) row->lines.push_back(line);
+  }
+
+  void add_to_group(const Move& move) {
+    if (plan_.groups.empty() || plan_.groups.back().number != move.group)
+      plan_.groups.push_back({move.group, move.line, move.line, 0});
+    plan_.groups.back().last_line = move.line;
+    ++plan_.groups.back().moves;
+  }
+
+  void count_kind(const Move& move) {
+    if (move.arc) ++plan_.arcs[static_cast<std::size_t>(2 - move.arc->normal)];
+    plan_.cycles += move.cycle.has_value();
+    plan_.relative += move.relative;
+    plan_.inverse_time += move.motion == Motion::feed && move.feed_mode == FeedMode::inverse_time;
+    ++plan_.tools[move.tool];
+  }
+
+  const Program& program_;
+  std::vector<LeftAlone> left_;
+  std::size_t next_left_ = 0;
+  const LeftAlone* reason_ = nullptr;
+  std::vector<const Move*> next_known_;
+  MotionPlan plan_;
+};
+
+}  // namespace
+
+MotionPlan motion_plan(const Program& program) {
+  return Planner(program).run();
+}
+
+}  // namespace counterflex

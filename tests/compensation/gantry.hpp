@@ -1,0 +1,50 @@
+#pragma once
+/// Rigid gantries whose deviation is known in closed form.
+#include <fmt/format.h>
+
+#include "judge.hpp"
+
+namespace counterflex::test {
+
+/// Three prismatic actuators X, Y, Z; the frame displaced (mm), and Y turned against X about Z (rad).
+inline Machine rigid_gantry(const std::string& displaced_mm, double square_error = 0) {
+  return read_machine(fmt::format(R"(format = "counterflex-machine 1"
+controlled = ["x", "y", "z"]
+[[chain]]
+name = "axes"
+elements = [
+  {{ error = "mount" }},
+  {{ actuator = "prismatic", axis = "x", min_mm = -1000, max_mm = 1000 }},
+  {{ error = "y_to_x" }},
+  {{ actuator = "prismatic", axis = "y", min_mm = -1000, max_mm = 1000 }},
+  {{ actuator = "prismatic", axis = "z", min_mm = -1000, max_mm = 1000 }},
+]
+errors.mount = {{ xyz_mm = [{}] }}
+errors.y_to_x = {{ rpy_deg = [0, 0, {}] }}
+)",
+                                  displaced_mm, square_error / deg),
+                      "gantry.toml");
+}
+
+inline Machine displaced_gantry() {
+  return rigid_gantry("0.5, -0.25, 0.125");
+}
+inline Machine perfect_gantry() {
+  return rigid_gantry("0, 0, 0");
+}
+
+/// What the displaced gantry's programs are shifted by (mm).
+inline const Vector3 shift_mm(-0.5, 0.25, -0.125);
+
+inline std::vector<Move> moves_in(const std::string& text) {
+  return read_program(text, "part.ngc", {}).moves;
+}
+
+inline std::vector<Move> arcs_in(const std::string& text) {
+  std::vector<Move> arcs;
+  for (const Move& move : moves_in(text))
+    if (move.arc) arcs.push_back(move);
+  return arcs;
+}
+
+}  // namespace counterflex::test

@@ -1,0 +1,49 @@
+// Contours under G41 and G42: one shift, so that the tool's offset still works.
+#include "gantry.hpp"
+
+using namespace counterflex;
+using namespace counterflex::test;
+
+namespace {
+
+const char* const contour =
+    "G21 G90 G17\nG0 X-20. Y-20. Z10.\nG0 X-10. Y-12.\nZ2.\nG1 Z-3. F200\nG41 D1 X0. Y0.\nY80.\nG2 X10. Y90. "
+    "I10. "
+    "J0.\nG1 X100.\nY0.\nX-5.\nG40 X-10. Y-12.\nG0 Z10.\nX120. Y50.\nM30\n";
+
+}  // namespace
+
+TEST_CASE("a contour group has one shift, the midpoint of its corrections' extremes, and nothing inserted") {
+  const double angle = 1e-3;
+  const Compensation result = compensated(Shop({.machine = rigid_gantry("0, 0, 0", angle), .text = contour}));
+  const std::vector<Move> before = moves_in(contour), after = moves_in(result.text);
+  REQUIRE(before.size() == after.size());
+  int grouped = 0;
+  // X is off by -y times the angle, for y between -12 and 90.
+  const Vector3 expected(39 * angle, 0, 0);
+  for (std::size_t m = 0; m < before.size(); ++m) {
+    if (before[m].group == 0) continue;
+    CAPTURE(before[m].line);
+    CHECK((after[m].end_mm - before[m].end_mm - expected).cwiseAbs().maxCoeff() <= 1e-3);
+    ++grouped;
+  }
+  CHECK(grouped >= 10);
+  CHECK(result.counts.inserted_blocks == 0);
+  REQUIRE(!result.left_alone.empty());
+  CHECK(result.left_alone[0].line == 3);
+  CHECK(result.left_alone[0].why.find("contour group") != std::string::npos);
+  CHECK(result.left_alone[0].why.find("0.051") != std::string::npos);
+}
+
+TEST_CASE("a constant shift moves a contour group as a whole, its arcs with the same I and J") {
+  const Compensation result = compensated(Shop({.machine = displaced_gantry(), .text = contour}));
+  const std::vector<Move> before = moves_in(contour), after = moves_in(result.text);
+  REQUIRE(before.size() == after.size());
+  for (std::size_t m = 0; m < before.size(); ++m)
+    CHECK((after[m].end_mm - before[m].end_mm - shift_mm).norm() < 1e-9);
+  CHECK(result.text.find("I10. J0.") != std::string::npos);
+}
+
+TEST_CASE("a perfect machine gives back contours byte for byte") {
+  CHECK(compensated(Shop({.machine = perfect_gantry(), .text = contour})).text == contour);
+}

@@ -1,0 +1,55 @@
+// G91: differences of what the text holds, so that rounding never adds up.
+#include "gantry.hpp"
+
+using namespace counterflex;
+using namespace counterflex::test;
+
+namespace {
+
+/// A staircase of many small relative moves, in odd numbers.
+std::string staircase(int steps) {
+  std::string text = "G21 G90\nG0 X0. Y0. Z5.\nG1 Z0. F500\nG91\n";
+  for (int i = 0; i < steps; ++i)
+    text += fmt::format("X{:.4f} Y{:.4f}\n", 0.1003 + 0.0001 * (i % 7), (i % 5 - 2) * 0.0507);
+  return text + "G90\nG0 Z20.\nM30\n";
+}
+
+}  // namespace
+
+TEST_CASE("a thousand relative moves on a machine out of square do not drift") {
+  const std::string text = staircase(1000);
+  const double angle = 1e-3;
+  const Shop shop({.machine = rigid_gantry("0, 0, 0", angle), .text = text});
+  const Compensation result = compensated(shop);
+  const std::vector<Move> before = moves_in(text), after = moves_in(result.text);
+  REQUIRE(before.size() == after.size());
+  std::size_t changed = 0;
+  for (std::size_t m = 0; m < before.size(); ++m) {
+    CAPTURE(before[m].line);
+    const Vector3& p = before[m].end_mm;
+    const double y = p.y() / std::cos(angle);
+    const Vector3 expected(p.x() + y * std::sin(angle), y, p.z());
+    CHECK((after[m].end_mm - expected).cwiseAbs().maxCoeff() <= 0.5e-3 + 1e-9);
+    changed += (after[m].end_mm - after[m].start_mm - p + before[m].start_mm).norm() > 1e-6;
+  }
+  CHECK(changed > 0);
+}
+
+TEST_CASE("relative moves carry a constant shift without a change") {
+  const std::string text = staircase(20);
+  const Compensation result = compensated(Shop({.machine = displaced_gantry(), .text = text}));
+  const auto lines = lines_of(text), found = lines_of(result.text);
+  REQUIRE(lines.size() == found.size());
+  for (std::size_t i = 3; i < 24; ++i) CHECK(found[i] == lines[i]);
+  CHECK((moves_in(result.text).back().end_mm - moves_in(text).back().end_mm - shift_mm).norm() < 1e-6);
+}
+
+TEST_CASE("relative arcs are corrected like others") {
+  const std::string text =
+      "G21 G90\nG0 X0. Y0. Z0.\nG91 G2 X40. Y0. I20. J0. F500\nG3 X20. Y20. I0. J20.\nG1 Y30.\nG90\nG0 "
+      "Z20.\nM30\n";
+  const Shop shop({.machine = rigid_gantry("0, 0, 0", -1e-3), .text = text});
+  const Compensation result = compensated(shop);
+  CHECK(dense_miss(shop, result, 60).size <= 5e-6);
+  CHECK(result.counts.changed_words > 0);
+}

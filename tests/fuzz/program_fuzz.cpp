@@ -1,0 +1,79 @@
+/// Fuzz target for the reader and the rewriter: whatever bytes come, they are refused with a place or come
+/// back unchanged; a shift of every move is written or refused, and never breaks anything.
+#include <cstdint>
+#include <cstdlib>
+#include <string>
+
+#include "counterflex/files/input_error.hpp"
+#include "counterflex/program/read_program.hpp"
+#include "counterflex/program/rewrite.hpp"
+
+namespace counterflex::fuzz {
+namespace {
+
+constexpr std::size_t longest = 1 << 14;  // bytes: the time of a run grows with its input
+
+/// The first byte says how the rest is read, so that all dialects are reached from one target.
+ReadOptions options_of(std::uint8_t first) {
+  static const char* const dialects[] = {"auto", "linuxcnc", "grbl", "fanuc", "haas"};
+  ReadOptions options;
+  options.dialect = dialects[first % 5];
+  options.unit = first & 0x20 ? LengthUnit::inches : LengthUnit::millimetres;
+  options.integer_words = static_cast<IntegerWords>((first >> 6) % 3);
+  if (first & 0x10) options.tool_change_moves.emplace();
+  return options;
+}
+
+/// Every move sent to where the program sends it, `shift_mm` further.
+std::vector<MoveEdit> edits_of(const Program& program, const Vector3& shift_mm) {
+  std::vector<MoveEdit> edits;
+  for (std::size_t i = 0; i < program.moves.size(); ++i) {
+    const Move& move = program.moves[i];
+    MoveEdit edit{.move = i, .end_mm = move.end_mm + shift_mm};
+    if (move.arc) edit.centre_mm = move.arc->centre_mm + shift_mm;
+    if (move.cycle) {
+      edit.bottom_mm = move.cycle->bottom_mm + shift_mm.z();
+      edit.retract_mm = move.cycle->retract_mm + shift_mm.z();
+    }
+    edits.push_back(edit);
+  }
+  return edits;
+}
+
+/// Stops the fuzzer, which keeps the input.
+void demand(bool kept) {
+  if (!kept) std::abort();
+}
+
+void demand_place(const InputError& error) {
+  demand(error.where().line > 0 && error.where().column > 0);
+}
+
+void rewrite_shifted(const Program& program) {
+  try {
+    rewrite(program, edits_of(program, {0.125, -0.0625, 0.5}), {});
+  } catch (const InputError& error) {
+    demand(error.where().line > 0);
+  }
+}
+
+void read_and_rewrite(const std::string& text, const ReadOptions& options) {
+  try {
+    const Program program = read_program(text, "fuzz.nc", options);
+    demand(rewrite(program, {}, {}).text == text);
+    demand(rewrite(program, edits_of(program, Vector3::Zero()), {}).text == text);
+    rewrite_shifted(program);
+  } catch (const InputError& error) {
+    demand_place(error);
+  }
+}
+
+}  // namespace
+}  // namespace counterflex::fuzz
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace counterflex::fuzz;
+  if (size == 0 || size > longest) return 0;
+  read_and_rewrite(std::string(reinterpret_cast<const char*>(data) + 1, size - 1), options_of(data[0]));
+  return 0;
+}

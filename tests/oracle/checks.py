@@ -1,0 +1,239 @@
+"""The checks: each takes one program and returns what is wrong with it, or an empty text."""
+import os
+import re
+
+import compare
+import facts
+import limits
+import linear
+import path
+import plain
+import product
+import text
+
+OFFSETS = {1: (12.0, -7.5, 30.0), 2: (-40.0, 25.0, 3.25), 3: (1.0, 2.0, 3.0), 4: (5.0, -5.0, 5.0), 5: (0.5, 0.5, 0.5),
+           6: (-3.0, 0.0, 9.0)}
+AT_ORIGIN = {number: (0.0, 0.0, 0.0) for number in OFFSETS}
+LENGTHS = {tool: 40.0 + 2.5 * (tool % 40) for tool in range(1, 300)}
+SQUARE = 1e-3  # rad
+TOLERANCE = 0.005
+
+
+class Shop:
+    """What all checks share: the product, the interpreter, and what a folder says of its programs."""
+
+    def __init__(self, runs, interpreter, folder, known):
+        self.runs, self.interpreter, self.folder, self.known = runs, interpreter, folder, known
+        self.notes = []
+
+    def about(self, program):
+        return self.known.get(os.path.splitext(os.path.basename(program))[0], {})
+
+    def options(self, program):
+        return tuple(self.about(program).get('options', ()))
+
+    def bench(self, offsets, lengths):
+        return path.Bench(self.interpreter, self.folder, offsets, lengths)
+
+
+def is_klartext(program):
+    return program.endswith('.h')
+
+
+def body_of(program, text_bytes):
+    lines, _, _ = text.without_header(text.split_lines(text_bytes))
+    if is_klartext(program):
+        lines = [re.sub(r'^\d+ ?', '', line) for line in lines]
+    return lines
+
+
+def refusal(shop, program, run):
+    """A run that gave no program: an error, or a note where the rules may refuse it."""
+    if not run.refused_with_place(os.path.basename(program)):
+        return 'exit %d: %s' % (run.status, run.said[-300:])
+    if shop.about(program).get('may_be_refused'):
+        shop.notes.append('%s: refused: %s' % (os.path.basename(program), run.said[-200:]))
+        return ''
+    return run.said[-300:]
+
+
+def identity(shop, program):
+    """A perfect machine without forces gives the input back, header aside."""
+    run = shop.runs.compensate(program, product.Gantry(offsets=AT_ORIGIN), options=shop.options(program))
+    name = os.path.basename(program)
+    if shop.about(program).get('wrong'):
+        return '' if run.refused_with_place(name) else 'was not refused at a place, exit %d: %s' % (run.status, run.said[-200:])
+    if run.status != 0:
+        return 'exit %d: %s' % (run.status, run.said[-300:])
+    original, corrected = body_of(program, open(program, 'rb').read()), body_of(program, run.text)
+    for number, (a, b) in enumerate(zip(original, corrected), 1):
+        if a != b:
+            return 'line %d: %r became %r' % (number, a[:80], b[:80])
+    return '' if len(original) == len(corrected) else '%d lines became %d' % (len(original), len(corrected))
+
+
+class Corrected:
+    """A corrected program beside its original: aligned by text, walked by the interpreter."""
+
+    def __init__(self, shop, program, gantry, lengths, told=True):
+        self.original = open(program, 'rb').read()
+        self.run = shop.runs.compensate(program, gantry, lengths if told else None, shop.options(program))
+        self.bench = shop.bench(gantry.offsets, lengths)
+        if self.run.status == 0:
+            self.align()
+
+    def align(self):
+        lines, first, count = text.without_header(text.split_lines(self.run.text))
+        versions = text.align(text.split_lines(self.original), lines)
+        self.line_of_version, done = {}, -1
+        for number, index in enumerate(versions, 1):
+            for j in range(done + 1, index + 1):
+                self.line_of_version[(j + 1 if j < first else j + 1 + count)] = number
+            done = index
+        self.left_alone = {row['line'] for row in self.run.report['blocks']['left_alone']}
+
+    def line_of(self, line):
+        return self.line_of_version.get(line, max(self.line_of_version.values()) + 1)
+
+    def walk(self, skip=False):
+        lines = plain.plain_lines(self.original)
+        self.facts = facts.facts_of(lines)
+        unit = 'G20' if facts.says_inches_first(lines) else 'G21'
+        steps = path.walk(self.bench, lines, unit, skip)
+        try:
+            written = path.walk(self.bench, plain.plain_lines(self.run.text), unit, skip)
+        except path.Refused as error:
+            raise text.Mismatch('LinuxCNC refuses the corrected program: %s' % error)
+        pairs, wrong = compare.pairs_of(steps, written, self.line_of)
+        if wrong:
+            raise text.Mismatch(wrong)
+        return compare.give_back(pairs, self.facts)
+
+
+def judged_text(shop, program, findings):
+    if findings:
+        return findings.text()
+    shop.notes.append('%s: %d of %d ends judged' % (os.path.basename(program), findings.judged, findings.total))
+    return ''
+
+
+def against_interpreter(shop, program, gantry, lengths, check_of):
+    """`check_of` makes a check from a Corrected whose facts are known."""
+    try:
+        path.walk(shop.bench(gantry.offsets, lengths), plain.plain_lines(open(program, 'rb').read()))
+    except path.Refused as error:
+        shop.notes.append('%s: LinuxCNC does not read it: %s' % (os.path.basename(program), error))
+        return ''
+    try:
+        both = Corrected(shop, program, gantry, lengths)
+        if both.run.status != 0:
+            return refusal(shop, program, both.run)
+        pairs = both.walk()
+        return judged_text(shop, program, check_of(both).run(pairs))
+    except text.Mismatch as error:
+        return str(error)
+
+
+def shift_with(shop, program, offsets, lengths):
+    gantry = product.Gantry(shift=product.FRAME_SHIFT, offsets=offsets)
+    return against_interpreter(shop, program, gantry, lengths,
+                               lambda both: compare.ShiftCheck(product.FRAME_SHIFT, both.facts, both.left_alone))
+
+
+def shift(shop, program):
+    return shift_with(shop, program, AT_ORIGIN, {})
+
+
+def shift_offsets(shop, program):
+    """Again with offsets and tool lengths that are not zero."""
+    return shift_with(shop, program, OFFSETS, LENGTHS)
+
+
+def field(shop, program, sign):
+    gantry = product.Gantry(squareness=(sign * SQUARE, -sign * SQUARE, sign * SQUARE), offsets=OFFSETS)
+
+    def check_of(both):
+        return linear.FieldCheck(gantry, both.facts, both.left_alone, TOLERANCE + 2e-4)
+    return against_interpreter(shop, program, gantry, LENGTHS, check_of)
+
+
+def field_positive(shop, program):
+    return field(shop, program, 1)
+
+
+def field_negative(shop, program):
+    return field(shop, program, -1)
+
+
+def masking(shop, program):
+    """With numbers masked and what was inserted removed the corrected program is the original, byte for byte."""
+    for gantry in (product.Gantry(shift=product.FRAME_SHIFT, offsets=AT_ORIGIN),
+                   product.Gantry(squareness=(SQUARE, -SQUARE, SQUARE), offsets=AT_ORIGIN)):
+        run = shop.runs.compensate(program, gantry, options=shop.options(program))
+        if run.status != 0:
+            return refusal(shop, program, run)
+        try:
+            text.align(body_of(program, open(program, 'rb').read()), body_of(program, run.text))
+        except text.Mismatch as error:
+            return str(error)
+    return ''
+
+
+def control_limits(shop, program):
+    """No output line is too long and no arc refused, by LinuxCNC's rules and by GRBL's where the source keeps them."""
+    gantry = product.Gantry(squareness=(SQUARE, -SQUARE, SQUARE), offsets=AT_ORIGIN)
+    run = shop.runs.compensate(program, gantry, options=shop.options(program))
+    if run.status != 0:
+        return refusal(shop, program, run)
+    grbl = shop.about(program).get('grbl', False)
+    for number, line in enumerate(text.split_lines(run.text), 1):
+        wrong = limits.too_long(line, grbl)
+        if wrong:
+            return 'line %d has %s' % (number, wrong)
+    try:
+        before, after = (arcs(shop, raw) for raw in (open(program, 'rb').read(), run.text))
+    except path.Refused as error:
+        shop.notes.append('%s: LinuxCNC does not read it: %s' % (os.path.basename(program), error))
+        return ''
+    if after and not before:
+        return '%d arcs would be refused; line %d of the output: %s' % (len(after), after[0][0].line, after[0][1])
+    return ''
+
+
+def arcs(shop, raw):
+    lines = plain.plain_lines(raw)
+    unit = 'G20' if facts.says_inches_first(lines) else 'G21'
+    return list(limits.arcs_refused(path.walk(shop.bench(AT_ORIGIN, {}), lines, unit), facts.facts_of(lines)))
+
+
+def shares(shop, program):
+    """As many moves are corrected or held as was counted by hand."""
+    wanted = shop.about(program).get('share')
+    if not wanted:
+        return ''
+    report, said = shop.runs.plan(program, shop.options(program))
+    if not report:
+        return said[-300:]
+    plan = plan_of(report)
+    if plan is None:
+        return 'check prints no plan'
+    found = [plan['corrected'] + plan['held'] + plan['grouped'], plan['moves']]
+    return '' if found == wanted else '%d of %d moves corrected or held instead of %d of %d' % (*found, *wanted)
+
+
+def plan_of(report):
+    """The object of key `plan`, wherever it stands."""
+    if isinstance(report, dict):
+        if 'plan' in report:
+            return report['plan']
+        report = list(report.values())
+    for part in report if isinstance(report, list) else []:
+        found = plan_of(part)
+        if found:
+            return found
+    return None
+
+
+ALL = {'identity': identity, 'shift': shift, 'shift_offsets': shift_offsets, 'field_positive': field_positive,
+       'field_negative': field_negative, 'masking': masking, 'limits': control_limits, 'shares': shares}
+G_CODE_ONLY = {'shift', 'shift_offsets', 'field_positive', 'field_negative', 'limits'}

@@ -1,0 +1,32 @@
+#include "counterflex/program/line_lengths.hpp"
+
+#include <doctest/doctest.h>
+
+#include <string>
+
+using namespace counterflex;
+
+TEST_CASE("lines above nine tenths of what the control reads are near its limit") {
+  const std::string text = "G1 X1\r\n" + std::string(229, 'X') + "\r\n" + std::string(230, 'X') + "\n" +
+                           std::string(240, 'X') + "\n" + std::string(231, 'X');
+  const LineLengths lengths = line_lengths(text, "linuxcnc");
+  CHECK(lengths.limit == 255);
+  CHECK(lengths.longest == 240);
+  CHECK(lengths.longest_line == 4);
+  CHECK(lengths.near == 3);
+  CHECK(lengths.first_near == 3);
+}
+
+TEST_CASE("what the control drops does not count") {
+  const std::string text = "(" + std::string(200, 'c') + ")\nG1 X1 Y1 ;" + std::string(200, 'c') + "\n";
+  const LineLengths lengths = line_lengths(text, "grbl");
+  CHECK(lengths.limit == 80);
+  CHECK(lengths.longest == 6);
+  CHECK(lengths.longest_line == 2);
+  CHECK(lengths.near == 0);
+}
+
+TEST_CASE("a control without a limit has no lines near it") {
+  CHECK(line_lengths(std::string(1000, 'X'), "fanuc").limit == 0);
+  CHECK(line_lengths(std::string(1000, 'X'), "fanuc").longest == 0);
+}

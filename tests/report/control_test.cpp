@@ -1,0 +1,102 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+
+#include "counterflex/report/formats.hpp"
+#include "made_up_run.hpp"
+
+using namespace counterflex;
+using namespace counterflex::test;
+
+namespace {
+
+/// A report of a corrected program `text` of `original`.
+RunReport report_on(const std::string& original, const std::string& text, double correction_mm = 0,
+                    const std::string& dialect = "linuxcnc") {
+  MadeUpRun run;
+  run.job.read.dialect = dialect;
+  run.program = read_program(original, "made_up.ngc", run.job.read);
+  Compensation c;
+  c.text = text;
+  c.largest_correction = correction_mm * mm;
+  return report_compensation(run.machine, run.job, run.facts, c);
+}
+
+/// The warnings that have `part` in them.
+std::vector<std::string> warnings_with(const RunReport& report, const std::string& part) {
+  std::vector<std::string> found;
+  for (const Remark& warning : report.warnings.rows)
+    if (warning.what.find(part) != std::string::npos) found.push_back(warning.what);
+  return found;
+}
+
+const std::string start = "G21 G90 G94\nG0 X0 Y0 Z0\n";
+
+}  // namespace
+
+TEST_CASE("feed moves shorter in time than a control's block are counted, with the first and the shortest") {
+  // 600 mm/min are 10 mm/s: 1.5 ms, 1 ms, 3 ms; rapids and moves of no length do not count
+  const std::string text = start + "G1 X0.015 F600\nX0.025\nX0.055\nX0.055\nG0 X0.056\n";
+  const RunReport report = report_on(start, text);
+  REQUIRE(report.control.short_blocks);
+  const ShortBlocks& blocks = *report.control.short_blocks;
+  CHECK(blocks.count == 2);
+  CHECK(blocks.first_line == 3);
+  CHECK(blocks.shortest_line == 4);
+  CHECK(blocks.shortest_ms == doctest::Approx(1));
+  CHECK(warnings_with(report, "2 feed moves of the corrected program take less than 2 ms").size() == 1);
+  CHECK(to_json(report).find("\"first_line\": 3") != std::string::npos);
+}
+
+TEST_CASE("the time of a short block is the caller's choice, and without one there is no warning") {
+  MadeUpRun run;
+  run.facts.min_block_ms = 0.5;
+  Compensation c;
+  c.text = start + "G1 X0.015 F600\n";
+  const RunReport report = report_compensation(run.machine, run.job, run.facts, c);
+  CHECK(report.control.short_blocks->count == 0);
+  CHECK(warnings_with(report, "take").empty());
+}
+
+TEST_CASE("lines near what the control reads are counted and warned of") {
+  const std::string text = start + "G1 X1 F100 (" + std::string(225, 'c') + ")\n";
+  const RunReport report = report_on(start, text);
+  CHECK(report.control.lines->near == 1);
+  CHECK(warnings_with(report, "one line of the corrected program has more than 90 % of the 255").size() == 1);
+  CHECK(warnings_with(report_on("G21\n", "G21\n"), "90 %").empty());
+}
+
+TEST_CASE("a path tolerance that swallows the largest correction is warned of with both numbers") {
+  const std::string original = "G21 G90\nG64 P0.05 Q0.02\nG0 X0 Y0 Z0\n";
+  const auto vanish = warnings_with(report_on(original, original, 0.0125), "0.0125 mm, may vanish");
+  REQUIRE(vanish.size() == 1);
+  CHECK(vanish[0].find("0.05 mm") != std::string::npos);
+  CHECK(vanish[0].find("0.02 mm") != std::string::npos);
+  CHECK(
+      warnings_with(report_on(original, original, 0.3), "0.3000 mm, stays, smaller ones may vanish").size() ==
+      1);
+  CHECK(warnings_with(report_on(original, original, 0), "largest correction").empty());
+  CHECK(warnings_with(report_on("G21\nG64\n", "G21\nG64\n", 0.3), "any distance; the largest").size() == 1);
+}
+
+TEST_CASE("path tolerances of inch programs are in mm, each different one once") {
+  const RunReport report = report_on("G20 G90\nG64 P0.002\nG64 P0.002\nG64 P0.001 Q0.001\n", "");
+  REQUIRE(report.control.tolerances.size() == 2);
+  CHECK(report.control.tolerances[0].path_mm == doctest::Approx(0.0508));
+  CHECK_FALSE(report.control.tolerances[0].merge_mm.has_value());
+  CHECK(report.control.tolerances[1].line == 4);
+  CHECK(report.control.tolerances[1].merge_mm == doctest::Approx(0.0254));
+}
+
+TEST_CASE("plunges that outnumber rapids by more than three to one are warned of") {
+  const auto program = [](int plunges) {
+    std::string text = start + "G1 F100\n";
+    for (int i = 0; i < plunges; ++i) text += "Z5\nX" + std::to_string(i + 1) + "\nZ-1\n";
+    return text;
+  };
+  const RunReport three = report_on(program(3), ""), four = report_on(program(4), "");
+  CHECK(three.control.rapids == 1);
+  CHECK(three.control.plunges == 3);
+  CHECK(warnings_with(three, "plunges at feed").empty());
+  CHECK(warnings_with(four, "4 plunges at feed stand against 1 rapids").size() == 1);
+}
