@@ -58,18 +58,23 @@ void settle_radius(const Move& move, const Vector3& centre_mm, Place place, cons
   words.curve.arc->centre = centre_from_radius(start, end, number.value * unit, normal_of(arc));
 }
 
-/// The most that a piece to `via` may turn: less than what its own move does, and unless it may be a full
-/// circle no more than `via` says.
-double most_sweep(const Move& move, const Curve& piece, const Via& via, Place place, int decimals) {
-  constexpr double digits_that_ends_may_miss = 2;
+/// The digits have made a piece that hardly moves go around: it turns more than its own move, or, unless it
+/// may be a full circle, more than `via` says.
+bool is_turned_around(const Move& move, const Curve& piece, const Via& via, Place place, int decimals) {
+  constexpr double digits_that_ends_may_miss = 2, digits_of_a_safe_radius = 1000,
+                   angle_that_digits_may_add = 0.5;
   const ArcMove& arc = *move.arc;
-  const double whole = sweep_of(arc, move.start_mm, move.end_mm, arc.centre_mm);
-  if (place == Place::end && whole > std::numbers::pi) return whole;
-  const double told = sweep_of(arc, piece.start, via.end_mm, *via.centre_mm);
   const double digit_mm = mm_per(move.unit) / power_of_ten(decimals);
-  const double chord = across(piece.end - piece.start, arc).norm();
-  const bool ends_may_have_passed = chord <= digits_that_ends_may_miss * digit_mm;
-  return std::fmin(whole, ends_may_have_passed ? std::fmin(told, std::numbers::pi) : told);
+  const bool ends_may_have_passed =
+      across(piece.end - piece.start, arc).norm() <= digits_that_ends_may_miss * digit_mm;
+  const double radius_mm = across(piece.start - piece.arc->centre, arc).norm();
+  if (!ends_may_have_passed && radius_mm > digits_of_a_safe_radius * digit_mm) return false;
+  double most = sweep_of(arc, move.start_mm, move.end_mm, arc.centre_mm);
+  if (place != Place::end || most <= std::numbers::pi) {
+    most = std::fmin(most, sweep_of(arc, piece.start, via.end_mm, *via.centre_mm));
+    if (ends_may_have_passed) most = std::fmin(most, std::numbers::pi);
+  }
+  return piece.arc->sweep > most + angle_that_digits_may_add;
 }
 
 }  // namespace
@@ -80,7 +85,6 @@ Vector3 normal_of(const ArcMove& arc) {
 
 std::optional<ArcWords> settle_arc(const Move& move, const Vector3& start, const Vector3& end, const Via& via,
                                    Place place, const WriteOptions& options) {
-  constexpr double angle_that_digits_may_add = 0.5;
   const ArcMove& arc = *move.arc;
   ArcWords words;
   words.curve = {start, end, Arc{start, normal_of(arc), 0}};
@@ -93,13 +97,10 @@ std::optional<ArcWords> settle_arc(const Move& move, const Vector3& start, const
         settle_centre_word(move, axis, start, component(*via.centre_mm, axis), place, options, words);
   }
   words.curve.arc->sweep = sweep_of(arc, start, end, words.curve.arc->centre);
-  if (place == Place::end && arc.turns > 0) {
+  if (place == Place::end && arc.turns > 0)
     words.curve.arc->sweep += 2 * std::numbers::pi * arc.turns;
-    return words;
-  }
-  // Digits must not make a piece that hardly moves go around.
-  const double most = most_sweep(move, words.curve, via, place, decimals_of(move, options).inserted);
-  if (words.curve.arc->sweep > most + angle_that_digits_may_add) return std::nullopt;
+  else if (is_turned_around(move, words.curve, via, place, decimals_of(move, options).inserted))
+    return std::nullopt;
   return words;
 }
 
