@@ -1,6 +1,7 @@
 #include "counterflex/files/numbers.hpp"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <limits>
@@ -29,6 +30,14 @@ std::string format_fixed(double value, int decimals) {
 }
 
 double rounded(double value, int decimals) {
+  // A whole number over a power of ten is the very number that its text is read as; only near a tie does the
+  // product's last bit count.
+  constexpr std::array<double, 10> powers{1, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9};
+  if (decimals >= 0 && static_cast<std::size_t>(decimals) < powers.size()) {
+    const double power = powers[static_cast<std::size_t>(decimals)];
+    const double scaled = value * power, whole = std::nearbyint(scaled);
+    if (std::abs(scaled) < 1e12 && std::abs(scaled - whole) < 0.499) return whole == 0 ? 0.0 : whole / power;
+  }
   return *read_number(format_fixed(value, decimals));
 }
 

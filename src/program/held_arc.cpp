@@ -58,16 +58,23 @@ void settle_radius(const Move& move, const Vector3& centre_mm, Place place, cons
   words.curve.arc->centre = centre_from_radius(start, end, number.value * unit, normal_of(arc));
 }
 
-/// The digits of the ends have turned a piece that hardly moves around.
-bool is_turned_around(const Move& move, const ArcWords& words, Place place, int decimals) {
-  constexpr double digits_that_ends_may_miss = 2, angle_that_digits_may_add = 0.5;
+/// The digits have made a piece that hardly moves go around: it turns more than its own move, or, unless it
+/// may be a full circle, more than `via` says.
+bool is_turned_around(const Move& move, const Curve& piece, const Via& via, Place place, int decimals) {
+  constexpr double digits_that_ends_may_miss = 2, digits_of_a_safe_radius = 1000,
+                   angle_that_digits_may_add = 0.5;
   const ArcMove& arc = *move.arc;
   const double digit_mm = mm_per(move.unit) / power_of_ten(decimals);
-  const Curve& curve = words.curve;
-  if (across(curve.end - curve.start, arc).norm() > digits_that_ends_may_miss * digit_mm) return false;
-  const double original = sweep_of(arc, move.start_mm, move.end_mm, arc.centre_mm);
-  const double most = place == Place::end ? original : std::fmin(original, std::numbers::pi);
-  return curve.arc->sweep > most + angle_that_digits_may_add;
+  const bool ends_may_have_passed =
+      across(piece.end - piece.start, arc).norm() <= digits_that_ends_may_miss * digit_mm;
+  const double radius_mm = across(piece.start - piece.arc->centre, arc).norm();
+  if (!ends_may_have_passed && radius_mm > digits_of_a_safe_radius * digit_mm) return false;
+  double most = sweep_of(arc, move.start_mm, move.end_mm, arc.centre_mm);
+  if (place != Place::end || most <= std::numbers::pi) {
+    most = std::fmin(most, sweep_of(arc, piece.start, via.end_mm, *via.centre_mm));
+    if (ends_may_have_passed) most = std::fmin(most, std::numbers::pi);
+  }
+  return piece.arc->sweep > most + angle_that_digits_may_add;
 }
 
 }  // namespace
@@ -76,24 +83,24 @@ Vector3 normal_of(const ArcMove& arc) {
   return (arc.clockwise ? -1 : 1) * Vector3::Unit(arc.normal);
 }
 
-std::optional<ArcWords> settle_arc(const Move& move, const Vector3& start, const Vector3& end,
-                                   const Vector3& centre_mm, Place place, const WriteOptions& options) {
+std::optional<ArcWords> settle_arc(const Move& move, const Vector3& start, const Vector3& end, const Via& via,
+                                   Place place, const WriteOptions& options) {
   const ArcMove& arc = *move.arc;
   ArcWords words;
   words.curve = {start, end, Arc{start, normal_of(arc), 0}};
   if (arc.radius_word) {
     if (across(end - start, arc).isZero(0)) return std::nullopt;
-    settle_radius(move, centre_mm, place, options, words);
+    settle_radius(move, *via.centre_mm, place, options, words);
   } else {
     for (std::size_t axis = 0; axis < 3; ++axis)
       if (in_plane(arc, axis))
-        settle_centre_word(move, axis, start, component(centre_mm, axis), place, options, words);
+        settle_centre_word(move, axis, start, component(*via.centre_mm, axis), place, options, words);
   }
   words.curve.arc->sweep = sweep_of(arc, start, end, words.curve.arc->centre);
-  const bool whole_turns = place == Place::end && arc.turns > 0;
-  if (!whole_turns && is_turned_around(move, words, place, decimals_of(move, options).inserted))
+  if (place == Place::end && arc.turns > 0)
+    words.curve.arc->sweep += 2 * std::numbers::pi * arc.turns;
+  else if (is_turned_around(move, words.curve, via, place, decimals_of(move, options).inserted))
     return std::nullopt;
-  if (whole_turns) words.curve.arc->sweep += 2 * std::numbers::pi * arc.turns;
   return words;
 }
 

@@ -18,10 +18,10 @@ inline bool in_plane(const ArcMove& arc, std::size_t axis) {
   return axis != static_cast<std::size_t>(arc.normal);
 }
 
-/// The words of a piece of the arc `move` from `start` to `end`, as the text holds them, about `centre_mm`.
-/// Nothing where the digits leave no arc: start and end have become one point, or changed places, and a
-/// control would read a full turn.
-std::optional<ArcWords> settle_arc(const Move& move, const Vector3& start, const Vector3& end,
-                                   const Vector3& centre_mm, Place place, const WriteOptions& options);
+/// The words of a piece of the arc `move` from `start` to `end`, as the text holds them, towards `via`, which
+/// has a centre. Nothing where the digits leave no arc: start and end have become one point, or changed
+/// places, and a control would read a full turn.
+std::optional<ArcWords> settle_arc(const Move& move, const Vector3& start, const Vector3& end, const Via& via,
+                                   Place place, const WriteOptions& options);
 
 }  // namespace counterflex

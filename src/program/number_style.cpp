@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 
 #include "counterflex/files/numbers.hpp"
 
@@ -32,9 +33,26 @@ void drop_leading_zero(std::string& text) {
   if (text[zero] == '0' && text.size() > zero + 2 && text[zero + 1] == '.') text.erase(zero, 1);
 }
 
+/// `whole` over ten to the power of `decimals`: much faster than for any number.
+std::string with_point(std::int64_t whole, int decimals) {
+  std::array<char, 32> buffer;
+  char* at = buffer.data() + buffer.size();
+  auto rest = static_cast<std::uint64_t>(whole < 0 ? -whole : whole);
+  for (int i = 0; i < decimals; ++i, rest /= 10) *--at = static_cast<char>('0' + rest % 10);
+  *--at = '.';
+  do *--at = static_cast<char>('0' + rest % 10);
+  while ((rest /= 10) > 0);
+  if (whole < 0) *--at = '-';
+  return {at, buffer.data() + buffer.size()};
+}
+
 }  // namespace
 
 std::string inserted_number(double value, int decimals) {
+  constexpr double whole_numbers_of_64_bits = 1e15;
+  const double scaled = decimals >= 0 && decimals < 10 ? std::round(value * power_of_ten(decimals)) : 2e15;
+  if (std::abs(scaled) < whole_numbers_of_64_bits)
+    return with_point(static_cast<std::int64_t>(scaled), decimals);
   std::string text = format_fixed(value, decimals);
   if (decimals == 0) text += '.';
   return text;

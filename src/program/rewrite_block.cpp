@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cassert>
 
+#include "program/rewrite_numbers.hpp"
 #include "program/rewrite_words.hpp"
 
 namespace counterflex {
@@ -67,8 +68,12 @@ bool is_length(const Word& word, const Move& move) {
   return is_axis(word) || ((move.arc || move.cycle) && is_centre(word));
 }
 
+bool may_doubt_integers(const Program& program, const Dialect& dialect) {
+  return dialect.integer_words_doubtful && program.integer_words == IntegerWords::unsaid;
+}
+
 void check_integer_words(const Original& o) {
-  if (!o.dialect.integer_words_doubtful || o.program.integer_words != IntegerWords::unsaid) return;
+  if (!may_doubt_integers(o.program, o.dialect)) return;
   for (const Word& word : o.block.words)
     if (is_length(word, o.move) && word.literal && !word.point && word.value != 0)
       refuse(o.program.file, o.block, word.span.begin,
@@ -126,14 +131,19 @@ std::string text_of(const Original& o, const std::vector<PlannedStep>& steps, co
   return text;
 }
 
-/// Whether the block needs no other words for `edit`, which is most often so where little is to correct; then
-/// moves `state` on.
-bool stays(const MoveEdit& edit, const Move& move, const HeldPosition& before, const CycleWords& cycle,
-           const WriteOptions& options, TextState& state) {
+/// Writes the block without reading it again, where no more than numbers change; then moves `state` on.
+bool is_written_alone(const Program& program, const MoveEdit& edit, const HeldPosition& before,
+                      const CycleWords& cycle, const WriteOptions& options, TextState& state,
+                      Rewritten& out) {
   if (edit.jump_mm || !edit.inserted.empty() || state.restate_motion) return false;
+  const Move& move = program.moves[edit.move];
   const int motion = motion_of(move);
   const Step step = settle_step(move, before, {edit.end_mm, edit.centre_mm}, motion, Place::end, options);
-  if (step.motion != motion || says_anew(step) || cycle.bottom.write || cycle.retract.write) return false;
+  if (step.motion != motion) return false;
+  const Dialect& dialect = *find_dialect(program.dialect);
+  const bool changes = says_anew(step) || cycle.bottom.write || cycle.retract.write;
+  if (changes && may_doubt_integers(program, dialect)) return false;
+  if (!append_with_numbers(program, move, step, cycle, changes ? dialect.line_limit : 0, out)) return false;
   state.held = step.after;
   doubt_skippable(move, before, state.held);
   return true;
@@ -159,10 +169,7 @@ void rewrite_block(const Program& program, const ProgramStyle& style, const Move
   CycleWords cycle;
   if (move.cycle)
     cycle = settle_cycle(move, before[2], edit.bottom_mm, edit.retract_mm, state.cycle, options);
-  if (stays(edit, move, before, cycle, options, state)) {
-    out.text += part(program.text, move.block);
-    return;
-  }
+  if (is_written_alone(program, edit, before, cycle, options, state, out)) return;
   const Original o = lex_again(program, move, style);
   ModalMotion modal = modal_motion(o, state.restate_motion);
   std::vector<PlannedStep> steps = settle_steps(o, plan(o, edit, modal.own), before, options);

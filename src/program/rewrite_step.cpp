@@ -34,7 +34,7 @@ Step settle_step(const Move& move, const HeldPosition& before, const Via& via, i
   if (via.centre_mm) {
     // About an unknown start nothing is said anew: the arc stays as it stands.
     if (!plane_is_known(*move.arc, before) || !plane_is_known(*move.arc, step.after)) return step;
-    step.arc = settle_arc(move, point_of(before), point_of(step.after), *via.centre_mm, place, options);
+    step.arc = settle_arc(move, point_of(before), point_of(step.after), via, place, options);
     if (step.arc) return step;
     // What is left of the arc is less than the digits tell: the next piece makes up for it.
     if (place == Place::inside) step.after = before;

@@ -6,6 +6,7 @@
 
 #include "counterflex/geometry/curve.hpp"
 #include "counterflex/program/rewrite.hpp"
+#include "program/reading.hpp"
 #include "program/small_reader.hpp"
 
 using namespace counterflex;
@@ -135,4 +136,27 @@ TEST_CASE("the pieces of a G93 move share its time by their lengths") {
             "G93 G3 X0. Y10. I-10. F10.\n",
             {.inserted = {{{s, s, 0}, Vector3::Zero()}}, .end_mm = {0, 10, 0}, .centre_mm = Vector3::Zero()})
             .find("F20.00000\n") != std::string::npos);
+}
+
+TEST_CASE("an arc that is not followed keeps its motion word and its centre when its shift is held") {
+  const Program program =
+      read("G21 G90 G17 G0 X0. Y0. Z0.\nG91\n#1=5\nG3 X[#1] Y1. I1. J0. F100\nX1. Y1. I0.5\n");
+  REQUIRE(program.moves.size() == 3);
+  std::vector<MoveEdit> edits;
+  for (std::size_t i = 0; i < 3; ++i)
+    edits.push_back({.move = i, .end_mm = program.moves[i].end_mm + Vector3(0, 0.5, 0)});
+  CHECK(rewrite(program, edits, {}).text ==
+        "G21 G90 G17 G0 X0. Y0.5 Z0.\nG91\n#1=5\nG3 X[#1] Y1. I1. J0. F100\nX1. Y1. I0.5\n");
+}
+
+TEST_CASE("behind chords a call keeps its words, and a program's end leaves no motion to restate") {
+  const std::string start = "G21 G90 G17 G1 X10. Y0. Z0. F100.\nG3 X0. Y10. I-10.\n";
+  const auto chorded = [&](const std::string& rest) {
+    const Program program = read(start + rest, "fanuc");
+    const std::string text = rewrite(program, {{.move = 1, .end_mm = program.moves[1].end_mm}}, {}).text;
+    return text.substr(text.find('\n', text.find('\n') + 1) + 1);
+  };
+  CHECK(chorded("G65 P100 X1. Y2.\nG0 X5.\n") == "G65 P100 X1. Y2.\nG0 X5.\n");
+  CHECK(chorded("M30\n") == "M30\n");
+  CHECK(chorded("X-10. Y0. J-10.\nM30\n") == "G3 X-10. Y0. J-10.\nM30\n");
 }

@@ -247,3 +247,30 @@ TEST_CASE("a block that is itself the first piece of its split ends where it was
     }
   }
 }
+
+TEST_CASE("no piece of an arc of a few digits becomes a turn that was not there") {
+  SyntheticArcs source(28, 0.002, 0.03);
+  std::size_t arcs = 0, lines = 0;
+  for (int i = 0; i < arc_programs; ++i) {
+    const Program program = read_small(source.text(arc_blocks));
+    CAPTURE(program.text);
+    const std::vector<MoveEdit> edits = arc_edits(program, 1 + i % 4);
+    const Rewritten out = rewrite(program, edits, {});
+    const Program again = read_small(out.text);
+    std::size_t next = 0;
+    for (std::size_t m = 0; m < program.moves.size(); ++m) {
+      const Curve way = way_of(program.moves[m]);
+      double turned = 0;
+      for (std::size_t k = 0; k <= out.blocks_of_edit[m]; ++k, ++next) {
+        const Curve piece = way_of(again.moves[next]);
+        if (piece.arc) turned += piece.arc->sweep;
+        if (way.arc) ++(piece.arc ? arcs : lines);
+      }
+      CAPTURE(program.moves[m].line);
+      if (way.arc) CHECK(turned < way.arc->sweep + std::numbers::pi);
+    }
+    CHECK(next == again.moves.size());
+  }
+  CHECK(arcs > 10000);
+  CHECK(lines > 100);
+}

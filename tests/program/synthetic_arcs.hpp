@@ -14,7 +14,8 @@ namespace counterflex::test {
 
 class SyntheticArcs {
  public:
-  explicit SyntheticArcs(std::uint64_t seed) : bits_(seed) {}
+  explicit SyntheticArcs(std::uint64_t seed, double smallest = 2, double largest = 15)
+      : bits_(seed), smallest_(smallest), largest_(largest) {}
 
   /// A program of `blocks` moves; every arc of it is one that a control accepts.
   std::string text(int blocks);
@@ -32,6 +33,7 @@ class SyntheticArcs {
   void finish();
 
   std::mt19937_64 bits_;
+  double smallest_, largest_;  ///< radii, in the program's unit
   std::string text_, block_;
   Vector3 at_ = Vector3::Zero();  ///< as read back
   int decimals_ = 3, normal_ = 2, said_motion_ = -1;
@@ -89,7 +91,7 @@ inline void SyntheticArcs::arc() {
   if (said_motion_ != motion || chance(50)) block_ = fmt::format("{}{}", lower_ ? "g0" : "G", motion);
   said_motion_ = motion;
   const int a = (normal_ + 1) % 3, b = (normal_ + 2) % 3;
-  const double angle = between(0, 6.28), size = between(2, 15);
+  const double angle = between(0, 6.28), size = between(smallest_, largest_);
   double sweep = (clockwise ? -1 : 1) * between(0.2, by_radius ? 2.5 : 5.5);
   if (by_radius && chance(30)) sweep *= 2;
   if (std::abs(std::abs(sweep) - 3.14) < 0.5 && by_radius) sweep *= 0.5;
