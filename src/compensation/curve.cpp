@@ -85,11 +85,11 @@ Vector3 CorrectionCurve::at(double u) const {
 }
 
 bool sample_curve(const CurveNode& a, const CurveNode& b, double accuracy, const CorrectionAt& solve,
-                  CorrectionCurve& curve) {
+                  CorrectionCurve& curve, bool may_wave) {
   CurveNode m;
   if (!solve((a.u + b.u) / 2, m)) return false;
   // A second difference far below the accuracy: the line is the curve.
-  if ((m.c - (a.c + b.c) / 2).norm() < accuracy / 4) {
+  if (!may_wave && (m.c - (a.c + b.c) / 2).norm() < accuracy / 4) {
     curve.add({{a, m, b}});
     return true;
   }

@@ -35,9 +35,10 @@ class CorrectionCurve {
 using CorrectionAt = std::function<bool(double u, CurveNode& node)>;
 
 /// Samples [a.u, b.u] until the polynomial through the nodes predicts further ones within `accuracy` (m), at
-/// least at its middle. False where `solve` was.
+/// least at its middle, and where it `may_wave`, as around an arc, at its quarters, too. False where `solve`
+/// was.
 bool sample_curve(const CurveNode& a, const CurveNode& b, double accuracy, const CorrectionAt& solve,
-                  CorrectionCurve& curve);
+                  CorrectionCurve& curve, bool may_wave = false);
 
 /// Something to be interpolated, at a fraction.
 using VectorAt = std::function<Vector3(double u)>;

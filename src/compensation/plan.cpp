@@ -105,7 +105,9 @@ class ChunkPlanner {
     for (std::size_t i = 1; i < limits.size(); ++i) {
       if (!solve(limits[i], Side::before, b)) return false;
       const CorrectionAt inside = [this](double u, CurveNode& node) { return solve(u, Side::after, node); };
-      if (!sample_curve(a, b, curve_share * job_.options.tolerance, inside, stretch)) return false;
+      if (!sample_curve(a, b, curve_share * job_.options.tolerance, inside, stretch,
+                        segment_->wanted.arc.has_value()))
+        return false;
       a = b;
       if (i + 1 < limits.size() && !solve(limits[i], Side::after, a)) return false;
       const bool step = (a.c - b.c).norm() > jump_share * job_.options.tolerance;

@@ -106,6 +106,15 @@ TEST_CASE("arcs on a machine out of square stay within the tolerance everywhere"
     }
 }
 
+TEST_CASE("a correction that waves about the middle of an arc's quarter does not pass for a line") {
+  Order order{.machine = rigid_gantry("0, 0, 0", 0.1 * deg),
+              .text = "G21 G90 G17\nG0 X0. Y0. Z0.\nG3 X80. Y80. I40. J40. F250\nM30\n"};
+  const Shop shop(order);
+  const Compensation result = compensated(shop);
+  CHECK(dense_miss(shop, result, 60).size <= 5e-6);
+  CHECK(result.counts.inserted_blocks < 8);
+}
+
 TEST_CASE("an arc that eight pieces cannot follow becomes chords of the corrected curve") {
   Order order{.machine = rigid_gantry("0, 0, 0", 20e-3),
               .text = "G21 G90\nG0 X0. Y0. Z0.\nG2 X100. Y0. I50. J0. F500\nG3 X120. Y20. I0. J20.\nM30\n",
