@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <string_view>
 
 #include "counterflex/geometry/units.hpp"
@@ -15,9 +16,18 @@ struct Line {
   std::string_view text;
 };
 
+// The line without the number that Klartext gives its blocks anew; nothing of a CC, which belongs to the arc
+// behind it.
+std::string_view statement_of(const Program& program, std::string_view line) {
+  if (program.dialect != "heidenhain") return line;
+  line.remove_prefix(std::min(line.find_first_not_of(" \t0123456789"), line.size()));
+  return line.starts_with("CC") ? std::string_view() : line;
+}
+
 // A comment of the header and nothing else.
 bool is_header(std::string_view line) {
-  return line.rfind("(COUNTERFLEX 1", 0) == 0 && line.find(')') == line.size() - 1;
+  if (line.starts_with("; COUNTERFLEX 1") || line.starts_with(";COUNTERFLEX 1")) return true;
+  return line.starts_with("(COUNTERFLEX 1") && line.find(')') == line.size() - 1;
 }
 
 // The lines of a program that hold no move, without line ends.
@@ -32,7 +42,9 @@ std::vector<Line> other_lines(const Program& program) {
     if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
     while (move < program.moves.size() && program.moves[move].line < number) ++move;
     const bool moves = move < program.moves.size() && program.moves[move].line == number;
-    if (!moves && !is_header(line)) lines.push_back({number, line});
+    line = statement_of(program, line);
+    const bool inserted_centre = line.empty() && program.dialect == "heidenhain";
+    if (!moves && !is_header(line) && !inserted_centre) lines.push_back({number, line});
     begin = end + 1;
   }
   return lines;
