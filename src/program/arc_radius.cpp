@@ -1,5 +1,7 @@
 #include "program/arc_radius.hpp"
 
+#include <Eigen/Geometry>
+
 #include <cmath>
 
 namespace counterflex {

@@ -92,40 +92,40 @@ void read_end(const KlartextBlock&, KlartextReading& r) {
   r.ended = true;
 }
 
-struct Statement {
+struct KnownStatement {
   std::string_view head;
   void (*read)(const KlartextBlock&, KlartextReading&);
 };
 
 constexpr std::array statements{
-    Statement{"L", read_klartext_motion},
-    Statement{"C", read_klartext_motion},
-    Statement{"CR", read_klartext_motion},
-    Statement{"CT", read_klartext_motion},
-    Statement{"CC", read_klartext_pole},
-    Statement{"M", read_klartext_codes},
-    Statement{"CYCL", read_klartext_cycle},
-    Statement{"CYCLE", read_klartext_cycle},
-    Statement{"TOOL", read_tool_call},
-    Statement{"RND", read_corner},
-    Statement{"CHF", read_corner},
-    Statement{"CALL", read_call},
-    Statement{"APPR", read_approach},
-    Statement{"DEP", read_approach},
-    Statement{"PLANE", read_plane},
-    Statement{"BEGIN", read_begin},
-    Statement{"END", read_end},
-    Statement{"BLK", read_nothing},
-    Statement{"STOP", read_nothing},
-    Statement{"LBL", read_nothing},
-    Statement{"FN", read_nothing},
-    Statement{"Q", read_nothing},
-    Statement{"QL", read_nothing},
-    Statement{"QR", read_nothing},
-    Statement{"QS", read_nothing},
-    Statement{"DECLARE", read_nothing},
-    Statement{"IF", read_nothing},
-    Statement{"ERROR", read_nothing},
+    KnownStatement{"L", read_klartext_motion},
+    KnownStatement{"C", read_klartext_motion},
+    KnownStatement{"CR", read_klartext_motion},
+    KnownStatement{"CT", read_klartext_motion},
+    KnownStatement{"CC", read_klartext_pole},
+    KnownStatement{"M", read_klartext_codes},
+    KnownStatement{"CYCL", read_klartext_cycle},
+    KnownStatement{"CYCLE", read_klartext_cycle},
+    KnownStatement{"TOOL", read_tool_call},
+    KnownStatement{"RND", read_corner},
+    KnownStatement{"CHF", read_corner},
+    KnownStatement{"CALL", read_call},
+    KnownStatement{"APPR", read_approach},
+    KnownStatement{"DEP", read_approach},
+    KnownStatement{"PLANE", read_plane},
+    KnownStatement{"BEGIN", read_begin},
+    KnownStatement{"END", read_end},
+    KnownStatement{"BLK", read_nothing},
+    KnownStatement{"STOP", read_nothing},
+    KnownStatement{"LBL", read_nothing},
+    KnownStatement{"FN", read_nothing},
+    KnownStatement{"Q", read_nothing},
+    KnownStatement{"QL", read_nothing},
+    KnownStatement{"QR", read_nothing},
+    KnownStatement{"QS", read_nothing},
+    KnownStatement{"DECLARE", read_nothing},
+    KnownStatement{"IF", read_nothing},
+    KnownStatement{"ERROR", read_nothing},
 };
 
 void refuse_conflict_marker(const KlartextBlock& block, const KlartextReading& r) {
@@ -150,7 +150,7 @@ void read_statement(const KlartextBlock& block, KlartextReading& r) {
   if (block.parts.empty()) return;
   ++r.program.block_count;
   const auto known = std::find_if(statements.begin(), statements.end(),
-                                  [&](const Statement& s) { return s.head == block.head; });
+                                  [&](const KnownStatement& s) { return s.head == block.head; });
   if (known != statements.end()) return known->read(block, r);
   refuse_conflict_marker(block, r);
   add_unfollowed_move(block, r, fmt::format("{} is not read", block.head.empty() ? "the block" : block.head));
