@@ -51,7 +51,7 @@ void apply_cutter(Reading& r) {
     }
     state.contour = Contour::inside;
   } else if (r.sorted.has(Action::no_cutter) && state.contour == Contour::inside) {
-    state.contour = Contour::leaving;
+    state.contour = Contour::taking_off;
   }
 }
 
@@ -59,14 +59,16 @@ void join_contour(Reading& r) {
   ModalState& state = r.state;
   if (state.contour == Contour::none || !why_not_followed(r).empty()) return;
   Move& move = r.program.moves.back();
-  const bool last =
-      state.contour == Contour::leaving && !r.sorted.has(Action::no_cutter) && goes_across(move);
-  if (last || (state.contour == Contour::leaving && !may_join(move))) return end_contour(r);
+  const bool outside = state.contour != Contour::inside;
+  const bool takes_off = state.contour == Contour::taking_off &&
+                         (r.sorted.has(Action::no_cutter) || move.motion == Motion::feed);
+  if (outside && (!may_join(move) || (goes_across(move) && !takes_off))) return end_contour(r);
   if (may_join(move)) put_into(move, state.group);
+  if (outside) state.contour = Contour::leaving;
 }
 
 void end_contour(Reading& r) {
-  if (r.state.contour == Contour::leaving) r.state.contour = Contour::none;
+  if (r.state.contour != Contour::inside) r.state.contour = Contour::none;
 }
 
 }  // namespace counterflex

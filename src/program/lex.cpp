@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include <array>
 
 #include "counterflex/files/numbers.hpp"
@@ -178,6 +180,11 @@ void lex_percent(Scanner& s) {
 }
 
 }  // namespace
+
+long count_of(const Word& word) {
+  constexpr double beyond = 1e15;
+  return static_cast<long>(std::clamp(word.value, -beyond, beyond));
+}
 
 bool next_line(std::string_view text, Block& block) {
   const std::size_t begin = block.line_end.end;

@@ -64,6 +64,9 @@ struct Block {
 inline std::string_view part(std::string_view text, Span span) {
   return text.substr(span.begin, span.end - span.begin);
 }
+/// The number of a word that counts (T, N, H, P), without what is no whole; far beyond any count it stays there.
+long count_of(const Word& word);
+
 inline bool empty(Span span) {
   return span.begin == span.end;
 }

@@ -49,8 +49,9 @@ struct CycleState {
 /// Where the moves stand to a contour under G41 or G42.
 enum class Contour : std::uint8_t {
   none,
-  inside,  ///< G41 or G42 acts
-  leaving  ///< after G40, until a move along X or Y
+  inside,      ///< G41 or G42 acts
+  taking_off,  ///< after G40, until the next move: a feed move takes the compensation off
+  leaving      ///< after that move, until the next one along X or Y
 };
 
 struct ModalState {

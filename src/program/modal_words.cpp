@@ -40,7 +40,7 @@ void apply_f(Reading& r, std::optional<LengthUnit> unit_before) {
 }
 
 void apply_tool(Reading& r) {
-  if (const Word* t = r.sorted.word('T')) r.state.tool_chosen = static_cast<long>(t->value);
+  if (const Word* t = r.sorted.word('T')) r.state.tool_chosen = count_of(*t);
   if (!r.sorted.has(MAction::tool_change)) return;
   r.state.tool = r.state.tool_chosen;
   for (std::size_t axis = 0; axis < 3; ++axis)

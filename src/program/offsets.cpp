@@ -54,7 +54,7 @@ void find_length(const Reading& r, std::optional<double>& number, std::optional<
   const Word* h = r.sorted.word('H');
   if (h != nullptr && !h->literal) return;
   if (h != nullptr) number = h->value;
-  const long tool = h != nullptr ? static_cast<long>(h->value) : r.state.tool;
+  const long tool = h != nullptr ? count_of(*h) : r.state.tool;
   const auto found = r.options.tool_lengths_mm.find(tool);
   if (r.lengths_set || found == r.options.tool_lengths_mm.end()) return;
   if (h == nullptr) number = static_cast<double>(tool);

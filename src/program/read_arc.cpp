@@ -96,7 +96,7 @@ std::optional<ArcMove> arc_of(const Block& block, const Reading& r, const Move& 
   arc.normal = r.state.normal;
   arc.clockwise = r.state.motion == MotionMode::clockwise;
   arc.centre_mm[arc.normal] = move.start_mm[arc.normal];
-  if (const Word* p = r.sorted.word('P')) arc.turns = static_cast<int>(p->value) - 1;
+  if (const Word* p = r.sorted.word('P')) arc.turns = static_cast<int>(count_of(*p) - 1);
   const Plane plane = plane_of(arc.normal);
   if (r.sorted.word('R') == nullptr) {
     set_centre(block, r, plane, move, arc);

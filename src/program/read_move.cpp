@@ -138,7 +138,7 @@ Move& start_move(const Block& block, Reading& r, Motion motion) {
   move.relative = r.relative();
   move.feed_mm_min = feed_mm_min(r.state);
   move.spindle_rpm = r.state.spindle_rpm;
-  if (const Word* n = r.sorted.word('N')) move.block_number = static_cast<long>(n->value);
+  if (const Word* n = r.sorted.word('N')) move.block_number = count_of(*n);
   move.offset = r.state.work_offset;
   move.tool = r.state.tool;
   move.force = r.state.force;

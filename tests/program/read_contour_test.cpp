@@ -28,6 +28,7 @@ TEST_CASE("a contour goes from the last move across before its plunge to the mov
 }
 
 TEST_CASE("G41 and G40 may stand alone") {
+  CHECK(groups_of("X2\nZ1\nG41 D1\nG1 X3\nY4\nG40\nG1 X1\nZ1\nX0\n") == Groups{0, 1, 1, 1, 1, 1, 1, 0});
   CHECK(groups_of("X2\nZ1\nG41 D1\nG1 X3\nY4\nG40\nZ1\nX0\n") == Groups{0, 1, 1, 1, 1, 1, 0});
 }
 
