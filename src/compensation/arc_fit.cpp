@@ -1,6 +1,6 @@
 #include "arc_fit.hpp"
 
-#include <Eigen/LU>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -93,7 +93,7 @@ class PieceFit {
     const Vector3 kept = start_ + task_.source.arc->centre - point_at(task_.source, piece_.u0);
     FittedArc best = written(kept);
     if (best.sound && best.miss_mm <= centre_kept_share * task_.tolerance_mm) return best;
-    const Vector3 fitted = fitted_centre(kept);
+    const Vector3 fitted = fitted_centre(kept, best.read.arc ? best.read.end : end_);
     take_better(written(fitted), best);
     if (!best.sound || best.miss_mm > task_.tolerance_mm) try_neighbours(fitted, best);
     return best;
@@ -124,30 +124,47 @@ class PieceFit {
       }
   }
 
-  Eigen::VectorXd residuals(const Vector3& centre) const {
+  // Centres with the source's difference of radii to both ends lie on a line across the chord.
+  struct CentreLine {
+    Vector3 foot, across;
+  };
+
+  std::optional<CentreLine> centre_line(const Vector3& end, const Vector3& kept) const {
+    const Arc& arc = *task_.source.arc;
+    Vector3 chord = end - start_;
+    chord -= chord.dot(arc.normal) * arc.normal;
+    const double size = chord.norm();
+    if (size < fit_step_mm) return std::nullopt;
+    const double difference =
+        (piece_.u1 - piece_.u0) * (radius(arc, task_.source.end) - radius(arc, task_.source.start));
+    Vector3 foot = start_ + chord / 2 - difference * radius(arc, task_.source.start) / size * (chord / size);
+    foot += (kept - foot).dot(arc.normal) * arc.normal;
+    return CentreLine{foot, arc.normal.cross(chord / size)};
+  }
+
+  void misses(const Vector3& centre, const Vector3& end, Eigen::VectorXd& r) const {
     const Vector3& normal = task_.source.arc->normal;
-    const Curve curve{start_, end_, Arc{centre, normal, sweep_between(start_, end_, centre, normal)}};
-    Eigen::VectorXd r(3 * static_cast<Eigen::Index>(samples_.size()));
+    const Curve curve{start_, end, Arc{centre, normal, sweep_between(start_, end, centre, normal)}};
+    r.resize(3 * static_cast<Eigen::Index>(samples_.size()));
     for (std::size_t k = 0; k < samples_.size(); ++k)
       r.segment<3>(3 * static_cast<Eigen::Index>(k)) = point_at(curve, samples_[k].v) - samples_[k].p_mm;
-    return r;
   }
 
   // Gauss-Newton on the mean square of the misses, pulled a little to where the centre stood.
-  Vector3 fitted_centre(const Vector3& kept) const {
-    Vector3 centre = kept;
+  Vector3 fitted_centre(const Vector3& kept, const Vector3& end) const {
+    const std::optional<CentreLine> line = centre_line(end, kept);
+    if (!line) return kept;
+    const double h_kept = (kept - line->foot).dot(line->across);
     const double pull = pull_to_source * static_cast<double>(samples_.size());
+    double h = h_kept;
+    Eigen::VectorXd r, beside;
     for (int i = 0; i < fit_iterations; ++i) {
-      const Eigen::VectorXd r = residuals(centre);
-      Eigen::MatrixXd J(r.size(), 2);
-      for (int k = 0; k < 2; ++k)
-        J.col(k) = (residuals(centre + fit_step_mm * Vector3::Unit(plane_[k])) - r) / fit_step_mm;
-      const Eigen::Vector2d away(centre[plane_[0]] - kept[plane_[0]], centre[plane_[1]] - kept[plane_[1]]);
-      const Eigen::Matrix2d H = J.transpose() * J + pull * Eigen::Matrix2d::Identity();
-      const Eigen::Vector2d step = -H.inverse() * (J.transpose() * r + pull * away);
-      for (int k = 0; k < 2; ++k) centre[plane_[k]] += step[k];
+      misses(line->foot + h * line->across, end, r);
+      misses(line->foot + (h + fit_step_mm) * line->across, end, beside);
+      const Eigen::VectorXd slope = (beside - r) / fit_step_mm;
+      h -= (slope.dot(r) + pull * (h - h_kept)) / (slope.squaredNorm() + pull);
     }
-    return centre;
+    return line->foot + h * line->across;
   }
 
   const ArcTask& task_;

@@ -135,8 +135,17 @@ void Emitter::refuse(const Move& move, std::string what) {
   if (!out_.failure) out_.failure = Failure{Exit::program_text, move.line, std::move(what)};
 }
 
+// The coordinates may move under the tool from one move to the next.
+void Emitter::come_to(const Move& move) {
+  const auto& moves = job_.program.moves;
+  const auto m = static_cast<std::size_t>(&move - moves.data());
+  if (m > held_for_) held_ = held_between(moves[m - 1], move, held_);
+  held_for_ = m;
+}
+
 // Axes that nobody corrects may have no position in the text; any serves.
-HeldPosition Emitter::before(const Move& move) const {
+HeldPosition Emitter::before(const Move& move) {
+  come_to(move);
   HeldPosition held = held_;
   for (std::size_t axis = 0; axis < 3; ++axis)
     if (!held[axis]) held[axis] = move.start_mm[static_cast<Eigen::Index>(axis)];
@@ -151,6 +160,7 @@ void Emitter::go_through(const Move& move, const Via& via, HeldPosition& held) c
 void Emitter::put(EmittedMove emitted) {
   const MoveEdit& edit = emitted.edit;
   const Move& move = job_.program.moves[edit.move];
+  come_to(move);
   if (edit.jump_mm || !edit.inserted.empty()) held_ = before(move);
   if (edit.jump_mm) go_through(move, {*edit.jump_mm}, held_);
   for (const Via& via : edit.inserted) go_through(move, via, held_);
@@ -159,6 +169,7 @@ void Emitter::put(EmittedMove emitted) {
 }
 
 void Emitter::pass(const Move& move) {
+  come_to(move);
   Vector3 end = move.end_mm;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const auto k = static_cast<Eigen::Index>(axis);

@@ -65,8 +65,9 @@ class Emitter {
   void hold(const Vector3& correction, const std::array<bool, 3>& axes);
   bool rounds_to_nothing(const Move& move, std::size_t axis, double shift_mm) const;
 
-  // The text's position.
-  HeldPosition before(const Move& move) const;
+  // The text's position, before and after a move.
+  void come_to(const Move& move);
+  HeldPosition before(const Move& move);
   void go_through(const Move& move, const Via& via, HeldPosition& held) const;
   void put(EmittedMove emitted);  ///< the next edit
   void pass(const Move& move);    ///< a move without an edit
@@ -86,7 +87,8 @@ class Emitter {
   std::array<bool, 3> holds_{};  // program axes that carry it
   bool doubtful_ = false;  // a block made a position unknown that carries the correction, and it still is
   int group_ = 0;          // contour group that is being emitted
-  HeldPosition held_{};
+  HeldPosition held_{};    // in the coordinates of move `held_for_`
+  std::size_t held_for_ = 0;
   HeldPosition piece_held_{};  // where the pieces of the move that is being fitted have come
   std::optional<PathSolver> solver_;
 };

@@ -209,14 +209,15 @@ class Matcher {
 
   Curve commanded(std::size_t j, const Vector3& from) const {
     const Move& move = corrected_.moves[j];
-    return move.arc ? command_of(job_, move) : Curve{from, position(j), {}};
+    return all_known(move.known_start) ? command_of(job_, move) : Curve{from, position(j), {}};
   }
 
   // First fractions of inserted points: by their place along the segment, the correction there interpolated.
   void take_segment(std::size_t own) {
     const Segment& segment = job_.path.segments[segment_];
     const Move& original = job_.program.moves[segment.move];
-    const Vector3 start = next_ == 0 ? segment.wanted.start : position(next_ - 1);
+    const Move& first = corrected_.moves[next_];
+    const Vector3 start = all_known(first.known_start) ? command_of(job_, first).start : segment.wanted.start;
     const Vector3 c0 = start - segment.wanted.start, c1 = position(own) - segment.wanted.end;
     double u0 = 0;
     for (std::size_t j = next_; j <= own; ++j) {

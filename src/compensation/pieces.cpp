@@ -103,10 +103,10 @@ class PieceReader {
     return true;
   }
 
-  // The way of the last move, from where the text held the tool.
+  // The way of the last move; where the text does not tell its start, from where it held the tool.
   Curve command(const Vector3& from) const {
     const Move& move = corrected_.moves[next_ - 1];
-    return move.arc ? command_of(job_, move) : Curve{from, here(), {}};
+    return all_known(move.known_start) ? command_of(job_, move) : Curve{from, here(), {}};
   }
 
   Vector3 here() const { return next_ == 0 ? Vector3::Zero() : target_of(job_, corrected_.moves[next_ - 1]); }

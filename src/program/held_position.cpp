@@ -106,6 +106,16 @@ HeldPosition held_at_start(const Move& move, HeldPosition before) {
   return before;
 }
 
+HeldPosition held_between(const Move& last, const Move& next, const HeldPosition& held) {
+  HeldPosition moved = held;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double change_mm = component(next.start_mm, axis) - component(last.end_mm, axis);
+    const bool known = last.known_end[axis] && next.known_start[axis] && !next.ignored[axis];
+    if (known && moved[axis] && change_mm != 0) *moved[axis] += change_mm;
+  }
+  return moved;
+}
+
 HeldPosition held_after_original(const Move& move, const HeldPosition& before) {
   const HeldPosition start = held_at_start(move, before);
   HeldPosition held = start;

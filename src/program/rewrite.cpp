@@ -76,6 +76,13 @@ void copy_until(std::size_t end, Writing& w) {
   w.copied = end;
 }
 
+/// The move that is written next, and what the text holds before it.
+const Move& come_to(std::size_t index, Writing& w) {
+  const Move& move = w.program.moves[index];
+  if (index > 0) w.state.held = held_between(w.program.moves[index - 1], move, w.state.held);
+  return move;
+}
+
 void pass_over(const Move& move, Writing& w) {
   if (w.state.restate_motion) copy_until(move.block.begin, w);
   if (!w.state.restate_motion) return pass_block(move, w.state);
@@ -84,7 +91,7 @@ void pass_over(const Move& move, Writing& w) {
 }
 
 void apply(const MoveEdit& edit, const WriteOptions& options, Writing& w) {
-  const Span block = w.program.moves[edit.move].block;
+  const Span block = come_to(edit.move, w).block;
   copy_until(block.begin, w);
   const std::size_t inserted = w.out.inserted_blocks;
   rewrite_block(w.program, w.style, edit, options, w.state, w.out);
@@ -103,11 +110,11 @@ Rewritten rewrite(const Program& program, const std::vector<MoveEdit>& edits, co
   std::size_t next = 0;
   for (const MoveEdit& edit : edits) {
     assert(edit.move >= next && edit.move < program.moves.size());
-    for (; next < edit.move; ++next) pass_over(program.moves[next], w);
+    for (; next < edit.move; ++next) pass_over(come_to(next, w), w);
     apply(edit, options, w);
     ++next;
   }
-  for (; next < program.moves.size() && w.state.restate_motion; ++next) pass_over(program.moves[next], w);
+  for (; next < program.moves.size() && w.state.restate_motion; ++next) pass_over(come_to(next, w), w);
   w.out.text.append(program.text, w.copied);
   return std::move(w.out);
 }

@@ -107,7 +107,7 @@ TEST_CASE("arcs on a machine out of square stay within the tolerance everywhere"
 }
 
 TEST_CASE("a correction that waves about the middle of an arc's quarter does not pass for a line") {
-  Order order{.machine = rigid_gantry("0, 0, 0", 0.1 * deg),
+  Order order{.machine = rigid_gantry("0, 0, 0", 0.05 * deg),
               .text = "G21 G90 G17\nG0 X0. Y0. Z0.\nG3 X80. Y80. I40. J40. F250\nM30\n"};
   const Shop shop(order);
   const Compensation result = compensated(shop);

@@ -14,6 +14,12 @@ std::string staircase(int steps) {
   return text + "G90\nG0 Z20.\nM30\n";
 }
 
+ReadOptions tool_lengths() {
+  ReadOptions options;
+  options.tool_lengths_mm = {{1, 40.0}, {2, 45.0}};
+  return options;
+}
+
 }  // namespace
 
 TEST_CASE("a thousand relative moves on a machine out of square do not drift") {
@@ -52,4 +58,22 @@ TEST_CASE("relative arcs are corrected like others") {
   const Compensation result = compensated(shop);
   CHECK(dense_miss(shop, result, 60).size <= 5e-6);
   CHECK(result.counts.changed_words > 0);
+}
+
+TEST_CASE("a change of the tool's length moves the coordinates from which relative moves count") {
+  const std::string text =
+      "G21 G90\nT1 M6\nG43 H1\nG0 X0. Y0. Z5.\nG91\nG43 H2 Z-3.\nG1 Z-1. F300\nX10.\nG90\nG0 Z20.\nM30\n";
+  Shop shop({.machine = displaced_gantry(), .text = text});
+  shop.program = read_program(text, "part.ngc", tool_lengths());
+  shop.path = build_toolpath(shop.program, one_frame(shop.program, {}));
+  shop.forces.emplace(ForceSource{}, shop.program, shop.path,
+                      std::vector<Matrix3>{tip(shop.model.mechanism, shop.model.home).R});
+  Job job = shop.job();
+  job.read = tool_lengths();
+  const Compensation result = compensate(job, false);
+  REQUIRE(!result.failure);
+  const std::vector<std::string> lines = lines_of(result.text);
+  CHECK(lines[5] == "G43 H2 Z-3.");
+  CHECK(lines[6] == "G1 Z-1. F300");
+  CHECK(lines[9] == "G0 Z19.875");
 }

@@ -61,6 +61,10 @@ using HeldPosition = std::array<std::optional<double>, 3>;
 HeldPosition held_after(const Move& move, const HeldPosition& before, const Vector3& end_mm,
                         const WriteOptions& options);
 
+/// The position that the text holds after `last`, in the coordinates of the move that follows it: a change of
+/// the tool's length moves the coordinates while the machine stands still.
+HeldPosition held_between(const Move& last, const Move& next, const HeldPosition& held);
+
 /// What a control reads of a piece of a move that is written to go from `before` to `via`, in words rounded
 /// to their digits: start, end, and for an arc the centre that I J K or R then give. `is_end`: the piece ends
 /// at the move's own end, whose words may have digits of their own, and makes the arc's full turns. A piece
