@@ -100,7 +100,6 @@ Coordinate settle_axis(const Move& move, std::size_t axis, std::optional<double>
 }
 
 HeldPosition held_at_start(const Move& move, HeldPosition before) {
-  if (before[2]) *before[2] += move.length_step_mm;
   for (std::size_t axis = 0; axis < 3; ++axis)
     if (!move.known_start[axis]) before[axis].reset();
   return before;

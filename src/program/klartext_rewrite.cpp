@@ -29,10 +29,11 @@ std::string klartext_comment(const std::string& text) {
   return safe;
 }
 
+/// Its lines carry no number: what follows keeps its own where nothing else is inserted.
 std::string klartext_header(const KlartextStyle& style, const WriteOptions& options) {
   std::string text;
   for (const std::string& line : options.header)
-    text += (style.numbered ? "0 ; " : "; ") + klartext_comment(line) + style.line_end;
+    text += "; " + klartext_comment(line) + style.line_end;
   return text;
 }
 
@@ -127,7 +128,7 @@ Rewritten rewrite_klartext(const Program& program, const std::vector<MoveEdit>& 
   }
   pass_until(o, program.moves.size());
   o.out.text = with_changes(program.text, o.changes);
-  if (o.style.numbered && (o.out.inserted_blocks > 0 || !head.empty())) o.out.text = renumbered(o.out.text);
+  if (o.style.numbered && o.out.inserted_blocks > 0) o.out.text = renumbered(o.out.text);
   return std::move(o.out);
 }
 

@@ -71,7 +71,6 @@ struct ModalState {
   std::size_t work_offset = 0;  ///< index into Program::work_offsets
   bool exact_stop = false;
   std::optional<double> tool_length;     ///< number of H; 0: off; none: not known
-  double length_step_mm = 0;             ///< change of Z by lengths since the last move
   std::optional<double> tool_length_mm;  ///< where it is known
   long tool_chosen = 0;                  ///< T
   long tool = 0;                         ///< in the spindle

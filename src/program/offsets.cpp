@@ -122,12 +122,11 @@ void apply_tool_length(const Block& block, Reading& r) {
   if (length_mm && on && found->code->tenths == 440) *length_mm = -*length_mm;
   // Shop controls add relative Z to the position that the program has reached, whatever the length.
   const bool counts_on = r.dialect.macro_words && state.relative && r.sorted.word('Z') != nullptr;
-  if (length_mm && state.tool_length_mm) {
+  if (length_mm && state.tool_length_mm)
     state.position_mm.z() += *state.tool_length_mm - *length_mm;
-    state.length_step_mm += *state.tool_length_mm - *length_mm;
-  } else if ((!number || number != state.tool_length) && !counts_on) {
+  else if ((!number || number != state.tool_length) && !counts_on)
     state.known[2] = false;
-  }
+
   state.tool_length = number;
   state.tool_length_mm = length_mm;
   if (!length_mm) remark_tool_length(block, r);

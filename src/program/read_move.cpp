@@ -133,8 +133,6 @@ Move& start_move(const Block& block, Reading& r, Motion motion) {
   move.unit = r.state.unit.value_or(LengthUnit::millimetres);
   move.known_start = r.state.known;
   move.start_mm = r.state.position_mm;
-  move.length_step_mm = r.state.length_step_mm;
-  r.state.length_step_mm = 0;
   move.relative = r.relative();
   move.feed_mm_min = feed_mm_min(r.state);
   move.spindle_rpm = r.state.spindle_rpm;

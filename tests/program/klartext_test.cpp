@@ -122,10 +122,11 @@ TEST_CASE("klartext: blocks are numbered anew without gaps when lines are insert
         "BEGIN PGM A MM\nL X0 Y0 Z0 FMAX\nL X10.000 Y0.100 F200\nL X20 Y0.000 F200\nEND PGM A MM\n");
 }
 
-TEST_CASE("klartext: the header stands behind BEGIN PGM as numbered comments and is found there") {
+TEST_CASE("klartext: the header stands behind BEGIN PGM as comments without numbers and is found there") {
   const Program program = read(klartext({"L X+0 Y+0 Z+0 R0 FMAX"}));
   const std::string text = rewrite(program, {}, {.header = {"Counterflex 1 made", "~ two"}}).text;
-  CHECK(text == klartext({"; COUNTERFLEX 1 MADE", ";   TWO", "L X+0 Y+0 Z+0 R0 FMAX"}));
+  CHECK(text ==
+        "0 BEGIN PGM COVER MM\n; COUNTERFLEX 1 MADE\n;   TWO\n1 L X+0 Y+0 Z+0 R0 FMAX\n2 END PGM COVER MM\n");
   CHECK(is_corrected(read(text)));
   CHECK_FALSE(is_corrected(program));
 }

@@ -78,7 +78,5 @@ TEST_CASE("a change between known tool lengths inserts nothing: the held positio
   options.tool_lengths_mm = {{1, 50}, {2, 60}};
   const std::string text = "G21 G43 H1 G0 X0 Y0 Z10\nG43 H2\nX1\nX2\nG49\nX3\n";
   const Program program = read_program(text, "", options);
-  CHECK(program.moves[1].length_step_mm == -10);
-  CHECK(program.moves[2].length_step_mm == 0);
   CHECK(rewrite(program, edits_to_original(program), {}).text == text);
 }

@@ -95,9 +95,6 @@ struct Move {
   std::optional<CycleMove> cycle;
   Vector3 start_mm = Vector3::Zero();
   Vector3 end_mm = Vector3::Zero();
-  double length_step_mm =
-      0;                   ///< by which a change of the tool's known length has moved the program's Z before
-                           ///< it, the tool standing still: a position held from earlier moves along
   double feed_mm_min = 0;  ///< modal F; 0 where none has been programmed
   double spindle_rpm = 0;  ///< modal S
   std::optional<long> block_number;  ///< N
