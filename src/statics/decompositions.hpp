@@ -12,5 +12,13 @@ extern template class Eigen::FullPivLU<Eigen::MatrixXd>;
 extern template class Eigen::ColPivHouseholderQR<Eigen::MatrixXd>;
 extern template class Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd>;
 extern template class Eigen::JacobiSVD<Eigen::MatrixXd>;
-extern template class Eigen::BDCSVD<Eigen::MatrixXd>;
 extern template class Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>;
+
+namespace counterflex {
+
+/// Solutions of minimum norm, and of square systems: calls of Eigen's own `solve`.
+Eigen::MatrixXd solved(const Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd>& A, const Eigen::MatrixXd& B);
+Eigen::VectorXd solved(const Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd>& A, const Eigen::VectorXd& b);
+Eigen::VectorXd solved(const Eigen::FullPivLU<Eigen::MatrixXd>& A, const Eigen::VectorXd& b);
+
+}  // namespace counterflex

@@ -103,7 +103,7 @@ double Kinematics::solve(const Pose* X_MT, Configuration& configuration) {
     const bool fresh = !is_linearised_;
     if (fresh) linearise(configuration, X_MT);
     if (J_.size() == 0) return size;  // nothing moves: springs alone between base and platform
-    const Eigen::VectorXd x = decomposition_.solve(error);
+    const Eigen::VectorXd x = solved(decomposition_, error);
     const Configuration before = configuration;
     double moved_by = 0, damping = 1;
     for (;; damping /= 2) {
@@ -127,7 +127,7 @@ double Kinematics::solve(const Pose* X_MT, Configuration& configuration) {
 
 // Zero modes that move an actuator: the target does not determine it.
 bool Kinematics::has_free_motion() const {
-  const Eigen::BDCSVD<Eigen::MatrixXd> svd(J_, Eigen::ComputeFullV);
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(J_, Eigen::ComputeFullV);
   const auto& sigma = svd.singularValues();
   for (Eigen::Index i = 0; i < J_.cols(); ++i) {
     if (i < sigma.size() && sigma[i] > rank_threshold * sigma[0]) continue;
@@ -141,7 +141,7 @@ InverseJacobian Kinematics::inverse_jacobian() const {
   const auto targets = J_.rows() - closures_, actuators = static_cast<Eigen::Index>(actuator_columns_.size());
   Eigen::MatrixXd unit = Eigen::MatrixXd::Zero(J_.rows(), targets);
   unit.bottomRows(targets).setIdentity();
-  const Eigen::MatrixXd motion = decomposition_.solve(unit);
+  const Eigen::MatrixXd motion = solved(decomposition_, unit);
   InverseJacobian result{motion(actuator_columns_, Eigen::all), 1};
   if (actuators != targets) return result;
   Eigen::MatrixXd scaled = result.matrix;

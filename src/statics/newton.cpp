@@ -67,7 +67,7 @@ bool condensed_step(const Model& model, const Problem& problem, const Units& uni
   const PlatformSystem system = assemble_platform(model, configuration, problem, units, work);
   const Eigen::FullPivLU<Eigen::MatrixXd> lu(system.matrix);
   if (lu.rank() < system.matrix.cols()) return false;
-  const Eigen::VectorXd x = lu.solve(system.rhs);
+  const Eigen::VectorXd x = solved(lu, system.rhs);
   const Vector6 dxi = x.head<6>().cwiseProduct(units.of_pose());
   Eigen::VectorXd drho = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(mechanism.travel.size()));
   if (problem.X_MT)

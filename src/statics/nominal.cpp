@@ -128,7 +128,7 @@ bool determinant_is_positive(const InverseJacobian& jacobian) {
 // Zero modes of the closures with actuators held that move what is controlled: a singularity of the parallel
 // kind.
 bool platform_is_loose(const Eigen::MatrixXd& J_free, const Eigen::MatrixXd& controlled_rows) {
-  const Eigen::BDCSVD<Eigen::MatrixXd> svd(J_free, Eigen::ComputeFullV);
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(J_free, Eigen::ComputeFullV);
   const auto& sigma = svd.singularValues();
   for (Eigen::Index i = 0; i < J_free.cols(); ++i) {
     const bool zero = i >= sigma.size() || sigma[i] <= rank_threshold * sigma[0];
@@ -179,7 +179,7 @@ ActuatorJacobian actuator_jacobian(const Model& model, const Configuration& nomi
   decomposition.setThreshold(rank_threshold);
   const Eigen::MatrixXd J_free = whole.C(Eigen::all, free);
   decomposition.compute(J_free);
-  const Eigen::MatrixXd motion = -decomposition.solve(Eigen::MatrixXd(whole.C(Eigen::all, commanded)));
+  const Eigen::MatrixXd motion = -solved(decomposition, Eigen::MatrixXd(whole.C(Eigen::all, commanded)));
   const TipEquations rows = tip_equations(mechanism, nominal.X_MP, tip(mechanism, nominal));
   const Eigen::MatrixXd controlled_rows = to_controlled(rows, mechanism, units).rows;
   const Eigen::MatrixXd J = controlled_rows * motion.bottomRows(6);

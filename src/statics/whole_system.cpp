@@ -152,7 +152,7 @@ WholeStep solve_whole(const WholeSystem& system, const std::optional<Controlled>
   Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> decomposition;
   decomposition.setThreshold(zero_singular_value);
   decomposition.compute(B);
-  const Eigen::VectorXd x = decomposition.solve(rhs);
+  const Eigen::VectorXd x = solved(decomposition, rhs);
   WholeStep step;
   step.redundant = decomposition.rank() < B.cols();
   step.variables.setZero(static_cast<Eigen::Index>(system.variables.size()));
@@ -175,7 +175,7 @@ double apply(const Mechanism& mechanism, const WholeStep& step, const Units& uni
 Condition condition(const WholeSystem& system, const Units& units) {
   const auto columns = unknowns(system, false);
   const Eigen::MatrixXd B = bordered(system, columns, columns);
-  const Eigen::BDCSVD<Eigen::MatrixXd> svd(B, Eigen::ComputeThinU | Eigen::ComputeThinV);
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(B, Eigen::ComputeThinU | Eigen::ComputeThinV);
   const auto& sigma = svd.singularValues();
   const auto n = sigma.size(), pose = static_cast<Eigen::Index>(columns.size()) - 6;
   Eigen::Index rank = n;
