@@ -28,6 +28,8 @@ class Line:
         self.words = [t for t in self.tokens if isinstance(t, tuple)]
         self.letters = {t[1] for t in self.words}
         self.inverse_time = False  # whether F says it; known where the lines before are
+        self.relative = False      # G91; likewise
+        self.step = [sum(value(t[3]) for t in self.words if t[1] == letter) for letter in 'XYZ']
         self.motion = [t for t in self.words if is_motion(t)]
         self.is_piece = bool(self.words) and all(isinstance(t, tuple) and (t[1] in INSERTED | {'F'} or is_motion(t)) or
                                                  t in ('/', ' ', '\t', '\r') for t in self.tokens)
@@ -89,19 +91,23 @@ def advance(states, o, corrected, parsed, last):
     """The states (lines of the corrected program used up: cost, what they were) after one line more of the original,
     which is `corrected[last]` at the latest."""
     after, carried, j = {}, None, min(states)
+    gone = [0.0, 0.0, 0.0]  # by the pieces that are carried, where numbers are differences
     while j <= last:
         here = states.get(j)
         if here and (carried is None or here[0] < carried[0]):
-            carried = here
+            carried, gone = here, [0.0, 0.0, 0.0]
         elif carried is None:
             j = min((used for used in states if used > j), default=last + 1)
             continue
         if parsed[j] is None:
             parsed[j] = Line(corrected[j])
         step = 0.0 if corrected[j] == o.text else cost_of(o, parsed[j], o.inverse_time)
+        reached = [a + b for a, b in zip(gone, parsed[j].step)]
+        if step is not None and o.relative:
+            step = sum(abs(a - b) for a, b in zip(reached, o.step))
         if step is not None:
             after[j + 1] = (carried[0] + step, (j, carried[1]))
-        carried = (carried[0] + 1e-3, carried[1]) if parsed[j].is_piece else None
+        carried, gone = (carried[0] + 1e-3, carried[1]) if parsed[j].is_piece else None, reached
         j += 1
     return after
 
@@ -110,14 +116,16 @@ def align(original, corrected):
     """For each line of `original` the index of its version in `corrected` (lists of lines); the lines between are
     inserted. Takes the alignment with the nearest numbers. Raises Mismatch at the first line that has no version."""
     parsed = [None] * len(corrected)
-    states, inverse_time = {0: (0.0, None)}, False
+    states, inverse_time, relative = {0: (0.0, None)}, False, False
     inserted = len(corrected) - len(original)
     if inserted < 0:
         raise Mismatch('%d lines became %d' % (len(original), len(corrected)))
     for index, text in enumerate(original):
         inverse_time = inverse_time or bool(re.search(r'G\s*93(?!\d)', text, re.I))
+        distance = re.findall(r'G\s*9([01])(?![\d.])', re.sub(r'\([^)]*\)', '', text), re.I)
+        relative = distance[-1] == '1' if distance else relative
         line = Line(text)
-        line.inverse_time = inverse_time
+        line.inverse_time, line.relative = inverse_time, relative
         after = advance(states, line, corrected, parsed, index + inserted)
         if not after:
             best = min(states, key=lambda used: states[used][0])
