@@ -51,7 +51,8 @@ void leave_hole(ModalState& state, const CycleMove& hole) {
     state.known[2] = retract_known;
     state.position_mm.z() = hole.retract_mm;
   } else {
-    state.known[2] = cycle.initial.has_value() && retract_known;
+    // A hole that is not followed, or another work offset, has lost the height where the series began.
+    state.known[2] = state.known[2] && cycle.initial && retract_known;
     state.position_mm.z() = std::max(cycle.initial.value_or(0), hole.retract_mm);
   }
 }

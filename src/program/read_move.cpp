@@ -125,7 +125,10 @@ std::string_view why_not_followed(const Reading& r) {
 }
 
 Move& start_move(const Block& block, Reading& r, Motion motion) {
-  Move& move = r.program.moves.emplace_back();
+  // A block is one move: a call beside words is what moves last, and leaves nothing known.
+  std::vector<Move>& moves = r.program.moves;
+  if (!moves.empty() && moves.back().line == block.line) moves.pop_back();
+  Move& move = moves.emplace_back();
   move.line = block.line;
   move.block_index = r.program.block_count - 1;
   move.block = block.span;

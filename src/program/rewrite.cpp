@@ -18,6 +18,7 @@ std::size_t header_position(const Program& program) {
   while (next_line(program.text, block)) {
     lex(program.text, program.file, dialect, block);
     const bool number = is_program_number(block);
+    if (!program.moves.empty() && block.span.begin >= program.moves.front().block.begin) break;
     if ((block.percent && opened) || (!block.words.empty() && !number)) break;
     opened = opened || block.percent;
     const bool path =

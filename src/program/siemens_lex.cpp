@@ -281,7 +281,8 @@ bool is_run_of_words(std::string_view name) {
 
 void lex_siemens_word(Scanner& s) {
   const std::string_view name = name_at(s);
-  const bool single = name.size() == 1 || is_run_of_words(name) || has_digit_behind_letter(name);
+  const bool single =
+      is_letter(name[0]) && (name.size() == 1 || is_run_of_words(name) || has_digit_behind_letter(name));
   if (lex_label(s, name)) return;
   if (!single || is_modal_of_several_letters(name)) return lex_name(s, name);
   const char letter = upper(name[0]);

@@ -76,6 +76,20 @@ TEST_CASE("a cycle with an expression is fixed") {
   CHECK_FALSE(program.moves[2].cycle.has_value());
 }
 
+TEST_CASE("behind a hole that is not followed the height where its series began is not taken for known") {
+  const std::string text = "G21 G90\nG0 X0. Y0. Z5.\nG81\nX10. Y0. Z5.\nG80\nX10.\n";
+  const Program program = read(text, "fanuc");
+  CHECK_FALSE(program.moves.back().known_end[2]);
+  CHECK(rewrite(program, edits_to_original(program), {}).text == text);
+}
+
+TEST_CASE("another work offset between holes loses the height where their series began") {
+  const std::string text = "G21 G90\nG0 X0. Y0. Z5.\nG81 X10. Z-5. R2.\nX20. G55\nG80\nG0 X10. Y10.\n";
+  const Program program = read(text, "grbl");
+  CHECK_FALSE(program.moves.back().known_end[2]);
+  CHECK(rewrite(program, edits_to_original(program), {}).text == text);
+}
+
 TEST_CASE("every code of a drilling cycle is one, G76 of linuxcnc is a thread") {
   for (const char* g : {"G73", "G74", "G76", "G81", "G82", "G83", "G84", "G85", "G86", "G87", "G88", "G89"}) {
     CAPTURE(g);

@@ -165,6 +165,26 @@ TEST_CASE("siemens: the header stands in comments below the lines that must come
   CHECK(is_corrected(read(text)));
 }
 
+TEST_CASE("siemens: the header stands before the first move, whatever follows that looks like a beginning") {
+  const std::string text = "L100\n%_N_COVER_MPF\nG71 G0 X1\n";
+  const Program program = siemens(text);
+  REQUIRE(!program.moves.empty());
+  CHECK(rewrite(program, edits_to_original(program), {}).text == text);
+  CHECK(rewrite(program, {}, {.header = {"Counterflex 1 made"}}).text == ";COUNTERFLEX 1 MADE\n" + text);
+}
+
+TEST_CASE("siemens: a name that is a sign alone is no letter of a word") {
+  CHECK(siemens("G71 G90\nG1 X1 F1 $=5\n$\n_\n").dialect == "siemens");
+}
+
+TEST_CASE("siemens: a call beside words is one move that is not followed") {
+  const std::string text = "G71 G90 G1 X1 Y1 Z1 F100\nG1 X2 POCKETS\nX3\n";
+  const Program program = siemens(text);
+  REQUIRE(program.moves.size() == 3);
+  CHECK(program.moves[1].fixed[0]);
+  CHECK(rewrite(program, edits_to_original(program), {}).text == text);
+}
+
 TEST_CASE("siemens: what is no program is refused at its place") {
   CHECK(diagnostic_of([] { siemens("G71\nG0 X\n"); }) == "p.mpf:2:4: error: X has no number");
   CHECK(diagnostic_of([] { siemens("G71\nG0 X1e5\n"); }).starts_with("p.mpf:2:6: error: X1e5"));
