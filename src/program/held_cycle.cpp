@@ -62,6 +62,11 @@ CycleWords settle_cycle(const Move& move, std::optional<double> held_z_mm, std::
                         std::optional<double> retract_mm, HeldCycle& held, const WriteOptions& options) {
   const CycleMove& cycle = *move.cycle;
   CycleWords words;
+  // Differences from a height that nobody knows stay as they are.
+  if (move.relative && !held_z_mm) {
+    held = {};
+    return words;
+  }
   if (cycle.retract_word) {
     const double z_mm = held_z_mm.value_or(component(move.start_mm, 2));
     const Settled retract = settle_retract(move, z_mm, retract_mm.value_or(cycle.retract_mm), options);

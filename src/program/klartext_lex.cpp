@@ -136,7 +136,7 @@ bool take_digits(WordScanner& s, KlartextWord& word, bool negative) {
   }
   if (digits == 0) return false;
   const auto value = read_number(dense);
-  if (!value)
+  if (!value || std::abs(*value) > 1e12)
     refuse_klartext(s.text, s.file, s.block, word.span.begin,
                     fmt::format("{}: a number of {} digits is beyond what can be held", word.key, digits));
   word.value = *value;

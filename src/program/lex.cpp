@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include <array>
 
@@ -21,13 +22,15 @@ std::string shown(char c) {
 constexpr std::array powers_of_ten{1e0, 1e1, 1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
                                    1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15};
 
+constexpr double largest_number = 1e12;  // beyond it a thousandth cannot be held
+
 /// The value of a word with too many digits for exact products of integers.
 double value_of_many_digits(const Scanner& s, const Word& word, int digits) {
   std::string dense;
   for (const char c : part(s.text, word.number))
     if (!is_blank(c)) dense += c;
   const std::optional<double> value = read_number(dense);
-  if (!value)
+  if (!value || std::abs(*value) > largest_number)
     s.refuse_at(word.span.begin,
                 fmt::format("{}: a number of {} digits is beyond what can be held", word.letter, digits));
   return *value;

@@ -115,7 +115,10 @@ void read_cycle(const Block& block, Reading& r) {
   if (hole.repeats > 0) place_hole(r, move, hole.repeats, why.empty());
   const bool followed = why.empty() && plain_words(r) && state.normal == 2 && state.cycle.bottom;
   if (hole.repeats > 0) leave_hole(state, hole);
-  hole.may_insert_bottom = followed && !state.relative && !state.cycle.relative;
+  if (hole.bottom_word || r.sorted.word('Z') != nullptr)
+    state.cycle.bottom_in_doubt = !followed || !empty(block.block_delete);
+  hole.may_insert_bottom =
+      followed && !state.relative && !state.cycle.relative && !state.cycle.bottom_in_doubt;
   move.cycle = hole;
   const bool own = !state.relative && state.known[0] && state.known[1] && hole.repeats > 0;
   if (!own) move.handling = Handling::held;

@@ -90,6 +90,19 @@ TEST_CASE("another work offset between holes loses the height where their series
   CHECK(rewrite(program, edits_to_original(program), {}).text == text);
 }
 
+TEST_CASE("a depth that was programmed where it may not act is not repeated in later holes") {
+  const std::string start = "G21 G90\nG0 X0. Y0. Z5.\nG81 X10. Z-5. R2.\n", end = "X30.\nX40. Z-7.\nX50.\n";
+  for (const std::string hole : {"/ X20. Z-6.\n", "X#1 Z-6.\n"}) {
+    const std::string text = start + hole + end;
+    CAPTURE(text);
+    const Program program = read(text);
+    REQUIRE(program.moves.size() == 6);
+    CHECK_FALSE(program.moves[3].cycle->may_insert_bottom);
+    CHECK(program.moves[5].cycle->may_insert_bottom);
+    CHECK(rewrite(program, edits_to_original(program), {}).text == text);
+  }
+}
+
 TEST_CASE("every code of a drilling cycle is one, G76 of linuxcnc is a thread") {
   for (const char* g : {"G73", "G74", "G76", "G81", "G82", "G83", "G84", "G85", "G86", "G87", "G88", "G89"}) {
     CAPTURE(g);
