@@ -40,11 +40,16 @@ std::string arcs_text(const MotionPlan& plan) {
   return text;
 }
 
+constexpr std::size_t tools_shown = 6;
+
 std::string tools_text(const MotionPlan& plan) {
   std::string text;
-  for (const auto& [tool, moves] : plan.tools)
+  std::size_t shown = 0;
+  for (const auto& [tool, moves] : plan.tools) {
+    if (++shown > tools_shown) return fmt::format("{} and {} more", text, plan.tools.size() - tools_shown);
     text += fmt::format("{}{} ({} move{})", text.empty() ? "" : ", ",
                         tool == 0 ? "none known" : fmt::format("T{}", tool), moves, moves == 1 ? "" : "s");
+  }
   return text;
 }
 

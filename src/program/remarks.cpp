@@ -70,11 +70,9 @@ void remark_path_mode(const Block& block, Reading& reading) {
 void remark_tool_length(const Block& block, Reading& reading) {
   const FoundG* length = reading.sorted.find(Action::tool_length);
   if (length == nullptr) return;
-  const Word* h = reading.sorted.word('H');
-  const std::string number = h == nullptr ? std::string() : fmt::format(" H{}", h->value);
   add_remark(reading.program, block.line,
-             fmt::format("G{}{}: the program does not hold the tool's length; that of [tool] is used",
-                         length->word->value, number));
+             fmt::format("G{}: programs do not hold the lengths of tools; that of [tool] is used for all",
+                         length->word->value));
 }
 
 void remark_machine_codes(const Block& block, Reading& reading) {

@@ -117,7 +117,7 @@ TEST_CASE("a tool length that changes without Z makes Z unknown; with Z the tip 
   CHECK_FALSE(known.moves[1].may_insert_words);
   REQUIRE(known.remarks.size() == 1);
   CHECK(known.remarks[0].what ==
-        "G43 H1: the program does not hold the tool's length; that of [tool] is used");
+        "G43: programs do not hold the lengths of tools; that of [tool] is used for all");
 }
 
 TEST_CASE("after G80 fanuc and haas fall back to G0, linuxcnc and grbl need a motion") {
