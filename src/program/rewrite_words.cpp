@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "program/line_length.hpp"
 #include "program/number_style.hpp"
@@ -39,26 +40,29 @@ void change_word(const Original& o, const AxisWord& word, const WordNumber& numb
   ++changes.changed;
 }
 
-/// Behind the last of the words that `belongs` names, or before the first that `follows` does.
+/// Behind the last of the words that `belongs` names, else behind the one before the first that `follows`
+/// names, which may itself be dropped with its blanks.
 void insert_words(const Original& o, const std::vector<std::string>& texts, bool (*belongs)(const Word&),
                   bool (*follows)(const Word&), Changes& changes) {
   if (texts.empty()) return;
   const auto& words = o.block.words;
   const auto last = std::find_if(words.rbegin(), words.rend(), belongs);
   const auto next = std::find_if(words.begin(), words.end(), follows);
-  const bool before = last == words.rend() && next != words.end();
+  const bool before = last == words.rend() && next == words.begin();
   const std::size_t at = before                 ? next->span.begin
-                         : last == words.rend() ? words.back().span.end
-                                                : last->span.end;
+                         : last != words.rend() ? last->span.end
+                         : next != words.end()  ? std::prev(next)->span.end
+                                                : words.back().span.end;
   std::string text;
   for (const std::string& word : texts) text += before ? word + o.separator : o.separator + word;
   changes.list.push_back({{at, at}, text});
   changes.inserted += texts.size();
 }
 
-/// With the blanks before it.
+/// With the blanks before it, unless it is the first.
 void drop_word(const Original& o, const Word& word, Changes& changes) {
   Span span = word.span;
+  if (&word == o.block.words.data()) return changes.list.push_back({span, {}});
   const auto blank = [&](std::size_t at) { return o.program.text[at] == ' ' || o.program.text[at] == '\t'; };
   while (span.begin > o.block.span.begin && blank(span.begin - 1)) --span.begin;
   changes.list.push_back({span, {}});

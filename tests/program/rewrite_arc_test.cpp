@@ -100,6 +100,12 @@ TEST_CASE("chords of an arc are G1 without I, J, K, R and P, and keep F") {
   CHECK(arc_rewritten("g3x0.y10.i-10.\n", edit) == "g1x7.071y7.071\ng1x0.y10.\n");
 }
 
+TEST_CASE("chords of an arc without axis words end in words of their own") {
+  const MoveEdit edit{.inserted = {{{-10, 0, 0}}}, .end_mm = {10, 0.5, 0}};
+  CHECK(arc_rewritten("g3 i-10. (round)\n", edit) == "g1 x-10.000\ng1 x10.000 y0.500 (round)\n");
+  CHECK(arc_rewritten("G3 I-10. F50.\n", edit) == "G1 X-10.000 F50.\nG1 X10.000 Y0.500 F50.\n");
+}
+
 TEST_CASE("a block that relies on the arc before it says its motion behind chords, and only that block") {
   const std::string blocks = "G3 X0. Y10. I-10.\nX-10. Y0. J-10.\n";
   const auto chorded = [](const std::string& text, std::size_t move) {
