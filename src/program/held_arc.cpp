@@ -45,7 +45,9 @@ void settle_radius(const Move& move, const Vector3& centre_mm, Place place, cons
   const Vector3 &start = words.curve.start, &end = words.curve.end;
   const double unit = mm_per(move.unit);
   const double size_mm = 0.5 * (across(start - centre_mm, arc).norm() + across(end - centre_mm, arc).norm());
-  const bool longer = sweep_of(arc, start, end, centre_mm) > std::numbers::pi;
+  // Half a turn is as long one way as the other: the sign stays.
+  const double beyond_half = sweep_of(arc, start, end, centre_mm) - std::numbers::pi;
+  const bool longer = std::abs(beyond_half) < 1e-6 ? arc.radius_mm < 0 : beyond_half > 0;
   const double wanted = (longer ? -size_mm : size_mm) / unit;
   WordNumber number = settle_number(move, arc.radius_word, arc.radius_mm / unit, wanted, place, options);
   const double half_chord = across(end - start, arc).norm() / 2 / unit;

@@ -67,7 +67,8 @@ std::string changed_number(std::string_view original, double value, int decimals
 }
 
 bool rounds_to(double original, double wanted, int decimals) {
-  return std::abs(wanted - original) <= 0.5 / power_of_ten(decimals);
+  constexpr double least = 1e-10;  // digits beyond what a double of some metres holds are no correction
+  return std::abs(wanted - original) <= std::max(0.5 / power_of_ten(decimals), least);
 }
 
 double power_of_ten(int digits) {

@@ -13,7 +13,7 @@ std::string changed_number(std::string_view original, double value, int decimals
 std::string inserted_number(double value, int decimals);
 
 /// Whether `wanted` is within half a unit of the last of `decimals` digits of `original`, so that writing it
-/// anew would be no more exact.
+/// anew would be no more exact; also where they differ by no more than arithmetic does, 1e-10.
 bool rounds_to(double original, double wanted, int decimals);
 
 /// 10 to the power of `digits`, from 0 to 9 at least.

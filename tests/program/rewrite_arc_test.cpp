@@ -106,6 +106,21 @@ TEST_CASE("chords of an arc without axis words end in words of their own") {
   CHECK(arc_rewritten("G3 I-10. F50.\n", edit) == "G1 X-10.000 F50.\nG1 X10.000 Y0.500 F50.\n");
 }
 
+TEST_CASE("half a turn keeps the sign of its radius") {
+  for (const std::string radius : {"R5.", "R-5."}) {
+    const std::string text = "G21 G90 G17\nG0 X5 Y-5.5 Z0\nG2 X15 " + radius + " F100\n";
+    CAPTURE(text);
+    const Program program = read(text);
+    CHECK(rewrite(program, edits_to_original(program), {}).text == text);
+  }
+}
+
+TEST_CASE("digits beyond what arithmetic holds do not change a word") {
+  const std::string text = "G21 G90 G17\nG0 X5 Y-5.5 Z0\nG2 X15 Y-5. R-5.999999999999995 F100\n";
+  const Program program = read(text);
+  CHECK(rewrite(program, edits_to_original(program), {}).text == text);
+}
+
 TEST_CASE("a block that relies on the arc before it says its motion behind chords, and only that block") {
   const std::string blocks = "G3 X0. Y10. I-10.\nX-10. Y0. J-10.\n";
   const auto chorded = [](const std::string& text, std::size_t move) {
