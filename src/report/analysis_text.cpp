@@ -11,13 +11,13 @@ namespace counterflex {
 
 namespace {
 
-std::string number(double value, int decimals) {
+std::string number_text(double value, int decimals) {
   return format_fixed(value, decimals);
 }
 
 std::string cells(const Vector3& v, int decimals, int width) {
-  return fmt::format("{:>{}}{:>{}}{:>{}}", number(v.x(), decimals), width, number(v.y(), decimals), width,
-                     number(v.z(), decimals), width);
+  return fmt::format("{:>{}}{:>{}}{:>{}}", number_text(v.x(), decimals), width, number_text(v.y(), decimals), width,
+                     number_text(v.z(), decimals), width);
 }
 
 std::string title(const AnalysisReport& report) {
@@ -26,8 +26,8 @@ std::string title(const AnalysisReport& report) {
   const Vector6& F = report.load.F;
   if (F.isZero(0)) return text + ", no load\n";
   return text + fmt::format("\nload ({}, {}, {}) N, ({}, {}, {}) N m at the {}, machine axes\n",
-                            number(F[0], 2), number(F[1], 2), number(F[2], 2), number(F[3], 3),
-                            number(F[4], 3), number(F[5], 3),
+                            number_text(F[0], 2), number_text(F[1], 2), number_text(F[2], 2), number_text(F[3], 3),
+                            number_text(F[4], 3), number_text(F[5], 3),
                             report.load.at_platform ? "platform's reference point" : "tool tip");
 }
 
@@ -51,10 +51,10 @@ std::string deviations(const AnalysisReport& report) {
 
 std::string chain_row(std::size_t index, const ChainLoads& chain) {
   return fmt::format("  {:>3} {:<12.12}{:>10}{:>10}{:>10}{:>10}{:>10}{:>10}{:>10}{:>10}\n", index, chain.name,
-                     number(chain.wrench.head<3>().cwiseAbs().maxCoeff(), 2), number(chain.moment_max, 2),
-                     number(chain.group_moment_max, 2), number(chain.spring_translation_max / mm, 3),
-                     number(chain.spring_rotation_max / deg, 3), number(chain.spring_force_max, 2),
-                     number(chain.spring_torque_max, 2), number(chain.passive_change_max / deg, 3));
+                     number_text(chain.wrench.head<3>().cwiseAbs().maxCoeff(), 2), number_text(chain.moment_max, 2),
+                     number_text(chain.group_moment_max, 2), number_text(chain.spring_translation_max / mm, 3),
+                     number_text(chain.spring_rotation_max / deg, 3), number_text(chain.spring_force_max, 2),
+                     number_text(chain.spring_torque_max, 2), number_text(chain.passive_change_max / deg, 3));
 }
 
 std::string chain_loads(const AnalysisReport& report) {
@@ -75,7 +75,7 @@ std::string actuator_values_text(const Eigen::VectorXd& rho, const std::vector<T
   std::string text;
   for (Eigen::Index k = 0; k < rho.size(); ++k) {
     const bool slides = travel[k].kind == JointKind::prismatic;
-    text += fmt::format("{:>11} {:<3}", number(rho[k] / (slides ? mm : deg), 4), slides ? "mm" : "deg");
+    text += fmt::format("{:>11} {:<3}", number_text(rho[k] / (slides ? mm : deg), 4), slides ? "mm" : "deg");
   }
   text.erase(text.find_last_not_of(' ') + 1);
   return text;
@@ -114,9 +114,9 @@ std::string corrected_targets(const AnalysisReport& report) {
 
 std::string softest(const PoseAnalysis& pose) {
   if (pose.softest_stiffness == 0) return "      singular: some force is not resisted\n";
-  return fmt::format("      softest to a force along ({}, {}, {}): {} N/um\n", number(pose.softest.x(), 3),
-                     number(pose.softest.y(), 3), number(pose.softest.z(), 3),
-                     number(pose.softest_stiffness * um, 3));
+  return fmt::format("      softest to a force along ({}, {}, {}): {} N/um\n", number_text(pose.softest.x(), 3),
+                     number_text(pose.softest.y(), 3), number_text(pose.softest.z(), 3),
+                     number_text(pose.softest_stiffness * um, 3));
 }
 
 // What is zero but for rounding is shown as zero.

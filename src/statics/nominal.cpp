@@ -12,7 +12,7 @@ namespace counterflex {
 namespace {
 
 constexpr double home_tolerance = 1e-7;
-constexpr double largest_condition = 1e6, smallest_fraction = 1e-5;
+constexpr double largest_jacobian_condition = 1e6, smallest_fraction = 1e-5;
 constexpr double largest_step =
     0.5;  // of an actuator at once, in units of l or rad: two folds lie further apart
 
@@ -278,7 +278,7 @@ Status NominalPath::go_to(const Pose& X_MT) {
   mark_nominal(reached);
   configuration_ = std::move(reached);
   const bool judged = !mechanism.controlled.empty() && !mechanism.travel.empty();
-  return judged && impl_->jacobian.condition > largest_condition ? Status::singular : Status::converged;
+  return judged && impl_->jacobian.condition > largest_jacobian_condition ? Status::singular : Status::converged;
 }
 
 NominalResult follow(const Model& model, const Configuration& from, const Pose& X_MT) {
