@@ -81,10 +81,6 @@ bool is_turned_around(const Move& move, const Curve& piece, const Via& via, Plac
 
 }  // namespace
 
-Vector3 normal_of(const ArcMove& arc) {
-  return (arc.clockwise ? -1 : 1) * Vector3::Unit(arc.normal);
-}
-
 std::optional<ArcWords> settle_arc(const Move& move, const Vector3& start, const Vector3& end, const Via& via,
                                    Place place, const WriteOptions& options) {
   const ArcMove& arc = *move.arc;

@@ -10,9 +10,6 @@ struct ArcWords {
   Curve curve;                       ///< as it is read back, program coordinates, mm
 };
 
-/// Unit vector about which the arc of `move` is counter-clockwise.
-Vector3 normal_of(const ArcMove& arc);
-
 /// Whether `axis` lies in the arc's plane.
 inline bool in_plane(const ArcMove& arc, std::size_t axis) {
   return axis != static_cast<std::size_t>(arc.normal);

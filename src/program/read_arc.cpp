@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "program/arc_radius.hpp"
 #include "program/read_move.hpp"
 
 namespace counterflex {
@@ -75,18 +75,16 @@ bool set_centre_of_radius(const Block& block, const Reading& r, const Plane& pla
   arc.radius_word = AxisWord{word.number, word.decimals};
   arc.radius_mm = length_mm(r, word);
   const auto a = static_cast<Eigen::Index>(plane.first), b = static_cast<Eigen::Index>(plane.second);
-  const double da = end[a] - move.start_mm[a], db = end[b] - move.start_mm[b];
-  const double half_chord = std::hypot(da, db) / 2, radius = std::abs(arc.radius_mm);
+  const double half_chord = std::hypot(end[a] - move.start_mm[a], end[b] - move.start_mm[b]) / 2;
+  const double radius = std::abs(arc.radius_mm);
   if (half_chord == 0) return false;
   if (half_chord - radius > 0.05)
     refuse_word(block, r, word,
                 fmt::format("R{}: the arc's ends are {:.6g} mm apart, more than twice the radius", word.value,
                             2 * half_chord));
-  const bool to_the_right = arc.clockwise == (arc.radius_mm > 0);
-  const double theta = std::atan2(db, da) + (to_the_right ? -1 : 1) * std::numbers::pi / 2;
-  const double offset = half_chord >= radius ? 0 : std::sqrt(radius * radius - half_chord * half_chord);
-  arc.centre_mm[a] = move.start_mm[a] + da / 2 + offset * std::cos(theta);
-  arc.centre_mm[b] = move.start_mm[b] + db / 2 + offset * std::sin(theta);
+  const Vector3 centre = centre_from_radius(move.start_mm, end, arc.radius_mm, normal_of(arc));
+  arc.centre_mm[a] = centre[a];
+  arc.centre_mm[b] = centre[b];
   return true;
 }
 

@@ -24,7 +24,7 @@ double feed_mm_min(const ModalState& state) {
 double way_mm(const Move& move) {
   if (!all_known(move.known_start) || !all_known(move.known_end)) return 0;
   if (!move.arc) return (move.end_mm - move.start_mm).norm();
-  const Vector3 normal = Vector3::Unit(move.arc->normal) * (move.arc->clockwise ? -1.0 : 1.0);
+  const Vector3 normal = normal_of(*move.arc);
   const double sweep =
       sweep_between(move.start_mm, move.end_mm, move.arc->centre_mm, normal, move.arc->turns);
   return length({move.start_mm, move.end_mm, Arc{move.arc->centre_mm, normal, sweep}});

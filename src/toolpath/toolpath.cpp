@@ -70,7 +70,7 @@ Pose wanted_frame(const WorkFrame& frame) {
 Curve curve_of(const Move& move) {
   Curve curve{move.start_mm, move.end_mm, {}};
   if (!move.arc) return curve;
-  const Vector3 normal = (move.arc->clockwise ? -1 : 1) * Vector3::Unit(move.arc->normal);
+  const Vector3 normal = normal_of(*move.arc);
   curve.arc = Arc{move.arc->centre_mm, normal,
                   sweep_between(move.start_mm, move.end_mm, move.arc->centre_mm, normal, move.arc->turns)};
   return curve;

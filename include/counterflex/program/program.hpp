@@ -50,6 +50,11 @@ struct ArcMove {
   double radius_mm = 0;                                 ///< as written: negative for more than half a turn
 };
 
+/// Unit normal about which the arc goes counter-clockwise, program coordinates.
+inline Vector3 normal_of(const ArcMove& arc) {
+  return (arc.clockwise ? -1 : 1) * Vector3::Unit(arc.normal);
+}
+
 /// A hole: a move under G73, G76, G81 to G89. The move's X and Y words and end are those of the hole; its
 /// end's Z is where the cycle leaves the tool. Coordinates as for the move.
 struct CycleMove {
