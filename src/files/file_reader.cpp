@@ -5,7 +5,9 @@
 #include <openssl/evp.h>
 #include <sys/stat.h>
 
+#include <algorithm>
 #include <cerrno>
+#include <optional>
 #include <stdexcept>
 #include <vector>
 
@@ -57,7 +59,9 @@ class Hash {
 struct FileReader::State {
   std::string path;
   Descriptor file{};
-  off_t start = 0;  ///< of what standard input still holds
+  off_t start = 0;                    ///< of what standard input still holds
+  std::optional<std::string> held{};  ///< instead of a file
+  std::size_t next = 0;               ///< byte of `held`
 };
 
 FileReader::FileReader(const std::string& path) : state_(new State{.path = path}) {
@@ -74,10 +78,24 @@ FileReader::FileReader(const std::string& path) : state_(new State{.path = path}
   rewind();
 }
 
+FileReader::FileReader() : state_(new State) {}
+
+FileReader FileReader::of_bytes(std::string bytes) {
+  FileReader reader;
+  reader.state_->held = std::move(bytes);
+  return reader;
+}
+
 FileReader::~FileReader() = default;
 FileReader::FileReader(FileReader&&) noexcept = default;
 
 std::size_t FileReader::append(std::string& bytes, std::size_t most) {
+  if (state_->held) {
+    const std::size_t count = std::min(most, state_->held->size() - state_->next);
+    bytes.append(*state_->held, state_->next, count);
+    state_->next += count;
+    return count;
+  }
   const std::size_t before = bytes.size();
   bytes.resize(before + most);
   const ssize_t n = read_some(state_->file.get(), bytes.data() + before, most);
@@ -87,6 +105,8 @@ std::size_t FileReader::append(std::string& bytes, std::size_t most) {
 }
 
 void FileReader::rewind() {
+  state_->next = 0;
+  if (state_->held) return;
   if (::lseek(state_->file.get(), state_->start, SEEK_SET) < 0) fail_reading(state_->path);
 }
 

@@ -140,8 +140,12 @@ void read_flow(const Block& block, Reading& r) {
 void read_program_number(const Block& block, Reading& r) {
   const Word* o = r.sorted.word('O');
   if (o == nullptr) return;
-  const std::vector<std::size_t>& known = r.outline.subprograms;
-  const bool subprogram = std::binary_search(known.begin(), known.end(), o->span.begin);
+  const std::vector<bool>& known = r.outline.subprograms;
+  bool subprogram = false;
+  if (begins_line(r.program.text, o->span.begin)) {
+    subprogram = r.program_numbers < known.size() && known[r.program_numbers];
+    ++r.program_numbers;
+  }
   const bool misplaced =
       block.words.size() > 1 || (!subprogram && r.program.block_count > 1 && !r.after_subprogram);
   if (misplaced || !r.body.open.empty())

@@ -17,8 +17,8 @@ void leave_machine_move(const Block& block, Reading& r, const FoundG& found) {
   if (!has_axis_word(r.sorted)) r.state.known.fill(false);
   end_contour(r);
   r.run_begin = r.program.moves.size();
-  r.program.left_alone.push_back(
-      {block.line, fmt::format("G{} moves to a position of the machine", found.word->value), true});
+  r.last_reason = fmt::format("G{} moves to a position of the machine", found.word->value);
+  r.program.left_alone.push_back({block.line, r.last_reason, true});
 }
 
 void read_held(const Block& block, Reading& r, std::string_view what, bool end_known) {

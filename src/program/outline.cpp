@@ -1,5 +1,7 @@
 #include "program/outline.hpp"
 
+#include <algorithm>
+
 #include "program/scanner.hpp"
 #include "program/siemens_lex.hpp"
 
@@ -13,13 +15,6 @@ bool in_comment(std::string_view text, std::size_t at) {
     if (text[i] == comment_open) return true;
   }
   return false;
-}
-
-/// Whether only blanks, '%' and digits of N stand before `at` on its line.
-bool begins_line(std::string_view text, std::size_t at) {
-  for (std::size_t i = at; i-- > 0 && text[i] != '\n';)
-    if (!is_blank(text[i])) return false;
-  return true;
 }
 
 enum class Ending { none, of_program, of_subprogram };
@@ -46,27 +41,61 @@ bool goto_at(std::string_view text, std::size_t o) {
   return o > 0 && is_word(text.substr(o - 1, 4), "GOTO") && !in_comment(text, o);
 }
 
-void look_for(std::string_view text, char o, Outline& outline, std::vector<std::size_t>& numbers) {
-  for (std::size_t at = 0; (at = text.find(o, at)) != std::string_view::npos; ++at) {
-    if (goto_at(text, at)) outline.jumps = true;
-    if (at + 1 < text.size() && is_digit(text[at + 1]) && begins_line(text, at)) numbers.push_back(at);
-  }
+/// Where lines begin with an O-number, in order.
+std::vector<std::size_t> numbers_in(std::string_view lines) {
+  std::vector<std::size_t> numbers;
+  for (std::size_t at = 0; (at = lines.find_first_of("Oo", at)) != std::string_view::npos; ++at)
+    if (at + 1 < lines.size() && is_digit(lines[at + 1]) && begins_line(lines, at)) numbers.push_back(at);
+  return numbers;
+}
+
+bool jumps_in(std::string_view lines) {
+  for (const char o : {'O', 'o'})
+    for (std::size_t at = 0; (at = lines.find(o, at)) != std::string_view::npos; ++at)
+      if (goto_at(lines, at)) return true;
+  return false;
 }
 
 }  // namespace
 
-Outline outline_of(std::string_view text, const Dialect& dialect) {
-  Outline outline;
-  if (dialect.sinumerik_words) outline.jumps = siemens_jumps(text);
-  if ((dialect.family & (shop_families | mach3_family)) == 0) return outline;
-  std::vector<std::size_t> numbers;
-  look_for(text, 'O', outline, numbers);
-  look_for(text, 'o', outline, numbers);
+void OutlineScan::add(std::string_view lines) {
+  if (dialect_.sinumerik_words) outline_.jumps = outline_.jumps || siemens_jumps(lines);
+  if ((dialect_.family & (shop_families | mach3_family)) == 0) return;
+  outline_.jumps = outline_.jumps || jumps_in(lines);
+  std::vector<bool>& list = outline_.subprograms;
+  std::size_t from = 0;
+  const auto close_until = [&](std::size_t end) {
+    if (open_ == 0) return;
+    const Ending ending = first_ending(lines.substr(0, end), from);
+    if (ending == Ending::none) return;
+    std::fill(list.end() - static_cast<std::ptrdiff_t>(open_), list.end(), ending == Ending::of_subprogram);
+    open_ = 0;
+  };
+  for (const std::size_t number : numbers_in(lines)) {
+    close_until(number);
+    from = number;
+    list.push_back(false);
+    ++open_;
+  }
+  close_until(lines.size());
+}
+
+Outline OutlineScan::finish() {
   // A single program that ends with M99 runs over and over: it is no subprogram.
-  if (numbers.size() < 2) return outline;
-  for (const std::size_t at : numbers)
-    if (first_ending(text, at) == Ending::of_subprogram) outline.subprograms.push_back(at);
-  return outline;
+  if (outline_.subprograms.size() < 2) outline_.subprograms.assign(outline_.subprograms.size(), false);
+  return std::move(outline_);
+}
+
+bool begins_line(std::string_view text, std::size_t at) {
+  for (std::size_t i = at; i-- > 0 && text[i] != '\n';)
+    if (!is_blank(text[i])) return false;
+  return true;
+}
+
+Outline outline_of(std::string_view text, const Dialect& dialect) {
+  OutlineScan scan(dialect);
+  scan.add(text);
+  return scan.finish();
 }
 
 }  // namespace counterflex

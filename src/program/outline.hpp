@@ -9,11 +9,27 @@
 namespace counterflex {
 
 struct Outline {
-  bool jumps = false;                    ///< GOTO stands in it
-  std::vector<std::size_t> subprograms;  ///< where the O of each program stands that M99 ends
+  bool jumps = false;             ///< GOTO stands in it
+  std::vector<bool> subprograms;  ///< of each line that begins with an O-number: whether M99 ends it
 };
 
-/// Looks through `text` once; nothing for dialects without numbered programs.
+/// Looks through a text once, in portions of whole lines; finds nothing in dialects without numbered
+/// programs.
+class OutlineScan {
+ public:
+  explicit OutlineScan(const Dialect& dialect) : dialect_(dialect) {}
+  void add(std::string_view lines);
+  Outline finish();
+
+ private:
+  const Dialect& dialect_;
+  Outline outline_;
+  std::size_t open_ = 0;  ///< numbers at the end of the list whose program has not ended yet
+};
+
 Outline outline_of(std::string_view text, const Dialect& dialect);
+
+/// Whether only blanks stand before `at` on its line.
+bool begins_line(std::string_view text, std::size_t at);
 
 }  // namespace counterflex

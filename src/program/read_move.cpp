@@ -182,8 +182,9 @@ double length_mm(const Reading& r, const Word& word) {
 }
 
 void leave_alone(const Block& block, Reading& r, std::string_view why) {
-  if (r.program.left_alone.empty() || r.program.left_alone.back().why != why)
-    r.program.left_alone.push_back({block.line, std::string(why)});
+  if (r.last_reason == why) return;
+  r.last_reason = why;
+  r.program.left_alone.push_back({block.line, r.last_reason});
 }
 
 void refuse_word(const Block& block, const Reading& r, const Word& word, const std::string& message) {

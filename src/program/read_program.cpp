@@ -1,33 +1,12 @@
 #include "counterflex/program/read_program.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 
-#include "program/interpret.hpp"
 #include "program/klartext_read.hpp"
-#include "program/remarks.hpp"
+#include "program/line_reader.hpp"
 
 namespace counterflex {
 namespace {
-
-const Dialect& choose_dialect(const std::string& text, const std::string& file, const ReadOptions& options) {
-  if (options.dialect == "auto") return detect_dialect(text);
-  const Dialect* dialect = find_dialect(options.dialect);
-  if (dialect == nullptr)
-    throw InputError(Exit::usage, {file},
-                     fmt::format("dialect '{}' is not known: {} are", options.dialect, dialect_names()));
-  return *dialect;
-}
-
-std::array<bool, 3> tool_change_axes(const Dialect& dialect, const ReadOptions& options) {
-  std::array<bool, 3> axes{};
-  axes.fill(!options.tool_change_moves && dialect.tool_change_moves_axes);
-  if (!options.tool_change_moves) return axes;
-  for (const char letter : *options.tool_change_moves)
-    if (letter >= 'X' && letter <= 'Z') axes[static_cast<std::size_t>(letter - 'X')] = true;
-  return axes;
-}
 
 /// "COUNTERFLEX 1", alone or followed by more words.
 bool is_mark(std::string_view comment) {
@@ -36,44 +15,24 @@ bool is_mark(std::string_view comment) {
   return comment.starts_with(mark) && (comment.size() == mark.size() || comment[mark.size()] == ' ');
 }
 
-/// A second program behind the end of the first: nobody corrects it.
-void remark_rest(Program& program, const Block& last) {
-  if (program.text.find_first_not_of("% \t\r\n", last.line_end.end) != std::string::npos)
-    add_remark(program, last.line, "what stands behind the end of the program stays as it is");
-}
-
 }  // namespace
 
 Program read_program(std::string text, const std::string& file, const ReadOptions& options) {
   const Dialect& dialect = choose_dialect(text, file, options);
-  Program program;
-  program.file = file;
+  LineReader lines(file, options, dialect, outline_of(text, dialect));
+  Program& program = lines.program();
   program.text = std::move(text);
-  program.dialect = dialect.name;
-  program.integer_words = options.integer_words;
-
   if (dialect.name == klartext_name) {
-    read_klartext(program, options, tool_change_axes(dialect, options));
-    return program;
+    read_klartext(program, options, axes_of_tool_change(dialect, options));
+    return std::move(program);
   }
-
   // Growing step by step would copy every move several times.
   program.moves.reserve(static_cast<std::size_t>(std::count(program.text.begin(), program.text.end(), '\n')) +
                         1);
-  Reading reading{dialect, options, tool_change_axes(dialect, options), program};
-  reading.state.unit = options.unit;
-  reading.outline = outline_of(program.text, dialect);
-  reading.body.jumps = reading.outline.jumps;
-  Block block;
-  bool opened = false;
-  while (!reading.ended && next_line(program.text, block)) {
-    lex(program.text, file, dialect, block);
-    if (block.percent && (opened || program.block_count > 0)) break;
-    opened = opened || block.percent;
-    interpret(block, reading);
+  while (lines.read_line()) {
   }
-  if (reading.ended) remark_rest(program, block);
-  return program;
+  lines.remark_rest(std::string_view(program.text).substr(lines.position()));
+  return std::move(program);
 }
 
 bool is_corrected(const Program& program) {

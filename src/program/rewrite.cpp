@@ -57,9 +57,9 @@ std::string header_text(const Program& program, const ProgramStyle& style, std::
 /// The text being written: everything before byte `copied` of the input is in `out`.
 struct Writing {
   const Program& program;
-  const ProgramStyle style;
+  const ProgramStyle& style;
+  TextState& state;
   std::size_t copied = 0;
-  TextState state{};
   Rewritten out{};
 };
 
@@ -80,7 +80,8 @@ void copy_until(std::size_t end, Writing& w) {
 /// The move that is written next, and what the text holds before it.
 const Move& come_to(std::size_t index, Writing& w) {
   const Move& move = w.program.moves[index];
-  if (index > 0) w.state.held = held_between(w.program.moves[index - 1], move, w.state.held);
+  if (const Move* last = move_before(w.program, index))
+    w.state.held = held_between(*last, move, w.state.held);
   return move;
 }
 
@@ -100,24 +101,46 @@ void apply(const MoveEdit& edit, const WriteOptions& options, Writing& w) {
   w.copied = block.end;
 }
 
+/// The header goes behind what a program must begin with.
+void begin(const WriteOptions& options, Writing& w) {
+  w.copied = header_position(w.program);
+  w.out.text.append(w.program.text, 0, w.copied).append(header_text(w.program, w.style, w.copied, options));
+}
+
 }  // namespace
 
-Rewritten rewrite(const Program& program, const std::vector<MoveEdit>& edits, const WriteOptions& options) {
-  if (program.dialect == klartext_name) return rewrite_klartext(program, edits, options);
-  Writing w{program, style_of(program)};
-  w.copied = header_position(program);
-  w.out.text.reserve(program.text.size() + program.text.size() / 8);
-  w.out.text.append(program.text, 0, w.copied).append(header_text(program, w.style, w.copied, options));
+struct Rewriter::State {
+  WriteOptions options;
+  std::optional<ProgramStyle> style{};  ///< none before the first window
+  TextState text{};
+};
+
+Rewriter::Rewriter(const WriteOptions& options) : state_(new State{options}) {}
+Rewriter::~Rewriter() = default;
+Rewriter::Rewriter(Rewriter&&) noexcept = default;
+
+Rewritten Rewriter::write(const Program& window, const std::vector<MoveEdit>& edits) {
+  const WriteOptions& options = state_->options;
+  if (window.dialect == klartext_name) return rewrite_klartext(window, edits, options);
+  const bool first = !state_->style;
+  if (first) state_->style = style_of(window);
+  Writing w{window, *state_->style, state_->text};
+  w.out.text.reserve(window.text.size() + window.text.size() / 8);
+  if (first) begin(options, w);
   std::size_t next = 0;
   for (const MoveEdit& edit : edits) {
-    assert(edit.move >= next && edit.move < program.moves.size());
+    assert(edit.move >= next && edit.move < window.moves.size());
     for (; next < edit.move; ++next) pass_over(come_to(next, w), w);
     apply(edit, options, w);
     ++next;
   }
-  for (; next < program.moves.size() && w.state.restate_motion; ++next) pass_over(come_to(next, w), w);
-  w.out.text.append(program.text, w.copied);
+  for (; next < window.moves.size(); ++next) pass_over(come_to(next, w), w);
+  copy_until(window.text.size(), w);
   return std::move(w.out);
+}
+
+Rewritten rewrite(const Program& program, const std::vector<MoveEdit>& edits, const WriteOptions& options) {
+  return Rewriter(options).write(program, edits);
 }
 
 }  // namespace counterflex

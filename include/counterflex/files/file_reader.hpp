@@ -12,6 +12,7 @@ namespace counterflex {
 class FileReader {
  public:
   explicit FileReader(const std::string& path);
+  static FileReader of_bytes(std::string bytes);  ///< reads what is held in memory
   ~FileReader();
   FileReader(FileReader&&) noexcept;
 
@@ -20,6 +21,8 @@ class FileReader {
   void rewind();
 
  private:
+  FileReader();
+
   struct State;
   std::unique_ptr<State> state_;
 };

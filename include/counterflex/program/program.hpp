@@ -100,8 +100,8 @@ struct Move {
   std::optional<CycleMove> cycle;
   Vector3 start_mm = Vector3::Zero();
   Vector3 end_mm = Vector3::Zero();
-  double feed_mm_min = 0;  ///< modal F; 0 where none has been programmed
-  double spindle_rpm = 0;  ///< modal S
+  double feed_mm_min = 0;            ///< modal F; 0 where none has been programmed
+  double spindle_rpm = 0;            ///< modal S
   std::optional<long> block_number;  ///< N
   std::size_t offset = 0;            ///< index into Program::work_offsets
   long tool = 0;                     ///< T in the spindle; 0: none known
@@ -138,17 +138,28 @@ struct PathTolerance {
   std::optional<double> merge_mm;  ///< Q: moves that are this near to a line become one
 };
 
+/// A program, or a window of one: then `text` holds some of its lines, `moves` and `left_alone` are those of
+/// these lines, and all else is what has been found from the program's first line on.
 struct Program {
   std::string file;
   std::string text;     ///< every byte of the input
   std::string dialect;  ///< the one that was read, never "auto"
   IntegerWords integer_words = IntegerWords::unsaid;
   std::vector<Move> moves;
+  std::optional<Move>
+      before{};                 ///< of a window: the last move of the one before it, and the first one of the
+  std::optional<Move> after{};  ///< next; the spans of both lie in other texts
   std::vector<std::string> work_offsets{""};  ///< "G54", "G54.1 P3", ...; the first: none selected yet
   std::vector<LeftAlone> left_alone;
   std::vector<Remark> remarks;
   std::vector<PathTolerance> path_tolerances;  ///< each different one once
   std::size_t block_count = 0;                 ///< lines with at least one word
 };
+
+/// The move before `moves[index]`, of this window or the one before it; null where there is none.
+inline const Move* move_before(const Program& program, std::size_t index) {
+  if (index > 0) return &program.moves[index - 1];
+  return program.before ? &*program.before : nullptr;
+}
 
 }  // namespace counterflex

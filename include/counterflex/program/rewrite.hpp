@@ -2,6 +2,7 @@
 /// Writes a corrected program: the input's bytes with changed coordinate words and inserted moves, nothing
 /// else.
 #include <array>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -80,6 +81,21 @@ struct Rewritten {
   std::size_t inserted_words = 0;  ///< in blocks of the input
   std::size_t inserted_blocks = 0;
   std::vector<std::size_t> blocks_of_edit;  ///< blocks inserted for each edit: its jump and its points
+};
+
+/// Writes a program window by window (ProgramReader).
+class Rewriter {
+ public:
+  explicit Rewriter(const WriteOptions& options);
+  ~Rewriter();
+  Rewriter(Rewriter&&) noexcept;
+
+  /// The text of the next window with `edits` of its moves, as `rewrite` has it. Klartext is one window.
+  Rewritten write(const Program& window, const std::vector<MoveEdit>& edits);
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
 };
 
 /// Applies `edits`, in the order of moves, at most one a move. A move without an edit keeps its text, but a

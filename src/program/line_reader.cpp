@@ -1,0 +1,91 @@
+#include "program/line_reader.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "program/remarks.hpp"
+
+namespace counterflex {
+namespace {
+
+// A dialect shows at the beginning of a program.
+constexpr std::size_t looked_at = 1 << 20;  // bytes
+
+Program begun(const std::string& file, const ReadOptions& options, const Dialect& dialect) {
+  Program program;
+  program.file = file;
+  program.dialect = dialect.name;
+  program.integer_words = options.integer_words;
+  return program;
+}
+
+}  // namespace
+
+const Dialect& choose_dialect(std::string_view text, const std::string& file, const ReadOptions& options) {
+  if (options.dialect == "auto") return detect_dialect(text.substr(0, looked_at));
+  const Dialect* dialect = find_dialect(options.dialect);
+  if (dialect == nullptr)
+    throw InputError(Exit::usage, {file},
+                     fmt::format("dialect '{}' is not known: {} are", options.dialect, dialect_names()));
+  return *dialect;
+}
+
+std::array<bool, 3> axes_of_tool_change(const Dialect& dialect, const ReadOptions& options) {
+  std::array<bool, 3> axes{};
+  axes.fill(!options.tool_change_moves && dialect.tool_change_moves_axes);
+  if (!options.tool_change_moves) return axes;
+  for (const char letter : *options.tool_change_moves)
+    if (letter >= 'X' && letter <= 'Z') axes[static_cast<std::size_t>(letter - 'X')] = true;
+  return axes;
+}
+
+LineReader::LineReader(const std::string& file, const ReadOptions& options, const Dialect& dialect,
+                       Outline outline)
+    : options_(options),
+      dialect_(dialect),
+      program_(begun(file, options_, dialect)),
+      reading_{dialect_, options_, axes_of_tool_change(dialect, options_), program_} {
+  reading_.state.unit = options_.unit;
+  reading_.body.jumps = outline.jumps;
+  reading_.outline = std::move(outline);
+}
+
+bool LineReader::read_line() {
+  if (ended_ || !next_line(program_.text, block_)) return false;
+  lex(program_.text, program_.file, dialect_, block_);
+  if (block_.percent && (opened_ || program_.block_count > 0)) {
+    ended_ = true;
+    return true;
+  }
+  opened_ = opened_ || block_.percent;
+  interpret(block_, reading_);
+  ended_ = reading_.ended;
+  return true;
+}
+
+bool LineReader::may_end_before(const Move& last) const {
+  const ModalState& state = reading_.state;
+  const bool across = last.words[0] || last.words[1];
+  const bool alone = last.group == 0 && !last.cycle && last.handling == Handling::own && !last.block_delete;
+  const bool clear = state.contour == Contour::none && state.doubts == 0 && state.displaced == 0 &&
+                     !reading_.in_body() && !state.entering_data;
+  return last.line == block_.line && across && alone && clear && all_known(last.known_start);
+}
+
+// A second program behind the end of the first: nobody corrects it.
+void LineReader::remark_rest(std::string_view text) {
+  if (reading_.ended && text.find_first_not_of("% \t\r\n") != std::string_view::npos)
+    add_remark(program_, block_.line, "what stands behind the end of the program stays as it is");
+}
+
+void LineReader::begin_window(std::size_t read, std::vector<Move> moves) {
+  if (!program_.moves.empty()) program_.before = std::move(program_.moves.back());
+  program_.moves = std::move(moves);
+  program_.left_alone.clear();
+  program_.text.clear();
+  reading_.run_begin = 0;
+  block_.line_end = {read, read};
+}
+
+}  // namespace counterflex

@@ -1,0 +1,232 @@
+#include "counterflex/program/program_reader.hpp"
+
+#include "program/klartext_read.hpp"
+#include "program/line_reader.hpp"
+
+namespace counterflex {
+namespace {
+
+constexpr std::size_t bytes_at_once = 1 << 18;
+
+/// The whole lines at the beginning of `text` are taken off it.
+std::string_view whole_lines(const std::string& text) {
+  const std::size_t newline = text.rfind('\n');
+  return std::string_view(text).substr(0, newline == std::string::npos ? 0 : newline + 1);
+}
+
+/// Spans of `move` in a text that begins `bytes` later.
+void shift_spans(Move& move, std::size_t bytes) {
+  const auto shift = [bytes](Span& span) {
+    span.begin -= bytes;
+    span.end -= bytes;
+  };
+  const auto shift_word = [&](std::optional<AxisWord>& word) {
+    if (word) shift(word->number);
+  };
+  shift(move.block);
+  for (auto& word : move.words) shift_word(word);
+  if (move.arc) {
+    for (auto& word : move.arc->centre_words) shift_word(word);
+    shift_word(move.arc->radius_word);
+  }
+  if (move.cycle) {
+    shift_word(move.cycle->bottom_word);
+    shift_word(move.cycle->retract_word);
+  }
+}
+
+struct Overall {
+  const Dialect* dialect = nullptr;
+  Outline outline{};
+};
+
+/// Looks through the whole file, which is at its beginning afterwards.
+Overall look_through(FileReader& bytes, const std::string& file, const ReadOptions& options) {
+  std::string text;
+  bytes.rewind();
+  std::size_t count = 1;
+  while (count > 0 && text.size() < (1 << 20)) count = bytes.append(text, bytes_at_once);
+  const Dialect& dialect = choose_dialect(text, file, options);
+  OutlineScan scan(dialect);
+  while (count > 0) {
+    const std::size_t whole = whole_lines(text).size();
+    scan.add(std::string_view(text).substr(0, whole));
+    text.erase(0, whole);
+    count = bytes.append(text, bytes_at_once);
+  }
+  scan.add(text);
+  bytes.rewind();
+  return {&dialect, scan.finish()};
+}
+
+}  // namespace
+
+struct ProgramReader::State {
+  State(FileReader& source, const std::string& file, const ReadOptions& options, std::size_t moves,
+        Overall overall)
+      : bytes(source), least_moves(moves), lines(file, options, *overall.dialect, overall.outline) {}
+
+  FileReader& bytes;
+  std::size_t least_moves;
+  LineReader lines;
+  bool all_read = false;  ///< the bytes have come to their end
+  std::size_t whole = 0;  ///< bytes of the text that are whole lines
+  std::string behind;     ///< text behind the window, of which `behind_read` bytes have been read,
+  std::size_t behind_read = 0;
+  bool behind_moves = false;  ///< and the move in it is `Program::after`
+
+  Program& program() { return lines.program(); }
+  bool is_klartext() { return program().dialect == klartext_name; }
+
+  bool append() {
+    std::string& text = program().text;
+    const std::size_t begin = text.size();
+    all_read = bytes.append(text, bytes_at_once) == 0;
+    const std::size_t newline = text.rfind('\n');
+    if (newline != std::string::npos && newline >= begin) whole = newline + 1;
+    if (all_read) whole = text.size();
+    return !all_read;
+  }
+
+  void read_klartext_whole() {
+    while (append()) {
+    }
+    read_klartext(program(), lines.options(), axes_of_tool_change(lines.dialect(), lines.options()));
+  }
+
+  bool read_line() {
+    while (!all_read && lines.position() >= whole) append();
+    return lines.read_line();
+  }
+
+  /// Reads on until the window holds `moves` and may end.
+  void read_until_end(std::size_t moves) {
+    std::size_t before = program().moves.size();
+    while (!lines.has_ended() && read_line()) {
+      const std::size_t now = program().moves.size();
+      const bool one = now == before + 1 && now > moves;
+      before = now;
+      if (one && !lines.has_ended() && lines.may_end_before(program().moves.back())) return end_before_last();
+    }
+    if (lines.has_ended()) lines.remark_rest(std::string_view(program().text).substr(lines.position()));
+    end_here(whole);
+  }
+
+  /// The last move and all text from its line on belong to the next window.
+  void end_before_last() {
+    Program& p = program();
+    const std::size_t end = p.moves.back().block.begin;
+    p.after = std::move(p.moves.back());
+    p.moves.pop_back();
+    shift_spans(*p.after, end);
+    behind_read = lines.position() - end;
+    behind_moves = true;
+    end_here(end);
+  }
+
+  void end_here(std::size_t end) {
+    behind.assign(program().text, end);
+    program().text.resize(end);
+  }
+
+  /// What is behind the end of the program, a portion at a time.
+  bool read_rest() {
+    append();
+    whole = program().text.size();
+    lines.remark_rest(program().text);
+    return whole > 0;
+  }
+
+  bool next() {
+    std::vector<Move> moves;
+    Program& p = program();
+    if (behind_moves) moves.push_back(std::move(*p.after));
+    p.after.reset();
+    lines.begin_window(behind_read, std::move(moves));
+    p.text.swap(behind);
+    behind.clear();
+    behind_read = 0;
+    behind_moves = false;
+    const std::string& text = p.text;
+    whole = all_read ? text.size() : whole_lines(text).size();
+    if (lines.has_ended()) return read_rest();
+    if (is_klartext() && !all_read) {
+      read_klartext_whole();
+      return true;
+    }
+    if (all_read && text.empty()) return false;
+    read_until_end(least_moves);
+    return true;
+  }
+
+  bool extend() {
+    if (!behind_moves) return false;
+    Program& p = program();
+    const std::size_t end = p.text.size();
+    p.text += behind;
+    shift_spans(*p.after, -end);
+    p.moves.push_back(std::move(*p.after));
+    p.after.reset();
+    behind.clear();
+    behind_moves = false;
+    whole = all_read ? p.text.size() : whole_lines(p.text).size();
+    read_until_end(p.moves.size());
+    return true;
+  }
+};
+
+ProgramReader::ProgramReader(FileReader& bytes, const std::string& file, const ReadOptions& options,
+                             std::size_t least_moves)
+    : state_(new State(bytes, file, options, least_moves, look_through(bytes, file, options))) {}
+
+ProgramReader::~ProgramReader() = default;
+ProgramReader::ProgramReader(ProgramReader&&) noexcept = default;
+
+bool ProgramReader::next() {
+  return state_->next();
+}
+
+bool ProgramReader::extend() {
+  return state_->extend();
+}
+
+const Program& ProgramReader::window() const {
+  return state_->lines.program();
+}
+
+Program& ProgramReader::window() {
+  return state_->program();
+}
+
+struct TextReader::State {
+  LineReader lines;
+};
+
+TextReader::TextReader(const ProgramReader& original) {
+  const LineReader& lines = original.state_->lines;
+  state_.reset(new State{{lines.program().file, lines.options(), lines.dialect(), lines.outline()}});
+}
+
+TextReader::TextReader(const Program& original, const ReadOptions& options) {
+  const Dialect& dialect = *find_dialect(original.dialect);
+  state_.reset(new State{{original.file, options, dialect, outline_of(original.text, dialect)}});
+}
+
+TextReader::~TextReader() = default;
+TextReader::TextReader(TextReader&&) noexcept = default;
+
+const Program& TextReader::read(std::string text) {
+  LineReader& lines = state_->lines;
+  lines.begin_window(0, {});
+  Program& program = lines.program();
+  program.text = std::move(text);
+  if (program.dialect == klartext_name) {
+    read_klartext(program, lines.options(), axes_of_tool_change(lines.dialect(), lines.options()));
+    return program;
+  }
+  while (lines.read_line()) {
+  }
+  return program;
+}
+
+}  // namespace counterflex

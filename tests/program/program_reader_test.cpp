@@ -1,0 +1,192 @@
+#include "counterflex/program/program_reader.hpp"
+
+#include <doctest/doctest.h>
+
+#include "program/reading.hpp"
+#include "program/synthetic_arcs.hpp"
+#include "program/synthetic_program.hpp"
+
+using namespace counterflex;
+using namespace counterflex::test;
+
+namespace {
+
+const Vector3 window_shift{0.125, -0.0625, 0.5};
+
+/// Every move shifted, with its centre and the heights of its cycle.
+std::vector<MoveEdit> rigidly_shifted(const Program& program) {
+  std::vector<MoveEdit> edits = shifted(program, window_shift);
+  for (MoveEdit& edit : edits) {
+    if (edit.centre_mm) *edit.centre_mm += window_shift;
+    if (edit.bottom_mm) *edit.bottom_mm += window_shift.z();
+    if (edit.retract_mm) *edit.retract_mm += window_shift.z();
+  }
+  return edits;
+}
+
+std::string number_text(const Program& program, const std::optional<AxisWord>& word) {
+  return word ? program.text.substr(word->number.begin, word->number.end - word->number.begin) : "-";
+}
+
+/// What a move says, as text.
+std::string said(const Program& program, const Move& move) {
+  std::string text =
+      fmt::format("line {} block {} '{}' handling {} group {} from {} {} {} to {} {} {}", move.line,
+                  move.block_index, program.text.substr(move.block.begin, move.block.end - move.block.begin),
+                  static_cast<int>(move.handling), move.group, move.start_mm.x(), move.start_mm.y(),
+                  move.start_mm.z(), move.end_mm.x(), move.end_mm.y(), move.end_mm.z());
+  for (int axis = 0; axis < 3; ++axis)
+    text += fmt::format(" {} {}{}{}", number_text(program, move.words[axis]), int{move.known_start[axis]},
+                        int{move.known_end[axis]}, int{move.fixed[axis]});
+  if (move.arc)
+    for (const auto& word : move.arc->centre_words) text += " " + number_text(program, word);
+  return text + fmt::format(" feed {} offset {}", move.feed_mm_min, move.offset);
+}
+
+std::vector<std::string> said(const Program& program) {
+  std::vector<std::string> all;
+  for (const Move& move : program.moves) all.push_back(said(program, move));
+  return all;
+}
+
+/// What comes of a program that is read and shifted in windows.
+struct InWindows {
+  std::string text, shifted;
+  std::vector<std::string> moves, corrected_moves;
+  std::size_t count = 0;
+  std::size_t left_alone = 0;
+  Program last;
+};
+
+InWindows in_windows(const std::string& text, std::size_t least_moves, int extended = 0) {
+  InWindows all;
+  FileReader bytes = FileReader::of_bytes(text);
+  ProgramReader reader(bytes, "p.ngc", {}, least_moves);
+  TextReader again(reader);
+  Rewriter rewriter({});
+  while (reader.next()) {
+    for (int i = 0; i < extended; ++i) reader.extend();
+    const Program& window = reader.window();
+    ++all.count;
+    all.text += window.text;
+    for (const std::string& move : said(window)) all.moves.push_back(move);
+    all.left_alone += window.left_alone.size();
+    const std::string written = rewriter.write(window, rigidly_shifted(window)).text;
+    all.shifted += written;
+    for (const std::string& move : said(again.read(written))) all.corrected_moves.push_back(move);
+    all.last = window;
+  }
+  return all;
+}
+
+void check_windows(const std::string& text, std::size_t least_moves, int extended = 0) {
+  CAPTURE(text);
+  CAPTURE(least_moves);
+  const Program whole = read(text);
+  std::string corrected;
+  const std::string refused =
+      diagnostic_of([&] { corrected = rewrite(whole, rigidly_shifted(whole), {}).text; });
+  if (refused != "none") {
+    CHECK(diagnostic_of([&] { in_windows(text, least_moves, extended); }) == refused);
+    return;
+  }
+  const InWindows all = in_windows(text, least_moves, extended);
+  CHECK(all.text == text);
+  CHECK(all.moves == said(whole));
+  CHECK(all.left_alone == whole.left_alone.size());
+  CHECK(all.last.block_count == whole.block_count);
+  CHECK(all.last.work_offsets == whole.work_offsets);
+  CHECK(all.last.remarks.size() == whole.remarks.size());
+  CHECK(all.shifted == corrected);
+  CHECK(all.corrected_moves == said(read(corrected)));
+}
+
+/// Lines of a pocket, `count` moves long, of which all are known.
+std::string pocket(int count) {
+  std::string text = "%\nO1001 (POCKET)\nG21 G90 G17\nG0 X0 Y0\nZ5.\nG1 Z-1. F200\n";
+  for (int i = 0; i < count; ++i) text += fmt::format("X{}.5 Y{}.\n", i % 40, i / 40);
+  return text;
+}
+
+}  // namespace
+
+TEST_CASE("a program read in windows is the program") {
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    check_windows(SyntheticProgram(seed).text(60), 1 + seed % 7);
+    check_windows(SyntheticArcs(seed).text(60), 1 + seed % 7);
+  }
+}
+
+TEST_CASE("windows are as long as they must be, and no longer than they may") {
+  const std::string text = pocket(1000) + "G0 Z5.\nM30\n%\n";
+  check_windows(text, 100);
+  CHECK(in_windows(text, 100).count == 11);
+  CHECK(in_windows(text, whole_program).count == 1);
+}
+
+TEST_CASE("a window that is extended goes to the next place where it may end") {
+  const std::string text = pocket(100) + "G0 Z5.\nM30\n%\n";
+  FileReader bytes = FileReader::of_bytes(text);
+  ProgramReader reader(bytes, "p.ngc", {}, 10);
+  REQUIRE(reader.next());
+  const std::size_t moves = reader.window().moves.size();
+  REQUIRE(reader.window().after);
+  const Vector3 next = reader.window().after->end_mm;
+  REQUIRE(reader.extend());
+  CHECK(reader.window().moves.size() == moves + 1);
+  CHECK(reader.window().moves.back().end_mm == next);
+  while (reader.extend()) {
+  }
+  CHECK(reader.window().text == text);
+  CHECK_FALSE(reader.window().after);
+  CHECK_FALSE(reader.next());
+  check_windows(text, 10, 3);
+}
+
+TEST_CASE("windows end neither in contours, nor in cycles, nor in bodies, nor where an axis is unknown") {
+  const std::string approach = "G21 G90 G17\nT1 M6\nG0 X0 Y0\nG43 H1 Z5\n";
+  for (const std::string inside :
+       {"G41 D1 G1 X1 Y1 F100\nX9\nY9\nG40 X0 Y0\n", "G98 G81 X1 Y1 Z-5 R2 F50\nX2\nX3\nG80\n",
+        "o1 if [#1 GT 2]\nX1\nX2\no1 endif\n", "G53 G0 X0\nY1\nY2\nY3\n", "G52 X1\nX1 Y1\nX2\nG52 X0\n"}) {
+    CAPTURE(inside);
+    FileReader bytes = FileReader::of_bytes(approach + inside + "G0 X0 Y0 Z5\nX1\nX2\nX3\nM2\n");
+    ProgramReader reader(bytes, "p.ngc", {}, 3);
+    REQUIRE(reader.next());
+    const std::string_view window = reader.window().text;
+    CHECK((window.size() == approach.size() || window.size() >= approach.size() + inside.size()));
+  }
+}
+
+TEST_CASE("subprograms and their calls are known in every window") {
+  std::string text = pocket(50) + "M98 P2000\nG0 X0 Y0 Z5.\n";
+  for (int i = 0; i < 50; ++i) text += fmt::format("X{}.\n", i);
+  text += "M30\nO2000\nG1 X3.\nX4.\nM99\n%\n";
+  check_windows(text, 5);
+}
+
+TEST_CASE("what stands behind the end comes in windows, too") {
+  const std::string text =
+      pocket(20) + "G0 Z5.\nX3. M30\n%\n" + std::string(600000, 'x') + "\nO7 (NEXT)\nX1\n";
+  check_windows(text, 5);
+  CHECK(in_windows(text, 5).last.remarks.size() == 1);
+}
+
+TEST_CASE("a program without a line end at its end, an empty one, and one without moves are windows") {
+  check_windows("G21 G90 G0 X1 Y1 Z1\nX2\nX3", 1);
+  check_windows("", 1);
+  check_windows("(NOTHING)\n\n", 1);
+  check_windows("G21\nG0 X1", 1);
+}
+
+TEST_CASE("mistakes far behind are refused at their place") {
+  const std::string text = pocket(20000) + "X1. Y*\n";
+  CHECK(diagnostic_of([&] { in_windows(text, 100); }) == diagnostic_of([&] { read(text); }));
+  CHECK(diagnostic_of([&] { in_windows(text, 100); }).starts_with("p.ngc:20007:5: error: "));
+}
+
+TEST_CASE("klartext is one window") {
+  const std::string text =
+      "0 BEGIN PGM A MM\n1 L X+0 Y+0 Z+5 R0 FMAX\n2 L Z-1 F200\n3 L X+5\n4 L X+6\n5 L X+7\n6 END PGM A MM\n";
+  check_windows(text, 1);
+  CHECK(in_windows(text, 1).count == 1);
+}
