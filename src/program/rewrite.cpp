@@ -63,9 +63,8 @@ struct Writing {
   Rewritten out{};
 };
 
-/// Copies what stands before byte `end`, where no move is. A motion word or the end of a program in it ends
-/// the doubt about the modal motion.
-void copy_until(std::size_t end, Writing& w) {
+/// A motion word or the end of a program before byte `end` ends the doubt about the modal motion.
+void end_doubt_until(std::size_t end, Writing& w) {
   const Dialect& dialect = *find_dialect(w.program.dialect);
   Block block;
   block.line_end.end = w.copied;
@@ -73,6 +72,11 @@ void copy_until(std::size_t end, Writing& w) {
     lex(w.program.text, w.program.file, dialect, block);
     if (block.span.begin < end && ends_motion(block, dialect)) w.state.restate_motion.reset();
   }
+}
+
+/// Copies what stands before byte `end`, where no move is.
+void copy_until(std::size_t end, Writing& w) {
+  if (w.state.restate_motion) end_doubt_until(end, w);
   w.out.text.append(w.program.text, w.copied, end - w.copied);
   w.copied = end;
 }
@@ -108,6 +112,7 @@ Rewritten rewrite(const Program& program, const std::vector<MoveEdit>& edits, co
   w.copied = header_position(program);
   w.out.text.reserve(program.text.size() + program.text.size() / 8);
   w.out.text.append(program.text, 0, w.copied).append(header_text(program, w.style, w.copied, options));
+  w.out.blocks_of_edit.reserve(edits.size());
   std::size_t next = 0;
   for (const MoveEdit& edit : edits) {
     assert(edit.move >= next && edit.move < program.moves.size());
