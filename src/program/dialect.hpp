@@ -69,4 +69,9 @@ constexpr double mm_per(LengthUnit unit) {
   return unit == LengthUnit::millimetres ? 1.0 : 25.4;
 }
 
+/// A length as its unit has it.
+constexpr double in_unit(double length_mm, LengthUnit unit) {
+  return unit == LengthUnit::millimetres ? length_mm : length_mm / mm_per(unit);
+}
+
 }  // namespace counterflex

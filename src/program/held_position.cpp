@@ -11,15 +11,21 @@
 namespace counterflex {
 namespace {
 
-int decimals_of_word(const Move& move, const std::optional<AxisWord>& word, Place place,
-                     const WriteOptions& options) {
+constexpr int no_decimals = -1;
+
+/// Digits of a word that shows `shown` of them, or of one that is inserted.
+int decimals_of_word(const Move& move, int shown, Place place, const WriteOptions& options) {
   if (options.decimals >= 0) return options.decimals;
   const int resolution = resolution_decimals(move.unit);
-  return place == Place::end && word ? std::max(resolution, word->decimals) : resolution;
+  return place == Place::end ? std::max(resolution, shown) : resolution;
 }
 
-int decimals_of_kept(const Move& move, const AxisWord& word) {
-  return std::max(word.decimals, resolution_decimals(move.unit));
+int decimals_of_kept(const Move& move, int shown) {
+  return std::max(shown, resolution_decimals(move.unit));
+}
+
+int decimals_shown(const PackedAxisWord& word) {
+  return word ? (*word).decimals : no_decimals;
 }
 
 /// How often a relative word is gone.
@@ -29,12 +35,14 @@ int times(const Move& move) {
 
 /// The word as it stands.
 Coordinate keep(const Move& move, std::size_t axis, std::optional<double> held_mm) {
-  const double unit = mm_per(move.unit), end_mm = component(move.end_mm, axis);
-  if (!move.relative) return {{false, end_mm / unit, decimals_of_kept(move, *move.words[axis])}, end_mm};
+  const double end_mm = component(move.end_mm, axis);
+  const AxisWord word = *move.words[axis];
+  const int decimals = decimals_of_kept(move, word.decimals);
+  if (!move.relative) return {{false, in_unit(end_mm, move.unit), decimals}, end_mm};
   const double way_mm = (end_mm - component(move.start_mm, axis)) / times(move);
-  const double value = shown_number(move, *move.words[axis], way_mm);
-  if (held_mm) *held_mm += times(move) * (value * unit);
-  return {{false, value, decimals_of_kept(move, *move.words[axis])}, held_mm};
+  const double value = shown_number(move, word, way_mm);
+  if (held_mm) *held_mm += times(move) * (value * mm_per(move.unit));
+  return {{false, value, decimals}, held_mm};
 }
 
 /// A word written anew. Under G91 it says how far it is from where the text holds the axis, so that rounding
@@ -42,29 +50,29 @@ Coordinate keep(const Move& move, std::size_t axis, std::optional<double> held_m
 Coordinate write_anew(const Move& move, std::optional<double> held_mm, double wanted_mm, int decimals) {
   const double unit = mm_per(move.unit);
   const double wanted = move.relative ? (wanted_mm - *held_mm) / times(move) : wanted_mm;
-  const double value = rounded(wanted / unit, decimals);
+  const double value = rounded(in_unit(wanted, move.unit), decimals);
   const double read_mm = move.relative ? *held_mm + times(move) * (value * unit) : value * unit;
   return {{true, value, decimals}, read_mm};
 }
 
 Coordinate settle_absent(const Move& move, std::size_t axis, std::optional<double> held_mm, double wanted_mm,
                          Place place, const WriteOptions& options) {
-  const double unit = mm_per(move.unit);
   if (move.ignored[axis]) return {{}, held_mm};
   if (!move.known_end[axis]) return {{}, std::nullopt};
   if (place != Place::inside && !move.may_insert_words) return {{}, held_mm};
-  const int decimals = decimals_of_word(move, std::nullopt, place, options);
-  if (held_mm && rounds_to(*held_mm / unit, wanted_mm / unit, decimals)) return {{}, held_mm};
+  const int decimals = decimals_of_word(move, no_decimals, place, options);
+  if (held_mm && rounds_to(in_unit(*held_mm, move.unit), in_unit(wanted_mm, move.unit), decimals))
+    return {{}, held_mm};
   if (move.relative && !held_mm) return {{}, held_mm};
   return write_anew(move, held_mm, wanted_mm, decimals);
 }
 
 Coordinate settle_present(const Move& move, std::size_t axis, std::optional<double> held_mm, double wanted_mm,
                           Place place, const WriteOptions& options) {
-  const double unit = mm_per(move.unit);
-  const int decimals = decimals_of_word(move, move.words[axis], place, options);
+  const int decimals = decimals_of_word(move, decimals_shown(move.words[axis]), place, options);
   const Coordinate kept = keep(move, axis, held_mm);
-  if (!kept.held_mm || rounds_to(*kept.held_mm / unit, wanted_mm / unit, decimals)) return kept;
+  if (!kept.held_mm || rounds_to(in_unit(*kept.held_mm, move.unit), in_unit(wanted_mm, move.unit), decimals))
+    return kept;
   return write_anew(move, held_mm, wanted_mm, decimals);
 }
 
@@ -72,8 +80,9 @@ Coordinate settle_present(const Move& move, std::size_t axis, std::optional<doub
 
 WordNumber settle_number(const Move& move, const std::optional<AxisWord>& word, double original,
                          double wanted, Place place, const WriteOptions& options) {
-  const int decimals = decimals_of_word(move, word, place, options);
-  if (word && rounds_to(original, wanted, decimals)) return {false, original, decimals_of_kept(move, *word)};
+  const int decimals = decimals_of_word(move, word ? word->decimals : no_decimals, place, options);
+  if (word && rounds_to(original, wanted, decimals))
+    return {false, original, decimals_of_kept(move, word->decimals)};
   return {true, rounded(wanted, decimals), decimals};
 }
 
@@ -106,6 +115,7 @@ HeldPosition held_at_start(const Move& move, HeldPosition before) {
 }
 
 HeldPosition held_between(const Move& last, const Move& next, const HeldPosition& held) {
+  if (next.start_mm == last.end_mm) return held;
   HeldPosition moved = held;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const double change_mm = component(next.start_mm, axis) - component(last.end_mm, axis);
@@ -150,9 +160,9 @@ HeldPosition held_after(const Move& move, const HeldPosition& before, const Vect
 
 Decimals decimals_of(const Move& move, const WriteOptions& options) {
   Decimals decimals{};
-  decimals.inserted = decimals_of_word(move, std::nullopt, Place::inside, options);
+  decimals.inserted = decimals_of_word(move, no_decimals, Place::inside, options);
   for (std::size_t axis = 0; axis < 3; ++axis)
-    decimals.end[axis] = decimals_of_word(move, move.words[axis], Place::end, options);
+    decimals.end[axis] = decimals_of_word(move, decimals_shown(move.words[axis]), Place::end, options);
   return decimals;
 }
 

@@ -25,8 +25,14 @@ void apply_comments(const Block& block, Reading& r) {
       r.state.force = force;
 }
 
-bool has_codes(const SortedBlock& sorted) {
-  return !sorted.g.empty() || !sorted.m.empty();
+constexpr std::uint64_t bit_of(Action action) {
+  return std::uint64_t{1} << static_cast<unsigned>(action);
+}
+
+/// Whether codes besides G0 to G3 stand in the block.
+bool has_other_codes(const SortedBlock& sorted) {
+  constexpr std::uint64_t motions = bit_of(Action::rapid) | bit_of(Action::feed) | bit_of(Action::arc);
+  return (sorted.actions & ~motions) != 0 || !sorted.m.empty();
 }
 
 void check_can_move(const Block& block, const Reading& r) {
@@ -116,7 +122,7 @@ void check_reference(const Block& block, const Reading& r, const FoundG& referen
 
 /// Gives the axis words to the code that uses them.
 void apply_axis_words(const Block& block, Reading& r) {
-  if (!has_codes(r.sorted)) {
+  if (!has_other_codes(r.sorted)) {
     if (!r.state.entering_data && has_words_of_motion(r)) read_modal_move(block, r);
     return;
   }
@@ -185,10 +191,11 @@ Context context_of(const Reading& r) {
 void apply_words(const Block& block, Reading& r) {
   sort_words(r.program.file, r.dialect, block, context_of(r), r.sorted);
   read_program_number(block, r);
-  if (has_codes(r.sorted)) {
+  if (has_other_codes(r.sorted)) {
     apply_codes(block, r);
   } else {
     apply_feed_and_tool(r);
+    apply_motion(r);
     watch_other_axes(block, r);
   }
   if (r.dialect.sinumerik_words) apply_tool_edge(r);

@@ -3,9 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
-
 #include <array>
+#include <cmath>
 
 #include "counterflex/files/numbers.hpp"
 #include "program/scanner.hpp"
@@ -39,21 +38,22 @@ double value_of_many_digits(const Scanner& s, const Word& word, int digits) {
 /// A number begins at `at`; blanks inside it belong to it. Leaves `at` behind its last character. False where
 /// there is no digit.
 bool read_number_word(Scanner& s, Word& word) {
-  const std::size_t begin = s.at;
+  const char* const text = s.text.data();
+  const std::size_t begin = s.at, end = s.end;
   std::size_t last = begin;
-  bool started = false;
-  int digits = 0;
-  double mantissa = 0;
-  for (std::size_t i = begin; i < s.end; ++i) {
-    const char c = s.text[i];
+  bool started = false, point = false;
+  int digits = 0, decimals = 0;
+  std::uint64_t mantissa = 0;
+  for (std::size_t i = begin; i < end; ++i) {
+    const char c = text[i];
     if (is_digit(c)) {
       ++digits;
-      word.decimals += word.point ? 1 : 0;
-      mantissa = mantissa * 10 + (c - '0');
+      decimals += point ? 1 : 0;
+      mantissa = mantissa * 10 + static_cast<std::uint64_t>(c - '0');
     } else if (is_blank(c)) {
       continue;
-    } else if (c == '.' && !word.point) {
-      word.point = true;
+    } else if (c == '.' && !point) {
+      point = true;
     } else if (started || (c != '+' && c != '-')) {
       break;
     }
@@ -61,13 +61,16 @@ bool read_number_word(Scanner& s, Word& word) {
     last = i + 1;
   }
   word.number = {begin, last};
+  word.decimals = decimals;
+  word.point = point;
   s.at = last;
   if (digits == 0) return false;
   // Integers below 10^15 and these powers of ten are exact, so that the quotient is the nearest double.
   if (digits > 15) {
     word.value = value_of_many_digits(s, word, digits);
   } else {
-    const double size = mantissa / powers_of_ten[static_cast<std::size_t>(word.decimals)];
+    const double size = static_cast<double>(static_cast<std::int64_t>(mantissa)) /
+                        powers_of_ten[static_cast<std::size_t>(decimals)];
     word.value = s.text[begin] == '-' ? -size : size;
   }
   return true;

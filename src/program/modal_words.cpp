@@ -107,14 +107,14 @@ void set_motion(ModalState& state, MotionMode motion) {
   end_doubt(state, doubtful_motion);
 }
 
+}  // namespace
+
 void apply_motion(Reading& r) {
   if (r.sorted.has(Action::end_motion))
     set_motion(r.state, r.dialect.motion_ends_with_g80 ? MotionMode::cancelled : MotionMode::rapid);
   for (const FoundG& g : r.sorted.g)
     if (const auto motion = motion_of(g)) set_motion(r.state, *motion);
 }
-
-}  // namespace
 
 void apply_feed_and_tool(Reading& r) {
   const std::optional<LengthUnit> unit_before = r.state.unit;

@@ -10,4 +10,7 @@ void apply_feed_and_tool(Reading& reading);
 /// Plane, G90, G91, the form of centres, levels of cycles, stops, and the motion.
 void apply_modes(const Block& block, Reading& reading);
 
+/// The motion alone.
+void apply_motion(Reading& reading);
+
 }  // namespace counterflex

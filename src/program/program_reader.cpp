@@ -20,8 +20,11 @@ void shift_spans(Move& move, std::size_t bytes) {
     span.begin -= bytes;
     span.end -= bytes;
   };
-  const auto shift_word = [&](std::optional<AxisWord>& word) {
-    if (word) shift(word->number);
+  const auto shift_word = [&](auto& word) {
+    if (!word) return;
+    AxisWord moved = *word;
+    shift(moved.number);
+    word = moved;
   };
   shift(move.block);
   for (auto& word : move.words) shift_word(word);

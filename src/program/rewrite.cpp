@@ -63,9 +63,8 @@ struct Writing {
   Rewritten out{};
 };
 
-/// Copies what stands before byte `end`, where no move is. A motion word or the end of a program in it ends
-/// the doubt about the modal motion.
-void copy_until(std::size_t end, Writing& w) {
+/// A motion word or the end of a program before byte `end` ends the doubt about the modal motion.
+void end_doubt_until(std::size_t end, Writing& w) {
   const Dialect& dialect = *find_dialect(w.program.dialect);
   Block block;
   block.line_end.end = w.copied;
@@ -73,6 +72,11 @@ void copy_until(std::size_t end, Writing& w) {
     lex(w.program.text, w.program.file, dialect, block);
     if (block.span.begin < end && ends_motion(block, dialect)) w.state.restate_motion.reset();
   }
+}
+
+/// Copies what stands before byte `end`, where no move is.
+void copy_until(std::size_t end, Writing& w) {
+  if (w.state.restate_motion) end_doubt_until(end, w);
   w.out.text.append(w.program.text, w.copied, end - w.copied);
   w.copied = end;
 }
@@ -126,6 +130,7 @@ Rewritten Rewriter::write(const Program& window, const std::vector<MoveEdit>& ed
   if (first) state_->style = style_of(window);
   Writing w{window, *state_->style, state_->text};
   w.out.text.reserve(window.text.size() + window.text.size() / 8);
+  w.out.blocks_of_edit.reserve(edits.size());
   if (first) begin(options, w);
   std::size_t next = 0;
   for (const MoveEdit& edit : edits) {

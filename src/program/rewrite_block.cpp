@@ -140,10 +140,13 @@ bool is_written_alone(const Program& program, const MoveEdit& edit, const HeldPo
   const int motion = motion_of(move);
   const Step step = settle_step(move, before, {edit.end_mm, edit.centre_mm}, motion, Place::end, options);
   if (step.motion != motion) return false;
-  const Dialect& dialect = *find_dialect(program.dialect);
-  const bool changes = says_anew(step) || cycle.bottom.write || cycle.retract.write;
-  if (changes && may_doubt_integers(program, dialect)) return false;
-  if (!append_with_numbers(program, move, step, cycle, changes ? dialect.line_limit : 0, out)) return false;
+  std::size_t line_limit = 0;
+  if (says_anew(step) || cycle.bottom.write || cycle.retract.write) {
+    const Dialect& dialect = *find_dialect(program.dialect);
+    if (may_doubt_integers(program, dialect)) return false;
+    line_limit = dialect.line_limit;
+  }
+  if (!append_with_numbers(program, move, step, cycle, line_limit, out)) return false;
   state.held = step.after;
   doubt_skippable(move, before, state.held);
   return true;

@@ -6,25 +6,27 @@
 namespace counterflex {
 namespace {
 
-/// Numbers of a block that change, in the order of the text.
+/// Numbers of a block that change, in the order of the text; they live in the step and the cycle's words.
 struct NumberChanges {
   struct One {
-    Span span;
-    WordNumber to;
+    std::size_t begin, end;
+    const WordNumber* to;
   };
   std::array<One, 8> list;
   std::size_t count = 0;
   bool words_missing = false;
 
-  void add(const std::optional<AxisWord>& word, const WordNumber& number) {
+  template <typename OptionalWord>
+  void add(const OptionalWord& word, const WordNumber& number) {
     if (!number.write) return;
     if (!word) {
       words_missing = true;
       return;
     }
+    const Span span = word->number;
     std::size_t i = count++;
-    for (; i > 0 && list[i - 1].span.begin > word->number.begin; --i) list[i] = list[i - 1];
-    list[i] = {word->number, number};
+    for (; i > 0 && list[i - 1].begin > span.begin; --i) list[i] = list[i - 1];
+    list[i] = {span.begin, span.end, &number};
   }
 };
 
@@ -50,10 +52,10 @@ bool append_with_numbers(const Program& program, const Move& move, const Step& s
   const std::size_t line = out.text.size();
   std::size_t at = move.block.begin;
   for (std::size_t i = 0; i < changes.count; ++i) {
-    const auto& [span, to] = changes.list[i];
-    out.text.append(program.text, at, span.begin - at);
-    out.text += changed_number(part(program.text, span), to.value, to.decimals);
-    at = span.end;
+    const auto& [begin, end, to] = changes.list[i];
+    out.text.append(program.text, at, begin - at);
+    append_changed_number(part(program.text, {begin, end}), to->value, to->decimals, out.text);
+    at = end;
   }
   out.text.append(program.text, at, move.block.end - at);
   if (line_limit > 0 && out.text.size() - line > line_limit) {

@@ -41,4 +41,34 @@ inline std::string mould_program(std::size_t bytes) {
   return text + "G0 Z5.\nM30\n%\n";
 }
 
+/// About `bytes` of a finishing program with numbered blocks that say all there is: "N1230 G1 X.. Y.. Z..".
+inline std::string numbered_program(std::size_t bytes) {
+  std::string text =
+      "%\n(FINISH)\nN10 G21 G90 G94 G17\nN20 G54 S12000 M3\nN30 G0 X0. Y0. Z5.\nN40 G1 Z0. F1200\n";
+  text.reserve(bytes + 256);
+  for (int i = 1; text.size() < bytes; ++i)
+    fmt::format_to(std::back_inserter(text), "N{} G1 X{:.3f} Y{:.3f} Z{:.3f}{}\n", 40 + 10 * i,
+                   0.053 * (i % 2000) - 41, 0.1 * (i / 2000 % 1000) + 0.007 * (i % 13), -0.001 * (i % 1700),
+                   i % 500 == 0 ? " F1500" : "");
+  return text + "G0 Z5.\nM30\n%\n";
+}
+
+/// About `bytes` of trochoidal milling: every second block an arc, now and then a helical one or one with R.
+inline std::string arc_program(std::size_t bytes) {
+  std::string text = "%\n(SLOTS)\nG21 G90 G94 G17\nG54 S12000 M3\nG0 X0. Y0. Z5.\nG1 Z0. F1200\n";
+  text.reserve(bytes + 256);
+  for (int i = 1; text.size() < bytes; ++i) {
+    const double x = 0.25 * (i % 400), y = 0.1 * (i / 400 % 1000);
+    const auto out = std::back_inserter(text);
+    fmt::format_to(out, "G1 X{:.3f} Y{:.3f}\n", x, y);
+    if (i % 7 == 0)
+      fmt::format_to(out, "G2 X{:.3f} Y{:.3f} R2.5\n", x + 3, y + 4);
+    else if (i % 5 == 0)
+      fmt::format_to(out, "G3 X{:.3f} Y{:.3f} Z{:.3f} I-1.500 J2.000\n", x - 3, y + 4, -0.01 * (i % 50));
+    else
+      fmt::format_to(out, "G3 X{:.3f} Y{:.3f} I-1.500 J2.000\n", x - 3, y + 4);
+  }
+  return text + "G0 Z5.\nM30\n%\n";
+}
+
 }  // namespace counterflex::bench

@@ -1,4 +1,4 @@
-/// Reading and rewriting program text.
+/// Reading and rewriting program text: what a run does with every word besides solving.
 #include <benchmark/benchmark.h>
 
 #include "counterflex/program/read_program.hpp"
@@ -8,47 +8,80 @@
 namespace counterflex::bench {
 namespace {
 
-void read(benchmark::State& state) {
-  const std::string text = face_program(static_cast<int>(state.range(0)));
-  for (auto _ : state) benchmark::DoNotOptimize(read_program(text, "face.ngc", {}).moves.size());
-  state.SetBytesProcessed(static_cast<std::int64_t>(state.iterations() * text.size()));
-}
+constexpr std::size_t megabytes = 8'000'000;
 
-/// Every move gets a new end, and every tenth that may a point more.
-std::vector<MoveEdit> edits_of(const Program& program) {
+struct Text {
+  std::string name;
+  std::string (*make)(std::size_t bytes);
+};
+
+/// Every move to its place plus `shift`, and every tenth that may with a point more where `points`.
+std::vector<MoveEdit> edits_of(const Program& program, const Vector3& shift, bool points = false) {
   std::vector<MoveEdit> edits;
-  const Vector3 shift(0.123, -0.045, 0.067);
   for (std::size_t i = 0; i < program.moves.size(); ++i) {
     const Move& move = program.moves[i];
     edits.push_back({.move = i, .end_mm = move.end_mm + shift});
     if (move.arc) edits.back().centre_mm = move.arc->centre_mm + shift;
-    if (i % 10 == 0 && move.may_split && !move.arc)
+    if (points && i % 10 == 0 && move.may_split && !move.arc)
       edits.back().inserted.push_back({(move.start_mm + move.end_mm) / 2 + shift});
   }
   return edits;
 }
 
-void write(benchmark::State& state) {
-  const Program program = read_program(face_program(static_cast<int>(state.range(0))), "face.ngc", {});
-  const std::vector<MoveEdit> edits = edits_of(program);
-  for (auto _ : state) benchmark::DoNotOptimize(rewrite(program, edits, {}).text.size());
-  state.SetBytesProcessed(static_cast<std::int64_t>(state.iterations() * program.text.size()));
-}
-
-/// What a run does with text besides solving: every word goes through the reader and the writer.
-void read_and_write(benchmark::State& state) {
-  const std::string text = mould_program(static_cast<std::size_t>(state.range(0)) << 20);
-  const std::vector<MoveEdit> edits = edits_of(read_program(text, "mould.ngc", {}));
-  for (auto _ : state) {
-    const Program program = read_program(text, "mould.ngc", {});
-    benchmark::DoNotOptimize(rewrite(program, edits, {}).text.size());
-  }
+void count_bytes(benchmark::State& state, const std::string& text) {
   state.SetBytesProcessed(static_cast<std::int64_t>(state.iterations() * text.size()));
 }
 
-BENCHMARK(read)->Name("text/read")->Arg(1000)->Arg(100000)->Unit(benchmark::kMicrosecond);
-BENCHMARK(write)->Name("text/rewrite")->Arg(1000)->Arg(100000)->Unit(benchmark::kMicrosecond);
-BENCHMARK(read_and_write)->Name("text/read_and_rewrite_MiB")->Arg(50)->Unit(benchmark::kMillisecond);
+void read(benchmark::State& state, const Text& made) {
+  const std::string text = made.make(megabytes);
+  for (auto _ : state) benchmark::DoNotOptimize(read_program(text, "made.ngc", {}).moves.size());
+  count_bytes(state, text);
+}
+
+void read_and_rewrite(benchmark::State& state, const std::string& text, const std::vector<MoveEdit>& edits) {
+  for (auto _ : state) {
+    const Program program = read_program(text, "made.ngc", {});
+    benchmark::DoNotOptimize(rewrite(program, edits, {}).text.size());
+  }
+  count_bytes(state, text);
+}
+
+void copy(benchmark::State& state, const Text& made) {
+  read_and_rewrite(state, made.make(megabytes), {});
+}
+
+void rewrite_same(benchmark::State& state, const Text& made) {
+  const std::string text = made.make(megabytes);
+  read_and_rewrite(state, text, edits_of(read_program(text, "made.ngc", {}), Vector3::Zero()));
+}
+
+const Vector3 small_shift(0.123, -0.045, 0.067);
+
+void rewrite_shifted(benchmark::State& state, const Text& made) {
+  const std::string text = made.make(megabytes);
+  read_and_rewrite(state, text, edits_of(read_program(text, "made.ngc", {}), small_shift));
+}
+
+void rewrite_with_points(benchmark::State& state, const Text& made) {
+  const std::string text = made.make(megabytes);
+  read_and_rewrite(state, text, edits_of(read_program(text, "made.ngc", {}), small_shift, true));
+}
+
+const int registered = [] {
+  for (const Text& text :
+       {Text{"numbered", numbered_program}, Text{"terse", mould_program}, Text{"arcs", arc_program}}) {
+    const auto add = [&](const char* what, void (*run)(benchmark::State&, const Text&)) {
+      benchmark::RegisterBenchmark(("text/" + text.name + "/" + what).c_str(), run, text)
+          ->Unit(benchmark::kMillisecond);
+    };
+    add("read", read);
+    add("read+copy", copy);
+    add("read+rewrite_same", rewrite_same);
+    add("read+rewrite_shifted", rewrite_shifted);
+    add("read+rewrite_points", rewrite_with_points);
+  }
+  return 0;
+}();
 
 }  // namespace
 }  // namespace counterflex::bench

@@ -18,7 +18,7 @@ void compensate_face(benchmark::State& state) {
   CompensationOptions options;
   options.max_correction = 5e-3;
   options.threads = static_cast<int>(state.range(0));
-  const Job job{model, program, path, forces, Pose{}, Vector3::Zero(), options, {}};
+  const Job job{model, program, path, forces, options, {}};
   std::size_t waypoints = 0;
   for (auto _ : state) {
     const Compensation result = compensate(job, false);

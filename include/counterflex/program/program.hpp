@@ -4,12 +4,14 @@
 /// converted to mm.
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "counterflex/geometry/types.hpp"
+#include "counterflex/program/rare.hpp"
 
 namespace counterflex {
 
@@ -19,7 +21,7 @@ struct Span {
   std::size_t end = 0;
 };
 
-enum class LengthUnit { millimetres, inches };
+enum class LengthUnit : std::uint8_t { millimetres, inches };
 
 /// What a length word without a point means: `unsaid` reads it in units, but a block that holds such a word
 /// and must be rewritten is refused where the dialect knows both readings; `increments` are 0.001 mm or
@@ -32,11 +34,39 @@ struct AxisWord {
   int decimals = 0;  ///< digits after the point
 };
 
+/// An `AxisWord` or nothing, as `std::optional`, in half the room: every move has three.
+class PackedAxisWord {
+ public:
+  PackedAxisWord() = default;
+  PackedAxisWord(std::nullopt_t) {}
+  PackedAxisWord(const AxisWord& word)
+      : begin_(word.number.begin),
+        length_(static_cast<std::uint32_t>(word.number.end - word.number.begin)),
+        decimals_(word.decimals) {}
+
+  struct Pointer {
+    AxisWord word;
+    const AxisWord* operator->() const { return &word; }
+  };
+
+  bool has_value() const { return length_ != 0; }  ///< a number has a digit
+  explicit operator bool() const { return has_value(); }
+  AxisWord operator*() const { return {{begin_, begin_ + length_}, decimals_}; }
+  Pointer operator->() const { return {**this}; }
+  operator std::optional<AxisWord>() const { return has_value() ? std::optional(**this) : std::nullopt; }
+  void reset() { length_ = 0; }
+
+ private:
+  std::size_t begin_ = 0;
+  std::uint32_t length_ = 0;
+  std::int32_t decimals_ = 0;
+};
+
 /// How a move goes: a feed move is a line unless it holds an arc.
-enum class Motion { rapid, feed };
+enum class Motion : std::uint8_t { rapid, feed };
 
 /// What F means: a length a minute (turns of the spindle are converted), or G93, moves a minute.
-enum class FeedMode { length, inverse_time };
+enum class FeedMode : std::uint8_t { length, inverse_time };
 
 /// The arc of a feed move under G2 or G3, in program coordinates, mm. Start and end are the move's.
 struct ArcMove {
@@ -68,7 +98,7 @@ struct CycleMove {
 };
 
 /// How a move is corrected.
-enum class Handling {
+enum class Handling : std::uint8_t {
   own,    ///< by the correction of its own end
   held,   ///< it keeps the correction with which it is entered: a rigid shift of its absolute words
   group,  ///< by the one shift of its contour group under G41 or G42
@@ -83,39 +113,40 @@ inline bool all_known(const std::array<bool, 3>& known) {
 /// it in a way that this reader does not follow: then all it says is `fixed` and what is unknown afterwards.
 struct Move {
   int line = 0;
-  std::size_t block_index = 0;  ///< counts the program's blocks with words, from 0
-  Span block;                   ///< the whole line, without its line end
-  Motion motion = Motion::rapid;
-  LengthUnit unit = LengthUnit::millimetres;
-  std::array<std::optional<AxisWord>, 3> words;  ///< X, Y, Z where the block has them
-  std::array<bool, 3> known_start{};             ///< whether the position before the move is known, by axis
-  std::array<bool, 3> known_end{};               ///< and after it
-  std::array<bool, 3> ignored{};                 ///< axes that nobody corrects: no word is inserted for them
-  std::array<bool, 3> fixed{};  ///< axes that the block sets to a place of its own which no edit can shift
-                                ///< (an expression, a subprogram): a correction that holds there must be zero
-  bool relative = false;        ///< G91: words are differences from the start
-  Handling handling = Handling::own;
-  int group = 0;  ///< number of its contour group, from 1; 0: none
-  std::optional<ArcMove> arc;
-  std::optional<CycleMove> cycle;
+  int group = 0;                        ///< number of its contour group, from 1; 0: none
+  std::size_t block_index = 0;          ///< counts the program's blocks with words, from 0
+  Span block;                           ///< the whole line, without its line end
+  std::array<PackedAxisWord, 3> words;  ///< X, Y, Z where the block has them
   Vector3 start_mm = Vector3::Zero();
   Vector3 end_mm = Vector3::Zero();
+  Rare<ArcMove> arc;
+  Rare<CycleMove> cycle;
+  Rare<Vector6> force;               ///< modal (FORCE ...) comment, (N, N m) on the tool, machine frame; zero
+                                     ///< after (FORCE OFF); a comment acts from the block that holds it
   double feed_mm_min = 0;            ///< modal F; 0 where none has been programmed
+  double feed_per_min = 0;           ///< F of a G93 move: 1/min
   double spindle_rpm = 0;            ///< modal S
   std::optional<long> block_number;  ///< N
   std::size_t offset = 0;            ///< index into Program::work_offsets
   long tool = 0;                     ///< T in the spindle; 0: none known
+  Motion motion = Motion::rapid;
+  LengthUnit unit = LengthUnit::millimetres;
   FeedMode feed_mode = FeedMode::length;
-  double feed_per_min = 0;       ///< F of a G93 move: 1/min
-  std::optional<Vector6> force;  ///< modal (FORCE ...) comment, (N, N m) on the tool, machine frame; zero
-                                 ///< after (FORCE OFF); a comment acts from the block that holds it
-  bool block_delete = false;     ///< a '/' block: what it sets is unknown to the blocks after it
-  bool exact_stop = false;       ///< the control stops at the end (G9, G61 of Fanuc, G61.1 of LinuxCNC)
+  Handling handling = Handling::own;
+  std::array<bool, 3> known_start{};  ///< whether the position before the move is known, by axis
+  std::array<bool, 3> known_end{};    ///< and after it
+  std::array<bool, 3> ignored{};      ///< axes that nobody corrects: no word is inserted for them
+  std::array<bool, 3> fixed{};  ///< axes that the block sets to a place of its own which no edit can shift
+                                ///< (an expression, a subprogram): a correction that holds there must be zero
+  bool relative = false;        ///< G91: words are differences from the start
+  bool block_delete = false;    ///< a '/' block: what it sets is unknown to the blocks after it
+  bool exact_stop = false;      ///< the control stops at the end (G9, G61 of Fanuc, G61.1 of LinuxCNC)
   bool may_split =
       false;  ///< points may be inserted: a feed move, no exact stop, no word that acts at its end
   bool may_jump = false;  ///< a feed move may be inserted before it: start and feed are known, no exact stop
   bool may_insert_words = true;  ///< axis words may be inserted; not into a block with G43, G44 or G49
 };
+static_assert(sizeof(Move) <= 232, "programs have millions of moves");
 
 /// A block that is not corrected, and why.
 struct LeftAlone {
