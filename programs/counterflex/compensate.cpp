@@ -8,6 +8,17 @@ bool is_reported(const std::optional<Failure>& failure) {
   return !failure || failure->exit == Exit::not_compensated || failure->exit == Exit::limit;
 }
 
+RunTally tally_of(const Run& run, Compensation& result) {
+  RunTally tally(run.facts.min_block_ms);
+  tally.add_forces(*run.forces);
+  tally.add_compensation(result);
+  tally.add_waypoints(result.waypoints);
+  if (result.text.empty()) return tally;
+  ignore_axes(result.corrected, run.ignored);
+  tally.add_corrected(result.corrected);
+  return tally;
+}
+
 }  // namespace
 
 Exit run_compensate(const Options& options, Console& console) {
@@ -17,12 +28,12 @@ Exit run_compensate(const Options& options, Console& console) {
   run->options.write.header = header_of(*run);
   const Job job = run->job();
   console.progress("solving");
-  const Compensation result = compensate(job, run->facts.attribution);
+  Compensation result = compensate(job, run->facts.attribution);
   for (const LeftAlone& block : result.left_alone)
     console.warning(job.program.file, block.line, "not corrected: " + block.why);
   if (!result.failure) run->facts.output = paths.program;
   if (is_reported(result.failure)) {
-    const RunReport report = report_compensation(run->machine.machine, job, run->facts, result);
+    const RunReport report = report_compensation(run->context(), tally_of(*run, result), result.failure);
     deliver(options, paths, report, result.waypoints, result.failure ? nullptr : &result.text, console);
   }
   if (!result.failure) return Exit::done;

@@ -16,8 +16,10 @@ Exit run_predict(const Options& options, Console& console) {
   console.progress("solving");
   const ForwardRun forward = solve_forward_along(job, original_pieces(job, spacing),
                                                  {.before = true, .attribution = true, .inside = false});
-  const RunReport report =
-      report_prediction(run->machine.machine, job, run->facts, forward.waypoints, forward.failure);
+  RunTally tally(run->facts.min_block_ms);
+  tally.add_forces(*run->forces);
+  tally.add_waypoints(forward.waypoints);
+  const RunReport report = report_prediction(run->context(), tally, forward.failure);
   deliver(options, paths, report, forward.waypoints, nullptr, console);
   if (!forward.failure) return Exit::done;
   console.error(located(job.program.file, *forward.failure));

@@ -141,6 +141,10 @@ Job Run::job() const {
   return {machine.model, program.program, path, *forces, options, read};
 }
 
+RunContext Run::context() const {
+  return {machine.machine, options, path.frames, overview, facts};
+}
+
 std::unique_ptr<Run> prepare_run(const Options& options, Console& console) {
   refuse_stdin_twice(options);
   console.progress("reading");
@@ -154,6 +158,7 @@ std::unique_ptr<Run> prepare_run(const Options& options, Console& console) {
   run->work = place_work(run->machine.machine, run->machine.model, shown_name(options.machine), program);
   run->ignored = uncontrolled_axes(run->machine.machine, run->work.frames);
   ignore_axes(run->program.program, run->ignored);
+  run->overview = overview_of(program);
   run->path = build_toolpath(program, run->work.frames);
   refuse_uncontrolled_moves(*run);
   const ForceSource& source = run->force_input.source;
@@ -184,7 +189,9 @@ void deliver(const Options& options, const OutputPaths& paths, const RunReport& 
   const CsvColumns columns{true, report.command != counterflex::Command::predict};
   std::vector<OutputFile> files;
   if (!paths.report_json.empty()) files.push_back({paths.report_json, to_json(report)});
-  if (!paths.report_csv.empty()) files.push_back({paths.report_csv, to_csv(waypoints, columns)});
+  std::size_t next_row = 0;
+  if (!paths.report_csv.empty())
+    files.push_back({paths.report_csv, csv_header() + csv_rows(waypoints, columns, next_row)});
   if (program != nullptr) files.push_back({paths.program, *program});
   write_files(files);
   console.finish_warnings();

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "console.hpp"
+#include "counterflex/report/run_tally.hpp"
 #include "inputs.hpp"
 #include "options.hpp"
 #include "outputs.hpp"
@@ -23,8 +24,10 @@ struct Run {
   CompensationOptions options;
   ReadOptions read;  ///< with which the program was read
   RunFacts facts;
+  Overview overview;  ///< of the program, its ignored axes made known
 
   Job job() const;
+  RunContext context() const;
 };
 
 /// Reads everything and warns of what was remarked. Throws `InputError`; nothing has been written then.

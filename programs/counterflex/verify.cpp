@@ -17,8 +17,12 @@ Exit run_verify(const Options& options, Console& console) {
   const ForwardRun forward =
       solve_forward_along(job, pieces, {.before = true, .attribution = true, .inside = true});
   const auto failure = forward.failure ? forward.failure : tolerance_failure(job, forward.waypoints);
-  const RunReport report = report_verification(run->machine.machine, job, run->facts, corrected.program,
-                                               forward.waypoints, failure);
+  RunTally tally(run->facts.min_block_ms);
+  tally.add_forces(*run->forces);
+  tally.add_waypoints(forward.waypoints);
+  tally.add_corrected(corrected.program);
+  const RunReport report =
+      report_verification(run->context(), tally, overview_of(corrected.program), failure);
   deliver(options, paths, report, forward.waypoints, nullptr, console);
   if (!failure) return Exit::done;
   console.error(located(job.program.file, *failure));

@@ -90,8 +90,8 @@ Compensation compensate(const Job& job, bool attribution) {
       emission.moves.begin(), emission.moves.end(), [](const EmittedMove& move) { return !move.in_part; }));
   result.counts = rewrite(job.program, edits_of(emission), job.options.write);
   result.text = std::move(result.counts.text);
-  const Program corrected = read_program(result.text, job.program.file, job.read);
-  const std::vector<Piece> pieces = emitted_pieces(job, emission, result.counts, corrected);
+  result.corrected = read_program(result.text, job.program.file, job.read);
+  const std::vector<Piece> pieces = emitted_pieces(job, emission, result.counts, result.corrected);
   ForwardRun verified = solve_forward_along(job, pieces, {true, attribution, true});
   result.waypoints = std::move(verified.waypoints);
   result.failure = verified.failure ? verified.failure : tolerance_failure(job, result.waypoints);

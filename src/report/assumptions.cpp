@@ -30,9 +30,9 @@ std::string place(const Pose& X) {
 namespace {
 
 // Frames of offsets that were used, each once.
-std::vector<const WorkFrame*> named_frames(const Job& job) {
+std::vector<const WorkFrame*> named_frames(const std::vector<WorkFrame>& all) {
   std::vector<const WorkFrame*> frames;
-  for (const WorkFrame& frame : job.path.frames) {
+  for (const WorkFrame& frame : all) {
     const bool known =
         std::any_of(frames.begin(), frames.end(), [&](const WorkFrame* f) { return f->name == frame.name; });
     if (!frame.name.empty() && !known) frames.push_back(&frame);
@@ -42,9 +42,9 @@ std::vector<const WorkFrame*> named_frames(const Job& job) {
 
 }  // namespace
 
-std::string work_in_words(const Machine& machine, const Job& job) {
+std::string work_in_words(const Machine& machine, const std::vector<WorkFrame>& frames) {
   std::string text;
-  for (const WorkFrame* frame : named_frames(job))
+  for (const WorkFrame* frame : named_frames(frames))
     text += fmt::format("{}{} puts the program's origin at {}.", text.empty() ? "" : " ", frame->name,
                         place(frame->X_MW));
   if (!text.empty()) return text;
@@ -89,10 +89,10 @@ std::string true_in_words(const std::vector<const WorkFrame*>& frames, bool all)
 
 }  // namespace
 
-std::string datum_in_words(const Machine& machine, const Job& job) {
+std::string datum_in_words(const Machine& machine, const std::vector<WorkFrame>& frames) {
   std::string text;
   std::vector<const WorkFrame*> true_frames;
-  for (const WorkFrame* frame : named_frames(job)) {
+  for (const WorkFrame* frame : named_frames(frames)) {
     if (touched_off(machine, *frame))
       text.append(text.empty() ? "" : " ").append(touched_in_words(machine, *frame));
     else

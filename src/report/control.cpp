@@ -4,7 +4,6 @@
 
 #include <algorithm>
 
-#include "counterflex/files/input_error.hpp"
 #include "counterflex/files/numbers.hpp"
 
 namespace counterflex {
@@ -13,23 +12,9 @@ namespace {
 // Plunges to one rapid, from which on the post has probably turned rapids into feed moves.
 constexpr std::size_t suspicious_plunges = 3;
 
-bool is_plunge(const Move& move) {
-  return move.motion == Motion::feed && !move.arc && !move.cycle && all_known(move.known_start) &&
-         all_known(move.known_end) && move.start_mm.head<2>() == move.end_mm.head<2>() &&
-         move.end_mm.z() < move.start_mm.z();
-}
-
-/// The corrected program as the control reads it; nothing where the text is not one.
-std::optional<Program> read_again(const Job& job, const std::string& text) {
-  try {
-    ReadOptions read = job.read;
-    read.dialect = job.program.dialect;
-    Program program = read_program(text, job.program.file, read);
-    if (!job.program.moves.empty()) ignore_axes(program, job.program.moves.front().ignored);
-    return program;
-  } catch (const InputError&) {
-    return std::nullopt;
-  }
+/// How long a feed move takes at its programmed feed (ms); 0: no time is known.
+double duration_ms(const Segment& segment) {
+  return segment.cutting && segment.feed_m_s > 0 ? 1e3 * (length(segment.wanted) / segment.feed_m_s) : 0;
 }
 
 std::string shown(double value, int decimals) {
@@ -76,32 +61,19 @@ Remark plunge_warning(const ControlFacts& control) {
 
 }  // namespace
 
-ShortBlocks short_blocks(const Program& program, double limit_ms) {
-  ShortBlocks blocks;
-  blocks.limit_ms = limit_ms;
-  for (const Segment& segment : build_toolpath(program, one_frame(program, {})).segments) {
-    const double ms = 1e3 * (segment.t_end - segment.t_start);
-    if (ms <= 0 || ms >= limit_ms) continue;
+void add_short_blocks(ShortBlocks& blocks, const Program& window) {
+  for (const Segment& segment : build_toolpath(window, one_frame(window, {})).segments) {
+    const double ms = duration_ms(segment);
+    if (ms <= 0 || ms >= blocks.limit_ms) continue;
     if (blocks.count++ == 0) blocks.first_line = segment.line;
     if (blocks.count > 1 && ms >= blocks.shortest_ms) continue;
     blocks.shortest_ms = ms;
     blocks.shortest_line = segment.line;
   }
-  return blocks;
 }
 
-ControlFacts control_facts(const Job& job, const RunFacts& facts, const std::string* corrected) {
-  ControlFacts control;
-  control.tolerances = job.program.path_tolerances;
-  for (const Move& move : job.program.moves) {
-    control.plunges += is_plunge(move);
-    control.rapids += move.motion == Motion::rapid;
-  }
-  if (corrected == nullptr) return control;
-  control.lines = line_lengths(*corrected, job.program.dialect);
-  if (const auto again = read_again(job, *corrected))
-    control.short_blocks = short_blocks(*again, facts.min_block_ms);
-  return control;
+ControlFacts control_facts(const Overview& program, const RunTally& tally) {
+  return {tally.short_blocks(), tally.lines(), program.path_tolerances, program.plunges, program.rapids};
 }
 
 std::vector<Remark> control_warnings(const ControlFacts& control, const std::optional<Largest>& correction) {

@@ -2,15 +2,15 @@
 /// What a control may make of a program: blocks too short in time, lines too long, paths smoothed.
 #include <vector>
 
-#include "counterflex/report/report.hpp"
+#include "counterflex/report/run_tally.hpp"
 
 namespace counterflex {
 
-/// Feed moves of `program` that take less than `limit_ms` at programmed feeds.
-ShortBlocks short_blocks(const Program& program, double limit_ms);
+/// Adds the feed moves of a window that take less than the limit of `blocks` at programmed feeds.
+void add_short_blocks(ShortBlocks& blocks, const Program& window);
 
-/// Of the original program and, where one was written, of `corrected`, its text.
-ControlFacts control_facts(const Job& job, const RunFacts& facts, const std::string* corrected);
+/// Of the original program and, where one was written, of the corrected one.
+ControlFacts control_facts(const Overview& program, const RunTally& tally);
 
 /// What of it is worth a warning; `correction` is the largest one (none: not known).
 std::vector<Remark> control_warnings(const ControlFacts& control, const std::optional<Largest>& correction);

@@ -5,44 +5,26 @@
 #include "assumptions.hpp"
 #include "control.hpp"
 #include "counterflex/geometry/units.hpp"
-#include "measure.hpp"
+#include "counterflex/report/run_tally.hpp"
 
 namespace counterflex {
 
 namespace {
 
-constexpr std::size_t worst_rows = 10;
-
-// Ordered by line; what has none (0) comes first.
-template <typename T>
-Capped<T> listed(std::vector<T> all) {
-  std::stable_sort(all.begin(), all.end(), [](const T& a, const T& b) { return a.line < b.line; });
-  Capped<T> list;
-  list.count = all.size();
-  all.resize(std::min(all.size(), listed_at_most));
-  list.rows = std::move(all);
-  return list;
-}
-
-std::vector<WorstRow> worst(std::vector<WorstRow> rows, double WorstRow::*key) {
-  const auto worse = [&](const WorstRow& a, const WorstRow& b) { return a.*key > b.*key; };
-  std::stable_sort(rows.begin(), rows.end(), worse);
-  rows.resize(std::min(rows.size(), worst_rows));
-  return rows;
-}
-
-std::vector<Remark> all_warnings(const Job& job, const RunReport& report) {
-  std::vector<Remark> all = report.facts.warnings;
-  all.insert(all.end(), job.program.remarks.begin(), job.program.remarks.end());
-  for (const ForceNote& note : job.forces.notes()) all.push_back({note.line, note.what});
-  const auto of_control = control_warnings(report.control, report.correction);
-  all.insert(all.end(), of_control.begin(), of_control.end());
+Capped<Remark> all_warnings(const RunContext& context, const RunTally& tally, const RunReport& report) {
+  Capped<Remark> all;
+  for (const Remark& warning : context.facts.warnings) list(all, warning);
+  for (const Remark& remark : context.program.remarks) list(all, remark);
+  list(all, tally.force_notes());
+  for (const Remark& warning : control_warnings(report.control, report.correction)) list(all, warning);
   return all;
 }
 
-ForceSummary force_summary(const Job& job, const Measures& measures) {
-  return {measures.largest_N, measures.largest_Nm, job.forces.ramps(), job.forces.jumps(),
-          job.forces.largest_step_N()};
+ForceSummary force_summary(const RunTally& tally, const Measures& measures) {
+  ForceSummary forces = tally.forces();
+  forces.largest_N = measures.largest_N;
+  forces.largest_Nm = measures.largest_Nm;
+  return forces;
 }
 
 // A run that failed before anything was solved has no deviations; zeros would look like perfection.
@@ -52,84 +34,74 @@ std::optional<DeviationStatistics> known(const DeviationTally& tally, const std:
 }
 
 // What all commands report alike.
-RunReport common(const Machine& machine, const Job& job, const RunFacts& facts, const Measures& measures,
+RunReport common(const RunContext& context, const RunTally& tally, const Measures& measures,
                  const std::optional<Failure>& failure) {
   RunReport report;
-  report.facts = facts;
+  report.facts = context.facts;
   report.failure = failure;
-  report.machine = machine.name;
-  report.method = job.options.method;
-  report.tolerance_mm = job.options.tolerance / mm;
+  report.machine = context.machine.name;
+  report.method = context.options.method;
+  report.tolerance_mm = context.options.tolerance / mm;
   report.path_mm = measures.path_mm;
   report.before = known(measures.before, failure);
-  if (facts.attribution && report.before)
+  if (context.facts.attribution && report.before)
     report.sources = Sources{measures.geometry.statistics(), measures.load.statistics(),
                              measures.superposition.statistics()};
-  report.blocks.total = job.program.block_count;
-  report.blocks.moves = job.program.moves.size();
-  report.text_before = {job.program.block_count, job.program.text.size()};
-  report.forces = force_summary(job, measures);
-  report.work = work_in_words(machine, job);
-  report.datum = datum_in_words(machine, job);
+  report.blocks.total = context.program.blocks;
+  report.blocks.moves = context.program.moves;
+  report.blocks.left_alone = context.program.left_alone;
+  report.text_before = {context.program.blocks, context.program.bytes};
+  report.forces = force_summary(tally, measures);
+  report.control = control_facts(context.program, tally);
+  report.work = work_in_words(context.machine, context.frames);
+  report.datum = datum_in_words(context.machine, context.frames);
   return report;
 }
 
-// Once everything else is known.
-void add_control(RunReport& report, const Job& job, const std::string* corrected) {
-  report.control = control_facts(job, report.facts, corrected);
-  report.warnings = listed(all_warnings(job, report));
-}
-
-void add_residual(RunReport& report, const Measures& measures) {
+void add_residual(RunReport& report, const RunTally& tally, const Measures& measures) {
   report.after = known(measures.after, report.failure);
   if (report.facts.attribution && report.after) report.air = measures.air;
-  report.correction = measures.correction;
-  report.worst = worst(measures.by_line, &WorstRow::after_mm);
+  report.worst = tally.path().worst(&WorstRow::after_mm);
 }
 
 }  // namespace
 
-RunReport report_prediction(const Machine& machine, const Job& job, const RunFacts& facts,
-                            const std::vector<Waypoint>& waypoints, const std::optional<Failure>& failure) {
-  const Measures measures = measure(waypoints);
-  RunReport report = common(machine, job, facts, measures, failure);
+RunReport report_prediction(const RunContext& context, const RunTally& tally,
+                            const std::optional<Failure>& failure) {
+  RunReport report = common(context, tally, tally.path().measures(), failure);
   report.command = Command::predict;
-  report.worst = worst(measures.by_line, &WorstRow::before_mm);
-  report.blocks.left_alone = listed(job.program.left_alone);
-  add_control(report, job, nullptr);
+  report.worst = tally.path().worst(&WorstRow::before_mm);
+  report.warnings = all_warnings(context, tally, report);
   return report;
 }
 
-RunReport report_compensation(const Machine& machine, const Job& job, const RunFacts& facts,
-                              const Compensation& compensation) {
-  const Measures measures = measure(compensation.waypoints);
-  RunReport report = common(machine, job, facts, measures, compensation.failure);
-  report.command = Command::compensate;
-  add_residual(report, measures);
-  report.correction = Largest{compensation.largest_correction / mm, compensation.largest_correction_line};
-  report.blocks.corrected = compensation.corrected_moves;
-  report.blocks.inserted = compensation.counts.inserted_blocks;
-  std::vector<LeftAlone> left_alone = job.program.left_alone;
-  left_alone.insert(left_alone.end(), compensation.left_alone.begin(), compensation.left_alone.end());
-  report.blocks.left_alone = listed(std::move(left_alone));
-  if (!compensation.text.empty())
-    report.text_after = TextSize{job.program.block_count + report.blocks.inserted, compensation.text.size()};
-  add_control(report, job, compensation.text.empty() ? nullptr : &compensation.text);
-  return report;
-}
-
-RunReport report_verification(const Machine& machine, const Job& job, const RunFacts& facts,
-                              const Program& corrected, const std::vector<Waypoint>& waypoints,
+RunReport report_compensation(const RunContext& context, const RunTally& tally,
                               const std::optional<Failure>& failure) {
-  const Measures measures = measure(waypoints);
-  RunReport report = common(machine, job, facts, measures, failure);
+  const Measures measures = tally.path().measures();
+  RunReport report = common(context, tally, measures, failure);
+  report.command = Command::compensate;
+  add_residual(report, tally, measures);
+  report.correction = tally.largest_correction();
+  report.blocks.corrected = tally.corrected_moves();
+  report.blocks.inserted = tally.inserted_blocks();
+  list(report.blocks.left_alone, tally.left_alone());
+  if (tally.text_bytes() > 0)
+    report.text_after = TextSize{context.program.blocks + report.blocks.inserted, tally.text_bytes()};
+  report.warnings = all_warnings(context, tally, report);
+  return report;
+}
+
+RunReport report_verification(const RunContext& context, const RunTally& tally, const Overview& corrected,
+                              const std::optional<Failure>& failure) {
+  const Measures measures = tally.path().measures();
+  RunReport report = common(context, tally, measures, failure);
   report.command = Command::verify;
-  add_residual(report, measures);
+  add_residual(report, tally, measures);
+  report.correction = measures.correction;
   report.blocks.corrected = measures.segments_changed;
-  report.blocks.inserted = corrected.block_count - std::min(corrected.block_count, job.program.block_count);
-  report.blocks.left_alone = listed(job.program.left_alone);
-  report.text_after = TextSize{corrected.block_count, corrected.text.size()};
-  add_control(report, job, &corrected.text);
+  report.blocks.inserted = corrected.blocks - std::min(corrected.blocks, context.program.blocks);
+  report.text_after = TextSize{corrected.blocks, corrected.bytes};
+  report.warnings = all_warnings(context, tally, report);
   return report;
 }
 

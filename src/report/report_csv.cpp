@@ -13,15 +13,6 @@ constexpr int length_digits = 7, angle_digits = 7, path_digits = 6, wrench_digit
 constexpr std::array deviation_names = {"dx_mm", "dy_mm", "dz_mm", "drx_deg", "dry_deg", "drz_deg"};
 constexpr std::array prefixes = {"before_", "geometry_", "load_", "superposition_", "after_", "air_"};
 
-std::string header() {
-  std::string row = "index,line,cutting,s_mm,x_mm,y_mm,z_mm,fx_N,fy_N,fz_N,mx_Nm,my_Nm,mz_Nm";
-  for (const char* prefix : prefixes)
-    for (const char* name : deviation_names) row.append(",").append(prefix).append(name);
-  for (const char* name : {"x_mm", "y_mm", "z_mm", "rx_deg", "ry_deg", "rz_deg"})
-    row.append(",correction_").append(name);
-  return row + ",status,iterations\n";
-}
-
 void add(std::string& row, double value, int digits) {
   row += ',';
   row += format_fixed(value, digits);
@@ -56,11 +47,20 @@ void add_row(std::string& text, std::size_t index, const Waypoint& w, const CsvC
 
 }  // namespace
 
-std::string to_csv(const std::vector<Waypoint>& waypoints, const CsvColumns& columns) {
-  std::string text = header();
-  std::size_t index = 0;
+std::string csv_header() {
+  std::string row = "index,line,cutting,s_mm,x_mm,y_mm,z_mm,fx_N,fy_N,fz_N,mx_Nm,my_Nm,mz_Nm";
+  for (const char* prefix : prefixes)
+    for (const char* name : deviation_names) row.append(",").append(prefix).append(name);
+  for (const char* name : {"x_mm", "y_mm", "z_mm", "rx_deg", "ry_deg", "rz_deg"})
+    row.append(",correction_").append(name);
+  return row + ",status,iterations\n";
+}
+
+std::string csv_rows(const std::vector<Waypoint>& waypoints, const CsvColumns& columns,
+                     std::size_t& next_index) {
+  std::string text;
   for (const Waypoint& w : waypoints)
-    if (!w.between) add_row(text, index++, w, columns);
+    if (!w.between) add_row(text, next_index++, w, columns);
   return text;
 }
 

@@ -19,7 +19,7 @@ RunReport report_on(const std::string& original, const std::string& text, double
   Compensation c;
   c.text = text;
   c.largest_correction = correction_mm * mm;
-  return report_compensation(run.machine, run.job, run.facts, c);
+  return compensated(run, c);
 }
 
 /// The warnings that have `part` in them.
@@ -53,7 +53,7 @@ TEST_CASE("the time of a short block is the caller's choice, and without one the
   run.facts.min_block_ms = 0.5;
   Compensation c;
   c.text = start + "G1 X0.015 F600\n";
-  const RunReport report = report_compensation(run.machine, run.job, run.facts, c);
+  const RunReport report = compensated(run, c);
   CHECK(report.control.short_blocks->count == 0);
   CHECK(warnings_with(report, "take").empty());
 }

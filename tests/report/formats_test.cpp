@@ -15,7 +15,7 @@ namespace {
 
 Compensation small_compensation() {
   Compensation c;
-  c.text = "G1 X1\n";
+  c.text = "G21 G0 X1\n";
   c.waypoints = {cut(1, 4, 100, Vector3(0, 0.3, -0.4))};
   c.left_alone = {{5, "exact stop: not split"}};
   c.counts.inserted_blocks = 2;
@@ -32,11 +32,16 @@ std::vector<std::string> lines_of(const std::string& text) {
   return lines;
 }
 
+std::string csv_of(const std::vector<Waypoint>& waypoints, const CsvColumns& columns) {
+  std::size_t next_index = 0;
+  return csv_header() + csv_rows(waypoints, columns, next_index);
+}
+
 }  // namespace
 
 TEST_CASE("the JSON of a compensation has every key, in this order") {
   const MadeUpRun run;
-  const RunReport report = report_compensation(run.machine, run.job, run.facts, small_compensation());
+  const RunReport report = compensated(run, small_compensation());
   const std::string hash_a(64, 'a'), hash_b(64, 'b');
   CHECK(to_json(report) == R"({
   "schema": "counterflex-report 1",
@@ -157,13 +162,19 @@ TEST_CASE("the JSON of a compensation has every key, in this order") {
     "blocks_before": 6,
     "blocks_after": 8,
     "bytes_before": 65,
-    "bytes_after": 6
+    "bytes_after": 10
   },
   "control": {
-    "short_blocks": null,
+    "short_blocks": {
+      "limit_ms": 2.0,
+      "count": 0,
+      "first_line": null,
+      "shortest_ms": null,
+      "shortest_line": null
+    },
     "lines": {
       "limit": 255,
-      "longest": 5,
+      "longest": 9,
       "longest_line": 1,
       "near_limit": 0
     },
@@ -192,16 +203,17 @@ TEST_CASE("the JSON of a failure says so, and holds null where nothing was solve
   const MadeUpRun run;
   Compensation none;
   none.failure = Failure{Exit::limit, 4, "too far"};
-  const std::string json = to_json(report_compensation(run.machine, run.job, run.facts, none));
+  const std::string json = to_json(compensated(run, none));
   CHECK(contains(json, "\"failure\": {\n    \"exit\": 6,\n    \"line\": 4,\n    \"what\": \"too far\"\n  }"));
   CHECK(contains(json, "\"before\": null,\n    \"after\": null,\n    \"sources\": null,\n    \"air\": null"));
   CHECK(contains(json, "\"largest_N\": null"));
+  CHECK(contains(json, "\"short_blocks\": null,\n    \"lines\": null"));
 }
 
 TEST_CASE("text that is no UTF-8 does not spoil the JSON") {
   MadeUpRun run;
   run.facts.warnings = {{1, "comment \xff"}};
-  const std::string json = to_json(report_prediction(run.machine, run.job, run.facts, {}, {}));
+  const std::string json = to_json(predicted(run, {}));
   CHECK(contains(json, "comment \xEF\xBF\xBD"));
 }
 
@@ -211,7 +223,7 @@ TEST_CASE("the CSV has the documented columns and a row for every waypoint that 
   waypoints[1].s = 0.1;
   waypoints[1].p_MT = Vector3(0.001, 0.002, -0.003);
   waypoints[1].before.tail<3>() = Vector3(0.5, -0.25, 0) * deg;
-  const auto lines = lines_of(to_csv(waypoints, {}));
+  const auto lines = lines_of(csv_of(waypoints, {}));
   REQUIRE(lines.size() == 2);
   CHECK(
       lines[0] ==
@@ -236,10 +248,24 @@ TEST_CASE("the CSV has the documented columns and a row for every waypoint that 
           ",-0.1000000,0.2000000,-0.3000000" + zeros + ",converged,7");
 }
 
+TEST_CASE("rows of a CSV that come in portions are those that come at once") {
+  std::vector<Waypoint> waypoints = made_up_waypoints();
+  const std::string all = csv_of(waypoints, {});
+  for (std::size_t cut_at = 0; cut_at <= waypoints.size(); ++cut_at) {
+    CAPTURE(cut_at);
+    const auto middle = waypoints.begin() + static_cast<std::ptrdiff_t>(cut_at);
+    std::size_t next_index = 0;
+    std::string text = csv_header() + csv_rows({waypoints.begin(), middle}, {}, next_index);
+    text += csv_rows({middle, waypoints.end()}, {}, next_index);
+    CHECK(text == all);
+    CHECK(next_index == 4);
+  }
+}
+
 TEST_CASE("columns that were not computed keep their place and are empty") {
   std::vector<Waypoint> waypoints = {cut(0, 4, 1, Vector3(1, 2, 3)), cut(0, 4, 1, Vector3(1, 2, 3))};
   waypoints[1].status = Status::singular;
-  const auto lines = lines_of(to_csv(waypoints, {true, false}));
+  const auto lines = lines_of(csv_of(waypoints, {true, false}));
   REQUIRE(lines.size() == 3);
   for (const std::string& line : lines) CHECK(std::count(line.begin(), line.end(), ',') == 56);
   CHECK(contains(lines[1], std::string(19, ',') + "converged,7"));
@@ -249,8 +275,7 @@ TEST_CASE("columns that were not computed keep their place and are empty") {
 TEST_CASE("the summary shows before and after, and calls what is left a model residual") {
   MadeUpRun run;
   run.facts.warnings = {{0, "a general warning"}, {6, "a warning"}};
-  const std::string text =
-      summary_text(report_compensation(run.machine, run.job, run.facts, small_compensation()), false);
+  const std::string text = summary_text(compensated(run, small_compensation()), false);
   CAPTURE(text);
   CHECK(contains(text, "compensate made_up.ngc\n  on Mill\n  method direct, tolerance 0.0050 mm\n"));
   CHECK(contains(text, "  largest                                 0.5000        0.0050\n"));
@@ -267,8 +292,7 @@ TEST_CASE("the summary shows before and after, and calls what is left a model re
 
 TEST_CASE("the summary of a prediction shows no residual") {
   const MadeUpRun run;
-  const std::string text =
-      summary_text(report_prediction(run.machine, run.job, run.facts, made_up_waypoints(), {}), false);
+  const std::string text = summary_text(predicted(run, made_up_waypoints()), false);
   CHECK(contains(text, "  largest                                 0.5000\n"));
   CHECK_FALSE(contains(text, "after"));
   CHECK_FALSE(contains(text, "residual"));
@@ -278,7 +302,7 @@ TEST_CASE("the summary of a failure says what failed and shows no numbers that a
   const MadeUpRun run;
   Compensation none;
   none.failure = Failure{Exit::limit, 4, "the correction is too large"};
-  const std::string text = summary_text(report_compensation(run.machine, run.job, run.facts, none), false);
+  const std::string text = summary_text(compensated(run, none), false);
   CHECK(contains(text,
                  "Failed (exit status 6)\n  line 4: the correction is too large\n  No corrected program was "
                  "written.\n"));
@@ -289,7 +313,7 @@ TEST_CASE("the summary of a failure says what failed and shows no numbers that a
 TEST_CASE("long lists are cut short in the summary, with their number") {
   MadeUpRun run;
   for (int line = 1; line <= 30; ++line) run.program.left_alone.push_back({line, "why"});
-  const std::string text = summary_text(report_prediction(run.machine, run.job, run.facts, {}, {}), false);
+  const std::string text = summary_text(predicted(run, {}), false);
   CHECK(contains(text, "Not corrected: 30 blocks\n  line 1: why\n"));
   CHECK(contains(text, "  line 5: why\n  and 25 more\n"));
 }
@@ -301,8 +325,7 @@ TEST_CASE("the summary is at most 100 characters wide and has no trailing blanks
   run.facts.warnings = {{123456, sentence}};
   run.machine.work["G54"].datum.touched_at = Vector3(1, 2, 3);
   run.path.frames[0].name = "G54";
-  const std::string text =
-      summary_text(report_compensation(run.machine, run.job, run.facts, small_compensation()), false);
+  const std::string text = summary_text(compensated(run, small_compensation()), false);
   for (const std::string& line : lines_of(text)) {
     CAPTURE(line);
     CHECK(line.size() <= 100);
@@ -312,7 +335,7 @@ TEST_CASE("the summary is at most 100 characters wide and has no trailing blanks
 
 TEST_CASE("colour adds escape sequences and nothing else") {
   const MadeUpRun run;
-  const RunReport report = report_compensation(run.machine, run.job, run.facts, small_compensation());
+  const RunReport report = compensated(run, small_compensation());
   const std::string plain = summary_text(report, false), coloured = summary_text(report, true);
   CHECK_FALSE(contains(plain, "\033"));
   std::string stripped;
@@ -328,8 +351,7 @@ TEST_CASE("colour adds escape sequences and nothing else") {
 
 TEST_CASE("a run in one line names the program, before and after") {
   const MadeUpRun run;
-  CHECK(one_line(report_compensation(run.machine, run.job, run.facts, small_compensation())) ==
+  CHECK(one_line(compensated(run, small_compensation())) ==
         "made_up.ngc: 0.5000 mm before, 0.0050 mm after (model residual)");
-  CHECK(one_line(report_prediction(run.machine, run.job, run.facts, made_up_waypoints(), {})) ==
-        "made_up.ngc: 0.5000 mm before");
+  CHECK(one_line(predicted(run, made_up_waypoints())) == "made_up.ngc: 0.5000 mm before");
 }

@@ -3,7 +3,7 @@
 /// up.
 #include "counterflex/geometry/units.hpp"
 #include "counterflex/program/read_program.hpp"
-#include "counterflex/report/report.hpp"
+#include "counterflex/report/run_tally.hpp"
 
 namespace counterflex::test {
 
@@ -40,7 +40,45 @@ struct MadeUpRun {
     facts.attribution = true;
   }
   MadeUpRun(const MadeUpRun&) = delete;
+
+  RunContext context(const Overview& overview) const {
+    return {machine, job.options, path.frames, overview, facts};
+  }
+
+  /// With the forces, and `waypoints` all at once.
+  RunTally tally(const std::vector<Waypoint>& waypoints) const {
+    RunTally result(facts.min_block_ms);
+    result.add_forces(forces);
+    result.add_waypoints(waypoints);
+    return result;
+  }
 };
+
+/// The reports of runs that come as one window.
+inline RunReport predicted(const MadeUpRun& run, const std::vector<Waypoint>& waypoints,
+                           const std::optional<Failure>& failure = {}) {
+  const Overview overview = overview_of(run.program);
+  return report_prediction(run.context(overview), run.tally(waypoints), failure);
+}
+
+inline RunReport compensated(const MadeUpRun& run, const Compensation& compensation) {
+  const Overview overview = overview_of(run.program);
+  RunTally tally = run.tally(compensation.waypoints);
+  tally.add_compensation(compensation);
+  ReadOptions read;
+  read.dialect = run.program.dialect;
+  if (!compensation.text.empty())
+    tally.add_corrected(read_program(compensation.text, "made_up.comp.ngc", read));
+  return report_compensation(run.context(overview), tally, compensation.failure);
+}
+
+inline RunReport verified(const MadeUpRun& run, const Program& corrected,
+                          const std::vector<Waypoint>& waypoints) {
+  const Overview overview = overview_of(run.program);
+  RunTally tally = run.tally(waypoints);
+  tally.add_corrected(corrected);
+  return report_verification(run.context(overview), tally, overview_of(corrected), {});
+}
 
 /// A waypoint of a feed move with a position deviation before (mm), a hundredth of it after.
 inline Waypoint cut(std::size_t segment, int line, double weight_mm, const Vector3& before_mm) {

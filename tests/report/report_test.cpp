@@ -27,7 +27,7 @@ Compensation made_up_compensation() {
 
 TEST_CASE("the deviation before is that of feed moves at the ends of pieces, weighed by trapezoids") {
   const MadeUpRun run;
-  const RunReport report = report_compensation(run.machine, run.job, run.facts, made_up_compensation());
+  const RunReport report = compensated(run, made_up_compensation());
   REQUIRE(report.before);
   CHECK(report.before->max_mm == doctest::Approx(0.5));
   CHECK(report.before->max_line == 5);
@@ -45,7 +45,7 @@ TEST_CASE("a feed move starts with the deviation at the end of the rapid before 
   Waypoint rapid = cut(0, 3, 0, Vector3(0, 0.8, 0)), feed = cut(1, 4, 100, Vector3(0, 0.4, 0));
   rapid.cutting = false;
   feed.p_MT = Vector3(100, 0, 0) * mm;
-  const RunReport report = report_prediction(run.machine, run.job, run.facts, {rapid, feed}, {});
+  const RunReport report = predicted(run, {rapid, feed}, {});
   CHECK(report.before->max_mm == doctest::Approx(0.8));
   CHECK(report.before->max_line == 4);
   CHECK(report.before->mean_mm == doctest::Approx(0.6));
@@ -54,7 +54,7 @@ TEST_CASE("a feed move starts with the deviation at the end of the rapid before 
 
 TEST_CASE("the model residual counts the samples between the ends") {
   const MadeUpRun run;
-  const RunReport report = report_compensation(run.machine, run.job, run.facts, made_up_compensation());
+  const RunReport report = compensated(run, made_up_compensation());
   REQUIRE(report.after);
   CHECK(report.after->max_mm == doctest::Approx(0.006));
   CHECK(report.after->max_line == 4);
@@ -63,7 +63,7 @@ TEST_CASE("the model residual counts the samples between the ends") {
 
 TEST_CASE("a compensation reports its counts, sizes, sources and what happens without the force") {
   const MadeUpRun run;
-  const RunReport report = report_compensation(run.machine, run.job, run.facts, made_up_compensation());
+  const RunReport report = compensated(run, made_up_compensation());
   CHECK(report.blocks.total == 6);
   CHECK(report.blocks.moves == 5);
   CHECK(report.blocks.corrected == 3);
@@ -88,22 +88,22 @@ TEST_CASE("a compensation reports its counts, sizes, sources and what happens wi
 
 TEST_CASE("the worst lines are ordered by the residual, or by the deviation where there is none") {
   const MadeUpRun run;
-  const RunReport corrected = report_compensation(run.machine, run.job, run.facts, made_up_compensation());
+  const RunReport corrected = compensated(run, made_up_compensation());
   REQUIRE(corrected.worst.size() == 3);
   CHECK(corrected.worst[0].line == 4);
   CHECK(corrected.worst[0].before_mm == doctest::Approx(0.3));
   CHECK(corrected.worst[0].after_mm == doctest::Approx(0.006));
   CHECK(corrected.worst[1].line == 5);
-  const RunReport predicted = report_prediction(run.machine, run.job, run.facts, made_up_waypoints(), {});
-  CHECK(predicted.worst[0].line == 5);
-  CHECK(predicted.worst[2].line == 6);
+  const RunReport prediction = predicted(run, made_up_waypoints());
+  CHECK(prediction.worst[0].line == 5);
+  CHECK(prediction.worst[2].line == 6);
 }
 
 TEST_CASE("at most ten worst lines are listed") {
   const MadeUpRun run;
   std::vector<Waypoint> waypoints;
   for (int line = 1; line <= 25; ++line) waypoints.push_back(cut(1, line, 1, Vector3(0.001 * line, 0, 0)));
-  const RunReport report = report_prediction(run.machine, run.job, run.facts, waypoints, {});
+  const RunReport report = predicted(run, waypoints);
   REQUIRE(report.worst.size() == 10);
   CHECK(report.worst.front().line == 25);
   CHECK(report.worst.back().line == 16);
@@ -115,7 +115,7 @@ TEST_CASE("lists are ordered by line and capped, counts are kept") {
     run.program.left_alone.push_back({1000 - i, "why"});
     run.facts.warnings.push_back({500 - i, "what"});
   }
-  const RunReport report = report_prediction(run.machine, run.job, run.facts, made_up_waypoints(), {});
+  const RunReport report = predicted(run, made_up_waypoints());
   CHECK(report.blocks.left_alone.count == 250);
   CHECK(report.blocks.left_alone.rows.size() == listed_at_most);
   CHECK(report.blocks.left_alone.rows.front().line == 751);
@@ -131,7 +131,7 @@ TEST_CASE("a plunge that feels no lateral force is among the warnings") {
   source.profile =
       read_force_csv("# frame = feed\n# sense = on_tool\nline,fx_N,fy_N,fz_N\n1,10,20,30\n", "f.csv");
   run.forces = PathForces(source, run.program, run.path, {Matrix3::Identity()});
-  const RunReport report = report_prediction(run.machine, run.job, run.facts, {}, {});
+  const RunReport report = predicted(run, {});
   REQUIRE(run.forces.notes().size() == 1);
   REQUIRE(report.warnings.count == 1);
   CHECK(report.warnings.rows[0].line == 2);
@@ -143,7 +143,7 @@ TEST_CASE("what was not solved gives no deviation: a failed run is not a perfect
   const Failure failure{Exit::not_compensated, 4, "singular"};
   Compensation none;
   none.failure = failure;
-  const RunReport nothing = report_compensation(run.machine, run.job, run.facts, none);
+  const RunReport nothing = compensated(run, none);
   CHECK_FALSE(nothing.before);
   CHECK_FALSE(nothing.after);
   CHECK_FALSE(nothing.sources);
@@ -154,7 +154,7 @@ TEST_CASE("what was not solved gives no deviation: a failed run is not a perfect
   std::vector<Waypoint> waypoints = made_up_waypoints();
   waypoints.push_back(cut(3, 6, 10, Vector3(7, 7, 7)));
   waypoints.back().status = Status::singular;
-  const RunReport partly = report_prediction(run.machine, run.job, run.facts, waypoints, failure);
+  const RunReport partly = predicted(run, waypoints, failure);
   CHECK(partly.before->max_mm == doctest::Approx(0.5));
 }
 
@@ -162,8 +162,7 @@ TEST_CASE("a verification counts the moves and blocks of the second program") {
   const MadeUpRun run;
   Program corrected = run.program;
   corrected.block_count += 4;
-  const RunReport report =
-      report_verification(run.machine, run.job, run.facts, corrected, made_up_waypoints(), {});
+  const RunReport report = verified(run, corrected, made_up_waypoints());
   CHECK(report.command == Command::verify);
   CHECK(report.blocks.inserted == 4);
   CHECK(report.blocks.corrected == 3);  // the rapid and two feed moves; the last has no correction
@@ -173,7 +172,7 @@ TEST_CASE("a verification counts the moves and blocks of the second program") {
 
 TEST_CASE("a prediction has no residual") {
   const MadeUpRun run;
-  const RunReport report = report_prediction(run.machine, run.job, run.facts, made_up_waypoints(), {});
+  const RunReport report = predicted(run, made_up_waypoints());
   CHECK(report.before->max_mm == doctest::Approx(0.5));
   CHECK_FALSE(report.after);
   CHECK_FALSE(report.air);
@@ -183,7 +182,7 @@ TEST_CASE("a prediction has no residual") {
 
 TEST_CASE("the report says in words where the program's coordinates lie and what the offset means") {
   MadeUpRun run;
-  const auto report = [&] { return report_prediction(run.machine, run.job, run.facts, {}, {}); };
+  const auto report = [&] { return predicted(run, {}); };
   CHECK(report().work ==
         "Program coordinates were taken as machine coordinates: the machine file has no work offsets.");
   run.machine.work["G54"] = {};
@@ -205,7 +204,7 @@ TEST_CASE("the report says in words where the program's coordinates lie and what
 
 TEST_CASE("what is assumed is said of every offset that the program uses") {
   MadeUpRun run;
-  const auto report = [&] { return report_prediction(run.machine, run.job, run.facts, {}, {}); };
+  const auto report = [&] { return predicted(run, {}); };
   run.path.frames = {{"G54", Pose{}}, {"G55", translation({0.1, 0, 0})}, {"G56", translation({0.2, 0, 0})}};
   for (const char* name : {"G54", "G55", "G56", "G59"}) run.machine.work[name] = {};
   CHECK(report().work ==

@@ -8,6 +8,7 @@ namespace counterflex {
 struct Compensation {
   std::optional<Failure> failure;   ///< then `text` must not be written
   std::string text;                 ///< the corrected program
+  Program corrected;                ///< `text`, read anew
   std::vector<Waypoint> waypoints;  ///< of the emitted, rounded text, read anew
   std::vector<LeftAlone>
       left_alone;    ///< what the plan could not correct or split, besides the program's own list

@@ -11,10 +11,14 @@ struct LineLengths {
   int longest_line = 0;
   std::size_t near = 0;  ///< lines with more than 90 % of the limit
   int first_near = 0;
+  int lines = 0;  ///< measured so far
 };
 
-/// Measures the lines of `text`, written in the dialect of that name; nothing but zeros for a dialect without
-/// a limit. Does not allocate.
+/// Measures the next lines of a text, written in the dialect of that name; counts nothing for a dialect
+/// without a limit. `text` is whole lines: only the last of all may lack a line end. Does not allocate.
+void add_lines(LineLengths& lengths, std::string_view text, std::string_view dialect);
+
+/// Of the whole text.
 LineLengths line_lengths(std::string_view text, std::string_view dialect);
 
 }  // namespace counterflex

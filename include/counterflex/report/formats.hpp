@@ -19,9 +19,14 @@ struct CsvColumns {
   bool corrected = true;    ///< after_, correction_: not for a prediction
 };
 
-/// One row a waypoint that is not `between`, in order; `index` counts from 0; `cutting` is 0 or 1. Rotations
-/// of the correction follow as correction_rx_deg, correction_ry_deg, correction_rz_deg.
-std::string to_csv(const std::vector<Waypoint>& waypoints, const CsvColumns& columns);
+/// The names of the columns, in a line.
+std::string csv_header();
+
+/// One row a waypoint that is not `between`, in order; `next_index` is that of the first row (a file's first
+/// has 0) and becomes that of the row after the last; `cutting` is 0 or 1. Rotations of the correction follow
+/// as correction_rx_deg, correction_ry_deg, correction_rz_deg.
+std::string csv_rows(const std::vector<Waypoint>& waypoints, const CsvColumns& columns,
+                     std::size_t& next_index);
 
 /// The summary that a person reads: lines of at most 100 characters (paths and other long words stay whole).
 /// Deviations in mm with four decimals. `colour` adds ANSI sequences, nothing else.

@@ -8,7 +8,9 @@
 
 #include "counterflex/compensation/compensate.hpp"
 #include "counterflex/machine/machine.hpp"
+#include "counterflex/program/capped.hpp"
 #include "counterflex/program/line_lengths.hpp"
+#include "counterflex/program/overview.hpp"
 #include "counterflex/report/statistics.hpp"
 
 namespace counterflex {
@@ -37,13 +39,6 @@ struct RunFacts {
   std::string output;        ///< path of the corrected program; empty: none was written
   double min_block_ms = 2;   ///< what takes less time is a short block
   bool attribution = false;  ///< the waypoints' geometry, load, superposition and air were solved
-};
-
-/// A list that is capped; `count` is what it would hold otherwise.
-template <typename T>
-struct Capped {
-  std::vector<T> rows;
-  std::size_t count = 0;
 };
 
 struct WorstRow {
@@ -128,17 +123,25 @@ struct RunReport {
   std::optional<Failure> failure;
 };
 
-/// What is listed of blocks left alone and of warnings.
-inline constexpr std::size_t listed_at_most = 100;
+/// What a report is about besides what was measured. Borrowed: everything outlives it.
+struct RunContext {
+  const Machine& machine;
+  const CompensationOptions& options;
+  const std::vector<WorkFrame>& frames;  ///< by index into the program's work offsets
+  const Overview& program;               ///< the original one, its axes that nobody corrects made known
+  const RunFacts& facts;
+};
 
-/// Measures a run. `waypoints` are those of the original program (`predict`), or of the corrected one; a run
-/// that failed may have any part of them. `machine` is the one of the job. Never throws; allocates.
-RunReport report_prediction(const Machine& machine, const Job& job, const RunFacts& facts,
-                            const std::vector<Waypoint>& waypoints, const std::optional<Failure>& failure);
-RunReport report_compensation(const Machine& machine, const Job& job, const RunFacts& facts,
-                              const Compensation& compensation);
-RunReport report_verification(const Machine& machine, const Job& job, const RunFacts& facts,
-                              const Program& corrected, const std::vector<Waypoint>& waypoints,
+class RunTally;
+
+/// The report of a run whose waypoints, forces and texts `tally` has: those of the original program
+/// (`predict`), or of the corrected one; a run that failed may have any part of them. `corrected` is the
+/// program that was verified. Never throws; allocates.
+RunReport report_prediction(const RunContext& context, const RunTally& tally,
+                            const std::optional<Failure>& failure);
+RunReport report_compensation(const RunContext& context, const RunTally& tally,
+                              const std::optional<Failure>& failure);
+RunReport report_verification(const RunContext& context, const RunTally& tally, const Overview& corrected,
                               const std::optional<Failure>& failure);
 
 }  // namespace counterflex

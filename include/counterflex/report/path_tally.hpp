@@ -1,0 +1,67 @@
+#pragma once
+/// From waypoints to numbers, waypoint by waypoint, in memory that does not grow with their number.
+#include <map>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "counterflex/compensation/waypoint.hpp"
+#include "counterflex/report/report.hpp"
+
+namespace counterflex {
+
+struct Measures {
+  DeviationTally before, after, geometry, load, superposition;
+  Largest air, correction;
+  double largest_N = 0, largest_Nm = 0;
+  double path_mm = 0;
+  std::size_t segments_changed = 0;  ///< feed moves and rapids whose target is not the original one
+};
+
+/// Rows by line, one a line, of which the worst are wanted. From the 4096th line on all are forgotten now and
+/// then but the worst and the two asked for last: lines that come in order lose nothing, and one that comes
+/// back much later (a subprogram called again) begins anew.
+class WorstLines {
+ public:
+  /// The row of `line`, made where there is none.
+  WorstRow& row(int line);
+
+  /// At most ten rows, the largest `key` first; of equal ones the smaller line.
+  std::vector<WorstRow> worst(double WorstRow::*key) const;
+
+ private:
+  void keep_the_worst();
+
+  std::map<int, WorstRow> rows_;
+  int last_ = 0, last_but_one_ = 0;
+};
+
+/// Waypoints that were not solved are passed over. Feed moves alone, but for `correction` and
+/// `segments_changed`. They come in the order of the path; a segment is known by its number and line, so that
+/// numbers may begin anew with every window.
+class PathTally {
+ public:
+  void add(const Waypoint& w);
+
+  /// Of all waypoints so far, the last of which ends the path.
+  Measures measures() const;
+  std::vector<WorstRow> worst(double WorstRow::*key) const;
+
+ private:
+  void add_target(const Waypoint& w);
+  void add_cutting(const Waypoint& w);
+  void add_end(const Waypoint& w);
+  void begin_at_rapid(const Waypoint& w);
+  void finish_end();
+  void measure_end(const Waypoint& w, double weight);
+
+  Measures m_;
+  WorstLines lines_;
+  std::optional<std::pair<std::size_t, int>> last_changed_;  ///< segment and line
+  double piece_weight_ = 0;  ///< of the piece under way: all but `after` is known at the ends of pieces alone
+  std::optional<Waypoint> end_;  ///< the last one, and what it weighs so far
+  double end_weight_ = 0;
+  std::optional<Waypoint> rapid_;  ///< the last waypoint, where it ends a rapid
+};
+
+}  // namespace counterflex

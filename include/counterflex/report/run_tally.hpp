@@ -1,0 +1,59 @@
+#pragma once
+/// What a run did, gathered window by window in memory that does not grow with the program.
+#include <optional>
+#include <vector>
+
+#include "counterflex/compensation/compensate.hpp"
+#include "counterflex/report/path_tally.hpp"
+#include "counterflex/report/report.hpp"
+
+namespace counterflex {
+
+/// Each part is added in the order of the program. Where it is cut into windows changes nothing in the
+/// report.
+class RunTally {
+ public:
+  /// `min_block_ms`: feed moves that take less are short blocks (RunFacts).
+  explicit RunTally(double min_block_ms);
+
+  /// The next waypoints of the path, cut anywhere.
+  void add_waypoints(const std::vector<Waypoint>& waypoints);
+
+  /// The next window's: its ramps, jumps and notes are added to those before.
+  void add_forces(const PathForces& forces);
+
+  /// The next window's counts, left-alone blocks, largest correction and size of text. Neither its waypoints
+  /// nor its `corrected`.
+  void add_compensation(const Compensation& compensation);
+
+  /// The next window of the corrected program as it was read back, its axes that nobody corrects made known
+  /// (`ignore_axes`): whole lines, with line numbers of the corrected program. An empty program counts, too:
+  /// nothing is added only where no program was written.
+  void add_corrected(const Program& corrected_window);
+
+  const PathTally& path() const { return path_; }
+  const ForceSummary& forces() const { return forces_; }  ///< of ramps, jumps and steps
+  const Capped<Remark>& force_notes() const { return force_notes_; }
+  const Capped<LeftAlone>& left_alone() const { return left_alone_; }
+  const Largest& largest_correction() const { return largest_correction_; }
+  std::size_t corrected_moves() const { return corrected_moves_; }
+  std::size_t inserted_blocks() const { return inserted_blocks_; }
+  std::size_t text_bytes() const { return text_bytes_; }  ///< of compensated text
+
+  /// Of the corrected program; none before `add_corrected`.
+  const std::optional<LineLengths>& lines() const { return lines_; }
+  const std::optional<ShortBlocks>& short_blocks() const { return short_blocks_; }
+
+ private:
+  double min_block_ms_;
+  PathTally path_;
+  ForceSummary forces_;
+  Capped<Remark> force_notes_;
+  Capped<LeftAlone> left_alone_;
+  Largest largest_correction_;
+  std::size_t corrected_moves_ = 0, inserted_blocks_ = 0, text_bytes_ = 0;
+  std::optional<LineLengths> lines_;
+  std::optional<ShortBlocks> short_blocks_;
+};
+
+}  // namespace counterflex

@@ -1,0 +1,55 @@
+#include "counterflex/program/overview.hpp"
+
+#include <algorithm>
+
+namespace counterflex {
+namespace {
+
+bool is_plunge(const Move& move) {
+  return move.motion == Motion::feed && !move.arc && !move.cycle && all_known(move.known_start) &&
+         all_known(move.known_end) && move.start_mm.head<2>() == move.end_mm.head<2>() &&
+         move.end_mm.z() < move.start_mm.z();
+}
+
+void add_move(Overview& overview, const Move& move) {
+  ++overview.moves;
+  overview.plunges += is_plunge(move);
+  overview.rapids += move.motion == Motion::rapid;
+  overview.last_block_number = std::max(overview.last_block_number, move.block_number.value_or(0));
+  overview.offsets_used[move.offset] = true;
+  if (move.cycle && !overview.first_cycle_line) overview.first_cycle_line = move.line;
+  if (!move.force) return;
+  if (!overview.first_force_line) overview.first_force_line = move.line;
+  overview.commented_force = overview.commented_force || !move.force->isZero(0);
+}
+
+void add_text(Overview& overview, const std::string& text) {
+  overview.bytes += text.size();
+  overview.text_lines += static_cast<int>(std::count(text.begin(), text.end(), '\n'));
+  if (!text.empty() && text.back() != '\n') ++overview.text_lines;
+}
+
+}  // namespace
+
+void add_window(Overview& overview, const Program& window) {
+  overview.file = window.file;
+  overview.dialect = window.dialect;
+  overview.blocks = window.block_count;
+  overview.work_offsets = window.work_offsets;
+  overview.offsets_used.resize(window.work_offsets.size());
+  overview.remarks = window.remarks;
+  overview.path_tolerances = window.path_tolerances;
+  add_text(overview, window.text);
+  for (const Move& move : window.moves) add_move(overview, move);
+  for (const LeftAlone& block : window.left_alone) list(overview.left_alone, block);
+  const int last_move = window.moves.empty() ? 0 : window.moves.back().line;
+  overview.lines = std::max({overview.lines, overview.text_lines, last_move});
+}
+
+Overview overview_of(const Program& whole) {
+  Overview overview;
+  add_window(overview, whole);
+  return overview;
+}
+
+}  // namespace counterflex

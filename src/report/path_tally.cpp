@@ -1,0 +1,135 @@
+#include "counterflex/report/path_tally.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "counterflex/geometry/units.hpp"
+
+namespace counterflex {
+namespace {
+
+constexpr double no_correction = 1e-12;  // m: rounding of coordinates that were moved to M and back
+constexpr double same_place = 1e-9;      // m
+constexpr std::size_t worst_rows = 10;
+constexpr std::size_t most_lines = 4096;
+
+DeviationSample sample(const Waypoint& w, const Vector6& deviation, double weight) {
+  return {deviation, w.direction, w.tool_axis, weight, w.line};
+}
+
+void keep(Largest& largest, double length, int line) {
+  if (largest.line == 0 || length / mm > largest.mm + 1e-12)
+    largest.line = line;  // the first but for rounding
+  largest.mm = std::max(largest.mm, length / mm);
+}
+
+}  // namespace
+
+WorstRow& WorstLines::row(int line) {
+  auto found = rows_.find(line);
+  if (found == rows_.end()) {
+    if (rows_.size() >= most_lines) keep_the_worst();
+    found = rows_.emplace(line, WorstRow{line, 0, 0}).first;
+  }
+  if (line != last_) last_but_one_ = std::exchange(last_, line);
+  return found->second;
+}
+
+std::vector<WorstRow> WorstLines::worst(double WorstRow::*key) const {
+  std::vector<WorstRow> rows;
+  for (const auto& [line, row] : rows_) rows.push_back(row);
+  const auto worse = [&](const WorstRow& a, const WorstRow& b) { return a.*key > b.*key; };
+  std::stable_sort(rows.begin(), rows.end(), worse);
+  rows.resize(std::min(rows.size(), worst_rows));
+  return rows;
+}
+
+// What is asked for last may still grow: all of a piece but `after` is known at its end.
+void WorstLines::keep_the_worst() {
+  std::map<int, WorstRow> kept;
+  for (const auto key : {&WorstRow::before_mm, &WorstRow::after_mm})
+    for (const WorstRow& row : worst(key)) kept.emplace(row.line, row);
+  for (const int line : {last_, last_but_one_})
+    if (const auto row = rows_.find(line); row != rows_.end()) kept.insert(*row);
+  rows_ = std::move(kept);
+}
+
+void PathTally::add(const Waypoint& w) {
+  if (w.status != Status::converged) return;
+  if (!w.between) add_target(w);
+  if (w.cutting) return add_cutting(w);
+  finish_end();
+  rapid_ = w;
+}
+
+Measures PathTally::measures() const {
+  PathTally whole = *this;
+  whole.finish_end();
+  return std::move(whole.m_);
+}
+
+std::vector<WorstRow> PathTally::worst(double WorstRow::*key) const {
+  PathTally whole = *this;
+  whole.finish_end();
+  return whole.lines_.worst(key);
+}
+
+void PathTally::add_target(const Waypoint& w) {
+  const double length = w.correction.head<3>().norm();
+  keep(m_.correction, length, w.line);
+  const std::pair segment{w.segment, w.segment == no_segment ? 0 : w.line};
+  if (length < no_correction || last_changed_ == segment) return;
+  last_changed_ = segment;
+  ++m_.segments_changed;
+}
+
+void PathTally::add_cutting(const Waypoint& w) {
+  m_.after.add(sample(w, w.after, w.weight));
+  m_.path_mm += w.weight / mm;
+  m_.largest_N = std::max(m_.largest_N, w.wrench.head<3>().norm());
+  m_.largest_Nm = std::max(m_.largest_Nm, w.wrench.tail<3>().norm());
+  WorstRow& row = lines_.row(w.line);
+  row.after_mm = std::max(row.after_mm, w.after.head<3>().norm() / mm);
+  piece_weight_ += w.weight;
+  if (!w.between) add_end(w);
+}
+
+// Trapezoids: a piece weighs on both of its ends, or on its last one alone where the other is not known.
+void PathTally::add_end(const Waypoint& w) {
+  if (rapid_) begin_at_rapid(w);
+  const double share = end_ ? piece_weight_ / 2 : 0;
+  end_weight_ += share;
+  finish_end();
+  end_ = w;
+  end_weight_ = piece_weight_ - share;
+  piece_weight_ = 0;
+}
+
+// The end of a rapid is where the feed move after it starts; its force has not yet grown there.
+void PathTally::begin_at_rapid(const Waypoint& w) {
+  const double gap = std::abs((w.p_MT - rapid_->p_MT).norm() - piece_weight_);
+  if (!end_ && gap < same_place) {
+    end_ = *rapid_;
+    end_->line = w.line;
+    end_->direction = w.direction;
+    end_weight_ = 0;
+  }
+  rapid_.reset();
+}
+
+void PathTally::finish_end() {
+  if (end_) measure_end(*end_, end_weight_);
+  end_.reset();
+}
+
+void PathTally::measure_end(const Waypoint& w, double weight) {
+  m_.before.add(sample(w, w.before, weight));
+  m_.geometry.add(sample(w, w.geometry, weight));
+  m_.load.add(sample(w, w.load, weight));
+  m_.superposition.add(sample(w, w.superposition, weight));
+  keep(m_.air, w.air.head<3>().norm(), w.line);
+  WorstRow& row = lines_.row(w.line);
+  row.before_mm = std::max(row.before_mm, w.before.head<3>().norm() / mm);
+}
+
+}  // namespace counterflex
