@@ -19,10 +19,9 @@ std::string shown(const ForceProfile& profile, double key) {
 }
 
 /// A move without N belongs to the block number before it.
-std::vector<KeySpan> block_numbers(const ForceProfile& profile, const Program& program,
-                                   const Toolpath& path) {
+std::vector<KeySpan> block_numbers(const ForceProfile& profile, const Program& program, const Toolpath& path,
+                                   std::optional<long>& n) {
   std::vector<KeySpan> keys(path.segments.size());
-  std::optional<long> n;
   std::size_t segment = 0;
   for (std::size_t i = 0; i < program.moves.size(); ++i) {
     const Move& move = program.moves[i];
@@ -50,28 +49,6 @@ KeySpan times(const ForceProfile& profile, const Segment& segment) {
   return {segment.t_start, segment.t_end};
 }
 
-double last_line(const Program& program) {
-  const std::string& text = program.text;
-  auto lines = std::count(text.begin(), text.end(), '\n');
-  if (!text.empty() && text.back() != '\n') ++lines;
-  const long of_moves = program.moves.empty() ? 0 : program.moves.back().line;
-  return static_cast<double>(std::max<long>(lines, of_moves));
-}
-
-double last_block_number(const Program& program) {
-  long n = 0;
-  for (const Move& move : program.moves) n = std::max(n, move.block_number.value_or(0));
-  return static_cast<double>(n);
-}
-
-/// The greatest key that the program has.
-double end_of_program(const ForceProfile& profile, const Program& program, const Toolpath& path) {
-  if (profile.key == ForceKey::line) return last_line(program);
-  if (profile.key == ForceKey::block_number) return last_block_number(program);
-  if (path.segments.empty()) return 0;
-  return profile.key == ForceKey::time ? path.segments.back().t_end : path.segments.back().s_end;
-}
-
 /// Lengths and times in files are rounded, and sums of rounded ones drift: 1 um or 1 ms, and a millionth of
 /// the whole.
 double tolerance(const ForceProfile& profile, double end) {
@@ -81,8 +58,9 @@ double tolerance(const ForceProfile& profile, double end) {
 
 }  // namespace
 
-std::vector<KeySpan> align(const ForceProfile& profile, const Program& program, const Toolpath& path) {
-  if (profile.key == ForceKey::block_number) return block_numbers(profile, program, path);
+std::vector<KeySpan> align(const ForceProfile& profile, const Program& program, const Toolpath& path,
+                           std::optional<long>& block_number) {
+  if (profile.key == ForceKey::block_number) return block_numbers(profile, program, path, block_number);
   std::vector<KeySpan> keys;
   keys.reserve(path.segments.size());
   for (const Segment& segment : path.segments) {
@@ -94,32 +72,55 @@ std::vector<KeySpan> align(const ForceProfile& profile, const Program& program, 
   return keys;
 }
 
-void check_cover(const ForceProfile& profile, const Program& program, const Toolpath& path,
-                 const std::vector<KeySpan>& keys) {
-  const double end = end_of_program(profile, program, path), margin = tolerance(profile, end);
-  for (std::size_t i = 0; i < profile.rows.size(); ++i) {
-    if (profile.rows[i].key > end + margin)
-      fail_row(profile, i,
-               fmt::format("{} lies beyond the program, which ends at {}",
-                           shown(profile, profile.rows[i].key), shown(profile, end)));
+void ForceCover::add(const Program& window, const Toolpath& path) {
+  const std::vector<KeySpan> keys = align(profile_, window, path, block_number_);
+  for (std::size_t i = 0; i < keys.size(); ++i) {
+    const Segment& segment = path.segments[i];
+    if (!segment.cutting) continue;
+    if (!first_) first_ = {keys[i].start, segment.line};
+    last_ = {keys[i].end, segment.line};
   }
-  const auto cuts = [](const Segment& segment) { return segment.cutting; };
-  const auto first = std::find_if(path.segments.begin(), path.segments.end(), cuts);
-  if (first == path.segments.end()) return;
-  const auto last = std::find_if(path.segments.rbegin(), path.segments.rend(), cuts);
-  const double cut_start = keys[static_cast<std::size_t>(first - path.segments.begin())].start;
-  const double cut_end = keys[static_cast<std::size_t>(path.segments.rend() - last) - 1].end;
-  const std::size_t last_row = profile.rows.size() - 1;
-  if (profile.rows[0].key > cut_start + margin)
-    fail_row(profile, 0,
+  for (const Move& move : window.moves)
+    last_block_number_ = std::max(last_block_number_, move.block_number.value_or(0));
+  if (!window.moves.empty()) last_line_ = window.moves.back().line;
+  newlines_ += std::count(window.text.begin(), window.text.end(), '\n');
+  if (!window.text.empty()) ends_in_line_ = window.text.back() != '\n';
+  end_ = path.end;
+}
+
+/// The greatest key that the program has.
+double ForceCover::end() const {
+  switch (profile_.key) {
+    case ForceKey::line:
+      return static_cast<double>(std::max(newlines_ + (ends_in_line_ ? 1 : 0), last_line_));
+    case ForceKey::block_number:
+      return static_cast<double>(last_block_number_);
+    case ForceKey::path_length:
+      return end_.s;
+    default:
+      return end_.t;
+  }
+}
+
+void ForceCover::check() const {
+  const double last_key = end(), margin = tolerance(profile_, last_key);
+  const std::vector<ForceRow>& rows = profile_.rows;
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    if (rows[i].key > last_key + margin)
+      fail_row(profile_, i,
+               fmt::format("{} lies beyond the program, which ends at {}", shown(profile_, rows[i].key),
+                           shown(profile_, last_key)));
+  if (!first_) return;
+  if (rows.front().key > first_->key + margin)
+    fail_row(profile_, 0,
              fmt::format("{} is the first row, but the program cuts from {} on (line {}): a row there is "
                          "required, with zeros where nothing is cut",
-                         shown(profile, profile.rows[0].key), shown(profile, cut_start), first->line));
-  if (profile.linear && profile.rows[last_row].key < cut_end - margin)
-    fail_row(profile, last_row,
+                         shown(profile_, rows.front().key), shown(profile_, first_->key), first_->line));
+  if (profile_.linear && rows.back().key < last_->key - margin)
+    fail_row(profile_, rows.size() - 1,
              fmt::format("{} is the last row, but the program cuts until {} (line {}): a row there is "
                          "required for linear interpolation",
-                         shown(profile, profile.rows[last_row].key), shown(profile, cut_end), last->line));
+                         shown(profile_, rows.back().key), shown(profile_, last_->key), last_->line));
 }
 
 }  // namespace counterflex

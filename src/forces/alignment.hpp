@@ -1,5 +1,6 @@
 #pragma once
 /// Where the rows of a profile act on a path.
+#include <optional>
 #include <vector>
 
 #include "counterflex/forces/forces.hpp"
@@ -12,13 +13,10 @@ struct KeySpan {
   double end = 0;
 };
 
-/// The key of every segment, in SI; of rapids it means nothing. Throws `InputError` (Exit::machine_or_force)
-/// where the program has not what the key counts: a block number, or a feed.
-std::vector<KeySpan> align(const ForceProfile& profile, const Program& program, const Toolpath& path);
-
-/// Throws `InputError` (Exit::machine_or_force) naming the row that lies beyond the program or leaves a
-/// cutting move without a force.
-void check_cover(const ForceProfile& profile, const Program& program, const Toolpath& path,
-                 const std::vector<KeySpan>& keys);
+/// The key of every segment, in SI; of rapids it means nothing. `block_number` is N of the moves before, and
+/// then of these. Throws `InputError` (Exit::machine_or_force) where the program has not what the key counts:
+/// a block number, or a feed.
+std::vector<KeySpan> align(const ForceProfile& profile, const Program& program, const Toolpath& path,
+                           std::optional<long>& block_number);
 
 }  // namespace counterflex

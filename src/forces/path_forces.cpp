@@ -24,8 +24,18 @@ constexpr double same_fraction = 1e-9;
 constexpr double joined_m = 1e-9;
 
 bool moves_rapidly(const Move& move) {
-  const auto known = [](const std::array<bool, 3>& axes) { return axes[0] && axes[1] && axes[2]; };
-  return move.motion == Motion::rapid && !(known(move.known_start) && known(move.known_end));
+  return move.motion == Motion::rapid && !(all_known(move.known_start) && all_known(move.known_end));
+}
+
+/// Whether a rapid stands among moves [first, end) that gives no segment.
+bool rapid_among(const Program& program, std::size_t first, std::size_t end) {
+  const auto moves = program.moves.begin();
+  return std::any_of(moves + static_cast<std::ptrdiff_t>(first), moves + static_cast<std::ptrdiff_t>(end),
+                     moves_rapidly);
+}
+
+bool joins(const Vector3& end, const Segment& segment) {
+  return segment.cutting && (segment.wanted.start - end).norm() <= joined_m;
 }
 
 /// Whether cutting goes on from segment i - 1 to segment i, with no rapid between, not even one that gives no
@@ -33,22 +43,18 @@ bool moves_rapidly(const Move& move) {
 bool joins_previous(const Program& program, const Toolpath& path, std::size_t i) {
   const Segment& before = path.segments[i - 1];
   const Segment& segment = path.segments[i];
-  const auto between = program.moves.begin();
-  return before.cutting && segment.cutting && (segment.wanted.start - before.wanted.end).norm() <= joined_m &&
-         std::none_of(between + static_cast<std::ptrdiff_t>(before.move) + 1,
-                      between + static_cast<std::ptrdiff_t>(segment.move), moves_rapidly);
+  return before.cutting && joins(before.wanted.end, segment) &&
+         !rapid_among(program, before.move + 1, segment.move);
 }
 
 /// The wrench of one segment in machine axes, appended to the pieces of its run.
 class Unblended {
  public:
   Unblended(const ForceSource& source, const Program& program, const Toolpath& path,
-            const std::vector<Matrix3>& R_MT)
+            const std::vector<Matrix3>& R_MT, std::optional<long>& block_number)
       : source_(source), program_(program), path_(path), R_MT_(R_MT) {
     assert(R_MT.size() == 1 || (!R_MT.empty() && R_MT.size() % path.segments.size() == 0));
-    if (!profile()) return;
-    keys_ = align(*profile(), program, path);
-    check_cover(*profile(), program, path, keys_);
+    if (profile()) keys_ = align(*profile(), program, path, block_number);
   }
 
   /// The pieces of segment i; a plunge that loses lateral forces is noted.
@@ -161,28 +167,56 @@ Vector6 mean(const std::vector<ForcePiece>& pieces, const FeedRun& run, double s
   return (integral(last, s) - integral(first, from)) / run.blend;
 }
 
+/// Whether the feed run of the window before goes on in this one.
+bool goes_on(const std::optional<OpenRun>& before, const Program& window, const Toolpath& path) {
+  if (!before || path.segments.empty()) return false;
+  const Segment& first = path.segments.front();
+  return joins(before->end, first) && !rapid_among(window, 0, first.move);
+}
+
 }  // namespace
 
 PathForces::PathForces(const ForceSource& source, const Program& program, const Toolpath& path,
                        const std::vector<Matrix3>& R_MT)
+    : PathForces(source, program, path, R_MT, {}) {
+  if (source.constant || !source.profile) return;
+  ForceCover cover(*source.profile);
+  cover.add(program, path);
+  cover.check();
+}
+
+PathForces::PathForces(const ForceSource& source, const Program& window, const Toolpath& path,
+                       const std::vector<Matrix3>& R_MT, const ForceTail& before)
     : at_platform_(!source.constant && source.profile && source.profile->at_platform) {
-  const Unblended unblended(source, program, path, R_MT);
+  tail_.block_number = before.block_number;
+  if (path.segments.empty() && !rapid_among(window, 0, window.moves.size())) tail_.open = before.open;
+  const Unblended unblended(source, window, path, R_MT, tail_.block_number);
   places_.reserve(path.segments.size());
-  bool open = false;
+  bool open = goes_on(before.open, window, path);
+  if (open) take_up(*before.open);
   for (std::size_t i = 0; i < path.segments.size(); ++i) {
     const Segment& segment = path.segments[i];
-    if (open && !joins_previous(program, path, i)) {
+    if (i > 0 && open && !joins_previous(window, path, i)) {
       close_run(source.blend);
       open = false;
     }
     if (segment.cutting && !open) {
-      runs_.push_back({segment.s_start, segment.s_start, 0, pieces_.size(), 0, 0, 0});
+      runs_.push_back({segment.s_start, segment.s_start, 0, pieces_.size(), 0, corners_.size(), 0});
       open = true;
     }
     places_.push_back({segment.s_start, segment.s_end, open ? runs_.size() - 1 : no_run});
     if (open) unblended.append_to(i, runs_.back().first_piece, pieces_, notes_);
   }
-  if (open) close_run(source.blend);
+  if (!open) return;
+  close_run(source.blend);
+  leave_tail(window, path, source.blend);
+}
+
+void PathForces::take_up(const OpenRun& before) {
+  pieces_ = before.pieces;
+  corners_ = before.corners;
+  taken_up_ = pieces_.size();
+  runs_.push_back(before.run);
 }
 
 void PathForces::close_run(double blend) {
@@ -191,7 +225,7 @@ void PathForces::close_run(double blend) {
   run.s1 = pieces_.back().s1;
   run.blend = std::min(blend, (run.s1 - run.s0) / 2);
   if (run.blend < joined_m) run.blend = 0;
-  Vector6 sum = Vector6::Zero();
+  Vector6 sum = pieces_[run.first_piece].integral;
   for (std::size_t i = run.first_piece; i < run.end_piece; ++i) {
     pieces_[i].integral = sum;
     sum = integral(pieces_[i], pieces_[i].s1);
@@ -199,10 +233,28 @@ void PathForces::close_run(double blend) {
   find_corners(run);
 }
 
+// The last run, and whether it can go on: a rapid ends it, even one that gives no segment.
+void PathForces::leave_tail(const Program& window, const Toolpath& path, double blend) {
+  const FeedRun& run = runs_.back();
+  const Segment& last = path.segments.back();
+  if (!last.cutting || rapid_among(window, last.move + 1, window.moves.size())) return;
+  const std::optional<Move>& after = window.after;
+  const bool ends = !after || (after->motion == Motion::rapid && after->start_mm != after->end_mm);
+  is_final_ = ends || run.s1 - run.s0 >= 2 * blend;
+  OpenRun open{run, last.wanted.end, {}, {}};
+  open.run.first_piece = open.run.first_corner = 0;
+  const double acts_from = run.s1 - blend;
+  for (std::size_t i = run.first_piece; i < run.end_piece; ++i)
+    if (pieces_[i].s1 >= acts_from) open.pieces.push_back(pieces_[i]);
+  for (std::size_t i = run.first_corner; i < run.end_corner; ++i)
+    if (corners_[i] >= acts_from) open.corners.push_back(corners_[i]);
+  tail_.open = std::move(open);
+}
+
 void PathForces::find_corners(FeedRun& run) {
-  run.first_corner = corners_.size();
   std::size_t& steps = run.blend > 0 ? ramps_ : jumps_;
-  for (std::size_t i = run.first_piece; i < run.end_piece; ++i) {
+  // The pieces of an earlier window have shown their corners there.
+  for (std::size_t i = std::max(run.first_piece, taken_up_); i < run.end_piece; ++i) {
     if (pieces_[i].goes_on) continue;
     const bool entry = i == run.first_piece;
     const Vector6 before = entry ? Vector6::Zero() : pieces_[i - 1].F1;

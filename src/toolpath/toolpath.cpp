@@ -32,13 +32,13 @@ double feed_m_s(const Move& move, double way) {
 }
 
 /// Feed moves count, rapids stand still; so does the clock where no feed is programmed.
-void advance(const Move& move, Segment& segment, double s, double t) {
+void advance(const Move& move, Segment& segment, const PathEnd& start) {
   const double way = segment.cutting ? length(segment.wanted) : 0;
-  segment.s_start = s;
-  segment.s_end = s + way;
-  segment.t_start = t;
+  segment.s_start = start.s;
+  segment.s_end = start.s + way;
+  segment.t_start = start.t;
   segment.feed_m_s = feed_m_s(move, way);
-  segment.t_end = segment.feed_m_s > 0 ? t + way / segment.feed_m_s : t;
+  segment.t_end = segment.feed_m_s > 0 ? start.t + way / segment.feed_m_s : start.t;
 }
 
 }  // namespace
@@ -107,18 +107,16 @@ void ignore_axes(Program& program, const std::array<bool, 3>& ignored) {
     if (ignored[axis]) ignore_axis(program, axis);
 }
 
-Toolpath build_toolpath(const Program& program, const std::vector<WorkFrame>& frames) {
-  Toolpath path{frames, {}};
+Toolpath build_toolpath(const Program& program, const std::vector<WorkFrame>& frames, const PathEnd& start) {
+  Toolpath path{frames, {}, start};
   path.segments.reserve(program.moves.size());
-  double s = 0, t = 0;
   for (std::size_t i = 0; i < program.moves.size(); ++i) {
     const Move& move = program.moves[i];
     if (!all_known(move.known_start) || !all_known(move.known_end)) continue;
     if (move.start_mm == move.end_mm && !move.arc) continue;
     Segment& segment = path.segments.emplace_back(segment_of(move, i, frames));
-    advance(move, segment, s, t);
-    s = segment.s_end;
-    t = segment.t_end;
+    advance(move, segment, path.end);
+    path.end = {segment.s_end, segment.t_end};
   }
   return path;
 }

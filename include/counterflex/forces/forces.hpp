@@ -80,6 +80,20 @@ struct FeedRun {
   std::size_t end_corner = 0;
 };
 
+/// Of a feed run that may go on behind a window: what still acts there.
+struct OpenRun {
+  FeedRun run;
+  Vector3 end = Vector3::Zero();   ///< where it has come, M (m)
+  std::vector<ForcePiece> pieces;  ///< over the last blend of it, and its corners there
+  std::vector<double> corners;
+};
+
+/// What the forces of one window leave to those of the next.
+struct ForceTail {
+  std::optional<OpenRun> open;
+  std::optional<long> block_number;  ///< N of the moves so far
+};
+
 /// On which side of a step a wrench is asked for. A place within 1e-9 of a segment from a step is at the
 /// step.
 enum class Side { before, after };
@@ -103,6 +117,17 @@ class PathForces {
   /// linear profile before the last.
   PathForces(const ForceSource& source, const Program& program, const Toolpath& path,
              const std::vector<Matrix3>& R_MT);
+
+  /// The same for a window of a program, behind the one that has left `before`. What a profile covers is for
+  /// `ForceCover`.
+  PathForces(const ForceSource& source, const Program& window, const Toolpath& path,
+             const std::vector<Matrix3>& R_MT, const ForceTail& before);
+
+  /// Whether what follows the window changes nothing in it: its last feed run has ended, or is long enough.
+  bool is_final() const { return is_final_; }
+
+  /// What the next window needs.
+  const ForceTail& tail() const { return tail_; }
 
   /// Wrench at `fraction` (0 to 1) of a segment; zero in rapid moves. Steps occur with blend 0 only. At the
   /// ends of a segment the wrench is the segment's own, whatever `side`: `at(i, 1)` is that before a step
@@ -132,17 +157,52 @@ class PathForces {
     std::size_t run = 0;  ///< `no_run` for a rapid
   };
 
+  void take_up(const OpenRun& before);
   void close_run(double blend);
   void find_corners(FeedRun& run);
+  void leave_tail(const Program& window, const Toolpath& path, double blend);
 
   bool at_platform_ = false;
   std::vector<ForcePiece> pieces_;
+  std::size_t taken_up_ = 0;  ///< of them, from the window before
   std::vector<double> corners_;
   std::vector<FeedRun> runs_;
   std::vector<Place> places_;
   std::vector<ForceNote> notes_;
+  ForceTail tail_;
+  bool is_final_ = true;
   std::size_t ramps_ = 0, jumps_ = 0;
   double largest_step_N_ = 0;
+};
+
+/// Whether a profile has a force for all of a program, gathered window by window.
+class ForceCover {
+ public:
+  explicit ForceCover(const ForceProfile& profile) : profile_(profile) {}
+
+  /// The next window. Throws `InputError` (Exit::machine_or_force) where it has not what the key counts: a
+  /// block number, or a feed.
+  void add(const Program& window, const Toolpath& path);
+
+  /// Throws `InputError` (Exit::machine_or_force) naming the row whose key lies beyond the program, or that
+  /// leaves a cutting move without a force: the first row after the first cutting move, or the last of a
+  /// linear profile before the last.
+  void check() const;
+
+ private:
+  struct Cut {
+    double key = 0;
+    int line = 0;
+  };
+  double end() const;  ///< greatest key that the program has
+
+  const ForceProfile& profile_;
+  std::optional<long> block_number_;
+  std::optional<Cut> first_, last_;  ///< of the cutting moves: key where the first begins and the last ends
+  long last_block_number_ = 0;
+  long newlines_ = 0, last_line_ = 0;  ///< lines; of the last move
+  bool ends_in_line_ = false;          ///< the text ends without a line end
+  PathEnd end_;
 };
 
 }  // namespace counterflex

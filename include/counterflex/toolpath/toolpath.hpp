@@ -39,10 +39,17 @@ struct Segment {
   double t_end = 0;
 };
 
+/// How far the path of a program has come where a window of it ends.
+struct PathEnd {
+  double s = 0;  ///< cutting path length (m)
+  double t = 0;  ///< time at programmed feeds, feed moves only (s)
+};
+
 /// The path: all moves whose start and end are known in every axis.
 struct Toolpath {
   std::vector<WorkFrame> frames;  ///< by index into Program::work_offsets
   std::vector<Segment> segments;
+  PathEnd end{};
 };
 
 /// Makes program axes count as known throughout that no target needs, those that the machine does not
@@ -65,7 +72,9 @@ Extent extent_of(const Move& move);
 std::vector<Vector3> points_along(const Curve& curve);
 
 /// Builds the path of `program` in the machine frame; `frames` are those of its work offsets. Moves with an
-/// axis that is not known at start and end give no segment; a move of no length gives none either.
-Toolpath build_toolpath(const Program& program, const std::vector<WorkFrame>& frames);
+/// axis that is not known at start and end give no segment; a move of no length gives none either. `start`: of
+/// a window, where the path of the one before it ended.
+Toolpath build_toolpath(const Program& program, const std::vector<WorkFrame>& frames,
+                        const PathEnd& start = {});
 
 }  // namespace counterflex
