@@ -44,15 +44,6 @@ void note_first_corrections(const Job& job, const Emission& emission, Compensati
   }
 }
 
-// Words that are written too coarsely for the tolerance cannot meet it.
-std::optional<Failure> decimals_failure(const Job& job) {
-  for (const Segment& segment : job.path.segments) {
-    const double rounding = rounding_allowance(job.program.moves[segment.move], job.options.write);
-    if (rounding >= job.options.tolerance) return few_decimals_failure(job, segment);
-  }
-  return std::nullopt;
-}
-
 }  // namespace
 
 std::optional<Failure> tolerance_failure(const Job& job, const std::vector<Waypoint>& waypoints) {
@@ -70,32 +61,75 @@ std::optional<Failure> tolerance_failure(const Job& job, const std::vector<Waypo
   return std::nullopt;
 }
 
-Compensation compensate(const Job& job, bool attribution) {
-  Compensation result;
-  result.failure = decimals_failure(job);
-  if (result.failure) return result;
-  const NominalTrack nominal = track(job);
-  const Plan planned = nominal.failure ? Plan{{}, nominal.failure} : plan(job, nominal);
-  if (planned.failure) {
-    result.failure = planned.failure;
-    return result;
+std::optional<Failure> decimals_failure(const Program& program, const Toolpath& path,
+                                        const CompensationOptions& options) {
+  for (const Segment& segment : path.segments) {
+    const Move& move = program.moves[segment.move];
+    if (rounding_allowance(move, options.write) >= options.tolerance)
+      return few_decimals_failure(move, options);
   }
-  note_planned_corrections(job, planned, result);
-  Emission emission = emit(job, planned);
-  note_first_corrections(job, emission, result);
-  result.left_alone = emission.left_alone;
-  result.failure = emission.failure;
-  if (result.failure) return result;
-  result.corrected_moves = static_cast<std::size_t>(std::count_if(
-      emission.moves.begin(), emission.moves.end(), [](const EmittedMove& move) { return !move.in_part; }));
-  result.counts = rewrite(job.program, edits_of(emission), job.options.write);
-  result.text = std::move(result.counts.text);
-  result.corrected = read_program(result.text, job.program.file, job.read);
-  const std::vector<Piece> pieces = emitted_pieces(job, emission, result.counts, result.corrected);
-  ForwardRun verified = solve_forward_along(job, pieces, {true, attribution, true});
-  result.waypoints = std::move(verified.waypoints);
-  result.failure = verified.failure ? verified.failure : tolerance_failure(job, result.waypoints);
+  return std::nullopt;
+}
+
+struct Compensator::State {
+  Rewriter rewriter;
+  TextReader corrected;
+  bool attribution;
+  EmitterState emitter{};
+  std::optional<Configuration> nominal{};  ///< where the window before ended; none: home
+  std::optional<Vector3> command{};
+
+  std::optional<Failure> plan_and_write(const Job& job, const NominalTrack& track, Emission& emission,
+                                        Compensation& result) {
+    const Plan planned = plan(job, track);
+    if (planned.failure) return planned.failure;
+    note_planned_corrections(job, planned, result);
+    emission = emit(job, planned, emitter);
+    note_first_corrections(job, emission, result);
+    result.left_alone = emission.left_alone;
+    if (emission.failure) return emission.failure;
+    result.corrected_moves = static_cast<std::size_t>(std::count_if(
+        emission.moves.begin(), emission.moves.end(), [](const EmittedMove& move) { return !move.in_part; }));
+    result.counts = rewriter.write(job.program, edits_of(emission));
+    result.text = std::move(result.counts.text);
+    return std::nullopt;
+  }
+
+  // What was written is read anew, and solved forward.
+  std::optional<Failure> verify(const Job& job, const NominalTrack& track, const Emission& emission,
+                                Compensation& result) {
+    result.corrected = corrected.read(result.text);
+    const std::vector<Piece> pieces = emitted_pieces(job, emission, result.counts, result.corrected);
+    ForwardRun run = solve_forward_from(job, track, pieces, {true, attribution, true}, command);
+    if (!pieces.empty()) command = pieces.back().commanded.end;
+    result.waypoints = std::move(run.waypoints);
+    return run.failure ? run.failure : tolerance_failure(job, result.waypoints);
+  }
+
+  std::optional<Failure> next(const Job& job, Compensation& result) {
+    if (auto failure = decimals_failure(job.program, job.path, job.options)) return failure;
+    const NominalTrack path = track(job, nominal.value_or(job.model.home));
+    if (path.failure) return path.failure;
+    nominal = path.end;
+    Emission emission;
+    if (auto failure = plan_and_write(job, path, emission, result)) return failure;
+    return verify(job, path, emission, result);
+  }
+};
+
+Compensator::Compensator(const WriteOptions& write, TextReader corrected, bool attribution)
+    : state_(new State{Rewriter(write), std::move(corrected), attribution}) {}
+Compensator::~Compensator() = default;
+Compensator::Compensator(Compensator&&) noexcept = default;
+
+Compensation Compensator::next(const Job& job) {
+  Compensation result;
+  result.failure = state_->next(job, result);
   return result;
+}
+
+Compensation compensate(const Job& job, bool attribution) {
+  return Compensator(job.options.write, TextReader(job.program, job.read), attribution).next(job);
 }
 
 }  // namespace counterflex

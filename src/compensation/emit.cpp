@@ -26,14 +26,14 @@ Emission Emitter::run() {
 void Emitter::emit_move(std::size_t m, Index s) {
   const Move& move = job_.program.moves[m];
   const bool known = all_known(move.known_start) && all_known(move.known_end);
-  const bool carries =
-      doubtful_ && correction_known_ && pending_.empty() && (holds_[0] || holds_[1] || holds_[2]);
+  const bool carries = state_.doubtful && state_.correction_known && pending_.empty() &&
+                       (state_.holds[0] || state_.holds[1] || state_.holds[2]);
   if (move.fixed[0] || move.fixed[1] || move.fixed[2]) return emit_fixed(m);
   if (move.group != 0) return emit_group(m, s);
   if (move.handling == Handling::held) return emit_rigid(m, s, Kind::shifted);
   if (move.cycle) return emit_hole(m);
   if (s) return emit_segment(*s);
-  if (known) return correction_known_ ? emit_rigid(m, s, Kind::shifted) : pass(move);
+  if (known) return state_.correction_known ? emit_rigid(m, s, Kind::shifted) : pass(move);
   if (carries && (move.motion == Motion::feed || !all_known(move.known_end))) return emit_doubtful(m);
   if (all_known(move.known_end)) return emit_first_known(m);
   pending_.push_back(m);
@@ -59,7 +59,7 @@ bool Emitter::put_jump(const Segment& segment, const PlannedSegment& planned, Em
                        double& jump) {
   const Move& move = job_.program.moves[segment.move];
   const Vector3 start = planned.start_target - segment.wanted.start;
-  jump = planned.starts_anywhere || !correction_known_ ? 0 : (start - correction_).norm();
+  jump = planned.starts_anywhere || !state_.correction_known ? 0 : (start - state_.correction).norm();
   piece_held_ = before(move);
   if (jump <= emitted_jump_share * job_.options.tolerance) return false;
   if (!move.may_jump) return true;
@@ -95,10 +95,10 @@ void Emitter::finish_segment(const Segment& segment, const PlannedSegment& plann
 
 // Where no axis words may be inserted, absent axes keep the correction that they have.
 Vector3 Emitter::correction_that_can_be_written(const Move& move, const Vector3& correction) const {
-  if (move.may_insert_words || !correction_known_) return correction;
+  if (move.may_insert_words || !state_.correction_known) return correction;
   const Matrix3& R_MW = frame(move).X_MW.R;
   Vector3 c_W = R_MW.transpose() * correction;
-  const Vector3 held_W = R_MW.transpose() * correction_;
+  const Vector3 held_W = R_MW.transpose() * state_.correction;
   const double rounding = rounding_allowance(move, job_.options.write);
   bool all_written = true;
   for (Eigen::Index axis = 0; axis < 3; ++axis) {
@@ -129,8 +129,8 @@ Vector3 bottom_of(const Move& move) {
   return {move.end_mm.x(), move.end_mm.y(), move.cycle->bottom_mm};
 }
 
-Emission emit(const Job& job, const Plan& plan) {
-  return Emitter(job, plan).run();
+Emission emit(const Job& job, const Plan& plan, EmitterState& state) {
+  return Emitter(job, plan, state).run();
 }
 
 std::vector<MoveEdit> edits_of(const Emission& emission) {

@@ -31,12 +31,22 @@ struct Emission {
 
 std::vector<MoveEdit> edits_of(const Emission& emission);
 
+/// What holds where the tool is, from move to move and from window to window.
+struct EmitterState {
+  Vector3 correction = Vector3::Zero();  ///< target minus wanted position, M (m)
+  bool correction_known = false;
+  std::array<bool, 3> holds{};  ///< program axes that carry it
+  bool doubtful = false;  ///< a block made a position unknown that carries the correction, and it still is
+  int group = 0;          ///< contour group that is being emitted
+  HeldPosition held{};    ///< of the emitted text
+};
+
 /// Edits for all moves: segments as planned; moves that go nowhere keep the correction that holds there;
 /// moves made before all axes are known take that of the first position that is (look-ahead of 64 blocks).
 /// Arcs are fitted to what the text holds before them; holes get the correction at their bottom, contour
 /// groups one shift; what is held keeps the correction with which it is entered. Where one cannot be held the
 /// emission fails (Exit::program_text).
-Emission emit(const Job& job, const Plan& plan);
+Emission emit(const Job& job, const Plan& plan, EmitterState& state);
 
 /// The pieces that the emitted text commands. `corrected` is that text, read anew.
 std::vector<Piece> emitted_pieces(const Job& job, const Emission& emission, const Rewritten& rewritten,

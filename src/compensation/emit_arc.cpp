@@ -87,7 +87,7 @@ void Emitter::put_chords(const Segment& segment, const PlannedSegment& planned, 
                          EmittedMove& emitted) {
   const std::optional<double> room = room_between_points(job_, segment, planned.gain);
   if (!room) {
-    out_.failure = few_decimals_failure(job_, segment);
+    out_.failure = few_decimals_failure(job_.program.moves[segment.move], job_.options);
     return;
   }
   for (const CorrectionCurve& c : planned.arc) {

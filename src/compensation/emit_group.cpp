@@ -34,7 +34,7 @@ std::optional<Vector3> Emitter::group_shift_mm(std::size_t m, std::size_t s) {
 
 // The group's first move has to make the step: nothing may be inserted after it.
 void Emitter::check_step(const Move& move, const Vector3& before_mm) {
-  const Vector3 after_mm = shift_mm(move, correction_);
+  const Vector3 after_mm = shift_mm(move, state_.correction);
   const bool in_plane = move.words[0] || move.words[1];
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const auto k = static_cast<Eigen::Index>(axis);
@@ -50,12 +50,12 @@ void Emitter::check_step(const Move& move, const Vector3& before_mm) {
 
 bool Emitter::begin_group(std::size_t m, Index s) {
   const Move& move = job_.program.moves[m];
-  group_ = move.group;
+  state_.group = move.group;
   const std::optional<Vector3> shift = group_shift_mm(m, s.value_or(next_segment_));
-  if (!shift) return correction_known_;
+  if (!shift) return state_.correction_known;
   const Vector3 before_mm = held_shift_mm(move);
   set_shift(move, *shift);
-  holds_ = {true, true, true};
+  state_.holds = {true, true, true};
   check_step(move, before_mm);
   give_to_pending(move);
   return true;
@@ -63,7 +63,7 @@ bool Emitter::begin_group(std::size_t m, Index s) {
 
 void Emitter::emit_group(std::size_t m, Index s) {
   const Move& move = job_.program.moves[m];
-  if (move.group != group_ && !begin_group(m, s)) return pending_.push_back(m);
+  if (move.group != state_.group && !begin_group(m, s)) return pending_.push_back(m);
   if (out_.failure) return;
   emit_rigid(m, s, Kind::shifted);
 }

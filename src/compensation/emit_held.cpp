@@ -18,22 +18,22 @@ Vector3 Emitter::shift_mm(const Move& move, const Vector3& correction) const {
 
 Vector3 Emitter::held_shift_mm(const Move& move) const {
   Vector3 shift = Vector3::Zero();
-  if (!correction_known_) return shift;
-  const Vector3 all = shift_mm(move, correction_);
+  if (!state_.correction_known) return shift;
+  const Vector3 all = shift_mm(move, state_.correction);
   for (Eigen::Index axis = 0; axis < 3; ++axis)
-    if (holds_[static_cast<std::size_t>(axis)]) shift[axis] = all[axis];
+    if (state_.holds[static_cast<std::size_t>(axis)]) shift[axis] = all[axis];
   return shift;
 }
 
 void Emitter::set_shift(const Move& move, const Vector3& shift_mm) {
-  correction_ = frame(move).X_MW.R * (shift_mm * mm) - frame(move).datum_shift;
-  correction_known_ = true;
+  state_.correction = frame(move).X_MW.R * (shift_mm * mm) - frame(move).datum_shift;
+  state_.correction_known = true;
 }
 
 void Emitter::hold(const Vector3& correction, const std::array<bool, 3>& axes) {
-  correction_ = correction;
-  correction_known_ = true;
-  holds_ = axes;
+  state_.correction = correction;
+  state_.correction_known = true;
+  state_.holds = axes;
 }
 
 bool Emitter::rounds_to_nothing(const Move& move, std::size_t axis, double shift_mm) const {
@@ -45,18 +45,18 @@ bool Emitter::rounds_to_nothing(const Move& move, std::size_t axis, double shift
 // An axis that the program has lost (machine positions, tool changes) carries nothing any more; where only
 // '/' or another work offset makes it unknown it does.
 void Emitter::forget_lost_axes(std::size_t m) {
-  if (m == 0) return;
-  const Move &move = job_.program.moves[m], &last = job_.program.moves[m - 1];
-  if (last.block_delete || last.offset != move.offset) return;
+  const Move& move = job_.program.moves[m];
+  const Move* last = move_before(job_.program, m);
+  if (last == nullptr || last->block_delete || last->offset != move.offset) return;
   for (std::size_t axis = 0; axis < 3; ++axis)
-    if (last.known_end[axis] && !move.known_start[axis]) holds_[axis] = false;
+    if (last->known_end[axis] && !move.known_start[axis]) state_.holds[axis] = false;
 }
 
 void Emitter::note_doubt(const Move& move) {
   bool lost = move.block_delete;
   for (std::size_t axis = 0; axis < 3; ++axis)
     lost = lost || move.fixed[axis] || (move.known_start[axis] && !move.known_end[axis]);
-  doubtful_ = lost || (doubtful_ && !all_known(move.known_end));
+  state_.doubtful = lost || (state_.doubtful && !all_known(move.known_end));
 }
 
 // Axes that the block sets to a place of its own take no shift: there must be none. The others keep theirs.
@@ -72,7 +72,7 @@ void Emitter::emit_fixed(std::size_t m) {
                     fmt::format("the block sets {} to a place of its own, and the correction of {:.4f} mm "
                                 "that holds there cannot be kept",
                                 "XYZ"[axis], along));
-    if (move.fixed[axis]) holds_[axis] = false;
+    if (move.fixed[axis]) state_.holds[axis] = false;
     edits = edits || (move.words[axis] && along != 0);
   }
   if (!edits) return pass(move);
@@ -84,7 +84,7 @@ void Emitter::emit_rigid(std::size_t m, Index s, Kind otherwise) {
   const Move& move = job_.program.moves[m];
   if (!pending_.empty() && !all_known(move.known_end)) return pending_.push_back(m);
   leave_pending_alone();
-  if (!correction_known_) return leave_alone(move);
+  if (!state_.correction_known) return leave_alone(move);
   const Vector3 shift = held_shift_mm(move);
   EmittedMove emitted{.edit = {.move = m, .end_mm = move.end_mm + shift}, .kind = otherwise};
   if (move.arc) emitted.edit.centre_mm = move.arc->centre_mm + shift;
@@ -110,13 +110,14 @@ void Emitter::emit_doubtful(std::size_t m) {
   const Vector3 shift = held_shift_mm(move);
   put({.edit = {.move = m, .end_mm = move.end_mm + shift}, .in_part = true});
   set_shift(move, shift);
-  for (std::size_t axis = 0; axis < 3; ++axis) holds_[axis] = holds_[axis] || move.known_end[axis];
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    state_.holds[axis] = state_.holds[axis] || move.known_end[axis];
 }
 
 void Emitter::leave_alone(const Move& move) {
   list(move, "an axis has no known position here, and none follows within 64 blocks");
   for (std::size_t axis = 0; axis < 3; ++axis)
-    if (move.words[axis] && !move.relative) holds_[axis] = false;
+    if (move.words[axis] && !move.relative) state_.holds[axis] = false;
   pass(move);
 }
 
@@ -137,16 +138,16 @@ void Emitter::refuse(const Move& move, std::string what) {
 
 // The coordinates may move under the tool from one move to the next.
 void Emitter::come_to(const Move& move) {
-  const auto& moves = job_.program.moves;
-  const auto m = static_cast<std::size_t>(&move - moves.data());
-  if (m > held_for_) held_ = held_between(moves[m - 1], move, held_);
+  const auto m = static_cast<std::size_t>(&move - job_.program.moves.data());
+  if (held_for_ && m <= *held_for_) return;
+  if (const Move* last = move_before(job_.program, m)) state_.held = held_between(*last, move, state_.held);
   held_for_ = m;
 }
 
 // Axes that nobody corrects may have no position in the text; any serves.
 HeldPosition Emitter::before(const Move& move) {
   come_to(move);
-  HeldPosition held = held_;
+  HeldPosition held = state_.held;
   for (std::size_t axis = 0; axis < 3; ++axis)
     if (!held[axis]) held[axis] = move.start_mm[static_cast<Eigen::Index>(axis)];
   return held;
@@ -161,10 +162,10 @@ void Emitter::put(EmittedMove emitted) {
   const MoveEdit& edit = emitted.edit;
   const Move& move = job_.program.moves[edit.move];
   come_to(move);
-  if (edit.jump_mm || !edit.inserted.empty()) held_ = before(move);
-  if (edit.jump_mm) go_through(move, {*edit.jump_mm}, held_);
-  for (const Via& via : edit.inserted) go_through(move, via, held_);
-  held_ = held_after(move, held_, edit.end_mm, job_.options.write);
+  if (edit.jump_mm || !edit.inserted.empty()) state_.held = before(move);
+  if (edit.jump_mm) go_through(move, {*edit.jump_mm}, state_.held);
+  for (const Via& via : edit.inserted) go_through(move, via, state_.held);
+  state_.held = held_after(move, state_.held, edit.end_mm, job_.options.write);
   out_.moves.push_back(std::move(emitted));
 }
 
@@ -173,11 +174,11 @@ void Emitter::pass(const Move& move) {
   Vector3 end = move.end_mm;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const auto k = static_cast<Eigen::Index>(axis);
-    if (held_[axis] && move.relative && move.words[axis])
-      end[k] = *held_[axis] + move.end_mm[k] - move.start_mm[k];
-    if (held_[axis] && !move.words[axis]) end[k] = *held_[axis];
+    if (state_.held[axis] && move.relative && move.words[axis])
+      end[k] = *state_.held[axis] + move.end_mm[k] - move.start_mm[k];
+    if (state_.held[axis] && !move.words[axis]) end[k] = *state_.held[axis];
   }
-  held_ = held_after(move, held_, end, job_.options.write);
+  state_.held = held_after(move, state_.held, end, job_.options.write);
 }
 
 }  // namespace counterflex

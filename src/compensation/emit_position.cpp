@@ -30,12 +30,12 @@ void Emitter::give_to_pending(const Move& move) {
   for (std::size_t p : pending_) {
     const Move& earlier = job_.program.moves[p];
     if (move.block_index - earlier.block_index > look_ahead) {
-      const std::array<bool, 3> holds = holds_;
+      const std::array<bool, 3> holds = state_.holds;
       leave_alone(earlier);
-      holds_ = holds;
+      state_.holds = holds;
       continue;
     }
-    put({.edit = {.move = p, .end_mm = earlier.end_mm + shift_mm(earlier, correction_)}});
+    put({.edit = {.move = p, .end_mm = earlier.end_mm + shift_mm(earlier, state_.correction)}});
   }
   pending_.clear();
 }
@@ -52,7 +52,7 @@ void Emitter::emit_first_known(std::size_t m) {
     list_held_words(move, *correction - kept);
   else if (move.motion == Motion::feed)
     list(move, "a feed move from a position that is not known: its end is corrected without cutting force");
-  put({.edit = {.move = m, .end_mm = move.end_mm + shift_mm(move, correction_)},
+  put({.edit = {.move = m, .end_mm = move.end_mm + shift_mm(move, state_.correction)},
        .kind = Kind::first_known,
        .in_part = kept != *correction || move.motion == Motion::feed,
        .exempt_end = kept != *correction});
@@ -79,16 +79,16 @@ void Emitter::emit_hole(std::size_t m) {
   emitted.edit.bottom_mm = move.cycle->bottom_mm + shift.z();
   emitted.edit.retract_mm = move.cycle->retract_mm + shift.z();
   emitted.edit.end_mm = move.end_mm + shift;
-  const bool held_z = holds_[2];
+  const bool held_z = state_.holds[2];
   set_shift(move, shift);
-  holds_ = {true, true, true};
+  state_.holds = {true, true, true};
   give_to_pending(move);
   put(std::move(emitted));
   // Where the cycle leaves the tool its text tells.
-  if (held_[2]) shift.z() = *held_[2] - move.end_mm.z();
+  if (state_.held[2]) shift.z() = *state_.held[2] - move.end_mm.z();
   if (!move.known_end[2]) shift.z() = entered.z();
   set_shift(move, shift);
-  holds_[2] = held_[2] || held_z;
+  state_.holds[2] = state_.held[2] || held_z;
 }
 
 }  // namespace counterflex

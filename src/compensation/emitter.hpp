@@ -11,7 +11,7 @@ inline constexpr double emitted_jump_share = 0.1;  // of the tolerance
 
 class Emitter {
  public:
-  Emitter(const Job& job, const Plan& plan) : job_(job), plan_(plan) {}
+  Emitter(const Job& job, const Plan& plan, EmitterState& state) : job_(job), plan_(plan), state_(state) {}
 
   Emission run();
 
@@ -81,15 +81,10 @@ class Emitter {
   const Plan& plan_;
   Emission out_;
   std::size_t next_segment_ = 0;
-  std::vector<std::size_t> pending_;      // moves before all axes are known
-  Vector3 correction_ = Vector3::Zero();  // target minus wanted position, M (m)
-  bool correction_known_ = false;
-  std::array<bool, 3> holds_{};  // program axes that carry it
-  bool doubtful_ = false;  // a block made a position unknown that carries the correction, and it still is
-  int group_ = 0;          // contour group that is being emitted
-  HeldPosition held_{};    // in the coordinates of move `held_for_`
-  std::size_t held_for_ = 0;
-  HeldPosition piece_held_{};  // where the pieces of the move that is being fitted have come
+  std::vector<std::size_t> pending_;  // moves before all axes are known
+  EmitterState& state_;
+  std::optional<std::size_t> held_for_;  // the move in whose coordinates the held position is
+  HeldPosition piece_held_{};            // where the pieces of the move that is being fitted have come
   std::optional<PathSolver> solver_;
 };
 

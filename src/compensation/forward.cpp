@@ -130,9 +130,8 @@ class ForwardSolver {
 
 }  // namespace
 
-ForwardRun solve_forward_along(const Job& job, const std::vector<Piece>& pieces, const Questions& questions) {
-  const NominalTrack nominal = track(job);
-  if (nominal.failure) return {{}, nominal.failure};
+ForwardRun solve_forward_from(const Job& job, const NominalTrack& nominal, const std::vector<Piece>& pieces,
+                              const Questions& questions, const std::optional<Vector3>& command) {
   std::vector<ForwardRun> runs(chunk_count(pieces.size()));
   for_each_chunk(pieces.size(), job.options.threads, [&](const Chunk& chunk) {
     const std::size_t segment = pieces[chunk.begin].segment;
@@ -140,7 +139,8 @@ ForwardRun solve_forward_along(const Job& job, const std::vector<Piece>& pieces,
         segment == no_segment ? job.model.home : nominal.starts[segment / chunk_size];
     ForwardSolver solver(job, questions, start);
     for (std::size_t i = chunk.begin; i < chunk.end; ++i) {
-      const bool begins_anew = i == 0 || pieces[i].commanded.start != pieces[i - 1].commanded.end;
+      const std::optional<Vector3> last = i == 0 ? command : pieces[i - 1].commanded.end;
+      const bool begins_anew = last != pieces[i].commanded.start;
       if (!solver.solve(pieces[i], begins_anew, runs[chunk.index])) return;
     }
   });
@@ -152,6 +152,21 @@ ForwardRun solve_forward_along(const Job& job, const std::vector<Piece>& pieces,
     break;
   }
   return all;
+}
+
+ForwardRun solve_forward_along(const Job& job, const std::vector<Piece>& pieces, const Questions& questions,
+                               ForwardState& state) {
+  const NominalTrack nominal = track(job, state.nominal.value_or(job.model.home));
+  if (nominal.failure) return {{}, nominal.failure};
+  ForwardRun run = solve_forward_from(job, nominal, pieces, questions, state.command);
+  state.nominal = nominal.end;
+  if (!pieces.empty()) state.command = pieces.back().commanded.end;
+  return run;
+}
+
+ForwardRun solve_forward_along(const Job& job, const std::vector<Piece>& pieces, const Questions& questions) {
+  ForwardState state;
+  return solve_forward_along(job, pieces, questions, state);
 }
 
 std::vector<Piece> original_pieces(const Job& job, double spacing) {

@@ -92,8 +92,9 @@ class PieceReader {
  private:
   // Whether the text holds the stop already, and the next move does not say it again.
   bool is_held(const Stop& stop, LengthUnit unit) const {
-    if (next_ == 0) return false;
-    const Vector3& held_mm = corrected_.moves[next_ - 1].end_mm;
+    const Move* last = move_before(corrected_, next_);
+    if (last == nullptr) return false;
+    const Vector3& held_mm = last->end_mm;
     if (next_ < corrected_.moves.size() && corrected_.moves[next_].end_mm == held_mm) return false;
     for (Eigen::Index axis = 0; axis < 3; ++axis) {
       const double digit = std::pow(10.0, -stop.decimals[static_cast<std::size_t>(axis)]) *
@@ -109,7 +110,10 @@ class PieceReader {
     return all_known(move.known_start) ? command_of(job_, move) : Curve{from, here(), {}};
   }
 
-  Vector3 here() const { return next_ == 0 ? Vector3::Zero() : target_of(job_, corrected_.moves[next_ - 1]); }
+  Vector3 here() const {
+    const Move* last = move_before(corrected_, next_);
+    return last == nullptr ? Vector3(Vector3::Zero()) : target_of(job_, *last);
+  }
 
   const Job& job_;
   const Program& corrected_;

@@ -145,7 +145,7 @@ class ChunkPlanner {
       if (!measure_gain()) return false;
       const std::optional<double> room = room_between_points(job_, *segment_, gain_);
       if (!room) {
-        failure_ = few_decimals_failure(job_, *segment_);
+        failure_ = few_decimals_failure(job_.program.moves[segment_->move], job_.options);
         return false;
       }
       knots = choose_knots(stretch, corners, *room);
@@ -212,15 +212,14 @@ double rounding_allowance(const Move& move, const WriteOptions& options) {
                      std::min({decimals.end[0], decimals.end[1], decimals.end[2], decimals.inserted}));
 }
 
-Failure few_decimals_failure(const Job& job, const Segment& segment) {
-  const Move& move = job.program.moves[segment.move];
+Failure few_decimals_failure(const Move& move, const CompensationOptions& options) {
   int enough = 0;
-  while (rounding_of(move.unit, enough) > job.options.tolerance / 2) ++enough;
+  while (rounding_of(move.unit, enough) > options.tolerance / 2) ++enough;
   return {
-      Exit::usage, segment.line,
+      Exit::usage, move.line,
       fmt::format("words are rounded by up to {:.3g} mm here, which leaves too little of the tolerance of "
                   "{:.3g} mm; it needs --decimals {}",
-                  rounding_allowance(move, job.options.write) / mm, job.options.tolerance / mm, enough)};
+                  rounding_allowance(move, options.write) / mm, options.tolerance / mm, enough)};
 }
 
 std::optional<double> room_between_points(const Job& job, const Segment& segment, double gain) {

@@ -27,8 +27,8 @@ struct Plan {
   std::optional<Failure> failure;
 };
 
-/// The failure of words that are rounded by up to `rounding` (m), too much for the tolerance.
-Failure few_decimals_failure(const Job& job, const Segment& segment);
+/// The failure of a move's words that are rounded too much for the tolerance.
+Failure few_decimals_failure(const Move& move, const CompensationOptions& options);
 
 /// What must be left of the tolerance of a segment for corrections between points (m); nothing where rounding
 /// to the digits takes it all.

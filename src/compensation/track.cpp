@@ -22,9 +22,9 @@ std::optional<Failure> limit_failure(const Job& job, const Vector3& correction, 
                              job.options.max_correction / mm)};
 }
 
-NominalTrack track(const Job& job) {
+NominalTrack track(const Job& job, const Configuration& start) {
   NominalTrack result;
-  PathSolver solver(job, job.model.home);
+  PathSolver solver(job, start);
   const auto go = [&](const Vector3& p, int line) {
     Status status;
     solver.wanted(p, status);
@@ -39,6 +39,7 @@ NominalTrack track(const Job& job) {
     if (i % chunk_size == 0) result.starts.push_back(solver.nominal());
     if (!go(segment.wanted.end, segment.line)) return result;
   }
+  result.end = solver.nominal();
   return result;
 }
 

@@ -1,7 +1,10 @@
 #pragma once
 /// Compensates a program: plans the correction of every move, writes the text, reads it back and solves it
 /// forward.
+#include <memory>
+
 #include "counterflex/compensation/waypoint.hpp"
+#include "counterflex/program/program_reader.hpp"
 
 namespace counterflex {
 
@@ -18,10 +21,31 @@ struct Compensation {
   int largest_correction_line = 0;
 };
 
-/// The whole of `counterflex compensate` between reading and writing. A failure says exit status, line and
-/// what happened: not solved or not within tolerance 5, travel or correction limit 6, too few decimals 2.
-/// With `attribution` each waypoint's deviation is split into its sources.
+/// Compensates a program window by window: what `counterflex compensate` does between reading and writing.
+class Compensator {
+ public:
+  /// `corrected` reads the text that is written. With `attribution` each waypoint's deviation is split into
+  /// its sources.
+  Compensator(const WriteOptions& write, TextReader corrected, bool attribution);
+  ~Compensator();
+  Compensator(Compensator&&) noexcept;
+
+  /// The next window: `job` holds its program, path and forces. A failure says exit status, line and what
+  /// happened: not solved or not within tolerance 5, travel or correction limit 6, too few decimals 2; the
+  /// windows behind it cannot be compensated then.
+  Compensation next(const Job& job);
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+/// Compensates a program that is one window.
 Compensation compensate(const Job& job, bool attribution);
+
+/// The failure of words that are written too coarsely for the tolerance (Exit::usage), if there are any.
+std::optional<Failure> decimals_failure(const Program& program, const Toolpath& path,
+                                        const CompensationOptions& options);
 
 /// Pairs the moves of a corrected program with the segments of the original path: the pieces that `verify`
 /// solves. Throws `InputError` (Exit::not_compensated) where a move has no counterpart.

@@ -69,6 +69,16 @@ struct ForwardRun {
 /// wanted path is a matter for the caller; only a status other than converged is a failure here.
 ForwardRun solve_forward_along(const Job& job, const std::vector<Piece>& pieces, const Questions& questions);
 
+/// What solving forward carries from one window of a program to the next.
+struct ForwardState {
+  std::optional<Configuration> nominal;  ///< none: home
+  std::optional<Vector3> command;        ///< end of the last piece
+};
+
+/// The same for the pieces of one window; moves `state` on.
+ForwardRun solve_forward_along(const Job& job, const std::vector<Piece>& pieces, const Questions& questions,
+                               ForwardState& state);
+
 /// The pieces of the original program itself: feed segments cut where the force has corners and to at most
 /// `spacing` (m).
 std::vector<Piece> original_pieces(const Job& job, double spacing);
