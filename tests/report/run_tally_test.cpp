@@ -104,7 +104,6 @@ TEST_CASE("waypoints fed in parts cut anywhere give the report of those fed at o
 }
 
 TEST_CASE("a cut between a rapid and the feed move behind it loses neither the start nor its weight") {
-  const MadeUpRun run;
   Waypoint rapid = cut(0, 3, 0, Vector3(0, 0.8, 0)), between = cut(1, 4, 60, Vector3::Zero()),
            feed = cut(1, 4, 40, Vector3(0, 0.4, 0));
   rapid.cutting = false;
@@ -128,62 +127,6 @@ TEST_CASE("asking a tally in the middle of a path changes nothing of what follow
     (void)reports_of(run, asked);
   }
   CHECK(reports_of(run, asked) == reports_of(run, silent));
-}
-
-TEST_CASE("segments whose numbers begin anew with a window are counted apart") {
-  RunTally tally(2);
-  tally.add_waypoints({cut(0, 3, 1, Vector3(1, 0, 0)), cut(0, 3, 1, Vector3(1, 0, 0))});
-  tally.add_waypoints({cut(0, 5, 1, Vector3(1, 0, 0))});
-  CHECK(tally.path().measures().segments_changed == 2);
-}
-
-TEST_CASE("the worst of many thousand lines are those of all, whatever comes first") {
-  Thousandths random(11);
-  WorstLines lines;
-  std::vector<WorstRow> all;
-  for (int line = 1; line <= 20000; ++line) {
-    lines.row(line).after_mm = random.next() * line;
-    if (line > 1) lines.row(line - 1).before_mm = random.next();  // known when the piece is complete
-  }
-  random = Thousandths(11);
-  for (int line = 1; line <= 20000; ++line) {
-    all.push_back({line, 0, random.next() * line});
-    if (line > 1) all[static_cast<std::size_t>(line) - 2].before_mm = random.next();
-  }
-  for (const auto key : {&WorstRow::before_mm, &WorstRow::after_mm}) {
-    std::stable_sort(all.begin(), all.end(),
-                     [&](const WorstRow& a, const WorstRow& b) { return a.*key > b.*key; });
-    const std::vector<WorstRow> worst = lines.worst(key);
-    REQUIRE(worst.size() == 10);
-    for (std::size_t i = 0; i < worst.size(); ++i) {
-      CHECK(worst[i].line == all[i].line);
-      CHECK(worst[i].before_mm == all[i].before_mm);
-      CHECK(worst[i].after_mm == all[i].after_mm);
-    }
-    std::sort(all.begin(), all.end(), [](const WorstRow& a, const WorstRow& b) { return a.line < b.line; });
-  }
-}
-
-TEST_CASE("a line that comes back has one row with the largest values of both times") {
-  RunTally tally(2);
-  tally.add_waypoints({cut(0, 5, 1, Vector3(0.3, 0, 0)), cut(1, 9, 1, Vector3(0.2, 0, 0))});
-  tally.add_waypoints({cut(2, 5, 1, Vector3(0.5, 0, 0)), cut(3, 9, 1, Vector3(0.1, 0, 0))});
-  const std::vector<WorstRow> worst = tally.path().worst(&WorstRow::before_mm);
-  REQUIRE(worst.size() == 2);
-  CHECK(worst[0].line == 5);
-  CHECK(worst[0].before_mm == doctest::Approx(0.5));
-  CHECK(worst[0].after_mm == doctest::Approx(0.005));
-  CHECK(worst[1].line == 9);
-  CHECK(worst[1].before_mm == doctest::Approx(0.2));
-}
-
-TEST_CASE("of lines that are equally bad the first ten are named") {
-  RunTally tally(2);
-  for (int line = 6000; line > 5900; --line) tally.add_waypoints({cut(1, line, 1, Vector3(0.5, 0, 0))});
-  for (int line = 1; line <= 5000; ++line) tally.add_waypoints({cut(1, line, 1, Vector3(0.5, 0, 0))});
-  const std::vector<WorstRow> worst = tally.path().worst(&WorstRow::after_mm);
-  REQUIRE(worst.size() == 10);
-  for (int i = 0; i < 10; ++i) CHECK(worst[static_cast<std::size_t>(i)].line == i + 1);
 }
 
 TEST_CASE("a corrected program fed in windows gives the report of the one fed at once") {
