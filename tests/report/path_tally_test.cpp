@@ -76,3 +76,12 @@ TEST_CASE("of lines that are equally bad the first ten are named") {
   REQUIRE(worst.size() == 10);
   for (int i = 0; i < 10; ++i) CHECK(worst[static_cast<std::size_t>(i)].line == i + 1);
 }
+
+TEST_CASE("thousands of lines later a line that is none of the worst is forgotten, and begins anew") {
+  WorstLines lines;
+  lines.row(1).after_mm = 0.1;
+  lines.row(2).after_mm = 0.9;
+  for (int line = 3; line <= 5000; ++line) lines.row(line).after_mm = line % 500 == 0 ? 0.5 : 0.2;
+  CHECK(lines.row(1).after_mm == 0);
+  CHECK(lines.row(2).after_mm == 0.9);
+}
