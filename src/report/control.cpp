@@ -12,6 +12,8 @@ namespace {
 // Plunges to one rapid, from which on the post has probably turned rapids into feed moves.
 constexpr std::size_t suspicious_plunges = 3;
 
+constexpr double same_time = 1e-9;  // relative: rounding of coordinates; of equal moves the first is named
+
 /// How long a feed move takes at its programmed feed (ms); 0: no time is known.
 double duration_ms(const Segment& segment) {
   return segment.cutting && segment.feed_m_s > 0 ? 1e3 * (length(segment.wanted) / segment.feed_m_s) : 0;
@@ -66,7 +68,7 @@ void add_short_blocks(ShortBlocks& blocks, const Program& window) {
     const double ms = duration_ms(segment);
     if (ms <= 0 || ms >= blocks.limit_ms) continue;
     if (blocks.count++ == 0) blocks.first_line = segment.line;
-    if (blocks.count > 1 && ms >= blocks.shortest_ms) continue;
+    if (blocks.count > 1 && ms >= blocks.shortest_ms * (1 - same_time)) continue;
     blocks.shortest_ms = ms;
     blocks.shortest_line = segment.line;
   }

@@ -48,6 +48,12 @@ TEST_CASE("feed moves shorter in time than a control's block are counted, with t
   CHECK(to_json(report).find("\"first_line\": 3") != std::string::npos);
 }
 
+TEST_CASE("of short blocks that differ by rounding the first is the shortest") {
+  const RunReport report = report_on(start, start + "G1 X0.01 F600\nX0.02\nX0.03\nX0.04\n");
+  CHECK(report.control.short_blocks->count == 4);
+  CHECK(report.control.short_blocks->shortest_line == 3);
+}
+
 TEST_CASE("the time of a short block is the caller's choice, and without one there is no warning") {
   MadeUpRun run;
   run.facts.min_block_ms = 0.5;

@@ -17,7 +17,7 @@ struct Overview {
   std::size_t moves = 0;       ///< of these, moves
   std::size_t bytes = 0;       ///< of the text
   std::size_t plunges = 0;     ///< feed moves straight down in Z
-  std::size_t rapids = 0;      ///< moves under G0
+  std::size_t rapids = 0;      ///< moves that are no feed moves: holes of cycles, too
   int text_lines = 0;          ///< line ends, and a last line that has none
   int lines = 0;               ///< `text_lines`, or the line of the last move where that is more
   long last_block_number = 0;  ///< the largest N of a move

@@ -1,0 +1,207 @@
+#include "counterflex/report/run_tally.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "counterflex/report/formats.hpp"
+#include "made_up_run.hpp"
+#include "support/text.hpp"
+#include "support/windows.hpp"
+
+using namespace counterflex;
+using namespace counterflex::test;
+
+namespace {
+
+/// Whole thousandths from 0 to 1, the same with every standard library.
+class Thousandths {
+ public:
+  explicit Thousandths(std::uint64_t seed) : bits_(seed) {}
+  double next() { return static_cast<double>(bits_() % 1001) / 1000; }
+  int below(int n) { return static_cast<int>(bits_() % static_cast<std::uint64_t>(n)); }
+
+ private:
+  std::mt19937_64 bits_;
+};
+
+Vector6 random_deviation(Thousandths& random) {
+  Vector6 d;
+  for (int i = 0; i < 6; ++i) d[i] = random.next() * 1e-4;
+  return d;
+}
+
+Waypoint random_waypoint(Thousandths& random, std::size_t segment, int line) {
+  Waypoint w = cut(segment, line, random.next(), Vector3::Zero());
+  w.before = random_deviation(random);
+  w.after = random_deviation(random) / 10;
+  w.geometry = random_deviation(random);
+  w.load = random_deviation(random);
+  w.air = random_deviation(random);
+  w.correction = random.below(3) == 0 ? Vector6(Vector6::Zero()) : random_deviation(random);
+  w.wrench = 1e5 * random_deviation(random);
+  return w;
+}
+
+/// A path of rapids, and feed moves of up to four pieces with samples between: some not solved, some behind a
+/// rapid that ends where they start.
+std::vector<Waypoint> random_path(std::uint64_t seed, int moves) {
+  Thousandths random(seed);
+  std::vector<Waypoint> path;
+  int line = 1;
+  for (int move = 0; move < moves; ++move) {
+    line = random.below(8) == 0 ? 1 + random.below(line) : line + random.below(3);
+    const std::size_t segment = random.below(10) == 0 ? no_segment : static_cast<std::size_t>(move);
+    const bool rapid = random.below(4) == 0;
+    for (int samples = rapid ? 1 : 1 + random.below(4); samples > 0; --samples) {
+      Waypoint w = random_waypoint(random, segment, line);
+      w.cutting = !rapid;
+      w.between = samples > 1 && random.below(2) == 0;
+      if (random.below(20) == 0) w.status = Status::singular;
+      const bool joins = !path.empty() && !path.back().cutting && !w.between;
+      if (joins) w.p_MT = path.back().p_MT + Vector3(w.weight, 0, 0);
+      path.push_back(w);
+    }
+  }
+  return path;
+}
+
+std::vector<Waypoint> part(const std::vector<Waypoint>& all, std::size_t first, std::size_t last) {
+  return {all.begin() + static_cast<std::ptrdiff_t>(first), all.begin() + static_cast<std::ptrdiff_t>(last)};
+}
+
+/// What the three commands report of one tally, byte for byte what people and programs read of it.
+std::string reports_of(const MadeUpRun& run, const RunTally& tally) {
+  const Overview overview = overview_of(run.program);
+  const RunContext context = run.context(overview);
+  return to_json(report_prediction(context, tally, {})) + to_json(report_compensation(context, tally, {})) +
+         to_json(report_verification(context, tally, overview, {}));
+}
+
+std::string reports_of_parts(const MadeUpRun& run, const std::vector<Waypoint>& path, std::size_t a,
+                             std::size_t b) {
+  RunTally tally(2);
+  for (const auto& [first, last] : {std::pair{std::size_t{0}, a}, {a, b}, {b, path.size()}})
+    tally.add_waypoints(part(path, first, last));
+  return reports_of(run, tally);
+}
+
+}  // namespace
+
+TEST_CASE("waypoints fed in parts cut anywhere give the report of those fed at once") {
+  const MadeUpRun run;
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    const std::vector<Waypoint> path = random_path(seed, 30);
+    const std::string expected = reports_of_parts(run, path, 0, 0);
+    for (std::size_t k = 0; k <= path.size(); ++k) {
+      CAPTURE(seed);
+      CAPTURE(k);
+      CHECK(reports_of_parts(run, path, k, std::min(k + 1, path.size())) == expected);
+    }
+  }
+}
+
+TEST_CASE("a cut between a rapid and the feed move behind it loses neither the start nor its weight") {
+  Waypoint rapid = cut(0, 3, 0, Vector3(0, 0.8, 0)), between = cut(1, 4, 60, Vector3::Zero()),
+           feed = cut(1, 4, 40, Vector3(0, 0.4, 0));
+  rapid.cutting = false;
+  between.between = true;
+  feed.p_MT = Vector3(100, 0, 0) * mm;
+  RunTally tally(2);
+  for (const Waypoint& w : {rapid, between, feed}) tally.add_waypoints({w});
+  const DeviationStatistics before = tally.path().measures().before.statistics();
+  CHECK(before.max_mm == doctest::Approx(0.8));
+  CHECK(before.max_line == 4);
+  CHECK(before.mean_mm == doctest::Approx(0.6));
+}
+
+TEST_CASE("asking a tally in the middle of a path changes nothing of what follows") {
+  const MadeUpRun run;
+  const std::vector<Waypoint> path = random_path(7, 40);
+  RunTally asked(2), silent(2);
+  for (const Waypoint& w : path) {
+    asked.add_waypoints({w});
+    silent.add_waypoints({w});
+    (void)reports_of(run, asked);
+  }
+  CHECK(reports_of(run, asked) == reports_of(run, silent));
+}
+
+TEST_CASE("a corrected program fed in windows gives the report of the one fed at once") {
+  MadeUpRun run;
+  // 600 mm/min are 10 mm/s: short blocks of 0.1 to 1.9 ms among others, and lines near the limit
+  std::string text = "G21 G90 G94\nG0 X0 Y0 Z0\nG1 F600\n";
+  for (int i = 1; i <= 20; ++i)
+    text += "X" + std::to_string(i) + "\nX" + std::to_string(i) + ".00" + std::to_string(i % 10) + " (" +
+            std::string(200 + i * 2, 'c') + ")\n";
+  const Program corrected = read_program(text, "made_up.comp.ngc", {});
+  RunTally whole(2);
+  whole.add_corrected(corrected);
+  REQUIRE(whole.short_blocks()->count == 18);
+  REQUIRE(whole.lines()->near > 0);
+  for (const int lines_each : {1, 2, 3, 10}) {
+    CAPTURE(lines_each);
+    RunTally tally(2);
+    for (const Program& window : windows_of(corrected, lines_each)) tally.add_corrected(window);
+    CHECK(reports_of(run, tally) == reports_of(run, whole));
+    CHECK(tally.short_blocks()->shortest_ms == whole.short_blocks()->shortest_ms);
+    CHECK(tally.lines()->lines == whole.lines()->lines);
+  }
+}
+
+TEST_CASE("nothing is said of lines and short blocks where no program was written") {
+  const MadeUpRun run;
+  CHECK(contains(reports_of(run, RunTally(2)), "\"short_blocks\": null,\n    \"lines\": null"));
+}
+
+TEST_CASE("forces of windows add up: ramps, jumps and notes, the largest step of all") {
+  const MadeUpRun run;
+  REQUIRE(run.forces.ramps() + run.forces.jumps() > 0);
+  RunTally tally(2);
+  tally.add_forces(run.forces);
+  tally.add_forces(run.forces);
+  CHECK(tally.forces().ramps == 2 * run.forces.ramps());
+  CHECK(tally.forces().jumps == 2 * run.forces.jumps());
+  CHECK(tally.forces().largest_step_N == run.forces.largest_step_N());
+}
+
+TEST_CASE("compensations of windows add up, and the first of the largest corrections is named") {
+  const MadeUpRun run;
+  RunTally tally(2);
+  for (int window = 0; window < 3; ++window) {
+    Compensation c;
+    c.text = "G21\n";
+    c.corrected_moves = 2;
+    c.counts.inserted_blocks = 5;
+    c.largest_correction = (window == 0 ? 0.1 : 0.3) * mm;
+    c.largest_correction_line = 10 * window;
+    for (int i = 0; i < 60; ++i) c.left_alone.push_back({100 * window + i, "why"});
+    tally.add_compensation(c);
+  }
+  const Overview overview = overview_of(run.program);
+  const RunReport report = report_compensation(run.context(overview), tally, {});
+  CHECK(report.blocks.corrected == 6);
+  CHECK(report.blocks.inserted == 15);
+  CHECK(report.text_after->bytes == 12);
+  CHECK(report.text_after->blocks == overview.blocks + 15);
+  CHECK(report.correction->mm == doctest::Approx(0.3));
+  CHECK(report.correction->line == 10);
+  CHECK(report.blocks.left_alone.count == 180);
+  CHECK(report.blocks.left_alone.rows.size() == listed_at_most);
+  CHECK(report.blocks.left_alone.rows.back().line == 139);
+}
+
+TEST_CASE("blocks that the program lists stand before the compensation's of the same line") {
+  MadeUpRun run;
+  run.program.left_alone = {{7, "first"}, {9, "later"}};
+  Compensation c;
+  c.left_alone = {{5, "earlier"}, {7, "second"}};
+  const RunReport report = compensated(run, c);
+  REQUIRE(report.blocks.left_alone.rows.size() == 4);
+  CHECK(report.blocks.left_alone.rows[0].why == "earlier");
+  CHECK(report.blocks.left_alone.rows[1].why == "first");
+  CHECK(report.blocks.left_alone.rows[2].why == "second");
+  CHECK(report.blocks.left_alone.rows[3].why == "later");
+}
