@@ -1,0 +1,54 @@
+#include "counterflex/compensation/job_windows.hpp"
+
+#include "tool_orientations.hpp"
+
+namespace counterflex {
+
+struct JobWindows::State {
+  const RunInput input;
+  ProgramReader& reader;
+  Configuration nominal{};  ///< where the window before ended
+  ForceTail tail{};         ///< of the window before
+  PathEnd start{};
+  Toolpath path{};
+  std::optional<PathForces> forces{};
+
+  void build() {
+    ignore_axes(reader.window(), input.ignored);
+    path = build_toolpath(reader.window(), input.frames, start);
+    Configuration at_end = nominal;
+    const std::vector<Matrix3> R_MT = tool_orientations(input.model, path, input.source, at_end);
+    forces.emplace(input.source, reader.window(), path, R_MT, tail);
+    end_of_window = std::move(at_end);
+  }
+
+  bool next() {
+    if (forces) {
+      start = path.end;
+      tail = forces->tail();
+      nominal = std::move(end_of_window);
+    }
+    if (!reader.next()) return false;
+    build();
+    while (!forces->is_final() && reader.extend()) build();
+    return true;
+  }
+
+  Configuration end_of_window{};
+};
+
+JobWindows::JobWindows(const RunInput& input, ProgramReader& reader)
+    : state_(new State{input, reader, input.model.home}) {}
+
+JobWindows::~JobWindows() = default;
+
+bool JobWindows::next() {
+  return state_->next();
+}
+
+Job JobWindows::job() const {
+  const State& s = *state_;
+  return {s.input.model, s.reader.window(), s.path, *s.forces, s.input.options, s.input.read};
+}
+
+}  // namespace counterflex

@@ -1,0 +1,156 @@
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+
+#include "compensation/shop.hpp"
+#include "counterflex/compensation/job_windows.hpp"
+
+using namespace counterflex;
+using namespace counterflex::test;
+
+namespace {
+
+/// What comes of a run whose windows have at least as many moves.
+struct WindowRun {
+  std::string text;
+  std::vector<Waypoint> waypoints;
+  std::vector<LeftAlone> left_alone;
+  std::optional<Failure> failure;
+  std::size_t windows = 0, inserted = 0, corrected = 0;
+  double largest = 0;
+};
+
+WindowRun in_windows(const Order& order, std::size_t least_moves, const WriteOptions& write = {}) {
+  const Model model = prepare(order.machine);
+  FileReader bytes = FileReader::of_bytes(order.text);
+  const ReadOptions read;
+  ProgramReader reader(bytes, "part.ngc", read, least_moves);
+  const std::vector<WorkFrame> frames(10, {{}, order.X_MW, order.datum_shift});
+  CompensationOptions options;
+  options.tolerance = order.tolerance;
+  options.max_correction = order.max_correction;
+  options.blend = order.force.blend;
+  options.threads = order.threads;
+  options.write = write;
+  JobWindows windows({model, frames, order.ignored, order.force, options, read}, reader);
+  Compensator compensator(write, TextReader(reader), false);
+  WindowRun run;
+  while (!run.failure && windows.next()) {
+    const Compensation done = compensator.next(windows.job());
+    run.text += done.text;
+    run.waypoints.insert(run.waypoints.end(), done.waypoints.begin(), done.waypoints.end());
+    run.left_alone.insert(run.left_alone.end(), done.left_alone.begin(), done.left_alone.end());
+    run.failure = done.failure;
+    run.inserted += done.counts.inserted_blocks;
+    run.corrected += done.corrected_moves;
+    run.largest = std::max(run.largest, done.largest_correction);
+    ++run.windows;
+  }
+  return run;
+}
+
+/// What a window changes is less than any digit: solutions begin from other neighbours.
+void check_same(const WindowRun& parts, const WindowRun& whole) {
+  CHECK(parts.text == whole.text);
+  CHECK(parts.inserted == whole.inserted);
+  CHECK(parts.corrected == whole.corrected);
+  CHECK(parts.largest == doctest::Approx(whole.largest).epsilon(1e-6));
+  REQUIRE(parts.left_alone.size() == whole.left_alone.size());
+  for (std::size_t i = 0; i < whole.left_alone.size(); ++i) {
+    CHECK(parts.left_alone[i].line == whole.left_alone[i].line);
+    CHECK(parts.left_alone[i].why == whole.left_alone[i].why);
+  }
+  REQUIRE(parts.waypoints.size() == whole.waypoints.size());
+  for (std::size_t i = 0; i < whole.waypoints.size(); ++i) {
+    const Waypoint &a = parts.waypoints[i], &b = whole.waypoints[i];
+    CAPTURE(b.line);
+    CHECK(a.line == b.line);
+    CHECK(a.fraction == b.fraction);
+    CHECK(a.s == doctest::Approx(b.s).epsilon(1e-12));
+    CHECK((a.p_MT - b.p_MT).norm() < 1e-12);
+    CHECK((a.wrench - b.wrench).norm() < 1e-9 * (1 + b.wrench.norm()));
+    CHECK((a.after - b.after).norm() < 1e-9);
+    CHECK((a.before - b.before).norm() < 1e-9);
+  }
+}
+
+/// Pockets with helices, arcs, a contour under G41, holes, relative moves, changes of tools and of the work
+/// offset, and a raster without a rapid.
+std::string busy_program() {
+  std::string blocks = "%\nG21 G90 G17 G54\nT1 M6\nS3000 M3\nG0 X0 Y0\nG43 H1 Z5\n";
+  for (int pocket = 0; pocket < 4; ++pocket) {
+    const int x = 10 * pocket;
+    blocks += fmt::format("(POCKET {})\nG0 X{} Y0 Z2\nG1 Z0 F300\nG2 X{} Y0 Z-1 I2 J0\nG1 X{}.5 F500\nY3\n",
+                          pocket, x, x, x);
+    blocks +=
+        fmt::format("G3 X{} Y3 R1.5\nG1 Y0\nG91\nX-0.5\nY1.25\nX0.4 Y-0.2\nG90\nX{} Y0\nG0 Z5\n", x - 2.5, x);
+  }
+  blocks += "G0 X5 Y-5\nZ-1\nG41 D1 G1 X6 Y-4 F400\nX15\nY3\nX6\nY-4\nG40 X5 Y-5\nG0 Z5\n";
+  blocks += "G98 G81 X2 Y2 Z-3 R1 F100\nX4\nX6 Y4\nG80\nG0 X0 Y0\nG55\nG0 X1 Y1 Z1\nG1 Z-0.5\n";
+  for (int row = 0; row < 12; ++row)
+    blocks += fmt::format("X{}\nY{:.2f}\n", row % 2 == 0 ? 20 : 1, 1 + 0.25 * (row + 1));
+  return blocks + "G0 Z5\nG53 G0 Z0\nX0 Y0\nZ3\nX1\nM30\n%\n(THE END)\n";
+}
+
+Order on_mill(std::string program) {
+  const Machine machine = read_machine(read_file(mill), "mill");
+  return {.machine = machine, .text = std::move(program), .X_MW = machine.work.at("G54").X_MW};
+}
+
+}  // namespace
+
+TEST_CASE("a program compensated in windows is the same program, to the byte") {
+  for (const double blend : {2e-3, 0.0}) {
+    Order order = on_mill(busy_program());
+    order.force = constant_force({40, -25, 15, 0, 0, 0}, blend);
+    WriteOptions write;
+    write.header = {"COUNTERFLEX 1 TEST"};
+    const WindowRun whole = in_windows(order, whole_program, write);
+    if (whole.failure) FAIL(whole.failure->what);
+    REQUIRE(whole.windows == 1);
+    for (const std::size_t least_moves : {1, 4, 15}) {
+      CAPTURE(least_moves);
+      const WindowRun parts = in_windows(order, least_moves, write);
+      CHECK(parts.windows >= 30 / least_moves + 1);
+      CHECK(!parts.failure);
+      check_same(parts, whole);
+    }
+  }
+}
+
+TEST_CASE("a wrench of its own on every line acts the same in windows, in the feed frame, too") {
+  std::string rows = "# frame = feed\n# sense = on_tool\nline,fx_N,fy_N,fz_N\n";
+  for (int line = 1; line <= 90; ++line)
+    rows += fmt::format("{},{},{},{}\n", line, line % 37, -(line % 23), 5);
+  Order order = on_mill(busy_program());
+  order.force.profile = read_force_csv(rows, "forces.csv");
+  const WindowRun whole = in_windows(order, whole_program), parts = in_windows(order, 3);
+  if (whole.failure) FAIL(whole.failure->what);
+  CHECK(parts.windows > 10);
+  check_same(parts, whole);
+}
+
+TEST_CASE("a parallel machine keeps its branch from window to window") {
+  std::string text = "G21 G90 G17\nG0 X0 Y0 Z0\nG1 F600\n";
+  for (int k = 1; k <= 40; ++k) text += fmt::format("X{} Y{}\n", 2 * k, (k * 7) % 30);
+  const Order order{.machine = read_machine(read_file(orthoglide_b), "b"),
+                    .text = text,
+                    .force = constant_force(milling()),
+                    .tolerance = 20e-6};
+  const WindowRun whole = in_windows(order, whole_program), parts = in_windows(order, 5);
+  if (whole.failure) FAIL(whole.failure->what);
+  CHECK(parts.windows >= 7);
+  check_same(parts, whole);
+}
+
+TEST_CASE("a window that cannot be compensated says the line, and those before it are done") {
+  std::string text = "G21 G90 G17\nG0 X0 Y0 Z0\nG1 F600\n";
+  for (int k = 1; k <= 20; ++k) text += fmt::format("X{}\n", k);
+  const Order order = on_mill(text + "X99999\nX1\n");
+  const WindowRun run = in_windows(order, 4);
+  REQUIRE(run.failure);
+  CAPTURE(run.failure->what);
+  CHECK(run.failure->line == 24);
+  CHECK(run.failure->exit == Exit::limit);
+  CHECK(run.windows >= 5);
+  CHECK_FALSE(run.text.empty());
+}
