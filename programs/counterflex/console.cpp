@@ -9,7 +9,7 @@
 namespace counterflex::cli {
 namespace {
 
-constexpr int warnings_shown = 20;
+constexpr std::size_t warnings_shown = 20;
 
 bool colours_on(int descriptor) {
   const char* no_colour = std::getenv("NO_COLOR");
@@ -57,6 +57,10 @@ void Console::warning(const std::string& file, int line, std::string_view what) 
   const std::string text = line > 0 ? fmt::format("{}:{}: warning: {}", file, line, what)
                                     : fmt::format("{}: warning: {}", file, what);
   say((colour_ ? painted(text, "warning", 35) : text) + "\n");
+}
+
+void Console::more_warnings(const std::string& file, std::size_t count) {
+  if (count > 0) warnings_[file] += count;
 }
 
 void Console::finish_warnings() {

@@ -19,6 +19,7 @@ class Console {
 
   /// "file:line: warning: what"; at most 20 of a file, `finish_warnings` counts the others. Line 0: none.
   void warning(const std::string& file, int line, std::string_view what);
+  void more_warnings(const std::string& file, std::size_t count);  ///< that nobody needs to see
   void finish_warnings();
 
   /// Told with --verbose only.
@@ -45,7 +46,7 @@ class Console {
 
   bool quiet_, verbose_, terminal_, colour_, colour_out_;
   bool showing_progress_ = false;
-  std::map<std::string, int> warnings_;
+  std::map<std::string, std::size_t> warnings_;
 };
 
 /// "file:line:1: error: what"; without a line "file: error: what".

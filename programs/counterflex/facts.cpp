@@ -32,7 +32,7 @@ double in_mm(double length) {
 }
 
 std::vector<OptionValue> reading_options(const Options& options, const Run& run) {
-  std::vector<OptionValue> values{{"dialect", run.program.program.dialect}};
+  std::vector<OptionValue> values{{"dialect", run.program.dialect}};
   if (options.units)
     values.push_back({"units", std::string(*options.units == LengthUnit::millimetres ? "mm" : "inch")});
   if (options.integer_words != IntegerWords::unsaid)
@@ -48,7 +48,7 @@ RunFacts facts_of(const Options& options, const Run& run) {
   RunFacts facts;
   facts.version = version;
   facts.attribution = true;
-  facts.inputs = {run.program.file, run.machine.file};
+  facts.inputs = {run.file.file, run.machine.file};
   if (run.force_input.file) facts.inputs.push_back(*run.force_input.file);
   if (run.tools.file) facts.inputs.push_back(*run.tools.file);
   facts.min_block_ms = options.min_block_ms;
@@ -67,7 +67,7 @@ RunFacts facts_of(const Options& options, const Run& run) {
 std::vector<std::string> header_of(const Run& run) {
   std::vector<std::string> lines{fmt::format("COUNTERFLEX 1 VERSION {} METHOD {}", upper(version),
                                              upper(std::string(to_string(run.options.method)))),
-                                 "COUNTERFLEX 1 PROGRAM " + short_hash(run.program.file),
+                                 "COUNTERFLEX 1 PROGRAM " + short_hash(run.file.file),
                                  "COUNTERFLEX 1 MACHINE " + short_hash(run.machine.file)};
   if (run.force_input.file) lines.push_back("COUNTERFLEX 1 FORCES " + short_hash(*run.force_input.file));
   if (run.tools.file) lines.push_back("COUNTERFLEX 1 TOOLS " + short_hash(*run.tools.file));

@@ -28,6 +28,12 @@ std::optional<LengthUnit> unit_of(const Options& options, const Machine* machine
   return machine->control.units == "inch" ? LengthUnit::inches : LengthUnit::millimetres;
 }
 
+void refuse_folder(const std::string& path, Exit exit) {
+  std::error_code ignored;
+  if (path != "-" && std::filesystem::is_directory(path, ignored))
+    throw InputError(exit, {path}, "cannot read the file: it is a folder");
+}
+
 InputFile input_file(const std::string& role, const std::string& path, const std::string& bytes) {
   return {role, path, sha256(bytes)};
 }
@@ -35,9 +41,7 @@ InputFile input_file(const std::string& role, const std::string& path, const std
 }  // namespace
 
 std::string read_input(const std::string& path, Exit unreadable) {
-  std::error_code ignored;
-  if (path != "-" && std::filesystem::is_directory(path, ignored))
-    throw InputError(unreadable, {path}, "cannot read the file: it is a folder");
+  refuse_folder(path, unreadable);
   try {
     return read_file(path);
   } catch (const InputError& error) {
@@ -103,6 +107,17 @@ ReadOptions read_options(const Options& options, const Machine* machine, const T
   return read;
 }
 
+void blame_dialect(const InputError& error, const Options& options, const Machine* machine,
+                   const std::string& program) {
+  const bool of_machine = error.exit() == Exit::usage && machine != nullptr && !options.dialect;
+  if (!of_machine) throw;
+  throw InputError(
+      Exit::program_text, {program},
+      fmt::format(
+          "programs in the machine file's dialect, \"{}\", are not read yet; --dialect names another",
+          machine->control.dialect));
+}
+
 ProgramInput read_program_input(const std::string& role, const std::string& path, const Options& options,
                                 const Machine* machine, const ReadOptions& read) {
   std::string text = read_input(path, Exit::usage);
@@ -110,36 +125,36 @@ ProgramInput read_program_input(const std::string& role, const std::string& path
   try {
     return {file, read_program(std::move(text), shown_name(path), read)};
   } catch (const InputError& error) {
-    const bool dialect_of_machine = error.exit() == Exit::usage && machine != nullptr && !options.dialect;
-    if (!dialect_of_machine) throw;
-    throw InputError(
-        Exit::program_text, {shown_name(path)},
-        fmt::format(
-            "programs in the machine file's dialect, \"{}\", are not read yet; --dialect names another",
-            machine->control.dialect));
+    blame_dialect(error, options, machine, shown_name(path));
   }
 }
 
-void warn_of(const Program& program, Console& console) {
-  for (const Remark& remark : program.remarks) console.warning(program.file, remark.line, remark.what);
-  for (const LeftAlone& block : program.left_alone)
-    console.warning(program.file, block.line, "not corrected: " + block.why);
+ProgramFile open_program(const std::string& role, const std::string& path) {
+  refuse_folder(path, Exit::usage);
+  FileReader bytes(path);
+  InputFile file{role, path, sha256(bytes)};
+  return {std::move(file), std::move(bytes)};
 }
 
-void refuse_two_forces(const Options& options, const Program& program) {
+void warn_of(const Overview& program, Console& console) {
+  for (const Remark& remark : program.remarks) console.warning(program.file, remark.line, remark.what);
+  const Capped<LeftAlone>& left_alone = program.left_alone;
+  for (const LeftAlone& block : left_alone.rows)
+    console.warning(program.file, block.line, "not corrected: " + block.why);
+  console.more_warnings(program.file, left_alone.count - left_alone.rows.size());
+}
+
+void refuse_two_forces(const Options& options, const Overview& program) {
   if (options.force && options.forces)
     throw InputError(Exit::usage, {}, "--force and --forces are both given; one of them says the force");
-  if (!options.force && !options.forces) return;
-  const auto move = std::find_if(program.moves.begin(), program.moves.end(),
-                                 [](const Move& m) { return m.force.has_value(); });
-  if (move == program.moves.end()) return;
+  if ((!options.force && !options.forces) || !program.first_force_line) return;
   throw InputError(
-      Exit::usage, {program.file, move->line},
+      Exit::usage, {program.file, *program.first_force_line},
       fmt::format("the program's FORCE comments and {} are both given; one of them says the force",
                   options.force ? "--force" : "--forces"));
 }
 
-ForceInput read_force_input(const Options& options, const Program& program) {
+ForceInput read_force_input(const Options& options, const Overview& program) {
   refuse_two_forces(options, program);
   ForceInput input;
   input.source.blend = options.blend;

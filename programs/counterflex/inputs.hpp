@@ -8,7 +8,9 @@
 #include <vector>
 
 #include "console.hpp"
+#include "counterflex/files/file_reader.hpp"
 #include "counterflex/forces/forces.hpp"
+#include "counterflex/program/overview.hpp"
 #include "counterflex/program/read_program.hpp"
 #include "counterflex/report/report.hpp"
 #include "counterflex/statics/equilibrium.hpp"
@@ -47,17 +49,29 @@ struct ProgramInput {
 ProgramInput read_program_input(const std::string& role, const std::string& path, const Options& options,
                                 const Machine* machine, const ReadOptions& read);
 
+/// A program that is read in windows, as often as needed; `bytes` is at its beginning.
+struct ProgramFile {
+  InputFile file;
+  FileReader bytes;
+};
+ProgramFile open_program(const std::string& role, const std::string& path);
+
+/// Throws `error`, of a program's reader, where it is the dialect of `machine` that is not known, as an error
+/// of the machine file; else throws it as it is. Called in its handler.
+[[noreturn]] void blame_dialect(const InputError& error, const Options& options, const Machine* machine,
+                                const std::string& program);
+
 /// Warns of what the reader remarked and left alone.
-void warn_of(const Program& program, Console& console);
+void warn_of(const Overview& program, Console& console);
 
 /// Where the forces come from; `file` is empty unless from one.
 struct ForceInput {
   std::optional<InputFile> file;
   ForceSource source;
 };
-ForceInput read_force_input(const Options& options, const Program& program);
+ForceInput read_force_input(const Options& options, const Overview& program);
 
 /// Refuses more than one of --force, a force file, and FORCE comments (Exit::usage).
-void refuse_two_forces(const Options& options, const Program& program);
+void refuse_two_forces(const Options& options, const Overview& program);
 
 }  // namespace counterflex::cli

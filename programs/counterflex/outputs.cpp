@@ -86,14 +86,30 @@ OutputPaths output_paths(const Options& options) {
   return paths;
 }
 
-void write_files(const std::vector<OutputFile>& files) {
+RunFiles::RunFiles(const OutputPaths& paths, const CsvColumns& columns) : paths_(paths), columns_(columns) {
+  if (!paths.program.empty()) program_.emplace(paths.program);
+  if (paths.report_csv.empty()) return;
+  csv_.emplace(paths.report_csv);
+  csv_->write(csv_header());
+}
+
+void RunFiles::add_program(std::string_view text) {
+  if (program_) program_->write(text);
+}
+
+void RunFiles::add_waypoints(const std::vector<Waypoint>& waypoints) {
+  if (csv_) csv_->write(csv_rows(waypoints, columns_, next_row_));
+}
+
+void RunFiles::publish(const std::string& report_json, bool with_program) {
+  const bool to_stdout = paths_.program == "-";
   {
     const HeldSignals held;
-    for (const OutputFile& file : files)
-      if (!file.path.empty() && file.path != "-") write_file(file.path, file.bytes);
+    if (!paths_.report_json.empty()) write_file(paths_.report_json, report_json);
+    if (csv_) csv_->publish();
+    if (program_ && with_program && !to_stdout) program_->publish();
   }
-  for (const OutputFile& file : files)
-    if (file.path == "-") write_result(file.bytes);
+  if (program_ && with_program && to_stdout) program_->publish();
 }
 
 void write_result(std::string_view text) {

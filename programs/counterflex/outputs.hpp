@@ -1,9 +1,12 @@
 #pragma once
 /// What a run writes, and where it may.
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "counterflex/files/file_writer.hpp"
+#include "counterflex/report/formats.hpp"
 #include "options.hpp"
 
 namespace counterflex::cli {
@@ -24,14 +27,25 @@ OutputPaths output_paths(const Options& options);
 /// "part.ngc" gives "part.comp.ngc".
 std::string default_output(const std::string& program);
 
-struct OutputFile {
-  std::string path;
-  std::string bytes;
-};
+/// The files of a run, written as it goes; they get their names when it has ended, or never.
+class RunFiles {
+ public:
+  /// Throws `InputError` (Exit::transient_io), as all members do, where a file cannot be written.
+  RunFiles(const OutputPaths& paths, const CsvColumns& columns);
 
-/// Writes all files that have a path, each completely or not at all, deaf to interrupts meanwhile; standard
-/// output last.
-void write_files(const std::vector<OutputFile>& files);
+  void add_program(std::string_view text);
+  void add_waypoints(const std::vector<Waypoint>& waypoints);
+
+  /// Gives the files their names, deaf to interrupts meanwhile, the corrected program's too if `with_program`;
+  /// standard output comes last.
+  void publish(const std::string& report_json, bool with_program);
+
+ private:
+  OutputPaths paths_;
+  CsvColumns columns_;
+  std::size_t next_row_ = 0;
+  std::optional<FileWriter> program_, csv_;
+};
 
 /// Text on standard output. Throws `InputError` (Exit::transient_io).
 void write_result(std::string_view text);

@@ -3,6 +3,7 @@
 #include <pthread.h>
 #include <unistd.h>
 
+#include "counterflex/files/file_writer.hpp"
 #include "counterflex/files/input_error.hpp"
 
 namespace counterflex::cli {
@@ -11,6 +12,7 @@ namespace {
 constexpr int ending[] = {SIGINT, SIGTERM, SIGHUP};
 
 extern "C" void leave_interrupted(int) {
+  remove_unpublished();
   ::_exit(static_cast<int>(Exit::interrupted));
 }
 

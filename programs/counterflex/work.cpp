@@ -38,7 +38,8 @@ Vector3 deviation_at(const Model& model, const Vector3& p_MT, const std::string&
 }
 
 /// Offsets in use that nobody has given a place: they cannot all be the machine frame.
-std::string no_table_warning(const Program& program, const std::vector<bool>& used) {
+std::string no_table_warning(const Overview& program) {
+  const std::vector<bool>& used = program.offsets_used;
   std::vector<std::string> in_use;
   for (std::size_t i = 0; i < used.size(); ++i)
     if (used[i])
@@ -70,17 +71,16 @@ WorkFrame place_offset(const Machine& machine, const Model& model, const std::st
 }  // namespace
 
 WorkPlace place_work(const Machine& machine, const Model& model, const std::string& machine_file,
-                     const Program& program) {
+                     const Overview& program) {
   WorkPlace place{std::vector<WorkFrame>(program.work_offsets.size()), {}};
-  std::vector<bool> used(program.work_offsets.size());
-  for (const Move& move : program.moves) used[move.offset] = true;
   if (machine.work.empty()) {
-    place.assumption = no_table_warning(program, used);
+    place.assumption = no_table_warning(program);
     return place;
   }
+  const std::vector<bool>& used = program.offsets_used;
   for (std::size_t i = 0; i < used.size(); ++i)
     if (used[i]) place.frames[i] = place_offset(machine, model, machine_file, program.work_offsets[i]);
-  if (used[0])
+  if (!used.empty() && used[0])
     place.assumption =
         "the program selects no work offset at first; G54, which controls start with, is assumed";
   return place;

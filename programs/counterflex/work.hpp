@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "counterflex/program/program.hpp"
+#include "counterflex/program/overview.hpp"
 #include "counterflex/statics/equilibrium.hpp"
 #include "counterflex/toolpath/toolpath.hpp"
 
@@ -20,6 +20,6 @@ struct WorkPlace {
 /// touched off lies where the unloaded machine's tip was. Throws `InputError` (Exit::machine_or_force) where
 /// the table does not have one, or where the touched point is not reached.
 WorkPlace place_work(const Machine& machine, const Model& model, const std::string& machine_file,
-                     const Program& program);
+                     const Overview& program);
 
 }  // namespace counterflex::cli

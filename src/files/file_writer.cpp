@@ -4,10 +4,13 @@
 #include <fmt/format.h>
 #include <sys/stat.h>
 
+#include <array>
 #include <atomic>
 #include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <filesystem>
+#include <optional>
 #include <vector>
 
 #include "files/descriptor.hpp"
@@ -20,6 +23,37 @@ std::string folder_of(const std::string& path) {
   const std::string folder = std::filesystem::path(path).parent_path().string();
   return folder.empty() ? "." : folder;
 }
+
+/// Names of temporary files, kept where a signal handler may read them.
+struct UnpublishedName {
+  std::atomic<bool> taken{false}, complete{false};
+  char path[4096];
+};
+std::array<UnpublishedName, 16> unpublished;
+
+/// Remembers `path` while it lives, if there is room.
+class Unpublished {
+ public:
+  explicit Unpublished(const std::string& path) {
+    for (UnpublishedName& name : unpublished) {
+      if (path.size() >= sizeof name.path || name.taken.exchange(true)) continue;
+      std::memcpy(name.path, path.c_str(), path.size() + 1);
+      name.complete = true;
+      name_ = &name;
+      return;
+    }
+  }
+  ~Unpublished() {
+    if (name_ == nullptr) return;
+    name_->complete = false;
+    name_->taken = false;
+  }
+  Unpublished(const Unpublished&) = delete;
+  Unpublished& operator=(const Unpublished&) = delete;
+
+ private:
+  UnpublishedName* name_ = nullptr;
+};
 
 /// A new file beside `path` that nobody else has.
 std::pair<std::string, int> create_beside(const std::string& path) {
@@ -60,6 +94,7 @@ struct FileWriter::State {
   std::string path;
   std::string target{};     ///< the file that gets the name; empty for streams
   std::string temporary{};  ///< its name until then
+  std::optional<Unpublished> known{};
   Descriptor file{};
   std::string buffer{};
 
@@ -83,7 +118,10 @@ FileWriter::FileWriter(const std::string& path) : state_(new State{.path = path}
     if (state_->target.empty()) state_->target = path;
     auto [name, fd] = create_beside(state_->target);
     state_->file = Descriptor(fd);
-    if (fd >= 0) state_->temporary = std::move(name);
+    if (fd >= 0) {
+      state_->known.emplace(name);
+      state_->temporary = std::move(name);
+    }
     if (fd >= 0 && exists && ::fchmod(fd, facts.st_mode & 07777) != 0) fail_writing(path);
   }
   if (state_->file.get() < 0) fail_writing(path);
@@ -104,6 +142,7 @@ void FileWriter::publish() {
     if (::fsync(s.file.get()) != 0 || !s.file.close() || ::rename(s.temporary.c_str(), s.target.c_str()) != 0)
       fail_writing(s.path);
     s.temporary.clear();
+    s.known.reset();
     return sync_folder(folder_of(s.target));
   }
   const Descriptor stream = open_stream(s.path);
@@ -111,6 +150,11 @@ void FileWriter::publish() {
   std::vector<char> bytes(portion);
   for (ssize_t n; (n = read_some(s.file.get(), bytes.data(), bytes.size())) != 0;)
     if (n < 0 || !write_all(stream.get(), {bytes.data(), static_cast<std::size_t>(n)})) fail_writing(s.path);
+}
+
+void remove_unpublished() noexcept {
+  for (const UnpublishedName& name : unpublished)
+    if (name.complete) ::unlink(name.path);
 }
 
 }  // namespace counterflex

@@ -25,4 +25,8 @@ class FileWriter {
   std::unique_ptr<State> state_;
 };
 
+/// Removes what writers have not published yet, as a program that is interrupted must. Calls nothing that a
+/// signal handler may not; no writer may be used afterwards.
+void remove_unpublished() noexcept;
+
 }  // namespace counterflex
