@@ -170,7 +170,8 @@ std::optional<Failure> first_unreached(const Model& model, const Toolpath& path)
 }
 
 void check_reach(const Program& program, const MachineInput& input, Checked& checked, Console& console) {
-  const WorkPlace work = place_work(input.machine, input.model, shown_name(input.file.path), program);
+  const WorkPlace work =
+      place_work(input.machine, input.model, shown_name(input.file.path), overview_of(program));
   if (!work.assumption.empty()) console.warning(program.file, 0, work.assumption);
   const Toolpath path = build_toolpath(program, work.frames);
   const auto failure = first_unreached(input.model, path);

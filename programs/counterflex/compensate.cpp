@@ -4,19 +4,36 @@
 namespace counterflex::cli {
 namespace {
 
-bool is_reported(const std::optional<Failure>& failure) {
-  return !failure || failure->exit == Exit::not_compensated || failure->exit == Exit::limit;
+bool is_reported(const Failure& failure) {
+  return failure.exit == Exit::not_compensated || failure.exit == Exit::limit;
 }
 
-RunTally tally_of(const Run& run, Compensation& result) {
-  RunTally tally(run.facts.min_block_ms);
-  tally.add_forces(*run.forces);
-  tally.add_compensation(result);
-  tally.add_waypoints(result.waypoints);
-  if (result.text.empty()) return tally;
-  ignore_axes(result.corrected, run.ignored);
-  tally.add_corrected(result.corrected);
-  return tally;
+void add(const Compensation& window, const PathForces& forces, const Run& run, RunTally& tally,
+         RunFiles& files) {
+  tally.add_forces(forces);
+  tally.add_compensation(window);
+  tally.add_waypoints(window.waypoints);
+  files.add_waypoints(window.waypoints);
+  files.add_program(window.text);
+  if (window.text.empty()) return;
+  Program corrected = window.corrected;
+  ignore_axes(corrected, run.ignored);
+  tally.add_corrected(corrected);
+}
+
+/// Window by window, to the first failure.
+std::optional<Failure> compensate_all(Run& run, RunTally& tally, RunFiles& files, Console& console) {
+  Windows windows(run, console);
+  Compensator compensator(run.options.write, TextReader(windows.reader()), run.facts.attribution);
+  while (windows.next()) {
+    const Job job = windows.job();
+    const Compensation window = compensator.next(job);
+    for (const LeftAlone& block : window.left_alone)
+      console.warning(run.program.file, block.line, "not corrected: " + block.why);
+    add(window, job.forces, run, tally, files);
+    if (window.failure) return window.failure;
+  }
+  return std::nullopt;
 }
 
 }  // namespace
@@ -26,19 +43,14 @@ Exit run_compensate(const Options& options, Console& console) {
   const auto run = prepare_run(options, console);
   refuse_what_cannot_be_compensated(*run);
   run->options.write.header = header_of(*run);
-  const Job job = run->job();
-  console.progress("solving");
-  Compensation result = compensate(job, run->facts.attribution);
-  for (const LeftAlone& block : result.left_alone)
-    console.warning(job.program.file, block.line, "not corrected: " + block.why);
-  if (!result.failure) run->facts.output = paths.program;
-  if (is_reported(result.failure)) {
-    const RunReport report = report_compensation(run->context(), tally_of(*run, result), result.failure);
-    deliver(options, paths, report, result.waypoints, result.failure ? nullptr : &result.text, console);
-  }
-  if (!result.failure) return Exit::done;
-  console.error(located(job.program.file, *result.failure));
-  return result.failure->exit;
+  RunFiles files(paths, {.attribution = run->facts.attribution});
+  RunTally tally(run->facts.min_block_ms);
+  const std::optional<Failure> failure = compensate_all(*run, tally, files, console);
+  if (!failure) run->facts.output = paths.program;
+  if (!failure || is_reported(*failure))
+    return deliver(options, *run, report_compensation(run->context(), tally, failure), files, console);
+  console.error(located(run->program.file, *failure));
+  return failure->exit;
 }
 
 }  // namespace counterflex::cli

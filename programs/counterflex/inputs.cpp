@@ -113,9 +113,8 @@ void blame_dialect(const InputError& error, const Options& options, const Machin
   if (!of_machine) throw;
   throw InputError(
       Exit::program_text, {program},
-      fmt::format(
-          "programs in the machine file's dialect, \"{}\", are not read yet; --dialect names another",
-          machine->control.dialect));
+      fmt::format("programs in the machine file's dialect, \"{}\", are not read yet; --dialect names another",
+                  machine->control.dialect));
 }
 
 ProgramInput read_program_input(const std::string& role, const std::string& path, const Options& options,

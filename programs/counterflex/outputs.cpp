@@ -102,14 +102,13 @@ void RunFiles::add_waypoints(const std::vector<Waypoint>& waypoints) {
 }
 
 void RunFiles::publish(const std::string& report_json, bool with_program) {
-  const bool to_stdout = paths_.program == "-";
   {
     const HeldSignals held;
     if (!paths_.report_json.empty()) write_file(paths_.report_json, report_json);
     if (csv_) csv_->publish();
-    if (program_ && with_program && !to_stdout) program_->publish();
+    if (program_ && with_program && !program_to_stdout()) program_->publish();
   }
-  if (program_ && with_program && to_stdout) program_->publish();
+  if (program_ && with_program && program_to_stdout()) program_->publish();
 }
 
 void write_result(std::string_view text) {

@@ -33,11 +33,13 @@ class RunFiles {
   /// Throws `InputError` (Exit::transient_io), as all members do, where a file cannot be written.
   RunFiles(const OutputPaths& paths, const CsvColumns& columns);
 
+  bool program_to_stdout() const { return paths_.program == "-"; }
+
   void add_program(std::string_view text);
   void add_waypoints(const std::vector<Waypoint>& waypoints);
 
-  /// Gives the files their names, deaf to interrupts meanwhile, the corrected program's too if `with_program`;
-  /// standard output comes last.
+  /// Gives the files their names, deaf to interrupts meanwhile, the corrected program's too if
+  /// `with_program`; standard output comes last.
   void publish(const std::string& report_json, bool with_program);
 
  private:

@@ -7,23 +7,31 @@ namespace {
 
 constexpr double spacing = 5 * mm;  // of the places on long moves
 
+/// Window by window, to the first failure.
+std::optional<Failure> predict_all(Run& run, RunTally& tally, RunFiles& files, Console& console) {
+  Windows windows(run, console);
+  ForwardState state;
+  while (windows.next()) {
+    const Job job = windows.job();
+    const ForwardRun forward = solve_forward_along(
+        job, original_pieces(job, spacing), {.before = true, .attribution = true, .inside = false}, state);
+    tally.add_forces(job.forces);
+    tally.add_waypoints(forward.waypoints);
+    files.add_waypoints(forward.waypoints);
+    if (forward.failure) return forward.failure;
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 Exit run_predict(const Options& options, Console& console) {
   const OutputPaths paths = output_paths(options);
   const auto run = prepare_run(options, console);
-  const Job job = run->job();
-  console.progress("solving");
-  const ForwardRun forward = solve_forward_along(job, original_pieces(job, spacing),
-                                                 {.before = true, .attribution = true, .inside = false});
+  RunFiles files(paths, {.corrected = false});
   RunTally tally(run->facts.min_block_ms);
-  tally.add_forces(*run->forces);
-  tally.add_waypoints(forward.waypoints);
-  const RunReport report = report_prediction(run->context(), tally, forward.failure);
-  deliver(options, paths, report, forward.waypoints, nullptr, console);
-  if (!forward.failure) return Exit::done;
-  console.error(located(job.program.file, *forward.failure));
-  return forward.failure->exit;
+  const std::optional<Failure> failure = predict_all(*run, tally, files, console);
+  return deliver(options, *run, report_prediction(run->context(), tally, failure), files, console);
 }
 
 }  // namespace counterflex::cli

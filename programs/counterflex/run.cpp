@@ -21,53 +21,6 @@ void refuse_stdin_twice(const Options& options) {
   if (count > 1) throw InputError(Exit::usage, {}, "standard input (-) can be only one of the inputs");
 }
 
-constexpr int orientations_of_segment = 9;
-
-/// The nominal tool's at equal fractions of every segment, or in its middle.
-std::vector<Matrix3> sampled_orientations(const Model& model, const Toolpath& path, int each) {
-  const Matrix3 R_home = tip(model.mechanism, model.home).R;
-  std::vector<Matrix3> R_MT;
-  NominalPath nominal(model, model.home);
-  for (const Segment& segment : path.segments)
-    for (int k = 0; k < each; ++k) {
-      const double u = each == 1 ? 0.5 : static_cast<double>(k) / (each - 1);
-      nominal.go_to({R_home, point_at(segment.wanted, u)});  // a failure is said where it is solved
-      R_MT.push_back(tip(model.mechanism, nominal.configuration()).R);
-    }
-  return R_MT;
-}
-
-/// Orientations of the tool along the path: one for all where every move has home's, else several a segment.
-std::vector<Matrix3> tool_orientations(const Model& model, const Toolpath& path, const ForceSource& source) {
-  const Matrix3 R_home = tip(model.mechanism, model.home).R;
-  const bool needed = source.profile && (source.profile->frame == ForceFrame::tool ||
-                                         source.profile->frame == ForceFrame::feed);
-  if (!needed || path.segments.empty()) return {R_home};
-  const std::vector<Matrix3> in_the_middle = sampled_orientations(model, path, 1);
-  const bool turns = std::any_of(in_the_middle.begin(), in_the_middle.end(),
-                                 [&](const Matrix3& R) { return (R - R_home).norm() > 1e-9; });
-  return turns ? sampled_orientations(model, path, orientations_of_segment) : std::vector{R_home};
-}
-
-/// A component of the position that the machine does not control has to keep its value.
-void refuse_uncontrolled_moves(const Run& run) {
-  const auto& controlled = run.machine.machine.controlled;
-  if (controlled.empty() || run.path.segments.empty()) return;
-  const Vector3 first = run.path.segments.front().wanted.start;
-  for (int c = 0; c < 3; ++c) {
-    if (std::find(controlled.begin(), controlled.end(), static_cast<Component>(c)) != controlled.end())
-      continue;
-    for (const Segment& segment : run.path.segments)
-      for (const Vector3& p : points_along(segment.wanted))
-        if (std::abs(p[c] - first[c]) > 1e-9)
-          throw InputError(
-              Exit::program_text, {run.program.program.file, segment.line, 1},
-              fmt::format("the move changes {} of the machine frame from {:.6g} to {:.6g} mm, which the "
-                          "machine does not control",
-                          "xyz"[c], first[c] / mm, p[c] / mm));
-  }
-}
-
 bool controls(const Machine& machine, int component) {
   const auto& list = machine.controlled;
   return std::find(list.begin(), list.end(), static_cast<Component>(component)) != list.end();
@@ -113,57 +66,77 @@ CompensationOptions compensation_options(const Options& options, const Machine& 
 
 /// The feed of a cycle is the control's own: no part of the path, so that no force acts there.
 void warn_of_cycles(Run& run) {
-  const Program& program = run.program.program;
-  const auto cycle = std::find_if(program.moves.begin(), program.moves.end(),
-                                  [](const Move& move) { return move.cycle.has_value(); });
   const ForceSource& source = run.force_input.source;
-  const bool forces = source.constant || source.profile ||
-                      std::any_of(program.moves.begin(), program.moves.end(),
-                                  [](const Move& move) { return move.force && !move.force->isZero(0); });
-  if (cycle == program.moves.end() || !forces || source.scale == 0) return;
-  run.facts.warnings.push_back({cycle->line, "holes of cycles are corrected without the cutting force"});
+  const bool forces = source.constant || source.profile || run.program.commented_force;
+  if (!run.program.first_cycle_line || !forces || source.scale == 0) return;
+  run.facts.warnings.push_back(
+      {*run.program.first_cycle_line, "holes of cycles are corrected without the cutting force"});
 }
 
 void warn_of_run(Run& run, Console& console) {
-  const Program& program = run.program.program;
+  const Overview& program = run.program;
   warn_of(program, console);
-  for (const ForceNote& note : run.forces->notes()) console.warning(program.file, note.line, note.what);
   if (!run.work.assumption.empty()) run.facts.warnings.push_back({0, run.work.assumption});
   for (const Remark& warning : run.facts.warnings) console.warning(program.file, warning.line, warning.what);
-  console.detail(fmt::format("{}: dialect {}, {} blocks, {} moves, {} segments", program.file,
-                             program.dialect, program.block_count, program.moves.size(),
-                             run.path.segments.size()));
+  console.detail(fmt::format("{}: dialect {}, {} blocks, {} moves", program.file, program.dialect,
+                             program.blocks, program.moves));
+}
+
+/// Reads the program to its end once: what it holds, and that it can be read.
+void look_through(const Options& options, Run& run) {
+  const std::string name = shown_name(options.program);
+  try {
+    ProgramReader reader(run.file.bytes, name, run.read);
+    for (bool first = true; reader.next(); first = false) {
+      add_window(run.program, reader.window());
+      if (first) run.is_corrected = is_corrected(reader.window());
+    }
+  } catch (const InputError& error) {
+    blame_dialect(error, options, &run.machine.machine, name);
+  }
+}
+
+/// A profile has to fit the whole program before any of it is solved.
+void check_cover(Run& run) {
+  if (!run.force_input.source.profile) return;
+  ProgramReader reader(run.file.bytes, run.program.file, run.read);
+  ForceCover cover(*run.force_input.source.profile);
+  PathEnd end;
+  while (reader.next()) {
+    ignore_axes(reader.window(), run.ignored);
+    const Toolpath path = build_toolpath(reader.window(), run.work.frames, end);
+    cover.add(reader.window(), path);
+    end = path.end;
+  }
+  cover.check();
 }
 
 }  // namespace
 
-Job Run::job() const {
-  return {machine.model, program.program, path, *forces, options, read};
+RunInput Run::input() const {
+  return {machine.model, work.frames, ignored, force_input.source, options, read};
 }
 
 RunContext Run::context() const {
-  return {machine.machine, options, path.frames, overview, facts};
+  return {machine.machine, options, work.frames, program, facts};
 }
 
 std::unique_ptr<Run> prepare_run(const Options& options, Console& console) {
   refuse_stdin_twice(options);
   console.progress("reading");
-  auto run = std::make_unique<Run>();
-  run->machine = read_machine_input(options);
-  run->tools = read_tool_lengths(options, &run->machine.machine);
-  run->read = read_options(options, &run->machine.machine, run->tools);
-  run->program = read_program_input("program", options.program, options, &run->machine.machine, run->read);
-  const Program& program = run->program.program;
-  run->force_input = read_force_input(options, program);
-  run->work = place_work(run->machine.machine, run->machine.model, shown_name(options.machine), program);
-  run->ignored = uncontrolled_axes(run->machine.machine, run->work.frames);
-  ignore_axes(run->program.program, run->ignored);
-  run->overview = overview_of(program);
-  run->path = build_toolpath(program, run->work.frames);
-  refuse_uncontrolled_moves(*run);
-  const ForceSource& source = run->force_input.source;
-  run->forces.emplace(source, program, run->path, tool_orientations(run->machine.model, run->path, source));
-  run->options = compensation_options(options, run->machine.machine);
+  MachineInput machine = read_machine_input(options);
+  ToolLengths tools = read_tool_lengths(options, &machine.machine);
+  auto run = std::make_unique<Run>(
+      Run{.machine = std::move(machine), .file = open_program("program", options.program)});
+  run->tools = std::move(tools);
+  const Machine& on = run->machine.machine;
+  run->read = read_options(options, &on, run->tools);
+  look_through(options, *run);
+  run->force_input = read_force_input(options, run->program);
+  run->work = place_work(on, run->machine.model, shown_name(options.machine), run->program);
+  run->ignored = uncontrolled_axes(on, run->work.frames);
+  check_cover(*run);
+  run->options = compensation_options(options, on);
   run->facts = facts_of(options, *run);
   warn_of_orientation(*run);
   warn_of_cycles(*run);
@@ -172,32 +145,68 @@ std::unique_ptr<Run> prepare_run(const Options& options, Console& console) {
 }
 
 void refuse_what_cannot_be_compensated(const Run& run) {
-  const Program& program = run.program.program;
   if (run.machine.machine.controlled.empty())
     throw InputError(
         Exit::machine_or_force, {shown_name(run.machine.file.path)},
         "controlled = [] allows analysis alone; name the components of the tip that the program controls");
-  if (is_corrected(program))
+  if (run.is_corrected)
     throw InputError(
-        Exit::program_text, {program.file, 1, 1},
+        Exit::program_text, {run.program.file, 1, 1},
         "the header says that this program is already corrected (COUNTERFLEX 1); nothing is compensated "
         "twice");
 }
 
-void deliver(const Options& options, const OutputPaths& paths, const RunReport& report,
-             const std::vector<Waypoint>& waypoints, const std::string* program, Console& console) {
-  const CsvColumns columns{true, report.command != counterflex::Command::predict};
-  std::vector<OutputFile> files;
-  if (!paths.report_json.empty()) files.push_back({paths.report_json, to_json(report)});
-  std::size_t next_row = 0;
-  if (!paths.report_csv.empty())
-    files.push_back({paths.report_csv, csv_header() + csv_rows(waypoints, columns, next_row)});
-  if (program != nullptr) files.push_back({paths.program, *program});
-  write_files(files);
+Windows::Windows(Run& run, Console& console, std::size_t least_moves)
+    : run_(run),
+      console_(console),
+      reader_(run.file.bytes, run.program.file, run.read, least_moves),
+      jobs_(run.input(), reader_) {}
+
+bool Windows::next() {
+  if (!jobs_.next()) return false;
+  const Job window = job();
+  console_.progress(fmt::format("solving line {} of {}",
+                                window.path.segments.empty() ? 0 : window.path.segments.front().line,
+                                run_.program.lines));
+  refuse_uncontrolled_moves(window);
+  for (const ForceNote& note : window.forces.notes())
+    console_.warning(run_.program.file, note.line, note.what);
+  return true;
+}
+
+/// A component of the position that the machine does not control has to keep its value.
+void Windows::refuse_uncontrolled_moves(const Job& job) {
+  const Machine& machine = run_.machine.machine;
+  if (machine.controlled.empty() || job.path.segments.empty()) return;
+  if (!first_) first_ = job.path.segments.front().wanted.start;
+  for (int c = 0; c < 3; ++c) {
+    if (controls(machine, c)) continue;
+    for (const Segment& segment : job.path.segments)
+      for (const Vector3& p : points_along(segment.wanted))
+        if (std::abs(p[c] - (*first_)[c]) > 1e-9)
+          throw InputError(
+              Exit::program_text, {run_.program.file, segment.line, 1},
+              fmt::format("the move changes {} of the machine frame from {:.6g} to {:.6g} mm, which the "
+                          "machine does not control",
+                          "xyz"[c], (*first_)[c] / mm, p[c] / mm));
+  }
+}
+
+Exit deliver(const Options& options, const Run& run, const RunReport& report, RunFiles& files,
+             Console& console) {
+  const std::optional<Failure>& failure = report.failure;
+  const std::string json = to_json(report);
+  files.publish(json, !failure);
   console.finish_warnings();
-  if (options.json) return write_result(to_json(report));
-  if (paths.program == "-") return console.note(summary_text(report, console.colour_error()));
-  write_result(summary_text(report, console.colour_out()));
+  if (options.json)
+    write_result(json);
+  else if (files.program_to_stdout())
+    console.note(summary_text(report, console.colour_error()));
+  else
+    write_result(summary_text(report, console.colour_out()));
+  if (!failure) return Exit::done;
+  console.error(located(run.program.file, *failure));
+  return failure->exit;
 }
 
 }  // namespace counterflex::cli

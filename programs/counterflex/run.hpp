@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "console.hpp"
+#include "counterflex/compensation/job_windows.hpp"
 #include "counterflex/report/run_tally.hpp"
 #include "inputs.hpp"
 #include "options.hpp"
@@ -14,23 +15,23 @@ namespace counterflex::cli {
 
 struct Run {
   MachineInput machine;
-  ProgramInput program;
+  ProgramFile file;
+  Overview program;
+  bool is_corrected = false;  ///< the program carries the header of a corrected one
   ToolLengths tools;
   ForceInput force_input;
   WorkPlace work;
   std::array<bool, 3> ignored{};  ///< program axes along which the machine controls nothing
-  Toolpath path;                  ///< wanted
-  std::optional<PathForces> forces;
   CompensationOptions options;
-  ReadOptions read;  ///< with which the program was read
+  ReadOptions read;  ///< with which the program is read
   RunFacts facts;
-  Overview overview;  ///< of the program, its ignored axes made known
 
-  Job job() const;
+  RunInput input() const;
   RunContext context() const;
 };
 
-/// Reads everything and warns of what was remarked. Throws `InputError`; nothing has been written then.
+/// Reads everything, the program to its end, and warns of what was remarked. Throws `InputError`; nothing has
+/// been written then.
 std::unique_ptr<Run> prepare_run(const Options& options, Console& console);
 
 /// Refuses a machine that controls nothing (Exit::machine_or_force) and a program that carries the header of
@@ -40,10 +41,32 @@ void refuse_what_cannot_be_compensated(const Run& run);
 /// Texts of the comments that a corrected program starts with.
 std::vector<std::string> header_of(const Run& run);
 
-/// Writes the report's files, and says the result: the summary, or the JSON document, on standard output; the
-/// summary on standard error where the corrected program has standard output. `program` is the corrected
-/// program, if it is to be written.
-void deliver(const Options& options, const OutputPaths& paths, const RunReport& report,
-             const std::vector<Waypoint>& waypoints, const std::string* program, Console& console);
+/// The windows of a run's program, once from its beginning.
+class Windows {
+ public:
+  Windows(Run& run, Console& console, std::size_t least_moves = window_moves);
+
+  /// Goes to the next window and warns of what is noted of its forces; false at the end. Throws `InputError`
+  /// (Exit::program_text) for a move along what the machine does not control.
+  bool next();
+
+  Job job() const { return jobs_.job(); }
+  const ProgramReader& reader() const { return reader_; }
+
+ private:
+  void refuse_uncontrolled_moves(const Job& job);
+
+  const Run& run_;
+  Console& console_;
+  ProgramReader reader_;
+  JobWindows jobs_;
+  std::optional<Vector3> first_;  ///< where the path begins
+};
+
+/// Gives the run's files their names, and says the result: the summary, or the JSON document, on standard
+/// output; the summary on standard error where the corrected program has standard output. Then the failure,
+/// if there is one; its exit status.
+Exit deliver(const Options& options, const Run& run, const RunReport& report, RunFiles& files,
+             Console& console);
 
 }  // namespace counterflex::cli

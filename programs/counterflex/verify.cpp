@@ -11,22 +11,23 @@ Exit run_verify(const Options& options, Console& console) {
       read_program_input("corrected", options.corrected, options, &run->machine.machine, run->read);
   ignore_axes(corrected.program, run->ignored);
   run->facts.inputs.push_back(corrected.file);
-  const Job job = run->job();
+  // Both programs are compared as wholes.
+  Windows windows(*run, console, whole_program);
+  windows.next();
+  const Job job = windows.job();
   const std::vector<Piece> pieces = match_programs(job, corrected.program);
-  console.progress("solving");
   const ForwardRun forward =
       solve_forward_along(job, pieces, {.before = true, .attribution = true, .inside = true});
   const auto failure = forward.failure ? forward.failure : tolerance_failure(job, forward.waypoints);
+  RunFiles files(paths, {});
   RunTally tally(run->facts.min_block_ms);
-  tally.add_forces(*run->forces);
+  tally.add_forces(job.forces);
   tally.add_waypoints(forward.waypoints);
   tally.add_corrected(corrected.program);
-  const RunReport report =
-      report_verification(run->context(), tally, overview_of(corrected.program), failure);
-  deliver(options, paths, report, forward.waypoints, nullptr, console);
-  if (!failure) return Exit::done;
-  console.error(located(job.program.file, *failure));
-  return failure->exit;
+  files.add_waypoints(forward.waypoints);
+  return deliver(options, *run,
+                 report_verification(run->context(), tally, overview_of(corrected.program), failure), files,
+                 console);
 }
 
 }  // namespace counterflex::cli

@@ -17,19 +17,12 @@
 
 namespace counterflex {
 
-namespace {
-
-std::string folder_of(const std::string& path) {
-  const std::string folder = std::filesystem::path(path).parent_path().string();
-  return folder.empty() ? "." : folder;
-}
-
 /// Names of temporary files, kept where a signal handler may read them.
 struct UnpublishedName {
   std::atomic<bool> taken{false}, complete{false};
   char path[4096];
 };
-std::array<UnpublishedName, 16> unpublished;
+static std::array<UnpublishedName, 16> unpublished;
 
 /// Remembers `path` while it lives, if there is room.
 class Unpublished {
@@ -54,6 +47,13 @@ class Unpublished {
  private:
   UnpublishedName* name_ = nullptr;
 };
+
+namespace {
+
+std::string folder_of(const std::string& path) {
+  const std::string folder = std::filesystem::path(path).parent_path().string();
+  return folder.empty() ? "." : folder;
+}
 
 /// A new file beside `path` that nobody else has.
 std::pair<std::string, int> create_beside(const std::string& path) {

@@ -72,6 +72,7 @@ struct ProgramReader::State {
   FileReader& bytes;
   std::size_t least_moves;
   LineReader lines;
+  bool begun = false;     ///< an empty program is one window, too
   bool all_read = false;  ///< the bytes have come to their end
   std::size_t whole = 0;  ///< bytes of the text that are whole lines
   std::string behind;     ///< text behind the window, of which `behind_read` bytes have been read,
@@ -154,10 +155,12 @@ struct ProgramReader::State {
     whole = all_read ? text.size() : whole_lines(text).size();
     if (lines.has_ended()) return read_rest();
     if (is_klartext() && !all_read) {
+      begun = true;
       read_klartext_whole();
       return true;
     }
-    if (all_read && text.empty()) return false;
+    if (begun && all_read && text.empty()) return false;
+    begun = true;
     read_until_end(least_moves);
     return true;
   }
