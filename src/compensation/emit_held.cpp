@@ -175,7 +175,7 @@ void Emitter::pass(const Move& move) {
     const auto k = static_cast<Eigen::Index>(axis);
     if (held_[axis] && move.relative && move.words[axis])
       end[k] = *held_[axis] + move.end_mm[k] - move.start_mm[k];
-    if (held_[axis] && !move.words[axis]) end[k] = *held_[axis];
+    if (held_[axis] && !move.words[axis] && !(move.cycle && axis == 2)) end[k] = *held_[axis];
   }
   held_ = held_after(move, held_, end, job_.options.write);
 }

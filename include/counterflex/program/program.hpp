@@ -63,6 +63,8 @@ struct CycleMove {
   std::optional<AxisWord> bottom_word, retract_word;  ///< Z and R where the block has them
   bool may_insert_bottom = true;                      ///< an absolute Z may be added to a block that omits it
   bool first = false;                                 ///< programs the cycle: those that follow repeat it
+  bool begins_series = false;  ///< the first hole since another motion: G98 comes back to where it begins
+  double initial_mm = 0;  ///< Z where the series of this hole began; means something where its end is known
   bool returns_to_retract = false;  ///< G99: the cycle leaves the tool at `retract_mm`, else where it began
   int repeats = 1;                  ///< L or K
 };
@@ -100,8 +102,8 @@ struct Move {
   std::optional<CycleMove> cycle;
   Vector3 start_mm = Vector3::Zero();
   Vector3 end_mm = Vector3::Zero();
-  double feed_mm_min = 0;  ///< modal F; 0 where none has been programmed
-  double spindle_rpm = 0;  ///< modal S
+  double feed_mm_min = 0;            ///< modal F; 0 where none has been programmed
+  double spindle_rpm = 0;            ///< modal S
   std::optional<long> block_number;  ///< N
   std::size_t offset = 0;            ///< index into Program::work_offsets
   long tool = 0;                     ///< T in the spindle; 0: none known
