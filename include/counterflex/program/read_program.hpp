@@ -10,9 +10,9 @@
 namespace counterflex {
 
 struct ReadOptions {
-  std::string dialect = "auto";    ///< auto, linuxcnc, grbl, fanuc, haas, mach3, siemens, heidenhain; auto:
-                                   ///< BEGIN PGM means heidenhain, an O-number fanuc, words of its language
-                                   ///< siemens, else linuxcnc
+  std::string dialect = "auto";  ///< auto, linuxcnc, grbl, fanuc, haas, mach3, siemens, heidenhain; auto:
+                                 ///< BEGIN PGM means heidenhain, an O-number fanuc, words of its language
+                                 ///< siemens, else linuxcnc
   std::optional<LengthUnit> unit;  ///< where the program does not say before its first move
   std::optional<std::vector<char>>
       tool_change_moves;  ///< axes of "XYZ" unknown after a tool change; none: the
