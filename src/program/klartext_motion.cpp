@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "program/arc_radius.hpp"
 #include "program/dialect.hpp"
@@ -39,10 +40,17 @@ void read_code(int code, const KlartextBlock& block, KlartextReading& r, Klartex
     add_remark(r.program, block.line, fmt::format("M{}: taken as moving no axis", code));
 }
 
+int code_of(const KlartextWord& word, const KlartextBlock& block, const KlartextReading& r) {
+  if (word.value < 0 || word.value > 99999 || word.value != std::floor(word.value))
+    refuse_klartext(r.program.text, r.program.file, block, word.span.begin,
+                    fmt::format("M{} is not a code: whole numbers from 0 to 99999 are", word.value));
+  return static_cast<int>(word.value);
+}
+
 KlartextCodes read_codes(const KlartextBlock& block, KlartextReading& r) {
   KlartextCodes codes;
   for (const KlartextWord& word : r.words)
-    if (word.key == "M" && word.literal) read_code(static_cast<int>(word.value), block, r, codes);
+    if (word.key == "M" && word.literal) read_code(code_of(word, block, r), block, r, codes);
   return codes;
 }
 

@@ -66,6 +66,8 @@ TEST_CASE(
   CHECK(klartext_refusal({"L X+1 FMAX", "L Xnan Y1"}) ==
         "p.ngc:3:5: error: X has no number: 'nan' follows it");
   CHECK(klartext_refusal({"L Z nan FMAX"}) == "p.ngc:2:5: error: Z has no number: 'nan' follows it");
+  CHECK(klartext_refusal({"L X1 M399999999990"}) ==
+        "p.ngc:2:8: error: M399999999990 is not a code: whole numbers from 0 to 99999 are");
   CHECK(klartext_refusal({"L X1e5"}) == "p.ngc:2:7: error: X1e5: a number has no exponent here");
   CHECK(klartext_refusal({"L X100000"}) == "p.ngc:2:5: error: X100000: coordinates are at most 99999.9999");
   CHECK(klartext_refusal({"CYCL DEF 7.1 Xnan"}) == "p.ngc:2:16: error: X has no number: 'nan' follows it");
