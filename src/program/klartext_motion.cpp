@@ -311,7 +311,11 @@ void read_klartext_motion(const KlartextBlock& block, KlartextReading& r) {
   const KlartextCodes codes = read_codes(block, r);
   read_feed(r);
   watch_rotary_axes(r);
-  if (codes.machine_position && programs_axis(r)) {
+  if (block.head == "CP" && !codes.machine_position && !codes.cycle_call) {
+    add_polar_arc(block, r);
+  } else if (block.head == "CP") {
+    add_unfollowed_move(block, r, "a polar arc is not followed");
+  } else if (codes.machine_position && programs_axis(r)) {
     leave_machine_position(block, r);
   } else if (programs_axis(r)) {
     add_klartext_move(block, codes, r);

@@ -102,6 +102,7 @@ constexpr std::array statements{
     KnownStatement{"C", read_klartext_motion},
     KnownStatement{"CR", read_klartext_motion},
     KnownStatement{"CT", read_klartext_motion},
+    KnownStatement{"CP", read_klartext_motion},
     KnownStatement{"CC", read_klartext_pole},
     KnownStatement{"M", read_klartext_codes},
     KnownStatement{"CYCL", read_klartext_cycle},

@@ -58,8 +58,12 @@ struct KlartextReading {
   bool ended = false;
 };
 
-/// L, C, CR and CT.
+/// L, C, CR, CT and CP.
 void read_klartext_motion(const KlartextBlock& block, KlartextReading& reading);
+
+/// CP, an arc or a helix of an angle about the pole: it is held, and a shift moves the words of its CC, which
+/// no other block uses.
+void add_polar_arc(const KlartextBlock& block, KlartextReading& reading);
 
 /// CC.
 void read_klartext_pole(const KlartextBlock& block, KlartextReading& reading);

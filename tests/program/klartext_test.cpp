@@ -275,3 +275,29 @@ TEST_CASE("klartext: corners by RND and CHF leave their moves whole") {
   CHECK_FALSE(program.moves[2].may_split);
   CHECK(program.moves[3].may_split);
 }
+
+TEST_CASE("klartext: a helix about a pole of its own is held, and its pole is shifted") {
+  const std::string text = klartext({"TOOL CALL 3 Z S2500", "L X+10 Y+0 Z+5 FMAX", "L Z+0 F100",
+                                     "CC X+4,5 Y+0", "CP IPA+720 IZ-2 DR+", "L X+12 Y+1 Z-2"});
+  const Program program = read(text);
+  REQUIRE(program.moves.size() == 4);
+  CHECK(program.moves[2].handling == Handling::held);
+  CHECK(program.moves[2].known_end == std::array<bool, 3>{});
+  CHECK_FALSE(program.moves[2].may_split);
+  CHECK(rewrite(program, edits_to_original(program), {}).text == text);
+  CHECK(klartext_shifted(program) ==
+        klartext({"TOOL CALL 3 Z S2500", "L X+10,5 Y-0,25 Z+5,125 FMAX", "L Z+0,125 F100", "CC X+5,0 Y-0,25",
+                  "CP IPA+720 IZ-2 DR+", "L X+12,5 Y+0,75 Z-1,875"}));
+}
+
+TEST_CASE("klartext: a polar arc whose pole others use, or that a contour holds, is fixed") {
+  for (const char* other : {"C X+0 Y+4 DR+", "CP IPA+90 DR+", "LP PR+5 PA+10"}) {
+    CAPTURE(other);
+    const Program program =
+        read(klartext({"L X+10 Y+0 Z+5 FMAX", "L Z+0 F100", "CC X+4 Y+0", "CP IPA+720 DR+", other}));
+    CHECK(program.moves[2].fixed == std::array<bool, 3>{true, true, true});
+  }
+  const Program contour =
+      read(klartext({"L X+10 Y+0 Z+5 FMAX", "L X+9 RL F100", "CC X+4 Y+0", "CP IPA+90 DR+"}));
+  CHECK(contour.moves[2].fixed[0]);
+}
