@@ -260,6 +260,14 @@ void doubt_klartext_skippable(const KlartextBlock& block, KlartextReading& r, co
     if (move.words[axis]) r.state.known[axis] = false;
 }
 
+/// The arc about a pole has the words of its CC, and those that follow it find the pole where it has left it.
+/// One that stays as it is, or may be skipped, leaves the CC to nobody.
+void use_pole(KlartextReading& r, const Move& move) {
+  const bool taken = move.arc && (move.words[0] || move.words[1]) && !move.block_delete;
+  if (!taken) return r.state.pole.reset();
+  r.state.pole->just_set = false;
+}
+
 void add_klartext_move(const KlartextBlock& block, const KlartextCodes& codes, KlartextReading& r) {
   check_unit(block, r);
   Move move = begin_klartext_move(block, r);
@@ -276,7 +284,7 @@ void add_klartext_move(const KlartextBlock& block, const KlartextCodes& codes, K
   move.known_end = r.state.known;
   move.may_insert_words = move.words[0] || move.words[1] || move.words[2];
   doubt_klartext_skippable(block, r, move);
-  if (r.state.pole) r.state.pole->just_set = false;
+  if (block.head == "C") use_pole(r, move);
   r.program.moves.push_back(std::move(move));
 }
 

@@ -182,7 +182,6 @@ void add_cycle_call(const KlartextBlock& block, KlartextReading& r) {
   move.fixed[2] = true;
   move.known_end = r.state.known;
   r.state.known[2] = move.known_end[2] = false;
-  if (r.state.pole) r.state.pole->just_set = false;
   r.program.moves.push_back(std::move(move));
   r.state.run_begin = r.program.moves.size();
   leave_alone(r, block.line, "cycles are left as they are");

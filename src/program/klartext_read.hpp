@@ -20,7 +20,7 @@ bool is_corrected_klartext(std::string_view text);
 struct KlartextPole {
   Vector3 centre_mm = Vector3::Zero();
   std::array<AxisWord, 2> words{};
-  bool just_set = false;  ///< no move since: the words may be changed for the next arc
+  bool just_set = false;  ///< no arc about it since: the words may be changed for the next one
 };
 
 /// What a control remembers from block to block.

@@ -301,3 +301,22 @@ TEST_CASE("klartext: a polar arc whose pole others use, or that a contour holds,
       read(klartext({"L X+10 Y+0 Z+5 FMAX", "L X+9 RL F100", "CC X+4 Y+0", "CP IPA+90 DR+"}));
   CHECK(contour.moves[2].fixed[0]);
 }
+
+TEST_CASE("klartext: an arc takes its CC along also where other moves stand between them") {
+  const Program program =
+      read(klartext({"L X+4 Y+0 Z+5 FMAX", "CC X+0 Y+0", "L X+5 F100", "C X-5 Y+0 DR+", "C X+5 Y+0 DR+"}));
+  CHECK(rewrite(program, edits_to_original(program), {}).text == program.text);
+  CHECK(klartext_shifted(program) == klartext({"L X+4.5 Y-0.25 Z+5.125 FMAX", "CC X+0.5 Y-0.25",
+                                               "L X+5.5 F100", "C X-4.5 Y-0.25 DR+", "C X+5.5 Y-0.25 DR+"}));
+}
+
+TEST_CASE("klartext: behind an arc that stays as it is no other is followed about the same CC") {
+  for (const char* arc : {"C X+5", "/C X-5 Y+0 DR+", "C X+Q1 Y+0 DR+"}) {
+    const std::string text =
+        klartext({"L X+5 Y+0 Z+5 FMAX", "CC X+0 Y+0", arc, "L X+5 Y+0 F100", "C X-5 Y+0 DR+"});
+    CAPTURE(text);
+    const Program program = read(text);
+    CHECK(program.moves.back().fixed[0]);
+    CHECK(rewrite(program, edits_to_original(program), {}).text == text);
+  }
+}
