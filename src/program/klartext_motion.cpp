@@ -238,9 +238,12 @@ void allow_klartext_changes(const KlartextCodes& codes, bool tangent, KlartextRe
 }
 
 void call_cycle_after(const KlartextBlock& block, KlartextReading& r, Move& move) {
+  r.state.known[2] = false;
+  if (why_elsewhere(block, r).empty() && r.state.cycle_acts_here && hold_hole(r, move))
+    return leave_alone(r, block.line, "holes are held");
+  r.state.surface.reset();
   move.fixed[2] = true;
   move.words[2].reset();
-  r.state.known[2] = false;
   if (!r.state.cycle_acts_here) move.fixed.fill(true), move.words.fill({}), r.state.known.fill(false);
   leave_alone(r, block.line, "cycles are left as they are");
 }

@@ -320,3 +320,39 @@ TEST_CASE("klartext: behind an arc that stays as it is no other is followed abou
     CHECK(rewrite(program, edits_to_original(program), {}).text == text);
   }
 }
+
+TEST_CASE("klartext: the holes of a drilling cycle are held, and the first one takes the surface along") {
+  const std::string text =
+      klartext({"L X+1 Y+0 Z+50 FMAX",
+                "CYCL DEF 200 DRILLING ~\n  Q200=2 ~\n  Q201=-10 ~\n  Q203=+1.5 ;SURFACE ~\n  Q204=50",
+                "L X+2 Y+3 FMAX M99", "L X+4 Y+3 FMAX M99", "CYCL CALL", "L X+0 Y+0 Z+50 FMAX"});
+  const Program program = read(text);
+  REQUIRE(program.moves.size() == 5);
+  for (const std::size_t hole : {1U, 2U, 3U}) {
+    CHECK(program.moves[hole].handling == Handling::held);
+    CHECK(program.moves[hole].words[2].has_value() == (hole == 1));
+    CHECK_FALSE(program.moves[hole].known_end[2]);
+    CHECK_FALSE(program.moves[hole].fixed[2]);
+  }
+  CHECK(rewrite(program, edits_to_original(program), {}).text == text);
+  CHECK(klartext_shifted(program) ==
+        klartext({"L X+1.5 Y-0.25 Z+50.125 FMAX",
+                  "CYCL DEF 200 DRILLING ~\n  Q200=2 ~\n  Q201=-10 ~\n  Q203=+1.625 ;SURFACE ~\n  Q204=50",
+                  "L X+2.5 Y+2.75 FMAX M99", "L X+4.5 Y+2.75 FMAX M99", "CYCL CALL",
+                  "L X+0.5 Y-0.25 Z+50.125 FMAX"}));
+}
+
+TEST_CASE("klartext: holes are fixed where their surface is not a plain number that counts for them alone") {
+  for (const char* surface :
+       {"CYCL DEF 200 Q203=+Q5", "CYCL DEF 200 Q201=-5", "/CYCL DEF 200 Q203=+1", "CYCL DEF 252 Q203=+1"}) {
+    CAPTURE(surface);
+    const Program program = read(klartext({"L X+1 Y+0 Z+50 FMAX", surface, "L X+2 Y+3 FMAX M99"}));
+    CHECK(program.moves[1].fixed[2]);
+  }
+  for (const char* call : {"/L X+2 Y+3 FMAX M99", "L X+2 Z+5 FMAX M99", "L IX+2 FMAX M99", "Q203 = 5"}) {
+    CAPTURE(call);
+    const Program program =
+        read(klartext({"L X+1 Y+0 Z+50 FMAX", "CYCL DEF 200 Q203=+1", call, "L X+2 Y+3 FMAX M99"}));
+    CHECK(program.moves.back().fixed[2]);
+  }
+}
