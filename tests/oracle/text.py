@@ -32,7 +32,7 @@ class Line:
         self.step = [sum(value(t[3]) for t in self.words if t[1] == letter) for letter in 'XYZ']
         self.motion = [t for t in self.words if is_motion(t)]
         self.is_piece = bool(self.words) and all(isinstance(t, tuple) and (t[1] in INSERTED | {'F'} or is_motion(t)) or
-                                                 t in ('/', ' ', '\t', '\r') for t in self.tokens)
+                                                 t in ('/', ' ', '\t', '\r', 'L') for t in self.tokens)
 
 
 def is_motion(token):
