@@ -144,7 +144,8 @@ class PieceFit {
 
   void misses(const Vector3& centre, const Vector3& end, Eigen::VectorXd& r) const {
     const Vector3& normal = task_.source.arc->normal;
-    const Curve curve{start_, end, Arc{centre, normal, sweep_between(start_, end, centre, normal)}};
+    const int turns = piece_.is_end ? task_.move.arc->turns : 0;
+    const Curve curve{start_, end, Arc{centre, normal, sweep_between(start_, end, centre, normal, turns)}};
     r.resize(3 * static_cast<Eigen::Index>(samples_.size()));
     for (std::size_t k = 0; k < samples_.size(); ++k)
       r.segment<3>(3 * static_cast<Eigen::Index>(k)) = point_at(curve, samples_[k].v) - samples_[k].p_mm;
@@ -200,9 +201,13 @@ bool keeps_words(const ArcTask& task, const ArcPiece& piece, const FittedArc& fi
   return true;
 }
 
+double sweep_beside_turns(const Move& move, const Curve& source) {
+  return source.arc->sweep - 2 * std::numbers::pi * move.arc->turns;
+}
+
 bool must_halve(const Move& move, const Curve& source) {
   constexpr double degree = std::numbers::pi / 180;
-  const double sweep = source.arc->sweep, size = radius(*source.arc, source.start);
+  const double sweep = sweep_beside_turns(move, source), size = radius(*source.arc, source.start);
   Vector3 chord = source.end - source.start;
   chord -= chord.dot(source.arc->normal) * source.arc->normal;
   if (sweep > 330 * degree || (sweep > 180 * degree && chord.norm() < 0.1 * size)) return true;

@@ -65,7 +65,9 @@ bool Emitter::fit_pieces(const ArcTask& task, double u0, double u1, int halvings
     return true;
   }
   bool at_corner = false;
-  const double middle = division(task.corners, u0, u1, at_corner);
+  const bool leaves_turns = whole && task.move.arc->turns > 0;
+  const double middle = leaves_turns ? sweep_beside_turns(task.move, task.source) / 2 / task.source.arc->sweep
+                                     : division(task.corners, u0, u1, at_corner);
   if (!at_corner && ++halvings > most_halvings) return false;
   return fit_pieces(task, u0, middle, halvings, false, emitted) &&
          fit_pieces(task, middle, u1, halvings, false, emitted);

@@ -176,7 +176,7 @@ void Emitter::pass(const Move& move) {
     const auto k = static_cast<Eigen::Index>(axis);
     if (state_.held[axis] && move.relative && move.words[axis])
       end[k] = *state_.held[axis] + move.end_mm[k] - move.start_mm[k];
-    if (state_.held[axis] && !move.words[axis]) end[k] = *state_.held[axis];
+    if (state_.held[axis] && !move.words[axis] && !(move.cycle && axis == 2)) end[k] = *state_.held[axis];
   }
   state_.held = held_after(move, state_.held, end, job_.options.write);
 }

@@ -69,7 +69,7 @@ constexpr std::array g_codes{
     GCode{440, Action::tool_length, Group::tool_length, {}, shop_families | mach3_family},
     GCode{450, Action::own_way, Group::none, {}, shop_families},
     GCode{460, Action::own_way, Group::none, {}, shop_families},
-    GCode{470, Action::own_way, Group::none, {}, shop_families},
+    GCode{470, Action::engrave, Group::none, {}, shop_families},
     GCode{480, Action::own_way, Group::none, {}, shop_families},
     GCode{490, Action::no_tool_length, Group::tool_length},
     GCode{500, Action::end_displace, Group::none, {}, shop_families | mach3_family, scaled},

@@ -17,7 +17,8 @@ enum class Action : std::uint8_t {
   thread,      ///< G33, LinuxCNC's G76
   end_motion,  ///< G80
   pocket,      ///< G12, G13: cuts a round pocket about the place where it stands, and ends there
-  own_way,     ///< moves in a way of its own: G29, G47, G70 to G72 of Haas, G150
+  engrave,     ///< G47: writes text from a place on, from R down to Z
+  own_way,     ///< moves in a way of its own: G29, G70 to G72 of Haas, G150
   call,        ///< G65: runs a macro
   dwell,
   inch,

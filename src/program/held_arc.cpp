@@ -49,7 +49,11 @@ void settle_radius(const Move& move, const Vector3& centre_mm, Place place, cons
   const double beyond_half = sweep_of(arc, start, end, centre_mm) - std::numbers::pi;
   const bool longer = std::abs(beyond_half) < 1e-6 ? arc.radius_mm < 0 : beyond_half > 0;
   const double wanted = (longer ? -size_mm : size_mm) / unit;
-  WordNumber number = settle_number(move, arc.radius_word, arc.radius_mm / unit, wanted, place, options);
+  // Of an R that hardly reaches from end to end controls take as much as it needs.
+  const double reaches_mm =
+      std::fmax(std::abs(arc.radius_mm), across(move.end_mm - move.start_mm, arc).norm() / 2);
+  const double original = std::copysign(reaches_mm, arc.radius_mm) / unit;
+  WordNumber number = settle_number(move, arc.radius_word, original, wanted, place, options);
   const double half_chord = across(end - start, arc).norm() / 2 / unit;
   if (number.write && std::abs(number.value) < half_chord) {
     const double digit = 1 / power_of_ten(number.decimals);

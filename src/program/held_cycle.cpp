@@ -35,27 +35,40 @@ Settled settle_retract(const Move& move, double held_z_mm, double retract_mm, co
 }
 
 /// A word for a bottom that the text does not repeat already.
-WordNumber settle_repeated(const Move& move, std::optional<double> repeated_mm, double wanted_mm,
+WordNumber settle_repeated(const Move& move, double repeated_mm, double wanted_mm,
                            const WriteOptions& options) {
   const double unit = mm_per(move.unit);
   const WordNumber number = settle_number(move, std::nullopt, 0, wanted_mm / unit, Place::inside, options);
-  const bool repeats = repeated_mm && rounds_to(*repeated_mm / unit, wanted_mm / unit, number.decimals);
-  return repeats ? WordNumber{} : number;
+  return rounds_to(repeated_mm / unit, wanted_mm / unit, number.decimals) ? WordNumber{} : number;
 }
 
-/// A cycle leaves Z where it was, or at the retract plane where that is higher or G99 says so.
-bool is_left_at_retract(const Move& move) {
-  return move.cycle->returns_to_retract || move.cycle->retract_mm >= component(move.start_mm, 2);
+/// How far the number that is written lies from the one that said `original_mm`.
+double change_of(const Move& move, const WordNumber& number, double original_mm) {
+  return number.write ? number.value * mm_per(move.unit) - original_mm : 0;
+}
+
+/// A cycle leaves Z where its series began, or at the retract plane where that is higher or G99 says so.
+bool is_left_at_retract(const CycleMove& cycle) {
+  return cycle.returns_to_retract || cycle.retract_mm >= cycle.initial_mm;
 }
 
 }  // namespace
 
-Coordinate settle_cycle_end(const Move& move, std::optional<double> held_z_mm, double retract_mm,
+std::optional<double> cycle_initial_after(const Move& move, const HeldPosition& before) {
+  return move.cycle && move.cycle->begins_series ? before[2] : before.cycle_initial_mm;
+}
+
+Coordinate settle_cycle_end(const Move& move, const HeldPosition& before, double retract_mm,
                             const WriteOptions& options) {
+  const CycleMove& cycle = *move.cycle;
   if (!move.known_end[2]) return {{}, std::nullopt};
-  if (!is_left_at_retract(move) || !move.cycle->retract_word) return {{}, held_z_mm};
-  const double z_mm = held_z_mm.value_or(component(move.start_mm, 2));
-  return {{}, settle_retract(move, z_mm, retract_mm, options).read_mm};
+  if (cycle.repeats == 0) return {{}, before[2]};
+  const std::optional<double> initial_mm = cycle_initial_after(move, before);
+  if (!is_left_at_retract(cycle)) return {{}, initial_mm};
+  if (!cycle.retract_word) return {{}, before[2]};
+  const double z_mm = before[2].value_or(component(move.start_mm, 2));
+  const double read_mm = settle_retract(move, z_mm, retract_mm, options).read_mm;
+  return {{}, cycle.returns_to_retract ? read_mm : std::max(read_mm, initial_mm.value_or(read_mm))};
 }
 
 CycleWords settle_cycle(const Move& move, std::optional<double> held_z_mm, std::optional<double> bottom_mm,
@@ -64,27 +77,32 @@ CycleWords settle_cycle(const Move& move, std::optional<double> held_z_mm, std::
   CycleWords words;
   // Differences from a height that nobody knows stay as they are.
   if (move.relative && !held_z_mm) {
-    held = {};
+    pass_cycle(cycle, held);
     return words;
   }
   if (cycle.retract_word) {
     const double z_mm = held_z_mm.value_or(component(move.start_mm, 2));
     const Settled retract = settle_retract(move, z_mm, retract_mm.value_or(cycle.retract_mm), options);
     words.retract = retract.number;
-    held.retract_mm = retract.read_mm;
+    held.retract_change_mm = retract.read_mm - cycle.retract_mm;
   }
   if (cycle.bottom_word) {
     const Settled bottom =
         settle_from(move, *cycle.bottom_word, cycle.bottom_mm, cycle.retract_mm,
-                    bottom_mm.value_or(cycle.bottom_mm), held.retract_mm.value_or(cycle.retract_mm), options);
+                    bottom_mm.value_or(cycle.bottom_mm), cycle.retract_mm + held.retract_change_mm, options);
     words.bottom = bottom.number;
-    held.bottom_mm = bottom.read_mm;
+    held.bottom_change_mm = change_of(move, bottom.number, cycle.bottom_mm - origin(move, cycle.retract_mm));
   } else if (bottom_mm && cycle.may_insert_bottom && !move.relative) {
-    words.bottom = settle_repeated(move, held.bottom_mm, *bottom_mm, options);
-    if (words.bottom.write) held.bottom_mm = words.bottom.value * mm_per(move.unit);
+    words.bottom = settle_repeated(move, cycle.bottom_mm + held.bottom_change_mm, *bottom_mm, options);
+    if (words.bottom.write) held.bottom_change_mm = change_of(move, words.bottom, cycle.bottom_mm);
   }
   if (move.block_delete) held = {};
   return words;
+}
+
+void pass_cycle(const CycleMove& cycle, HeldCycle& held) {
+  if (cycle.bottom_word) held.bottom_change_mm = 0;
+  if (cycle.retract_word) held.retract_change_mm = 0;
 }
 
 }  // namespace counterflex

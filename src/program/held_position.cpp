@@ -96,9 +96,10 @@ double shown_number(const Move& move, const AxisWord& word, double length_mm) {
   return std::round(value * power_of_ten(decimals)) / power_of_ten(decimals);
 }
 
-Coordinate settle_axis(const Move& move, std::size_t axis, std::optional<double> held_mm, double wanted_mm,
+Coordinate settle_axis(const Move& move, std::size_t axis, const HeldPosition& before, double wanted_mm,
                        Place place, const WriteOptions& options) {
-  if (move.cycle && axis == 2) return settle_cycle_end(move, held_mm, wanted_mm, options);
+  if (move.cycle && axis == 2) return settle_cycle_end(move, before, wanted_mm, options);
+  const std::optional<double> held_mm = before[axis];
   if (move.fixed[axis])
     return {{}, move.known_end[axis] ? std::optional(component(move.end_mm, axis)) : std::nullopt};
   if (!move.words[axis] || place == Place::inside)
@@ -121,6 +122,7 @@ HeldPosition held_between(const Move& last, const Move& next, const HeldPosition
     const double change_mm = component(next.start_mm, axis) - component(last.end_mm, axis);
     const bool known = last.known_end[axis] && next.known_start[axis] && !next.ignored[axis];
     if (known && moved[axis] && change_mm != 0) *moved[axis] += change_mm;
+    if (axis == 2 && change_mm != 0) moved.cycle_initial_mm.reset();
   }
   return moved;
 }
@@ -128,12 +130,13 @@ HeldPosition held_between(const Move& last, const Move& next, const HeldPosition
 HeldPosition held_after_original(const Move& move, const HeldPosition& before) {
   const HeldPosition start = held_at_start(move, before);
   HeldPosition held = start;
+  held.cycle_initial_mm = cycle_initial_after(move, start);
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const double end_mm = component(move.end_mm, axis);
     if (!move.known_end[axis] || move.fixed[axis]) {
       held[axis] = move.known_end[axis] ? std::optional(end_mm) : std::nullopt;
     } else if (move.cycle && axis == 2) {
-      held[axis] = settle_cycle_end(move, start[axis], move.cycle->retract_mm, {}).held_mm;
+      held[axis] = settle_cycle_end(move, start, move.cycle->retract_mm, {}).held_mm;
     } else if (move.words[axis]) {
       held[axis] = keep(move, axis, start[axis]).held_mm;
     }
@@ -152,8 +155,9 @@ HeldPosition held_after(const Move& move, const HeldPosition& before, const Vect
                         const WriteOptions& options) {
   const HeldPosition start = held_at_start(move, before);
   HeldPosition held;
+  held.cycle_initial_mm = cycle_initial_after(move, start);
   for (std::size_t axis = 0; axis < 3; ++axis)
-    held[axis] = settle_axis(move, axis, start[axis], component(end_mm, axis), Place::end, options).held_mm;
+    held[axis] = settle_axis(move, axis, start, component(end_mm, axis), Place::end, options).held_mm;
   doubt_skippable(move, start, held);
   return held;
 }

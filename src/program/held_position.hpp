@@ -32,8 +32,8 @@ WordNumber settle_number(const Move& move, const std::optional<AxisWord>& word, 
 /// The number that `word` shows, in the move's unit, from the length that was read from it.
 double shown_number(const Move& move, const AxisWord& word, double length_mm);
 
-/// Coordinate `axis` of a point of `move`, wanted at `wanted_mm`, with `held_mm` before it.
-Coordinate settle_axis(const Move& move, std::size_t axis, std::optional<double> held_mm, double wanted_mm,
+/// Coordinate `axis` of a point of `move`, wanted at `wanted_mm`, with the tool at `before`.
+Coordinate settle_axis(const Move& move, std::size_t axis, const HeldPosition& before, double wanted_mm,
                        Place place, const WriteOptions& options);
 
 /// `before` without the axes that the program does not know at the start of `move`.

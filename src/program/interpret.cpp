@@ -92,8 +92,8 @@ bool has_words_of_motion(const Reading& r) {
 const FoundG* find_own_motion(const SortedBlock& sorted) {
   for (const FoundG& g : sorted.g) {
     const Action action = g.code->action;
-    if (action == Action::own_way || action == Action::pocket || action == Action::call ||
-        (action == Action::probe && g.code->group == Group::none))
+    if (action == Action::own_way || action == Action::engrave || action == Action::pocket ||
+        action == Action::call || (action == Action::probe && g.code->group == Group::none))
       return &g;
   }
   return nullptr;
@@ -103,6 +103,8 @@ void read_own_motion(const Block& block, Reading& r, const FoundG& found) {
   switch (found.code->action) {
     case Action::own_way:
       return read_own_way(block, r, found);
+    case Action::engrave:
+      return read_engraving(block, r, found);
     case Action::pocket:
       return read_pocket(block, r);
     case Action::call:

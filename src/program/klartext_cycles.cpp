@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "counterflex/files/numbers.hpp"
+#include "program/dialect.hpp"
 #include "program/klartext_read.hpp"
 #include "program/lex.hpp"
 #include "program/remarks.hpp"
@@ -42,6 +44,35 @@ bool acts_where_called(int cycle) {
                                 254, 256, 257, 262, 263, 264, 265, 267};
   return std::find(in_place.begin(), in_place.end(), cycle) != in_place.end() ||
          (cycle >= 200 && cycle <= 215);
+}
+
+/// Cycles whose heights and depths all count from their surface, and that take no other place.
+bool counts_from_surface(int cycle) {
+  return (cycle >= 200 && cycle <= 209) || cycle == 240 || cycle == 241;
+}
+
+/// The plain number of Q203.
+std::optional<KlartextSurface> surface_of(const KlartextBlock& block, const KlartextReading& r) {
+  const std::string_view text = r.program.text;
+  for (const Span& line : block.parts) {
+    const std::size_t name = part(text, line).find("Q203");
+    if (name == std::string_view::npos) continue;
+    const std::size_t equals = text.find_first_not_of(" \t", line.begin + name + 4);
+    if (equals >= line.end || text[equals] != '=') return std::nullopt;
+    const std::size_t begin = text.find_first_not_of(" \t", equals + 1);
+    const std::size_t end = std::min(text.find_first_of(" \t\r\n;~", begin), line.end);
+    if (begin >= end) return std::nullopt;
+    std::string number(part(text, {begin, end}));
+    std::replace(number.begin(), number.end(), ',', '.');
+    const std::optional<double> value = read_number(number);
+    if (!value || std::abs(*value) > 99999.9999 || number.find_first_of("eE") != std::string::npos)
+      return std::nullopt;
+    const std::size_t point = std::min(number.find('.'), number.size() - 1);
+    return KlartextSurface{*value * mm_per(r.state.unit.value_or(LengthUnit::millimetres)),
+                           {{begin, end}, static_cast<int>(number.size() - 1 - point)},
+                           true};
+  }
+  return std::nullopt;
 }
 
 constexpr std::string_view shifted_axes = "XYZABCUVW";
@@ -120,10 +151,31 @@ void define_cycle(const KlartextBlock& block, KlartextReading& r) {
                            part(r.program.text, {number.end - 2, block.parts[0].end})));
   const bool state_only = cycle == 7 || cycle == 8 || cycle == 9 || cycle == 10 || cycle == 11 ||
                           cycle == 13 || cycle == 19 || cycle == 26 || cycle == 32;
-  if (!state_only && number.line == 0) r.state.cycle_acts_here = acts_where_called(cycle);
+  if (state_only || number.line != 0) return;
+  r.state.cycle_acts_here = acts_where_called(cycle);
+  r.state.surface.reset();
+  const bool runs_once = empty(block.block_delete) && !holds(r.doubtful, block.line);
+  if (counts_from_surface(cycle) && runs_once) r.state.surface = surface_of(block, r);
 }
 
 }  // namespace
+
+bool hold_hole(KlartextReading& r, Move& move) {
+  std::optional<KlartextSurface>& surface = r.state.surface;
+  const bool rigid = surface && r.state.tool_along_z && !move.block_delete && !move.relative && !move.arc &&
+                     move.group == 0 && !move.words[2] && !move.fixed[0] && !move.fixed[1] && !move.fixed[2];
+  if (!rigid) {
+    surface.reset();
+    return false;
+  }
+  move.handling = Handling::held;
+  move.may_split = move.may_jump = false;
+  if (!surface->just_set) return true;
+  surface->just_set = false;
+  move.words[2] = surface->word;
+  move.end_mm.z() = surface->z_mm;
+  return true;
+}
 
 void read_klartext_cycle(const KlartextBlock& block, KlartextReading& r) {
   const std::string rest = squeezed(after_head(r.program.text, block));

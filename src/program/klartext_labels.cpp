@@ -66,6 +66,14 @@ std::vector<LineStretch> merged(std::vector<LineStretch> stretches) {
   return result;
 }
 
+/// Whether a block counts from the pole in another way than C and CP do.
+bool uses_pole(std::string_view text, const KlartextBlock& block) {
+  constexpr std::array<std::string_view, 7> polar{"LP", "CTP", "FPOL", "FL", "FC", "FLT", "FCT"};
+  const bool approach =
+      (block.head == "APPR" || block.head == "DEP") && squeezed(after_head(text, block)).starts_with("P");
+  return approach || std::find(polar.begin(), polar.end(), block.head) != polar.end();
+}
+
 }  // namespace
 
 std::vector<LineStretch> doubtful_stretches(std::string_view text) {
@@ -89,17 +97,21 @@ bool holds(const std::vector<LineStretch>& stretches, int line) {
 }
 
 std::vector<int> poles_used_otherwise(std::string_view text) {
-  constexpr std::array<std::string_view, 8> polar{"LP", "CP", "CTP", "FPOL", "FL", "FC", "FLT", "FCT"};
   std::vector<int> lines;
-  int pole = 0;
+  int pole = 0, arcs = 0, polar_arcs = 0, others = 0;
+  const auto end_pole = [&] {
+    const bool used_otherwise = others > 0 || polar_arcs > 1 || (polar_arcs == 1 && arcs > 0);
+    if (pole > 0 && used_otherwise) lines.push_back(pole);
+    arcs = polar_arcs = others = 0;
+  };
   KlartextBlock block;
   while (next_klartext_block(text, block)) {
-    if (block.head == "CC") pole = block.line;
-    const bool approach =
-        (block.head == "APPR" || block.head == "DEP") && squeezed(after_head(text, block)).starts_with("P");
-    const bool uses = approach || std::find(polar.begin(), polar.end(), block.head) != polar.end();
-    if (uses && pole > 0 && (lines.empty() || lines.back() != pole)) lines.push_back(pole);
+    if (block.head == "CC") end_pole(), pole = block.line;
+    arcs += block.head == "C";
+    polar_arcs += block.head == "CP";
+    others += uses_pole(text, block);
   }
+  end_pole();
   return lines;
 }
 

@@ -17,8 +17,8 @@ std::vector<LineStretch> doubtful_stretches(std::string_view text);
 
 bool holds(const std::vector<LineStretch>& stretches, int line);
 
-/// Lines of the CC whose pole other blocks use than C, so that it cannot be moved with the arcs about it. In
-/// order.
+/// Lines of the CC whose pole other blocks use than C, so that it cannot be moved with the arcs about it; not
+/// of one that a single CP alone uses. In order.
 std::vector<int> poles_used_otherwise(std::string_view text);
 
 }  // namespace counterflex

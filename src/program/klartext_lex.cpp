@@ -15,9 +15,10 @@ namespace {
 constexpr double largest_klartext_number = 99999.9999;
 
 // Longer keys before those that they begin with.
-constexpr std::array<std::string_view, 31> klartext_keys{
-    "FMAX", "FAUTO", "DR", "RL", "RR", "IX", "IY", "IZ", "IA", "IB", "IC", "IU", "IV", "IW", "FU", "FZ",
-    "FT",   "X",     "Y",  "Z",  "A",  "B",  "C",  "U",  "V",  "W",  "R",  "F",  "MB", "M",  "S"};
+constexpr std::array<std::string_view, 33> klartext_keys{
+    "IPA", "PA", "FMAX", "FAUTO", "DR", "RL", "RR", "IX", "IY", "IZ", "IA",
+    "IB",  "IC", "IU",   "IV",    "IW", "FU", "FZ", "FT", "X",  "Y",  "Z",
+    "A",   "B",  "C",    "U",     "V",  "W",  "R",  "F",  "MB", "M",  "S"};
 
 char klartext_upper(char c) {
   return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
@@ -186,6 +187,7 @@ bool take_word(WordScanner& s, std::vector<KlartextWord>& words) {
   if (word.key != "FMAX" && !(key == "MB" && take_max(s)) && key != "FAUTO" && key != "RL" && key != "RR")
     take_value(s, word);
   word.span.end = s.at;
+  if (word.key.ends_with("PA") && s.block.head != "CP") return false;
   words.push_back(std::move(word));
   return true;
 }

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "program/arc_radius.hpp"
 #include "program/dialect.hpp"
@@ -39,10 +40,17 @@ void read_code(int code, const KlartextBlock& block, KlartextReading& r, Klartex
     add_remark(r.program, block.line, fmt::format("M{}: taken as moving no axis", code));
 }
 
+int code_of(const KlartextWord& word, const KlartextBlock& block, const KlartextReading& r) {
+  if (word.value < 0 || word.value > 99999 || word.value != std::floor(word.value))
+    refuse_klartext(r.program.text, r.program.file, block, word.span.begin,
+                    fmt::format("M{} is not a code: whole numbers from 0 to 99999 are", word.value));
+  return static_cast<int>(word.value);
+}
+
 KlartextCodes read_codes(const KlartextBlock& block, KlartextReading& r) {
   KlartextCodes codes;
   for (const KlartextWord& word : r.words)
-    if (word.key == "M" && word.literal) read_code(static_cast<int>(word.value), block, r, codes);
+    if (word.key == "M" && word.literal) read_code(code_of(word, block, r), block, r, codes);
   return codes;
 }
 
@@ -230,9 +238,12 @@ void allow_klartext_changes(const KlartextCodes& codes, bool tangent, KlartextRe
 }
 
 void call_cycle_after(const KlartextBlock& block, KlartextReading& r, Move& move) {
+  r.state.known[2] = false;
+  if (why_elsewhere(block, r).empty() && r.state.cycle_acts_here && hold_hole(r, move))
+    return leave_alone(r, block.line, "holes are held");
+  r.state.surface.reset();
   move.fixed[2] = true;
   move.words[2].reset();
-  r.state.known[2] = false;
   if (!r.state.cycle_acts_here) move.fixed.fill(true), move.words.fill({}), r.state.known.fill(false);
   leave_alone(r, block.line, "cycles are left as they are");
 }
@@ -252,6 +263,14 @@ void doubt_klartext_skippable(const KlartextBlock& block, KlartextReading& r, co
     if (move.words[axis]) r.state.known[axis] = false;
 }
 
+/// The arc about a pole has the words of its CC, and those that follow it find the pole where it has left it.
+/// One that stays as it is, or may be skipped, leaves the CC to nobody.
+void use_pole(KlartextReading& r, const Move& move) {
+  const bool taken = move.arc && (move.words[0] || move.words[1]) && !move.block_delete;
+  if (!taken) return r.state.pole.reset();
+  r.state.pole->just_set = false;
+}
+
 void add_klartext_move(const KlartextBlock& block, const KlartextCodes& codes, KlartextReading& r) {
   check_unit(block, r);
   Move move = begin_klartext_move(block, r);
@@ -268,7 +287,7 @@ void add_klartext_move(const KlartextBlock& block, const KlartextCodes& codes, K
   move.known_end = r.state.known;
   move.may_insert_words = move.words[0] || move.words[1] || move.words[2];
   doubt_klartext_skippable(block, r, move);
-  if (r.state.pole) r.state.pole->just_set = false;
+  if (block.head == "C") use_pole(r, move);
   r.program.moves.push_back(std::move(move));
 }
 
@@ -303,7 +322,11 @@ void read_klartext_motion(const KlartextBlock& block, KlartextReading& r) {
   const KlartextCodes codes = read_codes(block, r);
   read_feed(r);
   watch_rotary_axes(r);
-  if (codes.machine_position && programs_axis(r)) {
+  if (block.head == "CP" && !codes.machine_position && !codes.cycle_call) {
+    add_polar_arc(block, r);
+  } else if (block.head == "CP") {
+    add_unfollowed_move(block, r, "a polar arc is not followed");
+  } else if (codes.machine_position && programs_axis(r)) {
     leave_machine_position(block, r);
   } else if (programs_axis(r)) {
     add_klartext_move(block, codes, r);

@@ -88,6 +88,11 @@ void read_plane(const KlartextBlock& block, KlartextReading& r) {
 /// FN9 to FN12 jump, the others calculate, print or read; none moves an axis.
 void read_nothing(const KlartextBlock&, KlartextReading&) {}
 
+/// The words of a cycle are parameters: one that is calculated is no longer what its definition says.
+void read_parameter(const KlartextBlock& block, KlartextReading& r) {
+  if (after_head(r.program.text, block).find("203") != std::string_view::npos) r.state.surface.reset();
+}
+
 void read_end(const KlartextBlock&, KlartextReading& r) {
   r.ended = true;
 }
@@ -102,6 +107,7 @@ constexpr std::array statements{
     KnownStatement{"C", read_klartext_motion},
     KnownStatement{"CR", read_klartext_motion},
     KnownStatement{"CT", read_klartext_motion},
+    KnownStatement{"CP", read_klartext_motion},
     KnownStatement{"CC", read_klartext_pole},
     KnownStatement{"M", read_klartext_codes},
     KnownStatement{"CYCL", read_klartext_cycle},
@@ -118,8 +124,8 @@ constexpr std::array statements{
     KnownStatement{"BLK", read_nothing},
     KnownStatement{"STOP", read_nothing},
     KnownStatement{"LBL", read_nothing},
-    KnownStatement{"FN", read_nothing},
-    KnownStatement{"Q", read_nothing},
+    KnownStatement{"FN", read_parameter},
+    KnownStatement{"Q", read_parameter},
     KnownStatement{"QL", read_nothing},
     KnownStatement{"QR", read_nothing},
     KnownStatement{"QS", read_nothing},
@@ -169,6 +175,7 @@ void add_unfollowed_move(const KlartextBlock& block, KlartextReading& r, std::st
   r.state.known.fill(false);
   r.state.contour = r.state.after_contour = false;
   r.state.pole.reset();
+  r.state.surface.reset();
   r.program.moves.push_back(std::move(move));
   r.state.run_begin = r.program.moves.size();
   leave_alone(r, block.line, std::move(why));
@@ -178,13 +185,12 @@ void add_cycle_call(const KlartextBlock& block, KlartextReading& r) {
   if (!r.state.cycle_acts_here || !r.state.elsewhere.empty() || holds(r.doubtful, block.line))
     return add_unfollowed_move(block, r, "cycles are left as they are");
   Move move = begin_klartext_move(block, r);
-  move.fixed[2] = true;
+  move.fixed[2] = !hold_hole(r, move);
   move.known_end = r.state.known;
   r.state.known[2] = move.known_end[2] = false;
-  if (r.state.pole) r.state.pole->just_set = false;
-  r.program.moves.push_back(std::move(move));
+  r.program.moves.push_back(move);
   r.state.run_begin = r.program.moves.size();
-  leave_alone(r, block.line, "cycles are left as they are");
+  leave_alone(r, block.line, move.fixed[2] ? "cycles are left as they are" : "holes are held");
 }
 
 void read_klartext(Program& program, const ReadOptions& options,

@@ -20,7 +20,14 @@ bool is_corrected_klartext(std::string_view text);
 struct KlartextPole {
   Vector3 centre_mm = Vector3::Zero();
   std::array<AxisWord, 2> words{};
-  bool just_set = false;  ///< no move since: the words may be changed for the next arc
+  bool just_set = false;  ///< no arc about it since: the words may be changed for the next one
+};
+
+/// Q203 of a drilling cycle: the height of the surface, which its other heights count from.
+struct KlartextSurface {
+  double z_mm = 0;
+  AxisWord word{};
+  bool just_set = false;  ///< no hole since: the first one has its word
 };
 
 /// What a control remembers from block to block.
@@ -36,13 +43,14 @@ struct KlartextState {
   bool tool_along_z = true;
   std::optional<KlartextPole> pole;
   std::optional<Vector6> force;
-  std::map<int, std::string> elsewhere;  ///< what places moves elsewhere, by a number of its own, and why
-  std::array<bool, 9> datum_shift{};     ///< axes of XYZABCUVW that cycle 7 has shifted
-  std::string preset;                    ///< number of cycle 247; empty: none yet
-  bool cycle_acts_here = false;          ///< the cycle defined stays above the point where it is called
-  bool rounds_next = false;              ///< RND or CHF stands before the next move
-  bool contour = false;                  ///< RL or RR acts
-  bool after_contour = false;            ///< only moves along Z since the R0 that ended it
+  std::map<int, std::string> elsewhere;    ///< what places moves elsewhere, by a number of its own, and why
+  std::array<bool, 9> datum_shift{};       ///< axes of XYZABCUVW that cycle 7 has shifted
+  std::string preset;                      ///< number of cycle 247; empty: none yet
+  bool cycle_acts_here = false;            ///< the cycle defined stays above the point where it is called
+  std::optional<KlartextSurface> surface;  ///< of that cycle, where all of it goes along with its surface
+  bool rounds_next = false;                ///< RND or CHF stands before the next move
+  bool contour = false;                    ///< RL or RR acts
+  bool after_contour = false;              ///< only moves along Z since the R0 that ended it
   int groups = 0;
   std::size_t run_begin = 0;  ///< index of the first move after the last that is not followed
 };
@@ -58,8 +66,12 @@ struct KlartextReading {
   bool ended = false;
 };
 
-/// L, C, CR and CT.
+/// L, C, CR, CT and CP.
 void read_klartext_motion(const KlartextBlock& block, KlartextReading& reading);
+
+/// CP, an arc or a helix of an angle about the pole: it is held, and a shift moves the words of its CC, which
+/// no other block uses.
+void add_polar_arc(const KlartextBlock& block, KlartextReading& reading);
 
 /// CC.
 void read_klartext_pole(const KlartextBlock& block, KlartextReading& reading);
@@ -72,6 +84,10 @@ void read_klartext_cycle(const KlartextBlock& block, KlartextReading& reading);
 
 /// A block that moves the tool in a way that is not followed.
 void add_unfollowed_move(const KlartextBlock& block, KlartextReading& reading, std::string why);
+
+/// Whether the hole of `move` goes along with the correction that holds where its cycle was first called:
+/// then the word of the surface is its Z. Else the surface is lost to the holes that follow, too.
+bool hold_hole(KlartextReading& reading, Move& move);
 
 /// What a cycle called in place leaves unknown: the height.
 void add_cycle_call(const KlartextBlock& block, KlartextReading& reading);

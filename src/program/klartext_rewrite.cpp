@@ -127,6 +127,10 @@ Rewritten rewrite_klartext(const Program& program, const std::vector<MoveEdit>& 
     o.out.blocks_of_edit.push_back(o.out.inserted_blocks - inserted);
   }
   pass_until(o, program.moves.size());
+  // The CC of an arc may stand before other moves.
+  std::stable_sort(o.changes.begin(), o.changes.end(), [](const KlartextChange& a, const KlartextChange& b) {
+    return a.span.begin < b.span.begin;
+  });
   o.out.text = with_changes(program.text, o.changes);
   if (o.style.numbered && o.out.inserted_blocks > 0) o.out.text = renumbered(o.out.text);
   return std::move(o.out);

@@ -44,6 +44,8 @@ struct CycleState {
   std::optional<double> initial;  ///< Z where the series of cycles began
   bool relative = false;          ///< the sticky words are differences
   bool begun = false;
+  bool left_at_retract = false;  ///< the tool stands at the retract plane: the last hole has left it there,
+                                 ///< or the series begins, whose plane is there unless R says another
   bool bottom_in_doubt = false;  ///< Z was programmed in a hole that is not followed or may be skipped: what
                                  ///< a Z that is put into a later hole replaces is not known
 };

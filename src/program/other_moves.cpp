@@ -40,6 +40,29 @@ void read_own_way(const Block& block, Reading& r, const FoundG& found) {
   finish_move(r, move);
 }
 
+void read_engraving(const Block& block, Reading& r, const FoundG& found) {
+  bool plain = !r.state.relative && why_not_followed(r).empty();
+  for (const char letter : {'X', 'Y', 'Z', 'R'})
+    if (const Word* word = r.sorted.word(letter)) plain = plain && word->literal;
+  const Word* plane = r.sorted.word('R');
+  if (!plain || r.sorted.word('Z') == nullptr || plane == nullptr) return read_own_way(block, r, found);
+  Move& move = start_move(block, r, Motion::feed);
+  place_words(block, r, move);
+  move.handling = Handling::held;
+  CycleMove& text = move.cycle.emplace();
+  text.bottom_mm = r.state.position_mm.z();
+  text.bottom_word = move.words[2];
+  text.retract_mm = length_mm(r, *plane);
+  text.retract_word = AxisWord{plane->number, plane->decimals};
+  text.may_insert_bottom = false;
+  move.words[2].reset();
+  // Where the text ends is not followed, nor what is left of the words of a cycle that it interrupts.
+  r.state.known.fill(false);
+  r.state.cycle = {};
+  leave_alone(block, r, "the control engraves text");
+  finish_move(r, move);
+}
+
 void read_pocket(const Block& block, Reading& r) {
   Move& move = start_move(block, r, Motion::feed);
   place_words(block, r, move);

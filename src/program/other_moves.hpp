@@ -13,6 +13,9 @@ void read_held(const Block& block, Reading& reading, std::string_view what, bool
 /// A way of the control's own, from the block's words: it stays as it is.
 void read_own_way(const Block& block, Reading& reading, const FoundG& found);
 
+/// G47: text that begins at X and Y, its depth Z and its plane R go along with a shift as a hole's do.
+void read_engraving(const Block& block, Reading& reading, const FoundG& found);
+
 /// G12, G13: a round pocket about the place where the tool is.
 void read_pocket(const Block& block, Reading& reading);
 

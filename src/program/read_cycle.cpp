@@ -43,18 +43,22 @@ void set_levels(const ModalState& state, CycleMove& hole) {
   hole.bottom_mm = cycle.bottom.value_or(hole.retract_mm) + (cycle.relative ? hole.retract_mm : 0);
 }
 
-/// Where the cycle leaves the tool along Z.
+/// Where the cycle leaves the tool along Z. A plane that this hole does not say is known, also in a corrected
+/// text, where the tool stands there already.
 void leave_hole(ModalState& state, const CycleMove& hole) {
-  const CycleState& cycle = state.cycle;
-  const bool retract_known = cycle.retract ? !cycle.relative || cycle.initial : cycle.initial.has_value();
-  if (hole.returns_to_retract) {
-    state.known[2] = retract_known;
+  CycleState& cycle = state.cycle;
+  const bool says_retract = hole.retract_word && (!cycle.relative || cycle.initial);
+  const bool stays = state.known[2] && cycle.left_at_retract && state.position_mm.z() == hole.retract_mm;
+  const bool retract_known = says_retract || stays;
+  const bool at_retract = hole.returns_to_retract || (cycle.initial && hole.retract_mm >= *cycle.initial);
+  if (at_retract) {
+    state.known[2] = retract_known && (hole.returns_to_retract || cycle.initial);
     state.position_mm.z() = hole.retract_mm;
   } else {
-    // A hole that is not followed, or another work offset, has lost the height where the series began.
-    state.known[2] = state.known[2] && cycle.initial && retract_known;
-    state.position_mm.z() = std::max(cycle.initial.value_or(0), hole.retract_mm);
+    state.known[2] = cycle.initial.has_value();
+    state.position_mm.z() = cycle.initial.value_or(0);
   }
+  cycle.left_at_retract = at_retract;
 }
 
 /// X and Y; relative ones are repeated.
@@ -78,10 +82,21 @@ bool is_first(const Reading& r) {
   return r.sorted.has(Action::cycle);
 }
 
-void begin_series(ModalState& state) {
-  if (state.cycle.begun) return;
-  state.cycle.begun = true;
-  if (state.known[2]) state.cycle.initial = state.position_mm.z();
+/// Whether the series begins. Where a hole that is not followed or another work offset has lost the height,
+/// that of the beginning is lost as well.
+bool begins_series(ModalState& state) {
+  CycleState& cycle = state.cycle;
+  if (!state.known[2]) cycle.initial.reset();
+  if (cycle.begun) return false;
+  cycle.begun = cycle.left_at_retract = true;
+  if (state.known[2]) cycle.initial = state.position_mm.z();
+  return true;
+}
+
+/// Holes that come back to where the series began leave the height unknown from here on.
+void forget_initial(ModalState& state) {
+  state.cycle.initial.reset();
+  state.cycle.left_at_retract = false;
 }
 
 /// A hole that stays as the text has it.
@@ -91,6 +106,7 @@ void fix_hole(Reading& r, Move& move) {
     if (depth || r.sorted.word(letters_of_axes[axis]) != nullptr) fix_axis(r, move, axis);
   }
   move.cycle.reset();
+  forget_initial(r.state);
 }
 
 }  // namespace
@@ -98,7 +114,7 @@ void fix_hole(Reading& r, Move& move) {
 void read_cycle(const Block& block, Reading& r) {
   ModalState& state = r.state;
   const std::string_view why = why_not_followed(r);
-  begin_series(state);
+  const bool begins = begins_series(state);
   // Shop controls keep the depth that was programmed under G90 also where G91 moves on to further holes.
   if (is_first(r) || r.sorted.has_any("ZR") || !r.dialect.macro_words) state.cycle.relative = state.relative;
   keep_sticky(r, r.sorted.word('Z'), state.cycle.bottom);
@@ -108,6 +124,8 @@ void read_cycle(const Block& block, Reading& r) {
   CycleMove hole;
   hole.repeats = repeats_of(r);
   hole.first = is_first(r);
+  hole.begins_series = begins;
+  hole.initial_mm = state.cycle.initial.value_or(0);
   hole.returns_to_retract = state.returns_to_retract;
   hole.bottom_word = axis_word(r.sorted.word('Z'));
   hole.retract_word = axis_word(r.sorted.word('R'));
@@ -127,6 +145,7 @@ void read_cycle(const Block& block, Reading& r) {
     leave_alone(block, r, why.empty() ? "the cycle's words are not all plain numbers in G17" : why);
   }
   finish_move(r, move);
+  if (move.block_delete) forget_initial(state);
 }
 
 }  // namespace counterflex

@@ -34,7 +34,7 @@ double way_mm(const Move& move) {
 void set_inverse_time(const Reading& r, Move& move) {
   move.feed_mode = FeedMode::inverse_time;
   const Word* f = r.sorted.word('F');
-  if (f == nullptr) return;
+  if (f == nullptr || !f->literal) return;
   move.feed_per_min = f->value;
   move.feed_mm_min = f->value * way_mm(move);
 }
@@ -53,10 +53,12 @@ void allow_changes(const Reading& r, Move& move) {
                            b.has(MAction::machine);
   const bool rigid = r.relative() != r.state.relative || move.handling != Handling::own || any(move.fixed) ||
                      move.cycle.has_value();
+  // Pieces of a G93 move need a share of its time.
+  const bool shares_time = move.feed_mode != FeedMode::inverse_time || move.feed_per_min > 0;
   // Words and blocks that are inserted count as the modal state has it.
   const bool counts_otherwise = r.relative() != r.state.relative;
   move.may_insert_words = move.may_insert_words && !tool_length && !any(move.fixed) && !counts_otherwise;
-  move.may_split = feed && !rigid && !move.exact_stop && !tool_length && !acts_at_end;
+  move.may_split = feed && !rigid && !move.exact_stop && !tool_length && !acts_at_end && shares_time;
   const bool only_motion = b.g.empty() || (b.g.size() == 1 && b.g[0].code->group == Group::motion);
   move.may_jump = all_known(move.known_start) && !rigid && move.feed_mm_min > 0 && !move.exact_stop &&
                   !acts_at_end && !unit && (feed ? move.may_split : only_motion);

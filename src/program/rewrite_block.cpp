@@ -186,7 +186,7 @@ void rewrite_block(const Program& program, const ProgramStyle& style, const Move
 }
 
 void pass_block(const Move& move, TextState& state) {
-  if (move.cycle) settle_cycle(move, held_at_start(move, state.held)[2], {}, {}, state.cycle, {});
+  if (move.cycle) pass_cycle(*move.cycle, state.cycle);
   state.held = held_after_original(move, state.held);
 }
 

@@ -1,5 +1,7 @@
 #include "program/rewrite_step.hpp"
 
+#include "program/held_cycle.hpp"
+
 namespace counterflex {
 namespace {
 
@@ -26,8 +28,9 @@ Step settle_step(const Move& move, const HeldPosition& before, const Via& via, i
   step.place = place;
   step.motion = motion;
   step.before = before;
+  step.after.cycle_initial_mm = cycle_initial_after(move, before);
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    step.axes[axis] = settle_axis(move, axis, before[axis], component(via.end_mm, axis), place, options);
+    step.axes[axis] = settle_axis(move, axis, before, component(via.end_mm, axis), place, options);
     step.after[axis] = step.axes[axis].held_mm;
   }
   if (motion < 2 || !move.arc) return step;

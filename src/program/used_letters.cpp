@@ -24,6 +24,7 @@ Letters used_by(Action action) {
     case Action::spline:
     case Action::pocket:
       return of_cycles;
+    case Action::engrave:
     case Action::own_way:
     case Action::call:
     case Action::displace:

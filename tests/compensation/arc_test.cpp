@@ -161,3 +161,26 @@ TEST_CASE("every arc that is written keeps to the controls' rules for its radii"
         CHECK(std::abs(radius(move.start_mm) - radius(move.end_mm)) <= 0.005);
       }
 }
+
+TEST_CASE("an arc of several turns keeps them under a shift, in P and in TURN") {
+  const std::string turns =
+      "G21 G90 G17\nG0 X10. Y0. Z5.\nG1 Z0. F300\nG3 X0. Y10. Z-3. I-10. J0. P3\nG0 Z5.\nM30\n";
+  const Compensation result = compensated(Shop({.machine = displaced_gantry(), .text = turns}));
+  CHECK(lines_of(result.text)[3] == "G3 X-0.5 Y10.25 Z-3.125 I-10. J0. P3");
+  const std::string siemens =
+      "STOPRE\nG71 G90 G17\nG0 X10. Y0. Z5.\nG1 Z0. F300\nG3 X0. Y10. Z-3. I-10. J0. TURN=2\nG0 Z5.\nM30\n";
+  const Compensation other = compensated(Shop({.machine = displaced_gantry(), .text = siemens}));
+  CHECK(lines_of(other.text)[4] == "G3 X-0.5 Y10.25 Z-3.125 I-10. J0. TURN=2");
+}
+
+TEST_CASE("a helix of full circles is divided in the first of them: the last piece makes the others") {
+  const std::string turns =
+      "G21 G90 G17\nG0 X10. Y0. Z5.\nG1 Z0. F300\nG3 X10. Y0. Z-3. I-10. J0. P3\nG0 Z5.\nM30\n";
+  const Compensation shifted = compensated(Shop({.machine = displaced_gantry(), .text = turns}));
+  CHECK(lines_of(shifted.text)[3] == "G3 X-10.500 Z-0.625 I-10.000 J0.000");
+  CHECK(lines_of(shifted.text)[4] == "G3 X9.5 Y0.25 Z-3.125 I10. J0. P3");
+  const Shop skewed({.machine = rigid_gantry("0, 0, 0", 2e-3), .text = turns});
+  const Compensation result = compensated(skewed);
+  CHECK(result.text.find("P3") == std::string::npos);
+  CHECK(dense_miss(skewed, result, 20).size <= 5e-6);
+}

@@ -47,3 +47,15 @@ TEST_CASE("a constant shift moves a contour group as a whole, its arcs with the 
 TEST_CASE("a perfect machine gives back contours byte for byte") {
   CHECK(compensated(Shop({.machine = perfect_gantry(), .text = contour})).text == contour);
 }
+
+TEST_CASE("a contour group whose step the move before its plunge cannot make is refused at that move") {
+  const std::string step =
+      "G21 G90 G17\nG0 X-10. Y-20. Z10.\nG0 G43 H1 Y-12. Z10.\nG1 Z-3. F200\nG41 D1 X0. Y0.\n"
+      "Y80.\nX100.\nG40 X-10. Y-12.\nG0 Z10.\nX120. Y50.\nM30\n";
+  const auto failure = Shop({.machine = rigid_gantry("0, 0, 0", 1e-3), .text = step}).run().failure;
+  REQUIRE(failure);
+  CHECK(failure->exit == Exit::program_text);
+  CHECK(failure->line == 3);
+  CHECK(failure->what.find("the block takes no X word") != std::string::npos);
+  CHECK_FALSE(Shop({.machine = displaced_gantry(), .text = step}).run().failure);
+}

@@ -15,9 +15,10 @@ constexpr std::size_t longest = 1 << 14;  // bytes: the time of a run grows with
 
 /// The first byte says how the rest is read, so that all dialects are reached from one target.
 ReadOptions options_of(std::uint8_t first) {
-  static const char* const dialects[] = {"auto", "linuxcnc", "grbl", "fanuc", "haas"};
+  static const char* const dialects[] = {"auto", "linuxcnc", "grbl",    "fanuc",
+                                         "haas", "mach3",    "siemens", "heidenhain"};
   ReadOptions options;
-  options.dialect = dialects[first % 5];
+  options.dialect = dialects[first % 8];
   options.unit = first & 0x20 ? LengthUnit::inches : LengthUnit::millimetres;
   options.integer_words = static_cast<IntegerWords>((first >> 6) % 3);
   if (first & 0x10) options.tool_change_moves.emplace();

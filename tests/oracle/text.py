@@ -2,8 +2,8 @@
 import re
 
 NUMBER = r'[-+]?[ \t]*(?:\d|\.[ \t]*\d)(?:[ \t]*[\d.,])*'
-TOKEN = re.compile(r'(\([^)]*\)?|;.*)|([ \t]*)([A-Za-z])([ \t]*=?[ \t]*)(' + NUMBER + r')|(.)', re.S)
-CORRECTED = set('XYZIJKR')  # letters whose numbers a correction may change
+TOKEN = re.compile(r'(\([^)]*\)?|;.*)|([ \t]*)(Q203(?=[ \t]*=)|[A-Za-z])([ \t]*=?[ \t]*)(' + NUMBER + r')|(.)', re.S)
+CORRECTED = set('XYZIJKR') | {'Q203'}  # letters whose numbers a correction may change, the surface of Klartext's holes
 INSERTED = set('XYZIJKR')   # words that it may insert; besides the motion G0 to G3, and F where it means time
 ARC = set('IJKRP')
 WEIGHT = dict.fromkeys('XYZ', 1.0) | dict.fromkeys('IJKR', 0.01)  # half arcs have other centres, the same end
@@ -32,7 +32,7 @@ class Line:
         self.step = [sum(value(t[3]) for t in self.words if t[1] == letter) for letter in 'XYZ']
         self.motion = [t for t in self.words if is_motion(t)]
         self.is_piece = bool(self.words) and all(isinstance(t, tuple) and (t[1] in INSERTED | {'F'} or is_motion(t)) or
-                                                 t in ('/', ' ', '\t', '\r') for t in self.tokens)
+                                                 t in ('/', ' ', '\t', '\r', 'L') for t in self.tokens)
 
 
 def is_motion(token):

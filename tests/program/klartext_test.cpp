@@ -66,6 +66,8 @@ TEST_CASE(
   CHECK(klartext_refusal({"L X+1 FMAX", "L Xnan Y1"}) ==
         "p.ngc:3:5: error: X has no number: 'nan' follows it");
   CHECK(klartext_refusal({"L Z nan FMAX"}) == "p.ngc:2:5: error: Z has no number: 'nan' follows it");
+  CHECK(klartext_refusal({"L X1 M399999999990"}) ==
+        "p.ngc:2:8: error: M399999999990 is not a code: whole numbers from 0 to 99999 are");
   CHECK(klartext_refusal({"L X1e5"}) == "p.ngc:2:7: error: X1e5: a number has no exponent here");
   CHECK(klartext_refusal({"L X100000"}) == "p.ngc:2:5: error: X100000: coordinates are at most 99999.9999");
   CHECK(klartext_refusal({"CYCL DEF 7.1 Xnan"}) == "p.ngc:2:16: error: X has no number: 'nan' follows it");
@@ -272,4 +274,85 @@ TEST_CASE("klartext: corners by RND and CHF leave their moves whole") {
   CHECK_FALSE(program.moves[1].may_split);
   CHECK_FALSE(program.moves[2].may_split);
   CHECK(program.moves[3].may_split);
+}
+
+TEST_CASE("klartext: a helix about a pole of its own is held, and its pole is shifted") {
+  const std::string text = klartext({"TOOL CALL 3 Z S2500", "L X+10 Y+0 Z+5 FMAX", "L Z+0 F100",
+                                     "CC X+4,5 Y+0", "CP IPA+720 IZ-2 DR+", "L X+12 Y+1 Z-2"});
+  const Program program = read(text);
+  REQUIRE(program.moves.size() == 4);
+  CHECK(program.moves[2].handling == Handling::held);
+  CHECK(program.moves[2].known_end == std::array<bool, 3>{});
+  CHECK_FALSE(program.moves[2].may_split);
+  CHECK(rewrite(program, edits_to_original(program), {}).text == text);
+  CHECK(klartext_shifted(program) ==
+        klartext({"TOOL CALL 3 Z S2500", "L X+10,5 Y-0,25 Z+5,125 FMAX", "L Z+0,125 F100", "CC X+5,0 Y-0,25",
+                  "CP IPA+720 IZ-2 DR+", "L X+12,5 Y+0,75 Z-1,875"}));
+}
+
+TEST_CASE("klartext: a polar arc whose pole others use, or that a contour holds, is fixed") {
+  for (const char* other : {"C X+0 Y+4 DR+", "CP IPA+90 DR+", "LP PR+5 PA+10"}) {
+    CAPTURE(other);
+    const Program program =
+        read(klartext({"L X+10 Y+0 Z+5 FMAX", "L Z+0 F100", "CC X+4 Y+0", "CP IPA+720 DR+", other}));
+    CHECK(program.moves[2].fixed == std::array<bool, 3>{true, true, true});
+  }
+  const Program contour =
+      read(klartext({"L X+10 Y+0 Z+5 FMAX", "L X+9 RL F100", "CC X+4 Y+0", "CP IPA+90 DR+"}));
+  CHECK(contour.moves[2].fixed[0]);
+}
+
+TEST_CASE("klartext: an arc takes its CC along also where other moves stand between them") {
+  const Program program =
+      read(klartext({"L X+4 Y+0 Z+5 FMAX", "CC X+0 Y+0", "L X+5 F100", "C X-5 Y+0 DR+", "C X+5 Y+0 DR+"}));
+  CHECK(rewrite(program, edits_to_original(program), {}).text == program.text);
+  CHECK(klartext_shifted(program) == klartext({"L X+4.5 Y-0.25 Z+5.125 FMAX", "CC X+0.5 Y-0.25",
+                                               "L X+5.5 F100", "C X-4.5 Y-0.25 DR+", "C X+5.5 Y-0.25 DR+"}));
+}
+
+TEST_CASE("klartext: behind an arc that stays as it is no other is followed about the same CC") {
+  for (const char* arc : {"C X+5", "/C X-5 Y+0 DR+", "C X+Q1 Y+0 DR+"}) {
+    const std::string text =
+        klartext({"L X+5 Y+0 Z+5 FMAX", "CC X+0 Y+0", arc, "L X+5 Y+0 F100", "C X-5 Y+0 DR+"});
+    CAPTURE(text);
+    const Program program = read(text);
+    CHECK(program.moves.back().fixed[0]);
+    CHECK(rewrite(program, edits_to_original(program), {}).text == text);
+  }
+}
+
+TEST_CASE("klartext: the holes of a drilling cycle are held, and the first one takes the surface along") {
+  const std::string text =
+      klartext({"L X+1 Y+0 Z+50 FMAX",
+                "CYCL DEF 200 DRILLING ~\n  Q200=2 ~\n  Q201=-10 ~\n  Q203=+1.5 ;SURFACE ~\n  Q204=50",
+                "L X+2 Y+3 FMAX M99", "L X+4 Y+3 FMAX M99", "CYCL CALL", "L X+0 Y+0 Z+50 FMAX"});
+  const Program program = read(text);
+  REQUIRE(program.moves.size() == 5);
+  for (const std::size_t hole : {1U, 2U, 3U}) {
+    CHECK(program.moves[hole].handling == Handling::held);
+    CHECK(program.moves[hole].words[2].has_value() == (hole == 1));
+    CHECK_FALSE(program.moves[hole].known_end[2]);
+    CHECK_FALSE(program.moves[hole].fixed[2]);
+  }
+  CHECK(rewrite(program, edits_to_original(program), {}).text == text);
+  CHECK(klartext_shifted(program) ==
+        klartext({"L X+1.5 Y-0.25 Z+50.125 FMAX",
+                  "CYCL DEF 200 DRILLING ~\n  Q200=2 ~\n  Q201=-10 ~\n  Q203=+1.625 ;SURFACE ~\n  Q204=50",
+                  "L X+2.5 Y+2.75 FMAX M99", "L X+4.5 Y+2.75 FMAX M99", "CYCL CALL",
+                  "L X+0.5 Y-0.25 Z+50.125 FMAX"}));
+}
+
+TEST_CASE("klartext: holes are fixed where their surface is not a plain number that counts for them alone") {
+  for (const char* surface :
+       {"CYCL DEF 200 Q203=+Q5", "CYCL DEF 200 Q201=-5", "/CYCL DEF 200 Q203=+1", "CYCL DEF 252 Q203=+1"}) {
+    CAPTURE(surface);
+    const Program program = read(klartext({"L X+1 Y+0 Z+50 FMAX", surface, "L X+2 Y+3 FMAX M99"}));
+    CHECK(program.moves[1].fixed[2]);
+  }
+  for (const char* call : {"/L X+2 Y+3 FMAX M99", "L X+2 Z+5 FMAX M99", "L IX+2 FMAX M99", "Q203 = 5"}) {
+    CAPTURE(call);
+    const Program program =
+        read(klartext({"L X+1 Y+0 Z+50 FMAX", "CYCL DEF 200 Q203=+1", call, "L X+2 Y+3 FMAX M99"}));
+    CHECK(program.moves.back().fixed[2]);
+  }
 }

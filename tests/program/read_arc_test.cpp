@@ -138,3 +138,13 @@ TEST_CASE("F of G93 acts on one move: the feed follows from its length") {
   CHECK(program.moves[4].feed_mode == FeedMode::length);
   CHECK(program.moves[4].feed_mm_min == 100);
 }
+
+TEST_CASE("a move of G93 whose time is not a plain number is not split") {
+  const Program program = read("G21 F100 G0 X0 Y0 Z0\nG93 G1 X10 F2\nX20 F[1+1]\nX30 F#1\nX40\n");
+  CHECK(program.moves[1].may_split);
+  for (const std::size_t unknown : {2U, 3U, 4U}) {
+    CAPTURE(unknown);
+    CHECK_FALSE(program.moves[unknown].may_split);
+    CHECK_FALSE(program.moves[unknown].may_jump);
+  }
+}

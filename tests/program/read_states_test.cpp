@@ -113,8 +113,28 @@ TEST_CASE("pockets end where they began, ways of the control's own stay") {
   const Program pocket = read(known_start_block + "G13 Z-2. I5. K10. Q1. D1 F50.\nX1.\n", "haas");
   CHECK(pocket.moves[1].handling == Handling::held);
   CHECK(pocket.moves[1].end_mm == Vector3(0, 0, -2));
-  const Program text = read(known_start_block + "G47 P0 X1. Y2. I0. J.1 R.05 Z-.005 F15. E10.\n", "haas");
-  CHECK(text.moves[1].fixed == std::array<bool, 3>{true, true, true});
+  const Program own = read(known_start_block + "G150 P10 X1. Y2. Z-1. Q.1 F15.\n", "haas");
+  CHECK(own.moves[1].fixed == std::array<bool, 3>{true, true, true});
+}
+
+TEST_CASE("engraved text is shifted with its depth and its plane, and ends where nobody knows") {
+  const std::string start = known_start_block, text = "G47 P0 (TEXT) X1. Y2. I0. J.1 R.5 Z-.005 F15. E10.\n";
+  const Program program = read(start + text + "X3. Y4. Z5.\n", "haas");
+  const Move& move = program.moves[1];
+  CHECK(move.handling == Handling::held);
+  CHECK(move.known_end == std::array<bool, 3>{});
+  CHECK(rewrite(program, edits_to_original(program), {}).text == program.text);
+  const MoveEdit edit{.move = 1,
+                      .end_mm = move.end_mm + Vector3(.5, -.25, .125),
+                      .bottom_mm = move.cycle->bottom_mm + .125,
+                      .retract_mm = move.cycle->retract_mm + .125};
+  CHECK(rewrite(program, {edit}, {}).text ==
+        start + "G47 P0 (TEXT) X1.5 Y1.75 I0. J.1 R.625 Z.120 F15. E10.\nX3. Y4. Z5.\n");
+  for (const char* fixed : {"G91 G47 P0 X1. Y2. J.1 R.5 Z-.005\n", "G47 P0 X#1 Y2. J.1 R.5 Z-.005\n",
+                            "G47 P0 X1. Y2. J.1 Z-.005\n"}) {
+    CAPTURE(fixed);
+    CHECK(read(start + fixed, "haas").moves[1].fixed[0]);
+  }
 }
 
 TEST_CASE("mach3 knows G70 and G71 as units, falls back to G0 and reads open comments") {

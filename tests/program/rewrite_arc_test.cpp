@@ -181,3 +181,10 @@ TEST_CASE("behind chords a call keeps its words, and a program's end leaves no m
   CHECK(chorded("M30\n") == "M30\n");
   CHECK(chorded("X-10. Y0. J-10.\nM30\n") == "G3 X-10. Y0. J-10.\nM30\n");
 }
+
+TEST_CASE("an R that is a little too short for its ends stays where nothing moves") {
+  const std::string text = "G21 G90 G17 F100\nG0 X10. Y13.5 Z0.\nG2 X30. Y10. R10.15\n";
+  const Program program = read(text);
+  REQUIRE(program.moves[1].arc);
+  CHECK(rewrite(program, edits_to_original(program), {}).text == text);
+}

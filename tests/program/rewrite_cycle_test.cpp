@@ -1,6 +1,7 @@
 #include <doctest/doctest.h>
 
 #include "counterflex/program/rewrite.hpp"
+#include "program/reading.hpp"
 #include "program/small_reader.hpp"
 
 using namespace counterflex;
@@ -56,4 +57,30 @@ TEST_CASE("where a cycle leaves Z is known to the moves behind it") {
   const std::vector<MoveEdit> edits{hole(1, {1, 1, 2.5}, -4.5, 2.5), {.move = 2, .end_mm = {5, 1, 2}}};
   CHECK(rewrite(program, edits, {}).text ==
         std::string(cycle_start) + "G99 G81 X1. Y1. Z-4.5 R2.5 F100\nG80\nG0 X5. Z2.000\n");
+}
+
+TEST_CASE("the height to which a series comes back is known after holes that leave the tool at R") {
+  const std::string text =
+      std::string(cycle_start) + "G99 G81 X1. Y1. Z-5. R2. F100\nX2.\nG98 X3.\nG80\nG0 X5.\nX6. Z12.\n";
+  const Program program = read(text);
+  CHECK(rewrite(program, edits_to_original(program), {}).text == text);
+  const std::vector<MoveEdit> rapid_higher{{.move = 0, .end_mm = {0, 0, 10.25}},
+                                           {.move = 4, .end_mm = {5, 1, 10.25}}};
+  CHECK(rewrite(program, rapid_higher, {}).text ==
+        "G21 G90 G17 G0 X0. Y0. Z10.25\n" + text.substr(sizeof cycle_start - 1));
+}
+
+TEST_CASE("a plane that a hole of G99 does not say itself is known where the tool stands there") {
+  const std::string stays = std::string(cycle_start) + "G99 G81 X1. Y1. Z-5. R2.\nX2.\n";
+  CHECK(read(stays).moves.back().known_end[2]);
+  const std::string text = std::string(cycle_start) + "G98 G81 X1. Y1. Z-5. R2.\nG99 X2.\nG80\nG0 X5.\n";
+  const Program program = read(text);
+  CHECK_FALSE(program.moves.back().known_end[2]);
+  CHECK(rewrite(program, edits_to_original(program), {}).text == text);
+}
+
+TEST_CASE("a depth first said behind a hole that is not followed is repeated without a word") {
+  const std::string text = "O1\nG21 G90 G0 X0. Y0. Z2.\nG81\nZ-5.\nX3.\nZ-6. R1.\nX4.\nG80\nX5.\n";
+  const Program program = read(text);
+  CHECK(rewrite(program, edits_to_original(program), {}).text == text);
 }

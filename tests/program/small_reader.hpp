@@ -18,7 +18,7 @@ struct SmallState {
   double unit = 1, feed = 0;
   std::array<bool, 3> known{};
   Vector3 position = Vector3::Zero();
-  double bottom = 0, retract = 0;
+  double bottom = 0, retract = 0, initial = 0;
 };
 
 struct SmallWord {
@@ -102,12 +102,14 @@ inline void small_cycle(const std::multimap<char, SmallWord>& words, bool first,
     cycle.bottom_word = z->second.at;
     s.bottom = (s.relative ? s.retract : 0) + z->second.value * s.unit;
   }
-  cycle.first = first;
+  if (first) s.initial = move.start_mm.z();
+  cycle.first = cycle.begins_series = first;
+  cycle.initial_mm = s.initial;
   cycle.bottom_mm = s.bottom;
   cycle.retract_mm = s.retract;
   cycle.returns_to_retract = s.to_retract;
   move.words[2].reset();
-  move.end_mm.z() = s.to_retract ? s.retract : std::fmax(s.retract, move.start_mm.z());
+  move.end_mm.z() = s.to_retract ? s.retract : std::fmax(s.retract, s.initial);
 }
 
 inline void small_move(const std::multimap<char, SmallWord>& words, SmallState& s, Move& move) {

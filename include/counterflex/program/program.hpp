@@ -93,6 +93,8 @@ struct CycleMove {
   std::optional<AxisWord> bottom_word, retract_word;  ///< Z and R where the block has them
   bool may_insert_bottom = true;                      ///< an absolute Z may be added to a block that omits it
   bool first = false;                                 ///< programs the cycle: those that follow repeat it
+  bool begins_series = false;  ///< the first hole since another motion: G98 comes back to where it begins
+  double initial_mm = 0;  ///< Z where the series of this hole began; means something where its end is known
   bool returns_to_retract = false;  ///< G99: the cycle leaves the tool at `retract_mm`, else where it began
   int repeats = 1;                  ///< L or K
 };

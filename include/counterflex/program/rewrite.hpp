@@ -51,7 +51,9 @@ Decimals decimals_of(const Move& move, const WriteOptions& options);
 Vector3 as_written_mm(const Vector3& p_mm, LengthUnit unit, const std::array<int, 3>& decimals);
 
 /// Where the emitted text holds the tool, in program coordinates (mm); nothing for an axis that is unknown.
-using HeldPosition = std::array<std::optional<double>, 3>;
+struct HeldPosition : std::array<std::optional<double>, 3> {
+  std::optional<double> cycle_initial_mm{};  ///< Z where the series of cycles that acts has begun
+};
 
 /// The position that the emitted text holds after `move`, given the one before it, when its end is edited to
 /// `end_mm`: a word that is within half its last digit of its original stays, a word that is absent is
