@@ -51,6 +51,7 @@ KeySpan times(const ForceProfile& profile, const Segment& segment) {
 }
 
 double last_line(const Program& program) {
+  if (program.expansion.file_lines > 0) return program.expansion.file_lines;
   const std::string& text = program.text;
   auto lines = std::count(text.begin(), text.end(), '\n');
   if (!text.empty() && text.back() != '\n') ++lines;
@@ -103,12 +104,14 @@ void check_cover(const ForceProfile& profile, const Program& program, const Tool
                fmt::format("{} lies beyond the program, which ends at {}",
                            shown(profile, profile.rows[i].key), shown(profile, end)));
   }
-  const auto cuts = [](const Segment& segment) { return segment.cutting; };
-  const auto first = std::find_if(path.segments.begin(), path.segments.end(), cuts);
-  if (first == path.segments.end()) return;
-  const auto last = std::find_if(path.segments.rbegin(), path.segments.rend(), cuts);
-  const double cut_start = keys[static_cast<std::size_t>(first - path.segments.begin())].start;
-  const double cut_end = keys[static_cast<std::size_t>(path.segments.rend() - last) - 1].end;
+  const Segment *first = nullptr, *last = nullptr;
+  double cut_start = 0, cut_end = 0;  // lines and block numbers need not grow along the path
+  for (std::size_t i = 0; i < path.segments.size(); ++i) {
+    if (!path.segments[i].cutting) continue;
+    if (first == nullptr || keys[i].start < cut_start) first = &path.segments[i], cut_start = keys[i].start;
+    if (last == nullptr || keys[i].end >= cut_end) last = &path.segments[i], cut_end = keys[i].end;
+  }
+  if (first == nullptr) return;
   const std::size_t last_row = profile.rows.size() - 1;
   if (profile.rows[0].key > cut_start + margin)
     fail_row(profile, 0,

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "program/expand.hpp"
 #include "program/interpret.hpp"
 #include "program/klartext_read.hpp"
 #include "program/remarks.hpp"
@@ -54,8 +55,11 @@ Program read_program(std::string text, const std::string& file, const ReadOption
 
   if (dialect.name == klartext_name) {
     read_klartext(program, options, tool_change_axes(dialect, options));
+    if (options.expand_subprograms) remark_expansion(program);
     return program;
   }
+
+  if (options.expand_subprograms) program.expansion = expand_subprograms(program.text, file, dialect);
 
   // Growing step by step would copy every move several times.
   program.moves.reserve(static_cast<std::size_t>(std::count(program.text.begin(), program.text.end(), '\n')) +
@@ -67,12 +71,18 @@ Program read_program(std::string text, const std::string& file, const ReadOption
   Block block;
   bool opened = false;
   while (!reading.ended && next_line(program.text, block)) {
+    place_in_file(program.expansion, block);
+    if (stands_unused(program.expansion, block.span.begin)) {
+      reading.after_subprogram = true;
+      continue;
+    }
     lex(program.text, file, dialect, block);
     if (block.percent && (opened || program.block_count > 0)) break;
     opened = opened || block.percent;
     interpret(block, reading);
   }
   if (reading.ended) remark_rest(program, block);
+  if (options.expand_subprograms) remark_expansion(program);
   return program;
 }
 
