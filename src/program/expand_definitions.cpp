@@ -190,6 +190,10 @@ Definition read_definition(std::string_view text, const std::string& file, const
   Block block = before(begin);
   if (name.kind != NameKind::block) {
     next_line(text, block);
+    lex(text, file, dialect, block);
+    const auto names = [](const Word& word) { return word.letter == 'O' || word.letter == 'N'; };
+    if (!std::all_of(block.words.begin(), block.words.end(), names)) forbid(d, "words stand beside its O");
+    if (!empty(block.block_delete)) forbid(d, "'/' may skip its O");
     d.body = {block.line_end.end, block.line + 1};
   }
   while (next_line(text, block)) {

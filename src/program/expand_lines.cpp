@@ -1,6 +1,8 @@
 #include "program/expand_lines.hpp"
 
-#include "program/lex.hpp"
+#include <algorithm>
+
+#include "program/scanner.hpp"
 
 namespace counterflex {
 
@@ -35,6 +37,23 @@ std::string line_end_of(std::string_view text) {
   const std::size_t newline = text.find('\n');
   const bool returns = newline != std::string_view::npos && newline > 0 && text[newline - 1] == '\r';
   return returns ? "\r\n" : "\n";
+}
+
+std::string line_without(std::string_view text, const Dialect& dialect, const Block& block,
+                         std::vector<Span> dropped) {
+  std::sort(dropped.begin(), dropped.end(), [](Span a, Span b) { return a.begin < b.begin; });
+  std::string line;
+  std::size_t copied = block.span.begin;
+  for (const Span span : dropped) {
+    line.append(text, copied, span.begin - copied);
+    copied = span.end;
+    while (copied < block.span.end && is_blank(text[copied])) ++copied;
+  }
+  line.append(text, copied, block.span.end - copied);
+  line.erase(line.find_last_not_of(" \t") + 1);
+  const std::string_view says_nothing = dialect.semicolon_comments ? " \t" : " \t;";
+  if (line.find_first_not_of(says_nothing) == std::string::npos) return {};
+  return line.append(part(text, block.line_end));
 }
 
 }  // namespace counterflex

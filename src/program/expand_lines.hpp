@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "counterflex/program/program.hpp"
+#include "program/lex.hpp"
 
 namespace counterflex {
 
@@ -31,5 +31,9 @@ void append_lines(std::string_view text, std::size_t at, int line, std::size_t e
 
 /// "\r\n" where the first line ends so, else "\n".
 std::string line_end_of(std::string_view text);
+
+/// The block without these bytes and the blanks behind them, with its line end; empty where nothing is left.
+std::string line_without(std::string_view text, const Dialect& dialect, const Block& block,
+                         std::vector<Span> dropped);
 
 }  // namespace counterflex

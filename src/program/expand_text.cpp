@@ -7,6 +7,7 @@
 #include "program/constant_expression.hpp"
 #include "program/expand_call.hpp"
 #include "program/expand_lines.hpp"
+#include "program/expand_structures.hpp"
 #include "program/scanner.hpp"
 
 namespace counterflex {
@@ -26,45 +27,6 @@ std::string_view whole_line(std::string_view text, const Block& block) {
   return text.substr(block.span.begin, block.line_end.end - block.span.begin);
 }
 
-/// The block without these bytes and the blanks behind them, with its line end; empty where nothing is left.
-std::string line_without(std::string_view text, const Dialect& dialect, const Block& block,
-                         std::vector<Span> dropped) {
-  std::sort(dropped.begin(), dropped.end(), [](Span a, Span b) { return a.begin < b.begin; });
-  std::string line;
-  std::size_t copied = block.span.begin;
-  for (const Span span : dropped) {
-    line.append(text, copied, span.begin - copied);
-    copied = span.end;
-    while (copied < block.span.end && is_blank(text[copied])) ++copied;
-  }
-  line.append(text, copied, block.span.end - copied);
-  line.erase(line.find_last_not_of(" \t") + 1);
-  const std::string_view says_nothing = dialect.semicolon_comments ? " \t" : " \t;";
-  if (line.find_first_not_of(says_nothing) == std::string::npos) return {};
-  return line.append(part(text, block.line_end));
-}
-
-/// Conditions and loops around a block of the program itself.
-class Structures {
- public:
-  bool none() const { return open_.empty(); }
-
-  void follow(std::string_view text, const Dialect& dialect, const Block& block) {
-    const std::string_view keyword = part(text, block.flow_keyword);
-    const auto is = [&](std::string_view word) { return is_word(keyword, word); };
-    const std::string name = normal_name(part(text, block.flow_name));
-    const bool closes_do = is("WHILE") && !open_.empty() && open_.back() == name + " do";
-    if (is("ENDIF") || is("ENDWHILE") || is("ENDREPEAT") || is("END") || (closes_do && dialect.o_words)) {
-      if (!open_.empty()) open_.pop_back();
-    } else if (is("WHILE") || is("DO") || (dialect.o_words && (is("IF") || is("REPEAT")))) {
-      open_.push_back(is("DO") ? name + " do" : name);
-    }
-  }
-
- private:
-  std::vector<std::string> open_;
-};
-
 class Expander {
  public:
   Expander(std::string_view text, const std::string& file, const Dialect& dialect, std::string_view why_none)
@@ -74,6 +36,7 @@ class Expander {
         why_none_(why_none),
         definitions_(find_definitions(text, file, dialect)),
         lines_{{}, line_end_of(text)} {
+    reads_results_ = text.find("<_value") != std::string_view::npos;
     expansion_.asked = true;
     expansion_.file_lines = static_cast<int>(std::count(text.begin(), text.end(), '\n'));
     if (!text.empty() && text.back() != '\n') ++expansion_.file_lines;
@@ -104,10 +67,10 @@ class Expander {
         continue;
       }
       program_says_ = program_says_ || (!block.words.empty() && !is_program_number(block));
-      structures_.follow(text_, dialect_, block);
+      follow_structures(text_, dialect_, block, structures_);
       copy_block(block, {});
       const bool ends = ends_program(block) || find_m(block, 99) != nullptr;
-      if (ends && empty(block.block_delete) && structures_.none()) break;
+      if (ends && empty(block.block_delete) && structures_.open.empty()) break;
     }
     return {block.line_end.end, block.line + 1};
   }
@@ -174,7 +137,7 @@ class Expander {
   std::string expand(const SubprogramCall& call, const Block& block, const Copying& copying) {
     if (!why_none_.empty()) return std::string(why_none_);
     if (!call.why_not.empty()) return call.why_not;
-    if (!structures_.none()) return "it stands in a condition or a loop";
+    if (!structures_.open.empty()) return "it stands in a condition or a loop";
     long repeats = call.repeats;
     const auto [definition, why] = find(call, repeats);
     if (definition == nullptr) return why;
@@ -262,6 +225,7 @@ class Expander {
   /// Arguments are worked out with the parameters of the body that the call stands in.
   std::string set_parameters(const SubprogramCall& call, const Copying& caller, Copying& body) const {
     if (call.name.kind != NameKind::word) return {};
+    if (reads_results_) return "the program reads what calls give back";
     if (call.arguments.size() > arguments_of_call)
       return fmt::format("it has {} arguments, at most {} are read", call.arguments.size(),
                          arguments_of_call);
@@ -293,6 +257,7 @@ class Expander {
   std::map<SubprogramName, Definition> read_{};
   std::vector<const Definition*> stack_{};  ///< bodies that are being copied
   std::vector<Span> kept_{};                ///< definitions that stand in the program
+  bool reads_results_ = false;              ///< #<_value> of LinuxCNC
   bool other_calls_ = false;                ///< a call is left, which may run any definition
   bool seeks_numbers_ = false;
   bool program_says_ = false;  ///< there are words outside definitions

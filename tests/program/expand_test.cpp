@@ -162,6 +162,8 @@ TEST_CASE("a call that does not say all in plain numbers is left as it is, with 
             "its body holds a condition, a loop, a jump or a return"},
            {"fanuc", "M98 P2", "O2\nX1.\nM99 P10\n", "its M99 goes to a block number"},
            {"fanuc", "M98 P2", "O2\nG#1 X1.\nM99\n", "a code in its body is a variable or an expression"},
+           {"fanuc", "M98 P2", "O2 G0\nX1.\nM99\n", "words stand beside its O"},
+           {"linuxcnc", "o<a> call [1]", word + "(#<_value>)\n", "the program reads what calls give back"},
            {"linuxcnc", "X1 M98 P2", plain, "X stands beside it"},
            {"linuxcnc", "M98 P2", "O2\nX#1\nM99\n", "its body holds variables or expressions"},
            {"linuxcnc", "o<a> call [#5]", word, "its argument [#5] is no plain number"},
