@@ -74,7 +74,7 @@ void remark_expansion(Program& program) {
   const Expansion& expansion = program.expansion;
   if (expansion.calls == 0) {
     if (expansion.calls_left.empty())
-      add_remark(program, 1, "no call by M98 or an O-word stands here to be expanded");
+      add_remark(program, 1, "no call by M98 or an O-word stands in the program itself: nothing is expanded");
     return;
   }
   add_remark(program, expansion.first_call,

@@ -46,8 +46,9 @@ class Expander {
     const LinePlace rest = copy_program();
     if (rest.at < text_.size()) lines_.append(text_.substr(rest.at), rest.line, 0);
     expansion_.lines = std::move(lines_.runs);
-    // Programs that all end with M99 may be one that runs over and over.
-    if (!other_calls_ && program_says_) expansion_.unused = std::move(kept_);
+    // Where nothing outside them moves, definitions may be the program (M99 runs it over and over), or be
+    // called from other files.
+    if (!other_calls_ && moves_) expansion_.unused = std::move(kept_);
     return {std::move(lines_.text), std::move(expansion_), seeks_numbers_};
   }
 
@@ -66,7 +67,6 @@ class Expander {
         block = before(definition->after);
         continue;
       }
-      program_says_ = program_says_ || (!block.words.empty() && !is_program_number(block));
       follow_structures(text_, dialect_, block, structures_);
       copy_block(block, {});
       const bool ends = ends_program(block) || find_m(block, 99) != nullptr;
@@ -101,6 +101,7 @@ class Expander {
 
   /// Copies a block, or what it calls. Says why the copy of a body cannot go on.
   std::string copy_block(const Block& block, const Copying& copying) {
+    note_moves(block);
     const auto call = call_in(text_, dialect_, block);
     if (!call) return copy_words(block, copying);
     const std::string why = expand(*call, block, copying);
@@ -185,8 +186,14 @@ class Expander {
   void copy_last_block(const Block& block, const Copying& body) {
     const Word* m99 = find_m(block, 99);
     const auto counts = [&](const Word& word) { return word.letter != 'N' && &word != m99; };
-    if (m99 != nullptr && std::any_of(block.words.begin(), block.words.end(), counts))
-      lines_.append(line_without(text_, dialect_, block, {m99->span}), block.line, body.called_from);
+    if (m99 == nullptr || std::none_of(block.words.begin(), block.words.end(), counts)) return;
+    note_moves(block);
+    lines_.append(line_without(text_, dialect_, block, {m99->span}), block.line, body.called_from);
+  }
+
+  void note_moves(const Block& block) {
+    moves_ = moves_ || std::any_of(block.words.begin(), block.words.end(),
+                                   [](const Word& word) { return word.letter >= 'X' && word.letter <= 'Z'; });
   }
 
   struct Found {
@@ -260,7 +267,7 @@ class Expander {
   bool reads_results_ = false;              ///< #<_value> of LinuxCNC
   bool other_calls_ = false;                ///< a call is left, which may run any definition
   bool seeks_numbers_ = false;
-  bool program_says_ = false;  ///< there are words outside definitions
+  bool moves_ = false;  ///< there are axis words outside definitions
 };
 
 }  // namespace
