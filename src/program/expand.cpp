@@ -27,9 +27,7 @@ bool has_calls(const Dialect& dialect) {
 }  // namespace
 
 Expansion expand_subprograms(std::string& text, const std::string& file, const Dialect& dialect) {
-  Expansion nothing;
-  nothing.asked = true;
-  if (!has_calls(dialect)) return nothing;
+  if (!has_calls(dialect)) return {};
   // Copies repeat block numbers: a jump to one of them would go to another place.
   std::string why_none = outline_of(text, dialect).jumps ? "the program jumps to block numbers" : "";
   ExpandedText expanded = expand_text(text, file, dialect, why_none);

@@ -36,8 +36,10 @@ class Expander {
         why_none_(why_none),
         definitions_(find_definitions(text, file, dialect)),
         lines_{{}, line_end_of(text)} {
+    numbered_programs_ = std::count_if(definitions_.begin(), definitions_.end(), [](const auto& named) {
+      return named.first.kind == NameKind::program;
+    });
     reads_results_ = text.find("<_value") != std::string_view::npos;
-    expansion_.asked = true;
     expansion_.file_lines = static_cast<int>(std::count(text.begin(), text.end(), '\n'));
     if (!text.empty() && text.back() != '\n') ++expansion_.file_lines;
   }
@@ -80,17 +82,11 @@ class Expander {
     if (dialect_.o_words) {
       if (!is_word(part(text_, block.flow_keyword), "SUB")) return std::nullopt;
       name = {NameKind::word, normal_name(part(text_, block.flow_name))};
-    } else if (!is_program_number(block) || count_programs() < 2) {
+    } else if (!is_program_number(block) || numbered_programs_ < 2) {
       return std::nullopt;  // a single program that ends with M99 runs over and over
     }
     Definition definition = read_definition(text_, file_, dialect_, name, {block.span.begin, block.line});
     return definition.ends ? std::optional(std::move(definition)) : std::nullopt;
-  }
-
-  std::size_t count_programs() const {
-    return static_cast<std::size_t>(
-        std::count_if(definitions_.begin(), definitions_.end(),
-                      [](const auto& named) { return named.first.kind == NameKind::program; }));
   }
 
   void keep(const Definition& d) {
@@ -258,6 +254,7 @@ class Expander {
   const Dialect& dialect_;
   std::string_view why_none_;
   Definitions definitions_;
+  std::ptrdiff_t numbered_programs_ = 0;
   ExpandedLines lines_;
   Expansion expansion_{};
   Structures structures_{};

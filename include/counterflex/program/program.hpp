@@ -162,7 +162,6 @@ struct CallLeft {
 
 /// What became of the calls of subprograms where they were to be expanded.
 struct Expansion {
-  bool asked = false;
   std::vector<LineRun> lines;  ///< none: the text is the file's
   int file_lines = 0;
   std::size_t calls = 0;  ///< replaced, each repeat and each call in a copy too
