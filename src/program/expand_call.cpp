@@ -132,6 +132,8 @@ SubprogramCall call_by_word(std::string_view text, const Block& block) {
   call.said = {letter_before(text, block.flow_name.begin - 1), end};
   call.dropped.push_back(call.said);
   if (!empty(block.block_delete)) call.why_not = "'/' may skip it";
+  if (!block.comments.empty() && block.comments[0].begin < call.said.begin)
+    call.why_not = "a comment stands before it";
   if (call.name.name.empty()) call.why_not = "its name is a variable or an expression";
   if (!read_arguments(text.substr(block.flow_keyword.end, end - block.flow_keyword.end), call))
     call.why_not = "its arguments do not stand in brackets";

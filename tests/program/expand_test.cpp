@@ -172,6 +172,7 @@ TEST_CASE("a call that does not say all in plain numbers is left as it is, with 
            {"linuxcnc", "o<a> call [1", word, ""},
            {"linuxcnc", "o#3 call [1]", word, "its name is a variable or an expression"},
            {"linuxcnc", "o<b> call [1]", word, "the subprogram does not stand in this file"},
+           {"linuxcnc", "o<a> call [1] (and) o<a> call [2]", word, "a comment stands before it"},
            {"linuxcnc", "/o<a> call [1]", word, "'/' may skip it"},
            {"linuxcnc", "o<a> call [1]", "o<a> sub\n#1=2\nX#1\no<a> endsub\n", "its body sets variables"},
            {"linuxcnc", "o<a> call [1]", "o<a> sub\nX#<wide>\no<a> endsub\n",
