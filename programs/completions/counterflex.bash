@@ -2,7 +2,7 @@
 
 _counterflex_words() {
   local forces='--forces --force --load-scale --blend-mm --air-above'
-  local reading='--machine --dialect --units --integer-words --work --tool-table'
+  local reading='--machine --dialect --units --integer-words --expand-subprograms --work --tool-table'
   local program="$reading --tolerance-mm --method --max-correction-mm --decimals --threads"
   case $1 in
     compensate) echo "$program $forces --output --report --min-block-ms --json --quiet --verbose --help" ;;

@@ -65,6 +65,8 @@ void add_reading(CLI::App& app, Options& options) {
                  options.integer_words = text == "units" ? IntegerWords::units : IntegerWords::increments;
                })
       ->check(one_of({"units", "increments"}));
+  app.add_flag("--expand-subprograms", options.expand_subprograms,
+               "Put the bodies of subprograms in the place of calls with plain numbers");
   app.add_option("--work", options.work,
                  "A work offset in the machine frame, mm and degrees; may be repeated")
       ->type_name("G54=X,Y,Z[,RX,RY,RZ]")

@@ -38,6 +38,7 @@ std::vector<OptionValue> reading_options(const Options& options, const Run& run)
   if (options.integer_words != IntegerWords::unsaid)
     values.push_back({"integer-words",
                       std::string(options.integer_words == IntegerWords::units ? "units" : "increments")});
+  if (options.expand_subprograms) values.push_back({"expand-subprograms", true});
   for (const std::string& work : options.work) values.push_back({"work", work});
   return values;
 }

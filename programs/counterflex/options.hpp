@@ -28,6 +28,7 @@ struct Options {
   std::optional<std::string> dialect;
   std::optional<LengthUnit> units;
   IntegerWords integer_words = IntegerWords::unsaid;
+  bool expand_subprograms = false;
   std::vector<std::string> work;          ///< "G54=X,Y,Z[,RX,RY,RZ]"
   std::optional<std::string> tool_table;  ///< a file
   std::vector<std::string> at;            ///< "X,Y,Z[,R,P,Y]"

@@ -12,7 +12,7 @@ namespace counterflex {
 namespace {
 
 struct Line {
-  int number;
+  int number;  // of the text
   std::string_view text;
 };
 
@@ -40,8 +40,8 @@ std::vector<Line> other_lines(const Program& program) {
     const std::size_t end = std::min(text.find('\n', begin), text.size());
     std::string_view line = text.substr(begin, end - begin);
     if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
-    while (move < program.moves.size() && program.moves[move].line < number) ++move;
-    const bool moves = move < program.moves.size() && program.moves[move].line == number;
+    while (move < program.moves.size() && line_in_text(program.moves[move]) < number) ++move;
+    const bool moves = move < program.moves.size() && line_in_text(program.moves[move]) == number;
     line = statement_of(program, line);
     const bool inserted_centre = line.empty() && program.dialect == "heidenhain";
     if (!moves && !is_header(line) && !inserted_centre) lines.push_back({number, line});
@@ -61,7 +61,7 @@ std::vector<std::size_t> other_lines_before(const Program& program) {
   std::vector<std::size_t> counts;
   std::size_t count = 0;
   for (const Move& move : program.moves) {
-    while (count < others.size() && others[count].number < move.line) ++count;
+    while (count < others.size() && others[count].number < line_in_text(move)) ++count;
     counts.push_back(count);
   }
   return counts;
@@ -69,16 +69,18 @@ std::vector<std::size_t> other_lines_before(const Program& program) {
 
 void check_other_lines(const Program& original, const Program& corrected) {
   const auto wanted = other_lines(original), found = other_lines(corrected);
+  const auto line_wanted = [&](std::size_t i) { return line_of_file(original.expansion, wanted[i].number); };
+  const auto line_found = [&](std::size_t i) { return line_of_file(corrected.expansion, found[i].number); };
   for (std::size_t i = 0; i < found.size(); ++i)
     if (i >= wanted.size() || found[i].text != wanted[i].text)
-      fail(corrected, found[i].number,
+      fail(corrected, line_found(i),
            i < wanted.size()
                ? fmt::format("differs from line {} of the original, which is no move and must stay as it is",
-                             wanted[i].number)
+                             line_wanted(i))
                : std::string("the original has no such line"));
   if (found.size() < wanted.size())
-    fail(corrected, found.empty() ? 1 : found.back().number,
-         fmt::format("line {} of the original is missing after this line", wanted[found.size()].number));
+    fail(corrected, found.empty() ? 1 : line_found(found.size() - 1),
+         fmt::format("line {} of the original is missing after this line", line_wanted(found.size())));
 }
 
 void check_all_moves(const Job& job, const Program& corrected, const std::vector<Piece>& pieces) {

@@ -77,14 +77,16 @@ void ForceCover::add(const Program& window, const Toolpath& path) {
   for (std::size_t i = 0; i < keys.size(); ++i) {
     const Segment& segment = path.segments[i];
     if (!segment.cutting) continue;
-    if (!first_) first_ = {keys[i].start, segment.line};
-    last_ = {keys[i].end, segment.line};
+    // Lines and block numbers need not grow along the path.
+    if (!first_ || keys[i].start < first_->key) first_ = {keys[i].start, segment.line};
+    if (!last_ || keys[i].end >= last_->key) last_ = {keys[i].end, segment.line};
   }
   for (const Move& move : window.moves)
     last_block_number_ = std::max(last_block_number_, move.block_number.value_or(0));
   if (!window.moves.empty()) last_line_ = window.moves.back().line;
   newlines_ += std::count(window.text.begin(), window.text.end(), '\n');
   if (!window.text.empty()) ends_in_line_ = window.text.back() != '\n';
+  file_lines_ = window.expansion.file_lines;
   end_ = path.end;
 }
 
@@ -92,6 +94,7 @@ void ForceCover::add(const Program& window, const Toolpath& path) {
 double ForceCover::end() const {
   switch (profile_.key) {
     case ForceKey::line:
+      if (file_lines_ > 0) return static_cast<double>(file_lines_);
       return static_cast<double>(std::max(newlines_ + (ends_in_line_ ? 1 : 0), last_line_));
     case ForceKey::block_number:
       return static_cast<double>(last_block_number_);

@@ -142,7 +142,7 @@ void read_program_number(const Block& block, Reading& r) {
   if (o == nullptr) return;
   const std::vector<bool>& known = r.outline.subprograms;
   bool subprogram = false;
-  if (begins_line(r.program.text, o->span.begin)) {
+  if (is_numbered(part(r.program.text, block.span))) {
     subprogram = r.program_numbers < known.size() && known[r.program_numbers];
     ++r.program_numbers;
   }

@@ -201,7 +201,7 @@ bool next_line(std::string_view text, Block& block) {
   while (end > begin && text[end - 1] == '\r') --end;
   block.span = {begin, end};
   block.line_end = {end, next};
-  ++block.line;
+  block.line = ++block.text_line;
   return true;
 }
 
@@ -240,7 +240,9 @@ void lex(std::string_view text, const std::string& file, const Dialect& dialect,
 
 void refuse(const std::string& file, const Block& block, std::size_t at, const std::string& message,
             Exit exit) {
-  throw InputError(exit, {file, block.line, static_cast<int>(at - block.span.begin) + 1}, message);
+  const std::string from =
+      block.called_from > 0 ? fmt::format(" (called from line {})", block.called_from) : std::string();
+  throw InputError(exit, {file, block.line, static_cast<int>(at - block.span.begin) + 1}, message + from);
 }
 
 }  // namespace counterflex

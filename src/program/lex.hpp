@@ -46,10 +46,12 @@ struct Word {
 
 /// One line. Its vectors are reused from line to line.
 struct Block {
-  int line = 0;
-  Span span;          ///< without the line end
-  Span line_end;      ///< empty at a last line without one
-  Span block_delete;  ///< '/' and the switch number that may follow it; empty where there is none
+  int line = 0;         ///< of the file
+  int text_line = 0;    ///< of the text: another one where calls of subprograms were expanded
+  int called_from = 0;  ///< line whose call a copied block comes from; 0: no copy
+  Span span;            ///< without the line end
+  Span line_end;        ///< empty at a last line without one
+  Span block_delete;    ///< '/' and the switch number that may follow it; empty where there is none
   bool percent = false;
   bool assigns = false;  ///< holds '#1='
   Statement statement = Statement::none;
@@ -64,7 +66,8 @@ struct Block {
 inline std::string_view part(std::string_view text, Span span) {
   return text.substr(span.begin, span.end - span.begin);
 }
-/// The number of a word that counts (T, N, H, P), without what is no whole; far beyond any count it stays there.
+/// The number of a word that counts (T, N, H, P), without what is no whole; far beyond any count it stays
+/// there.
 long count_of(const Word& word);
 
 inline bool empty(Span span) {

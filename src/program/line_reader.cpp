@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "program/expand.hpp"
 #include "program/remarks.hpp"
 
 namespace counterflex {
@@ -53,6 +54,12 @@ LineReader::LineReader(const std::string& file, const ReadOptions& options, cons
 
 bool LineReader::read_line() {
   if (ended_ || !next_line(program_.text, block_)) return false;
+  place_in_file(program_.expansion, block_);
+  if (stands_unused(program_.expansion, block_.span.begin)) {
+    reading_.after_subprogram = true;
+    reading_.program_numbers += is_numbered(part(program_.text, block_.span));
+    return true;
+  }
   lex(program_.text, program_.file, dialect_, block_);
   if (block_.percent && (opened_ || program_.block_count > 0)) {
     ended_ = true;
@@ -62,6 +69,15 @@ bool LineReader::read_line() {
   interpret(block_, reading_);
   ended_ = reading_.ended;
   return true;
+}
+
+void LineReader::read_all() {
+  // Growing step by step would copy every move several times.
+  const auto newlines = std::count(program_.text.begin(), program_.text.end(), '\n');
+  program_.moves.reserve(static_cast<std::size_t>(newlines) + 1);
+  while (read_line()) {
+  }
+  remark_rest(std::string_view(program_.text).substr(position()));
 }
 
 bool LineReader::may_end_before(const Move& last) const {

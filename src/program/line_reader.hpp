@@ -29,6 +29,9 @@ class LineReader {
   /// Reads the next line of the program's text; false where there is none, or behind the program's end.
   bool read_line();
 
+  /// Reads all lines of the program's text.
+  void read_all();
+
   /// Behind the last line that was read.
   std::size_t position() const { return block_.line_end.end; }
   bool has_ended() const { return ended_; }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "program/contour.hpp"
+#include "program/expand.hpp"
 #include "program/read_move.hpp"
 #include "program/remarks.hpp"
 
@@ -18,7 +19,7 @@ void leave_machine_move(const Block& block, Reading& r, const FoundG& found) {
   end_contour(r);
   r.run_begin = r.program.moves.size();
   r.last_reason = fmt::format("G{} moves to a position of the machine", found.word->value);
-  r.program.left_alone.push_back({block.line, r.last_reason, true});
+  r.program.left_alone.push_back({block.line, r.last_reason, true, block.text_line});
 }
 
 void read_held(const Block& block, Reading& r, std::string_view what, bool end_known) {
@@ -76,7 +77,9 @@ void read_call(const Block& block, Reading& r) {
   Move& move = start_move(block, r, Motion::rapid);
   for (std::size_t axis = 0; axis < 3; ++axis) fix_axis(r, move, axis);
   move.relative = false;
-  leave_alone(block, r, "a subprogram is called");
+  const std::string_view why = why_not_expanded(r.program.expansion, block.text_line);
+  leave_alone(block, r,
+              fmt::format("a subprogram is called{}{}", why.empty() ? "" : ", not expanded: ", why));
   finish_move(r, move);
   end_contour(r);
   r.state.doubts |= doubtful_motion | doubtful_distance | doubtful_plane | doubtful_centres | doubtful_level;

@@ -41,11 +41,21 @@ bool goto_at(std::string_view text, std::size_t o) {
   return o > 0 && is_word(text.substr(o - 1, 4), "GOTO") && !in_comment(text, o);
 }
 
+bool begins_line(std::string_view text, std::size_t at) {
+  for (std::size_t i = at; i-- > 0 && text[i] != '\n';)
+    if (!is_blank(text[i])) return false;
+  return true;
+}
+
+bool is_number_at(std::string_view text, std::size_t o) {
+  return o + 1 < text.size() && is_digit(text[o + 1]) && begins_line(text, o);
+}
+
 /// Where lines begin with an O-number, in order.
 std::vector<std::size_t> numbers_in(std::string_view lines) {
   std::vector<std::size_t> numbers;
   for (std::size_t at = 0; (at = lines.find_first_of("Oo", at)) != std::string_view::npos; ++at)
-    if (at + 1 < lines.size() && is_digit(lines[at + 1]) && begins_line(lines, at)) numbers.push_back(at);
+    if (is_number_at(lines, at)) numbers.push_back(at);
   return numbers;
 }
 
@@ -86,10 +96,9 @@ Outline OutlineScan::finish() {
   return std::move(outline_);
 }
 
-bool begins_line(std::string_view text, std::size_t at) {
-  for (std::size_t i = at; i-- > 0 && text[i] != '\n';)
-    if (!is_blank(text[i])) return false;
-  return true;
+bool is_numbered(std::string_view line) {
+  const std::size_t o = line.find_first_of("Oo");
+  return o != std::string_view::npos && is_number_at(line, o);
 }
 
 Outline outline_of(std::string_view text, const Dialect& dialect) {

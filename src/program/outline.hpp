@@ -29,7 +29,7 @@ class OutlineScan {
 
 Outline outline_of(std::string_view text, const Dialect& dialect);
 
-/// Whether only blanks stand before `at` on its line.
-bool begins_line(std::string_view text, std::size_t at);
+/// Whether a line begins with an O-number.
+bool is_numbered(std::string_view line);
 
 }  // namespace counterflex

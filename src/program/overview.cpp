@@ -43,7 +43,9 @@ void add_window(Overview& overview, const Program& window) {
   for (const Move& move : window.moves) add_move(overview, move);
   for (const LeftAlone& block : window.left_alone) list(overview.left_alone, block);
   const int last_move = window.moves.empty() ? 0 : window.moves.back().line;
-  overview.lines = std::max({overview.lines, overview.text_lines, last_move});
+  overview.lines = window.expansion.file_lines > 0
+                       ? window.expansion.file_lines
+                       : std::max({overview.lines, overview.text_lines, last_move});
 }
 
 Overview overview_of(const Program& whole) {

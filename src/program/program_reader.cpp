@@ -1,6 +1,6 @@
 #include "counterflex/program/program_reader.hpp"
 
-#include "program/klartext_read.hpp"
+#include "program/klartext_lex.hpp"
 #include "program/line_reader.hpp"
 
 namespace counterflex {
@@ -36,6 +36,11 @@ void shift_spans(Move& move, std::size_t bytes) {
     shift_word(move.cycle->bottom_word);
     shift_word(move.cycle->retract_word);
   }
+}
+
+/// Whether a program cannot be read in windows.
+bool is_read_whole(const LineReader& lines) {
+  return lines.program().dialect == klartext_name || lines.options().expand_subprograms;
 }
 
 struct Overall {
@@ -80,7 +85,6 @@ struct ProgramReader::State {
   bool behind_moves = false;  ///< and the move in it is `Program::after`
 
   Program& program() { return lines.program(); }
-  bool is_klartext() { return program().dialect == klartext_name; }
 
   bool append() {
     std::string& text = program().text;
@@ -92,10 +96,11 @@ struct ProgramReader::State {
     return !all_read;
   }
 
-  void read_klartext_whole() {
+  void read_whole() {
     while (append()) {
     }
-    read_klartext(program(), lines.options(), axes_of_tool_change(lines.dialect(), lines.options()));
+    Program& p = program();
+    p = read_program(std::move(p.text), p.file, lines.options());
   }
 
   bool read_line() {
@@ -154,9 +159,9 @@ struct ProgramReader::State {
     const std::string& text = p.text;
     whole = all_read ? text.size() : whole_lines(text).size();
     if (lines.has_ended()) return read_rest();
-    if (is_klartext() && !all_read) {
+    if (is_read_whole(lines) && !all_read) {
       begun = true;
-      read_klartext_whole();
+      read_whole();
       return true;
     }
     if (begun && all_read && text.empty()) return false;
@@ -225,13 +230,13 @@ const Program& TextReader::read(std::string text) {
   LineReader& lines = state_->lines;
   lines.begin_window(0, {});
   Program& program = lines.program();
+  if (is_read_whole(lines)) {
+    ReadOptions options = lines.options();
+    options.dialect = program.dialect;
+    return program = read_program(std::move(text), program.file, options);
+  }
   program.text = std::move(text);
-  if (program.dialect == klartext_name) {
-    read_klartext(program, lines.options(), axes_of_tool_change(lines.dialect(), lines.options()));
-    return program;
-  }
-  while (lines.read_line()) {
-  }
+  lines.read_all();
   return program;
 }
 

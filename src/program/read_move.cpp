@@ -129,9 +129,10 @@ std::string_view why_not_followed(const Reading& r) {
 Move& start_move(const Block& block, Reading& r, Motion motion) {
   // A block is one move: a call beside words is what moves last, and leaves nothing known.
   std::vector<Move>& moves = r.program.moves;
-  if (!moves.empty() && moves.back().line == block.line) moves.pop_back();
+  if (!moves.empty() && moves.back().block.begin == block.span.begin) moves.pop_back();
   Move& move = moves.emplace_back();
   move.line = block.line;
+  move.text_line = block.text_line;
   move.block_index = r.program.block_count - 1;
   move.block = block.span;
   move.motion = motion;
@@ -186,7 +187,7 @@ double length_mm(const Reading& r, const Word& word) {
 void leave_alone(const Block& block, Reading& r, std::string_view why) {
   if (r.last_reason == why) return;
   r.last_reason = why;
-  r.program.left_alone.push_back({block.line, r.last_reason});
+  r.program.left_alone.push_back({block.line, r.last_reason, false, block.text_line});
 }
 
 void refuse_word(const Block& block, const Reading& r, const Word& word, const std::string& message) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "program/expand.hpp"
 #include "program/klartext_read.hpp"
 #include "program/line_reader.hpp"
 
@@ -19,19 +20,18 @@ bool is_mark(std::string_view comment) {
 
 Program read_program(std::string text, const std::string& file, const ReadOptions& options) {
   const Dialect& dialect = choose_dialect(text, file, options);
-  LineReader lines(file, options, dialect, outline_of(text, dialect));
+  const bool klartext = dialect.name == klartext_name;
+  Expansion expansion;
+  if (options.expand_subprograms && !klartext) expansion = expand_subprograms(text, file, dialect);
+  LineReader lines(file, options, dialect, klartext ? Outline{} : outline_of(text, dialect));
   Program& program = lines.program();
   program.text = std::move(text);
-  if (dialect.name == klartext_name) {
+  program.expansion = std::move(expansion);
+  if (klartext)
     read_klartext(program, options, axes_of_tool_change(dialect, options));
-    return std::move(program);
-  }
-  // Growing step by step would copy every move several times.
-  program.moves.reserve(static_cast<std::size_t>(std::count(program.text.begin(), program.text.end(), '\n')) +
-                        1);
-  while (lines.read_line()) {
-  }
-  lines.remark_rest(std::string_view(program.text).substr(lines.position()));
+  else
+    lines.read_all();
+  if (options.expand_subprograms) remark_expansion(program);
   return std::move(program);
 }
 

@@ -2,6 +2,7 @@
 
 #include <cassert>
 
+#include "program/expand.hpp"
 #include "program/klartext_lex.hpp"
 #include "program/klartext_rewrite.hpp"
 #include "program/rewrite_block.hpp"
@@ -69,6 +70,7 @@ void end_doubt_until(std::size_t end, Writing& w) {
   Block block;
   block.line_end.end = w.copied;
   while (w.state.restate_motion && block.line_end.end < end && next_line(w.program.text, block)) {
+    if (stands_unused(w.program.expansion, block.span.begin)) continue;
     lex(w.program.text, w.program.file, dialect, block);
     if (block.span.begin < end && ends_motion(block, dialect)) w.state.restate_motion.reset();
   }

@@ -18,14 +18,15 @@ bool any(const std::array<bool, 3>& axes) {
 class Planner {
  public:
   explicit Planner(const Program& program) : program_(program), left_(program.left_alone) {
-    std::stable_sort(left_.begin(), left_.end(),
-                     [](const LeftAlone& a, const LeftAlone& b) { return a.line < b.line; });
+    std::stable_sort(left_.begin(), left_.end(), [](const LeftAlone& a, const LeftAlone& b) {
+      return line_in_text(a) < line_in_text(b);
+    });
   }
 
   MotionPlan run() {
     find_known_ends();
     for (std::size_t m = 0; m < program_.moves.size(); ++m) {
-      list_other_blocks(program_.moves[m].line);
+      list_other_blocks(line_in_text(program_.moves[m]));
       add(m);
     }
     list_other_blocks(0);
@@ -45,11 +46,12 @@ class Planner {
     }
   }
 
-  /// Blocks of the list up to `line` (0: all) that are no moves; keeps the reason that acts.
+  /// Blocks of the list up to `line` of the text (0: all) that are no moves; keeps the reason that acts.
   void list_other_blocks(int line) {
-    for (; next_left_ < left_.size() && (line == 0 || left_[next_left_].line <= line); ++next_left_) {
+    for (; next_left_ < left_.size() && (line == 0 || line_in_text(left_[next_left_]) <= line);
+         ++next_left_) {
       const LeftAlone& block = left_[next_left_];
-      if (block.line == line || is_move(block.line)) {
+      if (line_in_text(block) == line || is_move(line_in_text(block))) {
         reason_ = &block;
         continue;
       }
@@ -60,8 +62,8 @@ class Planner {
 
   bool is_move(int line) const {
     const auto at = std::lower_bound(program_.moves.begin(), program_.moves.end(), line,
-                                     [](const Move& move, int l) { return move.line < l; });
-    return at != program_.moves.end() && at->line == line;
+                                     [](const Move& move, int l) { return line_in_text(move) < l; });
+    return at != program_.moves.end() && line_in_text(*at) == line;
   }
 
   Fate fate_of(std::size_t m) const {
@@ -112,7 +114,7 @@ class Planner {
 
   /// A reason is listed once for a run of moves.
   std::optional<std::string> reason_at(const Move& move) const {
-    if (reason_ == nullptr || reason_->line > move.line) return std::nullopt;
+    if (reason_ == nullptr || line_in_text(*reason_) > line_in_text(move)) return std::nullopt;
     return reason_->why;
   }
 

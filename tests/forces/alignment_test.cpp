@@ -57,3 +57,30 @@ TEST_CASE("a program without cuts has no forces and takes any profile that it co
   CHECK(forces.at(1, 0.5) == Vector6::Zero());
   CHECK(forces.ramps() == 0);
 }
+
+TEST_CASE(
+    "rows of a line act in every copy of the line, and the first row must be there for the first of them") {
+  Program program = straight(60, 10);
+  for (std::size_t m = 0; m < 6; ++m) {
+    program.moves[m].text_line = static_cast<int>(m) + 1;
+    program.moves[m].line =
+        m < 3 ? 8 + static_cast<int>(m) : 5 + static_cast<int>(m);  // 8 9 10, again 8 9 10
+  }
+  program.expansion.file_lines = 10;
+  const auto rows = [](const std::string& text) {
+    return from_csv(on_tool + "line,fx_N,fy_N,fz_N\n" + text);
+  };
+  const auto forces = forces_on(program, rows("8,1,0,0\n9,2,0,0\n10,3,0,0\n"));
+  for (const std::size_t copy : {0, 3})
+    for (std::size_t i = 0; i < 3; ++i)
+      CHECK(forces.at(copy + i, 0.5) == wrench(1 + static_cast<double>(i), 0, 0));
+  CHECK_THROWS_WITH_AS(forces_on(program, rows("8,1,0,0\n11,2,0,0\n")),
+                       "forces.csv:5:1: error: row 2: line 11 lies beyond the program, which ends at line 10",
+                       InputError);
+  program.moves[4].line = 3;  // a body that stands above the call
+  CHECK_THROWS_WITH_AS(
+      forces_on(program, rows("8,1,0,0\n")),
+      "forces.csv:4:1: error: row 1: line 8 is the first row, but the program cuts from line 3 on "
+      "(line 3): a row there is required, with zeros where nothing is cut",
+      InputError);
+}

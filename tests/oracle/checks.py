@@ -173,6 +173,26 @@ def field_negative(shop, program):
     return field(shop, program, -1)
 
 
+def calls(shop, program):
+    """The interpreter runs the original's calls itself; with them expanded, each is corrected where it runs."""
+    shifted = product.Gantry(shift=product.FRAME_SHIFT, offsets=AT_ORIGIN)
+    skewed = product.Gantry(squareness=(SQUARE, -SQUARE, SQUARE), offsets=AT_ORIGIN)
+    original = text.split_lines(open(program, 'rb').read())
+    bench = shop.bench(AT_ORIGIN, {})
+    steps = path.walk(bench, original)
+    for gantry in (shifted, skewed):
+        run = shop.runs.compensate(program, gantry, options=('--expand-subprograms',))
+        if run.status != 0:
+            return 'exit %d: %s' % (run.status, run.said[-300:])
+        if any(s.arc for s in steps) and gantry is skewed:
+            continue  # there corrected arcs are other arcs
+        wrong = compare.moved_apart(steps, path.walk(bench, text.split_lines(run.text)), gantry.commanded, 0.002)
+        if wrong:
+            return wrong
+    shop.notes.append('%s: %d ends judged' % (os.path.basename(program), len(steps)))
+    return ''
+
+
 def masking(shop, program):
     """With numbers masked and what was inserted removed the corrected program is the original, byte for byte."""
     for gantry in (shop.gantry(program, shift=product.FRAME_SHIFT, offsets=AT_ORIGIN),
@@ -243,5 +263,6 @@ def plan_of(report):
 
 
 ALL = {'identity': identity, 'shift': shift, 'shift_skipped': shift_skipped, 'shift_offsets': shift_offsets,
-       'field_positive': field_positive, 'field_negative': field_negative, 'masking': masking, 'limits': control_limits, 'shares': shares}
-G_CODE_ONLY = {'shift', 'shift_skipped', 'shift_offsets', 'field_positive', 'field_negative', 'limits'}
+       'field_positive': field_positive, 'field_negative': field_negative, 'masking': masking, 'limits': control_limits, 'shares': shares,
+       'calls': calls}
+G_CODE_ONLY = {'shift', 'shift_skipped', 'shift_offsets', 'field_positive', 'field_negative', 'limits', 'calls'}

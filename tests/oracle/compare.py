@@ -159,3 +159,20 @@ class ShiftCheck:
                 if distance(wanted, c.at(v)) > 2.5 * unit + SLACK + abs(o.radii()[1] - o.radii()[0]):
                     return self.findings.add(pair, 'inside the arc the path is %.5f off' % distance(wanted, c.at(v)))
             u += share
+
+
+def moved_apart(steps, written, wanted_of, tolerance):
+    """What is wrong with `written`, or an empty text: it must go through the ends of `steps`, in their order, each moved by
+    `wanted_of`, by the same kinds of moves. An arc may be several."""
+    at = 0
+    for step in steps:
+        wanted = wanted_of(step.end)
+        while at < len(written) and step.arc and written[at].arc and distance(written[at].end, wanted) > tolerance:
+            at += 1
+        if at == len(written):
+            return 'line %d: nothing goes to %s' % (step.line, short(wanted))
+        if written[at].kind != step.kind or distance(written[at].end, wanted) > tolerance:
+            return 'line %d: a %s to %s instead of a %s to %s' % (
+                step.line, written[at].kind, short(written[at].end), step.kind, short(wanted))
+        at += 1
+    return 'line %d of the output goes on' % written[at].line if at < len(written) else ''

@@ -102,6 +102,24 @@ TEST_CASE("arcs are counted by plane, cycles, relative and G93 moves and tools b
   CHECK(plan.tools == std::map<long, std::size_t>{{0, 1}, {3, 2}});
 }
 
+TEST_CASE("blocks of copied bodies are listed with the lines of the bodies, in the order in which they run") {
+  Program program = three_moves();
+  const int lines[] = {9, 9, 2};
+  for (std::size_t m = 0; m < 3; ++m) {
+    program.moves[m].line = lines[m];
+    program.moves[m].text_line = 2 * static_cast<int>(m) + 1;
+  }
+  program.moves[1].fixed[0] = true;
+  program.left_alone = {{8, "G53 moves to a position of the machine", true, 2}, {9, "a variable", false, 3}};
+  const MotionPlan plan = motion_plan(program);
+  CHECK(plan.corrected == 2);
+  CHECK(plan.not_corrected == 2);
+  REQUIRE(plan.left_rows.size() == 2);
+  CHECK(plan.left_rows[0].lines == std::vector<int>{8});
+  CHECK(plan.left_rows[1].why == "a variable");
+  CHECK(plan.left_rows[1].lines == std::vector<int>{9});
+}
+
 TEST_CASE("of a long run only the first lines are listed") {
   ProgramBuilder builder({0, 0, 0});
   for (int i = 1; i <= 9; ++i) builder.feed({1.0 * i, 0, 0}, 100);

@@ -201,6 +201,7 @@ class ForceCover {
   std::optional<Cut> first_, last_;  ///< of the cutting moves: key where the first begins and the last ends
   long last_block_number_ = 0;
   long newlines_ = 0, last_line_ = 0;  ///< lines; of the last move
+  long file_lines_ = 0;                ///< where calls were expanded
   bool ends_in_line_ = false;          ///< the text ends without a line end
   PathEnd end_;
 };

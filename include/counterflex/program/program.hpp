@@ -114,7 +114,8 @@ inline bool all_known(const std::array<bool, 3>& known) {
 /// A move: a block that changes or repeats the position of the tool under G0 to G3 or a cycle, or that moves
 /// it in a way that this reader does not follow: then all it says is `fixed` and what is unknown afterwards.
 struct Move {
-  int line = 0;
+  int line = 0;                         ///< of the file
+  int text_line = 0;                    ///< of Program::text, where calls were expanded in it; 0: `line`
   int group = 0;                        ///< number of its contour group, from 1; 0: none
   std::size_t block_index = 0;          ///< counts the program's blocks with words, from 0
   Span block;                           ///< the whole line, without its line end
@@ -148,15 +149,22 @@ struct Move {
   bool may_jump = false;  ///< a feed move may be inserted before it: start and feed are known, no exact stop
   bool may_insert_words = true;  ///< axis words may be inserted; not into a block with G43, G44 or G49
 };
-static_assert(sizeof(Move) <= 232, "programs have millions of moves");
+static_assert(sizeof(Move) <= 240, "programs have millions of moves");
 
 /// A block that is not corrected, and why.
 struct LeftAlone {
   int line = 0;
   std::string why;
   bool machine_position =
-      false;  ///< the block moves axes to a place that the machine knows: no move of the program
+      false;          ///< the block moves axes to a place that the machine knows: no move of the program
+  int text_line = 0;  ///< as for a move
 };
+
+/// The line of Program::text, in whose order moves and blocks left alone stand.
+template <typename Placed>
+int line_in_text(const Placed& placed) {
+  return placed.text_line > 0 ? placed.text_line : placed.line;
+}
 
 /// A remark for the report.
 struct Remark {
@@ -171,11 +179,38 @@ struct PathTolerance {
   std::optional<double> merge_mm;  ///< Q: moves that are this near to a line become one
 };
 
+/// Lines of a text in which calls were expanded, from `text_line` on: they are those of the file from `line`
+/// on.
+struct LineRun {
+  int text_line = 1;
+  int line = 1;
+  int called_from = 0;  ///< line of the file that calls what these lines are copied from; 0: no copies
+};
+
+/// A call that was not expanded.
+struct CallLeft {
+  int text_line = 0;
+  std::string why;
+};
+
+/// What became of the calls of subprograms where they were to be expanded.
+struct Expansion {
+  std::vector<LineRun> lines;  ///< none: the text is the file's
+  int file_lines = 0;
+  std::size_t calls = 0;  ///< replaced, each repeat and each call in a copy too
+  int first_call = 0;     ///< line of the file
+  std::vector<CallLeft> calls_left;
+  std::vector<Span> unused;  ///< definitions in the text that nothing calls any more: nothing in them runs
+};
+
+/// The line of the file that line `text_line` of Program::text comes from.
+int line_of_file(const Expansion& expansion, int text_line);
+
 /// A program, or a window of one: then `text` holds some of its lines, `moves` and `left_alone` are those of
 /// these lines, and all else is what has been found from the program's first line on.
 struct Program {
   std::string file;
-  std::string text;     ///< every byte of the input
+  std::string text;     ///< every byte of the input, with calls replaced where that was asked for
   std::string dialect;  ///< the one that was read, never "auto"
   IntegerWords integer_words = IntegerWords::unsaid;
   std::vector<Move> moves;
@@ -187,6 +222,7 @@ struct Program {
   std::vector<Remark> remarks;
   std::vector<PathTolerance> path_tolerances;  ///< each different one once
   std::size_t block_count = 0;                 ///< lines with at least one word
+  Expansion expansion{};
 };
 
 /// The move before `moves[index]`, of this window or the one before it; null where there is none.

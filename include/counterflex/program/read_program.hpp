@@ -10,9 +10,9 @@
 namespace counterflex {
 
 struct ReadOptions {
-  std::string dialect = "auto";  ///< auto, linuxcnc, grbl, fanuc, haas, mach3, siemens, heidenhain; auto:
-                                 ///< BEGIN PGM means heidenhain, an O-number fanuc, words of its language
-                                 ///< siemens, else linuxcnc
+  std::string dialect = "auto";    ///< auto, linuxcnc, grbl, fanuc, haas, mach3, siemens, heidenhain; auto:
+                                   ///< BEGIN PGM means heidenhain, an O-number fanuc, words of its language
+                                   ///< siemens, else linuxcnc
   std::optional<LengthUnit> unit;  ///< where the program does not say before its first move
   std::optional<std::vector<char>>
       tool_change_moves;  ///< axes of "XYZ" unknown after a tool change; none: the
@@ -20,6 +20,7 @@ struct ReadOptions {
   IntegerWords integer_words = IntegerWords::unsaid;
   std::map<long, double> tool_lengths_mm{};  ///< by H, or the active tool's number where G43 has no H: with
                                              ///< both lengths known Z stays known when they change
+  bool expand_subprograms = false;  ///< calls by M98 and O-words with plain numbers become the bodies' text
 };
 
 /// Reads `text`, keeping every byte. `file` names it in diagnostics. Throws `InputError` with line and column

@@ -1,0 +1,83 @@
+#include "program/expand.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "program/expand_text.hpp"
+#include "program/outline.hpp"
+#include "program/remarks.hpp"
+
+namespace counterflex {
+namespace {
+
+/// The run of lines that `text_line` stands in; nothing was expanded where there is none.
+const LineRun* run_of(const Expansion& expansion, int text_line) {
+  const auto& runs = expansion.lines;
+  const auto behind = std::upper_bound(runs.begin(), runs.end(), text_line,
+                                       [](int line, const LineRun& run) { return line < run.text_line; });
+  return behind == runs.begin() ? nullptr : &*std::prev(behind);
+}
+
+bool has_calls(const Dialect& dialect) {
+  return (dialect.family & (shop_families | mach3_family | linuxcnc_family)) != 0 &&
+         dialect.name != klartext_name;
+}
+
+}  // namespace
+
+Expansion expand_subprograms(std::string& text, const std::string& file, const Dialect& dialect) {
+  if (!has_calls(dialect)) return {};
+  // Copies repeat block numbers: a jump to one of them would go to another place.
+  std::string why_none = outline_of(text, dialect).jumps ? "the program jumps to block numbers" : "";
+  ExpandedText expanded = expand_text(text, file, dialect, why_none);
+  if (why_none.empty() && expanded.seeks_numbers && expanded.expansion.calls > 0)
+    expanded = expand_text(text, file, dialect,
+                           "M97 or M99 with P looks for a block number, which copies would repeat");
+  if (expanded.expansion.calls == 0)
+    expanded.expansion.lines.clear();
+  else
+    text = std::move(expanded.text);
+  return std::move(expanded.expansion);
+}
+
+int line_of_file(const Expansion& expansion, int text_line) {
+  const LineRun* run = run_of(expansion, text_line);
+  return run == nullptr ? text_line : run->line + (text_line - run->text_line);
+}
+
+void place_in_file(const Expansion& expansion, Block& block) {
+  const LineRun* run = run_of(expansion, block.text_line);
+  if (run == nullptr) return;
+  block.line = run->line + (block.text_line - run->text_line);
+  block.called_from = run->called_from;
+}
+
+bool stands_unused(const Expansion& expansion, std::size_t at) {
+  const auto& unused = expansion.unused;
+  const auto behind = std::upper_bound(unused.begin(), unused.end(), at,
+                                       [](std::size_t place, Span span) { return place < span.begin; });
+  return behind != unused.begin() && at < std::prev(behind)->end;
+}
+
+std::string_view why_not_expanded(const Expansion& expansion, int text_line) {
+  const auto& calls = expansion.calls_left;
+  const auto call = std::lower_bound(calls.begin(), calls.end(), text_line,
+                                     [](const CallLeft& c, int line) { return c.text_line < line; });
+  return call != calls.end() && call->text_line == text_line ? std::string_view(call->why)
+                                                             : std::string_view();
+}
+
+void remark_expansion(Program& program) {
+  const Expansion& expansion = program.expansion;
+  if (expansion.calls == 0) {
+    if (expansion.calls_left.empty())
+      add_remark(program, 1, "no call by M98 or an O-word stands in the program itself: nothing is expanded");
+    return;
+  }
+  add_remark(program, expansion.first_call,
+             fmt::format("{} of subprograms replaced by the bodies; this is the first",
+                         expansion.calls == 1 ? "one call" : fmt::format("{} calls", expansion.calls)));
+}
+
+}  // namespace counterflex

@@ -1,0 +1,288 @@
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "program/reading.hpp"
+
+using namespace counterflex;
+using namespace counterflex::test;
+
+namespace {
+
+Program expanded(const std::string& text, const std::string& dialect = "auto") {
+  ReadOptions options;
+  options.dialect = dialect;
+  options.expand_subprograms = true;
+  return read_program(text, "p.nc", options);
+}
+
+/// Moves that a program makes, whatever their lines: the same text gives the same.
+std::string path_of(const Program& program) {
+  std::string path;
+  for (const Move& move : program.moves)
+    path += fmt::format("{} {} {} {} {} {} {}\n", move.motion == Motion::rapid ? "rapid" : "feed",
+                        move.end_mm.x(), move.end_mm.y(), move.end_mm.z(), move.arc.has_value(),
+                        move.feed_mm_min, all_known(move.known_end));
+  return path;
+}
+
+const std::string go = "G21 G90 G17 F100\nG0 X0. Y0. Z5.\n";
+const std::string fanuc_go = "O1\n" + go;
+
+struct Expanding {
+  std::string dialect, before, calls, bodies, after;
+};
+
+/// `calls` stands for `bodies`; a definition stands before the program or behind it.
+void check_same(const Expanding& e) {
+  CAPTURE(e.before);
+  CAPTURE(e.calls);
+  CAPTURE(e.after);
+  const Program program = expanded(e.before + e.calls + e.after, e.dialect);
+  CHECK(program.text == e.before + e.bodies + e.after);
+  CHECK(program.expansion.calls_left.empty());
+  const std::string begin = e.before.substr(e.before.find("G21"));
+  CHECK(path_of(program) ==
+        path_of(read((e.dialect == "fanuc" ? "O1\n" : "") + begin + e.bodies + "M30\n", e.dialect)));
+}
+
+}  // namespace
+
+TEST_CASE("a program without calls that are expanded is the same bytes, lines and moves") {
+  for (const std::string& text : {go + "G1 X1\nX2", fanuc_go + "N5 G1 X1.\r\n(M98 P2)\r\nM30\n%\nwhatever {",
+                                  "%\n" + go + "%\nM98 P3\n", go + "o1 if [#1 GT 2]\nX1\no1 endif\nX3 Y#2\n",
+                                  "O1\nG21\nM99\nO2\n" + go + "M30\n", std::string(), std::string("\n\n")}) {
+    CAPTURE(text);
+    const Program with = expanded(text), without = read(text);
+    CHECK(with.text == text);
+    CHECK(with.expansion.calls == 0);
+    REQUIRE(path_of(with) == path_of(without));
+    for (std::size_t i = 0; i < with.moves.size(); ++i) CHECK(with.moves[i].line == without.moves[i].line);
+  }
+}
+
+TEST_CASE("a call by M98 is its body, in the place of the call") {
+  const std::string end = "M30\nO1001 (SLOT)\nG91 G1 X1.\nG90 Y2. (CUT)\nM99\n";
+  const std::string body = "G91 G1 X1.\nG90 Y2. (CUT)\n";
+  for (const std::string dialect : {"fanuc", "haas"}) {
+    check_same({dialect, fanuc_go, "M98 P1001\n", body, end});
+    check_same({dialect, fanuc_go, "M98P01001L2\nG0 Z9.\n", body + body + "G0 Z9.\n", end});
+    check_same({dialect, fanuc_go, "G0 X7. M98 P1001 (ONE)\n", "G0 X7. (ONE)\n" + body, end});
+    check_same({dialect, fanuc_go, "N50 M98 P1001\n  M98 P1001 ;\n", "N50\n" + body + body, end});
+  }
+  check_same({"mach3", go, "M98 P1001 Q2\nM98 P1001\n", body + body + body, end});
+  check_same({"linuxcnc", go, "n7 m98 p1001 l2 (both)\n", "n7 (both)\n" + body + body, end});
+}
+
+TEST_CASE("P31001 means O1001 three times to a Fanuc, and O31001 to a Haas") {
+  const std::string end = "M30\nO1001\nX1.\nM99\nO31001\nX3.\nM99\n";
+  check_same({"haas", fanuc_go, "M98 P31001\n", "X3.\n", end});
+  check_same({"fanuc", fanuc_go, "M98 P0031001\nM98 P20031\n", "X3.\nX4.\nX4.\n", end + "O31\nX4.\nM99\n"});
+  check_same({"fanuc", fanuc_go, "M98 P31001\n", "X1.\nX1.\nX1.\n", "M30\nO1001\nX1.\nM99\n"});
+}
+
+TEST_CASE("M97 calls the blocks from its number on") {
+  check_same(
+      {"haas", fanuc_go, "M97 P100 L2\n", "N100 X1.\nY1.\nN100 X1.\nY1.\n", "M30\nN100 X1.\nY1.\nM99\n"});
+}
+
+TEST_CASE("what stands beside M99 is done before the subprogram comes back") {
+  check_same(
+      {"fanuc", fanuc_go, "M98 P2\nX9.\n", "X1.\nN4 Y3. (LAST)\nX9.\n", "M30\nO2\nX1.\nN4 Y3. M99 (LAST)\n"});
+}
+
+TEST_CASE("calls in a body are expanded where they stand, in every copy") {
+  check_same({"fanuc", fanuc_go, "M98 P2 L2\n", "X1.\nY5.\nX2.\nX1.\nY5.\nX2.\n",
+              "M30\nO2\nX1.\nM98 P3\nX2.\nM99\nO3\nY5.\nM99\n"});
+}
+
+TEST_CASE("the arguments of an O-word stand for #1 to #30 in its body") {
+  const std::string body = "M2\no<a_b> sub\nG1 X#1 Y[#2*2+1] (#1)\nZ-[#3/4] F-#4\no<a_b> endsub (end)\n";
+  check_same(
+      {"linuxcnc", go, "o<a_b> call [1.5] [-2] [3-1] [-[60+40]]\n", "G1 X1.5 Y-3 (#1)\nZ-0.5 F100\n", body});
+  check_same(
+      {"linuxcnc", go, "N9 O< A_B >CALL[+.5][1] ; twice\n", "N9 ; twice\nG1 X0.5 Y3 (#1)\nZ0 F0\n", body});
+  check_same(
+      {"linuxcnc", go, "o0100 call [2]\n", "G1 X2\nG1 X5\n",
+       "M2\no100 sub\no200 call [#1]\no200 call [#1*2+1]\no100 endsub\no200 sub\nG1 X#1\no200 endsub\n"});
+}
+
+TEST_CASE("values are written with the digits they have, at most six") {
+  const std::string sub = "M2\no1 sub\nX#1\no1 endsub\n";
+  for (const auto& [argument, number] : std::vector<std::pair<std::string, std::string>>{
+           {"1/3", "0.333333"}, {"0.1+0.2", "0.3"}, {"-0", "0"}, {"100", "100"}, {"2.50", "2.5"}})
+    check_same({"linuxcnc", go, "o1 call [" + argument + "]\n", "X" + number + "\n", sub});
+}
+
+TEST_CASE("line ends are those of the file, and a last line without one gets one") {
+  const Program program =
+      expanded("O1\r\nG21 G0 X0. Y0. Z0.\r\nM98 P2\r\nM30\r\nO2\r\nX1.\r\nY2. M99", "fanuc");
+  CHECK(program.text == "O1\r\nG21 G0 X0. Y0. Z0.\r\nX1.\r\nY2.\r\nM30\r\nO2\r\nX1.\r\nY2. M99");
+  CHECK(expanded("O2\nX1.\nM99\nO1\n" + go + "X4. M98 P2", "fanuc").text ==
+        "O2\nX1.\nM99\nO1\n" + go + "X4.\nX1.\n");
+}
+
+TEST_CASE("moves of a copy have the lines of the body, and no two of a repeated block are taken for one") {
+  const Program program = expanded(fanuc_go + "M98 P2 L3\nX9.\nM30\nO2\nX1. Y1.\nM99\n", "fanuc");
+  std::vector<int> lines;
+  for (const Move& move : program.moves) lines.push_back(move.line);
+  CHECK(lines == std::vector<int>{3, 8, 8, 8, 5});
+  CHECK(program.expansion.file_lines == 9);
+  CHECK(line_of_file(program.expansion, 4) == 8);
+  CHECK(line_of_file(program.expansion, 7) == 5);
+  CHECK(line_of_file(program.expansion, 8) == 6);
+}
+
+TEST_CASE("what is wrong in a copy is said at its line, with the line of the call") {
+  CHECK(diagnostic_of([] { expanded("O1\nG21 G90\nM98 P2\nM30\nO2\n  X1.\nM99\n", "fanuc"); }) ==
+        "p.nc:6:3: error: X without a motion: no G0 or G1 stands before it (called from line 3)");
+}
+
+TEST_CASE("a call that does not say all in plain numbers is left as it is, with the reason") {
+  struct Left {
+    std::string dialect, call, definition, why;
+  };
+  const std::string plain = "O2\nX1.\nM99\n", word = "o<a> sub\nX#1\no<a> endsub\n";
+  for (const Left& l : std::vector<Left>{
+           {"fanuc", "M98 P#1", plain, "its P is no plain number"},
+           {"fanuc", "M98 P2.5", plain, "its P is no plain number"},
+           {"fanuc", "M98 L2", plain, "it has no P"},
+           {"fanuc", "M98 P2 L0", plain, "its L is no count from 1"},
+           {"fanuc", "M98 P2 L#1", plain, "its L is no count from 1"},
+           {"fanuc", "/M98 P2", plain, "'/' may skip it"},
+           {"fanuc", "G4 M98 P2", plain, "G stands beside it"},
+           {"fanuc", "M30 M98 P2", plain, "M stands beside it"},
+           {"fanuc", "M98 P3", plain, "the subprogram does not stand in this file"},
+           {"fanuc", "M98 P2", plain + plain, "the subprogram stands in this file more than once"},
+           {"fanuc", "M98 P2", "O2\nX1.\nM30\n", "its body does not end with M99 or endsub"},
+           {"fanuc", "M98 P2", "O2\nX1.\nO3\nM99\n", "its body does not end with M99 or endsub"},
+           {"fanuc", "M98 P2", "O2\nX1.\n/M99\nM99\n", "'/' may skip the M99 in its body"},
+           {"fanuc", "M98 P2", "O2\nWHILE [#1 LT 2] DO1\nX1.\nEND1\nM99\n",
+            "its body holds a condition, a loop, a jump or a return"},
+           {"fanuc", "M98 P2", "O2\nX1.\nM99 P10\n", "its M99 goes to a block number"},
+           {"fanuc", "M98 P2", "O2\nG#1 X1.\nM99\n", "a code in its body is a variable or an expression"},
+           {"fanuc", "M98 P2", "O2 G0\nX1.\nM99\n", "words stand beside its O"},
+           {"linuxcnc", "o<a> call [1]", word + "(#<_value>)\n", "the program reads what calls give back"},
+           {"linuxcnc", "X1 M98 P2", plain, "X stands beside it"},
+           {"linuxcnc", "M98 P2", "O2\nX#1\nM99\n", "its body holds variables or expressions"},
+           {"linuxcnc", "o<a> call [#5]", word, "its argument [#5] is no plain number"},
+           {"linuxcnc", "o<a> call [1/0]", word, "its argument [1/0] is no plain number"},
+           {"linuxcnc", "o<a> call 5", word, "its arguments do not stand in brackets"},
+           {"linuxcnc", "o<a> call [1", word, ""},
+           {"linuxcnc", "o#3 call [1]", word, "its name is a variable or an expression"},
+           {"linuxcnc", "o<b> call [1]", word, "the subprogram does not stand in this file"},
+           {"linuxcnc", "o<a> call [1] (and) o<a> call [2]", word, "a comment stands before it"},
+           {"linuxcnc", "/o<a> call [1]", word, "'/' may skip it"},
+           {"linuxcnc", "o<a> call [1]", "o<a> sub\n#1=2\nX#1\no<a> endsub\n", "its body sets variables"},
+           {"linuxcnc", "o<a> call [1]", "o<a> sub\nX#<wide>\no<a> endsub\n",
+            "X#<wide> in line 6 of its body is no number that the call gives"},
+           {"linuxcnc", "o<a> call [1]", "o<a> sub\nX1\no<a> return\nX2\no<a> endsub\n",
+            "its body holds a condition, a loop, a jump or a return"},
+           {"linuxcnc", "o<a> call [1]", "o<a> sub\nX1\no<a> endsub [3]\n", "its endsub gives a value back"},
+           {"linuxcnc", "o<a> call [1]", "o<a> sub\nM73\nX1\no<a> endsub\n",
+            "M73 in its body brings states back"},
+           {"linuxcnc", "o<a> call [1]", "o<a> sub\no<c> call\no<a> endsub\n",
+            "the subprogram does not stand in this file"}}) {
+    CAPTURE(l.call);
+    CAPTURE(l.definition);
+    const std::string text = (l.dialect == "fanuc" ? fanuc_go : go) + l.call + "\nM30\n" + l.definition;
+    if (l.why.empty()) {
+      CHECK(diagnostic_of([&] { expanded(text, l.dialect); }) != "none");
+      continue;
+    }
+    const Program program = expanded(text, l.dialect);
+    CHECK(program.text == text);
+    REQUIRE(program.expansion.calls_left.size() == 1);
+    CHECK(program.expansion.calls_left[0].why == l.why);
+    const auto& left = program.left_alone;
+    CHECK(std::any_of(left.begin(), left.end(), [&](const LeftAlone& one) {
+      return one.why == "a subprogram is called, not expanded: " + l.why;
+    }));
+  }
+}
+
+TEST_CASE("a call in a condition or a loop is left as it is") {
+  for (const auto& [before, after] :
+       std::vector<std::pair<std::string, std::string>>{{"o1 if [#1 GT 2]\n", "o1 endif\n"},
+                                                        {"o1 repeat [3]\n", "o1 endrepeat\n"},
+                                                        {"o1 do\n", "o1 while [#1 GT 2]\n"},
+                                                        {"o1 while [#1 GT 2]\n", "o1 endwhile\n"}}) {
+    const std::string text = go + before + "o9 call\n" + after;
+    const std::string end = "M2\no9 sub\nX1\no9 endsub\n";
+    CHECK(expanded(text + end).text == text + end);
+    CHECK(expanded(text + "o9 call\n" + end).text == text + "X1\n" + end);
+  }
+}
+
+TEST_CASE("nothing is copied where block numbers are looked for") {
+  const std::string sub = "M30\nO2\nN10 X1.\nM99\n";
+  for (const std::string seeking : {"GOTO 10\n", "/M97 P10\n", "M99 P10\n"}) {
+    CAPTURE(seeking);
+    const std::string text = go + "M98 P2\n" + seeking + sub;
+    CHECK(expanded(text, "fanuc").text == text);
+    CHECK(expanded(text, "fanuc").expansion.calls_left.size() >= 1);
+  }
+}
+
+TEST_CASE("a copy that fails half way leaves nothing behind") {
+  const std::string text = go +
+                           "o1 call [1]\no2 call [2]\nM2\no1 sub\no2 call [#1]\nX#5\nY#<y>\no1 endsub\n"
+                           "o2 sub\nX#1\no2 endsub\n";
+  const Program program = expanded(text);
+  CHECK(program.text == go + "o1 call [1]\nX2\n" + text.substr(text.find("M2\n")));
+  CHECK(program.expansion.calls == 1);
+  CHECK(program.moves.back().line == 12);
+}
+
+TEST_CASE("a subprogram that calls itself has no expansion, and repeats are limited") {
+  CHECK(diagnostic_of([] {
+          expanded(fanuc_go + "M98 P2\nM30\nO2\nX1.\nM98 P3\nM99\nO3\n N5 M98 P2\nM99\n", "fanuc");
+        }) == "p.nc:11:5: error: the subprogram calls itself: its expansion has no end (called from line 8)");
+  const std::string nested = fanuc_go + "M98 P2 L9999\nM30\nO2\nM98 P3 L9000\nM99\nO3\nX1.\nM99\n";
+  CHECK(diagnostic_of([&] {
+          expanded(nested, "fanuc");
+        }).find("p.nc:7:1: error: the expanded calls make more than") == 0);
+  const std::string body(200'000, ' ');
+  CHECK(diagnostic_of([&] {
+          expanded(fanuc_go + "M98 P2 L9999\nM30\nO2\n(" + body + ")\nM99\n", "fanuc");
+        }).find("p.nc:4:1: error: the expanded calls make more than") == 0);
+}
+
+TEST_CASE("nothing in a definition runs when all calls are expanded, but it stays in the text") {
+  const std::string subs = "o1 sub\nG1 X7\no1 endsub\n";
+  const Program program = expanded(go + subs + "o1 call\nX3\nM2\n");
+  CHECK(program.text == go + subs + "G1 X7\nX3\nM2\n");
+  CHECK(program.moves.size() == 3);
+  CHECK(program.left_alone.empty());
+  CHECK(expanded(program.text).moves.size() == 3);
+  CHECK(expanded(go + subs + "o1 call\no2 call\nX3\nM2\n").moves.size() == 5);
+  const Program numbered = expanded("O2\nX1.\nM99\nO1\n" + go + "M98 P2\nM30\n", "fanuc");
+  CHECK(path_of(numbered) == path_of(read(fanuc_go + "X1.\nM30\n", "fanuc")));
+  // A file of subprograms is for calls from other files.
+  CHECK(expanded("G21\no1 sub\nG1 X7\no1 endsub\nM2\n").moves.size() == 1);
+  // Here O2 may be the program, which runs over and over.
+  CHECK(expanded("O2\n" + go + "M98 P3\nM99\nO3\nX1.\nM99\n", "fanuc").moves.size() == 3);
+}
+
+TEST_CASE("what was expanded is remarked, and where there is nothing to expand too") {
+  const Program program = expanded(go + "o1 call\no1 call\nM2\no1 sub\nX1\no1 endsub\n");
+  const auto says = [](const Program& p, int line, std::string_view what) {
+    return std::any_of(p.remarks.begin(), p.remarks.end(), [&](const Remark& r) {
+      return r.line == line && r.what.find(what) != std::string::npos;
+    });
+  };
+  CHECK(says(program, 3, "2 calls of subprograms replaced by the bodies"));
+  for (const std::string dialect : {"grbl", "siemens", "linuxcnc"})
+    CHECK(says(expanded("G90\nM5\n", dialect), 1, "no call by M98 or an O-word"));
+  CHECK(says(expanded("BEGIN PGM A MM\nL X+1 R0 FMAX\nEND PGM A MM\n"), 1, "no call by M98 or an O-word"));
+}
+
+TEST_CASE("each call is rewritten on its own") {
+  const std::string subs = "M2\no1 sub\nG1 X#1\nY2\no1 endsub\n";
+  const Program program = expanded(go + "o1 call [1]\no1 call [2]\n" + subs);
+  std::vector<MoveEdit> edits = edits_to_original(program);
+  for (std::size_t i = 1; i < edits.size(); ++i) edits[i].end_mm.x() += 0.1 * static_cast<double>(i);
+  CHECK(rewrite(program, edits, {}).text ==
+        "G21 G90 G17 F100\nG0 X0. Y0. Z5.\nG1 X1.1\nY2 X1.200\nG1 X2.3\nY2 X2.400\n" + subs);
+}
