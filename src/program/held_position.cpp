@@ -35,14 +35,20 @@ int times(const Move& move) {
 
 /// The word as it stands.
 Coordinate keep(const Move& move, std::size_t axis, std::optional<double> held_mm) {
-  const double end_mm = component(move.end_mm, axis);
   const AxisWord word = *move.words[axis];
   const int decimals = decimals_of_kept(move, word.decimals);
+  const double end_mm = component(move.end_mm, axis);
   if (!move.relative) return {{false, in_unit(end_mm, move.unit), decimals}, end_mm};
   const double way_mm = (end_mm - component(move.start_mm, axis)) / times(move);
   const double value = shown_number(move, word, way_mm);
   if (held_mm) *held_mm += times(move) * (value * mm_per(move.unit));
   return {{false, value, decimals}, held_mm};
+}
+
+/// Where the text holds the axis after the word as it stands.
+std::optional<double> held_if_kept(const Move& move, std::size_t axis, std::optional<double> held_mm) {
+  if (!move.relative) return component(move.end_mm, axis);
+  return keep(move, axis, held_mm).held_mm;
 }
 
 /// A word written anew. Under G91 it says how far it is from where the text holds the axis, so that rounding
@@ -70,9 +76,9 @@ Coordinate settle_absent(const Move& move, std::size_t axis, std::optional<doubl
 Coordinate settle_present(const Move& move, std::size_t axis, std::optional<double> held_mm, double wanted_mm,
                           Place place, const WriteOptions& options) {
   const int decimals = decimals_of_word(move, decimals_shown(move.words[axis]), place, options);
-  const Coordinate kept = keep(move, axis, held_mm);
-  if (!kept.held_mm || rounds_to(in_unit(*kept.held_mm, move.unit), in_unit(wanted_mm, move.unit), decimals))
-    return kept;
+  const std::optional<double> kept_mm = held_if_kept(move, axis, held_mm);
+  if (!kept_mm || rounds_to(in_unit(*kept_mm, move.unit), in_unit(wanted_mm, move.unit), decimals))
+    return keep(move, axis, held_mm);
   return write_anew(move, held_mm, wanted_mm, decimals);
 }
 
@@ -135,7 +141,7 @@ HeldPosition held_after_original(const Move& move, const HeldPosition& before) {
     } else if (move.cycle && axis == 2) {
       held[axis] = settle_cycle_end(move, start[axis], move.cycle->retract_mm, {}).held_mm;
     } else if (move.words[axis]) {
-      held[axis] = keep(move, axis, start[axis]).held_mm;
+      held[axis] = held_if_kept(move, axis, start[axis]);
     }
   }
   doubt_skippable(move, start, held);

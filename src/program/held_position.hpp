@@ -45,6 +45,18 @@ HeldPosition held_after_original(const Move& move, const HeldPosition& before);
 /// Whether a skippable block or a piece of it has moved an axis, the text does not tell: forgets it.
 void doubt_skippable(const Move& move, const HeldPosition& before, HeldPosition& held);
 
+/// `to = from`, the number and whether there is one each on its own: copied as a whole, they would be waited
+/// for where both have just been set.
+inline void assign(std::optional<double>& to, const std::optional<double>& from) {
+  if (from)
+    to = *from;
+  else
+    to.reset();
+}
+inline void assign(HeldPosition& to, const HeldPosition& from) {
+  for (std::size_t axis = 0; axis < 3; ++axis) assign(to[axis], from[axis]);
+}
+
 /// Component `axis` of `p`.
 inline double component(const Vector3& p, std::size_t axis) {
   return p[static_cast<Eigen::Index>(axis)];
