@@ -33,53 +33,74 @@ int times(const Move& move) {
   return move.cycle ? std::max(move.cycle->repeats, 1) : 1;
 }
 
+/// Where the text holds an axis, if that is known. An optional would be kept in memory and waited for.
+struct Held {
+  bool known = false;
+  double mm = 0;
+};
+
+Held held_of(const std::optional<double>& held_mm) {
+  return held_mm ? Held{true, *held_mm} : Held{};
+}
+
+struct SettledAxis {
+  WordNumber number;
+  Held held;
+};
+
 /// The word as it stands.
-Coordinate keep(const Move& move, std::size_t axis, std::optional<double> held_mm) {
+SettledAxis keep(const Move& move, std::size_t axis, Held held) {
   const AxisWord word = *move.words[axis];
   const int decimals = decimals_of_kept(move, word.decimals);
   const double end_mm = component(move.end_mm, axis);
-  if (!move.relative) return {{false, in_unit(end_mm, move.unit), decimals}, end_mm};
+  if (!move.relative) return {{false, in_unit(end_mm, move.unit), decimals}, {true, end_mm}};
   const double way_mm = (end_mm - component(move.start_mm, axis)) / times(move);
   const double value = shown_number(move, word, way_mm);
-  if (held_mm) *held_mm += times(move) * (value * mm_per(move.unit));
-  return {{false, value, decimals}, held_mm};
-}
-
-/// Where the text holds the axis after the word as it stands.
-std::optional<double> held_if_kept(const Move& move, std::size_t axis, std::optional<double> held_mm) {
-  if (!move.relative) return component(move.end_mm, axis);
-  return keep(move, axis, held_mm).held_mm;
+  held.mm += times(move) * (value * mm_per(move.unit));
+  return {{false, value, decimals}, held};
 }
 
 /// A word written anew. Under G91 it says how far it is from where the text holds the axis, so that rounding
 /// never adds up.
-Coordinate write_anew(const Move& move, std::optional<double> held_mm, double wanted_mm, int decimals) {
+SettledAxis write_anew(const Move& move, Held held, double wanted_mm, int decimals) {
   const double unit = mm_per(move.unit);
-  const double wanted = move.relative ? (wanted_mm - *held_mm) / times(move) : wanted_mm;
+  const double wanted = move.relative ? (wanted_mm - held.mm) / times(move) : wanted_mm;
   const double value = rounded(in_unit(wanted, move.unit), decimals);
-  const double read_mm = move.relative ? *held_mm + times(move) * (value * unit) : value * unit;
-  return {{true, value, decimals}, read_mm};
+  const double read_mm = move.relative ? held.mm + times(move) * (value * unit) : value * unit;
+  return {{true, value, decimals}, {true, read_mm}};
 }
 
-Coordinate settle_absent(const Move& move, std::size_t axis, std::optional<double> held_mm, double wanted_mm,
-                         Place place, const WriteOptions& options) {
-  if (move.ignored[axis]) return {{}, held_mm};
-  if (!move.known_end[axis]) return {{}, std::nullopt};
-  if (place != Place::inside && !move.may_insert_words) return {{}, held_mm};
+/// Whether writing `wanted_mm` anew would be no more exact than where the axis is.
+bool is_near(const Move& move, const Held& held, double wanted_mm, int decimals) {
+  return rounds_to(in_unit(held.mm, move.unit), in_unit(wanted_mm, move.unit), decimals);
+}
+
+SettledAxis settle_absent(const Move& move, std::size_t axis, Held held, double wanted_mm, Place place,
+                          const WriteOptions& options) {
+  if (move.ignored[axis]) return {{}, held};
+  if (!move.known_end[axis]) return {};
+  if (place != Place::inside && !move.may_insert_words) return {{}, held};
   const int decimals = decimals_of_word(move, no_decimals, place, options);
-  if (held_mm && rounds_to(in_unit(*held_mm, move.unit), in_unit(wanted_mm, move.unit), decimals))
-    return {{}, held_mm};
-  if (move.relative && !held_mm) return {{}, held_mm};
-  return write_anew(move, held_mm, wanted_mm, decimals);
+  if (held.known ? is_near(move, held, wanted_mm, decimals) : move.relative) return {{}, held};
+  return write_anew(move, held, wanted_mm, decimals);
 }
 
-Coordinate settle_present(const Move& move, std::size_t axis, std::optional<double> held_mm, double wanted_mm,
-                          Place place, const WriteOptions& options) {
+SettledAxis settle_present(const Move& move, std::size_t axis, Held held, double wanted_mm, Place place,
+                           const WriteOptions& options) {
   const int decimals = decimals_of_word(move, decimals_shown(move.words[axis]), place, options);
-  const std::optional<double> kept_mm = held_if_kept(move, axis, held_mm);
-  if (!kept_mm || rounds_to(in_unit(*kept_mm, move.unit), in_unit(wanted_mm, move.unit), decimals))
-    return keep(move, axis, held_mm);
-  return write_anew(move, held_mm, wanted_mm, decimals);
+  SettledAxis settled = keep(move, axis, held);
+  if (settled.held.known && !is_near(move, settled.held, wanted_mm, decimals))
+    settled = write_anew(move, held, wanted_mm, decimals);
+  settled.held.known = settled.held.known && move.known_end[axis];
+  return settled;
+}
+
+SettledAxis settle_plain(const Move& move, std::size_t axis, Held held, double wanted_mm, Place place,
+                         const WriteOptions& options) {
+  if (move.fixed[axis]) return {{}, {move.known_end[axis], component(move.end_mm, axis)}};
+  if (!move.words[axis] || place == Place::inside)
+    return settle_absent(move, axis, held, wanted_mm, place, options);
+  return settle_present(move, axis, held, wanted_mm, place, options);
 }
 
 }  // namespace
@@ -102,15 +123,12 @@ double shown_number(const Move& move, const AxisWord& word, double length_mm) {
   return std::round(value * power_of_ten(decimals)) / power_of_ten(decimals);
 }
 
-Coordinate settle_axis(const Move& move, std::size_t axis, std::optional<double> held_mm, double wanted_mm,
-                       Place place, const WriteOptions& options) {
+Coordinate settle_axis(const Move& move, std::size_t axis, const std::optional<double>& held_mm,
+                       double wanted_mm, Place place, const WriteOptions& options) {
   if (move.cycle && axis == 2) return settle_cycle_end(move, held_mm, wanted_mm, options);
-  if (move.fixed[axis])
-    return {{}, move.known_end[axis] ? std::optional(component(move.end_mm, axis)) : std::nullopt};
-  if (!move.words[axis] || place == Place::inside)
-    return settle_absent(move, axis, held_mm, wanted_mm, place, options);
-  Coordinate c = settle_present(move, axis, held_mm, wanted_mm, place, options);
-  if (!move.known_end[axis]) c.held_mm.reset();
+  const SettledAxis settled = settle_plain(move, axis, held_of(held_mm), wanted_mm, place, options);
+  Coordinate c{settled.number, {}};
+  if (settled.held.known) c.held_mm = settled.held.mm;
   return c;
 }
 
@@ -141,7 +159,8 @@ HeldPosition held_after_original(const Move& move, const HeldPosition& before) {
     } else if (move.cycle && axis == 2) {
       held[axis] = settle_cycle_end(move, start[axis], move.cycle->retract_mm, {}).held_mm;
     } else if (move.words[axis]) {
-      held[axis] = held_if_kept(move, axis, start[axis]);
+      const Held kept = keep(move, axis, held_of(start[axis])).held;
+      held[axis] = kept.known ? std::optional(kept.mm) : std::nullopt;
     }
   }
   doubt_skippable(move, start, held);

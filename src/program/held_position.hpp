@@ -33,8 +33,8 @@ WordNumber settle_number(const Move& move, const std::optional<AxisWord>& word, 
 double shown_number(const Move& move, const AxisWord& word, double length_mm);
 
 /// Coordinate `axis` of a point of `move`, wanted at `wanted_mm`, with `held_mm` before it.
-Coordinate settle_axis(const Move& move, std::size_t axis, std::optional<double> held_mm, double wanted_mm,
-                       Place place, const WriteOptions& options);
+Coordinate settle_axis(const Move& move, std::size_t axis, const std::optional<double>& held_mm,
+                       double wanted_mm, Place place, const WriteOptions& options);
 
 /// `before` without the axes that the program does not know at the start of `move`.
 HeldPosition held_at_start(const Move& move, HeldPosition before);

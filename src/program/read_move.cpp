@@ -128,21 +128,22 @@ Move& start_move(const Block& block, Reading& r, Motion motion) {
   // A block is one move: a call beside words is what moves last, and leaves nothing known.
   std::vector<Move>& moves = r.program.moves;
   if (!moves.empty() && moves.back().line == block.line) moves.pop_back();
-  Move& move = moves.emplace_back(Move{.line = block.line,
-                                       .block_index = r.program.block_count - 1,
-                                       .block = block.span,
-                                       .start_mm = r.state.position_mm,
-                                       .force = r.state.force,
-                                       .feed_mm_min = feed_mm_min(r.state),
-                                       .spindle_rpm = r.state.spindle_rpm,
-                                       .offset = r.state.work_offset,
-                                       .tool = r.state.tool,
-                                       .motion = motion,
-                                       .unit = r.state.unit.value_or(LengthUnit::millimetres),
-                                       .known_start = r.state.known,
-                                       .relative = r.relative(),
-                                       .block_delete = !empty(block.block_delete),
-                                       .exact_stop = r.state.exact_stop || r.sorted.has(Action::stop_once)});
+  Move& move = moves.emplace_back();
+  move.line = block.line;
+  move.block_index = r.program.block_count - 1;
+  move.block = block.span;
+  move.motion = motion;
+  move.unit = r.state.unit.value_or(LengthUnit::millimetres);
+  move.known_start = r.state.known;
+  move.start_mm = r.state.position_mm;
+  move.relative = r.relative();
+  move.feed_mm_min = feed_mm_min(r.state);
+  move.spindle_rpm = r.state.spindle_rpm;
+  move.offset = r.state.work_offset;
+  move.tool = r.state.tool;
+  if (r.state.force) move.force = r.state.force;
+  move.block_delete = !empty(block.block_delete);
+  move.exact_stop = r.state.exact_stop || r.sorted.has(Action::stop_once);
   if (const Word* n = r.sorted.word('N')) move.block_number = count_of(*n);
   return move;
 }

@@ -25,7 +25,7 @@ Step settle_step(const Move& move, const HeldPosition& before, const Via& via, i
   const auto settled = [&](std::size_t axis) {
     return settle_axis(move, axis, before[axis], component(via.end_mm, axis), place, options);
   };
-  Step step{place, motion, {settled(0), settled(1), settled(2)}, before, {}, {}};
+  Step step(place, motion, before, settled);
   for (std::size_t axis = 0; axis < 3; ++axis) assign(step.after[axis], step.axes[axis].held_mm);
   if (motion < 2 || !move.arc) return step;
   if (via.centre_mm) {

@@ -112,6 +112,7 @@ inline bool all_known(const std::array<bool, 3>& known) {
 /// A move: a block that changes or repeats the position of the tool under G0 to G3 or a cycle, or that moves
 /// it in a way that this reader does not follow: then all it says is `fixed` and what is unknown afterwards.
 struct Move {
+  Move() noexcept {}  // a defaulted one would set every byte to zero first
   int line = 0;
   int group = 0;                        ///< number of its contour group, from 1; 0: none
   std::size_t block_index = 0;          ///< counts the program's blocks with words, from 0
