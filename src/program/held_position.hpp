@@ -37,7 +37,7 @@ Coordinate settle_axis(const Move& move, std::size_t axis, const std::optional<d
                        double wanted_mm, Place place, const WriteOptions& options);
 
 /// `before` without the axes that the program does not know at the start of `move`.
-HeldPosition held_at_start(const Move& move, HeldPosition before);
+HeldPosition held_at_start(const Move& move, const HeldPosition& before);
 
 /// What the text holds after `move` where it is not edited.
 HeldPosition held_after_original(const Move& move, const HeldPosition& before);

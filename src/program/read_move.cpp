@@ -97,7 +97,7 @@ void place_word(Reading& r, Move& move, std::size_t axis, const Word& word, bool
   move.words[axis] = AxisWord{word.number, word.decimals};
   const double value = length_mm(r, word);
   coordinate(state.position_mm, axis) = relative ? coordinate(state.position_mm, axis) + value : value;
-  state.known[axis] = true;
+  if (!state.known[axis]) state.known[axis] = true;  // a byte just stored delays the copy of all three
 }
 
 }  // namespace

@@ -84,7 +84,8 @@ void copy_until(std::size_t end, Writing& w) {
 /// The move that is written next, and what the text holds before it.
 const Move& come_to(std::size_t index, Writing& w) {
   const Move& move = w.program.moves[index];
-  if (index > 0) w.state.held = held_between(w.program.moves[index - 1], move, w.state.held);
+  const Move& last = w.program.moves[index == 0 ? 0 : index - 1];
+  if (index > 0 && last.end_mm != move.start_mm) w.state.held = held_between(last, move, w.state.held);
   return move;
 }
 
