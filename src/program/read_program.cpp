@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "counterflex/files/large_pages.hpp"
 #include "program/interpret.hpp"
 #include "program/klartext_read.hpp"
 #include "program/remarks.hpp"
@@ -36,6 +37,13 @@ bool is_mark(std::string_view comment) {
   return comment.starts_with(mark) && (comment.size() == mark.size() || comment[mark.size()] == ' ');
 }
 
+/// For a move a line: growing step by step would copy every move several times.
+void make_room(Program& program) {
+  const std::string& text = program.text;
+  program.moves.reserve(static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n')) + 1);
+  prefer_large_pages(program.moves.data(), program.moves.capacity() * sizeof(Move));
+}
+
 /// A second program behind the end of the first: nobody corrects it.
 void remark_rest(Program& program, const Block& last) {
   if (program.text.find_first_not_of("% \t\r\n", last.line_end.end) != std::string::npos)
@@ -57,9 +65,7 @@ Program read_program(std::string text, const std::string& file, const ReadOption
     return program;
   }
 
-  // Growing step by step would copy every move several times.
-  program.moves.reserve(static_cast<std::size_t>(std::count(program.text.begin(), program.text.end(), '\n')) +
-                        1);
+  make_room(program);
   Reading reading{dialect, options, tool_change_axes(dialect, options), program};
   reading.state.unit = options.unit;
   reading.outline = outline_of(program.text, dialect);

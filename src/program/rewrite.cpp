@@ -2,6 +2,7 @@
 
 #include <cassert>
 
+#include "counterflex/files/large_pages.hpp"
 #include "program/klartext_lex.hpp"
 #include "program/klartext_rewrite.hpp"
 #include "program/rewrite_block.hpp"
@@ -112,6 +113,7 @@ Rewritten rewrite(const Program& program, const std::vector<MoveEdit>& edits, co
   Writing w{program, style_of(program)};
   w.copied = header_position(program);
   w.out.text.reserve(program.text.size() + program.text.size() / 8);
+  prefer_large_pages(w.out.text.data(), w.out.text.capacity());
   w.out.text.append(program.text, 0, w.copied).append(header_text(program, w.style, w.copied, options));
   w.out.blocks_of_edit.reserve(edits.size());
   std::size_t next = 0;
