@@ -16,7 +16,7 @@ bool is_digit(char c) {
 
 std::vector<Span> rewritten_numbers(const Move& move) {
   std::vector<Span> numbers;
-  const auto add = [&](const std::optional<AxisWord>& word) {
+  const auto add = [&](const PackedAxisWord& word) {
     if (word) numbers.push_back(word->number);
   };
   for (const auto& word : move.words) add(word);

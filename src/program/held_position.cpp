@@ -89,8 +89,8 @@ void settle_present(const Move& move, std::size_t axis, const std::optional<doub
 
 }  // namespace
 
-WordNumber settle_number(const Move& move, const std::optional<AxisWord>& word, double original,
-                         double wanted, Place place, const WriteOptions& options) {
+WordNumber settle_number(const Move& move, const PackedAxisWord& word, double original, double wanted,
+                         Place place, const WriteOptions& options) {
   const int decimals = decimals_of_word(move, word ? word->decimals : no_decimals, place, options);
   if (word && rounds_to(original, wanted, decimals))
     return {false, original, decimals_of_kept(move, word->decimals)};

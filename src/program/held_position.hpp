@@ -26,8 +26,8 @@ enum class Place {
 
 /// The number of `word`, which shows `original`, when `wanted` is to be said (both in the move's unit): kept
 /// where it is within half its last digit. Without a word: that of one to be inserted.
-WordNumber settle_number(const Move& move, const std::optional<AxisWord>& word, double original,
-                         double wanted, Place place, const WriteOptions& options);
+WordNumber settle_number(const Move& move, const PackedAxisWord& word, double original, double wanted,
+                         Place place, const WriteOptions& options);
 
 /// The number that `word` shows, in the move's unit, from the length that was read from it.
 double shown_number(const Move& move, const AxisWord& word, double length_mm);

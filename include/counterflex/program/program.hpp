@@ -34,7 +34,8 @@ struct AxisWord {
   int decimals = 0;  ///< digits after the point
 };
 
-/// An `AxisWord` or nothing, as `std::optional`, in half the room: every move has three.
+/// An `AxisWord` or nothing, as `std::optional`, in half the room: every move has three of them, and an arc
+/// four.
 class PackedAxisWord {
  public:
   PackedAxisWord() = default;
@@ -53,7 +54,6 @@ class PackedAxisWord {
   explicit operator bool() const { return has_value(); }
   AxisWord operator*() const { return {{begin_, begin_ + length_}, decimals_}; }
   Pointer operator->() const { return {**this}; }
-  operator std::optional<AxisWord>() const { return has_value() ? std::optional(**this) : std::nullopt; }
   void reset() { length_ = 0; }
 
  private:
@@ -75,9 +75,9 @@ struct ArcMove {
   Vector3 centre_mm = Vector3::Zero();  ///< at the height of the start
   int turns = 0;                        ///< full turns besides the way from start to end
   bool absolute_centre = false;         ///< G90.1: I J K are coordinates, else they count from the start
-  std::array<std::optional<AxisWord>, 3> centre_words;  ///< I, J, K where the block has them
-  std::optional<AxisWord> radius_word;                  ///< R or CR=: then there are no I J K
-  double radius_mm = 0;                                 ///< as written: negative for more than half a turn
+  std::array<PackedAxisWord, 3> centre_words;  ///< I, J, K where the block has them
+  PackedAxisWord radius_word;                  ///< R or CR=: then there are no I J K
+  double radius_mm = 0;                        ///< as written: negative for more than half a turn
 };
 
 /// Unit normal about which the arc goes counter-clockwise, program coordinates.
@@ -90,9 +90,9 @@ inline Vector3 normal_of(const ArcMove& arc) {
 struct CycleMove {
   double bottom_mm = 0;   ///< Z of the bottom and R of the retract plane that act here, sticky from earlier
   double retract_mm = 0;  ///< holes or programmed, as absolute coordinates
-  std::optional<AxisWord> bottom_word, retract_word;  ///< Z and R where the block has them
-  bool may_insert_bottom = true;                      ///< an absolute Z may be added to a block that omits it
-  bool first = false;                                 ///< programs the cycle: those that follow repeat it
+  PackedAxisWord bottom_word, retract_word;  ///< Z and R where the block has them
+  bool may_insert_bottom = true;             ///< an absolute Z may be added to a block that omits it
+  bool first = false;                        ///< programs the cycle: those that follow repeat it
   bool returns_to_retract = false;  ///< G99: the cycle leaves the tool at `retract_mm`, else where it began
   int repeats = 1;                  ///< L or K
 };
