@@ -16,7 +16,7 @@ bool is_digit(char c) {
 
 std::vector<Span> rewritten_numbers(const Move& move) {
   std::vector<Span> numbers;
-  const auto add = [&](const std::optional<AxisWord>& word) {
+  const auto add = [&](const PackedAxisWord& word) {
     // A block may also have words of one before it: the centre or the surface that it uses.
     if (word && word->number.begin >= move.block.begin) numbers.push_back(word->number);
   };

@@ -33,53 +33,64 @@ int times(const Move& move) {
   return move.cycle ? std::max(move.cycle->repeats, 1) : 1;
 }
 
+// The functions below fill the coordinate where it is to stand: a copy would wait for what was just stored.
+
 /// The word as it stands.
-Coordinate keep(const Move& move, std::size_t axis, std::optional<double> held_mm) {
-  const double end_mm = component(move.end_mm, axis);
+void keep(const Move& move, std::size_t axis, const std::optional<double>& held_mm, Coordinate& c) {
   const AxisWord word = *move.words[axis];
-  const int decimals = decimals_of_kept(move, word.decimals);
-  if (!move.relative) return {{false, in_unit(end_mm, move.unit), decimals}, end_mm};
+  const double end_mm = component(move.end_mm, axis);
+  c.number.decimals = decimals_of_kept(move, word.decimals);
+  if (!move.relative) {
+    c.number.value = in_unit(end_mm, move.unit);
+    c.held_mm = end_mm;
+    return;
+  }
   const double way_mm = (end_mm - component(move.start_mm, axis)) / times(move);
-  const double value = shown_number(move, word, way_mm);
-  if (held_mm) *held_mm += times(move) * (value * mm_per(move.unit));
-  return {{false, value, decimals}, held_mm};
+  c.number.value = shown_number(move, word, way_mm);
+  if (held_mm) c.held_mm = *held_mm + times(move) * (c.number.value * mm_per(move.unit));
 }
 
 /// A word written anew. Under G91 it says how far it is from where the text holds the axis, so that rounding
 /// never adds up.
-Coordinate write_anew(const Move& move, std::optional<double> held_mm, double wanted_mm, int decimals) {
+void write_anew(const Move& move, const std::optional<double>& held_mm, double wanted_mm, int decimals,
+                Coordinate& c) {
   const double unit = mm_per(move.unit);
   const double wanted = move.relative ? (wanted_mm - *held_mm) / times(move) : wanted_mm;
   const double value = rounded(in_unit(wanted, move.unit), decimals);
-  const double read_mm = move.relative ? *held_mm + times(move) * (value * unit) : value * unit;
-  return {{true, value, decimals}, read_mm};
+  c.number.write = true;
+  c.number.value = value;
+  c.number.decimals = decimals;
+  c.held_mm = move.relative ? *held_mm + times(move) * (value * unit) : value * unit;
 }
 
-Coordinate settle_absent(const Move& move, std::size_t axis, std::optional<double> held_mm, double wanted_mm,
-                         Place place, const WriteOptions& options) {
-  if (move.ignored[axis]) return {{}, held_mm};
-  if (!move.known_end[axis]) return {{}, std::nullopt};
-  if (place != Place::inside && !move.may_insert_words) return {{}, held_mm};
+/// Whether writing `wanted_mm` anew would be no more exact than `held_mm`.
+bool is_near(const Move& move, double held_mm, double wanted_mm, int decimals) {
+  return rounds_to(in_unit(held_mm, move.unit), in_unit(wanted_mm, move.unit), decimals);
+}
+
+void settle_absent(const Move& move, std::size_t axis, const std::optional<double>& held_mm, double wanted_mm,
+                   Place place, const WriteOptions& options, Coordinate& c) {
+  if (!move.known_end[axis] && !move.ignored[axis]) return;
+  assign(c.held_mm, held_mm);
+  if (move.ignored[axis] || (place != Place::inside && !move.may_insert_words)) return;
   const int decimals = decimals_of_word(move, no_decimals, place, options);
-  if (held_mm && rounds_to(in_unit(*held_mm, move.unit), in_unit(wanted_mm, move.unit), decimals))
-    return {{}, held_mm};
-  if (move.relative && !held_mm) return {{}, held_mm};
-  return write_anew(move, held_mm, wanted_mm, decimals);
+  if (held_mm ? is_near(move, *held_mm, wanted_mm, decimals) : move.relative) return;
+  write_anew(move, held_mm, wanted_mm, decimals, c);
 }
 
-Coordinate settle_present(const Move& move, std::size_t axis, std::optional<double> held_mm, double wanted_mm,
-                          Place place, const WriteOptions& options) {
+void settle_present(const Move& move, std::size_t axis, const std::optional<double>& held_mm,
+                    double wanted_mm, Place place, const WriteOptions& options, Coordinate& c) {
   const int decimals = decimals_of_word(move, decimals_shown(move.words[axis]), place, options);
-  const Coordinate kept = keep(move, axis, held_mm);
-  if (!kept.held_mm || rounds_to(in_unit(*kept.held_mm, move.unit), in_unit(wanted_mm, move.unit), decimals))
-    return kept;
-  return write_anew(move, held_mm, wanted_mm, decimals);
+  keep(move, axis, held_mm, c);
+  if (c.held_mm && !is_near(move, *c.held_mm, wanted_mm, decimals))
+    write_anew(move, held_mm, wanted_mm, decimals, c);
+  if (!move.known_end[axis]) c.held_mm.reset();
 }
 
 }  // namespace
 
-WordNumber settle_number(const Move& move, const std::optional<AxisWord>& word, double original,
-                         double wanted, Place place, const WriteOptions& options) {
+WordNumber settle_number(const Move& move, const PackedAxisWord& word, double original, double wanted,
+                         Place place, const WriteOptions& options) {
   const int decimals = decimals_of_word(move, word ? word->decimals : no_decimals, place, options);
   if (word && rounds_to(original, wanted, decimals))
     return {false, original, decimals_of_kept(move, word->decimals)};
@@ -99,24 +110,26 @@ double shown_number(const Move& move, const AxisWord& word, double length_mm) {
 Coordinate settle_axis(const Move& move, std::size_t axis, const HeldPosition& before, double wanted_mm,
                        Place place, const WriteOptions& options) {
   if (move.cycle && axis == 2) return settle_cycle_end(move, before, wanted_mm, options);
-  const std::optional<double> held_mm = before[axis];
-  if (move.fixed[axis])
-    return {{}, move.known_end[axis] ? std::optional(component(move.end_mm, axis)) : std::nullopt};
-  if (!move.words[axis] || place == Place::inside)
-    return settle_absent(move, axis, held_mm, wanted_mm, place, options);
-  Coordinate c = settle_present(move, axis, held_mm, wanted_mm, place, options);
-  if (!move.known_end[axis]) c.held_mm.reset();
+  Coordinate c;
+  if (move.fixed[axis]) {
+    if (move.known_end[axis]) c.held_mm = component(move.end_mm, axis);
+  } else if (!move.words[axis] || place == Place::inside) {
+    settle_absent(move, axis, before[axis], wanted_mm, place, options, c);
+  } else {
+    settle_present(move, axis, before[axis], wanted_mm, place, options, c);
+  }
   return c;
 }
 
-HeldPosition held_at_start(const Move& move, HeldPosition before) {
+HeldPosition held_at_start(const Move& move, const HeldPosition& before) {
+  HeldPosition held;
   for (std::size_t axis = 0; axis < 3; ++axis)
-    if (!move.known_start[axis]) before[axis].reset();
-  return before;
+    if (move.known_start[axis]) assign(held[axis], before[axis]);
+  assign(held.cycle_initial_mm, before.cycle_initial_mm);
+  return held;
 }
 
 HeldPosition held_between(const Move& last, const Move& next, const HeldPosition& held) {
-  if (next.start_mm == last.end_mm) return held;
   HeldPosition moved = held;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const double change_mm = component(next.start_mm, axis) - component(last.end_mm, axis);
@@ -138,7 +151,9 @@ HeldPosition held_after_original(const Move& move, const HeldPosition& before) {
     } else if (move.cycle && axis == 2) {
       held[axis] = settle_cycle_end(move, start, move.cycle->retract_mm, {}).held_mm;
     } else if (move.words[axis]) {
-      held[axis] = keep(move, axis, start[axis]).held_mm;
+      Coordinate kept;
+      keep(move, axis, start[axis], kept);
+      held[axis] = kept.held_mm;
     }
   }
   doubt_skippable(move, start, held);

@@ -26,8 +26,8 @@ enum class Place {
 
 /// The number of `word`, which shows `original`, when `wanted` is to be said (both in the move's unit): kept
 /// where it is within half its last digit. Without a word: that of one to be inserted.
-WordNumber settle_number(const Move& move, const std::optional<AxisWord>& word, double original,
-                         double wanted, Place place, const WriteOptions& options);
+WordNumber settle_number(const Move& move, const PackedAxisWord& word, double original, double wanted,
+                         Place place, const WriteOptions& options);
 
 /// The number that `word` shows, in the move's unit, from the length that was read from it.
 double shown_number(const Move& move, const AxisWord& word, double length_mm);
@@ -37,13 +37,26 @@ Coordinate settle_axis(const Move& move, std::size_t axis, const HeldPosition& b
                        Place place, const WriteOptions& options);
 
 /// `before` without the axes that the program does not know at the start of `move`.
-HeldPosition held_at_start(const Move& move, HeldPosition before);
+HeldPosition held_at_start(const Move& move, const HeldPosition& before);
 
 /// What the text holds after `move` where it is not edited.
 HeldPosition held_after_original(const Move& move, const HeldPosition& before);
 
 /// Whether a skippable block or a piece of it has moved an axis, the text does not tell: forgets it.
 void doubt_skippable(const Move& move, const HeldPosition& before, HeldPosition& held);
+
+/// `to = from`, the number and whether there is one each on its own: copied as a whole, they would be waited
+/// for where both have just been set.
+inline void assign(std::optional<double>& to, const std::optional<double>& from) {
+  if (from)
+    to = *from;
+  else
+    to.reset();
+}
+inline void assign(HeldPosition& to, const HeldPosition& from) {
+  for (std::size_t axis = 0; axis < 3; ++axis) assign(to[axis], from[axis]);
+  assign(to.cycle_initial_mm, from.cycle_initial_mm);
+}
 
 /// Component `axis` of `p`.
 inline double component(const Vector3& p, std::size_t axis) {

@@ -214,7 +214,7 @@ void lex(std::string_view text, const std::string& file, const Dialect& dialect,
   block.flow_keyword = block.flow_name = {};
   block.statement = Statement::none;
   block.statement_is_bare = block.has_sense = false;
-  Scanner s{text, file, dialect, block, block.span.begin, block.span.end};
+  Scanner s{block.span.end, text, file, dialect, block, block.span.begin};
   if (dialect.sinumerik_words) return lex_siemens(s);
   s.skip_blanks();
   if (s.peek() == '%') return lex_percent(s);

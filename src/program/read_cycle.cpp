@@ -10,7 +10,7 @@
 namespace counterflex {
 namespace {
 
-std::optional<AxisWord> axis_word(const Word* word) {
+PackedAxisWord axis_word(const Word* word) {
   if (word == nullptr || !word->literal) return std::nullopt;
   return AxisWord{word->number, word->decimals};
 }

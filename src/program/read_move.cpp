@@ -99,7 +99,7 @@ void place_word(Reading& r, Move& move, std::size_t axis, const Word& word, bool
   move.words[axis] = AxisWord{word.number, word.decimals};
   const double value = length_mm(r, word);
   coordinate(state.position_mm, axis) = relative ? coordinate(state.position_mm, axis) + value : value;
-  state.known[axis] = true;
+  if (!state.known[axis]) state.known[axis] = true;  // a byte just stored delays the copy of all three
 }
 
 }  // namespace
@@ -142,12 +142,12 @@ Move& start_move(const Block& block, Reading& r, Motion motion) {
   move.relative = r.relative();
   move.feed_mm_min = feed_mm_min(r.state);
   move.spindle_rpm = r.state.spindle_rpm;
-  if (const Word* n = r.sorted.word('N')) move.block_number = count_of(*n);
   move.offset = r.state.work_offset;
   move.tool = r.state.tool;
-  move.force = r.state.force;
+  if (r.state.force) move.force = r.state.force;
   move.block_delete = !empty(block.block_delete);
   move.exact_stop = r.state.exact_stop || r.sorted.has(Action::stop_once);
+  if (const Word* n = r.sorted.word('N')) move.block_number = count_of(*n);
   return move;
 }
 

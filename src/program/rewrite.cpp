@@ -86,7 +86,8 @@ void copy_until(std::size_t end, Writing& w) {
 /// The move that is written next, and what the text holds before it.
 const Move& come_to(std::size_t index, Writing& w) {
   const Move& move = w.program.moves[index];
-  if (const Move* last = move_before(w.program, index))
+  const Move* last = move_before(w.program, index);
+  if (last != nullptr && last->end_mm != move.start_mm)
     w.state.held = held_between(*last, move, w.state.held);
   return move;
 }

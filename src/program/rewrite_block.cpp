@@ -147,7 +147,7 @@ bool is_written_alone(const Program& program, const MoveEdit& edit, const HeldPo
     line_limit = dialect.line_limit;
   }
   if (!append_with_numbers(program, move, step, cycle, line_limit, out)) return false;
-  state.held = step.after;
+  assign(state.held, step.after);
   doubt_skippable(move, before, state.held);
   return true;
 }

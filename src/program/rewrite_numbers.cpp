@@ -16,8 +16,7 @@ struct NumberChanges {
   std::size_t count = 0;
   bool words_missing = false;
 
-  template <typename OptionalWord>
-  void add(const OptionalWord& word, const WordNumber& number) {
+  void add(const PackedAxisWord& word, const WordNumber& number) {
     if (!number.write) return;
     if (!word) {
       words_missing = true;

@@ -24,15 +24,12 @@ int motion_of(const Move& move) {
 
 Step settle_step(const Move& move, const HeldPosition& before, const Via& via, int motion, Place place,
                  const WriteOptions& options) {
-  Step step;
-  step.place = place;
-  step.motion = motion;
-  step.before = before;
+  const auto settled = [&](std::size_t axis) {
+    return settle_axis(move, axis, before, component(via.end_mm, axis), place, options);
+  };
+  Step step(place, motion, before, settled);
+  for (std::size_t axis = 0; axis < 3; ++axis) assign(step.after[axis], step.axes[axis].held_mm);
   step.after.cycle_initial_mm = cycle_initial_after(move, before);
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    step.axes[axis] = settle_axis(move, axis, before, component(via.end_mm, axis), place, options);
-    step.after[axis] = step.axes[axis].held_mm;
-  }
   if (motion < 2 || !move.arc) return step;
   if (via.centre_mm) {
     // About an unknown start nothing is said anew: the arc stays as it stands.

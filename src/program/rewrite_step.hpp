@@ -5,6 +5,14 @@
 namespace counterflex {
 
 struct Step {
+  Step() = default;
+  /// `settled(axis)` is the coordinate of each axis.
+  template <typename SettleAxis>
+  Step(Place at, int under, const HeldPosition& from, const SettleAxis& settled)
+      : place(at), motion(under), axes{settled(0), settled(1), settled(2)} {
+    assign(before, from);
+  }
+
   Place place = Place::end;
   int motion = 1;  ///< G0, G1, G2 or G3
   std::array<Coordinate, 3> axes;

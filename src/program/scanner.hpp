@@ -20,14 +20,15 @@ inline char upper(char c) {
   return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
 }
 
-/// Reads from `at` to `end`.
+/// Reads from `at` to `end`, which do not stand side by side: read as one pair from the block, where they
+/// have just been stored, they would be waited for.
 struct Scanner {
+  std::size_t end;
   std::string_view text;
   const std::string& file;
   const Dialect& dialect;
   Block& block;
   std::size_t at;
-  std::size_t end;
 
   char peek() const { return at < end ? text[at] : '\0'; }
   void skip_blanks() {

@@ -318,6 +318,16 @@ std::string statements_of(std::string_view line) {
   return kept;
 }
 
+/// Whether two letters stand side by side, or a G5 that may be G500: most lines of G-code hold neither.
+bool may_hold_names(std::string_view line) {
+  char before = ' ';
+  for (const char c : line) {
+    if (is_letter(before) && (is_letter(c) || (c == '5' && upper(before) == 'G'))) return true;
+    before = c;
+  }
+  return false;
+}
+
 }  // namespace
 
 bool is_siemens(std::string_view text) {
@@ -326,7 +336,7 @@ bool is_siemens(std::string_view text) {
     const std::size_t end = std::min(text.find('\n'), text.size());
     const std::string_view line = text.substr(0, end);
     if (line.starts_with("%_N_") || line.starts_with(";%_N_") || line.starts_with(";$PATH=")) return true;
-    if (line.find_first_of("#<") == std::string_view::npos) {
+    if (may_hold_names(line) && line.find_first_of("#<") == std::string_view::npos) {
       const std::string words = statements_of(line);
       for (const std::string_view only :
            {"CR=", "MSG(", "SUPA", "STOPRE", "MCALL", "CYCLE8", "GOTOF", "GOTOB", "TRAORI", "WORKPIECE(",

@@ -70,10 +70,11 @@ void add_m(const Sorter& s, const Word& word) {
 
 /// A macro call may give I, J and K several times.
 void add_letter(const Sorter& s, const Word& word) {
-  const Word*& slot = s.sorted.letters[static_cast<std::size_t>(word.letter - 'A')];
-  if (slot != nullptr && !s.sorted.has(Action::call))
+  if (s.sorted.word(word.letter) != nullptr && !s.sorted.has(Action::call))
     s.fail(word, fmt::format("{} stands twice in the block", word.letter));
-  slot = &word;
+  const auto i = static_cast<std::size_t>(word.letter - 'A');
+  s.sorted.letters[i] = &word;
+  s.sorted.present |= 1u << i;
 }
 
 void check_number(const Sorter& s) {
@@ -117,7 +118,7 @@ void check_used(const Sorter& s, Context context) {
 
 void sort_words(const std::string& file, const Dialect& dialect, const Block& block, Context context,
                 SortedBlock& sorted) {
-  sorted.letters.fill(nullptr);
+  sorted.present = 0;
   sorted.g.clear();
   sorted.m.clear();
   sorted.actions = sorted.m_actions = 0;

@@ -22,14 +22,18 @@ struct FoundM {
 
 /// Points into the `Block` it was sorted from.
 struct SortedBlock {
-  std::array<const Word*, 26> letters{};  ///< all but G and M
+  std::array<const Word*, 26> letters{};  ///< all but G and M, of those in `present`
+  std::uint32_t present = 0;              ///< a bit for each letter
   std::vector<FoundG> g;
   std::vector<FoundM> m;
   std::uint64_t actions = 0;    ///< a bit for each Action in `g`
   std::uint32_t m_actions = 0;  ///< a bit for each MAction in `m`
   bool unknown_code = false;    ///< holds a G or M whose number the control works out
 
-  const Word* word(char letter) const { return letters[static_cast<std::size_t>(letter - 'A')]; }
+  const Word* word(char letter) const {
+    const auto i = static_cast<std::size_t>(letter - 'A');
+    return (present >> i & 1) != 0 ? letters[i] : nullptr;
+  }
   bool has_any(std::string_view wanted) const;
   const FoundG* find(Action action) const;
   bool has(Action action) const { return (actions >> static_cast<unsigned>(action) & 1) != 0; }

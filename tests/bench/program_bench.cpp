@@ -67,7 +67,7 @@ void rewrite_with_points(benchmark::State& state, const Text& made) {
   read_and_rewrite(state, text, edits_of(read_program(text, "made.ngc", {}), small_shift, true));
 }
 
-const int registered = [] {
+[[maybe_unused]] const int registered = [] {
   for (const Text& text :
        {Text{"numbered", numbered_program}, Text{"terse", mould_program}, Text{"arcs", arc_program}}) {
     const auto add = [&](const char* what, void (*run)(benchmark::State&, const Text&)) {

@@ -34,3 +34,36 @@ TEST_CASE("a written number is the text of its rounded value, whatever its size"
     if (std::abs(value) > 1e-4) CHECK(text == expected);
   }
 }
+
+TEST_CASE(
+    "a changed number keeps the sign and the zero that the original shows, and as many digits as it needs") {
+  struct Row {
+    std::string original;
+    double wanted;
+    std::string written;
+  };
+  for (const Row& row : {Row{"1.", 2, "2."}, Row{"1.", 2.5, "2.5"}, Row{"1.000", 2.5, "2.500"},
+                         Row{"1.00000", 2.123456, "2.12346"}, Row{".5", 0.25, ".25"},
+                         Row{"-.5", -0.25, "-.25"}, Row{"-.5", 0.25, ".25"}, Row{".5", 10.25, "10.25"},
+                         Row{"0.5", 0.25, "0.25"}, Row{"+1.5", 2.5, "+2.5"}, Row{"+1.5", -2.5, "-2.5"},
+                         Row{"+.5", 0.25, "+.25"}, Row{".5", 0, ".0"}, Row{"1.50", -0.0001, "0.00"},
+                         Row{"- 1 . 5", -2.25, "-2.25"}, Row{"7.0", 123456789012.5, "123456789012.5"}}) {
+    CAPTURE(row.original);
+    CHECK(with_last_move("G21 G0 X" + row.original + "\n", {.end_mm = {row.wanted, 0, 0}}) ==
+          "G21 G0 X" + row.written + "\n");
+  }
+}
+
+TEST_CASE("a number reads the same with blanks in it, wherever it ends") {
+  for (const std::string number : {"12.75", "-12.75", "+0.125", ".5", "-.5", "7.", "1234567890.125"}) {
+    std::string spaced;
+    for (const char c : number) spaced.append(1, c).append(" \t");
+    CAPTURE(number);
+    for (const std::string after : {"", "\n", " Y1\n", "Y1\n", "(c)\n", " ;\n"}) {
+      const Program plain = read("G21 G0 X" + number + after), wide = read("G21 G0 X" + spaced + after);
+      CHECK(plain.moves[0].end_mm.x() == *read_number(number));
+      CHECK(wide.moves[0].end_mm.x() == plain.moves[0].end_mm.x());
+      CHECK(wide.moves[0].words[0]->decimals == plain.moves[0].words[0]->decimals);
+    }
+  }
+}

@@ -24,7 +24,7 @@ std::vector<MoveEdit> rigidly_shifted(const Program& program) {
   return edits;
 }
 
-std::string number_text(const Program& program, const std::optional<AxisWord>& word) {
+std::string number_text(const Program& program, const PackedAxisWord& word) {
   return word ? program.text.substr(word->number.begin, word->number.end - word->number.begin) : "-";
 }
 

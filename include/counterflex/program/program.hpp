@@ -34,7 +34,8 @@ struct AxisWord {
   int decimals = 0;  ///< digits after the point
 };
 
-/// An `AxisWord` or nothing, as `std::optional`, in half the room: every move has three.
+/// An `AxisWord` or nothing, as `std::optional`, in half the room: every move has three of them, and an arc
+/// four.
 class PackedAxisWord {
  public:
   PackedAxisWord() = default;
@@ -53,7 +54,6 @@ class PackedAxisWord {
   explicit operator bool() const { return has_value(); }
   AxisWord operator*() const { return {{begin_, begin_ + length_}, decimals_}; }
   Pointer operator->() const { return {**this}; }
-  operator std::optional<AxisWord>() const { return has_value() ? std::optional(**this) : std::nullopt; }
   void reset() { length_ = 0; }
 
  private:
@@ -75,9 +75,9 @@ struct ArcMove {
   Vector3 centre_mm = Vector3::Zero();  ///< at the height of the start
   int turns = 0;                        ///< full turns besides the way from start to end
   bool absolute_centre = false;         ///< G90.1: I J K are coordinates, else they count from the start
-  std::array<std::optional<AxisWord>, 3> centre_words;  ///< I, J, K where the block has them
-  std::optional<AxisWord> radius_word;                  ///< R or CR=: then there are no I J K
-  double radius_mm = 0;                                 ///< as written: negative for more than half a turn
+  std::array<PackedAxisWord, 3> centre_words;  ///< I, J, K where the block has them
+  PackedAxisWord radius_word;                  ///< R or CR=: then there are no I J K
+  double radius_mm = 0;                        ///< as written: negative for more than half a turn
 };
 
 /// Unit normal about which the arc goes counter-clockwise, program coordinates.
@@ -90,9 +90,9 @@ inline Vector3 normal_of(const ArcMove& arc) {
 struct CycleMove {
   double bottom_mm = 0;   ///< Z of the bottom and R of the retract plane that act here, sticky from earlier
   double retract_mm = 0;  ///< holes or programmed, as absolute coordinates
-  std::optional<AxisWord> bottom_word, retract_word;  ///< Z and R where the block has them
-  bool may_insert_bottom = true;                      ///< an absolute Z may be added to a block that omits it
-  bool first = false;                                 ///< programs the cycle: those that follow repeat it
+  PackedAxisWord bottom_word, retract_word;  ///< Z and R where the block has them
+  bool may_insert_bottom = true;             ///< an absolute Z may be added to a block that omits it
+  bool first = false;                        ///< programs the cycle: those that follow repeat it
   bool begins_series = false;  ///< the first hole since another motion: G98 comes back to where it begins
   double initial_mm = 0;  ///< Z where the series of this hole began; means something where its end is known
   bool returns_to_retract = false;  ///< G99: the cycle leaves the tool at `retract_mm`, else where it began
@@ -114,6 +114,7 @@ inline bool all_known(const std::array<bool, 3>& known) {
 /// A move: a block that changes or repeats the position of the tool under G0 to G3 or a cycle, or that moves
 /// it in a way that this reader does not follow: then all it says is `fixed` and what is unknown afterwards.
 struct Move {
+  Move() noexcept {}                    // a defaulted one would set every byte to zero first
   int line = 0;                         ///< of the file
   int text_line = 0;                    ///< of Program::text, where calls were expanded in it; 0: `line`
   int group = 0;                        ///< number of its contour group, from 1; 0: none
