@@ -40,8 +40,8 @@ FittedArc fit_arc(const ArcTask& task, const ArcPiece& piece);
 /// Whether nothing in the block's words changes when it is written as `fit`.
 bool keeps_words(const ArcTask& task, const ArcPiece& piece, const FittedArc& fit);
 
-/// The way of an arc about its centre (rad) from start to end, without the full turns that its block asks for:
-/// the last piece makes those.
+/// The way of an arc about its centre (rad) from start to end, without the full turns that its block asks
+/// for: the last piece makes those.
 double sweep_beside_turns(const Move& move, const Curve& source);
 
 /// Whether an arc that must change cannot stay one: a small shift of its end could turn a full circle into
