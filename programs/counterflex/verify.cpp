@@ -16,15 +16,19 @@ Exit run_verify(const Options& options, Console& console) {
   windows.next();
   const Job job = windows.job();
   const std::vector<Piece> pieces = match_programs(job, corrected.program);
-  const ForwardRun forward =
-      solve_forward_along(job, pieces, {.before = true, .attribution = true, .inside = true});
-  const auto failure = forward.failure ? forward.failure : tolerance_failure(job, forward.waypoints);
   RunFiles files(paths, {});
   RunTally tally(run->facts.min_block_ms);
   tally.add_forces(job.forces);
-  tally.add_waypoints(forward.waypoints);
   tally.add_corrected(corrected.program);
-  files.add_waypoints(forward.waypoints);
+  std::optional<Failure> missed;
+  const auto unsolved =
+      solve_forward_in_portions(job, pieces, {.before = true, .attribution = true, .inside = true},
+                                [&](const std::vector<Waypoint>& waypoints) {
+                                  tally.add_waypoints(waypoints);
+                                  files.add_waypoints(waypoints);
+                                  if (!missed) missed = tolerance_failure(job, waypoints);
+                                });
+  const std::optional<Failure> failure = unsolved ? unsolved : missed;
   return deliver(options, *run,
                  report_verification(run->context(), tally, overview_of(corrected.program), failure), files,
                  console);

@@ -8,6 +8,7 @@
 namespace counterflex {
 namespace {
 
+constexpr std::size_t pieces_at_once = 64 * chunk_size;
 constexpr int odd_sixteenths = 8;
 constexpr double quiet_share =
     0.1;  // of the tolerance: pieces whose correction changes less are sampled once inside
@@ -130,7 +131,7 @@ class ForwardSolver {
 
 }  // namespace
 
-ForwardRun solve_forward_from(const Job& job, const NominalTrack& nominal, const std::vector<Piece>& pieces,
+ForwardRun solve_forward_from(const Job& job, const NominalTrack& nominal, std::span<const Piece> pieces,
                               const Questions& questions, const std::optional<Vector3>& command) {
   std::vector<ForwardRun> runs(chunk_count(pieces.size()));
   for_each_chunk(pieces.size(), job.options.threads, [&](const Chunk& chunk) {
@@ -167,6 +168,22 @@ ForwardRun solve_forward_along(const Job& job, const std::vector<Piece>& pieces,
 ForwardRun solve_forward_along(const Job& job, const std::vector<Piece>& pieces, const Questions& questions) {
   ForwardState state;
   return solve_forward_along(job, pieces, questions, state);
+}
+
+std::optional<Failure> solve_forward_in_portions(const Job& job, const std::vector<Piece>& pieces,
+                                                 const Questions& questions, const TakeWaypoints& take) {
+  const NominalTrack nominal = track(job, job.model.home);
+  if (nominal.failure) return nominal.failure;
+  std::optional<Vector3> command;
+  const std::span<const Piece> all(pieces);
+  for (std::size_t begin = 0; begin < all.size(); begin += pieces_at_once) {
+    const auto portion = all.subspan(begin, std::min(pieces_at_once, all.size() - begin));
+    const ForwardRun run = solve_forward_from(job, nominal, portion, questions, command);
+    take(run.waypoints);
+    if (run.failure) return run.failure;
+    command = portion.back().commanded.end;
+  }
+  return std::nullopt;
 }
 
 std::vector<Piece> original_pieces(const Job& job, double spacing) {

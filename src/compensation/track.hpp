@@ -1,6 +1,8 @@
 #pragma once
 /// Nominal kinematics along the whole path, once and in order: it keeps the branch, and lets chunks start
 /// anywhere.
+#include <span>
+
 #include "chunks.hpp"
 #include "counterflex/compensation/waypoint.hpp"
 
@@ -17,7 +19,7 @@ struct NominalTrack {
 NominalTrack track(const Job& job, const Configuration& start);
 
 /// Solves forward along pieces whose nominal track is known; `command` is where the piece before them ended.
-ForwardRun solve_forward_from(const Job& job, const NominalTrack& nominal, const std::vector<Piece>& pieces,
+ForwardRun solve_forward_from(const Job& job, const NominalTrack& nominal, std::span<const Piece> pieces,
                               const Questions& questions, const std::optional<Vector3>& command);
 
 /// The failure that a status at a line stands for: travel is a limit, all else is not compensated.

@@ -1,7 +1,7 @@
 /// Reading and rewriting program text: what a run does with every word besides solving.
 #include <benchmark/benchmark.h>
 
-#include "counterflex/program/read_program.hpp"
+#include "counterflex/program/program_reader.hpp"
 #include "counterflex/program/rewrite.hpp"
 #include "made_program.hpp"
 
@@ -32,39 +32,56 @@ void count_bytes(benchmark::State& state, const std::string& text) {
   state.SetBytesProcessed(static_cast<std::int64_t>(state.iterations() * text.size()));
 }
 
-void read(benchmark::State& state, const Text& made) {
-  const std::string text = made.make(megabytes);
-  for (auto _ : state) benchmark::DoNotOptimize(read_program(text, "made.ngc", {}).moves.size());
-  count_bytes(state, text);
+/// Reads `text` as a run does, window by window; `take` gets each.
+template <typename Take>
+void read_windows(const std::string& text, const Take& take) {
+  FileReader bytes = FileReader::of_bytes(text);
+  ProgramReader reader(bytes, "made.ngc", {});
+  while (reader.next()) take(reader.window());
 }
 
-void read_and_rewrite(benchmark::State& state, const std::string& text, const std::vector<MoveEdit>& edits) {
+void read(benchmark::State& state, const Text& made) {
+  const std::string text = made.make(megabytes);
   for (auto _ : state) {
-    const Program program = read_program(text, "made.ngc", {});
-    benchmark::DoNotOptimize(rewrite(program, edits, {}).text.size());
+    std::size_t moves = 0;
+    read_windows(text, [&](const Program& window) { moves += window.moves.size(); });
+    benchmark::DoNotOptimize(moves);
   }
   count_bytes(state, text);
 }
 
-void copy(benchmark::State& state, const Text& made) {
-  read_and_rewrite(state, made.make(megabytes), {});
-}
-
-void rewrite_same(benchmark::State& state, const Text& made) {
+/// `make_edits` is not timed: where the moves go is a matter of solving.
+template <typename MakeEdits>
+void read_and_rewrite(benchmark::State& state, const Text& made, const MakeEdits& make_edits) {
   const std::string text = made.make(megabytes);
-  read_and_rewrite(state, text, edits_of(read_program(text, "made.ngc", {}), Vector3::Zero()));
+  std::vector<std::vector<MoveEdit>> edits;
+  read_windows(text, [&](const Program& window) { edits.push_back(make_edits(window)); });
+  for (auto _ : state) {
+    Rewriter rewriter({});
+    std::size_t next = 0, bytes = 0;
+    read_windows(text,
+                 [&](const Program& window) { bytes += rewriter.write(window, edits[next++]).text.size(); });
+    benchmark::DoNotOptimize(bytes);
+  }
+  count_bytes(state, text);
 }
 
 const Vector3 small_shift(0.123, -0.045, 0.067);
 
+void copy(benchmark::State& state, const Text& made) {
+  read_and_rewrite(state, made, [](const Program&) { return std::vector<MoveEdit>(); });
+}
+
+void rewrite_same(benchmark::State& state, const Text& made) {
+  read_and_rewrite(state, made, [](const Program& window) { return edits_of(window, Vector3::Zero()); });
+}
+
 void rewrite_shifted(benchmark::State& state, const Text& made) {
-  const std::string text = made.make(megabytes);
-  read_and_rewrite(state, text, edits_of(read_program(text, "made.ngc", {}), small_shift));
+  read_and_rewrite(state, made, [](const Program& window) { return edits_of(window, small_shift); });
 }
 
 void rewrite_with_points(benchmark::State& state, const Text& made) {
-  const std::string text = made.make(megabytes);
-  read_and_rewrite(state, text, edits_of(read_program(text, "made.ngc", {}), small_shift, true));
+  read_and_rewrite(state, made, [](const Program& window) { return edits_of(window, small_shift, true); });
 }
 
 [[maybe_unused]] const int registered = [] {

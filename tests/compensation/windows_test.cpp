@@ -1,6 +1,7 @@
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
+#include "compensation/gantry.hpp"
 #include "compensation/shop.hpp"
 #include "counterflex/compensation/job_windows.hpp"
 
@@ -153,4 +154,26 @@ TEST_CASE("a window that cannot be compensated says the line, and those before i
   CHECK(run.failure->exit == Exit::limit);
   CHECK(run.windows >= 5);
   CHECK_FALSE(run.text.empty());
+}
+
+TEST_CASE("a path solved forward in portions is the path solved at once") {
+  std::string blocks = "G21 G90 G17\nG0 X0 Y0 Z0\nG1 F600\n";
+  for (int k = 1; k <= 2200; ++k) blocks += fmt::format("X{} Y{}\n", k % 50, k % 7);
+  const Shop shop({.machine = displaced_gantry(), .text = blocks});
+  const Questions questions{.before = true, .attribution = false, .inside = true};
+  const std::vector<Piece> pieces = original_pieces(shop.job(), 1);
+  const ForwardRun whole = solve_forward_along(shop.job(), pieces, questions);
+  std::vector<Waypoint> all;
+  std::size_t portions = 0;
+  const auto failure = solve_forward_in_portions(shop.job(), pieces, questions, [&](const auto& waypoints) {
+    all.insert(all.end(), waypoints.begin(), waypoints.end());
+    ++portions;
+  });
+  CHECK(!failure);
+  CHECK(portions > 1);
+  REQUIRE(all.size() == whole.waypoints.size());
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    CHECK(all[i].line == whole.waypoints[i].line);
+    CHECK(all[i].after == whole.waypoints[i].after);
+  }
 }

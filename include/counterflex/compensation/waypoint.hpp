@@ -1,6 +1,7 @@
 #pragma once
 /// Places on the path, with the deviations of the tip there.
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -78,6 +79,13 @@ struct ForwardState {
 /// The same for the pieces of one window; moves `state` on.
 ForwardRun solve_forward_along(const Job& job, const std::vector<Piece>& pieces, const Questions& questions,
                                ForwardState& state);
+
+using TakeWaypoints = std::function<void(const std::vector<Waypoint>&)>;
+
+/// The same where there are too many pieces for all waypoints to be held: `take` gets them in portions, in
+/// order.
+std::optional<Failure> solve_forward_in_portions(const Job& job, const std::vector<Piece>& pieces,
+                                                 const Questions& questions, const TakeWaypoints& take);
 
 /// The pieces of the original program itself: feed segments cut where the force has corners and to at most
 /// `spacing` (m).
