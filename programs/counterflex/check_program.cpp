@@ -19,7 +19,6 @@ struct MoveFacts {
   std::size_t rapids = 0, feeds = 0, without_feed = 0, with_force = 0;
   Vector3 least = Vector3::Constant(inf), most = Vector3::Constant(-inf);
   double slowest = inf, fastest = 0;  ///< mm/min
-  double cutting_mm = 0, cutting_s = 0;
   std::vector<std::string> offsets;
   std::vector<LengthUnit> units;
 };
@@ -49,13 +48,25 @@ void add_move(const Program& program, const Move& move, MoveFacts& facts) {
   facts.fastest = std::max(facts.fastest, move.feed_mm_min);
 }
 
-MoveFacts facts_of(const Program& program) {
-  MoveFacts facts;
-  for (const Move& move : program.moves) add_move(program, move, facts);
-  const Toolpath path = build_toolpath(program, one_frame(program, {}));
-  if (path.segments.empty()) return facts;
-  facts.cutting_mm = path.segments.back().s_end / mm;
-  facts.cutting_s = path.segments.back().t_end;
+/// What is found of a program, window by window.
+struct ProgramFacts {
+  Overview overview;
+  MoveFacts moves;
+  MotionPlanner planner;
+  bool corrected = false;
+  PathEnd end;
+};
+
+ProgramFacts facts_of(ProgramReader reader) {
+  ProgramFacts facts;
+  for (bool first = true; reader.next(); first = false) {
+    const Program& window = reader.window();
+    if (first) facts.corrected = is_corrected(window);
+    add_window(facts.overview, window);
+    facts.planner.add(window);
+    for (const Move& move : window.moves) add_move(window, move, facts.moves);
+    facts.end = build_toolpath(window, one_frame(window, {}), facts.end).end;
+  }
   return facts;
 }
 
@@ -95,21 +106,22 @@ std::string offsets_text(const MoveFacts& facts) {
   return text.empty() ? "none selected" : text;
 }
 
-std::string text_of(const Program& program, const MoveFacts& facts) {
+std::string text_of(const ProgramFacts& facts) {
+  const Overview& program = facts.overview;
+  const MoveFacts& moves = facts.moves;
   std::string text = row("file", program.file) + row("program", fmt::format("dialect {}", program.dialect));
-  text += row("units", units_text(facts));
-  text += row("blocks", fmt::format("{}, of them {} moves: {} feeds, {} rapids", program.block_count,
-                                    program.moves.size(), facts.feeds, facts.rapids));
-  text += row("cutting",
-              fmt::format("{:.6g} mm, {:.6g} s at programmed feeds", facts.cutting_mm, facts.cutting_s));
-  text += row("feeds", feeds_text(facts));
-  text += row("extents", extents_text(facts));
-  text += row("offsets", offsets_text(facts));
-  if (facts.with_force > 0)
-    text += row("forces", fmt::format("FORCE comments act on {} moves", facts.with_force));
-  if (is_corrected(program))
-    text += row("header", "COUNTERFLEX 1: a corrected program, not compensated again");
-  text += plan_text(motion_plan(program));
+  text += row("units", units_text(moves));
+  text += row("blocks", fmt::format("{}, of them {} moves: {} feeds, {} rapids", program.blocks,
+                                    program.moves, moves.feeds, moves.rapids));
+  text +=
+      row("cutting", fmt::format("{:.6g} mm, {:.6g} s at programmed feeds", facts.end.s / mm, facts.end.t));
+  text += row("feeds", feeds_text(moves));
+  text += row("extents", extents_text(moves));
+  text += row("offsets", offsets_text(moves));
+  if (moves.with_force > 0)
+    text += row("forces", fmt::format("FORCE comments act on {} moves", moves.with_force));
+  if (facts.corrected) text += row("header", "COUNTERFLEX 1: a corrected program, not compensated again");
+  text += plan_text(facts.planner.plan());
   if (!program.remarks.empty()) text += "\nremarks\n";
   for (const Remark& remark : program.remarks)
     text += fmt::format("  line {:<6} {}\n", remark.line, remark.what);
@@ -121,25 +133,22 @@ nlohmann::ordered_json extent_json(double value) {
   return value;
 }
 
-nlohmann::ordered_json json_of(const Program& program, const MoveFacts& facts) {
-  nlohmann::ordered_json json{{"file", program.file},
-                              {"kind", "program"},
-                              {"dialect", program.dialect},
-                              {"units", units_text(facts)},
-                              {"corrected", is_corrected(program)},
-                              {"blocks", program.block_count},
-                              {"moves", program.moves.size()},
-                              {"feeds", facts.feeds},
-                              {"rapids", facts.rapids},
-                              {"cutting_mm", facts.cutting_mm},
-                              {"cutting_s", facts.cutting_s},
-                              {"offsets", facts.offsets}};
+nlohmann::ordered_json json_of(const ProgramFacts& facts) {
+  const Overview& program = facts.overview;
+  const MoveFacts& moves = facts.moves;
+  nlohmann::ordered_json json{{"file", program.file},         {"kind", "program"},
+                              {"dialect", program.dialect},   {"units", units_text(moves)},
+                              {"corrected", facts.corrected}, {"blocks", program.blocks},
+                              {"moves", program.moves},       {"feeds", moves.feeds},
+                              {"rapids", moves.rapids},       {"cutting_mm", facts.end.s / mm},
+                              {"cutting_s", facts.end.t},     {"offsets", moves.offsets}};
   auto& extents = json["extents_mm"] = nlohmann::ordered_json::object();
   for (int i = 0; i < 3; ++i)
-    extents[std::string(1, "xyz"[i])] = {extent_json(facts.least[i]), extent_json(facts.most[i])};
-  json["plan"] = plan_json(motion_plan(program));
+    extents[std::string(1, "xyz"[i])] = {extent_json(moves.least[i]), extent_json(moves.most[i])};
+  json["plan"] = plan_json(facts.planner.plan());
+  json["left_alone_count"] = program.left_alone.count;
   json["left_alone"] = json["remarks"] = nlohmann::ordered_json::array();
-  for (const LeftAlone& block : program.left_alone)
+  for (const LeftAlone& block : program.left_alone.rows)
     json["left_alone"].push_back({{"line", block.line}, {"why", block.why}});
   for (const Remark& remark : program.remarks)
     json["remarks"].push_back({{"line", remark.line}, {"what", remark.what}});
@@ -158,23 +167,24 @@ std::optional<Failure> go_to(NominalPath& nominal, const Model& model, const Pos
 }
 
 /// The first place, end of a line or on an arc, that the nominal machine does not reach.
-std::optional<Failure> first_unreached(const Model& model, const Toolpath& path) {
+std::optional<Failure> first_unreached(const Model& model, const std::vector<WorkFrame>& frames,
+                                       ProgramReader reader) {
   const Matrix3 R_home = tip(model.mechanism, model.home).R;
   NominalPath nominal(model, model.home);
-  for (const Segment& segment : path.segments) {
-    const std::vector<Vector3> points = points_along(segment.wanted);
-    for (std::size_t i = 1; i < points.size(); ++i)
-      if (const auto failure = go_to(nominal, model, {R_home, points[i]}, segment.line)) return failure;
-  }
+  while (reader.next())
+    for (const Segment& segment : build_toolpath(reader.window(), frames).segments) {
+      const std::vector<Vector3> points = points_along(segment.wanted);
+      for (std::size_t i = 1; i < points.size(); ++i)
+        if (const auto failure = go_to(nominal, model, {R_home, points[i]}, segment.line)) return failure;
+    }
   return std::nullopt;
 }
 
-void check_reach(const Program& program, const MachineInput& input, Checked& checked, Console& console) {
-  const WorkPlace work =
-      place_work(input.machine, input.model, shown_name(input.file.path), overview_of(program));
+void check_reach(const Overview& program, ProgramReader reader, const MachineInput& input, Checked& checked,
+                 Console& console) {
+  const WorkPlace work = place_work(input.machine, input.model, shown_name(input.file.path), program);
   if (!work.assumption.empty()) console.warning(program.file, 0, work.assumption);
-  const Toolpath path = build_toolpath(program, work.frames);
-  const auto failure = first_unreached(input.model, path);
+  const auto failure = first_unreached(input.model, work.frames, std::move(reader));
   checked.json["reached"] = !failure;
   if (!failure) {
     checked.text +=
@@ -191,12 +201,18 @@ void check_reach(const Program& program, const MachineInput& input, Checked& che
 Checked check_program(const std::string& path, const Options& options, const MachineInput* machine,
                       Console& console) {
   const Machine* of = machine != nullptr ? &machine->machine : nullptr;
-  const ProgramInput input = read_program_input("program", path, options, of,
-                                                read_options(options, of, read_tool_lengths(options, of)));
-  const MoveFacts facts = facts_of(input.program);
-  Checked checked{text_of(input.program, facts), json_of(input.program, facts), Exit::done};
-  if (machine != nullptr) check_reach(input.program, *machine, checked, console);
-  return checked;
+  const ReadOptions read = read_options(options, of, read_tool_lengths(options, of));
+  const std::string name = shown_name(path);
+  ProgramFile file = open_program("program", path);
+  try {
+    const ProgramFacts facts = facts_of(ProgramReader(file.bytes, name, read));
+    Checked checked{text_of(facts), json_of(facts), Exit::done};
+    if (machine != nullptr)
+      check_reach(facts.overview, ProgramReader(file.bytes, name, read), *machine, checked, console);
+    return checked;
+  } catch (const InputError& error) {
+    blame_dialect(error, options, of, name);
+  }
 }
 
 }  // namespace counterflex::cli

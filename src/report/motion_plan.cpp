@@ -14,16 +14,19 @@ bool any(const std::array<bool, 3>& axes) {
   return axes[0] || axes[1] || axes[2];
 }
 
+}  // namespace
+
 /// Goes through the moves and the list of blocks left alone side by side, both in the order of lines.
-class Planner {
+class MotionPlanner::Window {
  public:
-  explicit Planner(const Program& program) : program_(program), left_(program.left_alone) {
+  Window(const Program& program, MotionPlan& plan, std::optional<LeftAlone>& reason)
+      : program_(program), left_(program.left_alone), plan_(plan), reason_(reason) {
     std::stable_sort(left_.begin(), left_.end(), [](const LeftAlone& a, const LeftAlone& b) {
       return line_in_text(a) < line_in_text(b);
     });
   }
 
-  MotionPlan run() {
+  void run() {
     find_known_ends();
     for (std::size_t m = 0; m < program_.moves.size(); ++m) {
       list_other_blocks(line_in_text(program_.moves[m]));
@@ -31,7 +34,6 @@ class Planner {
     }
     list_other_blocks(0);
     plan_.moves = plan_.corrected + plan_.held + plan_.grouped + plan_.not_corrected;
-    return std::move(plan_);
   }
 
  private:
@@ -52,7 +54,7 @@ class Planner {
          ++next_left_) {
       const LeftAlone& block = left_[next_left_];
       if (line_in_text(block) == line || is_move(line_in_text(block))) {
-        reason_ = &block;
+        reason_ = block;
         continue;
       }
       plan_.not_corrected += block.machine_position;
@@ -114,7 +116,7 @@ class Planner {
 
   /// A reason is listed once for a run of moves.
   std::optional<std::string> reason_at(const Move& move) const {
-    if (reason_ == nullptr || line_in_text(*reason_) > line_in_text(move)) return std::nullopt;
+    if (!reason_ || line_in_text(*reason_) > line_in_text(move)) return std::nullopt;
     return reason_->why;
   }
 
@@ -144,15 +146,19 @@ class Planner {
   const Program& program_;
   std::vector<LeftAlone> left_;
   std::size_t next_left_ = 0;
-  const LeftAlone* reason_ = nullptr;
   std::vector<const Move*> next_known_;
-  MotionPlan plan_;
+  MotionPlan& plan_;
+  std::optional<LeftAlone>& reason_;
 };
 
-}  // namespace
+void MotionPlanner::add(const Program& window) {
+  Window(window, plan_, reason_).run();
+}
 
 MotionPlan motion_plan(const Program& program) {
-  return Planner(program).run();
+  MotionPlanner planner;
+  planner.add(program);
+  return planner.plan();
 }
 
 }  // namespace counterflex

@@ -3,6 +3,7 @@
 /// which hold a shift, which stay as they are, and why.
 #include <array>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -41,8 +42,21 @@ struct MotionPlan {
   std::map<long, std::size_t> tools;  ///< moves by tool in the spindle; 0: none known
 };
 
-/// The plan of `program`. A word programmed before all axes are known counts as corrected where a position
-/// that is known follows within 64 blocks.
+/// Makes the plan of a program from its windows, in order. A word programmed before all axes are known counts
+/// as corrected where a position that is known follows within 64 blocks.
+class MotionPlanner {
+ public:
+  void add(const Program& window);
+  const MotionPlan& plan() const { return plan_; }
+
+ private:
+  class Window;
+
+  MotionPlan plan_;
+  std::optional<LeftAlone> reason_;  ///< the last one that moves were left alone for
+};
+
+/// The plan of a program that is one window.
 MotionPlan motion_plan(const Program& program);
 
 }  // namespace counterflex
