@@ -2,6 +2,9 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cassert>
+
+#include "forces/turned.hpp"
 
 namespace counterflex {
 namespace {
@@ -28,6 +31,10 @@ Vector6 value(const ForceProfile& profile, std::size_t row, double key) {
   const ForceRow& to = profile.rows[row + 1];
   const double w = std::clamp((key - from.key) / (to.key - from.key), 0.0, 1.0);
   return (1 - w) * from.F + w * to.F;
+}
+
+bool lateral(const Vector6& F) {
+  return F[0] != 0 || F[1] != 0 || F[3] != 0 || F[4] != 0;
 }
 
 }  // namespace
@@ -96,6 +103,72 @@ void append(const ForcePiece& piece, std::size_t first, std::vector<ForcePiece>&
     }
   }
   pieces.push_back(piece);
+}
+
+Unblended::Unblended(const ForceSource& source, const Program& program, const Toolpath& path,
+                     const std::vector<Matrix3>& R_MT, std::optional<long>& block_number)
+    : source_(source), program_(program), path_(path), R_MT_(R_MT) {
+  assert(R_MT.size() == 1 || (!R_MT.empty() && R_MT.size() % path.segments.size() == 0));
+  if (profile()) keys_ = align(*profile(), program, path, block_number);
+}
+
+void Unblended::append_to(std::size_t i, std::size_t first_piece, std::vector<ForcePiece>& pieces,
+                          std::vector<ForceNote>& notes) const {
+  const Segment& segment = path_.segments[i];
+  if (in_air(segment)) {
+    append({segment.s_start, segment.s_end}, first_piece, pieces);
+    return;
+  }
+  if (!profile()) {
+    const Vector6 F = source_.scale * uniform(segment);
+    append({segment.s_start, segment.s_end, F, F, Vector6::Zero()}, first_piece, pieces);
+    return;
+  }
+  const AxesAlong axes(profile()->frame, segment, path_.frames[segment.frame].X_MW.R, orientations(i));
+  const bool only_z = axes.at(0.5, 1).only_z;
+  bool lost = false, inside = false;
+  for (const ForcePiece& given : profile_pieces(*profile(), keys_[i], segment)) {
+    lost = lost || (only_z && (lateral(given.F0) || lateral(given.F1)));
+    for (ForcePiece piece : turned_pieces(given, segment, axes)) {
+      piece.F0 *= source_.scale;
+      piece.F1 *= source_.scale;
+      if (!inside) piece.goes_on = goes_on_round(piece, first_piece, pieces);
+      inside = true;
+      append(piece, first_piece, pieces);
+    }
+  }
+  if (lost)
+    notes.push_back({segment.line,
+                     "the feed is parallel to the tool axis: of the force in the feed frame only the z "
+                     "component acts"});
+}
+
+const ForceProfile* Unblended::profile() const {
+  return !source_.constant && source_.profile ? &*source_.profile : nullptr;
+}
+
+std::span<const Matrix3> Unblended::orientations(std::size_t i) const {
+  if (R_MT_.size() == 1) return R_MT_;
+  const std::size_t each = R_MT_.size() / path_.segments.size();
+  return std::span(R_MT_).subspan(i * each, each);
+}
+
+bool Unblended::in_air(const Segment& segment) const {
+  return source_.air_above_mm && extent_of(program_.moves[segment.move]).least.z() > *source_.air_above_mm;
+}
+
+/// Whether the first piece of a segment continues a wrench in axes that turn, as round a tangential
+/// junction.
+bool Unblended::goes_on_round(const ForcePiece& piece, std::size_t first_piece,
+                              const std::vector<ForcePiece>& pieces) const {
+  const bool turns = profile()->frame == ForceFrame::feed || profile()->frame == ForceFrame::tool;
+  return turns && pieces.size() > first_piece && nearly_same(pieces.back().F1, piece.F0);
+}
+
+/// The constant, or what the program's comment says.
+Vector6 Unblended::uniform(const Segment& segment) const {
+  if (source_.constant) return *source_.constant;
+  return program_.moves[segment.move].force.value_or(Vector6::Zero());
 }
 
 }  // namespace counterflex

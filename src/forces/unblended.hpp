@@ -1,5 +1,7 @@
 #pragma once
 /// The wrench as source and profile give it, before the mean is taken.
+#include <optional>
+#include <span>
 #include <vector>
 
 #include "counterflex/forces/forces.hpp"
@@ -30,5 +32,32 @@ std::vector<ForcePiece> profile_pieces(const ForceProfile& profile, const KeySpa
 /// Appends `piece` to the pieces of a run that begin at `first`; one that goes on with the same constant is
 /// made longer.
 void append(const ForcePiece& piece, std::size_t first, std::vector<ForcePiece>& pieces);
+
+/// The wrench of one segment after the other in machine axes.
+class Unblended {
+ public:
+  /// Borrows all. `R_MT` as for `PathForces`; `block_number` is N of the moves before, and then of these.
+  Unblended(const ForceSource& source, const Program& program, const Toolpath& path,
+            const std::vector<Matrix3>& R_MT, std::optional<long>& block_number);
+
+  /// Appends the pieces of segment i to those of its run, which begin at `first_piece`; a plunge that loses
+  /// lateral forces is noted.
+  void append_to(std::size_t i, std::size_t first_piece, std::vector<ForcePiece>& pieces,
+                 std::vector<ForceNote>& notes) const;
+
+ private:
+  const ForceProfile* profile() const;
+  std::span<const Matrix3> orientations(std::size_t i) const;  ///< of the tool on segment i
+  bool in_air(const Segment& segment) const;
+  bool goes_on_round(const ForcePiece& piece, std::size_t first_piece,
+                     const std::vector<ForcePiece>& pieces) const;
+  Vector6 uniform(const Segment& segment) const;
+
+  const ForceSource& source_;
+  const Program& program_;
+  const Toolpath& path_;
+  const std::vector<Matrix3>& R_MT_;
+  std::vector<KeySpan> keys_;
+};
 
 }  // namespace counterflex
