@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "program/expand_text.hpp"
+#include "program/klartext_lex.hpp"
 #include "program/outline.hpp"
 #include "program/remarks.hpp"
 
