@@ -21,9 +21,10 @@ std::string shown(char c) {
 constexpr std::array powers_of_ten{1e0, 1e1, 1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
                                    1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15};
 
+constexpr int whole_digits = 12;
 constexpr double largest_number = 1e12;  // beyond it a thousandth cannot be held
 
-/// The value of a word with too many digits for exact products of integers.
+/// The value of a word with too many digits for exact products of integers, or for this reader.
 double value_of_many_digits(const Scanner& s, const Word& word, int digits) {
   std::string dense;
   for (const char c : part(s.text, word.number))
@@ -66,7 +67,7 @@ bool read_number_word(Scanner& s, Word& word) {
   s.at = last;
   if (digits == 0) return false;
   // Integers below 10^15 and these powers of ten are exact, so that the quotient is the nearest double.
-  if (digits > 15) {
+  if (digits > 15 || digits - decimals > whole_digits) {
     word.value = value_of_many_digits(s, word, digits);
   } else {
     const double size = static_cast<double>(static_cast<std::int64_t>(mantissa)) /
