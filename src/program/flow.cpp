@@ -50,6 +50,7 @@ void open_subprogram(Reading& r, std::string name) {
   open_body(r, std::move(name));
   if (!outermost) return;
   r.body.subprogram = true;
+  r.taken_away.fill(true);
   forget_state(r.state);
 }
 

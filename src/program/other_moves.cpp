@@ -13,9 +13,9 @@ void leave_machine_move(const Block& block, Reading& r, const FoundG& found) {
   const bool reference = found.code->action == Action::reference_move;
   if (!reference && !has_axis_word(r.sorted) && !r.sorted.has_any("ABCUVW") && !r.in_body())
     refuse_word(block, r, *found.word, "G53 has no axis word");
+  const bool all = !has_axis_word(r.sorted);
   for (std::size_t axis = 0; axis < 3; ++axis)
-    if (r.sorted.word(letters_of_axes[axis]) != nullptr) r.state.known[axis] = false;
-  if (!has_axis_word(r.sorted)) r.state.known.fill(false);
+    if (all || r.sorted.word(letters_of_axes[axis]) != nullptr) take_away(r, axis);
   end_contour(r);
   r.run_begin = r.program.moves.size();
   r.last_reason = fmt::format("G{} moves to a position of the machine", found.word->value);

@@ -139,6 +139,10 @@ Move& start_move(const Block& block, Reading& r, Motion motion) {
   move.unit = r.state.unit.value_or(LengthUnit::millimetres);
   move.known_start = r.state.known;
   move.start_mm = r.state.position_mm;
+  // Cycles that are called at every position are left as they are, and so are the positions.
+  if (!why_not_followed(r).empty() && (r.state.displaced & modal_macro) == 0)
+    for (std::size_t axis = 0; axis < 3; ++axis) move.stands[axis] = !r.taken_away[axis];
+  r.taken_away.fill(false);
   move.relative = r.relative();
   move.feed_mm_min = feed_mm_min(r.state);
   move.spindle_rpm = r.state.spindle_rpm;
@@ -149,6 +153,11 @@ Move& start_move(const Block& block, Reading& r, Motion motion) {
   move.block_delete = !empty(block.block_delete);
   move.exact_stop = r.state.exact_stop || r.sorted.has(Action::stop_once);
   return move;
+}
+
+void take_away(Reading& r, std::size_t axis) {
+  r.state.known[axis] = false;
+  r.taken_away[axis] = true;
 }
 
 void fix_axis(Reading& r, Move& move, std::size_t axis) {

@@ -48,6 +48,20 @@ TEST_CASE("under a state that puts positions elsewhere moves stay as they are, a
   }
 }
 
+TEST_CASE("what is not followed stands where it was, but not on axes that the machine has moved by itself") {
+  const auto stands = [](const std::string& blocks, const char* dialect = "linuxcnc") {
+    return read(known_start_block + blocks + "\n", dialect).moves.back().stands;
+  };
+  CHECK(stands("X1 A90.\nX2") == std::array<bool, 3>{true, true, true});
+  CHECK(stands("G53 Z0.\nA90.\nX2.") == std::array<bool, 3>{true, true, false});
+  CHECK(stands("G28\nA90.\nX2.") == std::array<bool, 3>{});
+  CHECK(stands("T1 M6\nA90.\nX2.", "haas") == std::array<bool, 3>{});
+  CHECK(stands("T1 M6\nA90.\nX2.") == std::array<bool, 3>{true, true, true});
+  CHECK(stands("o1 if [#1 GT 2]\nX2.") == std::array<bool, 3>{true, true, true});
+  CHECK(stands("o1 sub\nX2.") == std::array<bool, 3>{});
+  CHECK(stands("G53 Z0.\nX2.") == std::array<bool, 3>{});
+}
+
 TEST_CASE("axes besides X, Y and Z that stay zero are ignored, a shift of nothing is none") {
   const Program program = read(known_start_block + "A0 B0. C-0.0 X1\nG52 X0 Y0\nX2\n");
   CHECK(program.left_alone.empty());
