@@ -130,8 +130,21 @@ void lex_word(Scanner& s) {
 
 namespace {
 
+/// The ')' of the comment at the scanner where its brackets are closed in pairs, or the end: a control that
+/// reads them otherwise would find a ')' outside comments, and stop.
+std::size_t end_of_nested_comment(const Scanner& s) {
+  int depth = 0;
+  for (std::size_t at = s.at; at < s.end; ++at) {
+    if (s.text[at] == comment_open) ++depth;
+    if (s.text[at] == comment_close && --depth == 0) return at;
+  }
+  return s.end;
+}
+
 void lex_comment(Scanner& s) {
   const std::size_t open = s.at;
+  if (const std::size_t end = end_of_nested_comment(s); s.dialect.parentheses_nest && end < s.end)
+    s.at = end - 1;
   for (++s.at; s.at < s.end && s.text[s.at] != comment_close; ++s.at)
     if (s.text[s.at] == comment_open && !s.dialect.parentheses_nest)
       s.refuse_at(s.at, "a comment stands inside a comment");
@@ -178,14 +191,36 @@ void refuse_character(const Scanner& s) {
 
 namespace {
 
+/// ":1001" is the number of a program; before other words it numbers the block, as N does.
+void lex_colon(Scanner& s) {
+  const bool first = s.block.words.empty();
+  if (!first || s.at + 1 >= s.end || !is_digit(s.text[s.at + 1])) refuse_character(s);
+  lex_word(s);
+  s.skip_blanks();
+  const bool alone = s.at == s.end || s.peek() == comment_open || s.peek() == ';';
+  s.block.words.back().letter = alone ? 'O' : 'N';
+}
+
 void lex_percent(Scanner& s) {
   ++s.at;
   s.skip_blanks();
-  if (s.at != s.end) s.refuse_at(s.at, "a '%' stands alone on its line");
   s.block.percent = true;
+  const std::string_view rest = s.text.substr(s.at, s.end - s.at);
+  const bool ends = rest.find_first_not_of("; \t") == std::string_view::npos;
+  // What Fagor's controls begin with: their cycles are others.
+  const bool name = s.dialect.percent_names && rest.find(',') == std::string_view::npos;
+  if (!ends && (!name || s.block.text_line > 1)) s.refuse_at(s.at, "a '%' stands alone on its line");
 }
 
 }  // namespace
+
+bool begins_with_program_number(const Block& block) {
+  const std::vector<Word>& words = block.words;
+  const std::size_t first = !words.empty() && words[0].letter == 'N' ? 1 : 0;
+  const auto is_axis = [](const Word& word) { return word.letter >= 'X' && word.letter <= 'Z'; };
+  return words.size() > first && words[first].letter == 'O' &&
+         std::none_of(words.begin(), words.end(), is_axis);
+}
 
 long count_of(const Word& word) {
   constexpr double beyond = 1e15;
@@ -215,6 +250,9 @@ void lex(std::string_view text, const std::string& file, const Dialect& dialect,
   block.statement = Statement::none;
   block.statement_is_bare = block.has_sense = false;
   Scanner s{text, file, dialect, block, block.span.begin, block.span.end};
+  if (block.text_line == 1) s.at += byte_order_mark(text.substr(s.at));
+  while (s.at < s.end && says_nothing(text[s.at])) ++s.at;
+  while (s.at < s.end && says_nothing(text[s.end - 1])) --s.end;
   if (dialect.sinumerik_words) return lex_siemens(s);
   s.skip_blanks();
   if (s.peek() == '%') return lex_percent(s);
@@ -226,6 +264,8 @@ void lex(std::string_view text, const std::string& file, const Dialect& dialect,
       if (!may_flow || !lex_flow(s)) lex_word(s);
     } else if (c == '#') {
       skip_assignment(s);
+    } else if (c == ':' && dialect.percent_names) {
+      lex_colon(s);
     } else if (c == comment_open) {
       lex_comment(s);
     } else if (c == ';') {

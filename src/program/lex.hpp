@@ -85,6 +85,9 @@ inline bool is_program_number(const Block& block) {
   return block.words.size() == 1 && block.words[0].letter == 'O';
 }
 
+/// An O-number at the beginning of a block that moves nothing.
+bool begins_with_program_number(const Block& block);
+
 /// Advances `block` to the line after `block.line_end`; false at the end of `text`. A default Block stands
 /// before the first line.
 bool next_line(std::string_view text, Block& block);

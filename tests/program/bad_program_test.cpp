@@ -31,9 +31,17 @@ std::string expectation(const std::string& text) {
   return text.substr(begin + mark.size(), end - begin - mark.size());
 }
 
+/// As controls read it whose dialect "(dialect: ...)" names on the first line; else whose it looks like.
+ReadOptions options_of(const std::string& text) {
+  ReadOptions options;
+  if (text.substr(0, text.find('\n')).find("(dialect: linuxcnc)") != std::string::npos)
+    options.dialect = "linuxcnc";
+  return options;
+}
+
 std::string diagnostic(const std::string& text) {
   try {
-    read_program(text, "", {});
+    read_program(text, "", options_of(text));
   } catch (const InputError& error) {
     const Location& where = error.where();
     return std::to_string(where.line) + ":" + std::to_string(where.column) + ": " + error.what();
