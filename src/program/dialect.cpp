@@ -111,6 +111,15 @@ std::string_view without_percent(std::string_view line) {
   return line.empty() || line.front() != '%' ? line : line.substr(1);
 }
 
+/// "<PART-1>" or "O<PART-1>", the name of a program; LinuxCNC's "o<name> sub" is none.
+bool is_part_name(std::string_view line) {
+  line = first_words(line);
+  if (!line.empty() && upper(line.front()) == 'O') line.remove_prefix(1);
+  if (line.empty() || line.front() != '<' || line.find('>') == std::string_view::npos) return false;
+  const std::string_view rest = first_words(line.substr(line.find('>') + 1));
+  return rest.empty() || rest.front() == ';';
+}
+
 bool says_nothing(std::string_view line) {
   line = first_words(line);
   return line.empty() || line.front() == ';' || line.front() == '%';
@@ -133,6 +142,7 @@ std::string dialect_names() {
 namespace {
 
 const Dialect& detect_shop_control(std::string_view text) {
+  if (has_semicolon_comments(text) && knows_codes(text, mach3)) return mach3;
   return !knows_codes(text, fanuc) && knows_codes(text, haas) ? haas : fanuc;
 }
 
@@ -150,12 +160,13 @@ const Dialect& detect_dialect(std::string_view text) {
   for (std::string_view rest = text; !rest.empty();) {
     const std::size_t end = rest.find('\n');
     const std::string_view line = rest.substr(0, end);
-    if (is_program_number(without_percent(line))) return detect_shop_control(text);
+    if (is_program_number(without_percent(line)) || is_part_name(line)) return detect_shop_control(text);
     if (!says_nothing(line)) break;
     if (end == std::string_view::npos) break;
     rest.remove_prefix(end + 1);
   }
-  return is_siemens(text) ? siemens : detect_hobby_control(text);
+  if (is_siemens(text)) return siemens;
+  return has_colon_numbers(text) ? detect_shop_control(text) : detect_hobby_control(text);
 }
 
 }  // namespace counterflex

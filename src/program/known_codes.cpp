@@ -65,4 +65,25 @@ bool has_loose_comments(std::string_view text) {
   return false;
 }
 
+bool has_semicolon_comments(std::string_view text) {
+  for (std::size_t at = 0; (at = text.find_first_of("(;", at)) != std::string_view::npos; ++at) {
+    const std::size_t end = end_of_line(text, at);
+    if (text[at] == comment_open) {
+      at = std::min(text.find(comment_close, at), end);
+      if (at >= text.size()) return false;
+      continue;
+    }
+    int letters = 0;
+    for (; at < end && letters < 3; ++at) letters = is_letter(text[at]) ? letters + 1 : 0;
+    if (letters == 3) return true;
+  }
+  return false;
+}
+
+bool has_colon_numbers(std::string_view text) {
+  for (std::size_t at = 0; at < text.size(); at = end_of_line(text, at) + 1)
+    if (text[at] == ':' && at + 1 < text.size() && is_digit(text[at + 1])) return true;
+  return false;
+}
+
 }  // namespace counterflex

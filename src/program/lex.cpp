@@ -186,6 +186,10 @@ void refuse_conflict_marker(const Scanner& s) {
 void refuse_character(const Scanner& s) {
   const char c = s.peek();
   refuse_conflict_marker(s);
+  if (c == '*')
+    s.refuse_at(s.at, "'*' begins a checksum, which a corrected block would break: write without checksums");
+  if (c == '\r')
+    s.refuse_at(s.at, "byte 0x0D is not allowed here: lines end with LF or CR LF, not with CR alone");
   s.refuse_at(s.at, fmt::format("{} is not allowed here", shown(c)));
 }
 
@@ -199,6 +203,20 @@ void lex_colon(Scanner& s) {
   s.skip_blanks();
   const bool alone = s.at == s.end || s.peek() == comment_open || s.peek() == ';';
   s.block.words.back().letter = alone ? 'O' : 'N';
+}
+
+/// "<PART-1>" or "O<PART-1>" of newer shop controls.
+bool is_part_name_at(const Scanner& s) {
+  if (!s.dialect.percent_names || !s.block.words.empty()) return false;
+  const std::size_t open = upper(s.peek()) == 'O' ? s.at + 1 : s.at;
+  return open < s.end && s.text[open] == '<' &&
+         s.text.substr(s.at, s.end - s.at).find('>') != std::string_view::npos;
+}
+
+/// A program's name is no word, and stands where its number would.
+void lex_part_name(Scanner& s) {
+  s.at = s.text.find('>', s.at) + 1;
+  s.block.part_name = true;
 }
 
 void lex_percent(Scanner& s) {
@@ -244,7 +262,7 @@ void lex(std::string_view text, const std::string& file, const Dialect& dialect,
   block.words.clear();
   block.comments.clear();
   block.block_delete = {};
-  block.percent = false;
+  block.percent = block.part_name = false;
   block.assigns = false;
   block.flow_keyword = block.flow_name = {};
   block.statement = Statement::none;
@@ -258,7 +276,9 @@ void lex(std::string_view text, const std::string& file, const Dialect& dialect,
   if (s.peek() == '%') return lex_percent(s);
   for (; s.at < s.end; s.skip_blanks()) {
     const char c = s.peek();
-    if (is_letter(c)) {
+    if (is_part_name_at(s)) {
+      lex_part_name(s);
+    } else if (is_letter(c)) {
       const char next = s.at + 1 < s.end ? s.text[s.at + 1] : '\0';
       const bool may_flow = is_letter(next) || (s.dialect.o_words && (c == 'o' || c == 'O'));
       if (!may_flow || !lex_flow(s)) lex_word(s);

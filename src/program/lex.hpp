@@ -53,7 +53,8 @@ struct Block {
   Span line_end;        ///< empty at a last line without one
   Span block_delete;    ///< '/' and the switch number that may follow it; empty where there is none
   bool percent = false;
-  bool assigns = false;  ///< holds '#1='
+  bool part_name = false;  ///< the line is the name of a program
+  bool assigns = false;    ///< holds '#1='
   Statement statement = Statement::none;
   bool statement_is_bare = false;  ///< nothing follows its name
   bool has_sense = false;          ///< a word says what it counts from

@@ -11,7 +11,8 @@
 namespace counterflex {
 namespace {
 
-/// Behind the line of '%' and that of the program's number, whichever comes last; else the beginning.
+/// Behind the line of '%' and that of the program's number, whichever comes last; else the beginning,
+/// behind the mark of UTF-8 and the line that it begins where that says nothing.
 std::size_t header_position(const Program& program) {
   const Dialect& dialect = *find_dialect(program.dialect);
   std::size_t position = byte_order_mark(program.text);
@@ -19,13 +20,14 @@ std::size_t header_position(const Program& program) {
   Block block;
   while (next_line(program.text, block)) {
     lex(program.text, program.file, dialect, block);
-    const bool number = begins_with_program_number(block);
+    const bool number = begins_with_program_number(block) || block.part_name;
     if (!program.moves.empty() && block.span.begin >= program.moves.front().block.begin) break;
     if ((block.percent && opened) || (!block.words.empty() && !number)) break;
     opened = opened || block.percent;
     const bool path =
         part(program.text, block.span).starts_with(";$PATH");  // belongs below a Sinumerik's '%'
-    if (block.percent || number || (path && opened)) position = block.line_end.end;
+    const bool marked = block.text_line == 1 && position > 0 && block.words.empty();
+    if (block.percent || number || marked || (path && opened)) position = block.line_end.end;
     if (number) break;
   }
   return position;

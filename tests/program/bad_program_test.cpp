@@ -34,8 +34,9 @@ std::string expectation(const std::string& text) {
 /// As controls read it whose dialect "(dialect: ...)" names on the first line; else whose it looks like.
 ReadOptions options_of(const std::string& text) {
   ReadOptions options;
-  if (text.substr(0, text.find('\n')).find("(dialect: linuxcnc)") != std::string::npos)
-    options.dialect = "linuxcnc";
+  const std::string line = text.substr(0, text.find('\n')), mark = "(dialect: ";
+  if (const std::size_t at = line.find(mark); at != std::string::npos)
+    options.dialect = line.substr(at + mark.size(), line.find(')', at) - at - mark.size());
   return options;
 }
 

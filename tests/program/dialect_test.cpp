@@ -19,8 +19,9 @@ std::string with_header(const std::string& text) {
 }  // namespace
 
 TEST_CASE("a program's number shows a shop control, however it is spelt") {
-  for (const char* number : {"O1001\n", "%\nO1001(PART)\n", "%O1001\n", ":1001\n", "%\n:0001 (PART)\n",
-                             "O0001 G21 G90\n", "N1 O1001\n", "%;\nO0007 (PART);\n", "(PART)\no7\n"}) {
+  for (const char* number :
+       {"O1001\n", "%\nO1001(PART)\n", "%O1001\n", ":1001\n", "%\n:0001 (PART)\n", "O0001 G21 G90\n",
+        "N1 O1001\n", "%;\nO0007 (PART);\n", "(PART)\no7\n", "%\n<PART-1>(NAMED)\n", "%\nO<PART 1>\n"}) {
     CAPTURE(number);
     CHECK(dialect_of(std::string(number) + "G21 G90\nG0 X1. Y2. Z3.\n") == "fanuc");
   }
@@ -32,6 +33,9 @@ TEST_CASE("codes that one control alone knows show that one") {
   CHECK(dialect_of(begin + "G110\n" + end) == "haas");
   CHECK(dialect_of(begin + "(G110)\n" + end) == "fanuc");
   CHECK(dialect_of("G00G21G17G90G40\nN2G71G91.1\n" + end) == "mach3");
+  CHECK(dialect_of("O1001 ; the plate\nG21 G90\nG1 F100 ; start here\n" + end) == "mach3");
+  CHECK(dialect_of("O1001 ;\nG21 G90 ;\n" + end) == "fanuc");
+  CHECK(dialect_of("%\nN1 G21 G90\n:2 T1 M6\n" + end) == "fanuc");
   CHECK(dialect_of("G21 G90 (G71)\n#<g71>=1 ; G71\n" + end) == "linuxcnc");
 }
 
@@ -46,7 +50,8 @@ TEST_CASE("comments in comments, and comments without an end, are read where Lin
 
 TEST_CASE("the header goes behind the mark of UTF-8 and behind the program's number") {
   const std::string moves = "G21 G90\nG0 X1. Y2. Z3.\n", header = "(COUNTERFLEX 1)\n";
-  for (const char* begin : {"\xef\xbb\xbf", "%O1001\n", ":1001\n", "%\nO0001 G54\n", "%PART\nO1\n"}) {
+  for (const char* begin : {"\xef\xbb\xbf", "%O1001\n", ":1001\n", "%\nO0001 G54\n", "%PART\nO1\n",
+                            "\xef\xbb\xbf(PART)\n", "%\n<PART-1>\n"}) {
     CAPTURE(begin);
     CHECK(with_header(begin + moves) == begin + header + moves);
   }
