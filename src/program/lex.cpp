@@ -89,6 +89,13 @@ bool read_number_word(Scanner& s, Word& word) {
   s.refuse_at(word.span.begin, fmt::format("{}{} has no number", word.letter, part(s.text, word.number)));
 }
 
+/// ",R" or ",C" of shop controls.
+bool at_corner(const Scanner& s) {
+  if (!s.dialect.macro_words || s.peek() != ',' || s.at + 1 >= s.end) return false;
+  const char letter = upper(s.text[s.at + 1]);
+  return letter == 'R' || letter == 'C';
+}
+
 /// An exponent or a second number right behind the number of a word.
 void check_after_number(const Scanner& s, const Word& word) {
   const char next = s.peek();
@@ -98,7 +105,7 @@ void check_after_number(const Scanner& s, const Word& word) {
       s.refuse_at(s.at, fmt::format("{}{}{}{}: a number has no exponent here", word.letter,
                                     part(s.text, word.number), next, after));
   }
-  if (next == ',') s.refuse_at(s.at, "',': decimals follow a point, and corner words are not read yet");
+  if (next == ',' && !at_corner(s)) s.refuse_at(s.at, "',': decimals follow a point");
 }
 
 /// A value that the control works out.
@@ -195,6 +202,14 @@ void refuse_character(const Scanner& s) {
 
 namespace {
 
+/// Its size is no position: no word that corrections change.
+void lex_corner(Scanner& s) {
+  ++s.at;
+  lex_word(s);
+  s.block.words.pop_back();
+  s.block.corner = true;
+}
+
 /// ":1001" is the number of a program; before other words it numbers the block, as N does.
 void lex_colon(Scanner& s) {
   const bool first = s.block.words.empty();
@@ -262,7 +277,7 @@ void lex(std::string_view text, const std::string& file, const Dialect& dialect,
   block.words.clear();
   block.comments.clear();
   block.block_delete = {};
-  block.percent = block.part_name = false;
+  block.percent = block.part_name = block.corner = false;
   block.assigns = false;
   block.flow_keyword = block.flow_name = {};
   block.statement = Statement::none;
@@ -284,6 +299,8 @@ void lex(std::string_view text, const std::string& file, const Dialect& dialect,
       if (!may_flow || !lex_flow(s)) lex_word(s);
     } else if (c == '#') {
       skip_assignment(s);
+    } else if (c == ',' && at_corner(s)) {
+      lex_corner(s);
     } else if (c == ':' && dialect.percent_names) {
       lex_colon(s);
     } else if (c == comment_open) {

@@ -53,6 +53,7 @@ struct Block {
   Span line_end;        ///< empty at a last line without one
   Span block_delete;    ///< '/' and the switch number that may follow it; empty where there is none
   bool percent = false;
+  bool corner = false;     ///< ",R2." or ",C1.": the control rounds or breaks the corner with the next move
   bool part_name = false;  ///< the line is the name of a program
   bool assigns = false;    ///< holds '#1='
   Statement statement = Statement::none;

@@ -37,7 +37,10 @@ void read_held(const Block& block, Reading& r, std::string_view what, bool end_k
 void read_own_way(const Block& block, Reading& r, const FoundG& found) {
   Move& move = start_move(block, r, Motion::feed);
   for (std::size_t axis = 0; axis < 3; ++axis) fix_axis(r, move, axis);
-  leave_alone(block, r, fmt::format("G{} moves in a way of the control's own", found.word->value));
+  const bool known = found.code->bit != unknown;
+  leave_alone(block, r,
+              known ? fmt::format("G{} moves in a way of the control's own", found.word->value)
+                    : fmt::format("G{} is not known in dialect {}", found.word->value, r.dialect.name));
   finish_move(r, move);
 }
 

@@ -118,7 +118,8 @@ TEST_CASE("a depth that was programmed where it may not act is not repeated in l
 }
 
 TEST_CASE("every code of a drilling cycle is one, G76 of linuxcnc is a thread") {
-  for (const char* g : {"G73", "G74", "G76", "G81", "G82", "G83", "G84", "G85", "G86", "G87", "G88", "G89"}) {
+  for (const char* g : {"G73", "G74", "G76", "G81", "G82", "G83", "G84", "G85", "G86", "G87", "G88", "G89",
+                        "G84.2", "G84.3"}) {
     CAPTURE(g);
     const Program program = read(std::string("O1\nG21 G0 X0. Y0. Z5.\n") + g + " X1. Z-1. R1. F100.\nX2.\n");
     CHECK(program.moves.at(2).cycle.has_value());
