@@ -43,13 +43,13 @@ bool Emitter::rounds_to_nothing(const Move& move, std::size_t axis, double shift
 }
 
 // An axis that the program has lost (machine positions, tool changes) carries nothing any more; where only
-// '/' or another work offset makes it unknown it does.
+// '/', another work offset or what is not followed makes it unknown it does.
 void Emitter::forget_lost_axes(std::size_t m) {
   const Move& move = job_.program.moves[m];
   const Move* last = move_before(job_.program, m);
   if (last == nullptr || last->block_delete || last->offset != move.offset) return;
   for (std::size_t axis = 0; axis < 3; ++axis)
-    if (last->known_end[axis] && !move.known_start[axis]) state_.holds[axis] = false;
+    if (last->known_end[axis] && !move.known_start[axis] && !move.stands[axis]) state_.holds[axis] = false;
 }
 
 void Emitter::note_doubt(const Move& move) {

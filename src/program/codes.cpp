@@ -11,6 +11,7 @@ namespace {
 constexpr unsigned not_mach = any_family & ~mach3_family;
 constexpr unsigned linux_like = linuxcnc_family | grbl_family;
 
+constexpr std::string_view points_of_turning = "polar interpolation";
 constexpr std::string_view points = "tool centre point control";
 
 // In the order of their numbers; of two with the same number, the families differ.
@@ -33,7 +34,9 @@ constexpr std::array g_codes{
     GCode{100, Action::set_data},
     GCode{110, Action::end_data, Group::none, {}, shop_families},
     GCode{120, Action::pocket, Group::none, {}, shop_families | mach3_family},
+    GCode{121, Action::displace, Group::none, points_of_turning, shop_families, polar},
     GCode{130, Action::pocket, Group::none, {}, shop_families | mach3_family},
+    GCode{131, Action::end_displace, Group::none, {}, shop_families, polar},
     GCode{150, Action::end_displace, Group::none, {}, shop_families | mach3_family, polar},
     GCode{160, Action::displace, Group::none, "polar coordinates", shop_families | mach3_family, polar},
     GCode{170, Action::plane, Group::plane},
@@ -115,6 +118,8 @@ constexpr std::array g_codes{
     GCode{820, Action::cycle, Group::motion},
     GCode{830, Action::cycle, Group::motion},
     GCode{840, Action::cycle, Group::motion},
+    GCode{842, Action::cycle, Group::motion, {}, shop_families},
+    GCode{843, Action::cycle, Group::motion, {}, shop_families},
     GCode{850, Action::cycle, Group::motion},
     GCode{860, Action::cycle, Group::motion},
     GCode{870, Action::cycle, Group::motion},
@@ -140,7 +145,9 @@ constexpr std::array g_codes{
     GCode{1030, Action::state, Group::none, {}, shop_families},
     GCode{1100, Action::work_offset, Group::offset, {}, haas_family},
     GCode{1110, Action::work_offset, Group::offset, {}, haas_family},
+    GCode{1120, Action::displace, Group::none, points_of_turning, fanuc_family, polar},
     GCode{1120, Action::work_offset, Group::offset, {}, haas_family},
+    GCode{1130, Action::end_displace, Group::none, {}, fanuc_family, polar},
     GCode{1130, Action::work_offset, Group::offset, {}, haas_family},
     GCode{1140, Action::work_offset, Group::offset, {}, haas_family},
     GCode{1150, Action::work_offset, Group::offset, {}, haas_family},
@@ -192,7 +199,13 @@ bool contains(const Codes& codes, int code) {
   return std::find(codes.begin(), codes.end(), code) != codes.end();
 }
 
+constexpr GCode not_known{0, Action::own_way, Group::none, "", any_family, unknown};
+
 }  // namespace
+
+const GCode& code_not_known() {
+  return not_known;
+}
 
 const GCode* find_g_code(int tenths, const Dialect& dialect) {
   if (dialect.family == siemens_family) return find_siemens_code(tenths);

@@ -86,7 +86,8 @@ enum Displacement : std::uint16_t {
   data = 512,         ///< G10 has changed the work offset
   kinematics = 1024,  ///< switched
   framed = 2048,      ///< TRANS, ROT, SCALE, MIRROR of a Sinumerik
-  tilted = 4096       ///< CYCLE800
+  tilted = 4096,      ///< CYCLE800
+  unknown = 8192      ///< a code that is not known has acted: nobody knows what goes on acting
 };
 
 struct GCode {
@@ -97,6 +98,10 @@ struct GCode {
   unsigned families = any_family;  ///< dialects that know it so
   std::uint16_t bit = 0;           ///< of a displacement
 };
+
+/// Stands for codes that the dialect does not know: the block moves in a way of its own, and what follows is
+/// not followed.
+const GCode& code_not_known();
 
 /// The code `tenths` in `dialect`, or nullptr.
 const GCode* find_g_code(int tenths, const Dialect& dialect);

@@ -3,6 +3,8 @@
 #include <array>
 
 #include "program/klartext_lex.hpp"
+#include "program/known_codes.hpp"
+#include "program/scanner.hpp"
 #include "program/siemens_lex.hpp"
 
 namespace counterflex {
@@ -37,7 +39,9 @@ constexpr Dialect shop_control(std::string_view name, unsigned family) {
           .block_delete_numbers = true,
           .reference_beside_motion = true,
           .macro_words = true,
-          .parentheses_nest = true};
+          .parentheses_nest = true,
+          .comments_may_stay_open = true,
+          .percent_names = true};
 }
 
 constexpr Dialect fanuc = shop_control("fanuc", fanuc_family);
@@ -69,14 +73,10 @@ constexpr Dialect heidenhain{.name = klartext_name, .tool_change_moves_axes = tr
 
 constexpr std::array dialects{&linuxcnc, &grbl, &fanuc, &haas, &mach3, &siemens, &heidenhain};
 
-bool is_blank_or_return(char c) {
-  return c == ' ' || c == '\t' || c == '\r';
-}
-
 /// `line` without leading blanks and comments.
 std::string_view first_words(std::string_view line) {
   while (!line.empty()) {
-    if (is_blank_or_return(line.front())) {
+    if (is_blank(line.front()) || says_nothing(line.front())) {
       line.remove_prefix(1);
     } else if (line.front() == comment_open) {
       const std::size_t close = line.find(comment_close);
@@ -88,14 +88,35 @@ std::string_view first_words(std::string_view line) {
   return line;
 }
 
-/// "O1001" and nothing but blanks and comments; LinuxCNC's "O100 sub" is no number of a program.
+std::string_view without_digits(std::string_view text) {
+  while (!text.empty() && is_digit(text.front())) text.remove_prefix(1);
+  return text;
+}
+
+/// "O1001" or ":1001", with N before it or words and comments behind it; LinuxCNC's "O100 sub" is no number
+/// of a program.
 bool is_program_number(std::string_view line) {
   line = first_words(line);
-  if (line.empty() || (line.front() != 'O' && line.front() != 'o')) return false;
-  std::size_t end = 1;
-  while (end < line.size() && line[end] >= '0' && line[end] <= '9') ++end;
-  if (end == 1) return false;
-  const std::string_view rest = first_words(line.substr(end));
+  if (!line.empty() && upper(line.front()) == 'N') line = first_words(without_digits(line.substr(1)));
+  if (line.empty() || (upper(line.front()) != 'O' && line.front() != ':')) return false;
+  const std::string_view behind = without_digits(line.substr(1));
+  if (behind.size() == line.size() - 1) return false;
+  const std::string_view rest = first_words(behind);
+  return rest.size() < 2 || !is_letter(rest[0]) || !is_letter(rest[1]);
+}
+
+/// What stands behind the '%' of a line may be the program's number.
+std::string_view without_percent(std::string_view line) {
+  line = first_words(line);
+  return line.empty() || line.front() != '%' ? line : line.substr(1);
+}
+
+/// "<PART-1>" or "O<PART-1>", the name of a program; LinuxCNC's "o<name> sub" is none.
+bool is_part_name(std::string_view line) {
+  line = first_words(line);
+  if (!line.empty() && upper(line.front()) == 'O') line.remove_prefix(1);
+  if (line.empty() || line.front() != '<' || line.find('>') == std::string_view::npos) return false;
+  const std::string_view rest = first_words(line.substr(line.find('>') + 1));
   return rest.empty() || rest.front() == ';';
 }
 
@@ -118,17 +139,34 @@ std::string dialect_names() {
   return names;
 }
 
+namespace {
+
+const Dialect& detect_shop_control(std::string_view text) {
+  if (has_semicolon_comments(text) && knows_codes(text, mach3)) return mach3;
+  return !knows_codes(text, fanuc) && knows_codes(text, haas) ? haas : fanuc;
+}
+
+/// Of programs without a number: what LinuxCNC refuses may be plain to others.
+const Dialect& detect_hobby_control(std::string_view text) {
+  const bool others = !knows_codes(text, linuxcnc) || has_loose_comments(text);
+  return others && knows_codes(text, mach3) ? mach3 : linuxcnc;
+}
+
+}  // namespace
+
 const Dialect& detect_dialect(std::string_view text) {
+  text.remove_prefix(byte_order_mark(text));
   if (is_klartext(text)) return heidenhain;
-  const std::string_view all = text;
-  while (!text.empty()) {
-    const std::size_t end = text.find('\n');
-    const std::string_view line = text.substr(0, end);
-    if (!says_nothing(line)) return is_program_number(line) ? fanuc : is_siemens(all) ? siemens : linuxcnc;
+  for (std::string_view rest = text; !rest.empty();) {
+    const std::size_t end = rest.find('\n');
+    const std::string_view line = rest.substr(0, end);
+    if (is_program_number(without_percent(line)) || is_part_name(line)) return detect_shop_control(text);
+    if (!says_nothing(line)) break;
     if (end == std::string_view::npos) break;
-    text.remove_prefix(end + 1);
+    rest.remove_prefix(end + 1);
   }
-  return linuxcnc;
+  if (is_siemens(text)) return siemens;
+  return has_colon_numbers(text) ? detect_shop_control(text) : detect_hobby_control(text);
 }
 
 }  // namespace counterflex

@@ -42,6 +42,7 @@ struct Dialect {
   bool o_words = false;                  ///< o<name> sub, if, while, call
   bool parentheses_nest = false;         ///< a '(' in a comment is a character like others
   bool comments_may_stay_open = false;   ///< up to the end of the line
+  bool percent_names = false;            ///< "%O1" or "%PART" at the beginning, ":1" for "O1"
   bool sinumerik_words = false;          ///< X=IC(5), CR=4., R1=5, names, labels; ';' begins comments
   std::string_view radius_name = "R";    ///< of an arc
 };

@@ -50,6 +50,7 @@ void open_subprogram(Reading& r, std::string name) {
   open_body(r, std::move(name));
   if (!outermost) return;
   r.body.subprogram = true;
+  r.taken_away.fill(true);
   forget_state(r.state);
 }
 
@@ -147,7 +148,7 @@ void read_program_number(const Block& block, Reading& r) {
     ++r.program_numbers;
   }
   const bool misplaced =
-      block.words.size() > 1 || (!subprogram && r.program.block_count > 1 && !r.after_subprogram);
+      !begins_with_program_number(block) || (!subprogram && r.program.block_count > 1 && !r.after_subprogram);
   if (misplaced || !r.body.open.empty())
     refuse_word(block, r, *o,
                 fmt::format("O{}: a program's number stands alone, first or behind a program that has ended",

@@ -191,6 +191,7 @@ Context context_of(const Reading& r) {
 }
 
 void apply_words(const Block& block, Reading& r) {
+  r.corner = block.corner;
   sort_words(r.program.file, r.dialect, block, context_of(r), r.sorted);
   read_program_number(block, r);
   if (has_other_codes(r.sorted)) {

@@ -33,13 +33,16 @@ struct Reading {
   SortedBlock sorted{};
   std::optional<bool> block_relative{};  ///< X=IC(5), X=AC(5): for this block, whatever is modal
   Body body{};
-  int groups = 0;                   ///< contours begun
-  std::size_t run_begin = 0;        ///< the first move since the tool went to a place of the machine
-  std::size_t program_numbers = 0;  ///< lines that begin with an O-number, so far
-  std::string last_reason{};        ///< for which a block was left alone
-  bool lengths_set = false;         ///< G10 has changed tool lengths: those of the options no longer hold
-  bool after_subprogram = false;    ///< M99 has ended one: another program may follow
-  bool ended = false;               ///< M2 or M30 was read
+  int groups = 0;                    ///< contours begun
+  std::array<bool, 3> taken_away{};  ///< axes that the machine has moved by itself since the last move
+  std::size_t run_begin = 0;         ///< the first move since the tool went to a place of the machine
+  std::size_t program_numbers = 0;   ///< lines that begin with an O-number, so far
+  std::string last_reason{};         ///< for which a block was left alone
+  bool corner = false;               ///< the block's end and the begin of the next make a corner
+  bool after_corner = false;         ///< the last move did
+  bool lengths_set = false;          ///< G10 has changed tool lengths: those of the options no longer hold
+  bool after_subprogram = false;     ///< M99 has ended one: another program may follow
+  bool ended = false;                ///< M2 or M30 was read
 
   bool relative() const { return block_relative.value_or(state.relative); }
   bool in_body() const { return body.jumps || !body.open.empty(); }

@@ -90,6 +90,13 @@ bool read_number_word(Scanner& s, Word& word) {
   s.refuse_at(word.span.begin, fmt::format("{}{} has no number", word.letter, part(s.text, word.number)));
 }
 
+/// ",R" or ",C" of shop controls.
+bool at_corner(const Scanner& s) {
+  if (!s.dialect.macro_words || s.peek() != ',' || s.at + 1 >= s.end) return false;
+  const char letter = upper(s.text[s.at + 1]);
+  return letter == 'R' || letter == 'C';
+}
+
 /// An exponent or a second number right behind the number of a word.
 void check_after_number(const Scanner& s, const Word& word) {
   const char next = s.peek();
@@ -99,7 +106,7 @@ void check_after_number(const Scanner& s, const Word& word) {
       s.refuse_at(s.at, fmt::format("{}{}{}{}: a number has no exponent here", word.letter,
                                     part(s.text, word.number), next, after));
   }
-  if (next == ',') s.refuse_at(s.at, "',': decimals follow a point, and corner words are not read yet");
+  if (next == ',' && !at_corner(s)) s.refuse_at(s.at, "',': decimals follow a point");
 }
 
 /// A value that the control works out.
@@ -131,8 +138,21 @@ void lex_word(Scanner& s) {
 
 namespace {
 
+/// The ')' of the comment at the scanner where its brackets are closed in pairs, or the end: a control that
+/// reads them otherwise would find a ')' outside comments, and stop.
+std::size_t end_of_nested_comment(const Scanner& s) {
+  int depth = 0;
+  for (std::size_t at = s.at; at < s.end; ++at) {
+    if (s.text[at] == comment_open) ++depth;
+    if (s.text[at] == comment_close && --depth == 0) return at;
+  }
+  return s.end;
+}
+
 void lex_comment(Scanner& s) {
   const std::size_t open = s.at;
+  if (const std::size_t end = end_of_nested_comment(s); s.dialect.parentheses_nest && end < s.end)
+    s.at = end - 1;
   for (++s.at; s.at < s.end && s.text[s.at] != comment_close; ++s.at)
     if (s.text[s.at] == comment_open && !s.dialect.parentheses_nest)
       s.refuse_at(s.at, "a comment stands inside a comment");
@@ -174,19 +194,67 @@ void refuse_conflict_marker(const Scanner& s) {
 void refuse_character(const Scanner& s) {
   const char c = s.peek();
   refuse_conflict_marker(s);
+  if (c == '*')
+    s.refuse_at(s.at, "'*' begins a checksum, which a corrected block would break: write without checksums");
+  if (c == '\r')
+    s.refuse_at(s.at, "byte 0x0D is not allowed here: lines end with LF or CR LF, not with CR alone");
   s.refuse_at(s.at, fmt::format("{} is not allowed here", shown(c)));
 }
 
 namespace {
 
+/// Its size is no position: no word that corrections change.
+void lex_corner(Scanner& s) {
+  ++s.at;
+  lex_word(s);
+  s.block.words.pop_back();
+  s.block.corner = true;
+}
+
+/// ":1001" is the number of a program; before other words it numbers the block, as N does.
+void lex_colon(Scanner& s) {
+  const bool first = s.block.words.empty();
+  if (!first || s.at + 1 >= s.end || !is_digit(s.text[s.at + 1])) refuse_character(s);
+  lex_word(s);
+  s.skip_blanks();
+  const bool alone = s.at == s.end || s.peek() == comment_open || s.peek() == ';';
+  s.block.words.back().letter = alone ? 'O' : 'N';
+}
+
+/// "<PART-1>" or "O<PART-1>" of newer shop controls.
+bool is_part_name_at(const Scanner& s) {
+  if (!s.dialect.percent_names || !s.block.words.empty()) return false;
+  const std::size_t open = upper(s.peek()) == 'O' ? s.at + 1 : s.at;
+  return open < s.end && s.text[open] == '<' &&
+         s.text.substr(s.at, s.end - s.at).find('>') != std::string_view::npos;
+}
+
+/// A program's name is no word, and stands where its number would.
+void lex_part_name(Scanner& s) {
+  s.at = s.text.find('>', s.at) + 1;
+  s.block.part_name = true;
+}
+
 void lex_percent(Scanner& s) {
   ++s.at;
   s.skip_blanks();
-  if (s.at != s.end) s.refuse_at(s.at, "a '%' stands alone on its line");
   s.block.percent = true;
+  const std::string_view rest = s.text.substr(s.at, s.end - s.at);
+  const bool ends = rest.find_first_not_of("; \t") == std::string_view::npos;
+  // What Fagor's controls begin with: their cycles are others.
+  const bool name = s.dialect.percent_names && rest.find(',') == std::string_view::npos;
+  if (!ends && (!name || s.block.text_line > 1)) s.refuse_at(s.at, "a '%' stands alone on its line");
 }
 
 }  // namespace
+
+bool begins_with_program_number(const Block& block) {
+  const std::vector<Word>& words = block.words;
+  const std::size_t first = !words.empty() && words[0].letter == 'N' ? 1 : 0;
+  const auto is_axis = [](const Word& word) { return word.letter >= 'X' && word.letter <= 'Z'; };
+  return words.size() > first && words[first].letter == 'O' &&
+         std::none_of(words.begin(), words.end(), is_axis);
+}
 
 long count_of(const Word& word) {
   constexpr double beyond = 1e15;
@@ -210,23 +278,32 @@ void lex(std::string_view text, const std::string& file, const Dialect& dialect,
   block.words.clear();
   block.comments.clear();
   block.block_delete = {};
-  block.percent = false;
+  block.percent = block.part_name = block.corner = false;
   block.assigns = false;
   block.flow_keyword = block.flow_name = {};
   block.statement = Statement::none;
   block.statement_is_bare = block.has_sense = false;
   Scanner s{block.span.end, text, file, dialect, block, block.span.begin};
+  if (block.text_line == 1) s.at += byte_order_mark(text.substr(s.at));
+  while (s.at < s.end && says_nothing(text[s.at])) ++s.at;
+  while (s.at < s.end && says_nothing(text[s.end - 1])) --s.end;
   if (dialect.sinumerik_words) return lex_siemens(s);
   s.skip_blanks();
   if (s.peek() == '%') return lex_percent(s);
   for (; s.at < s.end; s.skip_blanks()) {
     const char c = s.peek();
-    if (is_letter(c)) {
+    if (is_part_name_at(s)) {
+      lex_part_name(s);
+    } else if (is_letter(c)) {
       const char next = s.at + 1 < s.end ? s.text[s.at + 1] : '\0';
       const bool may_flow = is_letter(next) || (s.dialect.o_words && (c == 'o' || c == 'O'));
       if (!may_flow || !lex_flow(s)) lex_word(s);
     } else if (c == '#') {
       skip_assignment(s);
+    } else if (c == ',' && at_corner(s)) {
+      lex_corner(s);
+    } else if (c == ':' && dialect.percent_names) {
+      lex_colon(s);
     } else if (c == comment_open) {
       lex_comment(s);
     } else if (c == ';') {

@@ -53,7 +53,9 @@ struct Block {
   Span line_end;        ///< empty at a last line without one
   Span block_delete;    ///< '/' and the switch number that may follow it; empty where there is none
   bool percent = false;
-  bool assigns = false;  ///< holds '#1='
+  bool corner = false;     ///< ",R2." or ",C1.": the control rounds or breaks the corner with the next move
+  bool part_name = false;  ///< the line is the name of a program
+  bool assigns = false;    ///< holds '#1='
   Statement statement = Statement::none;
   bool statement_is_bare = false;  ///< nothing follows its name
   bool has_sense = false;          ///< a word says what it counts from
@@ -84,6 +86,9 @@ inline bool says_something(const Block& block) {
 inline bool is_program_number(const Block& block) {
   return block.words.size() == 1 && block.words[0].letter == 'O';
 }
+
+/// An O-number at the beginning of a block that moves nothing.
+bool begins_with_program_number(const Block& block);
 
 /// Advances `block` to the line after `block.line_end`; false at the end of `text`. A default Block stands
 /// before the first line.

@@ -1,6 +1,7 @@
 #include "program/modal_words.hpp"
 
 #include "program/contour.hpp"
+#include "program/read_move.hpp"
 #include "program/remarks.hpp"
 
 namespace counterflex {
@@ -44,7 +45,7 @@ void apply_tool(Reading& r) {
   if (!r.sorted.has(MAction::tool_change)) return;
   r.state.tool = r.state.tool_chosen;
   for (std::size_t axis = 0; axis < 3; ++axis)
-    if (r.tool_change_axes[axis]) r.state.known[axis] = false;
+    if (r.tool_change_axes[axis]) take_away(r, axis);
   end_contour(r);
   r.run_begin = r.program.moves.size();
 }

@@ -142,8 +142,10 @@ void watch_other_axes(const Block& block, Reading& r) {
 
 void apply_displacements(const Block& block, Reading& r) {
   end_displacements(r);
-  for (const FoundG& g : r.sorted.g)
+  for (const FoundG& g : r.sorted.g) {
     if (g.code->action == Action::displace) add_displacement(block, r, g.code->bit);
+    if (g.code->bit == unknown) r.state.displaced |= unknown, end_contour(r);
+  }
   if (r.sorted.has(Action::shift)) {
     const bool zero = is_zero_or_absent(r.sorted.word('X')) && is_zero_or_absent(r.sorted.word('Y')) &&
                       is_zero_or_absent(r.sorted.word('Z'));

@@ -13,9 +13,9 @@ void leave_machine_move(const Block& block, Reading& r, const FoundG& found) {
   const bool reference = found.code->action == Action::reference_move;
   if (!reference && !has_axis_word(r.sorted) && !r.sorted.has_any("ABCUVW") && !r.in_body())
     refuse_word(block, r, *found.word, "G53 has no axis word");
+  const bool all = !has_axis_word(r.sorted);
   for (std::size_t axis = 0; axis < 3; ++axis)
-    if (r.sorted.word(letters_of_axes[axis]) != nullptr) r.state.known[axis] = false;
-  if (!has_axis_word(r.sorted)) r.state.known.fill(false);
+    if (all || r.sorted.word(letters_of_axes[axis]) != nullptr) take_away(r, axis);
   end_contour(r);
   r.run_begin = r.program.moves.size();
   r.last_reason = fmt::format("G{} moves to a position of the machine", found.word->value);
@@ -37,7 +37,10 @@ void read_held(const Block& block, Reading& r, std::string_view what, bool end_k
 void read_own_way(const Block& block, Reading& r, const FoundG& found) {
   Move& move = start_move(block, r, Motion::feed);
   for (std::size_t axis = 0; axis < 3; ++axis) fix_axis(r, move, axis);
-  leave_alone(block, r, fmt::format("G{} moves in a way of the control's own", found.word->value));
+  const bool known = found.code->bit != unknown;
+  leave_alone(block, r,
+              known ? fmt::format("G{} moves in a way of the control's own", found.word->value)
+                    : fmt::format("G{} is not known in dialect {}", found.word->value, r.dialect.name));
   finish_move(r, move);
 }
 

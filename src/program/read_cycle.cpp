@@ -99,14 +99,32 @@ void forget_initial(ModalState& state) {
   state.cycle.left_at_retract = false;
 }
 
+/// Says under which of G90 and G91 the cycle's Z and R count in this hole. True where numbers that an earlier
+/// hole has left count otherwise than they did there: then a shift of theirs is none of this hole's.
+bool turns_sticky_numbers(Reading& r, bool begins) {
+  CycleState& cycle = r.state.cycle;
+  const bool before = cycle.relative;
+  // Shop controls keep the depth that was programmed under G90 also where G91 moves on to further holes.
+  if (is_first(r) || r.sorted.has_any("ZR") || !r.dialect.macro_words) cycle.relative = r.state.relative;
+  if (begins || cycle.relative == before) return false;
+  const bool keeps_bottom = cycle.bottom && r.sorted.word('Z') == nullptr;
+  const bool keeps_retract = cycle.retract && r.sorted.word('R') == nullptr;
+  return keeps_bottom || keeps_retract;
+}
+
 /// A hole that stays as the text has it.
-void fix_hole(Reading& r, Move& move) {
+void fix_hole(Reading& r, Move& move, bool turned) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const bool depth = axis == 2 && !r.state.relative;
+    const bool depth = axis == 2 && (!r.state.relative || turned);
     if (depth || r.sorted.word(letters_of_axes[axis]) != nullptr) fix_axis(r, move, axis);
   }
   move.cycle.reset();
   forget_initial(r.state);
+}
+
+std::string_view why_hole_stays(bool turned) {
+  return turned ? "Z and R of an earlier hole count as differences under G91 and as places under G90"
+                : "the cycle's words are not all plain numbers in G17";
 }
 
 }  // namespace
@@ -115,8 +133,7 @@ void read_cycle(const Block& block, Reading& r) {
   ModalState& state = r.state;
   const std::string_view why = why_not_followed(r);
   const bool begins = begins_series(state);
-  // Shop controls keep the depth that was programmed under G90 also where G91 moves on to further holes.
-  if (is_first(r) || r.sorted.has_any("ZR") || !r.dialect.macro_words) state.cycle.relative = state.relative;
+  const bool turned = turns_sticky_numbers(r, begins);
   keep_sticky(r, r.sorted.word('Z'), state.cycle.bottom);
   keep_sticky(r, r.sorted.word('R'), state.cycle.retract);
 
@@ -131,7 +148,7 @@ void read_cycle(const Block& block, Reading& r) {
   hole.retract_word = axis_word(r.sorted.word('R'));
   set_levels(state, hole);
   if (hole.repeats > 0) place_hole(r, move, hole.repeats, why.empty());
-  const bool followed = why.empty() && plain_words(r) && state.normal == 2 && state.cycle.bottom;
+  const bool followed = why.empty() && plain_words(r) && state.normal == 2 && state.cycle.bottom && !turned;
   if (hole.repeats > 0) leave_hole(state, hole);
   if (hole.bottom_word || r.sorted.word('Z') != nullptr)
     state.cycle.bottom_in_doubt = !followed || !empty(block.block_delete);
@@ -141,8 +158,8 @@ void read_cycle(const Block& block, Reading& r) {
   const bool own = !state.relative && state.known[0] && state.known[1] && hole.repeats > 0;
   if (!own) move.handling = Handling::held;
   if (!followed) {
-    fix_hole(r, move);
-    leave_alone(block, r, why.empty() ? "the cycle's words are not all plain numbers in G17" : why);
+    fix_hole(r, move, turned);
+    leave_alone(block, r, why.empty() ? why_hole_stays(turned) : why);
   }
   finish_move(r, move);
   if (move.block_delete) forget_initial(state);

@@ -58,10 +58,13 @@ void allow_changes(const Reading& r, Move& move) {
   // Words and blocks that are inserted count as the modal state has it.
   const bool counts_otherwise = r.relative() != r.state.relative;
   move.may_insert_words = move.may_insert_words && !tool_length && !any(move.fixed) && !counts_otherwise;
-  move.may_split = feed && !rigid && !move.exact_stop && !tool_length && !acts_at_end && shares_time;
+  // The control takes the size of a corner off both of the blocks that make it.
+  const bool corner = r.corner || r.after_corner;
+  move.may_split =
+      feed && !corner && !rigid && !move.exact_stop && !tool_length && !acts_at_end && shares_time;
   const bool only_motion = b.g.empty() || (b.g.size() == 1 && b.g[0].code->group == Group::motion);
-  move.may_jump = all_known(move.known_start) && !rigid && move.feed_mm_min > 0 && !move.exact_stop &&
-                  !acts_at_end && !unit && (feed ? move.may_split : only_motion);
+  move.may_jump = all_known(move.known_start) && !corner && !rigid && move.feed_mm_min > 0 &&
+                  !move.exact_stop && !acts_at_end && !unit && (feed ? move.may_split : only_motion);
 }
 
 std::string_view displacement_text(std::uint16_t bits) {
@@ -74,6 +77,7 @@ std::string_view displacement_text(std::uint16_t bits) {
   if ((bits & polar) != 0) return "coordinates are polar";
   if ((bits & modal_macro) != 0) return "every move calls a macro";
   if ((bits & framed) != 0) return "a frame shifts or turns coordinates";
+  if ((bits & unknown) != 0) return "a code that is not known may act";
   if ((bits & tilted) != 0) return "coordinates are tilted";
   if ((bits & data) != 0) return "G10 has set the work offset";
   return (bits & shifted) != 0 ? "G52 shifts the coordinates" : "G92 has set the position";
@@ -139,6 +143,10 @@ Move& start_move(const Block& block, Reading& r, Motion motion) {
   move.unit = r.state.unit.value_or(LengthUnit::millimetres);
   move.known_start = r.state.known;
   move.start_mm = r.state.position_mm;
+  // Cycles that are called at every position are left as they are, and so are the positions.
+  if (!why_not_followed(r).empty() && (r.state.displaced & modal_macro) == 0)
+    for (std::size_t axis = 0; axis < 3; ++axis) move.stands[axis] = !r.taken_away[axis];
+  r.taken_away.fill(false);
   move.relative = r.relative();
   move.feed_mm_min = feed_mm_min(r.state);
   move.spindle_rpm = r.state.spindle_rpm;
@@ -149,6 +157,11 @@ Move& start_move(const Block& block, Reading& r, Motion motion) {
   move.exact_stop = r.state.exact_stop || r.sorted.has(Action::stop_once);
   if (const Word* n = r.sorted.word('N')) move.block_number = count_of(*n);
   return move;
+}
+
+void take_away(Reading& r, std::size_t axis) {
+  r.state.known[axis] = false;
+  r.taken_away[axis] = true;
 }
 
 void fix_axis(Reading& r, Move& move, std::size_t axis) {
@@ -176,6 +189,7 @@ void finish_move(Reading& r, Move& move) {
   move.end_mm = r.state.position_mm;
   if (r.state.feed_mode == FeedUnit::inverse_time && move.motion == Motion::feed) set_inverse_time(r, move);
   allow_changes(r, move);
+  r.after_corner = r.corner;
 }
 
 double length_mm(const Reading& r, const Word& word) {

@@ -24,6 +24,9 @@ Move& start_move(const Block& block, Reading& reading, Motion motion);
 /// axes unknown.
 void place_words(const Block& block, Reading& reading, Move& move);
 
+/// The machine moves the axis by itself: nobody knows where to.
+void take_away(Reading& reading, std::size_t axis);
+
 /// The axis goes to a place of the block's own which the program does not show.
 void fix_axis(Reading& reading, Move& move, std::size_t axis);
 

@@ -44,7 +44,7 @@ bool is_corrected(const Program& program) {
     if (block.percent && ++percents == 2) return false;
     for (const Span comment : block.comments)
       if (is_mark(part(program.text, comment))) return true;
-    if (!block.words.empty() && !is_program_number(block)) return false;
+    if (!block.words.empty() && !begins_with_program_number(block)) return false;
   }
   return false;
 }

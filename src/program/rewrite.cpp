@@ -6,25 +6,28 @@
 #include "program/klartext_lex.hpp"
 #include "program/klartext_rewrite.hpp"
 #include "program/rewrite_block.hpp"
+#include "program/scanner.hpp"
 
 namespace counterflex {
 namespace {
 
-/// Behind the line of '%' and that of the program's number, whichever comes last; else the beginning.
+/// Behind the line of '%' and that of the program's number, whichever comes last; else the beginning,
+/// behind the mark of UTF-8 and the line that it begins where that says nothing.
 std::size_t header_position(const Program& program) {
   const Dialect& dialect = *find_dialect(program.dialect);
-  std::size_t position = 0;
+  std::size_t position = byte_order_mark(program.text);
   bool opened = false;
   Block block;
   while (next_line(program.text, block)) {
     lex(program.text, program.file, dialect, block);
-    const bool number = is_program_number(block);
+    const bool number = begins_with_program_number(block) || block.part_name;
     if (!program.moves.empty() && block.span.begin >= program.moves.front().block.begin) break;
     if ((block.percent && opened) || (!block.words.empty() && !number)) break;
     opened = opened || block.percent;
     const bool path =
         part(program.text, block.span).starts_with(";$PATH");  // belongs below a Sinumerik's '%'
-    if (block.percent || number || (path && opened)) position = block.line_end.end;
+    const bool marked = block.text_line == 1 && position > 0 && block.words.empty();
+    if (block.percent || number || marked || (path && opened)) position = block.line_end.end;
     if (number) break;
   }
   return position;
@@ -44,7 +47,9 @@ std::string comment_text(const std::string& text) {
 std::string header_text(const Program& program, const ProgramStyle& style, std::size_t position,
                         const WriteOptions& options) {
   std::string text;
-  if (!options.header.empty() && position > 0 && program.text[position - 1] != '\n') text += style.line_end;
+  if (!options.header.empty() && position > byte_order_mark(program.text) &&
+      program.text[position - 1] != '\n')
+    text += style.line_end;
   if (find_dialect(program.dialect)->sinumerik_words) {
     for (const std::string& line : options.header)
       text.append(1, ';').append(comment_text(line)).append(style.line_end);

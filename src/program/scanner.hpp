@@ -10,6 +10,16 @@ namespace counterflex {
 inline bool is_blank(char c) {
   return c == ' ' || c == '\t';
 }
+/// Characters of transmissions and of printing: they mean nothing at the edges of a line.
+inline bool says_nothing(char c) {
+  return c == '\0' || c == '\r' || c == '\f' || c == '\v' || (c >= 0x11 && c <= 0x14) || c == 0x1a ||
+         c == 0x7f;
+}
+/// Bytes of the mark with which editors begin UTF-8.
+inline std::size_t byte_order_mark(std::string_view text) {
+  constexpr std::string_view mark = "\xef\xbb\xbf";
+  return text.starts_with(mark) ? mark.size() : 0;
+}
 inline bool is_digit(char c) {
   return c >= '0' && c <= '9';
 }

@@ -32,11 +32,23 @@ struct Sorter {
   }
 };
 
+/// G70 and G71 without the size of a pattern of holes are units, as they are on older controls.
+bool says_unit(const Sorter& s, int tenths) {
+  const auto& words = s.block.words;
+  return (tenths == 700 || tenths == 710) && s.dialect.macro_words &&
+         std::none_of(words.begin(), words.end(), [](const Word& word) { return word.letter == 'I'; });
+}
+
 const GCode* code_of(const Sorter& s, const Word& word) {
   const double tenths = word.value * 10;
+  // Who shows a control the code of an option that is not read here knows what it does.
+  const GCode* const otherwise = s.dialect.macro_words ? &code_not_known() : nullptr;
   if (tenths < 0 || tenths > 10000) return nullptr;
   const int nearest = static_cast<int>(tenths + 0.5);
-  return std::abs(tenths - nearest) < 1e-6 ? find_g_code(nearest, s.dialect) : nullptr;
+  if (std::abs(tenths - nearest) >= 1e-6) return nullptr;
+  if (says_unit(s, nearest)) return find_g_code(nearest == 700 ? 200 : 210, s.dialect);
+  const GCode* const found = find_g_code(nearest, s.dialect);
+  return found != nullptr ? found : otherwise;
 }
 
 void add_g(const Sorter& s, const Word& word) {
@@ -48,6 +60,12 @@ void add_g(const Sorter& s, const Word& word) {
   if (code == nullptr)
     s.fail(word, fmt::format("G{} is not known in dialect {}", word.value, s.dialect.name));
   if (code->action == Action::not_read) s.fail(word, fmt::format("G{}: {}", word.value, code->what));
+  const auto same = [&](const FoundG& other) {
+    return other.code == code && other.word->value == word.value;
+  };
+  if (s.dialect.macro_words && code->group != Group::none &&
+      std::any_of(s.sorted.g.begin(), s.sorted.g.end(), same))
+    return;  // said twice
   for (const FoundG& other : s.sorted.g)
     if (code->group != Group::none && other.code->group == code->group)
       s.fail(word, fmt::format("G{} and G{} exclude each other in one block", other.word->value, word.value));

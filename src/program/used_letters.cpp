@@ -36,7 +36,8 @@ Letters used_by(Action action) {
     case Action::work_offset:
       return letters("P");
     case Action::tool_length:
-      return letters("H");
+    case Action::no_tool_length:
+      return letters("DH");
     case Action::cutter:
       return letters("DHL");
     case Action::blend:
@@ -65,6 +66,10 @@ Letters used_by(const FoundM& m) {
   if (m.action == MAction::machine || m.action == MAction::call) return letters("ELPQRHD");
   if (m.action == MAction::come_back) return letters("LP");
   switch (m.code) {
+    case 3:
+    case 4:
+    case 5:
+      return letters("P");  // the power of some spindles and lasers
     case 19:
       return letters("PQR");
     case 50:

@@ -23,6 +23,22 @@ TEST_CASE("an axis that an expression sets refuses a correction, and passes with
   CHECK(failure->what.find("-0.5000 mm") != std::string::npos);
 }
 
+TEST_CASE("what puts positions elsewhere refuses a correction that holds, and passes without one") {
+  const std::string begin = "G21 G90\nG0 X0. Y0. Z5.\nG1 X5. F300\n", end = "X10.\nM30\n";
+  for (const char* elsewhere :
+       {"A90.\n", "G52 X5.\n", "G92 X5.\n", "G10 L2 P1 X5\n", "M428\n", "o1 if [#1 GT 2]\nX7.\no1 endif\n"}) {
+    CAPTURE(elsewhere);
+    const std::string text = begin + elsewhere + end;
+    CHECK(compensated(Shop({.machine = perfect_gantry(), .text = text})).text == text);
+    const auto failure = failure_on(displaced_gantry(), text);
+    REQUIRE(failure);
+    CHECK(failure->line == 5);
+    CHECK(failure->exit == Exit::program_text);
+    // Behind a machine position nothing holds that could be lost.
+    CHECK_FALSE(failure_on(displaced_gantry(), begin + "G53 X0 Y0 Z0\n" + elsewhere + end));
+  }
+}
+
 TEST_CASE("an expression on one axis lets the others keep their shift") {
   // Displaced in Y alone: X takes no correction.
   const std::string text = "G21 G90\n#1=20\nG0 X0. Y0. Z5.\nX#1 Y10.\nX30. Y20.\nM30\n";

@@ -31,9 +31,18 @@ std::string expectation(const std::string& text) {
   return text.substr(begin + mark.size(), end - begin - mark.size());
 }
 
+/// As controls read it whose dialect "(dialect: ...)" names on the first line; else whose it looks like.
+ReadOptions options_of(const std::string& text) {
+  ReadOptions options;
+  const std::string line = text.substr(0, text.find('\n')), mark = "(dialect: ";
+  if (const std::size_t at = line.find(mark); at != std::string::npos)
+    options.dialect = line.substr(at + mark.size(), line.find(')', at) - at - mark.size());
+  return options;
+}
+
 std::string diagnostic(const std::string& text) {
   try {
-    read_program(text, "", {});
+    read_program(text, "", options_of(text));
   } catch (const InputError& error) {
     const Location& where = error.where();
     return std::to_string(where.line) + ":" + std::to_string(where.column) + ": " + error.what();

@@ -61,6 +61,20 @@ TEST_CASE("in a relative cycle R counts from the beginning and Z from R") {
   CHECK(program.moves[1].cycle->bottom_mm == -1);
 }
 
+TEST_CASE("depths that turn from places into differences cannot be shifted, unless they are said anew") {
+  const std::string start = "G21 G90 G0 X0 Y0 Z10\n", hole = "G81 X1 Y1 Z-2 R.5 F100\n";
+  for (const char* turned : {"G91 X.1 L3\n", "G91 X1 Z-3\n", "G91 X1 R-9\n", "G91 G81 X1 Y1\n"}) {
+    CAPTURE(turned);
+    const Program program = read(start + hole + turned + "X1\nG80\n");
+    CHECK(program.moves[2].fixed[2]);
+    CHECK_FALSE(program.moves[2].known_end[2]);
+    CHECK(program.left_alone.at(0).line == 3);
+  }
+  CHECK(read(start + "G91 G81 X1 Z-3 R-8\nG90 X5\n").moves[2].fixed[2]);
+  CHECK_FALSE(read(start + hole + "G91 X.1 Z-3 R-9 L3\n").moves[2].fixed[2]);
+  CHECK_FALSE(read("O1\n" + start + hole + "G91 X1.\n", "fanuc").moves[2].fixed[2]);
+}
+
 TEST_CASE("a cycle without holes keeps its words and moves nothing") {
   const Program program = read("O1\nG21 G90 G0 X0. Y0. Z10.\nG81 X7. Z-5. R1. F100. L0\nX2.\n");
   CHECK(program.moves[1].end_mm == Vector3(0, 0, 10));
@@ -104,7 +118,8 @@ TEST_CASE("a depth that was programmed where it may not act is not repeated in l
 }
 
 TEST_CASE("every code of a drilling cycle is one, G76 of linuxcnc is a thread") {
-  for (const char* g : {"G73", "G74", "G76", "G81", "G82", "G83", "G84", "G85", "G86", "G87", "G88", "G89"}) {
+  for (const char* g : {"G73", "G74", "G76", "G81", "G82", "G83", "G84", "G85", "G86", "G87", "G88", "G89",
+                        "G84.2", "G84.3"}) {
     CAPTURE(g);
     const Program program = read(std::string("O1\nG21 G0 X0. Y0. Z5.\n") + g + " X1. Z-1. R1. F100.\nX2.\n");
     CHECK(program.moves.at(2).cycle.has_value());

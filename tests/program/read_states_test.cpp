@@ -48,6 +48,20 @@ TEST_CASE("under a state that puts positions elsewhere moves stay as they are, a
   }
 }
 
+TEST_CASE("what is not followed stands where it was, but not on axes that the machine has moved by itself") {
+  const auto stands = [](const std::string& blocks, const char* dialect = "linuxcnc") {
+    return read(known_start_block + blocks + "\n", dialect).moves.back().stands;
+  };
+  CHECK(stands("X1 A90.\nX2") == std::array<bool, 3>{true, true, true});
+  CHECK(stands("G53 Z0.\nA90.\nX2.") == std::array<bool, 3>{true, true, false});
+  CHECK(stands("G28\nA90.\nX2.") == std::array<bool, 3>{});
+  CHECK(stands("T1 M6\nA90.\nX2.", "haas") == std::array<bool, 3>{});
+  CHECK(stands("T1 M6\nA90.\nX2.") == std::array<bool, 3>{true, true, true});
+  CHECK(stands("o1 if [#1 GT 2]\nX2.") == std::array<bool, 3>{true, true, true});
+  CHECK(stands("o1 sub\nX2.") == std::array<bool, 3>{});
+  CHECK(stands("G53 Z0.\nX2.") == std::array<bool, 3>{});
+}
+
 TEST_CASE("axes besides X, Y and Z that stay zero are ignored, a shift of nothing is none") {
   const Program program = read(known_start_block + "A0 B0. C-0.0 X1\nG52 X0 Y0\nX2\n");
   CHECK(program.left_alone.empty());
@@ -142,6 +156,52 @@ TEST_CASE("mach3 knows G70 and G71 as units, falls back to G0 and reads open com
   CHECK(program.moves[0].end_mm.x() == doctest::Approx(25.4));
   CHECK(program.moves[1].end_mm.x() == 1);
   CHECK(program.moves[3].motion == Motion::rapid);
+}
+
+TEST_CASE("after a code that is not known nothing is followed, and the program comes back as it is") {
+  const std::string text = "O1\n" + known_start_block + "G0 X1. Y1.\nG333 X2. P3\nG0 X4. Y5. Z6.\nG1 X7.\n";
+  const Program program = read(text);
+  REQUIRE(program.moves.size() == 5);
+  CHECK(program.moves[2].fixed == std::array<bool, 3>{true, true, true});
+  CHECK(program.moves[2].stands == std::array<bool, 3>{true, true, true});
+  for (const std::size_t later : {3u, 4u}) CHECK(stays(program.moves[later]));
+  CHECK(program.left_alone.at(0).why == "G333 is not known in dialect fanuc");
+  CHECK(rewrite(program, edits_to_original(program), {}).text == text);
+  CHECK_THROWS_WITH(read(text, "linuxcnc"), doctest::Contains("G333 is not known in dialect linuxcnc"));
+}
+
+TEST_CASE("polar interpolation puts positions elsewhere until it ends") {
+  for (const std::string on : {"G112\n", "G12.1\n"}) {
+    const Program program = read("O1\n" + known_start_block + on + "G1 X1.\n" +
+                                 (on == "G112\n" ? "G113" : "G13.1") + "\nX2. Y2. Z2.\n");
+    CHECK(stays(program.moves[1]));
+    CHECK(all_known(program.moves[2].known_end));
+  }
+}
+
+TEST_CASE("G70 and G71 of shop controls are units where no pattern of holes is said") {
+  CHECK(read("O1\nG70 G90\nG0 X1.\n").moves.at(0).end_mm.x() == doctest::Approx(25.4));
+  CHECK(read("O1\nG71 G90\nG0 X1.\n").moves.at(0).end_mm.x() == 1);
+  CHECK(read("O1\n" + known_start_block + "G70 I5. J0. L6\n", "haas").moves.at(1).fixed[0]);
+}
+
+TEST_CASE("the blocks that make a corner are not divided, but their ends are corrected") {
+  const std::string text = "O1\n" + known_start_block + "G1 X20.,R3.\nY20. ,C2.\nX0.\nY0.\nZ5.\n";
+  const Program program = read(text);
+  REQUIRE(program.moves.size() == 6);
+  for (const std::size_t corner : {1u, 2u, 3u}) {
+    CHECK_FALSE(program.moves[corner].may_split);
+    CHECK_FALSE(program.moves[corner].may_jump);
+  }
+  CHECK(program.moves[4].may_split);
+  CHECK(program.moves[1].end_mm.x() == 20);
+  CHECK(rewrite(program, {{.move = 1, .end_mm = {20.5, .25, 10}}}, {}).text.find("G1 X20.5 Y0.250,R3.\n") !=
+        std::string::npos);
+}
+
+TEST_CASE("a code that is said twice is said once on shop controls") {
+  CHECK(read("O1\nG21 G90 G0 G90 G0 X1.\n").moves.size() == 1);
+  CHECK_THROWS(read("O1\nG21 G90 G0 G91 X1.\n"));
 }
 
 TEST_CASE("comments nest and N stands anywhere where the control lets them") {

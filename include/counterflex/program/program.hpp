@@ -118,6 +118,8 @@ struct Move {
   int line = 0;                         ///< of the file
   int text_line = 0;                    ///< of Program::text, where calls were expanded in it; 0: `line`
   int group = 0;                        ///< number of its contour group, from 1; 0: none
+  std::array<bool, 3> stands{};         ///< of a block that is not followed: axes that only the program has
+                                        ///< moved since the move before, though their place may be unknown
   std::size_t block_index = 0;          ///< counts the program's blocks with words, from 0
   Span block;                           ///< the whole line, without its line end
   std::array<PackedAxisWord, 3> words;  ///< X, Y, Z where the block has them
