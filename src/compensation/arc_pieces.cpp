@@ -53,19 +53,20 @@ class ArcDivider {
     return fit;
   }
 
-  // At the corner that is nearest the middle, else there. Full turns are left to the last piece.
+  // At the corner that is nearest the middle, else there. Full turns are left to the last piece. An arc of
+  // more than half a turn is two.
   Division division_of(double u0, double u1) const {
     const double sweep = task_.source.arc->sweep;
     if (task_.move.arc->turns > 0 && u0 == 0 && u1 == 1)
-      return {sweep_beside_turns(task_.move, task_.source) / 2 / sweep, true};
+      return {sweep_beside_turns(task_.move, task_.source) / 2 / sweep, false};
     const double middle = (u0 + u1) / 2, margin = std::min(sliver_share * (u1 - u0), sliver_mm / length_mm_);
     std::optional<double> best;
     for (const double corner : task_.corners) {
       if (corner < u0 + margin || corner > u1 - margin) continue;
       if (!best || std::abs(corner - middle) < std::abs(*best - middle)) best = corner;
     }
-    const bool several_turns = (u1 - u0) * sweep > 2 * std::numbers::pi * (1 + 1e-9);
-    return {best.value_or(middle), !best && !several_turns};
+    const bool half_turn_at_most = (u1 - u0) * sweep < std::numbers::pi * (1 + 1e-9);
+    return {best.value_or(middle), !best && half_turn_at_most};
   }
 
   void put_arc(double u0, double u1, FittedArc fit) {
