@@ -74,6 +74,12 @@ bool is_sound(const ArcTask& task, const ArcPiece& piece, const Curve& read) {
          (radii_are_accepted(read) || !radii_are_accepted(task.source));
 }
 
+// The way of a piece about the centre without the full turns that the last one makes.
+double one_turn_of(const ArcTask& task, double u0, double u1) {
+  const int turns = u1 == 1 ? task.move.arc->turns : 0;
+  return (u1 - u0) * task.source.arc->sweep - 2 * std::numbers::pi * turns;
+}
+
 double miss_of(const Curve& curve, const std::vector<Sample>& wanted) {
   double largest = 0;
   for (const Sample& s : wanted) largest = std::max(largest, (point_at(curve, s.v) - s.p_mm).norm());
@@ -205,13 +211,20 @@ double sweep_beside_turns(const Move& move, const Curve& source) {
   return source.arc->sweep - 2 * std::numbers::pi * move.arc->turns;
 }
 
-bool must_halve(const Move& move, const Curve& source) {
+bool can_be_one(const ArcTask& task, double u0, double u1) {
+  constexpr double turn = 2 * std::numbers::pi, rounding = 1e-9;
+  const double sweep = one_turn_of(task, u0, u1);
+  return sweep > 0 && sweep < turn + rounding;
+}
+
+bool must_halve(const ArcTask& task, double u0, double u1) {
   constexpr double degree = std::numbers::pi / 180;
-  const double sweep = sweep_beside_turns(move, source), size = radius(*source.arc, source.start);
-  Vector3 chord = source.end - source.start;
-  chord -= chord.dot(source.arc->normal) * source.arc->normal;
+  const Arc& arc = *task.source.arc;
+  const double sweep = one_turn_of(task, u0, u1), size = radius(arc, task.source.start);
+  Vector3 chord = point_at(task.source, u1) - point_at(task.source, u0);
+  chord -= chord.dot(arc.normal) * arc.normal;
   if (sweep > 330 * degree || (sweep > 180 * degree && chord.norm() < 0.1 * size)) return true;
-  return move.arc->radius_word && sweep > 150 * degree && sweep < 210 * degree;
+  return task.move.arc->radius_word && sweep > 150 * degree && sweep < 210 * degree;
 }
 
 }  // namespace counterflex

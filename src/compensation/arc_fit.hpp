@@ -15,6 +15,7 @@ struct ArcTask {
   VectorAt commanded;  ///< wanted position and correction at a fraction of it, program coordinates (mm)
   std::vector<double> corners;  ///< fractions where the correction has corners
   double tolerance_mm = 0;      ///< of the commanded curve, at equal fractions
+  double chord_room_mm = 0;     ///< what chords may leave of it between their ends; 0: rounding takes it all
 };
 
 /// A piece of the arc between two fractions, from where the text holds the tool.
@@ -44,8 +45,12 @@ bool keeps_words(const ArcTask& task, const ArcPiece& piece, const FittedArc& fi
 /// for: the last piece makes those.
 double sweep_beside_turns(const Move& move, const Curve& source);
 
-/// Whether an arc that must change cannot stay one: a small shift of its end could turn a full circle into
-/// nothing, or an R near half a turn into none at all.
-bool must_halve(const Move& move, const Curve& source);
+/// Whether the words of an arc can say the piece between two fractions at all: no piece but the last makes
+/// the full turns of its block, and that one has to.
+bool can_be_one(const ArcTask& task, double u0, double u1);
+
+/// Whether a piece that is written anew must not be one arc: a small shift of its end could turn a full
+/// circle into nothing, or an R near half a turn into none at all.
+bool must_halve(const ArcTask& task, double u0, double u1);
 
 }  // namespace counterflex

@@ -31,10 +31,9 @@ class Emitter {
   // emit_arc.cpp
   void emit_arc(const Segment& segment, const PlannedSegment& planned, EmittedMove& emitted,
                 double& unsplit_miss);
-  bool fit_pieces(const ArcTask& task, double u0, double u1, int halvings, bool whole, EmittedMove& emitted);
+  ArcTask arc_task(const Segment& segment, const PlannedSegment& planned,
+                   const CorrectionCurve& stretch) const;
   void put_one_arc(const ArcTask& task, EmittedMove& emitted, double& unsplit_miss);
-  void put_chords(const Segment& segment, const PlannedSegment& planned, const ArcTask& task,
-                  EmittedMove& emitted);
 
   // emit_held.cpp
   void emit_fixed(std::size_t m);

@@ -103,13 +103,21 @@ void centre_changes(const Original& o, const ArcWords& arc, Changes& changes) {
   if (arc.radius.write) change_word(o, *o.move.arc->radius_word, arc.radius, changes);
 }
 
-/// A chord has no centre, no radius and no turns.
-void drop_arc_words(const Original& o, Changes& changes) {
+/// The word of an arc that says its turns; nullptr where it has none.
+const Word* turns_word(const Original& o) {
   const bool path_mode = std::any_of(o.block.words.begin(), o.block.words.end(), [](const Word& word) {
     return word.letter == 'G' && (word.value == 64 || word.value == 4);
   });
+  return path_mode ? nullptr : find_word(o.block, 'P');
+}
+
+/// A chord has no centre, no radius and no turns; of an arc the last piece makes the turns.
+void drop_arc_words(const Original& o, const Step& step, Changes& changes) {
+  const bool chord = step.motion == 1;
+  const Word* turns = turns_word(o);
   for (const Word& word : o.block.words)
-    if (is_centre(word) || (word.letter == 'P' && !path_mode)) drop_word(o, word, changes);
+    if ((chord && is_centre(word)) || (&word == turns && (chord || step.place != Place::end)))
+      drop_word(o, word, changes);
 }
 
 void motion_changes(const Original& o, int motion, bool state_motion, Changes& changes) {
@@ -191,7 +199,7 @@ std::string own_block(const Original& o, const Step& step, const BesidesPoint& b
   motion_changes(o, step.motion, besides.state_motion, changes);
   axis_changes(o, step, besides, changes);
   if (step.arc) centre_changes(o, *step.arc, changes);
-  if (o.move.arc && step.motion == 1) drop_arc_words(o, changes);
+  if (o.move.arc) drop_arc_words(o, step, changes);
   if (besides.feed_per_min) feed_changes(o, *besides.feed_per_min, changes);
   out.changed_words += changes.changed;
   out.inserted_words += changes.inserted;
@@ -208,6 +216,8 @@ std::string inserted_block(const Original& o, const Step& step, const BesidesPoi
     if (step.after[axis] && step.after[axis] != step.before[axis])
       append(o, word_text(o, axis_letters[axis], step.axes[axis].number), line);
   if (step.arc) append_centre(o, *step.arc, line);
+  if (const Word* turns = turns_word(o); step.arc && step.place == Place::end && turns != nullptr)
+    append(o, std::string(o.text(turns->span)), line);
   const bool timed = besides.feed_per_min.has_value();
   append(o,
          timed ? fmt::format("{}{}", letter_of(o, 'F'),

@@ -153,13 +153,7 @@ TEST_CASE("under exact stop an arc stays one block, and its miss is listed") {
 TEST_CASE("every arc that is written keeps to the controls' rules for its radii") {
   for (const double angle : {1e-3, -1e-3})
     for (const char* text : {arcs, circles})
-      for (const Move& move :
-           arcs_in(compensated(Shop({.machine = rigid_gantry("0, 0, 0", angle), .text = text})).text)) {
-        CAPTURE(move.line);
-        const Vector3 normal = Vector3::Unit(move.arc->normal);
-        const auto radius = [&](const Vector3& p) { return normal.cross(p - move.arc->centre_mm).norm(); };
-        CHECK(std::abs(radius(move.start_mm) - radius(move.end_mm)) <= 0.005);
-      }
+      check_radii(compensated(Shop({.machine = rigid_gantry("0, 0, 0", angle), .text = text})).text);
 }
 
 TEST_CASE("an arc of several turns keeps them under a shift, in P and in TURN") {

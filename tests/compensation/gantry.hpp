@@ -47,4 +47,15 @@ inline std::vector<Move> arcs_in(const std::string& text) {
   return arcs;
 }
 
+/// GRBL's rule for the radii of an arc's ends, without the share of the radius that it allows; LinuxCNC's is
+/// wider.
+inline void check_radii(const std::string& text) {
+  for (const Move& move : arcs_in(text)) {
+    CAPTURE(move.line);
+    const Vector3 normal = Vector3::Unit(move.arc->normal);
+    const auto radius = [&](const Vector3& p) { return normal.cross(p - move.arc->centre_mm).norm(); };
+    CHECK(std::abs(radius(move.start_mm) - radius(move.end_mm)) <= 0.005);
+  }
+}
+
 }  // namespace counterflex::test

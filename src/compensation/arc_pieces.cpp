@@ -1,0 +1,128 @@
+#include "arc_pieces.hpp"
+
+#include <cmath>
+#include <numbers>
+
+namespace counterflex {
+namespace {
+
+constexpr int most_halvings = 3;
+constexpr double sliver_share = 0.05;  // of a piece, but at most
+constexpr double sliver_mm = 0.1;      // corners nearer to its ends do not divide it
+
+// Divides from the start on; what follows a piece begins where the text holds the tool behind it.
+class ArcDivider {
+ public:
+  ArcDivider(const ArcTask& task, const HeldPosition& from)
+      : task_(task), length_mm_(length(task.source)), held_(from) {}
+
+  ArcPieces run(double u0, double u1) {
+    divide(u0, u1, 0);
+    if (chords_) put_chords(u1);
+    result_.held = held_;
+    return std::move(result_);
+  }
+
+ private:
+  // Of a piece that no arc fits yet, from where it begins.
+  struct Chords {
+    double u0;
+    HeldPosition from;
+  };
+
+  struct Division {
+    double u;
+    bool counts;  // as one of the halvings
+  };
+
+  void divide(double u0, double u1, int halvings) {
+    if (const auto fit = fitting(u0, u1)) return put_arc(u0, u1, *fit);
+    const Division division = division_of(u0, u1);
+    if (division.counts && ++halvings > most_halvings) return leave_to_chords(u0, u1);
+    divide(u0, division.u, halvings);
+    divide(division.u, u1, halvings);
+  }
+
+  std::optional<FittedArc> fitting(double u0, double u1) const {
+    if (!can_be_one(task_, u0, u1)) return std::nullopt;
+    const ArcPiece piece{u0, u1, u1 == 1, held_};
+    FittedArc fit = fit_arc(task_, piece);
+    if (!fit.sound || fit.miss_mm > task_.tolerance_mm) return std::nullopt;
+    const bool stays = u0 == 0 && u1 == 1 && keeps_words(task_, piece, fit);
+    if (!stays && must_halve(task_, u0, u1)) return std::nullopt;
+    return fit;
+  }
+
+  // At the corner that is nearest the middle, else there. Full turns are left to the last piece. An arc of
+  // more than half a turn is two.
+  Division division_of(double u0, double u1) const {
+    const double sweep = task_.source.arc->sweep;
+    if (task_.move.arc->turns > 0 && u0 == 0 && u1 == 1)
+      return {sweep_beside_turns(task_.move, task_.source) / 2 / sweep, false};
+    const double middle = (u0 + u1) / 2, margin = std::min(sliver_share * (u1 - u0), sliver_mm / length_mm_);
+    std::optional<double> best;
+    for (const double corner : task_.corners) {
+      if (corner < u0 + margin || corner > u1 - margin) continue;
+      if (!best || std::abs(corner - middle) < std::abs(*best - middle)) best = corner;
+    }
+    const bool half_turn_at_most = (u1 - u0) * sweep < std::numbers::pi * (1 + 1e-9);
+    return {best.value_or(middle), !best && half_turn_at_most};
+  }
+
+  void put_arc(double u0, double u1, FittedArc fit) {
+    if (chords_) {
+      put_chords(u0);
+      const auto refit = fitting(u0, u1);  // from where the chords really end
+      if (!refit) return leave_to_chords(u0, u1);
+      fit = *refit;
+    }
+    put(fit.via, u1, fit.read.end);
+  }
+
+  void leave_to_chords(double u0, double u1) {
+    if (!chords_) chords_ = Chords{u0, held_};
+    hold(end_of({task_.commanded(u1)}, u1));
+  }
+
+  void put_chords(double u1) {
+    held_ = chords_->from;
+    if (task_.chord_room_mm <= 0) {
+      result_.lack_digits = true;
+    } else {
+      for (const double u :
+           choose_knots(task_.commanded, chords_->u0, u1, task_.corners, task_.chord_room_mm)) {
+        const Via via{task_.commanded(u)};
+        put(via, u, end_of(via, u));
+      }
+    }
+    chords_.reset();
+  }
+
+  Vector3 end_of(const Via& via, double u) const {
+    return as_written(task_.move, held_, via, u == 1, task_.options).end;
+  }
+
+  void put(const Via& via, double u, const Vector3& end) {
+    result_.vias.push_back(via);
+    result_.ends.push_back(u);
+    hold(end);
+  }
+
+  void hold(const Vector3& end) {
+    for (std::size_t axis = 0; axis < 3; ++axis) held_[axis] = end[static_cast<Eigen::Index>(axis)];
+  }
+
+  const ArcTask& task_;
+  double length_mm_;
+  HeldPosition held_;
+  std::optional<Chords> chords_;  // not yet put: the piece behind them may be left to chords, too
+  ArcPieces result_;
+};
+
+}  // namespace
+
+ArcPieces divide_arc(const ArcTask& task, double u0, double u1, const HeldPosition& from) {
+  return ArcDivider(task, from).run(u0, u1);
+}
+
+}  // namespace counterflex
