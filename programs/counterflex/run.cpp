@@ -194,6 +194,7 @@ void Windows::refuse_uncontrolled_moves(const Job& job) {
 
 Exit deliver(const Options& options, const Run& run, const RunReport& report, RunFiles& files,
              Console& console) {
+  run.file.bytes.refuse_change();  // it was read more than once
   const std::optional<Failure>& failure = report.failure;
   const std::string json = to_json(report);
   files.publish(json, !failure);

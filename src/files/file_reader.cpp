@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "counterflex/files/files.hpp"
+#include "counterflex/files/input_error.hpp"
 #include "files/descriptor.hpp"
 
 namespace counterflex {
@@ -59,9 +60,10 @@ class Hash {
 struct FileReader::State {
   std::string path;
   Descriptor file{};
-  off_t start = 0;                    ///< of what standard input still holds
-  std::optional<std::string> held{};  ///< instead of a file
-  std::size_t next = 0;               ///< byte of `held`
+  off_t start = 0;                      ///< of what standard input still holds
+  std::optional<struct stat> opened{};  ///< of a file that others may change
+  std::optional<std::string> held{};    ///< instead of a file
+  std::size_t next = 0;                 ///< byte of `held`
 };
 
 FileReader::FileReader(const std::string& path) : state_(new State{.path = path}) {
@@ -73,7 +75,10 @@ FileReader::FileReader(const std::string& path) : state_(new State{.path = path}
     fail_reading(path);
   }
   const bool regular = S_ISREG(facts.st_mode);
-  if (regular) state_->start = ::lseek(file.get(), 0, SEEK_CUR);
+  if (regular) {
+    state_->start = ::lseek(file.get(), 0, SEEK_CUR);
+    state_->opened = facts;
+  }
   state_->file = regular ? std::move(file) : copied(path, file);
   rewind();
 }
@@ -108,6 +113,15 @@ void FileReader::rewind() {
   state_->next = 0;
   if (state_->held) return;
   if (::lseek(state_->file.get(), state_->start, SEEK_SET) < 0) fail_reading(state_->path);
+}
+
+void FileReader::refuse_change() const {
+  if (!state_->opened) return;
+  struct stat now {};
+  const struct stat& then = *state_->opened;
+  const bool same = ::fstat(state_->file.get(), &now) == 0 && now.st_size == then.st_size &&
+                    now.st_mtim.tv_sec == then.st_mtim.tv_sec && now.st_mtim.tv_nsec == then.st_mtim.tv_nsec;
+  if (!same) throw InputError(Exit::transient_io, {state_->path}, "the file was changed while it was read");
 }
 
 std::string sha256(FileReader& file) {

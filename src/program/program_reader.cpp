@@ -8,17 +8,17 @@ namespace {
 
 constexpr std::size_t bytes_at_once = 1 << 18;
 
-/// The whole lines at the beginning of `text` are taken off it.
+/// The whole lines at the beginning of `text`.
 std::string_view whole_lines(const std::string& text) {
   const std::size_t newline = text.rfind('\n');
   return std::string_view(text).substr(0, newline == std::string::npos ? 0 : newline + 1);
 }
 
-/// Spans of `move` in a text that begins `bytes` later.
-void shift_spans(Move& move, std::size_t bytes) {
+/// Moves the spans of `move` by so many bytes.
+void shift_spans(Move& move, std::ptrdiff_t bytes) {
   const auto shift = [bytes](Span& span) {
-    span.begin -= bytes;
-    span.end -= bytes;
+    span.begin += static_cast<std::size_t>(bytes);
+    span.end += static_cast<std::size_t>(bytes);
   };
   const auto shift_word = [&](auto& word) {
     if (!word) return;
@@ -127,7 +127,7 @@ struct ProgramReader::State {
     const std::size_t end = p.moves.back().block.begin;
     p.after = std::move(p.moves.back());
     p.moves.pop_back();
-    shift_spans(*p.after, end);
+    shift_spans(*p.after, -static_cast<std::ptrdiff_t>(end));
     behind_read = lines.position() - end;
     behind_moves = true;
     end_here(end);
@@ -175,7 +175,7 @@ struct ProgramReader::State {
     Program& p = program();
     const std::size_t end = p.text.size();
     p.text += behind;
-    shift_spans(*p.after, -end);
+    shift_spans(*p.after, static_cast<std::ptrdiff_t>(end));
     p.moves.push_back(std::move(*p.after));
     p.after.reset();
     behind.clear();

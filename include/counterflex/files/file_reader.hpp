@@ -20,6 +20,10 @@ class FileReader {
   std::size_t append(std::string& bytes, std::size_t most);
   void rewind();
 
+  /// Throws `InputError` (Exit::transient_io) where the file is not what it was when it was opened, by size or
+  /// time: what was read of it need not belong together.
+  void refuse_change() const;
+
  private:
   FileReader();
 

@@ -1,0 +1,82 @@
+#include "counterflex/files/file_reader.hpp"
+
+#include <doctest/doctest.h>
+
+#include "counterflex/files/file_writer.hpp"
+#include "counterflex/files/files.hpp"
+#include "counterflex/files/input_error.hpp"
+#include "files/folder.hpp"
+
+using namespace counterflex;
+using namespace counterflex::test;
+
+namespace {
+
+std::string in_portions(FileReader& reader, std::size_t most) {
+  std::string bytes;
+  for (std::size_t count = 1; count > 0;) {
+    const std::size_t before = bytes.size();
+    count = reader.append(bytes, most);
+    CHECK(bytes.size() == before + count);
+    CHECK(count <= most);
+  }
+  return bytes;
+}
+
+Exit change_of(const FileReader& reader) {
+  try {
+    reader.refuse_change();
+  } catch (const InputError& error) {
+    return error.exit();
+  }
+  return Exit::done;
+}
+
+}  // namespace
+
+TEST_CASE("a file is read in portions, and again from its beginning") {
+  const Folder folder;
+  const std::string bytes = "G1 X1\n" + std::string(1000, 'y') + "\nend";
+  write_file(folder.file("a.ngc"), bytes);
+  FileReader from_file(folder.file("a.ngc")), from_memory = FileReader::of_bytes(bytes);
+  for (FileReader* reader : {&from_file, &from_memory}) {
+    CHECK(in_portions(*reader, 7) == bytes);
+    CHECK(in_portions(*reader, 7).empty());
+    reader->rewind();
+    CHECK(in_portions(*reader, 5000) == bytes);
+    CHECK(sha256(*reader) == sha256(bytes));
+    CHECK(in_portions(*reader, 64) == bytes);
+  }
+}
+
+TEST_CASE("a file that is changed while it is read is refused, one that is not is not") {
+  const Folder folder;
+  write_file(folder.file("a.ngc"), "G1 X1\n");
+  const FileReader replaced(folder.file("a.ngc"));
+  CHECK(change_of(replaced) == Exit::done);
+  CHECK(change_of(FileReader::of_bytes("G1")) == Exit::done);
+  std::filesystem::resize_file(folder.file("a.ngc"), 3);
+  CHECK(change_of(replaced) == Exit::transient_io);
+}
+
+TEST_CASE("a file put in the place of the one that is read does not disturb it") {
+  const Folder folder;
+  write_file(folder.file("a.ngc"), "G1 X1\n");
+  FileReader reader(folder.file("a.ngc"));
+  write_file(folder.file("a.ngc"), "G1 X2\n");
+  CHECK(change_of(reader) == Exit::done);
+  CHECK(in_portions(reader, 100) == "G1 X1\n");
+}
+
+TEST_CASE("what is not published can be removed from a signal handler") {
+  const Folder folder;
+  FileWriter published(folder.file("a.ngc"));
+  published.write("G1 X1\n");
+  published.publish();
+  FileWriter writer(folder.file("b.ngc"));
+  writer.write(std::string(1 << 20, 'x'));
+  CHECK(folder.count() == 2);
+  remove_unpublished();
+  CHECK(folder.count() == 1);
+  CHECK(read_file(folder.file("a.ngc")) == "G1 X1\n");
+}
