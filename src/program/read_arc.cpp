@@ -18,6 +18,10 @@ struct Plane {
   std::size_t first, second;
 };
 
+bool in_plane(const Plane& plane, std::size_t axis) {
+  return axis == plane.first || axis == plane.second;
+}
+
 Plane plane_of(int normal) {
   return {static_cast<std::size_t>((normal + 1) % 3), static_cast<std::size_t>((normal + 2) % 3)};
 }
@@ -40,7 +44,9 @@ void check_words(const Block& block, const Reading& r) {
   if (!centre && radius == nullptr)
     refuse_word(block, r, first_axis_word(block), "the arc has neither I, J, K nor R");
   const Word* across = r.sorted.word(letters_of_centre[static_cast<std::size_t>(r.state.normal)]);
-  if (across != nullptr && across->literal && across->value != 0)
+  // Some posts put half the rise of a helix there, and controls for hobbyists do not look at it.
+  const bool ignored = (r.dialect.family & (grbl_family | mach3_family)) != 0;
+  if (across != nullptr && across->literal && across->value != 0 && !ignored)
     refuse_word(block, r, *across,
                 fmt::format("{} is no part of an arc's centre in the plane that acts", across->letter));
   const Word* turns = r.sorted.word('P');
@@ -70,7 +76,8 @@ bool centre_is_mixed(const Reading& r, const Plane& plane) {
 void set_centre(const Block& block, const Reading& r, const Plane& plane, const Move& move, ArcMove& arc) {
   arc.absolute_centre = centre_is_absolute(r);
   for (std::size_t i = 0; i < 3; ++i)
-    if (const Word* word = r.sorted.word(letters_of_centre[i]))
+    if (const Word* word = r.sorted.word(letters_of_centre[i]);
+        word != nullptr && (in_plane(plane, i) || word->value == 0))
       arc.centre_words[i] = AxisWord{word->number, word->decimals};
   for (const std::size_t axis : {plane.first, plane.second}) {
     const Word* word = r.sorted.word(letters_of_centre[axis]);
