@@ -225,6 +225,7 @@ MAction action_of_m(int code, const Dialect& dialect) {
   if (code == 98 || code == 97 || (code == 198 && dialect.family != linuxcnc_family)) return MAction::call;
   if (code == 99) return MAction::come_back;
   if (code == 72) return MAction::restore;
+  if (code == 25) return MAction::retract;
   if (contains(harmless, code) || contains(with_parameters, code)) return MAction::state;
   const bool switches = (linux_like & dialect.family) != 0 && code >= 428 && code <= 430;
   return switches ? MAction::kinematics : MAction::machine;

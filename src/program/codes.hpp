@@ -115,6 +115,7 @@ enum class MAction : std::uint8_t {
   come_back,   ///< M99
   restore,     ///< M72: brings saved states back
   kinematics,  ///< LinuxCNC's M428 to M430
+  retract,     ///< M25: takes Z to its home on Centroid's controls
   machine      ///< meaning set by the machine's builder: taken as moving nothing, with a remark
 };
 

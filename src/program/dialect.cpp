@@ -148,6 +148,7 @@ const Dialect& detect_shop_control(std::string_view text) {
 
 /// Of programs without a number: what LinuxCNC refuses may be plain to others.
 const Dialect& detect_hobby_control(std::string_view text) {
+  if (names_grbl(text) && knows_codes(text, grbl)) return grbl;
   const bool others = !knows_codes(text, linuxcnc) || has_loose_comments(text);
   return others && knows_codes(text, mach3) ? mach3 : linuxcnc;
 }

@@ -205,6 +205,7 @@ void apply_words(const Block& block, Reading& r) {
   const std::size_t moves = r.program.moves.size();
   r.sorted.unknown_code ? apply_unknown_code(block, r) : apply_axis_words(block, r);
   if (r.program.moves.size() > moves) join_contour(r);
+  if (r.sorted.has(MAction::retract)) leave_retract(block, r);
 }
 
 void read_words(const Block& block, Reading& r) {

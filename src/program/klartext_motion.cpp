@@ -19,15 +19,17 @@ struct KlartextCodes {
   bool cycle_call = false;        ///< M99, M89
   bool acts_after = false;        ///< stops, spindle off, coolant off
   bool ends = false;              ///< M2, M30
+  bool retracts = false;          ///< M140: off the part along the tool, at the end of the block
 };
 
 void read_code(int code, const KlartextBlock& block, KlartextReading& r, KlartextCodes& codes) {
   constexpr std::array after{0, 1, 2, 5, 6, 9, 30, 60, 89, 99, 140};
   constexpr std::array quiet{0,   1,   2,   3,   4,   5,   6,   8,   9,   13,  14,  30,  60,  89,
                              90,  91,  92,  94,  97,  98,  99,  101, 102, 103, 107, 108, 109, 110,
-                             111, 116, 117, 118, 120, 126, 127, 136, 137, 141, 148, 149};
+                             111, 116, 117, 118, 120, 126, 127, 136, 137, 140, 141, 148, 149};
   codes.machine_position = codes.machine_position || code == 91 || code == 92;
   codes.cycle_call = codes.cycle_call || code == 89 || code == 99;
+  codes.retracts = codes.retracts || code == 140;
   codes.ends = codes.ends || code == 2 || code == 30;
   codes.acts_after = codes.acts_after || std::find(after.begin(), after.end(), code) != after.end();
   if (code == 136 || code == 137) r.state.feed_per_turn = code == 136, r.state.feed_mm_min = 0;
@@ -250,10 +252,19 @@ void call_cycle_after(const KlartextBlock& block, KlartextReading& r, Move& move
 
 void leave_machine_position(const KlartextBlock& block, KlartextReading& r) {
   for (std::size_t axis = 0; axis < 3; ++axis)
-    if (find_word(r.words, klartext_axes[axis]) != nullptr) r.state.known[axis] = false;
+    if (find_word(r.words, klartext_axes[axis]) != nullptr) take_away(r, axis);
   r.state.run_begin = r.program.moves.size();
   r.state.contour = r.state.after_contour = false;
   r.program.left_alone.push_back({block.line, "M91 or M92: a position of the machine", true});
+}
+
+/// How far M140 goes depends on the machine: a word put into the next block would go back.
+void leave_retract(const KlartextBlock& block, KlartextReading& r) {
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    if (axis == 2 || !r.state.tool_along_z) take_away(r, axis);
+  r.state.run_begin = r.program.moves.size();
+  r.state.contour = r.state.after_contour = false;
+  r.program.left_alone.push_back({block.line, "M140 leaves the part along the tool", true});
 }
 
 /// After a block that may be skipped its axes are in doubt.
@@ -301,6 +312,9 @@ Move begin_klartext_move(const KlartextBlock& block, const KlartextReading& r) {
   move.block = block.span;
   move.unit = state.unit.value_or(LengthUnit::millimetres);
   move.known_start = state.known;
+  if (!why_elsewhere(block, r).empty())
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      move.stands[axis] = state.taken_away[axis] != r.program.moves.size() + 1;
   move.start_mm = move.end_mm = state.position_mm;
   move.feed_mm_min = state.feed_mm_min * (state.feed_per_turn ? state.spindle_rpm : 1.0);
   move.spindle_rpm = state.spindle_rpm;
@@ -314,6 +328,11 @@ Move begin_klartext_move(const KlartextBlock& block, const KlartextReading& r) {
   move.force = state.force;
   move.block_delete = !empty(block.block_delete);
   return move;
+}
+
+void take_away(KlartextReading& r, std::size_t axis) {
+  r.state.known[axis] = false;
+  r.state.taken_away[axis] = r.program.moves.size() + 1;
 }
 
 void read_klartext_motion(const KlartextBlock& block, KlartextReading& r) {
@@ -336,6 +355,7 @@ void read_klartext_motion(const KlartextBlock& block, KlartextReading& r) {
     r.state.contour = false;
     r.state.after_contour = true;
   }
+  if (codes.retracts) leave_retract(block, r);
   r.ended = r.ended || codes.ends;
 }
 
@@ -363,6 +383,7 @@ void read_klartext_codes(const KlartextBlock& block, KlartextReading& r) {
   const KlartextCodes found = read_codes(block, r);
   if (programs_axis(r)) return add_unfollowed_move(block, r, "axes without L are not read");
   if (found.cycle_call) add_cycle_call(block, r);
+  if (found.retracts) leave_retract(block, r);
   r.ended = r.ended || found.ends;
 }
 

@@ -51,7 +51,7 @@ void read_tool_call(const KlartextBlock& block, KlartextReading& r) {
     state.tool = 0;
     std::from_chars(rest.data(), rest.data() + end, state.tool);
     for (std::size_t axis = 0; axis < 3; ++axis)
-      if (r.tool_change_axes[axis]) state.known[axis] = false;
+      if (r.tool_change_axes[axis]) take_away(r, axis);
     state.run_begin = r.program.moves.size();
     state.contour = state.after_contour = false;
     rest.erase(0, end);
@@ -79,10 +79,13 @@ void read_approach(const KlartextBlock& block, KlartextReading& r) {
 }
 
 void read_plane(const KlartextBlock& block, KlartextReading& r) {
-  add_unfollowed_move(block, r, "PLANE turns coordinates");
-  r.state.elsewhere.erase(19);
-  if (!squeezed(after_head(r.program.text, block)).starts_with("RESET"))
-    r.state.elsewhere[19] = "coordinates are tilted";
+  const std::string rest = squeezed(after_head(r.program.text, block));
+  const bool resets = rest.starts_with("RESET");
+  // Without MOVE rotary axes alone turn back, if any.
+  if (!resets || rest.find("MOVE") != std::string::npos)
+    add_unfollowed_move(block, r, "PLANE turns coordinates");
+  if (r.state.elsewhere.erase(19) > 0) r.state.known.fill(false), r.state.run_begin = r.program.moves.size();
+  if (!resets) r.state.elsewhere[19] = "coordinates are tilted";
 }
 
 /// FN9 to FN12 jump, the others calculate, print or read; none moves an axis.

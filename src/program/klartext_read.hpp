@@ -34,6 +34,7 @@ struct KlartextSurface {
 struct KlartextState {
   std::optional<LengthUnit> unit;
   std::array<bool, 3> known{};
+  std::array<std::size_t, 3> taken_away{};  ///< moves until the machine moved the axis by itself, plus one
   Vector3 position_mm = Vector3::Zero();
   double feed_mm_min = 0;
   double tool_feed_mm_min = 0;  ///< F of TOOL CALL, for FAUTO
@@ -88,6 +89,9 @@ void add_unfollowed_move(const KlartextBlock& block, KlartextReading& reading, s
 /// Whether the hole of `move` goes along with the correction that holds where its cycle was first called:
 /// then the word of the surface is its Z. Else the surface is lost to the holes that follow, too.
 bool hold_hole(KlartextReading& reading, Move& move);
+
+/// The machine moves the axis by itself: nobody knows where to.
+void take_away(KlartextReading& reading, std::size_t axis);
 
 /// What a cycle called in place leaves unknown: the height.
 void add_cycle_call(const KlartextBlock& block, KlartextReading& reading);

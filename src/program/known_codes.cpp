@@ -65,6 +65,15 @@ bool has_loose_comments(std::string_view text) {
   return false;
 }
 
+bool names_grbl(std::string_view text) {
+  constexpr std::string_view name = "GRBL";
+  constexpr std::size_t looked_at = 4096;
+  text = text.substr(0, looked_at);
+  for (std::size_t at = 0; (at = text.find_first_of("Gg", at)) != std::string_view::npos; ++at)
+    if (is_word(text.substr(at, name.size()), name)) return true;
+  return false;
+}
+
 bool has_semicolon_comments(std::string_view text) {
   for (std::size_t at = 0; (at = text.find_first_of("(;", at)) != std::string_view::npos; ++at) {
     const std::size_t end = end_of_line(text, at);
@@ -73,8 +82,11 @@ bool has_semicolon_comments(std::string_view text) {
       if (at >= text.size()) return false;
       continue;
     }
-    int letters = 0;
-    for (; at < end && letters < 3; ++at) letters = is_letter(text[at]) ? letters + 1 : 0;
+    int letters = 0, depth = 0;
+    for (; at < end && letters < 3; ++at) {
+      depth += text[at] == comment_open ? 1 : text[at] == comment_close ? -1 : 0;
+      letters = depth == 0 && is_letter(text[at]) ? letters + 1 : 0;
+    }
     if (letters == 3) return true;
   }
   return false;

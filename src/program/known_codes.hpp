@@ -12,6 +12,9 @@ bool knows_codes(std::string_view text, const Dialect& dialect);
 /// Whether a comment of `text` stands inside another, or does not end on its line.
 bool has_loose_comments(std::string_view text);
 
+/// Whether the beginning of the text speaks of GRBL.
+bool names_grbl(std::string_view text);
+
 /// Whether words, in letters, follow a ';' outside comments.
 bool has_semicolon_comments(std::string_view text);
 

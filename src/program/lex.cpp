@@ -165,7 +165,10 @@ void lex_comment(Scanner& s) {
 void lex_semicolon(Scanner& s) {
   const std::size_t begin = s.at + 1;
   const std::string_view rest = s.text.substr(begin, s.end - begin);
-  if (!s.dialect.semicolon_comments && rest.find_first_not_of(" \t;") != std::string_view::npos)
+  const std::size_t said = rest.find_first_not_of(" \t;");
+  const bool comment = said != std::string_view::npos && rest[said] == comment_open &&
+                       rest.find(comment_close, said) + 1 == rest.size();
+  if (!s.dialect.semicolon_comments && said != std::string_view::npos && !comment)
     s.refuse_at(s.at, fmt::format("';' ends a block in dialect {}; a comment stands in round brackets",
                                   s.dialect.name));
   s.block.comments.push_back({begin, s.end});

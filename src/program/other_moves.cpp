@@ -22,6 +22,14 @@ void leave_machine_move(const Block& block, Reading& r, const FoundG& found) {
   r.program.left_alone.push_back({block.line, r.last_reason, true, block.text_line});
 }
 
+void leave_retract(const Block& block, Reading& r) {
+  take_away(r, 2);
+  end_contour(r);
+  r.run_begin = r.program.moves.size();
+  r.last_reason = "M25 may take Z to a position of the machine";
+  r.program.left_alone.push_back({block.line, r.last_reason, true, block.text_line});
+}
+
 void read_held(const Block& block, Reading& r, std::string_view what, bool end_known) {
   Move& move = start_move(block, r, Motion::feed);
   place_words(block, r, move);

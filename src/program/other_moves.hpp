@@ -7,6 +7,9 @@ namespace counterflex {
 /// G53, G28, G30: where the axes are afterwards, the machine knows and the program does not.
 void leave_machine_move(const Block& block, Reading& reading, const FoundG& found);
 
+/// M25, at the end of its block: after it a word of Z that is put into a block would go back down.
+void leave_retract(const Block& block, Reading& reading);
+
 /// Probing, splines, threads: shifted as a whole, their ends unknown where probing ends them.
 void read_held(const Block& block, Reading& reading, std::string_view what, bool end_known);
 

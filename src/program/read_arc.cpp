@@ -18,6 +18,10 @@ struct Plane {
   std::size_t first, second;
 };
 
+bool in_plane(const Plane& plane, std::size_t axis) {
+  return axis == plane.first || axis == plane.second;
+}
+
 Plane plane_of(int normal) {
   return {static_cast<std::size_t>((normal + 1) % 3), static_cast<std::size_t>((normal + 2) % 3)};
 }
@@ -40,7 +44,9 @@ void check_words(const Block& block, const Reading& r) {
   if (!centre && radius == nullptr)
     refuse_word(block, r, first_axis_word(block), "the arc has neither I, J, K nor R");
   const Word* across = r.sorted.word(letters_of_centre[static_cast<std::size_t>(r.state.normal)]);
-  if (across != nullptr && across->literal && across->value != 0)
+  // Some posts put half the rise of a helix there, and controls for hobbyists do not look at it.
+  const bool ignored = (r.dialect.family & (grbl_family | mach3_family)) != 0;
+  if (across != nullptr && across->literal && across->value != 0 && !ignored)
     refuse_word(block, r, *across,
                 fmt::format("{} is no part of an arc's centre in the plane that acts", across->letter));
   const Word* turns = r.sorted.word('P');
@@ -49,11 +55,29 @@ void check_words(const Block& block, const Reading& r) {
                 fmt::format("P{} is no number of turns: whole numbers from 1 are", turns->value));
 }
 
+/// Whether I, J and K are coordinates: by G90.1, or because they say so themselves ("I=AC(5)").
+bool centre_is_absolute(const Reading& r) {
+  if (r.state.absolute_centres) return true;
+  for (const char letter : letters_of_centre)
+    if (const Word* word = r.sorted.word(letter); word != nullptr && word->sense == Sense::absolute)
+      return true;
+  return false;
+}
+
+/// Whether one coordinate of the centre says that it is absolute, and another does not.
+bool centre_is_mixed(const Reading& r, const Plane& plane) {
+  const Word *first = r.sorted.word(letters_of_centre[plane.first]),
+             *second = r.sorted.word(letters_of_centre[plane.second]);
+  const auto absolute = [](const Word* word) { return word != nullptr && word->sense == Sense::absolute; };
+  return absolute(first) != absolute(second);
+}
+
 /// Centre by I, J, K. In absolute form both must be there.
 void set_centre(const Block& block, const Reading& r, const Plane& plane, const Move& move, ArcMove& arc) {
-  arc.absolute_centre = r.state.absolute_centres;
+  arc.absolute_centre = centre_is_absolute(r);
   for (std::size_t i = 0; i < 3; ++i)
-    if (const Word* word = r.sorted.word(letters_of_centre[i]))
+    if (const Word* word = r.sorted.word(letters_of_centre[i]);
+        word != nullptr && (in_plane(plane, i) || word->value == 0))
       arc.centre_words[i] = AxisWord{word->number, word->decimals};
   for (const std::size_t axis : {plane.first, plane.second}) {
     const Word* word = r.sorted.word(letters_of_centre[axis]);
@@ -109,7 +133,7 @@ std::optional<ArcMove> arc_of(const Block& block, const Reading& r, const Move& 
 void hold_arc(Reading& r, Move& move, const Plane& plane, bool start_known) {
   move.may_insert_words = false;
   move.handling = Handling::held;
-  const bool rigid = start_known && !(r.state.absolute_centres && r.sorted.has_any("IJK"));
+  const bool rigid = start_known && !(centre_is_absolute(r) && r.sorted.has_any("IJK"));
   if (rigid) return;
   for (const std::size_t axis : {plane.first, plane.second})
     if (r.sorted.word(letters_of_axes[axis]) != nullptr) fix_axis(r, move, axis);
@@ -125,7 +149,8 @@ void read_arc(const Block& block, Reading& r) {
   const Plane plane = plane_of(r.state.normal);
   const bool start_known = move.known_start[plane.first] && move.known_start[plane.second];
   const bool end_known = r.state.known[plane.first] && r.state.known[plane.second];
-  const bool resolved = followed && start_known && end_known && words_are_plain(r.sorted);
+  const bool resolved =
+      followed && start_known && end_known && words_are_plain(r.sorted) && !centre_is_mixed(r, plane);
   if (resolved) move.arc = arc_of(block, r, move);
   if (!move.arc) {
     hold_arc(r, move, plane, start_known);

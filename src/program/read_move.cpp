@@ -50,7 +50,7 @@ void allow_changes(const Reading& r, Move& move) {
   const bool unit = b.has(Action::inch) || b.has(Action::mm);  // an F copied before it would change its unit
   const bool tool_length = b.has(Action::tool_length) || b.has(Action::no_tool_length);
   const bool acts_at_end = b.has(MAction::acts_after) || b.has(MAction::end) || b.has(MAction::tool_change) ||
-                           b.has(MAction::machine);
+                           b.has(MAction::retract) || b.has(MAction::machine);
   const bool rigid = r.relative() != r.state.relative || move.handling != Handling::own || any(move.fixed) ||
                      move.cycle.has_value();
   // Pieces of a G93 move need a share of its time.

@@ -35,6 +35,14 @@ std::string radius_text(const Original& o, const WordNumber& number) {
   return fmt::format("{}{}", o.dialect.radius_name, inserted_number(number.value, number.decimals));
 }
 
+/// A Sinumerik has no G90.1: absolute centres say so themselves.
+std::string centre_text(const Original& o, std::size_t axis, const WordNumber& number) {
+  if (!o.dialect.sinumerik_words || !o.move.arc->absolute_centre)
+    return word_text(o, centre_letters[axis], number);
+  return fmt::format("{}=AC({})", letter_of(o, centre_letters[axis]),
+                     inserted_number(number.value, number.decimals));
+}
+
 void change_word(const Original& o, const AxisWord& word, const WordNumber& number, Changes& changes) {
   changes.list.push_back({word.number, changed_number(o.text(word.number), number.value, number.decimals)});
   ++changes.changed;
@@ -97,7 +105,7 @@ void centre_changes(const Original& o, const ArcWords& arc, Changes& changes) {
     if (const auto& word = o.move.arc->centre_words[axis])
       change_word(o, *word, number, changes);
     else
-      inserted.push_back(word_text(o, centre_letters[axis], number));
+      inserted.push_back(centre_text(o, axis, number));
   }
   insert_words(o, inserted, is_centre, is_centre, changes);
   if (arc.radius.write) change_word(o, *o.move.arc->radius_word, arc.radius, changes);
@@ -188,8 +196,7 @@ void append_centre(const Original& o, const ArcWords& words, std::string& line) 
   const ArcMove& arc = *o.move.arc;
   if (arc.radius_word) return append(o, radius_text(o, words.radius), line);
   for (std::size_t axis = 0; axis < 3; ++axis)
-    if (stands(arc, axis, words.centre[axis]))
-      append(o, word_text(o, centre_letters[axis], words.centre[axis]), line);
+    if (stands(arc, axis, words.centre[axis])) append(o, centre_text(o, axis, words.centre[axis]), line);
 }
 
 }  // namespace

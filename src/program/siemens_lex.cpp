@@ -234,9 +234,8 @@ void lex_letter(Scanner& s) {
   // A tool by its name, an M or S by a value: nothing that the moves depend on.
   if (!word.literal && (letter == 'T' || letter == 'M' || letter == 'S' || letter == 'H' || letter == 'D'))
     s.block.words.pop_back();
-  // Centres that are absolute under G90 make no arc that is followed.
-  if ((letter >= 'I' && letter <= 'K') && (!word.literal || word.sense == Sense::absolute))
-    s.block.statement = Statement::arc_not_read;
+  // A centre that the control works out makes no arc that is followed.
+  if (letter >= 'I' && letter <= 'K' && !word.literal) s.block.statement = Statement::arc_not_read;
 }
 
 bool lex_label(Scanner& s, std::string_view name) {

@@ -91,6 +91,7 @@ Block with_senses(const Block& block, Reading& r) {
   bool modal = r.state.relative;
   for (const Word& word : block.words)
     if (word.letter == 'G' && (word.value == 90 || word.value == 91)) modal = word.value == 91;
+  if (std::none_of(block.words.begin(), block.words.end(), is_length_word)) return result;
   bool all_relative = true, all_absolute = true;
   const auto relative = [&](const Word& word) {
     return word.sense == Sense::modal ? modal : word.sense == Sense::relative;

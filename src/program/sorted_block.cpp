@@ -88,7 +88,10 @@ void add_m(const Sorter& s, const Word& word) {
 
 /// A macro call may give I, J and K several times.
 void add_letter(const Sorter& s, const Word& word) {
-  if (s.sorted.word(word.letter) != nullptr && !s.sorted.has(Action::call))
+  const bool again = s.sorted.word(word.letter) != nullptr;
+  // Some controls are told the next tool beside the one to change to.
+  if (again && word.letter == 'T' && s.dialect.macro_words) return;
+  if (again && !s.sorted.has(Action::call))
     s.fail(word, fmt::format("{} stands twice in the block", word.letter));
   const auto i = static_cast<std::size_t>(word.letter - 'A');
   s.sorted.letters[i] = &word;
@@ -101,6 +104,15 @@ void check_number(const Sorter& s) {
   if (n != s.block.words.data() && !s.dialect.number_anywhere)
     s.fail(*n, "N must be the first word of its block");
   if (n->value < 0) s.fail(*n, fmt::format("N{} is negative", n->value));
+}
+
+/// G15 H1 and G56 H1 look like what other controls know, and mean something else.
+void check_okuma(const Sorter& s) {
+  const Word* h = s.sorted.word('H');
+  if (h == nullptr) return;
+  for (const FoundG& g : s.sorted.g)
+    if (g.code->tenths == 150)
+      s.fail(*g.word, "G15 with H selects a work offset on Okuma's controls, whose programs are not read");
 }
 
 void check_signs(const Sorter& s) {
@@ -153,6 +165,7 @@ void sort_words(const std::string& file, const Dialect& dialect, const Block& bl
   }
   check_number(s);
   check_signs(s);
+  check_okuma(s);
   check_used(s, context);
 }
 

@@ -34,7 +34,8 @@ TEST_CASE("codes that one control alone knows show that one") {
   CHECK(dialect_of(begin + "(G110)\n" + end) == "fanuc");
   CHECK(dialect_of("G00G21G17G90G40\nN2G71G91.1\n" + end) == "mach3");
   CHECK(dialect_of("O1001 ; the plate\nG21 G90\nG1 F100 ; start here\n" + end) == "mach3");
-  CHECK(dialect_of("O1001 ;\nG21 G90 ;\n" + end) == "fanuc");
+  CHECK(dialect_of("O1001 ;\nG21 G90 ; (START)\n" + end) == "fanuc");
+  CHECK(dialect_of("(Post Processor: grbl_post)\nG21 G90\n" + end) == "grbl");
   CHECK(dialect_of("%\nN1 G21 G90\n:2 T1 M6\n" + end) == "fanuc");
   CHECK(dialect_of("G21 G90 (G71)\n#<g71>=1 ; G71\n" + end) == "linuxcnc");
 }

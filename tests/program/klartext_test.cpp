@@ -34,6 +34,36 @@ std::string klartext_refusal(const std::vector<std::string>& blocks) {
 
 }  // namespace
 
+TEST_CASE("klartext: M140 takes the tool to a height that nobody knows") {
+  for (const char* retract : {"L M140 MB MAX\n", "M140 MB MAX\n", "L X+1 M140 MB50\n"}) {
+    CAPTURE(retract);
+    const Program program = read("BEGIN PGM A MM\nTOOL CALL 1 Z S1000 F100\nL X+0 Y+0 Z+5 R0 FMAX\n" +
+                                     std::string(retract) + "L X+300 Y+200 FMAX\nL Z+5 FMAX\nEND PGM A MM\n",
+                                 "heidenhain");
+    const Move& across = program.moves.at(program.moves.size() - 2);
+    CHECK(across.known_start == std::array<bool, 3>{true, true, false});
+    CHECK(across.known_end == std::array<bool, 3>{true, true, false});
+    // No word of Z goes back down.
+    const MoveEdit edit{.move = program.moves.size() - 2, .end_mm = {300.5, 200.25, 5.125}};
+    CHECK(rewrite(program, {edit}, {}).text.find("L X+300.5 Y+200.25 FMAX\n") != std::string::npos);
+  }
+}
+
+TEST_CASE("klartext: a reset of planes moves nothing, and what shifts coordinates stands where it was") {
+  const std::string begin = "BEGIN PGM A MM\nTOOL CALL 1 Z S1000 F100\nL X+0 Y+0 Z+5 R0 FMAX\n",
+                    end = "L X+3\nEND PGM A MM\n";
+  const Program reset = read(begin + "PLANE RESET STAY\nPLANE RESET TURN FMAX\n" + end, "heidenhain");
+  REQUIRE(reset.moves.size() == 2);
+  CHECK(all_known(reset.moves[1].known_start));
+  const auto stands = [&](const std::string& blocks) {
+    return read(begin + blocks + end, "heidenhain").moves.back().stands;
+  };
+  CHECK(stands("CYCL DEF 7.0 DATUM SHIFT\nCYCL DEF 7.1 X+10\n") == std::array<bool, 3>{true, true, true});
+  CHECK(stands("L Z+0 FMAX M91\nCYCL DEF 7.0 DATUM SHIFT\nCYCL DEF 7.1 X+10\n") ==
+        std::array<bool, 3>{true, true, false});
+  CHECK(stands("") == std::array<bool, 3>{});
+}
+
 TEST_CASE("klartext is known by its first statement") {
   CHECK(read("\r\n0 BEGIN PGM A MM\r\n1 END PGM A MM\r\n").dialect == "heidenhain");
   CHECK(read("G21\nG0 X1\n").dialect == "linuxcnc");

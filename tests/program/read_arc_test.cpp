@@ -148,3 +148,15 @@ TEST_CASE("a move of G93 whose time is not a plain number is not split") {
     CHECK_FALSE(program.moves[unknown].may_jump);
   }
 }
+
+TEST_CASE("what stands for a centre across the plane is ignored as GRBL does, and stays") {
+  const std::string text = "G21 G90\nG0 X0. Y0. Z0.\nG2 X10. Y0. Z-1. I5. J0. K-.5 F100\n";
+  const Program program = read(text, "grbl");
+  REQUIRE(program.moves.at(1).arc);
+  CHECK(program.moves[1].arc->centre_mm == Vector3(5, 0, 0));
+  const MoveEdit edit{.move = 1, .end_mm = {10.5, 0, -1.5}, .centre_mm = Vector3(5.5, 0, 0)};
+  const MoveEdit before{.move = 0, .end_mm = {.5, 0, -.5}};
+  CHECK(rewrite(program, {before, edit}, {}).text.find("G2 X10.5 Y0. Z-1.5 I5. J0. K-.5 F100\n") !=
+        std::string::npos);
+  CHECK_THROWS(read(text, "linuxcnc"));
+}

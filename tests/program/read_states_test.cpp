@@ -199,6 +199,18 @@ TEST_CASE("the blocks that make a corner are not divided, but their ends are cor
         std::string::npos);
 }
 
+TEST_CASE("after M25 no word of Z goes back to where the tool was") {
+  const std::string text = known_start_block + "M25\nX300. Y200.\nZ10.\n";
+  const Program program = read(text);
+  CHECK(program.moves.at(1).known_end == std::array<bool, 3>{true, true, false});
+  CHECK(rewrite(program, {{.move = 1, .end_mm = {300, 200, 10.5}}}, {}).text == text);
+}
+
+TEST_CASE("of two tools in a block the first one is changed to") {
+  CHECK(read("O1\nG21 G90 T3 T4 M6\nG0 X1.\n").moves.at(0).tool == 3);
+  CHECK_THROWS(read("G21 G90 T3 T4 M6\nG0 X1.\n"));
+}
+
 TEST_CASE("a code that is said twice is said once on shop controls") {
   CHECK(read("O1\nG21 G90 G0 G90 G0 X1.\n").moves.size() == 1);
   CHECK_THROWS(read("O1\nG21 G90 G0 G91 X1.\n"));

@@ -42,6 +42,28 @@ TEST_CASE("siemens: words that only a Sinumerik reads tell the dialect, but not 
   CHECK(read("O0001\nG21 G0 X1.\n(SUPA)\n").dialect == "fanuc");
 }
 
+TEST_CASE("siemens: centres that say that they are absolute are coordinates") {
+  const std::string start = std::string(siemens_start) + "G1 Z0 F100\n";
+  const std::string text =
+      start + "G2 X10 Y0 I=AC(5) J=AC(0)\nG3 I=AC(5.) J=AC(0.)\nG3 X10 Y0 I=IC(-5) J=IC(0)\n";
+  const Program program = siemens(text);
+  for (const std::size_t m : {2u, 3u, 4u}) {
+    REQUIRE(program.moves.at(m).arc);
+    CHECK(program.moves[m].arc->centre_mm == Vector3(5, 0, 0));
+    CHECK(program.moves[m].may_split);
+  }
+  CHECK(siemens_shifted(text).find("G2 X10.5 Y-0.25 I=AC(5.5) J=AC(-0.25)\n") != std::string::npos);
+  // A divided circle says the same form again.
+  const MoveEdit halves{.move = 3,
+                        .inserted = {{.end_mm = {0, 0, 0}, .centre_mm = Vector3(5, 0, 0)}},
+                        .end_mm = {10, 0, 0},
+                        .centre_mm = Vector3(5, 0, 0)};
+  CHECK(rewrite(program, {halves}, {}).text.find("X0.000 I=AC(5.000) J=AC(0.000)") != std::string::npos);
+  // Of one that is half relative nothing is said about what it would be.
+  CHECK_FALSE(siemens(start + "G2 X10 Y0 I=AC(5) J0\n").moves.back().arc);
+  CHECK_FALSE(siemens(start + "G2 X10 Y0 I=AC(5)\n").moves.back().arc);
+}
+
 TEST_CASE("siemens: lines come back byte for byte, whatever they hold") {
   const std::string text =
       "%_N_COVER_MPF\n;$PATH=/_N_MPF_DIR\nN10 G17 G90 G71 G500 ;start\nDEF REAL "
