@@ -117,3 +117,11 @@ TEST_CASE("a jump of the correction that is left out, or made where the force do
         refusal_of(shop, without_line(text, i, lines[i] + "\nG91 G1 X0.03 Y-0.02 F600\nG90")).empty());
   }
 }
+
+TEST_CASE("an arc that makes another number of turns than the original is refused") {
+  const std::string helix = "G21 G90 G17\nG0 X30. Y0. Z0.\nG3 X30. Y0. Z-3. I-30. J0. P3 F600\nM30\n";
+  const Shop shop({.machine = displaced_gantry(), .text = helix});
+  std::string text = compensated(shop).text;
+  CHECK(refusal_of(shop, text) == "");
+  CHECK_FALSE(refusal_of(shop, text.replace(text.find("P3"), 2, "P2")).empty());
+}
