@@ -7,8 +7,9 @@ namespace counterflex {
 namespace {
 
 constexpr int most_halvings = 3;
-constexpr double sliver_share = 0.05;  // of a piece, but at most
-constexpr double sliver_mm = 0.1;      // corners nearer to its ends do not divide it
+// Corners nearer to the ends of a piece do not divide it.
+constexpr double sliver_share = 0.05;  // of a piece, and where it might be one
+constexpr double sliver_mm = 0.1;      // at most
 
 // Divides from the start on; what follows a piece begins where the text holds the tool behind it.
 class ArcDivider {
@@ -59,7 +60,9 @@ class ArcDivider {
     const double sweep = task_.source.arc->sweep;
     if (task_.move.arc->turns > 0 && u0 == 0 && u1 == 1)
       return {sweep_beside_turns(task_.move, task_.source) / 2 / sweep, false};
-    const double middle = (u0 + u1) / 2, margin = std::min(sliver_share * (u1 - u0), sliver_mm / length_mm_);
+    const bool divided_anyway = !can_be_one(task_, u0, u1) || must_halve(task_, u0, u1);
+    const double middle = (u0 + u1) / 2, share = sliver_share * (u1 - u0),
+                 margin = divided_anyway ? share : std::min(share, sliver_mm / length_mm_);
     std::optional<double> best;
     for (const double corner : task_.corners) {
       if (corner < u0 + margin || corner > u1 - margin) continue;

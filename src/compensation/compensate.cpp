@@ -44,6 +44,22 @@ void note_first_corrections(const Job& job, const Emission& emission, Compensati
   }
 }
 
+void count_moves(const Job& job, const Emission& emission, Compensation& result) {
+  OtherMoves& others = result.other_moves;
+  for (const EmittedMove& emitted : emission.moves) {
+    const Handling handling = job.program.moves[emitted.edit.move].handling;
+    if (!emitted.in_part)
+      ++result.corrected_moves;
+    else if (handling == Handling::group)
+      ++others.grouped;
+    else if (handling == Handling::own && emitted.kind != EmittedMove::Kind::shifted)
+      ++others.in_part;
+    else
+      ++others.held;
+  }
+  others.left += job.program.moves.size() - emission.moves.size();
+}
+
 }  // namespace
 
 std::optional<Failure> tolerance_failure(const Job& job, const std::vector<Waypoint>& waypoints) {
@@ -88,8 +104,7 @@ struct Compensator::State {
     note_first_corrections(job, emission, result);
     result.left_alone = emission.left_alone;
     if (emission.failure) return emission.failure;
-    result.corrected_moves = static_cast<std::size_t>(std::count_if(
-        emission.moves.begin(), emission.moves.end(), [](const EmittedMove& move) { return !move.in_part; }));
+    count_moves(job, emission, result);
     result.counts = rewriter.write(job.program, edits_of(emission));
     result.text = std::move(result.counts.text);
     return std::nullopt;

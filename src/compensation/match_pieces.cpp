@@ -79,7 +79,10 @@ class SegmentReader {
     }
     if (best == steps_.size()) return next;
     steps_[best].u = u;
-    if (best + 2 >= steps_.size() || (steps_[best + 1].way.end - after).norm() > near_) return best + 1;
+    const Vector3 next_end = steps_[best + 1].way.end;
+    if ((next_end - after).norm() > near_) return best + 1;
+    // What is left of the way behind the jump may be less than the digits tell.
+    if (best + 2 == steps_.size()) steps_.push_back({{next_end, next_end, {}}, 1});
     steps_[best + 1].u = u;
     steps_[best + 1].jump = true;
     return best + 2;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <string_view>
 
 namespace counterflex {
 namespace {
@@ -52,12 +53,15 @@ std::size_t motion_word_end(const std::string& text, std::size_t i) {
   return goes_on ? i : end + 1;
 }
 
-std::size_t feed_word_end(const std::string& text, std::size_t i) {
-  if (upper(text[i]) != 'F') return i;
-  return std::min(text.find_first_not_of("0123456789.", i + 1), text.size());
+// The end of a word of that letter or name at `i`; `i` where there is none.
+std::size_t word_end(const std::string& text, std::size_t i, std::string_view name) {
+  for (std::size_t k = 0; k < name.size(); ++k)
+    if (i + k >= text.size() || upper(text[i + k]) != name[k]) return i;
+  return std::min(text.find_first_not_of("0123456789.", i + name.size()), text.size());
 }
 
-std::string without_motion(const std::string& text, bool drop_feed) {
+// Without words of motion, and without those that `names` gives.
+std::string without_motion(const std::string& text, const std::vector<std::string_view>& names) {
   std::string kept;
   for (std::size_t i = 0; i < text.size();) {
     if (text[i] == ';') return kept + text.substr(i);
@@ -68,7 +72,8 @@ std::string without_motion(const std::string& text, bool drop_feed) {
       continue;
     }
     end = motion_word_end(text, i);
-    if (end == i && drop_feed) end = feed_word_end(text, i);
+    for (const std::string_view name : names)
+      if (end == i) end = word_end(text, i, name);
     if (end == i) kept += text[end++];
     i = end;
   }
@@ -90,7 +95,10 @@ std::string skeleton(const Program& program, const Move& move) {
     at = number.end;
   }
   keep(move.block.end);
-  return without_motion(text, move.feed_mode == FeedMode::inverse_time);
+  std::vector<std::string_view> names;
+  if (move.feed_mode == FeedMode::inverse_time) names.push_back("F");
+  if (move.arc && move.arc->turns > 0) names.insert(names.end(), {"P", "TURN="});
+  return without_motion(text, names);
 }
 
 bool is_plain(const std::string& skeleton) {

@@ -83,6 +83,7 @@ RunReport report_compensation(const RunContext& context, const RunTally& tally,
   add_residual(report, tally, measures);
   report.correction = tally.largest_correction();
   report.blocks.corrected = tally.corrected_moves();
+  report.blocks.others = tally.other_moves();
   report.blocks.inserted = tally.inserted_blocks();
   list(report.blocks.left_alone, tally.left_alone());
   if (tally.text_bytes() > 0)

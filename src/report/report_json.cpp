@@ -72,9 +72,16 @@ Json blocks_json(const BlockCounts& blocks) {
   Json left_alone = Json::array();
   for (const LeftAlone& block : blocks.left_alone.rows)
     left_alone.push_back({{"line", block.line}, {"why", block.why}});
+  const auto others = [&](std::size_t OtherMoves::*count) {
+    return blocks.others ? Json(*blocks.others.*count) : Json(nullptr);
+  };
   return {{"total", blocks.total},
           {"moves", blocks.moves},
           {"corrected", blocks.corrected},
+          {"corrected_in_part", others(&OtherMoves::in_part)},
+          {"grouped", others(&OtherMoves::grouped)},
+          {"held", others(&OtherMoves::held)},
+          {"not_corrected", others(&OtherMoves::left)},
           {"inserted", blocks.inserted},
           {"left_alone_count", blocks.left_alone.count},
           {"left_alone", std::move(left_alone)}};

@@ -133,14 +133,29 @@ std::string worst_text(const RunReport& report, const Ink& ink) {
   return text;
 }
 
+// What became of the moves that are not corrected each on its own.
+std::string others_text(const OtherMoves& moves) {
+  std::string text;
+  const auto add = [&](std::size_t count, const char* fate) {
+    if (count > 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, fate);
+  };
+  add(moves.grouped, "with their contour as one shift");
+  add(moves.in_part, "in part");
+  add(moves.held, "holding the correction before them");
+  add(moves.left, "not corrected");
+  return text;
+}
+
 std::string program_text(const RunReport& report, const Ink& ink) {
   const BlockCounts& blocks = report.blocks;
   if (report.failure && !report.text_after) return "";
   std::string text = line_break() + ink.bold("Program") + "\n";
   if (report.command == Command::predict)
     return text + fmt::format("  {}, {}\n", counted(blocks.total, "block"), counted(blocks.moves, "move"));
-  text += fmt::format("  {} of {} corrected, {} added\n", blocks.corrected, counted(blocks.moves, "move"),
-                      counted(blocks.inserted, "point"));
+  const std::string others = blocks.others ? others_text(*blocks.others) : "";
+  text += fmt::format("  {} of {} corrected{}, {} added\n", blocks.corrected, counted(blocks.moves, "move"),
+                      others.empty() ? "" : " each on its own", counted(blocks.inserted, "point"));
+  if (!others.empty()) text += wrapped("  ", others, 2);
   if (report.text_after)
     text += fmt::format("  {} -> {} blocks, {} -> {} bytes\n", report.text_before.blocks,
                         report.text_after->blocks, report.text_before.bytes, report.text_after->bytes);

@@ -22,6 +22,10 @@ void RunTally::add_forces(const PathForces& forces) {
 
 void RunTally::add_compensation(const Compensation& compensation) {
   corrected_moves_ += compensation.corrected_moves;
+  other_moves_.grouped += compensation.other_moves.grouped;
+  other_moves_.held += compensation.other_moves.held;
+  other_moves_.in_part += compensation.other_moves.in_part;
+  other_moves_.left += compensation.other_moves.left;
   inserted_blocks_ += compensation.counts.inserted_blocks;
   text_bytes_ += compensation.text.size();
   for (const LeftAlone& block : compensation.left_alone) list(left_alone_, block);

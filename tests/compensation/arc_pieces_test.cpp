@@ -6,9 +6,6 @@ using namespace counterflex::test;
 
 namespace {
 
-/// One axis not square, and a head that yields 20 um to 100 N.
-const std::string small_mill = COUNTERFLEX_SOURCE_DIR "/tests/cli/data/mill.toml";
-
 const char* const ramp = "0, 0, 0, 0\n31, 180, -90, -25\n";
 
 /// The feed moves of a corrected text that are no arcs, from its `first` move on.

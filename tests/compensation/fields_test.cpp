@@ -1,43 +1,14 @@
 // Machines whose deviation is known in closed form: none, a shift, a shear.
-#include <fmt/format.h>
-
-#include "judge.hpp"
+#include "gantry.hpp"
 
 using namespace counterflex;
 using namespace counterflex::test;
 
 namespace {
 
-/// Three prismatic actuators, X, Y, Z, with an error in front and a tilt between; rigid.
-Machine gantry(const std::string& displaced, const std::string& y_to_x = "{}",
-               const std::string& z_to_y = "{}") {
-  return read_machine(fmt::format(R"(format = "counterflex-machine 1"
-controlled = ["x", "y", "z"]
-[[chain]]
-name = "axes"
-elements = [
-  {{ error = "mount" }},
-  {{ actuator = "prismatic", axis = "x", min_mm = -500, max_mm = 500 }},
-  {{ error = "y_to_x" }},
-  {{ actuator = "prismatic", axis = "y", min_mm = -500, max_mm = 500 }},
-  {{ error = "z_to_y" }},
-  {{ actuator = "prismatic", axis = "z", min_mm = -500, max_mm = 500 }},
-]
-errors.mount = {{ xyz_mm = [{}] }}
-errors.y_to_x = {}
-errors.z_to_y = {}
-)",
-                                  displaced, y_to_x, z_to_y),
-                      "gantry.toml");
-}
-
 const char* const part =
     "%\n(PART)\nN10 G21 G90 G94\nN20 G0 X10. Y-20. Z30.\nN30 G0 Z2.\nN40 G1 Z-1.5 F200\nN50 X110.25 F600\n"
     "N60 Y130.\nN70 G1 X-90. Y-80. Z12.\nN80 G0 Z50.\nN90 M30\n%\n";
-
-std::vector<Move> moves_of(const std::string& text) {
-  return read_program(text, "part.ngc", {}).moves;
-}
 
 }  // namespace
 
@@ -61,10 +32,10 @@ TEST_CASE("a perfect machine without forces gives back lines that end in CR LF, 
 }
 
 TEST_CASE("a rigid gantry that stands displaced is sent back by exactly the displacement") {
-  const Shop shop({.machine = gantry("0.5, -0.25, 0.125"), .text = part});
+  const Shop shop({.machine = displaced_gantry(), .text = part});
   const Compensation result = compensated(shop);
   CHECK(result.counts.inserted_blocks == 0);
-  const std::vector<Move> before = moves_of(part), after = moves_of(result.text);
+  const std::vector<Move> before = moves_in(part), after = moves_in(result.text);
   REQUIRE(before.size() == after.size());
   for (std::size_t m = 0; m < before.size(); ++m) {
     CAPTURE(before[m].line);
@@ -77,11 +48,10 @@ TEST_CASE("out of square axes are corrected by the inverse of their affine map, 
   for (const double sign : {1.0, -1.0}) {
     CAPTURE(sign);
     const double angle = sign * 1e-3;
-    const std::string tilt = fmt::format("{{ rpy_deg = [0, 0, {}] }}", angle / deg);
-    const Shop shop({.machine = gantry("0, 0, 0", tilt), .text = part});
+    const Shop shop({.machine = rigid_gantry("0, 0, 0", angle), .text = part});
     const Compensation result = compensated(shop);
     CHECK(result.counts.inserted_blocks == 0);
-    const std::vector<Move> before = moves_of(part), after = moves_of(result.text);
+    const std::vector<Move> before = moves_in(part), after = moves_in(result.text);
     REQUIRE(before.size() == after.size());
     for (std::size_t m = 0; m < before.size(); ++m) {
       CAPTURE(before[m].line);
@@ -96,8 +66,8 @@ TEST_CASE("out of square axes are corrected by the inverse of their affine map, 
 
 TEST_CASE("a work offset turns the correction into program coordinates") {
   const Pose X_MW{from_rpy(Vector3(0, 0, 90) * deg), Vector3(50, 20, 0) * mm};
-  const Shop shop({.machine = gantry("0.5, -0.25, 0.125"), .text = part, .X_MW = X_MW});
-  const std::vector<Move> before = moves_of(part), after = moves_of(compensated(shop).text);
+  const Shop shop({.machine = displaced_gantry(), .text = part, .X_MW = X_MW});
+  const std::vector<Move> before = moves_in(part), after = moves_in(compensated(shop).text);
   REQUIRE(before.size() == after.size());
   for (std::size_t m = 0; m < before.size(); ++m)
     CHECK((after[m].end_mm - before[m].end_mm - Vector3(0.25, 0.5, -0.125)).norm() < 1e-9);
@@ -107,7 +77,7 @@ TEST_CASE(
     "words that round to their originals are untouched, others are inserted only where rounding asks for "
     "them") {
   // A tilt of Z against X alone: x moves by 1 um for each mm of z.
-  const Shop shop({.machine = gantry("0, 0, 0", "{}", fmt::format("{{ rpy_deg = [0, {}, 0] }}", 1e-3 / deg)),
+  const Shop shop({.machine = rigid_gantry("0, 0, 0", 0, 1e-3),
                    .text = "G21 G90\nG0 X0. Y0. Z0.\nG1 Z-0.4 F100\nG1 Z-40.\nX10.\nG1 Y5.\nZ0.\nM30\n"});
   const std::vector<std::string> lines = lines_of(compensated(shop).text);
   CHECK(lines[1] == "G0 X0. Y0. Z0.");

@@ -6,8 +6,9 @@
 
 namespace counterflex::test {
 
-/// Three prismatic actuators X, Y, Z; the frame displaced (mm), and Y turned against X about Z (rad).
-inline Machine rigid_gantry(const std::string& displaced_mm, double square_error = 0) {
+/// Three prismatic actuators X, Y, Z; the frame displaced (mm), Y turned against X about Z (rad), and Z
+/// against both about Y.
+inline Machine rigid_gantry(const std::string& displaced_mm, double square_error = 0, double lean = 0) {
   return read_machine(fmt::format(R"(format = "counterflex-machine 1"
 controlled = ["x", "y", "z"]
 [[chain]]
@@ -17,12 +18,14 @@ elements = [
   {{ actuator = "prismatic", axis = "x", min_mm = -1000, max_mm = 1000 }},
   {{ error = "y_to_x" }},
   {{ actuator = "prismatic", axis = "y", min_mm = -1000, max_mm = 1000 }},
+  {{ error = "z_to_y" }},
   {{ actuator = "prismatic", axis = "z", min_mm = -1000, max_mm = 1000 }},
 ]
 errors.mount = {{ xyz_mm = [{}] }}
 errors.y_to_x = {{ rpy_deg = [0, 0, {}] }}
+errors.z_to_y = {{ rpy_deg = [0, {}, 0] }}
 )",
-                                  displaced_mm, square_error / deg),
+                                  displaced_mm, square_error / deg, lean / deg),
                       "gantry.toml");
 }
 

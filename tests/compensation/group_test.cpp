@@ -28,6 +28,8 @@ TEST_CASE("a contour group has one shift, the midpoint of its corrections' extre
     ++grouped;
   }
   CHECK(grouped >= 10);
+  CHECK(result.other_moves.grouped == static_cast<std::size_t>(grouped));
+  CHECK(result.corrected_moves + result.other_moves.grouped == before.size());
   CHECK(result.counts.inserted_blocks == 0);
   REQUIRE(!result.left_alone.empty());
   CHECK(result.left_alone[0].line == 3);

@@ -117,6 +117,23 @@ inline std::size_t pieces_on(const Compensation& result, int line) {
   return count;
 }
 
+/// What `verify` finds of `text` as the corrected form of the shop's program.
+inline ForwardRun judged(const Shop& shop, const std::string& text) {
+  return solve_forward_along(shop.job(), match_programs(shop.job(), read_program(text, "corrected.ngc", {})),
+                             {});
+}
+
+/// The words with which `verify` refuses `text`; empty where it accepts it.
+inline std::string refusal_of(const Shop& shop, const std::string& text) {
+  try {
+    const ForwardRun run = judged(shop, text);
+    const auto failure = run.failure ? run.failure : tolerance_failure(shop.job(), run.waypoints);
+    return failure ? failure->what : "";
+  } catch (const InputError& error) {
+    return error.what();
+  }
+}
+
 /// The lines of `text`, without line ends.
 inline std::vector<std::string> lines_of(const std::string& text) {
   std::vector<std::string> lines(1);

@@ -10,11 +10,6 @@ const char* const two_feeds =
     "G21 G90\nN10 G0 X-60. Y-60. Z-60.\nN20 G1 Y60. F600\nX40. Z-40.\nG0 Z20.\nG0 X0.\nG1 Z10.\nX30.\nX30. "
     "Y61.\nM30\n";
 
-ForwardRun judged(const Shop& shop, const std::string& text) {
-  return solve_forward_along(shop.job(), match_programs(shop.job(), read_program(text, "corrected.ngc", {})),
-                             {});
-}
-
 double largest_after(const std::vector<Waypoint>& waypoints, int line) {
   double largest = 0;
   for (const Waypoint& w : waypoints)

@@ -20,12 +20,8 @@ std::string klartext(const std::vector<std::string>& blocks, const std::string& 
 
 const Vector3 klartext_shift(0.5, -0.25, 0.125);
 
-/// `program` with every move that has a known end shifted, arcs with their centres.
 std::string klartext_shifted(const Program& program, const WriteOptions& options = {}) {
-  std::vector<MoveEdit> edits = shifted(program, klartext_shift);
-  for (MoveEdit& edit : edits)
-    if (const auto& arc = program.moves[edit.move].arc) edit.centre_mm = arc->centre_mm + klartext_shift;
-  return rewrite(program, edits, options).text;
+  return shifted_text(program, klartext_shift, options);
 }
 
 std::string klartext_refusal(const std::vector<std::string>& blocks) {

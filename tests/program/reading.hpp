@@ -44,6 +44,19 @@ inline std::vector<MoveEdit> shifted(const Program& program, const Vector3& d_mm
   return edits;
 }
 
+/// The text of `program` with every move that has coordinates shifted by `d_mm`, arcs with their centres.
+inline std::string shifted_text(const Program& program, const Vector3& d_mm,
+                                const WriteOptions& options = {}) {
+  std::vector<MoveEdit> edits = shifted(program, d_mm);
+  std::erase_if(edits, [&](const MoveEdit& edit) {
+    const auto& words = program.moves[edit.move].words;
+    return !words[0] && !words[1] && !words[2];
+  });
+  for (MoveEdit& edit : edits)
+    if (edit.centre_mm) *edit.centre_mm += d_mm;
+  return rewrite(program, edits, options).text;
+}
+
 /// `text` rewritten with one edit of its last move.
 inline std::string with_last_move(const std::string& text, MoveEdit edit,
                                   const std::string& dialect = "auto") {

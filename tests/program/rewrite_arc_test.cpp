@@ -106,6 +106,15 @@ TEST_CASE("chords of an arc without axis words end in words of their own") {
   CHECK(arc_rewritten("G3 I-10. F50.\n", edit) == "G1 X-10.000 F50.\nG1 X10.000 Y0.500 F50.\n");
 }
 
+TEST_CASE("the full turns of an arc stand in its last piece, whichever block that is") {
+  MoveEdit edit{
+      .inserted = {{{-10, 0, 0}, Vector3::Zero()}}, .end_mm = {10, 0, -3}, .centre_mm = Vector3::Zero()};
+  CHECK(arc_rewritten("G3 X10. Z-3. I-10. J0. P3\n", edit) ==
+        "G3 X-10.000 I-10.000 J0.000\nG3 X10. Z-3. I10. J0. P3\n");
+  CHECK(arc_rewritten("G3 X10. Z-3. I-10. J0. P3 M8\n", edit) ==
+        "G3 X-10. Z0. I-10. J0. M8\nG3 X10.000 Z-3.000 I10.000 J0.000 P3\n");
+}
+
 TEST_CASE("half a turn keeps the sign of its radius") {
   for (const std::string radius : {"R5.", "R-5."}) {
     const std::string text = "G21 G90 G17\nG0 X5 Y-5.5 Z0\nG2 X15 " + radius + " F100\n";

@@ -8,6 +8,7 @@
 #include "program/reading.hpp"
 #include "program/small_reader.hpp"
 #include "program/synthetic_arcs.hpp"
+#include "support/text.hpp"
 
 using namespace counterflex;
 using namespace counterflex::test;
@@ -97,13 +98,6 @@ std::string masked(const std::string& line, const std::string& original, bool ti
       ++i;
   }
   return kept;
-}
-
-std::vector<std::string> lines_of(const std::string& text) {
-  std::vector<std::string> lines;
-  for (std::size_t begin = 0; begin < text.size(); begin = text.find('\n', begin) + 1)
-    lines.push_back(text.substr(begin, text.find('\n', begin) - begin));
-  return lines;
 }
 
 /// Every line but the inserted ones is the original's, but for the numbers and words that hold a place.

@@ -16,18 +16,8 @@ Program siemens(const std::string& text) {
   return read_program(text, "p.mpf", options);
 }
 
-/// `text` with every move that has coordinates shifted.
 std::string siemens_shifted(const std::string& text) {
-  const Vector3 d(0.5, -0.25, 0.125);
-  const Program program = siemens(text);
-  std::vector<MoveEdit> edits;
-  for (std::size_t i = 0; i < program.moves.size(); ++i) {
-    const Move& move = program.moves[i];
-    if (!move.words[0] && !move.words[1] && !move.words[2]) continue;
-    edits.push_back({.move = i, .end_mm = move.end_mm + d});
-    if (move.arc) edits.back().centre_mm = move.arc->centre_mm + d;
-  }
-  return rewrite(program, edits, {}).text;
+  return shifted_text(siemens(text), {0.5, -0.25, 0.125});
 }
 
 constexpr std::string_view siemens_start = "G90 G17 G71\nT=\"MILL_10\" M6\nG0 X0 Y0 Z50. D1 S2500 M3\n";

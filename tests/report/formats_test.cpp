@@ -20,16 +20,10 @@ Compensation small_compensation() {
   c.left_alone = {{5, "exact stop: not split"}};
   c.counts.inserted_blocks = 2;
   c.corrected_moves = 3;
+  c.other_moves = {.grouped = 1, .held = 1};
   c.largest_correction = 0.5 * mm;
   c.largest_correction_line = 4;
   return c;
-}
-
-std::vector<std::string> lines_of(const std::string& text) {
-  std::istringstream stream(text);
-  std::vector<std::string> lines;
-  for (std::string line; std::getline(stream, line);) lines.push_back(line);
-  return lines;
 }
 
 std::string csv_of(const std::vector<Waypoint>& waypoints, const CsvColumns& columns) {
@@ -149,6 +143,10 @@ TEST_CASE("the JSON of a compensation has every key, in this order") {
     "total": 6,
     "moves": 5,
     "corrected": 3,
+    "corrected_in_part": 0,
+    "grouped": 1,
+    "held": 1,
+    "not_corrected": 0,
     "inserted": 2,
     "left_alone_count": 1,
     "left_alone": [
@@ -283,7 +281,10 @@ TEST_CASE("the summary shows before and after, and calls what is left a model re
   CHECK(contains(text, "100 times smaller"));
   CHECK(contains(text,
                  "  load: cutting forces alone              0.0000      0.1500      0.2000      0.2500\n"));
-  CHECK(contains(text, "  3 of 5 moves corrected, 2 points added\n"));
+  CHECK(contains(
+      text,
+      "  3 of 5 moves corrected each on its own, 2 points added\n  1 with their contour as one shift, 1 "
+      "holding the correction before them\n"));
   CHECK(contains(text, "corrected program is off by up to\n  0.2500 mm, line 4.\n"));
   CHECK(contains(text, "Not corrected: 1 block\n  line 5: exact stop: not split\n"));
   CHECK(contains(text, "2 warnings\n  a general warning\n  line 6: a warning\n"));

@@ -174,6 +174,7 @@ TEST_CASE("compensations of windows add up, and the first of the largest correct
     Compensation c;
     c.text = "G21\n";
     c.corrected_moves = 2;
+    c.other_moves = {.grouped = 1, .held = 2, .in_part = 3, .left = 4};
     c.counts.inserted_blocks = 5;
     c.largest_correction = (window == 0 ? 0.1 : 0.3) * mm;
     c.largest_correction_line = 10 * window;
@@ -183,6 +184,10 @@ TEST_CASE("compensations of windows add up, and the first of the largest correct
   const Overview overview = overview_of(run.program);
   const RunReport report = report_compensation(run.context(overview), tally, {});
   CHECK(report.blocks.corrected == 6);
+  CHECK(report.blocks.others->grouped == 3);
+  CHECK(report.blocks.others->held == 6);
+  CHECK(report.blocks.others->in_part == 9);
+  CHECK(report.blocks.others->left == 12);
   CHECK(report.blocks.inserted == 15);
   CHECK(report.text_after->bytes == 12);
   CHECK(report.text_after->blocks == overview.blocks + 15);

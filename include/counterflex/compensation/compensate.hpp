@@ -8,6 +8,14 @@
 
 namespace counterflex {
 
+/// Moves that are not corrected each on its own.
+struct OtherMoves {
+  std::size_t grouped = 0;  ///< with their contour, by one shift
+  std::size_t held = 0;     ///< they keep the correction with which they are entered
+  std::size_t in_part = 0;  ///< in some axes, or without their force
+  std::size_t left = 0;     ///< they stay as they are
+};
+
 struct Compensation {
   std::optional<Failure> failure;   ///< then `text` must not be written
   std::string text;                 ///< the corrected program
@@ -16,7 +24,8 @@ struct Compensation {
   std::vector<LeftAlone>
       left_alone;    ///< what the plan could not correct or split, besides the program's own list
   Rewritten counts;  ///< its text is moved to `text`
-  std::size_t corrected_moves = 0;
+  std::size_t corrected_moves = 0;  ///< each on its own
+  OtherMoves other_moves;
   double largest_correction = 0;  ///< m
   int largest_correction_line = 0;
 };

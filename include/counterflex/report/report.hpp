@@ -67,10 +67,11 @@ struct ForceSummary {
 };
 
 struct BlockCounts {
-  std::size_t total = 0;      ///< of the original program: lines with a word
-  std::size_t moves = 0;      ///< of these, moves
-  std::size_t corrected = 0;  ///< moves whose words changed
-  std::size_t inserted = 0;   ///< blocks added
+  std::size_t total = 0;             ///< of the original program: lines with a word
+  std::size_t moves = 0;             ///< of these, moves
+  std::size_t corrected = 0;         ///< moves that are corrected each on its own
+  std::optional<OtherMoves> others;  ///< what became of the others; for `compensate` alone
+  std::size_t inserted = 0;          ///< blocks added
   Capped<LeftAlone> left_alone;
 };
 

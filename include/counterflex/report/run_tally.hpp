@@ -37,6 +37,7 @@ class RunTally {
   const Capped<LeftAlone>& left_alone() const { return left_alone_; }
   const Largest& largest_correction() const { return largest_correction_; }
   std::size_t corrected_moves() const { return corrected_moves_; }
+  const OtherMoves& other_moves() const { return other_moves_; }
   std::size_t inserted_blocks() const { return inserted_blocks_; }
   std::size_t text_bytes() const { return text_bytes_; }  ///< of compensated text
 
@@ -51,6 +52,7 @@ class RunTally {
   Capped<Remark> force_notes_;
   Capped<LeftAlone> left_alone_;
   Largest largest_correction_;
+  OtherMoves other_moves_;
   std::size_t corrected_moves_ = 0, inserted_blocks_ = 0, text_bytes_ = 0;
   std::optional<LineLengths> lines_;
   std::optional<ShortBlocks> short_blocks_;
