@@ -280,7 +280,9 @@ void rewrite_klartext_block(const Program& program, const KlartextStyle& style, 
   w.block.line_end = {move.block.begin, move.block.begin};
   w.block.last_line = move.line - 1;
   next_klartext_block(program.text, w.block);
-  lex_klartext_words(program.text, program.file, w.block, w.words);
+  // CYCL CALL and M99 alone have no coordinates: the word of theirs stands in the cycle's definition.
+  const bool calls_cycle = w.block.head == "CYCL" || w.block.head.starts_with('M');
+  if (!calls_cycle) lex_klartext_words(program.text, program.file, w.block, w.words);
   held.position = held_at_start(move, held.position);
   const HeldPosition before = held.position;
   write_edit(w, edit);

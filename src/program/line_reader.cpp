@@ -13,6 +13,13 @@ namespace {
 // A dialect shows at the beginning of a program.
 constexpr std::size_t looked_at = 1 << 20;  // bytes
 
+/// Whole lines, so that no comment loses its end.
+std::string_view beginning(std::string_view text) {
+  if (text.size() < looked_at) return text;
+  text = text.substr(0, looked_at);
+  return text.substr(0, text.rfind('\n'));
+}
+
 Program begun(const std::string& file, const ReadOptions& options, const Dialect& dialect) {
   Program program;
   program.file = file;
@@ -24,7 +31,7 @@ Program begun(const std::string& file, const ReadOptions& options, const Dialect
 }  // namespace
 
 const Dialect& choose_dialect(std::string_view text, const std::string& file, const ReadOptions& options) {
-  if (options.dialect == "auto") return detect_dialect(text.substr(0, looked_at));
+  if (options.dialect == "auto") return detect_dialect(beginning(text));
   const Dialect* dialect = find_dialect(options.dialect);
   if (dialect == nullptr)
     throw InputError(Exit::usage, {file},

@@ -49,6 +49,14 @@ TEST_CASE("comments in comments, and comments without an end, are read where Lin
   CHECK(read(shop).moves[0].end_mm.x() == 1);
 }
 
+TEST_CASE("a comment that stands where a control is no longer looked for is no sign of one") {
+  std::string text = "G21 G90\nG0 X1 Y2 Z3\n";
+  while (text.size() < 2 << 20) text += "(a remark that is a little longer than most, and stands often)\n";
+  CHECK(dialect_of(text) == "linuxcnc");
+  text.insert(text.find("G0"), "(open\n");
+  CHECK(dialect_of(text) == "mach3");
+}
+
 TEST_CASE("the header goes behind the mark of UTF-8 and behind the program's number") {
   const std::string moves = "G21 G90\nG0 X1. Y2. Z3.\n", header = "(COUNTERFLEX 1)\n";
   for (const char* begin : {"\xef\xbb\xbf", "%O1001\n", ":1001\n", "%\nO0001 G54\n", "%PART\nO1\n",

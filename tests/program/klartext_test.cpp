@@ -368,6 +368,20 @@ TEST_CASE("klartext: the holes of a drilling cycle are held, and the first one t
                   "L X+0.5 Y-0.25 Z+50.125 FMAX"}));
 }
 
+TEST_CASE("klartext: the first call of a cycle may be a block without coordinates") {
+  for (const char* call : {"CYCL CALL", "CYCL CALL M8", "M99", "M99 M8"}) {
+    CAPTURE(call);
+    const std::string begin = "L X+1 Y+0 Z+50 FMAX", cycle = "CYCL DEF 203 DRILLING ~\n  Q201=-10 ~\n  Q203=";
+    const std::string text = klartext({begin, cycle + "+1.5", call, "L X+4 Y+3 FMAX M99"});
+    const Program program = read(text);
+    REQUIRE(program.moves.size() == 3);
+    CHECK(program.moves[1].words[2]);
+    CHECK(rewrite(program, edits_to_original(program), {}).text == text);
+    CHECK(klartext_shifted(program) ==
+          klartext({"L X+1.5 Y-0.25 Z+50.125 FMAX", cycle + "+1.625", call, "L X+4.5 Y+2.75 FMAX M99"}));
+  }
+}
+
 TEST_CASE("klartext: holes are fixed where their surface is not a plain number that counts for them alone") {
   for (const char* surface :
        {"CYCL DEF 200 Q203=+Q5", "CYCL DEF 200 Q201=-5", "/CYCL DEF 200 Q203=+1", "CYCL DEF 252 Q203=+1"}) {
