@@ -10,9 +10,11 @@
 namespace counterflex {
 
 struct ReadOptions {
-  std::string dialect = "auto";    ///< auto, linuxcnc, grbl, fanuc, haas, mach3, siemens, heidenhain; auto:
-                                   ///< BEGIN PGM means heidenhain, an O-number fanuc, words of its language
-                                   ///< siemens, else linuxcnc
+  /// auto, linuxcnc, grbl, fanuc, haas, mach3, siemens, heidenhain. auto looks at the first megabyte: BEGIN
+  /// PGM means heidenhain, words of its language siemens, an O-number or a name behind '%' fanuc, or haas or
+  /// mach3 where only they know all codes; else linuxcnc, or mach3 where only that does, or grbl that a
+  /// comment names.
+  std::string dialect = "auto";
   std::optional<LengthUnit> unit;  ///< where the program does not say before its first move
   std::optional<std::vector<char>>
       tool_change_moves;  ///< axes of "XYZ" unknown after a tool change; none: the
