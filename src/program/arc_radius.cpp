@@ -1,7 +1,6 @@
 #include "program/arc_radius.hpp"
 
 #include <Eigen/Geometry>
-
 #include <cmath>
 
 namespace counterflex {

@@ -32,8 +32,7 @@ std::string klartext_comment(const std::string& text) {
 /// Its lines carry no number: what follows keeps its own where nothing else is inserted.
 std::string klartext_header(const KlartextStyle& style, const WriteOptions& options) {
   std::string text;
-  for (const std::string& line : options.header)
-    text += "; " + klartext_comment(line) + style.line_end;
+  for (const std::string& line : options.header) text += "; " + klartext_comment(line) + style.line_end;
   return text;
 }
 

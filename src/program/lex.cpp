@@ -286,8 +286,9 @@ void lex(std::string_view text, const std::string& file, const Dialect& dialect,
   block.flow_keyword = block.flow_name = {};
   block.statement = Statement::none;
   block.statement_is_bare = block.has_sense = false;
+  // The mark of UTF-8 stands before the first block.
+  if (block.text_line == 1 && block.span.begin == 0) block.span.begin += byte_order_mark(text);
   Scanner s{block.span.end, text, file, dialect, block, block.span.begin};
-  if (block.text_line == 1) s.at += byte_order_mark(text.substr(s.at));
   while (s.at < s.end && says_nothing(text[s.at])) ++s.at;
   while (s.at < s.end && says_nothing(text[s.end - 1])) --s.end;
   if (dialect.sinumerik_words) return lex_siemens(s);

@@ -69,6 +69,8 @@ bool jumps_in(std::string_view lines) {
 }  // namespace
 
 void OutlineScan::add(std::string_view lines) {
+  if (!begun_) lines.remove_prefix(byte_order_mark(lines));
+  begun_ = true;
   if (dialect_.sinumerik_words) outline_.jumps = outline_.jumps || siemens_jumps(lines);
   if ((dialect_.family & (shop_families | mach3_family)) == 0) return;
   outline_.jumps = outline_.jumps || jumps_in(lines);

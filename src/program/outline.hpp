@@ -23,6 +23,7 @@ class OutlineScan {
 
  private:
   const Dialect& dialect_;
+  bool begun_ = false;
   Outline outline_;
   std::size_t open_ = 0;  ///< numbers at the end of the list whose program has not ended yet
 };

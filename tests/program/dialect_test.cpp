@@ -82,3 +82,19 @@ TEST_CASE("characters of transmissions at the edges of lines mean nothing") {
 TEST_CASE("what a spindle, a length's end or a length takes besides is no error") {
   CHECK(read("G21 G90 G49 H0\nM3 P100\nG43 H1 D1\nG0 X1 Y2 Z3\n").moves.size() == 1);
 }
+
+TEST_CASE(
+    "a mark of UTF-8 belongs to no block: one behind it is edited, refused and numbered as without it") {
+  const std::string mark = "\xef\xbb\xbf", moving = "G0 X1. Y2. Z3.\nM30\n";
+  ReadOptions options;
+  options.unit = LengthUnit::millimetres;
+  const Program program = read_program(mark + moving, "p.ngc", options);
+  CHECK(rewrite(program, edits_to_original(program), {}).text == mark + moving);
+  CHECK(rewrite(program, shifted(program, {1, 0, 0}), {.header = {"COUNTERFLEX 1"}}).text ==
+        mark + "(COUNTERFLEX 1)\nG0 X2. Y2. Z3.\nM30\n");
+  CHECK(diagnostic_of([&] { read(mark + "_X1\n", "linuxcnc"); }) ==
+        diagnostic_of([&] { read("_X1\n", "linuxcnc"); }));
+  const std::string numbered = "O1\nG21 G90\nG0 X1. Y1. Z1.\nM98 P2\nM30\nO2\nX2.\nM99\n";
+  CHECK(read(mark + numbered).moves.size() == read(numbered).moves.size());
+  CHECK(read(mark + numbered).left_alone.size() == read(numbered).left_alone.size());
+}
