@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <string>
 #include <string_view>
 
 #include "counterflex/geometry/units.hpp"
@@ -13,15 +15,20 @@ namespace {
 
 struct Line {
   int number;  // of the text
-  std::string_view text;
+  std::string text;
 };
 
-// The line without the number that Klartext gives its blocks anew; nothing of a CC, which belongs to the arc
-// behind it.
-std::string_view statement_of(const Program& program, std::string_view line) {
-  if (program.dialect != "heidenhain") return line;
+// The line without the number that Klartext gives its blocks anew, and without the surface of a drilling
+// cycle, which goes along with its holes; nothing of a CC, which belongs to the arc behind it.
+std::string statement_of(const Program& program, std::string_view line) {
+  if (program.dialect != "heidenhain") return std::string(line);
   line.remove_prefix(std::min(line.find_first_not_of(" \t0123456789"), line.size()));
-  return line.starts_with("CC") ? std::string_view() : line;
+  if (line.starts_with("CC")) return {};
+  std::string statement(line);
+  const std::size_t surface = statement.find("Q203=");
+  if (surface != std::string::npos)
+    statement.erase(surface, std::min(statement.find(' ', surface), statement.size()) - surface);
+  return statement;
 }
 
 // A comment of the header and nothing else.
@@ -42,9 +49,9 @@ std::vector<Line> other_lines(const Program& program) {
     if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
     while (move < program.moves.size() && line_in_text(program.moves[move]) < number) ++move;
     const bool moves = move < program.moves.size() && line_in_text(program.moves[move]) == number;
-    line = statement_of(program, line);
-    const bool inserted_centre = line.empty() && program.dialect == "heidenhain";
-    if (!moves && !is_header(line) && !inserted_centre) lines.push_back({number, line});
+    std::string statement = statement_of(program, line);
+    const bool inserted_centre = statement.empty() && program.dialect == "heidenhain";
+    if (!moves && !is_header(statement) && !inserted_centre) lines.push_back({number, std::move(statement)});
     begin = end + 1;
   }
   return lines;
@@ -52,6 +59,40 @@ std::vector<Line> other_lines(const Program& program) {
 
 [[noreturn]] void fail(const Program& corrected, int line, const std::string& what) {
   throw InputError(Exit::not_compensated, {corrected.file, line, 1}, what);
+}
+
+// The surface from which the holes of a Klartext cycle count, where the first of them is met.
+struct Surface {
+  int line;
+  double z_mm, before_mm;  // itself, and the last Z before it that is known
+};
+
+std::vector<Surface> surfaces_of(const Program& program) {
+  std::vector<Surface> surfaces;
+  double before_mm = 0;
+  for (const Move& move : program.moves) {
+    if (move.words[2] && move.words[2]->number.begin < move.block.begin)
+      surfaces.push_back({move.line, move.end_mm.z(), before_mm});
+    else if (move.known_end[2])
+      before_mm = move.end_mm.z();
+  }
+  return surfaces;
+}
+
+// A surface goes along with the holes, which keep the shift with which they are entered.
+void check_surfaces(const Program& original, const Program& corrected) {
+  constexpr double rounding_mm = 1e-3 * (1 + 1e-9);  // of both, to three decimals
+  const auto wanted = surfaces_of(original), found = surfaces_of(corrected);
+  if (found.size() != wanted.size())
+    fail(corrected, found.empty() ? 1 : found.back().line,
+         "the surfaces of cycles are not those of the original");
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    const double shift = found[i].z_mm - wanted[i].z_mm, held = found[i].before_mm - wanted[i].before_mm;
+    if (std::abs(shift - held) > rounding_mm)
+      fail(corrected, found[i].line,
+           fmt::format("the surface of this hole's cycle is shifted by {:.4f} mm, the hole by {:.4f} mm",
+                       shift, held));
+  }
 }
 
 }  // namespace
@@ -81,6 +122,7 @@ void check_other_lines(const Program& original, const Program& corrected) {
   if (found.size() < wanted.size())
     fail(corrected, found.empty() ? 1 : line_found(found.size() - 1),
          fmt::format("line {} of the original is missing after this line", line_wanted(found.size())));
+  check_surfaces(original, corrected);
 }
 
 void check_all_moves(const Job& job, const Program& corrected, const std::vector<Piece>& pieces) {

@@ -117,6 +117,8 @@ struct ProgramReader::State {
       before = now;
       if (one && !lines.has_ended() && lines.may_end_before(program().moves.back())) return end_before_last();
     }
+    while (least_moves == whole_program && append()) {
+    }
     if (lines.has_ended()) lines.remark_rest(std::string_view(program().text).substr(lines.position()));
     end_here(whole);
   }

@@ -1,6 +1,9 @@
 // What verify refuses besides deviations: moves that nobody would judge, and other text that differs.
+#include <fmt/format.h>
+
 #include <utility>
 
+#include "gantry.hpp"
 #include "shop.hpp"
 
 using namespace counterflex;
@@ -60,4 +63,26 @@ TEST_CASE("words of a move that correction never changes have to stay") {
       refusal(replaced("F100", "F1000")) ==
       "part.ngc:3:1: error: no move of the corrected program continues this one with the same words (motion, "
       "F, S, M) (verify)");
+}
+
+TEST_CASE("the surface of a Klartext cycle goes along with its holes, and nowhere else") {
+  const auto program = [](const char* z, const char* surface) {
+    return fmt::format(
+        "0 BEGIN PGM A MM\n1 TOOL CALL 1 Z S1000\n2 L X+0 Y+0 Z{} R0 FMAX\n3 CYCL DEF 200 Q200=2 Q201=-5 "
+        "Q203={} Q204=10\n"
+        "4 L X+10 Y+5 FMAX M99\n5 L X+20 FMAX M99\n6 END PGM A MM\n",
+        z, surface);
+  };
+  const Shop shop({.machine = rigid_gantry("0, 0, 0.01"), .text = program("+10", "+0")});
+  const auto refused = [&](const std::string& changed) -> std::string {
+    try {
+      match_programs(shop.job(), read_program(changed, "changed.h", {}));
+      return "";
+    } catch (const InputError& error) {
+      return error.what();
+    }
+  };
+  CHECK(refused(program("+9.990", "-0.010")).empty());
+  CHECK(refused(program("+9.990", "-0.110")).find("surface of this hole's cycle") != std::string::npos);
+  CHECK(refused(program("+9.990", "+0")).find("surface of this hole's cycle") != std::string::npos);
 }

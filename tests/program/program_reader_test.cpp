@@ -169,6 +169,8 @@ TEST_CASE("what stands behind the end comes in windows, too") {
       pocket(20) + "G0 Z5.\nX3. M30\n%\n" + std::string(600000, 'x') + "\nO7 (NEXT)\nX1\n";
   check_windows(text, 5);
   CHECK(in_windows(text, 5).last.remarks.size() == 1);
+  CHECK(in_windows(text, whole_program).count == 1);
+  CHECK(in_windows("G21 G90 G0 X1 Y1 Z1\nM30\n%", whole_program).count == 1);
 }
 
 TEST_CASE("a program without a line end at its end, an empty one, and one without moves are windows") {
