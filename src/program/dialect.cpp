@@ -5,7 +5,7 @@
 #include "program/klartext_lex.hpp"
 #include "program/known_codes.hpp"
 #include "program/scanner.hpp"
-#include "program/siemens_lex.hpp"
+#include "program/siemens_signs.hpp"
 
 namespace counterflex {
 namespace {

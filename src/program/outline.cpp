@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "program/scanner.hpp"
-#include "program/siemens_lex.hpp"
+#include "program/siemens_signs.hpp"
 
 namespace counterflex {
 namespace {

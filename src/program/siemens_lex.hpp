@@ -5,12 +5,6 @@
 
 namespace counterflex {
 
-/// Whether `text` shows words that only a Sinumerik reads, looked for at its beginning.
-bool is_siemens(std::string_view text);
-
-/// Whether the program jumps or repeats parts of itself.
-bool siemens_jumps(std::string_view text);
-
 /// Takes the line apart: see `lex`.
 void lex_siemens(Scanner& scanner);
 
