@@ -286,3 +286,11 @@ TEST_CASE("each call is rewritten on its own") {
   CHECK(rewrite(program, edits, {}).text ==
         "G21 G90 G17 F100\nG0 X0. Y0. Z5.\nG1 X1.1\nY2 X1.200\nG1 X2.3\nY2 X2.400\n" + subs);
 }
+
+TEST_CASE("the motion is said again behind a definition that says it too, because nothing there runs") {
+  const Program program = expanded(go + "G2 X10 I5\no1 sub\nG2 X1 I2\no1 endsub\nX0 I-5\nM2\n");
+  REQUIRE(program.moves.size() == 3);
+  const MoveEdit chord{.move = 1, .end_mm = {10, 0.5, 5}};
+  const std::string text = rewrite(program, {chord}, {}).text;
+  CHECK(text.find("o1 endsub\nG2 X0 I-5\n") != std::string::npos);
+}
