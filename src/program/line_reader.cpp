@@ -102,9 +102,10 @@ void LineReader::remark_rest(std::string_view text) {
     add_remark(program_, block_.line, "what stands behind the end of the program stays as it is");
 }
 
-void LineReader::begin_window(std::size_t read, std::vector<Move> moves) {
+void LineReader::begin_window(std::size_t read, std::optional<Move> first) {
   if (!program_.moves.empty()) program_.before = std::move(program_.moves.back());
-  program_.moves = std::move(moves);
+  program_.moves.clear();  // the room is used again
+  if (first) program_.moves.push_back(std::move(*first));
   program_.left_alone.clear();
   program_.text.clear();
   reading_.run_begin = 0;

@@ -43,8 +43,8 @@ class LineReader {
   void remark_rest(std::string_view text);
 
   /// Text, moves and blocks left alone of the program are taken away; reading goes on in the text that
-  /// follows them, `read` bytes of which have been read already. `moves` are kept for the next window.
-  void begin_window(std::size_t read, std::vector<Move> moves);
+  /// follows them, `read` bytes of which have been read already and gave the `first` move.
+  void begin_window(std::size_t read, std::optional<Move> first);
 
  private:
   const ReadOptions options_;

@@ -1,5 +1,7 @@
 #include "counterflex/program/program_reader.hpp"
 
+#include <utility>
+
 #include "program/klartext_lex.hpp"
 #include "program/line_reader.hpp"
 
@@ -80,9 +82,9 @@ struct ProgramReader::State {
   bool begun = false;     ///< an empty program is one window, too
   bool all_read = false;  ///< the bytes have come to their end
   std::size_t whole = 0;  ///< bytes of the text that are whole lines
-  std::string behind;     ///< text behind the window, of which `behind_read` bytes have been read,
+  std::string
+      behind;  ///< text behind the window, of which `behind_read` bytes have been read: `Program::after`
   std::size_t behind_read = 0;
-  bool behind_moves = false;  ///< and the move in it is `Program::after`
 
   Program& program() { return lines.program(); }
 
@@ -131,7 +133,6 @@ struct ProgramReader::State {
     p.moves.pop_back();
     shift_spans(*p.after, -static_cast<std::ptrdiff_t>(end));
     behind_read = lines.position() - end;
-    behind_moves = true;
     end_here(end);
   }
 
@@ -149,15 +150,11 @@ struct ProgramReader::State {
   }
 
   bool next() {
-    std::vector<Move> moves;
     Program& p = program();
-    if (behind_moves) moves.push_back(std::move(*p.after));
-    p.after.reset();
-    lines.begin_window(behind_read, std::move(moves));
+    lines.begin_window(behind_read, std::exchange(p.after, std::nullopt));
     p.text.swap(behind);
     behind.clear();
     behind_read = 0;
-    behind_moves = false;
     const std::string& text = p.text;
     whole = all_read ? text.size() : whole_lines(text).size();
     if (lines.has_ended()) return read_rest();
@@ -173,15 +170,14 @@ struct ProgramReader::State {
   }
 
   bool extend() {
-    if (!behind_moves) return false;
     Program& p = program();
+    if (!p.after) return false;
     const std::size_t end = p.text.size();
     p.text += behind;
     shift_spans(*p.after, static_cast<std::ptrdiff_t>(end));
     p.moves.push_back(std::move(*p.after));
     p.after.reset();
     behind.clear();
-    behind_moves = false;
     whole = all_read ? p.text.size() : whole_lines(p.text).size();
     read_until_end(p.moves.size());
     return true;
@@ -230,7 +226,7 @@ TextReader::TextReader(TextReader&&) noexcept = default;
 
 const Program& TextReader::read(std::string text) {
   LineReader& lines = state_->lines;
-  lines.begin_window(0, {});
+  lines.begin_window(0, std::nullopt);
   Program& program = lines.program();
   if (is_read_whole(lines)) {
     ReadOptions options = lines.options();
