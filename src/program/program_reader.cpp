@@ -79,12 +79,11 @@ struct ProgramReader::State {
   FileReader& bytes;
   std::size_t least_moves;
   LineReader lines;
-  bool begun = false;     ///< an empty program is one window, too
-  bool all_read = false;  ///< the bytes have come to their end
-  std::size_t whole = 0;  ///< bytes of the text that are whole lines
-  std::string
-      behind;  ///< text behind the window, of which `behind_read` bytes have been read: `Program::after`
-  std::size_t behind_read = 0;
+  bool begun = false;           ///< an empty program is one window, too
+  bool all_read = false;        ///< the bytes have come to their end
+  std::size_t whole = 0;        ///< bytes of the text that are whole lines
+  std::string behind;           ///< text behind the window
+  std::size_t behind_read = 0;  ///< bytes of it that have been read: the line of `Program::after`
 
   Program& program() { return lines.program(); }
 
