@@ -5,56 +5,14 @@
 
 #include "program/arc_radius.hpp"
 #include "program/dialect.hpp"
+#include "program/klartext_codes.hpp"
 #include "program/klartext_read.hpp"
-#include "program/remarks.hpp"
+#include "program/lex.hpp"
 
 namespace counterflex {
 namespace {
 
 constexpr std::array<std::string_view, 3> klartext_axes{"X", "Y", "Z"};
-
-/// What the M words of a block do.
-struct KlartextCodes {
-  bool machine_position = false;  ///< M91, M92
-  bool cycle_call = false;        ///< M99, M89
-  bool acts_after = false;        ///< stops, spindle off, coolant off
-  bool ends = false;              ///< M2, M30
-  bool retracts = false;          ///< M140: off the part along the tool, at the end of the block
-};
-
-void read_code(int code, const KlartextBlock& block, KlartextReading& r, KlartextCodes& codes) {
-  constexpr std::array after{0, 1, 2, 5, 6, 9, 30, 60, 89, 99, 140};
-  constexpr std::array quiet{0,   1,   2,   3,   4,   5,   6,   8,   9,   13,  14,  30,  60,  89,
-                             90,  91,  92,  94,  97,  98,  99,  101, 102, 103, 107, 108, 109, 110,
-                             111, 116, 117, 118, 120, 126, 127, 136, 137, 140, 141, 148, 149};
-  codes.machine_position = codes.machine_position || code == 91 || code == 92;
-  codes.cycle_call = codes.cycle_call || code == 89 || code == 99;
-  codes.retracts = codes.retracts || code == 140;
-  codes.ends = codes.ends || code == 2 || code == 30;
-  codes.acts_after = codes.acts_after || std::find(after.begin(), after.end(), code) != after.end();
-  if (code == 136 || code == 137) r.state.feed_per_turn = code == 136, r.state.feed_mm_min = 0;
-  if (code == 128 || code == 114 || code == 144)
-    r.state.elsewhere[128] = fmt::format("M{} moves the linear axes with the rotary ones", code);
-  if (code == 129 || code == 115 || code == 145) r.state.elsewhere.erase(128);
-  if (code == 124)
-    add_remark(r.program, block.line, "M124: the control leaves out points that lie closer than it says");
-  else if (std::find(quiet.begin(), quiet.end(), code) == quiet.end())
-    add_remark(r.program, block.line, fmt::format("M{}: taken as moving no axis", code));
-}
-
-int code_of(const KlartextWord& word, const KlartextBlock& block, const KlartextReading& r) {
-  if (word.value < 0 || word.value > 99999 || word.value != std::floor(word.value))
-    refuse_klartext(r.program.text, r.program.file, block, word.span.begin,
-                    fmt::format("M{} is not a code: whole numbers from 0 to 99999 are", word.value));
-  return static_cast<int>(word.value);
-}
-
-KlartextCodes read_codes(const KlartextBlock& block, KlartextReading& r) {
-  KlartextCodes codes;
-  for (const KlartextWord& word : r.words)
-    if (word.key == "M" && word.literal) read_code(code_of(word, block, r), block, r, codes);
-  return codes;
-}
 
 double mm_per_unit(const KlartextReading& r) {
   return r.state.unit ? mm_per(*r.state.unit) : 1.0;
@@ -338,7 +296,7 @@ void take_away(KlartextReading& r, std::size_t axis) {
 void read_klartext_motion(const KlartextBlock& block, KlartextReading& r) {
   if (!lex_klartext_words(r.program.text, r.program.file, block, r.words))
     return add_unfollowed_move(block, r, fmt::format("the block {} has words that are not read", block.head));
-  const KlartextCodes codes = read_codes(block, r);
+  const KlartextCodes codes = read_klartext_m(block, r);
   read_feed(r);
   watch_rotary_axes(r);
   if (block.head == "CP" && !codes.machine_position && !codes.cycle_call) {
@@ -380,7 +338,7 @@ void read_klartext_codes(const KlartextBlock& block, KlartextReading& r) {
   codes.head.clear();
   if (!lex_klartext_words(r.program.text, r.program.file, codes, r.words))
     return add_unfollowed_move(block, r, "the block M has words that are not read");
-  const KlartextCodes found = read_codes(block, r);
+  const KlartextCodes found = read_klartext_m(block, r);
   if (programs_axis(r)) return add_unfollowed_move(block, r, "axes without L are not read");
   if (found.cycle_call) add_cycle_call(block, r);
   if (found.retracts) leave_retract(block, r);
