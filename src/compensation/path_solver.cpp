@@ -31,7 +31,7 @@ Configuration neighbour(const Configuration& loaded, const Configuration& nomina
 }
 
 bool everything_acts(const Stage& stage) {
-  return stage.errors == 1 && stage.load == 1 && stage.preload == 1;
+  return stage.errors == 1 && stage.load == 1 && stage.preload == 1 && stage.gravity == 1;
 }
 
 }  // namespace

@@ -281,7 +281,7 @@ Move begin_klartext_move(const KlartextBlock& block, const KlartextReading& r) {
     for (const char c : part(r.program.text, block.number).substr(0, 9)) number = 10 * number + (c - '0');
     move.block_number = number;
   }
-  move.tool = state.tool;
+  move.tool = static_cast<std::int32_t>(state.tool);
   move.may_insert_words = false;
   move.force = state.force;
   move.block_delete = !empty(block.block_delete);

@@ -151,7 +151,7 @@ Move& start_move(const Block& block, Reading& r, Motion motion) {
   move.feed_mm_min = feed_mm_min(r.state);
   move.spindle_rpm = r.state.spindle_rpm;
   move.offset = r.state.work_offset;
-  move.tool = r.state.tool;
+  move.tool = static_cast<std::int32_t>(r.state.tool);
   if (r.state.force) move.force = r.state.force;
   move.block_delete = !empty(block.block_delete);
   move.exact_stop = r.state.exact_stop || r.sorted.has(Action::stop_once);

@@ -8,7 +8,7 @@ namespace {
 constexpr double unstable_ratio = -1e-9, largest_condition = 1e10;
 constexpr double first_step = 0.25, smallest_step = 1.0 / 1024;
 
-Stage part_of(const Stage& goal, double s) { return {s * goal.errors, s * goal.load, s * goal.preload}; }
+Stage part_of(const Stage& goal, double s) { return {s * goal.errors, s * goal.load, s * goal.preload, s * goal.gravity}; }
 
 // What is reported of a solution that Newton found: `converged` unless the system there is singular.
 void judge_condition(const Model& model, const Problem& problem, StaticsWork::Impl& work, Equilibrium& result) {

@@ -32,7 +32,7 @@ void open_gaps(const Series& series, const SeriesState& nominal, double factor, 
 }
 
 void evaluate_linear(const Model& model, const Configuration& nominal, const Stage& stage, StaticsWork::Impl& work) {
-  const Stage without_errors{0, stage.load, stage.preload};
+  const Stage without_errors{0, stage.load, stage.preload, stage.gravity};
   for (std::size_t i = 0; i < nominal.chains.size(); ++i) {
     evaluate(model.mechanism.chains[i], nominal.chains[i], nominal.X_MP, without_errors, Hessians::no, work.chains[i]);
     open_gaps(model.mechanism.chains[i], nominal.chains[i], stage.errors, work.chains[i]);

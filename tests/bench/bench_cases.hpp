@@ -8,7 +8,7 @@
 
 namespace counterflex::bench {
 
-inline constexpr Stage all{1, 1, 1};
+inline constexpr Stage all{1, 1, 1, 1};
 
 /// (215, -10, -25) N, (1, 21.5, 0) N m: the milling experiment of the paper, used on every machine.
 inline Load milling_load() {

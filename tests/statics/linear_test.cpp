@@ -121,7 +121,7 @@ TEST_CASE("the error of the linear theory falls fourfold when errors, loads and 
     const Configuration nominal = somewhere(model, trial, random).configuration;
     const Load load = random.load(trial);
     const auto miss = [&](double s) {
-      const Stage stage{s, s, s};
+      const Stage stage{s, s, s, s};
       const LinearResult linear = linear_deviation(model, nominal, load, stage, work);
       const Equilibrium finite = solve_forward(model, nominal, load, stage, work);
       REQUIRE(linear.status == Status::converged);

@@ -77,7 +77,7 @@ TEST_CASE("an unloaded perfect machine without preload is where its nominal kine
     Random random(53);
     const Configuration nominal = somewhere(model, trial, random).configuration;
     const Pose X_MT = tip(model.mechanism, nominal);
-    const Stage errors_only{0, 1, 0};
+    const Stage errors_only{0, 1, 0, 1};
     const Equilibrium target = solve_target(model, nominal, X_MT, {}, errors_only, work);
     REQUIRE(target.status == Status::converged);
     CHECK((actuator_values(model.mechanism, target.configuration) - actuator_values(model.mechanism, nominal))

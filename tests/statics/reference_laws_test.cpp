@@ -80,7 +80,7 @@ TEST_CASE("errors switched off by the stage leave the perfect machine") {
     CAPTURE(reference.id);
     const Machine machine = machine_of(reference);
     Bench real(machine), ideal(perfect(machine));
-    const Stage without_errors{0, 1, 1};
+    const Stage without_errors{0, 1, 1, 1};
     const Load load{reference.wrench};
     const auto a = solve_forward(real.model, real.at(reference.X_MT), load, without_errors, real.work);
     const auto b = solve_forward(ideal.model, ideal.at(reference.X_MT), load, all, ideal.work);

@@ -11,7 +11,7 @@
 namespace counterflex::test {
 
 inline constexpr double length_tolerance = 2e-9 * mm, angle_tolerance = 2e-9 * deg;
-inline constexpr Stage no_load{1, 0, 1}, all{1, 1, 1};
+inline constexpr Stage no_load{1, 0, 1, 1}, all{1, 1, 1, 1};
 
 /// A machine ready to be solved.
 struct Bench {
@@ -130,7 +130,7 @@ inline void check_machine(const Machine& machine, const ReferenceCase& reference
   if (!unloaded && !loaded && !compensated) return;
   Bench bench(machine);
   REQUIRE(bench.model.home_status == Status::converged);
-  const Stage stage{reference.error_scale, 1, 1};
+  const Stage stage{reference.error_scale, 1, 1, 1};
   const Configuration nominal = bench.at(reference.X_MT);
   if (reference.rho)
     check_near("nominal actuators", actuator_values(bench.model.mechanism, nominal), *reference.rho,

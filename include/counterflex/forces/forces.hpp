@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "counterflex/files/input_error.hpp"
+#include "counterflex/forces/force_rule.hpp"
 #include "counterflex/geometry/types.hpp"
 #include "counterflex/program/program.hpp"
 #include "counterflex/toolpath/toolpath.hpp"
@@ -14,7 +15,6 @@
 namespace counterflex {
 
 enum class ForceKey { line, block_number, path_length, time };
-enum class ForceFrame { machine, work, tool, feed };
 
 struct ForceRow {
   double key = 0;               ///< line, N, m or s
@@ -56,6 +56,13 @@ struct ForceSource {
 struct ForceNote {
   int line = 0;
   std::string what;
+};
+
+/// A feed move without a force, and why; `length` is that of the move (m).
+struct Unforced {
+  int line = 0;
+  double length = 0;
+  std::string why;
 };
 
 /// The wrench before blending, linear over [s0, s1] of cutting path length (m), machine axes; `integral` is
@@ -143,6 +150,9 @@ class PathForces {
 
   const std::vector<ForceNote>& notes() const { return notes_; }
 
+  /// Feed moves of the window without a force, in order.
+  const std::vector<Unforced>& unforced() const { return unforced_; }
+
   /// Steps that the mean turned into ramps, and steps that act as steps (blend 0). The entry into a feed run,
   /// from no force to the first one, is a step.
   std::size_t ramps() const { return ramps_; }
@@ -169,6 +179,7 @@ class PathForces {
   std::vector<FeedRun> runs_;
   std::vector<Place> places_;
   std::vector<ForceNote> notes_;
+  std::vector<Unforced> unforced_;
   ForceTail tail_;
   bool is_final_ = true;
   std::size_t ramps_ = 0, jumps_ = 0;

@@ -134,7 +134,8 @@ struct Move {
   double spindle_rpm = 0;            ///< modal S
   std::optional<long> block_number;  ///< N
   std::size_t offset = 0;            ///< index into Program::work_offsets
-  long tool = 0;                     ///< T in the spindle; 0: none known
+  std::int32_t tool = 0;             ///< T in the spindle; 0: none known
+  std::uint32_t operation = 0;       ///< index into Program::operations
   Motion motion = Motion::rapid;
   LengthUnit unit = LengthUnit::millimetres;
   FeedMode feed_mode = FeedMode::length;
@@ -221,6 +222,8 @@ struct Program {
       before{};                 ///< of a window: the last move of the one before it, and the first one of the
   std::optional<Move> after{};  ///< next; the spans of both lie in other texts
   std::vector<std::string> work_offsets{""};  ///< "G54", "G54.1 P3", ...; the first: none selected yet
+  std::vector<std::string> operations{""};    ///< texts of comments that stand alone in their lines, of this
+                                              ///< window; the first: the one that stood last before it
   std::vector<LeftAlone> left_alone;
   std::vector<Remark> remarks;
   std::vector<PathTolerance> path_tolerances;  ///< each different one once

@@ -34,12 +34,13 @@ Configuration zero_configuration(const Mechanism& mechanism);
 Eigen::VectorXd actuator_values(const Mechanism& mechanism, const Configuration& configuration);
 void set_actuator_values(const Mechanism& mechanism, const Eigen::VectorXd& rho, Configuration& configuration);
 
-/// How much of what is not nominal acts. The continuation to a loaded, imperfect machine runs from 0 to 1 in all three.
+/// How much of what is not nominal acts. The continuation to a loaded, imperfect machine runs from 0 to 1 in all of them.
 struct Stage {
   double errors = 1;   ///< assembly errors: s p, Exp(s Log R)
   double load = 1;     ///< the applied wrench
   double preload = 1;  ///< passive springs as k (q - q_nom) + s k (q_nom - q_rest), springs as K (theta - s theta_0)
+  double gravity = 1;  ///< the weights of all masses, and what the controller's zero holds against them
 };
-inline constexpr Stage nominal_stage{0, 0, 0};
+inline constexpr Stage nominal_stage{0, 0, 0, 0};
 
 }  // namespace counterflex
