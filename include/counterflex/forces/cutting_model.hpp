@@ -7,12 +7,22 @@
 
 namespace counterflex {
 
-/// What a tooth's edge feels, by length of edge and chip thickness h:
+/// What a tooth's edge feels over a height dz of it, at chip thickness h = c sin phi (c: feed per tooth):
 ///
 ///     dF_t = (K_tc h + K_te) dz      dF_r = (K_rc h + K_re) dz      dF_a = (K_ac h + K_ae) dz
 ///
-/// t against the cutting speed, r towards the tool's axis, a along it, away from the spindle. Source:
-/// Altintas, "Manufacturing Automation", chapter 2.
+/// t against the cutting speed, r towards the tool's axis, a along it, away from the spindle. On the tool, in
+/// the feed frame (x along the feed, z from tip to spindle):
+///
+///     dF = -dF_t (cos phi, -sin phi, 0) - dF_r (sin phi, cos phi, 0) - dF_a (0, 0, 1)
+///     dM = r x dF      r = (R sin phi, R cos phi, z)      z: height above the tip
+///
+/// A positive K_ac draws the tool out of the spindle: the rake face of a right-hand helix looks forward and
+/// up, so it lifts the chip, and the chip presses on it backward and down. Source: Altintas, "Manufacturing
+/// Automation", chapter 2; the sign of the axial part is that of Engin and Altintas, "Mechanics and dynamics
+/// of general milling cutters, part I" (2001), whose third row is dF_z = cos(kappa) dF_r - sin(kappa) dF_a,
+/// kappa = 90 deg for an end mill. The book's cylindrical cutter writes dF_z = +dF_a: its z counts the other
+/// way.
 struct CuttingCoefficients {
   double K_tc = 0, K_rc = 0, K_ac = 0;  ///< N/m2
   double K_te = 0, K_re = 0, K_ae = 0;  ///< N/m
@@ -42,15 +52,52 @@ struct CuttingModel {
   double spindle_rpm = 0;  ///< instead of the program's; 0: the program's
 };
 
+/// What a cut answers to a feed per tooth c: F = F_c c + F_e. Made once for a model, asked for every move.
+struct CutResponse {
+  Vector6 F_c = Vector6::Zero();  ///< of the chip (N/m, N), axes of the feed frame, at the tip
+  Vector6 F_e = Vector6::Zero();  ///< of the edge (N, N m)
+  int flutes = 0;
+  double spindle_rpm = 0;  ///< instead of the program's; 0: the program's
+};
+
 /// The wrench on the tool at its tip, axes of the feed frame (N, N m), or why there is none.
 struct CutForce {
   Vector6 F = Vector6::Zero();
-  std::string why;  ///< empty: `F` acts
+  double feed_per_tooth = 0;  ///< m; c
+  std::string why;            ///< empty: `F` acts
 };
 
-/// The force of a cut at programmed feed (m/s, 0: none) and spindle speed (1/min, 0: none). `slope` is the
-/// component of the feed's unit vector along the tool axis, from tip to spindle: -1 straight down. What is
-/// left sideways of the feed makes the chips; a plunge or a retract makes none that the model knows.
+/// Steeper than this a feed is along the tool axis: a plunge or a retract. Slope is the component of the
+/// feed's unit vector along the tool axis, from tip to spindle: -1 straight down.
+inline constexpr double steepest_ramp = 0.984807753012208;  // sin 80 deg
+
+/// The response of a cut.
+///
+/// `ForceAt::mean`: the mean over a revolution of N flutes,
+///
+///     N / (2 pi) int_0^a int_entry^exit dF
+///
+/// in which the helix shows no more: every height sees the same angles, only later. `ForceAt::surface`: the
+/// force while a tooth makes the wall at angle phi_w, 0 for a wall at the entry and pi for one at the exit;
+/// in a slot the mean of both. The upper end of a flute lags by psi(z) = 2 z tan(helix) / D, so that every
+/// height z_w of the wall has its own instant; the force is the mean over z_w of
+///
+///     sum_i int_0^a dF at phi = phi_w + psi(z_w) - psi(z) + 2 pi i / N, where entry <= phi <= exit
+///
+/// Both ends count: a straight flute that makes the wall cuts with its whole edge. With a helix that tooth is
+/// still entering, or already leaving, and on average half of its edge is in the cut, however small the helix
+/// is: the edge part of a tooth at the wall halves, what the chip gives does not jump, for there h = 0.
+/// Requires the model to be what `read_cutting_model` accepts: 0 <= entry < exit <= pi, and a wall for
+/// `surface`.
+CutResponse respond(const CuttingModel& model);
+
+/// The force of a cut at programmed feed (m/s, 0: none) and spindle speed (1/min, 0: none). What is left
+/// sideways of the feed makes the chips, c = feed sqrt(1 - slope^2) / (n N); a ramp is cut with that. There
+/// is no force where the feed is along the tool axis (beyond `steepest_ramp`), where no feed is programmed,
+/// and where neither model nor program give a spindle speed.
+CutForce cutting_force(const CutResponse& response, double feed_m_s, double spindle_rpm, double slope);
+
+/// The same for a model that is asked once.
 CutForce cutting_force(const CuttingModel& model, double feed_m_s, double spindle_rpm, double slope);
 
 }  // namespace counterflex
