@@ -28,9 +28,7 @@ std::vector<Matrix3> sampled_orientations(const Model& model, const Toolpath& pa
 std::vector<Matrix3> tool_orientations(const Model& model, const Toolpath& path, const ForceSource& source,
                                        Configuration& nominal) {
   const Matrix3 R_home = tip(model.mechanism, model.home).R;
-  const bool needed = source.profile && (source.profile->frame == ForceFrame::tool ||
-                                         source.profile->frame == ForceFrame::feed);
-  if (!needed || path.segments.empty()) return {R_home};
+  if (!needs_tool_axes(source) || path.segments.empty()) return {R_home};
   Configuration start = nominal;
   const std::vector<Matrix3> in_the_middle = sampled_orientations(model, path, 1, nominal);
   const bool turns = std::any_of(in_the_middle.begin(), in_the_middle.end(),

@@ -6,15 +6,22 @@
 #include <algorithm>
 #include <array>
 
+#include "counterflex/files/numbers.hpp"
+#include "counterflex/geometry/units.hpp"
 #include "forces/csv_text.hpp"
 
 namespace counterflex::csv {
 namespace {
 
-constexpr std::array<std::string_view, 4> key_names = {"line", "n", "s_mm", "t_s"};
+constexpr std::array<std::string_view, 4> place_names = {"line", "n", "s_mm", "t_s"};
+constexpr std::array<std::string_view, 3> axis_names = {"x_mm", "y_mm", "z_mm"};
+constexpr std::array<std::string_view, 6> key_names = {"line", "n", "s_mm", "t_s", "tool", "op"};
+constexpr std::array<RowKey, 6> keys_named = {RowKey::line, RowKey::block_number, RowKey::path_length,
+                                              RowKey::time, RowKey::tool,         RowKey::operation};
 constexpr std::array<std::string_view, 6> component_names = {"fx_N",  "fy_N",  "fz_N",
                                                              "mx_Nm", "my_Nm", "mz_Nm"};
-constexpr std::string_view all_columns = "line | n | s_mm | t_s, fx_N, fy_N, fz_N, mx_Nm, my_Nm, mz_Nm";
+constexpr std::string_view all_columns =
+    "line | n | s_mm | t_s | tool | op | x_mm, y_mm, z_mm, then fx_N, fy_N, fz_N, mx_Nm, my_Nm, mz_Nm";
 
 [[noreturn]] void fail(const Location& where, const std::string& message) {
   throw InputError(Exit::machine_or_force, where, message);
@@ -53,20 +60,57 @@ int choose(const Setting& setting, const Location& where, bool given,
        fmt::format("{} is '{}', allowed: {}", setting.key, setting.value, fmt::join(allowed, ", ")));
 }
 
+void refuse_second_key(const Column& column, const Field& field, const Location& where,
+                       const std::vector<Column>& before) {
+  if (column.component) return;
+  const auto other = std::find_if(before.begin(), before.end(), [&](const Column& given) {
+    return !given.component && !(given.axis && column.axis);
+  });
+  if (other != before.end())
+    fail({where.file, where.line, field.column},
+         fmt::format("a second key column '{}' beside '{}', allowed is one", field.text, other->name));
+}
+
 Column column_of(const Field& field, const Location& where, const std::vector<Column>& before) {
   const auto repeated = [&](const Column& column) { return column.name == field.text; };
   if (std::any_of(before.begin(), before.end(), repeated))
     fail({where.file, where.line, field.column}, fmt::format("column '{}' is given twice", field.text));
-  Column column{std::string(field.text), index_of(component_names, field.text)};
-  if (!column.component && !index_of(key_names, field.text))
+  Column column{std::string(field.text), index_of(component_names, field.text),
+                index_of(axis_names, field.text)};
+  if (!column.component && !column.axis && !index_of(key_names, field.text))
     fail({where.file, where.line, field.column},
          fmt::format("unknown column '{}', allowed: {}", field.text, all_columns));
-  const auto is_key = [](const Column& other) { return !other.component; };
-  const auto other_key = std::find_if(before.begin(), before.end(), is_key);
-  if (!column.component && other_key != before.end())
-    fail({where.file, where.line, field.column},
-         fmt::format("a second key column '{}' beside '{}', allowed is one", field.text, other_key->name));
+  refuse_second_key(column, field, where, before);
   return column;
+}
+
+bool has(const Header& header, std::string_view name) {
+  const auto same = [&](const Column& column) { return column.name == name; };
+  return std::any_of(header.columns.begin(), header.columns.end(), same);
+}
+
+RowKey key_of_header(const Header& header, const Location& where) {
+  for (std::size_t i = 0; i < key_names.size(); ++i)
+    if (has(header, key_names[i])) return keys_named[i];
+  const auto given = [&](std::string_view name) { return has(header, name); };
+  const auto first = std::find_if(axis_names.begin(), axis_names.end(), given);
+  if (first == axis_names.end())
+    fail(where, "no key column: one of line, n, s_mm, t_s, tool, op, or x_mm, y_mm, z_mm is required");
+  const auto missing = std::find_if_not(axis_names.begin(), axis_names.end(), given);
+  if (missing != axis_names.end())
+    fail(where,
+         fmt::format("column '{}' without '{}': a logged position needs all three axes", *first, *missing));
+  return RowKey::point;
+}
+
+double read_within(const Setting& setting, const Location& where, bool given) {
+  if (given)
+    fail({where.file, where.line, setting.key_column}, fmt::format("'{}' is given twice", setting.key));
+  const auto value = read_number(setting.value);
+  if (!value || *value <= 0)
+    fail({where.file, where.line, setting.value_column},
+         fmt::format("{} is '{}', must be a number greater than 0", setting.key, setting.value));
+  return *value * mm;
 }
 
 }  // namespace
@@ -92,9 +136,15 @@ void read_setting(std::string_view line, const Location& where, Settings& settin
     settings.linear = choice(settings.linear.has_value(), Names2{"step", "linear"}) == 1;
   } else if (setting.key == "at") {
     settings.at_platform = choice(settings.at_platform.has_value(), Names2{"tip", "platform"}) == 1;
+  } else if (setting.key == "coordinates") {
+    const bool given = settings.machine_coordinates.has_value();
+    settings.machine_coordinates = choice(given, Names2{"work", "machine"}) == 1;
+  } else if (setting.key == "within_mm") {
+    settings.within = read_within(setting, where, settings.within.has_value());
   } else {
     fail({where.file, where.line, setting.key_column},
-         fmt::format("unknown setting '{}', allowed: frame, sense, interpolation, at", setting.key));
+         fmt::format("unknown setting '{}', allowed: frame, sense, interpolation, at, within_mm, coordinates",
+                     setting.key));
   }
 }
 
@@ -108,21 +158,24 @@ void require_settings(const Settings& settings, const Location& where) {
 Header read_header(std::string_view line, const Location& where) {
   Header header;
   for (const Field& field : split(line)) header.columns.push_back(column_of(field, where, header.columns));
-  const auto has = [&](std::string_view name) {
-    const auto same = [&](const Column& column) { return column.name == name; };
-    return std::any_of(header.columns.begin(), header.columns.end(), same);
-  };
-  const auto key = std::find_if(key_names.begin(), key_names.end(), has);
-  if (key == key_names.end()) fail(where, "no key column, one of line, n, s_mm, t_s is required");
-  header.key = static_cast<ForceKey>(key - key_names.begin());
+  header.key = key_of_header(header, where);
   for (int i = 0; i < 3; ++i)
-    if (!has(component_names[i]))
+    if (!has(header, component_names[i]))
       fail(where, fmt::format("no column '{}', it is required", component_names[i]));
   return header;
 }
 
+void refuse_settings(const Settings& settings, RowKey key, const Location& where) {
+  if (key != RowKey::point && (settings.within || settings.machine_coordinates))
+    fail(where, fmt::format("'{}' is for logged positions, with the columns x_mm, y_mm, z_mm",
+                            settings.within ? "within_mm" : "coordinates"));
+  if ((key == RowKey::tool || key == RowKey::operation) && settings.linear.value_or(false))
+    fail(where, fmt::format("interpolation = linear has no meaning between rows of the key '{}'",
+                            key == RowKey::tool ? "tool" : "op"));
+}
+
 std::string key_name(ForceKey key) {
-  return std::string(key_names[static_cast<std::size_t>(key)]);
+  return std::string(place_names[static_cast<std::size_t>(key)]);
 }
 
 double shown_per_si(ForceKey key) {

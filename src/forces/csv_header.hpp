@@ -15,6 +15,8 @@ struct Settings {
   std::optional<bool> on_workpiece;
   std::optional<bool> linear;
   std::optional<bool> at_platform;
+  std::optional<double> within;  ///< m
+  std::optional<bool> machine_coordinates;
 };
 
 /// Whether a line that begins with `#` is `# key = value`; all others are comments.
@@ -27,19 +29,26 @@ void read_setting(std::string_view line, const Location& where, Settings& settin
 /// Throws where a required setting has not been given; `where` is the header row.
 void require_settings(const Settings& settings, const Location& where);
 
-/// What a column holds: the key, or a component of the wrench.
+/// What a column holds: the key or one axis of it, or a component of the wrench.
 struct Column {
   std::string name;
-  std::optional<int> component;  ///< 0 to 5; none: the key
+  std::optional<int> component;  ///< 0 to 5
+  std::optional<int> axis;       ///< 0 to 2; neither: the key
 };
 
+/// What rows are named by. All but the last two are places.
+enum class RowKey { line, block_number, path_length, time, point, tool, operation };
+
 struct Header {
-  ForceKey key = ForceKey::line;
+  RowKey key = RowKey::line;
   std::vector<Column> columns;
 };
 
 /// Reads the header row. Throws on an unknown, repeated or missing column.
 Header read_header(std::string_view line, const Location& where);
+
+/// Throws where a setting has no meaning for the key; `where` is the header row.
+void refuse_settings(const Settings& settings, RowKey key, const Location& where);
 
 /// The name of the key's column, with its unit: "line", "n", "s_mm", "t_s".
 std::string key_name(ForceKey key);

@@ -3,6 +3,7 @@
 #include "counterflex/files/numbers.hpp"
 #include "counterflex/forces/forces.hpp"
 #include "forces/csv_text.hpp"
+#include "forces/selector_text.hpp"
 
 namespace counterflex {
 
@@ -25,6 +26,19 @@ Vector6 parse_force(std::string_view text) {
     F[static_cast<Eigen::Index>(i)] = *value;
   }
   return F;
+}
+
+ForceRule parse_force_rule(std::string_view text) {
+  const std::string name = "--force " + std::string(text);
+  const std::size_t equals = text.find('=');
+  if (equals == std::string_view::npos) return {name, {}, {}, ConstantForce{parse_force(text)}};
+  ForceSelector selector;
+  selector.tool = read_tool(csv::trimmed(text.substr(0, equals)));
+  if (!selector.tool)
+    throw InputError(
+        Exit::usage, {},
+        fmt::format("force '{}': '{}' must be a tool, as in T3=FX,FY,FZ", text, text.substr(0, equals)));
+  return {name, {}, selector, ConstantForce{parse_force(text.substr(equals + 1))}};
 }
 
 }  // namespace counterflex

@@ -93,23 +93,28 @@ bool goes_on(const std::optional<OpenRun>& before, const Program& window, const 
   return joins(before->end, first) && !rapid_among(window, 0, first.move);
 }
 
+ForceSource settled(ForceSource source, const Program& program, const Toolpath& path) {
+  ForceCover cover(source);
+  while (cover.needs_pass()) {
+    cover.add(program, path);
+    cover.end_pass();
+  }
+  return source;
+}
+
 }  // namespace
 
 PathForces::PathForces(const ForceSource& source, const Program& program, const Toolpath& path,
                        const std::vector<Matrix3>& R_MT)
-    : PathForces(source, program, path, R_MT, {}) {
-  if (source.constant || !source.profile) return;
-  ForceCover cover(*source.profile);
-  cover.add(program, path);
-  cover.check();
-}
+    : PathForces(settled(source, program, path), program, path, R_MT, {}) {}
 
 PathForces::PathForces(const ForceSource& source, const Program& window, const Toolpath& path,
                        const std::vector<Matrix3>& R_MT, const ForceTail& before)
-    : at_platform_(!source.constant && source.profile && source.profile->at_platform) {
+    : at_platform_(acts_at_platform(source)) {
   tail_.block_number = before.block_number;
   if (path.segments.empty() && !rapid_among(window, 0, window.moves.size())) tail_.open = before.open;
-  const Unblended unblended(source, window, path, R_MT, tail_.block_number);
+  Unblended unblended(source, window, path, R_MT, tail_.block_number);
+  ForceRemarks remarks;
   places_.reserve(path.segments.size());
   bool open = goes_on(before.open, window, path);
   if (open) take_up(*before.open);
@@ -124,8 +129,10 @@ PathForces::PathForces(const ForceSource& source, const Program& window, const T
       open = true;
     }
     places_.push_back({segment.s_start, segment.s_end, open ? runs_.size() - 1 : no_run});
-    if (open) unblended.append_to(i, runs_.back().first_piece, pieces_, notes_);
+    if (open) unblended.append_to(i, runs_.back().first_piece, pieces_, remarks);
   }
+  notes_ = std::move(remarks.notes);
+  unforced_ = std::move(remarks.unforced);
   if (!open) return;
   close_run(source.blend);
   leave_tail(window, path, source.blend);

@@ -2,18 +2,22 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
+#include <optional>
+#include <unordered_map>
 
 #include "counterflex/files/numbers.hpp"
 #include "counterflex/forces/forces.hpp"
+#include "counterflex/geometry/units.hpp"
 #include "forces/csv_header.hpp"
 #include "forces/csv_text.hpp"
+#include "forces/selector_text.hpp"
 
 namespace counterflex {
 namespace {
 
 using csv::Field;
 using csv::Header;
+using csv::RowKey;
 
 /// What the reader knows while it goes through the lines.
 struct Reader {
@@ -21,7 +25,9 @@ struct Reader {
   csv::Settings settings;
   std::optional<Header> header;
   Location header_place;
-  ForceProfile profile;
+  std::vector<ForceRow> rows;                          ///< of places
+  std::vector<ForceSelector> selectors;                ///< of the same rows, where the key is no place
+  std::unordered_map<std::string, std::size_t> named;  ///< their tools or operations, and the rows
   int line = 0;
   int empty_line = 0;  ///< an empty line among the rows, allowed only where no row follows
 
@@ -33,7 +39,7 @@ struct Reader {
 }
 
 std::string row_name(const Reader& reader) {
-  return fmt::format("row {}", reader.profile.rows.size() + 1);
+  return fmt::format("row {}", reader.rows.size() + 1);
 }
 
 double number_of(const Reader& reader, const Field& field, const std::string& name) {
@@ -46,9 +52,24 @@ double number_of(const Reader& reader, const Field& field, const std::string& na
        fmt::format("{}: {} is '{}', must be a finite number", row_name(reader), name, field.text));
 }
 
+ForceKey place_key(RowKey key) {
+  switch (key) {
+    case RowKey::line:
+      return ForceKey::line;
+    case RowKey::block_number:
+      return ForceKey::block_number;
+    case RowKey::path_length:
+      return ForceKey::path_length;
+    case RowKey::time:
+      return ForceKey::time;
+    default:
+      return ForceKey::point;
+  }
+}
+
 /// The key in SI. Throws where it is not one that a program can have, or does not increase.
 double key_of(const Reader& reader, const Field& field) {
-  const ForceKey key = reader.header->key;
+  const ForceKey key = place_key(reader.header->key);
   const std::string name = csv::key_name(key);
   const double shown = number_of(reader, field, name);
   const bool counted = key == ForceKey::line || key == ForceKey::block_number;
@@ -58,13 +79,58 @@ double key_of(const Reader& reader, const Field& field) {
                                               name, field.text, counted ? "whole " : "", least));
   }
   const double value = shown / csv::shown_per_si(key);
-  const auto& rows = reader.profile.rows;
+  const auto& rows = reader.rows;
   if (!rows.empty() && value <= rows.back().key) {
     fail(reader.at(field.column),
          fmt::format("{}: {} is {}, must be greater than the {:.12g} of the row before", row_name(reader),
                      name, field.text, rows.back().key * csv::shown_per_si(key)));
   }
   return value;
+}
+
+/// The tool or operation. Throws where it is none, or an earlier row names it.
+ForceSelector selector_of(Reader& reader, const Field& field) {
+  const bool by_tool = reader.header->key == RowKey::tool;
+  ForceSelector selector;
+  if (by_tool) {
+    selector.tool = read_tool(field.text);
+    if (!selector.tool)
+      fail(reader.at(field.column), fmt::format("{}: tool is '{}', must be a tool's number, as 3 or T3",
+                                                row_name(reader), field.text));
+  } else {
+    if (field.text.empty())
+      fail(reader.at(field.column),
+           fmt::format("{}: op is empty, must be the text of an operation's comment", row_name(reader)));
+    selector.operation = std::string(field.text);
+  }
+  const std::string name = by_tool ? std::to_string(*selector.tool) : folded(*selector.operation);
+  const auto [same, is_new] = reader.named.insert({name, reader.rows.size() + 1});
+  if (!is_new)
+    fail(reader.at(field.column),
+         fmt::format("{}: {} is named in row {} already", row_name(reader), shown(selector), same->second));
+  return selector;
+}
+
+/// Whether a row of a profile gives its key and nothing else.
+bool only_key(const Header& header, const std::vector<Field>& fields) {
+  if (header.key == RowKey::tool || header.key == RowKey::operation) return false;
+  for (std::size_t i = 0; i < fields.size(); ++i)
+    if (header.columns[i].component && !fields[i].text.empty()) return false;
+  return true;
+}
+
+void read_field(const csv::Column& column, const Field& field, Reader& reader, ForceRow& row) {
+  if (column.component) {
+    if (!row.ends) row.F[*column.component] = number_of(reader, field, column.name);
+    return;
+  }
+  if (row.where.line == 0) row.where = reader.at(field.column);
+  if (column.axis)
+    row.point[*column.axis] = number_of(reader, field, column.name) * mm;
+  else if (reader.header->key == RowKey::tool || reader.header->key == RowKey::operation)
+    reader.selectors.push_back(selector_of(reader, field));
+  else
+    row.key = key_of(reader, field);
 }
 
 void read_row(std::string_view text, Reader& reader) {
@@ -75,16 +141,10 @@ void read_row(std::string_view text, Reader& reader) {
          fmt::format("{} has {} fields, the header has {}", row_name(reader), fields.size(), columns.size()));
   }
   ForceRow row;
-  for (std::size_t i = 0; i < fields.size(); ++i) {
-    if (columns[i].component) {
-      row.F[*columns[i].component] = number_of(reader, fields[i], columns[i].name);
-    } else {
-      row.key = key_of(reader, fields[i]);
-      row.where = reader.at(fields[i].column);
-    }
-  }
+  row.ends = only_key(*reader.header, fields);
+  for (std::size_t i = 0; i < fields.size(); ++i) read_field(columns[i], fields[i], reader, row);
   if (*reader.settings.on_workpiece) row.F = -row.F;
-  reader.profile.rows.push_back(row);
+  reader.rows.push_back(row);
 }
 
 void read_comment(const Field& comment, Reader& reader) {
@@ -104,6 +164,7 @@ void read_line(std::string_view text, Reader& reader) {
     reader.header_place = reader.at(1);
     csv::require_settings(reader.settings, reader.header_place);
     reader.header = csv::read_header(text, reader.header_place);
+    csv::refuse_settings(reader.settings, reader.header->key, reader.header_place);
   } else {
     if (reader.empty_line != 0) {
       fail({reader.file, reader.empty_line, 1},
@@ -113,23 +174,39 @@ void read_line(std::string_view text, Reader& reader) {
   }
 }
 
-ForceProfile finished(Reader reader) {
+ForceRule profile_rule(Reader& reader) {
+  const csv::Settings& settings = reader.settings;
+  ForceProfile profile;
+  profile.key = place_key(reader.header->key);
+  profile.frame = *settings.frame;
+  profile.linear = settings.linear.value_or(false);
+  profile.at_platform = settings.at_platform.value_or(false);
+  profile.rows = std::move(reader.rows);
+  if (profile.key == ForceKey::point) profile.within = settings.within.value_or(1 * mm);
+  profile.machine_coordinates = settings.machine_coordinates.value_or(false);
+  const Location where = profile.rows.front().where;
+  return {reader.file, where, {}, std::move(profile)};
+}
+
+std::vector<ForceRule> finished(Reader reader) {
   if (!reader.header) {
     fail({reader.file, std::max(reader.line, 1), 1},
          "no header row, such as 's_mm,fx_N,fy_N,fz_N' after the lines that begin with '#'");
   }
-  if (reader.profile.rows.empty())
-    fail(reader.header_place, "no rows after the header, at least one is required");
-  reader.profile.key = reader.header->key;
-  reader.profile.frame = *reader.settings.frame;
-  reader.profile.linear = reader.settings.linear.value_or(false);
-  reader.profile.at_platform = reader.settings.at_platform.value_or(false);
-  return std::move(reader.profile);
+  if (reader.rows.empty()) fail(reader.header_place, "no rows after the header, at least one is required");
+  std::vector<ForceRule> rules;
+  for (std::size_t i = 0; i < reader.selectors.size(); ++i) {
+    const ForceRow& row = reader.rows[i];
+    const ConstantForce force{row.F, *reader.settings.frame, reader.settings.at_platform.value_or(false)};
+    rules.push_back({reader.file, row.where, reader.selectors[i], force});
+  }
+  if (rules.empty()) rules.push_back(profile_rule(reader));
+  return rules;
 }
 
 }  // namespace
 
-ForceProfile read_force_csv(std::string_view text, const std::string& file) {
+std::vector<ForceRule> read_force_csv(std::string_view text, const std::string& file) {
   constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
   if (text.substr(0, 3) == byte_order_mark) text.remove_prefix(3);
   Reader reader;

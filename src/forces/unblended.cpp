@@ -1,9 +1,13 @@
 #include "forces/unblended.hpp"
 
+#include <fmt/format.h>
+
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 
+#include "forces/profile_cover.hpp"
 #include "forces/turned.hpp"
 
 namespace counterflex {
@@ -13,21 +17,19 @@ namespace {
 // rounded coordinates carries more noise than that.
 constexpr double parallel = 1e-6;
 
+constexpr std::string_view no_lateral_direction = "the feed is parallel to the tool axis";
+
+// Slopes that are the same to a cutting force, and places an arc's piece at which it is asked for.
+constexpr double same_slope = 1e-9;
+constexpr int slopes_per_piece = 10;
+
 // Keys closer than this to the end of a segment act at the end (m).
 constexpr double shortest_piece = 1e-9;
-
-/// The row that holds at `key`: the last one that is not beyond it.
-std::size_t row_at(const ForceProfile& profile, double key) {
-  const auto& rows = profile.rows;
-  const auto beyond = std::upper_bound(rows.begin(), rows.end(), key,
-                                       [](double value, const ForceRow& row) { return value < row.key; });
-  return beyond == rows.begin() ? 0 : static_cast<std::size_t>(beyond - rows.begin()) - 1;
-}
 
 /// The profile at `key`, which lies in the interval that begins with `row`.
 Vector6 value(const ForceProfile& profile, std::size_t row, double key) {
   const ForceRow& from = profile.rows[row];
-  if (!profile.linear || row + 1 == profile.rows.size()) return from.F;
+  if (!profile.linear || row + 1 == profile.rows.size() || profile.rows[row + 1].ends) return from.F;
   const ForceRow& to = profile.rows[row + 1];
   const double w = std::clamp((key - from.key) / (to.key - from.key), 0.0, 1.0);
   return (1 - w) * from.F + w * to.F;
@@ -35,6 +37,18 @@ Vector6 value(const ForceProfile& profile, std::size_t row, double key) {
 
 bool lateral(const Vector6& F) {
   return F[0] != 0 || F[1] != 0 || F[3] != 0 || F[4] != 0;
+}
+
+bool axial(const Vector6& F) {
+  return F[2] != 0 || F[5] != 0;
+}
+
+/// Of a force in the feed frame where the feed is parallel to the tool.
+bool loses(const ForcePiece& piece) {
+  return lateral(piece.F0) || lateral(piece.F1);
+}
+bool keeps(const ForcePiece& piece) {
+  return axial(piece.F0) || axial(piece.F1);
 }
 
 }  // namespace
@@ -71,26 +85,26 @@ Vector6 in_machine_axes(const ForceAxes& axes, const Vector6& F) {
   return F_M;
 }
 
-std::vector<ForcePiece> profile_pieces(const ForceProfile& profile, const KeySpan& keys,
-                                       const Segment& segment) {
-  const double length = segment.s_end - segment.s_start, range = keys.end - keys.start;
+std::vector<ForcePiece> profile_pieces(const ForceProfile& profile, const KeySpan& keys, double s0,
+                                       double s1) {
+  const double length = s1 - s0, range = keys.end - keys.start;
   const double margin = range * std::min(shortest_piece / length, 0.5);
   std::vector<ForcePiece> pieces;
-  const auto add = [&](double from, double to, double s0, double s1) {
+  const auto add = [&](double from, double to, double at, double end) {
     const std::size_t row = row_at(profile, (from + to) / 2);
-    pieces.push_back({s0, s1, value(profile, row, from), value(profile, row, to), Vector6::Zero()});
+    pieces.push_back({at, end, value(profile, row, from), value(profile, row, to), Vector6::Zero()});
   };
-  double from = keys.start, s0 = segment.s_start;
+  double from = keys.start, at = s0;
   for (std::size_t row = row_at(profile, keys.start); row < profile.rows.size(); ++row) {
     const double key = profile.rows[row].key;
     if (key <= keys.start + margin) continue;
     if (key >= keys.end - margin) break;
-    const double s = segment.s_start + (key - keys.start) / range * length;
-    add(from, key, s0, s);
+    const double s = s0 + (key - keys.start) / range * length;
+    add(from, key, at, s);
     from = key;
-    s0 = s;
+    at = s;
   }
-  add(from, keys.end, s0, segment.s_end);
+  add(from, keys.end, at, s1);
   return pieces;
 }
 
@@ -105,70 +119,127 @@ void append(const ForcePiece& piece, std::size_t first, std::vector<ForcePiece>&
   pieces.push_back(piece);
 }
 
+/// What a stretch is given, in its own frame, or why nothing.
+struct Unblended::Given {
+  std::vector<ForcePiece> pieces;
+  ForceFrame frame = ForceFrame::machine;
+  std::string why;  ///< empty: a force is given, though it may be zero
+};
+
 Unblended::Unblended(const ForceSource& source, const Program& program, const Toolpath& path,
                      const std::vector<Matrix3>& R_MT, std::optional<long>& block_number)
-    : source_(source), program_(program), path_(path), R_MT_(R_MT) {
+    : source_(source),
+      program_(program),
+      path_(path),
+      R_MT_(R_MT),
+      coverage_(source, program, path, block_number) {
   assert(R_MT.size() == 1 || (!R_MT.empty() && R_MT.size() % path.segments.size() == 0));
-  if (profile()) keys_ = align(*profile(), program, path, block_number);
 }
 
 void Unblended::append_to(std::size_t i, std::size_t first_piece, std::vector<ForcePiece>& pieces,
-                          std::vector<ForceNote>& notes) const {
+                          ForceRemarks& remarks) {
   const Segment& segment = path_.segments[i];
-  if (in_air(segment)) {
-    append({segment.s_start, segment.s_end}, first_piece, pieces);
-    return;
-  }
-  if (!profile()) {
-    const Vector6 F = source_.scale * uniform(segment);
-    append({segment.s_start, segment.s_end, F, F, Vector6::Zero()}, first_piece, pieces);
-    return;
-  }
-  const AxesAlong axes(profile()->frame, segment, path_.frames[segment.frame].X_MW.R, orientations(i));
-  const bool only_z = axes.at(0.5, 1).only_z;
-  bool lost = false, inside = false;
-  for (const ForcePiece& given : profile_pieces(*profile(), keys_[i], segment)) {
-    lost = lost || (only_z && (lateral(given.F0) || lateral(given.F1)));
-    for (ForcePiece piece : turned_pieces(given, segment, axes)) {
-      piece.F0 *= source_.scale;
-      piece.F1 *= source_.scale;
-      if (!inside) piece.goes_on = goes_on_round(piece, first_piece, pieces);
-      inside = true;
-      append(piece, first_piece, pieces);
+  std::string why;
+  bool forced = false, lost = false;
+  const auto take = [&](const Given& given, const AxesAlong& axes, bool first) {
+    const bool only_z = given.frame == ForceFrame::feed && axes.at(0.5, 1).only_z;
+    bool acts = given.why.empty();
+    if (only_z && std::any_of(given.pieces.begin(), given.pieces.end(), loses)) {
+      lost = true;
+      acts = std::any_of(given.pieces.begin(), given.pieces.end(), keeps);
+    }
+    forced = forced || acts;
+    if (!acts && why.empty()) why = given.why.empty() ? std::string(no_lateral_direction) : given.why;
+    append_turned(given, segment, axes, first_piece, first, pieces);
+  };
+  const auto axes_in = [&](ForceFrame frame) {
+    return AxesAlong(frame, segment, path_.frames[segment.frame].X_MW.R, orientations(i));
+  };
+  if (in_air(source_, program_.moves[segment.move])) {
+    take({{{segment.s_start, segment.s_end}}, ForceFrame::machine, "it is wholly above --air-above"},
+         axes_in(ForceFrame::machine), true);
+  } else {
+    for (const Stretch& stretch : coverage_.stretches(i)) {
+      const AxesAlong axes = axes_in(stretch.rule != nullptr ? frame_of(*stretch.rule) : ForceFrame::machine);
+      take(given(stretch, i, axes), axes, stretch.from == 0);
     }
   }
   if (lost)
-    notes.push_back({segment.line,
-                     "the feed is parallel to the tool axis: of the force in the feed frame only the z "
-                     "component acts"});
+    remarks.notes.push_back({segment.line, fmt::format("{}: of the force in the feed frame only the z "
+                                                       "component acts",
+                                                       no_lateral_direction)});
+  if (!forced) remarks.unforced.push_back({segment.line, segment.s_end - segment.s_start, why});
 }
 
-const ForceProfile* Unblended::profile() const {
-  return !source_.constant && source_.profile ? &*source_.profile : nullptr;
+Unblended::Given Unblended::given(const Stretch& stretch, std::size_t i, const AxesAlong& axes) const {
+  const Segment& segment = path_.segments[i];
+  const double length = segment.s_end - segment.s_start;
+  const double s0 = segment.s_start + stretch.from * length,
+               s1 = stretch.to == 1 ? segment.s_end : segment.s_start + stretch.to * length;
+  const auto same = [&](const Vector6& F) {
+    return std::vector<ForcePiece>{{s0, s1, F, F, Vector6::Zero()}};
+  };
+  if (stretch.comment) return {same(*program_.moves[segment.move].force), ForceFrame::machine, ""};
+  if (stretch.rule == nullptr)
+    return {same(Vector6::Zero()), ForceFrame::machine, "no force is given for it"};
+  const ForceRule& rule = *stretch.rule;
+  if (const auto* force = std::get_if<ConstantForce>(&rule.content))
+    return {same(force->F), force->frame, ""};
+  if (const auto* response = std::get_if<CutResponse>(&rule.content)) return cut(*response, s0, s1, i, axes);
+  const auto& profile = std::get<ForceProfile>(rule.content);
+  const KeySpan& keys = coverage_.keys(rule, i);
+  const double range = keys.end - keys.start;
+  const KeySpan here{stretch.from == 0 ? keys.start : keys.start + stretch.from * range,
+                     stretch.to == 1 ? keys.end : keys.start + stretch.to * range};
+  return {profile_pieces(profile, here, s0, s1), profile.frame, ""};
+}
+
+// Where the slope changes along the way, as on an upright arc, the force is linear between places close to
+// each other.
+Unblended::Given Unblended::cut(const CutResponse& response, double s0, double s1, std::size_t i,
+                                const AxesAlong& axes) const {
+  const Segment& segment = path_.segments[i];
+  const double rpm = program_.moves[segment.move].spindle_rpm;
+  const auto slope = [&](double s) {
+    const double u = (s - segment.s_start) / (segment.s_end - segment.s_start);
+    return direction_at(segment.wanted, u).dot(axes.at(u, 1).R_MF.col(2));
+  };
+  const auto force = [&](double s) { return cutting_force(response, segment.feed_m_s, rpm, slope(s)); };
+  const double middle = slope((s0 + s1) / 2);
+  const bool even = std::abs(slope(s0) - middle) < same_slope && std::abs(slope(s1) - middle) < same_slope;
+  const int parts = even ? 1 : slopes_per_piece * axes.pieces();
+  Given given{{}, ForceFrame::feed, force((s0 + s1) / 2).why};
+  for (int k = 0; k < parts; ++k) {
+    const auto at = [&](int end) { return end == parts ? s1 : s0 + (s1 - s0) * end / parts; };
+    const CutForce a = force(even ? (s0 + s1) / 2 : at(k)), b = even ? a : force(at(k + 1));
+    if (a.why.empty() || b.why.empty()) given.why.clear();
+    given.pieces.push_back({at(k), at(k + 1), a.F, b.F, Vector6::Zero(), k > 0});
+  }
+  return given;
+}
+
+void Unblended::append_turned(const Given& given, const Segment& segment, const AxesAlong& axes,
+                              std::size_t first_piece, bool first, std::vector<ForcePiece>& pieces) const {
+  const bool turns = given.frame == ForceFrame::feed || given.frame == ForceFrame::tool;
+  for (const ForcePiece& part : given.pieces) {
+    bool begins = true;
+    for (ForcePiece piece : turned_pieces(part, segment, axes)) {
+      piece.F0 *= source_.scale;
+      piece.F1 *= source_.scale;
+      if (begins) piece.goes_on = part.goes_on;
+      // as round a tangential junction
+      if (first && turns && pieces.size() > first_piece)
+        piece.goes_on = nearly_same(pieces.back().F1, piece.F0);
+      begins = first = false;
+      append(piece, first_piece, pieces);
+    }
+  }
 }
 
 std::span<const Matrix3> Unblended::orientations(std::size_t i) const {
   if (R_MT_.size() == 1) return R_MT_;
   const std::size_t each = R_MT_.size() / path_.segments.size();
   return std::span(R_MT_).subspan(i * each, each);
-}
-
-bool Unblended::in_air(const Segment& segment) const {
-  return source_.air_above_mm && extent_of(program_.moves[segment.move]).least.z() > *source_.air_above_mm;
-}
-
-/// Whether the first piece of a segment continues a wrench in axes that turn, as round a tangential
-/// junction.
-bool Unblended::goes_on_round(const ForcePiece& piece, std::size_t first_piece,
-                              const std::vector<ForcePiece>& pieces) const {
-  const bool turns = profile()->frame == ForceFrame::feed || profile()->frame == ForceFrame::tool;
-  return turns && pieces.size() > first_piece && nearly_same(pieces.back().F1, piece.F0);
-}
-
-/// The constant, or what the program's comment says.
-Vector6 Unblended::uniform(const Segment& segment) const {
-  if (source_.constant) return *source_.constant;
-  return program_.moves[segment.move].force.value_or(Vector6::Zero());
 }
 
 }  // namespace counterflex

@@ -5,9 +5,11 @@
 #include <vector>
 
 #include "counterflex/forces/forces.hpp"
-#include "forces/alignment.hpp"
+#include "forces/coverage.hpp"
 
 namespace counterflex {
+
+class AxesAlong;
 
 /// The axes in which a force is given, in the machine frame.
 struct ForceAxes {
@@ -24,14 +26,19 @@ ForceAxes axes_of(ForceFrame frame, const Vector3& feed_M, const Matrix3& R_MW, 
 /// F in machine axes.
 Vector6 in_machine_axes(const ForceAxes& axes, const Vector6& F);
 
-/// The profile over the keys of one segment, in the profile's frame: pieces on which it is linear. `s0`, `s1`
-/// are path lengths of the segment.
-std::vector<ForcePiece> profile_pieces(const ForceProfile& profile, const KeySpan& keys,
-                                       const Segment& segment);
+/// The profile over keys, in the profile's frame: pieces on which it is linear, of path lengths [s0, s1].
+std::vector<ForcePiece> profile_pieces(const ForceProfile& profile, const KeySpan& keys, double s0,
+                                       double s1);
 
 /// Appends `piece` to the pieces of a run that begin at `first`; one that goes on with the same constant is
 /// made longer.
 void append(const ForcePiece& piece, std::size_t first, std::vector<ForcePiece>& pieces);
+
+/// What is to be said of a window's forces.
+struct ForceRemarks {
+  std::vector<ForceNote> notes;
+  std::vector<Unforced> unforced;
+};
 
 /// The wrench of one segment after the other in machine axes.
 class Unblended {
@@ -40,24 +47,24 @@ class Unblended {
   Unblended(const ForceSource& source, const Program& program, const Toolpath& path,
             const std::vector<Matrix3>& R_MT, std::optional<long>& block_number);
 
-  /// Appends the pieces of segment i to those of its run, which begin at `first_piece`; a plunge that loses
-  /// lateral forces is noted.
+  /// Appends the pieces of cutting segment i to those of its run, which begin at `first_piece`. A plunge that
+  /// loses lateral forces is noted, a move without a force listed.
   void append_to(std::size_t i, std::size_t first_piece, std::vector<ForcePiece>& pieces,
-                 std::vector<ForceNote>& notes) const;
+                 ForceRemarks& remarks);
 
  private:
-  const ForceProfile* profile() const;
+  struct Given;
+  Given given(const Stretch& stretch, std::size_t i, const AxesAlong& axes) const;
+  Given cut(const CutResponse& response, double s0, double s1, std::size_t i, const AxesAlong& axes) const;
   std::span<const Matrix3> orientations(std::size_t i) const;  ///< of the tool on segment i
-  bool in_air(const Segment& segment) const;
-  bool goes_on_round(const ForcePiece& piece, std::size_t first_piece,
-                     const std::vector<ForcePiece>& pieces) const;
-  Vector6 uniform(const Segment& segment) const;
+  void append_turned(const Given& given, const Segment& segment, const AxesAlong& axes,
+                     std::size_t first_piece, bool first, std::vector<ForcePiece>& pieces) const;
 
   const ForceSource& source_;
   const Program& program_;
   const Toolpath& path_;
   const std::vector<Matrix3>& R_MT_;
-  std::vector<KeySpan> keys_;
+  Coverage coverage_;
 };
 
 }  // namespace counterflex

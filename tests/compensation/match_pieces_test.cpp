@@ -28,7 +28,7 @@ Shop shop_for(const std::string& cut, const ForceSource& force, double tolerance
 
 ForceSource profile(const std::string& frame, double step_mm, double blend) {
   ForceSource source;
-  source.profile = read_force_csv(
+  source.rules = read_force_csv(
       fmt::format("# frame = {}\n# sense = on_tool\ns_mm, fx_N, fy_N, fz_N\n0, -80, 30, 10\n{}, -150, 0, "
                   "10\n{}, 60, 90, 30\n{}, 60, -90, 20\n",
                   frame, step_mm, step_mm + 0.4, 2 * step_mm + 7),

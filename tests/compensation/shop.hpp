@@ -76,14 +76,14 @@ struct Shop {
 
 inline ForceSource constant_force(const Vector6& F, double blend = 2e-3) {
   ForceSource source;
-  source.constant = F;
+  source.rules = {{"--force", {}, {}, ConstantForce{F}}};
   source.blend = blend;
   return source;
 }
 
 inline ForceSource step_profile(const std::string& rows, double blend) {
   ForceSource source;
-  source.profile =
+  source.rules =
       read_force_csv("# frame = machine\n# sense = on_tool\ns_mm, fx_N, fy_N, fz_N\n" + rows, "forces.csv");
   source.blend = blend;
   return source;

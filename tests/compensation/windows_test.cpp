@@ -123,7 +123,7 @@ TEST_CASE("a wrench of its own on every line acts the same in windows, in the fe
   for (int line = 1; line <= 90; ++line)
     rows += fmt::format("{},{},{},{}\n", line, line % 37, -(line % 23), 5);
   Order order = on_mill(busy_program());
-  order.force.profile = read_force_csv(rows, "forces.csv");
+  order.force.rules = read_force_csv(rows, "forces.csv");
   const WindowRun whole = in_windows(order, whole_program), parts = in_windows(order, 3);
   if (whole.failure) FAIL(whole.failure->what);
   CHECK(parts.windows > 10);

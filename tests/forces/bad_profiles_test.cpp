@@ -18,7 +18,7 @@ std::string first_line(const std::string& text) {
 std::string diagnostic(const std::string& text, const std::string& file) {
   try {
     ForceSource source;
-    source.profile = read_force_csv(text, file);
+    source.rules = read_force_csv(text, file);
     test::forces_on(test::sample_program(), source);
   } catch (const InputError& error) {
     CHECK(error.exit() == Exit::machine_or_force);

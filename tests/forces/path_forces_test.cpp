@@ -190,8 +190,7 @@ TEST_CASE("cuts that do not join are not one run") {
 TEST_CASE("a profile that acts at the platform says so, a constant force never does") {
   auto source = from_csv(on_tool + "# at = platform\nline,fx_N,fy_N,fz_N\n1,1,0,0\n");
   CHECK(forces_on(sample_program(), source).at_platform());
-  source.constant = wrench(1, 0, 0);
-  CHECK_FALSE(forces_on(sample_program(), source).at_platform());
+  CHECK_FALSE(forces_on(sample_program(), constant(wrench(1, 0, 0), 0)).at_platform());
 }
 
 TEST_CASE("very long runs keep the blended wrench accurate") {

@@ -6,8 +6,19 @@
 using namespace counterflex;
 using test::wrench;
 
+namespace {
+
+/// Of a file that is one profile.
+ForceProfile profile_in(const std::string& text, const std::string& file) {
+  const std::vector<ForceRule> rules = read_force_csv(text, file);
+  REQUIRE(rules.size() == 1);
+  return std::get<ForceProfile>(rules[0].content);
+}
+
+}  // namespace
+
 TEST_CASE("a profile is read with its settings, in SI, columns in any order") {
-  const auto profile = read_force_csv(
+  const auto profile = profile_in(
       "# measured on the dynamometer, F = mean of three\n"
       "# frame = feed\n#sense=on_tool\n# interpolation = linear\n# at = platform\n"
       "fx_N, fz_N, s_mm, fy_N, mz_Nm\n"
@@ -30,13 +41,13 @@ TEST_CASE("a profile is read with its settings, in SI, columns in any order") {
 
 TEST_CASE("without settings for them a profile steps and acts at the tip") {
   const auto profile =
-      read_force_csv("# frame = tool\n# sense = on_tool\nline,fx_N,fy_N,fz_N\n1,1,2,3\n", "f.csv");
+      profile_in("# frame = tool\n# sense = on_tool\nline,fx_N,fy_N,fz_N\n1,1,2,3\n", "f.csv");
   CHECK_FALSE(profile.linear);
   CHECK_FALSE(profile.at_platform);
 }
 
 TEST_CASE("a force on the workpiece is the opposite of that on the tool") {
-  const auto profile = read_force_csv(
+  const auto profile = profile_in(
       "# frame = machine\n# sense = on_workpiece\nn,fx_N,fy_N,fz_N,mx_Nm,my_Nm,mz_Nm\n10,1,2,3,4,5,6\n",
       "f.csv");
   CHECK(profile.key == ForceKey::block_number);
@@ -44,7 +55,7 @@ TEST_CASE("a force on the workpiece is the opposite of that on the tool") {
 }
 
 TEST_CASE("a byte order mark, CRLF, blanks, and empty lines at the end do no harm") {
-  const auto profile = read_force_csv(
+  const auto profile = profile_in(
       "\xEF\xBB\xBF# frame = work\r\n\r\n# sense = on_tool\r\nt_s ,\tfx_N,fy_N,fz_N \r\n 0,1, 2 "
       ",3\r\n0.5,4,5,6\r\n\r\n \r\n",
       "f.csv");

@@ -40,7 +40,7 @@ inline PathForces forces_on(const Program& program, const ForceSource& source, c
 
 inline ForceSource from_csv(const std::string& text, double blend = 0) {
   ForceSource source;
-  source.profile = read_force_csv(text, "forces.csv");
+  source.rules = read_force_csv(text, "forces.csv");
   source.blend = blend;
   return source;
 }
@@ -50,7 +50,7 @@ inline const std::string linear = on_tool + "# interpolation = linear\n";
 
 inline ForceSource constant(const Vector6& F, double blend) {
   ForceSource source;
-  source.constant = F;
+  source.rules = {{"--force", {}, {}, ConstantForce{F}}};
   source.blend = blend;
   return source;
 }

@@ -49,13 +49,14 @@ TEST_CASE("a constant stretch of a linear profile ends where the slope begins") 
 TEST_CASE("a row a rounding error before the end of a segment acts at the end") {
   ForceSource source;
   source.blend = 0;
-  source.profile.emplace();
-  source.profile->key = ForceKey::time;
-  source.profile->linear = true;
+  ForceProfile profile;
+  profile.key = ForceKey::time;
+  profile.linear = true;
   const Program program = straight(2, 1);
   const double t = build_toolpath(program, one_frame(program, {})).segments[0].t_end, end = 2 * t;
-  source.profile->rows = {
+  profile.rows = {
       {0, wrench(1, 0, 0), {}}, {std::nextafter(t, 0.0), wrench(2, 0, 0), {}}, {end, wrench(5, 0, 0), {}}};
+  source.rules = {{"forces.csv", {}, {}, profile}};
   const auto forces = forces_on(program, source);
   CHECK(near(forces.at(0, 1), wrench(2, 0, 0)));
   CHECK(near(forces.at(1, 0), wrench(2, 0, 0)));

@@ -143,19 +143,19 @@ TEST_CASE("the cover of a profile is judged over all windows") {
         "s_mm,fx_N,fy_N,fz_N\n0,5,0,0\n9999,0,0,0\n", "n,fx_N,fy_N,fz_N\n1,5,0,0\n",
         "line,fx_N,fy_N,fz_N\n1,5,0,0\n100,0,0,0\n"}) {
     CAPTURE(rows);
-    const ForceSource source = from_csv(on_tool + rows);
     const auto cover = [&](std::size_t least_moves) -> std::string {
       try {
         FileReader bytes = FileReader::of_bytes(text);
         ProgramReader reader(bytes, "p.ngc", {}, least_moves);
-        ForceCover all(*source.profile);
+        ForceSource source = from_csv(on_tool + rows);
+        ForceCover all(source);
         PathEnd end;
         while (reader.next()) {
           const Toolpath path = build_toolpath(reader.window(), one_frame(reader.window(), {}), end);
           all.add(reader.window(), path);
           end = path.end;
         }
-        all.check();
+        all.end_pass();
       } catch (const InputError& error) {
         return error.what();
       }

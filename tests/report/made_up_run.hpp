@@ -24,7 +24,7 @@ struct MadeUpRun {
   Toolpath path = build_toolpath(program, one_frame(program, {}));
   ForceSource source = [] {
     ForceSource s;
-    s.constant = (Vector6() << 30, -40, 0, 0, 0, 2).finished();
+    s.rules = {{"--force", {}, {}, ConstantForce{(Vector6() << 30, -40, 0, 0, 0, 2).finished()}}};
     return s;
   }();
   PathForces forces{source, program, path, {Matrix3::Identity()}};

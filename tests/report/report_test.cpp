@@ -128,7 +128,7 @@ TEST_CASE("a plunge that feels no lateral force is among the warnings") {
   run.program = read_program("G21 G90 G0 X0 Y0 Z5\nG1 Z0 F100\nX10\n", "p.ngc", {});
   run.path = build_toolpath(run.program, one_frame(run.program, {}));
   ForceSource source;
-  source.profile =
+  source.rules =
       read_force_csv("# frame = feed\n# sense = on_tool\nline,fx_N,fy_N,fz_N\n1,10,20,30\n", "f.csv");
   run.forces = PathForces(source, run.program, run.path, {Matrix3::Identity()});
   const RunReport report = predicted(run, {});

@@ -26,6 +26,7 @@ struct ForceSelector {
   std::optional<std::array<long, 2>> blocks;  ///< first and last N
 };
 
+/// By the most specific of the conditions that are given.
 ForceRank rank(const ForceSelector& selector);
 
 /// The same wrench for all moves of a rule.

@@ -1,9 +1,11 @@
 #pragma once
 /// Cutting forces: profiles as shops have them, and the wrench that acts at every place of a toolpath. A
 /// wrench is what the workpiece does to the tool: (fx fy fz mx my mz), N and N m.
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <variant>
 #include <vector>
 
 #include "counterflex/files/input_error.hpp"
@@ -14,44 +16,84 @@
 
 namespace counterflex {
 
-enum class ForceKey { line, block_number, path_length, time };
+/// What the rows of a profile are named by. A point is a logged position; it becomes a path length.
+enum class ForceKey { line, block_number, path_length, time, point };
 
 struct ForceRow {
-  double key = 0;               ///< line, N, m or s
+  double key = 0;               ///< line, N, m or s; of a point nothing
   Vector6 F = Vector6::Zero();  ///< on the tool, axes of the profile's frame
   Location where;
+  bool ends = false;                ///< no wrench: the profile covers nothing until the next row
+  Vector3 point = Vector3::Zero();  ///< (m)
 };
 
+/// Wrenches by place. Stepped: each row holds until the next one, the last to the program's end. Linear:
+/// between rows, to the last one; before a row that ends the cover the wrench holds.
 struct ForceProfile {
   ForceKey key = ForceKey::line;
   ForceFrame frame = ForceFrame::machine;
   bool at_platform = false;  ///< acts at the reference point instead of the tip
   bool linear = false;       ///< interpolated between rows; else each row holds until the next
   std::vector<ForceRow> rows;
+  std::optional<double> within{};    ///< of a log: how far from the path its points may lie (m)
+  bool machine_coordinates = false;  ///< of a log: points in M; else coordinates of the program
 };
 
-/// Reads a CSV profile: lines `# frame = machine | work | tool | feed`, `# sense = on_tool | on_workpiece`
-/// (both required),
-/// `# interpolation = step | linear` (step), `# at = tip | platform` (tip); other lines that begin with `#`
-/// are comments. Then a header row with one key column `line | n | s_mm | t_s`, `fx_N, fy_N, fz_N` and any of
-/// `mx_Nm, my_Nm, mz_Nm`, in any order; then rows with increasing keys. Forces on the workpiece change their
-/// sign. Throws `InputError` (Exit::machine_or_force) naming the row.
-ForceProfile read_force_csv(std::string_view text, const std::string& file);
+/// One wrench, profile or model, and which moves it is for. A profile says so by its rows, not by `selector`.
+struct ForceRule {
+  std::string name;  ///< as the command line has it, or the file's; for messages
+  Location where{};  ///< no file: the command line
+  ForceSelector selector{};
+  std::variant<ConstantForce, ForceProfile, CutResponse> content{};
+};
+
+/// Of a profile: a place.
+ForceRank rank(const ForceRule& rule);
+
+/// Of a model: the feed's.
+ForceFrame frame_of(const ForceRule& rule);
+
+/// Whether a rule's wrench acts at the platform's reference point; one that is always zero acts nowhere.
+bool at_platform(const ForceRule& rule);
+bool is_zero(const ForceRule& rule);
+
+/// Reads a CSV of forces: lines `# frame = machine | work | tool | feed`, `# sense = on_tool | on_workpiece`
+/// (both required), `# interpolation = step | linear` (step), `# at = tip | platform` (tip); other lines that
+/// begin with `#` are comments. Then a header row with the key's column, `fx_N, fy_N, fz_N` and any of
+/// `mx_Nm, my_Nm, mz_Nm`, in any order; then the rows. Keys:
+///
+///  - `line | n | s_mm | t_s`, which must increase: one rule, a profile. A row without any number but its key
+///    ends the cover;
+///  - `x_mm, y_mm, z_mm`, logged positions in the order in which they were logged: the same, with settings
+///    `# within_mm = 1` and `# coordinates = work | machine`;
+///  - `tool` (3 or T3) or `op`: one rule a row, in any order.
+///
+/// Forces on the workpiece change their sign. Throws `InputError` (Exit::machine_or_force) naming the row.
+std::vector<ForceRule> read_force_csv(std::string_view text, const std::string& file);
 
 /// "FX,FY,FZ[,MX,MY,MZ]" in N and N m. Throws `InputError` (Exit::usage).
 Vector6 parse_force(std::string_view text);
 
-/// Where the forces of a run come from; at most one of `constant` and `profile`. Neither: the program's
-/// comments.
+/// The rule of one `--force`: a wrench for all moves, or "T3=FX,FY,FZ[,MX,MY,MZ]" for those of a tool. Throws
+/// as `parse_force`.
+ForceRule parse_force_rule(std::string_view text);
+
+/// Where the forces of a run come from: of these rules and the program's FORCE comments, which are rules for
+/// places, the most specific one that covers a move acts on it.
 struct ForceSource {
-  std::optional<Vector6> constant;  ///< machine axes, at the tip
-  std::optional<ForceProfile> profile;
+  std::vector<ForceRule> rules{};
   double blend =
       2e-3;  ///< m; what acts is the mean over the last min(blend, half of the feed run) of feed path
   double scale = 1.0;
   std::optional<double>
-      air_above_mm;  ///< Z of program coordinates: feed moves wholly above it carry no force
+      air_above_mm{};  ///< Z of program coordinates: feed moves wholly above it carry no force
 };
+
+/// Whether the wrenches act at the platform's reference point instead of the tip: all of them do.
+bool acts_at_platform(const ForceSource& source);
+
+/// Whether a rule's frame turns with the tool.
+bool needs_tool_axes(const ForceSource& source);
 
 struct ForceNote {
   int line = 0;
@@ -119,13 +161,11 @@ class PathForces {
  public:
   /// `R_MT` gives the wanted orientation of the tool in the machine frame: one for all, one a segment, or for
   /// each segment as many, at equal fractions from its start to its end, between which the tool turns evenly.
-  /// Throws `InputError` (Exit::machine_or_force) naming the row whose key lies beyond the program, or that
-  /// leaves a cutting move without a force: the first row after the first cutting move, or the last of a
-  /// linear profile before the last.
+  /// Throws what `ForceCover` throws.
   PathForces(const ForceSource& source, const Program& program, const Toolpath& path,
              const std::vector<Matrix3>& R_MT);
 
-  /// The same for a window of a program, behind the one that has left `before`. What a profile covers is for
+  /// The same for a window of a program, behind the one that has left `before`. `source` has been settled by
   /// `ForceCover`.
   PathForces(const ForceSource& source, const Program& window, const Toolpath& path,
              const std::vector<Matrix3>& R_MT, const ForceTail& before);
@@ -186,35 +226,37 @@ class PathForces {
   double largest_step_N_ = 0;
 };
 
-/// Whether a profile has a force for all of a program, gathered window by window.
+/// Whether the rules have one force for every feed move of a program, gathered window by window before
+/// anything is solved. Some sources need the program more than once:
+///
+///     ForceCover cover(source);
+///     while (cover.needs_pass()) {
+///       for (each window) cover.add(window, path);
+///       cover.end_pass();
+///     }
+///
+/// Each function throws `InputError` (Exit::machine_or_force, or Exit::usage for what the command line says)
+/// at the row or section that is wrong: two of equal rank that cover one move; one that names what the
+/// program has not; a key that the program cannot have; a logged position far from the path or out of order.
+/// A feed move that no rule covers is named at its line.
 class ForceCover {
  public:
-  explicit ForceCover(const ForceProfile& profile) : profile_(profile) {}
+  /// Makes path lengths of the logged positions in `source`, which outlives this. Throws where wrenches at
+  /// the tip and at the platform would meet in one run.
+  explicit ForceCover(ForceSource& source);
+  ~ForceCover();
 
-  /// The next window. Throws `InputError` (Exit::machine_or_force) where it has not what the key counts: a
-  /// block number, or a feed.
+  bool needs_pass() const;
+
+  /// The next window of the pass.
   void add(const Program& window, const Toolpath& path);
 
-  /// Throws `InputError` (Exit::machine_or_force) naming the row whose key lies beyond the program, or that
-  /// leaves a cutting move without a force: the first row after the first cutting move, or the last of a
-  /// linear profile before the last.
-  void check() const;
+  /// Behind the last window.
+  void end_pass();
 
  private:
-  struct Cut {
-    double key = 0;
-    int line = 0;
-  };
-  double end() const;  ///< greatest key that the program has
-
-  const ForceProfile& profile_;
-  std::optional<long> block_number_;
-  std::optional<Cut> first_, last_;  ///< of the cutting moves: key where the first begins and the last ends
-  long last_block_number_ = 0;
-  long newlines_ = 0, last_line_ = 0;  ///< lines; of the last move
-  long file_lines_ = 0;                ///< where calls were expanded
-  bool ends_in_line_ = false;          ///< the text ends without a line end
-  PathEnd end_;
+  struct State;
+  std::unique_ptr<State> state_;
 };
 
 }  // namespace counterflex

@@ -1,0 +1,69 @@
+#pragma once
+/// Which rule acts where on a segment: the most specific one that covers it.
+#include <optional>
+#include <unordered_map>
+#include <vector>
+
+#include "counterflex/forces/forces.hpp"
+#include "forces/alignment.hpp"
+#include "forces/rule_index.hpp"
+
+namespace counterflex {
+
+/// A part of a segment between two fractions of its length. Neither rule nor comment: nothing covers it.
+struct Stretch {
+  double from = 0, to = 1;
+  const ForceRule* rule = nullptr;
+  bool comment = false;  ///< the program's FORCE comment acts
+};
+
+/// Of one window of a program. Borrows what it is made of.
+class Coverage {
+ public:
+  /// `block_number` is N of the moves before, and then of these. Throws `InputError` where the program has
+  /// not what a profile's key counts.
+  Coverage(const ForceSource& source, const Program& window, const Toolpath& path,
+           std::optional<long>& block_number);
+
+  /// The stretches of segment i, in order and without gaps, until the next call. Throws `InputError` where
+  /// two rules of equal rank cover it.
+  const std::vector<Stretch>& stretches(std::size_t i);
+
+  /// The keys of a profile over segment i.
+  const KeySpan& keys(const ForceRule& profile, std::size_t i) const;
+
+ private:
+  /// What a rule for places covers of a segment, by fractions: [from, to], and over rounded keys as far as
+  /// [least, most].
+  struct Claim {
+    double from = 0, to = 1, least = 0, most = 1;
+    double rounding = 0;
+    const ForceRule* rule = nullptr;  ///< none: a comment
+    std::size_t row = 0;
+  };
+  const ForceRule* by_kind(const Move& move);
+  void claim(std::size_t i);
+  void claim_rows(const ForceRule& rule, std::size_t i);
+  void settle(int line);
+  [[noreturn]] void refuse(const Claim& a, const Claim& b, int line) const;
+  std::optional<long> number(std::size_t i) const;
+
+  const ForceSource& source_;
+  const Program& window_;
+  const Toolpath& path_;
+  RuleIndex index_;
+  std::vector<const ForceRule*> profiles_;
+  std::vector<std::vector<KeySpan>> keys_;    ///< of each profile
+  std::vector<std::optional<long>> numbers_;  ///< block numbers of the moves, where a rule asks for them
+  std::unordered_map<std::uint64_t, const ForceRule*> kinds_;  ///< what acts by tool and operation
+  std::optional<std::uint64_t> last_kind_;
+  const ForceRule* last_acts_ = nullptr;
+  std::vector<Claim> claims_;
+  std::vector<const ForceRule*> found_;
+  std::vector<Stretch> stretches_;
+};
+
+/// Whether the move lies wholly above the source's --air-above.
+bool in_air(const ForceSource& source, const Move& move);
+
+}  // namespace counterflex

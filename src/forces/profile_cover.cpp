@@ -1,0 +1,68 @@
+#include "forces/profile_cover.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace counterflex {
+namespace {
+
+constexpr double unlimited = std::numeric_limits<double>::infinity();
+
+/// The first row from `row` on that ends the cover, or lies behind `key`.
+std::size_t end_of_cover(const ForceProfile& profile, std::size_t row, double key) {
+  const auto& rows = profile.rows;
+  while (row < rows.size() && !rows[row].ends && rows[row].key <= key) ++row;
+  return row;
+}
+
+/// The cover by the rows [row, end).
+KeyCover cover_by(const ForceProfile& profile, std::size_t row, std::size_t end, bool alone) {
+  const auto& rows = profile.rows;
+  KeyCover cover{rows[row].key, unlimited, rows[row].key, unlimited, row};
+  if (row == 0) cover.least = alone ? -unlimited : cover.start - reach(profile, cover.start);
+  if (end < rows.size()) {
+    cover.end = cover.most = rows[end].key;
+  } else if (profile.linear) {
+    cover.end = rows.back().key;
+    cover.most = alone ? unlimited : cover.end + reach(profile, cover.end);
+  }
+  return cover;
+}
+
+}  // namespace
+
+std::vector<KeyCover> covers(const ForceProfile& profile, const KeySpan& keys, bool alone) {
+  const auto& rows = profile.rows;
+  std::vector<KeyCover> found;
+  for (std::size_t row = row_at(profile, keys.start); row < rows.size();) {
+    if (rows[row].ends) {
+      ++row;
+      continue;
+    }
+    if (row > 0 && rows[row].key > keys.end) break;
+    const std::size_t end = end_of_cover(profile, row, keys.end);
+    const KeyCover cover = cover_by(profile, row, std::max(end, row + 1), alone);
+    if (cover.least <= keys.end && cover.most >= keys.start) found.push_back(cover);
+    row = std::max(end, row + 1);
+    if (row < rows.size() && rows[row].key > keys.end) break;
+  }
+  return found;
+}
+
+std::size_t row_at(const ForceProfile& profile, double key) {
+  const auto& rows = profile.rows;
+  const auto beyond = std::upper_bound(rows.begin(), rows.end(), key,
+                                       [](double value, const ForceRow& row) { return value < row.key; });
+  return beyond == rows.begin() ? 0 : static_cast<std::size_t>(beyond - rows.begin()) - 1;
+}
+
+double key_margin(const ForceProfile& profile, double key) {
+  if (profile.key == ForceKey::path_length) return 1e-6 + 1e-6 * key;
+  return profile.key == ForceKey::time ? 1e-3 + 1e-6 * key : 0;
+}
+
+double reach(const ForceProfile& profile, double key) {
+  return std::max(profile.within.value_or(0), key_margin(profile, key));
+}
+
+}  // namespace counterflex

@@ -1,0 +1,76 @@
+#include "forces/profile_ends.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "forces/csv_header.hpp"
+#include "forces/profile_cover.hpp"
+
+namespace counterflex {
+namespace {
+
+std::string shown_key(const ForceProfile& profile, double key) {
+  return fmt::format("{} {:.9g}", csv::key_name(profile.key), key * csv::shown_per_si(profile.key));
+}
+
+}  // namespace
+
+void ProgramEnds::add(const Program& window, const Toolpath& of_window) {
+  for (const Move& move : window.moves)
+    last_block_number = std::max(last_block_number, move.block_number.value_or(0));
+  if (!window.moves.empty()) last_line = window.moves.back().line;
+  newlines += std::count(window.text.begin(), window.text.end(), '\n');
+  if (!window.text.empty()) ends_in_line = window.text.back() != '\n';
+  file_lines = window.expansion.file_lines;
+  path = of_window.end;
+}
+
+double ProgramEnds::last(ForceKey key) const {
+  switch (key) {
+    case ForceKey::line:
+      if (file_lines > 0) return static_cast<double>(file_lines);
+      return static_cast<double>(std::max(newlines + (ends_in_line ? 1 : 0), last_line));
+    case ForceKey::block_number:
+      return static_cast<double>(last_block_number);
+    case ForceKey::path_length:
+      return path.s;
+    default:
+      return path.t;
+  }
+}
+
+void ProfileEnds::add(const KeySpan& keys, const Segment& cut) {
+  // Lines and block numbers need not grow along the path.
+  if (!first_ || keys.start < first_->key) first_ = {keys.start, cut.line};
+  if (!last_ || keys.end >= last_->key) last_ = {keys.end, cut.line};
+}
+
+void ProfileEnds::refuse_rows_beyond(const ProgramEnds& program) const {
+  const double last_key = program.last(profile_.key);
+  const std::vector<ForceRow>& rows = profile_.rows;
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    if (rows[i].key > last_key + key_margin(profile_, last_key))
+      fail_row(profile_, i,
+               fmt::format("{} lies beyond the program, which ends at {}", shown_key(profile_, rows[i].key),
+                           shown_key(profile_, last_key)));
+}
+
+void ProfileEnds::refuse_missing_ends(const ProgramEnds& program) const {
+  if (!first_) return;
+  const double margin = reach(profile_, program.last(profile_.key));
+  const std::vector<ForceRow>& rows = profile_.rows;
+  if (rows.front().key > first_->key + margin)
+    fail_row(
+        profile_, 0,
+        fmt::format("{} is the first row, but the program cuts from {} on (line {}): a row there is "
+                    "required, with zeros where nothing is cut",
+                    shown_key(profile_, rows.front().key), shown_key(profile_, first_->key), first_->line));
+  if (profile_.linear && !rows.back().ends && rows.back().key < last_->key - margin)
+    fail_row(profile_, rows.size() - 1,
+             fmt::format("{} is the last row, but the program cuts until {} (line {}): a row there is "
+                         "required for linear interpolation",
+                         shown_key(profile_, rows.back().key), shown_key(profile_, last_->key), last_->line));
+}
+
+}  // namespace counterflex

@@ -1,0 +1,59 @@
+#pragma once
+/// Which rules cover a move by their selectors, found without a look at all of them.
+#include <optional>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "counterflex/forces/forces.hpp"
+
+namespace counterflex {
+
+/// Rules by ranges of lines or of block numbers.
+class RangeIndex {
+ public:
+  void add(const std::array<long, 2>& range, const ForceRule& rule);
+  void finish();  ///< before the first `append`
+  bool empty() const { return entries_.empty(); }
+
+  /// Appends the rules whose ranges hold `number`.
+  void append(long number, std::vector<const ForceRule*>& found) const;
+
+ private:
+  struct Entry {
+    long first = 0, last = 0;
+    long furthest = 0;  ///< the greatest `last` of this and those before
+    const ForceRule* rule = nullptr;
+  };
+  std::vector<Entry> entries_;  ///< by `first`
+};
+
+/// All rules but profiles. Borrows them.
+class RuleIndex {
+ public:
+  explicit RuleIndex(const std::vector<ForceRule>& rules);
+
+  bool by_block() const { return !blocks_.empty(); }
+  bool by_range() const { return !lines_.empty() || !blocks_.empty(); }
+
+  /// Appends the rules that cover moves of a tool and an operation (folded; empty: none), whatever their
+  /// place.
+  void append_by_kind(long tool, const std::string& operation, std::vector<const ForceRule*>& found) const;
+
+  /// Appends those for ranges of places that cover a move; `n` is its block number or that before it.
+  void append_by_place(const Move& move, const std::string& operation, std::optional<long> n,
+                       std::vector<const ForceRule*>& found) const;
+
+ private:
+  using Named = std::unordered_map<std::string, std::vector<const ForceRule*>>;
+
+  RangeIndex lines_, blocks_;
+  Named operations_, beginnings_;
+  std::unordered_map<long, std::vector<const ForceRule*>> tools_;
+  std::vector<const ForceRule*> all_;
+};
+
+/// Whether an operation's text (folded) is what a selector asks for.
+bool names_operation(const std::string& selector, const std::string& operation);
+
+}  // namespace counterflex

@@ -1,0 +1,54 @@
+#include "forces/selector_text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+
+#include "forces/csv_text.hpp"
+
+namespace counterflex {
+
+std::optional<long> read_tool(std::string_view text) {
+  if (!text.empty() && (text.front() == 'T' || text.front() == 't')) text.remove_prefix(1);
+  long tool = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), tool);
+  if (error != std::errc{} || end != text.data() + text.size() || tool < 1) return std::nullopt;
+  return tool;
+}
+
+std::string folded(std::string_view operation) {
+  std::string text(csv::trimmed(operation));
+  for (char& c : text)
+    if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
+  return text;
+}
+
+std::string shown(const ForceSelector& selector) {
+  std::string text;
+  const auto add = [&](const std::string& part) { text += (text.empty() ? "" : ", ") + part; };
+  const auto add_range = [&](const char* what, const std::optional<std::array<long, 2>>& range) {
+    if (range) add(fmt::format("{} {} to {}", what, (*range)[0], (*range)[1]));
+  };
+  if (selector.tool) add(fmt::format("tool T{}", *selector.tool));
+  if (selector.operation) add(fmt::format("operation '{}'", *selector.operation));
+  add_range("lines", selector.lines);
+  add_range("blocks", selector.blocks);
+  return text;
+}
+
+std::string place_of(const ForceRule& rule, const Location& where) {
+  return where.file.empty() ? rule.name : fmt::format("{}:{}", where.file, where.line);
+}
+
+std::string_view shown(ForceRank rank) {
+  constexpr std::array<std::string_view, 4> names = {"places", "operations", "tools", "the whole program"};
+  return names[static_cast<std::size_t>(rank)];
+}
+
+void fail_rule(const ForceRule& rule, const std::string& message) {
+  throw InputError(rule.where.file.empty() ? Exit::usage : Exit::machine_or_force, rule.where, message);
+}
+
+}  // namespace counterflex

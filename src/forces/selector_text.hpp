@@ -1,0 +1,29 @@
+#pragma once
+/// Tools, operations and rules as they are written in files and shown in messages.
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "counterflex/forces/forces.hpp"
+
+namespace counterflex {
+
+/// "3", "T3" or "t3"; nothing where it is no tool's number from 1 up.
+std::optional<long> read_tool(std::string_view text);
+
+/// An operation's text as it is compared: no blanks at the ends, ASCII letters in upper case.
+std::string folded(std::string_view operation);
+
+/// "tool T3", "operation 'POCKET*'", "lines 10 to 40": the conditions that are given.
+std::string shown(const ForceSelector& selector);
+
+/// Where a rule stands: "forces.csv:6", or as the command line has it.
+std::string place_of(const ForceRule& rule, const Location& where);
+
+/// "places", "operations", "tools" or "the whole program".
+std::string_view shown(ForceRank rank);
+
+/// Throws at a rule: Exit::usage for one of the command line, else Exit::machine_or_force.
+[[noreturn]] void fail_rule(const ForceRule& rule, const std::string& message);
+
+}  // namespace counterflex
