@@ -1,0 +1,27 @@
+#pragma once
+/// One section of a file of cutting models.
+#include "counterflex/forces/read_cutting_model.hpp"
+#include "forces/read_coefficients.hpp"
+
+namespace counterflex::force_file {
+
+using Cutters = std::map<std::string, EndMill, std::less<>>;
+
+/// What sections refer to.
+struct Shelf {
+  Cutters cutters;
+  Materials materials;
+  ForceAt force_at = ForceAt::mean;  ///< of sections that do not say it
+};
+
+/// The table `cutters`.
+Cutters read_cutters(const toml::table& document, const machine_file::Source& source);
+
+/// "mean" or "surface".
+ForceAt read_force_at(const toml::node& node, const machine_file::Source& source);
+
+/// The section that is the `number`th of its file, counted from 1.
+CutSection read_cut_section(const toml::node& node, std::size_t number, const Shelf& shelf,
+                            const machine_file::Source& source);
+
+}  // namespace counterflex::force_file

@@ -1,0 +1,53 @@
+#include "counterflex/forces/read_cutting_model.hpp"
+
+#include <fmt/format.h>
+
+#include "forces/read_cut_section.hpp"
+
+namespace counterflex {
+namespace {
+
+using machine_file::Source;
+
+constexpr std::string_view format_of_cuts = "counterflex-forces 1";
+
+void check_format_of_cuts(const toml::table& document, const Source& source) {
+  const toml::node* node = document.get("format");
+  if (node == nullptr)
+    source.fail_at_start(
+        fmt::format("no format; a file of cutting models says format = \"{}\"", format_of_cuts));
+  const auto* text = node->as_string();
+  if (text == nullptr || text->get() != format_of_cuts)
+    source.fail(*node,
+                fmt::format("format is {}; it must be \"{}\"", machine_file::seen(*node), format_of_cuts));
+}
+
+const toml::array& sections_of(const toml::table& document, const Source& source) {
+  const toml::node* node = document.get("section");
+  if (node == nullptr)
+    source.fail_at_start("no [[section]]: the file says of no part of a program how it is cut");
+  if (!node->is_array_of_tables())
+    source.fail(*node, fmt::format("section must be tables, each under [[section]], not {}",
+                                   machine_file::seen(*node)));
+  return *node->as_array();
+}
+
+}  // namespace
+
+std::vector<CutSection> read_cutting_model(std::string_view text, const std::string& file) {
+  const Source source(text, file);
+  const toml::table document = source.parse();
+  check_format_of_cuts(document, source);
+  machine_file::check_keys(document, {"format", "force_at", "cutters", "materials", "section"},
+                           "a file of cutting models", source);
+  force_file::Shelf shelf{
+      force_file::read_cutters(document, source), force_file::read_materials(document, source), {}};
+  if (const toml::node* force_at = document.get("force_at"))
+    shelf.force_at = force_file::read_force_at(*force_at, source);
+  std::vector<CutSection> sections;
+  for (const toml::node& node : sections_of(document, source))
+    sections.push_back(force_file::read_cut_section(node, sections.size() + 1, shelf, source));
+  return sections;
+}
+
+}  // namespace counterflex

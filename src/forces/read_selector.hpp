@@ -1,0 +1,15 @@
+#pragma once
+/// Which moves a rule covers, as a table says it.
+#include "counterflex/forces/force_rule.hpp"
+#include "machine/fields.hpp"
+
+namespace counterflex::force_file {
+
+/// A whole number from `least` to `most`.
+long as_whole(const toml::node& node, const machine_file::Label& label, long least, long most,
+              const machine_file::Source& source);
+
+/// The keys `tool`, `op`, `lines` and `blocks` of a table, those of them that it has.
+ForceSelector read_selector(const toml::table& table, const machine_file::Source& source);
+
+}  // namespace counterflex::force_file
