@@ -37,8 +37,8 @@ std::size_t key_index(std::string_view name) {
 
 }  // namespace
 
-std::optional<Vector6> read_force_comment(std::string_view text, const std::string& file, const Block& block,
-                                          Span comment) {
+std::optional<ForceComment> read_force_comment(std::string_view text, const std::string& file,
+                                               const Block& block, Span comment) {
   std::size_t at = comment.begin;
   const Token first = next_token(text, at, comment.end);
   if (!same_letters(first.text, "FORCE")) return std::nullopt;
@@ -53,7 +53,7 @@ std::optional<Vector6> read_force_comment(std::string_view text, const std::stri
   if (same_letters(token.text, "OFF")) {
     token = next_token(text, at, comment.end);
     if (!token.text.empty()) fail(token.at, fmt::format("'{}' follows FORCE OFF", token.text));
-    return force;
+    return ForceComment{};
   }
   for (; !token.text.empty(); token = next_token(text, at, comment.end)) {
     const std::size_t equals = token.text.find('=');
@@ -68,7 +68,7 @@ std::optional<Vector6> read_force_comment(std::string_view text, const std::stri
     given[key] = true;
     force[static_cast<Eigen::Index>(key)] = *value;
   }
-  return force;
+  return ForceComment{force};
 }
 
 }  // namespace counterflex

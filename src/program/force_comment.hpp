@@ -7,10 +7,13 @@
 
 namespace counterflex {
 
-/// The wrench (N, N m) that `comment` of `block` states, zero for OFF and for components that it does not
-/// name; nothing where its first word is not FORCE. Throws `InputError` (Exit::machine_or_force) where it is
-/// malformed.
-std::optional<Vector6> read_force_comment(std::string_view text, const std::string& file, const Block& block,
-                                          Span comment);
+struct ForceComment {
+  std::optional<Vector6> F;  ///< N, N m; zero for components that are not named; none: OFF
+};
+
+/// What `comment` of `block` states; nothing where its first word is not FORCE. Throws `InputError`
+/// (Exit::machine_or_force) where it is malformed.
+std::optional<ForceComment> read_force_comment(std::string_view text, const std::string& file,
+                                               const Block& block, Span comment);
 
 }  // namespace counterflex

@@ -19,10 +19,16 @@
 namespace counterflex {
 namespace {
 
+/// Of several comments alone in a line the first that names something is the operation.
 void apply_comments(const Block& block, Reading& r) {
-  for (const Span& comment : block.comments)
-    if (const auto force = read_force_comment(r.program.text, r.program.file, block, comment))
-      r.state.force = force;
+  const std::string_view text = r.program.text;
+  bool may_name = has_comments_alone(text, block);
+  for (const Span& comment : block.comments) {
+    if (const auto force = read_force_comment(text, r.program.file, block, comment))
+      r.state.force = force->F;
+    else if (may_name)
+      may_name = !r.operation.name(part(text, comment));
+  }
 }
 
 constexpr std::uint64_t bit_of(Action action) {

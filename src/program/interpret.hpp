@@ -7,6 +7,7 @@
 #include "counterflex/program/read_program.hpp"
 #include "program/lex.hpp"
 #include "program/modal_state.hpp"
+#include "program/operation.hpp"
 #include "program/outline.hpp"
 #include "program/sorted_block.hpp"
 
@@ -33,6 +34,7 @@ struct Reading {
   SortedBlock sorted{};
   std::optional<bool> block_relative{};  ///< X=IC(5), X=AC(5): for this block, whatever is modal
   Body body{};
+  CurrentOperation operation{};
   int groups = 0;                    ///< contours begun
   std::array<bool, 3> taken_away{};  ///< axes that the machine has moved by itself since the last move
   std::size_t run_begin = 0;         ///< the first move since the tool went to a place of the machine

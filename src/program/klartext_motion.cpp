@@ -262,7 +262,7 @@ void add_klartext_move(const KlartextBlock& block, const KlartextCodes& codes, K
 
 }  // namespace
 
-Move begin_klartext_move(const KlartextBlock& block, const KlartextReading& r) {
+Move begin_klartext_move(const KlartextBlock& block, KlartextReading& r) {
   const KlartextState& state = r.state;
   Move move;
   move.line = block.line;
@@ -281,7 +281,8 @@ Move begin_klartext_move(const KlartextBlock& block, const KlartextReading& r) {
     for (const char c : part(r.program.text, block.number).substr(0, 9)) number = 10 * number + (c - '0');
     move.block_number = number;
   }
-  move.tool = static_cast<std::int32_t>(state.tool);
+  move.tool = as_tool(state.tool);
+  move.operation = r.operation.index_in(r.program);
   move.may_insert_words = false;
   move.force = state.force;
   move.block_delete = !empty(block.block_delete);

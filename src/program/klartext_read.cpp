@@ -145,17 +145,21 @@ void refuse_conflict_marker(const KlartextBlock& block, const KlartextReading& r
                       fmt::format("'{}' is a conflict marker of a version control system", marker));
 }
 
-void read_force(const KlartextBlock& block, KlartextReading& r) {
+/// A comment that stands alone names the operation; so does the text of a structure line, "* - POCKET".
+void read_comments(const KlartextBlock& block, KlartextReading& r) {
   Block place;
   place.line = block.line;
   place.span = block.span;
-  for (const Span& comment : block.comments)
+  for (const Span& comment : block.comments) {
     if (const auto force = read_force_comment(r.program.text, r.program.file, place, comment))
-      r.state.force = force;
+      r.state.force = force->F;
+    else if (block.parts.empty())
+      r.operation.name(part(r.program.text, comment));
+  }
 }
 
 void read_statement(const KlartextBlock& block, KlartextReading& r) {
-  read_force(block, r);
+  read_comments(block, r);
   if (block.parts.empty()) return;
   ++r.program.block_count;
   const auto known = std::find_if(statements.begin(), statements.end(),
@@ -206,14 +210,10 @@ void read_klartext(Program& program, const ReadOptions& options,
 }
 
 bool is_corrected_klartext(std::string_view text) {
-  constexpr std::string_view mark = "COUNTERFLEX 1";
   KlartextBlock block;
   while (next_klartext_block(text, block)) {
-    for (const Span& comment : block.comments) {
-      std::string_view said = part(text, comment);
-      said.remove_prefix(std::min(said.find_first_not_of(" \t"), said.size()));
-      if (said.starts_with(mark) && (said.size() == mark.size() || said[mark.size()] == ' ')) return true;
-    }
+    for (const Span& comment : block.comments)
+      if (is_header_comment(part(text, comment))) return true;
     if (!block.parts.empty() && block.head != "BEGIN") return false;
   }
   return false;

@@ -6,6 +6,7 @@
 #include "counterflex/program/read_program.hpp"
 #include "program/klartext_labels.hpp"
 #include "program/klartext_lex.hpp"
+#include "program/operation.hpp"
 
 namespace counterflex {
 
@@ -64,6 +65,7 @@ struct KlartextReading {
   std::vector<int> polar;  ///< lines of the CC that arcs share with other blocks
   KlartextState state{};
   std::vector<KlartextWord> words{};
+  CurrentOperation operation{};
   bool ended = false;
 };
 
@@ -100,6 +102,6 @@ void add_cycle_call(const KlartextBlock& block, KlartextReading& reading);
 void leave_alone(KlartextReading& reading, int line, std::string why);
 
 /// A move begun at the state before `block`.
-Move begin_klartext_move(const KlartextBlock& block, const KlartextReading& reading);
+Move begin_klartext_move(const KlartextBlock& block, KlartextReading& reading);
 
 }  // namespace counterflex

@@ -105,9 +105,13 @@ void LineReader::remark_rest(std::string_view text) {
 void LineReader::begin_window(std::size_t read, std::optional<Move> first) {
   if (!program_.moves.empty()) program_.before = std::move(program_.moves.back());
   program_.moves.clear();  // the room is used again
-  if (first) program_.moves.push_back(std::move(*first));
+  if (first) {
+    first->operation = 0;  // what stood last before the window
+    program_.moves.push_back(std::move(*first));
+  }
   program_.left_alone.clear();
   program_.text.clear();
+  reading_.operation.begin_window(program_);
   reading_.run_begin = 0;
   block_.line_end = {read, read};
 }

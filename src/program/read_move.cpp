@@ -106,6 +106,15 @@ void place_word(Reading& r, Move& move, std::size_t axis, const Word& word, bool
   if (!state.known[axis]) state.known[axis] = true;  // a byte just stored delays the copy of all three
 }
 
+/// T in the spindle; where the program has changed to none, the tool whose length it has taken.
+std::int32_t tool_of(const Reading& r) {
+  if (r.state.tool > 0) return as_tool(r.state.tool);
+  // On a Sinumerik the length is that of an edge of the tool, D.
+  const bool by_length = r.state.tool_length && !r.dialect.sinumerik_words;
+  return by_length && *r.state.tool_length <= INT32_MAX ? as_tool(static_cast<long>(*r.state.tool_length))
+                                                        : 0;
+}
+
 }  // namespace
 
 const Word& first_axis_word(const Block& block) {
@@ -151,7 +160,8 @@ Move& start_move(const Block& block, Reading& r, Motion motion) {
   move.feed_mm_min = feed_mm_min(r.state);
   move.spindle_rpm = r.state.spindle_rpm;
   move.offset = r.state.work_offset;
-  move.tool = static_cast<std::int32_t>(r.state.tool);
+  move.tool = tool_of(r);
+  move.operation = r.operation.index_in(r.program);
   if (r.state.force) move.force = r.state.force;
   move.block_delete = !empty(block.block_delete);
   move.exact_stop = r.state.exact_stop || r.sorted.has(Action::stop_once);

@@ -1,23 +1,11 @@
 #include "counterflex/program/read_program.hpp"
 
-#include <algorithm>
-
 #include "program/expand.hpp"
 #include "program/klartext_read.hpp"
 #include "program/line_reader.hpp"
+#include "program/operation.hpp"
 
 namespace counterflex {
-namespace {
-
-/// "COUNTERFLEX 1", alone or followed by more words.
-bool is_mark(std::string_view comment) {
-  constexpr std::string_view mark = "COUNTERFLEX 1";
-  comment.remove_prefix(std::min(comment.find_first_not_of(" \t"), comment.size()));
-  return comment.starts_with(mark) && (comment.size() == mark.size() || comment[mark.size()] == ' ');
-}
-
-}  // namespace
-
 Program read_program(std::string text, const std::string& file, const ReadOptions& options) {
   const Dialect& dialect = choose_dialect(text, file, options);
   const bool klartext = dialect.name == klartext_name;
@@ -43,7 +31,7 @@ bool is_corrected(const Program& program) {
     lex(program.text, program.file, dialect, block);
     if (block.percent && ++percents == 2) return false;
     for (const Span comment : block.comments)
-      if (is_mark(part(program.text, comment))) return true;
+      if (is_header_comment(part(program.text, comment))) return true;
     if (!block.words.empty() && !begins_with_program_number(block)) return false;
   }
   return false;

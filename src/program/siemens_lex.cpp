@@ -231,8 +231,8 @@ void lex_letter(Scanner& s) {
   read_named_word(s, letter, 1);
   Word& word = s.block.words[words];
   if (letter == 'P') word.value -= 1;
-  // A tool by its name, an M or S by a value: nothing that the moves depend on.
-  if (!word.literal && (letter == 'T' || letter == 'M' || letter == 'S' || letter == 'H' || letter == 'D'))
+  // An M or S by a value: nothing that the moves depend on. A tool by its name is one without a number.
+  if (!word.literal && (letter == 'M' || letter == 'S' || letter == 'H' || letter == 'D'))
     s.block.words.pop_back();
   // A centre that the control works out makes no arc that is followed.
   if (letter >= 'I' && letter <= 'K' && !word.literal) s.block.statement = Statement::arc_not_read;

@@ -17,7 +17,13 @@ TEST_CASE("a FORCE comment acts from its own block until the next one") {
   CHECK(program.moves[1].force == first);
   CHECK(program.moves[2].force == second);
   CHECK(program.moves[3].force == second);
-  CHECK(program.moves[4].force == Vector6(Vector6::Zero()));
+  CHECK_FALSE(program.moves[4].force.has_value());
+}
+
+TEST_CASE("a FORCE comment of zeros is a force, OFF is none") {
+  const Program program = read("G21 G0 X1 (FORCE FX=0)\nX2 (FORCE OFF)\n");
+  CHECK(program.moves[0].force == Vector6(Vector6::Zero()));
+  CHECK_FALSE(program.moves[1].force.has_value());
 }
 
 TEST_CASE("comments that only begin like FORCE are comments") {

@@ -82,14 +82,14 @@ TEST_CASE("an overview says what the whole program holds") {
   CHECK(overview.path_tolerances[1].line == 9);
   REQUIRE(overview.left_alone.count == 1);
   CHECK(overview.left_alone.rows[0].line == 7);
-  CHECK(overview.first_force_line == 5);
+  CHECK(overview.first_force_line == 6);
   CHECK(overview.commented_force);
   CHECK(overview.first_cycle_line == 11);
 }
 
 TEST_CASE("a program without forces, cycles or text has an overview that says so") {
   const Overview overview = overview_of(read("G21 G90 (FORCE OFF)\nG0 X0\n"));
-  CHECK(overview.first_force_line == 2);
+  CHECK_FALSE(overview.first_force_line);
   CHECK_FALSE(overview.commented_force);
   CHECK_FALSE(overview.first_cycle_line);
   CHECK(overview.offsets_used == std::vector<bool>{true});

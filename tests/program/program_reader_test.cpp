@@ -40,7 +40,8 @@ std::string said(const Program& program, const Move& move) {
                         int{move.known_end[axis]}, int{move.fixed[axis]});
   if (move.arc)
     for (const auto& word : move.arc->centre_words) text += " " + number_text(program, word);
-  return text + fmt::format(" feed {} offset {}", move.feed_mm_min, move.offset);
+  return text + fmt::format(" feed {} offset {} tool {} in '{}'", move.feed_mm_min, move.offset, move.tool,
+                            program.operations[move.operation]);
 }
 
 std::vector<std::string> said(const Program& program) {

@@ -127,14 +127,14 @@ struct Move {
   Vector3 end_mm = Vector3::Zero();
   Rare<ArcMove> arc;
   Rare<CycleMove> cycle;
-  Rare<Vector6> force;               ///< modal (FORCE ...) comment, (N, N m) on the tool, machine frame; zero
+  Rare<Vector6> force;               ///< modal (FORCE ...) comment, (N, N m) on the tool, machine frame; none
                                      ///< after (FORCE OFF); a comment acts from the block that holds it
   double feed_mm_min = 0;            ///< modal F; 0 where none has been programmed
   double feed_per_min = 0;           ///< F of a G93 move: 1/min
   double spindle_rpm = 0;            ///< modal S
   std::optional<long> block_number;  ///< N
   std::size_t offset = 0;            ///< index into Program::work_offsets
-  std::int32_t tool = 0;             ///< T in the spindle; 0: none known
+  std::int32_t tool = 0;             ///< T in the spindle, else H of G43; 0: none known
   std::uint32_t operation = 0;       ///< index into Program::operations
   Motion motion = Motion::rapid;
   LengthUnit unit = LengthUnit::millimetres;
