@@ -94,6 +94,10 @@ ToolLengths read_tool_lengths(const Options& options, const Machine* machine) {
   return tools;
 }
 
+void take_lengths(const ToolLengths& lengths, Machine& machine) {
+  for (const auto& [number, length_mm] : lengths.mm) machine.tools[number].length = length_mm * mm;
+}
+
 ReadOptions read_options(const Options& options, const Machine* machine, const ToolLengths& tools) {
   ReadOptions read;
   if (machine != nullptr) read.dialect = machine->control.dialect;

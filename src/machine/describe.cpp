@@ -35,6 +35,11 @@ std::string tool_phrase(const Machine& machine) {
                                    : "tip at " + phrase(machine.X_PT) + " from the platform";
 }
 
+std::string spindle_phrase(const Pose& X_PS) {
+  return is_identity(X_PS) ? "gauge line of tools' lengths at the reference point"
+                           : "gauge line of tools' lengths at " + phrase(X_PS) + " from the platform";
+}
+
 bool is_length_alone(const Tool& tool) {
   return tool.length && !tool.diameter && !tool.stickout && tool.yields.empty();
 }
@@ -73,7 +78,7 @@ void describe_settings(const Machine& machine, std::string& text) {
   line("controlled", controlled_phrase(machine));
   line("home", home_phrase(machine));
   line("tool", tool_phrase(machine));
-  if (machine.X_PS) line("spindle", "gauge line at " + phrase(*machine.X_PS) + " from the platform");
+  if (machine.X_PS) line("spindle", spindle_phrase(*machine.X_PS));
   if (const std::string lengths = lengths_phrase(machine); !lengths.empty()) line("tools", lengths);
   for (const auto& [number, tool] : machine.tools)
     if (!is_length_alone(tool)) line(fmt::format("tool T{}", number), tool_phrase(tool));

@@ -135,7 +135,7 @@ TEST_CASE("a description says where a tool's stiffness is from, of a default too
       describe(machine_with("[spindle]\nxyz_mm = [0, 0, -60]\n[tools.T1]\nlength_mm = "
                             "50\n[tools.T3]\nlength_mm = 60\ndiameter_mm = "
                             "10\nstickout_mm = 25\n[tools.T4]\nholder_N_per_um = 12.34\n"));
-  CHECK(text.find("spindle      gauge line at xyz 0 0 -60 mm from the platform\n") != std::string::npos);
+  CHECK(text.find("spindle      gauge line of tools' lengths at xyz 0 0 -60 mm from the platform\n") != std::string::npos);
   CHECK(text.find("tools        T1 50 mm long\n") != std::string::npos);
   CHECK(text.find("tool T3      60 mm long, 10 mm diameter, 25 mm sticking out, stiffness from a carbide "
                   "cantilever of 0.8 diameter core, 25 mm long: 23.2 N/um at its tip\n") !=
