@@ -7,7 +7,7 @@ _counterflex_words() {
   case $1 in
     compensate) echo "$program $forces --output --report --min-block-ms --json --quiet --verbose --help" ;;
     predict | verify) echo "$program $forces --report --min-block-ms --json --quiet --verbose --help" ;;
-    analyze) echo "--machine --at --force --method --json --quiet --verbose --help" ;;
+    analyze) echo "--machine --at --tool --force --method --json --quiet --verbose --help" ;;
     check) echo "$reading --json --quiet --verbose --help" ;;
     *) echo "compensate predict verify analyze check --version --help" ;;
   esac

@@ -1,7 +1,10 @@
 #include <fmt/format.h>
 
 #include "commands.hpp"
+#include "counterflex/files/numbers.hpp"
+#include "counterflex/machine/tool.hpp"
 #include "counterflex/report/analysis.hpp"
+#include "counterflex/statics/tool_models.hpp"
 #include "inputs.hpp"
 #include "outputs.hpp"
 #include "values.hpp"
@@ -55,6 +58,21 @@ Exit judge(const AnalysisReport& report, const std::vector<Pose>& asked, const O
   return exit;
 }
 
+/// Throws (Exit::usage) naming the tools that there are.
+const Tool& tool_named(const std::string& text, const Machine& machine) {
+  std::string_view digits = text;
+  if (digits.starts_with('T') || digits.starts_with('t')) digits.remove_prefix(1);
+  const auto number = read_number(digits);
+  const auto found = number ? machine.tools.find(static_cast<long>(*number)) : machine.tools.end();
+  if (found != machine.tools.end() && static_cast<double>(found->first) == *number) return found->second;
+  std::string known;
+  for (const auto& [tool, unused] : machine.tools)
+    known += fmt::format("{}T{}", known.empty() ? "" : ", ", tool);
+  throw InputError(Exit::usage, {},
+                   fmt::format("--tool {}: the machine file has no such tool; it has {}", text,
+                               known.empty() ? "none" : known));
+}
+
 }  // namespace
 
 Exit run_analyze(const Options& options, Console& console) {
@@ -62,8 +80,12 @@ Exit run_analyze(const Options& options, Console& console) {
   const MachineInput input = read_machine_input(options);
   const Load load{options.force.value_or(Vector6::Zero()), false};
   console.progress("solving");
-  const std::vector<Pose> asked = wanted_poses(options, input.model);
-  const AnalysisReport report = analyze(input.model, asked, load, options.method, version);
+  const Tool* tool = options.tool ? &tool_named(*options.tool, input.machine) : nullptr;
+  const Model with_tool = tool ? prepare_with_tool(input.machine, input.model, *tool) : Model{};
+  const Model& model = tool ? with_tool : input.model;
+  const std::vector<Pose> asked = wanted_poses(options, model);
+  AnalysisReport report = analyze(model, asked, load, options.method, version);
+  if (tool) report.tool = fmt::format("tool {}: {}", *options.tool, stiffness_phrase(*tool));
   write_result(options.json ? to_json(report) : to_text(report));
   return judge(report, asked, options, console);
 }

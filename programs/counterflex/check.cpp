@@ -32,7 +32,10 @@ std::string row(std::string_view what, std::string_view said) {
 
 Exit run_check(const Options& options, Console& console) {
   std::optional<MachineInput> machine;
-  if (!options.machine.empty()) machine = read_machine_input(options);
+  if (!options.machine.empty()) {
+    machine = read_machine_input(options);
+    take_lengths(read_tool_lengths(options, &machine->machine), machine->machine);
+  }
   nlohmann::ordered_json files = nlohmann::ordered_json::array();
   Exit exit = Exit::done;
   std::string text;

@@ -8,6 +8,7 @@
 #include "counterflex/geometry/units.hpp"
 #include "counterflex/machine/describe.hpp"
 #include "counterflex/machine/read_machine.hpp"
+#include "counterflex/machine/tool.hpp"
 #include "counterflex/statics/chain.hpp"
 
 namespace counterflex::cli {
@@ -157,6 +158,17 @@ nlohmann::ordered_json chains_json(const Machine& machine, const HomeFacts& home
   return list;
 }
 
+nlohmann::ordered_json tools_json(const Machine& machine) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const auto& [number, tool] : machine.tools) {
+    nlohmann::ordered_json row{{"number", number}, {"stiffness", stiffness_phrase(tool)}};
+    if (tool.length) row["length_mm"] = rounded(*tool.length / mm, 9);
+    if (!tool.yields.empty()) row["radial_N_per_um"] = rounded(radial_stiffness(tool) * 1e-6, 9);
+    list.push_back(std::move(row));
+  }
+  return list;
+}
+
 nlohmann::ordered_json json_of(const Vector3& v, double unit) {
   return {v.x() / unit, v.y() / unit, v.z() / unit};
 }
@@ -199,6 +211,7 @@ Checked check_machine(const std::string& path, const Options&) {
                   {"actuators", actuators_json(model, home)},
                   {"home", home_json(model, home)},
                   {"notes", notes}};
+  if (!machine.tools.empty()) checked.json["tools"] = tools_json(machine);
   return checked;
 }
 

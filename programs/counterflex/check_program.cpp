@@ -167,15 +167,19 @@ std::optional<Failure> go_to(NominalPath& nominal, const Model& model, const Pos
 }
 
 /// The first place, end of a line or on an arc, that the nominal machine does not reach.
-std::optional<Failure> first_unreached(const Model& model, const std::vector<WorkFrame>& frames,
-                                       ProgramReader reader) {
-  const Matrix3 R_home = tip(model.mechanism, model.home).R;
-  NominalPath nominal(model, model.home);
+std::optional<Failure> first_unreached(const Model& base, const ToolModels& tools,
+                                       const std::vector<WorkFrame>& frames, ProgramReader reader) {
+  const Model* last = &base;
+  std::optional<NominalPath> nominal(std::in_place, base, base.home);
   while (reader.next())
     for (const Segment& segment : build_toolpath(reader.window(), frames).segments) {
+      const Model& model = model_with(base, &tools, reader.window().moves[segment.move].tool);
+      const Matrix3 R_home = tip(model.mechanism, model.home).R;
+      if (&model != last) nominal.emplace(model, model.home);
+      last = &model;
       const std::vector<Vector3> points = points_along(segment.wanted);
       for (std::size_t i = 1; i < points.size(); ++i)
-        if (const auto failure = go_to(nominal, model, {R_home, points[i]}, segment.line)) return failure;
+        if (const auto failure = go_to(*nominal, model, {R_home, points[i]}, segment.line)) return failure;
     }
   return std::nullopt;
 }
@@ -184,7 +188,8 @@ void check_reach(const Overview& program, ProgramReader reader, const MachineInp
                  Console& console) {
   const WorkPlace work = place_work(input.machine, input.model, shown_name(input.file.path), program);
   if (!work.assumption.empty()) console.warning(program.file, 0, work.assumption);
-  const auto failure = first_unreached(input.model, work.frames, std::move(reader));
+  const ToolModels tools = prepare_tools(input.machine, input.model, program.tools);
+  const auto failure = first_unreached(input.model, tools, work.frames, std::move(reader));
   checked.json["reached"] = !failure;
   if (!failure) {
     checked.text +=

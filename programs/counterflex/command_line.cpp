@@ -173,6 +173,8 @@ void add_analyze(CLI::App& app, Options& options) {
       ->type_name("X,Y,Z[,R,P,Y]")
       ->allow_extra_args(false)
       ->required();
+  value_option(command, "--tool", "T3", "The tool of the machine file in the spindle; [tool], rigid",
+               [&](const std::string& text) { options.tool = text; });
   add_force(command, options);
   add_method(command, options);
   add_output(command, options);

@@ -87,9 +87,15 @@ ToolLengths read_tool_lengths(const Options& options, const Machine* machine) {
     tools.file = input_file("tool-table", *options.tool_table, text);
     lengths = read_tool_table(text, shown_name(*options.tool_table));
   }
-  if (machine != nullptr) lengths.insert(machine->tool_lengths.begin(), machine->tool_lengths.end());
+  if (machine != nullptr)
+    for (const auto& [number, tool] : machine->tools)
+      if (tool.length) lengths.emplace(number, *tool.length);
   for (const auto& [tool, length] : lengths) tools.mm[tool] = length / mm;
   return tools;
+}
+
+void take_lengths(const ToolLengths& lengths, Machine& machine) {
+  for (const auto& [number, length_mm] : lengths.mm) machine.tools[number].length = length_mm * mm;
 }
 
 ReadOptions read_options(const Options& options, const Machine* machine, const ToolLengths& tools) {

@@ -39,6 +39,9 @@ struct ToolLengths {
 };
 ToolLengths read_tool_lengths(const Options& options, const Machine* machine);
 
+/// Gives the tools of `machine` the lengths of a tool table, which go before its own.
+void take_lengths(const ToolLengths& lengths, Machine& machine);
+
 /// How `options`, and `machine` where they are silent, say that programs are read.
 ReadOptions read_options(const Options& options, const Machine* machine, const ToolLengths& tools);
 

@@ -32,6 +32,7 @@ struct Options {
   std::vector<std::string> work;          ///< "G54=X,Y,Z[,RX,RY,RZ]"
   std::optional<std::string> tool_table;  ///< a file
   std::vector<std::string> at;            ///< "X,Y,Z[,R,P,Y]"
+  std::optional<std::string> tool;        ///< "T3"
 
   Method method = Method::direct;
   double tolerance = 5e-6;               ///< m

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "counterflex/geometry/units.hpp"
+#include "counterflex/machine/tool.hpp"
 #include "counterflex/report/formats.hpp"
 #include "facts.hpp"
 
@@ -73,6 +74,21 @@ void warn_of_cycles(Run& run) {
       {*run.program.first_cycle_line, "holes of cycles are corrected without the cutting force"});
 }
 
+/// Stiffness that nobody has given, and tools that the file does not know beside those that it does.
+void warn_of_tools(Run& run) {
+  const Machine& machine = run.machine.machine;
+  if (run.tool_models.empty()) return;
+  for (const long number : run.program.tools) {
+    const auto found = machine.tools.find(number);
+    const bool known = found != machine.tools.end();
+    if (known && found->second.from == ToolStiffness::cantilever)
+      run.facts.warnings.push_back({0, fmt::format("tool T{}: {}", number, stiffness_phrase(found->second))});
+    if (!known && number > 0)
+      run.facts.warnings.push_back(
+          {0, fmt::format("tool T{} is not in [tools]: its moves use [tool], rigid", number)});
+  }
+}
+
 void warn_of_run(Run& run, Console& console) {
   const Overview& program = run.program;
   warn_of(program, console);
@@ -114,7 +130,7 @@ void check_cover(Run& run) {
 }  // namespace
 
 RunInput Run::input() const {
-  return {machine.model, work.frames, ignored, force_input.source, options, read};
+  return {machine.model, work.frames, ignored, force_input.source, options, read, &tool_models};
 }
 
 RunContext Run::context() const {
@@ -126,12 +142,14 @@ std::unique_ptr<Run> prepare_run(const Options& options, Console& console) {
   console.progress("reading");
   MachineInput machine = read_machine_input(options);
   ToolLengths tools = read_tool_lengths(options, &machine.machine);
+  take_lengths(tools, machine.machine);
   auto run = std::make_unique<Run>(
       Run{.machine = std::move(machine), .file = open_program("program", options.program)});
   run->tools = std::move(tools);
   const Machine& on = run->machine.machine;
   run->read = read_options(options, &on, run->tools);
   look_through(options, *run);
+  run->tool_models = prepare_tools(on, run->machine.model, run->program.tools);
   run->force_input = read_force_input(options, run->program);
   run->work = place_work(on, run->machine.model, shown_name(options.machine), run->program);
   run->ignored = uncontrolled_axes(on, run->work.frames);
@@ -139,6 +157,7 @@ std::unique_ptr<Run> prepare_run(const Options& options, Console& console) {
   run->options = compensation_options(options, on);
   run->facts = facts_of(options, *run);
   warn_of_orientation(*run);
+  warn_of_tools(*run);
   warn_of_cycles(*run);
   warn_of_run(*run, console);
   return run;

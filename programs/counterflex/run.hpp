@@ -25,6 +25,7 @@ struct Run {
   CompensationOptions options;
   ReadOptions read;  ///< with which the program is read
   RunFacts facts;
+  ToolModels tool_models;  ///< of the program's tools
 
   RunInput input() const;
   RunContext context() const;

@@ -92,7 +92,7 @@ struct Compensator::State {
   TextReader corrected;
   bool attribution;
   EmitterState emitter{};
-  std::optional<Configuration> nominal{};  ///< where the window before ended; none: home
+  std::optional<NominalPlace> nominal{};  ///< where the window before ended; none: home
   std::optional<Vector3> command{};
 
   std::optional<Failure> plan_and_write(const Job& job, const NominalTrack& track, Emission& emission,
@@ -123,7 +123,7 @@ struct Compensator::State {
 
   std::optional<Failure> next(const Job& job, Compensation& result) {
     if (auto failure = decimals_failure(job.program, job.path, job.options)) return failure;
-    const NominalTrack path = track(job, nominal.value_or(job.model.home));
+    const NominalTrack path = track(job, nominal.value_or(home_of(job.model)));
     if (path.failure) return path.failure;
     nominal = path.end;
     Emission emission;

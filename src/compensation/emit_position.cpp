@@ -13,8 +13,8 @@ constexpr std::size_t look_ahead = 64;  // blocks
 
 // The correction at a wanted position without cutting force; the emission fails where there is none.
 std::optional<Vector3> Emitter::solve_position(const Vector3& wanted, const Move& move) {
-  if (!solver_) solver_.emplace(job_, job_.model.home);
-  const TargetSolution solution = solver_->target(wanted, {});
+  const Model& model = model_with(job_.model, job_.tools, move.tool);
+  const TargetSolution solution = solvers_.of(model, model.home).target(wanted, {});
   if (solution.status != Status::converged) {
     out_.failure = status_failure(solution.status, move.line);
     return std::nullopt;

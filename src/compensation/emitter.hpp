@@ -11,7 +11,8 @@ inline constexpr double emitted_jump_share = 0.1;  // of the tolerance
 
 class Emitter {
  public:
-  Emitter(const Job& job, const Plan& plan, EmitterState& state) : job_(job), plan_(plan), state_(state) {}
+  Emitter(const Job& job, const Plan& plan, EmitterState& state)
+      : job_(job), plan_(plan), state_(state), solvers_(job) {}
 
   Emission run();
 
@@ -84,7 +85,7 @@ class Emitter {
   EmitterState& state_;
   std::optional<std::size_t> held_for_;  // the move in whose coordinates the held position is
   HeldPosition piece_held_{};            // where the pieces of the move that is being fitted have come
-  std::optional<PathSolver> solver_;
+  ToolSolver solvers_;
 };
 
 }  // namespace counterflex

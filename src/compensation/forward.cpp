@@ -16,8 +16,8 @@ constexpr double quiet_share =
 // Solves the pieces of one chunk forward, one after another.
 class ForwardSolver {
  public:
-  ForwardSolver(const Job& job, const Questions& questions, const Configuration& start)
-      : job_(job), questions_(questions), solver_(job, start) {}
+  ForwardSolver(const Job& job, const Questions& questions, const NominalTrack& track)
+      : job_(job), questions_(questions), track_(track), solvers_(job) {}
 
   // `begins_anew`: the command jumped there, so that no piece before has been judged at its start.
   bool solve(const Piece& piece, bool begins_anew, ForwardRun& out) {
@@ -25,6 +25,7 @@ class ForwardSolver {
     if (piece.segment == no_segment)
       position_ = {.line = piece.line, .frame = piece.frame, .wanted = {piece.wanted, piece.wanted, {}}};
     segment_ = piece.segment == no_segment ? &position_ : &job_.path.segments[piece.segment];
+    take_model();
     if (questions_.inside && !piece.end_only) {
       const int count = samples();
       // Without a blend the force may begin with a step, which no end of a piece before sees either.
@@ -37,6 +38,14 @@ class ForwardSolver {
   }
 
  private:
+  void take_model() {
+    const bool position = piece_->segment == no_segment;
+    const Model& model =
+        position ? model_with(job_.model, job_.tools, piece_->tool) : model_of(job_, *segment_);
+    if (!solvers_.is_of(model))
+      solver_ = &solvers_.of(model, position ? model.home : track_.start_before(piece_->segment));
+  }
+
   // A piece along which the correction hardly changes is sampled once.
   int samples() const {
     const auto correction = [this](double v) {
@@ -53,7 +62,7 @@ class ForwardSolver {
 
   // Deviation of the tip from the wanted pose for a command; false with a failure where it is not solved.
   bool deviate(const Vector3& target, const Load& load, const Stage& stage, Start start, Vector6& result) {
-    const ActualSolution actual = solver_.actual(target, load, stage, start);
+    const ActualSolution actual = solver_->actual(target, load, stage, start);
     iterations_ += actual.iterations;
     status_ = actual.status;
     if (actual.status == Status::converged) result = deviation(actual.X_MT, wanted_);
@@ -83,13 +92,13 @@ class ForwardSolver {
                                  job_.forces.at_platform()};
     describe(u, between, share, load, w);
     iterations_ = 0;
-    wanted_ = solver_.wanted(w.p_MT, status_);
+    wanted_ = solver_->wanted(w.p_MT, status_);
     const Vector3 original = w.p_MT - job_.path.frames[segment_->frame].datum_shift;
     // What is written is proven from the nominal configuration on; samples between its ends begin at their
     // neighbour.
     const Start start = between ? Start::neighbour : Start::nominal;
     bool solved = status_ == Status::converged && deviate(emitted, load, {}, start, w.after);
-    if (solved && !solver_.in_travel()) {
+    if (solved && !solver_->in_travel()) {
       status_ = Status::outside_travel;
       solved = false;
     }
@@ -114,13 +123,15 @@ class ForwardSolver {
     w.weight = segment_->cutting ? share * (piece_->u1 - piece_->u0) * length(segment_->wanted) : 0;
     w.s = segment_->s_start + u * (segment_->s_end - segment_->s_start);
     w.direction = direction_at(segment_->wanted, u);
-    w.tool_axis = tip(job_.model.mechanism, solver_.nominal()).R.col(2);
+    w.tool_axis = tip(solver_->model().mechanism, solver_->nominal()).R.col(2);
     w.wrench = load.F;
   }
 
   const Job& job_;
   const Questions& questions_;
-  PathSolver solver_;
+  const NominalTrack& track_;
+  ToolSolver solvers_;
+  PathSolver* solver_ = nullptr;
   const Piece* piece_ = nullptr;
   Segment position_;  // stands for a segment where there is none
   const Segment* segment_ = nullptr;
@@ -135,10 +146,7 @@ ForwardRun solve_forward_from(const Job& job, const NominalTrack& nominal, std::
                               const Questions& questions, const std::optional<Vector3>& command) {
   std::vector<ForwardRun> runs(chunk_count(pieces.size()));
   for_each_chunk(pieces.size(), job.options.threads, [&](const Chunk& chunk) {
-    const std::size_t segment = pieces[chunk.begin].segment;
-    const Configuration& start =
-        segment == no_segment ? job.model.home : nominal.starts[segment / chunk_size];
-    ForwardSolver solver(job, questions, start);
+    ForwardSolver solver(job, questions, nominal);
     for (std::size_t i = chunk.begin; i < chunk.end; ++i) {
       const std::optional<Vector3> last = i == 0 ? command : pieces[i - 1].commanded.end;
       const bool begins_anew = last != pieces[i].commanded.start;
@@ -157,7 +165,7 @@ ForwardRun solve_forward_from(const Job& job, const NominalTrack& nominal, std::
 
 ForwardRun solve_forward_along(const Job& job, const std::vector<Piece>& pieces, const Questions& questions,
                                ForwardState& state) {
-  const NominalTrack nominal = track(job, state.nominal.value_or(job.model.home));
+  const NominalTrack nominal = track(job, state.nominal.value_or(home_of(job.model)));
   if (nominal.failure) return {{}, nominal.failure};
   ForwardRun run = solve_forward_from(job, nominal, pieces, questions, state.command);
   state.nominal = nominal.end;
@@ -172,7 +180,7 @@ ForwardRun solve_forward_along(const Job& job, const std::vector<Piece>& pieces,
 
 std::optional<Failure> solve_forward_in_portions(const Job& job, const std::vector<Piece>& pieces,
                                                  const Questions& questions, const TakeWaypoints& take) {
-  const NominalTrack nominal = track(job, job.model.home);
+  const NominalTrack nominal = track(job, home_of(job.model));
   if (nominal.failure) return nominal.failure;
   std::optional<Vector3> command;
   const std::span<const Piece> all(pieces);

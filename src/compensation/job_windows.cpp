@@ -7,8 +7,8 @@ namespace counterflex {
 struct JobWindows::State {
   const RunInput input;
   ProgramReader& reader;
-  Configuration nominal{};  ///< where the window before ended
-  ForceTail tail{};         ///< of the window before
+  NominalPlace nominal{};  ///< where the window before ended
+  ForceTail tail{};        ///< of the window before
   PathEnd start{};
   Toolpath path{};
   std::optional<PathForces> forces{};
@@ -16,8 +16,8 @@ struct JobWindows::State {
   void build() {
     ignore_axes(reader.window(), input.ignored);
     path = build_toolpath(reader.window(), input.frames, start);
-    Configuration at_end = nominal;
-    const std::vector<Matrix3> R_MT = tool_orientations(input.model, path, input.source, at_end);
+    NominalPlace at_end = nominal;
+    const std::vector<Matrix3> R_MT = tool_orientations(input, reader.window(), path, at_end);
     forces.emplace(input.source, reader.window(), path, R_MT, tail);
     end_of_window = std::move(at_end);
   }
@@ -34,11 +34,11 @@ struct JobWindows::State {
     return true;
   }
 
-  Configuration end_of_window{};
+  NominalPlace end_of_window{};
 };
 
 JobWindows::JobWindows(const RunInput& input, ProgramReader& reader)
-    : state_(new State{input, reader, input.model.home}) {}
+    : state_(new State{input, reader, home_of(input.model)}) {}
 
 JobWindows::~JobWindows() = default;
 
@@ -48,7 +48,7 @@ bool JobWindows::next() {
 
 Job JobWindows::job() const {
   const State& s = *state_;
-  return {s.input.model, s.reader.window(), s.path, *s.forces, s.input.options, s.input.read};
+  return {s.input.model, s.reader.window(), s.path, *s.forces, s.input.options, s.input.read, s.input.tools};
 }
 
 }  // namespace counterflex

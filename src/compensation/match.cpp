@@ -147,7 +147,8 @@ class Matcher {
                          .wanted = wanted_of(job_, original),
                          .end_only = true,
                          .exempt_end = !is_own(original) || !original.may_insert_words ||
-                                       (skipped_ && original.motion == Motion::feed)});
+                                       (skipped_ && original.motion == Motion::feed),
+                         .tool = original.tool});
     skipped_ = makes_doubtful(original) || (skipped_ && !known);
   }
 
@@ -165,7 +166,8 @@ class Matcher {
                        .commanded = {bottom, bottom, {}},
                        .wanted = wanted_frame(frame) * (bottom_of(original) * mm),
                        .end_only = true,
-                       .exempt_end = !is_own(original) || !takes_z});
+                       .exempt_end = !is_own(original) || !takes_z,
+                       .tool = original.tool});
   }
 
   Vector3 position(std::size_t j) const { return target_of(job_, corrected_.moves[j]); }

@@ -144,9 +144,10 @@ bool is_settled(const Job& job, const Piece& piece) {
 }  // namespace
 
 std::optional<Vector3> ExpectedTargets::at(std::size_t segment, double u, Side side) {
-  if (!solver_) solver_.emplace(job_, job_.model.home);
+  const Model& model = model_of(job_, job_.path.segments[segment]);
   const Load load{job_.forces.at(segment, u, side), job_.forces.at_platform()};
-  const TargetSolution found = solver_->target(point_at(job_.path.segments[segment].wanted, u), load);
+  const TargetSolution found =
+      solvers_.of(model, model.home).target(point_at(job_.path.segments[segment].wanted, u), load);
   if (found.status != Status::converged) return std::nullopt;
   return found.target;
 }

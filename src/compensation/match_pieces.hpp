@@ -9,7 +9,7 @@ namespace counterflex {
 /// for.
 class ExpectedTargets {
  public:
-  explicit ExpectedTargets(const Job& job) : job_(job) {}
+  explicit ExpectedTargets(const Job& job) : job_(job), solvers_(job) {}
 
   /// The target (M, m) at fraction `u` of a segment, with the force on that side of a step; nothing where
   /// there is none.
@@ -17,7 +17,7 @@ class ExpectedTargets {
 
  private:
   const Job& job_;
-  std::optional<PathSolver> solver_;
+  ToolSolver solvers_;
 };
 
 /// The moves of the corrected program that belong to one of the original.

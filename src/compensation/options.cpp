@@ -14,4 +14,14 @@ std::string_view to_string(Method method) {
   return "";
 }
 
+const Model& model_with(const Model& model, const ToolModels* tools, long tool) {
+  if (tools == nullptr) return model;
+  const auto found = tools->find(tool);
+  return found == tools->end() ? model : found->second;
+}
+
+const Model& model_of(const Job& job, const Segment& segment) {
+  return model_with(job.model, job.tools, job.program.moves[segment.move].tool);
+}
+
 }  // namespace counterflex

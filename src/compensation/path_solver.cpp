@@ -40,26 +40,32 @@ Load load_at(const Job& job, std::size_t segment, double fraction) {
   return {job.forces.at(segment, fraction), job.forces.at_platform()};
 }
 
-PathSolver::PathSolver(const Job& job, Configuration start)
+PathSolver::PathSolver(const Job& job, const Model& model, Configuration start)
     : job_(job),
-      R_MT_home_(tip(job.model.mechanism, job.model.home).R),
-      work_(job.model.mechanism),
-      nominal_(job.model, std::move(start)),
-      writes_all_controlled_(controls_only_positions(job.model.mechanism)) {}
+      model_(model),
+      R_MT_home_(tip(model.mechanism, model.home).R),
+      work_(model.mechanism),
+      nominal_(model, std::move(start)),
+      writes_all_controlled_(controls_only_positions(model.mechanism)) {}
+
+PathSolver& ToolSolver::of(const Model& model, const Configuration& start) {
+  if (!is_of(model)) solver_.emplace(job_, model, start);
+  return *solver_;
+}
 
 Status PathSolver::go_to(const Vector3& p_MT) {
   return nominal_.go_to({R_MT_home_, p_MT});
 }
 
 Status PathSolver::travel_status() const {
-  const Mechanism& mechanism = job_.model.mechanism;
+  const Mechanism& mechanism = model_.mechanism;
   return within_travel(mechanism, actuator_values(mechanism, nominal())) ? Status::converged
                                                                          : Status::outside_travel;
 }
 
 Pose PathSolver::wanted(const Vector3& p_MT, Status& status) {
   status = go_to(p_MT);
-  return tip(job_.model.mechanism, nominal());
+  return tip(model_.mechanism, nominal());
 }
 
 // A warm start may fail where a cold one does not; the continuation decides.
@@ -67,14 +73,14 @@ Equilibrium PathSolver::forward(const Load& load, const Stage& stage, Start from
   const bool warm = from == Start::neighbour && loaded_ && everything_acts(stage);
   if (warm) {
     Configuration start = neighbour(*loaded_, nominal());
-    set_actuator_values(job_.model.mechanism, actuator_values(job_.model.mechanism, nominal()), start);
-    Equilibrium refined = refine_forward(job_.model, start, load, stage, work_);
+    set_actuator_values(model_.mechanism, actuator_values(model_.mechanism, nominal()), start);
+    Equilibrium refined = refine_forward(model_, start, load, stage, work_);
     if (refined.status == Status::converged) {
       loaded_ = refined.configuration;
       return refined;
     }
   }
-  Equilibrium solved = solve_forward(job_.model, nominal(), load, stage, work_);
+  Equilibrium solved = solve_forward(model_, nominal(), load, stage, work_);
   if (solved.status == Status::converged && everything_acts(stage)) loaded_ = solved.configuration;
   return solved;
 }
@@ -86,7 +92,7 @@ ActualSolution PathSolver::actual(const Vector3& target, const Load& load, const
   const Equilibrium solved = forward(load, stage, start);
   result.status = solved.status;
   result.iterations = solved.iterations;
-  result.X_MT = tip(job_.model.mechanism, solved.configuration);
+  result.X_MT = tip(model_.mechanism, solved.configuration);
   return result;
 }
 
@@ -112,42 +118,41 @@ TargetSolution PathSolver::by_outer_iteration(const Vector3& p_MT, const Load& l
 }
 
 TargetSolution PathSolver::by_method(const Vector3& p_MT, const Load& load) {
-  const Model& model = job_.model;
-  const Pose X_MT{tip(model.mechanism, nominal()).R, p_MT};
+  const Pose X_MT{tip(model_.mechanism, nominal()).R, p_MT};
   Equilibrium solved;
   if (job_.options.method == Method::nested) {
-    solved = solve_target_nested(model, nominal(), X_MT, load, {}, work_);
+    solved = solve_target_nested(model_, nominal(), X_MT, load, {}, work_);
   } else {
-    if (loaded_) solved = refine_target(model, neighbour(*loaded_, nominal()), X_MT, load, {}, work_);
-    if (solved.status != Status::converged) solved = solve_target(model, nominal(), X_MT, load, {}, work_);
+    if (loaded_) solved = refine_target(model_, neighbour(*loaded_, nominal()), X_MT, load, {}, work_);
+    if (solved.status != Status::converged) solved = solve_target(model_, nominal(), X_MT, load, {}, work_);
   }
   TargetSolution result{solved.status, p_MT, solved.iterations};
   if (solved.status != Status::converged) return result;
   if (job_.options.method == Method::direct) loaded_ = solved.configuration;
-  const Eigen::VectorXd rho = actuator_values(model.mechanism, solved.configuration);
-  const NominalResult commanded = nominal_forward(model, nominal(), rho);
+  const Eigen::VectorXd rho = actuator_values(model_.mechanism, solved.configuration);
+  const NominalResult commanded = nominal_forward(model_, nominal(), rho);
   result.status = commanded.status;
-  result.target = tip(model.mechanism, commanded.configuration).p;
+  result.target = tip(model_.mechanism, commanded.configuration).p;
   for (int c = 0; c < 3; ++c)  // what is not controlled is not written
-    if (std::count(model.mechanism.controlled.begin(), model.mechanism.controlled.end(), Component{c}) == 0)
+    if (std::count(model_.mechanism.controlled.begin(), model_.mechanism.controlled.end(), Component{c}) == 0)
       result.target[c] = p_MT[c];
-  if (result.status == Status::converged && !within_travel(model.mechanism, rho))
+  if (result.status == Status::converged && !within_travel(model_.mechanism, rho))
     result.status = Status::outside_travel;
   return result;
 }
 
 TargetSolution PathSolver::by_linear_theory(const Vector3& p_MT, const Load& load) {
-  const LinearResult linear = linear_deviation(job_.model, nominal(), load, {}, work_);
+  const LinearResult linear = linear_deviation(model_, nominal(), load, {}, work_);
   if (linear.status != Status::converged) return {linear.status, p_MT, 1};
-  const Pose X_MT{tip(job_.model.mechanism, nominal()).R, p_MT};
-  TargetSolution result{Status::converged, linear_target(job_.model, X_MT, linear).p, 1};
+  const Pose X_MT{tip(model_.mechanism, nominal()).R, p_MT};
+  TargetSolution result{Status::converged, linear_target(model_, X_MT, linear).p, 1};
   result.status = go_to(result.target);
   if (result.status == Status::converged) result.status = travel_status();
   return result;
 }
 
 bool PathSolver::in_travel() const {
-  return within_travel(job_.model.mechanism, actuator_values(job_.model.mechanism, nominal()));
+  return within_travel(model_.mechanism, actuator_values(model_.mechanism, nominal()));
 }
 
 TargetSolution PathSolver::target(const Vector3& p_MT, const Load& load) {

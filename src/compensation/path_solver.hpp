@@ -27,8 +27,8 @@ enum class Start { neighbour, nominal };
 
 class PathSolver {
  public:
-  /// `start`: a nominal configuration on the branch, near the first waypoint.
-  PathSolver(const Job& job, Configuration start);
+  /// `start`: a nominal configuration of `model` on the branch, near the first waypoint.
+  PathSolver(const Job& job, const Model& model, Configuration start);
 
   /// The wanted pose of the tip at a position: its controlled orientation is home's, uncontrolled components
   /// are those of nominal kinematics. Sets `status` where there is none.
@@ -41,6 +41,7 @@ class PathSolver {
   /// Whether the actuators of the last command are in their ranges.
   bool in_travel() const;
 
+  const Model& model() const { return model_; }
   const Configuration& nominal() const { return nominal_.configuration(); }
 
  private:
@@ -52,11 +53,28 @@ class PathSolver {
   TargetSolution by_method(const Vector3& p_MT, const Load& load);
 
   const Job& job_;
+  const Model& model_;
   Matrix3 R_MT_home_;
   StaticsWork work_;
   NominalPath nominal_;
   std::optional<Configuration> loaded_;  ///< last solution with everything acting
   bool writes_all_controlled_;           ///< the program can state every component that the machine controls
+};
+
+/// A solver along moves that need different tools.
+class ToolSolver {
+ public:
+  explicit ToolSolver(const Job& job) : job_(job) {}
+
+  /// Whether the last solver is one of `model`.
+  bool is_of(const Model& model) const { return solver_ && &solver_->model() == &model; }
+
+  /// The last solver if it is one of `model`; else a new one, which begins at `start`.
+  PathSolver& of(const Model& model, const Configuration& start);
+
+ private:
+  const Job& job_;
+  std::optional<PathSolver> solver_;
 };
 
 /// The load at a place of the path.

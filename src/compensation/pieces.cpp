@@ -71,7 +71,8 @@ class PieceReader {
                       .commanded = {bottom, bottom, {}},
                       .wanted = wanted_frame(frame) * (bottom_of(original) * mm),
                       .end_only = true,
-                      .exempt_end = move.exempt_end});
+                      .exempt_end = move.exempt_end,
+                      .tool = original.tool});
   }
 
   // A single position: the next `count` moves end at it.
@@ -84,7 +85,8 @@ class PieceReader {
                       .commanded = {here(), here(), {}},
                       .wanted = wanted_of(job_, original),
                       .end_only = true,
-                      .exempt_end = move.exempt_end});
+                      .exempt_end = move.exempt_end,
+                      .tool = original.tool});
   }
 
   void skip(std::size_t count) { next_ += count; }

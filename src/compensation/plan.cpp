@@ -27,11 +27,12 @@ constexpr double gain_margin = 1.01;
 // Plans the segments of one chunk, one after another.
 class ChunkPlanner {
  public:
-  ChunkPlanner(const Job& job, const Configuration& start) : job_(job), solver_(job, start) {}
+  ChunkPlanner(const Job& job, const NominalTrack& track) : job_(job), track_(track), solvers_(job) {}
 
   std::optional<Failure> plan(std::size_t index, PlannedSegment& planned) {
     index_ = index;
     segment_ = &job_.path.segments[index];
+    take_model();
     failure_.reset();
     const bool done = plan_by_handling(planned);
     if (!done && !failure_) failure_ = status_failure(Status::not_converged, segment_->line);
@@ -39,6 +40,13 @@ class ChunkPlanner {
   }
 
  private:
+  void take_model() {
+    const Model& model = model_of(job_, *segment_);
+    if (solvers_.is_of(model)) return;
+    solver_ = &solvers_.of(model, track_.start_before(index_));
+    gain_ = 0;
+  }
+
   // Cycles are solved at their bottom when they are written; what is held needs no solution.
   bool plan_by_handling(PlannedSegment& planned) {
     const Move& move = job_.program.moves[segment_->move];
@@ -61,7 +69,7 @@ class ChunkPlanner {
   bool solve(double u, Side side, CurveNode& node) {
     const Vector3 wanted = point_at(segment_->wanted, u);
     const TargetSolution solution =
-        solver_.target(wanted, {job_.forces.at(index_, u, side), job_.forces.at_platform()});
+        solver_->target(wanted, {job_.forces.at(index_, u, side), job_.forces.at_platform()});
     if (solution.status != Status::converged) {
       failure_ = status_failure(solution.status, segment_->line);
       return false;
@@ -154,7 +162,8 @@ class ChunkPlanner {
     return true;
   }
 
-  // How much the tip moves for a change of target, at most: largest singular value, once a chunk.
+  // How much the tip moves for a change of target, at most: largest singular value, once a chunk and
+  // model.
   bool measure_gain() {
     if (gain_ > 0) return true;
     const Load load = load_at(job_, index_, 1);
@@ -163,7 +172,7 @@ class ChunkPlanner {
     for (int axis = 0; axis < 3; ++axis) {
       for (int side = 0; side < 2; ++side) {
         const Vector3 target = segment_->wanted.end + (side ? -gain_probe : gain_probe) * Vector3::Unit(axis);
-        const ActualSolution actual = solver_.actual(target, load, {});
+        const ActualSolution actual = solver_->actual(target, load, {});
         if (actual.status != Status::converged) {
           failure_ = status_failure(actual.status, segment_->line);
           return false;
@@ -189,7 +198,9 @@ class ChunkPlanner {
   }
 
   const Job& job_;
-  PathSolver solver_;
+  const NominalTrack& track_;
+  ToolSolver solvers_;
+  PathSolver* solver_ = nullptr;
   std::size_t index_ = 0;
   const Segment* segment_ = nullptr;
   double gain_ = 0;
@@ -234,7 +245,7 @@ Plan plan(const Job& job, const NominalTrack& track) {
   result.segments.resize(job.path.segments.size());
   std::vector<std::optional<Failure>> failures(chunk_count(result.segments.size()));
   for_each_chunk(result.segments.size(), job.options.threads, [&](const Chunk& chunk) {
-    ChunkPlanner planner(job, track.starts[chunk.index]);
+    ChunkPlanner planner(job, track);
     for (std::size_t i = chunk.begin; i < chunk.end && !failures[chunk.index]; ++i)
       failures[chunk.index] = planner.plan(i, result.segments[i]);
   });

@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <iterator>
+
 #include "counterflex/geometry/units.hpp"
 #include "path_solver.hpp"
 
@@ -22,24 +25,35 @@ std::optional<Failure> limit_failure(const Job& job, const Vector3& correction, 
                              job.options.max_correction / mm)};
 }
 
-NominalTrack track(const Job& job, const Configuration& start) {
+const Configuration& NominalTrack::start_before(std::size_t segment) const {
+  const auto after =
+      std::upper_bound(starts.begin(), starts.end(), segment,
+                       [](std::size_t s, const TrackStart& start) { return s < start.segment; });
+  return std::prev(after)->place.configuration;
+}
+
+NominalTrack track(const Job& job, const NominalPlace& start) {
   NominalTrack result;
-  PathSolver solver(job, start);
+  ToolSolver solvers(job);
+  PathSolver* solver = &solvers.of(*start.model, start.configuration);
   const auto go = [&](const Vector3& p, int line) {
     Status status;
-    solver.wanted(p, status);
+    solver->wanted(p, status);
     if (status == Status::converged) return true;
     result.failure = status_failure(status, line);
     return false;
   };
   for (std::size_t i = 0; i < job.path.segments.size(); ++i) {
     const Segment& segment = job.path.segments[i];
-    const bool joins = i > 0 && job.path.segments[i - 1].wanted.end == segment.wanted.start;
+    const Model& model = model_of(job, segment);
+    const bool changes = !solvers.is_of(model);
+    if (changes) solver = &solvers.of(model, model.home);
+    const bool joins = i > 0 && !changes && job.path.segments[i - 1].wanted.end == segment.wanted.start;
     if (!joins && !go(segment.wanted.start, segment.line)) return result;
-    if (i % chunk_size == 0) result.starts.push_back(solver.nominal());
+    if (changes || i % chunk_size == 0) result.starts.push_back({i, {&model, solver->nominal()}});
     if (!go(segment.wanted.end, segment.line)) return result;
   }
-  result.end = solver.nominal();
+  result.end = {&solver->model(), solver->nominal()};
   return result;
 }
 

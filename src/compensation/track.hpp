@@ -8,15 +8,25 @@
 
 namespace counterflex {
 
-struct NominalTrack {
-  std::vector<Configuration>
-      starts;         ///< by chunk of segments: nominal configuration at its first segment's start
-  Configuration end;  ///< and that at the end
-  std::optional<Failure> failure;
+/// Where the nominal machine stands at a segment's start.
+struct TrackStart {
+  std::size_t segment;
+  NominalPlace place;
 };
 
-/// `start`: a nominal configuration on the branch, home or that with which the window before ended.
-NominalTrack track(const Job& job, const Configuration& start);
+struct NominalTrack {
+  std::vector<TrackStart> starts;  ///< of the first segment of every chunk, and of those that need another
+                                   ///< model than the one before
+  NominalPlace end;
+  std::optional<Failure> failure;
+
+  /// The last start that is not behind `segment`: one of the model that this segment needs.
+  const Configuration& start_before(std::size_t segment) const;
+};
+
+/// `start`: a nominal configuration on the branch, home or that with which the window before ended. Where
+/// the model changes it is begun anew from the next one's home.
+NominalTrack track(const Job& job, const NominalPlace& start);
 
 /// Solves forward along pieces whose nominal track is known; `command` is where the piece before them ended.
 ForwardRun solve_forward_from(const Job& job, const NominalTrack& nominal, std::span<const Piece> pieces,

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "counterflex/geometry/units.hpp"
+#include "counterflex/machine/tool.hpp"
 #include "describe_elements.hpp"
 #include "phrases.hpp"
 #include "walk.hpp"
@@ -34,11 +35,33 @@ std::string tool_phrase(const Machine& machine) {
                                    : "tip at " + phrase(machine.X_PT) + " from the platform";
 }
 
-std::string tools_phrase(const Machine& machine) {
+std::string spindle_phrase(const Pose& X_PS) {
+  return is_identity(X_PS) ? "gauge line of tools' lengths at the reference point"
+                           : "gauge line of tools' lengths at " + phrase(X_PS) + " from the platform";
+}
+
+bool is_length_alone(const Tool& tool) {
+  return tool.length && !tool.diameter && !tool.stickout && tool.yields.empty();
+}
+
+/// Of the tools that are a length and nothing else.
+std::string lengths_phrase(const Machine& machine) {
   std::string text;
-  for (const auto& [tool, length] : machine.tool_lengths)
-    text += fmt::format("{}T{} {:.9g} mm", text.empty() ? "" : ", ", tool, length / mm);
-  return text + " long";
+  for (const auto& [number, tool] : machine.tools)
+    if (is_length_alone(tool))
+      text += fmt::format("{}T{} {:.9g} mm", text.empty() ? "" : ", ", number, *tool.length / mm);
+  return text.empty() ? text : text + " long";
+}
+
+std::string tool_phrase(const Tool& tool) {
+  std::string text;
+  const auto add = [&](const std::optional<double>& value, std::string_view what) {
+    if (value) text += fmt::format("{:.9g} mm {}, ", *value / mm, what);
+  };
+  add(tool.length, "long");
+  add(tool.diameter, "diameter");
+  add(tool.stickout, "sticking out");
+  return text + stiffness_phrase(tool);
 }
 
 std::string tool_change_phrase(const ControlSettings& control) {
@@ -55,7 +78,10 @@ void describe_settings(const Machine& machine, std::string& text) {
   line("controlled", controlled_phrase(machine));
   line("home", home_phrase(machine));
   line("tool", tool_phrase(machine));
-  if (!machine.tool_lengths.empty()) line("tools", tools_phrase(machine));
+  if (machine.X_PS) line("spindle", spindle_phrase(*machine.X_PS));
+  if (const std::string lengths = lengths_phrase(machine); !lengths.empty()) line("tools", lengths);
+  for (const auto& [number, tool] : machine.tools)
+    if (!is_length_alone(tool)) line(fmt::format("tool T{}", number), tool_phrase(tool));
   line("program", fmt::format("dialect {}, units {}, a tool change moves {}", machine.control.dialect,
                               machine.control.units.empty() ? "not stated" : machine.control.units,
                               tool_change_phrase(machine.control)));

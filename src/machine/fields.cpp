@@ -102,6 +102,14 @@ std::string as_text(const toml::node& node, std::string_view name, const Source&
   return text->get();
 }
 
+std::string as_choice(const toml::node& node, std::string_view name,
+                      const std::vector<std::string_view>& allowed, const Source& source) {
+  std::string text = as_text(node, name, source);
+  if (std::find(allowed.begin(), allowed.end(), text) == allowed.end())
+    source.fail(node, fmt::format("{} is \"{}\"{}", name, text, hint(text, allowed, "allowed")));
+  return text;
+}
+
 double as_number(const toml::node& node, const Label& label, const Reading& reading) {
   if (const auto* number = node.as_integer()) return static_cast<double>(number->get());
   if (const auto* number = node.as_floating_point(); number != nullptr && std::isfinite(number->get()))

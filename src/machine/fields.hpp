@@ -63,6 +63,10 @@ const toml::table& as_table(const toml::node& node, std::string_view name, const
 const toml::array& as_array(const toml::node& node, std::string_view name, const Source& source);
 std::string as_text(const toml::node& node, std::string_view name, const Source& source);
 
+/// The text of `node`, which must be one of `allowed`.
+std::string as_choice(const toml::node& node, std::string_view name,
+                      const std::vector<std::string_view>& allowed, const Source& source);
+
 /// A finite number; "$name" where the reading has fillings.
 double as_number(const toml::node& node, const Label& label, const Reading& reading);
 double as_positive(const toml::node& node, const Label& label, const Reading& reading);

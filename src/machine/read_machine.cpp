@@ -6,6 +6,7 @@
 #include "fields.hpp"
 #include "read_chains.hpp"
 #include "read_settings.hpp"
+#include "read_tools.hpp"
 
 namespace counterflex {
 namespace {
@@ -51,15 +52,16 @@ Machine read_machine(std::string_view text, const std::string& file) {
   const toml::table document = source.parse();
   check_format(document, source);
   check_keys(document,
-             {"format", "name", "controlled", "home", "tool", "tools", "work", "program", "limits", "springs",
-              "branches", "templates", "chain"},
+             {"format", "name", "controlled", "home", "tool", "spindle", "tools", "work", "program", "limits",
+              "springs", "branches", "templates", "chain"},
              "a machine file", source);
   Machine machine;
   if (const toml::node* name = document.get("name")) machine.name = as_text(*name, "name", source);
   read_controlled(document, source, machine);
   read_home(document, source, machine);
   read_tool(document, source, machine);
-  read_tool_lengths(document, source, machine);
+  read_spindle(document, source, machine);
+  read_tools(document, source, machine);
   read_work(document, source, machine);
   read_program(document, source, machine);
   read_limits(document, source, machine);

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 
 #include "counterflex/geometry/units.hpp"
 #include "counterflex/machine/work_names.hpp"
@@ -18,15 +17,6 @@ const std::vector<std::string_view> component_names = {"x", "y", "z", "rx", "ry"
 
 const std::vector<std::string_view> dialects = {"auto",    "linuxcnc",   "grbl", "fanuc", "haas", "mach3",
                                                 "siemens", "heidenhain", "krl",  "rapid", "ls",   "urscript"};
-
-/// The text of `node`, which must be one of `allowed`.
-std::string as_choice(const toml::node& node, std::string_view name,
-                      const std::vector<std::string_view>& allowed, const Source& source) {
-  std::string text = as_text(node, name, source);
-  if (std::find(allowed.begin(), allowed.end(), text) == allowed.end())
-    source.fail(node, fmt::format("{} is \"{}\"{}", name, text, hint(text, allowed, "allowed")));
-  return text;
-}
 
 Datum read_datum(const toml::node& node, const Source& source) {
   if (const auto* text = node.as_string(); text != nullptr && text->get() == "true") return {};
@@ -44,17 +34,6 @@ std::string read_offset_name(const toml::key& key, const Source& source) {
   if (!name)
     source.fail(key, fmt::format("\"{}\" is not a work offset; {} are", key.str(), work_offset_names));
   return *name;
-}
-
-/// T3 or 3.
-long read_tool_number(const toml::key& key, const Source& source) {
-  std::string_view digits = key.str();
-  if (digits.starts_with('T') || digits.starts_with('t')) digits.remove_prefix(1);
-  long number = -1;
-  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
-  if (error != std::errc{} || end != digits.data() + digits.size() || number < 0)
-    source.fail(key, fmt::format("\"{}\" is not a tool; it must be T and its number, as T3", key.str()));
-  return number;
 }
 
 /// An axis letter, in upper case.
@@ -107,18 +86,9 @@ void read_tool(const toml::table& document, const Source& source, Machine& machi
   if (const toml::node* node = document.get("tool")) machine.X_PT = read_transform(*node, "[tool]", {source});
 }
 
-void read_tool_lengths(const toml::table& document, const Source& source, Machine& machine) {
-  const toml::node* node = document.get("tools");
-  if (node == nullptr) return;
-  for (const auto& [key, entry] : as_table(*node, "tools", source)) {
-    const long number = read_tool_number(key, source);
-    const std::string name = fmt::format("[tools.{}]", key.str());
-    const toml::table& table = as_table(entry, name, source);
-    check_keys(table, {"length_mm"}, name, source);
-    const toml::node& length = required(table, "length_mm", name, entry, source);
-    if (!machine.tool_lengths.emplace(number, as_number(length, {"length_mm"}, {source}) * mm).second)
-      source.fail(key, fmt::format("tool {} stands in the file twice", number));
-  }
+void read_spindle(const toml::table& document, const Source& source, Machine& machine) {
+  if (const toml::node* node = document.get("spindle"))
+    machine.X_PS = read_transform(*node, "[spindle]", {source});
 }
 
 void read_work(const toml::table& document, const Source& source, Machine& machine) {

@@ -9,7 +9,7 @@ namespace counterflex::machine_file {
 void read_controlled(const toml::table& document, const Source& source, Machine& machine);
 void read_home(const toml::table& document, const Source& source, Machine& machine);
 void read_tool(const toml::table& document, const Source& source, Machine& machine);
-void read_tool_lengths(const toml::table& document, const Source& source, Machine& machine);
+void read_spindle(const toml::table& document, const Source& source, Machine& machine);
 void read_work(const toml::table& document, const Source& source, Machine& machine);
 void read_program(const toml::table& document, const Source& source, Machine& machine);
 void read_limits(const toml::table& document, const Source& source, Machine& machine);

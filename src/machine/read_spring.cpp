@@ -83,6 +83,11 @@ Vector6 read_preload(const toml::table& table, std::string_view owner, const Rea
 
 }  // namespace
 
+Matrix6 read_definite_stiffness(const toml::node& node, std::string_view form, const Source& source) {
+  const Matrix6 given = read_symmetric(node, form, false, {source});
+  return form == "compliance_si" ? symmetric_inverse(given) : given;
+}
+
 Spring read_spring(const toml::node& node, const std::string& name, const Source& source) {
   static const std::vector<std::string_view> forms = {"compliance_si", "stiffness_si", "compliance_diag_si",
                                                       "stiffness_diag_si", "beam"};

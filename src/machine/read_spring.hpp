@@ -8,4 +8,7 @@ namespace counterflex::machine_file {
 /// The table `[springs.NAME]`.
 Spring read_spring(const toml::node& node, const std::string& name, const Source& source);
 
+/// The stiffness that `compliance_si` or `stiffness_si` (`form`) gives, positive definite.
+Matrix6 read_definite_stiffness(const toml::node& node, std::string_view form, const Source& source);
+
 }  // namespace counterflex::machine_file

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
 
 #include "counterflex/geometry/units.hpp"
@@ -116,6 +117,13 @@ void note_elasticity(const Machine& machine, Notes& notes) {
   }
 }
 
+void note_tools(const Machine& machine, Notes& notes) {
+  const auto has_length = [](const auto& entry) { return entry.second.length.has_value(); };
+  if (!machine.X_PS && std::any_of(machine.tools.begin(), machine.tools.end(), has_length))
+    notes.push_back(
+        "lengths of tools move coordinates alone: without [spindle] the tip of every tool is [tool]");
+}
+
 }  // namespace
 
 std::vector<std::string> structural_notes(const Machine& machine) {
@@ -126,6 +134,7 @@ std::vector<std::string> structural_notes(const Machine& machine) {
   note_groups(machine, notes);
   note_actuators(machine, notes);
   note_errors(machine, notes);
+  note_tools(machine, notes);
   return notes;
 }
 

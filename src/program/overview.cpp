@@ -11,12 +11,18 @@ bool is_plunge(const Move& move) {
          move.end_mm.z() < move.start_mm.z();
 }
 
+void add_tool(std::vector<long>& tools, long tool) {
+  const auto at = std::lower_bound(tools.begin(), tools.end(), tool);
+  if (at == tools.end() || *at != tool) tools.insert(at, tool);
+}
+
 void add_move(Overview& overview, const Move& move) {
   ++overview.moves;
   overview.plunges += is_plunge(move);
   overview.rapids += move.motion == Motion::rapid;
   overview.last_block_number = std::max(overview.last_block_number, move.block_number.value_or(0));
   overview.offsets_used[move.offset] = true;
+  add_tool(overview.tools, move.tool);
   if (move.cycle && !overview.first_cycle_line) overview.first_cycle_line = move.line;
   if (!move.force) return;
   if (!overview.first_force_line) overview.first_force_line = move.line;

@@ -97,12 +97,13 @@ Json pose_json(const PoseAnalysis& pose, const std::vector<Travel>& travel) {
 std::string to_json(const AnalysisReport& report) {
   Json poses = Json::array();
   for (const PoseAnalysis& pose : report.poses) poses.push_back(pose_json(pose, report.travel));
-  const Json document = {{"schema", "counterflex-analysis 1"},
-                         {"tool", fmt::format("counterflex {}", report.version)},
-                         {"machine", report.machine},
-                         {"wrench_N_Nm", numbers(report.load.F, analysis_digits)},
-                         {"wrench_at", report.load.at_platform ? "platform" : "tip"},
-                         {"poses", std::move(poses)}};
+  Json document = {{"schema", "counterflex-analysis 1"},
+                   {"tool", fmt::format("counterflex {}", report.version)},
+                   {"machine", report.machine},
+                   {"wrench_N_Nm", numbers(report.load.F, analysis_digits)},
+                   {"wrench_at", report.load.at_platform ? "platform" : "tip"},
+                   {"poses", std::move(poses)}};
+  if (!report.tool.empty()) document["machine_tool"] = report.tool;
   return dump(document);
 }
 

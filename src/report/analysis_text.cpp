@@ -16,18 +16,19 @@ std::string number_text(double value, int decimals) {
 }
 
 std::string cells(const Vector3& v, int decimals, int width) {
-  return fmt::format("{:>{}}{:>{}}{:>{}}", number_text(v.x(), decimals), width, number_text(v.y(), decimals), width,
-                     number_text(v.z(), decimals), width);
+  return fmt::format("{:>{}}{:>{}}{:>{}}", number_text(v.x(), decimals), width, number_text(v.y(), decimals),
+                     width, number_text(v.z(), decimals), width);
 }
 
 std::string title(const AnalysisReport& report) {
   std::string text = report.machine.empty() ? "Machine without a name" : report.machine;
   if (!report.poses.empty()) text += fmt::format(", method {}", to_string(report.poses.front().method));
+  if (!report.tool.empty()) text += "\nwith " + report.tool;
   const Vector6& F = report.load.F;
   if (F.isZero(0)) return text + ", no load\n";
   return text + fmt::format("\nload ({}, {}, {}) N, ({}, {}, {}) N m at the {}, machine axes\n",
-                            number_text(F[0], 2), number_text(F[1], 2), number_text(F[2], 2), number_text(F[3], 3),
-                            number_text(F[4], 3), number_text(F[5], 3),
+                            number_text(F[0], 2), number_text(F[1], 2), number_text(F[2], 2),
+                            number_text(F[3], 3), number_text(F[4], 3), number_text(F[5], 3),
                             report.load.at_platform ? "platform's reference point" : "tool tip");
 }
 
@@ -51,8 +52,9 @@ std::string deviations(const AnalysisReport& report) {
 
 std::string chain_row(std::size_t index, const ChainLoads& chain) {
   return fmt::format("  {:>3} {:<12.12}{:>10}{:>10}{:>10}{:>10}{:>10}{:>10}{:>10}{:>10}\n", index, chain.name,
-                     number_text(chain.wrench.head<3>().cwiseAbs().maxCoeff(), 2), number_text(chain.moment_max, 2),
-                     number_text(chain.group_moment_max, 2), number_text(chain.spring_translation_max / mm, 3),
+                     number_text(chain.wrench.head<3>().cwiseAbs().maxCoeff(), 2),
+                     number_text(chain.moment_max, 2), number_text(chain.group_moment_max, 2),
+                     number_text(chain.spring_translation_max / mm, 3),
                      number_text(chain.spring_rotation_max / deg, 3), number_text(chain.spring_force_max, 2),
                      number_text(chain.spring_torque_max, 2), number_text(chain.passive_change_max / deg, 3));
 }
@@ -61,7 +63,8 @@ std::string chain_loads(const AnalysisReport& report) {
   std::string text = "\nLoads in the chains, largest components\n";
   for (std::size_t i = 0; i < report.poses.size(); ++i)
     if (report.poses[i].indeterminate)
-      text += fmt::format("  pose {}: redundant rigid closures, the wrenches are the smallest of many\n", i + 1);
+      text +=
+          fmt::format("  pose {}: redundant rigid closures, the wrenches are the smallest of many\n", i + 1);
   text += fmt::format("  {:>3} {:<12}{:>10}{:>10}{:>10}{:>10}{:>10}{:>10}{:>10}{:>10}\n", "", "", "end",
                       "end", "group", "spring", "spring", "spring", "spring", "passive");
   text += fmt::format("  {:>3} {:<12}{:>10}{:>10}{:>10}{:>10}{:>10}{:>10}{:>10}{:>10}\n", "", "chain", "N",
@@ -114,9 +117,9 @@ std::string corrected_targets(const AnalysisReport& report) {
 
 std::string softest(const PoseAnalysis& pose) {
   if (pose.softest_stiffness == 0) return "      singular: some force is not resisted\n";
-  return fmt::format("      softest to a force along ({}, {}, {}): {} N/um\n", number_text(pose.softest.x(), 3),
-                     number_text(pose.softest.y(), 3), number_text(pose.softest.z(), 3),
-                     number_text(pose.softest_stiffness * um, 3));
+  return fmt::format("      softest to a force along ({}, {}, {}): {} N/um\n",
+                     number_text(pose.softest.x(), 3), number_text(pose.softest.y(), 3),
+                     number_text(pose.softest.z(), 3), number_text(pose.softest_stiffness * um, 3));
 }
 
 // What is zero but for rounding is shown as zero.

@@ -7,6 +7,7 @@
 
 #include "counterflex/files/numbers.hpp"
 #include "counterflex/geometry/units.hpp"
+#include "counterflex/machine/tool.hpp"
 
 namespace counterflex {
 
@@ -100,6 +101,30 @@ std::string datum_in_words(const Machine& machine, const std::vector<WorkFrame>&
   }
   if (text.empty()) return true_in_words(true_frames, true);
   return true_frames.empty() ? text : text + " " + true_in_words(true_frames, false);
+}
+
+std::vector<UsedTool> used_tools(const Machine& machine, const std::vector<long>& numbers) {
+  std::vector<UsedTool> tools;
+  bool change = false;
+  for (const long number : numbers) {
+    const auto found = machine.tools.find(number);
+    if (found == machine.tools.end()) continue;
+    const Tool& tool = found->second;
+    change = change || changes_model(machine, tool);
+    UsedTool& used = tools.emplace_back(UsedTool{number, {}, {}, stiffness_phrase(tool)});
+    if (tool.length) used.length_mm = *tool.length / mm;
+    if (!tool.yields.empty()) used.radial_N_per_um = radial_stiffness(tool) * 1e-6;
+  }
+  return change ? tools : std::vector<UsedTool>{};
+}
+
+std::string tools_in_words(const std::vector<UsedTool>& tools, const std::vector<long>& numbers) {
+  if (tools.empty()) return "";
+  std::string text;
+  for (const UsedTool& tool : tools)
+    text += fmt::format("{}T{}: {}", text.empty() ? "" : "; ", tool.number, tool.stiffness);
+  const bool others = tools.size() < numbers.size();
+  return "The tools in use bend, or not, by the machine file. " + text + (others ? ". Moves with another tool, or none known, use [tool], rigid." : ".");
 }
 
 }  // namespace counterflex

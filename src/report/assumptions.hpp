@@ -10,4 +10,11 @@ std::string work_in_words(const Machine& machine, const std::vector<WorkFrame>& 
 /// What the work offset was taken to mean.
 std::string datum_in_words(const Machine& machine, const std::vector<WorkFrame>& frames);
 
+/// The tools of the program that [tools] says something of, ascending; none where no tool makes the machine
+/// another one.
+std::vector<UsedTool> used_tools(const Machine& machine, const std::vector<long>& numbers);
+
+/// The stiffness of tools in use, and what was taken of moves with others; empty without any.
+std::string tools_in_words(const std::vector<UsedTool>& tools, const std::vector<long>& numbers);
+
 }  // namespace counterflex

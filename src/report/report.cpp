@@ -55,6 +55,8 @@ RunReport common(const RunContext& context, const RunTally& tally, const Measure
   report.control = control_facts(context.program, tally);
   report.work = work_in_words(context.machine, context.frames);
   report.datum = datum_in_words(context.machine, context.frames);
+  report.tools = used_tools(context.machine, context.program.tools);
+  report.tools_assumed = tools_in_words(report.tools, context.program.tools);
   return report;
 }
 

@@ -143,6 +143,25 @@ Json worst_json(const RunReport& report) {
   return list;
 }
 
+Json assumptions_json(const RunReport& report) {
+  Json json = {{"work", report.work}, {"datum", report.datum}};
+  if (!report.tools.empty()) json["tools"] = report.tools_assumed;
+  return json;
+}
+
+Json tools_json(const std::vector<UsedTool>& tools) {
+  const auto optional = [](const std::optional<double>& value) {
+    return value ? number(*value, digits) : Json(nullptr);
+  };
+  Json list = Json::array();
+  for (const UsedTool& tool : tools)
+    list.push_back({{"number", tool.number},
+                    {"length_mm", optional(tool.length_mm)},
+                    {"radial_N_per_um", optional(tool.radial_N_per_um)},
+                    {"stiffness", tool.stiffness}});
+  return list;
+}
+
 Json failure_json(const std::optional<Failure>& failure) {
   if (!failure) return nullptr;
   return {{"exit", static_cast<int>(failure->exit)}, {"line", failure->line}, {"what", failure->what}};
@@ -165,10 +184,11 @@ std::string to_json(const RunReport& report) {
                    {"blocks", blocks_json(report.blocks)},
                    {"text", text_json(report)},
                    {"control", control_json(report.control)},
-                   {"assumptions", {{"work", report.work}, {"datum", report.datum}}},
+                   {"assumptions", assumptions_json(report)},
                    {"warning_count", report.warnings.count},
                    {"warnings", warnings_json(report.warnings.rows)},
                    {"worst", worst_json(report)}};
+  if (!report.tools.empty()) document["tools"] = tools_json(report.tools);
   return dump(document);
 }
 

@@ -80,6 +80,7 @@ Mechanism compile(const Machine& machine) {
   mechanism.controlled = machine.controlled;
   std::sort(mechanism.controlled.begin(), mechanism.controlled.end());
   mechanism.X_PT = machine.X_PT;
+  mechanism.p_EP = machine.p_EP;
   int next_actuator = 0;
   for (const Chain& chain : machine.chains)
     mechanism.chains.push_back(compile_series(chain, next_actuator, mechanism.travel));

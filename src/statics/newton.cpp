@@ -130,8 +130,9 @@ bool is_jump(const Eigen::VectorXd& way, const Eigen::VectorXd& predicted) {
 
 AppliedWrench applied_wrench(const Mechanism& mechanism, const Pose& X_MP, const Load& load, double factor) {
   AppliedWrench applied{factor * load.F, Matrix6::Zero()};
-  if (load.at_platform) return applied;
-  const Vector3 r = X_MP.R * mechanism.X_PT.p, f = applied.F.head<3>();
+  const Vector3& arm = load.at_platform ? mechanism.p_EP : mechanism.X_PT.p;
+  if (load.at_platform && arm.isZero(0)) return applied;
+  const Vector3 r = X_MP.R * arm, f = applied.F.head<3>();
   applied.F = wrench_at(applied.F, r);
   applied.tangent.bottomRightCorner<3, 3>() = skew(f) * skew(r);  // d(r x f) = (w x r) x f = f x (r x w)
   return applied;

@@ -53,7 +53,6 @@ void find_home(const Machine& machine, Model& model) {
   const Moving moving = machine.home_X_MP ? Moving{true, false} : Moving{false, true};
   model.home_gap = Kinematics(mechanism, moving).solve(nullptr, model.home);
   model.home_status = model.home_gap < home_tolerance ? Status::converged : Status::unreachable;
-  mark_nominal(model.home);
 }
 
 // Mean distance of joint and spring frames from the reference point.
@@ -143,6 +142,12 @@ Model prepare(const Machine& machine) {
   Model model;
   model.mechanism = compile(machine);
   find_home(machine, model);
+  settle_at_home(model);
+  return model;
+}
+
+void settle_at_home(Model& model) {
+  mark_nominal(model.home);
   FrameDistances distances;
   for (std::size_t i = 0; i < model.mechanism.chains.size(); ++i) {
     relax_at_home(model.mechanism.chains[i], model.home.chains[i]);
@@ -151,7 +156,6 @@ Model prepare(const Machine& machine) {
   model.mechanism.length = std::max(0.1, distances.count ? distances.sum / distances.count : 0.0);
   for (const Series& chain : model.mechanism.chains)
     model.mechanism.stiffest = std::max(model.mechanism.stiffest, stiffest(chain, model.mechanism.length));
-  return model;
 }
 
 Pose tip(const Mechanism& mechanism, const Configuration& configuration) {

@@ -19,8 +19,8 @@ struct Miss {
 };
 
 /// From home and from nothing: where the tip stands for a target.
-inline Vector3 cold_tip(const Shop& shop, const Vector3& target, const Vector6& F, const Stage& stage = {}) {
-  const Model& model = shop.model;
+inline Vector3 cold_tip(const Shop& shop, const Model& model, const Vector3& target, const Vector6& F,
+                        const Stage& stage = {}) {
   const NominalResult nominal = follow(model, model.home, {tip(model.mechanism, model.home).R, target});
   REQUIRE(nominal.status == Status::converged);
   StaticsWork work(model.mechanism);
@@ -28,6 +28,10 @@ inline Vector3 cold_tip(const Shop& shop, const Vector3& target, const Vector6& 
   const Equilibrium solved = solve_forward(model, nominal.configuration, load, stage, work);
   REQUIRE(solved.status == Status::converged);
   return tip(model.mechanism, solved.configuration).p;
+}
+
+inline Vector3 cold_tip(const Shop& shop, const Vector3& target, const Vector6& F, const Stage& stage = {}) {
+  return cold_tip(shop, shop.model, target, F, stage);
 }
 
 /// What the moves of `text` command in M (m); of moves from unknown positions the end alone.
@@ -99,7 +103,7 @@ inline Miss dense_miss(const Shop& shop, const std::vector<Commanded>& pieces, i
       const Segment& segment = shop.path.segments[piece.segment];
       const Vector3 wanted = point_at(segment.wanted, u);
       const Vector6 F = shop.forces->at(piece.segment, u, k == 0 ? Side::after : Side::before);
-      const Vector3 reached = cold_tip(shop, point_at(piece.curve, v), F);
+      const Vector3 reached = cold_tip(shop, model_of(shop.job(), segment), point_at(piece.curve, v), F);
       if ((reached - wanted).norm() > worst.size) worst = {(reached - wanted).norm(), segment.line, u};
     }
   return worst;

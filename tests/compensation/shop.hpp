@@ -9,6 +9,7 @@
 #include "counterflex/files/files.hpp"
 #include "counterflex/geometry/units.hpp"
 #include "counterflex/machine/read_machine.hpp"
+#include "counterflex/program/overview.hpp"
 #include "counterflex/statics/equilibrium.hpp"
 
 namespace counterflex::test {
@@ -43,13 +44,18 @@ struct Order {
   Pose X_MW{};
   Vector3 datum_shift = Vector3::Zero();
   std::array<bool, 3> ignored{};  ///< program axes that the machine does not control
+  ReadOptions read{};
 };
 
 /// Keeps alive what a job borrows.
 struct Shop {
   explicit Shop(const Order& order)
-      : model(prepare(order.machine)), program(read_program(order.text, "part.ngc", {})), X_MW(order.X_MW) {
+      : model(prepare(order.machine)),
+        program(read_program(order.text, "part.ngc", order.read)),
+        X_MW(order.X_MW),
+        read(order.read) {
     REQUIRE(model.home_status == Status::converged);
+    tools = prepare_tools(order.machine, model, overview_of(program).tools);
     ignore_axes(program, order.ignored);
     path = build_toolpath(program, one_frame(program, {{}, X_MW, order.datum_shift}));
     forces.emplace(order.force, program, path, std::vector<Matrix3>{tip(model.mechanism, model.home).R});
@@ -62,13 +68,15 @@ struct Shop {
     datum_shift = order.datum_shift;
   }
 
-  Job job() const { return {model, program, path, *forces, options, {}}; }
+  Job job() const { return {model, program, path, *forces, options, read, &tools}; }
   Compensation run(bool attribution = false) const { return compensate(job(), attribution); }
 
   Model model;
+  ToolModels tools;
   Program program;
   Toolpath path;
   Pose X_MW;
+  ReadOptions read;
   std::optional<PathForces> forces;
   CompensationOptions options;
   Vector3 datum_shift;

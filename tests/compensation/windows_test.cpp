@@ -4,6 +4,7 @@
 #include "compensation/gantry.hpp"
 #include "compensation/shop.hpp"
 #include "counterflex/compensation/job_windows.hpp"
+#include "counterflex/machine/tool.hpp"
 
 using namespace counterflex;
 using namespace counterflex::test;
@@ -32,7 +33,9 @@ WindowRun in_windows(const Order& order, std::size_t least_moves, const WriteOpt
   options.blend = order.force.blend;
   options.threads = order.threads;
   options.write = write;
-  JobWindows windows({model, frames, order.ignored, order.force, options, read}, reader);
+  const ToolModels tools =
+      prepare_tools(order.machine, model, overview_of(read_program(order.text, "part.ngc", read)).tools);
+  JobWindows windows({model, frames, order.ignored, order.force, options, read, &tools}, reader);
   Compensator compensator(write, TextReader(reader), false);
   WindowRun run;
   while (!run.failure && windows.next()) {
@@ -141,6 +144,34 @@ TEST_CASE("a parallel machine keeps its branch from window to window") {
   if (whole.failure) FAIL(whole.failure->what);
   CHECK(parts.windows >= 7);
   check_same(parts, whole);
+}
+
+TEST_CASE("windows keep the tool that is in the spindle, and its model") {
+  for (const std::string& file : {mill, orthoglide_b}) {
+    CAPTURE(file);
+    std::string text = "G21 G90 G17\nG0 X0 Y0 Z0\n";
+    for (int k = 1; k <= 60; ++k) {
+      if (k % 9 == 0) text += fmt::format("T{} M6\nG0 X{} Y0 Z2\n", k % 4, k);
+      text += fmt::format("G1 X{} Y{} F600\n", k, (k * 7) % 30);
+    }
+    Order order{.machine = read_machine(read_file(file), "machine"),
+                .text = text,
+                .force = constant_force(milling()),
+                .tolerance = 20e-6};
+    if (file == mill) order.X_MW = order.machine.work.at("G54").X_MW;
+    order.machine.X_PS = order.machine.X_PT;
+    order.machine.tools = {
+        {1, {.from = ToolStiffness::radial, .yields = radial_tool(8e6)}},
+        {2, {.length = 0.05}},
+        {3, {.length = 0.02, .yields = {cantilever_tool(0.01, 0.03, ToolMaterial::steel)}}}};
+    const WindowRun whole = in_windows(order, whole_program);
+    if (whole.failure) FAIL(whole.failure->what);
+    for (const std::size_t least_moves : {1, 5, 20}) {
+      const WindowRun parts = in_windows(order, least_moves);
+      CHECK(parts.windows > 2);
+      check_same(parts, whole);
+    }
+  }
 }
 
 TEST_CASE("a window that cannot be compensated says the line, and those before it are done") {

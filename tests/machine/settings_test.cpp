@@ -84,9 +84,9 @@ TEST_CASE("names that select no work offset are none") {
 
 TEST_CASE("tools have lengths, negative ones too, by number") {
   const Machine machine = machine_with("[tools.T3]\nlength_mm = 72.5\n[tools.12]\nlength_mm = -4\n");
-  REQUIRE(machine.tool_lengths.size() == 2);
-  CHECK(machine.tool_lengths.at(3) == doctest::Approx(0.0725));
-  CHECK(machine.tool_lengths.at(12) == doctest::Approx(-0.004));
+  REQUIRE(machine.tools.size() == 2);
+  CHECK(machine.tools.at(3).length.value() == doctest::Approx(0.0725));
+  CHECK(machine.tools.at(12).length.value() == doctest::Approx(-0.004));
   CHECK(describe(machine).find("tools        T3 72.5 mm, T12 -4 mm long\n") != std::string::npos);
   CHECK(describe(machine_with("")).find("tools") == std::string::npos);
 }

@@ -15,6 +15,7 @@ struct RunInput {
   const ForceSource& source;
   const CompensationOptions& options;
   const ReadOptions& read;
+  const ToolModels* tools = nullptr;  ///< as for a job
 };
 
 class JobWindows {

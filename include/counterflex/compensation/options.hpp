@@ -7,7 +7,7 @@
 #include "counterflex/forces/forces.hpp"
 #include "counterflex/program/read_program.hpp"
 #include "counterflex/program/rewrite.hpp"
-#include "counterflex/statics/nominal.hpp"
+#include "counterflex/statics/tool_models.hpp"
 #include "counterflex/toolpath/toolpath.hpp"
 
 namespace counterflex {
@@ -32,7 +32,14 @@ struct Job {
   const PathForces& forces;
   CompensationOptions options;
   ReadOptions read;  ///< with which the program was read: its corrected text is read anew in the same way
+  const ToolModels* tools = nullptr;  ///< of tools that make the machine another one; none: `model` is all
 };
+
+/// The machine with tool number `tool` in its spindle.
+const Model& model_with(const Model& model, const ToolModels* tools, long tool);
+
+/// The machine that makes a move of the path.
+const Model& model_of(const Job& job, const Segment& segment);
 
 /// Why a run was refused: exit status, line of the original program, and what happened.
 struct Failure {

@@ -26,6 +26,7 @@ struct Piece {
   bool end_only = false;
   bool exempt = false;      ///< listed as not split: its inside may miss the tolerance
   bool exempt_end = false;  ///< listed as not written in all axes: its end may miss it, too
+  std::int32_t tool = 0;    ///< in the spindle, where there is no segment
 };
 
 /// Six-vectors: position (m), rotation vector (rad), axes of M, actual minus wanted.
@@ -72,8 +73,8 @@ ForwardRun solve_forward_along(const Job& job, const std::vector<Piece>& pieces,
 
 /// What solving forward carries from one window of a program to the next.
 struct ForwardState {
-  std::optional<Configuration> nominal;  ///< none: home
-  std::optional<Vector3> command;        ///< end of the last piece
+  std::optional<NominalPlace> nominal;  ///< none: home
+  std::optional<Vector3> command;       ///< end of the last piece
 };
 
 /// The same for the pieces of one window; moves `state` on.

@@ -86,6 +86,23 @@ struct Branch {
 /// `elements`.
 using Chain = Branch;
 
+enum class ToolMaterial { carbide, steel };
+
+/// Where the stiffness of a tool at its tip is from: there is none, a radial stiffness, a 6x6 matrix, or the
+/// cantilever that its diameter and stick-out make.
+enum class ToolStiffness { rigid, radial, matrix, cantilever };
+
+/// What the machine file says of a tool, and how its tip yields.
+struct Tool {
+  std::optional<double>
+      length{};  ///< m: what G43 H adds to Z; from [spindle] to the tip, where that is given
+  std::optional<double> diameter{};  ///< m
+  std::optional<double> stickout{};  ///< m
+  ToolMaterial material = ToolMaterial::carbide;
+  ToolStiffness from = ToolStiffness::rigid;
+  std::vector<Element> yields{};  ///< from the rigid tool's tip to the tip, in the tip's axes; empty: rigid
+};
+
 /// Components of the tip pose, in the order of six-vectors.
 enum class Component : int { x, y, z, rx, ry, rz };
 
@@ -113,9 +130,12 @@ struct Machine {
   Location home_at;                        ///< where the file says home: [home], or else the first chain
   Pose X_PT;                               ///< tool tip in the platform frame
   std::map<std::string, WorkOffset> work;  ///< by names that `work_offset_name` gives
-  std::map<long, double> tool_lengths;     ///< m, by tool number: what G43 H adds to Z
+  std::optional<Pose> X_PS;    ///< gauge line that tools' lengths count from, z from tip to spindle
+  std::map<long, Tool> tools;  ///< by number
   ControlSettings control;
-  double max_correction = 1e-3;  ///< m
+  double max_correction = 1e-3;    ///< m
+  Vector3 p_EP = Vector3::Zero();  ///< reference point in the frame where the chains end: not zero for a
+                                   ///< machine with a tool that yields (m)
   std::vector<Chain> chains;
 };
 

@@ -23,6 +23,7 @@ struct Overview {
   long last_block_number = 0;  ///< the largest N of a move
   std::vector<std::string> work_offsets{""};
   std::vector<bool> offsets_used;  ///< by a move; by index into `work_offsets`
+  std::vector<long> tools;         ///< in the spindle for a move, each once, ascending; 0: none known
   std::vector<Remark> remarks;
   std::vector<PathTolerance> path_tolerances;
   Capped<LeftAlone> left_alone;

@@ -44,9 +44,10 @@ struct PoseAnalysis {
   Vector3 softest =
       Vector3::Zero();           ///< direction (M) in which a force at the reference point moves it furthest
   double softest_stiffness = 0;  ///< force over motion in that direction (N/m); 0: not computed
-  bool indeterminate = false;    ///< redundant rigid closures: the chains' wrenches are the minimum-norm ones of many
-  double condition = 0;          ///< of the static system; 0: not computed
-  double stability = 0;          ///< see `stability` in statics/equilibrium.hpp; 0: not computed
+  bool indeterminate =
+      false;             ///< redundant rigid closures: the chains' wrenches are the minimum-norm ones of many
+  double condition = 0;  ///< of the static system; 0: not computed
+  double stability = 0;  ///< see `stability` in statics/equilibrium.hpp; 0: not computed
 };
 
 /// The pose `X_MT` of the tip (in the controlled components; all six where nothing is controlled) under
@@ -59,6 +60,7 @@ struct AnalysisReport {
   Load load;
   std::vector<Travel> travel;  ///< by actuator: says mm or deg
   std::vector<PoseAnalysis> poses;
+  std::string tool{};  ///< in the spindle, and its stiffness; empty: [tool]
 };
 
 /// Every pose of `poses` in order.

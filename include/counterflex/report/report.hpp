@@ -99,6 +99,14 @@ struct ControlFacts {
   std::size_t rapids = 0;                   ///< and its rapids
 };
 
+/// A tool of the program that the machine file says something of.
+struct UsedTool {
+  long number = 0;
+  std::optional<double> length_mm;
+  std::optional<double> radial_N_per_um;  ///< at its tip; none: rigid
+  std::string stiffness;                  ///< where that is from, in words
+};
+
 struct RunReport {
   Command command = Command::compensate;
   RunFacts facts;  ///< its `warnings` stay the caller's own; all are in `warnings` below
@@ -121,6 +129,8 @@ struct RunReport {
   std::vector<WorstRow> worst;  ///< at most ten lines, the largest `after` first (`before` for `predict`)
   std::string work;             ///< where program coordinates were taken to be, in words
   std::string datum;            ///< what the offset was taken to mean, in words
+  std::vector<UsedTool> tools;  ///< where a tool of the program makes the machine another one
+  std::string tools_assumed;    ///< their stiffness in words; empty without any
   std::optional<Failure> failure;
 };
 

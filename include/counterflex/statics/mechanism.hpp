@@ -56,6 +56,7 @@ struct Mechanism {
   std::vector<Component> controlled;
   std::vector<Travel> travel;  ///< by actuator
   Pose X_PT;
+  Vector3 p_EP = Vector3::Zero();  ///< reference point in the frame where the chains end: not zero with a tool that yields
   double length = 0.1;         ///< l: mean distance of joint and spring frames from the reference point at home, >= 0.1 m
   double stiffest = 0;         ///< k_max, N/m (rotational stiffness divided by l^2)
 };

@@ -20,6 +20,9 @@ struct Model {
 /// are relaxed at home, and the machine's length l. Source: MODEL section 2, "Nominal kinematics".
 Model prepare(const Machine& machine);
 
+/// Fills what is relative to home in a compiled model whose home configuration is known.
+void settle_at_home(Model& model);
+
 struct NominalResult {
   Status status = Status::unreachable;
   Configuration configuration;  ///< x_nominal equals x throughout

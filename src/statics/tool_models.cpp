@@ -1,0 +1,57 @@
+#include "counterflex/statics/tool_models.hpp"
+
+#include "counterflex/machine/tool.hpp"
+
+namespace counterflex {
+namespace {
+
+// A chain that goes on behind its end: what is new stands at zero.
+SeriesState extended(const Series& series, SeriesState shorter) {
+  const Eigen::VectorXd x = shorter.x;
+  shorter.x.setZero(series.columns);
+  shorter.x.head(x.size()) = x;
+  return shorter;
+}
+
+// Chains that have become the branches of one chain's group.
+SeriesState grouped(const Series& series, const Configuration& home) {
+  SeriesState state;
+  state.x.setZero(series.columns);
+  state.groups = {{home.X_MP, home.chains}};
+  return state;
+}
+
+// The joints of `home`, with a tool behind them that yields and whose tip is at `X_PT`.
+Configuration with_tool_at_home(const Series& chain, const Configuration& home, const Pose& X_PT) {
+  const bool one = home.chains.size() == 1;
+  return {home.X_MP * X_PT, {one ? extended(chain, home.chains.front()) : grouped(chain, home)}};
+}
+
+}  // namespace
+
+Model prepare_with_tool(const Machine& machine, const Model& base, const Tool& tool) {
+  const Machine bent = with_tool(machine, tool);
+  Model model;
+  model.mechanism = compile(bent);
+  model.home = base.home;
+  model.home_status = base.home_status;
+  model.home_gap = base.home_gap;
+  if (!tool.yields.empty())
+    model.home = with_tool_at_home(model.mechanism.chains.front(), base.home, tip_of(machine, tool));
+  settle_at_home(model);
+  return model;
+}
+
+ToolModels prepare_tools(const Machine& machine, const Model& base, const std::vector<long>& numbers) {
+  ToolModels models;
+  for (const long number : numbers) {
+    const auto found = machine.tools.find(number);
+    if (found != machine.tools.end() && changes_model(machine, found->second))
+      models.emplace(number, prepare_with_tool(machine, base, found->second));
+  }
+  return models;
+}
+
+NominalPlace home_of(const Model& model) { return {&model, model.home}; }
+
+}  // namespace counterflex
