@@ -39,6 +39,8 @@ Model prepare_with_tool(const Machine& machine, const Model& base, const Tool& t
   if (!tool.yields.empty())
     model.home = with_tool_at_home(model.mechanism.chains.front(), base.home, tip_of(machine, tool));
   settle_at_home(model);
+  set_zero_offsets(zero_offsets(base.mechanism), model.mechanism);  // one zero for all tools
+  model.gravity_status = base.gravity_status;
   return model;
 }
 
