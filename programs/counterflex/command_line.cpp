@@ -38,9 +38,19 @@ void add_force(CLI::App& app, Options& options) {
 }
 
 void add_forces(CLI::App& app, Options& options) {
-  value_option(app, "-f,--forces", "FORCES", "A force profile (.csv)",
-               [&](const std::string& text) { options.forces = text; });
-  add_force(app, options);
+  app.add_option("-f,--forces", options.forces,
+                 "Forces by place, tool or operation (.csv), cutting models (.toml); may be repeated")
+      ->type_name("FORCES")
+      ->allow_extra_args(false);
+  app.add_option_function<std::vector<std::string>>(
+         "--force",
+         [&](const std::vector<std::string>& texts) {
+           for (const std::string& text : texts) options.force_rules.push_back(parse_force_rule(text));
+         },
+         "A constant wrench on the tool at its tip in feed moves, or in those of a tool: N and N m, machine "
+         "frame; may be repeated")
+      ->type_name("[T3=]FX,FY,FZ[,MX,MY,MZ]")
+      ->allow_extra_args(false);
   value_option(app, "--load-scale", "SCALE", "Multiplies all cutting forces [1]; 0 corrects geometry only",
                [&](const std::string& text) { options.load_scale = number_of("--load-scale", text, {0}); });
   value_option(app, "--blend-mm", "LENGTH",

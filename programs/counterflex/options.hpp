@@ -19,8 +19,9 @@ struct Options {
   std::vector<std::string> files;  ///< check alone
   std::string machine;             ///< empty: none, which check alone allows
 
-  std::optional<std::string> forces;  ///< a file
-  std::optional<Vector6> force;       ///< N, N m
+  std::vector<std::string> forces;     ///< files
+  std::vector<ForceRule> force_rules;  ///< of --force
+  std::optional<Vector6> force;        ///< analyze alone (N, N m)
   double load_scale = 1;
   double blend = 2e-3;  ///< m
   std::optional<double> air_above_mm;

@@ -26,7 +26,7 @@ bool same_file(const std::string& a, const std::string& b) {
 std::vector<std::string> inputs_of(const Options& options) {
   std::vector<std::string> inputs{options.program, options.machine};
   if (!options.corrected.empty()) inputs.push_back(options.corrected);
-  if (options.forces) inputs.push_back(*options.forces);
+  inputs.insert(inputs.end(), options.forces.begin(), options.forces.end());
   if (options.tool_table) inputs.push_back(*options.tool_table);
   return inputs;
 }

@@ -15,10 +15,10 @@ namespace {
 
 /// Standard input can be read once.
 void refuse_stdin_twice(const Options& options) {
-  const std::string forces = options.forces.value_or(""), tools = options.tool_table.value_or("");
-  int count = 0;
-  for (const std::string* path : {&options.program, &options.corrected, &options.machine, &forces, &tools})
-    count += *path == "-";
+  std::vector<std::string> paths{options.program, options.corrected, options.machine,
+                                 options.tool_table.value_or("")};
+  paths.insert(paths.end(), options.forces.begin(), options.forces.end());
+  const auto count = std::count(paths.begin(), paths.end(), "-");
   if (count > 1) throw InputError(Exit::usage, {}, "standard input (-) can be only one of the inputs");
 }
 
@@ -68,7 +68,7 @@ CompensationOptions compensation_options(const Options& options, const Machine& 
 /// The feed of a cycle is the control's own: no part of the path, so that no force acts there.
 void warn_of_cycles(Run& run) {
   const ForceSource& source = run.force_input.source;
-  const bool forces = source.constant || source.profile || run.program.commented_force;
+  const bool forces = !source.rules.empty() || run.program.commented_force;
   if (!run.program.first_cycle_line || !forces || source.scale == 0) return;
   run.facts.warnings.push_back(
       {*run.program.first_cycle_line, "holes of cycles are corrected without the cutting force"});
@@ -112,19 +112,20 @@ void look_through(const Options& options, Run& run) {
   }
 }
 
-/// A profile has to fit the whole program before any of it is solved.
-void check_cover(Run& run) {
-  if (!run.force_input.source.profile) return;
-  ProgramReader reader(run.file.bytes, run.program.file, run.read);
-  ForceCover cover(*run.force_input.source.profile);
-  PathEnd end;
-  while (reader.next()) {
-    ignore_axes(reader.window(), run.ignored);
-    const Toolpath path = build_toolpath(reader.window(), run.work.frames, end);
-    cover.add(reader.window(), path);
-    end = path.end;
+/// Forces have to fit the whole program before any of it is solved.
+void settle_forces(Run& run) {
+  ForceCover cover(run.force_input.source);
+  while (cover.needs_pass()) {
+    ProgramReader reader(run.file.bytes, run.program.file, run.read);
+    PathEnd end;
+    while (reader.next()) {
+      ignore_axes(reader.window(), run.ignored);
+      const Toolpath path = build_toolpath(reader.window(), run.work.frames, end);
+      cover.add(reader.window(), path);
+      end = path.end;
+    }
+    cover.end_pass();
   }
-  cover.check();
 }
 
 }  // namespace
@@ -150,10 +151,10 @@ std::unique_ptr<Run> prepare_run(const Options& options, Console& console) {
   run->read = read_options(options, &on, run->tools);
   look_through(options, *run);
   run->tool_models = prepare_tools(on, run->machine.model, run->program.tools);
-  run->force_input = read_force_input(options, run->program);
+  run->force_input = read_force_input(options);
   run->work = place_work(on, run->machine.model, shown_name(options.machine), run->program);
   run->ignored = uncontrolled_axes(on, run->work.frames);
-  check_cover(*run);
+  settle_forces(*run);
   run->options = compensation_options(options, on);
   run->facts = facts_of(options, *run);
   warn_of_orientation(*run);

@@ -40,7 +40,7 @@ std::unique_ptr<Run> prepare_run(const Options& options, Console& console);
 void refuse_what_cannot_be_compensated(const Run& run);
 
 /// Texts of the comments that a corrected program starts with.
-std::vector<std::string> header_of(const Run& run);
+std::vector<std::string> header_of(const Options& options, const Run& run);
 
 /// The windows of a run's program, once from its beginning.
 class Windows {
