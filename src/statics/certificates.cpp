@@ -45,26 +45,53 @@ std::optional<Matrix6> symmetric_end_stiffness(const Series& series, const Serie
   return Matrix6(inverse.solve(Matrix6::Identity()) - rho * Matrix6::Identity());
 }
 
-// Bounds of one condensed series: norm of the inverse of everything inside it, and of what its end's motion does to it.
+// Bounds of one condensed series: norms of everything inside it and of its inverse; and R'R, where R is what its end's
+// motion does to everything inside it.
 struct Bounds {
-  double matrix = 1, inverse = 0, sensitivity = 0;
+  double matrix = 1, inverse = 0;
+  Matrix6 response = Matrix6::Zero();
+
+  void add(const Bounds& other) {
+    matrix = std::max(matrix, other.matrix);
+    inverse = std::max(inverse, other.inverse);
+    response += other.response;
+  }
 };
 
-//     M = [ B  C ; C'  D ], S the Schur complement of B:    |M^-1| <= |B^-1| + (1 + |B^-1 C|)^2 |S^-1|
+Matrix6 in_units(const Matrix6& K, const Units& units) {
+  return units.of_pose().asDiagonal() * K * units.of_pose().asDiagonal() / units.energy();
+}
+
+Matrix6 response_factor(const Matrix6& response) { return Matrix6(Matrix6::Identity() + response).llt().matrixL(); }
+
+//     M = [ B  C ; C'  D ], S the Schur complement of B:    M^-1 = [ B^-1  0 ; 0  0 ] + Z S^-1 Z',   Z = [ -B^-1 C ; I ]
+//
+// B is what lies inside groups, Z moves with their six rows, Z'Z = I + response there, = L L':   |Z S^-1 Z'| = |L' S^-1 L|.
 Bounds bounds(const Series& series, const SeriesWork& work, const Units& units) {
-  Bounds inner;
-  for (std::size_t g = 0; g < series.groups.size(); ++g)
-    for (std::size_t b = 0; b < series.groups[g].branches.size(); ++b) {
-      const Bounds branch = bounds(series.groups[g].branches[b], work.groups[g][b], units);
-      inner.matrix = std::max(inner.matrix, branch.matrix);
-      inner.inverse = std::max(inner.inverse, branch.inverse);
-      inner.sensitivity = std::max(inner.sensitivity, branch.sensitivity);
-    }
-  const double spread = 1 + inner.sensitivity;
   Bounds result;
-  result.matrix = std::max(inner.matrix, work.bordered.norm()) + 1;
-  result.inverse = inner.inverse + spread * spread * work.lu.inverse().norm();
-  result.sensitivity = spread * (work.solution.middleCols<6>(1) * units.of_pose().asDiagonal()).norm();
+  const Eigen::MatrixXd end = work.solution.middleCols<6>(1) * units.of_pose().asDiagonal();
+  Matrix6 response = end.transpose() * end;
+  Eigen::MatrixXd inverse = work.lu.inverse();
+  double matrix = work.bordered.norm();
+  for (const Part& part : series.parts) {
+    if (part.kind != PartKind::group) continue;
+    const auto first = 6 + (std::find(series.free.begin(), series.free.end(), part.column) - series.free.begin());
+    Bounds inside;
+    for (std::size_t b = 0; b < series.groups[part.group].branches.size(); ++b) {
+      const SeriesWork& branch = work.groups[part.group][b];
+      inside.add(bounds(series.groups[part.group].branches[b], branch, units));
+      matrix += 1 + in_units(branch.K, units).norm();  // what condensing has put into the bordered matrix
+    }
+    const Matrix6 L = response_factor(inside.response);
+    inverse.middleRows<6>(first) = (L.transpose() * inverse.middleRows<6>(first)).eval();
+    inverse.middleCols<6>(first) = (inverse.middleCols<6>(first) * L).eval();
+    response += end.middleRows<6>(first).transpose() * inside.response * end.middleRows<6>(first);
+    inside.response.setZero();
+    result.add(inside);
+  }
+  result.matrix = std::max(result.matrix, matrix) + 1;
+  result.inverse += inverse.norm();
+  result.response = response;
   return result;
 }
 
@@ -86,20 +113,17 @@ bool surely_stable(const Mechanism& mechanism, const std::vector<SeriesWork>& wo
 
 bool surely_well_conditioned(const Mechanism& mechanism, std::vector<SeriesWork>& works, const Matrix6& load_tangent,
                              const Units& units, double limit) {
-  Bounds inner;
+  Bounds inside;
   Matrix6 K = -load_tangent;
+  const double platform = in_units(load_tangent, units).norm();
   for (std::size_t i = 0; i < works.size(); ++i) {
     if (!condense(mechanism.chains[i], units, false, works[i])) return false;
-    const Bounds chain = bounds(mechanism.chains[i], works[i], units);
-    inner.matrix = std::max(inner.matrix, chain.matrix);
-    inner.inverse = std::max(inner.inverse, chain.inverse);
-    inner.sensitivity = std::max(inner.sensitivity, chain.sensitivity);
+    inside.add(bounds(mechanism.chains[i], works[i], units));
     K += works[i].K;
   }
-  K = units.of_pose().asDiagonal() * K * units.of_pose().asDiagonal() / units.energy();
-  const double spread = 1 + inner.sensitivity;
-  const double bound = inner.inverse + spread * spread * Matrix6(K.inverse()).norm();
-  return std::isfinite(bound) && bound * (inner.matrix + static_cast<double>(works.size())) < limit;
+  const Matrix6 L = response_factor(inside.response);
+  const double bound = inside.inverse + Matrix6(L.transpose() * in_units(K, units).inverse() * L).norm();
+  return std::isfinite(bound) && bound * (inside.matrix + platform + static_cast<double>(works.size())) < limit;
 }
 
 }  // namespace counterflex
