@@ -59,12 +59,12 @@ Exit judge(const AnalysisReport& report, const std::vector<Pose>& asked, const O
 }
 
 /// Throws (Exit::usage) naming the tools that there are.
-const Tool& tool_named(const std::string& text, const Machine& machine) {
+const std::pair<const long, Tool>& tool_named(const std::string& text, const Machine& machine) {
   std::string_view digits = text;
   if (digits.starts_with('T') || digits.starts_with('t')) digits.remove_prefix(1);
   const auto number = read_number(digits);
-  const auto found = number ? machine.tools.find(static_cast<long>(*number)) : machine.tools.end();
-  if (found != machine.tools.end() && static_cast<double>(found->first) == *number) return found->second;
+  for (const auto& entry : machine.tools)
+    if (number && static_cast<double>(entry.first) == *number) return entry;
   std::string known;
   for (const auto& [tool, unused] : machine.tools)
     known += fmt::format("{}T{}", known.empty() ? "" : ", ", tool);
@@ -80,12 +80,12 @@ Exit run_analyze(const Options& options, Console& console) {
   const MachineInput input = read_machine_input(options);
   const Load load{options.force.value_or(Vector6::Zero()), false};
   console.progress("solving");
-  const Tool* tool = options.tool ? &tool_named(*options.tool, input.machine) : nullptr;
-  const Model with_tool = tool ? prepare_with_tool(input.machine, input.model, *tool) : Model{};
+  const auto* tool = options.tool ? &tool_named(*options.tool, input.machine) : nullptr;
+  const Model with_tool = tool ? prepare_with_tool(input.machine, input.model, tool->second) : Model{};
   const Model& model = tool ? with_tool : input.model;
   const std::vector<Pose> asked = wanted_poses(options, model);
   AnalysisReport report = analyze(model, asked, load, options.method, version);
-  if (tool) report.tool = fmt::format("tool {}: {}", *options.tool, stiffness_phrase(*tool));
+  if (tool) report.tool = fmt::format("tool T{}: {}", tool->first, stiffness_phrase(tool->second));
   write_result(options.json ? to_json(report) : to_text(report));
   return judge(report, asked, options, console);
 }

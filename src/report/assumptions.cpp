@@ -122,9 +122,10 @@ std::string tools_in_words(const std::vector<UsedTool>& tools, const std::vector
   if (tools.empty()) return "";
   std::string text;
   for (const UsedTool& tool : tools)
-    text += fmt::format("{}T{}: {}", text.empty() ? "" : "; ", tool.number, tool.stiffness);
+    text += fmt::format("{}T{}, {}", text.empty() ? "" : "; ", tool.number, tool.stiffness);
   const bool others = tools.size() < numbers.size();
-  return "The tools in use bend, or not, by the machine file. " + text + (others ? ". Moves with another tool, or none known, use [tool], rigid." : ".");
+  return "Tools in use: " + text +
+         (others ? ". Moves with another tool, or none known, use [tool], rigid." : ".");
 }
 
 }  // namespace counterflex

@@ -97,49 +97,62 @@ std::optional<LeastEnergy> least_energy(const Series& series, const SeriesWork& 
   return least;
 }
 
-// Bounds of one condensed series: norm of the inverse of everything inside it, and of what its end's motion does to it.
+// Bounds of one condensed series: norms of everything inside it and of its inverse; and R'R, where R is what its end's
+// motion does to everything inside it.
 struct Bounds {
-  double matrix = 1, inverse = 0, sensitivity = 0;
-  double coupling = 0;  // norm of what couples everything inside with everything outside
+  double matrix = 1, inverse = 0;
+  Matrix6 response = Matrix6::Zero();
 
-  // Side by side: blocks of a diagonal, which answer to the same outside.
   void add(const Bounds& other) {
     matrix = std::max(matrix, other.matrix);
     inverse = std::max(inverse, other.inverse);
-    sensitivity = std::hypot(sensitivity, other.sensitivity);
-    coupling = std::hypot(coupling, other.coupling);
+    response += other.response;
   }
 };
 
-// Norm of A_w as evaluated: rows g x V_c.
-double lean_norm(const Series& series, const SeriesWork& work, const Units& units) {
-  double squares = 0;
-  for (int c = 0; c < series.columns; ++c)
-    squares += std::pow(units.of_column(series.angular[c]) / units.energy() * work.masses.V.col(c).norm(), 2);
-  return std::sqrt(squares) * work.weight / series.mass;
+Matrix6 in_units(const Matrix6& K, const Units& units) {
+  return units.of_pose().asDiagonal() * K * units.of_pose().asDiagonal() / units.energy();
 }
 
-//     M = [ B  C ; C'  D ], S the Schur complement of B:    |M^-1| <= |B^-1| + (1 + |B^-1 C|)^2 |S^-1|
-// A series that leans couples to the outside by its start frame too, on whose turn `turning` bounds the effect of all
-// columns before it.
-Bounds bounds(const Series& series, const SeriesWork& work, double turning, const Units& units) {
-  Bounds inner;
+Matrix6 response_factor(const Matrix6& response) { return Matrix6(Matrix6::Identity() + response).llt().matrixL(); }
+
+//     M = [ B  C ; C'  D ], S the Schur complement of B:    M^-1 = [ B^-1  0 ; 0  0 ] + Z S^-1 Z',   Z = [ -B^-1 C ; I ]
+//
+// B is what lies inside groups, Z moves with their six rows, Z'Z = I + response there, = L L':   |Z S^-1 Z'| = |L' S^-1 L|.
+Bounds bounds(const Series& series, const SeriesWork& work, const Units& units) {
+  Bounds result;
+  const Eigen::MatrixXd end = work.solution.middleCols<6>(1) * units.of_pose().asDiagonal();
+  Matrix6 response = end.transpose() * end;
+  Eigen::MatrixXd inverse = work.lu.inverse();
+  double matrix = work.bordered.norm();
   for (const Part& part : series.parts) {
     if (part.kind != PartKind::group) continue;
-    const double turning_group = std::hypot(turning, work.w.leftCols(part.column).norm());
-    for (std::size_t b = 0; b < series.groups[part.group].branches.size(); ++b)
-      inner.add(bounds(series.groups[part.group].branches[b], work.groups[part.group][b], turning_group, units));
+    const auto first = 6 + (std::find(series.free.begin(), series.free.end(), part.column) - series.free.begin());
+    Bounds inside;
+    for (std::size_t b = 0; b < series.groups[part.group].branches.size(); ++b) {
+      const SeriesWork& branch = work.groups[part.group][b];
+      inside.add(bounds(series.groups[part.group].branches[b], branch, units));
+      matrix += 1 + in_units(branch.K, units).norm();  // what condensing has put into the bordered matrix
+    }
+    const Matrix6 L = response_factor(inside.response);
+    inverse.middleRows<6>(first) = (L.transpose() * inverse.middleRows<6>(first)).eval();
+    inverse.middleCols<6>(first) = (inverse.middleCols<6>(first) * L).eval();
+    response += end.middleRows<6>(first).transpose() * inside.response * end.middleRows<6>(first);
+    inside.response.setZero();
+    result.add(inside);
   }
-  const double spread = 1 + inner.sensitivity;
-  const double by_end = (work.solution.middleCols<6>(1) * units.of_pose().asDiagonal()).norm();
-  const double by_start = series.leans ? turning * work.solution.rightCols<3>().norm() : 0;
-  Bounds result;
-  result.coupling = 1;
-  if (series.leans) result.coupling += turning * lean_norm(series, work, units) + inner.coupling;
-  result.matrix = std::max(inner.matrix, work.bordered.norm() + inner.coupling * inner.sensitivity) + inner.coupling;
-  result.inverse = inner.inverse + spread * spread * work.lu.inverse().norm();
-  result.sensitivity = spread * std::hypot(by_end, by_start) + (series.leans ? inner.sensitivity : 0);
+  result.matrix = std::max(result.matrix, matrix) + 1;
+  result.inverse += inverse.norm();
+  result.response = response;
   return result;
+}
+
+// Whether a branch in it leans: the bounds know of no coupling through its start frame.
+bool holds_leaning(const Series& series) {
+  for (const SeriesGroup& group : series.groups)
+    for (const Series& branch : group.branches)
+      if (branch.leans || holds_leaning(branch)) return true;
+  return false;
 }
 
 }  // namespace
@@ -160,17 +173,18 @@ bool surely_stable(const Mechanism& mechanism, const std::vector<SeriesWork>& wo
 
 bool surely_well_conditioned(const Mechanism& mechanism, std::vector<SeriesWork>& works, const Matrix6& load_tangent,
                              const Units& units, double limit) {
-  Bounds inner;
+  Bounds inside;
   Matrix6 K = -load_tangent;
+  const double platform = in_units(load_tangent, units).norm();
   for (std::size_t i = 0; i < works.size(); ++i) {
+    if (holds_leaning(mechanism.chains[i])) return false;
     if (!condense(mechanism.chains[i], units, false, works[i])) return false;
-    inner.add(bounds(mechanism.chains[i], works[i], 0, units));
+    inside.add(bounds(mechanism.chains[i], works[i], units));
     K += works[i].K;
   }
-  K = units.of_pose().asDiagonal() * K * units.of_pose().asDiagonal() / units.energy();
-  const double spread = 1 + inner.sensitivity;
-  const double bound = inner.inverse + spread * spread * Matrix6(K.inverse()).norm();
-  return std::isfinite(bound) && bound * (inner.matrix + static_cast<double>(works.size())) < limit;
+  const Matrix6 L = response_factor(inside.response);
+  const double bound = inside.inverse + Matrix6(L.transpose() * in_units(K, units).inverse() * L).norm();
+  return std::isfinite(bound) && bound * (inside.matrix + platform + static_cast<double>(works.size())) < limit;
 }
 
 }  // namespace counterflex
