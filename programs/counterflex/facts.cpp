@@ -49,6 +49,7 @@ RunFacts facts_of(const Options& options, const Run& run) {
   RunFacts facts;
   facts.version = version;
   facts.attribution = true;
+  facts.weights = has_weight(run.machine.model.mechanism);
   facts.inputs = {run.file.file, run.machine.file};
   if (run.force_input.file) facts.inputs.push_back(*run.force_input.file);
   if (run.tools.file) facts.inputs.push_back(*run.tools.file);

@@ -63,4 +63,7 @@ struct Mechanism {
 /// The series of `machine`, without home: `prepare` in nominal.hpp also finds the home configuration.
 Mechanism compile(const Machine& machine);
 
+/// Whether weights act: only then does Stage::gravity change anything.
+inline bool has_weight(const Mechanism&) { return false; }
+
 }  // namespace counterflex
