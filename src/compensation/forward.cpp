@@ -74,11 +74,23 @@ class ForwardSolver {
     const auto solve = [this](const Vector3& target, const Load& with, const Stage& stage, Vector6& result) {
       return deviate(target, with, stage, Start::nominal, result);
     };
-    if (!solve(original, {}, {1, 0, 1}, w.geometry) || !solve(original, load, {0, 1, 1}, w.load) ||
-        !solve(original, {}, {0, 0, 1}, unloaded_perfect) || !solve(emitted, {}, {1, 0, 1}, w.air))
+    if (!solve(original, {}, {1, 0, 1, 0}, w.geometry) || !solve(original, load, {0, 1, 1, 0}, w.load) ||
+        !solve(original, {}, {0, 0, 1, 0}, unloaded_perfect) || !solve(emitted, {}, {1, 0, 1, 1}, w.air))
       return false;
     w.superposition = w.geometry + w.load - unloaded_perfect;
+    if (!has_weight(job_.model.mechanism)) return true;
+    if (!solve(original, {}, {0, 0, 1, 1}, w.gravity)) return false;
+    w.superposition += w.gravity - unloaded_perfect;
     return true;
+  }
+
+  // Beside `after`, which has just been solved. A force under which the machine gives way is no failure of
+  // the run: it does not act.
+  OtherForce under(double factor, const Load& load, const Vector6& after) {
+    if (load.F.isZero(0)) return {after, Status::converged};
+    const ActualSolution actual = solver_.under_another_load({factor * load.F, load.at_platform});
+    if (actual.status != Status::converged) return {Vector6::Zero(), actual.status};
+    return {deviation(actual.X_MT, wanted_), actual.status};
   }
 
   bool solve_at(double v, bool between, double share, ForwardRun& out) {
@@ -101,6 +113,10 @@ class ForwardSolver {
     if (solved && !solver_->in_travel()) {
       status_ = Status::outside_travel;
       solved = false;
+    }
+    if (solved && !between && questions_.attribution) {
+      w.higher = under(1 + force_change, load, w.after);
+      w.lower = under(1 - force_change, load, w.after);
     }
     if (solved && !between && questions_.before)
       solved = deviate(original, load, {}, Start::neighbour, w.before);

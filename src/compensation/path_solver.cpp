@@ -68,6 +68,10 @@ Pose PathSolver::wanted(const Vector3& p_MT, Status& status) {
   return tip(model_.mechanism, nominal());
 }
 
+Vector3 PathSolver::tip_of(const Configuration& configuration) const {
+  return tip(job_.model.mechanism, configuration).p;
+}
+
 // A warm start may fail where a cold one does not; the continuation decides.
 Equilibrium PathSolver::forward(const Load& load, const Stage& stage, Start from) {
   const bool warm = from == Start::neighbour && loaded_ && everything_acts(stage);
@@ -94,6 +98,16 @@ ActualSolution PathSolver::actual(const Vector3& target, const Load& load, const
   result.iterations = solved.iterations;
   result.X_MT = tip(model_.mechanism, solved.configuration);
   return result;
+}
+
+ActualSolution PathSolver::under_another_load(const Load& load) {
+  const Vector3 here = tip_of(*loaded_);
+  Equilibrium solved = refine_forward(job_.model, *loaded_, load, {}, work_);
+  // A warm start may fail, and may snap to where no growing force leads: the continuation decides.
+  const bool far = (tip_of(solved.configuration) - here).norm() > (here - tip_of(nominal())).norm();
+  if (far || solved.status != Status::converged)
+    solved = solve_forward(job_.model, nominal(), load, {}, work_);
+  return {solved.status, tip(job_.model.mechanism, solved.configuration), solved.iterations};
 }
 
 // Where the machine controls an orientation that the program does not state, only positions can be written:

@@ -38,6 +38,10 @@ class PathSolver {
   ActualSolution actual(const Vector3& target, const Load& load, const Stage& stage,
                         Start start = Start::neighbour);
 
+  /// Where the tip stands under another load than in `actual`'s last solution, which had everything acting
+  /// and was converged. Neighbours go on from that one.
+  ActualSolution under_another_load(const Load& load);
+
   /// Whether the actuators of the last command are in their ranges.
   bool in_travel() const;
 
@@ -46,6 +50,7 @@ class PathSolver {
 
  private:
   Status go_to(const Vector3& p_MT);
+  Vector3 tip_of(const Configuration& configuration) const;
   Status travel_status() const;  ///< of the nominal configuration that was gone to last
   Equilibrium forward(const Load& load, const Stage& stage, Start start);
   TargetSolution by_outer_iteration(const Vector3& p_MT, const Load& load);

@@ -21,6 +21,7 @@ namespace {
 
 /// Of several comments alone in a line the first that names something is the operation.
 void apply_comments(const Block& block, Reading& r) {
+  if (block.comments.empty()) return;
   const std::string_view text = r.program.text;
   bool may_name = has_comments_alone(text, block);
   for (const Span& comment : block.comments) {

@@ -23,6 +23,13 @@ void keep(Largest& largest, double length, int line) {
   largest.mm = std::max(largest.mm, length / mm);
 }
 
+void add_other(OtherForceTally& tally, const Waypoint& w, const OtherForce& other, double weight) {
+  if (other.status == Status::converged) return tally.deviation.add(sample(w, other.deviation, weight));
+  if (tally.unsolved++ > 0) return;
+  tally.first_line = w.line;
+  tally.status = other.status;
+}
+
 }  // namespace
 
 WorstRow& WorstLines::row(int line) {
@@ -126,7 +133,11 @@ void PathTally::measure_end(const Waypoint& w, double weight) {
   m_.before.add(sample(w, w.before, weight));
   m_.geometry.add(sample(w, w.geometry, weight));
   m_.load.add(sample(w, w.load, weight));
+  m_.gravity.add(sample(w, w.gravity, weight));
   m_.superposition.add(sample(w, w.superposition, weight));
+  m_.without_force.add(sample(w, w.air, weight));
+  add_other(m_.higher, w, w.higher, weight);
+  add_other(m_.lower, w, w.lower, weight);
   keep(m_.air, w.air.head<3>().norm(), w.line);
   WorstRow& row = lines_.row(w.line);
   row.before_mm = std::max(row.before_mm, w.before.head<3>().norm() / mm);

@@ -1,6 +1,9 @@
 #include "counterflex/report/report.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
+#include <cmath>
 
 #include "assumptions.hpp"
 #include "control.hpp"
@@ -11,11 +14,26 @@ namespace counterflex {
 
 namespace {
 
+// The run is right all the same: that force does not act.
+void list_unsolved(const UnderOtherForce& other, const char* change, Capped<Remark>& all) {
+  if (other.unsolved == 0) return;
+  const std::string places = other.unsolved == 1 ? "place" : "places";
+  list(all, Remark{other.first_line,
+                   fmt::format("with the force {} % {} the machine has no stable equilibrium here ({}; {} {} "
+                               "in all): what wears or is overridden may make it give way",
+                               std::lround(100 * force_change), change, to_string(other.status),
+                               other.unsolved, places)});
+}
+
 Capped<Remark> all_warnings(const RunContext& context, const RunTally& tally, const RunReport& report) {
   Capped<Remark> all;
   for (const Remark& warning : context.facts.warnings) list(all, warning);
   for (const Remark& remark : context.program.remarks) list(all, remark);
   list(all, tally.force_notes());
+  if (report.sensitivity) {
+    list_unsolved(report.sensitivity->higher, "higher", all);
+    list_unsolved(report.sensitivity->lower, "lower", all);
+  }
   for (const Remark& warning : control_warnings(report.control, report.correction)) list(all, warning);
   return all;
 }
@@ -33,6 +51,22 @@ std::optional<DeviationStatistics> known(const DeviationTally& tally, const std:
   return tally.statistics();
 }
 
+Sources sources(const Measures& measures, bool weights) {
+  Sources result{measures.geometry.statistics(), measures.load.statistics(), std::nullopt,
+                 measures.superposition.statistics()};
+  if (weights) result.gravity = measures.gravity.statistics();
+  return result;
+}
+
+UnderOtherForce under_other_force(const OtherForceTally& tally) {
+  return {tally.deviation.statistics(), tally.unsolved, tally.first_line, tally.status};
+}
+
+Sensitivity sensitivity(const Measures& measures) {
+  return {under_other_force(measures.higher), under_other_force(measures.lower),
+          measures.without_force.statistics()};
+}
+
 // What all commands report alike.
 RunReport common(const RunContext& context, const RunTally& tally, const Measures& measures,
                  const std::optional<Failure>& failure) {
@@ -44,14 +78,14 @@ RunReport common(const RunContext& context, const RunTally& tally, const Measure
   report.tolerance_mm = context.options.tolerance / mm;
   report.path_mm = measures.path_mm;
   report.before = known(measures.before, failure);
-  if (context.facts.attribution && report.before)
-    report.sources = Sources{measures.geometry.statistics(), measures.load.statistics(),
-                             measures.superposition.statistics()};
+  if (context.facts.attribution && report.before) report.sources = sources(measures, context.facts.weights);
   report.blocks.total = context.program.blocks;
   report.blocks.moves = context.program.moves;
   report.blocks.left_alone = context.program.left_alone;
   report.text_before = {context.program.blocks, context.program.bytes};
   report.forces = force_summary(tally, measures);
+  const bool acts = report.forces.largest_N > 0 || report.forces.largest_Nm > 0;
+  if (report.sources && acts) report.sensitivity = sensitivity(measures);
   report.control = control_facts(context.program, tally);
   report.work = work_in_words(context.machine, context.frames);
   report.datum = datum_in_words(context.machine, context.frames);

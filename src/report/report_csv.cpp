@@ -11,7 +11,8 @@ namespace {
 
 constexpr int length_digits = 7, angle_digits = 7, path_digits = 6, wrench_digits = 6;
 constexpr std::array deviation_names = {"dx_mm", "dy_mm", "dz_mm", "drx_deg", "dry_deg", "drz_deg"};
-constexpr std::array prefixes = {"before_", "geometry_", "load_", "superposition_", "after_", "air_"};
+constexpr std::array prefixes = {"before_",        "geometry_", "load_", "gravity_",
+                                 "superposition_", "after_",    "air_"};
 
 void add(std::string& row, double value, int digits) {
   row += ',';
@@ -38,6 +39,7 @@ void add_row(std::string& text, std::size_t index, const Waypoint& w, const CsvC
   add_deviation(text, w.before, solved);
   add_deviation(text, w.geometry, attributed);
   add_deviation(text, w.load, attributed);
+  add_deviation(text, w.gravity, attributed);
   add_deviation(text, w.superposition, attributed);
   add_deviation(text, w.after, solved && columns.corrected);
   add_deviation(text, w.air, attributed && columns.corrected);

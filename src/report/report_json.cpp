@@ -55,13 +55,45 @@ Json sources_json(const std::optional<Sources>& sources) {
   if (!sources) return nullptr;
   return {{"geometry", statistics_json(sources->geometry)},
           {"load", statistics_json(sources->load)},
+          {"gravity", optional_statistics(sources->gravity)},
           {"superposition", statistics_json(sources->superposition)}};
 }
 
+/// Of part of the path nothing is said: its largest value would look harmless.
+Json other_force_json(const UnderOtherForce& other) {
+  return other.unsolved > 0 ? Json(nullptr) : statistics_json(other.deviation);
+}
+
+Json sensitivity_json(const std::optional<Sensitivity>& sensitivity) {
+  if (!sensitivity) return nullptr;
+  return {{"force_plus_30", other_force_json(sensitivity->higher)},
+          {"force_minus_30", other_force_json(sensitivity->lower)},
+          {"without_force", statistics_json(sensitivity->without)}};
+}
+
 Json summary_json(const RunReport& report) {
-  return {{"before", optional_statistics(report.before)},  {"after", optional_statistics(report.after)},
-          {"sources", sources_json(report.sources)},       {"air", largest_json(report.air)},
-          {"correction", largest_json(report.correction)}, {"path_mm", number(report.path_mm, digits)}};
+  return {{"before", optional_statistics(report.before)},
+          {"after", optional_statistics(report.after)},
+          {"sources", sources_json(report.sources)},
+          {"sensitivity", sensitivity_json(report.sensitivity)},
+          {"air", largest_json(report.air)},
+          {"correction", largest_json(report.correction)},
+          {"path_mm", number(report.path_mm, digits)}};
+}
+
+Json without_force_json(const WithoutForce& without) {
+  Json reasons = Json::array(), rows = Json::array();
+  for (const WithoutForceReason& reason : without.reasons)
+    reasons.push_back({{"why", reason.why},
+                       {"moves", reason.moves},
+                       {"length_mm", number(reason.length_mm, digits)},
+                       {"first_line", reason.first_line}});
+  for (const WithoutForceRow& row : without.rows.rows)
+    rows.push_back({{"line", row.line}, {"length_mm", number(row.length_mm, digits)}, {"why", row.why}});
+  return {{"moves", without.moves},
+          {"length_mm", number(without.length_mm, digits)},
+          {"reasons", std::move(reasons)},
+          {"rows", std::move(rows)}};
 }
 
 Json forces_json(const RunReport& report) {
@@ -71,7 +103,8 @@ Json forces_json(const RunReport& report) {
           {"largest_Nm", known(forces.largest_Nm)},
           {"ramps", forces.ramps},
           {"jumps", forces.jumps},
-          {"largest_step_N", number(forces.largest_step_N, 4)}};
+          {"largest_step_N", number(forces.largest_step_N, 4)},
+          {"without_force", without_force_json(forces.without)}};
 }
 
 Json blocks_json(const BlockCounts& blocks) {

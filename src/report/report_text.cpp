@@ -4,6 +4,7 @@
 
 #include "counterflex/files/numbers.hpp"
 #include "counterflex/report/formats.hpp"
+#include "force_text.hpp"
 #include "names.hpp"
 #include "text_layout.hpp"
 
@@ -14,18 +15,6 @@ namespace {
 constexpr std::size_t shown_blocks = 5;
 constexpr std::size_t shown_warnings = 8;
 constexpr std::size_t shown_worst = 5;
-
-std::string line_break() {
-  return std::string(1, '\n');
-}
-
-std::string mm4(double value) {
-  return format_fixed(value, 4);
-}
-
-std::string counted(std::size_t count, const char* one) {
-  return fmt::format("{} {}{}", count, one, count == 1 ? "" : "s");
-}
 
 std::string file_name(const RunReport& report, const std::string& role) {
   for (const InputFile& input : report.facts.inputs)
@@ -117,8 +106,11 @@ std::string sources_text(const RunReport& report, const Ink& ink) {
   text += fmt::format("  {:<34}{:>12}{:>12}{:>12}{:>12}\n", "", "x", "y", "z", "in space");
   text += source_row("geometry: errors of assembly alone", sources.geometry);
   text += source_row("load: cutting forces alone", sources.load);
-  text += source_row("superposition: sum of the two", sources.superposition);
-  return text + source_row("both acting together", *report.before);
+  const bool weights = sources.gravity.has_value();
+  if (weights) text += source_row("gravity: weights alone", *sources.gravity);
+  text += source_row(weights ? "superposition: sum of the three" : "superposition: sum of the two",
+                     sources.superposition);
+  return text + source_row(weights ? "all acting together" : "both acting together", *report.before);
 }
 
 std::string worst_text(const RunReport& report, const Ink& ink) {
@@ -162,31 +154,6 @@ std::string program_text(const RunReport& report, const Ink& ink) {
   if (report.correction && report.correction->mm > 0)
     text += fmt::format("  largest correction {} mm, line {}\n", mm4(report.correction->mm),
                         report.correction->line);
-  return text;
-}
-
-std::string force_text(const RunReport& report, const Ink& ink) {
-  const ForceSummary& forces = report.forces;
-  if (!report.before) return "";
-  std::string text = line_break() + ink.bold("Cutting force") + "\n";
-  if (forces.largest_N == 0 && forces.largest_Nm == 0)
-    return text + "  none: the geometry alone is at work\n";
-  text += fmt::format("  up to {} N and {} N m on the tool\n", format_fixed(forces.largest_N, 1),
-                      format_fixed(forces.largest_Nm, 2));
-  if (forces.ramps > 0)
-    text += fmt::format("  {} of the profile acting as ramps\n", counted(forces.ramps, "step"));
-  if (forces.jumps > 0)
-    text += fmt::format("  {} of the profile acting as jumps\n", counted(forces.jumps, "step"));
-  if (forces.ramps + forces.jumps > 0)
-    text += fmt::format("  largest step {} N\n", format_fixed(forces.largest_step_N, 1));
-  if (report.air && report.air->mm > 0)
-    text += wrapped(
-        "  ",
-        fmt::format(
-            "Without the force (dry run, spring pass, broken insert) the corrected program is off by up "
-            "to {} mm, line {}.",
-            mm4(report.air->mm), report.air->line),
-        2);
   return text;
 }
 

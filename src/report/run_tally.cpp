@@ -17,6 +17,7 @@ void RunTally::add_forces(const PathForces& forces) {
   forces_.ramps += forces.ramps();
   forces_.jumps += forces.jumps();
   forces_.largest_step_N = std::max(forces_.largest_step_N, forces.largest_step_N());
+  for (const Unforced& move : forces.unforced()) add_unforced(forces_.without, move);
   for (const ForceNote& note : forces.notes()) list(force_notes_, Remark{note.line, note.what});
 }
 

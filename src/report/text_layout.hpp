@@ -3,6 +3,8 @@
 #include <string>
 #include <string_view>
 
+#include "counterflex/files/numbers.hpp"
+
 namespace counterflex {
 
 inline constexpr std::size_t text_width = 100;
@@ -23,5 +25,19 @@ struct Ink {
 /// others are indented by `indent` blanks. Breaks at blanks; a word that is longer than a line stays whole.
 /// Ends with a newline.
 std::string wrapped(std::string_view first, std::string_view text, std::size_t indent);
+
+inline std::string line_break() {
+  return std::string(1, '\n');
+}
+
+/// Millimetres as summaries show them.
+inline std::string mm4(double value) {
+  return format_fixed(value, 4);
+}
+
+/// "1 move", "2 moves".
+inline std::string counted(std::size_t count, const char* one) {
+  return std::to_string(count) + " " + one + (count == 1 ? "" : "s");
+}
 
 }  // namespace counterflex

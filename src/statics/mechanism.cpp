@@ -125,4 +125,8 @@ void set_zero_offsets(const Eigen::VectorXd& offsets, Mechanism& mechanism) {
     for_each_actuator_part(chain, [&](Part& part) { part.offset = offsets[part.actuator]; });
 }
 
+bool has_weight(const Mechanism& mechanism) {
+  return std::any_of(mechanism.chains.begin(), mechanism.chains.end(), [](const Series& chain) { return chain.mass > 0; });
+}
+
 }  // namespace counterflex

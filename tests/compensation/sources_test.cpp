@@ -27,8 +27,8 @@ Vector6 cold_deviation(const Shop& shop, const Vector3& target, const Vector3& w
 
 bool same(const Waypoint& a, const Waypoint& b) {
   return a.segment == b.segment && a.fraction == b.fraction && a.after == b.after && a.before == b.before &&
-         a.correction == b.correction && a.air == b.air && a.iterations == b.iterations &&
-         a.weight == b.weight;
+         a.correction == b.correction && a.air == b.air && a.higher.deviation == b.higher.deviation &&
+         a.lower.deviation == b.lower.deviation && a.iterations == b.iterations && a.weight == b.weight;
 }
 
 }  // namespace
@@ -47,11 +47,16 @@ TEST_CASE("geometry, load, superposition and air are those of independent solves
                             const Stage& stage) {
         return (said - cold_deviation(shop, target, w.p_MT, F, stage)).head<3>().norm() < 1e-9;
       };
-      CHECK(near(w.before, w.p_MT, w.wrench, {1, 1, 1}));
-      CHECK(near(w.after, emitted, w.wrench, {1, 1, 1}));
-      CHECK(near(w.geometry, w.p_MT, Vector6::Zero(), {1, 0, 1}));
-      CHECK(near(w.load, w.p_MT, w.wrench, {0, 1, 1}));
-      CHECK(near(w.air, emitted, Vector6::Zero(), {1, 0, 1}));
+      CHECK(near(w.before, w.p_MT, w.wrench, {}));
+      CHECK(near(w.after, emitted, w.wrench, {}));
+      CHECK(near(w.geometry, w.p_MT, Vector6::Zero(), {1, 0, 1, 0}));
+      CHECK(near(w.load, w.p_MT, w.wrench, {0, 1, 1, 0}));
+      CHECK(near(w.air, emitted, Vector6::Zero(), {1, 0, 1, 1}));
+      REQUIRE(w.higher.status == Status::converged);
+      REQUIRE(w.lower.status == Status::converged);
+      CHECK(near(w.higher.deviation, emitted, 1.3 * w.wrench, {}));
+      CHECK(near(w.lower.deviation, emitted, 0.7 * w.wrench, {}));
+      CHECK(w.gravity == Vector6(Vector6::Zero()));
       CHECK((w.superposition - w.geometry - w.load).norm() < 1e-12);
       largest = std::max(largest, (w.superposition - w.before).head<3>().norm());
     }
@@ -59,6 +64,36 @@ TEST_CASE("geometry, load, superposition and air are those of independent solves
     CHECK(largest > 1e-9);
     CHECK(largest < 0.1e-3);
   }
+}
+
+TEST_CASE("a force 30 % higher or lower leaves 30 % of what the force does, to first order") {
+  Order order{.machine = load_machine(mill), .text = part, .force = constant_force(milling())};
+  order.X_MW.p = Vector3(150, 100, -240) * mm;
+  const Shop shop(order);
+  int under_force = 0;
+  for (const Waypoint& w : compensated(shop, true).waypoints) {
+    if (w.between) continue;
+    const Vector6 share = 0.3 * w.load;
+    CHECK((w.higher.deviation - w.after - share).head<3>().norm() <= 0.01 * share.head<3>().norm() + 1e-12);
+    CHECK((w.lower.deviation - w.after + share).head<3>().norm() <= 0.01 * share.head<3>().norm() + 1e-12);
+    CHECK((w.wrench.isZero(0) ? w.higher.deviation == w.after : w.load.head<3>().norm() > 0.1e-6));
+    under_force += !w.wrench.isZero(0);
+  }
+  CHECK(under_force > 2);
+}
+
+TEST_CASE("a force under which the machine would give way is no failure while it does not act") {
+  // A strut that buckles at 5000 N.
+  Order order{.machine = load_machine(strut), .text = "G21 G90\nG0 X400. Y0. Z0.\nG1 X410. F100\nM30\n"};
+  order.max_correction = 1;
+  order.tolerance = 1e-3;
+  order.force = constant_force((Vector6() << -4500, 0, 0, 0, 0, 0).finished());
+  const Compensation result = compensated(Shop(order), true);
+  const Waypoint& last = result.waypoints.back();
+  CHECK(last.higher.status == Status::unstable);
+  CHECK(last.lower.status == Status::converged);
+  order.force = constant_force((Vector6() << -5850, 0, 0, 0, 0, 0).finished());
+  CHECK(Shop(order).run().failure);
 }
 
 TEST_CASE(

@@ -109,6 +109,7 @@ TEST_CASE("the JSON of a compensation has every key, in this order") {
         "max_across_mm": 0.15,
         "max_tool_axis_mm": 0.2
       },
+      "gravity": null,
       "superposition": {
         "max_mm": 0.375,
         "rms_mm": 0.375,
@@ -120,6 +121,44 @@ TEST_CASE("the JSON of a compensation has every key, in this order") {
         "max_along_mm": 0.0,
         "max_across_mm": 0.225,
         "max_tool_axis_mm": 0.3
+      }
+    },
+    "sensitivity": {
+      "force_plus_30": {
+        "max_mm": 0.08,
+        "rms_mm": 0.08,
+        "mean_mm": 0.08,
+        "p95_mm": 0.08,
+        "max_line": 4,
+        "max_axis_mm": [0.0, 0.048, 0.064],
+        "max_rotation_deg": 0.0,
+        "max_along_mm": 0.0,
+        "max_across_mm": 0.048,
+        "max_tool_axis_mm": 0.064
+      },
+      "force_minus_30": {
+        "max_mm": 0.07,
+        "rms_mm": 0.07,
+        "mean_mm": 0.07,
+        "p95_mm": 0.07,
+        "max_line": 4,
+        "max_axis_mm": [0.0, 0.042, 0.056],
+        "max_rotation_deg": 0.0,
+        "max_along_mm": 0.0,
+        "max_across_mm": 0.042,
+        "max_tool_axis_mm": 0.056
+      },
+      "without_force": {
+        "max_mm": 0.25,
+        "rms_mm": 0.25,
+        "mean_mm": 0.25,
+        "p95_mm": 0.25,
+        "max_line": 4,
+        "max_axis_mm": [0.0, 0.15, 0.2],
+        "max_rotation_deg": 0.0,
+        "max_along_mm": 0.0,
+        "max_across_mm": 0.15,
+        "max_tool_axis_mm": 0.2
       }
     },
     "air": {
@@ -137,7 +176,13 @@ TEST_CASE("the JSON of a compensation has every key, in this order") {
     "largest_Nm": 2.0,
     "ramps": 1,
     "jumps": 0,
-    "largest_step_N": 50.0
+    "largest_step_N": 50.0,
+    "without_force": {
+      "moves": 0,
+      "length_mm": 0.0,
+      "reasons": [],
+      "rows": []
+    }
   },
   "blocks": {
     "total": 6,
@@ -203,7 +248,9 @@ TEST_CASE("the JSON of a failure says so, and holds null where nothing was solve
   none.failure = Failure{Exit::limit, 4, "too far"};
   const std::string json = to_json(compensated(run, none));
   CHECK(contains(json, "\"failure\": {\n    \"exit\": 6,\n    \"line\": 4,\n    \"what\": \"too far\"\n  }"));
-  CHECK(contains(json, "\"before\": null,\n    \"after\": null,\n    \"sources\": null,\n    \"air\": null"));
+  CHECK(contains(json,
+                 "\"before\": null,\n    \"after\": null,\n    \"sources\": null,\n    \"sensitivity\": "
+                 "null,\n    \"air\": null"));
   CHECK(contains(json, "\"largest_N\": null"));
   CHECK(contains(json, "\"short_blocks\": null,\n    \"lines\": null"));
 }
@@ -229,6 +276,7 @@ TEST_CASE("the CSV has the documented columns and a row for every waypoint that 
       "before_dx_mm,before_dy_mm,before_dz_mm,before_drx_deg,before_dry_deg,before_drz_deg,"
       "geometry_dx_mm,geometry_dy_mm,geometry_dz_mm,geometry_drx_deg,geometry_dry_deg,geometry_drz_deg,"
       "load_dx_mm,load_dy_mm,load_dz_mm,load_drx_deg,load_dry_deg,load_drz_deg,"
+      "gravity_dx_mm,gravity_dy_mm,gravity_dz_mm,gravity_drx_deg,gravity_dry_deg,gravity_drz_deg,"
       "superposition_dx_mm,superposition_dy_mm,superposition_dz_mm,"
       "superposition_drx_deg,superposition_dry_deg,superposition_drz_deg,"
       "after_dx_mm,after_dy_mm,after_dz_mm,after_drx_deg,after_dry_deg,after_drz_deg,"
@@ -241,9 +289,10 @@ TEST_CASE("the CSV has the documented columns and a row for every waypoint that 
       "0,4,1,100.000000,1.000000,2.000000,-3.000000,30.000000,-40.000000,0.000000,0.000000,0.000000,2.000000,"
       "0.1000000,-0.2000000,0.3000000,0.5000000,-0.2500000,0.0000000,"
       "0.0250000,-0.0500000,0.0750000" +
-          zeros + ",0.0500000,-0.1000000,0.1500000" + zeros + ",0.0750000,-0.1500000,0.2250000" + zeros +
-          ",0.0010000,-0.0020000,0.0030000" + zeros + ",-0.0500000,0.1000000,-0.1500000" + zeros +
-          ",-0.1000000,0.2000000,-0.3000000" + zeros + ",converged,7");
+          zeros + ",0.0500000,-0.1000000,0.1500000" + zeros + zeros + zeros +
+          ",0.0750000,-0.1500000,0.2250000" + zeros + ",0.0010000,-0.0020000,0.0030000" + zeros +
+          ",-0.0500000,0.1000000,-0.1500000" + zeros + ",-0.1000000,0.2000000,-0.3000000" + zeros +
+          ",converged,7");
 }
 
 TEST_CASE("rows of a CSV that come in portions are those that come at once") {
@@ -265,9 +314,9 @@ TEST_CASE("columns that were not computed keep their place and are empty") {
   waypoints[1].status = Status::singular;
   const auto lines = lines_of(csv_of(waypoints, {true, false}));
   REQUIRE(lines.size() == 3);
-  for (const std::string& line : lines) CHECK(std::count(line.begin(), line.end(), ',') == 56);
+  for (const std::string& line : lines) CHECK(std::count(line.begin(), line.end(), ',') == 62);
   CHECK(contains(lines[1], std::string(19, ',') + "converged,7"));
-  CHECK(contains(lines[2], ",2.000000" + std::string(43, ',') + "singular,7"));
+  CHECK(contains(lines[2], ",2.000000" + std::string(49, ',') + "singular,7"));
 }
 
 TEST_CASE("the summary shows before and after, and calls what is left a model residual") {
@@ -285,6 +334,10 @@ TEST_CASE("the summary shows before and after, and calls what is left a model re
       text,
       "  3 of 5 moves corrected each on its own, 2 points added\n  1 with their contour as one shift, 1 "
       "holding the correction before them\n"));
+  CHECK(contains(
+      text,
+      "  With the force 30 % higher (wear, override) the corrected program is off by up to 0.0800 "
+      "mm, line\n  4; with it 30 % lower the corrected program is off by up to 0.0700 mm, line 4.\n"));
   CHECK(contains(text, "corrected program is off by up to\n  0.2500 mm, line 4.\n"));
   CHECK(contains(text, "Not corrected: 1 block\n  line 5: exact stop: not split\n"));
   CHECK(contains(text, "2 warnings\n  a general warning\n  line 6: a warning\n"));
@@ -297,6 +350,64 @@ TEST_CASE("the summary of a prediction shows no residual") {
   CHECK(contains(text, "  largest                                 0.5000\n"));
   CHECK_FALSE(contains(text, "after"));
   CHECK_FALSE(contains(text, "residual"));
+}
+
+TEST_CASE("where more force makes the machine give way, the summary, a warning and the JSON say so") {
+  const MadeUpRun run;
+  Compensation c = small_compensation();
+  c.waypoints[0].higher.status = Status::unstable;
+  const RunReport report = compensated(run, c);
+  const std::string text = summary_text(report, false);
+  CAPTURE(text);
+  CHECK(
+      contains(text, "With the force 30 % higher (wear, override) the machine has no stable equilibrium in"));
+  REQUIRE(report.warnings.count == 1);
+  CHECK(report.warnings.rows[0].line == 4);
+  CHECK(contains(report.warnings.rows[0].what, "unstable; 1 place in all"));
+  CHECK(contains(to_json(report), "\"force_plus_30\": null"));
+  CHECK_FALSE(contains(to_json(report), "\"force_minus_30\": null"));
+  CHECK_FALSE(report.failure);
+}
+
+TEST_CASE("a machine with masses has a fifth row of sources") {
+  MadeUpRun run;
+  run.facts.weights = true;
+  Compensation c = small_compensation();
+  c.waypoints[0].gravity.head<3>() = Vector3(0, 0, -0.02) * mm;
+  const RunReport report = compensated(run, c);
+  const std::string text = summary_text(report, false);
+  CAPTURE(text);
+  CHECK(contains(text,
+                 "  gravity: weights alone                  0.0000      0.0000      0.0200      0.0200\n"
+                 "  superposition: sum of the three "));
+  CHECK(contains(text, "  all acting together "));
+  CHECK(contains(to_json(report), "\"gravity\": {\n        \"max_mm\": 0.02,"));
+}
+
+TEST_CASE("moves without a force are listed by reason, in the summary and the JSON") {
+  const MadeUpRun run;
+  RunReport report = compensated(run, small_compensation());
+  for (int line = 14; line < 24; ++line) add_unforced(report.forces.without, {line, 7.5 * mm, "a plunge"});
+  add_unforced(report.forces.without, {12, 4.2 * mm, "no speed"});
+  const std::string text = summary_text(report, false), json = to_json(report);
+  CHECK(contains(text,
+                 "  11 feed moves, 79.200 mm, cut without a force\n"
+                 "    10 moves, 75.000 mm, from line 14 on: a plunge\n"
+                 "    1 move, 4.200 mm, from line 12 on: no speed\n"));
+  CHECK(contains(json, "\"moves\": 11,\n      \"length_mm\": 79.2,"));
+  CHECK(contains(json,
+                 "\"why\": \"no speed\",\n          \"moves\": 1,\n          \"length_mm\": 4.2,\n          "
+                 "\"first_line\": 12\n"));
+  CHECK(contains(json, "\"rows\": [\n        {\n          \"line\": 12,\n          \"length_mm\": 4.2,"));
+}
+
+TEST_CASE("the summary of a prediction says what more and less force do to the program itself") {
+  const MadeUpRun run;
+  const std::string text = summary_text(predicted(run, made_up_waypoints()), false);
+  CAPTURE(text);
+  CHECK(contains(text, "With the force 30 % higher (wear, override) the program is off by up to"));
+  CHECK(
+      contains(text, "Without the force (dry run, spring pass, broken insert) the program is off by up to"));
 }
 
 TEST_CASE("the summary of a failure says what failed and shows no numbers that are not known") {

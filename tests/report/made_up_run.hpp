@@ -95,6 +95,8 @@ inline Waypoint cut(std::size_t segment, int line, double weight_mm, const Vecto
   w.load = w.before / 2;
   w.superposition = w.geometry + w.load;
   w.air = -w.load;
+  w.higher.deviation = w.after + force_change * w.load;
+  w.lower.deviation = w.after - force_change * w.load;
   w.correction = -w.before;
   w.iterations = 7;
   return w;

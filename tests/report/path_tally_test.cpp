@@ -56,6 +56,21 @@ TEST_CASE("segments whose numbers begin anew with a window are counted apart") {
   CHECK(tally.measures().segments_changed == 2);
 }
 
+TEST_CASE("the path without the force is that of air, that under more of it is known where it was solved") {
+  std::vector<Waypoint> path = {cut(0, 3, 5, Vector3(0.3, 0, 0)), cut(1, 4, 5, Vector3(0.5, 0, 0)),
+                                cut(2, 6, 5, Vector3(0.1, 0, 0))};
+  path[1].higher.status = path[2].higher.status = Status::unstable;
+  const Measures m = tally_of(path).measures();
+  CHECK(m.without_force.statistics().max_mm == m.air.mm);
+  CHECK(m.without_force.statistics().max_line == m.air.line);
+  CHECK(m.higher.unsolved == 2);
+  CHECK(m.higher.first_line == 4);
+  CHECK(m.higher.status == Status::unstable);
+  CHECK(m.higher.deviation.statistics().max_mm == doctest::Approx(0.3 / 100 + 0.3 * 0.15));
+  CHECK(m.lower.unsolved == 0);
+  CHECK(m.lower.deviation.statistics().max_line == 4);
+}
+
 TEST_CASE("a line that comes back has one row with the largest values of both times") {
   const PathTally tally = tally_of({cut(0, 5, 1, Vector3(0.3, 0, 0)), cut(1, 9, 1, Vector3(0.2, 0, 0)),
                                     cut(2, 5, 1, Vector3(0.5, 0, 0)), cut(3, 9, 1, Vector3(0.1, 0, 0))});

@@ -39,7 +39,10 @@ Waypoint random_waypoint(Thousandths& random, std::size_t segment, int line) {
   w.after = random_deviation(random) / 10;
   w.geometry = random_deviation(random);
   w.load = random_deviation(random);
+  w.gravity = random_deviation(random);
   w.air = random_deviation(random);
+  w.higher = {random_deviation(random), random.below(30) == 0 ? Status::unstable : Status::converged};
+  w.lower.deviation = random_deviation(random);
   w.correction = random.below(3) == 0 ? Vector6(Vector6::Zero()) : random_deviation(random);
   w.wrench = 1e5 * random_deviation(random);
   return w;
@@ -165,6 +168,34 @@ TEST_CASE("forces of windows add up: ramps, jumps and notes, the largest step of
   CHECK(tally.forces().ramps == 2 * run.forces.ramps());
   CHECK(tally.forces().jumps == 2 * run.forces.jumps());
   CHECK(tally.forces().largest_step_N == run.forces.largest_step_N());
+}
+
+TEST_CASE("moves without a force are counted, with their length, by reason, and the first ones are listed") {
+  WithoutForce without;
+  for (int i = 0; i < 150; ++i)
+    add_unforced(without, {1000 - i, 2 * mm, i % 3 == 0 ? "a plunge" : "no spindle speed"});
+  CHECK(without.moves == 150);
+  CHECK(without.length_mm == doctest::Approx(300));
+  REQUIRE(without.reasons.size() == 2);
+  CHECK(without.reasons[0].why == "a plunge");
+  CHECK(without.reasons[0].moves == 50);
+  CHECK(without.reasons[0].length_mm == doctest::Approx(100));
+  CHECK(without.reasons[0].first_line == 853);
+  CHECK(without.reasons[1].moves == 100);
+  CHECK(without.rows.count == 150);
+  REQUIRE(without.rows.rows.size() == listed_at_most);
+  CHECK(without.rows.rows[0].line == 851);
+  CHECK(without.rows.rows[0].length_mm == doctest::Approx(2));
+}
+
+TEST_CASE("of many different reasons the last stands for the rest") {
+  WithoutForce without;
+  for (int i = 0; i < 300; ++i) add_unforced(without, {i + 1, mm, "reason " + std::to_string(i)});
+  REQUIRE(without.reasons.size() == listed_at_most);
+  CHECK(without.reasons[98].why == "reason 98");
+  CHECK(without.reasons[99].why == "other reasons");
+  CHECK(without.reasons[99].moves == 201);
+  CHECK(without.reasons[99].first_line == 100);
 }
 
 TEST_CASE("compensations of windows add up, and the first of the largest corrections is named") {

@@ -29,6 +29,15 @@ struct Piece {
   std::int32_t tool = 0;    ///< in the spindle, where there is no segment
 };
 
+/// By how much the force of a sensitivity is higher or lower than the given one: wear, overrides.
+inline constexpr double force_change = 0.3;
+
+/// The emitted target solved forward under another force than the given one.
+struct OtherForce {
+  Vector6 deviation = Vector6::Zero();
+  Status status = Status::converged;  ///< only then does the deviation mean something
+};
+
 /// Six-vectors: position (m), rotation vector (rad), axes of M, actual minus wanted.
 struct Waypoint {
   std::size_t segment = 0;  ///< or no_segment
@@ -45,10 +54,12 @@ struct Waypoint {
   Vector6 wrench = Vector6::Zero();         ///< acting, axes of M
   Vector6 before = Vector6::Zero();         ///< the original program's target, solved forward
   Vector6 after = Vector6::Zero();          ///< the emitted target, solved forward
-  Vector6 geometry = Vector6::Zero();       ///< before, assembly errors alone
-  Vector6 load = Vector6::Zero();           ///< before, forces alone
-  Vector6 superposition = Vector6::Zero();  ///< geometry + load - D(0, 0)
+  Vector6 geometry = Vector6::Zero();       ///< before, assembly errors alone: no force, no weight
+  Vector6 load = Vector6::Zero();           ///< before, forces alone: perfect assembly, no weight
+  Vector6 gravity = Vector6::Zero();        ///< before, weights alone; zero for a machine without masses
+  Vector6 superposition = Vector6::Zero();  ///< sum of the three, what preloads do alone counted once
   Vector6 air = Vector6::Zero();            ///< the emitted target without force
+  OtherForce higher, lower;                 ///< the emitted target under 1.3 and 0.7 times the force
   Vector6 correction = Vector6::Zero();     ///< emitted target minus the original program's
   Status status = Status::converged;
   int iterations = 0;
@@ -57,7 +68,7 @@ struct Waypoint {
 /// What is solved at each end of a piece besides `after`.
 struct Questions {
   bool before = true;
-  bool attribution = false;  ///< geometry, load, superposition, air
+  bool attribution = false;  ///< geometry, load, gravity, superposition, air, higher, lower
   bool inside = true;        ///< samples between the ends of feed pieces
 };
 

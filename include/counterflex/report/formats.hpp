@@ -15,7 +15,7 @@ std::string to_json(const RunReport& report);
 
 /// Which columns of the CSV were computed; the others keep their place and are empty.
 struct CsvColumns {
-  bool attribution = true;  ///< geometry_, load_, superposition_; with `corrected` also air_
+  bool attribution = true;  ///< geometry_, load_, gravity_, superposition_; with `corrected` also air_
   bool corrected = true;    ///< after_, correction_: not for a prediction
 };
 

@@ -10,8 +10,18 @@
 
 namespace counterflex {
 
+/// The path under another force than the given one.
+struct OtherForceTally {
+  DeviationTally deviation;
+  std::size_t unsolved = 0;  ///< places where the machine has no stable equilibrium
+  int first_line = 0;        ///< of them
+  Status status = Status::converged;
+};
+
 struct Measures {
-  DeviationTally before, after, geometry, load, superposition;
+  DeviationTally before, after, geometry, load, gravity, superposition;
+  DeviationTally without_force;
+  OtherForceTally higher, lower;
   Largest air, correction;
   double largest_N = 0, largest_Nm = 0;
   double path_mm = 0;

@@ -12,6 +12,7 @@
 #include "counterflex/program/line_lengths.hpp"
 #include "counterflex/program/overview.hpp"
 #include "counterflex/report/statistics.hpp"
+#include "counterflex/report/without_force.hpp"
 
 namespace counterflex {
 
@@ -35,10 +36,12 @@ struct RunFacts {
   std::vector<InputFile> inputs;
   std::vector<OptionValue> options;
   std::vector<Remark>
-      warnings;              ///< besides the program's remarks and the forces' notes, which are added here
-  std::string output;        ///< path of the corrected program; empty: none was written
-  double min_block_ms = 2;   ///< what takes less time is a short block
-  bool attribution = false;  ///< the waypoints' geometry, load, superposition and air were solved
+      warnings;             ///< besides the program's remarks and the forces' notes, which are added here
+  std::string output;       ///< path of the corrected program; empty: none was written
+  double min_block_ms = 2;  ///< what takes less time is a short block
+  bool attribution =
+      false;             ///< the waypoints' geometry, load, superposition, air, higher and lower were solved
+  bool weights = false;  ///< the machine has masses: gravity was solved, too
 };
 
 struct WorstRow {
@@ -55,7 +58,25 @@ struct Largest {
 
 /// Where each part of the deviation before comes from.
 struct Sources {
-  DeviationStatistics geometry, load, superposition;
+  DeviationStatistics geometry, load;
+  std::optional<DeviationStatistics> gravity;  ///< none for a machine without masses
+  DeviationStatistics superposition;
+};
+
+/// The deviation under a force that is higher or lower by `force_change`. Places where the machine has no
+/// stable equilibrium are in `unsolved` alone.
+struct UnderOtherForce {
+  DeviationStatistics deviation;
+  std::size_t unsolved = 0;
+  int first_line = 0;  ///< of the unsolved
+  Status status = Status::converged;
+};
+
+/// What the deviation of the corrected program (`predict`: of the original one) becomes when the force is
+/// another.
+struct Sensitivity {
+  UnderOtherForce higher, lower;
+  DeviationStatistics without;
 };
 
 struct ForceSummary {
@@ -64,6 +85,7 @@ struct ForceSummary {
   std::size_t ramps = 0;  ///< steps of the profile that act as ramps
   std::size_t jumps = 0;  ///< steps that act as steps
   double largest_step_N = 0;
+  WithoutForce without;
 };
 
 struct BlockCounts {
@@ -117,6 +139,7 @@ struct RunReport {
   std::optional<DeviationStatistics> before;  ///< none where a run failed before anything was solved
   std::optional<DeviationStatistics> after;   ///< model residual; none for `predict`, and like `before`
   std::optional<Sources> sources;             ///< with attribution
+  std::optional<Sensitivity> sensitivity;     ///< with attribution, where a force acts
   std::optional<Largest>
       air;  ///< largest deviation of a feed move of the corrected program without the force
   std::optional<Largest> correction;  ///< largest change of a target

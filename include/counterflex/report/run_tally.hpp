@@ -19,7 +19,7 @@ class RunTally {
   /// The next waypoints of the path, cut anywhere.
   void add_waypoints(const std::vector<Waypoint>& waypoints);
 
-  /// The next window's: its ramps, jumps and notes are added to those before.
+  /// The next window's: its ramps, jumps, moves without a force and notes are added to those before.
   void add_forces(const PathForces& forces);
 
   /// The next window's counts, left-alone blocks, largest correction and size of text. Neither its waypoints
@@ -32,7 +32,7 @@ class RunTally {
   void add_corrected(const Program& corrected_window);
 
   const PathTally& path() const { return path_; }
-  const ForceSummary& forces() const { return forces_; }  ///< of ramps, jumps and steps
+  const ForceSummary& forces() const { return forces_; }  ///< of ramps, jumps, steps and moves without one
   const Capped<Remark>& force_notes() const { return force_notes_; }
   const Capped<LeftAlone>& left_alone() const { return left_alone_; }
   const Largest& largest_correction() const { return largest_correction_; }
