@@ -78,7 +78,7 @@ class ForwardSolver {
         !solve(original, {}, {0, 0, 1, 0}, unloaded_perfect) || !solve(emitted, {}, {1, 0, 1, 1}, w.air))
       return false;
     w.superposition = w.geometry + w.load - unloaded_perfect;
-    if (!has_weight(job_.model.mechanism)) return true;
+    if (!has_weight(solver_->model().mechanism)) return true;
     if (!solve(original, {}, {0, 0, 1, 1}, w.gravity)) return false;
     w.superposition += w.gravity - unloaded_perfect;
     return true;
@@ -88,7 +88,7 @@ class ForwardSolver {
   // the run: it does not act.
   OtherForce under(double factor, const Load& load, const Vector6& after) {
     if (load.F.isZero(0)) return {after, Status::converged};
-    const ActualSolution actual = solver_.under_another_load({factor * load.F, load.at_platform});
+    const ActualSolution actual = solver_->under_another_load({factor * load.F, load.at_platform});
     if (actual.status != Status::converged) return {Vector6::Zero(), actual.status};
     return {deviation(actual.X_MT, wanted_), actual.status};
   }
