@@ -102,7 +102,8 @@ std::vector<std::string> notes_of(const Machine& machine, const Model& model, co
 }
 
 std::string position_text(const Vector3& p) {
-  return fmt::format("{:.6g}, {:.6g}, {:.6g} mm", p.x() / mm, p.y() / mm, p.z() / mm);
+  const auto shown = [](double x) { return rounded(x / mm, 9); };  // without the noise of solving
+  return fmt::format("{:.6g}, {:.6g}, {:.6g} mm", shown(p.x()), shown(p.y()), shown(p.z()));
 }
 
 std::string weights_text(const Machine& machine) {

@@ -69,7 +69,7 @@ Pose PathSolver::wanted(const Vector3& p_MT, Status& status) {
 }
 
 Vector3 PathSolver::tip_of(const Configuration& configuration) const {
-  return tip(job_.model.mechanism, configuration).p;
+  return tip(model_.mechanism, configuration).p;
 }
 
 // A warm start may fail where a cold one does not; the continuation decides.

@@ -42,7 +42,7 @@ template <class Check>
 void for_any_configurations(unsigned seed, const Check& check) {
   for (const std::string name : all_machines) {
     CAPTURE(name);
-    for (const double kg : {0.0, 1.0, 30.0, 1000.0}) {
+    for (const double kg : {0.0, 300.0}) {
       CAPTURE(kg);
       for_shaken_configurations(kg > 0 ? heavy_model_of(name, kg) : model_of(name), seed, check);
     }
@@ -113,6 +113,23 @@ TEST_CASE("the bound leaves room where a slender tool bends behind chains side b
   evaluate_all(model, model.home, {}, work.impl());
   CHECK(surely_well_conditioned(model.mechanism, work.impl().chains, Matrix6::Zero(),
                                 {model.mechanism.length}, 1e8));
+}
+
+TEST_CASE("both proofs are found for loaded machines with masses in branches that lean") {
+  for (const Trial& trial : controlled_machines()) {
+    CAPTURE(trial.name);
+    const Model model = heavy_model_of(trial.name, 3);
+    const Units units{model.mechanism.length};
+    StaticsWork work(model.mechanism);
+    Random random(76);
+    const Load load = random.load(trial);
+    const Equilibrium e = solve_forward(model, somewhere(model, trial, random).configuration, load, {}, work);
+    REQUIRE(e.status == Status::converged);
+    evaluate_all(model, e.configuration, {}, work.impl());
+    const Matrix6 tangent = applied_wrench(model.mechanism, e.configuration.X_MP, load, 1).tangent;
+    CHECK(surely_stable(model.mechanism, work.impl().chains, tangent, units));
+    CHECK(surely_well_conditioned(model.mechanism, work.impl().chains, tangent, units, 1e10));
+  }
 }
 
 TEST_CASE("the judgement of a solution is that of the eigenvalues, proof or no proof") {
