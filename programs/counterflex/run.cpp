@@ -77,7 +77,14 @@ void warn_of_cycles(Run& run) {
 /// Stiffness that nobody has given, and tools that the file does not know beside those that it does.
 void warn_of_tools(Run& run) {
   const Machine& machine = run.machine.machine;
-  if (run.tool_models.empty()) return;
+  if (run.tool_models.empty()) {
+    const auto bends = [&](const auto& tool) { return !tool.second.yields.empty(); };
+    if (run.program.tools == std::vector<long>{0} &&
+        std::any_of(machine.tools.begin(), machine.tools.end(), bends))
+      run.facts.warnings.push_back(
+          {0, "the program names no tool: [tool] is taken, rigid, whatever bends in [tools]"});
+    return;
+  }
   for (const long number : run.program.tools) {
     const auto found = machine.tools.find(number);
     const bool known = found != machine.tools.end();

@@ -108,7 +108,7 @@ std::vector<UsedTool> used_tools(const Machine& machine, const std::vector<long>
   bool change = false;
   for (const long number : numbers) {
     const auto found = machine.tools.find(number);
-    if (found == machine.tools.end()) continue;
+    if (number == 0 || found == machine.tools.end()) continue;
     const Tool& tool = found->second;
     change = change || changes_model(machine, tool);
     UsedTool& used = tools.emplace_back(UsedTool{number, {}, {}, stiffness_phrase(tool)});

@@ -48,7 +48,7 @@ ToolModels prepare_tools(const Machine& machine, const Model& base, const std::v
   ToolModels models;
   for (const long number : numbers) {
     const auto found = machine.tools.find(number);
-    if (found != machine.tools.end() && changes_model(machine, found->second))
+    if (number != 0 && found != machine.tools.end() && changes_model(machine, found->second))
       models.emplace(number, prepare_with_tool(machine, base, found->second));
   }
   return models;

@@ -132,3 +132,13 @@ TEST_CASE("of more rows than a capped list shows the first by line stay, those o
     CHECK(first.rows[i].what == all[i].what);
   }
 }
+
+TEST_CASE("an overview lists the tools in the spindle for a move, each once and in order") {
+  const Program program =
+      read_program("G21 G90\nG0 X1 Y1 Z1\nT7 M6\nX2\nT3 M6\nX3\nT7 M6\nX4\nT9\nX5\nM30\n", "t.ngc", {});
+  const std::vector<long> expected{0, 3, 7};
+  CHECK(overview_of(program).tools == expected);
+  Overview parts;
+  for (const Program& window : windows_of(program, 3)) add_window(parts, window);
+  CHECK(parts.tools == expected);
+}

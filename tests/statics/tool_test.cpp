@@ -198,6 +198,7 @@ TEST_CASE("a cantilever bends by FL^3/3EI and turns by FL^2/2EI, in the sense of
 TEST_CASE("a length puts the tip below [spindle], for a rigid tool and one that yields") {
   Machine machine = load_machine(mill_file);
   machine.X_PS = Pose{Matrix3::Identity(), {0, 0, -0.02}};
+  machine.tools[0] = {.length = 0.3};  // no tool is known: [tool]
   machine.tools[3] = {.length = 0.1};
   machine.tools[4] = {.length = 0.1, .from = ToolStiffness::radial, .yields = radial_tool(1e12)};
   machine.tools[5] = {.length = 0.06, .from = ToolStiffness::radial, .yields = radial_tool(1e12)};

@@ -14,7 +14,7 @@ using ToolModels = std::map<long, Model>;
 /// on the same branch.
 Model prepare_with_tool(const Machine& machine, const Model& base, const Tool& tool);
 
-/// Of those of `numbers` that are in [tools] and change the model.
+/// Of those of `numbers` that are in [tools] and change the model. Number 0 stands for no known tool, and has none.
 ToolModels prepare_tools(const Machine& machine, const Model& base, const std::vector<long>& numbers);
 
 /// A nominal configuration, and the model that it is one of.
