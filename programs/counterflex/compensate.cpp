@@ -42,7 +42,7 @@ Exit run_compensate(const Options& options, Console& console) {
   const OutputPaths paths = output_paths(options);
   const auto run = prepare_run(options, console);
   refuse_what_cannot_be_compensated(*run);
-  run->options.write.header = header_of(*run);
+  run->options.write.header = header_of(options, *run);
   RunFiles files(paths, {.attribution = run->facts.attribution});
   RunTally tally(run->facts.min_block_ms);
   const std::optional<Failure> failure = compensate_all(*run, tally, files, console);

@@ -16,6 +16,12 @@ std::string text_of(const Vector6& F) {
   return fmt::format("{},{},{},{},{},{}", F[0], F[1], F[2], F[3], F[4], F[5]);
 }
 
+/// Of --force: "T3=1,2,3,0,0,0".
+std::string text_of(const ForceRule& rule) {
+  const std::string tool = rule.selector.tool ? fmt::format("T{}=", *rule.selector.tool) : "";
+  return tool + text_of(std::get<ConstantForce>(rule.content).F);
+}
+
 std::string upper(std::string text) {
   std::transform(text.begin(), text.end(), text.begin(),
                  [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
@@ -50,7 +56,8 @@ RunFacts facts_of(const Options& options, const Run& run) {
   facts.version = version;
   facts.attribution = true;
   facts.inputs = {run.file.file, run.machine.file};
-  if (run.force_input.file) facts.inputs.push_back(*run.force_input.file);
+  const auto& forces = run.force_input.files;
+  facts.inputs.insert(facts.inputs.end(), forces.begin(), forces.end());
   if (run.tools.file) facts.inputs.push_back(*run.tools.file);
   facts.min_block_ms = options.min_block_ms;
   facts.options = {{"method", std::string(to_string(options.method))},
@@ -58,22 +65,23 @@ RunFacts facts_of(const Options& options, const Run& run) {
                    {"max-correction-mm", in_mm(run.options.max_correction)},
                    {"load-scale", options.load_scale},
                    {"blend-mm", in_mm(options.blend)}};
-  if (options.force) facts.options.push_back({"force", text_of(*options.force)});
+  for (const ForceRule& rule : options.force_rules) facts.options.push_back({"force", text_of(rule)});
   if (options.air_above_mm) facts.options.push_back({"air-above", *options.air_above_mm});
   if (options.decimals >= 0) facts.options.push_back({"decimals", static_cast<double>(options.decimals)});
   for (OptionValue& value : reading_options(options, run)) facts.options.push_back(std::move(value));
   return facts;
 }
 
-std::vector<std::string> header_of(const Run& run) {
+std::vector<std::string> header_of(const Options& options, const Run& run) {
   std::vector<std::string> lines{fmt::format("COUNTERFLEX 1 VERSION {} METHOD {}", upper(version),
                                              upper(std::string(to_string(run.options.method)))),
                                  "COUNTERFLEX 1 PROGRAM " + short_hash(run.file.file),
                                  "COUNTERFLEX 1 MACHINE " + short_hash(run.machine.file)};
-  if (run.force_input.file) lines.push_back("COUNTERFLEX 1 FORCES " + short_hash(*run.force_input.file));
+  for (const InputFile& forces : run.force_input.files)
+    lines.push_back("COUNTERFLEX 1 FORCES " + short_hash(forces));
   if (run.tools.file) lines.push_back("COUNTERFLEX 1 TOOLS " + short_hash(*run.tools.file));
-  if (run.force_input.source.constant)
-    lines.push_back("COUNTERFLEX 1 FORCE " + upper(text_of(*run.force_input.source.constant)));
+  for (const ForceRule& rule : options.force_rules)
+    lines.push_back("COUNTERFLEX 1 FORCE " + upper(text_of(rule)));
   return lines;
 }
 

@@ -60,7 +60,7 @@ std::string table_row(const MoveForce& move) {
                                  move.feed_m_s / mm * 60, move.spindle_rpm);
   text += move.feed_per_tooth == 0 ? fmt::format("{:>8}", "-")
                                    : fmt::format("{:>8.4f}", move.feed_per_tooth / mm);
-  if (!move.why.empty()) return text + "   no force: " + move.why + "\n";
+  if (!move.why.empty()) return text + "   none: " + move.why + "\n";
   for (int i = 0; i < 6; ++i) text += " " + fmt::format("{:>9}", format_fixed(move.F[i], i < 3 ? 2 : 4));
   return text + (move.only_z ? "  along the tool only\n" : "\n");
 }
@@ -71,7 +71,7 @@ std::string table_foot(const ForceTotals& totals) {
     text += fmt::format("  largest force  {:.1f} N, line {}\n", totals.largest_N, totals.largest_line);
   if (totals.only_z > 0)
     text += fmt::format(
-        "  {} of them feed along the tool: sideways there is no direction, and only what is along the tool "
+        "  {} of them along the tool: sideways there is no direction, and only what is along the tool "
         "is shown\n",
         totals.only_z);
   text += fmt::format("without a force  {}\n", moves_text(totals.without));
@@ -118,7 +118,7 @@ std::string json_foot(const ForceTotals& totals) {
 
 std::string profile_head(const std::string& program, bool at_platform) {
   return fmt::format(
-      "# Forces of {}, a row a feed move.\n"
+      "# Forces of {}, a row a feed move; zeros where none acts.\n"
       "# frame = feed\n# sense = on_tool\n# at = {}\n# interpolation = step\n"
       "s_mm, fx_N, fy_N, fz_N, mx_Nm, my_Nm, mz_Nm\n",
       program, at_platform ? "platform" : "tip");
@@ -126,7 +126,7 @@ std::string profile_head(const std::string& program, bool at_platform) {
 
 std::string profile_row(const MoveForce& move) {
   std::string text = format_fixed(move.s_start / mm, length_decimals);
-  for (int i = 0; i < 6; ++i) text += move.why.empty() ? ", " + format_fixed(move.F[i], force_decimals) : ",";
+  for (int i = 0; i < 6; ++i) text += ", " + format_fixed(move.why.empty() ? move.F[i] : 0, force_decimals);
   return text + "\n";
 }
 

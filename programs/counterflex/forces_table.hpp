@@ -31,7 +31,7 @@ std::string json_head(const std::string& program);
 std::string json_row(const MoveForce& move, bool first);
 std::string json_foot(const ForceTotals& totals);
 
-/// A profile by path length in the feed frame, a row a move; a move without a force ends the cover.
+/// A profile by path length in the feed frame, a row a move, zeros for one without a force.
 std::string profile_head(const std::string& program, bool at_platform);
 std::string profile_row(const MoveForce& move);
 

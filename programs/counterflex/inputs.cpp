@@ -34,6 +34,13 @@ void refuse_folder(const std::string& path, Exit exit) {
     throw InputError(exit, {path}, "cannot read the file: it is a folder");
 }
 
+/// By extension; standard input is CSV.
+bool is_cutting_model(const std::string& path) {
+  const std::string extension = path == "-" ? ".csv" : std::filesystem::path(path).extension().string();
+  if (extension == ".csv" || extension == ".toml") return extension == ".toml";
+  throw InputError(Exit::usage, {path}, fmt::format("a force file is .csv or .toml, not '{}'", extension));
+}
+
 InputFile input_file(const std::string& role, const std::string& path, const std::string& bytes) {
   return {role, path, sha256(bytes)};
 }
@@ -144,34 +151,22 @@ void warn_of(const Overview& program, Console& console) {
   console.more_warnings(program.file, left_alone.count - left_alone.rows.size());
 }
 
-void refuse_two_forces(const Options& options, const Overview& program) {
-  if (options.force && options.forces)
-    throw InputError(Exit::usage, {}, "--force and --forces are both given; one of them says the force");
-  if ((!options.force && !options.forces) || !program.first_force_line) return;
-  throw InputError(
-      Exit::usage, {program.file, *program.first_force_line},
-      fmt::format("the program's FORCE comments and {} are both given; one of them says the force",
-                  options.force ? "--force" : "--forces"));
-}
-
-ForceInput read_force_input(const Options& options, const Overview& program) {
-  refuse_two_forces(options, program);
+ForceInput read_force_input(const Options& options) {
   ForceInput input;
-  input.source.blend = options.blend;
-  input.source.scale = options.load_scale;
-  input.source.air_above_mm = options.air_above_mm;
-  input.source.constant = options.force;
-  if (!options.forces) return input;
-  const std::string extension = std::filesystem::path(*options.forces).extension().string();
-  if (extension == ".toml")
-    throw InputError(Exit::machine_or_force, {*options.forces},
-                     "cutting-force models are not read yet; .csv is");
-  if (extension != ".csv")
-    throw InputError(Exit::usage, {*options.forces},
-                     fmt::format("a force file is .csv or .toml, not '{}'", extension));
-  const std::string text = read_input(*options.forces, Exit::machine_or_force);
-  input.file = input_file("forces", *options.forces, text);
-  input.source.profile = read_force_csv(text, *options.forces);
+  ForceSource& source = input.source;
+  source.blend = options.blend;
+  source.scale = options.load_scale;
+  source.air_above_mm = options.air_above_mm;
+  for (const std::string& path : options.forces) {
+    const bool toml = is_cutting_model(path);
+    const std::string text = read_input(path, Exit::machine_or_force), name = shown_name(path);
+    const std::string role =
+        input.files.empty() ? "forces" : fmt::format("forces-{}", input.files.size() + 1);
+    input.files.push_back(input_file(role, path, text));
+    const auto rules = toml ? read_force_toml(text, name) : read_force_csv(text, name);
+    source.rules.insert(source.rules.end(), rules.begin(), rules.end());
+  }
+  source.rules.insert(source.rules.end(), options.force_rules.begin(), options.force_rules.end());
   return input;
 }
 

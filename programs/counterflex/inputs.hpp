@@ -64,14 +64,11 @@ ProgramFile open_program(const std::string& role, const std::string& path);
 /// Warns of what the reader remarked and left alone.
 void warn_of(const Overview& program, Console& console);
 
-/// Where the forces come from; `file` is empty unless from one.
+/// Where the forces come from: rules of files, in their order, and then those of --force.
 struct ForceInput {
-  std::optional<InputFile> file;
+  std::vector<InputFile> files;
   ForceSource source;
 };
-ForceInput read_force_input(const Options& options, const Overview& program);
-
-/// Refuses more than one of --force, a force file, and FORCE comments (Exit::usage).
-void refuse_two_forces(const Options& options, const Overview& program);
+ForceInput read_force_input(const Options& options);
 
 }  // namespace counterflex::cli

@@ -9,7 +9,7 @@
 
 namespace counterflex::cli {
 
-enum class Command { compensate, predict, verify, analyze, check };
+enum class Command { compensate, predict, verify, analyze, forces, check };
 
 struct Options {
   Command command = Command::check;
@@ -17,10 +17,11 @@ struct Options {
   std::string program;             ///< verify: the original
   std::string corrected;           ///< verify alone
   std::vector<std::string> files;  ///< check alone
-  std::string machine;             ///< empty: none, which check alone allows
+  std::string machine;             ///< empty: none, which check and forces alone allow
 
-  std::optional<std::string> forces;  ///< a file
-  std::optional<Vector6> force;       ///< N, N m
+  std::vector<std::string> forces;     ///< files
+  std::vector<ForceRule> force_rules;  ///< of --force
+  std::optional<Vector6> force;        ///< analyze alone (N, N m)
   double load_scale = 1;
   double blend = 2e-3;  ///< m
   std::optional<double> air_above_mm;
@@ -41,6 +42,7 @@ struct Options {
   double min_block_ms = 2;
 
   std::optional<std::string> output;
+  bool materials = false;             ///< forces alone
   std::optional<std::string> report;  ///< stem
   bool json = false;
   bool quiet = false;

@@ -26,7 +26,7 @@ bool same_file(const std::string& a, const std::string& b) {
 std::vector<std::string> inputs_of(const Options& options) {
   std::vector<std::string> inputs{options.program, options.machine};
   if (!options.corrected.empty()) inputs.push_back(options.corrected);
-  if (options.forces) inputs.push_back(*options.forces);
+  inputs.insert(inputs.end(), options.forces.begin(), options.forces.end());
   if (options.tool_table) inputs.push_back(*options.tool_table);
   return inputs;
 }
@@ -84,6 +84,15 @@ OutputPaths output_paths(const Options& options) {
         "the program and the document of --json cannot both go to standard output; give -o a file");
   check_paths(outputs, inputs_of(options));
   return paths;
+}
+
+void check_output(const Options& options) {
+  if (!options.output) return;
+  if (*options.output == "-" && options.json)
+    throw InputError(
+        Exit::usage, {},
+        "the profile and the document of --json cannot both go to standard output; give -o a file");
+  check_paths({*options.output}, inputs_of(options));
 }
 
 RunFiles::RunFiles(const OutputPaths& paths, const CsvColumns& columns) : paths_(paths), columns_(columns) {

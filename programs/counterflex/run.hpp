@@ -30,6 +30,9 @@ struct Run {
   RunContext context() const;
 };
 
+/// Standard input can be read once. Throws `InputError` (Exit::usage).
+void refuse_stdin_twice(const Options& options);
+
 /// Reads everything, the program to its end, and warns of what was remarked. Throws `InputError`; nothing has
 /// been written then.
 std::unique_ptr<Run> prepare_run(const Options& options, Console& console);
@@ -39,7 +42,7 @@ std::unique_ptr<Run> prepare_run(const Options& options, Console& console);
 void refuse_what_cannot_be_compensated(const Run& run);
 
 /// Texts of the comments that a corrected program starts with.
-std::vector<std::string> header_of(const Run& run);
+std::vector<std::string> header_of(const Options& options, const Run& run);
 
 /// The windows of a run's program, once from its beginning.
 class Windows {

@@ -37,14 +37,12 @@ Location where_of(const ForceRule& rule, std::size_t row) {
   const ForceRule &first = swap ? b : a, &second = swap ? a : b;
   const Location at_first = where_of(first, swap ? row_b : row_a),
                  at_second = where_of(second, swap ? row_a : row_b);
-  const bool told_at_first = at_second.file.empty();
-  const ForceRule& other = told_at_first ? second : first;
-  throw InputError(
-      told_at_first && at_first.file.empty() ? Exit::usage : Exit::machine_or_force,
-      told_at_first ? at_first : at_second,
-      fmt::format("covers line {} of the program, which {} covers too; both are given for {}: "
-                  "one of them must be more specific",
-                  line, place_of(other, told_at_first ? at_second : at_first), shown(rank(first))));
+  const bool at_first_one = at_second.file.empty();
+  fail_rule(at_first_one ? first : second, at_first_one ? at_first : at_second,
+            fmt::format("covers line {} of the program, which {} covers too; both are given for {}: one of "
+                        "them must be more specific",
+                        line, at_first_one ? place_of(second, at_second) : place_of(first, at_first),
+                        shown(rank(first))));
 }
 
 /// Throws where two are of equal rank.
@@ -157,6 +155,9 @@ void Coverage::claim_rows(const ForceRule& rule, std::size_t i) {
       claim.least = fraction(cover.least);
       claim.most = fraction(cover.most);
       claim.rounding = key_margin(profile, span.end) / range;
+      // Rounding is for ends of segments; within one the rows say where the cover ends.
+      if (!profile.within && claim.least > 0) claim.least = claim.from;
+      if (!profile.within && claim.most < 1) claim.most = claim.to;
     }
     claims_.push_back(claim);
   }
@@ -170,7 +171,8 @@ void Coverage::settle(int line) {
   for (std::size_t k = 1; k < claims_.size(); ++k) {
     Claim &a = claims_[k - 1], &b = claims_[k];
     if (std::min(a.to, b.to) - b.from > a.rounding + b.rounding) refuse(a, b, line);
-    a.most = std::max(a.least, std::min(a.most, b.from));
+    const bool meet = b.from - a.to <= a.rounding + b.rounding;
+    a.most = std::max(a.least, meet ? b.from : std::min(a.most, b.from));
     b.least = std::max(b.least, a.most);
     b.most = std::max(b.most, b.least);
   }

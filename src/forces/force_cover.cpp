@@ -90,9 +90,10 @@ struct ForceCover::State {
     refuse_ranges_beyond();
     if (source.rules.size() == 1 && !profile_ends.empty()) profile_ends[0].refuse_missing_ends(ends);
     if (uncovered)
-      throw InputError(Exit::machine_or_force, {file, *uncovered},
-                       "none of the given forces covers this feed move: a row for it is required, with "
-                       "zeros where nothing is cut, or --force=0,0,0 for all that nothing else covers");
+      throw InputError(
+          Exit::machine_or_force, {file, *uncovered},
+          "none of the given forces covers this feed move: a row or section for it is required, with "
+          "zeros where nothing is cut, or --force=0,0,0 for all that nothing else covers");
   }
 
   void refuse_ranges_beyond() const {

@@ -47,8 +47,14 @@ std::string_view shown(ForceRank rank) {
   return names[static_cast<std::size_t>(rank)];
 }
 
+void fail_rule(const ForceRule& rule, const Location& where, const std::string& message) {
+  const bool option = where.file.empty();
+  throw InputError(option ? Exit::usage : Exit::machine_or_force, where,
+                   option ? fmt::format("{}: {}", rule.name, message) : message);
+}
+
 void fail_rule(const ForceRule& rule, const std::string& message) {
-  throw InputError(rule.where.file.empty() ? Exit::usage : Exit::machine_or_force, rule.where, message);
+  fail_rule(rule, rule.where, message);
 }
 
 }  // namespace counterflex

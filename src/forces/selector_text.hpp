@@ -23,7 +23,8 @@ std::string place_of(const ForceRule& rule, const Location& where);
 /// "places", "operations", "tools" or "the whole program".
 std::string_view shown(ForceRank rank);
 
-/// Throws at a rule: Exit::usage for one of the command line, else Exit::machine_or_force.
+/// Throws at a rule, or a row of it: Exit::usage for one of the command line, else Exit::machine_or_force.
+[[noreturn]] void fail_rule(const ForceRule& rule, const Location& where, const std::string& message);
 [[noreturn]] void fail_rule(const ForceRule& rule, const std::string& message);
 
 }  // namespace counterflex

@@ -74,7 +74,9 @@ std::size_t end_of(const std::vector<Best>& best, double within) {
 
 OrderedPlaces in_order(const std::vector<std::vector<Visit>>& rows, double within) {
   OrderedPlaces places;
-  std::vector<std::vector<Best>> best{first_row(rows.front())};
+  std::vector<std::vector<Best>> best;
+  best.reserve(rows.size());  // a step looks at the row above
+  best.push_back(first_row(rows.front()));
   for (std::size_t i = 1; i < rows.size(); ++i) {
     Step step(rows[i - 1], best.back(), within);
     std::vector<Best>& here = best.emplace_back();

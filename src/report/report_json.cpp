@@ -33,10 +33,16 @@ Json inputs_json(const std::vector<InputFile>& inputs) {
   return result;
 }
 
+/// One that is given several times has a list of values.
 Json options_json(const std::vector<OptionValue>& options) {
   Json result = Json::object();
+  const auto add = [&](const std::string& name, const Json& value) {
+    if (!result.contains(name)) return void(result[name] = value);
+    if (!result[name].is_array()) result[name] = Json::array({result[name]});
+    result[name].push_back(value);
+  };
   for (const OptionValue& option : options)
-    std::visit([&](const auto& value) { result[option.name] = value; }, option.value);
+    std::visit([&](const auto& value) { add(option.name, value); }, option.value);
   return result;
 }
 

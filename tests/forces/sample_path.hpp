@@ -16,21 +16,27 @@ inline Vector6 wrench(double fx, double fy, double fz, double mx = 0, double my 
 }
 
 /// Lines 1 to 6 with N10 to N50 (line 4 has none): rapid, plunge of 10 mm, 10 mm along x, rapid up, and after
-/// it 10 mm along y, 10 mm along -x. Feed 10 mm/s.
+/// it 10 mm along y, 10 mm along -x. Feed 10 mm/s. T1 roughs to line 3, T3 finishes.
 inline Program sample_program() {
-  return ProgramBuilder({0, 0, 20})
-      .rapid({0, 0, 10})
-      .numbered(10)
-      .feed({0, 0, 0}, 600)
-      .numbered(20)
-      .feed({10, 0, 0}, 600)
-      .numbered(30)
-      .rapid({10, 0, 5})
-      .feed({10, 10, 5}, 600)
-      .numbered(40)
-      .feed({0, 10, 5}, 600)
-      .numbered(50)
-      .program;
+  Program program = ProgramBuilder({0, 0, 20})
+                        .rapid({0, 0, 10})
+                        .numbered(10)
+                        .feed({0, 0, 0}, 600)
+                        .numbered(20)
+                        .feed({10, 0, 0}, 600)
+                        .numbered(30)
+                        .rapid({10, 0, 5})
+                        .feed({10, 10, 5}, 600)
+                        .numbered(40)
+                        .feed({0, 10, 5}, 600)
+                        .numbered(50)
+                        .program;
+  program.operations = {"", "Rough pocket", "FINISH WALL"};
+  for (std::size_t i = 0; i < program.moves.size(); ++i) {
+    program.moves[i].tool = i < 3 ? 1 : 3;
+    program.moves[i].operation = i < 3 ? 1 : 2;
+  }
+  return program;
 }
 
 inline PathForces forces_on(const Program& program, const ForceSource& source, const Pose& X_MW = {},

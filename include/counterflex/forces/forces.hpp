@@ -71,6 +71,9 @@ bool is_zero(const ForceRule& rule);
 /// Forces on the workpiece change their sign. Throws `InputError` (Exit::machine_or_force) naming the row.
 std::vector<ForceRule> read_force_csv(std::string_view text, const std::string& file);
 
+/// The rules of a TOML file of cutting models, one a section. Throws as `read_cutting_model`.
+std::vector<ForceRule> read_force_toml(std::string_view text, const std::string& file);
+
 /// "FX,FY,FZ[,MX,MY,MZ]" in N and N m. Throws `InputError` (Exit::usage).
 Vector6 parse_force(std::string_view text);
 

@@ -1,0 +1,244 @@
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+
+#include "forces/sample_cut.hpp"
+#include "forces/sample_path.hpp"
+
+using namespace counterflex;
+using namespace counterflex::test;
+
+namespace {
+
+const std::string columns = "fx_N,fy_N,fz_N\n";
+
+/// The source of several CSV texts (with the settings of `on_tool`) and --force texts, in their order.
+ForceSource given(const std::vector<std::string>& texts) {
+  ForceSource source;
+  source.blend = 0;
+  int files = 0;
+  for (const std::string& text : texts) {
+    if (text.find('\n') == std::string::npos) {
+      source.rules.push_back(parse_force_rule(text));
+      continue;
+    }
+    const auto rules = read_force_csv(on_tool + text, fmt::format("{}.csv", "abc"[files++]));
+    source.rules.insert(source.rules.end(), rules.begin(), rules.end());
+  }
+  return source;
+}
+
+/// fx in the middle of the cuts of the sample program: lines 2, 3, 5 and 6.
+std::vector<double> middle_fx(const PathForces& forces) {
+  std::vector<double> fx;
+  for (const std::size_t i : {1, 2, 4, 5}) fx.push_back(forces.at(i, 0.5)[0]);
+  return fx;
+}
+
+std::vector<double> middle_fx(const std::vector<std::string>& texts) {
+  return middle_fx(forces_on(sample_program(), given(texts)));
+}
+
+std::string refused(const Program& program, const ForceSource& source) {
+  try {
+    forces_on(program, source);
+  } catch (const InputError& error) {
+    return fmt::format("{}: {}", static_cast<int>(error.exit()), error.what());
+  }
+  return "no error";
+}
+
+/// The rule of a section.
+ForceRule section_for(const ForceSelector& selector) {
+  return {"section 1", {"cut.toml", 9, 1}, selector, respond(sample_cut())};
+}
+
+}  // namespace
+
+TEST_CASE("the most specific rule acts: a place before an operation, a tool, and all") {
+  const std::string all = "1,0,0", tool = "tool," + columns + "T3,2,0,0\n",
+                    op = "op," + columns + "finish*,3,0,0\n", place = "line," + columns + "5,4,0,0\n6,,,\n";
+  using Values = std::vector<double>;
+  CHECK(middle_fx({all}) == Values{1, 1, 1, 1});
+  CHECK(middle_fx({all, tool}) == Values{1, 1, 2, 2});
+  CHECK(middle_fx({op, all, tool}) == Values{1, 1, 3, 3});
+  CHECK(middle_fx({tool, place, all}) == Values{1, 1, 4, 2});
+  CHECK(middle_fx({place, op, tool, all}) == Values{1, 1, 4, 3});
+}
+
+TEST_CASE("--force of a tool acts where that tool is in the spindle") {
+  CHECK(middle_fx({"T1=7,0,0", "t3=-8,0,0,1,2,3"}) == std::vector<double>{7, 7, -8, -8});
+}
+
+TEST_CASE("the text of an operation is compared without case and outer blanks, to its end or to a star") {
+  for (const char* name : {"ROUGH POCKET", "rough pocket", "  Rough Pocket ", "rough*", "Rough pocket*"}) {
+    CAPTURE(name);
+    const auto fx = middle_fx({"op," + columns + name + ",5,0,0\n", "1,0,0"});
+    CHECK(fx == std::vector<double>{5, 5, 1, 1});
+  }
+  for (const char* name : {"ROUGH", "pocket", "Rough pocket 2"}) {
+    CAPTURE(name);
+    CHECK(refused(sample_program(), given({"op," + columns + name + ",5,0,0\n", "1,0,0"}))
+              .find("unknown operation") != std::string::npos);
+  }
+}
+
+TEST_CASE("a FORCE comment is a rule for its place, and where none acts other rules do") {
+  Program program = sample_program();
+  program.moves[2].force = wrench(9, 0, 0);
+  program.moves[4].force = wrench(0, 0, 0);
+  CHECK(middle_fx(forces_on(program, given({"1,0,0"}))) == std::vector<double>{1, 9, 0, 1});
+  CHECK(middle_fx(forces_on(program, given({"tool," + columns + "1,2,0,0\n3,3,0,0\n"}))) ==
+        std::vector<double>{2, 9, 0, 3});
+  const auto lines = given({"line," + columns + "2,4,0,0\n3,,,\n6,6,0,0\n"});
+  CHECK(middle_fx(forces_on(program, lines)) == std::vector<double>{4, 9, 0, 6});
+  CHECK(refused(program, given({"line," + columns + "2,4,0,0\n"})) ==
+        "4: a.csv:4:1: error: covers line 3 of the program, which a FORCE comment covers too; both are given "
+        "for places: one of them must not cover it");
+}
+
+TEST_CASE("a step profile covers from its first row to the program's end, a linear one to its last row") {
+  const std::string rest = "1,0,0";
+  CHECK(middle_fx({"line," + columns + "3,4,0,0\n", rest}) == std::vector<double>{1, 4, 4, 4});
+  ForceSource source = given({rest});
+  source.rules.push_back(read_force_csv(linear + "s_mm," + columns + "10,10,0,0\n25,40,0,0\n", "l.csv")[0]);
+  const auto forces = forces_on(sample_program(), source);
+  CHECK(near(forces.at(1, 0.5), wrench(1, 0, 0)));
+  CHECK(near(forces.at(2, 0.5), wrench(20, 0, 0)));
+  CHECK(near(forces.at(4, 0.6), wrench(1, 0, 0)));
+  CHECK(near(forces.at(4, 0.4), wrench(38, 0, 0)));
+  REQUIRE(forces.breaks(4).size() == 1);
+  CHECK(forces.breaks(4)[0] == doctest::Approx(0.5));
+}
+
+TEST_CASE("a row without numbers ends the cover until the next row, inside a move, too") {
+  const auto forces = forces_on(
+      sample_program(), given({"s_mm," + columns + "0,4,0,0\n13,,,\n18,6,0,0\n30,,,\n40,9,0,0\n", "1,0,0"}));
+  for (const auto& [fraction, fx] : {std::pair{0.2, 4}, {0.5, 1}, {0.9, 6}}) {
+    CAPTURE(fraction);
+    CHECK(forces.at(2, fraction) == wrench(fx, 0, 0));
+  }
+  CHECK(forces.at(4, 0.5) == wrench(6, 0, 0));
+  CHECK(forces.at(5, 0.5) == wrench(1, 0, 0));
+  CHECK(forces.breaks(2).size() == 2);
+}
+
+TEST_CASE("in a linear profile the wrench holds before a row that ends the cover") {
+  ForceSource source = given({"1,0,0"});
+  const std::string rows = "0,0,0,0\n4,40,0,0\n8,,,\n12,7,0,0\n40,7,0,0\n";
+  source.rules.push_back(read_force_csv(linear + "s_mm," + columns + rows, "l.csv")[0]);
+  const auto forces = forces_on(sample_program(), source);
+  CHECK(near(forces.at(1, 0.2), wrench(20, 0, 0)));
+  CHECK(near(forces.at(1, 0.6), wrench(40, 0, 0)));
+  CHECK(near(forces.at(1, 0.9), wrench(1, 0, 0)));
+  CHECK(near(forces.at(2, 0.5), wrench(7, 0, 0)));
+}
+
+TEST_CASE("profiles that touch, to within the rounding of their keys, do not overlap") {
+  for (const char* second : {"20,2,0,0\n", "19.9995,2,0,0\n", "20.0005,2,0,0\n"}) {
+    CAPTURE(second);
+    ForceSource source;
+    source.blend = 0;
+    for (const std::string& rows : {std::string("0,1,0,0\n20,1,0,0\n"), second + std::string("40,2,0,0\n")})
+      source.rules.push_back(
+          read_force_csv(linear + "s_mm," + columns + rows, std::string(1, second[0]) + ".csv")[0]);
+    CHECK(middle_fx(forces_on(sample_program(), source)) == std::vector<double>{1, 1, 2, 2});
+  }
+}
+
+TEST_CASE("rules of equal rank that cover one move are refused, whatever they are") {
+  const std::string t3 = "tool," + columns + "T3,2,0,0\n";
+  CHECK(refused(sample_program(), given({"1,0,0", "2,0,0"})) ==
+        "2: error: --force 1,0,0: covers line 2 of the program, which --force 2,0,0 covers too; both are "
+        "given for the whole program: one of them must be more specific");
+  CHECK(refused(sample_program(), given({t3, "1,0,0", "T3=4,0,0"})) ==
+        "4: a.csv:4:1: error: covers line 5 of the program, which --force T3=4,0,0 covers too; both are "
+        "given for tools: one of them must be more specific");
+  ForceSource source = given({"1,0,0"});
+  source.rules.push_back(section_for({.lines = {{2, 3}}}));
+  source.rules.push_back(section_for({.blocks = {{20, 50}}}));
+  source.rules[2].where.line = 20;
+  CHECK(refused(sample_program(), source) ==
+        "4: cut.toml:20:1: error: covers line 2 of the program, which cut.toml:9 covers too; both are given "
+        "for places: one of them must be more specific");
+}
+
+TEST_CASE("a tool that the program never uses is refused at the row or the option that names it") {
+  CHECK(refused(sample_program(), given({"0,0,0", "T9=1,0,0"})) ==
+        "2: error: --force T9=1,0,0: unknown tool T9: the program uses T1, T3");
+  CHECK(refused(straight(10, 5), given({"0,0,0", "T9=1,0,0"})) ==
+        "2: error: --force T9=1,0,0: unknown tool T9: the program uses no tool with a number");
+}
+
+TEST_CASE("sections of a cutting model cover what meets all of their conditions") {
+  Program program = sample_program();
+  for (Move& move : program.moves) move.spindle_rpm = 3000;
+  const Vector6 cut = cutting_force(sample_cut(), 0.01, 3000, 0).F;
+  struct Case {
+    ForceSelector selector;
+    std::vector<std::size_t> cut;  ///< segments
+  };
+  for (const Case& c : {Case{{}, {2, 4, 5}}, Case{{.tool = 3}, {4, 5}}, Case{{.operation = "ROUGH*"}, {2}},
+                        Case{{.lines = {{3, 5}}}, {2, 4}}, Case{{.blocks = {{20, 30}}}, {2}},
+                        Case{{.tool = 3, .lines = {{3, 5}}}, {4}},
+                        Case{{.operation = "finish wall", .blocks = {{40, 40}}}, {4}},
+                        Case{{.tool = 3, .operation = "finish wall"}, {4, 5}},
+                        Case{{.tool = 3, .operation = "rough*"}, {}}}) {
+    ForceSource source = given({"0,0,0,0,0,1"});
+    if (c.selector.tool || c.selector.operation || c.selector.lines || c.selector.blocks)
+      source.rules.push_back(section_for(c.selector));
+    else
+      source.rules = {section_for({})};
+    const auto forces = forces_on(program, source);
+    for (const std::size_t i : {2, 4, 5}) {
+      CAPTURE(i);
+      const bool is_cut = std::find(c.cut.begin(), c.cut.end(), i) != c.cut.end();
+      const double size = forces.at(i, 0.5).head<3>().norm();
+      CHECK(size == doctest::Approx(is_cut ? cut.head<3>().norm() : 0));
+    }
+  }
+}
+
+TEST_CASE("a section for lines or blocks behind the program's end is refused") {
+  ForceSource source = given({"0,0,0"});
+  source.rules.push_back(section_for({.lines = {{7, 9}}}));
+  CHECK(refused(sample_program(), source) ==
+        "4: cut.toml:9:1: error: lines 7 to 9 lie beyond the program, which ends at line 6");
+  source.rules.back() = section_for({.blocks = {{60, 90}}});
+  CHECK(refused(sample_program(), source) ==
+        "4: cut.toml:9:1: error: blocks 60 to 90 lie beyond the program, which ends at block 50");
+}
+
+TEST_CASE("wrenches at the platform and at the tip are not mixed, not with a FORCE comment either") {
+  const auto source = from_csv(on_tool + "# at = platform\nline," + columns + "1,1,0,0\n5,,,\n");
+  Program program = sample_program();
+  program.moves[4].force = program.moves[5].force = wrench(1, 0, 0);
+  CHECK(
+      refused(program, source) ==
+      "4: forces.csv:5:1: error: acts at the platform, but the FORCE comment for line 5 acts at the tip; one "
+      "run has its forces at one of the two places");
+  program.moves[4].force = program.moves[5].force = wrench(0, 0, 0);
+  CHECK(forces_on(program, source).at_platform());
+}
+
+TEST_CASE("thousands of rules are found without a look at all of them, and none is missed") {
+  const std::size_t count = 3000;
+  Program program = straight(static_cast<double>(count), 1);
+  std::string rows = "tool," + columns;
+  ForceSource source;
+  source.blend = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    program.operations.push_back(fmt::format("op {} end", i));
+    program.moves[i].operation = static_cast<std::uint32_t>(i + 1);
+    program.moves[i].tool = static_cast<int>(i) + 1;
+    if (i % 3 == 0) rows += fmt::format("T{},{},0,0\n", i + 1, i);
+    ForceSelector selector;
+    if (i % 3 == 1) selector.operation = fmt::format("OP {} *", i);
+    if (i % 3 == 2) selector.lines = {{static_cast<long>(i) + 1, static_cast<long>(i) + 1}};
+    if (i % 3 != 0)
+      source.rules.push_back(
+          {"rule", {"r.csv", 1, 1}, selector, ConstantForce{wrench(static_cast<double>(i), 0, 0)}});
+  }
+  for (const ForceRule& rule : read_force_csv(on_tool + rows, "t.csv")) source.rules.push_back(rule);
+  const auto forces = forces_on(program, source);
+  for (std::size_t i = 0; i < count; ++i) CHECK(forces.at(i, 0.5)[0] == static_cast<double>(i));
+}
