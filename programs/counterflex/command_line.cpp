@@ -38,7 +38,8 @@ void add_force(CLI::App& app, Options& options) {
 }
 
 void add_forces(CLI::App& app, Options& options) {
-  app.add_option("-f,--forces", options.forces, "Forces by place, tool or operation (.csv); may be repeated")
+  app.add_option("-f,--forces", options.forces,
+                 "Forces by place, tool or operation (.csv), cutting models (.toml); may be repeated")
       ->type_name("FORCES")
       ->allow_extra_args(false);
   app.add_option_function<std::vector<std::string>>(
