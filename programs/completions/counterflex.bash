@@ -1,15 +1,16 @@
 # bash completion of counterflex
 
 _counterflex_words() {
-  local forces='--forces --force --load-scale --blend-mm --air-above'
+  local forces='--forces --force --load-scale --air-above'
   local reading='--machine --dialect --units --integer-words --expand-subprograms --work --tool-table'
   local program="$reading --tolerance-mm --method --max-correction-mm --decimals --threads"
   case $1 in
-    compensate) echo "$program $forces --output --report --min-block-ms --json --quiet --verbose --help" ;;
-    predict | verify) echo "$program $forces --report --min-block-ms --json --quiet --verbose --help" ;;
+    compensate) echo "$program $forces --blend-mm --output --report --min-block-ms --json --quiet --verbose --help" ;;
+    predict | verify) echo "$program $forces --blend-mm --report --min-block-ms --json --quiet --verbose --help" ;;
     analyze) echo "--machine --at --tool --force --method --json --quiet --verbose --help" ;;
+    forces) echo "$reading $forces --output --materials --json --quiet --verbose --help" ;;
     check) echo "$reading --json --quiet --verbose --help" ;;
-    *) echo "compensate predict verify analyze check --version --help" ;;
+    *) echo "compensate predict verify analyze forces check --version --help" ;;
   esac
 }
 

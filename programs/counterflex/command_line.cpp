@@ -53,11 +53,14 @@ void add_forces(CLI::App& app, Options& options) {
       ->allow_extra_args(false);
   value_option(app, "--load-scale", "SCALE", "Multiplies all cutting forces [1]; 0 corrects geometry only",
                [&](const std::string& text) { options.load_scale = number_of("--load-scale", text, {0}); });
+  value_option(app, "--air-above", "Z", "Feed moves wholly above this Z of the program carry no force, mm",
+               [&](const std::string& text) { options.air_above_mm = number_of("--air-above", text); });
+}
+
+void add_blend(CLI::App& app, Options& options) {
   value_option(app, "--blend-mm", "LENGTH",
                "A step of the force acts as a ramp over this length [2]; 0: as a jump",
                [&](const std::string& text) { options.blend = number_of("--blend-mm", text, {0}) * mm; });
-  value_option(app, "--air-above", "Z", "Feed moves wholly above this Z of the program carry no force, mm",
-               [&](const std::string& text) { options.air_above_mm = number_of("--air-above", text); });
 }
 
 void add_reading(CLI::App& app, Options& options) {
@@ -133,6 +136,7 @@ CLI::Option* add_file(CLI::App& app, const std::string& name, std::string& file,
 void add_run(CLI::App& app, Options& options) {
   add_inputs(app, options);
   add_forces(app, options);
+  add_blend(app, options);
   add_reading(app, options);
   add_correction(app, options);
   add_report(app, options);
@@ -187,6 +191,23 @@ void add_analyze(CLI::App& app, Options& options) {
                [&](const std::string& text) { options.tool = text; });
   add_force(command, options);
   add_method(command, options);
+  add_output(command, options);
+}
+
+void add_show_forces(CLI::App& app, Options& options) {
+  CLI::App& command = add_command(app, options, "forces", Command::forces,
+                                  "Show the wrench of every feed move, or write it as a force profile");
+  command.add_option("PROGRAM", options.program, "The machining program; - is standard input")->type_name("");
+  command
+      .add_option("-m,--machine", options.machine,
+                  "The machine on which the program runs; the tool stands along z of the program without one")
+      ->type_name("MACHINE");
+  value_option(command, "-o,--output", "OUTPUT", "A force profile (.csv) to write; - takes the table's place",
+               [&](const std::string& text) { options.output = text; });
+  command.add_flag("--materials", options.materials,
+                   "List the cutting coefficients that a cutting model can name, with their sources");
+  add_forces(command, options);
+  add_reading(command, options);
   add_output(command, options);
 }
 
@@ -253,6 +274,7 @@ std::variant<Options, Exit> read_command_line(int argc, const char* const* argv)
   add_predict(app, options);
   add_verify(app, options);
   add_analyze(app, options);
+  add_show_forces(app, options);
   add_check(app, options);
   try {
     auto words = joined(argc, argv);

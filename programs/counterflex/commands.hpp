@@ -11,6 +11,7 @@ Exit run_compensate(const Options& options, Console& console);
 Exit run_predict(const Options& options, Console& console);
 Exit run_verify(const Options& options, Console& console);
 Exit run_analyze(const Options& options, Console& console);
+Exit run_forces(const Options& options, Console& console);
 Exit run_check(const Options& options, Console& console);
 
 }  // namespace counterflex::cli

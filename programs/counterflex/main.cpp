@@ -19,6 +19,8 @@ Exit run_command(const Options& options, Console& console) {
       return run_verify(options, console);
     case Command::analyze:
       return run_analyze(options, console);
+    case Command::forces:
+      return run_forces(options, console);
     case Command::check:
       return run_check(options, console);
   }

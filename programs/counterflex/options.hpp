@@ -9,7 +9,7 @@
 
 namespace counterflex::cli {
 
-enum class Command { compensate, predict, verify, analyze, check };
+enum class Command { compensate, predict, verify, analyze, forces, check };
 
 struct Options {
   Command command = Command::check;
@@ -17,7 +17,7 @@ struct Options {
   std::string program;             ///< verify: the original
   std::string corrected;           ///< verify alone
   std::vector<std::string> files;  ///< check alone
-  std::string machine;             ///< empty: none, which check alone allows
+  std::string machine;             ///< empty: none, which check and forces alone allow
 
   std::vector<std::string> forces;     ///< files
   std::vector<ForceRule> force_rules;  ///< of --force
@@ -43,6 +43,7 @@ struct Options {
   double min_block_ms = 2;
 
   std::optional<std::string> output;
+  bool materials = false;             ///< forces alone
   std::optional<std::string> report;  ///< stem
   bool json = false;
   bool quiet = false;

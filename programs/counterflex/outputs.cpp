@@ -86,6 +86,15 @@ OutputPaths output_paths(const Options& options) {
   return paths;
 }
 
+void check_output(const Options& options) {
+  if (!options.output) return;
+  if (*options.output == "-" && options.json)
+    throw InputError(
+        Exit::usage, {},
+        "the profile and the document of --json cannot both go to standard output; give -o a file");
+  check_paths({*options.output}, inputs_of(options));
+}
+
 RunFiles::RunFiles(const OutputPaths& paths, const CsvColumns& columns) : paths_(paths), columns_(columns) {
   if (!paths.program.empty()) program_.emplace(paths.program);
   if (paths.report_csv.empty()) return;

@@ -24,6 +24,9 @@ struct OutputPaths {
 /// output; Exit::transient_io where its folder does not exist.
 OutputPaths output_paths(const Options& options);
 
+/// Throws as `output_paths` where --output of a command that writes no program cannot be written.
+void check_output(const Options& options);
+
 /// "part.ngc" gives "part.comp.ngc".
 std::string default_output(const std::string& program);
 

@@ -9,18 +9,10 @@
 #include "counterflex/machine/tool.hpp"
 #include "counterflex/report/formats.hpp"
 #include "facts.hpp"
+#include "reading.hpp"
 
 namespace counterflex::cli {
 namespace {
-
-/// Standard input can be read once.
-void refuse_stdin_twice(const Options& options) {
-  std::vector<std::string> paths{options.program, options.corrected, options.machine,
-                                 options.tool_table.value_or("")};
-  paths.insert(paths.end(), options.forces.begin(), options.forces.end());
-  const auto count = std::count(paths.begin(), paths.end(), "-");
-  if (count > 1) throw InputError(Exit::usage, {}, "standard input (-) can be only one of the inputs");
-}
 
 bool controls(const Machine& machine, int component) {
   const auto& list = machine.controlled;
@@ -105,36 +97,6 @@ void warn_of_run(Run& run, Console& console) {
                              program.blocks, program.moves));
 }
 
-/// Reads the program to its end once: what it holds, and that it can be read.
-void look_through(const Options& options, Run& run) {
-  const std::string name = shown_name(options.program);
-  try {
-    ProgramReader reader(run.file.bytes, name, run.read);
-    for (bool first = true; reader.next(); first = false) {
-      add_window(run.program, reader.window());
-      if (first) run.is_corrected = is_corrected(reader.window());
-    }
-  } catch (const InputError& error) {
-    blame_dialect(error, options, &run.machine.machine, name);
-  }
-}
-
-/// Forces have to fit the whole program before any of it is solved.
-void settle_forces(Run& run) {
-  ForceCover cover(run.force_input.source);
-  while (cover.needs_pass()) {
-    ProgramReader reader(run.file.bytes, run.program.file, run.read);
-    PathEnd end;
-    while (reader.next()) {
-      ignore_axes(reader.window(), run.ignored);
-      const Toolpath path = build_toolpath(reader.window(), run.work.frames, end);
-      cover.add(reader.window(), path);
-      end = path.end;
-    }
-    cover.end_pass();
-  }
-}
-
 }  // namespace
 
 RunInput Run::input() const {
@@ -143,6 +105,14 @@ RunInput Run::input() const {
 
 RunContext Run::context() const {
   return {machine.machine, options, work.frames, program, facts};
+}
+
+void refuse_stdin_twice(const Options& options) {
+  std::vector<std::string> paths{options.program, options.corrected, options.machine,
+                                 options.tool_table.value_or("")};
+  paths.insert(paths.end(), options.forces.begin(), options.forces.end());
+  const auto count = std::count(paths.begin(), paths.end(), "-");
+  if (count > 1) throw InputError(Exit::usage, {}, "standard input (-) can be only one of the inputs");
 }
 
 std::unique_ptr<Run> prepare_run(const Options& options, Console& console) {
@@ -156,12 +126,15 @@ std::unique_ptr<Run> prepare_run(const Options& options, Console& console) {
   run->tools = std::move(tools);
   const Machine& on = run->machine.machine;
   run->read = read_options(options, &on, run->tools);
-  look_through(options, *run);
+  ProgramLook look = look_through(options, run->file, run->read, &on);
+  run->program = std::move(look.program);
+  run->is_corrected = look.is_corrected;
   run->tool_models = prepare_tools(on, run->machine.model, run->program.tools);
   run->force_input = read_force_input(options);
   run->work = place_work(on, run->machine.model, shown_name(options.machine), run->program);
   run->ignored = uncontrolled_axes(on, run->work.frames);
-  settle_forces(*run);
+  settle_forces({run->file.bytes, run->program.file, run->read, run->work.frames, run->ignored},
+                run->force_input.source);
   run->options = compensation_options(options, on);
   run->facts = facts_of(options, *run);
   warn_of_orientation(*run);

@@ -31,6 +31,9 @@ struct Run {
   RunContext context() const;
 };
 
+/// Standard input can be read once. Throws `InputError` (Exit::usage).
+void refuse_stdin_twice(const Options& options);
+
 /// Reads everything, the program to its end, and warns of what was remarked. Throws `InputError`; nothing has
 /// been written then.
 std::unique_ptr<Run> prepare_run(const Options& options, Console& console);

@@ -15,6 +15,7 @@ using namespace machine_file;
 
 constexpr double steepest_helix_deg = 60;
 constexpr long most_flutes = 100;
+constexpr double deepest = 100;  // cutter diameters: more is a mistake, and its flutes have no end of turns
 
 /// A section while it is read.
 struct Part {
@@ -34,6 +35,17 @@ const Value& named(const Part& part, std::string_view key,
   std::vector<std::string_view> known;
   for (const auto& [entry, value] : shelf) known.push_back(entry);
   part.source.fail(node, fmt::format("unknown {} \"{}\"{}", key, name, hint(name, known, kind)));
+}
+
+double axial_depth(const Part& part, double D) {
+  const toml::node& node = required(part.table, "axial_depth_mm", part.name, part.node, part.source);
+  const double depth_mm = as_positive(node, {"axial_depth_mm"}, {part.source});
+  if (depth_mm * mm > deepest * D)
+    part.source.fail(
+        node, fmt::format("axial_depth_mm is {}; it must not be greater than {} diameters of the cutter, "
+                          "{:.6g} mm",
+                          depth_mm, deepest, deepest * D / mm));
+  return depth_mm * mm;
 }
 
 double angle_deg(const Part& part, std::string_view key) {
@@ -177,8 +189,7 @@ CutSection read_cut_section(const toml::node& node, std::size_t number, const Sh
   CuttingModel& model = section.model;
   model.mill = named(part, "cutter", shelf.cutters, "cutters");
   model.coefficients = named(part, "material", shelf.materials, "materials");
-  const toml::node& depth = required(table, "axial_depth_mm", part.name, node, source);
-  model.axial_depth = as_positive(depth, {"axial_depth_mm"}, {source}) * mm;
+  model.axial_depth = axial_depth(part, model.mill.diameter);
   const toml::node* force_at = table.get("force_at");
   model.force_at = force_at == nullptr ? shelf.force_at : read_force_at(*force_at, source);
   take_engagement(part, model);

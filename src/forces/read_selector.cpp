@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "counterflex/files/numbers.hpp"
+#include "forces/selector_text.hpp"
 
 namespace counterflex::force_file {
 namespace {
@@ -14,13 +14,12 @@ using namespace machine_file;
 constexpr long most_lines = 2'000'000'000, most_tool = 999'999'999;
 
 /// "T3" or 3.
-long read_tool(const toml::node& node, const Source& source) {
-  if (!node.is_string()) return as_whole(node, {"tool"}, 0, most_tool, source);
+long tool_of(const toml::node& node, const Source& source) {
+  if (!node.is_string()) return as_whole(node, {"tool"}, 1, most_tool, source);
   const std::string text = as_text(node, "tool", source);
-  const bool digits = text.size() > 1 && text.size() <= 10 && (text[0] == 'T' || text[0] == 't') &&
-                      text.find_first_not_of("0123456789", 1) == std::string::npos;
-  if (!digits) source.fail(node, fmt::format("tool is \"{}\"; it must be T and its number, as \"T3\"", text));
-  return std::lround(*read_number(text.substr(1)));
+  const std::optional<long> tool = read_tool(text);
+  if (!tool) source.fail(node, fmt::format("tool is \"{}\"; it must be T and its number, as \"T3\"", text));
+  return *tool;
 }
 
 std::array<long, 2> read_range(const toml::node& node, std::string_view name, long least,
@@ -48,7 +47,7 @@ long as_whole(const toml::node& node, const Label& label, long least, long most,
 
 ForceSelector read_selector(const toml::table& table, const Source& source) {
   ForceSelector selector;
-  if (const toml::node* tool = table.get("tool")) selector.tool = read_tool(*tool, source);
+  if (const toml::node* tool = table.get("tool")) selector.tool = tool_of(*tool, source);
   if (const toml::node* op = table.get("op")) selector.operation = as_text(*op, "op", source);
   if (const toml::node* lines = table.get("lines")) selector.lines = read_range(*lines, "lines", 1, source);
   if (const toml::node* blocks = table.get("blocks"))

@@ -208,3 +208,25 @@ TEST_CASE("rows are found in any window of a program as in the whole") {
   REQUIRE(rows.size() == expected.size());
   for (std::size_t i = 0; i < rows.size(); ++i) CHECK(rows[i].key / mm == doctest::Approx(expected[i]));
 }
+
+TEST_CASE("rows of a raster in steps of 0.1 mm belong to their own pass, though others are in the limit") {
+  ProgramBuilder builder({0, 0, 0});
+  std::mt19937 random(5);
+  std::normal_distribution<double> off(0, 0.03);
+  Log log;
+  std::vector<double> expected;
+  for (int pass = 0; pass < 60; ++pass) {
+    const bool there = pass % 2 == 0;
+    const double y = 0.1 * pass, begin = 40.1 * pass;
+    builder.feed({there ? 0.0 : 40.0, y, 0}, 600).feed({there ? 40.0 : 0.0, y, 0}, 600);
+    for (double way = 0.7; way < 40; way += 1.3) {
+      log.push_back({{(there ? way : 40 - way) + off(random), y + off(random), off(random)}, way});
+      expected.push_back(begin + way);
+    }
+  }
+  const std::vector<double> s = places_mm(builder.program, logged(log));
+  REQUIRE(s.size() == expected.size());
+  std::size_t astray = 0;
+  for (std::size_t i = 0; i < s.size(); ++i) astray += std::abs(s[i] - expected[i]) > 0.2;
+  CHECK(astray < s.size() / 50);
+}

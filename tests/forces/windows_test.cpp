@@ -129,6 +129,48 @@ TEST_CASE("a feed run without end comes in windows once it is longer than two bl
   check_same_in_windows(text, from_csv(on_tool + rows_by_line(300), 2e-3), 80);
 }
 
+TEST_CASE("blocks of 0.1 mm with a wrench each are the same in windows, with air above a height, too") {
+  std::string text = "G21 G90 G17 G0 X0 Y0 Z5\n";
+  for (int pass = 0; pass < 4; ++pass) {
+    text += fmt::format("G0 X0 Y{}\nG1 Z0 F300\n", pass);
+    for (int i = 1; i <= 150; ++i)
+      text += fmt::format("X{:.1f} Z{:.3f} F900\n", 0.1 * i, 0.5 * std::sin(0.1 * i));
+    text += "G0 Z5\n";
+  }
+  const int lines = static_cast<int>(std::count(text.begin(), text.end(), '\n'));
+  for (const double blend : {0.0, 0.7e-3, 2e-3, 30e-3}) {
+    ForceSource source = from_csv(on_tool + rows_by_line(lines), blend);
+    check_same_in_windows(text, source, 4);
+    source.air_above_mm = 0.2;
+    check_same_in_windows(text, source, 4);
+  }
+}
+
+TEST_CASE("rules for tools, operations, lines and lengths act the same in windows") {
+  std::string text = "G21 G90 G17 G0 X0 Y0 Z5\n";
+  for (int cut = 0; cut < 12; ++cut) {
+    text += fmt::format("T{} M6\n(CUT {})\nG0 X0 Y{}\nG1 Z-1 F300\n", cut % 3 + 1, cut % 5, cut);
+    for (int i = 1; i <= 20; ++i)
+      text += fmt::format("{}X{:.1f}\n", i == 4 ? fmt::format("N{} ", cut) : "", 0.4 * i);
+    text += "G0 Z5\n";
+  }
+  for (const double blend : {0.0, 2e-3}) {
+    ForceSource source;
+    source.blend = blend;
+    const std::string columns = "fx_N,fy_N,fz_N\n";
+    int file = 0;
+    for (const std::string& rows :
+         {"tool," + columns + "T1,10,0,0\nT2,0,20,0\n", "op," + columns + "cut 3,0,0,30\n",
+          "s_mm," + columns + "40,7,7,7\n43.3,,,\n61,8,8,8\n65,,,\n"})
+      for (ForceRule& rule : read_force_csv(on_tool + rows, fmt::format("{}.csv", ++file)))
+        source.rules.push_back(rule);
+    source.rules.push_back(parse_force_rule("T3=-5,-5,-5"));
+    const ForceSelector blocks{.blocks = {{10, 10}}};
+    source.rules.push_back({"blocks", {}, blocks, ConstantForce{wrench(0, 9, 0)}});
+    check_same_in_windows(text, source, 12);
+  }
+}
+
 TEST_CASE("block numbers count on in the next window") {
   std::string text = "N1 G21 G90 G17 G0 X0 Y0 Z0\nN2 G1 F100 X1\n";
   for (int block = 2; block <= 100; ++block)

@@ -1,0 +1,141 @@
+#include <fmt/format.h>
+
+#include "commands.hpp"
+#include "forces_table.hpp"
+#include "materials.hpp"
+#include "reading.hpp"
+#include "run.hpp"
+
+namespace counterflex::cli {
+namespace {
+
+/// A program and its forces without a machine: the tool stands along z of the program.
+struct BareRun {
+  ToolLengths tools;
+  ReadOptions read;
+  ProgramFile file;
+  ProgramLook look;
+  ForceInput force_input;
+  std::vector<WorkFrame> frames;
+  std::array<bool, 3> ignored{};
+};
+
+BareRun prepare_bare_run(const Options& options, Console& console) {
+  refuse_stdin_twice(options);
+  console.progress("reading");
+  ToolLengths tools = read_tool_lengths(options, nullptr);
+  const ReadOptions read = read_options(options, nullptr, tools);
+  BareRun run{std::move(tools), read, open_program("program", options.program), {}, {}, {}};
+  run.look = look_through(options, run.file, run.read, nullptr);
+  run.force_input = read_force_input(options);
+  run.frames.resize(run.look.program.work_offsets.size());
+  settle_forces({run.file.bytes, run.look.program.file, run.read, run.frames, run.ignored},
+                run.force_input.source);
+  warn_of(run.look.program, console);
+  return run;
+}
+
+/// How the tool stands in the middle of every move.
+class ToolAxes {
+ public:
+  explicit ToolAxes(const Model* model) {
+    if (model == nullptr) return;
+    model_ = model;
+    nominal_.emplace(*model, model->home);
+  }
+
+  std::vector<Matrix3> along(const Toolpath& path) {
+    if (model_ == nullptr || path.segments.empty()) return {Matrix3::Identity()};
+    const Matrix3 R_home = tip(model_->mechanism, model_->home).R;
+    std::vector<Matrix3> R_MT;
+    for (const Segment& segment : path.segments) {
+      nominal_->go_to({R_home, point_at(segment.wanted, 0.5)});  // one that is not reached is not solved here
+      R_MT.push_back(tip(model_->mechanism, nominal_->configuration()).R);
+    }
+    return R_MT;
+  }
+
+ private:
+  const Model* model_ = nullptr;
+  std::optional<NominalPath> nominal_;
+};
+
+/// Where the moves are told.
+class Told {
+ public:
+  Told(const Options& options, const std::string& program, bool at_platform) : json_(options.json) {
+    if (options.output) profile_.emplace(*options.output);
+    if (profile_) profile_->write(profile_head(program, at_platform));
+    to_stdout_ = options.output == "-";
+    if (!to_stdout_) page_.emplace("-");
+    say(json_ ? json_head(program) : table_head(program));
+  }
+
+  void add(const MoveForce& move) {
+    say(json_ ? json_row(move, is_first_) : table_row(move));
+    is_first_ = false;
+    cli::add(move, totals_);
+    if (profile_) profile_->write(profile_row(move));
+  }
+
+  void finish(Console& console) {
+    say(json_ ? json_foot(totals_) : table_foot(totals_));
+    if (profile_) profile_->publish();
+    if (page_) page_->publish();
+    if (to_stdout_) console.note(table_foot(totals_));
+  }
+
+ private:
+  void say(std::string_view text) {
+    if (page_) page_->write(text);
+  }
+
+  bool json_, to_stdout_ = false, is_first_ = true;
+  ForceTotals totals_;
+  std::optional<FileWriter> profile_, page_;
+};
+
+void tell_moves(const PathInput& input, const ForceSource& source, const Model* model, int lines, Told& told,
+                Console& console) {
+  ProgramReader reader(input.bytes, input.name, input.read);
+  ToolAxes tool(model);
+  std::optional<long> block_number;
+  PathEnd end;
+  while (reader.next()) {
+    ignore_axes(reader.window(), input.ignored);
+    const Toolpath path = build_toolpath(reader.window(), input.frames, end);
+    end = path.end;
+    if (!path.segments.empty())
+      console.progress(fmt::format("line {} of {}", path.segments.front().line, lines));
+    for (const MoveForce& move : move_forces(source, reader.window(), path, tool.along(path), block_number))
+      told.add(move);
+  }
+  input.bytes.refuse_change();
+  told.finish(console);
+  console.finish_warnings();
+}
+
+}  // namespace
+
+Exit run_forces(const Options& options, Console& console) {
+  if (options.materials) {
+    write_result(materials_page(options.json));
+    return Exit::done;
+  }
+  if (options.program.empty()) throw InputError(Exit::usage, {}, "PROGRAM is required, or --materials");
+  check_output(options);
+  if (options.machine.empty()) {
+    BareRun run = prepare_bare_run(options, console);
+    Told told(options, run.look.program.file, acts_at_platform(run.force_input.source));
+    tell_moves({run.file.bytes, run.look.program.file, run.read, run.frames, run.ignored},
+               run.force_input.source, nullptr, run.look.program.lines, told, console);
+    return Exit::done;
+  }
+  const auto run = prepare_run(options, console);
+  Told told(options, run->program.file, acts_at_platform(run->force_input.source));
+  tell_moves({run->file.bytes, run->program.file, run->read, run->work.frames, run->ignored},
+             run->force_input.source, &run->machine.model, run->program.lines, told, console);
+  return Exit::done;
+}
+
+}  // namespace counterflex::cli

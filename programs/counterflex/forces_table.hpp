@@ -1,0 +1,38 @@
+#pragma once
+/// The wrench of every feed move: as a table for people, a document for programs, and a force profile.
+#include <map>
+#include <string>
+
+#include "counterflex/forces/move_forces.hpp"
+
+namespace counterflex::cli {
+
+/// What the moves add up to; lengths in m.
+struct ForceTotals {
+  struct Sum {
+    std::size_t moves = 0;
+    double length = 0;
+  };
+  Sum with, without;
+  std::map<std::string, Sum> why;  ///< those without, by reason
+  std::size_t only_z = 0;          ///< moves of which only the force along the tool is known
+  double largest_N = 0;
+  int largest_line = 0;
+};
+
+void add(const MoveForce& move, ForceTotals& totals);
+
+std::string table_head(const std::string& program);
+std::string table_row(const MoveForce& move);
+std::string table_foot(const ForceTotals& totals);
+
+/// A JSON document in three parts; rows are joined by what `json_row` puts before all but the first.
+std::string json_head(const std::string& program);
+std::string json_row(const MoveForce& move, bool first);
+std::string json_foot(const ForceTotals& totals);
+
+/// A profile by path length in the feed frame, a row a move, zeros for one without a force.
+std::string profile_head(const std::string& program, bool at_platform);
+std::string profile_row(const MoveForce& move);
+
+}  // namespace counterflex::cli

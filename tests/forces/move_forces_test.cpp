@@ -1,0 +1,111 @@
+#include "counterflex/forces/move_forces.hpp"
+
+#include <doctest/doctest.h>
+
+#include "forces/sample_cut.hpp"
+#include "forces/sample_path.hpp"
+
+using namespace counterflex;
+using namespace counterflex::test;
+
+namespace {
+
+constexpr double speed_rpm = 3000;  // of the sample program's 10 mm/s and four flutes: 0.05 mm
+
+/// The sample program with a spindle speed: plunge, 10 mm along x, 10 mm along y, 10 mm along -x.
+Program turning_program() {
+  Program program = sample_program();
+  for (Move& move : program.moves) move.spindle_rpm = speed_rpm;
+  return program;
+}
+
+std::vector<MoveForce> moves_of(const Program& program, const ForceSource& source) {
+  std::optional<long> n;
+  const Toolpath path = build_toolpath(program, one_frame(program, {}));
+  return move_forces(source, program, path, {Matrix3::Identity()}, n);
+}
+
+ForceSource constant(const Vector6& F, ForceFrame frame = ForceFrame::machine) {
+  ForceSource source;
+  source.rules.push_back({.name = "a force", .content = ConstantForce{F, frame}});
+  return source;
+}
+
+ForceSource model(const CuttingModel& cut) {
+  ForceSource source;
+  source.rules.push_back({.name = "a cut", .content = respond(cut)});
+  return source;
+}
+
+}  // namespace
+
+TEST_CASE("a machine's wrench is told in the feed frame of every move") {
+  const auto moves = moves_of(turning_program(), constant(wrench(10, 2, -5, 1, 2, 3)));
+  REQUIRE(moves.size() == 4);
+  CHECK(agree(moves[1].F, wrench(10, 2, -5, 1, 2, 3), 1e-12));    // along x
+  CHECK(agree(moves[2].F, wrench(2, -10, -5, 2, -1, 3), 1e-12));  // along y
+  CHECK(agree(moves[3].F, wrench(-10, -2, -5, -1, -2, 3), 1e-12));
+  for (const MoveForce& move : moves) CHECK(move.feed_per_tooth == 0);
+}
+
+TEST_CASE("of a plunge only what is along the tool can be told in the feed frame, and that is said") {
+  const MoveForce lost = moves_of(turning_program(), constant(wrench(10, 2, -5, 1, 2, 3)))[0];
+  CHECK(lost.why.empty());
+  CHECK(lost.only_z);
+  CHECK(lost.F == wrench(0, 0, -5, 0, 0, 3));
+  CHECK(!moves_of(turning_program(), constant(wrench(0, 0, -5)))[0].only_z);
+}
+
+TEST_CASE("a model's moves have its feed per tooth, its wrench and its reasons") {
+  const auto moves = moves_of(turning_program(), model(sample_cut()));
+  CHECK(moves[0].why == "the feed is along the tool axis (plunge)");
+  CHECK(moves[0].feed_per_tooth == 0);
+  for (const std::size_t i : {1U, 2U, 3U}) {
+    CHECK(moves[i].feed_per_tooth == doctest::Approx(0.05 * mm).epsilon(1e-12));
+    CHECK(moves[i].spindle_rpm == speed_rpm);
+    CHECK(agree(moves[i].F, at_feed_per_tooth(sample_cut(), 0.05 * mm), 1e-9));
+  }
+  CHECK(moves[2].line == 5);
+  CHECK(moves[2].s_start == doctest::Approx(20 * mm));
+  CHECK(moves[2].length == doctest::Approx(10 * mm));
+  CHECK(moves_of(sample_program(), model(sample_cut()))[1].why == "no spindle speed is programmed");
+}
+
+TEST_CASE("a model's own spindle speed is the one that is told") {
+  CuttingModel cut = sample_cut();
+  cut.spindle_rpm = 6000;
+  const MoveForce move = moves_of(sample_program(), model(cut))[1];
+  CHECK(move.spindle_rpm == 6000);
+  CHECK(move.feed_per_tooth == doctest::Approx(0.025 * mm));
+}
+
+TEST_CASE("the load scale is in what is told, and what is in the air has no force") {
+  ForceSource source = constant(wrench(10, 0, 0));
+  source.scale = 2;
+  source.air_above_mm = 4;
+  const auto moves = moves_of(turning_program(), source);
+  CHECK(moves[1].F == wrench(20, 0, 0));
+  CHECK(moves[2].why == "it is wholly above --air-above");
+}
+
+TEST_CASE("moves without a rule, and a program without moves, are no trouble") {
+  CHECK(moves_of(turning_program(), {})[1].why == "no force is given for it");
+  CHECK(moves_of({}, model(sample_cut())).empty());
+}
+
+TEST_CASE("a profile in the feed frame, a row a move, gives what it was made of") {
+  const auto moves = moves_of(turning_program(), model(sample_cut()));
+  ForceProfile profile;
+  profile.key = ForceKey::path_length;
+  profile.frame = ForceFrame::feed;
+  for (const MoveForce& move : moves)
+    profile.rows.push_back({.key = move.s_start, .F = move.F, .ends = !move.why.empty()});
+  ForceSource source;
+  source.rules.push_back({.name = "the profile", .content = profile});
+  const auto again = moves_of(turning_program(), source);
+  REQUIRE(again.size() == moves.size());
+  for (std::size_t i = 0; i < moves.size(); ++i) {
+    CHECK(again[i].why.empty() == moves[i].why.empty());
+    CHECK(agree(again[i].F, moves[i].F, 1e-12));
+  }
+}
