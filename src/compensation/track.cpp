@@ -29,7 +29,7 @@ const Configuration& NominalTrack::start_before(std::size_t segment) const {
   const auto after =
       std::upper_bound(starts.begin(), starts.end(), segment,
                        [](std::size_t s, const TrackStart& start) { return s < start.segment; });
-  return std::prev(after)->place.configuration;
+  return std::prev(after)->configuration;
 }
 
 NominalTrack track(const Job& job, const NominalPlace& start) {
@@ -50,7 +50,7 @@ NominalTrack track(const Job& job, const NominalPlace& start) {
     if (changes) solver = &solvers.of(model, model.home);
     const bool joins = i > 0 && !changes && job.path.segments[i - 1].wanted.end == segment.wanted.start;
     if (!joins && !go(segment.wanted.start, segment.line)) return result;
-    if (changes || i % chunk_size == 0) result.starts.push_back({i, {&model, solver->nominal()}});
+    if (changes || i % chunk_size == 0) result.starts.push_back({i, solver->nominal()});
     if (!go(segment.wanted.end, segment.line)) return result;
   }
   result.end = {&solver->model(), solver->nominal()};

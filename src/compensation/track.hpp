@@ -11,7 +11,7 @@ namespace counterflex {
 /// Where the nominal machine stands at a segment's start.
 struct TrackStart {
   std::size_t segment;
-  NominalPlace place;
+  Configuration configuration;  ///< of the model that the segment needs
 };
 
 struct NominalTrack {

@@ -120,12 +120,13 @@ std::vector<UsedTool> used_tools(const Machine& machine, const std::vector<long>
 
 std::string tools_in_words(const std::vector<UsedTool>& tools, const std::vector<long>& numbers) {
   if (tools.empty()) return "";
-  std::string text;
-  for (const UsedTool& tool : tools)
-    text += fmt::format("{}T{}, {}", text.empty() ? "" : "; ", tool.number, tool.stiffness);
+  constexpr std::size_t most = 10;
+  std::string text = "Tools in use: ";
+  for (std::size_t i = 0; i < std::min(most, tools.size()); ++i)
+    text += fmt::format("{}T{}, {}", i == 0 ? "" : "; ", tools[i].number, tools[i].stiffness);
+  if (tools.size() > most) text += fmt::format("; and {} more", tools.size() - most);
   const bool others = tools.size() < numbers.size();
-  return "Tools in use: " + text +
-         (others ? ". Moves with another tool, or none known, use [tool], rigid." : ".");
+  return text + (others ? ". Moves with another tool, or none known, use [tool], rigid." : ".");
 }
 
 }  // namespace counterflex
