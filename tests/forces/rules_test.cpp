@@ -82,6 +82,15 @@ TEST_CASE("the text of an operation is compared without case and outer blanks, t
   }
 }
 
+TEST_CASE("an operation's name with commas stands in quotes") {
+  Program program = sample_program();
+  program.operations[2] = "FINISH, wall 2";
+  const auto source = given({"op , " + columns + " \"Finish, Wall 2\" ,5,0,0\n\"rough*\",\"3\",0,0\n"});
+  CHECK(middle_fx(forces_on(program, source)) == std::vector<double>{3, 3, 5, 5});
+  CHECK_THROWS_WITH_AS(given({"op," + columns + "\"Finish, wall 2,5,0,0\n"}),
+                       "a.csv:4:19: error: row 1 has 5 fields, the header has 4", InputError);
+}
+
 TEST_CASE("a FORCE comment is a rule for its place, and where none acts other rules do") {
   Program program = sample_program();
   program.moves[2].force = wrench(9, 0, 0);
