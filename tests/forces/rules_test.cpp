@@ -229,6 +229,29 @@ TEST_CASE("wrenches at the platform and at the tip are not mixed, not with a FOR
   CHECK(forces_on(program, source).at_platform());
 }
 
+TEST_CASE("a zero wrench is neither at the tip nor at the platform: it goes with both") {
+  ForceSource source = from_csv(on_tool + "# at = platform\nline," + columns + "3,1,0,0\n");
+  source.rules.push_back(parse_force_rule("0,0,0"));
+  const auto forces = forces_on(sample_program(), source);
+  CHECK(forces.at_platform());
+  CHECK(middle_fx(forces) == std::vector<double>{0, 1, 1, 1});
+}
+
+TEST_CASE("the tool's axes are needed as soon as one rule's frame turns with them") {
+  const auto frame = [](const char* name) {
+    return read_force_csv(fmt::format("# frame = {}\n# sense = on_tool\nline,{}1,1,0,0\n", name, columns),
+                          "f.csv")[0];
+  };
+  ForceSource source = given({"1,0,0", "T3=1,0,0"});
+  source.rules.push_back(frame("work"));
+  CHECK_FALSE(needs_tool_axes(source));
+  for (const ForceRule& rule : {frame("tool"), frame("feed"), section_for({})}) {
+    ForceSource more = source;
+    more.rules.push_back(rule);
+    CHECK(needs_tool_axes(more));
+  }
+}
+
 TEST_CASE("thousands of rules are found without a look at all of them, and none is missed") {
   const std::size_t count = 3000;
   Program program = straight(static_cast<double>(count), 1);
