@@ -1,6 +1,9 @@
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
+#include <map>
+#include <random>
+
 #include "forces/sample_cut.hpp"
 #include "forces/sample_path.hpp"
 
@@ -154,6 +157,18 @@ TEST_CASE("profiles that touch, to within the rounding of their keys, do not ove
   }
 }
 
+TEST_CASE("a profile whose cover ends within the rounding of its keys leaves a move to its FORCE comment") {
+  for (const char* rows : {"0,1,0,0\n10.0005,,,\n20,2,0,0\n", "0,1,0,0\n10,,,\n19.9995,2,0,0\n"}) {
+    CAPTURE(rows);
+    Program program = sample_program();
+    program.moves[2].force = wrench(9, 0, 0);
+    const auto forces = forces_on(program, given({"s_mm," + columns + rows}));
+    CHECK(middle_fx(forces) == std::vector<double>{1, 9, 2, 2});
+    CHECK(forces.at(2, 0.01) == wrench(9, 0, 0));
+    CHECK(forces.at(2, 0.99) == wrench(9, 0, 0));
+  }
+}
+
 TEST_CASE("rules of equal rank that cover one move are refused, whatever they are") {
   const std::string t3 = "tool," + columns + "T3,2,0,0\n";
   CHECK(refused(sample_program(), given({"1,0,0", "2,0,0"})) ==
@@ -249,6 +264,42 @@ TEST_CASE("the tool's axes are needed as soon as one rule's frame turns with the
     ForceSource more = source;
     more.rules.push_back(rule);
     CHECK(needs_tool_axes(more));
+  }
+}
+
+TEST_CASE("at every place acts what a look at one rule after the other finds") {
+  std::mt19937 random(23);
+  const auto below = [&](int n) { return static_cast<int>(random() % static_cast<unsigned>(n)); };
+  for (int run = 0; run < 30; ++run) {
+    CAPTURE(run);
+    Program program = straight(60, 3);
+    program.operations = {"", "A", "B", "C"};
+    for (Move& move : program.moves) {
+      move.tool = 1 + below(3);
+      move.operation = static_cast<std::uint32_t>(below(4));
+    }
+    program.moves[0].tool = 2;
+    program.moves[1].operation = 3;
+    std::map<double, std::optional<double>> rows;  // of two profiles, whose covers take turns
+    std::array<std::string, 2> profiles{"s_mm," + columns, "s_mm," + columns};
+    for (int s = 0, turn = 0; s < 58; s += 1 + below(5), turn = below(3)) {
+      const double key = s + 0.37;
+      for (int p = 0; p < 2; ++p)
+        profiles[static_cast<std::size_t>(p)] +=
+            p == turn ? fmt::format("{},{},0,0\n", key, 100 + s) : fmt::format("{},,,\n", key);
+      rows[key] = turn < 2 ? std::optional<double>(100 + s) : std::nullopt;
+    }
+    const auto forces = forces_on(program, given({profiles[0], "tool," + columns + "T2,2,0,0\n", "1,0,0",
+                                                  "op," + columns + "c,3,0,0\n", profiles[1]}));
+    for (std::size_t i = 0; i < program.moves.size(); ++i)
+      for (const double u : {0.05, 0.2, 0.4, 0.6, 0.8, 0.97}) {
+        const double s = 3 * (static_cast<double>(i) + u);
+        const auto next = rows.upper_bound(s);
+        const auto row = next == rows.begin() ? std::nullopt : std::prev(next)->second;
+        const Move& move = program.moves[i];
+        const double expected = row ? *row : move.operation == 3 ? 3 : move.tool == 2 ? 2 : 1;
+        CHECK(forces.at(i, u)[0] == expected);
+      }
   }
 }
 
