@@ -168,16 +168,22 @@ void Coverage::claim_rows(const ForceRule& rule, std::size_t i) {
 // Claims that follow each other meet where the later one begins; of two that overlap by more than rounding
 // none is right.
 void Coverage::settle(int line) {
-  std::stable_sort(claims_.begin(), claims_.end(),
-                   [](const Claim& a, const Claim& b) { return a.from < b.from; });
+  std::stable_sort(claims_.begin(), claims_.end(), [](const Claim& a, const Claim& b) {
+    return a.from < b.from || (a.from == b.from && a.to < b.to);
+  });
+  std::size_t kept = 0;
   for (std::size_t k = 1; k < claims_.size(); ++k) {
-    Claim &a = claims_[k - 1], &b = claims_[k];
-    if (std::min(a.to, b.to) - b.from > a.rounding + b.rounding) refuse(a, b, line);
-    const bool meet = b.from - a.to <= a.rounding + b.rounding;
-    a.most = std::max(a.least, meet ? b.from : std::min(a.most, b.from));
+    Claim& a = claims_[kept];
+    Claim b = claims_[k];
+    const double rounding = a.rounding + b.rounding;
+    if (std::min(a.to, b.to) - b.from > rounding) refuse(a, b, line);
+    if (b.to <= a.to && a.from < a.to) continue;  // rounding inside of a
+    a.most = std::max(a.least, b.from - a.to <= rounding ? b.from : std::min(a.most, b.from));
     b.least = std::max(b.least, a.most);
     b.most = std::max(b.most, b.least);
+    claims_[++kept] = b;
   }
+  if (!claims_.empty()) claims_.resize(kept + 1);
 }
 
 void Coverage::refuse(const Claim& a, const Claim& b, int line) const {

@@ -15,7 +15,7 @@ struct Field {
 /// `text` without blanks and tabs at both ends.
 std::string_view trimmed(std::string_view text);
 
-/// The fields between commas; `first_column` is that of the line's first byte.
+/// The fields between commas, of which those in double quotes are none; `first_column` is that of the line's first byte.
 std::vector<Field> split(std::string_view line, int first_column = 1);
 
 /// Takes the next line off `text`, without its LF or CRLF.

@@ -56,7 +56,7 @@ struct ForceCover::State {
         profiles.push_back(&rule);
         profile_ends.emplace_back(*profile);
       }
-      if (at_platform(rule)) platform = &rule;
+      if (at_platform(rule) && !is_zero(rule)) platform = &rule;
     }
   }
 

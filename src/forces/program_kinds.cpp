@@ -11,7 +11,14 @@
 namespace counterflex {
 namespace {
 
-constexpr std::size_t named_at_most = 8;  // in a message
+// In a message.
+constexpr std::size_t named_at_most = 8;
+constexpr std::size_t longest_name = 40;
+
+/// A long one as a selector would say it.
+std::string shortened(const std::string& operation) {
+  return operation.size() <= longest_name ? operation : operation.substr(0, longest_name - 1) + "*";
+}
 
 }  // namespace
 
@@ -62,7 +69,9 @@ std::string ProgramKinds::known_tools() const {
 
 std::string ProgramKinds::known_operations() const {
   if (operations_.empty()) return "no comment that stands alone in its line before a move";
-  return fmt::format("'{}'{}", fmt::join(operations_, "', '"), more_operations_ ? ", ..." : "");
+  std::vector<std::string> names;
+  for (const std::string& operation : operations_) names.push_back(shortened(operation));
+  return fmt::format("'{}'{}", fmt::join(names, "', '"), more_operations_ ? ", ..." : "");
 }
 
 }  // namespace counterflex

@@ -1,6 +1,9 @@
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
+#include <map>
+#include <random>
+
 #include "forces/sample_cut.hpp"
 #include "forces/sample_path.hpp"
 
@@ -82,6 +85,15 @@ TEST_CASE("the text of an operation is compared without case and outer blanks, t
   }
 }
 
+TEST_CASE("an operation's name with commas stands in quotes") {
+  Program program = sample_program();
+  program.operations[2] = "FINISH, wall 2";
+  const auto source = given({"op , " + columns + " \"Finish, Wall 2\" ,5,0,0\n\"rough*\",\"3\",0,0\n"});
+  CHECK(middle_fx(forces_on(program, source)) == std::vector<double>{3, 3, 5, 5});
+  CHECK_THROWS_WITH_AS(given({"op," + columns + "\"Finish, wall 2,5,0,0\n"}),
+                       "a.csv:4:19: error: row 1 has 5 fields, the header has 4", InputError);
+}
+
 TEST_CASE("a FORCE comment is a rule for its place, and where none acts other rules do") {
   Program program = sample_program();
   program.moves[2].force = wrench(9, 0, 0);
@@ -142,6 +154,18 @@ TEST_CASE("profiles that touch, to within the rounding of their keys, do not ove
       source.rules.push_back(
           read_force_csv(linear + "s_mm," + columns + rows, std::string(1, second[0]) + ".csv")[0]);
     CHECK(middle_fx(forces_on(sample_program(), source)) == std::vector<double>{1, 1, 2, 2});
+  }
+}
+
+TEST_CASE("a profile whose cover ends within the rounding of its keys leaves a move to its FORCE comment") {
+  for (const char* rows : {"0,1,0,0\n10.0005,,,\n20,2,0,0\n", "0,1,0,0\n10,,,\n19.9995,2,0,0\n"}) {
+    CAPTURE(rows);
+    Program program = sample_program();
+    program.moves[2].force = wrench(9, 0, 0);
+    const auto forces = forces_on(program, given({"s_mm," + columns + rows}));
+    CHECK(middle_fx(forces) == std::vector<double>{1, 9, 2, 2});
+    CHECK(forces.at(2, 0.01) == wrench(9, 0, 0));
+    CHECK(forces.at(2, 0.99) == wrench(9, 0, 0));
   }
 }
 
@@ -218,6 +242,65 @@ TEST_CASE("wrenches at the platform and at the tip are not mixed, not with a FOR
       "run has its forces at one of the two places");
   program.moves[4].force = program.moves[5].force = wrench(0, 0, 0);
   CHECK(forces_on(program, source).at_platform());
+}
+
+TEST_CASE("a zero wrench is neither at the tip nor at the platform: it goes with both") {
+  ForceSource source = from_csv(on_tool + "# at = platform\nline," + columns + "3,1,0,0\n");
+  source.rules.push_back(parse_force_rule("0,0,0"));
+  const auto forces = forces_on(sample_program(), source);
+  CHECK(forces.at_platform());
+  CHECK(middle_fx(forces) == std::vector<double>{0, 1, 1, 1});
+}
+
+TEST_CASE("the tool's axes are needed as soon as one rule's frame turns with them") {
+  const auto frame = [](const char* name) {
+    return read_force_csv(fmt::format("# frame = {}\n# sense = on_tool\nline,{}1,1,0,0\n", name, columns),
+                          "f.csv")[0];
+  };
+  ForceSource source = given({"1,0,0", "T3=1,0,0"});
+  source.rules.push_back(frame("work"));
+  CHECK_FALSE(needs_tool_axes(source));
+  for (const ForceRule& rule : {frame("tool"), frame("feed"), section_for({})}) {
+    ForceSource more = source;
+    more.rules.push_back(rule);
+    CHECK(needs_tool_axes(more));
+  }
+}
+
+TEST_CASE("at every place acts what a look at one rule after the other finds") {
+  std::mt19937 random(23);
+  const auto below = [&](int n) { return static_cast<int>(random() % static_cast<unsigned>(n)); };
+  for (int run = 0; run < 30; ++run) {
+    CAPTURE(run);
+    Program program = straight(60, 3);
+    program.operations = {"", "A", "B", "C"};
+    for (Move& move : program.moves) {
+      move.tool = 1 + below(3);
+      move.operation = static_cast<std::uint32_t>(below(4));
+    }
+    program.moves[0].tool = 2;
+    program.moves[1].operation = 3;
+    std::map<double, std::optional<double>> rows;  // of two profiles, whose covers take turns
+    std::array<std::string, 2> profiles{"s_mm," + columns, "s_mm," + columns};
+    for (int s = 0, turn = 0; s < 58; s += 1 + below(5), turn = below(3)) {
+      const double key = s + 0.37;
+      for (int p = 0; p < 2; ++p)
+        profiles[static_cast<std::size_t>(p)] +=
+            p == turn ? fmt::format("{},{},0,0\n", key, 100 + s) : fmt::format("{},,,\n", key);
+      rows[key] = turn < 2 ? std::optional<double>(100 + s) : std::nullopt;
+    }
+    const auto forces = forces_on(program, given({profiles[0], "tool," + columns + "T2,2,0,0\n", "1,0,0",
+                                                  "op," + columns + "c,3,0,0\n", profiles[1]}));
+    for (std::size_t i = 0; i < program.moves.size(); ++i)
+      for (const double u : {0.05, 0.2, 0.4, 0.6, 0.8, 0.97}) {
+        const double s = 3 * (static_cast<double>(i) + u);
+        const auto next = rows.upper_bound(s);
+        const auto row = next == rows.begin() ? std::nullopt : std::prev(next)->second;
+        const Move& move = program.moves[i];
+        const double expected = row ? *row : move.operation == 3 ? 3 : move.tool == 2 ? 2 : 1;
+        CHECK(forces.at(i, u)[0] == expected);
+      }
+  }
 }
 
 TEST_CASE("thousands of rules are found without a look at all of them, and none is missed") {

@@ -66,7 +66,7 @@ bool is_zero(const ForceRule& rule);
 ///    ends the cover;
 ///  - `x_mm, y_mm, z_mm`, logged positions in the order in which they were logged: the same, with settings
 ///    `# within_mm = 1` and `# coordinates = work | machine`;
-///  - `tool` (3 or T3) or `op`: one rule a row, in any order.
+///  - `tool` (3 or T3) or `op` (in double quotes where it has commas): one rule a row, in any order.
 ///
 /// Forces on the workpiece change their sign. Throws `InputError` (Exit::machine_or_force) naming the row.
 std::vector<ForceRule> read_force_csv(std::string_view text, const std::string& file);
