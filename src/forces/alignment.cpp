@@ -9,8 +9,10 @@
 namespace counterflex {
 
 void fail_row(const ForceProfile& profile, std::size_t row, const std::string& message) {
+  // A log that has become a profile has no longer a row for every one of its file.
+  const bool counted = !profile.within || profile.key == ForceKey::point;
   throw InputError(Exit::machine_or_force, profile.rows[row].where,
-                   fmt::format("row {}: {}", row + 1, message));
+                   counted ? fmt::format("row {}: {}", row + 1, message) : message);
 }
 
 namespace {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
 
 #include "forces/profile_cover.hpp"
 #include "forces/selector_text.hpp"
@@ -67,6 +68,7 @@ Coverage::Coverage(const ForceSource& source, const Program& window, const Toolp
     const auto* profile = std::get_if<ForceProfile>(&rule.content);
     if (profile == nullptr) continue;
     profiles_.push_back(&rule);
+    assert(profile->key != ForceKey::point);  // ForceCover has settled it
     std::optional<long> n = block_number;
     keys_.push_back(align(*profile, window, path, n));
     if (profile->key == ForceKey::block_number) number = n;

@@ -80,8 +80,10 @@ struct ForceCover::State {
     if (!move.force)
       for (std::size_t k = 0; k < profiles.size(); ++k)
         profile_ends[k].add(coverage.keys(*profiles[k], i), segment);
-    for (const Stretch& stretch : coverage.stretches(i))
-      if (!uncovered && stretch.rule == nullptr && !stretch.comment) uncovered = segment.line;
+    const auto nothing = [](const Stretch& stretch) { return stretch.rule == nullptr && !stretch.comment; };
+    const std::vector<Stretch>& stretches = coverage.stretches(i);
+    if (std::none_of(stretches.begin(), stretches.end(), nothing)) return;
+    if (uncovered++ == 0) first_uncovered = segment.line;
   }
 
   void check() const {
@@ -89,11 +91,14 @@ struct ForceCover::State {
     for (const ProfileEnds& of_profile : profile_ends) of_profile.refuse_rows_beyond(ends);
     refuse_ranges_beyond();
     if (source.rules.size() == 1 && !profile_ends.empty()) profile_ends[0].refuse_missing_ends(ends);
-    if (uncovered)
-      throw InputError(
-          Exit::machine_or_force, {file, *uncovered},
-          "none of the given forces covers this feed move: a row or section for it is required, with "
-          "zeros where nothing is cut, or --force=0,0,0 for all that nothing else covers");
+    if (uncovered == 0) return;
+    const std::string more = uncovered > 1 ? fmt::format(" and {} more", uncovered - 1) : "";
+    throw InputError(
+        Exit::machine_or_force, {file, first_uncovered},
+        fmt::format("none of the given forces covers this feed move{}: a row or section for it is "
+                    "required, with zeros where nothing is cut, or --force=0,0,0 for all that "
+                    "nothing else covers",
+                    more));
   }
 
   void refuse_ranges_beyond() const {
@@ -118,7 +123,8 @@ struct ForceCover::State {
   std::vector<ProfileEnds> profile_ends;  ///< of each profile
   const ForceRule* platform = nullptr;    ///< one that acts there
   std::optional<long> block_number;
-  std::optional<int> uncovered;  ///< line of the first feed move that nothing covers
+  std::size_t uncovered = 0;  ///< feed moves that nothing covers, and the line of the first
+  int first_uncovered = 0;
   std::string file;
 };
 

@@ -150,7 +150,8 @@ TEST_CASE("rules for tools, operations, lines and lengths act the same in window
   std::string text = "G21 G90 G17 G0 X0 Y0 Z5\n";
   for (int cut = 0; cut < 12; ++cut) {
     text += fmt::format("T{} M6\n(CUT {})\nG0 X0 Y{}\nG1 Z-1 F300\n", cut % 3 + 1, cut % 5, cut);
-    for (int i = 1; i <= 20; ++i) text += fmt::format("X{:.1f}\n", 0.4 * i);
+    for (int i = 1; i <= 20; ++i)
+      text += fmt::format("{}X{:.1f}\n", i == 4 ? fmt::format("N{} ", cut) : "", 0.4 * i);
     text += "G0 Z5\n";
   }
   for (const double blend : {0.0, 2e-3}) {
@@ -164,6 +165,8 @@ TEST_CASE("rules for tools, operations, lines and lengths act the same in window
       for (ForceRule& rule : read_force_csv(on_tool + rows, fmt::format("{}.csv", ++file)))
         source.rules.push_back(rule);
     source.rules.push_back(parse_force_rule("T3=-5,-5,-5"));
+    const ForceSelector blocks{.blocks = {{10, 10}}};
+    source.rules.push_back({"blocks", {}, blocks, ConstantForce{wrench(0, 9, 0)}});
     check_same_in_windows(text, source, 12);
   }
 }
