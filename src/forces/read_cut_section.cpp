@@ -15,8 +15,8 @@ using namespace machine_file;
 
 constexpr double steepest_helix_deg = 60;
 constexpr long most_flutes = 100;
-constexpr double narrowest_mm = 0.001, widest_mm = 1000, slowest_rpm = 1,
-                 fastest_rpm = 1e6;  // beyond them numbers are mistakes
+// Beyond these, numbers are mistakes.
+constexpr double narrowest_mm = 0.001, widest_mm = 1000, slowest_rpm = 1, fastest_rpm = 1e6;
 constexpr double deepest = 100;  // cutter diameters: more is a mistake, and its flutes have no end of turns
 
 /// A number from `least` to `most`.
