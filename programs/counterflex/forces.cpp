@@ -78,7 +78,11 @@ class Told {
     if (profile_) profile_->write(profile_row(move));
   }
 
-  void finish(Console& console) {
+  /// Throws `InputError` (Exit::program_text) where a profile would have no row.
+  void finish(const std::string& program, Console& console) {
+    if (profile_ && is_first_)
+      throw InputError(Exit::program_text, {program},
+                       "has no feed move, so that there is no profile to write");
     say(json_ ? json_foot(totals_) : table_foot(totals_));
     if (profile_) profile_->publish();
     if (page_) page_->publish();
@@ -111,7 +115,7 @@ void tell_moves(const PathInput& input, const ForceSource& source, const Model* 
       told.add(move);
   }
   input.bytes.refuse_change();
-  told.finish(console);
+  told.finish(input.name, console);
   console.finish_warnings();
 }
 

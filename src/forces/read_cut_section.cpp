@@ -15,7 +15,18 @@ using namespace machine_file;
 
 constexpr double steepest_helix_deg = 60;
 constexpr long most_flutes = 100;
+// Beyond these, numbers are mistakes.
+constexpr double narrowest_mm = 0.001, widest_mm = 1000, slowest_rpm = 1, fastest_rpm = 1e6;
 constexpr double deepest = 100;  // cutter diameters: more is a mistake, and its flutes have no end of turns
+
+/// A number from `least` to `most`.
+double as_between(const toml::node& node, std::string_view name, double least, double most,
+                  const Source& source) {
+  const double value = as_number(node, {name}, {source});
+  if (!(value >= least && value <= most))
+    source.fail(node, fmt::format("{} is {}; it must be from {} to {}", name, value, least, most));
+  return value;
+}
 
 /// A section while it is read.
 struct Part {
@@ -49,11 +60,7 @@ double axial_depth(const Part& part, double D) {
 }
 
 double angle_deg(const Part& part, std::string_view key) {
-  const toml::node& node = required(part.table, key, part.name, part.node, part.source);
-  const double value = as_number(node, {key}, {part.source});
-  if (!(value >= 0 && value <= 180))
-    part.source.fail(node, fmt::format("{} is {}; it must be from 0 to 180", key, value));
-  return value;
+  return as_between(required(part.table, key, part.name, part.node, part.source), key, 0, 180, part.source);
 }
 
 void take_angles(const Part& part, CuttingModel& model) {
@@ -147,13 +154,9 @@ EndMill read_cutter(const toml::node& node, const std::string& owner, const Sour
   const toml::node& flutes = required(table, "flutes", owner, node, source);
   const toml::node& helix = required(table, "helix_deg", owner, node, source);
   EndMill mill;
-  mill.diameter = as_positive(diameter, {"diameter_mm"}, {source}) * mm;
+  mill.diameter = as_between(diameter, "diameter_mm", narrowest_mm, widest_mm, source) * mm;
   mill.flutes = static_cast<int>(as_whole(flutes, {"flutes"}, 1, most_flutes, source));
-  const double helix_deg = as_number(helix, {"helix_deg"}, {source});
-  if (!(helix_deg >= 0 && helix_deg <= steepest_helix_deg))
-    source.fail(helix,
-                fmt::format("helix_deg is {}; it must be from 0 to {}", helix_deg, steepest_helix_deg));
-  mill.helix = helix_deg * deg;
+  mill.helix = as_between(helix, "helix_deg", 0, steepest_helix_deg, source) * deg;
   return mill;
 }
 
@@ -194,7 +197,7 @@ CutSection read_cut_section(const toml::node& node, std::size_t number, const Sh
   model.force_at = force_at == nullptr ? shelf.force_at : read_force_at(*force_at, source);
   take_engagement(part, model);
   if (const toml::node* rpm = table.get("spindle_rpm"))
-    model.spindle_rpm = as_positive(*rpm, {"spindle_rpm"}, {source});
+    model.spindle_rpm = as_between(*rpm, "spindle_rpm", slowest_rpm, fastest_rpm, source);
   return section;
 }
 
