@@ -1,5 +1,5 @@
 #pragma once
-/// What a run takes for granted of the work frame, in words.
+/// What a run takes for granted of work frame, tools and weights, in words.
 #include "counterflex/report/report.hpp"
 
 namespace counterflex {
@@ -16,5 +16,8 @@ std::vector<UsedTool> used_tools(const Machine& machine, const std::vector<long>
 
 /// The stiffness of tools in use, and what was taken of moves with others; empty without any.
 std::string tools_in_words(const std::vector<UsedTool>& tools, const std::vector<long>& numbers);
+
+/// Which weights act, and when the controller's zero was set; empty where none act.
+std::string gravity_in_words(const Machine& machine);
 
 }  // namespace counterflex

@@ -91,6 +91,7 @@ RunReport common(const RunContext& context, const RunTally& tally, const Measure
   report.datum = datum_in_words(context.machine, context.frames);
   report.tools = used_tools(context.machine, context.program.tools);
   report.tools_assumed = tools_in_words(report.tools, context.program.tools);
+  report.gravity = gravity_in_words(context.machine);
   return report;
 }
 

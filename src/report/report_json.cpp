@@ -185,6 +185,7 @@ Json worst_json(const RunReport& report) {
 Json assumptions_json(const RunReport& report) {
   Json json = {{"work", report.work}, {"datum", report.datum}};
   if (!report.tools.empty()) json["tools"] = report.tools_assumed;
+  if (!report.gravity.empty()) json["gravity"] = report.gravity;
   return json;
 }
 

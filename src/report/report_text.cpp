@@ -189,7 +189,8 @@ std::string warnings_text(const RunReport& report, const Ink& ink) {
 std::string assumptions_text(const RunReport& report, const Ink& ink) {
   return line_break() + ink.bold("Taken for granted") + "\n" + wrapped("  ", report.work, 2) +
          wrapped("  ", report.datum, 2) +
-         (report.tools.empty() ? "" : wrapped("  ", report.tools_assumed, 2));
+         (report.tools.empty() ? "" : wrapped("  ", report.tools_assumed, 2)) +
+         (report.gravity.empty() ? "" : wrapped("  ", report.gravity, 2));
 }
 
 }  // namespace

@@ -154,6 +154,7 @@ struct RunReport {
   std::string datum;            ///< what the offset was taken to mean, in words
   std::vector<UsedTool> tools;  ///< where a tool of the program makes the machine another one
   std::string tools_assumed;    ///< their stiffness in words; empty without any
+  std::string gravity;          ///< which weights were taken to act, in words; empty without any
   std::optional<Failure> failure;
 };
 

@@ -1,0 +1,37 @@
+/// What a report says of the machine's own weight.
+#include <doctest/doctest.h>
+
+#include "counterflex/report/formats.hpp"
+#include "made_up_run.hpp"
+
+using namespace counterflex;
+using namespace counterflex::test;
+
+namespace {
+
+RunReport with_weight(double kg, const Gravity& gravity) {
+  MadeUpRun run;
+  run.machine.chains.push_back({"arm", {PointMass{kg, Vector3::Zero()}}});
+  run.machine.gravity = gravity;
+  return predicted(run, made_up_waypoints(), {});
+}
+
+}  // namespace
+
+TEST_CASE("a report says which weights act and when the control's zero was set") {
+  const Vector3 g(0, 0, -9.81);
+  CHECK(with_weight(755, {.g = g, .true_at_home = true}).gravity ==
+        "The machine's 755 kg weigh on it, with and without a cut; the control's zero was set under this "
+        "weight "
+        "at home, where the perfect machine is true.");
+  const RunReport unloaded = with_weight(40, {.g = g});
+  CHECK(unloaded.gravity.ends_with("the control's zero was set unloaded."));
+  CHECK(to_json(unloaded).find("\"gravity\": \"The machine's 40 kg") != std::string::npos);
+  CHECK(summary_text(unloaded, false).find("  The machine's 40 kg weigh") != std::string::npos);
+}
+
+TEST_CASE("masses without gravity weigh nothing, and a report does not speak of them") {
+  const RunReport report = with_weight(40, {});
+  CHECK(report.gravity.empty());
+  CHECK(to_json(report).find("kg") == std::string::npos);
+}
