@@ -82,6 +82,27 @@ TEST_CASE("a force 30 % higher or lower leaves 30 % of what the force does, to f
   CHECK(under_force > 2);
 }
 
+TEST_CASE(
+    "between the ends of pieces more and less force do what independent solves say, but for second order") {
+  const Shop shop({.machine = load_machine(orthoglide_b), .text = part, .force = constant_force(milling())});
+  const Compensation result = compensated(shop, true);
+  const std::vector<Commanded> pieces = commanded(shop, result);
+  int between = 0;
+  for (const Waypoint& w : result.waypoints) {
+    if (!w.between || w.wrench.isZero(0)) continue;
+    for (const Commanded& piece : pieces) {
+      if (piece.segment != w.segment || w.fraction < piece.u0 || w.fraction > piece.u1) continue;
+      const Vector3 target = point_at(piece.curve, (w.fraction - piece.u0) / (piece.u1 - piece.u0));
+      const Vector3 higher = cold_tip(shop, target, 1.3 * w.wrench) - w.p_MT;
+      const Vector3 lower = cold_tip(shop, target, 0.7 * w.wrench) - w.p_MT;
+      CHECK((w.higher.deviation.head<3>() - higher).norm() < 1e-9);
+      CHECK((w.lower.deviation.head<3>() - lower).norm() < 0.05 * lower.norm());
+      ++between;
+    }
+  }
+  CHECK(between > 5);
+}
+
 TEST_CASE("a force under which the machine would give way is no failure while it does not act") {
   // A strut that buckles at 5000 N.
   Order order{.machine = load_machine(strut), .text = "G21 G90\nG0 X400. Y0. Z0.\nG1 X410. F100\nM30\n"};
