@@ -101,10 +101,17 @@ std::vector<std::string> notes_of(const Machine& machine, const Model& model, co
 }
 
 std::string position_text(const Vector3& p) {
-  return fmt::format("{:.6g}, {:.6g}, {:.6g} mm", p.x() / mm, p.y() / mm, p.z() / mm);
+  const auto shown = [](double x) { return rounded(x / mm, 9); };  // without the noise of solving
+  return fmt::format("{:.6g}, {:.6g}, {:.6g} mm", shown(p.x()), shown(p.y()), shown(p.z()));
 }
 
-std::string home_text(const Model& model, const HomeFacts& home) {
+std::string weights_text(const Machine& machine) {
+  if (machine.gravity.g.isZero(0) || total_mass(machine) == 0) return "";
+  return machine.gravity.true_at_home ? ", under its weights, against which the control holds it here"
+                                      : ", under its weights";
+}
+
+std::string home_text(const Machine& machine, const Model& model, const HomeFacts& home) {
   std::string text = "\nat home\n";
   const auto line = [&](std::string_view what, const std::string& said) {
     text += fmt::format("  {:<20} {}\n", what, said);
@@ -122,7 +129,8 @@ std::string home_text(const Model& model, const HomeFacts& home) {
   if (home.status != Status::converged) return text;
   line("", fmt::format("{:.3g} of the static system", home.static_condition));
   line("stability", fmt::format("stable: least over largest eigenvalue {:.3g}", home.stability));
-  line("deviation", "tip off by " + position_text(home.deviation.head<3>()) + " without load");
+  line("deviation",
+       "tip off by " + position_text(home.deviation.head<3>()) + " without load" + weights_text(machine));
   return text;
 }
 
@@ -175,17 +183,26 @@ nlohmann::ordered_json home_json(const Model& model, const HomeFacts& home) {
   return json;
 }
 
+nlohmann::ordered_json gravity_json(const Machine& machine) {
+  nlohmann::ordered_json masses;
+  for (const Chain& chain : machine.chains) masses[chain.name] = total_mass(chain);
+  return {{"m_s2", json_of(machine.gravity.g, 1)},
+          {"reference", machine.gravity.true_at_home ? "home" : "unloaded"},
+          {"mass_kg", total_mass(machine)},
+          {"mass_kg_by_chain", masses}};
+}
+
 }  // namespace
 
 Checked check_machine(const std::string& path, const Options&) {
   const Machine machine = read_machine(read_input(path, Exit::machine_or_force), path);
   const Model model = prepare(machine);
-  refuse_home(model, machine.home_at);
+  refuse_home(model, machine);
   const HomeFacts home = look_at_home(model);
   const auto notes = notes_of(machine, model, home);
 
   Checked checked;
-  checked.text = row("file", path) + describe(machine) + home_text(model, home);
+  checked.text = row("file", path) + describe(machine) + home_text(machine, model, home);
   if (!notes.empty()) checked.text += "\nnotes\n";
   for (const std::string& note : notes) checked.text += fmt::format("  {}\n", note);
   constexpr const char* components[] = {"x", "y", "z", "rx", "ry", "rz"};
@@ -197,8 +214,10 @@ Checked check_machine(const std::string& path, const Options&) {
                   {"controlled", controlled},
                   {"chains", chains_json(machine, home)},
                   {"actuators", actuators_json(model, home)},
-                  {"home", home_json(model, home)},
-                  {"notes", notes}};
+                  {"home", home_json(model, home)}};
+  if (!machine.gravity.g.isZero(0) || total_mass(machine) > 0)
+    checked.json["gravity"] = gravity_json(machine);
+  checked.json["notes"] = notes;
   return checked;
 }
 

@@ -52,7 +52,8 @@ std::string read_input(const std::string& path, Exit unreadable) {
   }
 }
 
-void refuse_home(const Model& model, const Location& home_at) {
+void refuse_home(const Model& model, const Machine& machine) {
+  const Location& home_at = machine.home_at;
   if (model.home_status != Status::converged)
     throw InputError(
         Exit::machine_or_force, home_at,
@@ -61,12 +62,18 @@ void refuse_home(const Model& model, const Location& home_at) {
                     model.home_gap));
   if (model.mechanism.travel.empty()) return;
   const double condition = actuator_jacobian(model, model.home).condition;
-  if (condition <= largest_condition) return;
-  throw InputError(
-      Exit::machine_or_force, home_at,
-      fmt::format("home is singular: the matrix from actuators to the tip has condition {:.3g}, at most "
-                  "1e6 is allowed; give joints other home values (home_deg, home_mm), or [home]",
-                  condition));
+  if (!(condition <= largest_condition))
+    throw InputError(
+        Exit::machine_or_force, home_at,
+        fmt::format("home is singular: the matrix from actuators to the tip has condition {:.3g}, at most "
+                    "1e6 is allowed; give joints other home values (home_deg, home_mm), or [home]",
+                    condition));
+  if (model.gravity_status != Status::converged)
+    throw InputError(
+        Exit::machine_or_force, machine.gravity.reference_at,
+        fmt::format("gravity_reference is \"home\", but the perfect machine cannot be held true there under "
+                    "its own weight: it is {}",
+                    to_string(model.gravity_status)));
 }
 
 MachineInput read_machine_input(const Options& options) {
@@ -75,7 +82,7 @@ MachineInput read_machine_input(const Options& options) {
   MachineInput input{input_file("machine", options.machine, text), read_machine(text, name), {}};
   override_work(options, input.machine);
   input.model = prepare(input.machine);
-  refuse_home(input.model, input.machine.home_at);
+  refuse_home(input.model, input.machine);
   return input;
 }
 

@@ -29,8 +29,9 @@ struct MachineInput {
 };
 MachineInput read_machine_input(const Options& options);
 
-/// Throws (Exit::machine_or_force, at the place of home) where home misses its closures or is singular.
-void refuse_home(const Model& model, const Location& home_at);
+/// Throws (Exit::machine_or_force) where home misses its closures or is singular, or no offsets of the actuators hold the
+/// machine true there under its weight, though the file says that the control does.
+void refuse_home(const Model& model, const Machine& machine);
 
 /// Lengths of tools by number: those of --tool-table, and of `machine` for tools that it does not name.
 struct ToolLengths {

@@ -47,6 +47,15 @@ std::string tool_change_phrase(const ControlSettings& control) {
   return fmt::format("{}", fmt::join(*control.tool_change_moves, " "));
 }
 
+std::string gravity_phrase(const Machine& machine) {
+  const double kg = total_mass(machine);
+  if (machine.gravity.g.isZero(0)) return "none given: " + phrase_mass(kg) + " without weight";
+  const Vector3 g = machine.gravity.g.array() + 0.0;  // never "-0"
+  return fmt::format("{:.9g} {:.9g} {:.9g} m/s2 on {}; the control's zero was set {}", g.x(), g.y(), g.z(),
+                     kg > 0 ? phrase_mass(kg) : "no mass",
+                     machine.gravity.true_at_home ? "under the weights at home" : "unloaded");
+}
+
 void describe_settings(const Machine& machine, std::string& text) {
   const auto line = [&](std::string_view what, const std::string& said) {
     text += fmt::format("{:<12} {}\n", what, said);
@@ -55,6 +64,7 @@ void describe_settings(const Machine& machine, std::string& text) {
   line("controlled", controlled_phrase(machine));
   line("home", home_phrase(machine));
   line("tool", tool_phrase(machine));
+  if (!machine.gravity.g.isZero(0) || total_mass(machine) > 0) line("gravity", gravity_phrase(machine));
   if (!machine.tool_lengths.empty()) line("tools", tools_phrase(machine));
   line("program", fmt::format("dialect {}, units {}, a tool change moves {}", machine.control.dialect,
                               machine.control.units.empty() ? "not stated" : machine.control.units,
@@ -74,10 +84,12 @@ void describe_chains(const Machine& machine, std::string& text) {
   int actuator = 0;
   for (const Chain& chain : machine.chains) {
     const Freedoms count = freedoms(chain);
-    text += fmt::format("\n{:<12} {}, {}, {}\n", "chain " + chain.name,
+    const double kg = total_mass(chain);
+    text += fmt::format("\n{:<12} {}, {}, {}{}\n", "chain " + chain.name,
                         counted(count.actuators, "actuator", "actuators"),
                         counted(count.passives, "passive joint", "passive joints"),
-                        counted(count.elastic, "elastic coordinate", "elastic coordinates"));
+                        counted(count.elastic, "elastic coordinate", "elastic coordinates"),
+                        kg > 0 ? ", " + phrase_mass(kg) : "");
     describe_elements(chain.elements, 2, actuator, text);
   }
 }

@@ -65,6 +65,9 @@ Line line_of(const Element& element, int& actuator) {
           [](const Group& group) {
             return Line{"parallel", counted(static_cast<int>(group.branches.size()), "branch", "branches")};
           },
+          [](const PointMass& mass) {
+            return Line{"mass", phrase_mass(mass.kg) + " at " + phrase_mm(mass.at)};
+          },
       },
       element);
 }
@@ -75,7 +78,9 @@ void describe_elements(const std::vector<Element>& elements, int indent, int& ac
   int number = 0;
   for (const Element& element : elements) {
     const Line line = line_of(element, actuator);
-    text += fmt::format("{:{}}{:2}  {:<12} {}\n", "", indent, ++number, line.kind, line.what);
+    // A mass stands beside the element before it.
+    const std::string place = std::holds_alternative<PointMass>(element) ? "" : fmt::format("{}", ++number);
+    text += fmt::format("{:{}}{:>2}  {:<12} {}\n", "", indent, place, line.kind, line.what);
     const auto* group = std::get_if<Group>(&element);
     if (group == nullptr) continue;
     for (const Branch& branch : group->branches) {

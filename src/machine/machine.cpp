@@ -1,5 +1,7 @@
 #include "counterflex/machine/machine.hpp"
 
+#include "walk.hpp"
+
 namespace counterflex {
 namespace {
 
@@ -25,6 +27,20 @@ Machine perfect(const Machine& machine) {
   Machine result = machine;
   for (Chain& chain : result.chains) make_perfect(chain.elements);
   return result;
+}
+
+double total_mass(const Branch& branch) {
+  double kg = 0;
+  for_each_element(branch.elements, [&](const Element& element) {
+    if (const auto* mass = std::get_if<PointMass>(&element)) kg += mass->kg;
+  });
+  return kg;
+}
+
+double total_mass(const Machine& machine) {
+  double kg = 0;
+  for (const Chain& chain : machine.chains) kg += total_mass(chain);
+  return kg;
 }
 
 std::vector<Actuator> actuators(const Machine& machine) {

@@ -37,6 +37,10 @@ std::string phrase_mm(const Vector3& p) {
   return fmt::format("{} mm", triple(p / mm));
 }
 
+std::string phrase_mass(double kg) {
+  return fmt::format("{:.9g} kg", kg);
+}
+
 bool is_identity(const Pose& X) {
   return X.p.norm() < 1e-12 && (X.R - Matrix3::Identity()).norm() < 1e-12;
 }

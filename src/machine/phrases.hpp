@@ -28,6 +28,9 @@ std::string phrase_stiffness(const Joint& joint, double stiffness);
 /// `x 1 0 0` millimetre triples: numbers with up to nine digits, never "-0".
 std::string phrase_mm(const Vector3& p);
 
+/// `12.5 kg`.
+std::string phrase_mass(double kg);
+
 bool is_identity(const Pose& X);
 
 }  // namespace counterflex

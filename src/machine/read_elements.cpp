@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "counterflex/geometry/units.hpp"
 #include "read_joint.hpp"
 #include "read_transform.hpp"
 #include "suggest.hpp"
@@ -35,7 +36,7 @@ T& use(GivenByName<T>& defined, const std::string& name, std::string_view singul
 
 Element read_rigid(const toml::table& table, Expansion& expansion) {
   const toml::node& node = *table.get("rigid");
-  check_keys(table, {"rigid"}, "a rigid element", expansion.source);
+  check_keys(table, {"rigid", "mass"}, "a rigid element", expansion.source);
   if (!node.is_string()) return Rigid{read_transform(node, "rigid", reading_of(expansion))};
   const std::string name = as_text(node, "rigid", expansion.source);
   Fillings& fillings = expansion.fillings;
@@ -51,7 +52,7 @@ Element read_rigid(const toml::table& table, Expansion& expansion) {
 
 Element read_error(const toml::table& table, Expansion& expansion) {
   const toml::node& node = *table.get("error");
-  check_keys(table, {"error"}, "an error slot", expansion.source);
+  check_keys(table, {"error", "mass"}, "an error slot", expansion.source);
   const std::string name = as_text(node, "error", expansion.source);
   if (!expansion.slots.insert(name).second)
     expansion.source.fail(
@@ -66,7 +67,7 @@ Element read_error(const toml::table& table, Expansion& expansion) {
 
 Element read_spring_element(const toml::table& table, Expansion& expansion) {
   const toml::node& node = *table.get("spring");
-  check_keys(table, {"spring"}, "a spring element", expansion.source);
+  check_keys(table, {"spring", "mass"}, "a spring element", expansion.source);
   return use(expansion.library.springs, as_text(node, "spring", expansion.source), "spring", node,
              expansion.source);
 }
@@ -89,7 +90,7 @@ Branch read_branch(const toml::node& node, Expansion& expansion) {
 
 Element read_group(const toml::table& table, Expansion& expansion) {
   const toml::node& node = *table.get("parallel");
-  check_keys(table, {"parallel"}, "a parallel element", expansion.source);
+  check_keys(table, {"parallel", "mass"}, "a parallel element", expansion.source);
   const toml::array& list = as_array(node, "parallel", expansion.source);
   if (list.empty())
     expansion.source.fail(node, "parallel is empty; it must name the branches that stand side by side");
@@ -98,14 +99,29 @@ Element read_group(const toml::table& table, Expansion& expansion) {
   return group;
 }
 
-Element read_element(const toml::node& node, Expansion& expansion) {
+PointMass read_mass(const toml::node& node, const Reading& reading) {
+  const toml::table& table = as_table(node, "mass", reading.source);
+  check_keys(table, {"kg", "at_mm"}, "a mass", reading.source);
+  PointMass mass;
+  mass.kg = as_positive(required(table, "kg", "a mass", node, reading.source), {"kg"}, reading);
+  if (const toml::node* at = table.get("at_mm")) mass.at = as_vector3(*at, "at_mm", reading) * mm;
+  return mass;
+}
+
+[[noreturn]] void fail_without_kind(const toml::table& table, const Source& source) {
+  std::vector<std::string_view> allowed = kinds;
+  allowed.push_back("mass");
+  check_keys(table, allowed, "an element", source);
+  source.fail(table, fmt::format("{} one of {}",
+                                 table.empty() ? "an element is empty; it must be"
+                                               : "a mass stands alone; it stands beside",
+                                 fmt::join(kinds, ", ")));
+}
+
+Element read_element(const toml::table& table, Expansion& expansion) {
   const Source& source = expansion.source;
-  const toml::table& table = as_table(node, "an element", source);
   const std::string_view kind = one_of(table, kinds, "an element", source);
-  if (kind.empty()) {
-    check_keys(table, kinds, "an element", source);
-    source.fail(node, fmt::format("an element is empty; it must be one of {}", fmt::join(kinds, ", ")));
-  }
+  if (kind.empty()) fail_without_kind(table, source);
   if (kind == "rigid") return read_rigid(table, expansion);
   if (kind == "error") return read_error(table, expansion);
   if (kind == "actuator") return read_actuator(table, reading_of(expansion));
@@ -127,7 +143,10 @@ std::vector<Element> read_elements(const toml::node& node, Expansion& expansion)
       expansion.source.fail(
           element, fmt::format("chain \"{}\" has more than {} elements; branches that use branches multiply",
                                expansion.fillings.chain, most_elements));
-    elements.push_back(read_element(element, expansion));
+    const toml::table& table = as_table(element, "an element", expansion.source);
+    elements.push_back(read_element(table, expansion));
+    if (const toml::node* mass = table.get("mass"))
+      elements.push_back(read_mass(*mass, reading_of(expansion)));
   }
   return elements;
 }

@@ -96,7 +96,7 @@ void read_preload(Passive& passive, const toml::table& table, const JointKeys& k
 Actuator read_actuator(const toml::table& table, const Reading& reading) {
   const JointKeys& keys = read_kind(table, "actuator", reading.source);
   const std::string owner = fmt::format("a {} actuator", keys.name);
-  check_keys(table, {"actuator", "axis", keys.min, keys.max, keys.home}, owner, reading.source);
+  check_keys(table, {"actuator", "axis", keys.min, keys.max, keys.home, "mass"}, owner, reading.source);
   Actuator actuator;
   actuator.joint = read_joint(table, keys, owner, reading);
   read_travel(actuator, table, keys, reading);
@@ -107,9 +107,10 @@ Actuator read_actuator(const toml::table& table, const Reading& reading) {
 Passive read_passive(const toml::table& table, const Reading& reading) {
   const JointKeys& keys = read_kind(table, "passive", reading.source);
   const std::string owner = fmt::format("a {} passive joint", keys.name);
-  check_keys(table,
-             {"passive", "axis", keys.min, keys.max, keys.home, keys.stiffness, keys.preload, "preload"},
-             owner, reading.source);
+  check_keys(
+      table,
+      {"passive", "axis", keys.min, keys.max, keys.home, keys.stiffness, keys.preload, "preload", "mass"},
+      owner, reading.source);
   Passive passive;
   passive.joint = read_joint(table, keys, owner, reading);
   read_travel(passive, table, keys, reading);
@@ -123,7 +124,7 @@ Passive read_passive(const toml::table& table, const Reading& reading) {
 Compliance read_compliance(const toml::table& table, const Reading& reading) {
   const JointKeys& keys = read_kind(table, "compliance", reading.source);
   const std::string owner = fmt::format("a {} compliance", keys.name);
-  check_keys(table, {"compliance", "axis", keys.stiffness, keys.compliance, "preload"}, owner,
+  check_keys(table, {"compliance", "axis", keys.stiffness, keys.compliance, "preload", "mass"}, owner,
              reading.source);
   Compliance compliance;
   compliance.joint = read_joint(table, keys, owner, reading);

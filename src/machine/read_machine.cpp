@@ -51,13 +51,14 @@ Machine read_machine(std::string_view text, const std::string& file) {
   const toml::table document = source.parse();
   check_format(document, source);
   check_keys(document,
-             {"format", "name", "controlled", "home", "tool", "tools", "work", "program", "limits", "springs",
-              "branches", "templates", "chain"},
+             {"format", "name", "controlled", "home", "gravity_m_s2", "gravity_reference", "tool", "tools",
+              "work", "program", "limits", "springs", "branches", "templates", "chain"},
              "a machine file", source);
   Machine machine;
   if (const toml::node* name = document.get("name")) machine.name = as_text(*name, "name", source);
   read_controlled(document, source, machine);
   read_home(document, source, machine);
+  read_gravity(document, source, machine);
   read_tool(document, source, machine);
   read_tool_lengths(document, source, machine);
   read_work(document, source, machine);

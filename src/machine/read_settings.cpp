@@ -19,6 +19,8 @@ const std::vector<std::string_view> component_names = {"x", "y", "z", "rx", "ry"
 const std::vector<std::string_view> dialects = {"auto",    "linuxcnc",   "grbl", "fanuc", "haas", "mach3",
                                                 "siemens", "heidenhain", "krl",  "rapid", "ls",   "urscript"};
 
+constexpr double strongest_gravity = 100;  // m/s2: more is likely a wrong unit
+
 /// The text of `node`, which must be one of `allowed`.
 std::string as_choice(const toml::node& node, std::string_view name,
                       const std::vector<std::string_view>& allowed, const Source& source) {
@@ -101,6 +103,31 @@ void read_home(const toml::table& document, const Source& source, Machine& machi
   if (node == nullptr) return;
   machine.home_X_MP = read_transform(*node, "[home]", {source});
   machine.home_at = source.at(key_of(document, "home").source());
+}
+
+void read_gravity(const toml::table& document, const Source& source, Machine& machine) {
+  Gravity& gravity = machine.gravity;
+  const toml::node* g = document.get("gravity_m_s2");
+  if (g != nullptr) {
+    gravity.g = as_vector3(*g, "gravity_m_s2", {source});
+    if (!(gravity.g.norm() > 0))
+      source.fail(*g, "gravity_m_s2 is a zero vector; leave it out where no weights act");
+    if (!(gravity.g.norm() <= strongest_gravity))
+      source.fail(*g, fmt::format("gravity_m_s2 has the length {:.6g}; it is in m/s2, at most {} is allowed",
+                                  gravity.g.norm(), strongest_gravity));
+  }
+  const toml::node* reference = document.get("gravity_reference");
+  if (reference == nullptr) return;
+  const std::string when = as_choice(*reference, "gravity_reference", {"unloaded", "home"}, source);
+  if (g == nullptr)
+    source.fail(key_of(document, "gravity_reference"),
+                "gravity_reference needs gravity_m_s2: without it no weights act");
+  gravity.true_at_home = when == "home";
+  gravity.reference_at = source.at(reference->source());
+  if (gravity.true_at_home && machine.controlled.empty())
+    source.fail(*reference,
+                "gravity_reference is \"home\", but controlled is empty: there is no component of the tip "
+                "that the controller could hold true at home");
 }
 
 void read_tool(const toml::table& document, const Source& source, Machine& machine) {

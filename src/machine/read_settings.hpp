@@ -8,6 +8,7 @@ namespace counterflex::machine_file {
 /// Each reads the table or key of its name from the document, where it is there, into `machine`.
 void read_controlled(const toml::table& document, const Source& source, Machine& machine);
 void read_home(const toml::table& document, const Source& source, Machine& machine);
+void read_gravity(const toml::table& document, const Source& source, Machine& machine);
 void read_tool(const toml::table& document, const Source& source, Machine& machine);
 void read_tool_lengths(const toml::table& document, const Source& source, Machine& machine);
 void read_work(const toml::table& document, const Source& source, Machine& machine);

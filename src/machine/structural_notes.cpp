@@ -85,6 +85,14 @@ void note_groups(const Machine& machine, Notes& notes) {
   });
 }
 
+void note_masses(const Machine& machine, Notes& notes) {
+  const double kg = total_mass(machine);
+  const bool pulls = !machine.gravity.g.isZero(0);
+  if (kg > 0 && !pulls)
+    notes.push_back(fmt::format("masses of {} but no gravity_m_s2: no weights act", phrase_mass(kg)));
+  if (pulls && kg == 0) notes.push_back("gravity_m_s2 but no masses: no weights act");
+}
+
 bool has_errors(const Machine& machine) {
   bool any = false;
   for_each<AssemblyError>(
@@ -124,6 +132,7 @@ std::vector<std::string> structural_notes(const Machine& machine) {
   note_springs(machine, notes);
   note_passives(machine, notes);
   note_groups(machine, notes);
+  note_masses(machine, notes);
   note_actuators(machine, notes);
   note_errors(machine, notes);
   return notes;

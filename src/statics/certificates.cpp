@@ -10,31 +10,75 @@
 namespace counterflex {
 namespace {
 
-// Symmetric stiffness of a series at its end, if its inside is positive definite with the end held.
-//     A + rho J'J > 0  =>  A > 0 on the null space of J;      K = (J (A + rho J'J)^-1 J')^-1 - rho
-std::optional<Matrix6> symmetric_end_stiffness(const Series& series, const SeriesWork& work, const Units& units) {
+// The least energy of a series by a twist xi of its end and, where it leans, a turn w of its start frame:
+// 1/2 (xi' K xi + 2 xi' L w + w' M w), without unit.
+struct LeastEnergy {
+  Matrix6 K = Matrix6::Zero();
+  Matrix63 L = Matrix63::Zero();
+  Matrix3 M = Matrix3::Zero();
+};
+
+// The symmetric matrix over a series' free columns and, in the last three, the turn of its start frame.
+struct SymmetricPart {
+  Eigen::MatrixXd A, J, C;  // C: columns by turn, where the series leans
+  Matrix3 M = Matrix3::Zero();
+};
+
+SymmetricPart symmetric_part(const Series& series, const SeriesWork& work, const Units& units) {
   const auto n = static_cast<Eigen::Index>(series.free.size());
-  if (n == 0) return std::nullopt;  // a rigid bar
-  Eigen::MatrixXd A(n, n), J(6, n);
+  SymmetricPart part{Eigen::MatrixXd(n, n), Eigen::MatrixXd(6, n), Eigen::MatrixXd(series.leans ? n : 0, 3)};
   for (Eigen::Index i = 0; i < n; ++i) {
     const int c = series.free[i];
     const double scale = units.of_column(series.angular[c]);
-    J.col(i) << work.v.col(c), work.w.col(c);
-    J.col(i) = scale * J.col(i).cwiseQuotient(units.of_pose());
+    part.J.col(i) << work.v.col(c), work.w.col(c);
+    part.J.col(i) = scale * part.J.col(i).cwiseQuotient(units.of_pose());
+    if (series.leans) part.C.row(i) = scale / units.energy() * work.lean.A_w.row(c);
     for (Eigen::Index j = 0; j < n; ++j) {
       const int d = series.free[j];
-      A(i, j) = 0.5 * scale * units.of_column(series.angular[d]) / units.energy() * (work.A(c, d) + work.A(d, c));
+      part.A(i, j) = 0.5 * scale * units.of_column(series.angular[d]) / units.energy() * (work.A(c, d) + work.A(d, c));
     }
   }
-  for (const Part& part : series.parts) {
-    if (part.kind != PartKind::group) continue;
-    const auto first = std::find(series.free.begin(), series.free.end(), part.column) - series.free.begin();
-    for (std::size_t b = 0; b < series.groups[part.group].branches.size(); ++b) {
-      const auto K = symmetric_end_stiffness(series.groups[part.group].branches[b], work.groups[part.group][b], units);
-      if (!K) return std::nullopt;
-      A.block<6, 6>(first, first) += *K;
+  return part;
+}
+
+// A group's branches add their least energy to its six columns, and to the columns that turn its start frame.
+void add_branch(const Series& series, const Part& group, const LeastEnergy& branch, bool leans, const SeriesWork& work,
+                SymmetricPart& part) {
+  const auto first = std::find(series.free.begin(), series.free.end(), group.column) - series.free.begin();
+  part.A.block<6, 6>(first, first) += branch.K;
+  if (!leans) return;
+  const Matrix3 R = work.v.middleCols<3>(group.column);
+  const Matrix63 L = branch.L * R.transpose();
+  const Matrix3 M = R * branch.M * R.transpose();
+  for (Eigen::Index i = 0; i < first; ++i) {
+    if (!series.angular[series.free[i]]) continue;
+    const Vector3 w_i = work.w.col(series.free[i]);
+    part.A.block<6, 1>(first, i) += L * w_i;
+    part.A.block<1, 6>(i, first) += (L * w_i).transpose();
+    for (Eigen::Index j = 0; j < first; ++j)
+      if (series.angular[series.free[j]]) part.A(i, j) += w_i.dot(M * work.w.col(series.free[j]));
+    if (series.leans) part.C.row(i) += (M * w_i).transpose();
+  }
+  if (!series.leans) return;
+  part.C.middleRows<6>(first) += L;
+  part.M += M;
+}
+
+// The least energy of a series, if its inside is positive definite with the end held.
+//     A + rho J'J > 0  =>  A > 0 on the null space of J;      K = (J (A + rho J'J)^-1 J')^-1 - rho
+std::optional<LeastEnergy> least_energy(const Series& series, const SeriesWork& work, const Units& units) {
+  if (series.free.empty()) return std::nullopt;  // a rigid bar
+  SymmetricPart part = symmetric_part(series, work, units);
+  for (const Part& group : series.parts) {
+    if (group.kind != PartKind::group) continue;
+    for (std::size_t b = 0; b < series.groups[group.group].branches.size(); ++b) {
+      const Series& inner = series.groups[group.group].branches[b];
+      const auto branch = least_energy(inner, work.groups[group.group][b], units);
+      if (!branch) return std::nullopt;
+      add_branch(series, group, *branch, inner.leans, work, part);
     }
   }
+  const auto& [A, J, C, M] = part;
   const double rho = std::max(1.0, 10 * A.cwiseAbs().maxCoeff());
   if (rho > 1e4) return std::nullopt;  // the difference below would lose its digits
   const Eigen::LLT<Eigen::MatrixXd> llt(A + rho * J.transpose() * J);
@@ -42,29 +86,59 @@ std::optional<Matrix6> symmetric_end_stiffness(const Series& series, const Serie
   const Matrix6 compliance = J * llt.solve(J.transpose());
   const Eigen::LLT<Matrix6> inverse(compliance);
   if (inverse.info() != Eigen::Success || inverse.matrixLLT().diagonal().minCoeff() < 1e-7) return std::nullopt;
-  return Matrix6(inverse.solve(Matrix6::Identity()) - rho * Matrix6::Identity());
+  LeastEnergy least;
+  const Matrix6 Z = inverse.solve(Matrix6::Identity());
+  least.K = Z - rho * Matrix6::Identity();
+  if (!series.leans) return least;
+  const Eigen::MatrixXd P_C = llt.solve(C);
+  const Matrix63 B = J * P_C;
+  least.L = Z * B;
+  least.M = M + B.transpose() * Z * B - C.transpose() * P_C;
+  return least;
 }
 
 // Bounds of one condensed series: norm of the inverse of everything inside it, and of what its end's motion does to it.
 struct Bounds {
   double matrix = 1, inverse = 0, sensitivity = 0;
+  double coupling = 0;  // norm of what couples everything inside with everything outside
+
+  // Side by side: blocks of a diagonal, which answer to the same outside.
+  void add(const Bounds& other) {
+    matrix = std::max(matrix, other.matrix);
+    inverse = std::max(inverse, other.inverse);
+    sensitivity = std::hypot(sensitivity, other.sensitivity);
+    coupling = std::hypot(coupling, other.coupling);
+  }
 };
 
+// Norm of A_w as evaluated: rows g x V_c.
+double lean_norm(const Series& series, const SeriesWork& work, const Units& units) {
+  double squares = 0;
+  for (int c = 0; c < series.columns; ++c)
+    squares += std::pow(units.of_column(series.angular[c]) / units.energy() * work.masses.V.col(c).norm(), 2);
+  return std::sqrt(squares) * work.weight / series.mass;
+}
+
 //     M = [ B  C ; C'  D ], S the Schur complement of B:    |M^-1| <= |B^-1| + (1 + |B^-1 C|)^2 |S^-1|
-Bounds bounds(const Series& series, const SeriesWork& work, const Units& units) {
+// A series that leans couples to the outside by its start frame too, on whose turn `turning` bounds the effect of all
+// columns before it.
+Bounds bounds(const Series& series, const SeriesWork& work, double turning, const Units& units) {
   Bounds inner;
-  for (std::size_t g = 0; g < series.groups.size(); ++g)
-    for (std::size_t b = 0; b < series.groups[g].branches.size(); ++b) {
-      const Bounds branch = bounds(series.groups[g].branches[b], work.groups[g][b], units);
-      inner.matrix = std::max(inner.matrix, branch.matrix);
-      inner.inverse = std::max(inner.inverse, branch.inverse);
-      inner.sensitivity = std::max(inner.sensitivity, branch.sensitivity);
-    }
+  for (const Part& part : series.parts) {
+    if (part.kind != PartKind::group) continue;
+    const double turning_group = std::hypot(turning, work.w.leftCols(part.column).norm());
+    for (std::size_t b = 0; b < series.groups[part.group].branches.size(); ++b)
+      inner.add(bounds(series.groups[part.group].branches[b], work.groups[part.group][b], turning_group, units));
+  }
   const double spread = 1 + inner.sensitivity;
+  const double by_end = (work.solution.middleCols<6>(1) * units.of_pose().asDiagonal()).norm();
+  const double by_start = series.leans ? turning * work.solution.rightCols<3>().norm() : 0;
   Bounds result;
-  result.matrix = std::max(inner.matrix, work.bordered.norm()) + 1;
+  result.coupling = 1;
+  if (series.leans) result.coupling += turning * lean_norm(series, work, units) + inner.coupling;
+  result.matrix = std::max(inner.matrix, work.bordered.norm() + inner.coupling * inner.sensitivity) + inner.coupling;
   result.inverse = inner.inverse + spread * spread * work.lu.inverse().norm();
-  result.sensitivity = spread * (work.solution.middleCols<6>(1) * units.of_pose().asDiagonal()).norm();
+  result.sensitivity = spread * std::hypot(by_end, by_start) + (series.leans ? inner.sensitivity : 0);
   return result;
 }
 
@@ -75,9 +149,9 @@ bool surely_stable(const Mechanism& mechanism, const std::vector<SeriesWork>& wo
   Matrix6 K = units.of_pose().asDiagonal() * (-0.5 * (load_tangent + load_tangent.transpose())) *
               units.of_pose().asDiagonal() / units.energy();
   for (std::size_t i = 0; i < works.size(); ++i) {
-    const auto K_chain = symmetric_end_stiffness(mechanism.chains[i], works[i], units);
-    if (!K_chain) return false;
-    K += *K_chain;
+    const auto chain = least_energy(mechanism.chains[i], works[i], units);
+    if (!chain) return false;
+    K += chain->K;
   }
   // A margin far above the rounding of the differences that made K.
   const Eigen::LLT<Matrix6> llt(K - 1e-7 * K.cwiseAbs().maxCoeff() * Matrix6::Identity());
@@ -90,10 +164,7 @@ bool surely_well_conditioned(const Mechanism& mechanism, std::vector<SeriesWork>
   Matrix6 K = -load_tangent;
   for (std::size_t i = 0; i < works.size(); ++i) {
     if (!condense(mechanism.chains[i], units, false, works[i])) return false;
-    const Bounds chain = bounds(mechanism.chains[i], works[i], units);
-    inner.matrix = std::max(inner.matrix, chain.matrix);
-    inner.inverse = std::max(inner.inverse, chain.inverse);
-    inner.sensitivity = std::max(inner.sensitivity, chain.sensitivity);
+    inner.add(bounds(mechanism.chains[i], works[i], 0, units));
     K += works[i].K;
   }
   K = units.of_pose().asDiagonal() * K * units.of_pose().asDiagonal() / units.energy();

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "newton.hpp"
+#include "part_pose.hpp"
 
 namespace counterflex {
 namespace {
@@ -33,7 +34,7 @@ ChainEquilibrium solve_chain(const Model& model, std::size_t i, const Pose& X_MP
   ChainEquilibrium result;
   double step = std::numeric_limits<double>::infinity();
   for (; result.iterations < most_chain_steps; ++result.iterations) {
-    evaluate(series, state, X_MP, stage, hessians, chain);
+    evaluate(series, state, X_MP, stage, stage.gravity * model.mechanism.gravity, hessians, chain);
     Residual residual;
     add_residual(series, state, chain, units, residual);
     if (!std::isfinite(residual.closure + residual.force)) return result;
@@ -46,7 +47,7 @@ ChainEquilibrium solve_chain(const Model& model, std::size_t i, const Pose& X_MP
       result.status = Status::singular;
       return result;
     }
-    step = take_step(series, Vector6::Zero(), no_actuator, units, chain, state);
+    step = take_step(series, Vector6::Zero(), no_actuator, Vector3::Zero(), units, chain, state);
   }
   return result;
 }
@@ -57,7 +58,7 @@ ChainStiffness chain_stiffness(const Model& model, std::size_t i, const SeriesSt
   const Units units{model.mechanism.length};
   SeriesWork& chain = work.impl().chains[i];
   const Pose X_MP = chain_end(model, i, state, stage, work);
-  evaluate(series, state, X_MP, stage, Hessians::yes, chain);
+  evaluate(series, state, X_MP, stage, stage.gravity * model.mechanism.gravity, Hessians::yes, chain);
   ChainStiffness result;
   result.available = condense(series, units, false, chain);
   if (!result.available) return result;
@@ -87,10 +88,26 @@ double elastic_energy(const Series& series, const SeriesState& state, const Stag
   return energy;
 }
 
+double weight_energy(const Series& series, const SeriesState& state, const Stage& stage, const Vector3& g) {
+  double energy = 0;
+  Pose X;
+  for (const Part& part : series.parts) {
+    if (part.kind == PartKind::mass) energy -= part.mass * g.dot(X * part.X.p);
+    if (part.kind == PartKind::group)
+      for (std::size_t b = 0; b < series.groups[part.group].branches.size(); ++b) {
+        const Series& branch = series.groups[part.group].branches[b];
+        energy += weight_energy(branch, state.groups[part.group].branches[b], stage, X.R.transpose() * g) -
+                  branch.mass * g.dot(X.p);
+      }
+    X = X * part_pose(part, state, stage);
+  }
+  return energy;
+}
+
 Eigen::MatrixXd chain_jacobian(const Model& model, std::size_t i, const SeriesState& state, const Stage& stage,
                                StaticsWork& work) {
   SeriesWork& chain = work.impl().chains[i];
-  evaluate(model.mechanism.chains[i], state, {}, stage, Hessians::no, chain);
+  evaluate(model.mechanism.chains[i], state, {}, stage, stage.gravity * model.mechanism.gravity, Hessians::no, chain);
   Eigen::MatrixXd J(6, chain.v.cols());
   J << chain.v, chain.w;
   return J;
@@ -99,15 +116,15 @@ Eigen::MatrixXd chain_jacobian(const Model& model, std::size_t i, const SeriesSt
 Eigen::MatrixXd chain_hessian(const Model& model, std::size_t i, const SeriesState& state, const Stage& stage,
                               StaticsWork& work) {
   SeriesWork& chain = work.impl().chains[i];
-  evaluate(model.mechanism.chains[i], state, {}, stage, Hessians::no, chain);
+  evaluate(model.mechanism.chains[i], state, {}, stage, stage.gravity * model.mechanism.gravity, Hessians::no, chain);
   const Eigen::MatrixXd K = chain.A;
-  evaluate(model.mechanism.chains[i], state, {}, stage, Hessians::yes, chain);
+  evaluate(model.mechanism.chains[i], state, {}, stage, stage.gravity * model.mechanism.gravity, Hessians::yes, chain);
   return K - chain.A;
 }
 
 Pose chain_end(const Model& model, std::size_t i, const SeriesState& state, const Stage& stage, StaticsWork& work) {
   SeriesWork& chain = work.impl().chains[i];
-  evaluate(model.mechanism.chains[i], state, {}, stage, Hessians::no, chain);
+  evaluate(model.mechanism.chains[i], state, {}, stage, stage.gravity * model.mechanism.gravity, Hessians::no, chain);
   return chain.end;
 }
 

@@ -19,7 +19,8 @@ void collect_gaps(const SeriesWork& work, Eigen::VectorXd& gaps, Eigen::Index& a
 
 void evaluate_nominal(const Mechanism& mechanism, const Configuration& configuration, std::vector<SeriesWork>& works) {
   for (std::size_t i = 0; i < mechanism.chains.size(); ++i)
-    evaluate(mechanism.chains[i], configuration.chains[i], configuration.X_MP, nominal_stage, Hessians::no, works[i]);
+    evaluate(mechanism.chains[i], configuration.chains[i], configuration.X_MP, nominal_stage, Vector3::Zero(),
+             Hessians::no, works[i]);
 }
 
 Eigen::Index closure_rows(const SeriesWork& work) {

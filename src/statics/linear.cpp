@@ -8,8 +8,11 @@
 namespace counterflex {
 namespace {
 
-// eps of a series by its own errors: each error's (p, Log R), carried to the end by the nominal frames.
-Vector6 own_eps(const Series& series, const SeriesState& nominal, const Pose& end, double factor) {
+// eps of a series by its own errors: each error's (p, Log R), carried to the end by the nominal frames. What the
+// controller's zero holds against the weights moves the end likewise.
+Vector6 own_eps(const Series& series, const SeriesState& nominal, const Stage& stage, const SeriesWork& work) {
+  const Pose& end = work.end;
+  const double factor = stage.errors;
   Vector6 eps = Vector6::Zero();
   Pose X;
   for (const Part& part : series.parts) {
@@ -18,24 +21,29 @@ Vector6 own_eps(const Series& series, const SeriesState& nominal, const Pose& en
       eps.head<3>() += factor * (X.R * part.X.p) + w.cross(end.p - X.p);
       eps.tail<3>() += w;
     }
+    if (part.kind == PartKind::actuator) {
+      eps.head<3>() += stage.gravity * part.offset * work.v.col(part.column);
+      eps.tail<3>() += stage.gravity * part.offset * work.w.col(part.column);
+    }
     X = X * part_pose(part, nominal, nominal_stage);
   }
   return eps;
 }
 
 // A perfect chain closes at the nominal pose; a chain with errors ends eps beside it.
-void open_gaps(const Series& series, const SeriesState& nominal, double factor, SeriesWork& work) {
-  work.gap -= own_eps(series, nominal, work.end, factor);
+void open_gaps(const Series& series, const SeriesState& nominal, const Stage& stage, SeriesWork& work) {
+  work.gap -= own_eps(series, nominal, stage, work);
   for (std::size_t g = 0; g < series.groups.size(); ++g)
     for (std::size_t b = 0; b < series.groups[g].branches.size(); ++b)
-      open_gaps(series.groups[g].branches[b], nominal.groups[g].branches[b], factor, work.groups[g][b]);
+      open_gaps(series.groups[g].branches[b], nominal.groups[g].branches[b], stage, work.groups[g][b]);
 }
 
 void evaluate_linear(const Model& model, const Configuration& nominal, const Stage& stage, StaticsWork::Impl& work) {
-  const Stage without_errors{0, stage.load, stage.preload, stage.gravity};
+  const Stage in_place{0, stage.load, stage.preload, 0};  // errors and offsets enter as gaps
+  const Vector3 g = stage.gravity * model.mechanism.gravity;
   for (std::size_t i = 0; i < nominal.chains.size(); ++i) {
-    evaluate(model.mechanism.chains[i], nominal.chains[i], nominal.X_MP, without_errors, Hessians::no, work.chains[i]);
-    open_gaps(model.mechanism.chains[i], nominal.chains[i], stage.errors, work.chains[i]);
+    evaluate(model.mechanism.chains[i], nominal.chains[i], nominal.X_MP, in_place, g, Hessians::no, work.chains[i]);
+    open_gaps(model.mechanism.chains[i], nominal.chains[i], stage, work.chains[i]);
   }
 }
 
@@ -53,7 +61,7 @@ bool condensed(const Model& model, const Vector6& F, const Units& units, Statics
   if (!lu.isInvertible()) return false;
   result.dt_P = pose.cwiseProduct(Vector6(lu.solve(pose.cwiseProduct(rhs) / units.energy())));
   for (std::size_t i = 0; i < work.chains.size(); ++i)
-    take_step(mechanism.chains[i], result.dt_P, work.no_actuator_step, units, work.chains[i],
+    take_step(mechanism.chains[i], result.dt_P, work.no_actuator_step, Vector3::Zero(), units, work.chains[i],
               result.configuration.chains[i]);
   result.configuration.X_MP = moved(result.configuration.X_MP, result.dt_P);
   return true;

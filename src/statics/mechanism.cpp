@@ -5,19 +5,26 @@
 namespace counterflex {
 namespace {
 
-Series compile_series(const Branch& branch, int& next_actuator, std::vector<Travel>& travel);
+struct Numbering {
+  int next_actuator = 0;
+  std::vector<Travel>& travel;
+};
+
+/// `turns`: whether the frame where the series starts may turn.
+Series compile_series(const Branch& branch, bool weighs, bool turns, Numbering& numbering);
 
 // Adds one element to a series: `add(element)` for every kind of element.
 struct Compiler {
   Series& series;
-  int& next_actuator;
-  std::vector<Travel>& travel;
+  bool weighs, turns;
+  Numbering& numbering;
 
   void columns(Part& part, const std::vector<bool>& angular) {
     part.column = series.columns;
     for (bool a : angular) {
       (part.kind == PartKind::actuator ? series.commanded : series.free).push_back(series.columns++);
       series.angular.push_back(a);
+      turns = turns || a;
     }
   }
   void joint_column(Part& part) { columns(part, {part.joint.kind == JointKind::revolute}); }
@@ -28,8 +35,8 @@ struct Compiler {
     return {.kind = PartKind::error, .X = e.X, .log_R = log_so3(e.X.R)};
   }
   Part operator()(const Actuator& e) {
-    Part part{.kind = PartKind::actuator, .joint = e.joint, .home = e.home, .actuator = next_actuator++};
-    travel.push_back({e.min, e.max, e.joint.kind});
+    Part part{.kind = PartKind::actuator, .joint = e.joint, .home = e.home, .actuator = numbering.next_actuator++};
+    numbering.travel.push_back({e.min, e.max, e.joint.kind});
     series.actuators.push_back(part.actuator);
     joint_column(part);
     return part;
@@ -54,21 +61,29 @@ struct Compiler {
     Part part{.kind = PartKind::group, .group = static_cast<int>(series.groups.size())};
     SeriesGroup group;
     for (const Branch& branch : e.branches) {
-      group.branches.push_back(compile_series(branch, next_actuator, travel));
+      group.branches.push_back(compile_series(branch, weighs, turns, numbering));
       const auto& inner = group.branches.back().actuators;
+      series.mass += group.branches.back().mass;
       series.actuators.insert(series.actuators.end(), inner.begin(), inner.end());
     }
     series.groups.push_back(std::move(group));
     pose_columns(part);
     return part;
   }
+  Part operator()(const PointMass& e) const {
+    series.mass += e.kg;
+    ++series.masses;
+    return {.kind = PartKind::mass, .X = translation(e.at), .mass = e.kg};
+  }
 };
 
-Series compile_series(const Branch& branch, int& next_actuator, std::vector<Travel>& travel) {
+Series compile_series(const Branch& branch, bool weighs, bool turns, Numbering& numbering) {
   Series series;
   series.name = branch.name;
-  Compiler compiler{series, next_actuator, travel};
-  for (const Element& element : branch.elements) series.parts.push_back(std::visit(compiler, element));
+  Compiler compiler{series, weighs, turns, numbering};
+  for (const Element& element : branch.elements)
+    if (weighs || !std::holds_alternative<PointMass>(element)) series.parts.push_back(std::visit(compiler, element));
+  series.leans = turns && series.mass > 0;
   return series;
 }
 
@@ -80,9 +95,11 @@ Mechanism compile(const Machine& machine) {
   mechanism.controlled = machine.controlled;
   std::sort(mechanism.controlled.begin(), mechanism.controlled.end());
   mechanism.X_PT = machine.X_PT;
-  int next_actuator = 0;
+  mechanism.gravity = machine.gravity.g;
+  const bool weighs = !mechanism.gravity.isZero(0);
+  Numbering numbering{0, mechanism.travel};
   for (const Chain& chain : machine.chains)
-    mechanism.chains.push_back(compile_series(chain, next_actuator, mechanism.travel));
+    mechanism.chains.push_back(compile_series(chain, weighs, false, numbering));
   return mechanism;
 }
 

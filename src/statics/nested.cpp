@@ -47,7 +47,8 @@ NewtonResult equilibrium_by_chains(const Model& model, const Problem& problem, C
     }
     const PlatformTerms terms = platform_terms(model, configuration, problem);
     double largest = wrench_size(problem.load.F, units);
-    for (const SeriesState& chain : configuration.chains) largest = std::max(largest, wrench_size(chain.F, units));
+    for (std::size_t i = 0; i < configuration.chains.size(); ++i)
+      largest = std::max({largest, wrench_size(configuration.chains[i].F, units), work.impl().chains[i].weight});
     const double tolerance = force_tolerance(model.mechanism, configuration.X_MP, largest);
     result.converged = step <= step_tolerance && wrench_size(terms.gradient, units) <= tolerance;
     if (result.converged) break;

@@ -75,7 +75,7 @@ bool condensed_step(const Model& model, const Problem& problem, const Units& uni
       drho[a] = x[6 + a] * units.of_column(mechanism.travel[a].kind == JointKind::revolute);
   step.largest = std::max(dxi.head<3>().norm(), dxi.tail<3>().norm() * units.length);
   for (std::size_t i = 0; i < work.chains.size(); ++i)
-    step.largest = std::max(step.largest, take_step(mechanism.chains[i], dxi, drho, units, work.chains[i],
+    step.largest = std::max(step.largest, take_step(mechanism.chains[i], dxi, drho, Vector3::Zero(), units, work.chains[i],
                                                     configuration.chains[i]));
   configuration.X_MP = moved(configuration.X_MP, dxi);
   return true;
@@ -139,8 +139,8 @@ AppliedWrench applied_wrench(const Mechanism& mechanism, const Pose& X_MP, const
 
 void evaluate_all(const Model& model, const Configuration& configuration, const Stage& stage, StaticsWork::Impl& work) {
   for (std::size_t i = 0; i < work.chains.size(); ++i)
-    evaluate(model.mechanism.chains[i], configuration.chains[i], configuration.X_MP, stage, Hessians::yes,
-             work.chains[i]);
+    evaluate(model.mechanism.chains[i], configuration.chains[i], configuration.X_MP, stage,
+             stage.gravity * model.mechanism.gravity, Hessians::yes, work.chains[i]);
 }
 
 PlatformTerms platform_terms(const Model& model, const Configuration& configuration, const Problem& problem) {

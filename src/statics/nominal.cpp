@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "counterflex/statics/equilibrium.hpp"
 #include "kinematics.hpp"
 #include "part_pose.hpp"
 
@@ -38,7 +39,7 @@ void start_at_joint_homes(const Series& series, SeriesState& state, SeriesWork& 
                            work.groups[part.group][b]);
     group.X = work.groups[part.group][0].end;
   }
-  evaluate(series, state, {}, nominal_stage, Hessians::no, work);
+  evaluate(series, state, {}, nominal_stage, Vector3::Zero(), Hessians::no, work);
 }
 
 void find_home(const Machine& machine, Model& model) {
@@ -99,6 +100,26 @@ void relax_at_home(Series& series, const SeriesState& home) {
       relax_at_home(series.groups[g].branches[b], home.groups[g].branches[b]);
 }
 
+void set_offsets(Series& series, const Eigen::VectorXd& offsets) {
+  for (Part& part : series.parts)
+    if (part.kind == PartKind::actuator) part.offset = offsets[part.actuator];
+  for (SeriesGroup& group : series.groups)
+    for (Series& branch : group.branches) set_offsets(branch, offsets);
+}
+
+// What a controller adds whose zero was set at home, under the weights.
+void hold_home(Model& model) {
+  StaticsWork work(model.mechanism);
+  const Stage by_weight{0, 0, 1, 1};
+  const Equilibrium held =
+      solve_target(model, model.home, tip(model.mechanism, model.home), {}, by_weight, work);
+  model.gravity_status = held.status;
+  if (held.status != Status::converged) return;
+  const Eigen::VectorXd offsets =
+      actuator_values(model.mechanism, held.configuration) - actuator_values(model.mechanism, model.home);
+  for (Series& chain : model.mechanism.chains) set_offsets(chain, offsets);
+}
+
 Pose between(const Pose& from, const Pose& to, double fraction) {
   return moved(from, fraction * difference(to, from));
 }
@@ -151,6 +172,8 @@ Model prepare(const Machine& machine) {
   model.mechanism.length = std::max(0.1, distances.count ? distances.sum / distances.count : 0.0);
   for (const Series& chain : model.mechanism.chains)
     model.mechanism.stiffest = std::max(model.mechanism.stiffest, stiffest(chain, model.mechanism.length));
+  if (machine.gravity.true_at_home && model.home_status == Status::converged && total_mass(machine) > 0)
+    hold_home(model);
   return model;
 }
 
@@ -278,7 +301,8 @@ Status NominalPath::go_to(const Pose& X_MT) {
   mark_nominal(reached);
   configuration_ = std::move(reached);
   const bool judged = !mechanism.controlled.empty() && !mechanism.travel.empty();
-  return judged && impl_->jacobian.condition > largest_jacobian_condition ? Status::singular : Status::converged;
+  return judged && impl_->jacobian.condition > largest_jacobian_condition ? Status::singular
+                                                                          : Status::converged;
 }
 
 NominalResult follow(const Model& model, const Configuration& from, const Pose& X_MT) {

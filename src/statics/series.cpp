@@ -1,6 +1,6 @@
 #include <Eigen/Geometry>
 
-#include "series.hpp"
+#include "weights.hpp"
 
 #include <algorithm>
 
@@ -50,15 +50,17 @@ void place_group(const Part& part, const Pose& X_group, Pose& X, SeriesWork& wor
 // Frames from start to end: axes and points of all columns, and where the end is.
 void place(const Series& series, const SeriesState& state, const Stage& stage, SeriesWork& work) {
   Pose X;
+  int mass = 0;
   for (const Part& part : series.parts) {
     switch (part.kind) {
       case PartKind::fixed: X = X * part.X; break;
       case PartKind::error: X = X * error_pose(part, stage.errors); break;
       case PartKind::actuator:
       case PartKind::passive:
-      case PartKind::compliance: place_joint(part, state.x[part.column], X, work); break;
+      case PartKind::compliance: place_joint(part, state.x[part.column] + stage.gravity * part.offset, X, work); break;
       case PartKind::spring: place_spring(part, state, X, work); break;
       case PartKind::group: place_group(part, state.groups[part.group].X, X, work); break;
+      case PartKind::mass: work.masses.point.col(mass++) = X.p + X.R * part.X.p; break;
     }
   }
   work.end = X;
@@ -81,11 +83,12 @@ void add_energy(const Part& part, const SeriesState& state, const Stage& stage, 
 }
 
 // Three rotations about one point: the coordinates of a rotation vector, or (D = 0) the twist of a group.
-//     H_jk = dw_j/dx_k . M + f . (w_j x v_k),    M = (p_E - o) x f + m
-void set_triple(const Part& part, const SeriesState& state, const Vector6& F, SeriesWork& work) {
+//     H_jk = dw_j/dx_k . M + f . (w_j x v_k),    M = (p_E - o) x f + m + sum m (p_m - o) x g
+void set_triple(const Part& part, const SeriesState& state, const Vector6& F, const Vector3& weights_moment,
+                SeriesWork& work) {
   const int c = part.column + 3;
   const Vector3 r = work.end.p - work.point.col(c), f = F.head<3>();
-  const Vector3 M = r.cross(f) + F.tail<3>();
+  const Vector3 M = r.cross(f) + F.tail<3>() + weights_moment;
   Matrix3 H = work.S.block<3, 3>(c, c).transpose();
   if (part.kind == PartKind::spring) {
     const auto D = left_jacobian_derivatives(state.x.segment<3>(c));
@@ -97,10 +100,12 @@ void set_triple(const Part& part, const SeriesState& state, const Vector6& F, Se
 
 // H = d(J'F)/dx with F held. For columns k upstream of j, S_jk = v_j . (f x w_k):
 //     H_jk = S_jk + w_j . (m x w_k),    H_kj = S_jk
-void subtract_hessian(const Series& series, const SeriesState& state, SeriesWork& work) {
+// The weights enter S alone: they are forces without a moment at points of their own.
+void subtract_hessian(const Series& series, const SeriesState& state, const Vector3& g, SeriesWork& work) {
   const Vector3 f = state.F.head<3>(), m = state.F.tail<3>();
   for (int k = 0; k < series.columns; ++k) work.f_x_w.col(k) = f.cross(work.w.col(k));
   work.S.noalias() = work.v.transpose().lazyProduct(work.f_x_w);
+  if (work.weight > 0) add_second_moments(g, work);
   for (int k = 0; k < series.columns; ++k) {
     const Vector3 m_x_w = m.cross(work.w.col(k));
     work.A(k, k) -= work.S(k, k);
@@ -112,13 +117,28 @@ void subtract_hessian(const Series& series, const SeriesState& state, SeriesWork
 }
 
 // The general formula was wrong inside a triple: its block is set anew.
-void mend_triples(const Series& series, const SeriesState& state, SeriesWork& work) {
+void mend_triples(const Series& series, const SeriesState& state, const Vector3& g, SeriesWork& work) {
   for (const Part& part : series.parts) {
     if (part.kind != PartKind::spring && part.kind != PartKind::group) continue;
     const int c = part.column + 3;
     if (part.kind == PartKind::spring) work.A.block<3, 3>(c, c) = part.K.bottomRightCorner<3, 3>();
     else work.A.block<3, 3>(c, c).setZero();
-    set_triple(part, state, state.F, work);
+    const Vector3 weights_moment = work.weight > 0 ? Vector3(work.masses.arm.col(c).cross(g)) : Vector3::Zero();
+    set_triple(part, state, state.F, weights_moment, work);
+  }
+}
+
+void evaluate_branches(const Series& series, const SeriesState& state, const Stage& stage, const Vector3& g,
+                       Hessians hessians, SeriesWork& work) {
+  for (const Part& part : series.parts) {
+    if (part.kind != PartKind::group) continue;
+    const GroupState& group = state.groups[part.group];
+    const Vector3 g_group = work.v.middleCols<3>(part.column).transpose() * g;  // axes of the frame where branches start
+    for (std::size_t b = 0; b < group.branches.size(); ++b) {
+      evaluate(series.groups[part.group].branches[b], group.branches[b], group.X, stage, g_group, hessians,
+               work.groups[part.group][b]);
+      work.gradient.segment<6>(part.column) += group.branches[b].F;
+    }
   }
 }
 
@@ -128,6 +148,7 @@ SeriesWork make_work(const Series& series) {
   SeriesWork work;
   const int n = series.columns, size = 6 + static_cast<int>(series.free.size());
   const int actuators = static_cast<int>(series.actuators.size());
+  const int sides = 7 + actuators + (series.leans ? 3 : 0);
   work.v.setZero(3, n);
   work.w.setZero(3, n);
   work.point.setZero(3, n);
@@ -136,10 +157,11 @@ SeriesWork make_work(const Series& series) {
   work.A.setZero(n, n);
   work.gradient.setZero(n);
   work.bordered.setZero(size, size);
-  work.rhs.setZero(size, 7 + actuators);
-  work.solution.setZero(size, 7 + actuators);
+  work.rhs.setZero(size, sides);
+  work.solution.setZero(size, sides);
   work.lu = Eigen::PartialPivLU<Eigen::MatrixXd>(size);
   work.G.setZero(6, actuators);
+  make_mass_work(series, work);
   for (const SeriesGroup& group : series.groups) {
     work.groups.emplace_back();
     for (const Series& branch : group.branches) work.groups.back().push_back(make_work(branch));
@@ -147,24 +169,20 @@ SeriesWork make_work(const Series& series) {
   return work;
 }
 
-void evaluate(const Series& series, const SeriesState& state, const Pose& X_end, const Stage& stage, Hessians hessians,
-              SeriesWork& work) {
+void evaluate(const Series& series, const SeriesState& state, const Pose& X_end, const Stage& stage, const Vector3& g,
+              Hessians hessians, SeriesWork& work) {
   place(series, state, stage, work);
   work.gap = difference(X_end, work.end);
+  work.weight = series.mass * g.norm();
   work.gradient.setZero();
   work.A.setZero();
-  if (hessians == Hessians::yes) subtract_hessian(series, state, work);
+  evaluate_branches(series, state, stage, g, hessians, work);
+  if (work.weight > 0) carry_masses(series, state, work);
+  if (hessians == Hessians::yes) subtract_hessian(series, state, g, work);
   for (const Part& part : series.parts) add_energy(part, state, stage, work);
-  if (hessians == Hessians::yes) mend_triples(series, state, work);
-  for (const Part& part : series.parts) {
-    if (part.kind != PartKind::group) continue;
-    const GroupState& group = state.groups[part.group];
-    for (std::size_t b = 0; b < group.branches.size(); ++b) {
-      evaluate(series.groups[part.group].branches[b], group.branches[b], group.X, stage, hessians,
-               work.groups[part.group][b]);
-      work.gradient.segment<6>(part.column) += group.branches[b].F;
-    }
-  }
+  if (hessians == Hessians::yes) mend_triples(series, state, g, work);
+  if (series.leans) lean(g, hessians, work);
+  if (work.weight > 0) work.gradient.noalias() -= work.masses.V.transpose() * g;
   work.gradient.noalias() -= work.v.transpose() * state.F.head<3>();
   work.gradient.noalias() -= work.w.transpose() * state.F.tail<3>();
 }
@@ -179,7 +197,7 @@ void add_residual(const Series& series, const SeriesState& state, const SeriesWo
   for (int c : series.free)
     residual.force =
         std::max(residual.force, std::abs(work.gradient[c]) / (series.angular[c] ? units.length : 1.0));
-  residual.largest = std::max(residual.largest, wrench_size(state.F, units));
+  residual.largest = std::max({residual.largest, wrench_size(state.F, units), work.weight});
   for (std::size_t g = 0; g < series.groups.size(); ++g)
     for (std::size_t b = 0; b < series.groups[g].branches.size(); ++b)
       add_residual(series.groups[g].branches[b], state.groups[g].branches[b], work.groups[g][b], units, residual);

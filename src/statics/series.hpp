@@ -6,6 +6,9 @@
 
 namespace counterflex {
 
+using Matrix63 = Eigen::Matrix<double, 6, 3>;
+using Matrix36 = Eigen::Matrix<double, 3, 6>;
+
 /// Units in which matrices are compared and pivoted: lengths in l, forces in k l, moments in k l^2 with k = 1e6 N/m.
 struct Units {
   double length = 1;
@@ -13,6 +16,24 @@ struct Units {
   double of_column(bool angular) const { return angular ? 1.0 : length; }
   /// Of the rows of a closure (m m m rad rad rad); a wrench times this, divided by energy(), is without unit.
   Vector6 of_pose() const { return (Vector6() << length, length, length, 1, 1, 1).finished(); }
+};
+
+/// Where the masses of a series are, and how they move with its columns (start axes).
+struct MassWork {
+  Eigen::Matrix<double, 3, Eigen::Dynamic> point;  ///< of its own masses
+  Vector3 moment;                                  ///< sum of m p, branches' masses included
+  Eigen::Matrix<double, 3, Eigen::Dynamic> arm;    ///< by column: sum of m (p - o) over the masses after it
+  Eigen::Matrix<double, 3, Eigen::Dynamic> V;      ///< by column: sum of m v, v the velocity of a mass after it
+  Eigen::Matrix<double, 3, Eigen::Dynamic> g_x_w;
+};
+
+/// What a turn w of its start frame (start axes) does to a branch that leans, and the torque N that its weights exert on
+/// that frame. EQUATIONS.md, section 10.
+struct LeanWork {
+  Eigen::Matrix<double, Eigen::Dynamic, 3> A_w;  ///< d gradient / dw
+  Eigen::Matrix<double, 3, Eigen::Dynamic> N_x;  ///< dN/dx
+  Matrix63 G_w;                                  ///< of condense(): F_new = F + dF + K dxi + G drho + G_w dw
+  Eigen::Matrix<double, 3, Eigen::Dynamic> N;    ///< of condense(): change of N by the columns of `solution`
 };
 
 struct SeriesWork {
@@ -24,6 +45,9 @@ struct SeriesWork {
   Eigen::MatrixXd A;         ///< K - H over all columns; a group's own stiffness is not in it
   Eigen::VectorXd gradient;  ///< dE/dx - J'F by column; a group's rows: wrench of its branches - J'F
   Vector6 gap;               ///< closure: end wanted minus end reached
+  double weight = 0;         ///< N, of all its masses
+  MassWork masses;
+  LeanWork lean;
 
   Eigen::MatrixXd bordered, rhs, solution;       ///< of condense(), in units of `Units`
   Eigen::PartialPivLU<Eigen::MatrixXd> lu;
@@ -38,18 +62,19 @@ SeriesWork make_work(const Series& series);
 /// Whether the second derivatives of (3)-(5) are used; the paper's (2) goes without.
 enum class Hessians { no, yes };
 
-/// Fills frames, Jacobian, A, gradient and gap of a series whose end should be at `X_end`.
-void evaluate(const Series& series, const SeriesState& state, const Pose& X_end, const Stage& stage, Hessians hessians,
-              SeriesWork& work);
+/// Fills frames, Jacobian, A, gradient and gap of a series whose end should be at `X_end`. `g` is the gravity that acts
+/// (m/s2, start axes).
+void evaluate(const Series& series, const SeriesState& state, const Pose& X_end, const Stage& stage, const Vector3& g,
+              Hessians hessians, SeriesWork& work);
 
 /// Eliminates everything inside the series: fills dF, K and, if asked, G. False where the bordered matrix is singular:
 /// then only the whole system can decide.
 bool condense(const Series& series, const Units& units, bool with_actuators, SeriesWork& work);
 
 /// Adds to the state the step that belongs to a step `dxi` of the end (start axes) and `drho` of all actuators of the
-/// machine; returns the largest of its entries (m, rad times l).
-double take_step(const Series& series, const Vector6& dxi, const Eigen::VectorXd& drho, const Units& units,
-                 const SeriesWork& work, SeriesState& state);
+/// machine, and to a turn `dw` of its start frame (start axes); returns the largest of its entries (m, rad times l).
+double take_step(const Series& series, const Vector6& dxi, const Eigen::VectorXd& drho, const Vector3& dw,
+                 const Units& units, const SeriesWork& work, SeriesState& state);
 
 /// The largest residuals of a series and its branches.
 struct Residual {

@@ -23,13 +23,19 @@ int count_closures(const Series& series) {
   return count;
 }
 
+// A column before the point that the walk has reached, and the rotation that it causes there (axes of that frame).
+struct Turning {
+  int variable;
+  Vector3 w;
+};
+
 // Walks all series in one fixed order, each with the offsets of its variables and closures.
 struct Assembler {
   const Units& units;
   WholeSystem& system;
   int variable = 0, closure = 0;
 
-  void series(const Series& series, const SeriesWork& work, int end_variable) {
+  void series(const Series& series, const SeriesWork& work, int end_variable, const std::vector<Turning>& outside) {
     const int v0 = variable, c0 = closure;
     variable += series.columns;
     closure += 6;
@@ -46,10 +52,35 @@ struct Assembler {
     }
     system.C.block<6, 6>(c0, end_variable) = -Matrix6::Identity();
     system.gap.segment<6>(c0) = work.gap.cwiseQuotient(pose);
-    for (const Part& part : series.parts)
-      if (part.kind == PartKind::group)
-        for (std::size_t b = 0; b < series.groups[part.group].branches.size(); ++b)
-          this->series(series.groups[part.group].branches[b], work.groups[part.group][b], v0 + part.column);
+    if (series.leans) lean(work, v0, outside);
+    for (const Part& part : series.parts) {
+      if (part.kind != PartKind::group) continue;
+      const auto turnings = turnings_before(series, part, work, v0, outside);
+      for (std::size_t b = 0; b < series.groups[part.group].branches.size(); ++b)
+        this->series(series.groups[part.group].branches[b], work.groups[part.group][b], v0 + part.column, turnings);
+    }
+  }
+
+  // Weights inside a branch couple its columns to everything that turns its start frame.
+  void lean(const SeriesWork& work, int v0, const std::vector<Turning>& outside) {
+    for (const Turning& turning : outside)
+      for (int j = 0; j < work.lean.A_w.rows(); ++j) {
+        const int row = v0 + j;
+        const double entry = units.of_column(system.variables[row].angular) / units.energy() * work.lean.A_w.row(j).dot(turning.w);
+        system.A(row, turning.variable) = entry;
+        system.A(turning.variable, row) = entry;
+      }
+  }
+
+  static std::vector<Turning> turnings_before(const Series& series, const Part& group, const SeriesWork& work, int v0,
+                                              const std::vector<Turning>& outside) {
+    if (series.mass == 0) return {};
+    const Matrix3 R = work.v.middleCols<3>(group.column);
+    std::vector<Turning> list;
+    for (const Turning& turning : outside) list.push_back({turning.variable, R.transpose() * turning.w});
+    for (int k = 0; k < group.column; ++k)
+      if (series.angular[k]) list.push_back({v0 + k, R.transpose() * work.w.col(k)});
+    return list;
   }
 
   void describe(const Series& series, int v0) {
@@ -127,7 +158,7 @@ WholeSystem assemble_whole(const Mechanism& mechanism, const std::vector<SeriesW
   system.gradient.setZero(variables);
   system.gap.setZero(closures);
   Assembler assembler{units, system};
-  for (std::size_t i = 0; i < works.size(); ++i) assembler.series(mechanism.chains[i], works[i], system.pose);
+  for (std::size_t i = 0; i < works.size(); ++i) assembler.series(mechanism.chains[i], works[i], system.pose, {});
   const Vector6 pose = units.of_pose();
   for (int k = 3; k < 6; ++k) system.variables[system.pose + k].angular = true;
   system.gradient.tail<6>() = platform.gradient.cwiseProduct(pose) / units.energy();

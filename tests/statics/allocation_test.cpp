@@ -5,7 +5,7 @@
 #include <new>
 
 #include "counterflex/statics/chain.hpp"
-#include "laws_support.hpp"
+#include "laws_weights.hpp"
 
 namespace {
 long allocations = 0;
@@ -45,9 +45,11 @@ TEST_CASE("the counter of allocations sees new, and matrices made inside the lib
 }
 
 TEST_CASE("solving a chain allocates nothing once its workspace exists") {
-  for (const Trial& trial : controlled_machines()) {
+  std::vector<Trial> trials = controlled_machines();
+  trials.push_back({"laws_mixed with weights", 0.03, 0.06, 150, 8});
+  for (const Trial& trial : trials) {
     CAPTURE(trial.name);
-    const Model model = model_of(trial.name);
+    const Model model = trial.name.ends_with("weights") ? heavy_model_of("laws_mixed") : model_of(trial.name);
     StaticsWork work(model.mechanism);
     Random random(41);
     const Configuration nominal = somewhere(model, trial, random).configuration;

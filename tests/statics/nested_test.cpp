@@ -1,7 +1,7 @@
 /// The corrected target by Newton on (22), and by the paper's scheme (23): one answer.
 #include "counterflex/statics/nested.hpp"
 
-#include "laws_support.hpp"
+#include "laws_weights.hpp"
 
 using namespace counterflex;
 using namespace counterflex::laws;
@@ -25,23 +25,25 @@ struct Solved {
 
 template <class Check>
 void for_random_targets(unsigned seed, int count, const Check& check) {
-  for (const Trial& trial : controlled_machines()) {
-    CAPTURE(trial.name);
-    const Model model = model_of(trial.name);
-    StaticsWork work(model.mechanism);
-    Random random(seed);
-    for (int n = 0; n < count; ++n) {
-      CAPTURE(n);
-      Solved s;
-      s.nominal = somewhere(model, trial, random).configuration;
-      s.X_MT = tip(model.mechanism, s.nominal);
-      s.load = random.load(trial);
-      s.stage = {n % 3 == 1 ? 0.0 : 1.0, n % 3 == 2 ? 0.0 : 1.0, 1};
-      s.direct = solve_target(model, s.nominal, s.X_MT, s.load, s.stage, work);
-      REQUIRE(s.direct.status == Status::converged);
-      check(model, s, work);
+  for (const Trial& trial : controlled_machines())
+    for (const bool weights : {false, true}) {
+      CAPTURE(trial.name);
+      CAPTURE(weights);
+      const Model model = weights ? heavy_model_of(trial.name) : model_of(trial.name);
+      StaticsWork work(model.mechanism);
+      Random random(seed);
+      for (int n = 0; n < count; ++n) {
+        CAPTURE(n);
+        Solved s;
+        s.nominal = somewhere(model, trial, random).configuration;
+        s.X_MT = tip(model.mechanism, s.nominal);
+        s.load = random.load(trial);
+        s.stage = {n % 3 == 1 ? 0.0 : 1.0, n % 3 == 2 ? 0.0 : 1.0, 1};
+        s.direct = solve_target(model, s.nominal, s.X_MT, s.load, s.stage, work);
+        REQUIRE(s.direct.status == Status::converged);
+        check(model, s, work);
+      }
     }
-  }
 }
 
 }  // namespace

@@ -44,14 +44,14 @@ void check_grid(const std::string& name, const Grid& grid, const Vector6& wrench
   }
 }
 
-const Vector6 cut = (Vector6() << 215, -10, -25, 1, 21.5, 0).finished();
+const Vector6 milling_wrench = (Vector6() << 215, -10, -25, 1, 21.5, 0).finished();
 const Vector6 hard_cut = (Vector6() << 900, -700, -1500, 20, -15, 25).finished();
 
 }  // namespace
 
 TEST_CASE("the Orthoglide converges from a cold start in all of its cube of 200 mm") {
   const Grid cube{{-73.65, -73.65, -73.65}, {126.35, 126.35, 126.35}, {6, 6, 6}, {0, 0, 0}, {0, 0, 0}};
-  for (const char* name : {"orthoglide_case_a", "orthoglide_case_b"}) check_grid(name, cube, cut);
+  for (const char* name : {"orthoglide_case_a", "orthoglide_case_b"}) check_grid(name, cube, milling_wrench);
 }
 
 TEST_CASE(

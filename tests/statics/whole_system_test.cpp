@@ -1,10 +1,7 @@
 /// The whole static system beside the condensed one: two ways to the same step.
 #include "whole_system.hpp"
 
-#include <Eigen/LU>
-
-#include "laws_support.hpp"
-#include "newton.hpp"
+#include "laws_weights.hpp"
 
 using namespace counterflex;
 using namespace counterflex::laws;
@@ -21,52 +18,40 @@ void compare(const SeriesState& a, const SeriesState& b, double force) {
   }
 }
 
-// A Newton step by condensing chains: sum of stiffnesses, then every chain's own step.
-Configuration condensed_step(const Model& model, Configuration c, const Problem& problem, const Units& units,
-                             StaticsWork::Impl& work) {
-  const PlatformTerms terms = platform_terms(model, c, problem);
-  Matrix6 K = terms.A;
-  Vector6 rhs = -terms.gradient;
-  for (std::size_t i = 0; i < work.chains.size(); ++i) {
-    REQUIRE(condense(model.mechanism.chains[i], units, false, work.chains[i]));
-    K += work.chains[i].K;
-    rhs -= work.chains[i].dF;
-  }
-  const Vector6 dxi = K.fullPivLu().solve(rhs);
-  for (std::size_t i = 0; i < work.chains.size(); ++i)
-    take_step(model.mechanism.chains[i], dxi, work.no_actuator_step, units, work.chains[i], c.chains[i]);
-  c.X_MP = moved(c.X_MP, dxi);
-  return c;
-}
-
 }  // namespace
 
-TEST_CASE("the whole system takes the same Newton step as the condensed one") {
-  for (const Trial& trial : controlled_machines()) {
-    CAPTURE(trial.name);
-    const Model model = model_of(trial.name);
-    const Units units{model.mechanism.length};
-    StaticsWork work(model.mechanism);
-    Random random(101);
-    const Configuration nominal = somewhere(model, trial, random).configuration;
-    const Equilibrium e = solve_forward(model, nominal, random.load(trial), {}, work);
-    REQUIRE(e.status == Status::converged);
-    const Problem problem{random.load(trial), {0.9, 1, 0.8}, nullptr};  // from here the step is not small
-    evaluate_all(model, e.configuration, problem.stage, work.impl());
-    Configuration whole = e.configuration;
-    const WholeStep step = solve_whole(whole_system(model, whole, problem, work.impl()), std::nullopt, units);
-    CHECK_FALSE(step.redundant);
-    CHECK(apply(model.mechanism, step, units, whole) > 1e-6);
-    const Configuration condensed = condensed_step(model, e.configuration, problem, units, work.impl());
-    CHECK(difference(whole.X_MP, condensed.X_MP).norm() < 1e-10);
-    for (std::size_t i = 0; i < whole.chains.size(); ++i) compare(whole.chains[i], condensed.chains[i], 100);
-  }
+TEST_CASE("the whole system takes the same Newton step as the condensed one, with and without weights") {
+  for (const Trial& trial : controlled_machines())
+    for (const bool weights : {false, true}) {
+      CAPTURE(trial.name);
+      CAPTURE(weights);
+      const Model model = weights ? heavy_model_of(trial.name) : model_of(trial.name);
+      const Units units{model.mechanism.length};
+      StaticsWork work(model.mechanism);
+      Random random(101);
+      const Configuration nominal = somewhere(model, trial, random).configuration;
+      const Equilibrium e = solve_forward(model, nominal, random.load(trial), {}, work);
+      REQUIRE(e.status == Status::converged);
+      const Problem problem{
+          random.load(trial), {0.9, 1, 0.8, 0.7}, nullptr};  // from here the step is not small
+      evaluate_all(model, e.configuration, problem.stage, work.impl());
+      Configuration whole = e.configuration;
+      const WholeStep step =
+          solve_whole(whole_system(model, whole, problem, work.impl()), std::nullopt, units);
+      CHECK_FALSE(step.redundant);
+      CHECK(apply(model.mechanism, step, units, whole) > 1e-6);
+      const Configuration condensed = condensed_step(model, e.configuration, problem, units, work.impl());
+      CHECK(difference(whole.X_MP, condensed.X_MP).norm() < 1e-10);
+      for (std::size_t i = 0; i < whole.chains.size(); ++i)
+        compare(whole.chains[i], condensed.chains[i], 100);
+    }
 }
 
 TEST_CASE("with actuators unknown and a target, the whole system's solution is the condensed one's") {
-  for (const std::string name : {"orthoglide_case_b", "laws_mixed", "serial6r_link6"}) {
+  for (const std::string name :
+       {"orthoglide_case_b", "laws_mixed", "serial6r_link6", "laws_mixed with weights"}) {
     CAPTURE(name);
-    const Model model = model_of(name);
+    const Model model = name.ends_with("weights") ? heavy_model_of("laws_mixed") : model_of(name);
     const Units units{model.mechanism.length};
     StaticsWork work(model.mechanism);
     const Load load{(Vector6() << 60, -40, 30, 2, -1, 3).finished(), false};

@@ -68,6 +68,13 @@ struct Compliance {
   double stiffness = 0;  ///< N/m or N m/rad, positive
 };
 
+/// A point mass fixed in the frame in which it stands: a file's `mass` beside an element follows that
+/// element.
+struct PointMass {
+  double kg = 0;                 ///< positive
+  Vector3 at = Vector3::Zero();  ///< m
+};
+
 struct Branch;
 
 /// Branches side by side between the frame before and the frame after; all end in the same frame.
@@ -75,7 +82,7 @@ struct Group {
   std::vector<Branch> branches;
 };
 
-using Element = std::variant<Rigid, AssemblyError, Actuator, Passive, Spring, Compliance, Group>;
+using Element = std::variant<Rigid, AssemblyError, Actuator, Passive, Spring, Compliance, Group, PointMass>;
 
 struct Branch {
   std::string name;
@@ -106,6 +113,13 @@ struct ControlSettings {
   std::optional<std::vector<std::string>> tool_change_moves;  ///< axes; none: all
 };
 
+/// What pulls at masses, and when the controller's zero was set.
+struct Gravity {
+  Vector3 g = Vector3::Zero();  ///< m/s2, axes of M; zero: no weights act
+  bool true_at_home = false;    ///< the zero was set under the machine's own weight at home, not unloaded
+  Location reference_at;        ///< where the file says so
+};
+
 struct Machine {
   std::string name;
   std::vector<Component> controlled;       ///< as many as there are actuators, or none
@@ -115,12 +129,17 @@ struct Machine {
   std::map<std::string, WorkOffset> work;  ///< by names that `work_offset_name` gives
   std::map<long, double> tool_lengths;     ///< m, by tool number: what G43 H adds to Z
   ControlSettings control;
+  Gravity gravity;
   double max_correction = 1e-3;  ///< m
   std::vector<Chain> chains;
 };
 
 /// The machine without its assembly errors.
 Machine perfect(const Machine& machine);
+
+/// kg, masses in branches of groups included.
+double total_mass(const Branch& branch);
+double total_mass(const Machine& machine);
 
 /// All actuators in their order.
 std::vector<Actuator> actuators(const Machine& machine);

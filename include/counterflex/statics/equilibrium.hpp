@@ -1,6 +1,7 @@
 #pragma once
 /// Equilibrium of the whole manipulator: where the loaded, imperfect machine stands for given actuators (17)-(21), and
-/// which actuators put its tip where it is wanted (22). EQUATIONS.md, sections 5-8.
+/// which actuators put its tip where it is wanted (22). The machine's own weight acts with `Stage::gravity`, also where
+/// there is no load. EQUATIONS.md, sections 5-8 and 10.
 #include <memory>
 
 #include "counterflex/statics/nominal.hpp"
@@ -34,8 +35,8 @@ class StaticsWork {
   std::unique_ptr<Impl> impl_;
 };
 
-/// (20): the platform's pose under `load` with the actuators of `nominal`, followed from there as errors, load and preloads
-/// grow from nothing to `goal` in at least four steps. Statuses: converged, not_converged, singular, unstable.
+/// (20): the platform's pose under `load` with the actuators of `nominal`, followed from there as errors, load, preloads and
+/// weights grow from nothing to `goal` in at least four steps. Statuses: converged, not_converged, singular, unstable.
 Equilibrium solve_forward(const Model& model, const Configuration& nominal, const Load& load, const Stage& goal,
                           StaticsWork& work);
 
@@ -63,7 +64,7 @@ struct ManipulatorStiffness {
 ManipulatorStiffness stiffness(const Model& model, const Configuration& configuration, const Stage& stage,
                                StaticsWork& work);
 
-/// Least over largest eigenvalue of the symmetric part of the reduced Hessian of energy minus load, actuators held, pose
+/// Least over largest eigenvalue of the symmetric part of the reduced Hessian of energy (weights included) minus load, actuators held, pose
 /// free, in units of l and k l: below -1e-9 the configuration is unstable.
 double stability(const Model& model, const Configuration& configuration, const Load& load, const Stage& stage,
                  StaticsWork& work);

@@ -6,7 +6,7 @@ namespace counterflex {
 
 /// First-order state of the machine:
 ///
-///     dt = (sum K_i)^-1 (F + sum K_i eps_i + preload wrenches)      F_i = K_i (dt - eps_i)      theta_i = K_Ctheta,i dt_i
+///     dt = (sum K_i)^-1 (F + sum K_i eps_i + preload and weight wrenches)      F_i = K_i (dt - eps_i)      theta_i = K_Ctheta,i dt_i
 ///
 /// with `eps_i` the first-order displacement of a chain's unloaded end by its errors (groups condensed) and K_i its stiffness
 /// without Hessians, both at the nominal configuration. Source: Klimchik, Pashkevich, Chablat, eqs. (10)-(16); paper.md's

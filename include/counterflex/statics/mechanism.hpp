@@ -9,18 +9,20 @@
 
 namespace counterflex {
 
-enum class PartKind { fixed, error, actuator, passive, compliance, spring, group };
+enum class PartKind { fixed, error, actuator, passive, compliance, spring, group, mass };
 
 /// One element of a series. A joint has one column, a spring or a group six (translation first).
 struct Part {
   PartKind kind = PartKind::fixed;
   Joint joint;                         ///< actuator, passive, compliance
-  Pose X;                              ///< fixed, error
+  Pose X;                              ///< fixed, error; of a mass its place, without rotation
   Vector3 log_R = Vector3::Zero();     ///< error: Log of X.R, so that a fraction of the error can act
   double k = 0;                        ///< passive, compliance: N/m or N m/rad
   double rest = 0;                     ///< passive: value without force
   bool rest_at_home = false;
   double home = 0;                     ///< actuator, passive: start of inverse kinematics
+  double offset = 0;                   ///< actuator: added to the commanded value, in the stage's part of gravity
+  double mass = 0;                     ///< mass: kg
   Matrix6 K = Matrix6::Zero();         ///< spring
   Vector6 theta_0 = Vector6::Zero();   ///< spring
   int column = -1;                     ///< first column in the series
@@ -43,6 +45,9 @@ struct Series {
   std::vector<int> commanded;        ///< columns of this series' own actuators
   std::vector<int> actuators;        ///< numbers of all actuators in it, those of its groups' branches included, ascending
   std::vector<bool> angular;         ///< by column: rad (else m)
+  int masses = 0;                    ///< point masses in it, those of branches not counted
+  double mass = 0;                   ///< kg, those of branches included
+  bool leans = false;                ///< a branch with masses whose start frame turns: where down is, changes for it
 };
 
 struct Travel {
@@ -56,6 +61,7 @@ struct Mechanism {
   std::vector<Component> controlled;
   std::vector<Travel> travel;  ///< by actuator
   Pose X_PT;
+  Vector3 gravity = Vector3::Zero();  ///< m/s2, axes of M; zero where no weights act: then no part is a mass
   double length = 0.1;         ///< l: mean distance of joint and spring frames from the reference point at home, >= 0.1 m
   double stiffest = 0;         ///< k_max, N/m (rotational stiffness divided by l^2)
 };

@@ -14,10 +14,13 @@ struct Model {
   Configuration home;
   Status home_status = Status::not_converged;  ///< unreachable: home misses its closures by `home_gap`
   double home_gap = 0;                         ///< m and rad
+  Status gravity_status = Status::converged;   ///< else: why no offsets hold the tip at home under the machine's weight
 };
 
 /// Compiles `machine`, finds its home configuration, and fills what is relative to it: rest values of passive springs that
-/// are relaxed at home, and the machine's length l. Source: MODEL section 2, "Nominal kinematics".
+/// are relaxed at home, the machine's length l, and, where the controller's zero was set under the machine's own weight at
+/// home, the actuators' offsets: those with which the perfect, preloaded machine without a load has the controlled
+/// components of its tip at home's pose. They act where gravity does; configurations keep the commanded values. Source: MODEL section 2, "Nominal kinematics".
 Model prepare(const Machine& machine);
 
 struct NominalResult {
