@@ -103,4 +103,9 @@ Mechanism compile(const Machine& machine) {
   return mechanism;
 }
 
+bool has_weight(const Mechanism& mechanism) {
+  return !mechanism.gravity.isZero(0) &&
+         std::any_of(mechanism.chains.begin(), mechanism.chains.end(), [](const Series& chain) { return chain.mass > 0; });
+}
+
 }  // namespace counterflex

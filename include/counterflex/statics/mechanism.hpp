@@ -70,6 +70,6 @@ struct Mechanism {
 Mechanism compile(const Machine& machine);
 
 /// Whether weights act: only then does Stage::gravity change anything.
-inline bool has_weight(const Mechanism&) { return false; }
+bool has_weight(const Mechanism& mechanism);
 
 }  // namespace counterflex
