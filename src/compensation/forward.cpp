@@ -93,6 +93,16 @@ class ForwardSolver {
     return {deviation(actual.X_MT, wanted_), actual.status};
   }
 
+  // Between ends, where only the largest deviation counts, the lower force is taken to do the opposite of the
+  // higher one: half of the time for what differs in second order.
+  void vary(const Load& load, bool between, Waypoint& w) {
+    w.higher = under(1 + force_change, load, w.after);
+    if (between && w.higher.status == Status::converged)
+      w.lower.deviation = 2 * w.after - w.higher.deviation;
+    else
+      w.lower = under(1 - force_change, load, w.after);
+  }
+
   bool solve_at(double v, bool between, double share, ForwardRun& out) {
     const double u = piece_->u0 + v * (piece_->u1 - piece_->u0);
     const Vector3 emitted = point_at(piece_->commanded, v);
@@ -114,10 +124,7 @@ class ForwardSolver {
       status_ = Status::outside_travel;
       solved = false;
     }
-    if (solved && !between && questions_.attribution) {
-      w.higher = under(1 + force_change, load, w.after);
-      w.lower = under(1 - force_change, load, w.after);
-    }
+    if (solved && questions_.attribution) vary(load, between, w);
     if (solved && !between && questions_.before)
       solved = deviate(original, load, {}, Start::neighbour, w.before);
     if (solved && !between && questions_.attribution) solved = attribute(original, emitted, load, w);

@@ -98,7 +98,9 @@ void PathTally::add_cutting(const Waypoint& w) {
   WorstRow& row = lines_.row(w.line);
   row.after_mm = std::max(row.after_mm, w.after.head<3>().norm() / mm);
   piece_weight_ += w.weight;
-  if (!w.between) add_end(w);
+  if (!w.between) return add_end(w);
+  add_other(m_.higher, w, w.higher, 0);
+  add_other(m_.lower, w, w.lower, 0);
 }
 
 // Trapezoids: a piece weighs on both of its ends, or on its last one alone where the other is not known.

@@ -126,7 +126,8 @@ void set_zero_offsets(const Eigen::VectorXd& offsets, Mechanism& mechanism) {
 }
 
 bool has_weight(const Mechanism& mechanism) {
-  return std::any_of(mechanism.chains.begin(), mechanism.chains.end(), [](const Series& chain) { return chain.mass > 0; });
+  return !mechanism.gravity.isZero(0) &&
+         std::any_of(mechanism.chains.begin(), mechanism.chains.end(), [](const Series& chain) { return chain.mass > 0; });
 }
 
 }  // namespace counterflex

@@ -66,6 +66,42 @@ TEST_CASE("geometry, load, superposition and air are those of independent solves
   }
 }
 
+TEST_CASE("weights are a source of their own, and the three add up to all acting together, to second order") {
+  Order order{.machine = load_machine(orthoglide_b), .text = part, .force = constant_force(milling())};
+  order.machine.gravity.g = Vector3(1, -2, -9);
+  for (Chain& chain : order.machine.chains) chain.elements.push_back(PointMass{3, Vector3(0, 0, 0.05)});
+  const Shop shop(order);
+  double largest = 0;
+  for (const Waypoint& w : compensated(shop, true).waypoints) {
+    if (w.between) continue;
+    const auto cold = [&](const Vector3& target, const Vector6& F, const Stage& stage) {
+      return cold_deviation(shop, target, w.p_MT, F, stage);
+    };
+    const Vector6 none = Vector6::Zero(), preloads = cold(w.p_MT, none, {0, 0, 1, 0});
+    const auto near = [](const Vector6& a, const Vector6& b) { return (a - b).head<3>().norm() < 1e-9; };
+    CHECK(near(w.geometry, cold(w.p_MT, none, {1, 0, 1, 0})));
+    CHECK(near(w.load, cold(w.p_MT, w.wrench, {0, 1, 1, 0})));
+    CHECK(near(w.gravity, cold(w.p_MT, none, {0, 0, 1, 1})));
+    CHECK(near(w.superposition, w.geometry + w.load + w.gravity - 2 * preloads));
+    CHECK(near(w.air, cold(w.p_MT + w.correction.head<3>(), none, {})));
+    CHECK(w.gravity.head<3>().norm() > 10e-6);
+    const double miss = (w.superposition - w.before).head<3>().norm();
+    CHECK(miss < 0.2 * w.gravity.head<3>().norm());
+    largest = std::max(largest, miss);
+  }
+  CHECK(largest > 1e-9);
+}
+
+TEST_CASE("gravity without masses, and masses without gravity, are no source") {
+  Machine machine = load_machine(mill);
+  machine.gravity.g = Vector3(0, 0, -9.81);
+  CHECK_FALSE(has_weight(compile(machine)));
+  machine.chains[0].elements.push_back(PointMass{20, Vector3::Zero()});
+  CHECK(has_weight(compile(machine)));
+  machine.gravity.g.setZero();
+  CHECK_FALSE(has_weight(compile(machine)));
+}
+
 TEST_CASE("a force 30 % higher or lower leaves 30 % of what the force does, to first order") {
   Order order{.machine = load_machine(mill), .text = part, .force = constant_force(milling())};
   order.X_MW.p = Vector3(150, 100, -240) * mm;
@@ -80,6 +116,27 @@ TEST_CASE("a force 30 % higher or lower leaves 30 % of what the force does, to f
     under_force += !w.wrench.isZero(0);
   }
   CHECK(under_force > 2);
+}
+
+TEST_CASE(
+    "between the ends of pieces more and less force do what independent solves say, but for second order") {
+  const Shop shop({.machine = load_machine(orthoglide_b), .text = part, .force = constant_force(milling())});
+  const Compensation result = compensated(shop, true);
+  const std::vector<Commanded> pieces = commanded(shop, result);
+  int between = 0;
+  for (const Waypoint& w : result.waypoints) {
+    if (!w.between || w.wrench.isZero(0)) continue;
+    for (const Commanded& piece : pieces) {
+      if (piece.segment != w.segment || w.fraction < piece.u0 || w.fraction > piece.u1) continue;
+      const Vector3 target = point_at(piece.curve, (w.fraction - piece.u0) / (piece.u1 - piece.u0));
+      const Vector3 higher = cold_tip(shop, target, 1.3 * w.wrench) - w.p_MT;
+      const Vector3 lower = cold_tip(shop, target, 0.7 * w.wrench) - w.p_MT;
+      CHECK((w.higher.deviation.head<3>() - higher).norm() < 1e-9);
+      CHECK((w.lower.deviation.head<3>() - lower).norm() < 0.05 * lower.norm());
+      ++between;
+    }
+  }
+  CHECK(between > 5);
 }
 
 TEST_CASE("a force under which the machine would give way is no failure while it does not act") {

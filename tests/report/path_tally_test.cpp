@@ -71,6 +71,17 @@ TEST_CASE("the path without the force is that of air, that under more of it is k
   CHECK(m.lower.deviation.statistics().max_line == 4);
 }
 
+TEST_CASE("between the ends of pieces more and less force count in the maxima alone") {
+  std::vector<Waypoint> path = {cut(1, 4, 5, Vector3(0.9, 0, 0)), cut(1, 4, 5, Vector3(0.3, 0, 0))};
+  path[0].between = true;
+  const Measures m = tally_of(path).measures();
+  const DeviationStatistics higher = m.higher.deviation.statistics(), lower = m.lower.deviation.statistics();
+  CHECK(higher.max_mm == doctest::Approx(0.9 / 100 + 0.3 * 0.45));
+  CHECK(higher.mean_mm == doctest::Approx(0.3 / 100 + 0.3 * 0.15));
+  CHECK(lower.max_mm == doctest::Approx(0.3 * 0.45 - 0.9 / 100));
+  CHECK(m.without_force.statistics().max_mm == doctest::Approx(0.15));
+}
+
 TEST_CASE("a line that comes back has one row with the largest values of both times") {
   const PathTally tally = tally_of({cut(0, 5, 1, Vector3(0.3, 0, 0)), cut(1, 9, 1, Vector3(0.2, 0, 0)),
                                     cut(2, 5, 1, Vector3(0.5, 0, 0)), cut(3, 9, 1, Vector3(0.1, 0, 0))});

@@ -44,7 +44,7 @@ struct Waypoint {
   double fraction = 1;
   int line = 0;
   bool cutting = false;
-  bool between = false;  ///< a sample inside a piece: only `after` is known
+  bool between = false;  ///< a sample inside a piece: only `after`, `higher`, `lower` are known
   bool exempt = false;
   double weight = 0;                        ///< share of the cutting length (m)
   double s = 0;                             ///< cutting path length (m)
