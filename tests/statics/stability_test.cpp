@@ -115,6 +115,25 @@ TEST_CASE("the bound leaves room where a slender tool bends behind chains side b
                                 {model.mechanism.length}, 1e8));
 }
 
+TEST_CASE("the bound leaves room in machines at work, with masses and without") {
+  for (const Trial& trial : controlled_machines())
+    for (const double kg : {0.0, 1.0}) {
+      CAPTURE(trial.name);
+      CAPTURE(kg);
+      const Model model = kg > 0 ? heavy_model_of(trial.name, kg) : model_of(trial.name);
+      StaticsWork work(model.mechanism);
+      Random random(76);
+      const Configuration nominal = somewhere(model, trial, random).configuration;
+      const Load load = random.load(trial);
+      const Equilibrium e = solve_forward(model, nominal, load, {}, work);
+      REQUIRE(e.status == Status::converged);
+      evaluate_all(model, e.configuration, {}, work.impl());
+      const Matrix6 tangent = applied_wrench(model.mechanism, e.configuration.X_MP, load, 1).tangent;
+      CHECK(surely_well_conditioned(model.mechanism, work.impl().chains, tangent, {model.mechanism.length},
+                                    1e8));
+    }
+}
+
 TEST_CASE("the judgement of a solution is that of the eigenvalues, proof or no proof") {
   for_any_configurations(
       73, [&](const Model& model, const Configuration& c, const Load& load, StaticsWork& work) {
