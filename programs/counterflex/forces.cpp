@@ -31,7 +31,8 @@ BareRun prepare_bare_run(const Options& options, Console& console) {
   run.frames.resize(run.look.program.work_offsets.size());
   settle_forces({run.file.bytes, run.look.program.file, run.read, run.frames, run.ignored},
                 run.force_input.source);
-  warn_of(run.look.program, console);
+  for (const Remark& remark : run.look.program.remarks)
+    console.warning(run.look.program.file, remark.line, remark.what);
   return run;
 }
 

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include "counterflex/forces/cutting_model.hpp"
@@ -88,6 +89,7 @@ Response at_surface(const CuttingModel& model) {
     case Wall::none:
       break;
   }
+  assert(!"a wall");
   return Response::Zero();
 }
 

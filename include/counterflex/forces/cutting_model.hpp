@@ -21,8 +21,8 @@ namespace counterflex {
 /// up, so it lifts the chip, and the chip presses on it backward and down. Source: Altintas, "Manufacturing
 /// Automation", chapter 2; the sign of the axial part is that of Engin and Altintas, "Mechanics and dynamics
 /// of general milling cutters, part I" (2001), whose third row is dF_z = cos(kappa) dF_r - sin(kappa) dF_a,
-/// kappa = 90 deg for an end mill. The book's cylindrical cutter writes dF_z = +dF_a: its z counts the other
-/// way.
+/// kappa = 90 deg for an end mill. The book's formula for a cylindrical cutter, dF_z = +dF_a, has the other
+/// sign.
 struct CuttingCoefficients {
   double K_tc = 0, K_rc = 0, K_ac = 0;  ///< N/m2
   double K_te = 0, K_re = 0, K_ae = 0;  ///< N/m
