@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "newton.hpp"
 
@@ -10,7 +11,7 @@ namespace counterflex {
 namespace {
 
 using Matrix9 = Eigen::Matrix<double, 9, 9>;
-using Matrix9X = Eigen::Matrix<double, 9, Eigen::Dynamic>;
+using MatrixX9 = Eigen::Matrix<double, Eigen::Dynamic, 9>;
 
 // Bounds of a condensed series: norms of the matrix of everything inside it and of its inverse. Everything
 // inside answers to nine numbers: the twist of the end and, where the series leans, the turn of its start
@@ -69,17 +70,6 @@ Entrance entrance(const Series& series, const Part& group, const SeriesWork& wor
   return in;
 }
 
-// What the branches of a group meet when the rows answer by `z`, whose last three columns, if it has nine,
-// are the answer to a turn of the series' start frame: that turns theirs too.
-Matrix9X met(const Entrance& in, const Eigen::MatrixXd& z) {
-  Matrix9X inputs = Matrix9X::Zero(9, z.cols());
-  inputs.topRows<6>() = z.middleRows<6>(in.first);
-  if (!in.leans()) return inputs;
-  inputs.bottomRows<3>() = in.turn * z.topRows(in.first);
-  if (z.cols() == 9) inputs.rightCols<3>().bottomRows<3>() += in.R.transpose();
-  return inputs;
-}
-
 // Norm of what condensing a branch has put into the bordered matrix.
 double condensed_norm(const Series& branch, const SeriesWork& work, const Entrance& in, const Units& units) {
   const double K = in_units(work.K, units).norm();
@@ -95,9 +85,10 @@ struct Normal {
   Eigen::MatrixXd matrix;
   Eigen::Index begin, end;
 
-  explicit Normal(Eigen::Index n) : matrix(Eigen::MatrixXd::Identity(n, n)), begin(n), end(n) {}
+  explicit Normal(Eigen::Index n) : begin(n), end(n) {}
 
   void add(const Entrance& in, const Matrix9& response) {
+    if (matrix.size() == 0) matrix.setIdentity(end, end);
     begin = std::min(begin, in.leans() ? 6 : in.first);
     end = in.first + 6;  // groups come in order
     matrix.block<6, 6>(in.first, in.first) += response.topLeftCorner<6, 6>();
@@ -106,7 +97,10 @@ struct Normal {
     matrix.topLeftCorner(in.first, in.first) +=
         in.turn.transpose() * response.bottomRightCorner<3, 3>() * in.turn;
   }
-  Eigen::MatrixXd rows() const { return matrix.block(begin, begin, end - begin, end - begin); }
+  Eigen::MatrixXd rows() const {
+    if (matrix.size() == 0) return {};
+    return matrix.block(begin, begin, end - begin, end - begin);
+  }
 };
 
 // |Z_r S^-1 Z_l'|, from S^-1 and from the rows of Z'Z that are not those of the unit matrix. Infinite where
@@ -124,34 +118,54 @@ double norm_through(const Eigen::MatrixXd& right, const Eigen::MatrixXd& left, E
   return std::isfinite(norm) ? norm : std::numeric_limits<double>::infinity();
 }
 
-// What the rows of a series answer to its end's twist and, where it leans, to its start's turn; the same of
-// the transpose.
+// What the rows of a series answer to its end's twist and, in the last three columns, where it leans, to its
+// start's turn; the same of the transpose.
 struct Answers {
-  Eigen::MatrixXd right, left;
+  MatrixX9 right, left;
+  bool leans = false;
 };
 
 Answers answers(const Series& series, const SeriesWork& work, const Eigen::MatrixXd& inverse,
                 const Units& units) {
-  const Eigen::Index inputs = series.leans ? 9 : 6, n = inverse.rows();
-  Answers z{Eigen::MatrixXd(n, inputs), Eigen::MatrixXd(n, inputs)};
+  const Eigen::Index n = inverse.rows();
+  Answers z{MatrixX9(n, 9), MatrixX9(n, 9), series.leans};
   z.right.leftCols<6>() = inverse.leftCols<6>();
   z.left.leftCols<6>() = inverse.topRows<6>().transpose();
   if (!series.leans) return z;
   z.right.rightCols<3>() = work.solution.rightCols<3>();
-  Eigen::MatrixXd rhs = Eigen::MatrixXd::Zero(n, 3);
+  Eigen::Matrix<double, Eigen::Dynamic, 3> entered = Eigen::MatrixXd::Zero(n, 3);
   for (Eigen::Index row = 6; row < n; ++row) {
     const int c = series.free[row - 6];
-    rhs.row(row) = units.of_column(series.angular[c]) / units.energy() * work.lean.N_x.col(c).transpose();
+    entered.row(row) = units.of_column(series.angular[c]) / units.energy() * work.lean.N_x.col(c).transpose();
   }
-  z.left.rightCols<3>() = inverse.transpose() * rhs;
+  z.left.rightCols<3>().noalias() = inverse.transpose() * entered;
   return z;
 }
 
-// The matrix of the first inputs of nine.
-Matrix9 of_nine(const Eigen::MatrixXd& response) {
+Matrix9 squared(const MatrixX9& z, bool leans) {
   Matrix9 result = Matrix9::Zero();
-  result.topLeftCorner(response.rows(), response.cols()) = response;
+  if (leans)
+    result.noalias() = z.transpose().lazyProduct(z);
+  else
+    result.topLeftCorner<6, 6>().noalias() = z.leftCols<6>().transpose().lazyProduct(z.leftCols<6>());
   return result;
+}
+
+// The response of a group's branches to what the rows of the series answer by z: to the six rows of the group
+// and, where a branch leans, to the turn of its start frame, which a turn of the series' start turns too.
+Matrix9 seen_through(const Entrance& in, const MatrixX9& z, bool leans, const Matrix9& response) {
+  Matrix9 result = Matrix9::Zero();
+  if (!leans && !in.leans()) {
+    const Matrix6 u = z.block<6, 6>(in.first, 0);
+    result.topLeftCorner<6, 6>() = u.transpose() * response.topLeftCorner<6, 6>() * u;
+    return result;
+  }
+  const int inputs = leans ? 9 : 6;
+  Matrix9 u = Matrix9::Zero();
+  u.topLeftCorner(6, inputs) = z.block(in.first, 0, 6, inputs);
+  if (in.leans()) u.bottomLeftCorner(3, inputs) = in.turn * z.topLeftCorner(in.first, inputs);
+  if (in.leans() && leans) u.bottomRightCorner<3, 3>() += in.R.transpose();
+  return u.transpose() * response * u;
 }
 
 Bounds bounds(const Series& series, const SeriesWork& work, const Units& units);
@@ -163,12 +177,11 @@ Bounds bounds_of_branches(const std::vector<Series>& branches, const std::vector
   return inside;
 }
 
-// The same, answering to what the rows of the series in which they lie answer to.
-Bounds seen_through(const Entrance& in, const Answers& z, bool leans, Bounds inside) {
-  const Matrix9X right = met(in, z.right), left = met(in, z.left);
-  inside.right = of_nine(right.transpose() * inside.right * right);
-  inside.left = of_nine(left.transpose() * inside.left * left);
-  if (!leans) inside.lean = 0;
+// The same, answering to what the series in which they lie answers to.
+Bounds seen_through(const Entrance& in, const Answers& z, Bounds inside) {
+  inside.right = seen_through(in, z.right, z.leans, inside.right);
+  inside.left = seen_through(in, z.left, z.leans, inside.left);
+  if (!z.leans) inside.lean = 0;
   return inside;
 }
 
@@ -178,12 +191,12 @@ Bounds seen_through(const Entrance& in, const Answers& z, bool leans, Bounds ins
 // B is what lies inside groups, C how it meets the rows of this series. B, D and S are not symmetric under
 // load.
 Bounds bounds(const Series& series, const SeriesWork& work, const Units& units) {
-  const Eigen::MatrixXd inverse = work.lu.inverse();
+  Eigen::MatrixXd inverse = work.lu.inverse();
   const Answers z = answers(series, work, inverse, units);
   Bounds result;
   if (series.leans) result.lean = lean_norm(series, work, units);
-  result.right = of_nine(z.right.transpose() * z.right);
-  result.left = of_nine(z.left.transpose() * z.left);
+  result.right = squared(z.right, z.leans);
+  result.left = squared(z.left, z.leans);
   Normal right(inverse.rows()), left(inverse.rows());
   double D = work.bordered.norm(), C = 0;
   for (const Part& part : series.parts) {
@@ -196,10 +209,10 @@ Bounds bounds(const Series& series, const SeriesWork& work, const Units& units) 
     left.add(in, inside.left);
     for (std::size_t b = 0; b < branches.size(); ++b) D += condensed_norm(branches[b], works[b], in, units);
     C = std::hypot(C, std::sqrt(branches.size()) + inside.lean * in.turn.norm());
-    result.add(seen_through(in, z, series.leans, inside));
+    result.add(seen_through(in, z, inside));
   }
   result.matrix = std::max(result.matrix, D) + C;
-  result.inverse += norm_through(right.rows(), left.rows(), right.begin, inverse);
+  result.inverse += norm_through(right.rows(), left.rows(), right.begin, std::move(inverse));
   return result;
 }
 
