@@ -68,7 +68,8 @@ class PathTally {
   Measures m_;
   WorstLines lines_;
   std::optional<std::pair<std::size_t, int>> last_changed_;  ///< segment and line
-  double piece_weight_ = 0;  ///< of the piece under way: all means but those of `after` are over the ends of pieces
+  double piece_weight_ =
+      0;  ///< of the piece under way: all means but those of `after` are over the ends of pieces
   std::optional<Waypoint> end_;  ///< the last one, and what it weighs so far
   double end_weight_ = 0;
   std::optional<Waypoint> rapid_;  ///< the last waypoint, where it ends a rapid
