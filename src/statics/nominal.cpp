@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "counterflex/statics/equilibrium.hpp"
+#include "home_reference.hpp"
 #include "kinematics.hpp"
 #include "part_pose.hpp"
 
@@ -97,19 +97,6 @@ void relax_at_home(Series& series, const SeriesState& home) {
   for (std::size_t g = 0; g < series.groups.size(); ++g)
     for (std::size_t b = 0; b < series.groups[g].branches.size(); ++b)
       relax_at_home(series.groups[g].branches[b], home.groups[g].branches[b]);
-}
-
-// What a controller adds whose zero was set at home, under the weights.
-void hold_home(Model& model) {
-  StaticsWork work(model.mechanism);
-  const Stage by_weight{0, 0, 1, 1};
-  const Equilibrium held =
-      solve_target(model, model.home, tip(model.mechanism, model.home), {}, by_weight, work);
-  model.gravity_status = held.status;
-  if (held.status != Status::converged) return;
-  const Eigen::VectorXd offsets =
-      actuator_values(model.mechanism, held.configuration) - actuator_values(model.mechanism, model.home);
-  set_zero_offsets(offsets, model.mechanism);
 }
 
 Pose between(const Pose& from, const Pose& to, double fraction) {
