@@ -107,7 +107,7 @@ std::string position_text(const Vector3& p) {
 }
 
 std::string weights_text(const Machine& machine) {
-  if (machine.gravity.g.isZero(0) || total_mass(machine) == 0) return "";
+  if (!weighs(machine)) return "";
   return machine.gravity.true_at_home ? ", under its weights, against which the control holds it here"
                                       : ", under its weights";
 }

@@ -55,7 +55,6 @@ RunFacts facts_of(const Options& options, const Run& run) {
   RunFacts facts;
   facts.version = version;
   facts.attribution = true;
-  facts.weights = has_weight(run.machine.model.mechanism);
   facts.inputs = {run.file.file, run.machine.file};
   const auto& forces = run.force_input.files;
   facts.inputs.insert(facts.inputs.end(), forces.begin(), forces.end());

@@ -74,12 +74,14 @@ class ForwardSolver {
     const auto solve = [this](const Vector3& target, const Load& with, const Stage& stage, Vector6& result) {
       return deviate(target, with, stage, Start::nominal, result);
     };
-    if (!solve(original, {}, {1, 0, 1, 0}, w.geometry) || !solve(original, load, {0, 1, 1, 0}, w.load) ||
-        !solve(original, {}, {0, 0, 1, 0}, unloaded_perfect) || !solve(emitted, {}, {1, 0, 1, 1}, w.air))
+    if (!solve(original, {}, {.load = 0, .gravity = 0}, w.geometry) ||
+        !solve(original, load, {.errors = 0, .gravity = 0}, w.load) ||
+        !solve(original, {}, {.errors = 0, .load = 0, .gravity = 0}, unloaded_perfect) ||
+        !solve(emitted, {}, {.load = 0}, w.air))
       return false;
     w.superposition = w.geometry + w.load - unloaded_perfect;
     if (!has_weight(solver_->model().mechanism)) return true;
-    if (!solve(original, {}, {0, 0, 1, 1}, w.gravity)) return false;
+    if (!solve(original, {}, {.errors = 0, .load = 0}, w.gravity)) return false;
     w.superposition += w.gravity - unloaded_perfect;
     return true;
   }

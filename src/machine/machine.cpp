@@ -43,6 +43,10 @@ double total_mass(const Machine& machine) {
   return kg;
 }
 
+bool weighs(const Machine& machine) {
+  return !machine.gravity.g.isZero(0) && total_mass(machine) > 0;
+}
+
 std::vector<Actuator> actuators(const Machine& machine) {
   std::vector<Actuator> found;
   for (const Chain& chain : machine.chains) collect(chain.elements, found);

@@ -130,10 +130,10 @@ std::string tools_in_words(const std::vector<UsedTool>& tools, const std::vector
 }
 
 std::string gravity_in_words(const Machine& machine) {
-  const double kg = total_mass(machine);
-  if (machine.gravity.g.isZero(0) || kg == 0) return "";
+  if (!weighs(machine)) return "";
   return fmt::format(
-      "The machine's {:.6g} kg weigh on it, with and without a cut; the control's zero was set {}.", kg,
+      "The machine's {:.6g} kg weigh on it, with and without a cut; the control's zero was set {}.",
+      total_mass(machine),
       machine.gravity.true_at_home ? "under this weight at home, where the perfect machine is true"
                                    : "unloaded");
 }

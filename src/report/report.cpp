@@ -78,7 +78,7 @@ RunReport common(const RunContext& context, const RunTally& tally, const Measure
   report.tolerance_mm = context.options.tolerance / mm;
   report.path_mm = measures.path_mm;
   report.before = known(measures.before, failure);
-  if (context.facts.attribution && report.before) report.sources = sources(measures, context.facts.weights);
+  if (context.facts.attribution && report.before) report.sources = sources(measures, weighs(context.machine));
   report.blocks.total = context.program.blocks;
   report.blocks.moves = context.program.moves;
   report.blocks.left_alone = context.program.left_alone;

@@ -34,7 +34,7 @@ ChainEquilibrium solve_chain(const Model& model, std::size_t i, const Pose& X_MP
   ChainEquilibrium result;
   double step = std::numeric_limits<double>::infinity();
   for (; result.iterations < most_chain_steps; ++result.iterations) {
-    evaluate(series, state, X_MP, stage, stage.gravity * model.mechanism.gravity, hessians, chain);
+    evaluate(series, state, X_MP, stage, acting_gravity(model.mechanism, stage), hessians, chain);
     Residual residual;
     add_residual(series, state, chain, units, residual);
     if (!std::isfinite(residual.closure + residual.force)) return result;
@@ -58,7 +58,7 @@ ChainStiffness chain_stiffness(const Model& model, std::size_t i, const SeriesSt
   const Units units{model.mechanism.length};
   SeriesWork& chain = work.impl().chains[i];
   const Pose X_MP = chain_end(model, i, state, stage, work);
-  evaluate(series, state, X_MP, stage, stage.gravity * model.mechanism.gravity, Hessians::yes, chain);
+  evaluate(series, state, X_MP, stage, acting_gravity(model.mechanism, stage), Hessians::yes, chain);
   ChainStiffness result;
   result.available = condense(series, units, false, chain);
   if (!result.available) return result;
@@ -107,7 +107,7 @@ double weight_energy(const Series& series, const SeriesState& state, const Stage
 Eigen::MatrixXd chain_jacobian(const Model& model, std::size_t i, const SeriesState& state, const Stage& stage,
                                StaticsWork& work) {
   SeriesWork& chain = work.impl().chains[i];
-  evaluate(model.mechanism.chains[i], state, {}, stage, stage.gravity * model.mechanism.gravity, Hessians::no, chain);
+  evaluate(model.mechanism.chains[i], state, {}, stage, acting_gravity(model.mechanism, stage), Hessians::no, chain);
   Eigen::MatrixXd J(6, chain.v.cols());
   J << chain.v, chain.w;
   return J;
@@ -116,15 +116,15 @@ Eigen::MatrixXd chain_jacobian(const Model& model, std::size_t i, const SeriesSt
 Eigen::MatrixXd chain_hessian(const Model& model, std::size_t i, const SeriesState& state, const Stage& stage,
                               StaticsWork& work) {
   SeriesWork& chain = work.impl().chains[i];
-  evaluate(model.mechanism.chains[i], state, {}, stage, stage.gravity * model.mechanism.gravity, Hessians::no, chain);
+  evaluate(model.mechanism.chains[i], state, {}, stage, acting_gravity(model.mechanism, stage), Hessians::no, chain);
   const Eigen::MatrixXd K = chain.A;
-  evaluate(model.mechanism.chains[i], state, {}, stage, stage.gravity * model.mechanism.gravity, Hessians::yes, chain);
+  evaluate(model.mechanism.chains[i], state, {}, stage, acting_gravity(model.mechanism, stage), Hessians::yes, chain);
   return K - chain.A;
 }
 
 Pose chain_end(const Model& model, std::size_t i, const SeriesState& state, const Stage& stage, StaticsWork& work) {
   SeriesWork& chain = work.impl().chains[i];
-  evaluate(model.mechanism.chains[i], state, {}, stage, stage.gravity * model.mechanism.gravity, Hessians::no, chain);
+  evaluate(model.mechanism.chains[i], state, {}, stage, acting_gravity(model.mechanism, stage), Hessians::no, chain);
   return chain.end;
 }
 

@@ -6,7 +6,7 @@ namespace counterflex {
 
 void hold_home(Model& model) {
   StaticsWork work(model.mechanism);
-  const Stage by_weight{0, 0, 1, 1};
+  const Stage by_weight{.errors = 0, .load = 0};
   const Equilibrium held =
       solve_target(model, model.home, tip(model.mechanism, model.home), {}, by_weight, work);
   model.gravity_status = held.status;

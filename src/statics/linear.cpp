@@ -40,7 +40,7 @@ void open_gaps(const Series& series, const SeriesState& nominal, const Stage& st
 
 void evaluate_linear(const Model& model, const Configuration& nominal, const Stage& stage, StaticsWork::Impl& work) {
   const Stage in_place{0, stage.load, stage.preload, 0};  // errors and offsets enter as gaps
-  const Vector3 g = stage.gravity * model.mechanism.gravity;
+  const Vector3 g = acting_gravity(model.mechanism, stage);
   for (std::size_t i = 0; i < nominal.chains.size(); ++i) {
     evaluate(model.mechanism.chains[i], nominal.chains[i], nominal.X_MP, in_place, g, Hessians::no, work.chains[i]);
     open_gaps(model.mechanism.chains[i], nominal.chains[i], stage, work.chains[i]);

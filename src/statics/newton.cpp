@@ -141,7 +141,7 @@ AppliedWrench applied_wrench(const Mechanism& mechanism, const Pose& X_MP, const
 void evaluate_all(const Model& model, const Configuration& configuration, const Stage& stage, StaticsWork::Impl& work) {
   for (std::size_t i = 0; i < work.chains.size(); ++i)
     evaluate(model.mechanism.chains[i], configuration.chains[i], configuration.X_MP, stage,
-             stage.gravity * model.mechanism.gravity, Hessians::yes, work.chains[i]);
+             acting_gravity(model.mechanism, stage), Hessians::yes, work.chains[i]);
 }
 
 PlatformTerms platform_terms(const Model& model, const Configuration& configuration, const Problem& problem) {

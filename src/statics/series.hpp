@@ -36,6 +36,9 @@ struct LeanWork {
   Eigen::Matrix<double, 3, Eigen::Dynamic> N;    ///< of condense(): change of N by the columns of `solution`
 };
 
+/// What pulls at masses at a stage (m/s2, axes of M).
+inline Vector3 acting_gravity(const Mechanism& mechanism, const Stage& stage) { return stage.gravity * mechanism.gravity; }
+
 struct SeriesWork {
   Pose end;                                      ///< of the end frame in the start frame
   Eigen::Matrix<double, 3, Eigen::Dynamic> v, w;  ///< twist of the end per column: translation, rotation (start axes)

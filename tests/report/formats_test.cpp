@@ -371,7 +371,8 @@ TEST_CASE("where more force makes the machine give way, the summary, a warning a
 
 TEST_CASE("a machine with masses has a fifth row of sources") {
   MadeUpRun run;
-  run.facts.weights = true;
+  run.machine.chains.push_back({"arm", {PointMass{40, Vector3::Zero()}}});
+  run.machine.gravity.g = {0, 0, -9.81};
   Compensation c = small_compensation();
   c.waypoints[0].gravity.head<3>() = Vector3(0, 0, -0.02) * mm;
   const RunReport report = compensated(run, c);

@@ -59,8 +59,9 @@ struct Waypoint {
   Vector6 gravity = Vector6::Zero();        ///< before, weights alone; zero for a machine without masses
   Vector6 superposition = Vector6::Zero();  ///< sum of the three, what preloads do alone counted once
   Vector6 air = Vector6::Zero();            ///< the emitted target without force
-  OtherForce higher, lower;                 ///< the emitted target under 1.3 and 0.7 times the force
-  Vector6 correction = Vector6::Zero();     ///< emitted target minus the original program's
+  OtherForce higher, lower;  ///< the emitted target under 1.3 and 0.7 times the force; between the ends of a
+                             ///< piece `lower` is mirrored from `higher`: right to second order
+  Vector6 correction = Vector6::Zero();  ///< emitted target minus the original program's
   Status status = Status::converged;
   int iterations = 0;
 };

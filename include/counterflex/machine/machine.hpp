@@ -161,6 +161,9 @@ Machine perfect(const Machine& machine);
 double total_mass(const Branch& branch);
 double total_mass(const Machine& machine);
 
+/// Whether weights act on it: there are masses, and something pulls at them.
+bool weighs(const Machine& machine);
+
 /// All actuators in their order.
 std::vector<Actuator> actuators(const Machine& machine);
 

@@ -41,7 +41,6 @@ struct RunFacts {
   double min_block_ms = 2;  ///< what takes less time is a short block
   bool attribution =
       false;             ///< the waypoints' geometry, load, superposition, air, higher and lower were solved
-  bool weights = false;  ///< the machine has masses: gravity was solved, too
 };
 
 struct WorstRow {
