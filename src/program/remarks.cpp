@@ -70,9 +70,12 @@ void remark_path_mode(const Block& block, Reading& reading) {
 void remark_tool_length(const Block& block, Reading& reading) {
   const FoundG* length = reading.sorted.find(Action::tool_length);
   if (length == nullptr) return;
-  add_remark(reading.program, block.line,
-             fmt::format("G{}: programs do not hold the lengths of tools; that of [tool] is used for all",
-                         length->word->value));
+  const bool holds_some = !reading.options.tool_lengths_mm.empty();
+  add_remark(
+      reading.program, block.line,
+      fmt::format("G{}: {}", length->word->value,
+                  holds_some ? "no length is given for this tool; that of [tool] is used"
+                             : "programs do not hold the lengths of tools; that of [tool] is used for all"));
 }
 
 void remark_machine_codes(const Block& block, Reading& reading) {

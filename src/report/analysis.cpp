@@ -183,6 +183,7 @@ PoseAnalysis analyze_pose(const Model& model, const Pose& X_MT, const Load& load
 AnalysisReport analyze(const Model& model, const std::vector<Pose>& poses, const Load& load, Method method,
                        const std::string& version) {
   AnalysisReport report{version, model.mechanism.name, load, model.mechanism.travel, {}};
+  report.weighs = has_weight(model.mechanism);
   for (const Pose& X_MT : poses) report.poses.push_back(analyze_pose(model, X_MT, load, method));
   return report;
 }

@@ -25,11 +25,13 @@ std::string title(const AnalysisReport& report) {
   if (!report.poses.empty()) text += fmt::format(", method {}", to_string(report.poses.front().method));
   if (!report.tool.empty()) text += "\nwith " + report.tool;
   const Vector6& F = report.load.F;
-  if (F.isZero(0)) return text + ", no load\n";
-  return text + fmt::format("\nload ({}, {}, {}) N, ({}, {}, {}) N m at the {}, machine axes\n",
-                            number_text(F[0], 2), number_text(F[1], 2), number_text(F[2], 2),
-                            number_text(F[3], 3), number_text(F[4], 3), number_text(F[5], 3),
-                            report.load.at_platform ? "platform's reference point" : "tool tip");
+  if (F.isZero(0)) return text + (report.weighs ? ", no load but its own weight\n" : ", no load\n");
+  return text +
+         fmt::format("\nload ({}, {}, {}) N, ({}, {}, {}) N m at the {}, machine axes\n",
+                     number_text(F[0], 2), number_text(F[1], 2), number_text(F[2], 2), number_text(F[3], 3),
+                     number_text(F[4], 3), number_text(F[5], 3),
+                     report.load.at_platform ? "platform's reference point" : "tool tip") +
+         (report.weighs ? "and the machine's own weight\n" : "");
 }
 
 std::string deviations(const AnalysisReport& report) {

@@ -61,7 +61,8 @@ std::string force_text(const RunReport& report, const Ink& ink) {
   if (!report.before) return "";
   std::string text = line_break() + ink.bold("Cutting force") + "\n";
   if (forces.largest_N == 0 && forces.largest_Nm == 0)
-    return text + "  none: the geometry alone is at work\n";
+    return text + (report.gravity.empty() ? "  none: the geometry alone is at work\n"
+                                          : "  none: geometry and weight alone are at work\n");
   text += fmt::format("  up to {} N and {} N m on the tool\n", format_fixed(forces.largest_N, 1),
                       format_fixed(forces.largest_Nm, 2));
   if (forces.ramps > 0)

@@ -120,6 +120,15 @@ TEST_CASE("a tool length that changes without Z makes Z unknown; with Z the tip 
         "G43: programs do not hold the lengths of tools; that of [tool] is used for all");
 }
 
+TEST_CASE("where lengths are given the remark is about the tool that has none") {
+  ReadOptions options;
+  options.tool_lengths_mm = {{1, 50.0}};
+  const Program program = read_program("G21 G0 X1 Y2\nG43 Z15 H1\nG43 Z15 H7\n", "part.ngc", options);
+  REQUIRE(program.remarks.size() == 1);
+  CHECK(program.remarks[0].line == 3);
+  CHECK(program.remarks[0].what == "G43: no length is given for this tool; that of [tool] is used");
+}
+
 TEST_CASE("after G80 fanuc and haas fall back to G0, linuxcnc and grbl need a motion") {
   const std::string text = "G21 G1 X1. F100\nG80\nX2.\n";
   CHECK(read(text, "fanuc").moves[1].motion == Motion::rapid);
@@ -166,7 +175,8 @@ TEST_CASE("an O-number means fanuc, else the program is linuxcnc's") {
   CHECK(read("%\n(O1001)\nG21 G0 X1.\nM30\nO1001\n").dialect == "linuxcnc");
   CHECK(read("O0001;\nG21;\nG0 X1.;\n").dialect == "fanuc");
   CHECK(diagnostic_of([] { read("G21\n", "siemens5"); }) ==
-        "p.ngc: error: dialect 'siemens5' is not known: auto, linuxcnc, grbl, fanuc, haas, mach3, siemens, heidenhain are");
+        "p.ngc: error: dialect 'siemens5' is not known: auto, linuxcnc, grbl, fanuc, haas, mach3, siemens, "
+        "heidenhain are");
 }
 
 TEST_CASE("integer words are units unless increments are asked for") {

@@ -119,7 +119,8 @@ TEST_CASE("the direct analysis of the Orthoglide after assembly is that of an in
 TEST_CASE(
     "direct and nested analysis under the milling load give the corrected target of an independent solver") {
   for (const Method method : {Method::direct, Method::nested}) {
-    const PoseAnalysis pose = analyze_pose(orthoglide(), at_mm(-73.65, 126.35, -73.65), cutting_load(), method);
+    const PoseAnalysis pose =
+        analyze_pose(orthoglide(), at_mm(-73.65, 126.35, -73.65), cutting_load(), method);
     REQUIRE(pose.status == Status::converged);
     check_near(pose.deviation.head<3>() / mm, {0.1021297766, -0.3779462547, 0.7415413124}, 2e-9);
     check_near(pose.rho / mm, {-37.0172828971, 144.3562361658, -37.0172828971}, 2e-9);
@@ -274,4 +275,20 @@ TEST_CASE("the tables of an analysis fit 100 columns, without trailing blanks") 
     CHECK(line.size() <= 100);
     CHECK((line.empty() || line.back() != ' '));
   }
+}
+
+TEST_CASE("an analysis says that the machine's own weight acts") {
+  Machine machine =
+      load_machine(std::string(COUNTERFLEX_SOURCE_DIR) + "/samples/orthoglide-groove/machine.toml");
+  machine.gravity.g = {0, 0, -9.81};
+  CHECK(
+      to_text(analyze(prepare(machine), {at_mm(0, 0, 0)}, {}, Method::direct, "0.1.0")).find(", no load\n") !=
+      std::string::npos);
+  machine.chains[0].elements.push_back(PointMass{4, Vector3::Zero()});
+  const Model model = prepare(machine);
+  CHECK(to_text(analyze(model, {at_mm(0, 0, 0)}, {}, Method::direct, "0.1.0"))
+            .find(", no load but its own weight\n") != std::string::npos);
+  const Load cut{(Vector6() << 10, 0, 0, 0, 0, 0).finished(), false};
+  CHECK(to_text(analyze(model, {at_mm(0, 0, 0)}, cut, Method::direct, "0.1.0"))
+            .find("and the machine's own weight\n") != std::string::npos);
 }

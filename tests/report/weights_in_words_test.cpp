@@ -30,6 +30,18 @@ TEST_CASE("a report says which weights act and when the control's zero was set")
   CHECK(summary_text(unloaded, false).find("  The machine's 40 kg weigh") != std::string::npos);
 }
 
+TEST_CASE("without a force weight is named beside the geometry") {
+  MadeUpRun run;
+  std::vector<Waypoint> waypoints = made_up_waypoints();
+  for (Waypoint& w : waypoints) w.wrench.setZero();
+  CHECK(summary_text(predicted(run, waypoints, {}), false).find("none: the geometry alone is at work") !=
+        std::string::npos);
+  run.machine.chains.push_back({"arm", {PointMass{40, Vector3::Zero()}}});
+  run.machine.gravity.g = {0, 0, -9.81};
+  CHECK(summary_text(predicted(run, waypoints, {}), false)
+            .find("none: geometry and weight alone are at work") != std::string::npos);
+}
+
 TEST_CASE("masses without gravity weigh nothing, and a report does not speak of them") {
   const RunReport report = with_weight(40, {});
   CHECK(report.gravity.empty());

@@ -60,7 +60,8 @@ struct AnalysisReport {
   Load load;
   std::vector<Travel> travel;  ///< by actuator: says mm or deg
   std::vector<PoseAnalysis> poses;
-  std::string tool{};  ///< in the spindle, and its stiffness; empty: [tool]
+  std::string tool{};   ///< in the spindle, and its stiffness; empty: [tool]
+  bool weighs = false;  ///< the machine's own weight acts, too
 };
 
 /// Every pose of `poses` in order.
