@@ -16,7 +16,7 @@ namespace {
 void refuse_two_places(const std::vector<ForceRule>& rules) {
   const auto find = [&](bool platform) {
     return std::find_if(rules.begin(), rules.end(), [&](const ForceRule& rule) {
-      return !is_zero(rule) && at_platform(rule) == platform;
+      return at_platform(rule) == platform && !is_zero(rule);
     });
   };
   const auto platform = find(true), tip = find(false);

@@ -252,6 +252,34 @@ TEST_CASE("a zero wrench is neither at the tip nor at the platform: it goes with
   CHECK(middle_fx(forces) == std::vector<double>{0, 1, 1, 1});
 }
 
+TEST_CASE("a profile or a model that is zero everywhere is neither at the tip nor at the platform") {
+  const std::string zeros = "line," + columns + "3,0,0,0\n4,,,\n5,-0,0,0\n";
+  ForceSource source = from_csv(on_tool + "# at = platform\n" + zeros);
+  CHECK_FALSE(acts_at_platform(source));
+  source.rules.push_back(parse_force_rule("10,0,0"));
+  const auto forces = forces_on(sample_program(), source);
+  CHECK_FALSE(forces.at_platform());
+  CHECK(middle_fx(forces) == std::vector<double>{10, 0, 0, 0});
+  Program program = sample_program();
+  program.moves[1].force = wrench(1, 0, 0);
+  CHECK(middle_fx(forces_on(program, source)) == std::vector<double>{1, 0, 0, 0});
+  // as soon as one component of one row acts, the two meet
+  source.rules[0] = read_force_csv(on_tool +
+                                       "# at = platform\nline,fx_N,fy_N,fz_N,mz_Nm\n3,0,0,0,0\n"
+                                       "5,0,0,0,1\n",
+                                   "forces.csv")[0];
+  CHECK(refused(sample_program(), source) ==
+        "4: forces.csv:5:1: error: acts at the platform, but --force 10,0,0 acts at the tip; one run has its "
+        "forces at one of the two places");
+  ForceRule air = section_for({.lines = {{2, 2}}});
+  air.content = CutResponse{.flutes = 3, .spindle_rpm = 1000};
+  CHECK(is_zero(air));
+  source = from_csv(on_tool + "# at = platform\nline," + columns + "3,1,0,0\n");
+  source.rules.push_back(air);
+  CHECK(middle_fx(forces_on(sample_program(), source)) == std::vector<double>{0, 1, 1, 1});
+  CHECK_FALSE(is_zero(section_for({})));
+}
+
 TEST_CASE("the tool's axes are needed as soon as one rule's frame turns with them") {
   const auto frame = [](const char* name) {
     return read_force_csv(fmt::format("# frame = {}\n# sense = on_tool\nline,{}1,1,0,0\n", name, columns),
