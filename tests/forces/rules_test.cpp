@@ -222,6 +222,20 @@ TEST_CASE("sections of a cutting model cover what meets all of their conditions"
   }
 }
 
+TEST_CASE("a rule for lines of an operation acts in them whenever that operation comes back") {
+  Program program = straight(12, 1);
+  program.operations = {"", " Wall a", "floor"};
+  for (std::size_t i = 0; i < 12; ++i) program.moves[i].operation = static_cast<std::uint32_t>(i % 3);
+  ForceSource source = given({"1,0,0"});
+  for (const auto& [operation, fx] : {std::pair{"wall*", 2}, {"FLOOR ", 3}})
+    source.rules.push_back({"rule",
+                            {"r.csv", fx, 1},
+                            {.operation = operation, .lines = {{1, 9}}},
+                            ConstantForce{wrench(fx, 0, 0)}});
+  const auto forces = forces_on(program, source);
+  for (std::size_t i = 0; i < 12; ++i) CHECK(forces.at(i, 0.5)[0] == (i < 9 ? 1 + static_cast<int>(i % 3) : 1));
+}
+
 TEST_CASE("a section for lines or blocks behind the program's end is refused") {
   ForceSource source = given({"0,0,0"});
   source.rules.push_back(section_for({.lines = {{7, 9}}}));
