@@ -233,7 +233,8 @@ TEST_CASE("a rule for lines of an operation acts in them whenever that operation
                             {.operation = operation, .lines = {{1, 9}}},
                             ConstantForce{wrench(fx, 0, 0)}});
   const auto forces = forces_on(program, source);
-  for (std::size_t i = 0; i < 12; ++i) CHECK(forces.at(i, 0.5)[0] == (i < 9 ? 1 + static_cast<int>(i % 3) : 1));
+  for (std::size_t i = 0; i < 12; ++i)
+    CHECK(forces.at(i, 0.5)[0] == (i < 9 ? 1 + static_cast<int>(i % 3) : 1));
 }
 
 TEST_CASE("a section for lines or blocks behind the program's end is refused") {
