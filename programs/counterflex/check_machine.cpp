@@ -171,7 +171,7 @@ nlohmann::ordered_json tools_json(const Machine& machine) {
   for (const auto& [number, tool] : machine.tools) {
     nlohmann::ordered_json row{{"number", number}, {"stiffness", stiffness_phrase(tool)}};
     if (tool.length) row["length_mm"] = rounded(*tool.length / mm, 9);
-    if (!tool.yields.empty()) row["radial_N_per_um"] = rounded(radial_stiffness(tool) * 1e-6, 9);
+    if (!tool.yields.empty()) row["radial_N_per_um"] = rounded(radial_stiffness(tool) / N_per_um, 9);
     list.push_back(std::move(row));
   }
   return list;

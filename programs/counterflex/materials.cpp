@@ -6,11 +6,10 @@
 
 #include "counterflex/files/numbers.hpp"
 #include "counterflex/forces/read_cutting_model.hpp"
+#include "counterflex/geometry/units.hpp"
 
 namespace counterflex::cli {
 namespace {
-
-constexpr double N_mm2 = 1e6, N_mm = 1e3;
 
 std::string materials_text() {
   std::string text =
@@ -18,9 +17,10 @@ std::string materials_text() {
                   "Ktc", "Krc", "Kac", "Kte", "Kre", "Kae", "of", "", "N/mm2", "N/mm");
   for (const PublishedCoefficients& published : published_coefficients()) {
     const CuttingCoefficients& K = published.coefficients;
-    text += fmt::format("{:<20} {:>7.1f} {:>7.1f} {:>7.1f} {:>6.2f} {:>6.2f} {:>6.2f}   {}, {}\n",
-                        published.name, K.K_tc / N_mm2, K.K_rc / N_mm2, K.K_ac / N_mm2, K.K_te / N_mm,
-                        K.K_re / N_mm, K.K_ae / N_mm, published.material, published.cutter);
+    text +=
+        fmt::format("{:<20} {:>7.1f} {:>7.1f} {:>7.1f} {:>6.2f} {:>6.2f} {:>6.2f}   {}, {}\n", published.name,
+                    K.K_tc / N_per_mm2, K.K_rc / N_per_mm2, K.K_ac / N_per_mm2, K.K_te / N_per_mm,
+                    K.K_re / N_per_mm, K.K_ae / N_per_mm, published.material, published.cutter);
   }
   text += "\nsources\n";
   for (const PublishedCoefficients& published : published_coefficients())
@@ -37,12 +37,12 @@ std::string materials_json() {
                     {"material", published.material},
                     {"cutter", published.cutter},
                     {"source", published.source},
-                    {"Ktc_N_mm2", rounded(K.K_tc / N_mm2, 6)},
-                    {"Krc_N_mm2", rounded(K.K_rc / N_mm2, 6)},
-                    {"Kac_N_mm2", rounded(K.K_ac / N_mm2, 6)},
-                    {"Kte_N_mm", rounded(K.K_te / N_mm, 6)},
-                    {"Kre_N_mm", rounded(K.K_re / N_mm, 6)},
-                    {"Kae_N_mm", rounded(K.K_ae / N_mm, 6)}});
+                    {"Ktc_N_mm2", rounded(K.K_tc / N_per_mm2, 6)},
+                    {"Krc_N_mm2", rounded(K.K_rc / N_per_mm2, 6)},
+                    {"Kac_N_mm2", rounded(K.K_ac / N_per_mm2, 6)},
+                    {"Kte_N_mm", rounded(K.K_te / N_per_mm, 6)},
+                    {"Kre_N_mm", rounded(K.K_re / N_per_mm, 6)},
+                    {"Kae_N_mm", rounded(K.K_ae / N_per_mm, 6)}});
   }
   return nlohmann::ordered_json{{"schema", "counterflex-materials 1"}, {"materials", list}}.dump(2) + "\n";
 }

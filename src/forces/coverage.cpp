@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cassert>
 
-#include "forces/profile_cover.hpp"
 #include "forces/selector_text.hpp"
 
 namespace counterflex {
@@ -118,11 +117,17 @@ const ForceRule* Coverage::by_kind(const Move& move) {
   const auto [at, is_new] = kinds_.try_emplace(kind, nullptr);
   if (is_new) {
     found_.clear();
-    index_.append_by_kind(move.tool, folded(window_.operations[move.operation]), found_);
+    index_.append_by_kind(move.tool, operation_of(move), found_);
     at->second = most_specific(found_, move.line);
   }
   last_kind_ = kind;
   return last_acts_ = at->second;
+}
+
+const std::string& Coverage::operation_of(const Move& move) {
+  if (last_operation_ != move.operation) folded_operation_ = folded(window_.operations[move.operation]);
+  last_operation_ = move.operation;
+  return folded_operation_;
 }
 
 void Coverage::claim(std::size_t i) {
@@ -132,7 +137,7 @@ void Coverage::claim(std::size_t i) {
   if (index_.by_range()) {
     found_.clear();
     const std::optional<long> n = numbers_.empty() ? std::nullopt : numbers_[path_.segments[i].move];
-    index_.append_by_place(move, folded(window_.operations[move.operation]), n, found_);
+    index_.append_by_place(move, operation_of(move), n, found_);
     for (const ForceRule* rule : found_) {
       claims_.emplace_back();
       claims_.back().rule = rule;
@@ -146,7 +151,9 @@ void Coverage::claim_rows(const ForceRule& rule, std::size_t i) {
   const KeySpan& span = keys(rule, i);
   const double range = span.end - span.start;
   const bool alone = source_.rules.size() == 1 && !window_.moves[path_.segments[i].move].force;
-  for (const KeyCover& cover : covers(profile, span, alone)) {
+  covers_.clear();
+  append_covers(profile, span, alone, covers_);
+  for (const KeyCover& cover : covers_) {
     Claim claim;
     claim.rule = &rule;
     claim.row = cover.row;
@@ -168,6 +175,7 @@ void Coverage::claim_rows(const ForceRule& rule, std::size_t i) {
 // Claims that follow each other meet where the later one begins; of two that overlap by more than rounding
 // none is right.
 void Coverage::settle(int line) {
+  if (claims_.size() < 2) return;  // nearly all moves; a stable sort takes memory even then
   std::stable_sort(claims_.begin(), claims_.end(), [](const Claim& a, const Claim& b) {
     return a.from < b.from || (a.from == b.from && a.to < b.to);
   });
@@ -183,7 +191,7 @@ void Coverage::settle(int line) {
     b.most = std::max(b.most, b.least);
     claims_[++kept] = b;
   }
-  if (!claims_.empty()) claims_.resize(kept + 1);
+  claims_.resize(kept + 1);
 }
 
 void Coverage::refuse(const Claim& a, const Claim& b, int line) const {

@@ -6,6 +6,7 @@
 
 #include "counterflex/forces/forces.hpp"
 #include "forces/alignment.hpp"
+#include "forces/profile_cover.hpp"
 #include "forces/rule_index.hpp"
 
 namespace counterflex {
@@ -42,6 +43,7 @@ class Coverage {
     std::size_t row = 0;
   };
   const ForceRule* by_kind(const Move& move);
+  const std::string& operation_of(const Move& move);
   void claim(std::size_t i);
   void claim_rows(const ForceRule& rule, std::size_t i);
   void settle(int line);
@@ -58,6 +60,9 @@ class Coverage {
   std::unordered_map<std::uint64_t, const ForceRule*> kinds_;  ///< what acts by tool and operation
   std::optional<std::uint64_t> last_kind_;
   const ForceRule* last_acts_ = nullptr;
+  std::optional<std::uint32_t> last_operation_;
+  std::string folded_operation_;  ///< its text
+  std::vector<KeyCover> covers_;
   std::vector<Claim> claims_;
   std::vector<const ForceRule*> found_;
   std::vector<Stretch> stretches_;

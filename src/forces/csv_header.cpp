@@ -13,7 +13,7 @@
 namespace counterflex::csv {
 namespace {
 
-constexpr std::array<std::string_view, 4> place_names = {"line", "n", "s_mm", "t_s"};
+constexpr std::array<std::string_view, 5> place_names = {"line", "n", "s_mm", "t_s", "x_mm, y_mm, z_mm"};
 constexpr std::array<std::string_view, 3> axis_names = {"x_mm", "y_mm", "z_mm"};
 constexpr std::array<std::string_view, 6> key_names = {"line", "n", "s_mm", "t_s", "tool", "op"};
 constexpr std::array<RowKey, 6> keys_named = {RowKey::line, RowKey::block_number, RowKey::path_length,
@@ -22,10 +22,6 @@ constexpr std::array<std::string_view, 6> component_names = {"fx_N",  "fy_N",  "
                                                              "mx_Nm", "my_Nm", "mz_Nm"};
 constexpr std::string_view all_columns =
     "line | n | s_mm | t_s | tool | op | x_mm, y_mm, z_mm, then fx_N, fy_N, fz_N, mx_Nm, my_Nm, mz_Nm";
-
-[[noreturn]] void fail(const Location& where, const std::string& message) {
-  throw InputError(Exit::machine_or_force, where, message);
-}
 
 template <std::size_t N>
 std::optional<int> index_of(const std::array<std::string_view, N>& names, std::string_view name) {

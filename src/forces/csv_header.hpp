@@ -50,7 +50,7 @@ Header read_header(std::string_view line, const Location& where);
 /// Throws where a setting has no meaning for the key; `where` is the header row.
 void refuse_settings(const Settings& settings, RowKey key, const Location& where);
 
-/// The name of the key's column, with its unit: "line", "n", "s_mm", "t_s".
+/// The name of the key's column, or columns, with its unit: "line", "n", "s_mm", "t_s", "x_mm, y_mm, z_mm".
 std::string key_name(ForceKey key);
 
 /// What a key's SI value is multiplied with to be shown in the unit of its column.

@@ -50,4 +50,8 @@ std::string_view take_line(std::string_view& text) {
   return line;
 }
 
+void fail(const Location& where, const std::string& message) {
+  throw InputError(Exit::machine_or_force, where, message);
+}
+
 }  // namespace counterflex::csv

@@ -1,7 +1,10 @@
 #pragma once
 /// Lines and fields of CSV text, with the places at which they stand.
+#include <string>
 #include <string_view>
 #include <vector>
+
+#include "counterflex/files/input_error.hpp"
 
 namespace counterflex::csv {
 
@@ -15,10 +18,14 @@ struct Field {
 /// `text` without blanks and tabs at both ends.
 std::string_view trimmed(std::string_view text);
 
-/// The fields between commas, of which those in double quotes are none; `first_column` is that of the line's first byte.
+/// The fields between commas, of which those in double quotes are none; `first_column` is that of the line's
+/// first byte.
 std::vector<Field> split(std::string_view line, int first_column = 1);
 
 /// Takes the next line off `text`, without its LF or CRLF.
 std::string_view take_line(std::string_view& text);
+
+/// Throws `InputError` (Exit::machine_or_force).
+[[noreturn]] void fail(const Location& where, const std::string& message);
 
 }  // namespace counterflex::csv

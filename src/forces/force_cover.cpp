@@ -16,7 +16,7 @@ namespace {
 void refuse_two_places(const std::vector<ForceRule>& rules) {
   const auto find = [&](bool platform) {
     return std::find_if(rules.begin(), rules.end(), [&](const ForceRule& rule) {
-      return !is_zero(rule) && at_platform(rule) == platform;
+      return at_platform(rule) == platform && !is_zero(rule);
     });
   };
   const auto platform = find(true), tip = find(false);
@@ -58,6 +58,19 @@ struct ForceCover::State {
       }
       if (at_platform(rule) && !is_zero(rule)) platform = &rule;
     }
+  }
+
+  /// Behind the pass that has gathered where the path comes near the logged positions.
+  void place_points() {
+    for (PointLog& log : logs)
+      if (!far) far = log.far_point();
+    if (far) {
+      stage = Stage::far_point;
+      return;
+    }
+    for (PointLog& log : logs) log.settle();
+    logs.clear();
+    begin_cover();
   }
 
   void cover(const Program& window, const Toolpath& path) {
@@ -156,26 +169,13 @@ void ForceCover::add(const Program& window, const Toolpath& path) {
 }
 
 void ForceCover::end_pass() {
-  switch (state_->stage) {
-    case State::Stage::places_of_points:
-      for (PointLog& log : state_->logs)
-        if (!state_->far) state_->far = log.far_point();
-      if (state_->far) {
-        state_->stage = State::Stage::far_point;
-        return;
-      }
-      for (PointLog& log : state_->logs) log.settle();
-      state_->logs.clear();
-      state_->begin_cover();
-      return;
-    case State::Stage::far_point:
-      state_->far->refuse();
-    case State::Stage::cover:
-      state_->check();
-      state_->stage = State::Stage::done;
-      return;
-    case State::Stage::done:
-      return;
+  if (state_->stage == State::Stage::places_of_points) {
+    state_->place_points();
+  } else if (state_->stage == State::Stage::far_point) {
+    state_->far->refuse();
+  } else if (state_->stage == State::Stage::cover) {
+    state_->check();
+    state_->stage = State::Stage::done;
   }
 }
 

@@ -29,13 +29,16 @@ bool at_platform(const ForceRule& rule) {
 }
 
 bool is_zero(const ForceRule& rule) {
-  const auto* force = std::get_if<ConstantForce>(&rule.content);
-  return force != nullptr && force->F.isZero(0);
+  if (const auto* force = std::get_if<ConstantForce>(&rule.content)) return force->F.isZero(0);
+  if (const auto* response = std::get_if<CutResponse>(&rule.content))
+    return response->F_c.isZero(0) && response->F_e.isZero(0);
+  const auto& rows = std::get<ForceProfile>(rule.content).rows;
+  return std::all_of(rows.begin(), rows.end(), [](const ForceRow& row) { return row.F.isZero(0); });
 }
 
 bool acts_at_platform(const ForceSource& source) {
   return std::any_of(source.rules.begin(), source.rules.end(),
-                     [](const ForceRule& rule) { return !is_zero(rule) && at_platform(rule); });
+                     [](const ForceRule& rule) { return at_platform(rule) && !is_zero(rule); });
 }
 
 bool needs_tool_axes(const ForceSource& source) {

@@ -30,7 +30,7 @@ Vector6 value_in_the_middle(const std::vector<ForcePiece>& pieces, const Segment
   const auto at =
       std::find_if(pieces.begin(), pieces.end(), [s](const ForcePiece& piece) { return piece.s1 > s; });
   const ForcePiece& piece = at == pieces.end() ? pieces.back() : *at;
-  return piece.F0 + std::clamp((s - piece.s0) / (piece.s1 - piece.s0), 0.0, 1.0) * (piece.F1 - piece.F0);
+  return value(piece, std::clamp(s, piece.s0, piece.s1));
 }
 
 /// Of F, in machine axes, what the feed frame can say.

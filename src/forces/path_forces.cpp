@@ -47,14 +47,6 @@ bool joins_previous(const Program& program, const Toolpath& path, std::size_t i)
          !rapid_among(program, before.move + 1, segment.move);
 }
 
-Vector6 slope(const ForcePiece& piece) {
-  return (piece.F1 - piece.F0) / (piece.s1 - piece.s0);
-}
-
-Vector6 value(const ForcePiece& piece, double s) {
-  return piece.F0 + (s - piece.s0) * slope(piece);
-}
-
 /// From the start of the run to s.
 Vector6 integral(const ForcePiece& piece, double s) {
   return piece.integral + (s - piece.s0) * value(piece, (piece.s0 + s) / 2);

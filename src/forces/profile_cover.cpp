@@ -31,9 +31,9 @@ KeyCover cover_by(const ForceProfile& profile, std::size_t row, std::size_t end,
 
 }  // namespace
 
-std::vector<KeyCover> covers(const ForceProfile& profile, const KeySpan& keys, bool alone) {
+void append_covers(const ForceProfile& profile, const KeySpan& keys, bool alone,
+                   std::vector<KeyCover>& found) {
   const auto& rows = profile.rows;
-  std::vector<KeyCover> found;
   for (std::size_t row = row_at(profile, keys.start); row < rows.size();) {
     if (rows[row].ends) {
       ++row;
@@ -46,7 +46,6 @@ std::vector<KeyCover> covers(const ForceProfile& profile, const KeySpan& keys, b
     row = std::max(end, row + 1);
     if (row < rows.size() && rows[row].key > keys.end) break;
   }
-  return found;
 }
 
 std::size_t row_at(const ForceProfile& profile, double key) {

@@ -15,9 +15,10 @@ struct KeyCover {
   std::size_t row = 0;  ///< the first one that acts
 };
 
-/// The covers that touch `keys`, in order. `alone`: no other rule is given, so that what lies before the
-/// first row and behind the last one is rounding, or an error that `ForceCover` tells.
-std::vector<KeyCover> covers(const ForceProfile& profile, const KeySpan& keys, bool alone);
+/// Appends the covers that touch `keys`, in order. `alone`: no other rule is given, so that what lies before
+/// the first row and behind the last one is rounding, or an error that `ForceCover` tells.
+void append_covers(const ForceProfile& profile, const KeySpan& keys, bool alone,
+                   std::vector<KeyCover>& found);
 
 /// The row that holds at `key`: the last one that is not beyond it, else the first.
 std::size_t row_at(const ForceProfile& profile, double key);

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 #include "counterflex/forces/read_cutting_model.hpp"
+#include "counterflex/geometry/units.hpp"
 
 namespace counterflex {
 namespace force_file {
@@ -21,15 +21,13 @@ struct Coefficient {
   double most;  ///< in that unit; more is a mistake in the unit
 };
 
-constexpr double N_mm2 = 1e6, N_mm = 1e3;
-
 constexpr std::array<Coefficient, 6> coefficients = {
-    {{"Ktc", "Ktc_N_mm2", &CuttingCoefficients::K_tc, N_mm2, 1e5},
-     {"Krc", "Krc_N_mm2", &CuttingCoefficients::K_rc, N_mm2, 1e5},
-     {"Kac", "Kac_N_mm2", &CuttingCoefficients::K_ac, N_mm2, 1e5},
-     {"Kte", "Kte_N_mm", &CuttingCoefficients::K_te, N_mm, 1e4},
-     {"Kre", "Kre_N_mm", &CuttingCoefficients::K_re, N_mm, 1e4},
-     {"Kae", "Kae_N_mm", &CuttingCoefficients::K_ae, N_mm, 1e4}}};
+    {{"Ktc", "Ktc_N_mm2", &CuttingCoefficients::K_tc, N_per_mm2, 1e5},
+     {"Krc", "Krc_N_mm2", &CuttingCoefficients::K_rc, N_per_mm2, 1e5},
+     {"Kac", "Kac_N_mm2", &CuttingCoefficients::K_ac, N_per_mm2, 1e5},
+     {"Kte", "Kte_N_mm", &CuttingCoefficients::K_te, N_per_mm, 1e4},
+     {"Kre", "Kre_N_mm", &CuttingCoefficients::K_re, N_per_mm, 1e4},
+     {"Kae", "Kae_N_mm", &CuttingCoefficients::K_ae, N_per_mm, 1e4}}};
 
 void check_units(const toml::table& table, const Source& source) {
   for (const Coefficient& coefficient : coefficients)
@@ -37,14 +35,6 @@ void check_units(const toml::table& table, const Source& source) {
       source.fail(
           key_of(table, coefficient.name),
           fmt::format("\"{}\" is a coefficient without unit; write {}", coefficient.name, coefficient.key));
-}
-
-double within(const toml::node& node, const Coefficient& coefficient, const Source& source) {
-  const double value = as_number(node, {coefficient.key}, {source});
-  if (std::abs(value) > coefficient.most)
-    source.fail(node, fmt::format("{} is {}; it must be from -{:.0f} to {:.0f}", coefficient.key, value,
-                                  coefficient.most, coefficient.most));
-  return value;
 }
 
 }  // namespace
@@ -62,7 +52,9 @@ CuttingCoefficients read_coefficients(const toml::node& node, std::string_view o
   CuttingCoefficients read;
   for (const Coefficient& coefficient : coefficients)
     if (const toml::node* value = table.get(coefficient.key))
-      read.*coefficient.value = within(*value, coefficient, source) * coefficient.unit;
+      read.*coefficient.value =
+          as_between(*value, {coefficient.key}, -coefficient.most, coefficient.most, source) *
+          coefficient.unit;
   return read;
 }
 

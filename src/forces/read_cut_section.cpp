@@ -19,15 +19,6 @@ constexpr long most_flutes = 100;
 constexpr double narrowest_mm = 0.001, widest_mm = 1000, slowest_rpm = 1, fastest_rpm = 1e6;
 constexpr double deepest = 100;  // cutter diameters: more is a mistake, and its flutes have no end of turns
 
-/// A number from `least` to `most`.
-double as_between(const toml::node& node, std::string_view name, double least, double most,
-                  const Source& source) {
-  const double value = as_number(node, {name}, {source});
-  if (!(value >= least && value <= most))
-    source.fail(node, fmt::format("{} is {}; it must be from {} to {}", name, value, least, most));
-  return value;
-}
-
 /// A section while it is read.
 struct Part {
   const toml::node& node;
@@ -60,7 +51,7 @@ double axial_depth(const Part& part, double D) {
 }
 
 double angle_deg(const Part& part, std::string_view key) {
-  return as_between(required(part.table, key, part.name, part.node, part.source), key, 0, 180, part.source);
+  return as_between(required(part.table, key, part.name, part.node, part.source), {key}, 0, 180, part.source);
 }
 
 void take_angles(const Part& part, CuttingModel& model) {
@@ -107,7 +98,7 @@ void take_side(const Part& part, CuttingModel& model) {
         fmt::format("{} has no \"side\"; it must be \"up\", \"down\" or \"slot\", or entry_deg and "
                     "exit_deg stand instead",
                     part.name));
-  const std::string side = as_text(*node, "side", part.source);
+  const std::string side = as_choice(*node, "side", {"up", "down", "slot"}, part.source);
   const double D = model.mill.diameter;
   model.entry = 0;
   model.exit = pi;
@@ -117,12 +108,9 @@ void take_side(const Part& part, CuttingModel& model) {
   } else if (side == "up") {
     model.exit = immersion(part, side, D);
     model.wall = Wall::entry;
-  } else if (side == "down") {
+  } else {
     model.entry = pi - immersion(part, side, D);
     model.wall = Wall::exit;
-  } else {
-    part.source.fail(*node,
-                     fmt::format("side is \"{}\"{}", side, hint(side, {"up", "down", "slot"}, "allowed")));
   }
 }
 
@@ -154,9 +142,9 @@ EndMill read_cutter(const toml::node& node, const std::string& owner, const Sour
   const toml::node& flutes = required(table, "flutes", owner, node, source);
   const toml::node& helix = required(table, "helix_deg", owner, node, source);
   EndMill mill;
-  mill.diameter = as_between(diameter, "diameter_mm", narrowest_mm, widest_mm, source) * mm;
+  mill.diameter = as_between(diameter, {"diameter_mm"}, narrowest_mm, widest_mm, source) * mm;
   mill.flutes = static_cast<int>(as_whole(flutes, {"flutes"}, 1, most_flutes, source));
-  mill.helix = as_between(helix, "helix_deg", 0, steepest_helix_deg, source) * deg;
+  mill.helix = as_between(helix, {"helix_deg"}, 0, steepest_helix_deg, source) * deg;
   return mill;
 }
 
@@ -172,9 +160,7 @@ Cutters read_cutters(const toml::table& document, const Source& source) {
 }
 
 ForceAt read_force_at(const toml::node& node, const Source& source) {
-  const std::string text = as_text(node, "force_at", source);
-  if (text != "mean" && text != "surface")
-    source.fail(node, fmt::format("force_at is \"{}\"{}", text, hint(text, {"mean", "surface"}, "allowed")));
+  const std::string text = as_choice(node, "force_at", {"mean", "surface"}, source);
   return text == "mean" ? ForceAt::mean : ForceAt::surface;
 }
 
@@ -197,7 +183,7 @@ CutSection read_cut_section(const toml::node& node, std::size_t number, const Sh
   model.force_at = force_at == nullptr ? shelf.force_at : read_force_at(*force_at, source);
   take_engagement(part, model);
   if (const toml::node* rpm = table.get("spindle_rpm"))
-    model.spindle_rpm = as_between(*rpm, "spindle_rpm", slowest_rpm, fastest_rpm, source);
+    model.spindle_rpm = as_between(*rpm, {"spindle_rpm"}, slowest_rpm, fastest_rpm, source);
   return section;
 }
 

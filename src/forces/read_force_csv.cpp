@@ -15,6 +15,7 @@
 namespace counterflex {
 namespace {
 
+using csv::fail;
 using csv::Field;
 using csv::Header;
 using csv::RowKey;
@@ -33,10 +34,6 @@ struct Reader {
 
   Location at(int column) const { return {file, line, column}; }
 };
-
-[[noreturn]] void fail(const Location& where, const std::string& message) {
-  throw InputError(Exit::machine_or_force, where, message);
-}
 
 std::string row_name(const Reader& reader) {
   return fmt::format("row {}", reader.rows.size() + 1);

@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-
 #include "forces/selector_text.hpp"
 
 namespace counterflex::force_file {
@@ -36,14 +34,6 @@ std::array<long, 2> read_range(const toml::node& node, std::string_view name, lo
 }
 
 }  // namespace
-
-long as_whole(const toml::node& node, const Label& label, long least, long most, const Source& source) {
-  const double value = as_number(node, label, {source});
-  if (value != std::floor(value) || value < static_cast<double>(least) || value > static_cast<double>(most))
-    source.fail(node, fmt::format("{} is {}; it must be a whole number from {} to {}", label.text(),
-                                  seen(node), least, most));
-  return std::lround(value);
-}
 
 ForceSelector read_selector(const toml::table& table, const Source& source) {
   ForceSelector selector;

@@ -5,10 +5,6 @@
 
 namespace counterflex::force_file {
 
-/// A whole number from `least` to `most`.
-long as_whole(const toml::node& node, const machine_file::Label& label, long least, long most,
-              const machine_file::Source& source);
-
 /// The keys `tool`, `op`, `lines` and `blocks` of a table, those of them that it has.
 ForceSelector read_selector(const toml::table& table, const machine_file::Source& source);
 

@@ -24,9 +24,9 @@ void append_found(const Map& map, const Key& key, std::vector<const ForceRule*>&
 }  // namespace
 
 bool names_operation(const std::string& selector, const std::string& operation) {
-  const std::string wanted = folded(selector);
-  if (!is_beginning(wanted)) return wanted == operation;
-  return !operation.empty() && operation.compare(0, wanted.size() - 1, wanted, 0, wanted.size() - 1) == 0;
+  if (!is_beginning(selector)) return selector == operation;
+  const std::size_t length = selector.size() - 1;
+  return !operation.empty() && operation.compare(0, length, selector, 0, length) == 0;
 }
 
 void RangeIndex::add(const std::array<long, 2>& range, const ForceRule& rule) {
@@ -51,6 +51,8 @@ RuleIndex::RuleIndex(const std::vector<ForceRule>& rules) {
   for (const ForceRule& rule : rules) {
     if (std::holds_alternative<ForceProfile>(rule.content)) continue;
     const ForceSelector& selector = rule.selector;
+    if (rank(selector) == ForceRank::place && selector.operation)
+      asked_.emplace(&rule, folded(*selector.operation));
     if (selector.lines) {
       lines_.add(*selector.lines, rule);
     } else if (selector.blocks) {
@@ -95,7 +97,7 @@ void RuleIndex::append_by_place(const Move& move, const std::string& operation, 
   const auto other = [&](const ForceRule* rule) {
     const ForceSelector& selector = rule->selector;
     return !holds(selector.blocks, n) || (selector.tool && *selector.tool != move.tool) ||
-           (selector.operation && !names_operation(*selector.operation, operation));
+           (selector.operation && !names_operation(asked_.at(rule), operation));
   };
   found.erase(std::remove_if(found.begin() + static_cast<std::ptrdiff_t>(old), found.end(), other),
               found.end());

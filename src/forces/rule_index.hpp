@@ -40,7 +40,8 @@ class RuleIndex {
   /// place.
   void append_by_kind(long tool, const std::string& operation, std::vector<const ForceRule*>& found) const;
 
-  /// Appends those for ranges of places that cover a move; `n` is its block number or that before it.
+  /// Appends those for ranges of places that cover a move of an operation (folded); `n` is its block number
+  /// or that before it.
   void append_by_place(const Move& move, const std::string& operation, std::optional<long> n,
                        std::vector<const ForceRule*>& found) const;
 
@@ -51,9 +52,10 @@ class RuleIndex {
   Named operations_, beginnings_;
   std::unordered_map<long, std::vector<const ForceRule*>> tools_;
   std::vector<const ForceRule*> all_;
+  std::unordered_map<const ForceRule*, std::string> asked_;  ///< operations of rules for places, folded
 };
 
-/// Whether an operation's text (folded) is what a selector asks for.
+/// Whether an operation's text is what a selector asks for, both folded.
 bool names_operation(const std::string& selector, const std::string& operation);
 
 }  // namespace counterflex

@@ -108,6 +108,14 @@ std::vector<ForcePiece> profile_pieces(const ForceProfile& profile, const KeySpa
   return pieces;
 }
 
+Vector6 slope(const ForcePiece& piece) {
+  return (piece.F1 - piece.F0) / (piece.s1 - piece.s0);
+}
+
+Vector6 value(const ForcePiece& piece, double s) {
+  return piece.F0 + (s - piece.s0) * slope(piece);
+}
+
 void append(const ForcePiece& piece, std::size_t first, std::vector<ForcePiece>& pieces) {
   if (pieces.size() > first) {
     ForcePiece& last = pieces.back();

@@ -30,6 +30,10 @@ Vector6 in_machine_axes(const ForceAxes& axes, const Vector6& F);
 std::vector<ForcePiece> profile_pieces(const ForceProfile& profile, const KeySpan& keys, double s0,
                                        double s1);
 
+/// How the wrench grows along a piece (N/m, N), and what it is at path length s.
+Vector6 slope(const ForcePiece& piece);
+Vector6 value(const ForcePiece& piece, double s);
+
 /// Appends `piece` to the pieces of a run that begin at `first`; one that goes on with the same constant is
 /// made longer.
 void append(const ForcePiece& piece, std::size_t first, std::vector<ForcePiece>& pieces);

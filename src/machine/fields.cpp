@@ -136,6 +136,22 @@ double as_not_negative(const toml::node& node, const Label& label, const Reading
   return value;
 }
 
+double as_between(const toml::node& node, const Label& label, double least, double most,
+                  const Source& source) {
+  const double value = as_number(node, label, {source});
+  if (value < least || value > most)
+    source.fail(node, fmt::format("{} is {}; it must be from {} to {}", label.text(), value, least, most));
+  return value;
+}
+
+long as_whole(const toml::node& node, const Label& label, long least, long most, const Source& source) {
+  const double value = as_number(node, label, {source});
+  if (value != std::floor(value) || value < static_cast<double>(least) || value > static_cast<double>(most))
+    source.fail(node, fmt::format("{} is {}; it must be a whole number from {} to {}", label.text(),
+                                  seen(node), least, most));
+  return std::lround(value);
+}
+
 Vector3 as_vector3(const toml::node& node, std::string_view name, const Reading& reading) {
   return as_vector<3>(node, {name}, reading);
 }

@@ -72,6 +72,11 @@ double as_number(const toml::node& node, const Label& label, const Reading& read
 double as_positive(const toml::node& node, const Label& label, const Reading& reading);
 double as_not_negative(const toml::node& node, const Label& label, const Reading& reading);
 
+/// A number, or a whole number, from `least` to `most`.
+double as_between(const toml::node& node, const Label& label, double least, double most,
+                  const Source& source);
+long as_whole(const toml::node& node, const Label& label, long least, long most, const Source& source);
+
 Vector3 as_vector3(const toml::node& node, std::string_view name, const Reading& reading);
 Eigen::Vector4d as_vector4(const toml::node& node, std::string_view name, const Reading& reading);
 Vector6 as_vector6(const toml::node& node, std::string_view name, const Reading& reading);

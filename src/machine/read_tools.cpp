@@ -12,8 +12,6 @@
 namespace counterflex::machine_file {
 namespace {
 
-constexpr double N_per_um = 1e6;
-
 const std::vector<std::string_view> tool_keys = {"length_mm",       "diameter_mm",  "stickout_mm",
                                                  "holder_N_per_um", "stiffness_si", "compliance_si",
                                                  "material"};

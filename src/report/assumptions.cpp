@@ -113,7 +113,7 @@ std::vector<UsedTool> used_tools(const Machine& machine, const std::vector<long>
     change = change || changes_model(machine, tool);
     UsedTool& used = tools.emplace_back(UsedTool{number, {}, {}, stiffness_phrase(tool)});
     if (tool.length) used.length_mm = *tool.length / mm;
-    if (!tool.yields.empty()) used.radial_N_per_um = radial_stiffness(tool) * 1e-6;
+    if (!tool.yields.empty()) used.radial_N_per_um = radial_stiffness(tool) / N_per_um;
   }
   return change ? tools : std::vector<UsedTool>{};
 }

@@ -222,6 +222,21 @@ TEST_CASE("sections of a cutting model cover what meets all of their conditions"
   }
 }
 
+TEST_CASE("a rule for lines of an operation acts in them whenever that operation comes back") {
+  Program program = straight(12, 1);
+  program.operations = {"", " Wall a", "floor"};
+  for (std::size_t i = 0; i < 12; ++i) program.moves[i].operation = static_cast<std::uint32_t>(i % 3);
+  ForceSource source = given({"1,0,0"});
+  for (const auto& [operation, fx] : {std::pair{"wall*", 2}, {"FLOOR ", 3}})
+    source.rules.push_back({"rule",
+                            {"r.csv", fx, 1},
+                            {.operation = operation, .lines = {{1, 9}}},
+                            ConstantForce{wrench(fx, 0, 0)}});
+  const auto forces = forces_on(program, source);
+  for (std::size_t i = 0; i < 12; ++i)
+    CHECK(forces.at(i, 0.5)[0] == (i < 9 ? 1 + static_cast<int>(i % 3) : 1));
+}
+
 TEST_CASE("a section for lines or blocks behind the program's end is refused") {
   ForceSource source = given({"0,0,0"});
   source.rules.push_back(section_for({.lines = {{7, 9}}}));
@@ -250,6 +265,34 @@ TEST_CASE("a zero wrench is neither at the tip nor at the platform: it goes with
   const auto forces = forces_on(sample_program(), source);
   CHECK(forces.at_platform());
   CHECK(middle_fx(forces) == std::vector<double>{0, 1, 1, 1});
+}
+
+TEST_CASE("a profile or a model that is zero everywhere is neither at the tip nor at the platform") {
+  const std::string zeros = "line," + columns + "3,0,0,0\n4,,,\n5,-0,0,0\n";
+  ForceSource source = from_csv(on_tool + "# at = platform\n" + zeros);
+  CHECK_FALSE(acts_at_platform(source));
+  source.rules.push_back(parse_force_rule("10,0,0"));
+  const auto forces = forces_on(sample_program(), source);
+  CHECK_FALSE(forces.at_platform());
+  CHECK(middle_fx(forces) == std::vector<double>{10, 0, 0, 0});
+  Program program = sample_program();
+  program.moves[1].force = wrench(1, 0, 0);
+  CHECK(middle_fx(forces_on(program, source)) == std::vector<double>{1, 0, 0, 0});
+  // as soon as one component of one row acts, the two meet
+  source.rules[0] = read_force_csv(on_tool +
+                                       "# at = platform\nline,fx_N,fy_N,fz_N,mz_Nm\n3,0,0,0,0\n"
+                                       "5,0,0,0,1\n",
+                                   "forces.csv")[0];
+  CHECK(refused(sample_program(), source) ==
+        "4: forces.csv:5:1: error: acts at the platform, but --force 10,0,0 acts at the tip; one run has its "
+        "forces at one of the two places");
+  ForceRule air = section_for({.lines = {{2, 2}}});
+  air.content = CutResponse{.flutes = 3, .spindle_rpm = 1000};
+  CHECK(is_zero(air));
+  source = from_csv(on_tool + "# at = platform\nline," + columns + "3,1,0,0\n");
+  source.rules.push_back(air);
+  CHECK(middle_fx(forces_on(sample_program(), source)) == std::vector<double>{0, 1, 1, 1});
+  CHECK_FALSE(is_zero(section_for({})));
 }
 
 TEST_CASE("the tool's axes are needed as soon as one rule's frame turns with them") {

@@ -7,13 +7,12 @@
 
 namespace counterflex::test {
 
-inline constexpr double N_mm2 = 1e6, N_mm = 1e3;
-
 /// A slot of 2 mm with a straight 10 mm cutter of four flutes.
 inline CuttingModel sample_cut() {
   CuttingModel model;
   model.mill = {10 * mm, 4, 0};
-  model.coefficients = {700 * N_mm2, 210 * N_mm2, 140 * N_mm2, 20 * N_mm, 15 * N_mm, 1.5 * N_mm};
+  model.coefficients = {700 * N_per_mm2, 210 * N_per_mm2, 140 * N_per_mm2,
+                        20 * N_per_mm,   15 * N_per_mm,   1.5 * N_per_mm};
   model.axial_depth = 2 * mm;
   model.entry = 0;
   model.exit = pi;

@@ -53,8 +53,11 @@ ForceRank rank(const ForceRule& rule);
 /// Of a model: the feed's.
 ForceFrame frame_of(const ForceRule& rule);
 
-/// Whether a rule's wrench acts at the platform's reference point; one that is always zero acts nowhere.
+/// Whether a rule's wrench is given at the platform's reference point, instead of at the tip.
 bool at_platform(const ForceRule& rule);
+
+/// Whether a rule's wrench is zero wherever it acts: it acts neither at the tip nor at the platform, and goes
+/// with both.
 bool is_zero(const ForceRule& rule);
 
 /// Reads a CSV of forces: lines `# frame = machine | work | tool | feed`, `# sense = on_tool | on_workpiece`
@@ -92,7 +95,7 @@ struct ForceSource {
       air_above_mm{};  ///< Z of program coordinates: feed moves wholly above it carry no force
 };
 
-/// Whether the wrenches act at the platform's reference point instead of the tip: all of them do.
+/// Whether the wrenches act at the platform's reference point instead of the tip: all that are not zero do.
 bool acts_at_platform(const ForceSource& source);
 
 /// Whether a rule's frame turns with the tool.

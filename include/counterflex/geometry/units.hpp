@@ -8,5 +8,8 @@ inline constexpr double mm = 1e-3;
 inline constexpr double um = 1e-6;
 inline constexpr double inch = 25.4e-3;
 inline constexpr double deg = pi / 180.0;
+inline constexpr double N_per_um = 1e6;
+inline constexpr double N_per_mm = 1e3;
+inline constexpr double N_per_mm2 = 1e6;
 
 }  // namespace counterflex
