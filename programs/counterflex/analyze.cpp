@@ -60,14 +60,15 @@ Exit judge(const AnalysisReport& report, const std::vector<Pose>& asked, const O
 
 /// Throws (Exit::usage) naming the tools that there are.
 const std::pair<const long, Tool>& tool_named(const std::string& text, const Machine& machine) {
-  std::string_view digits = text;
-  if (digits.starts_with('T') || digits.starts_with('t')) digits.remove_prefix(1);
-  const auto number = read_number(digits);
-  for (const auto& entry : machine.tools)
-    if (number && static_cast<double>(entry.first) == *number) return entry;
+  const std::optional<long> number = read_tool_number(text);
+  if (!number)
+    throw InputError(Exit::usage, {}, fmt::format("--tool is '{}', must be T and its number, as T3", text));
   std::string known;
-  for (const auto& [tool, unused] : machine.tools)
-    known += fmt::format("{}T{}", known.empty() ? "" : ", ", tool);
+  for (const auto& entry : machine.tools) {
+    if (entry.first == 0) continue;  // no known tool: what [tool] says
+    if (entry.first == *number) return entry;
+    known += fmt::format("{}T{}", known.empty() ? "" : ", ", entry.first);
+  }
   throw InputError(Exit::usage, {},
                    fmt::format("--tool {}: the machine file has no such tool; it has {}", text,
                                known.empty() ? "none" : known));

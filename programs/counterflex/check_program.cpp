@@ -155,9 +155,9 @@ nlohmann::ordered_json json_of(const ProgramFacts& facts) {
   return json;
 }
 
-/// What stops the nominal machine from going to `X_MT` in a move of `line`.
-std::optional<Failure> go_to(NominalPath& nominal, const Model& model, const Pose& X_MT, int line) {
-  const Status status = nominal.go_to(X_MT);
+/// What stops the nominal machine from going to `p_MT` in a move of `line`.
+std::optional<Failure> go_to(NominalToolPath& nominal, const Model& model, const Vector3& p_MT, int line) {
+  const Status status = nominal.go_to(model, p_MT);
   if (status != Status::converged)
     return Failure{Exit::not_compensated, line,
                    fmt::format("the machine does not reach the end of this move: {}", to_string(status))};
@@ -169,17 +169,13 @@ std::optional<Failure> go_to(NominalPath& nominal, const Model& model, const Pos
 /// The first place, end of a line or on an arc, that the nominal machine does not reach.
 std::optional<Failure> first_unreached(const Model& base, const ToolModels& tools,
                                        const std::vector<WorkFrame>& frames, ProgramReader reader) {
-  const Model* last = &base;
-  std::optional<NominalPath> nominal(std::in_place, base, base.home);
+  NominalToolPath nominal(home_of(base));
   while (reader.next())
     for (const Segment& segment : build_toolpath(reader.window(), frames).segments) {
       const Model& model = model_with(base, &tools, reader.window().moves[segment.move].tool);
-      const Matrix3 R_home = tip(model.mechanism, model.home).R;
-      if (&model != last) nominal.emplace(model, model.home);
-      last = &model;
       const std::vector<Vector3> points = points_along(segment.wanted);
       for (std::size_t i = 1; i < points.size(); ++i)
-        if (const auto failure = go_to(*nominal, model, {R_home, points[i]}, segment.line)) return failure;
+        if (const auto failure = go_to(nominal, model, points[i], segment.line)) return failure;
     }
   return std::nullopt;
 }

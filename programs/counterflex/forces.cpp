@@ -39,26 +39,25 @@ BareRun prepare_bare_run(const Options& options, Console& console) {
 /// How the tool stands in the middle of every move.
 class ToolAxes {
  public:
-  explicit ToolAxes(const Model* model) {
-    if (model == nullptr) return;
-    model_ = model;
-    nominal_.emplace(*model, model->home);
+  explicit ToolAxes(const Run* run) : run_(run) {
+    if (run != nullptr) nominal_.emplace(home_of(run->machine.model));
   }
 
-  std::vector<Matrix3> along(const Toolpath& path) {
-    if (model_ == nullptr || path.segments.empty()) return {Matrix3::Identity()};
-    const Matrix3 R_home = tip(model_->mechanism, model_->home).R;
+  std::vector<Matrix3> along(const Program& window, const Toolpath& path) {
+    if (run_ == nullptr || path.segments.empty()) return {Matrix3::Identity()};
     std::vector<Matrix3> R_MT;
     for (const Segment& segment : path.segments) {
-      nominal_->go_to({R_home, point_at(segment.wanted, 0.5)});  // one that is not reached is not solved here
-      R_MT.push_back(tip(model_->mechanism, nominal_->configuration()).R);
+      const Model& model =
+          model_with(run_->machine.model, &run_->tool_models, window.moves[segment.move].tool);
+      nominal_->go_to(model, point_at(segment.wanted, 0.5));  // one that is not reached is not solved here
+      R_MT.push_back(nominal_->orientation());
     }
     return R_MT;
   }
 
  private:
-  const Model* model_ = nullptr;
-  std::optional<NominalPath> nominal_;
+  const Run* run_;
+  std::optional<NominalToolPath> nominal_;
 };
 
 /// Where the moves are told.
@@ -100,10 +99,10 @@ class Told {
   std::optional<FileWriter> profile_, page_;
 };
 
-void tell_moves(const PathInput& input, const ForceSource& source, const Model* model, int lines, Told& told,
+void tell_moves(const PathInput& input, const ForceSource& source, const Run* run, int lines, Told& told,
                 Console& console) {
   ProgramReader reader(input.bytes, input.name, input.read);
-  ToolAxes tool(model);
+  ToolAxes tool(run);
   std::optional<long> block_number;
   PathEnd end;
   while (reader.next()) {
@@ -112,7 +111,8 @@ void tell_moves(const PathInput& input, const ForceSource& source, const Model* 
     end = path.end;
     if (!path.segments.empty())
       console.progress(fmt::format("line {} of {}", path.segments.front().line, lines));
-    for (const MoveForce& move : move_forces(source, reader.window(), path, tool.along(path), block_number))
+    const std::vector<Matrix3> R_MT = tool.along(reader.window(), path);
+    for (const MoveForce& move : move_forces(source, reader.window(), path, R_MT, block_number))
       told.add(move);
   }
   input.bytes.refuse_change();
@@ -139,7 +139,7 @@ Exit run_forces(const Options& options, Console& console) {
   const auto run = prepare_run(options, console);
   Told told(options, run->program.file, acts_at_platform(run->force_input.source));
   tell_moves({run->file.bytes, run->program.file, run->read, run->work.frames, run->ignored},
-             run->force_input.source, &run->machine.model, run->program.lines, told, console);
+             run->force_input.source, run.get(), run->program.lines, told, console);
   return Exit::done;
 }
 

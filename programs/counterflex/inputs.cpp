@@ -109,7 +109,13 @@ ToolLengths read_tool_lengths(const Options& options, const Machine* machine) {
 }
 
 void take_lengths(const ToolLengths& lengths, Machine& machine) {
-  for (const auto& [number, length_mm] : lengths.mm) machine.tools[number].length = length_mm * mm;
+  for (const auto& [number, length_mm] : lengths.mm) {
+    const auto named = machine.tools.find(number);
+    if (named != machine.tools.end())
+      named->second.length = length_mm * mm;
+    else if (machine.X_PS)
+      machine.tools[number] = {.length = length_mm * mm, .in_file = false};
+  }
 }
 
 ReadOptions read_options(const Options& options, const Machine* machine, const ToolLengths& tools) {

@@ -40,7 +40,8 @@ struct ToolLengths {
 };
 ToolLengths read_tool_lengths(const Options& options, const Machine* machine);
 
-/// Gives the tools of `machine` the lengths of a tool table, which go before its own.
+/// Gives the tools of `machine` the lengths of a tool table, which go before its own. With [spindle] a length says where
+/// the tip is, of tools too that the machine file does not name; without it these stay unknown.
 void take_lengths(const ToolLengths& lengths, Machine& machine);
 
 /// How `options`, and `machine` where they are silent, say that programs are read.

@@ -69,22 +69,27 @@ void warn_of_cycles(Run& run) {
 /// Stiffness that nobody has given, and tools that the file does not know beside those that it does.
 void warn_of_tools(Run& run) {
   const Machine& machine = run.machine.machine;
-  if (run.tool_models.empty()) {
-    const auto bends = [&](const auto& tool) { return !tool.second.yields.empty(); };
-    if (run.program.tools == std::vector<long>{0} &&
-        std::any_of(machine.tools.begin(), machine.tools.end(), bends))
-      run.facts.warnings.push_back(
-          {0, "the program names no tool: [tool] is taken, rigid, whatever bends in [tools]"});
-    return;
-  }
+  const auto& tools = machine.tools;
+  const bool bends =
+      std::any_of(tools.begin(), tools.end(), [](const auto& t) { return !t.second.yields.empty(); });
+  if (run.tool_models.empty() && !bends) return;
+  if (run.program.first_feed_without_tool)
+    run.facts.warnings.push_back(
+        {*run.program.first_feed_without_tool,
+         "no tool is known here by its number (a T with M6): [tool] is taken, rigid, "
+         "whatever bends in [tools]"});
   for (const long number : run.program.tools) {
-    const auto found = machine.tools.find(number);
-    const bool known = found != machine.tools.end();
-    if (known && found->second.from == ToolStiffness::cantilever)
-      run.facts.warnings.push_back({0, fmt::format("tool T{}: {}", number, stiffness_phrase(found->second))});
-    if (!known && number > 0)
-      run.facts.warnings.push_back(
-          {0, fmt::format("tool T{} is not in [tools]: its moves use [tool], rigid", number)});
+    if (number == 0) continue;
+    const auto found = tools.find(number);
+    const Tool* tool = found == tools.end() ? nullptr : &found->second;
+    std::string what;
+    if (tool == nullptr)
+      what = " is not in [tools]: its moves use [tool], rigid";
+    else if (!tool->in_file && bends)
+      what = " is not in [tools]: it is " + stiffness_phrase(*tool);
+    else if (tool->from == ToolStiffness::cantilever)
+      what = ": " + stiffness_phrase(*tool);
+    if (!what.empty()) run.facts.warnings.push_back({0, fmt::format("tool T{}{}", number, what)});
   }
 }
 

@@ -10,20 +10,17 @@ constexpr int orientations_of_segment = 9;
 // At equal fractions of every segment, or in its middle.
 std::vector<Matrix3> sampled_orientations(const RunInput& input, const Program& window, const Toolpath& path,
                                           int each, NominalPlace& place) {
-  const Matrix3 R_home = tip(input.model.mechanism, input.model.home).R;
   std::vector<Matrix3> R_MT;
-  std::optional<NominalPath> nominal(std::in_place, *place.model, place.configuration);
+  NominalToolPath nominal(place);
   for (const Segment& segment : path.segments) {
     const Model& model = model_with(input.model, input.tools, window.moves[segment.move].tool);
-    if (&model != place.model) nominal.emplace(model, model.home);
-    place.model = &model;
     for (int k = 0; k < each; ++k) {
       const double u = each == 1 ? 0.5 : static_cast<double>(k) / (each - 1);
-      nominal->go_to({R_home, point_at(segment.wanted, u)});  // a failure is said where it is solved
-      R_MT.push_back(tip(model.mechanism, nominal->configuration()).R);
+      nominal.go_to(model, point_at(segment.wanted, u));  // a failure is said where it is solved
+      R_MT.push_back(nominal.orientation());
     }
   }
-  place.configuration = nominal->configuration();
+  place = nominal.place();
   return R_MT;
 }
 

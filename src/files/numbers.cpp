@@ -20,6 +20,14 @@ std::optional<double> read_number(std::string_view text) {
   return value;
 }
 
+std::optional<long> read_tool_number(std::string_view text) {
+  if (text.starts_with('T') || text.starts_with('t')) text.remove_prefix(1);
+  std::int32_t number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error != std::errc{} || end != text.data() + text.size() || text.front() == '-') return std::nullopt;
+  return number;
+}
+
 std::string format_fixed(double value, int decimals) {
   char buffer[std::numeric_limits<double>::max_exponent10 + 64];
   const auto end =

@@ -4,18 +4,15 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 
+#include "counterflex/files/numbers.hpp"
 #include "forces/csv_text.hpp"
 
 namespace counterflex {
 
 std::optional<long> read_tool(std::string_view text) {
-  if (!text.empty() && (text.front() == 'T' || text.front() == 't')) text.remove_prefix(1);
-  long tool = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), tool);
-  if (error != std::errc{} || end != text.data() + text.size() || tool < 1) return std::nullopt;
-  return tool;
+  const std::optional<long> tool = read_tool_number(text);
+  return tool && *tool > 0 ? tool : std::nullopt;
 }
 
 std::string folded(std::string_view operation) {

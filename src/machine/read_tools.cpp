@@ -2,8 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
-
+#include "counterflex/files/numbers.hpp"
 #include "counterflex/geometry/units.hpp"
 #include "counterflex/machine/tool.hpp"
 #include "fields.hpp"
@@ -17,14 +16,11 @@ const std::vector<std::string_view> tool_keys = {"length_mm",       "diameter_mm
                                                  "material"};
 
 /// T3 or 3.
-long read_tool_number(const toml::key& key, const Source& source) {
-  std::string_view digits = key.str();
-  if (digits.starts_with('T') || digits.starts_with('t')) digits.remove_prefix(1);
-  long number = -1;
-  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
-  if (error != std::errc{} || end != digits.data() + digits.size() || number < 0)
+long number_of(const toml::key& key, const Source& source) {
+  const std::optional<long> number = read_tool_number(key.str());
+  if (!number)
     source.fail(key, fmt::format("\"{}\" is not a tool; it must be T and its number, as T3", key.str()));
-  return number;
+  return *number;
 }
 
 std::optional<double> read_length(const toml::table& table, std::string_view key, const Source& source) {
@@ -59,6 +55,16 @@ void read_stiffness_of(const toml::table& table, const std::string& name, const 
   tool.yields = {Spring{"tool", read_definite_stiffness(node, form, source)}};
 }
 
+/// Moves before any tool is called have number 0: what is said of it would never act. A length alone is for
+/// G43 H0.
+void refuse_no_tool(const toml::table& table, const std::string& name, const Source& source) {
+  for (const auto& [key, unused] : table)
+    if (key.str() != "length_mm")
+      source.fail(key, fmt::format("{} has \"{}\", but 0 stands for no known tool, which [tool] describes; "
+                                   "only \"length_mm\" is allowed",
+                                   name, key.str()));
+}
+
 Tool read_one_tool(const toml::node& node, const std::string& name, const Source& source) {
   const toml::table& table = as_table(node, name, source);
   check_keys(table, tool_keys, name, source);
@@ -83,8 +89,10 @@ void read_tools(const toml::table& document, const Source& source, Machine& mach
   const toml::node* node = document.get("tools");
   if (node == nullptr) return;
   for (const auto& [key, entry] : as_table(*node, "tools", source)) {
-    const long number = read_tool_number(key, source);
-    Tool tool = read_one_tool(entry, fmt::format("[tools.{}]", key.str()), source);
+    const long number = number_of(key, source);
+    const std::string name = fmt::format("[tools.{}]", key.str());
+    Tool tool = read_one_tool(entry, name, source);
+    if (number == 0) refuse_no_tool(*entry.as_table(), name, source);
     if (!machine.tools.emplace(number, std::move(tool)).second)
       source.fail(key, fmt::format("tool {} stands in the file twice", number));
   }

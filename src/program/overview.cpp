@@ -23,6 +23,8 @@ void add_move(Overview& overview, const Move& move) {
   overview.last_block_number = std::max(overview.last_block_number, move.block_number.value_or(0));
   overview.offsets_used[move.offset] = true;
   add_tool(overview.tools, move.tool);
+  if (move.motion == Motion::feed && move.tool == 0 && !overview.first_feed_without_tool)
+    overview.first_feed_without_tool = move.line;
   if (move.cycle && !overview.first_cycle_line) overview.first_cycle_line = move.line;
   if (!move.force) return;
   if (!overview.first_force_line) overview.first_force_line = move.line;

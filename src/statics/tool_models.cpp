@@ -56,4 +56,19 @@ ToolModels prepare_tools(const Machine& machine, const Model& base, const std::v
 
 NominalPlace home_of(const Model& model) { return {&model, model.home}; }
 
+NominalToolPath::NominalToolPath(const NominalPlace& start) { begin(*start.model, start.configuration); }
+
+void NominalToolPath::begin(const Model& model, const Configuration& start) {
+  model_ = &model;
+  R_home_ = tip(model.mechanism, model.home).R;
+  path_.emplace(model, start);
+}
+
+Status NominalToolPath::go_to(const Model& model, const Vector3& p_MT) {
+  if (&model != model_) begin(model, model.home);
+  return path_->go_to({R_home_, p_MT});
+}
+
+Matrix3 NominalToolPath::orientation() const { return tip(model_->mechanism, configuration()).R; }
+
 }  // namespace counterflex

@@ -4,6 +4,7 @@
 #include "compensation/gantry.hpp"
 #include "compensation/shop.hpp"
 #include "counterflex/compensation/job_windows.hpp"
+#include "counterflex/geometry/rotation.hpp"
 #include "counterflex/machine/tool.hpp"
 
 using namespace counterflex;
@@ -172,6 +173,28 @@ TEST_CASE("windows keep the tool that is in the spindle, and its model") {
       check_same(parts, whole);
     }
   }
+}
+
+TEST_CASE("forces in the tool's axes turn with [spindle] as with a [tool] that stands like it") {
+  Order order{.machine = read_machine(read_file(COUNTERFLEX_SOURCE_DIR "/samples/robot-spindle/machine.toml"),
+                                      "machine"),
+              .text = "G21 G90 G17\nT1 M6\nG0 X0 Y0 Z0\nG1 X20 F600\nY15\nX5 Y5\n",
+              .force = constant_force(milling()),
+              .tolerance = 20e-6,
+              .max_correction = 20e-3};
+  order.X_MW = order.machine.work.at("G54").X_MW;
+  std::get<ConstantForce>(order.force.rules[0].content).frame = ForceFrame::tool;
+  order.machine.gravity = {};
+  const Pose X_PS = order.machine.X_PT * Pose{exp_so3(Vector3(0.4, -0.2, 0.1)), {0.01, 0, 0.02}};
+  Order with_tip = order;
+  order.machine.X_PS = X_PS;
+  order.machine.tools = {{1, {.length = 0.05}}};
+  with_tip.machine.X_PT = X_PS * Pose{Matrix3::Identity(), {0, 0, -0.05}};
+  const WindowRun run = in_windows(order, whole_program), expected = in_windows(with_tip, whole_program);
+  if (run.failure) FAIL(run.failure->what);
+  REQUIRE_FALSE(expected.failure);
+  CHECK(expected.largest > 20e-6);
+  check_same(run, expected);
 }
 
 TEST_CASE("a window that cannot be compensated says the line, and those before it are done") {

@@ -24,6 +24,19 @@ TEST_CASE("what is not a finite number and nothing else is not read") {
   }
 }
 
+TEST_CASE("a tool's number is digits behind a T, or alone") {
+  CHECK(read_tool_number("T3") == 3);
+  CHECK(read_tool_number("t03") == 3);
+  CHECK(read_tool_number("12") == 12);
+  CHECK(read_tool_number("T0") == 0);
+  CHECK(read_tool_number("2147483647") == 2147483647);
+  for (const char* text : {"", "T", "TT3", "+3", "T+3", "-3", "-0", "3.0", "T3e0", "T 3", " 3", "3 ", "0x3",
+                           "2147483648", "X3"}) {
+    CAPTURE(text);
+    CHECK_FALSE(read_tool_number(text).has_value());
+  }
+}
+
 TEST_CASE("fixed numbers have exactly the digits asked for, rounded to nearest") {
   CHECK(format_fixed(1.23456, 3) == "1.235");
   CHECK(format_fixed(-1.23456, 3) == "-1.235");

@@ -30,6 +30,11 @@ TEST_CASE("a tool that is a length alone is rigid") {
   CHECK_FALSE(changes_model(machine, tool_3(machine)));
 }
 
+TEST_CASE("the number 0, which stands for no known tool, can have a length") {
+  const Machine machine = machine_with("[spindle]\n[tools.T0]\nlength_mm = 80\n");
+  CHECK(machine.tools.at(0).length.value() == doctest::Approx(0.08));
+}
+
 TEST_CASE("a radial stiffness is one of two compliances, along x and y of the tip") {
   const Machine machine = machine_with("[tools.T3]\nholder_N_per_um = 20\n");
   const Tool& tool = tool_3(machine);
@@ -135,7 +140,8 @@ TEST_CASE("a description says where a tool's stiffness is from, of a default too
       describe(machine_with("[spindle]\nxyz_mm = [0, 0, -60]\n[tools.T1]\nlength_mm = "
                             "50\n[tools.T3]\nlength_mm = 60\ndiameter_mm = "
                             "10\nstickout_mm = 25\n[tools.T4]\nholder_N_per_um = 12.34\n"));
-  CHECK(text.find("spindle      gauge line of tools' lengths at xyz 0 0 -60 mm from the platform\n") != std::string::npos);
+  CHECK(text.find("spindle      gauge line of tools' lengths at xyz 0 0 -60 mm from the platform\n") !=
+        std::string::npos);
   CHECK(text.find("tools        T1 50 mm long\n") != std::string::npos);
   CHECK(text.find("tool T3      60 mm long, 10 mm diameter, 25 mm sticking out, stiffness from a carbide "
                   "cantilever of 0.8 diameter core, 25 mm long: 23.2 N/um at its tip\n") !=

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "counterflex/files/files.hpp"
+#include "counterflex/geometry/rotation.hpp"
 #include "counterflex/machine/read_machine.hpp"
 #include "counterflex/statics/equilibrium.hpp"
 #include "counterflex/statics/linear.hpp"
@@ -217,6 +218,29 @@ TEST_CASE("a length puts the tip below [spindle], for a rigid tool and one that 
         doctest::Approx(100 * (0.12 * 0.12 - 0.08 * 0.08) / 1.5e6).epsilon(1e-3));
   const Pose rigid = loaded_tip(models.at(3), p, load);
   CHECK((rigid.p - longer.p).norm() < 1e-9);
+}
+
+TEST_CASE(
+    "the nominal path of a machine whose tools change begins each at its home, in the orientation it has "
+    "there") {
+  Machine machine = load_machine(COUNTERFLEX_SOURCE_DIR "/samples/robot-spindle/machine.toml");
+  machine.X_PS = machine.X_PT * Pose{exp_so3(Vector3(0.3, -0.2, 0.1)), {0.01, 0, 0.02}};
+  machine.tools[1] = {.length = 0.1};
+  const Model base = prepare(machine);
+  const ToolModels models = prepare_tools(machine, base, {1});
+  const Vector3 p = tip(base.mechanism, base.home).p + Vector3(0.05, -0.03, 0.02);
+  NominalToolPath path(home_of(base));
+  for (const Model* model : {&base, &models.at(1), &base}) {
+    REQUIRE(path.go_to(*model, p) == Status::converged);
+    const Pose home = tip(model->mechanism, model->home);
+    CHECK(path.place().model == model);
+    CHECK((path.orientation() - home.R).norm() < 1e-9);
+    CHECK((tip(model->mechanism, path.configuration()).p - p).norm() < 1e-9);
+    const NominalResult alone = follow(*model, model->home, {home.R, p});
+    CHECK((actuator_values(model->mechanism, path.configuration()) -
+           actuator_values(model->mechanism, alone.configuration))
+              .norm() < 1e-9);
+  }
 }
 
 TEST_CASE("a wrench at the platform keeps the arm of the reference point when a tool yields") {

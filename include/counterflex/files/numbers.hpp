@@ -6,9 +6,12 @@
 
 namespace counterflex {
 
-/// The whole of `text` as a finite number; a leading "+" is allowed. Nothing where it is anything else (empty, "nan",
-/// trailing characters).
+/// The whole of `text` as a finite number; a leading "+" is allowed. Nothing where it is anything else
+/// (empty, "nan", trailing characters).
 std::optional<double> read_number(std::string_view text);
+
+/// A tool's number, "3", "T3" or "t3": digits alone, at most 2147483647. Nothing where it is anything else.
+std::optional<long> read_tool_number(std::string_view text);
 
 /// `value` with exactly `decimals` digits after the point, rounded to nearest; no exponent, no "-0".
 std::string format_fixed(double value, int decimals);

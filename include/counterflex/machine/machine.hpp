@@ -108,6 +108,7 @@ struct Tool {
   ToolMaterial material = ToolMaterial::carbide;
   ToolStiffness from = ToolStiffness::rigid;
   std::vector<Element> yields{};  ///< from the rigid tool's tip to the tip, in the tip's axes; empty: rigid
+  bool in_file = true;            ///< else all that is known of it is the length, from a tool table
 };
 
 /// Components of the tip pose, in the order of six-vectors.

@@ -28,6 +28,8 @@ struct Overview {
   std::vector<PathTolerance> path_tolerances;
   Capped<LeftAlone> left_alone;
   std::optional<int> first_force_line;  ///< of the first move under a FORCE comment that is not OFF
+  std::optional<int>
+      first_feed_without_tool;          ///< line of the first feed move with no tool whose number is known
   std::optional<int> first_cycle_line;  ///< of the first hole of a cycle
   bool commented_force = false;         ///< a move is under a FORCE comment that is not zero
 };

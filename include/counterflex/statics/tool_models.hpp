@@ -1,6 +1,7 @@
 #pragma once
 /// Models of a machine with the tools that a program uses, for those tools that make it another machine.
 #include <map>
+#include <optional>
 #include <vector>
 
 #include "counterflex/statics/nominal.hpp"
@@ -25,5 +26,28 @@ struct NominalPlace {
 
 /// Where inverse kinematics of `model` starts.
 NominalPlace home_of(const Model& model);
+
+/// The nominal path of a machine whose tools change: it begins anew at home where the model does, and its tip is asked for
+/// the orientation that it has at that home.
+class NominalToolPath {
+ public:
+  explicit NominalToolPath(const NominalPlace& start);
+
+  /// Moves the tip of `model` to `p_MT` (m, in M); `model` outlives the path. As `NominalPath::go_to`.
+  Status go_to(const Model& model, const Vector3& p_MT);
+
+  const Configuration& configuration() const { return path_->configuration(); }
+  NominalPlace place() const { return {model_, configuration()}; }
+
+  /// Orientation of the tip where the machine stands, in M.
+  Matrix3 orientation() const;
+
+ private:
+  void begin(const Model& model, const Configuration& start);
+
+  const Model* model_ = nullptr;
+  Matrix3 R_home_ = Matrix3::Identity();
+  std::optional<NominalPath> path_;
+};
 
 }  // namespace counterflex
