@@ -52,6 +52,7 @@ void check_same(const Overview& a, const Overview& b) {
   CHECK(rows_of(a.left_alone) == rows_of(b.left_alone));
   CHECK(a.first_force_line == b.first_force_line);
   CHECK(a.first_cycle_line == b.first_cycle_line);
+  CHECK(a.first_feed_without_tool == b.first_feed_without_tool);
   CHECK(a.commented_force == b.commented_force);
 }
 
@@ -85,6 +86,11 @@ TEST_CASE("an overview says what the whole program holds") {
   CHECK(overview.first_force_line == 6);
   CHECK(overview.commented_force);
   CHECK(overview.first_cycle_line == 11);
+}
+
+TEST_CASE("an overview says where a feed move has no tool with a number; rapids need none") {
+  CHECK(overview_of(read("G21 G90 G0 X0 Y0 Z0\nG1 X1 F100\nT1 M6\nG1 X2\n")).first_feed_without_tool == 2);
+  CHECK_FALSE(overview_of(read("G21 G90 G0 X0 Y0 Z0\nT1 M6\nG1 X2 F100\n")).first_feed_without_tool);
 }
 
 TEST_CASE("a program without forces, cycles or text has an overview that says so") {
