@@ -162,9 +162,9 @@ void tell_moves(const PathInput& input, const ForceSource& source, const Model* 
                 Console& console) {
   ProgramReader reader(input.bytes, input.name, input.read);
   ToolAxes tool(model);
-  Unplaced unplaced;
   std::optional<long> block_number;
   PathEnd end;
+  Unplaced unplaced;
   while (reader.next()) {
     ignore_axes(reader.window(), input.ignored);
     const Toolpath path = build_toolpath(reader.window(), input.frames, end);
