@@ -1,10 +1,13 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "commands.hpp"
 #include "forces_table.hpp"
 #include "materials.hpp"
 #include "reading.hpp"
 #include "run.hpp"
+#include "work.hpp"
 
 namespace counterflex::cli {
 namespace {
@@ -16,9 +19,32 @@ struct BareRun {
   ProgramFile file;
   ProgramLook look;
   ForceInput force_input;
-  std::vector<WorkFrame> frames;
+  WorkPlace work;
   std::array<bool, 3> ignored{};
 };
+
+/// Whether the way in which the machine's axes lie in the program's changes the forces.
+bool needs_machine_axes(const ForceSource& source, const Overview& program) {
+  const auto needs = [](const ForceRule& rule) {
+    const auto* profile = std::get_if<ForceProfile>(&rule.content);
+    const bool log = profile != nullptr && profile->within && profile->machine_coordinates;
+    return log || (frame_of(rule) == ForceFrame::machine && !is_zero(rule));
+  };
+  return program.commented_force || std::any_of(source.rules.begin(), source.rules.end(), needs);
+}
+
+void warn_of_bare_run(const BareRun& run, const Options& options, Console& console) {
+  const Overview& program = run.look.program;
+  warn_of(program, options.command, console);
+  if (!run.work.assumption.empty()) console.warning(program.file, 0, run.work.assumption);
+  const ForceSource& source = run.force_input.source;
+  if (options.work.empty() && needs_machine_axes(source, program))
+    console.warning(program.file, 0,
+                    "neither a machine nor --work is given: the axes of the machine frame are taken as those "
+                    "of the program");
+  if (const auto cycles = remark_of_cycles(program, source, options.command))
+    console.warning(program.file, cycles->line, cycles->what);
+}
 
 BareRun prepare_bare_run(const Options& options, Console& console) {
   refuse_stdin_twice(options);
@@ -28,11 +54,10 @@ BareRun prepare_bare_run(const Options& options, Console& console) {
   BareRun run{std::move(tools), read, open_program("program", options.program), {}, {}, {}};
   run.look = look_through(options, run.file, run.read, nullptr);
   run.force_input = read_force_input(options);
-  run.frames.resize(run.look.program.work_offsets.size());
-  settle_forces({run.file.bytes, run.look.program.file, run.read, run.frames, run.ignored},
+  run.work = place_work(options.work, run.look.program);
+  settle_forces({run.file.bytes, run.look.program.file, run.read, run.work.frames, run.ignored},
                 run.force_input.source);
-  for (const Remark& remark : run.look.program.remarks)
-    console.warning(run.look.program.file, remark.line, remark.what);
+  warn_of_bare_run(run, options, console);
   return run;
 }
 
@@ -60,10 +85,41 @@ class ToolAxes {
   std::optional<NominalToolPath> nominal_;
 };
 
+/// Feed moves that are no part of the path, because their place is not known: each run of them once.
+class Unplaced {
+ public:
+  void warn(const Program& window, const Toolpath& path, Console& console) {
+    std::size_t next = 0;
+    for (std::size_t m = 0; m < window.moves.size(); ++m) {
+      while (next < path.segments.size() && path.segments[next].move < m) ++next;
+      const Move& move = window.moves[m];
+      const bool placed = next < path.segments.size() && path.segments[next].move == m;
+      const std::string axes = unknown_axes(move);
+      const bool is = !placed && !move.cycle && move.motion == Motion::feed && !axes.empty();
+      if (is && !before_)
+        console.warning(
+            window.file, move.line,
+            "not on a known path: the position in " + axes + " is not known, and no force is told");
+      before_ = is;
+    }
+  }
+
+ private:
+  static std::string unknown_axes(const Move& move) {
+    std::string axes;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      if (!move.known_start[axis] || !move.known_end[axis]) axes += "XYZ"[axis];
+    return axes;
+  }
+
+  bool before_ = false;
+};
+
 /// Where the moves are told.
 class Told {
  public:
-  Told(const Options& options, const std::string& program, bool at_platform) : json_(options.json) {
+  Told(const Options& options, const std::string& program, bool at_platform)
+      : program_(program), scale_(options.load_scale), json_(options.json) {
     if (options.output) profile_.emplace(*options.output);
     if (profile_) profile_->write(profile_head(program, at_platform));
     to_stdout_ = options.output == "-";
@@ -75,13 +131,13 @@ class Told {
     say(json_ ? json_row(move, is_first_) : table_row(move));
     is_first_ = false;
     cli::add(move, totals_);
-    if (profile_) profile_->write(profile_row(move));
+    if (profile_) profile_->write(profile_rows(program_, move, scale_));
   }
 
   /// Throws `InputError` (Exit::program_text) where a profile would have no row.
-  void finish(const std::string& program, Console& console) {
+  void finish(Console& console) {
     if (profile_ && is_first_)
-      throw InputError(Exit::program_text, {program},
+      throw InputError(Exit::program_text, {program_},
                        "has no feed move, so that there is no profile to write");
     say(json_ ? json_foot(totals_) : table_foot(totals_));
     if (profile_) profile_->publish();
@@ -94,6 +150,8 @@ class Told {
     if (page_) page_->write(text);
   }
 
+  const std::string& program_;
+  double scale_;
   bool json_, to_stdout_ = false, is_first_ = true;
   ForceTotals totals_;
   std::optional<FileWriter> profile_, page_;
@@ -105,10 +163,12 @@ void tell_moves(const PathInput& input, const ForceSource& source, const Run* ru
   ToolAxes tool(run);
   std::optional<long> block_number;
   PathEnd end;
+  Unplaced unplaced;
   while (reader.next()) {
     ignore_axes(reader.window(), input.ignored);
     const Toolpath path = build_toolpath(reader.window(), input.frames, end);
     end = path.end;
+    unplaced.warn(reader.window(), path, console);
     if (!path.segments.empty())
       console.progress(fmt::format("line {} of {}", path.segments.front().line, lines));
     const std::vector<Matrix3> R_MT = tool.along(reader.window(), path);
@@ -116,7 +176,7 @@ void tell_moves(const PathInput& input, const ForceSource& source, const Run* ru
       told.add(move);
   }
   input.bytes.refuse_change();
-  told.finish(input.name, console);
+  told.finish(console);
   console.finish_warnings();
 }
 
@@ -132,7 +192,7 @@ Exit run_forces(const Options& options, Console& console) {
   if (options.machine.empty()) {
     BareRun run = prepare_bare_run(options, console);
     Told told(options, run.look.program.file, acts_at_platform(run.force_input.source));
-    tell_moves({run.file.bytes, run.look.program.file, run.read, run.frames, run.ignored},
+    tell_moves({run.file.bytes, run.look.program.file, run.read, run.work.frames, run.ignored},
                run.force_input.source, nullptr, run.look.program.lines, told, console);
     return Exit::done;
   }

@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "counterflex/files/input_error.hpp"
 #include "counterflex/files/numbers.hpp"
 #include "counterflex/geometry/units.hpp"
 
@@ -11,6 +12,9 @@ namespace counterflex::cli {
 namespace {
 
 constexpr int force_decimals = 6, length_decimals = 9;  // of the profile: N, N m and mm
+
+// Of two forces of equal size the first is the largest, however their axes turn.
+constexpr double rounding = 1e-9;
 
 std::string moves_text(const ForceTotals::Sum& sum) {
   return fmt::format("{} feed move{}, {:.3f} mm", sum.moves, sum.moves == 1 ? "" : "s", sum.length / mm);
@@ -23,6 +27,31 @@ nlohmann::ordered_json sum_json(const ForceTotals::Sum& sum) {
 nlohmann::ordered_json number_or_null(double value, int decimals) {
   if (value == 0) return nullptr;
   return rounded(value, decimals);
+}
+
+/// Throws where a profile of steps in the feed frame cannot hold the force of a move.
+void refuse_move(const std::string& program, const MoveForce& move, double scale) {
+  const auto refuse = [&](Exit exit, const std::string& why) {
+    throw InputError(exit, {program, move.line, 1}, why);
+  };
+  if (move.comment && (!move.why.empty() || scale != 1))
+    refuse(Exit::usage,
+           "a FORCE comment covers this move, which the profile leaves to it, with neither --load-scale nor "
+           "--air-above: give these to the command that reads the profile instead");
+  if (move.comment) return;
+  constexpr std::string_view instead =
+      "give the other commands the forces from which this one has them, or take --json";
+  if (move.only_z)
+    refuse(
+        Exit::machine_or_force,
+        fmt::format("the feed is parallel to the tool axis, and the force of {:.6g} N is not: a profile in "
+                    "the feed frame cannot say it; {}",
+                    move.largest_N, instead));
+  if (move.steps.empty())
+    refuse(Exit::machine_or_force,
+           fmt::format("the force, {:.6g} N at most, changes along this move: a profile of steps in the feed "
+                       "frame cannot say it; {}",
+                       move.largest_N, instead));
 }
 
 }  // namespace
@@ -38,9 +67,9 @@ void add(const MoveForce& move, ForceTotals& totals) {
   }
   count(totals.with);
   totals.only_z += move.only_z;
-  const double force = move.F.head<3>().norm();
-  if (force <= totals.largest_N) return;
-  totals.largest_N = force;
+  totals.changing += move.changes;
+  if (move.largest_N <= totals.largest_N * (1 + rounding)) return;
+  totals.largest_N = move.largest_N;
   totals.largest_line = move.line;
 }
 
@@ -62,7 +91,9 @@ std::string table_row(const MoveForce& move) {
                                    : fmt::format("{:>8.4f}", move.feed_per_tooth / mm);
   if (!move.why.empty()) return text + "   none: " + move.why + "\n";
   for (int i = 0; i < 6; ++i) text += " " + fmt::format("{:>9}", format_fixed(move.F[i], i < 3 ? 2 : 4));
-  return text + (move.only_z ? "  along the tool only\n" : "\n");
+  if (move.only_z) text += "  along the tool only";
+  if (move.changes) text += "  changes along the move";
+  return text + "\n";
 }
 
 std::string table_foot(const ForceTotals& totals) {
@@ -74,6 +105,11 @@ std::string table_foot(const ForceTotals& totals) {
         "  {} of them along the tool: sideways there is no direction, and only what is along the tool "
         "is shown\n",
         totals.only_z);
+  if (totals.changing > 0)
+    text += fmt::format(
+        "  the force changes along {} of them: what is shown is in the middle, the largest may be "
+        "elsewhere\n",
+        totals.changing);
   text += fmt::format("without a force  {}\n", moves_text(totals.without));
   for (const auto& [why, sum] : totals.why) text += fmt::format("  {}: {}\n", why, moves_text(sum));
   return text;
@@ -96,6 +132,8 @@ std::string json_row(const MoveForce& move, bool first) {
     auto& wrench = json["wrench_N_Nm"] = nlohmann::ordered_json::array();
     for (int i = 0; i < 6; ++i) wrench.push_back(rounded(move.F[i], force_decimals));
     json["along_tool_only"] = move.only_z;
+    json["changes_along_move"] = move.changes;
+    json["largest_N"] = rounded(move.largest_N, force_decimals);
   } else {
     json["why"] = move.why;
   }
@@ -118,16 +156,24 @@ std::string json_foot(const ForceTotals& totals) {
 
 std::string profile_head(const std::string& program, bool at_platform) {
   return fmt::format(
-      "# Forces of {}, a row a feed move; zeros where none acts.\n"
+      "# Forces of {}, a row a feed move, and one where the force steps within it;\n"
+      "# zeros where none acts, nothing where a FORCE comment does.\n"
       "# frame = feed\n# sense = on_tool\n# at = {}\n# interpolation = step\n"
       "s_mm, fx_N, fy_N, fz_N, mx_Nm, my_Nm, mz_Nm\n",
       program, at_platform ? "platform" : "tip");
 }
 
-std::string profile_row(const MoveForce& move) {
-  std::string text = format_fixed(move.s_start / mm, length_decimals);
-  for (int i = 0; i < 6; ++i) text += ", " + format_fixed(move.why.empty() ? move.F[i] : 0, force_decimals);
-  return text + "\n";
+std::string profile_rows(const std::string& program, const MoveForce& move, double scale) {
+  refuse_move(program, move, scale);
+  const auto key = [](double s) { return format_fixed(s / mm, length_decimals); };
+  if (move.comment) return key(move.s_start) + ", , , , , ,\n";
+  std::string text;
+  for (const ForceStep& step : move.steps) {
+    text += key(step.s);
+    for (int i = 0; i < 6; ++i) text += ", " + format_fixed(step.F[i], force_decimals);
+    text += "\n";
+  }
+  return text;
 }
 
 }  // namespace counterflex::cli

@@ -16,6 +16,7 @@ struct ForceTotals {
   Sum with, without;
   std::map<std::string, Sum> why;  ///< those without, by reason
   std::size_t only_z = 0;          ///< moves of which only the force along the tool is known
+  std::size_t changing = 0;        ///< moves along which the force is not the same
   double largest_N = 0;
   int largest_line = 0;
 };
@@ -31,8 +32,11 @@ std::string json_head(const std::string& program);
 std::string json_row(const MoveForce& move, bool first);
 std::string json_foot(const ForceTotals& totals);
 
-/// A profile by path length in the feed frame, a row a move, zeros for one without a force.
+/// A profile by path length in the feed frame: rows where a move begins and where its force steps, zeros for
+/// one without a force, none for one that a FORCE comment covers. `profile_rows` throws `InputError`
+/// (Exit::machine_or_force) where steps in the feed frame cannot say what acts, and (Exit::usage) where
+/// `scale`, or a bound of the air, makes another force of a comment's.
 std::string profile_head(const std::string& program, bool at_platform);
-std::string profile_row(const MoveForce& move);
+std::string profile_rows(const std::string& program, const MoveForce& move, double scale);
 
 }  // namespace counterflex::cli

@@ -162,12 +162,20 @@ ProgramFile open_program(const std::string& role, const std::string& path) {
   return {std::move(file), std::move(bytes)};
 }
 
-void warn_of(const Overview& program, Console& console) {
+void warn_of(const Overview& program, Command command, Console& console) {
+  const std::string left = command == Command::forces ? "not on a known path: " : "not corrected: ";
   for (const Remark& remark : program.remarks) console.warning(program.file, remark.line, remark.what);
   const Capped<LeftAlone>& left_alone = program.left_alone;
-  for (const LeftAlone& block : left_alone.rows)
-    console.warning(program.file, block.line, "not corrected: " + block.why);
+  for (const LeftAlone& block : left_alone.rows) console.warning(program.file, block.line, left + block.why);
   console.more_warnings(program.file, left_alone.count - left_alone.rows.size());
+}
+
+std::optional<Remark> remark_of_cycles(const Overview& program, const ForceSource& source, Command command) {
+  const bool forces = !source.rules.empty() || program.commented_force;
+  if (!program.first_cycle_line || !forces || source.scale == 0) return std::nullopt;
+  return Remark{*program.first_cycle_line,
+                command == Command::forces ? "holes of cycles have no force, and are not among the feed moves"
+                                           : "holes of cycles are corrected without the cutting force"};
 }
 
 ForceInput read_force_input(const Options& options) {

@@ -29,8 +29,8 @@ struct MachineInput {
 };
 MachineInput read_machine_input(const Options& options);
 
-/// Throws (Exit::machine_or_force) where home misses its closures or is singular, or no offsets of the actuators hold the
-/// machine true there under its weight, though the file says that the control does.
+/// Throws (Exit::machine_or_force) where home misses its closures or is singular, or no offsets of the
+/// actuators hold the machine true there under its weight, though the file says that the control does.
 void refuse_home(const Model& model, const Machine& machine);
 
 /// Lengths of tools by number: those of --tool-table, and of `machine` for tools that it does not name.
@@ -66,8 +66,11 @@ ProgramFile open_program(const std::string& role, const std::string& path);
 [[noreturn]] void blame_dialect(const InputError& error, const Options& options, const Machine* machine,
                                 const std::string& program);
 
-/// Warns of what the reader remarked and left alone.
-void warn_of(const Overview& program, Console& console);
+/// Warns of what the reader remarked and left alone, in the words of `command`.
+void warn_of(const Overview& program, Command command, Console& console);
+
+/// The feed of a cycle is the control's own: no part of the path, so that no force acts there.
+std::optional<Remark> remark_of_cycles(const Overview& program, const ForceSource& source, Command command);
 
 /// Where the forces come from: rules of files, in their order, and then those of --force.
 struct ForceInput {

@@ -93,6 +93,10 @@ void check_output(const Options& options) {
         Exit::usage, {},
         "the profile and the document of --json cannot both go to standard output; give -o a file");
   check_paths({*options.output}, inputs_of(options));
+  const std::string extension = fs::path(*options.output).extension().string();
+  if (*options.output != "-" && extension != ".csv")
+    throw InputError(Exit::usage, {*options.output},
+                     fmt::format("a force profile is .csv, not '{}': -f would not read it", extension));
 }
 
 RunFiles::RunFiles(const OutputPaths& paths, const CsvColumns& columns) : paths_(paths), columns_(columns) {

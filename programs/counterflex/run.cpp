@@ -57,15 +57,6 @@ CompensationOptions compensation_options(const Options& options, const Machine& 
   return result;
 }
 
-/// The feed of a cycle is the control's own: no part of the path, so that no force acts there.
-void warn_of_cycles(Run& run) {
-  const ForceSource& source = run.force_input.source;
-  const bool forces = !source.rules.empty() || run.program.commented_force;
-  if (!run.program.first_cycle_line || !forces || source.scale == 0) return;
-  run.facts.warnings.push_back(
-      {*run.program.first_cycle_line, "holes of cycles are corrected without the cutting force"});
-}
-
 /// Stiffness that nobody has given, and tools that the file does not know beside those that it does.
 void warn_of_tools(Run& run) {
   const Machine& machine = run.machine.machine;
@@ -93,9 +84,9 @@ void warn_of_tools(Run& run) {
   }
 }
 
-void warn_of_run(Run& run, Console& console) {
+void warn_of_run(Run& run, Command command, Console& console) {
   const Overview& program = run.program;
-  warn_of(program, console);
+  warn_of(program, command, console);
   if (!run.work.assumption.empty()) run.facts.warnings.push_back({0, run.work.assumption});
   for (const Remark& warning : run.facts.warnings) console.warning(program.file, warning.line, warning.what);
   console.detail(fmt::format("{}: dialect {}, {} blocks, {} moves", program.file, program.dialect,
@@ -144,8 +135,9 @@ std::unique_ptr<Run> prepare_run(const Options& options, Console& console) {
   run->facts = facts_of(options, *run);
   warn_of_orientation(*run);
   warn_of_tools(*run);
-  warn_of_cycles(*run);
-  warn_of_run(*run, console);
+  if (auto cycles = remark_of_cycles(run->program, run->force_input.source, options.command))
+    run->facts.warnings.push_back(std::move(*cycles));
+  warn_of_run(*run, options.command, console);
   return run;
 }
 

@@ -3,17 +3,21 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <map>
+
 #include "counterflex/files/input_error.hpp"
 #include "counterflex/geometry/units.hpp"
+#include "values.hpp"
 
 namespace counterflex::cli {
 namespace {
 
 constexpr const char* power_on_offset = "G54";
 
-std::string names(const Machine& machine) {
+template <typename Place>
+std::string names(const std::map<std::string, Place>& work) {
   std::string text;
-  for (const auto& [name, offset] : machine.work) text += (text.empty() ? "" : ", ") + name;
+  for (const auto& [name, offset] : work) text += (text.empty() ? "" : ", ") + name;
   return text;
 }
 
@@ -53,6 +57,11 @@ std::string no_table_warning(const Overview& program) {
       fmt::join(in_use, ", "));
 }
 
+std::string start_warning(const Overview& program) {
+  if (program.offsets_used.empty() || !program.offsets_used[0]) return "";
+  return "the program selects no work offset at first; G54, which controls start with, is assumed";
+}
+
 WorkFrame place_offset(const Machine& machine, const Model& model, const std::string& machine_file,
                        const std::string& selected) {
   const std::string name = selected.empty() ? power_on_offset : selected;
@@ -61,7 +70,7 @@ WorkFrame place_offset(const Machine& machine, const Model& model, const std::st
     throw InputError(
         Exit::machine_or_force, {machine_file},
         fmt::format("no [work.{}], which the program {}; the offsets are {} (--work gives others)", name,
-                    selected.empty() ? "starts with, selecting none" : "selects", names(machine)));
+                    selected.empty() ? "starts with, selecting none" : "selects", names(machine.work)));
   WorkFrame frame{name, found->second.X_MW};
   if (const auto& touched = found->second.datum.touched_at)
     frame.datum_shift = deviation_at(model, frame.X_MW * *touched, machine_file, name);
@@ -80,9 +89,31 @@ WorkPlace place_work(const Machine& machine, const Model& model, const std::stri
   const std::vector<bool>& used = program.offsets_used;
   for (std::size_t i = 0; i < used.size(); ++i)
     if (used[i]) place.frames[i] = place_offset(machine, model, machine_file, program.work_offsets[i]);
-  if (!used.empty() && used[0])
-    place.assumption =
-        "the program selects no work offset at first; G54, which controls start with, is assumed";
+  place.assumption = start_warning(program);
+  return place;
+}
+
+WorkPlace place_work(const std::vector<std::string>& given, const Overview& program) {
+  WorkPlace place{std::vector<WorkFrame>(program.work_offsets.size()), {}};
+  std::map<std::string, Pose> table;
+  for (const std::string& text : given) {
+    const auto [name, X_MW] = work_of(text);
+    table[name] = X_MW;
+  }
+  if (table.empty()) return place;
+  for (std::size_t i = 0; i < program.offsets_used.size(); ++i) {
+    if (!program.offsets_used[i]) continue;
+    const std::string& selected = program.work_offsets[i];
+    const std::string name = selected.empty() ? power_on_offset : selected;
+    const auto found = table.find(name);
+    if (found == table.end())
+      throw InputError(
+          Exit::usage, {},
+          fmt::format("--work does not give {}, which the program {}; it gives {}", name,
+                      selected.empty() ? "starts with, selecting none" : "selects", names(table)));
+    place.frames[i] = WorkFrame{name, found->second};
+  }
+  place.assumption = start_warning(program);
   return place;
 }
 

@@ -22,4 +22,8 @@ struct WorkPlace {
 WorkPlace place_work(const Machine& machine, const Model& model, const std::string& machine_file,
                      const Overview& program);
 
+/// The same without a machine, by the texts of --work, which may be none: then all offsets are the machine
+/// frame. Throws `InputError` (Exit::usage) where they make no sense or do not give an offset in use.
+WorkPlace place_work(const std::vector<std::string>& given, const Overview& program);
+
 }  // namespace counterflex::cli

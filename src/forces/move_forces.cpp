@@ -1,6 +1,7 @@
 #include "counterflex/forces/move_forces.hpp"
 
 #include <algorithm>
+#include <array>
 #include <span>
 
 #include "forces/turned.hpp"
@@ -10,6 +11,19 @@ namespace counterflex {
 namespace {
 
 constexpr double middle = 0.5;
+
+// Of a wrench, what may change along a piece that is called constant: the pieces of one that turns are
+// linear to half of this.
+constexpr double same_wrench = 2e-4;
+
+// Wrenches of two pieces that are one step.
+constexpr double same_step = 1e-9;
+
+// Pieces shorter than this (m) stand for a flip of the feed frame between two others.
+constexpr double shortest_part = 2e-7;
+
+// Fractions of a piece at which it is asked whether it is constant; no turns of a helix come back at all.
+constexpr std::array asked{0.0, 0.1458980337503154, 0.3819660112501051, 0.5, 1.0};
 
 bool has_models(const ForceSource& source) {
   return std::any_of(source.rules.begin(), source.rules.end(),
@@ -33,13 +47,20 @@ Vector6 value_in_the_middle(const std::vector<ForcePiece>& pieces, const Segment
   return value(piece, std::clamp(s, piece.s0, piece.s1));
 }
 
-/// Of F, in machine axes, what the feed frame can say.
-void take_wrench(const Vector6& F, const ForceAxes& axes, MoveForce& move) {
-  move.F << axes.R_MF.transpose() * F.head<3>(), axes.R_MF.transpose() * F.tail<3>();
-  if (!axes.only_z) return;
-  const Vector6 all = move.F;
-  for (const int i : {0, 1, 3, 4}) move.F[i] = 0;
-  move.only_z = (all - move.F).norm() > 1e-9 * all.norm();
+/// Of F, in machine axes, what the feed frame can say; `lost` is set where that is not all.
+Vector6 in_feed_frame(const Vector6& F, const ForceAxes& axes, bool& lost) {
+  Vector6 all;
+  all << axes.R_MF.transpose() * F.head<3>(), axes.R_MF.transpose() * F.tail<3>();
+  if (!axes.only_z) return all;
+  Vector6 told = all;
+  for (const int i : {0, 1, 3, 4}) told[i] = 0;
+  lost = lost || (all - told).norm() > 1e-9 * all.norm();
+  return told;
+}
+
+/// Takes a constant wrench from s on as a step, unless it is that of the step before.
+void add_step(double s, const Vector6& F, std::vector<ForceStep>& steps) {
+  if (steps.empty() || (steps.back().F - F).norm() > same_step * F.norm()) steps.push_back({s, F});
 }
 
 /// The moves of one window, one after the other.
@@ -61,21 +82,54 @@ class MoveForces {
     pieces_.clear();
     ForceRemarks remarks;
     unblended_->append_to(i, 0, pieces_, remarks);
-    const ForceAxes axes = axes_of_feed(i);
-    if (remarks.unforced.empty())
-      take_wrench(value_in_the_middle(pieces_, segment), axes, result);
-    else
-      result.why = remarks.unforced.front().why;
-    if (coverage_ && !in_air(source_, move)) take_model(i, axes, result);
+    if (!remarks.unforced.empty()) result.why = remarks.unforced.front().why;
+    result.comment = move.force.has_value();
+    const AxesAlong axes = axes_of_feed(i);
+    take_wrenches(axes, segment, result);
+    if (coverage_ && !in_air(source_, move)) take_model(i, axes.at(middle, 1), result);
     return result;
   }
 
  private:
-  ForceAxes axes_of_feed(std::size_t i) const {
+  AxesAlong axes_of_feed(std::size_t i) const {
     const Segment& segment = path_.segments[i];
     const std::size_t each = R_MT_.size() == 1 ? 1 : R_MT_.size() / path_.segments.size();
     const std::span<const Matrix3> R_MT(R_MT_.data() + (R_MT_.size() == 1 ? 0 : i * each), each);
-    return AxesAlong(ForceFrame::feed, segment, path_.frames[segment.frame].X_MW.R, R_MT).at(middle, 1);
+    return {ForceFrame::feed, segment, path_.frames[segment.frame].X_MW.R, R_MT};
+  }
+
+  /// The steps of a move, if it has nothing else; its wrench is that of the only one, else that in the
+  /// middle.
+  void take_wrenches(const AxesAlong& axes, const Segment& segment, MoveForce& result) const {
+    bool constant = true;
+    for (const ForcePiece& piece : pieces_) {
+      result.largest_N = std::max({result.largest_N, piece.F0.head<3>().norm(), piece.F1.head<3>().norm()});
+      if (pieces_.size() > 1 && piece.s1 - piece.s0 < shortest_part) continue;
+      const double s = result.steps.empty() ? segment.s_start : piece.s0;
+      if (const auto F = constant_along(piece, axes, segment, result.only_z))
+        add_step(s, *F, result.steps);
+      else
+        constant = false;
+    }
+    if (!constant) result.steps.clear();
+    result.changes = result.steps.size() != 1;
+    result.F = result.changes
+                   ? in_feed_frame(value_in_the_middle(pieces_, segment), axes.at(middle, 1), result.only_z)
+                   : result.steps.front().F;
+  }
+
+  /// The wrench of a piece in the feed frame, where that is constant.
+  static std::optional<Vector6> constant_along(const ForcePiece& piece, const AxesAlong& axes,
+                                               const Segment& segment, bool& lost) {
+    const auto at = [&](double w) {
+      const double s = piece.s0 + w * (piece.s1 - piece.s0);
+      const double u = (s - segment.s_start) / (segment.s_end - segment.s_start);
+      return in_feed_frame(piece.F0 + w * (piece.F1 - piece.F0), axes.at(u, w < 1 ? 1 : -1), lost);
+    };
+    const Vector6 F = (at(0) + at(1)) / 2;
+    const auto same = [&](double w) { return (at(w) - F).norm() <= same_wrench * F.norm(); };
+    if (std::all_of(asked.begin(), asked.end(), same)) return F;
+    return std::nullopt;
   }
 
   void take_model(std::size_t i, const ForceAxes& axes, MoveForce& result) {

@@ -56,6 +56,41 @@ TEST_CASE("of a plunge only what is along the tool can be told in the feed frame
   CHECK(!moves_of(turning_program(), constant(wrench(0, 0, -5)))[0].only_z);
 }
 
+TEST_CASE("a force that steps within a move is told step by step, and its largest wherever it is") {
+  const auto moves =
+      moves_of(turning_program(), from_csv(on_tool + "s_mm,fx_N,fy_N,fz_N\n0,0,0,-1\n10,1,0,0\n13,0,7,0\n"
+                                                     "14,2,0,0\n20,0,0,0\n"));
+  REQUIRE(moves[1].steps.size() == 3);
+  CHECK(moves[1].changes);
+  CHECK(moves[1].largest_N == 7);
+  CHECK(moves[1].F == wrench(2, 0, 0));
+  CHECK(moves[1].steps[1].s == doctest::Approx(13 * mm));
+  CHECK(moves[1].steps[1].F == wrench(0, 7, 0));
+  CHECK(!moves[2].changes);
+  CHECK(moves[2].steps.size() == 1);
+}
+
+TEST_CASE("a force that changes gradually along a move has no steps") {
+  const auto moves = moves_of(
+      turning_program(), from_csv(linear + "s_mm,fx_N,fy_N,fz_N\n0,0,0,-1\n10,0,0,0\n15,9,0,0\n20,0,0,0\n"
+                                           "40,0,0,0\n"));
+  CHECK(moves[1].steps.empty());
+  CHECK(moves[1].changes);
+  CHECK(moves[1].largest_N == 9);
+  CHECK(!moves[2].changes);
+}
+
+TEST_CASE("round an arc a force in the feed frame is one step, and one in machine axes changes") {
+  Program arc = ProgramBuilder({0, 0, 0}).arc({0, 20, 0}, {0, 10, 0}, 600).program;
+  arc.operations = {""};
+  const Vector6 F = wrench(5, 6, 7, 1, 2, 3);
+  const auto turning = moves_of(arc, constant(F, ForceFrame::feed));
+  REQUIRE(turning[0].steps.size() == 1);
+  CHECK(agree(turning[0].steps[0].F, F, 1e-9));
+  CHECK(moves_of(arc, constant(F))[0].steps.empty());
+  CHECK(moves_of(arc, constant(wrench(0, 0, 7, 0, 0, 1)))[0].steps.size() == 1);
+}
+
 TEST_CASE("a model's moves have its feed per tooth, its wrench and its reasons") {
   const auto moves = moves_of(turning_program(), model(sample_cut()));
   CHECK(moves[0].why == "the feed is along the tool axis (plunge)");

@@ -8,6 +8,12 @@
 
 namespace counterflex {
 
+/// From path length s (m) on: a wrench in the feed frame (N, N m).
+struct ForceStep {
+  double s = 0;
+  Vector6 F = Vector6::Zero();
+};
+
 /// A feed move and the wrench in its middle.
 struct MoveForce {
   int line = 0;
@@ -15,11 +21,15 @@ struct MoveForce {
   double s_start = 0;  ///< cutting path length at its start (m)
   double length = 0;   ///< m
   double feed_m_s = 0;
-  double spindle_rpm = 0;       ///< the model's own where one acts, else the program's
-  double feed_per_tooth = 0;    ///< m; 0: no cutting model acts
-  Vector6 F = Vector6::Zero();  ///< on the tool, scaled, axes of the feed frame (N, N m)
-  bool only_z = false;          ///< the feed is parallel to the tool: of F only what is along it is known
-  std::string why;              ///< empty: F acts; else why there is none
+  double spindle_rpm = 0;        ///< the model's own where one acts, else the program's
+  double feed_per_tooth = 0;     ///< m; 0: no cutting model acts
+  Vector6 F = Vector6::Zero();   ///< on the tool, scaled, axes of the feed frame (N, N m)
+  bool only_z = false;           ///< the feed is parallel to the tool: of F only what is along it is known
+  bool comment = false;          ///< the program's FORCE comment covers it
+  bool changes = false;          ///< the wrench is not the same all along the move: `F` is that in the middle
+  double largest_N = 0;          ///< of the force anywhere on the move
+  std::vector<ForceStep> steps;  ///< what acts, from the start on; none where it changes between steps
+  std::string why;               ///< empty: F acts; else why there is none
 };
 
 /// The feed moves of a window that is not the first: `block_number` is N of the moves before, and then of
