@@ -30,6 +30,15 @@ Location where_of(const ForceRule& rule, std::size_t row) {
   return profile != nullptr ? profile->rows[row].where : rule.where;
 }
 
+/// What ends the overlap of two rules of equal rank.
+std::string_view mended(const ForceRule& a, const ForceRule& b) {
+  if (rank(a) != ForceRank::place) return "one of them must be more specific";
+  if (is_section(a) && is_section(b)) return "narrow lines or blocks of one of them";
+  if (is_section(a) || is_section(b))
+    return "narrow lines or blocks of the section, or end the rows with one that has its key only";
+  return "end the one that begins first with a row that has its key only";
+}
+
 /// Rules are told of in the order in which they were given; what stands in a file, at its place there.
 [[noreturn]] void refuse_both(const ForceRule& a, std::size_t row_a, const ForceRule& b, std::size_t row_b,
                               int line) {
@@ -39,10 +48,9 @@ Location where_of(const ForceRule& rule, std::size_t row) {
                  at_second = where_of(second, swap ? row_a : row_b);
   const bool at_first_one = at_second.file.empty();
   fail_rule(at_first_one ? first : second, at_first_one ? at_first : at_second,
-            fmt::format("covers line {} of the program, which {} covers too; both are given for {}: one of "
-                        "them must be more specific",
-                        line, at_first_one ? place_of(second, at_second) : place_of(first, at_first),
-                        shown(rank(first))));
+            fmt::format("covers line {} of the program, which {} covers too; both are given for {}: {}", line,
+                        at_first_one ? place_of(second, at_second) : place_of(first, at_first),
+                        shown(rank(first)), mended(first, second)));
 }
 
 /// Throws where two are of equal rank.

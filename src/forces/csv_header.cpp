@@ -99,13 +99,16 @@ RowKey key_of_header(const Header& header, const Location& where) {
   return RowKey::point;
 }
 
+// Less is below the rounding of any log, and its cells could not be counted.
+constexpr double least_within_mm = 1e-4;
+
 double read_within(const Setting& setting, const Location& where, bool given) {
   if (given)
     fail({where.file, where.line, setting.key_column}, fmt::format("'{}' is given twice", setting.key));
   const auto value = read_number(setting.value);
-  if (!value || *value <= 0)
+  if (!value || *value < least_within_mm)
     fail({where.file, where.line, setting.value_column},
-         fmt::format("{} is '{}', must be a number greater than 0", setting.key, setting.value));
+         fmt::format("{} is '{}', must be a number from {} up", setting.key, setting.value, least_within_mm));
   return *value * mm;
 }
 

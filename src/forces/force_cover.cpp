@@ -7,6 +7,7 @@
 #include "forces/point_log.hpp"
 #include "forces/profile_ends.hpp"
 #include "forces/program_kinds.hpp"
+#include "forces/rules_in_use.hpp"
 #include "forces/selector_text.hpp"
 
 namespace counterflex {
@@ -41,7 +42,7 @@ bool is_log(const ForceRule& rule) {
 struct ForceCover::State {
   enum class Stage { places_of_points, far_point, cover, done };
 
-  explicit State(ForceSource& s) : source(s), kinds(s.rules) {
+  explicit State(ForceSource& s) : source(s), kinds(s.rules), in_use(s.rules) {
     for (ForceRule& rule : source.rules)
       if (is_log(rule)) logs.emplace_back(std::get<ForceProfile>(rule.content));
     stage = !logs.empty() ? Stage::places_of_points : Stage::cover;
@@ -75,6 +76,7 @@ struct ForceCover::State {
 
   void cover(const Program& window, const Toolpath& path) {
     kinds.add(window);
+    in_use.add(window, path);
     ends.add(window, path);
     file = window.file;
     Coverage coverage(source, window, path, block_number);
@@ -103,11 +105,12 @@ struct ForceCover::State {
     kinds.refuse_unknown(source.rules);
     for (const ProfileEnds& of_profile : profile_ends) of_profile.refuse_rows_beyond(ends);
     refuse_ranges_beyond();
+    in_use.refuse_idle();
     if (source.rules.size() == 1 && !profile_ends.empty()) profile_ends[0].refuse_missing_ends(ends);
     if (uncovered == 0) return;
     const std::string more = uncovered > 1 ? fmt::format(" and {} more", uncovered - 1) : "";
     throw InputError(
-        Exit::machine_or_force, {file, first_uncovered},
+        Exit::machine_or_force, {file, first_uncovered, 1},
         fmt::format("none of the given forces covers this feed move{}: a row or section for it is "
                     "required, with zeros where nothing is cut, or --force=0,0,0 for all that "
                     "nothing else covers",
@@ -131,6 +134,7 @@ struct ForceCover::State {
   std::vector<PointLog> logs;
   std::optional<FarPoint> far;
   ProgramKinds kinds;
+  RulesInUse in_use;
   ProgramEnds ends;
   std::vector<const ForceRule*> profiles;
   std::vector<ProfileEnds> profile_ends;  ///< of each profile

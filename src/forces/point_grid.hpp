@@ -32,7 +32,7 @@ class PointGrid {
   Vector3 least_, most_;  ///< of all points
   std::unordered_map<Cell, std::vector<std::uint32_t>, Hash> cells_;
   Cell first_{1, 1, 1}, last_{0, 0, 0};  ///< of the last answer
-  std::vector<std::uint32_t> found_;
+  std::vector<std::uint32_t> found_, nothing_;
 };
 
 }  // namespace counterflex

@@ -55,10 +55,6 @@ std::vector<Vector3> points_of(const ForceProfile& log) {
   return points;
 }
 
-std::string shown_point(const Vector3& p) {
-  return fmt::format("x {:.9g}, y {:.9g}, z {:.9g}", p.x() / mm, p.y() / mm, p.z() / mm);
-}
-
 /// Rows at one place have the mean of their wrenches; one that ends the cover does so.
 std::vector<ForceRow> one_a_place(const std::vector<ForceRow>& rows) {
   std::vector<ForceRow> places;
@@ -81,6 +77,10 @@ std::vector<ForceRow> one_a_place(const std::vector<ForceRow>& rows) {
 }
 
 }  // namespace
+
+std::string shown_point(const Vector3& p) {
+  return fmt::format("x {:.9g}, y {:.9g}, z {:.9g}", p.x() / mm, p.y() / mm, p.z() / mm);
+}
 
 void FarPoint::add(const Program& window, const Toolpath& path) {
   const Vector3& p = log_->rows[row_].point;

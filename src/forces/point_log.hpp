@@ -1,6 +1,7 @@
 #pragma once
 /// Logged positions: where along the path the rows of a log belong.
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "counterflex/forces/forces.hpp"
@@ -8,6 +9,9 @@
 #include "forces/visits.hpp"
 
 namespace counterflex {
+
+/// For messages, in mm.
+std::string shown_point(const Vector3& p);
 
 /// A row whose point no feed move comes near, and the feed move that comes nearest, gathered window by
 /// window.

@@ -3,8 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
+#include "counterflex/geometry/units.hpp"
 #include "forces/csv_header.hpp"
+#include "forces/point_log.hpp"
 #include "forces/profile_cover.hpp"
 
 namespace counterflex {
@@ -60,17 +63,24 @@ void ProfileEnds::refuse_missing_ends(const ProgramEnds& program) const {
   if (!first_) return;
   const double margin = reach(profile_, program.last(profile_.key));
   const std::vector<ForceRow>& rows = profile_.rows;
+  const auto row_name = [&](const ForceRow& row) {
+    return profile_.within ? shown_point(row.point) : shown_key(profile_, row.key);
+  };
+  // A log knows no lengths of path.
+  const auto end_name = [&](const Cut& cut, const ForceRow& row, std::string_view side) {
+    return profile_.within ? fmt::format("{:.4g} mm {} it", std::abs(cut.key - row.key) / mm, side)
+                           : shown_key(profile_, cut.key);
+  };
   if (rows.front().key > first_->key + margin)
-    fail_row(
-        profile_, 0,
-        fmt::format("{} is the first row, but the program cuts from {} on (line {}): a row there is "
-                    "required, with zeros where nothing is cut",
-                    shown_key(profile_, rows.front().key), shown_key(profile_, first_->key), first_->line));
+    fail_row(profile_, 0,
+             fmt::format("{} is the first row, but the program cuts from {} on (line {}): a row there is "
+                         "required, with zeros where nothing is cut",
+                         row_name(rows.front()), end_name(*first_, rows.front(), "before"), first_->line));
   if (profile_.linear && !rows.back().ends && rows.back().key < last_->key - margin)
     fail_row(profile_, rows.size() - 1,
              fmt::format("{} is the last row, but the program cuts until {} (line {}): a row there is "
                          "required for linear interpolation",
-                         shown_key(profile_, rows.back().key), shown_key(profile_, last_->key), last_->line));
+                         row_name(rows.back()), end_name(*last_, rows.back(), "behind"), last_->line));
 }
 
 }  // namespace counterflex

@@ -49,6 +49,16 @@ double number_of(const Reader& reader, const Field& field, const std::string& na
        fmt::format("{}: {} is '{}', must be a finite number", row_name(reader), name, field.text));
 }
 
+/// Of a logged position.
+double coordinate_of(const Reader& reader, const Field& field, const std::string& name) {
+  constexpr double most_mm = 1e6;
+  const double value = number_of(reader, field, name);
+  if (std::abs(value) > most_mm)
+    fail(reader.at(field.column),
+         fmt::format("{}: {} is {}, must be from -1000000 to 1000000", row_name(reader), name, field.text));
+  return value;
+}
+
 ForceKey place_key(RowKey key) {
   switch (key) {
     case RowKey::line:
@@ -123,7 +133,7 @@ void read_field(const csv::Column& column, const Field& field, Reader& reader, F
   }
   if (row.where.line == 0) row.where = reader.at(field.column);
   if (column.axis)
-    row.point[*column.axis] = number_of(reader, field, column.name) * mm;
+    row.point[*column.axis] = coordinate_of(reader, field, column.name) * mm;
   else if (reader.header->key == RowKey::tool || reader.header->key == RowKey::operation)
     reader.selectors.push_back(selector_of(reader, field));
   else

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <variant>
 
 #include "counterflex/files/numbers.hpp"
 #include "forces/csv_text.hpp"
@@ -35,8 +36,14 @@ std::string shown(const ForceSelector& selector) {
   return text;
 }
 
+bool is_section(const ForceRule& rule) {
+  return std::holds_alternative<CutResponse>(rule.content);
+}
+
 std::string place_of(const ForceRule& rule, const Location& where) {
-  return where.file.empty() ? rule.name : fmt::format("{}:{}", where.file, where.line);
+  if (where.file.empty()) return rule.name;
+  const std::string place = fmt::format("{}:{}", where.file, where.line);
+  return is_section(rule) ? fmt::format("{} ({})", rule.name, place) : place;
 }
 
 std::string_view shown(ForceRank rank) {
@@ -47,7 +54,7 @@ std::string_view shown(ForceRank rank) {
 void fail_rule(const ForceRule& rule, const Location& where, const std::string& message) {
   const bool option = where.file.empty();
   throw InputError(option ? Exit::usage : Exit::machine_or_force, where,
-                   option ? fmt::format("{}: {}", rule.name, message) : message);
+                   option || is_section(rule) ? fmt::format("{}: {}", rule.name, message) : message);
 }
 
 void fail_rule(const ForceRule& rule, const std::string& message) {

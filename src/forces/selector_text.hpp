@@ -17,7 +17,10 @@ std::string folded(std::string_view operation);
 /// "tool T3", "operation 'POCKET*'", "lines 10 to 40": the conditions that are given.
 std::string shown(const ForceSelector& selector);
 
-/// Where a rule stands: "forces.csv:6", or as the command line has it.
+/// Whether a rule is a section of a file of cutting models; its name is told in messages.
+bool is_section(const ForceRule& rule);
+
+/// Where a rule stands: "forces.csv:6", "section \"slot\" (cuts.toml:9)", or as the command line has it.
 std::string place_of(const ForceRule& rule, const Location& where);
 
 /// "places", "operations", "tools" or "the whole program".

@@ -18,6 +18,7 @@ namespace {
 constexpr double parallel = 1e-6;
 
 constexpr std::string_view no_lateral_direction = "the feed is parallel to the tool axis";
+constexpr std::string_view given_zero = "the force given for it is zero";
 
 // Slopes that are the same to a cutting force, and places an arc's piece at which it is asked for.
 constexpr double same_slope = 1e-9;
@@ -151,13 +152,15 @@ void Unblended::append_to(std::size_t i, std::size_t first_piece, std::vector<Fo
   bool forced = false, lost = false;
   const auto take = [&](const Given& given, const AxesAlong& axes, bool first) {
     const bool only_z = given.frame == ForceFrame::feed && axes.at(0.5, 1).only_z;
-    bool acts = given.why.empty();
-    if (only_z && std::any_of(given.pieces.begin(), given.pieces.end(), loses)) {
+    std::string why_none = given.why;
+    if (why_none.empty() && is_zero(given)) {
+      why_none = given_zero;
+    } else if (only_z && std::any_of(given.pieces.begin(), given.pieces.end(), loses)) {
       lost = true;
-      acts = std::any_of(given.pieces.begin(), given.pieces.end(), keeps);
+      if (std::none_of(given.pieces.begin(), given.pieces.end(), keeps)) why_none = no_lateral_direction;
     }
-    forced = forced || acts;
-    if (!acts && why.empty()) why = given.why.empty() ? std::string(no_lateral_direction) : given.why;
+    forced = forced || why_none.empty();
+    if (why.empty()) why = why_none;
     append_turned(given, segment, axes, first_piece, first, pieces);
   };
   const auto axes_in = [&](ForceFrame frame) {
@@ -177,6 +180,11 @@ void Unblended::append_to(std::size_t i, std::size_t first_piece, std::vector<Fo
                                                        "component acts",
                                                        no_lateral_direction)});
   if (!forced) remarks.unforced.push_back({segment.line, segment.s_end - segment.s_start, why});
+}
+
+bool Unblended::is_zero(const Given& given) const {
+  const auto zero = [](const ForcePiece& piece) { return piece.F0.isZero(0) && piece.F1.isZero(0); };
+  return source_.scale == 0 || std::all_of(given.pieces.begin(), given.pieces.end(), zero);
 }
 
 Unblended::Given Unblended::given(const Stretch& stretch, std::size_t i, const AxesAlong& axes) const {

@@ -60,6 +60,7 @@ class Unblended {
   struct Given;
   Given given(const Stretch& stretch, std::size_t i, const AxesAlong& axes) const;
   Given cut(const CutResponse& response, double s0, double s1, std::size_t i, const AxesAlong& axes) const;
+  bool is_zero(const Given& given) const;
   std::span<const Matrix3> orientations(std::size_t i) const;  ///< of the tool on segment i
   void append_turned(const Given& given, const Segment& segment, const AxesAlong& axes,
                      std::size_t first_piece, bool first, std::vector<ForcePiece>& pieces) const;

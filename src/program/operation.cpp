@@ -1,6 +1,7 @@
 #include "program/operation.hpp"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include "program/scanner.hpp"
@@ -15,6 +16,25 @@ std::string_view without_marks(std::string_view text) {
   const std::size_t begin = text.find_first_not_of(marks_around);
   if (begin == std::string_view::npos) return {};
   return text.substr(begin, text.find_last_not_of(marks_around) + 1 - begin);
+}
+
+/// Case aside, as LinuxCNC reads them.
+bool begins_so(std::string_view text, std::string_view capitals) {
+  const auto same = [](char c, char capital) {
+    return (c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c) == capital;
+  };
+  return text.size() >= capitals.size() && std::equal(capitals.begin(), capitals.end(), text.begin(),
+                                                      [&](char a, char b) { return same(b, a); });
+}
+
+/// Whether a comment is an order to LinuxCNC: to show a text, to log, or to run a script.
+bool is_active(std::string_view comment) {
+  constexpr std::array<std::string_view, 10> orders = {
+      "MSG,", "DEBUG,", "PRINT,", "LOG,", "LOGOPEN,", "LOGAPPEND,", "PROBEOPEN ", "PY,", "PYRUN,", "ABORT,"};
+  constexpr std::array<std::string_view, 3> alone = {"LOGCLOSE", "PROBECLOSE", "PYRELOAD"};
+  const auto begins = [&](std::string_view order) { return begins_so(comment, order); };
+  const auto is = [&](std::string_view order) { return comment.size() == order.size() && begins(order); };
+  return std::any_of(orders.begin(), orders.end(), begins) || std::any_of(alone.begin(), alone.end(), is);
 }
 
 }  // namespace
@@ -43,7 +63,7 @@ std::string_view operation_name(std::string_view comment) {
   // "; (POCKET)" is one comment of two forms.
   if (name.starts_with(comment_open) && name.find(comment_close) + 1 == name.size())
     name = without_marks(name.substr(1, name.size() - 2));
-  return name;
+  return is_active(name) ? std::string_view{} : name;
 }
 
 bool CurrentOperation::name(std::string_view comment) {

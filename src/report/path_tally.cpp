@@ -98,9 +98,9 @@ void PathTally::add_cutting(const Waypoint& w) {
   WorstRow& row = lines_.row(w.line);
   row.after_mm = std::max(row.after_mm, w.after.head<3>().norm() / mm);
   piece_weight_ += w.weight;
-  if (!w.between) return add_end(w);
-  add_other(m_.higher, w, w.higher, 0);
-  add_other(m_.lower, w, w.lower, 0);
+  add_other(m_.higher, w, w.higher, w.weight);
+  add_other(m_.lower, w, w.lower, w.weight);
+  if (!w.between) add_end(w);
 }
 
 // Trapezoids: a piece weighs on both of its ends, or on its last one alone where the other is not known.
@@ -138,8 +138,6 @@ void PathTally::measure_end(const Waypoint& w, double weight) {
   m_.gravity.add(sample(w, w.gravity, weight));
   m_.superposition.add(sample(w, w.superposition, weight));
   m_.without_force.add(sample(w, w.air, weight));
-  add_other(m_.higher, w, w.higher, weight);
-  add_other(m_.lower, w, w.lower, weight);
   keep(m_.air, w.air.head<3>().norm(), w.line);
   WorstRow& row = lines_.row(w.line);
   row.before_mm = std::max(row.before_mm, w.before.head<3>().norm() / mm);

@@ -150,12 +150,24 @@ TEST_CASE("the limit is what within_mm says, and a row beyond it is named with t
 TEST_CASE("a log may begin and end a limit's length away from the cut, and no further") {
   const auto program = straight(20, 5);
   CHECK(refused_log(program, logged({{{0.9, 0, 0}, 1}})) == "no error");
+  CHECK(refused_log(program, logged({{{6.5, 0, 0}, 1}})) ==
+        "log.csv:4:1: error: x 6.5, y 0, z 0 is the first row, but the program cuts from 6.5 mm before it on "
+        "(line 1): a row there is required, with zeros where nothing is cut");
   CHECK(refused_log(program, logged({{{1.1, 0, 0}, 1}})).find("is the first row") != std::string::npos);
   const std::string linear_log = "# interpolation = linear\n";
   CHECK(refused_log(program, logged({{{0, 0, 0}, 1}, {{19.1, 0, 0}, 1}}, linear_log)) == "no error");
-  CHECK(
-      refused_log(program, logged({{{0, 0, 0}, 1}, {{18.9, 0, 0}, 1}}, linear_log)).find("is the last row") !=
-      std::string::npos);
+  CHECK(refused_log(program, logged({{{0, 0, 0}, 1}, {{18.9, 0, 0}, 1}}, linear_log)) ==
+        "log.csv:6:1: error: x 18.9, y 0, z 0 is the last row, but the program cuts until 1.1 mm behind it "
+        "(line 4): a row there is required for linear interpolation");
+}
+
+TEST_CASE("a path far beyond the points of a log does not come near them") {
+  const Program program = ProgramBuilder({0, 0, 0}).feed({5, 0, 0}, 600).rapid({1e22, 0, 0}).program;
+  Program far = program;
+  far.moves[1].motion = Motion::feed;
+  far.moves[1].start_mm = {1e22, 0, 0};
+  far.moves[1].end_mm = {1e22, 2, 0};
+  CHECK(refused_log(far, logged({{{0, 0, 0}, 1}})) == "no error");
 }
 
 TEST_CASE("a log of a part of the program leaves the rest to other rules") {

@@ -182,8 +182,15 @@ TEST_CASE("rules of equal rank that cover one move are refused, whatever they ar
   source.rules.push_back(section_for({.blocks = {{20, 50}}}));
   source.rules[2].where.line = 20;
   CHECK(refused(sample_program(), source) ==
-        "4: cut.toml:20:1: error: covers line 2 of the program, which cut.toml:9 covers too; both are given "
-        "for places: one of them must be more specific");
+        "4: cut.toml:20:1: error: section 1: covers line 2 of the program, which section 1 (cut.toml:9) "
+        "covers too; both are given for places: narrow lines or blocks of one of them");
+  source.rules.pop_back();
+  source.rules.push_back(read_force_csv(on_tool + "line," + columns + "3,4,0,0\n", "l.csv")[0]);
+  CHECK(
+      refused(sample_program(), source) ==
+      "4: l.csv:4:1: error: covers line 3 of the program, which section 1 (cut.toml:9) covers too; both are "
+      "given for places: narrow lines or blocks of the section, or end the rows with one that has its key "
+      "only");
 }
 
 TEST_CASE("a tool that the program never uses is refused at the row or the option that names it") {
@@ -191,6 +198,66 @@ TEST_CASE("a tool that the program never uses is refused at the row or the optio
         "2: error: --force T9=1,0,0: unknown tool T9: the program uses T1, T3");
   CHECK(refused(straight(10, 5), given({"0,0,0", "T9=1,0,0"})) ==
         "2: error: --force T9=1,0,0: unknown tool T9: the program uses no tool with a number");
+}
+
+TEST_CASE("a rule that covers no feed move is refused where it stands, unless it gives zeros") {
+  Program program = sample_program();
+  program.moves[0].tool = 7;  // a rapid
+  const std::string rows = "tool," + columns + "T3,2,0,0\nT7,";
+  CHECK(refused(program, given({"1,0,0", rows + "2,0,0\n"})) ==
+        "4: a.csv:5:1: error: tool T7 covers no feed move of the program");
+  CHECK(refused(program, given({"1,0,0", "T7=2,0,0"})) ==
+        "2: error: --force T7=2,0,0: tool T7 covers no feed move of the program");
+  CHECK(refused(program, given({"1,0,0", rows + "0,0,0\n"})) == "no error");
+  for (const ForceSelector& selector :
+       {ForceSelector{.tool = 3, .operation = "rough*"}, ForceSelector{.blocks = {{11, 19}}},
+        ForceSelector{.lines = {{4, 4}}}, ForceSelector{.tool = 1, .lines = {{5, 6}}}}) {
+    ForceSource source = given({"1,0,0"});
+    source.rules.push_back(section_for(selector));
+    const std::string said = refused(sample_program(), source);
+    CAPTURE(said);
+    CHECK(said.find("cut.toml:9:1: error: section 1: ") != std::string::npos);
+    CHECK(said.ends_with("covers no feed move of the program"));
+  }
+}
+
+TEST_CASE("a move in the air or under a FORCE comment is covered; a program without feed moves has none") {
+  ForceSource source = given({"1,0,0", "T3=2,0,0"});
+  source.air_above_mm = 4.9;
+  CHECK(refused(sample_program(), source) == "no error");
+  Program program = sample_program();
+  program.moves[4].force = program.moves[5].force = wrench(1, 0, 0);
+  CHECK(refused(program, given({"1,0,0", "T3=2,0,0"})) == "no error");
+  program.moves[1].motion = program.moves[2].motion = program.moves[4].motion = program.moves[5].motion =
+      Motion::rapid;
+  CHECK(refused(program, given({"1,0,0", "T3=2,0,0"})) == "no error");
+}
+
+TEST_CASE("whether a rule covers a feed move is found in windows of a program as in the whole") {
+  const Program whole = sample_program();
+  using Case = std::pair<std::array<long, 2>, std::string>;
+  for (const auto& [blocks, said] : {Case{{50, 60}, ""}, Case{{31, 39}, "covers no feed move"}}) {
+    ForceSource source = given({"1,0,0"});
+    source.rules.push_back(section_for({.blocks = blocks}));
+    ForceCover cover(source);
+    PathEnd end;
+    for (const Move& move : whole.moves) {
+      Program window = whole;
+      window.moves.assign(1, move);
+      const Toolpath path = build_toolpath(window, one_frame(window, {}), end);
+      cover.add(window, path);
+      end = path.end;
+    }
+    std::string refusal;
+    try {
+      cover.end_pass();
+    } catch (const InputError& error) {
+      refusal = error.what();
+    }
+    CAPTURE(refusal);
+    CHECK(refusal.empty() == said.empty());
+    CHECK(refusal.find(said) != std::string::npos);
+  }
 }
 
 TEST_CASE("sections of a cutting model cover what meets all of their conditions") {
@@ -206,7 +273,7 @@ TEST_CASE("sections of a cutting model cover what meets all of their conditions"
                         Case{{.tool = 3, .lines = {{3, 5}}}, {4}},
                         Case{{.operation = "finish wall", .blocks = {{40, 40}}}, {4}},
                         Case{{.tool = 3, .operation = "finish wall"}, {4, 5}},
-                        Case{{.tool = 3, .operation = "rough*"}, {}}}) {
+                        Case{{.tool = 1, .operation = "rough*", .lines = {{1, 2}}}, {}}}) {
     ForceSource source = given({"0,0,0,0,0,1"});
     if (c.selector.tool || c.selector.operation || c.selector.lines || c.selector.blocks)
       source.rules.push_back(section_for(c.selector));
@@ -241,10 +308,10 @@ TEST_CASE("a section for lines or blocks behind the program's end is refused") {
   ForceSource source = given({"0,0,0"});
   source.rules.push_back(section_for({.lines = {{7, 9}}}));
   CHECK(refused(sample_program(), source) ==
-        "4: cut.toml:9:1: error: lines 7 to 9 lie beyond the program, which ends at line 6");
+        "4: cut.toml:9:1: error: section 1: lines 7 to 9 lie beyond the program, which ends at line 6");
   source.rules.back() = section_for({.blocks = {{60, 90}}});
   CHECK(refused(sample_program(), source) ==
-        "4: cut.toml:9:1: error: blocks 60 to 90 lie beyond the program, which ends at block 50");
+        "4: cut.toml:9:1: error: section 1: blocks 60 to 90 lie beyond the program, which ends at block 50");
 }
 
 TEST_CASE("wrenches at the platform and at the tip are not mixed, not with a FORCE comment either") {

@@ -22,7 +22,8 @@ void check_unforced(const PathForces& forces, const std::vector<Listed>& expecte
   }
 }
 
-const std::string not_given = "no force is given for it", in_air = "it is wholly above --air-above";
+const std::string not_given = "no force is given for it", in_air = "it is wholly above --air-above",
+                  is_zero_force = "the force given for it is zero";
 
 ForceSource model() {
   ForceSource source;
@@ -43,15 +44,40 @@ TEST_CASE("rapids carry no force, and are not listed among the cuts without one"
   check_unforced(forces, {});
 }
 
-TEST_CASE("cuts outside all FORCE comments are listed, those under an explicit zero are not") {
+TEST_CASE("cuts outside all FORCE comments are listed, and those under a zero with another reason") {
   Program program = sample_program();
   program.moves[2].force = wrench(1, 0, 0);
   program.moves[4].force = wrench(0, 0, 0);
-  check_unforced(forces_on(program, {}), {{2, not_given}, {6, not_given}});
+  check_unforced(forces_on(program, {}), {{2, not_given}, {5, is_zero_force}, {6, not_given}});
 }
 
-TEST_CASE("a row of zeros is a force that is given") {
-  check_unforced(forces_on(sample_program(), from_csv(on_tool + "line,fx_N,fy_N,fz_N\n1,0,0,0\n")), {});
+TEST_CASE("zeros are a force that is given, and cuts under nothing else are listed") {
+  const std::vector<Listed> all{
+      {2, is_zero_force}, {3, is_zero_force}, {5, is_zero_force}, {6, is_zero_force}};
+  const std::string columns = "line,fx_N,fy_N,fz_N\n";
+  check_unforced(forces_on(sample_program(), from_csv(on_tool + columns + "1,0,0,0\n")), all);
+  check_unforced(forces_on(sample_program(), from_csv(linear + columns + "1,0,0,0\n6,0,0,0\n")), all);
+  check_unforced(forces_on(sample_program(), constant(Vector6::Zero(), 0)), all);
+  check_unforced(forces_on(sample_program(), from_csv(on_tool + columns + "1,1,0,0\n3,0,0,0\n5,0,0,2\n")),
+                 {{3, is_zero_force}});
+}
+
+TEST_CASE("a cut that has a force on a part of its length is a cut with a force") {
+  const auto source = from_csv(on_tool + "s_mm,fx_N,fy_N,fz_N\n0,0,0,0\n15,1,0,0\n16,0,0,0\n");
+  check_unforced(forces_on(sample_program(), source),
+                 {{2, is_zero_force}, {5, is_zero_force}, {6, is_zero_force}});
+}
+
+TEST_CASE("a scale of zero leaves no force, but a model's own reasons stand") {
+  ForceSource scaled = constant(wrench(1, 2, 3), 0);
+  scaled.scale = 0;
+  check_unforced(forces_on(sample_program(), scaled),
+                 {{2, is_zero_force}, {3, is_zero_force}, {5, is_zero_force}, {6, is_zero_force}});
+  Program program = ProgramBuilder({0, 0, 0}).feed({10, 0, 0}, 600).feed({10, 0, -10}, 600).program;
+  for (Move& move : program.moves) move.spindle_rpm = 3000;
+  ForceSource source = model();
+  source.scale = 0;
+  check_unforced(forces_on(program, source), {{1, is_zero_force}, {2, why_not(0.01, 3000, -1)}});
 }
 
 TEST_CASE("cuts in the air are listed, and need no rule") {

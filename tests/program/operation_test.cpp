@@ -60,6 +60,20 @@ TEST_CASE("a block number and '/' leave a comment alone, words do not") {
   }
 }
 
+TEST_CASE("an order to the control in a comment names no operation") {
+  for (const char* const line :
+       {"(MSG, change the clamps)", "(msg,)", "(DEBUG, #5)", "(PRINT,x)", "(LOG, #1)", "(LOGOPEN,a.txt)",
+        "(LOGAPPEND,a.txt)", "(LOGCLOSE)", "(PROBEOPEN a.txt)", "(probeclose)", "( MSG,a)"}) {
+    CAPTURE(line);
+    CHECK(named_by(line, "linuxcnc") == "OLD");
+  }
+  for (const char* const line : {"(LOG HOUSE)", "(PROBE)", "(MSG)", "(PRINTED PART, LEFT)", "(LOGCLOSET)"}) {
+    CAPTURE(line);
+    const std::string name(line);
+    CHECK(named_by(line, "linuxcnc") == name.substr(1, name.size() - 2));
+  }
+}
+
 TEST_CASE("the name of a program is no operation") {
   CHECK(operations_in("%\nO1001 (BRACKET)\nG21 G90\nG0 X1.\n(FACE)\nX2.\n%\n") == Names{"", "FACE"});
   CHECK(operations_in("<BRACKET> (PART)\nG21 G90\nG0 X1.\n", "fanuc") == Names{""});

@@ -71,13 +71,19 @@ TEST_CASE("the path without the force is that of air, that under more of it is k
   CHECK(m.lower.deviation.statistics().max_line == 4);
 }
 
-TEST_CASE("between the ends of pieces more and less force count in the maxima alone") {
+TEST_CASE("more and less force are known between the ends of pieces, and weigh there as after does") {
   std::vector<Waypoint> path = {cut(1, 4, 5, Vector3(0.9, 0, 0)), cut(1, 4, 5, Vector3(0.3, 0, 0))};
+  for (Waypoint& w : path) w.after = w.higher.deviation;
   path[0].between = true;
   const Measures m = tally_of(path).measures();
   const DeviationStatistics higher = m.higher.deviation.statistics(), lower = m.lower.deviation.statistics();
   CHECK(higher.max_mm == doctest::Approx(0.9 / 100 + 0.3 * 0.45));
-  CHECK(higher.mean_mm == doctest::Approx(0.3 / 100 + 0.3 * 0.15));
+  CHECK(higher.mean_mm == doctest::Approx(0.6 / 100 + 0.3 * 0.3));
+  const DeviationStatistics after = m.after.statistics();
+  CHECK(higher.mean_mm == after.mean_mm);
+  CHECK(higher.rms_mm == after.rms_mm);
+  CHECK(higher.p95_mm == after.p95_mm);
+  CHECK(higher.max_mm == after.max_mm);
   CHECK(lower.max_mm == doctest::Approx(0.3 * 0.45 - 0.9 / 100));
   CHECK(m.without_force.statistics().max_mm == doctest::Approx(0.15));
 }

@@ -106,7 +106,8 @@ struct ForceNote {
   std::string what;
 };
 
-/// A feed move without a force, and why; `length` is that of the move (m).
+/// A feed move without a force, and why: none is given, or the given one is zero, or none can act there;
+/// `length` is that of the move (m).
 struct Unforced {
   int line = 0;
   double length = 0;

@@ -10,7 +10,7 @@
 
 namespace counterflex {
 
-/// The path under another force than the given one: means over the ends of pieces, maxima between them, too.
+/// The path under another force than the given one, known between the ends of pieces, too.
 struct OtherForceTally {
   DeviationTally deviation;
   std::size_t unsolved = 0;  ///< places where the machine has no stable equilibrium
@@ -68,8 +68,8 @@ class PathTally {
   Measures m_;
   WorstLines lines_;
   std::optional<std::pair<std::size_t, int>> last_changed_;  ///< segment and line
-  double piece_weight_ =
-      0;  ///< of the piece under way: all means but those of `after` are over the ends of pieces
+  double piece_weight_ = 0;  ///< of the piece under way: all means but those of `after`, `higher` and `lower`
+                             ///< are over the ends of pieces
   std::optional<Waypoint> end_;  ///< the last one, and what it weighs so far
   double end_weight_ = 0;
   std::optional<Waypoint> rapid_;  ///< the last waypoint, where it ends a rapid
