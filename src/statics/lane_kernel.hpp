@@ -1,0 +1,516 @@
+#pragma once
+/// The kernel behind lane_program.hpp for vectors of W doubles. Lanes never meet: each is solved as if it were alone, with
+/// the same operations in the same order for every W, so that results do not depend on the instruction set.
+#include "lane_program.hpp"
+
+namespace counterflex::lanes {
+
+template <int W>
+struct VectorOf {
+  typedef double Real __attribute__((vector_size(W * sizeof(double))));
+  typedef long long Mask __attribute__((vector_size(W * sizeof(double))));
+};
+
+template <int W>
+class LaneKernel {
+  using V = typename VectorOf<W>::Real;
+  using M = typename VectorOf<W>::Mask;
+
+  static constexpr double closure_limit = 1e-12, step_limit = 1e-11, largest_angle = 0.25;
+  static constexpr int most_iterations = 14;
+
+  struct Frame {
+    V R[9], p[3];
+  };
+
+  /// Where a part acts: its axes before, and the point about which it turns.
+  struct PartFrame {
+    V R[9], o[3];
+  };
+
+ public:
+  static void solve(const Program& program, const Region& region, const Question& question, Batch& batch, double* memory) {
+    for (int first = 0; first < width; first += W) {
+      LaneKernel kernel(program, region, question, memory, first);
+      kernel.run(batch);
+    }
+  }
+
+ private:
+  LaneKernel(const Program& program, const Region& region, const Question& question, double* memory, int first)
+      : program_(program), region_(region), question_(question), first_(first) {
+    // State of all lanes first (it survives), then what one call uses.
+    state_ = reinterpret_cast<V*>(memory) + static_cast<long>(first / W) * program.states;
+    V* rest = reinterpret_cast<V*>(memory + static_cast<long>(width) * program.states);
+    rhs_ = rest;
+    step_ = rhs_ + program.rows;
+    rho_ = step_ + program.rows;
+    drho_ = rho_ + program.actuators;
+    frames_ = reinterpret_cast<PartFrame*>(drho_ + program.actuators);
+  }
+
+  static V broadcast(double x) { return V{} + x; }
+  static V select(M mask, V yes, V no) { return (V)(((M)yes & mask) | ((M)no & ~mask)); }
+  static V larger(V a, V b) { return select(a > b, a, b); }
+  static V magnitude(V a) { return larger(a, -a); }
+  static bool any(M mask) {
+    long long all = 0;
+    for (int i = 0; i < W; ++i) all |= mask[i];
+    return all != 0;
+  }
+  static V root(V a) {
+    V b{};
+    for (int i = 0; i < W; ++i) b[i] = __builtin_sqrt(a[i]);
+    return b;
+  }
+  static V dot(const V* a, const V* b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+  static void cross(const V* a, const V* b, V* c) {
+    c[0] = a[1] * b[2] - a[2] * b[1];
+    c[1] = a[2] * b[0] - a[0] * b[2];
+    c[2] = a[0] * b[1] - a[1] * b[0];
+  }
+  /// R' a
+  static void into(const V* R, const V* a, V* b) {
+    for (int i = 0; i < 3; ++i) b[i] = R[i] * a[0] + R[3 + i] * a[1] + R[6 + i] * a[2];
+  }
+  static void rotate(const V* R, const V* a, V* b) {
+    for (int i = 0; i < 3; ++i) b[i] = R[3 * i] * a[0] + R[3 * i + 1] * a[1] + R[3 * i + 2] * a[2];
+  }
+  static void multiply(const V* A, const V* B, V* C) {
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j)
+        C[3 * i + j] = A[3 * i] * B[j] + A[3 * i + 1] * B[3 + j] + A[3 * i + 2] * B[6 + j];
+  }
+
+  /// y (+)= A x, A row-major and the same for all lanes.
+  static void multiply(const double* A, int rows, int columns, const V* x, V* y, bool add) {
+    int r = 0;
+    for (; r + 4 <= rows; r += 4) {
+      const double *a = A + static_cast<long>(r) * columns, *b = a + columns, *c = b + columns, *d = c + columns;
+      V s = add ? y[r] : V{}, t = add ? y[r + 1] : V{}, u = add ? y[r + 2] : V{}, v = add ? y[r + 3] : V{};
+      for (int k = 0; k < columns; ++k) {
+        const V xk = x[k];
+        s += a[k] * xk;
+        t += b[k] * xk;
+        u += c[k] * xk;
+        v += d[k] * xk;
+      }
+      y[r] = s;
+      y[r + 1] = t;
+      y[r + 2] = u;
+      y[r + 3] = v;
+    }
+    for (; r < rows; ++r) {
+      V s = add ? y[r] : V{};
+      for (int k = 0; k < columns; ++k) s += A[static_cast<long>(r) * columns + k] * x[k];
+      y[r] = s;
+    }
+  }
+
+  /// sin t / t, (1 - cos t) / t^2, (t - sin t) / t^3 for t^2 = t2 up to 0.25^2.
+  static void exp_coefficients(V t2, V& a, V& b, V& c) {
+    a = 1 - t2 * (1.0 / 6) * (1 - t2 * (1.0 / 20) * (1 - t2 * (1.0 / 42) * (1 - t2 * (1.0 / 72) * (1 - t2 * (1.0 / 110)))));
+    b = 0.5 - t2 * (1.0 / 24) * (1 - t2 * (1.0 / 30) * (1 - t2 * (1.0 / 56) * (1 - t2 * (1.0 / 90) * (1 - t2 * (1.0 / 132)))));
+    c = 1.0 / 6 - t2 * (1.0 / 120) * (1 - t2 * (1.0 / 42) * (1 - t2 * (1.0 / 72) * (1 - t2 * (1.0 / 110))));
+  }
+
+  /// The rotation about phi.
+  void exponential(const V* phi, V* E, V& b, V& c) {
+    const V t2 = dot(phi, phi);
+    note_angle(t2);
+    V a;
+    exp_coefficients(t2, a, b, c);
+    const V x = phi[0], y = phi[1], z = phi[2];
+    E[0] = 1 - b * (y * y + z * z);
+    E[4] = 1 - b * (x * x + z * z);
+    E[8] = 1 - b * (x * x + y * y);
+    E[1] = b * x * y - a * z;
+    E[3] = b * x * y + a * z;
+    E[2] = b * x * z + a * y;
+    E[6] = b * x * z - a * y;
+    E[5] = b * y * z - a * x;
+    E[7] = b * y * z + a * x;
+  }
+
+  void note_angle(V squared) { largest_angle2_ = larger(largest_angle2_, squared); }
+
+  void apply_fixed(const FixedPose& fixed, Frame& X) {
+    if (fixed.shifts)
+      for (int i = 0; i < 3; ++i)
+        X.p[i] += X.R[3 * i] * fixed.p[0] + X.R[3 * i + 1] * fixed.p[1] + X.R[3 * i + 2] * fixed.p[2];
+    if (!fixed.turns) return;
+    for (int i = 0; i < 3; ++i) {
+      const V a = X.R[3 * i], b = X.R[3 * i + 1], c = X.R[3 * i + 2];
+      for (int j = 0; j < 3; ++j) X.R[3 * i + j] = a * fixed.R[j] + b * fixed.R[3 + j] + c * fixed.R[6 + j];
+    }
+  }
+
+  void apply_slide(const Part& part, Frame& X, PartFrame& at) {
+    const V way = state_[part.value] * part.sign;
+    for (int i = 0; i < 3; ++i) {
+      at.R[i] = X.R[3 * i + part.axis] * part.sign;
+      X.p[i] += X.R[3 * i + part.axis] * way;
+    }
+  }
+
+  void apply_turn(const Part& part, Frame& X, PartFrame& at) {
+    const V d = state_[part.value] - region_.start[part.value], d2 = d * d;
+    note_angle(d2);
+    V a, b, unused;
+    exp_coefficients(d2, a, b, unused);
+    const V sin_d = a * d, cos_d = 1 - b * d2;
+    const double c0 = region_.cosine[part.value], s0 = region_.sine[part.value];
+    const V c = c0 * cos_d - s0 * sin_d, s = (s0 * cos_d + c0 * sin_d) * part.sign;
+    const int j = (part.axis + 1) % 3, k = (part.axis + 2) % 3;
+    for (int i = 0; i < 3; ++i) {
+      at.R[i] = X.R[3 * i + part.axis] * part.sign;
+      at.o[i] = X.p[i];
+      const V u = X.R[3 * i + j], v = X.R[3 * i + k];
+      X.R[3 * i + j] = c * u + s * v;
+      X.R[3 * i + k] = c * v - s * u;
+    }
+  }
+
+  /// The part's frame before, and the point behind its translation; then its rotation.
+  void apply_pose(const V* p, const V* R, Frame& X, PartFrame& at) {
+    for (int i = 0; i < 9; ++i) at.R[i] = X.R[i];
+    V way[3];
+    rotate(X.R, p, way);
+    for (int i = 0; i < 3; ++i) at.o[i] = X.p[i] += way[i];
+    multiply(at.R, R, X.R);
+  }
+
+  void place(const Series& series, Frame& X) {
+    for (int i = 0; i < 9; ++i) X.R[i] = broadcast(i % 4 == 0 ? 1 : 0);
+    for (int i = 0; i < 3; ++i) X.p[i] = V{};
+    for (int k = 0; k < series.part_count; ++k) {
+      const Part& part = series.parts[k];
+      switch (part.operation) {
+        case Operation::fixed: apply_fixed(program_.fixed[question_.errors][part.fixed], X); break;
+        case Operation::slide: apply_slide(part, X, frames_[k]); break;
+        case Operation::turn: apply_turn(part, X, frames_[k]); break;
+        case Operation::spring: {
+          V E[9], b, c;
+          exponential(state_ + part.value + 3, E, b, c);
+          apply_pose(state_ + part.value, E, X, frames_[k]);
+          break;
+        }
+        case Operation::group: apply_pose(state_ + part.value + 9, state_ + part.value, X, frames_[k]); break;
+      }
+    }
+  }
+
+  /// (p_to - p_from, Log(R_to R_from')), exact where it is small.
+  void difference(const V* to, const Frame& from, V* d) {
+    V D[9];
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j)
+        D[3 * i + j] = to[3 * i] * from.R[3 * j] + to[3 * i + 1] * from.R[3 * j + 1] + to[3 * i + 2] * from.R[3 * j + 2];
+    for (int i = 0; i < 3; ++i) d[i] = to[9 + i] - from.p[i];
+    d[3] = 0.5 * (D[7] - D[5]);
+    d[4] = 0.5 * (D[2] - D[6]);
+    d[5] = 0.5 * (D[3] - D[1]);
+    const V s2 = dot(d + 3, d + 3);
+    note_angle(s2);
+    note_angle(select(D[0] + D[4] + D[8] > 1, V{}, broadcast(1)));
+    const V scale = 1 + s2 * (1.0 / 6) * (1 + s2 * (9.0 / 20) * (1 + s2 * (25.0 / 42)));
+    for (int i = 3; i < 6; ++i) d[i] *= scale;
+  }
+
+  void spring_gradient(const Part& part, const V* f, const V* M_o, const PartFrame& at, V* gradient) {
+    const V* theta = state_ + part.value;
+    V stretch[6];
+    for (int i = 0; i < 6; ++i) stretch[i] = theta[i] - part.K[36 + i];
+    multiply(part.K, 6, 6, stretch, gradient, false);
+    V force[3], moment[3], turned[3], twice[3];
+    into(at.R, f, force);
+    into(at.R, M_o, moment);
+    V a, b, c;
+    exp_coefficients(dot(theta + 3, theta + 3), a, b, c);
+    cross(theta + 3, moment, turned);  // J_l' M = M - b phi x M + c phi x (phi x M)
+    cross(theta + 3, turned, twice);
+    for (int i = 0; i < 3; ++i) gradient[i] -= force[i];
+    for (int i = 0; i < 3; ++i) gradient[3 + i] -= moment[i] - b * turned[i] + c * twice[i];
+  }
+
+  void group_gradient(const Part& part, const V* f, const V* M_o, const PartFrame& at, V* gradient) {
+    V force[3], moment[3];
+    into(at.R, f, force);
+    into(at.R, M_o, moment);
+    for (int i = 0; i < 3; ++i) gradient[i] = -force[i];
+    for (int i = 0; i < 3; ++i) gradient[3 + i] = -moment[i];
+    for (int b = 0; b < part.branches; ++b)
+      for (int i = 0; i < 6; ++i) gradient[i] += state_[program_.series[part.first_branch + b].wrench + i];
+  }
+
+  /// Gap and gradient of a series: its right-hand side.
+  void evaluate(const Series& series) {
+    Frame X;
+    place(series, X);
+    V* rhs = rhs_ + series.step;
+    difference(state_ + series.end, X, rhs);
+    const V *f = state_ + series.wrench, *m = f + 3;
+    for (int k = 0; k < series.part_count; ++k) {
+      const Part& part = series.parts[k];
+      if (part.operation == Operation::fixed || part.row < 0) continue;
+      const PartFrame& at = frames_[k];
+      V* gradient = rhs + part.row;
+      if (part.operation == Operation::slide) {
+        gradient[0] = part.k * (state_[part.value] - part.rest) - dot(at.R, f);
+        continue;
+      }
+      V r[3], M_o[3];
+      for (int i = 0; i < 3; ++i) r[i] = X.p[i] - at.o[i];
+      cross(r, f, M_o);
+      for (int i = 0; i < 3; ++i) M_o[i] += m[i];
+      if (part.operation == Operation::turn)
+        gradient[0] = part.k * (state_[part.value] - part.rest) - dot(at.R, M_o);
+      else if (part.operation == Operation::spring)
+        spring_gradient(part, f, M_o, at, gradient);
+      else
+        group_gradient(part, f, M_o, at, gradient);
+    }
+    note_residual(series, rhs, f);
+  }
+
+  void note_wrench(const V* F) { wrench2_ = larger(wrench2_, wrench_size2(F)); }
+  V wrench_size2(const V* F) {
+    const double l = program_.length;
+    return larger(dot(F, F), dot(F + 3, F + 3) * (1 / (l * l)));
+  }
+
+  void note_residual(const Series& series, const V* rhs, const V* F) {
+    const double l = program_.length;
+    closure2_ = larger(closure2_, larger(dot(rhs, rhs), dot(rhs + 3, rhs + 3) * (l * l)));
+    for (int i = 6; i < series.rows; ++i) force_ = larger(force_, magnitude(rhs[i]) * (series.angular[i - 6] ? 1 / l : 1));
+    note_wrench(F);
+  }
+
+  /// Eliminates the inside of every series, branches first: steps for a held end.
+  void eliminate() {
+    for (int s = 0; s < program_.series_count; ++s) {
+      const Series& series = program_.series[s];
+      V* rhs = rhs_ + series.step;
+      for (int k = 0; k < series.part_count; ++k) {
+        const Part& part = series.parts[k];
+        if (part.operation != Operation::group) continue;
+        for (int b = 0; b < part.branches; ++b)
+          for (int i = 0; i < 6; ++i) rhs[part.row + i] += step_[program_.series[part.first_branch + b].step + i];
+      }
+      multiply(region_.inside[s], series.rows, series.rows, rhs, step_ + series.step, false);
+    }
+  }
+
+  /// Balance of the platform and error of the tip.
+  void evaluate_platform() {
+    const V* X = state_ + program_.platform;
+    V arm[3], r[3], moment[3];
+    for (int i = 0; i < 3; ++i) arm[i] = broadcast(program_.arm[i]);
+    rotate(X, arm, r);
+    cross(r, F_, moment);
+    for (int i = 0; i < 3; ++i) balance_[i] = F_[i];
+    for (int i = 0; i < 3; ++i) balance_[3 + i] = F_[3 + i] + moment[i];
+    for (int s = 0; s < program_.series_count; ++s)
+      if (program_.series[s].is_chain)
+        for (int i = 0; i < 6; ++i) balance_[i] -= state_[program_.series[s].wrench + i];
+    force_ = larger(force_, root(wrench_size2(balance_)));
+    note_wrench(F_);
+    if (!question_.target) return;
+    find_tip();
+    for (int i = 0; i < 3; ++i) balance_[6 + i] = wanted_[i] - tip_[i];
+    for (int i = 6; i < 9; ++i) closure2_ = larger(closure2_, balance_[i] * balance_[i]);
+  }
+
+  void find_tip() {
+    const V* X = state_ + program_.platform;
+    for (int i = 0; i < 3; ++i)
+      tip_[i] = X[9 + i] + X[3 * i] * program_.p_PT[0] + X[3 * i + 1] * program_.p_PT[1] + X[3 * i + 2] * program_.p_PT[2];
+  }
+
+  void solve_platform() {
+    for (int s = 0; s < program_.series_count; ++s)
+      if (program_.series[s].is_chain)
+        for (int i = 0; i < 6; ++i) balance_[i] -= step_[program_.series[s].step + i];
+    V x[9];
+    if (question_.target)
+      multiply(region_.target, 9, 9, balance_, x, false);
+    else
+      multiply(region_.forward, 6, 6, balance_, x, false);
+    for (int i = 0; i < 6; ++i) twist_[i] = x[i];
+    if (!question_.target) return;
+    for (int i = 0; i < 3; ++i) next_p_[i] = p_[i] + x[6 + i];
+    V rho[most_outputs];
+    evaluate_polynomials(next_p_, rho, program_.actuators);
+    for (int a = 0; a < program_.actuators; ++a) drho_[a] = rho[a] - rho_[a];
+  }
+
+  /// The rest of all steps, from the platform inwards; their largest entry.
+  void distribute() {
+    const double l = program_.length;
+    V size2 = larger(dot(twist_, twist_), dot(twist_ + 3, twist_ + 3) * (l * l));
+    largest_step_ = root(size2);
+    for (int s = program_.series_count - 1; s >= 0; --s) {
+      const Series& series = program_.series[s];
+      V* step = step_ + series.step;
+      const V* end = series.is_chain ? twist_ : end_step_[s];
+      multiply(region_.by_end[s], series.rows, 6, end, step, true);
+      if (question_.target && series.actuators > 0) {
+        V own[most_outputs];
+        for (int a = 0; a < series.actuators; ++a) own[a] = drho_[program_.actuator_numbers[series.first_actuator + a]];
+        multiply(region_.by_actuators[s], series.rows, series.actuators, own, step, true);
+      }
+      for (int i = 6; i < series.rows; ++i)
+        largest_step_ = larger(largest_step_, magnitude(step[i]) * (series.angular[i - 6] ? l : 1));
+      for (int k = 0; k < series.part_count; ++k)
+        if (series.parts[k].operation == Operation::group)
+          for (int b = 0; b < series.parts[k].branches; ++b)
+            end_step_[series.parts[k].first_branch + b] = step + series.parts[k].row;
+    }
+  }
+
+  V kept(V step) const { return (V)((M)step & active_); }
+
+  void move_pose(V* X, const V* step) {
+    V phi[3], E[9], b, c, R[9];
+    for (int i = 0; i < 3; ++i) phi[i] = kept(step[3 + i]);
+    exponential(phi, E, b, c);
+    for (int i = 0; i < 9; ++i) R[i] = X[i];
+    multiply(E, R, X);
+    for (int i = 0; i < 3; ++i) X[9 + i] += kept(step[i]);
+  }
+
+  void take_step() {
+    for (int s = 0; s < program_.series_count; ++s) {
+      const Series& series = program_.series[s];
+      const V* step = step_ + series.step;
+      for (int i = 0; i < 6; ++i) state_[series.wrench + i] += kept(step[i]);
+      for (int k = 0; k < series.part_count; ++k) {
+        const Part& part = series.parts[k];
+        if (part.operation == Operation::fixed) continue;
+        if (part.operation == Operation::group) {
+          move_pose(state_ + part.value, step + part.row);
+          continue;
+        }
+        if (part.row < 0) continue;
+        const int count = part.operation == Operation::spring ? 6 : 1;
+        for (int i = 0; i < count; ++i) state_[part.value + i] += kept(step[part.row + i]);
+      }
+    }
+    move_pose(state_ + program_.platform, twist_);
+    if (!question_.target) return;
+    for (int i = 0; i < 3; ++i) p_[i] += kept(next_p_[i] - p_[i]);
+    for (int a = 0; a < program_.actuators; ++a) rho_[a] += kept(drho_[a]);
+    set_actuators();
+  }
+
+  void set_actuators() {
+    for (int s = 0; s < program_.series_count; ++s)
+      for (int k = 0; k < program_.series[s].part_count; ++k) {
+        const Part& part = program_.series[s].parts[k];
+        if (part.operation != Operation::fixed && part.actuator >= 0) state_[part.value] = rho_[part.actuator];
+      }
+  }
+
+  /// The first `outputs` polynomials at p, by Horner's rule, two at a time.
+  void evaluate_polynomials(const V* p, V* out, int outputs, int first = 0) {
+    V x[3];
+    for (int i = 0; i < 3; ++i) x[i] = (p[i] - region_.centre[i]) * (1 / region_.half);
+    const int d = region_.degree, terms = (d + 1) * (d + 2) * (d + 3) / 6;
+    for (int o = 0; o < outputs; ++o) {
+      const double* c = region_.polynomials + static_cast<long>(first + o) * terms;
+      V sum_x{};
+      for (int i = 0; i <= d; ++i) {  // coefficients stand from the highest powers down
+        V sum_y{};
+        for (int j = 0; j <= i; ++j) {
+          V sum_z{};
+          for (int k = 0; k <= j; ++k) sum_z = sum_z * x[2] + *c++;
+          sum_y = sum_y * x[1] + sum_z;
+        }
+        sum_x = sum_x * x[0] + sum_y;
+      }
+      out[o] = sum_x;
+    }
+  }
+
+  void begin(const Batch& batch) {
+    for (int i = 0; i < 3; ++i)
+      for (int lane = 0; lane < W; ++lane) p_[i][lane] = batch.p[i][first_ + lane];
+    for (int i = 0; i < 6; ++i)
+      for (int lane = 0; lane < W; ++lane) F_[i][lane] = batch.F[i][first_ + lane];
+    for (int i = 0; i < 3; ++i) wanted_[i] = p_[i];
+    if (!question_.go_on)
+      for (int i = 0; i < program_.states; ++i) state_[i] = broadcast(region_.start[i]);
+    evaluate_polynomials(p_, rho_, program_.actuators);
+    set_actuators();
+    active_ = p_[0] == p_[0];
+    converged_ = active_ & ~active_;
+    iterations_ = V{};
+  }
+
+  V force_limit() {
+    const V* X = state_ + program_.platform;
+    return 1e-9 * larger(broadcast(1), root(wrench2_)) +
+           program_.floor_per_metre * (root(dot(X + 9, X + 9)) + program_.length);
+  }
+
+  void run(Batch& batch) {
+    begin(batch);
+    for (int iteration = 0; iteration < most_iterations; ++iteration) {
+      closure2_ = force_ = wrench2_ = largest_angle2_ = V{};
+      for (int s = 0; s < program_.series_count; ++s) evaluate(program_.series[s]);
+      evaluate_platform();
+      eliminate();
+      solve_platform();
+      distribute();
+      // What the next step would still move is within the limit: the state is not changed any more.
+      const M done = (closure2_ <= closure_limit * closure_limit) & (force_ <= force_limit()) &
+                     (largest_step_ <= step_limit) & (largest_angle2_ <= largest_angle * largest_angle);
+      converged_ |= done & active_;
+      active_ &= ~done;
+      if (!any(active_)) break;
+      iterations_ += (V)((M)broadcast(1) & active_);
+      take_step();
+    }
+    finish(batch);
+  }
+
+  /// A lane that failed leaves no state to go on from.
+  void forget_failed() {
+    for (int i = 0; i < program_.states; ++i) state_[i] = select(converged_, state_[i], broadcast(region_.start[i]));
+  }
+
+  void finish(Batch& batch) {
+    find_tip();
+    const V* X = state_ + program_.platform;
+    V R_PT[9], R[9], phi[3];
+    for (int i = 0; i < 9; ++i) R_PT[i] = broadcast(program_.R_PT[i]);
+    multiply(X, R_PT, R);
+    evaluate_polynomials(wanted_, phi, 3, program_.actuators);
+    for (int lane = 0; lane < W; ++lane) {
+      const int at = first_ + lane;
+      for (int i = 0; i < 9; ++i) batch.tip[i][at] = R[i][lane];
+      for (int i = 0; i < 3; ++i) batch.tip[9 + i][at] = tip_[i][lane];
+      for (int i = 0; i < 3; ++i) batch.p[i][at] = p_[i][lane];
+      for (int i = 0; i < 3; ++i) batch.wanted_phi[i][at] = phi[i][lane];
+      for (int a = 0; a < program_.actuators; ++a) batch.rho[a * width + at] = rho_[a][lane];
+      batch.iterations[at] = iterations_[lane];
+      batch.converged[at] = converged_[lane] != 0;
+    }
+    forget_failed();
+  }
+
+  static constexpr int most_outputs = 12, most_series = 64;
+
+  const Program& program_;
+  const Region& region_;
+  const Question question_;
+  const int first_;
+  V *state_, *rhs_, *step_, *rho_, *drho_;
+  PartFrame* frames_;
+  const V* end_step_[most_series];
+  V F_[6], p_[3], wanted_[3], next_p_[3], tip_[3], balance_[9], twist_[6];
+  V closure2_{}, force_{}, wrench2_{}, largest_angle2_{}, largest_step_{}, iterations_{};
+  M active_{}, converged_{};
+};
+
+}  // namespace counterflex::lanes

@@ -1,0 +1,9 @@
+#include "lane_kernel.hpp"
+
+namespace counterflex::lanes {
+
+void solve_plain(const Program& program, const Region& region, const Question& question, Batch& batch, double* memory) {
+  LaneKernel<2>::solve(program, region, question, batch, memory);
+}
+
+}  // namespace counterflex::lanes

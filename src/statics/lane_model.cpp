@@ -1,0 +1,229 @@
+#include "lane_model.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <limits>
+
+namespace counterflex {
+namespace {
+
+void collect(const SeriesView& view, std::vector<SeriesView>& list) {
+  for (std::size_t g = 0; g < view.series->groups.size(); ++g) {
+    std::vector<SeriesView> branches;
+    for (std::size_t b = 0; b < view.series->groups[g].branches.size(); ++b) {
+      const GroupState& group = view.state->groups[g];
+      branches.push_back(
+          {&view.series->groups[g].branches[b], &group.branches[b], &view.work->groups[g][b], &group.X, false});
+      collect(branches.back(), list);
+    }
+    list.insert(list.end(), branches.begin(), branches.end());
+  }
+}
+
+void put(const Matrix3& R, const Vector3& p, double* into) {
+  for (int i = 0; i < 9; ++i) into[i] = R(i / 3, i % 3);
+  for (int i = 0; i < 3; ++i) into[9 + i] = p[i];
+}
+
+lanes::FixedPose flat_pose(const Pose& X) {
+  lanes::FixedPose flat{};
+  for (int i = 0; i < 9; ++i) flat.R[i] = X.R(i / 3, i % 3);
+  for (int i = 0; i < 3; ++i) flat.p[i] = X.p[i];
+  flat.turns = X.R != Matrix3::Identity();
+  flat.shifts = !X.p.isZero(0);
+  return flat;
+}
+
+// The coordinate axis that `axis` is, with its sign; none: -1.
+int coordinate_axis(const Vector3& axis, double& sign) {
+  for (int i = 0; i < 3; ++i)
+    for (double s : {1.0, -1.0})
+      if (axis == s * Vector3::Unit(i)) {
+        sign = s;
+        return i;
+      }
+  return -1;
+}
+
+// A rotation that takes z to a unit vector that is no coordinate axis.
+Matrix3 z_to(const Vector3& axis) {
+  Matrix3 R;
+  R.col(2) = axis;
+  R.col(0) = Vector3::UnitZ().cross(axis).normalized();
+  R.col(1) = R.col(2).cross(R.col(0));
+  return R;
+}
+
+// What stands before the next moving part, without and with assembly errors.
+struct Standing {
+  Pose X[2];
+  void add(const Pose& X_fixed) {
+    for (Pose& X_sum : X) X_sum = X_sum * X_fixed;
+  }
+};
+
+bool is_identity(const Standing& standing) {
+  return std::all_of(std::begin(standing.X), std::end(standing.X),
+                     [](const Pose& X) { return X.R == Matrix3::Identity() && X.p.isZero(0); });
+}
+
+}  // namespace
+
+std::vector<SeriesView> views(const Mechanism& mechanism, const Configuration& configuration, std::vector<SeriesWork>& works) {
+  std::vector<SeriesView> list;
+  for (std::size_t i = 0; i < mechanism.chains.size(); ++i) {
+    const SeriesView chain{&mechanism.chains[i], &configuration.chains[i], &works[i], &configuration.X_MP, true};
+    collect(chain, list);
+    list.push_back(chain);
+  }
+  return list;
+}
+
+bool LaneModel::can_do(const Mechanism& mechanism) {
+  const auto controls = [&](Component c) {
+    return std::count(mechanism.controlled.begin(), mechanism.controlled.end(), c) > 0;
+  };
+  return !has_weight(mechanism) && controls(Component::x) && controls(Component::y) && controls(Component::z) &&
+         mechanism.travel.size() <= 9;
+}
+
+LaneModel::LaneModel(const Model& model, bool at_platform) : model_(model) {
+  const Mechanism& mechanism = model.mechanism;
+  std::vector<SeriesWork> works;
+  for (const Series& chain : mechanism.chains) works.push_back(make_work(chain));
+  const auto list = views(mechanism, model.home, works);
+  series_.resize(list.size());
+  std::map<const Series*, int> number;
+  for (std::size_t i = 0; i < list.size(); ++i) number[list[i].series] = static_cast<int>(i);
+  for (std::size_t i = 0; i < list.size(); ++i) flatten(*list[i].series, series_[i]);
+  program_.platform = program_.states;
+  program_.states += 12;
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    if (list[i].is_chain) {
+      series_[i].is_chain = true;
+      series_[i].end = program_.platform;
+    }
+    for (const lanes::Part& part : parts_[i])
+      if (part.operation == lanes::Operation::group) {
+        auto& mutable_part = const_cast<lanes::Part&>(part);
+        const SeriesGroup& group = list[i].series->groups[part.fixed];
+        mutable_part.first_branch = number.at(&group.branches.front());
+        mutable_part.branches = static_cast<int>(group.branches.size());
+        for (int b = 0; b < part.branches; ++b) series_[part.first_branch + b].end = part.value;
+      }
+  }
+  program_.series = series_.data();
+  program_.series_count = static_cast<int>(series_.size());
+  program_.fixed[0] = fixed_[0].data();
+  program_.fixed[1] = fixed_[1].data();
+  program_.actuator_numbers = actuator_numbers_.data();
+  program_.actuators = static_cast<int>(mechanism.travel.size());
+  program_.length = mechanism.length;
+  program_.floor_per_metre = 16 * std::numeric_limits<double>::epsilon() * mechanism.stiffest;
+  const Vector3 arm = at_platform ? mechanism.p_EP : mechanism.X_PT.p;
+  for (int i = 0; i < 3; ++i) program_.arm[i] = arm[i];
+  for (int i = 0; i < 3; ++i) program_.p_PT[i] = mechanism.X_PT.p[i];
+  for (int i = 0; i < 9; ++i) program_.R_PT[i] = mechanism.X_PT.R(i / 3, i % 3);
+}
+
+int LaneModel::add_fixed(const Pose& without_errors, const Pose& with_errors) {
+  fixed_[0].push_back(flat_pose(without_errors));
+  fixed_[1].push_back(flat_pose(with_errors));
+  return static_cast<int>(fixed_[0].size()) - 1;
+}
+
+void LaneModel::flatten(const Series& series, lanes::Series& flat) {
+  std::vector<lanes::Part>& parts = parts_.emplace_back();
+  Standing standing;
+  const auto row_of = [&](const Part& part) {
+    const auto at = std::find(series.free.begin(), series.free.end(), part.column);
+    return at == series.free.end() ? -1 : 6 + static_cast<int>(at - series.free.begin());
+  };
+  const auto flush = [&] {
+    if (is_identity(standing)) return;
+    parts.push_back({.operation = lanes::Operation::fixed, .fixed = add_fixed(standing.X[0], standing.X[1]), .actuator = -1});
+    standing = {};
+  };
+  for (const Part& part : series.parts) {
+    switch (part.kind) {
+      case PartKind::mass: break;
+      case PartKind::fixed: standing.add(part.X); break;
+      case PartKind::error: standing.X[1] = standing.X[1] * part.X; break;
+      case PartKind::actuator:
+      case PartKind::passive:
+      case PartKind::compliance: {
+        lanes::Part joint{.operation = part.joint.kind == JointKind::prismatic ? lanes::Operation::slide : lanes::Operation::turn,
+                          .value = program_.states++, .row = row_of(part), .actuator = part.actuator, .k = part.k, .rest = part.rest};
+        joint.axis = coordinate_axis(part.joint.axis, joint.sign);
+        Matrix3 R_axis = Matrix3::Identity();
+        if (joint.axis < 0) {  // about z of a frame that is turned there and back
+          R_axis = z_to(part.joint.axis);
+          joint.axis = 2;
+          joint.sign = 1;
+        }
+        standing.add(rotation(R_axis));
+        flush();
+        parts.push_back(joint);
+        standing.add(rotation(R_axis.transpose()));
+        break;
+      }
+      case PartKind::spring: {
+        flush();
+        std::vector<double>& K = springs_.emplace_back();
+        for (int i = 0; i < 36; ++i) K.push_back(part.K(i / 6, i % 6));
+        for (int i = 0; i < 6; ++i) K.push_back(part.theta_0[i]);
+        parts.push_back({.operation = lanes::Operation::spring, .value = program_.states, .row = row_of(part), .actuator = -1, .K = K.data()});
+        program_.states += 6;
+        break;
+      }
+      case PartKind::group:
+        flush();
+        parts.push_back({.operation = lanes::Operation::group, .fixed = part.group, .value = program_.states, .row = row_of(part), .actuator = -1});
+        program_.states += 12;
+        break;
+    }
+  }
+  flush();
+  flat.parts = parts.data();
+  flat.part_count = static_cast<int>(parts.size());
+  program_.most_parts = std::max(program_.most_parts, flat.part_count);
+  flat.rows = 6 + static_cast<int>(series.free.size());
+  flat.wrench = program_.states;
+  program_.states += 6;
+  flat.step = program_.rows;
+  program_.rows += flat.rows;
+  flat.first_actuator = static_cast<int>(actuator_numbers_.size());
+  flat.actuators = static_cast<int>(series.actuators.size());
+  actuator_numbers_.insert(actuator_numbers_.end(), series.actuators.begin(), series.actuators.end());
+  auto& angular = angular_.emplace_back(new bool[series.free.size() + 1]);
+  for (std::size_t i = 0; i < series.free.size(); ++i) angular[i] = series.angular[series.free[i]];
+  flat.angular = angular.get();
+}
+
+std::vector<double> LaneModel::state_of(const Configuration& configuration) const {
+  std::vector<double> state(program_.states, 0.0);
+  std::vector<SeriesWork> works;
+  for (const Series& chain : model_.mechanism.chains) works.push_back(make_work(chain));
+  const auto list = views(model_.mechanism, configuration, works);
+  for (std::size_t s = 0; s < list.size(); ++s) {
+    const lanes::Series& flat = series_[s];
+    for (int i = 0; i < 6; ++i) state[flat.wrench + i] = list[s].state->F[i];
+    auto part = parts_[s].begin();
+    for (const Part& full : list[s].series->parts) {
+      if (full.column < 0) continue;
+      while (part->operation == lanes::Operation::fixed) ++part;
+      if (full.kind == PartKind::group) {
+        const Pose& X = list[s].state->groups[full.group].X;
+        put(X.R, X.p, &state[part->value]);
+      } else {
+        const int count = full.kind == PartKind::spring ? 6 : 1;
+        for (int i = 0; i < count; ++i) state[part->value + i] = list[s].state->x[full.column + i];
+      }
+      ++part;
+    }
+  }
+  put(configuration.X_MP.R, configuration.X_MP.p, &state[program_.platform]);
+  return state;
+}
+
+}  // namespace counterflex

@@ -1,0 +1,53 @@
+#pragma once
+/// A mechanism made ready for the lane kernels, and what is to be found of it in the other form.
+#include <deque>
+#include <map>
+#include <memory>
+#include <vector>
+
+#include "counterflex/statics/equilibrium.hpp"
+#include "lane_program.hpp"
+#include "series.hpp"
+
+namespace counterflex {
+
+/// A series in every form that it has. In the order of the lane program: branches before the series that holds them.
+struct SeriesView {
+  const Series* series;
+  const SeriesState* state;
+  SeriesWork* work;
+  const Pose* end;
+  bool is_chain;
+};
+std::vector<SeriesView> views(const Mechanism& mechanism, const Configuration& configuration, std::vector<SeriesWork>& works);
+
+/// The flat program of a mechanism; it owns what the program points to.
+class LaneModel {
+ public:
+  /// `at_platform`: where loads act, as `Load` has it.
+  LaneModel(const Model& model, bool at_platform);
+  LaneModel(const LaneModel&) = delete;
+
+  /// Whether the kernels can do with this machine: it controls x, y and z of the tip and has no weights.
+  static bool can_do(const Mechanism& mechanism);
+
+  const lanes::Program& program() const { return program_; }
+
+  /// The state of a configuration as the kernels hold it.
+  std::vector<double> state_of(const Configuration& configuration) const;
+
+ private:
+  void flatten(const Series& series, lanes::Series& flat);
+  int add_fixed(const Pose& without_errors, const Pose& with_errors);
+
+  const Model& model_;
+  lanes::Program program_{};
+  std::vector<lanes::Series> series_;
+  std::deque<std::vector<lanes::Part>> parts_;
+  std::deque<std::vector<double>> springs_;
+  std::deque<std::unique_ptr<bool[]>> angular_;
+  std::vector<lanes::FixedPose> fixed_[2];
+  std::vector<int> actuator_numbers_;
+};
+
+}  // namespace counterflex

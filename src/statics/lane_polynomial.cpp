@@ -1,0 +1,82 @@
+#include "lane_polynomial.hpp"
+
+#include <cmath>
+#include <map>
+#include <mutex>
+
+#include "counterflex/geometry/units.hpp"
+#include "decompositions.hpp"
+
+namespace counterflex {
+namespace {
+
+double radical_inverse(int n, int base) {
+  double value = 0, digit = 1;
+  for (; n > 0; n /= base) value += (digit /= base) * (n % base);
+  return value;
+}
+
+Vector3 crowded_point(int n) {
+  Vector3 x;
+  const int bases[3] = {2, 3, 5};
+  for (int i = 0; i < 3; ++i) x[i] = std::cos(pi * radical_inverse(n, bases[i]));
+  return x;
+}
+
+constexpr int check_count = 20;
+
+PolynomialFit make_fit(int degree) {
+  PolynomialFit fit;
+  const int terms = monomial_count(degree), count = terms + terms / 2 + 8;
+  Eigen::MatrixXd values(count, terms);
+  for (int n = 0; n < count; ++n) {
+    fit.points.push_back(crowded_point(n + check_count + 1));
+    values.row(n) = monomials(fit.points.back(), degree);
+  }
+  Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> decomposition;
+  decomposition.compute(values);
+  fit.from_values = solved(decomposition, Eigen::MatrixXd(Eigen::MatrixXd::Identity(count, count)));
+  return fit;
+}
+
+}  // namespace
+
+Eigen::RowVectorXd monomials(const Vector3& x, int degree) {
+  Eigen::RowVectorXd values(monomial_count(degree));
+  Eigen::Index at = 0;
+  for (int i = 0; i <= degree; ++i)
+    for (int j = 0; j <= i; ++j)
+      for (int k = 0; k <= j; ++k)
+        values[at++] = std::pow(x[0], degree - i) * std::pow(x[1], i - j) * std::pow(x[2], j - k);
+  return values;
+}
+
+int linear_term(int degree, int variable) {
+  int at = 0;
+  for (int i = 0; i <= degree; ++i)
+    for (int j = 0; j <= i; ++j)
+      for (int k = 0; k <= j; ++k, ++at) {
+        const int power[3] = {degree - i, i - j, j - k};
+        if (power[0] + power[1] + power[2] == 1 && power[variable] == 1) return at;
+      }
+  return -1;
+}
+
+const PolynomialFit& polynomial_fit(int degree) {
+  static std::mutex mutex;
+  static std::map<int, PolynomialFit> fits;
+  const std::lock_guard lock(mutex);
+  const auto found = fits.find(degree);
+  return found != fits.end() ? found->second : fits.emplace(degree, make_fit(degree)).first->second;
+}
+
+const std::vector<Vector3>& polynomial_checks() {
+  static const std::vector<Vector3> points = [] {
+    std::vector<Vector3> list;
+    for (int n = 1; n <= check_count; ++n) list.push_back(crowded_point(n));
+    return list;
+  }();
+  return points;
+}
+
+}  // namespace counterflex

@@ -1,0 +1,107 @@
+#pragma once
+/// A mechanism as a flat list of operations that are done for several waypoints side by side, one a lane of a vector
+/// register. Plain data and pointers: the kernels that read it are compiled for other instruction sets than the rest and
+/// must share no inline function with it. EQUATIONS.md, section 11.
+
+namespace counterflex::lanes {
+
+inline constexpr int width = 8;  ///< waypoints that are solved at once
+
+enum class Operation { fixed, slide, turn, spring, group };
+
+/// A fixed transform; R row-major.
+struct FixedPose {
+  double R[9], p[3];
+  bool turns, shifts;  ///< whether R and p are not identity
+};
+
+/// One element of a series. A joint moves along or about a coordinate axis of the frame before it.
+struct Part {
+  Operation operation;
+  int fixed;            ///< index into Program::fixed
+  int axis;             ///< 0 x, 1 y, 2 z
+  double sign;          ///< of the axis
+  int value;            ///< index of its first coordinate in the state; of a group: of its pose (R row-major, p)
+  int row;              ///< of its first equation in the series; -1 for an actuator
+  int actuator;         ///< number; -1 for others
+  double k, rest;       ///< joints: N/m or N m/rad, m or rad
+  const double* K;      ///< spring: 6x6 row-major, then theta_0 (6)
+  int first_branch, branches;  ///< group: index into Program::series
+};
+
+/// A series between two frames. Rows: six of the closure, then one by free coordinate.
+struct Series {
+  const Part* parts;
+  int part_count;
+  int rows;
+  int wrench;           ///< index of F in the state
+  int step;             ///< index of its rows in the step
+  int end;              ///< index in the state of the pose where it should end
+  bool is_chain;        ///< it ends at the platform
+  int first_actuator, actuators;  ///< into Program::actuator_numbers
+  const bool* angular;  ///< by row, from the seventh on
+};
+
+struct Program {
+  const Series* series;  ///< branches before the series that holds their group
+  int series_count;
+  const FixedPose* fixed[2];    ///< without and with assembly errors
+  const int* actuator_numbers;
+  int actuators;
+  int states;            ///< length of the state: coordinates, wrenches, poses of groups, pose of the platform
+  int platform;          ///< index of the platform's pose in it
+  int rows;              ///< of all series together
+  int most_parts;
+  double length;         ///< l
+  double floor_per_metre;  ///< 16 eps k_max
+  double p_PT[3], R_PT[9], arm[3];  ///< tip in P; where the load acts in P
+};
+
+/// What is known of the machine around a place: everything that lanes share.
+struct Region {
+  double centre[3], half;      ///< the cube of commanded positions (M, m)
+  int degree;                  ///< of the polynomials in (p - centre) / half
+  const double* polynomials;   ///< one an actuator, then three of the rotation vector of the nominal tip against R_centre
+  const double* R_centre;      ///< row-major
+  const double* start;         ///< state at the centre, without a load
+  const double* cosine;        ///< of start's coordinates
+  const double* sine;
+  const double* const* inside;  ///< by series: rows x rows, from (gap, gradient) to (dF, dx)
+  const double* const* by_end;  ///< by series: rows x 6, from a step of its end
+  const double* const* by_actuators;  ///< by series: rows x actuators
+  const double* forward;  ///< 6 x 6, from the platform's imbalance to its step
+  const double* target;   ///< 9 x 9, with the tip's error and the commanded position besides
+};
+
+/// Waypoints, structure of arrays. In: p, F. Out: the rest.
+struct Batch {
+  double p[3][width];   ///< forward: commanded position; target: wanted tip, on return the position to command (M, m)
+  double F[6][width];   ///< at the tip, or where Program::arm says
+  double tip[12][width];      ///< R row-major, p
+  double wanted_phi[3][width];  ///< rotation vector of the nominal tip at p against R_centre
+  double iterations[width];
+  double largest_change[width];  ///< rad: how far angles are from the region's; NaN where lanes failed
+  double* rho;                ///< actuators x width
+  bool converged[width];
+};
+
+struct Question {
+  bool target;   ///< else forward
+  bool errors;   ///< whether assembly errors act
+  bool go_on;    ///< begin with the state of the last call, else with the region's
+};
+
+/// Solves one batch. `memory` holds `doubles_needed` numbers, aligned to 64 bytes, and keeps the state from call to call.
+using Solve = void (*)(const Program&, const Region&, const Question&, Batch&, double* memory);
+
+/// Doubles of working memory that a kernel needs.
+long doubles_needed(const Program& program);
+
+/// The kernel for the computer that this runs on, and its name ("AVX-512", "AVX2", "SSE2", "plain").
+struct Kernel {
+  Solve solve;
+  const char* name;
+};
+Kernel best_kernel();
+
+}  // namespace counterflex::lanes
