@@ -19,6 +19,7 @@ struct ActualSolution {
   Status status = Status::not_converged;
   Pose X_MT;
   int iterations = 0;
+  bool in_travel = true;  ///< whether the actuators of the command are in their ranges
 };
 
 /// Where a forward solve begins: at the neighbour's solution, or at the nominal configuration, from where
