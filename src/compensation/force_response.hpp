@@ -47,6 +47,19 @@ struct ForceResponse {
 /// Pieces in a row of which one is looked into for all.
 inline constexpr std::size_t row_of_pieces = 8;
 
+/// Of the tolerance, or of what of it is left: bends by the force that are looked at for their own sake.
+inline constexpr double looked_at_share = 0.1;
+
+/// By how much of it the bend by the force may be other than foreseen.
+inline constexpr double bend_error = 0.3;
+
+/// Whether what was found inside a line is as foreseen, with a bend by the force (m); `room`: the tolerance,
+/// or what of it is left (m).
+inline bool is_as_foreseen(const Vector3& found, const Vector3& foreseen, const Vector3& bend, double room) {
+  constexpr double share = 0.025;
+  return (found - foreseen).norm() <= share * room + bend_error * bend.norm();
+}
+
 /// Lines shorter than this part of the machine's length l bend, if at all, as their neighbours do.
 inline constexpr double short_line = 0.02;
 

@@ -10,9 +10,8 @@ namespace {
 
 constexpr int odd_sixteenths = 8;
 constexpr double quiet_share = 0.1;  // of the tolerance: arcs whose correction changes less are sampled once
-constexpr double straight_share = 0.1;    // of the tolerance: a stretch that bends more is sampled closer
-constexpr double near_share = 0.8;        // of the tolerance: so is one that comes so near to it
-constexpr double foreseen_share = 0.025;  // of the tolerance: a short line is as foreseen
+constexpr double straight_share = 0.1;  // of the tolerance: a stretch that bends more is sampled closer
+constexpr double near_share = 0.8;      // of the tolerance: so is one that comes so near to it
 
 double odd_sixteenth(int k, int count) {
   return (2 * k + 1) / (2.0 * count);
@@ -200,7 +199,7 @@ void ChunkForward::choose_short_lines() {
     Task& task = tasks_[t];
     if (!task.line) continue;
     add_bends(task);
-    task.length = (task.piece->commanded.end - task.piece->commanded.start).norm();
+    task.length = (task.piece->u1 - task.piece->u0) * length(task.segment->wanted);
     const bool steps = job_.options.blend == 0 && task.count > 1;
     if (task.length <= longest && !steps && tasks_.size() > 1) lines_.push_back(t);
   }
@@ -235,7 +234,7 @@ void ChunkForward::judge_bends() {
       task.bend_v = bends_[k].v;
     }
     const double ends = std::max(miss(task.start).norm(), miss(task.end).norm());
-    return !response.known || ends + task.bend > near_share * job_.options.tolerance;
+    return !response.known || ends + (1 + bend_error) * task.bend > near_share * job_.options.tolerance;
   };
   lines_.erase(std::remove_if(lines_.begin(), lines_.end(), comes_near), lines_.end());
   for (const std::size_t t : lines_) tasks_[t].foreseen = true;
@@ -252,31 +251,31 @@ void ChunkForward::look_into_rows() {
     const std::size_t most_bent =
         *std::max_element(row.begin(), row.end(),
                           [&](std::size_t a, std::size_t b) { return tasks_[a].bend < tasks_[b].bend; });
-    look_into(begin, longest);
-    if (most_bent != longest && tasks_[most_bent].bend > foreseen_share * job_.options.tolerance)
-      look_into(begin, most_bent);
+    const bool bent = tasks_[most_bent].bend > looked_at_share * job_.options.tolerance;
+    if (bent) look_into(begin, most_bent, tasks_[most_bent].bend_v);
+    if (!bent || most_bent != longest) look_into(begin, longest, 0.5);
   }
 }
 
-void ChunkForward::look_into(std::size_t row, std::size_t t) {
-  tasks_[t].look = add(t, tasks_[t].bend_v, true);
+void ChunkForward::look_into(std::size_t row, std::size_t t, double v) {
+  tasks_[t].look = add(t, v, true);
   looks_.push_back({row, tasks_[t].look});
 }
 
-bool ChunkForward::is_as_foreseen(const Look& look) const {
+bool ChunkForward::went_as_foreseen(const Look& look) const {
   const Sample& sample = samples_[look.sample];
   const Task& task = tasks_[sample.task];
   const double v = sample.v;
   const Vector6 dF =
       requests_[look.sample].load.F - (1 - v) * requests_[task.start].load.F - v * requests_[task.end].load.F;
-  const Vector3 foreseen =
-      (1 - v) * miss(task.start) + v * miss(task.end) + responses_[sample.task / response_span].S * dF;
-  return (miss(look.sample) - foreseen).norm() <= foreseen_share * job_.options.tolerance;
+  const Vector3 bend = responses_[sample.task / response_span].S * dF;
+  const Vector3 foreseen = (1 - v) * miss(task.start) + v * miss(task.end) + bend;
+  return is_as_foreseen(miss(look.sample), foreseen, bend, job_.options.tolerance);
 }
 
 void ChunkForward::judge_rows() {
   for (const Look& look : looks_) {
-    if (is_as_foreseen(look)) continue;
+    if (went_as_foreseen(look)) continue;
     const std::size_t end = std::min(look.row + row_of_pieces, lines_.size());
     for (std::size_t k = look.row; k < end; ++k) {
       if (tasks_[lines_[k]].foreseen) sample(lines_[k]);
@@ -317,7 +316,7 @@ void ChunkForward::sample_closer() {
   }
 }
 
-// In order along the path. A piece's length is shared evenly by its end and the samples inside.
+// In order along the path.
 void ChunkForward::write_waypoints(std::vector<Waypoint>& out) {
   order_.clear();
   for (std::size_t i = 0; i < samples_.size(); ++i)
@@ -327,11 +326,18 @@ void ChunkForward::write_waypoints(std::vector<Waypoint>& out) {
   };
   std::stable_sort(order_.begin(), order_.end(), before);
   places_.clear();
-  for (std::size_t i = 0, end = 0; i < order_.size(); i = end) {
-    while (end < order_.size() && samples_[order_[end]].task == samples_[order_[i]].task) ++end;
-    const std::size_t starts = samples_[order_[i]].v == 0 ? 1 : 0;
-    for (std::size_t k = i; k < end; ++k)
-      write_waypoint(order_[k], k < i + starts ? 0 : 1.0 / static_cast<double>(end - i - starts), out);
+  double v = 0, start = 0;  // of the sample before on this piece; what the start of the piece would stand for
+  for (std::size_t k = 0; k < order_.size(); ++k) {
+    const Sample& sample = samples_[order_[k]];
+    const bool first = k == 0 || samples_[order_[k - 1]].task != sample.task;
+    const bool last = k + 1 == order_.size() || samples_[order_[k + 1]].task != sample.task;
+    if (first) {
+      v = 0;
+      start = sample.v > 0 ? sample.v / 2 : 0;
+    }
+    const double next = last ? 1 : samples_[order_[k + 1]].v;
+    write_waypoint(order_[k], (next - v) / 2 + (last ? start : 0), out);
+    v = sample.v;
   }
 }
 

@@ -9,18 +9,7 @@
 
 namespace counterflex {
 
-/// Every end of a piece is solved. Inside, an arc is sampled at odd sixteenths, or once where its correction
-/// hardly changes. A line is sampled at the corners of the force and in the middle of each stretch between
-/// them; a stretch whose middle is off the line between its ends' deviations by more than a tenth of the
-/// tolerance, or where less than a fifth of the tolerance is left, is sampled at its odd sixteenths, too.
-///
-/// Short lines without steps of the force, whose deviation is foreseen as
-///
-///     e(v) = (1 - v) e(0) + v e(1) + S dF(v)      dF(v) = F(v) - (1 - v) F(0) - v F(1)
-///
-/// S the tip's response to the force, are sampled inside where less than a fifth of the tolerance would be
-/// left. Of every eight others in a row the longest one, and the one that S dF bends most, are sampled there:
-/// if they are not as foreseen, all of the row.
+/// The waypoints of pieces that need the same model; what is sampled `solve_forward_along` says.
 class ChunkForward {
  public:
   ChunkForward(const Job& job, const Questions& questions, WaypointSolver& solver);
@@ -80,8 +69,8 @@ class ChunkForward {
   void ask_responses();
   void judge_bends();
   void look_into_rows();
-  void look_into(std::size_t row, std::size_t t);
-  bool is_as_foreseen(const Look& look) const;
+  void look_into(std::size_t row, std::size_t t, double v);
+  bool went_as_foreseen(const Look& look) const;
   void judge_rows();
   void sample(std::size_t t);
   void sample_closer();
@@ -89,6 +78,8 @@ class ChunkForward {
 
   Vector3 wanted_at(const Task& task, double u) const;
   Vector3 miss(std::size_t sample) const;
+  // Every sample stands for half of the way to those beside it, the end for half of the way behind the start,
+  // too.
   void write_waypoints(std::vector<Waypoint>& out);
   void write_waypoint(std::size_t s, double share, std::vector<Waypoint>& out);
   Status status(std::size_t sample) const;

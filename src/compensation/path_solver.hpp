@@ -39,10 +39,6 @@ class PathSolver {
   ActualSolution actual(const Vector3& target, const Load& load, const Stage& stage,
                         Start start = Start::neighbour);
 
-  /// Where the tip stands under another load than in `actual`'s last solution, which had everything acting
-  /// and was converged. Neighbours go on from that one.
-  ActualSolution under_another_load(const Load& load);
-
   /// Whether the actuators of the last command are in their ranges.
   bool in_travel() const;
 

@@ -12,9 +12,8 @@ namespace {
 constexpr double jump_share = 0.1;    // of the tolerance: larger steps of the correction are jumped
 constexpr double curve_share = 0.01;  // of the tolerance: accuracy of the sampled curve
 constexpr double sampled_angle = std::numbers::pi / 2;
-constexpr int group_samples = 8;      // along each move of a contour group
-constexpr double bend_share = 0.25;   // of the room for knots: what is taken for a line bends less
-constexpr double look_share = 0.025;  // of the room for knots: a line that is looked into is as expected
+constexpr int group_samples = 8;     // along each move of a contour group
+constexpr double bend_share = 0.25;  // of the room for knots: what is taken for a line bends less
 
 }  // namespace
 
@@ -185,23 +184,23 @@ void ChunkPlanner::look_into_rows() {
     const auto most_bent = *std::max_element(row.begin(), row.end(), [&](std::size_t a, std::size_t b) {
       return tasks_[a].bend < tasks_[b].bend;
     });
-    look_into(begin, longest);
-    const bool bent = tasks_[most_bent].bend > look_share * tasks_[most_bent].room;
-    if (bent && most_bent != longest) look_into(begin, most_bent);
+    const bool bent = tasks_[most_bent].bend > looked_at_share * tasks_[most_bent].room;
+    if (bent) look_into(begin, most_bent, tasks_[most_bent].bend_u);
+    if (!bent || most_bent != longest) look_into(begin, longest, 0.5);
   }
 }
 
-void ChunkPlanner::look_into(std::size_t row, std::size_t t) {
-  looks_.push_back({row, t, waves_.ask(tasks_[t].segment, tasks_[t].bend_u)});
+void ChunkPlanner::look_into(std::size_t row, std::size_t t, double u) {
+  looks_.push_back({row, t, u, waves_.ask(tasks_[t].segment, u)});
 }
 
 bool ChunkPlanner::is_as_expected(const Look& look) const {
   const Task& task = tasks_[look.task];
-  const double u = task.bend_u;
+  const double u = look.u;
   const Vector6 dF = waves_.force(look.at) - (1 - u) * waves_.force(task.start) - u * waves_.force(task.end);
-  const Vector3 expected = (1 - u) * waves_.correction(task.start) + u * waves_.correction(task.end) +
-                           responses_[look.task / response_span].S * dF;
-  return (waves_.correction(look.at) - expected).norm() <= look_share * task.room;
+  const Vector3 bend = responses_[look.task / response_span].S * dF;
+  const Vector3 expected = (1 - u) * waves_.correction(task.start) + u * waves_.correction(task.end) + bend;
+  return is_as_foreseen(waves_.correction(look.at), expected, bend, task.room);
 }
 
 void ChunkPlanner::judge_rows() {

@@ -41,6 +41,7 @@ class ChunkPlanner {
   };
   struct Look {
     std::size_t row, task;
+    double u;
     Answer at;
   };
 
@@ -59,7 +60,7 @@ class ChunkPlanner {
   void ask_responses();
   void judge_bends();
   void look_into_rows();
-  void look_into(std::size_t row, std::size_t t);
+  void look_into(std::size_t row, std::size_t t, double u);
   bool is_as_expected(const Look& look) const;
   void judge_rows();
 
