@@ -1,4 +1,7 @@
+#include <mutex>
+
 #include "commands.hpp"
+#include "counterflex/compensation/compensate_windows.hpp"
 #include "run.hpp"
 
 namespace counterflex::cli {
@@ -8,32 +11,38 @@ bool is_reported(const Failure& failure) {
   return failure.exit == Exit::not_compensated || failure.exit == Exit::limit;
 }
 
-void add(const Compensation& window, const PathForces& forces, const Run& run, RunTally& tally,
-         RunFiles& files) {
+void add(Compensation& window, const PathForces& forces, const Run& run, RunTally& tally, RunFiles& files) {
   tally.add_forces(forces);
   tally.add_compensation(window);
   tally.add_waypoints(window.waypoints);
   files.add_waypoints(window.waypoints);
   files.add_program(window.text);
   if (window.text.empty()) return;
-  Program corrected = window.corrected;
-  ignore_axes(corrected, run.ignored);
-  tally.add_corrected(corrected);
+  ignore_axes(window.corrected, run.ignored);
+  tally.add_corrected(window.corrected);
 }
 
-/// Window by window, to the first failure.
+/// Window by window, to the first failure. Windows are read while others are solved.
 std::optional<Failure> compensate_all(Run& run, RunTally& tally, RunFiles& files, Console& console) {
   Windows windows(run, console);
-  Compensator compensator(run.options.write, TextReader(windows.reader()), run.facts.attribution);
-  while (windows.next()) {
-    const Job job = windows.job();
-    const Compensation window = compensator.next(job);
+  std::mutex speaking;
+  const auto read = [&](const Job& job) {
+    const std::lock_guard alone(speaking);
+    windows.check(job);
+  };
+  const auto begun = [&](const Job& job) {
+    const std::lock_guard alone(speaking);
+    windows.warn(job);
+  };
+  const auto done = [&](const Job& job, Compensation& window) {
+    std::unique_lock alone(speaking);
     for (const LeftAlone& block : window.left_alone)
       console.warning(run.program.file, block.line, "not corrected: " + block.why);
+    alone.unlock();
     add(window, job.forces, run, tally, files);
-    if (window.failure) return window.failure;
-  }
-  return std::nullopt;
+  };
+  return compensate_windows(windows.jobs(), run.options, TextReader(windows.reader()), run.facts.attribution,
+                            {read, begun, done});
 }
 
 }  // namespace

@@ -41,22 +41,46 @@ bool is_cutting_model(const std::string& path) {
   throw InputError(Exit::usage, {path}, fmt::format("a force file is .csv or .toml, not '{}'", extension));
 }
 
-InputFile input_file(const std::string& role, const std::string& path, const std::string& bytes) {
-  return {role, path, sha256(bytes)};
-}
-
-}  // namespace
-
-std::string read_input(const std::string& path, Exit unreadable) {
-  refuse_folder(path, unreadable);
+/// What `read` gives; a file that cannot be read has the exit status `unreadable`.
+template <typename Read>
+auto or_unreadable(Exit unreadable, const Read& read) {
   try {
-    return read_file(path);
+    return read();
   } catch (const InputError& error) {
     if (unreadable == error.exit()) throw;
     const std::string what = error.what();
     const std::size_t at = what.find("cannot read");
     throw InputError(unreadable, error.where(), at == std::string::npos ? what : what.substr(at));
   }
+}
+
+InputFile input_file(const std::string& role, const std::string& path, const std::string& bytes) {
+  return {role, path, sha256(bytes)};
+}
+
+std::vector<ForceRule> read_cutting_models(const std::string& role, const std::string& path,
+                                           std::vector<InputFile>& files) {
+  const std::string text = read_input(path, Exit::machine_or_force);
+  files.push_back(input_file(role, path, text));
+  return read_force_toml(text, shown_name(path));
+}
+
+/// A profile may be as long as the program: it is not held in memory.
+std::vector<ForceRule> read_profile(const std::string& role, const std::string& path,
+                                    std::vector<InputFile>& files) {
+  refuse_folder(path, Exit::machine_or_force);
+  FileReader bytes = or_unreadable(Exit::machine_or_force, [&] { return FileReader(path); });
+  files.push_back({role, path, or_unreadable(Exit::machine_or_force, [&] { return sha256(bytes); })});
+  std::vector<ForceRule> rules = read_force_csv(bytes, shown_name(path));
+  bytes.refuse_change();  // it was read twice
+  return rules;
+}
+
+}  // namespace
+
+std::string read_input(const std::string& path, Exit unreadable) {
+  refuse_folder(path, unreadable);
+  return or_unreadable(unreadable, [&] { return read_file(path); });
 }
 
 void refuse_home(const Model& model, const Machine& machine) {
@@ -185,13 +209,12 @@ ForceInput read_force_input(const Options& options) {
   source.scale = options.load_scale;
   source.air_above_mm = options.air_above_mm;
   for (const std::string& path : options.forces) {
-    const bool toml = is_cutting_model(path);
-    const std::string text = read_input(path, Exit::machine_or_force), name = shown_name(path);
     const std::string role =
         input.files.empty() ? "forces" : fmt::format("forces-{}", input.files.size() + 1);
-    input.files.push_back(input_file(role, path, text));
-    const auto rules = toml ? read_force_toml(text, name) : read_force_csv(text, name);
-    source.rules.insert(source.rules.end(), rules.begin(), rules.end());
+    auto rules = is_cutting_model(path) ? read_cutting_models(role, path, input.files)
+                                        : read_profile(role, path, input.files);
+    source.rules.insert(source.rules.end(), std::make_move_iterator(rules.begin()),
+                        std::make_move_iterator(rules.end()));
   }
   source.rules.insert(source.rules.end(), options.force_rules.begin(), options.force_rules.end());
   return input;

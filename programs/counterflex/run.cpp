@@ -161,14 +161,21 @@ Windows::Windows(Run& run, Console& console, std::size_t least_moves)
 
 bool Windows::next() {
   if (!jobs_.next()) return false;
-  const Job window = job();
+  check(job());
+  warn(job());
+  return true;
+}
+
+void Windows::check(const Job& window) {
   console_.progress(fmt::format("solving line {} of {}",
                                 window.path.segments.empty() ? 0 : window.path.segments.front().line,
                                 run_.program.lines));
   refuse_uncontrolled_moves(window);
+}
+
+void Windows::warn(const Job& window) {
   for (const ForceNote& note : window.forces.notes())
     console_.warning(run_.program.file, note.line, note.what);
-  return true;
 }
 
 /// A component of the position that the machine does not control has to keep its value.

@@ -57,6 +57,12 @@ class Windows {
   Job job() const { return jobs_.job(); }
   const ProgramReader& reader() const { return reader_; }
 
+  /// The parts of `next`, where windows are read in another way: shows progress and throws as `next` does;
+  /// warns.
+  JobWindows& jobs() { return jobs_; }
+  void check(const Job& window);
+  void warn(const Job& window);
+
  private:
   void refuse_uncontrolled_moves(const Job& job);
 

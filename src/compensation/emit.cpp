@@ -11,6 +11,7 @@
 namespace counterflex {
 
 Emission Emitter::run() {
+  out_.moves.reserve(job_.program.moves.size());
   for (std::size_t m = 0; m < job_.program.moves.size() && !out_.failure; ++m) {
     const bool has_segment =
         next_segment_ < job_.path.segments.size() && job_.path.segments[next_segment_].move == m;
@@ -70,9 +71,10 @@ bool Emitter::put_jump(const Segment& segment, const PlannedSegment& planned, Em
 
 void Emitter::emit_line(const Segment& segment, const PlannedSegment& planned, EmittedMove& emitted) {
   const Move& move = job_.program.moves[segment.move];
-  for (std::size_t k = 0; k + 1 < planned.knots.size(); ++k)
+  for (std::size_t k = 0; k + 1 < planned.knots.size(); ++k) {
     emitted.edit.inserted.push_back({written(move, planned.knots[k].target)});
-  for (const Knot& knot : planned.knots) emitted.fractions.push_back(knot.u);
+    emitted.fractions.push_back(planned.knots[k].u);
+  }
 }
 
 void Emitter::finish_segment(const Segment& segment, const PlannedSegment& planned, double unsplit_miss,
@@ -133,9 +135,10 @@ Emission emit(const Job& job, const Plan& plan, EmitterState& state) {
   return Emitter(job, plan, state).run();
 }
 
-std::vector<MoveEdit> edits_of(const Emission& emission) {
+std::vector<MoveEdit> take_edits(Emission& emission) {
   std::vector<MoveEdit> edits;
-  for (const EmittedMove& move : emission.moves) edits.push_back(move.edit);
+  edits.reserve(emission.moves.size());
+  for (EmittedMove& move : emission.moves) edits.push_back(std::move(move.edit));
   return edits;
 }
 

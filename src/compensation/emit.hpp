@@ -17,7 +17,7 @@ struct EmittedMove {
   MoveEdit edit;
   Kind kind = Kind::shifted;
   std::size_t segment = no_segment;
-  std::vector<double> fractions{};  ///< of its inserted points and its end on its segment
+  std::vector<double> fractions{};  ///< of its inserted points on its segment
   bool in_part = false;             ///< listed: held, or corrected without its force
   bool exempt = false;              ///< listed: its inside may miss the tolerance
   bool exempt_end = false;          ///< listed: its end may, too
@@ -29,7 +29,8 @@ struct Emission {
   std::optional<Failure> failure;
 };
 
-std::vector<MoveEdit> edits_of(const Emission& emission);
+/// The edits of an emission, out of which their inserted points are moved.
+std::vector<MoveEdit> take_edits(Emission& emission);
 
 /// What holds where the tool is, from move to move and from window to window.
 struct EmitterState {
@@ -48,8 +49,10 @@ struct EmitterState {
 /// emission fails (Exit::program_text).
 Emission emit(const Job& job, const Plan& plan, EmitterState& state);
 
-/// The pieces that the emitted text commands. `corrected` is that text, read anew.
-std::vector<Piece> emitted_pieces(const Job& job, const Emission& emission, const Rewritten& rewritten,
+/// The pieces that the emitted text commands. `edits` are those of the emission, `corrected` is that text,
+/// read anew.
+std::vector<Piece> emitted_pieces(const Job& job, const Emission& emission,
+                                  const std::vector<MoveEdit>& edits, const Rewritten& rewritten,
                                   const Program& corrected);
 
 /// The end of a move as a target in M (m).

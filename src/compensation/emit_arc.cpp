@@ -36,6 +36,7 @@ void Emitter::emit_arc(const Segment& segment, const PlannedSegment& planned, Em
     if (end == 1) {
       emitted.edit.centre_mm = pieces.vias.back().centre_mm;
       pieces.vias.pop_back();
+      emitted.fractions.pop_back();
     }
     emitted.edit.inserted.insert(emitted.edit.inserted.end(), pieces.vias.begin(), pieces.vias.end());
   }
@@ -67,7 +68,6 @@ void Emitter::put_one_arc(const ArcTask& task, EmittedMove& emitted, double& uns
         task.move,
         "this arc must stay one block, and none within the control's radius rules follows the corrected one");
   emitted.edit.centre_mm = fit.via.centre_mm;
-  emitted.fractions = {1};
   if (fit.miss_mm > task.tolerance_mm) unsplit_miss = std::max(unsplit_miss, fit.miss_mm * mm);
 }
 

@@ -94,7 +94,7 @@ void Emitter::emit_rigid(std::size_t m, Index s, Kind otherwise) {
   }
   if (move.handling != Handling::own) {
     emitted.in_part = emitted.exempt = emitted.exempt_end = true;
-    if (s && !move.cycle) emitted.kind = Kind::segment, emitted.segment = *s, emitted.fractions = {1};
+    if (s && !move.cycle) emitted.kind = Kind::segment, emitted.segment = *s;
   }
   put(std::move(emitted));
 }

@@ -23,15 +23,23 @@ struct JobWindows::State {
   }
 
   bool next() {
-    if (forces) {
-      start = path.end;
-      tail = forces->tail();
-      nominal = std::move(end_of_window);
-    }
+    leave();
     if (!reader.next()) return false;
     build();
     while (!forces->is_final() && reader.extend()) build();
     return true;
+  }
+
+  /// What the window leaves to the next one.
+  void leave() {
+    if (!forces) return;
+    start = path.end;
+    tail = forces->tail();
+    nominal = std::move(end_of_window);
+  }
+
+  Job job(const Program& program, const Toolpath& of_window, const PathForces& on_window) const {
+    return {input.model, program, of_window, on_window, input.options, input.read, input.tools};
   }
 
   NominalPlace end_of_window{};
@@ -48,7 +56,22 @@ bool JobWindows::next() {
 
 Job JobWindows::job() const {
   const State& s = *state_;
-  return {s.input.model, s.reader.window(), s.path, *s.forces, s.input.options, s.input.read, s.input.tools};
+  return s.job(s.reader.window(), s.path, *s.forces);
+}
+
+bool JobWindows::next(JobWindow& window) {
+  State& s = *state_;
+  if (!s.next()) return false;
+  s.leave();
+  s.reader.take(window.program);
+  std::swap(window.path, s.path);
+  window.forces = std::move(s.forces);
+  s.forces.reset();
+  return true;
+}
+
+Job JobWindows::job(const JobWindow& window) const {
+  return state_->job(window.program, window.path, *window.forces);
 }
 
 }  // namespace counterflex

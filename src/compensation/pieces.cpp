@@ -9,21 +9,10 @@ namespace {
 // A point that an edit asks the text to come to.
 struct Stop {
   Vector3 p_mm;
-  std::array<int, 3> decimals;
   double u;
   bool jump;
+  bool end;
 };
-
-std::vector<Stop> stops_of(const Job& job, const MoveEdit& edit, const std::vector<double>& fractions) {
-  const Decimals decimals = decimals_of(job.program.moves[edit.move], job.options.write);
-  const std::array<int, 3> inside{decimals.inserted, decimals.inserted, decimals.inserted};
-  std::vector<Stop> stops;
-  if (edit.jump_mm) stops.push_back({*edit.jump_mm, inside, 0, true});
-  for (std::size_t k = 0; k < edit.inserted.size(); ++k)
-    stops.push_back({edit.inserted[k].end_mm, inside, fractions[k], false});
-  stops.push_back({edit.end_mm, decimals.end, fractions.back(), false});
-  return stops;
-}
 
 // Where the commands of a program stand, move by move.
 class PieceReader {
@@ -32,14 +21,14 @@ class PieceReader {
 
   // The next `count` moves command a segment's stops; rewriting gave no block to those that rounding
   // swallowed.
-  void read(const EmittedMove& move, const std::vector<Stop>& stops, std::size_t count,
-            std::vector<Piece>& pieces) {
+  void read(const EmittedMove& move, const MoveEdit& edit, std::size_t count, std::vector<Piece>& pieces) {
     const Segment& wanted = job_.path.segments[move.segment];
-    std::size_t swallowed = stops.size() - count;
+    take_stops(edit, move.fractions);
+    std::size_t swallowed = stops_.size() - count;
     double u0 = 0;
-    for (const Stop& stop : stops) {
+    for (const Stop& stop : stops_) {
       const Vector3 from = here();
-      const bool dropped = swallowed > 0 && is_held(stop, job_.program.moves[wanted.move].unit);
+      const bool dropped = swallowed > 0 && is_held(stop, job_.program.moves[wanted.move]);
       if (dropped)
         --swallowed;
       else
@@ -92,15 +81,24 @@ class PieceReader {
   void skip(std::size_t count) { next_ += count; }
 
  private:
+  void take_stops(const MoveEdit& edit, const std::vector<double>& fractions) {
+    stops_.clear();
+    if (edit.jump_mm) stops_.push_back({*edit.jump_mm, 0, true, false});
+    for (std::size_t k = 0; k < edit.inserted.size(); ++k)
+      stops_.push_back({edit.inserted[k].end_mm, fractions[k], false, false});
+    stops_.push_back({edit.end_mm, 1, false, true});
+  }
+
   // Whether the text holds the stop already, and the next move does not say it again.
-  bool is_held(const Stop& stop, LengthUnit unit) const {
+  bool is_held(const Stop& stop, const Move& original) const {
     const Move* last = move_before(corrected_, next_);
     if (last == nullptr) return false;
     const Vector3& held_mm = last->end_mm;
     if (next_ < corrected_.moves.size() && corrected_.moves[next_].end_mm == held_mm) return false;
+    const Decimals decimals = decimals_of(original, job_.options.write);
     for (Eigen::Index axis = 0; axis < 3; ++axis) {
-      const double digit = std::pow(10.0, -stop.decimals[static_cast<std::size_t>(axis)]) *
-                           (unit == LengthUnit::inches ? inch / mm : 1);
+      const int digits = stop.end ? decimals.end[static_cast<std::size_t>(axis)] : decimals.inserted;
+      const double digit = std::pow(10.0, -digits) * (original.unit == LengthUnit::inches ? inch / mm : 1);
       if (std::abs(stop.p_mm[axis] - held_mm[axis]) > 0.5 * digit * (1 + 1e-9)) return false;
     }
     return true;
@@ -120,13 +118,16 @@ class PieceReader {
   const Job& job_;
   const Program& corrected_;
   std::size_t next_ = 0;
+  std::vector<Stop> stops_;  // of one move; the room is used again
 };
 
 }  // namespace
 
-std::vector<Piece> emitted_pieces(const Job& job, const Emission& emission, const Rewritten& rewritten,
+std::vector<Piece> emitted_pieces(const Job& job, const Emission& emission,
+                                  const std::vector<MoveEdit>& edits, const Rewritten& rewritten,
                                   const Program& corrected) {
   std::vector<Piece> pieces;
+  pieces.reserve(corrected.moves.size());
   PieceReader reader(job, corrected);
   std::size_t next = 0;
   for (std::size_t e = 0; e < emission.moves.size(); ++e) {
@@ -140,7 +141,7 @@ std::vector<Piece> emitted_pieces(const Job& job, const Emission& emission, cons
     else if (move.kind == EmittedMove::Kind::shifted)
       reader.skip(count);
     else
-      reader.read(move, stops_of(job, move.edit, move.fractions), count, pieces);
+      reader.read(move, edits[e], count, pieces);
     next = move.edit.move + 1;
   }
   return pieces;

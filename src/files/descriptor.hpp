@@ -29,6 +29,7 @@ class Descriptor {
     return *this;
   }
   int get() const { return fd_; }
+  int release() { return std::exchange(fd_, -1); }
   bool close() { return ::close(std::exchange(fd_, -1)) == 0; }
 
  private:

@@ -8,10 +8,15 @@
 
 namespace counterflex {
 
+Location place_of_row(const ForceProfile& profile, std::size_t row) {
+  const RowPlace where = profile.rows[row].where;
+  return {profile.file, where.line, where.column};
+}
+
 void fail_row(const ForceProfile& profile, std::size_t row, const std::string& message) {
   // A log that has become a profile has no longer a row for every one of its file.
   const bool counted = !profile.within || profile.key == ForceKey::point;
-  throw InputError(Exit::machine_or_force, profile.rows[row].where,
+  throw InputError(Exit::machine_or_force, place_of_row(profile, row),
                    counted ? fmt::format("row {}: {}", row + 1, message) : message);
 }
 

@@ -19,6 +19,9 @@ struct KeySpan {
 std::vector<KeySpan> align(const ForceProfile& profile, const Program& program, const Toolpath& path,
                            std::optional<long>& block_number);
 
+/// Where a row of a profile, counted from 0, stands.
+Location place_of_row(const ForceProfile& profile, std::size_t row);
+
 /// Throws (Exit::machine_or_force) at a row of a profile, counted from 0, and names it.
 [[noreturn]] void fail_row(const ForceProfile& profile, std::size_t row, const std::string& message);
 

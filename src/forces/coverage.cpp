@@ -27,7 +27,7 @@ std::vector<std::optional<long>> numbers_of(const Program& window, std::optional
 /// Where a rule says what it says of a place: of a profile, the row.
 Location where_of(const ForceRule& rule, std::size_t row) {
   const auto* profile = std::get_if<ForceProfile>(&rule.content);
-  return profile != nullptr ? profile->rows[row].where : rule.where;
+  return profile != nullptr ? place_of_row(*profile, row) : rule.where;
 }
 
 /// What ends the overlap of two rules of equal rank.

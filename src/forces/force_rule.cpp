@@ -32,8 +32,7 @@ bool is_zero(const ForceRule& rule) {
   if (const auto* force = std::get_if<ConstantForce>(&rule.content)) return force->F.isZero(0);
   if (const auto* response = std::get_if<CutResponse>(&rule.content))
     return response->F_c.isZero(0) && response->F_e.isZero(0);
-  const auto& rows = std::get<ForceProfile>(rule.content).rows;
-  return std::all_of(rows.begin(), rows.end(), [](const ForceRow& row) { return row.F.isZero(0); });
+  return std::get<ForceProfile>(rule.content).rows.all_zero();
 }
 
 bool acts_at_platform(const ForceSource& source) {

@@ -51,15 +51,18 @@ double nearest_fraction(const Vector3& a, const Vector3& b, const Vector3& p) {
 
 std::vector<Vector3> points_of(const ForceProfile& log) {
   std::vector<Vector3> points;
-  for (const ForceRow& row : log.rows) points.push_back(row.point);
+  for (std::size_t row = 0; row < log.rows.size(); ++row) points.push_back(log.rows.point(row));
   return points;
 }
 
-/// Rows at one place have the mean of their wrenches; one that ends the cover does so.
-std::vector<ForceRow> one_a_place(const std::vector<ForceRow>& rows) {
+/// The rows at their path lengths (m). Rows at one place have the mean of their wrenches; one that ends the
+/// cover does so.
+std::vector<ForceRow> one_a_place(const ForceRows& rows, const std::vector<double>& keys) {
   std::vector<ForceRow> places;
   double count = 0;
-  for (const ForceRow& row : rows) {
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    ForceRow row = rows[i];
+    row.key = keys[i];
     const bool same = !places.empty() && row.key - places.back().key <= same_place;
     if (!same) {
       places.push_back(row);
@@ -83,7 +86,7 @@ std::string shown_point(const Vector3& p) {
 }
 
 void FarPoint::add(const Program& window, const Toolpath& path) {
-  const Vector3& p = log_->rows[row_].point;
+  const Vector3 p = log_->rows.point(row_);
   for (const Segment& segment : path.segments) {
     if (!segment.cutting) continue;
     const Curve curve = logged_curve(*log_, window, segment);
@@ -101,7 +104,7 @@ void FarPoint::add(const Program& window, const Toolpath& path) {
 }
 
 void FarPoint::refuse() const {
-  const std::string point = shown_point(log_->rows[row_].point);
+  const std::string point = shown_point(log_->rows.point(row_));
   if (squared_ < 0) fail_row(*log_, row_, point + " is on no feed move: the program has none");
   fail_row(*log_, row_,
            fmt::format("no feed move comes within {:.6g} mm of {}: the nearest is {:.4g} mm away, in line {}",
@@ -135,7 +138,7 @@ void PointLog::add(const Program& window, const Toolpath& path) {
 void PointLog::add_piece(const Vector3& a, const Vector3& b, double s0, double s1) {
   ++piece_;
   for (const std::uint32_t row : grid_.near(a, b)) {
-    const Vector3& p = log_->rows[row].point;
+    const Vector3 p = log_->rows.point(row);
     const double u = nearest_fraction(a, b, p);
     Approach& approach = approaches_[row];
     const bool goes_on = approach.piece + 1 == piece_;
@@ -157,7 +160,7 @@ void PointLog::visit(std::size_t row, const Visit& visit, bool replace) {
     fail_row(*log_, row,
              fmt::format("the path comes within {:.6g} mm of {} more than {} times: a smaller within_mm is "
                          "required",
-                         *log_->within / mm, shown_point(log_->rows[row].point), most_visits));
+                         *log_->within / mm, shown_point(log_->rows.point(row)), most_visits));
 }
 
 std::optional<FarPoint> PointLog::far_point() const {
@@ -172,9 +175,8 @@ void PointLog::settle() {
     fail_row(*log_, *places.stuck,
              fmt::format("the path passes {} only before the rows above it: rows must stand in the order in "
                          "which they were logged",
-                         shown_point(log_->rows[*places.stuck].point)));
-  for (std::size_t i = 0; i < log_->rows.size(); ++i) log_->rows[i].key = places.s[i];
-  log_->rows = one_a_place(log_->rows);
+                         shown_point(log_->rows.point(*places.stuck))));
+  log_->rows = ForceRows(one_a_place(log_->rows, places.s));
   log_->key = ForceKey::path_length;
 }
 

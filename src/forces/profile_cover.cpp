@@ -11,19 +11,19 @@ constexpr double unlimited = std::numeric_limits<double>::infinity();
 /// The first row from `row` on that ends the cover, or lies behind `key`.
 std::size_t end_of_cover(const ForceProfile& profile, std::size_t row, double key) {
   const auto& rows = profile.rows;
-  while (row < rows.size() && !rows[row].ends && rows[row].key <= key) ++row;
+  while (row < rows.size() && !rows.ends(row) && rows.key(row) <= key) ++row;
   return row;
 }
 
 /// The cover by the rows [row, end).
 KeyCover cover_by(const ForceProfile& profile, std::size_t row, std::size_t end, bool alone) {
   const auto& rows = profile.rows;
-  KeyCover cover{rows[row].key, unlimited, rows[row].key, unlimited, row};
+  KeyCover cover{rows.key(row), unlimited, rows.key(row), unlimited, row};
   if (row == 0) cover.least = alone ? -unlimited : cover.start - reach(profile, cover.start);
   if (end < rows.size()) {
-    cover.end = cover.most = rows[end].key;
+    cover.end = cover.most = rows.key(end);
   } else if (profile.linear) {
-    cover.end = rows.back().key;
+    cover.end = rows.key(rows.size() - 1);
     cover.most = alone ? unlimited : cover.end + reach(profile, cover.end);
   }
   return cover;
@@ -35,24 +35,22 @@ void append_covers(const ForceProfile& profile, const KeySpan& keys, bool alone,
                    std::vector<KeyCover>& found) {
   const auto& rows = profile.rows;
   for (std::size_t row = row_at(profile, keys.start); row < rows.size();) {
-    if (rows[row].ends) {
+    if (rows.ends(row)) {
       ++row;
       continue;
     }
-    if (row > 0 && rows[row].key > keys.end) break;
+    if (row > 0 && rows.key(row) > keys.end) break;
     const std::size_t end = end_of_cover(profile, row, keys.end);
     const KeyCover cover = cover_by(profile, row, std::max(end, row + 1), alone);
     if (cover.least <= keys.end && cover.most >= keys.start) found.push_back(cover);
     row = std::max(end, row + 1);
-    if (row < rows.size() && rows[row].key > keys.end) break;
+    if (row < rows.size() && rows.key(row) > keys.end) break;
   }
 }
 
 std::size_t row_at(const ForceProfile& profile, double key) {
-  const auto& rows = profile.rows;
-  const auto beyond = std::upper_bound(rows.begin(), rows.end(), key,
-                                       [](double value, const ForceRow& row) { return value < row.key; });
-  return beyond == rows.begin() ? 0 : static_cast<std::size_t>(beyond - rows.begin()) - 1;
+  const std::size_t beyond = profile.rows.beyond(key);
+  return beyond == 0 ? 0 : beyond - 1;
 }
 
 double key_margin(const ForceProfile& profile, double key) {

@@ -51,18 +51,18 @@ void ProfileEnds::add(const KeySpan& keys, const Segment& cut) {
 
 void ProfileEnds::refuse_rows_beyond(const ProgramEnds& program) const {
   const double last_key = program.last(profile_.key);
-  const std::vector<ForceRow>& rows = profile_.rows;
-  for (std::size_t i = 0; i < rows.size(); ++i)
-    if (rows[i].key > last_key + key_margin(profile_, last_key))
-      fail_row(profile_, i,
-               fmt::format("{} lies beyond the program, which ends at {}", shown_key(profile_, rows[i].key),
-                           shown_key(profile_, last_key)));
+  const ForceRows& rows = profile_.rows;
+  const std::size_t row = rows.beyond(last_key + key_margin(profile_, last_key));
+  if (row < rows.size())
+    fail_row(profile_, row,
+             fmt::format("{} lies beyond the program, which ends at {}", shown_key(profile_, rows.key(row)),
+                         shown_key(profile_, last_key)));
 }
 
 void ProfileEnds::refuse_missing_ends(const ProgramEnds& program) const {
   if (!first_) return;
   const double margin = reach(profile_, program.last(profile_.key));
-  const std::vector<ForceRow>& rows = profile_.rows;
+  const ForceRows& rows = profile_.rows;
   const auto row_name = [&](const ForceRow& row) {
     return profile_.within ? shown_point(row.point) : shown_key(profile_, row.key);
   };

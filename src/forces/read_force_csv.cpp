@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <optional>
 #include <unordered_map>
@@ -8,6 +9,7 @@
 #include "counterflex/files/numbers.hpp"
 #include "counterflex/forces/forces.hpp"
 #include "counterflex/geometry/units.hpp"
+#include "forces/alignment.hpp"
 #include "forces/csv_header.hpp"
 #include "forces/csv_text.hpp"
 #include "forces/selector_text.hpp"
@@ -26,7 +28,8 @@ struct Reader {
   csv::Settings settings;
   std::optional<Header> header;
   Location header_place;
-  std::vector<ForceRow> rows;                          ///< of places
+  ForceRows rows;                                      ///< of places
+  double last_key = 0;                                 ///< of the row before
   std::vector<ForceSelector> selectors;                ///< of the same rows, where the key is no place
   std::unordered_map<std::string, std::size_t> named;  ///< their tools or operations, and the rows
   int line = 0;
@@ -86,11 +89,10 @@ double key_of(const Reader& reader, const Field& field) {
                                               name, field.text, counted ? "whole " : "", least));
   }
   const double value = shown / csv::shown_per_si(key);
-  const auto& rows = reader.rows;
-  if (!rows.empty() && value <= rows.back().key) {
+  if (!reader.rows.empty() && value <= reader.last_key) {
     fail(reader.at(field.column),
          fmt::format("{}: {} is {}, must be greater than the {:.12g} of the row before", row_name(reader),
-                     name, field.text, rows.back().key * csv::shown_per_si(key)));
+                     name, field.text, reader.last_key * csv::shown_per_si(key)));
   }
   return value;
 }
@@ -131,13 +133,18 @@ void read_field(const csv::Column& column, const Field& field, Reader& reader, F
     if (!row.ends) row.F[*column.component] = number_of(reader, field, column.name);
     return;
   }
-  if (row.where.line == 0) row.where = reader.at(field.column);
+  if (row.where.line == 0) row.where = {reader.line, field.column};
   if (column.axis)
     row.point[*column.axis] = coordinate_of(reader, field, column.name) * mm;
   else if (reader.header->key == RowKey::tool || reader.header->key == RowKey::operation)
     reader.selectors.push_back(selector_of(reader, field));
   else
     row.key = key_of(reader, field);
+}
+
+void take(const ForceRow& row, Reader& reader) {
+  reader.rows.push_back(row);
+  reader.last_key = row.key;
 }
 
 void read_row(std::string_view text, Reader& reader) {
@@ -151,7 +158,36 @@ void read_row(std::string_view text, Reader& reader) {
   row.ends = only_key(*reader.header, fields);
   for (std::size_t i = 0; i < fields.size(); ++i) read_field(columns[i], fields[i], reader, row);
   if (*reader.settings.on_workpiece) row.F = -row.F;
-  reader.rows.push_back(row);
+  take(row, reader);
+}
+
+/// A row of a profile as programs write them, plain numbers between commas, taken as `read_row` takes it.
+/// False, and nothing taken, where anything is unusual or wrong: `read_row` says what.
+bool read_plain_row(std::string_view text, Reader& reader) {
+  const Header& header = *reader.header;
+  if (header.key > RowKey::time) return false;
+  ForceRow row{.where = {reader.line, 0}};
+  double shown = 0;
+  const char* at = text.data();
+  const char* const end = at + text.size();
+  for (std::size_t i = 0; i < header.columns.size(); ++i) {
+    const auto& component = header.columns[i].component;
+    double& value = component ? row.F[*component] : shown;
+    if (!component) row.where.column = static_cast<int>(at - text.data()) + 1;
+    const auto [behind, error] = std::from_chars(at, end, value);
+    const bool last = i + 1 == header.columns.size();
+    if (error != std::errc{} || !std::isfinite(value) ||
+        (last ? behind != end : behind == end || *behind != ','))
+      return false;
+    at = behind + 1;
+  }
+  const bool counted = header.key == RowKey::line || header.key == RowKey::block_number;
+  row.key = shown / csv::shown_per_si(place_key(header.key));
+  if (shown < (header.key == RowKey::line ? 1 : 0) || (counted && shown != std::floor(shown))) return false;
+  if (!reader.rows.empty() && row.key <= reader.last_key) return false;
+  if (*reader.settings.on_workpiece) row.F = -row.F;
+  take(row, reader);
+  return true;
 }
 
 void read_comment(const Field& comment, Reader& reader) {
@@ -177,7 +213,7 @@ void read_line(std::string_view text, Reader& reader) {
       fail({reader.file, reader.empty_line, 1},
            fmt::format("an empty line before {}, rows must follow each other", row_name(reader)));
     }
-    read_row(text, reader);
+    if (!read_plain_row(text, reader)) read_row(text, reader);
   }
 }
 
@@ -191,8 +227,24 @@ ForceRule profile_rule(Reader& reader) {
   profile.rows = std::move(reader.rows);
   if (profile.key == ForceKey::point) profile.within = settings.within.value_or(1 * mm);
   profile.machine_coordinates = settings.machine_coordinates.value_or(false);
-  const Location where = profile.rows.front().where;
+  profile.file = reader.file;
+  const Location where = place_of_row(profile, 0);
   return {reader.file, where, {}, std::move(profile)};
+}
+
+constexpr std::size_t bytes_at_once = 1 << 16;
+
+std::string_view without_byte_order_mark(std::string_view text) {
+  constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+  if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
+  return text;
+}
+
+void read_lines(std::string_view text, Reader& reader) {
+  while (!text.empty()) {
+    ++reader.line;
+    read_line(csv::take_line(text), reader);
+  }
 }
 
 std::vector<ForceRule> finished(Reader reader) {
@@ -203,9 +255,10 @@ std::vector<ForceRule> finished(Reader reader) {
   if (reader.rows.empty()) fail(reader.header_place, "no rows after the header, at least one is required");
   std::vector<ForceRule> rules;
   for (std::size_t i = 0; i < reader.selectors.size(); ++i) {
-    const ForceRow& row = reader.rows[i];
+    const ForceRow row = reader.rows[i];
     const ConstantForce force{row.F, *reader.settings.frame, reader.settings.at_platform.value_or(false)};
-    rules.push_back({reader.file, row.where, reader.selectors[i], force});
+    const Location where{reader.file, row.where.line, row.where.column};
+    rules.push_back({reader.file, where, reader.selectors[i], force});
   }
   if (rules.empty()) rules.push_back(profile_rule(reader));
   return rules;
@@ -214,14 +267,24 @@ std::vector<ForceRule> finished(Reader reader) {
 }  // namespace
 
 std::vector<ForceRule> read_force_csv(std::string_view text, const std::string& file) {
-  constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
-  if (text.substr(0, 3) == byte_order_mark) text.remove_prefix(3);
   Reader reader;
   reader.file = file;
-  while (!text.empty()) {
-    ++reader.line;
-    read_line(csv::take_line(text), reader);
-  }
+  read_lines(without_byte_order_mark(text), reader);
+  return finished(std::move(reader));
+}
+
+std::vector<ForceRule> read_force_csv(FileReader& bytes, const std::string& file) {
+  Reader reader;
+  reader.file = file;
+  std::string text;
+  const auto read = [&](std::size_t count) {
+    const std::string_view lines = std::string_view(text).substr(0, count);
+    read_lines(reader.line == 0 ? without_byte_order_mark(lines) : lines, reader);
+    text.erase(0, count);
+  };
+  bytes.rewind();
+  while (bytes.append(text, bytes_at_once) > 0) read(text.rfind('\n') + 1);
+  read(text.size());
   return finished(std::move(reader));
 }
 

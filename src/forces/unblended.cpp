@@ -29,9 +29,9 @@ constexpr double shortest_piece = 1e-9;
 
 /// The profile at `key`, which lies in the interval that begins with `row`.
 Vector6 value(const ForceProfile& profile, std::size_t row, double key) {
-  const ForceRow& from = profile.rows[row];
-  if (!profile.linear || row + 1 == profile.rows.size() || profile.rows[row + 1].ends) return from.F;
-  const ForceRow& to = profile.rows[row + 1];
+  const ForceRow from = profile.rows[row];
+  if (!profile.linear || row + 1 == profile.rows.size() || profile.rows.ends(row + 1)) return from.F;
+  const ForceRow to = profile.rows[row + 1];
   const double w = std::clamp((key - from.key) / (to.key - from.key), 0.0, 1.0);
   return (1 - w) * from.F + w * to.F;
 }
@@ -97,7 +97,7 @@ std::vector<ForcePiece> profile_pieces(const ForceProfile& profile, const KeySpa
   };
   double from = keys.start, at = s0;
   for (std::size_t row = row_at(profile, keys.start); row < profile.rows.size(); ++row) {
-    const double key = profile.rows[row].key;
+    const double key = profile.rows.key(row);
     if (key <= keys.start + margin) continue;
     if (key >= keys.end - margin) break;
     const double s = s0 + (key - keys.start) / range * length;

@@ -116,4 +116,23 @@ void LineReader::begin_window(std::size_t read, std::optional<Move> first) {
   block_.line_end = {read, read};
 }
 
+void LineReader::give_window(Program& to) {
+  to.file = program_.file;
+  to.dialect = program_.dialect;
+  to.integer_words = program_.integer_words;
+  to.before = program_.before;
+  to.after = program_.after;
+  to.work_offsets = program_.work_offsets;
+  to.operations = program_.operations;
+  to.block_count = program_.block_count;
+  to.expansion = program_.expansion;
+  to.text.swap(program_.text);
+  to.moves.swap(program_.moves);
+  to.left_alone.swap(program_.left_alone);
+  program_.text.clear();
+  program_.moves.clear();
+  program_.left_alone.clear();
+  if (!to.moves.empty()) program_.before = to.moves.back();
+}
+
 }  // namespace counterflex

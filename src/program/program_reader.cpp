@@ -206,6 +206,10 @@ Program& ProgramReader::window() {
   return state_->program();
 }
 
+void ProgramReader::take(Program& program) {
+  state_->lines.give_window(program);
+}
+
 struct TextReader::State {
   LineReader lines;
 };
@@ -235,6 +239,10 @@ const Program& TextReader::read(std::string text) {
   program.text = std::move(text);
   lines.read_all();
   return program;
+}
+
+void TextReader::take(Program& program) {
+  state_->lines.give_window(program);
 }
 
 }  // namespace counterflex

@@ -14,11 +14,6 @@ constexpr std::size_t suspicious_plunges = 3;
 
 constexpr double same_time = 1e-9;  // relative: rounding of coordinates; of equal moves the first is named
 
-/// How long a feed move takes at its programmed feed (ms); 0: no time is known.
-double duration_ms(const Segment& segment) {
-  return segment.cutting && segment.feed_m_s > 0 ? 1e3 * (length(segment.wanted) / segment.feed_m_s) : 0;
-}
-
 std::string shown(double value, int decimals) {
   return format_fixed(value, decimals);
 }
@@ -64,13 +59,13 @@ Remark plunge_warning(const ControlFacts& control) {
 }  // namespace
 
 void add_short_blocks(ShortBlocks& blocks, const Program& window) {
-  for (const Segment& segment : build_toolpath(window, one_frame(window, {})).segments) {
-    const double ms = duration_ms(segment);
+  for (const Move& move : window.moves) {
+    const double ms = 1e3 * duration_of(move);
     if (ms <= 0 || ms >= blocks.limit_ms) continue;
-    if (blocks.count++ == 0) blocks.first_line = segment.line;
+    if (blocks.count++ == 0) blocks.first_line = move.line;
     if (blocks.count > 1 && ms >= blocks.shortest_ms * (1 - same_time)) continue;
     blocks.shortest_ms = ms;
-    blocks.shortest_line = segment.line;
+    blocks.shortest_line = move.line;
   }
 }
 

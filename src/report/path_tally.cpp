@@ -23,6 +23,10 @@ void keep(Largest& largest, double length, int line) {
   largest.mm = std::max(largest.mm, length / mm);
 }
 
+bool before_line(const WorstRow& row, int line) {
+  return row.line < line;
+}
+
 void add_other(OtherForceTally& tally, const Waypoint& w, const OtherForce& other, double weight) {
   if (other.status == Status::converged) return tally.deviation.add(sample(w, other.deviation, weight));
   if (tally.unsolved++ > 0) return;
@@ -32,33 +36,41 @@ void add_other(OtherForceTally& tally, const Waypoint& w, const OtherForce& othe
 
 }  // namespace
 
+// Nearly all lines come in order: the one asked for is the last one, or behind it.
 WorstRow& WorstLines::row(int line) {
-  auto found = rows_.find(line);
-  if (found == rows_.end()) {
-    if (rows_.size() >= most_lines) keep_the_worst();
-    found = rows_.emplace(line, WorstRow{line, 0, 0}).first;
+  const auto place = [&] {
+    if (rows_.empty() || rows_.back().line < line) return rows_.end();
+    return std::lower_bound(rows_.begin(), rows_.end(), line, before_line);
+  };
+  auto found = place();
+  if (found == rows_.end() || found->line != line) {
+    if (rows_.size() >= most_lines) {
+      keep_the_worst();
+      found = place();
+    }
+    found = rows_.insert(found, WorstRow{line, 0, 0});
   }
   if (line != last_) last_but_one_ = std::exchange(last_, line);
-  return found->second;
+  return *found;
 }
 
 std::vector<WorstRow> WorstLines::worst(double WorstRow::*key) const {
-  std::vector<WorstRow> rows;
-  for (const auto& [line, row] : rows_) rows.push_back(row);
-  const auto worse = [&](const WorstRow& a, const WorstRow& b) { return a.*key > b.*key; };
-  std::stable_sort(rows.begin(), rows.end(), worse);
-  rows.resize(std::min(rows.size(), worst_rows));
+  std::vector<WorstRow> rows(std::min(rows_.size(), worst_rows));
+  const auto worse = [&](const WorstRow& a, const WorstRow& b) {
+    return a.*key > b.*key || (a.*key == b.*key && a.line < b.line);
+  };
+  std::partial_sort_copy(rows_.begin(), rows_.end(), rows.begin(), rows.end(), worse);
   return rows;
 }
 
 // What is asked for last may still grow: all of a piece but `after` is known at its end.
 void WorstLines::keep_the_worst() {
-  std::map<int, WorstRow> kept;
+  std::vector<int> lines{last_, last_but_one_};
   for (const auto key : {&WorstRow::before_mm, &WorstRow::after_mm})
-    for (const WorstRow& row : worst(key)) kept.emplace(row.line, row);
-  for (const int line : {last_, last_but_one_})
-    if (const auto row = rows_.find(line); row != rows_.end()) kept.insert(*row);
-  rows_ = std::move(kept);
+    for (const WorstRow& row : worst(key)) lines.push_back(row.line);
+  std::erase_if(rows_, [&](const WorstRow& row) {
+    return std::find(lines.begin(), lines.end(), row.line) == lines.end();
+  });
 }
 
 void PathTally::add(const Waypoint& w) {

@@ -3,7 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <optional>
 
 #include "counterflex/geometry/units.hpp"
 
@@ -12,17 +12,16 @@ namespace counterflex {
 namespace {
 
 constexpr double bin_ratio = 1.001;
-constexpr double smallest_mm = 1e-12;  // below it everything is one bin: there is no such deviation
-constexpr int lowest_bin = std::numeric_limits<int>::min();
+constexpr double smallest_mm = 1e-12;  // there is no smaller deviation
+constexpr int spare_bins = 256;
 constexpr double parallel_sine = 1e-6;
 
 int bin_of(double d_mm) {
-  if (d_mm < smallest_mm) return lowest_bin;
   return static_cast<int>(std::floor(std::log(d_mm) / std::log(bin_ratio)));
 }
 
 double upper_edge(int bin) {
-  return bin == lowest_bin ? 0 : std::exp((bin + 1) * std::log(bin_ratio));
+  return std::exp((bin + 1) * std::log(bin_ratio));
 }
 
 void keep_maxima(DeviationStatistics& kept, const DeviationStatistics& other) {
@@ -62,6 +61,18 @@ DeviationSplit split_deviation(const Vector3& d, const Vector3& direction, const
   return {std::abs(along), across, std::abs(axial)};
 }
 
+void Histogram::add(int bin, double weight) {
+  if (weights_.empty()) first_ = bin;
+  if (bin < first_) {
+    const int more = first_ - bin + spare_bins;
+    weights_.insert(weights_.begin(), static_cast<std::size_t>(more), 0.0);
+    first_ -= more;
+  }
+  const auto i = static_cast<std::size_t>(bin - first_);
+  if (i >= weights_.size()) weights_.resize(i + 1 + spare_bins);
+  weights_[i] += weight;
+}
+
 void DeviationTally::add(const DeviationSample& sample) {
   const DeviationStatistics one = of_one(sample);
   keep_maxima(maxima_, one);
@@ -70,7 +81,10 @@ void DeviationTally::add(const DeviationSample& sample) {
   weight_ += sample.weight;
   sum_ += sample.weight * one.max_mm;
   sum_of_squares_ += sample.weight * one.max_mm * one.max_mm;
-  weight_by_bin_[bin_of(one.max_mm)] += sample.weight;
+  if (one.max_mm < smallest_mm)
+    weight_of_none_ += sample.weight;
+  else
+    weight_by_bin_.add(bin_of(one.max_mm), sample.weight);
 }
 
 void DeviationTally::merge(const DeviationTally& later) {
@@ -79,18 +93,21 @@ void DeviationTally::merge(const DeviationTally& later) {
   weight_ += later.weight_;
   sum_ += later.sum_;
   sum_of_squares_ += later.sum_of_squares_;
-  for (const auto& [bin, weight] : later.weight_by_bin_) weight_by_bin_[bin] += weight;
+  weight_of_none_ += later.weight_of_none_;
+  later.weight_by_bin_.each([this](int bin, double weight) { weight_by_bin_.add(bin, weight); });
 }
 
 double DeviationTally::percentile(double share) const {
   // A sum of weights in another order than `weight_` may differ from it by rounding.
   const double wanted = share * weight_ * (1 - 1e-12);
-  double below = 0;
-  for (const auto& [bin, weight] : weight_by_bin_) {
+  double below = weight_of_none_;
+  if (below >= wanted) return 0;
+  std::optional<double> found;
+  weight_by_bin_.each([&](int bin, double weight) {
     below += weight;
-    if (below >= wanted) return std::min(upper_edge(bin), maxima_.max_mm);
-  }
-  return maxima_.max_mm;
+    if (!found && below >= wanted) found = std::min(upper_edge(bin), maxima_.max_mm);
+  });
+  return found.value_or(maxima_.max_mm);
 }
 
 DeviationStatistics DeviationTally::statistics() const {

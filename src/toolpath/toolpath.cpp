@@ -31,6 +31,11 @@ double feed_m_s(const Move& move, double way) {
   return move.feed_mode == FeedMode::inverse_time ? way * move.feed_per_min / 60 : move.feed_mm_min * mm / 60;
 }
 
+bool gives_segment(const Move& move) {
+  return all_known(move.known_start) && all_known(move.known_end) &&
+         (move.start_mm != move.end_mm || move.arc);
+}
+
 /// Feed moves count, rapids stand still; so does the clock where no feed is programmed.
 void advance(const Move& move, Segment& segment, const PathEnd& start) {
   const double way = segment.cutting ? length(segment.wanted) : 0;
@@ -76,6 +81,12 @@ Curve curve_of(const Move& move) {
   return curve;
 }
 
+double duration_of(const Move& move) {
+  if (move.motion != Motion::feed || !gives_segment(move)) return 0;
+  const double way = length(scaled(curve_of(move), mm)), feed = feed_m_s(move, way);
+  return feed > 0 ? way / feed : 0;
+}
+
 Extent extent_of(const Move& move) {
   Extent extent{move.start_mm.cwiseMin(move.end_mm), move.start_mm.cwiseMax(move.end_mm)};
   const Curve curve = curve_of(move);
@@ -112,8 +123,7 @@ Toolpath build_toolpath(const Program& program, const std::vector<WorkFrame>& fr
   path.segments.reserve(program.moves.size());
   for (std::size_t i = 0; i < program.moves.size(); ++i) {
     const Move& move = program.moves[i];
-    if (!all_known(move.known_start) || !all_known(move.known_end)) continue;
-    if (move.start_mm == move.end_mm && !move.arc) continue;
+    if (!gives_segment(move)) continue;
     Segment& segment = path.segments.emplace_back(segment_of(move, i, frames));
     advance(move, segment, path.end);
     path.end = {segment.s_end, segment.t_end};

@@ -1,6 +1,7 @@
 #pragma once
 /// A program on a machine, window by window: path and forces of each go on from the one before.
 #include <memory>
+#include <optional>
 
 #include "counterflex/compensation/options.hpp"
 #include "counterflex/program/program_reader.hpp"
@@ -18,6 +19,13 @@ struct RunInput {
   const ToolModels* tools = nullptr;  ///< as for a job
 };
 
+/// A window with its path and forces; it stands on its own.
+struct JobWindow {
+  Program program;
+  Toolpath path;
+  std::optional<PathForces> forces;
+};
+
 class JobWindows {
  public:
   JobWindows(const RunInput& input, ProgramReader& reader);
@@ -29,6 +37,10 @@ class JobWindows {
 
   /// The window, until the next one.
   Job job() const;
+
+  /// The same, into `window`, which stays as it is while others are read; what it held is used again.
+  bool next(JobWindow& window);
+  Job job(const JobWindow& window) const;
 
  private:
   struct State;

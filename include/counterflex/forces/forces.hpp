@@ -8,7 +8,9 @@
 #include <variant>
 #include <vector>
 
+#include "counterflex/files/file_reader.hpp"
 #include "counterflex/files/input_error.hpp"
+#include "counterflex/forces/force_rows.hpp"
 #include "counterflex/forces/force_rule.hpp"
 #include "counterflex/geometry/types.hpp"
 #include "counterflex/program/program.hpp"
@@ -19,14 +21,6 @@ namespace counterflex {
 /// What the rows of a profile are named by. A point is a logged position; it becomes a path length.
 enum class ForceKey { line, block_number, path_length, time, point };
 
-struct ForceRow {
-  double key = 0;               ///< line, N, m or s; of a point nothing
-  Vector6 F = Vector6::Zero();  ///< on the tool, axes of the profile's frame
-  Location where;
-  bool ends = false;                ///< no wrench: the profile covers nothing until the next row
-  Vector3 point = Vector3::Zero();  ///< (m)
-};
-
 /// Wrenches by place. Stepped: each row holds until the next one, the last to the program's end. Linear:
 /// between rows, to the last one; before a row that ends the cover the wrench holds.
 struct ForceProfile {
@@ -34,9 +28,10 @@ struct ForceProfile {
   ForceFrame frame = ForceFrame::machine;
   bool at_platform = false;  ///< acts at the reference point instead of the tip
   bool linear = false;       ///< interpolated between rows; else each row holds until the next
-  std::vector<ForceRow> rows;
+  ForceRows rows;
   std::optional<double> within{};    ///< of a log: how far from the path its points may lie (m)
   bool machine_coordinates = false;  ///< of a log: points in M; else coordinates of the program
+  std::string file{};                ///< that holds the rows; for messages
 };
 
 /// One wrench, profile or model, and which moves it is for. A profile says so by its rows, not by `selector`.
@@ -73,6 +68,9 @@ bool is_zero(const ForceRule& rule);
 ///
 /// Forces on the workpiece change their sign. Throws `InputError` (Exit::machine_or_force) naming the row.
 std::vector<ForceRule> read_force_csv(std::string_view text, const std::string& file);
+
+/// The same for a file of any size, in memory that does not grow with the rows of a profile.
+std::vector<ForceRule> read_force_csv(FileReader& bytes, const std::string& file);
 
 /// The rules of a TOML file of cutting models, one a section. Throws as `read_cutting_model`.
 std::vector<ForceRule> read_force_toml(std::string_view text, const std::string& file);

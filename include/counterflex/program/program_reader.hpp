@@ -37,6 +37,10 @@ class ProgramReader {
   const Program& window() const;
   Program& window();
 
+  /// Gives the window away, without `remarks` and `path_tolerances`: it stands on its own and stays as it is
+  /// while others are read. What `program` held is used again.
+  void take(Program& program);
+
  private:
   friend class TextReader;
   struct State;
@@ -55,6 +59,9 @@ class TextReader {
 
   /// The window of the next portion, until the next call. Throws `InputError` as `read_program` does.
   const Program& read(std::string text);
+
+  /// Gives that window away, as a ProgramReader does.
+  void take(Program& program);
 
  private:
   struct State;

@@ -1,6 +1,5 @@
 #pragma once
 /// From waypoints to numbers, waypoint by waypoint, in memory that does not grow with their number.
-#include <map>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -42,7 +41,7 @@ class WorstLines {
  private:
   void keep_the_worst();
 
-  std::map<int, WorstRow> rows_;
+  std::vector<WorstRow> rows_;  ///< by line
   int last_ = 0, last_but_one_ = 0;
 };
 

@@ -2,7 +2,7 @@
 /// How far the tip is off along a path, in a few numbers. Lengths in mm and angles in degrees, as reports
 /// show them.
 #include <cstddef>
-#include <map>
+#include <vector>
 
 #include "counterflex/geometry/types.hpp"
 
@@ -42,6 +42,23 @@ struct DeviationSplit {
 };
 DeviationSplit split_deviation(const Vector3& d, const Vector3& direction, const Vector3& tool_axis);
 
+/// Weights by bin number, in memory that grows with the span of numbers alone.
+class Histogram {
+ public:
+  void add(int bin, double weight);
+
+  /// Calls `take(bin, weight)` for each bin with a weight, in their order.
+  template <typename Take>
+  void each(const Take& take) const {
+    for (std::size_t i = 0; i < weights_.size(); ++i)
+      if (weights_[i] > 0) take(first_ + static_cast<int>(i), weights_[i]);
+  }
+
+ private:
+  int first_ = 0;
+  std::vector<double> weights_;  ///< of bin `first_` and those behind it
+};
+
 /// Collects samples one by one, in memory that does not grow with their number. `p95` comes from a
 /// logarithmic histogram with bins of 0.1 %.
 class DeviationTally {
@@ -61,7 +78,8 @@ class DeviationTally {
 
   DeviationStatistics maxima_;
   double weight_ = 0, sum_ = 0, sum_of_squares_ = 0;  ///< m, m mm, m mm2
-  std::map<int, double> weight_by_bin_;
+  double weight_of_none_ = 0;                         ///< of samples without a deviation
+  Histogram weight_by_bin_;
   std::size_t samples_ = 0;
 };
 

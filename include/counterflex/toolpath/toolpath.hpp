@@ -60,6 +60,9 @@ void ignore_axes(Program& program, const std::array<bool, 3>& ignored);
 /// The move's way in program coordinates, mm.
 Curve curve_of(const Move& move);
 
+/// How long a feed move takes at its programmed feed (s); 0: it gives no segment, or no feed is known.
+double duration_of(const Move& move);
+
 /// The smallest box around the move's way, in program coordinates, mm; of a spiral arc to within the mismatch
 /// of its radii.
 struct Extent {

@@ -1,0 +1,103 @@
+#include "window_stages.hpp"
+
+#include "counterflex/geometry/units.hpp"
+
+namespace counterflex {
+namespace {
+
+void note_correction(double size, int line, Compensation& result) {
+  if (size <= result.largest_correction) return;
+  result.largest_correction = size;
+  result.largest_correction_line = line;
+}
+
+void note_planned_corrections(const Job& job, const Plan& plan, Compensation& result) {
+  for (std::size_t s = 0; s < plan.segments.size(); ++s) {
+    const Segment& segment = job.path.segments[s];
+    const auto note = [&](const Vector3& c) {
+      note_correction((c + job.path.frames[segment.frame].datum_shift).norm(), segment.line, result);
+    };
+    const PlannedSegment& planned = plan.segments[s];
+    for (const Knot& knot : planned.knots) note(knot.target - point_at(segment.wanted, knot.u));
+    for (const Vector3& c : planned.group) note(c);
+    for (const CorrectionCurve& curve : planned.arc)
+      for (const CurveInterval& interval : curve.intervals())
+        for (const CurveNode& node : interval.nodes) note(node.c);
+  }
+}
+
+// Positions that come from unknown ones, and holes, have no segment.
+void note_first_corrections(const Job& job, const Emission& emission, Compensation& result) {
+  for (const EmittedMove& emitted : emission.moves) {
+    const Move& move = job.program.moves[emitted.edit.move];
+    Vector3 shift = emitted.edit.end_mm - move.end_mm;
+    if (emitted.kind == EmittedMove::Kind::hole)
+      shift.z() = *emitted.edit.bottom_mm - move.cycle->bottom_mm;
+    else if (emitted.kind != EmittedMove::Kind::first_known)
+      continue;
+    note_correction(shift.norm() * mm, move.line, result);
+  }
+}
+
+void count_moves(const Job& job, const Emission& emission, Compensation& result) {
+  OtherMoves& others = result.other_moves;
+  for (const EmittedMove& emitted : emission.moves) {
+    const Handling handling = job.program.moves[emitted.edit.move].handling;
+    if (!emitted.in_part)
+      ++result.corrected_moves;
+    else if (handling == Handling::group)
+      ++others.grouped;
+    else if (handling == Handling::own && emitted.kind != EmittedMove::Kind::shifted)
+      ++others.in_part;
+    else
+      ++others.held;
+  }
+  others.left += job.program.moves.size() - emission.moves.size();
+}
+
+}  // namespace
+
+void begin_window(const Job& job, CarriedState& carried, WindowWork& work) {
+  work.result.failure = decimals_failure(job.program, job.path, job.options);
+  if (work.failed()) return;
+  work.track = track(job, carried.nominal.value_or(home_of(job.model)));
+  work.result.failure = work.track.failure;
+  carried.nominal = work.track.end;
+}
+
+void plan_window(const Job& job, WindowWork& work) {
+  if (work.failed()) return;
+  work.plan = plan(job, work.track);
+  work.result.failure = work.plan.failure;
+}
+
+void write_window(const Job& job, CarriedState& carried, WindowWork& work) {
+  if (work.failed()) return;
+  Compensation& result = work.result;
+  note_planned_corrections(job, work.plan, result);
+  Emission emission = emit(job, work.plan, carried.emitter);
+  work.plan = {};
+  note_first_corrections(job, emission, result);
+  result.left_alone = std::move(emission.left_alone);
+  result.failure = emission.failure;
+  if (work.failed()) return;
+  count_moves(job, emission, result);
+  const std::vector<MoveEdit> edits = take_edits(emission);
+  result.counts = carried.rewriter.write(job.program, edits);
+  result.text = std::move(result.counts.text);
+  carried.corrected.read(result.text);
+  carried.corrected.take(result.corrected);
+  work.pieces = emitted_pieces(job, emission, edits, result.counts, result.corrected);
+  work.command = carried.command;
+  if (!work.pieces.empty()) carried.command = work.pieces.back().commanded.end;
+}
+
+void verify_window(const Job& job, bool attribution, WindowWork& work) {
+  if (work.failed()) return;
+  ForwardRun run = solve_forward_from(job, work.track, work.pieces, {true, attribution, true}, work.command);
+  work.pieces = {};
+  work.result.waypoints = std::move(run.waypoints);
+  work.result.failure = run.failure ? run.failure : tolerance_failure(job, work.result.waypoints);
+}
+
+}  // namespace counterflex

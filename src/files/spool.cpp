@@ -1,0 +1,40 @@
+#include "counterflex/files/spool.hpp"
+
+#include <cerrno>
+#include <cstring>
+#include <string>
+
+#include "counterflex/files/input_error.hpp"
+#include "files/descriptor.hpp"
+
+namespace counterflex {
+namespace {
+
+[[noreturn]] void fail_keeping() {
+  throw InputError(Exit::transient_io, {},
+                   std::string("cannot keep what was read in a temporary file: ") + std::strerror(errno));
+}
+
+}  // namespace
+
+Spool::~Spool() {
+  if (fd_ >= 0) ::close(fd_);
+}
+
+void Spool::append(std::string_view bytes) {
+  if (fd_ < 0) fd_ = nameless_file().release();
+  if (fd_ < 0 || !write_all(fd_, bytes)) fail_keeping();
+}
+
+void Spool::read(std::size_t offset, char* to, std::size_t count) const {
+  while (count > 0) {
+    const ssize_t n = ::pread(fd_, to, count, static_cast<off_t>(offset));
+    if (n < 0 && errno == EINTR) continue;
+    if (n <= 0) fail_keeping();
+    to += n;
+    offset += static_cast<std::size_t>(n);
+    count -= static_cast<std::size_t>(n);
+  }
+}
+
+}  // namespace counterflex
