@@ -29,6 +29,9 @@ class LineReader {
   /// Reads the next line of the program's text; false where there is none, or behind the program's end.
   bool read_line();
 
+  /// Reads on while lines are plain, until the program has `most_moves`: much faster than line by line.
+  void read_plain(std::size_t most_moves);
+
   /// Reads all lines of the program's text.
   void read_all();
 
@@ -47,12 +50,15 @@ class LineReader {
   void begin_window(std::size_t read, std::optional<Move> first);
 
  private:
+  bool read_any_line();
+
   const ReadOptions options_;
   const Dialect& dialect_;
   Program program_;
   Reading reading_;
   Block block_;
   bool opened_ = false, ended_ = false;
+  bool takes_plain_ = false;  ///< `takes_plain_lines`
 };
 
 }  // namespace counterflex

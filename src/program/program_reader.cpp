@@ -111,11 +111,12 @@ struct ProgramReader::State {
 
   /// Reads on until the window holds `moves` and may end.
   void read_until_end(std::size_t moves) {
-    std::size_t before = program().moves.size();
-    while (!lines.has_ended() && read_line()) {
+    for (;;) {
+      lines.read_plain(moves);
+      const std::size_t before = program().moves.size();
+      if (lines.has_ended() || !read_line()) break;
       const std::size_t now = program().moves.size();
       const bool one = now == before + 1 && now > moves;
-      before = now;
       if (one && !lines.has_ended() && lines.may_end_before(program().moves.back())) return end_before_last();
     }
     while (least_moves == whole_program && append()) {
