@@ -12,9 +12,6 @@
 namespace counterflex {
 namespace {
 
-// A dialect shows at the beginning of a program.
-constexpr std::size_t looked_at = 1 << 20;  // bytes
-
 /// Whole lines, so that no comment loses its end.
 std::string_view beginning(std::string_view text) {
   if (text.size() < looked_at) return text;

@@ -7,6 +7,9 @@
 
 namespace counterflex {
 
+/// A dialect shows at the beginning of a program: bytes of it.
+inline constexpr std::size_t looked_at = 1 << 20;
+
 /// The dialect of `options`, or the one that `text`, of which only the beginning counts, shows. Throws
 /// `InputError` (Exit::usage) where there is none of that name.
 const Dialect& choose_dialect(std::string_view text, const std::string& file, const ReadOptions& options);

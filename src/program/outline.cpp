@@ -68,6 +68,10 @@ bool jumps_in(std::string_view lines) {
 
 }  // namespace
 
+bool OutlineScan::may_find() const {
+  return dialect_.sinumerik_words || (dialect_.family & (shop_families | mach3_family)) != 0;
+}
+
 void OutlineScan::add(std::string_view lines) {
   if (!begun_) lines.remove_prefix(byte_order_mark(lines));
   begun_ = true;
