@@ -112,6 +112,20 @@ void LineReader::remark_rest(std::string_view text) {
     add_remark(program_, block_.line, "what stands behind the end of the program stays as it is");
 }
 
+void LineReader::take_window(Program& to) {
+  std::vector<Move> moves = std::move(to.moves);
+  std::string text = std::move(to.text);
+  moves.clear();
+  text.clear();
+  moves.swap(program_.moves);
+  text.swap(program_.text);
+  to = program_;  // the rest is small
+  to.moves = std::move(moves);
+  to.text = std::move(text);
+  if (!to.moves.empty()) program_.before = to.moves.back();
+  program_.left_alone.clear();
+}
+
 void LineReader::begin_window(std::size_t read, std::optional<Move> first) {
   if (!program_.moves.empty()) program_.before = std::move(program_.moves.back());
   program_.moves.clear();  // the room is used again

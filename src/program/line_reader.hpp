@@ -52,6 +52,9 @@ class LineReader {
   /// follows them, `read` bytes of which have been read already and gave the `first` move.
   void begin_window(std::size_t read, std::optional<Move> first);
 
+  /// Moves the window to `to` and keeps what the next one needs of it.
+  void take_window(Program& to);
+
  private:
   bool read_any_line();
 

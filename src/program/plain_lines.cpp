@@ -69,7 +69,6 @@ class PlainReader {
     for (std::size_t axis = 0; axis < 3; ++axis)
       if (words_.has(static_cast<PlainWord>(axis))) place(axis, move);
     move.known_end = r_.state.known;
-    r_.state.position_mm = move.end_mm;
     allow_plain_changes(move);
   }
 
@@ -78,7 +77,9 @@ class PlainReader {
     const auto begin = static_cast<std::size_t>(said.begin - text_);
     move.words[axis] = AxisWord{{begin, static_cast<std::size_t>(said.end - text_)}, said.decimals};
     const double value = said.value * unit_mm_;
-    coordinate(move.end_mm, axis) = r_.state.relative ? coordinate(move.start_mm, axis) + value : value;
+    const double end = r_.state.relative ? coordinate(move.start_mm, axis) + value : value;
+    // Stored twice: a copy of all three would wait for the stores.
+    coordinate(move.end_mm, axis) = coordinate(r_.state.position_mm, axis) = end;
     if (!r_.state.known[axis]) r_.state.known[axis] = true;  // a byte just stored delays the copy of all
   }
 

@@ -215,6 +215,10 @@ Program& ProgramReader::window() {
   return state_->program();
 }
 
+void ProgramReader::take_window(Program& to) {
+  state_->lines.take_window(to);
+}
+
 struct TextReader::State {
   LineReader lines;
 };
@@ -231,6 +235,10 @@ TextReader::TextReader(const Program& original, const ReadOptions& options) {
 
 TextReader::~TextReader() = default;
 TextReader::TextReader(TextReader&&) noexcept = default;
+
+void TextReader::take_window(Program& to) {
+  state_->lines.take_window(to);
+}
 
 const Program& TextReader::read(std::string text) {
   LineReader& lines = state_->lines;

@@ -38,6 +38,10 @@ class ProgramReader {
   const Program& window() const;
   Program& window();
 
+  /// Moves the window to `to`, of which nothing but the room is used again; `window` is empty until the next
+  /// one, and cannot be extended.
+  void take_window(Program& to);
+
  private:
   friend class TextReader;
   struct State;
@@ -56,6 +60,9 @@ class TextReader {
 
   /// The window of the next portion, until the next call. Throws `InputError` as `read_program` does.
   const Program& read(std::string text);
+
+  /// Moves the window that was read last to `to`, of which nothing but the room is used again.
+  void take_window(Program& to);
 
  private:
   struct State;
