@@ -89,9 +89,11 @@ bool LineReader::read_any_line() {
 }
 
 void LineReader::read_all() {
-  // Growing step by step would copy every move several times.
-  const auto newlines = std::count(program_.text.begin(), program_.text.end(), '\n');
-  program_.moves.reserve(static_cast<std::size_t>(newlines) + 1);
+  // Growing step by step would copy every move several times; room that is used again is large enough.
+  if (program_.moves.capacity() == 0) {
+    const auto newlines = std::count(program_.text.begin(), program_.text.end(), '\n');
+    program_.moves.reserve(static_cast<std::size_t>(newlines) + 1);
+  }
   do read_plain(whole_program);
   while (read_line());
   remark_rest(std::string_view(program_.text).substr(position()));

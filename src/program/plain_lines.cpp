@@ -15,6 +15,14 @@ std::size_t longest_without_remark(const Dialect& dialect) {
                                  : dialect.line_limit - room_for_words;
 }
 
+bool is_straight(MotionMode motion) {
+  return motion == MotionMode::rapid || motion == MotionMode::feed;
+}
+
+bool is_arc(MotionMode motion) {
+  return motion == MotionMode::clockwise || motion == MotionMode::counter_clockwise;
+}
+
 /// Takes lines one by one into moves. What blocks have in common is worked out once.
 class PlainReader {
  public:
@@ -41,8 +49,10 @@ class PlainReader {
   }
 
  private:
-  /// Under G91 an axis has to be known; a feed below zero is an error.
+  /// Behind arcs the line has to say its motion, and under G91 an axis has to be known; a feed below zero is
+  /// an error.
   bool is_read_here() const {
+    if (!words_.has(PlainWord::code) && !is_straight(r_.state.motion)) return false;
     if (words_.has(PlainWord::feed) && *number(PlainWord::feed).begin == '-') return false;
     if (!r_.state.relative || all_known(r_.state.known)) return true;
     for (std::size_t axis = 0; axis < 3; ++axis)
@@ -95,7 +105,7 @@ class PlainReader {
 
 bool takes_plain_lines(const Reading& r) {
   const ModalState& state = r.state;
-  const bool moves = state.motion == MotionMode::rapid || state.motion == MotionMode::feed;
+  const bool moves = is_straight(state.motion) || is_arc(state.motion);
   const bool followed =
       state.unit && state.doubts == 0 && state.displaced == 0 && !r.in_body() && !state.entering_data;
   const bool alone = state.contour == Contour::none && !r.after_corner && !r.block_relative;
