@@ -14,7 +14,7 @@ struct ProgramLook {
   bool is_corrected = false;  ///< the program carries the header of a corrected one
 };
 
-/// Reads the program to its end once. Throws `InputError`.
+/// Reads the program to its end once, and notes its hash. Throws `InputError`.
 ProgramLook look_through(const Options& options, ProgramFile& file, const ReadOptions& read,
                          const Machine* machine);
 

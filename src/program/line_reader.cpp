@@ -4,14 +4,13 @@
 
 #include <algorithm>
 
+#include "counterflex/program/program_reader.hpp"
 #include "program/expand.hpp"
+#include "program/plain_lines.hpp"
 #include "program/remarks.hpp"
 
 namespace counterflex {
 namespace {
-
-// A dialect shows at the beginning of a program.
-constexpr std::size_t looked_at = 1 << 20;  // bytes
 
 /// Whole lines, so that no comment loses its end.
 std::string_view beginning(std::string_view text) {
@@ -60,6 +59,17 @@ LineReader::LineReader(const std::string& file, const ReadOptions& options, cons
 }
 
 bool LineReader::read_line() {
+  if (takes_plain_ && read_plain_lines(reading_, block_, program_.moves.size() + 1) > 0) return true;
+  const bool found = read_any_line();
+  takes_plain_ = !ended_ && takes_plain_lines(reading_);
+  return found;
+}
+
+void LineReader::read_plain(std::size_t most_moves) {
+  if (takes_plain_) read_plain_lines(reading_, block_, most_moves);
+}
+
+bool LineReader::read_any_line() {
   if (ended_ || !next_line(program_.text, block_)) return false;
   place_in_file(program_.expansion, block_);
   if (stands_unused(program_.expansion, block_.span.begin)) {
@@ -79,11 +89,13 @@ bool LineReader::read_line() {
 }
 
 void LineReader::read_all() {
-  // Growing step by step would copy every move several times.
-  const auto newlines = std::count(program_.text.begin(), program_.text.end(), '\n');
-  program_.moves.reserve(static_cast<std::size_t>(newlines) + 1);
-  while (read_line()) {
+  // Growing step by step would copy every move several times; room that is used again is large enough.
+  if (program_.moves.capacity() == 0) {
+    const auto newlines = std::count(program_.text.begin(), program_.text.end(), '\n');
+    program_.moves.reserve(static_cast<std::size_t>(newlines) + 1);
   }
+  do read_plain(whole_program);
+  while (read_line());
   remark_rest(std::string_view(program_.text).substr(position()));
 }
 
@@ -102,6 +114,20 @@ void LineReader::remark_rest(std::string_view text) {
     add_remark(program_, block_.line, "what stands behind the end of the program stays as it is");
 }
 
+void LineReader::take_window(Program& to) {
+  std::vector<Move> moves = std::move(to.moves);
+  std::string text = std::move(to.text);
+  moves.clear();
+  text.clear();
+  moves.swap(program_.moves);
+  text.swap(program_.text);
+  to = program_;  // the rest is small
+  to.moves = std::move(moves);
+  to.text = std::move(text);
+  if (!to.moves.empty()) program_.before = to.moves.back();
+  program_.left_alone.clear();
+}
+
 void LineReader::begin_window(std::size_t read, std::optional<Move> first) {
   if (!program_.moves.empty()) program_.before = std::move(program_.moves.back());
   program_.moves.clear();  // the room is used again
@@ -114,25 +140,6 @@ void LineReader::begin_window(std::size_t read, std::optional<Move> first) {
   reading_.operation.begin_window(program_);
   reading_.run_begin = 0;
   block_.line_end = {read, read};
-}
-
-void LineReader::give_window(Program& to) {
-  to.file = program_.file;
-  to.dialect = program_.dialect;
-  to.integer_words = program_.integer_words;
-  to.before = program_.before;
-  to.after = program_.after;
-  to.work_offsets = program_.work_offsets;
-  to.operations = program_.operations;
-  to.block_count = program_.block_count;
-  to.expansion = program_.expansion;
-  to.text.swap(program_.text);
-  to.moves.swap(program_.moves);
-  to.left_alone.swap(program_.left_alone);
-  program_.text.clear();
-  program_.moves.clear();
-  program_.left_alone.clear();
-  if (!to.moves.empty()) program_.before = to.moves.back();
 }
 
 }  // namespace counterflex
