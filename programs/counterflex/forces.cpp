@@ -119,7 +119,7 @@ class Unplaced {
 class Told {
  public:
   Told(const Options& options, const std::string& program, bool at_platform)
-      : program_(program), scale_(options.load_scale), json_(options.json) {
+      : program_(program), json_(options.json) {
     if (options.output) profile_.emplace(*options.output);
     if (profile_) profile_->write(profile_head(program, at_platform));
     to_stdout_ = options.output == "-";
@@ -131,7 +131,7 @@ class Told {
     say(json_ ? json_row(move, is_first_) : table_row(move));
     is_first_ = false;
     cli::add(move, totals_);
-    if (profile_) profile_->write(profile_rows(program_, move, scale_));
+    if (profile_) profile_->write(profile_rows(program_, move));
   }
 
   /// Throws `InputError` (Exit::program_text) where a profile would have no row.
@@ -151,7 +151,6 @@ class Told {
   }
 
   const std::string& program_;
-  double scale_;
   bool json_, to_stdout_ = false, is_first_ = true;
   ForceTotals totals_;
   std::optional<FileWriter> profile_, page_;

@@ -30,11 +30,11 @@ nlohmann::ordered_json number_or_null(double value, int decimals) {
 }
 
 /// Throws where a profile of steps in the feed frame cannot hold the force of a move.
-void refuse_move(const std::string& program, const MoveForce& move, double scale) {
+void refuse_move(const std::string& program, const MoveForce& move) {
   const auto refuse = [&](Exit exit, const std::string& why) {
     throw InputError(exit, {program, move.line, 1}, why);
   };
-  if (move.comment && (!move.why.empty() || scale != 1))
+  if (move.comment_altered)
     refuse(Exit::usage,
            "a FORCE comment covers this move, which the profile leaves to it, with neither --load-scale nor "
            "--air-above: give these to the command that reads the profile instead");
@@ -163,8 +163,8 @@ std::string profile_head(const std::string& program, bool at_platform) {
       program, at_platform ? "platform" : "tip");
 }
 
-std::string profile_rows(const std::string& program, const MoveForce& move, double scale) {
-  refuse_move(program, move, scale);
+std::string profile_rows(const std::string& program, const MoveForce& move) {
+  refuse_move(program, move);
   const auto key = [](double s) { return format_fixed(s / mm, length_decimals); };
   if (move.comment) return key(move.s_start) + ", , , , , ,\n";
   std::string text;

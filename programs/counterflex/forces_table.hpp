@@ -34,9 +34,9 @@ std::string json_foot(const ForceTotals& totals);
 
 /// A profile by path length in the feed frame: rows where a move begins and where its force steps, zeros for
 /// one without a force, none for one that a FORCE comment covers. `profile_rows` throws `InputError`
-/// (Exit::machine_or_force) where steps in the feed frame cannot say what acts, and (Exit::usage) where
-/// `scale`, or a bound of the air, makes another force of a comment's.
+/// (Exit::machine_or_force) where steps in the feed frame cannot say what acts, and (Exit::usage) where a
+/// scale, or a bound of the air, makes another force of a comment's.
 std::string profile_head(const std::string& program, bool at_platform);
-std::string profile_rows(const std::string& program, const MoveForce& move, double scale);
+std::string profile_rows(const std::string& program, const MoveForce& move);
 
 }  // namespace counterflex::cli

@@ -84,6 +84,8 @@ class MoveForces {
     unblended_->append_to(i, 0, pieces_, remarks);
     if (!remarks.unforced.empty()) result.why = remarks.unforced.front().why;
     result.comment = move.force.has_value();
+    result.comment_altered =
+        result.comment && !move.force->isZero(0) && (source_.scale != 1 || in_air(source_, move));
     const AxesAlong axes = axes_of_feed(i);
     take_wrenches(axes, segment, result);
     if (coverage_ && !in_air(source_, move)) take_model(i, axes.at(middle, 1), result);

@@ -25,6 +25,8 @@ struct Case {
   std::string failure;  ///< not empty where a waypoint has no nominal configuration
 };
 
+using CaseOf = const Case& (*)();
+
 inline std::string data_file(const std::string& name) {
   return std::string(COUNTERFLEX_SOURCE_DIR) + "/" + name;
 }

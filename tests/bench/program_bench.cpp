@@ -40,7 +40,7 @@ void read_windows(const std::string& text, const Take& take) {
   while (reader.next()) take(reader.window());
 }
 
-void read(benchmark::State& state, const Text& made) {
+void read_only(benchmark::State& state, const Text& made) {
   const std::string text = made.make(megabytes);
   for (auto _ : state) {
     std::size_t moves = 0;
@@ -84,14 +84,14 @@ void rewrite_with_points(benchmark::State& state, const Text& made) {
   read_and_rewrite(state, made, [](const Program& window) { return edits_of(window, small_shift, true); });
 }
 
-[[maybe_unused]] const int registered = [] {
+[[maybe_unused]] const int registered_texts = [] {
   for (const Text& text :
        {Text{"numbered", numbered_program}, Text{"terse", mould_program}, Text{"arcs", arc_program}}) {
     const auto add = [&](const char* what, void (*run)(benchmark::State&, const Text&)) {
       benchmark::RegisterBenchmark(("text/" + text.name + "/" + what).c_str(), run, text)
           ->Unit(benchmark::kMillisecond);
     };
-    add("read", read);
+    add("read", read_only);
     add("read+copy", copy);
     add("read+rewrite_same", rewrite_same);
     add("read+rewrite_shifted", rewrite_shifted);

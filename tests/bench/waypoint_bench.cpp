@@ -8,8 +8,6 @@
 namespace counterflex::bench {
 namespace {
 
-using CaseOf = const Case& (*)();
-
 /// Solves waypoint after waypoint, round and round, and counts the Newton steps of a mean waypoint. `solve`
 /// takes the case, a waypoint's number and the workspace.
 template <class Solve>
@@ -103,8 +101,9 @@ int register_machine(const std::string& name, CaseOf case_of) {
   return 0;
 }
 
-const int registered = register_machine("orthoglide", orthoglide) + register_machine("hexapod", hexapod) +
-                       register_machine("robot_6r", robot_6r) + register_machine("mill", mill);
+const int registered_waypoints = register_machine("orthoglide", orthoglide) +
+                                 register_machine("hexapod", hexapod) +
+                                 register_machine("robot_6r", robot_6r) + register_machine("mill", mill);
 
 }  // namespace
 }  // namespace counterflex::bench

@@ -144,3 +144,22 @@ TEST_CASE("a profile in the feed frame, a row a move, gives what it was made of"
     CHECK(agree(again[i].F, moves[i].F, 1e-12));
   }
 }
+
+TEST_CASE("a scale and a bound of the air alter what a FORCE comment gives, unless that is zero") {
+  Program program = sample_program();
+  program.moves[2].force = wrench(1, 0, 0);
+  program.moves[4].force = wrench(0, 0, 0);
+  const auto altered = [&](const ForceSource& source) {
+    std::vector<bool> moves;
+    for (const MoveForce& move : moves_of(program, source)) moves.push_back(move.comment_altered);
+    return moves;
+  };
+  const std::vector<bool> none(4, false), the_force{false, true, false, false};
+  ForceSource source;
+  CHECK(altered(source) == none);
+  source.scale = 2;
+  CHECK(altered(source) == the_force);
+  source.scale = 1;
+  source.air_above_mm = -1;
+  CHECK(altered(source) == the_force);
+}

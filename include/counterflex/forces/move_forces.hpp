@@ -26,6 +26,7 @@ struct MoveForce {
   Vector6 F = Vector6::Zero();   ///< on the tool, scaled, axes of the feed frame (N, N m)
   bool only_z = false;           ///< the feed is parallel to the tool: of F only what is along it is known
   bool comment = false;          ///< the program's FORCE comment covers it
+  bool comment_altered = false;  ///< and the scale, or a bound of the air, makes another force of its own
   bool changes = false;          ///< the wrench is not the same all along the move: `F` is that in the middle
   double largest_N = 0;          ///< of the force anywhere on the move
   std::vector<ForceStep> steps;  ///< what acts, from the start on; none where it changes between steps

@@ -1,0 +1,74 @@
+/// Waypoints as a run asks for them: in batches, half a millimetre apart, with another force at each.
+#include <benchmark/benchmark.h>
+
+#include <array>
+#include <cmath>
+
+#include "bench_cases.hpp"
+#include "compensation/waypoint_solver.hpp"
+
+namespace counterflex::bench {
+namespace {
+
+constexpr std::size_t batch = 256;
+constexpr double spacing = 0.5e-3;  // m
+
+Load little_by_little(std::size_t i) {
+  const double t = static_cast<double>(i);
+  Load load = milling_load();
+  load.F[0] += 5 * std::sin(1.7 * t);
+  load.F[1] += 4 * std::cos(2.3 * t);
+  return load;
+}
+
+/// There and back along the line of the case, so that every batch begins beside the end of the last.
+std::array<std::vector<TargetRequest>, 2> there_and_back(const Case& c) {
+  const Vector3 begin = c.wanted.front().p, along = (c.wanted.back().p - begin).normalized();
+  std::array<std::vector<TargetRequest>, 2> ways;
+  for (std::size_t i = 0; i < batch; ++i) {
+    const double s = spacing * static_cast<double>(i);
+    ways[0].push_back({begin + s * along, little_by_little(i)});
+    ways[1].push_back({begin + (spacing * batch - s) * along, little_by_little(batch + i)});
+  }
+  return ways;
+}
+
+void shipped(benchmark::State& state, CaseOf case_of) {
+  const Case& c = case_of();
+  if (!c.failure.empty()) return state.SkipWithError(("no nominal configuration: " + c.failure).c_str());
+  const Program program = read_program("G21 G90\nG0 X0 Y0 Z0\nG1 X1 F600\nM30\n", "made.ngc", {});
+  const Toolpath path = build_toolpath(program, one_frame(program, {}));
+  const PathForces forces({}, program, path, {tip(c.model.mechanism, c.model.home).R});
+  const Job job{c.model, program, path, forces, {}, {}};
+  WaypointSolver solver(job, c.model, c.nominal.front());
+  const auto ways = there_and_back(c);
+  std::vector<TargetSolution> solved(batch);
+  std::size_t way = 0;
+  double iterations = 0;
+  for (auto _ : state) {
+    solver.targets(ways[way], solved);
+    way = 1 - way;
+    for (const TargetSolution& solution : solved) {
+      iterations += solution.iterations;
+      if (solution.status == Status::converged) continue;
+      state.SkipWithError(("a waypoint is " + std::string(to_string(solution.status))).c_str());
+      return;
+    }
+  }
+  state.counters["items"] = batch;
+  state.counters["steps"] = benchmark::Counter(iterations / batch, benchmark::Counter::kAvgIterations);
+}
+
+[[maybe_unused]] const int registered_shipped = [] {
+  const auto add = [](const char* name, CaseOf case_of) {
+    benchmark::RegisterBenchmark(name, shipped, case_of)->Unit(benchmark::kMicrosecond);
+  };
+  add("orthoglide/shipped", orthoglide);
+  add("hexapod/shipped", hexapod);
+  add("robot_6r/shipped", robot_6r);
+  add("mill/shipped", mill);
+  return 0;
+}();
+
+}  // namespace
+}  // namespace counterflex::bench
