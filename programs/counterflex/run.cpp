@@ -96,7 +96,7 @@ void warn_of_run(Run& run, Command command, Console& console) {
 }  // namespace
 
 RunInput Run::input() const {
-  return {machine.model, work.frames, ignored, force_input.source, options, read, &tool_models};
+  return {machine.model, work.frames, ignored, force_input.source, options, read, &tool_models, lanes ? &*lanes : nullptr};
 }
 
 RunContext Run::context() const {
@@ -132,6 +132,7 @@ std::unique_ptr<Run> prepare_run(const Options& options, Console& console) {
   settle_forces({run->file.bytes, run->program.file, run->read, run->work.frames, run->ignored},
                 run->force_input.source);
   run->options = compensation_options(options, on);
+  run->lanes.emplace(run->options.max_correction);
   run->facts = facts_of(options, *run);
   warn_of_orientation(*run);
   warn_of_tools(*run);

@@ -26,6 +26,7 @@ struct Run {
   ReadOptions read;  ///< with which the program is read
   RunFacts facts;
   ToolModels tool_models;  ///< of the program's tools
+  std::optional<LaneMachines> lanes{};
 
   RunInput input() const;
   RunContext context() const;

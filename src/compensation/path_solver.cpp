@@ -48,6 +48,11 @@ PathSolver::PathSolver(const Job& job, const Model& model, Configuration start)
       nominal_(model, std::move(start)),
       writes_all_controlled_(controls_only_positions(model.mechanism)) {}
 
+void PathSolver::stand_at(const Configuration& nominal) {
+  nominal_ = NominalPath(model_, nominal);
+  loaded_.reset();
+}
+
 PathSolver& ToolSolver::of(const Model& model, const Configuration& start) {
   if (!is_of(model)) solver_.emplace(job_, model, start);
   return *solver_;

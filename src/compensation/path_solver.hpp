@@ -31,6 +31,9 @@ class PathSolver {
   /// `start`: a nominal configuration of `model` on the branch, near the first waypoint.
   PathSolver(const Job& job, const Model& model, Configuration start);
 
+  /// Goes on from another nominal configuration on the branch.
+  void stand_at(const Configuration& nominal);
+
   /// The wanted pose of the tip at a position: its controlled orientation is home's, uncontrolled components
   /// are those of nominal kinematics. Sets `status` where there is none.
   Pose wanted(const Vector3& p_MT, Status& status);

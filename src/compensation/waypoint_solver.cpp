@@ -1,24 +1,95 @@
 #include "waypoint_solver.hpp"
 
 namespace counterflex {
+namespace {
+
+bool is_whole(double part) {
+  return part == 0 || part == 1;
+}
+
+// What lanes can leave away or let act: errors and load, nothing in part.
+bool can_do(const Stage& stage) {
+  return is_whole(stage.errors) && is_whole(stage.load) && stage.preload == 1;
+}
+
+}  // namespace
 
 WaypointSolver::WaypointSolver(const Job& job, const Model& model, Configuration start)
-    : one_by_one_(job, model, std::move(start)) {}
+    : job_(job), model_(model), start_(std::move(start)) {
+  if (job.lanes != nullptr) lanes_.emplace(job.lanes->of(model, job.forces.at_platform()));
+}
+
+// Begins beside `p` where lanes have been on the way since.
+PathSolver& WaypointSolver::one_by_one(const Vector3& p) {
+  const Configuration* near = lanes_ && (strayed_ || !one_by_one_) ? lanes_->nominal_near(p) : nullptr;
+  strayed_ = false;
+  if (!one_by_one_)
+    one_by_one_.emplace(job_, model_, near != nullptr ? *near : start_);
+  else if (near != nullptr)
+    one_by_one_->stand_at(*near);
+  return *one_by_one_;
+}
+
+void WaypointSolver::solve_in_lanes(LaneQuestion question, bool errors) {
+  answers_.resize(requests_.size());
+  lanes_->solve(question, errors, requests_, answers_);
+}
 
 void WaypointSolver::wanted(std::span<const Vector3> p_MT, std::span<WantedPose> out) {
-  for (std::size_t i = 0; i < p_MT.size(); ++i) out[i].X_MT = one_by_one_.wanted(p_MT[i], out[i].status);
+  for (std::size_t i = 0; i < p_MT.size(); ++i) {
+    const bool known = lanes_ && lanes_->nominal_tip(p_MT[i], out[i].X_MT);
+    if (known)
+      out[i].status = Status::converged;
+    else
+      out[i].X_MT = one_by_one(p_MT[i]).wanted(p_MT[i], out[i].status);
+    strayed_ = strayed_ || known;
+  }
 }
 
 void WaypointSolver::targets(std::span<const TargetRequest> requests, std::span<TargetSolution> out) {
-  for (std::size_t i = 0; i < requests.size(); ++i)
-    out[i] = one_by_one_.target(requests[i].p_MT, requests[i].load);
+  const bool in_lanes = lanes_ && job_.options.method == Method::direct;
+  if (in_lanes) {
+    requests_.clear();
+    for (const TargetRequest& request : requests) requests_.push_back({request.p_MT, request.load.F});
+    solve_in_lanes(LaneQuestion::target, true);
+  }
+  for (std::size_t i = 0; i < requests.size(); ++i) {
+    const bool solved = in_lanes && answers_[i].solved;
+    if (solved)
+      out[i] = {Status::converged, answers_[i].command, answers_[i].iterations};
+    else
+      out[i] = one_by_one(requests[i].p_MT).target(requests[i].p_MT, requests[i].load);
+    strayed_ = strayed_ || solved;
+  }
 }
 
 void WaypointSolver::actuals(std::span<const ActualRequest> requests, std::span<ActualSolution> out) {
+  // In runs between which errors begin or cease to act.
+  for (std::size_t begin = 0, end = 0; begin < requests.size(); begin = end) {
+    const double errors = requests[begin].stage.errors;
+    while (end < requests.size() && requests[end].stage.errors == errors) ++end;
+    actuals_in_lanes(requests.subspan(begin, end - begin), out.subspan(begin, end - begin));
+  }
+}
+
+void WaypointSolver::actuals_in_lanes(std::span<const ActualRequest> requests, std::span<ActualSolution> out) {
+  const bool in_lanes = lanes_ && can_do(requests.front().stage);
+  if (in_lanes) {
+    requests_.clear();
+    for (const ActualRequest& request : requests)
+      requests_.push_back({request.target, request.stage.load * request.load.F});
+    solve_in_lanes(LaneQuestion::forward, requests.front().stage.errors == 1);
+  }
   for (std::size_t i = 0; i < requests.size(); ++i) {
     const ActualRequest& request = requests[i];
-    out[i] = one_by_one_.actual(request.target, request.load, request.stage, request.start);
-    out[i].in_travel = one_by_one_.in_travel();
+    if (in_lanes && can_do(request.stage) && answers_[i].solved) {
+      out[i] = {Status::converged, answers_[i].X_MT, answers_[i].iterations, true};
+      strayed_ = true;
+      continue;
+    }
+    PathSolver& solver = one_by_one(request.target);
+    out[i] = solver.actual(request.target, request.load, request.stage, request.start);
+    out[i].in_travel = solver.in_travel();
   }
 }
 

@@ -27,9 +27,10 @@ struct WantedPose {
   Pose X_MT;
 };
 
-/// Answers requests in batches; neighbours in a batch should be neighbours on the path. What is answered
-/// depends on all requests since the start, in their order, and on nothing else. `out` is as long as the
-/// requests. Numerical trouble is a status in the answer.
+/// Answers requests in batches; neighbours in a batch should be neighbours on the path. Side by side in lanes
+/// where the job has them and they know the place, one by one else. What is answered depends on all requests
+/// since the start, in their order, and on nothing else. `out` is as long as the requests. Numerical trouble
+/// is a status in the answer.
 class WaypointSolver {
  public:
   /// `start`: a nominal configuration of `model` on the branch, near the first waypoint.
@@ -39,10 +40,21 @@ class WaypointSolver {
   void targets(std::span<const TargetRequest> requests, std::span<TargetSolution> out);
   void actuals(std::span<const ActualRequest> requests, std::span<ActualSolution> out);
 
-  const Model& model() const { return one_by_one_.model(); }
+  const Model& model() const { return model_; }
 
  private:
-  PathSolver one_by_one_;
+  PathSolver& one_by_one(const Vector3& p);
+  void solve_in_lanes(LaneQuestion question, bool errors);
+  void actuals_in_lanes(std::span<const ActualRequest> requests, std::span<ActualSolution> out);
+
+  const Job& job_;
+  const Model& model_;
+  Configuration start_;
+  std::optional<LaneSolver> lanes_;
+  std::vector<LaneRequest> requests_;
+  std::vector<LaneAnswer> answers_;
+  std::optional<PathSolver> one_by_one_;
+  bool strayed_ = false;  ///< lanes have solved since the last waypoint that was solved alone
 };
 
 }  // namespace counterflex

@@ -150,15 +150,18 @@ bool LaneRegion::take_tangents(const LaneModel& lane_model, StaticsWork& work) {
   return true;
 }
 
-Matrix3 LaneRegion::R_MT(const Vector3& p) const {
-  if (!turns_) return R_centre_;
+Eigen::VectorXd LaneRegion::outputs_at(const Vector3& p) const {
   const Eigen::RowVectorXd powers = monomials((p - centre_) / flat_.half, flat_.degree);
-  const auto terms = static_cast<std::size_t>(powers.size());
-  Vector3 phi;
-  for (std::size_t i = 0; i < 3; ++i)
-    phi[static_cast<int>(i)] =
-        powers * Eigen::Map<const Eigen::VectorXd>(&polynomials_[(model_.mechanism.travel.size() + i) * terms], powers.size());
-  return exp_so3(phi) * R_centre_;
+  const Eigen::Index terms = powers.size(), count = static_cast<Eigen::Index>(polynomials_.size()) / terms;
+  return Eigen::Map<const Eigen::MatrixXd>(polynomials_.data(), terms, count).transpose() * powers.transpose();
+}
+
+Eigen::VectorXd LaneRegion::rho_at(const Vector3& p) const {
+  return outputs_at(p).head(static_cast<Eigen::Index>(model_.mechanism.travel.size()));
+}
+
+Matrix3 LaneRegion::R_MT(const Vector3& p) const {
+  return turns_ ? Matrix3(exp_so3(Vector3(outputs_at(p).tail<3>())) * R_centre_) : R_centre_;
 }
 
 std::unique_ptr<LaneRegion> LaneRegion::make(const Model& model, const LaneModel& lane_model, const Vector3& centre, double half,

@@ -25,6 +25,9 @@ class LaneRegion {
   /// Whether polynomials hold at a commanded position.
   bool holds(const Vector3& p) const { return (p - centre_).cwiseAbs().maxCoeff() <= flat_.half; }
 
+  /// Values of the actuators for a commanded position.
+  Eigen::VectorXd rho_at(const Vector3& p) const;
+
   /// Orientation of the nominal tip at `p`.
   Matrix3 R_MT(const Vector3& p) const;
 
@@ -39,6 +42,7 @@ class LaneRegion {
   bool fit_polynomials(double half, int degree);
   bool take_tangents(const LaneModel& lane_model, StaticsWork& work);
   Eigen::MatrixXd actuators_by_position() const;
+  Eigen::VectorXd outputs_at(const Vector3& p) const;
 
   const Model& model_;
   Vector3 centre_;

@@ -12,6 +12,7 @@ namespace lane_cells {
 
 constexpr double region_share = 1.0 / 64;  // half an edge of a region, in units of l
 constexpr std::size_t most_regions = 512;
+constexpr double same_branch = 1e-3;  // l or rad: another branch is further away
 
 struct Cell {
   long x, y, z;
@@ -25,6 +26,10 @@ struct CellHash {
 };
 
 using RegionPointer = std::shared_ptr<const LaneRegion>;
+
+bool are_neighbours(const Cell& a, const Cell& b) {
+  return std::abs(a.x - b.x) <= 1 && std::abs(a.y - b.y) <= 1 && std::abs(a.z - b.z) <= 1;
+}
 
 struct AlignedFree {
   void operator()(double* memory) const { std::free(memory); }
@@ -67,6 +72,21 @@ struct LaneMachine::Impl {
 LaneMachine::LaneMachine(const Model& model, bool at_platform, double reach)
     : impl_(std::make_unique<Impl>(model, at_platform, reach)) {}
 LaneMachine::~LaneMachine() = default;
+
+struct LaneMachines::Impl {
+  double reach;
+  std::mutex mutex{};
+  std::map<std::pair<const Model*, bool>, LaneMachine> machines{};
+};
+
+LaneMachines::LaneMachines(double reach) : impl_(new Impl{reach}) {}
+LaneMachines::~LaneMachines() = default;
+LaneMachines::LaneMachines(LaneMachines&&) noexcept = default;
+
+const LaneMachine& LaneMachines::of(const Model& model, bool at_platform) const {
+  const std::lock_guard lock(impl_->mutex);
+  return impl_->machines.try_emplace({&model, at_platform}, model, at_platform, impl_->reach).first->second;
+}
 
 const char* lane_instructions() { return lanes::best_kernel().name; }
 
@@ -155,6 +175,31 @@ void LaneSolver::solve(LaneQuestion question, bool errors, std::span<const LaneR
     before = impl_->region.get();
     first += count;
   }
+}
+
+const Configuration* LaneSolver::nominal_near(const Vector3& p) {
+  if (!impl_->machine.able) return nullptr;
+  impl_->go_to(p);
+  return impl_->region ? &impl_->region->nominal() : nullptr;
+}
+
+// Neighbouring regions agree about a place between them; along a longer way the nominal machine is followed.
+bool LaneSolver::joins(const Vector3& from, const Vector3& to) {
+  if (!impl_->machine.able) return false;
+  const Cell cell_from = impl_->machine.cell_of(from), cell_to = impl_->machine.cell_of(to);
+  impl_->go_to(from);
+  const RegionPointer begin = impl_->region;
+  if (cell_from == cell_to) return begin != nullptr;
+  impl_->go_to(to);
+  const RegionPointer end = impl_->region;
+  if (!begin || !end) return false;
+  const Eigen::VectorXd there = end->rho_at(to);
+  const double l = impl_->machine.model.mechanism.length;
+  if (are_neighbours(cell_from, cell_to)) return (begin->rho_at(to) - there).norm() < same_branch * l;
+  const NominalResult followed =
+      follow(impl_->machine.model, begin->nominal(), {tip(impl_->machine.model.mechanism, impl_->machine.model.home).R, to});
+  return followed.status == Status::converged &&
+         (actuator_values(impl_->machine.model.mechanism, followed.configuration) - there).norm() < same_branch * l;
 }
 
 bool LaneSolver::nominal_tip(const Vector3& p, Pose& X_MT) {

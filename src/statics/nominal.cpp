@@ -263,6 +263,7 @@ NominalPath::NominalPath(const Model& model, Configuration start)
       configuration_(std::move(start)) {}
 NominalPath::~NominalPath() = default;
 NominalPath::NominalPath(NominalPath&&) noexcept = default;
+NominalPath& NominalPath::operator=(NominalPath&&) noexcept = default;
 
 Status NominalPath::go_to(const Pose& X_MT) {
   const Mechanism& mechanism = impl_->model.mechanism;

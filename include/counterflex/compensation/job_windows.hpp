@@ -16,7 +16,8 @@ struct RunInput {
   const ForceSource& source;
   const CompensationOptions& options;
   const ReadOptions& read;
-  const ToolModels* tools = nullptr;  ///< as for a job
+  const ToolModels* tools = nullptr;    ///< as for a job
+  const LaneMachines* lanes = nullptr;  ///< as for a job
 };
 
 /// A window with its path and forces; it stands on its own.

@@ -40,6 +40,20 @@ class LaneMachine {
   std::unique_ptr<Impl> impl_;
 };
 
+/// The lane machines of a run: one for each model, made when it is asked for.
+class LaneMachines {
+ public:
+  explicit LaneMachines(double reach);
+  ~LaneMachines();
+  LaneMachines(LaneMachines&&) noexcept;
+
+  const LaneMachine& of(const Model& model, bool at_platform) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
 /// The name of the instructions that lanes use on this computer.
 const char* lane_instructions();
 
@@ -55,6 +69,13 @@ class LaneSolver {
 
   /// Pose of the nominal tip at a position, on the branch of home; false where it is not known.
   bool nominal_tip(const Vector3& p, Pose& X_MT);
+
+  /// A nominal configuration on the branch of home, not far from `p`; null where it is not known. It stands until the next
+  /// call.
+  const Configuration* nominal_near(const Vector3& p);
+
+  /// Whether the straight way between two positions is known to stay on one branch.
+  bool joins(const Vector3& from, const Vector3& to);
 
  private:
   struct Impl;

@@ -44,6 +44,7 @@ class NominalPath {
   NominalPath(const Model& model, Configuration start);
   ~NominalPath();
   NominalPath(NominalPath&&) noexcept;
+  NominalPath& operator=(NominalPath&&) noexcept;
   Status go_to(const Pose& X_MT);
   const Configuration& configuration() const { return configuration_; }
 
