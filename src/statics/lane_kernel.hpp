@@ -17,7 +17,8 @@ class LaneKernel {
   using M = typename VectorOf<W>::Mask;
 
   static constexpr double closure_limit = 1e-12, step_limit = 1e-11, largest_angle = 0.25;
-  static constexpr int most_iterations = 14;
+  static constexpr double kinematic_step_limit = 1e-13;
+  static constexpr int most_iterations = 16;
 
   struct Frame {
     V R[9], p[3];
@@ -217,10 +218,14 @@ class LaneKernel {
     for (int i = 3; i < 6; ++i) d[i] *= scale;
   }
 
+  V joint_force(const Part& part) const {
+    return (part.passive ? acting_springs_ * part.k : part.k) * (state_[part.value] - part.rest);
+  }
+
   void spring_gradient(const Part& part, const V* f, const V* M_o, const PartFrame& at, V* gradient) {
     const V* theta = state_ + part.value;
     V stretch[6];
-    for (int i = 0; i < 6; ++i) stretch[i] = theta[i] - part.K[36 + i];
+    for (int i = 0; i < 6; ++i) stretch[i] = theta[i] - acting_preload_ * part.K[36 + i];
     multiply(part.K, 6, 6, stretch, gradient, false);
     V force[3], moment[3], turned[3], twice[3];
     into(at.R, f, force);
@@ -256,7 +261,7 @@ class LaneKernel {
       const PartFrame& at = frames_[k];
       V* gradient = rhs + part.row;
       if (part.operation == Operation::slide) {
-        gradient[0] = part.k * (state_[part.value] - part.rest) - dot(at.R, f);
+        gradient[0] = joint_force(part) - dot(at.R, f);
         continue;
       }
       V r[3], M_o[3];
@@ -264,7 +269,7 @@ class LaneKernel {
       cross(r, f, M_o);
       for (int i = 0; i < 3; ++i) M_o[i] += m[i];
       if (part.operation == Operation::turn)
-        gradient[0] = part.k * (state_[part.value] - part.rest) - dot(at.R, M_o);
+        gradient[0] = joint_force(part) - dot(at.R, M_o);
       else if (part.operation == Operation::spring)
         spring_gradient(part, f, M_o, at, gradient);
       else
@@ -315,10 +320,26 @@ class LaneKernel {
         for (int i = 0; i < 6; ++i) balance_[i] -= state_[program_.series[s].wrench + i];
     force_ = larger(force_, root(wrench_size2(balance_)));
     note_wrench(F_);
-    if (!question_.target) return;
+    if (!question_.target && !question_.kinematics) return;
     find_tip();
     for (int i = 0; i < 3; ++i) balance_[6 + i] = wanted_[i] - tip_[i];
-    for (int i = 6; i < 9; ++i) closure2_ = larger(closure2_, balance_[i] * balance_[i]);
+    if (question_.kinematics) compare_controlled();
+    for (int i = 6; i < 6 + tip_equations(); ++i) closure2_ = larger(closure2_, balance_[i] * balance_[i]);
+  }
+
+  int tip_equations() const { return question_.kinematics ? program_.actuators : 3; }
+
+  /// Errors of all components that the machine controls.
+  void compare_controlled() {
+    Frame tip;
+    V wanted[12], all[6], R_PT[9];
+    for (int i = 0; i < 9; ++i) R_PT[i] = broadcast(program_.R_PT[i]);
+    multiply(state_ + program_.platform, R_PT, tip.R);
+    for (int i = 0; i < 9; ++i) wanted[i] = broadcast(program_.R_MT_home[i]);
+    for (int i = 0; i < 3; ++i) wanted[9 + i] = wanted_[i];
+    for (int i = 0; i < 3; ++i) tip.p[i] = tip_[i];
+    difference(wanted, tip, all);
+    for (int i = 0; i < program_.actuators; ++i) balance_[6 + i] = all[program_.controlled[i]];
   }
 
   void find_tip() {
@@ -331,12 +352,16 @@ class LaneKernel {
     for (int s = 0; s < program_.series_count; ++s)
       if (program_.series[s].is_chain)
         for (int i = 0; i < 6; ++i) balance_[i] -= step_[program_.series[s].step + i];
-    V x[9];
-    if (question_.target)
+    V x[6 + most_outputs];
+    if (question_.kinematics)
+      multiply(region_.kinematic, 6 + program_.actuators, 6 + program_.actuators, balance_, x, false);
+    else if (question_.target)
       multiply(region_.target, 9, 9, balance_, x, false);
     else
       multiply(region_.forward, 6, 6, balance_, x, false);
     for (int i = 0; i < 6; ++i) twist_[i] = x[i];
+    if (question_.kinematics)
+      for (int a = 0; a < program_.actuators; ++a) drho_[a] = x[6 + a];
     if (!question_.target) return;
     for (int i = 0; i < 3; ++i) next_p_[i] = p_[i] + x[6 + i];
     V rho[most_outputs];
@@ -354,7 +379,7 @@ class LaneKernel {
       V* step = step_ + series.step;
       const V* end = series.is_chain ? twist_ : end_step_[s];
       multiply(region_.by_end[s], series.rows, 6, end, step, true);
-      if (question_.target && series.actuators > 0) {
+      if (moves_actuators() && series.actuators > 0) {
         V own[most_outputs];
         for (int a = 0; a < series.actuators; ++a) own[a] = drho_[program_.actuator_numbers[series.first_actuator + a]];
         multiply(region_.by_actuators[s], series.rows, series.actuators, own, step, true);
@@ -367,6 +392,8 @@ class LaneKernel {
             end_step_[series.parts[k].first_branch + b] = step + series.parts[k].row;
     }
   }
+
+  bool moves_actuators() const { return question_.target || question_.kinematics; }
 
   V kept(V step) const { return (V)((M)step & active_); }
 
@@ -397,10 +424,20 @@ class LaneKernel {
       }
     }
     move_pose(state_ + program_.platform, twist_);
-    if (!question_.target) return;
-    for (int i = 0; i < 3; ++i) p_[i] += kept(next_p_[i] - p_[i]);
+    if (!moves_actuators()) return;
+    if (question_.target)
+      for (int i = 0; i < 3; ++i) p_[i] += kept(next_p_[i] - p_[i]);
     for (int a = 0; a < program_.actuators; ++a) rho_[a] += kept(drho_[a]);
     set_actuators();
+  }
+
+  /// From the state with which the call begins.
+  void take_actuators() {
+    for (int s = 0; s < program_.series_count; ++s)
+      for (int k = 0; k < program_.series[s].part_count; ++k) {
+        const Part& part = program_.series[s].parts[k];
+        if (part.operation != Operation::fixed && part.actuator >= 0) rho_[part.actuator] = state_[part.value];
+      }
   }
 
   void set_actuators() {
@@ -440,7 +477,10 @@ class LaneKernel {
     for (int i = 0; i < 3; ++i) wanted_[i] = p_[i];
     if (!question_.go_on)
       for (int i = 0; i < program_.states; ++i) state_[i] = broadcast(region_.start[i]);
-    evaluate_polynomials(p_, rho_, program_.actuators);
+    if (question_.kinematics)
+      take_actuators();
+    else
+      evaluate_polynomials(p_, rho_, program_.actuators);
     set_actuators();
     active_ = p_[0] == p_[0];
     converged_ = active_ & ~active_;
@@ -455,7 +495,7 @@ class LaneKernel {
 
   void run(Batch& batch) {
     begin(batch);
-    for (int iteration = 0; iteration < most_iterations; ++iteration) {
+    for (int iteration = 0; iteration < (question_.kinematics ? 3 : 1) * most_iterations; ++iteration) {
       closure2_ = force_ = wrench2_ = largest_angle2_ = V{};
       for (int s = 0; s < program_.series_count; ++s) evaluate(program_.series[s]);
       evaluate_platform();
@@ -464,7 +504,7 @@ class LaneKernel {
       distribute();
       // What the next step would still move is within the limit: the state is not changed any more.
       const M done = (closure2_ <= closure_limit * closure_limit) & (force_ <= force_limit()) &
-                     (largest_step_ <= step_limit) & (largest_angle2_ <= largest_angle * largest_angle);
+                     (largest_step_ <= (question_.kinematics ? kinematic_step_limit : step_limit)) & (largest_angle2_ <= largest_angle * largest_angle);
       converged_ |= done & active_;
       active_ &= ~done;
       if (!any(active_)) break;
@@ -485,7 +525,10 @@ class LaneKernel {
     V R_PT[9], R[9], phi[3];
     for (int i = 0; i < 9; ++i) R_PT[i] = broadcast(program_.R_PT[i]);
     multiply(X, R_PT, R);
-    evaluate_polynomials(wanted_, phi, 3, program_.actuators);
+    if (question_.kinematics)
+      for (V& angle : phi) angle = V{};
+    else
+      evaluate_polynomials(wanted_, phi, 3, program_.actuators);
     for (int lane = 0; lane < W; ++lane) {
       const int at = first_ + lane;
       for (int i = 0; i < 9; ++i) batch.tip[i][at] = R[i][lane];
@@ -504,11 +547,12 @@ class LaneKernel {
   const Program& program_;
   const Region& region_;
   const Question question_;
+  const double acting_springs_ = question_.kinematics ? 0 : 1, acting_preload_ = acting_springs_;
   const int first_;
   V *state_, *rhs_, *step_, *rho_, *drho_;
   PartFrame* frames_;
   const V* end_step_[most_series];
-  V F_[6], p_[3], wanted_[3], next_p_[3], tip_[3], balance_[9], twist_[6];
+  V F_[6], p_[3], wanted_[3], next_p_[3], tip_[3], balance_[6 + most_outputs], twist_[6];
   V closure2_{}, force_{}, wrench2_{}, largest_angle2_{}, largest_step_{}, iterations_{};
   M active_{}, converged_{};
 };

@@ -20,9 +20,16 @@ void collect(const SeriesView& view, std::vector<SeriesView>& list) {
   }
 }
 
-void put(const Matrix3& R, const Vector3& p, double* into) {
-  for (int i = 0; i < 9; ++i) into[i] = R(i / 3, i % 3);
-  for (int i = 0; i < 3; ++i) into[9 + i] = p[i];
+void put(const Pose& X, double* into) {
+  for (int i = 0; i < 9; ++i) into[i] = X.R(i / 3, i % 3);
+  for (int i = 0; i < 3; ++i) into[9 + i] = X.p[i];
+}
+
+Pose pose_at(const double* from) {
+  Pose X;
+  for (int i = 0; i < 9; ++i) X.R(i / 3, i % 3) = from[i];
+  for (int i = 0; i < 3; ++i) X.p[i] = from[9 + i];
+  return X;
 }
 
 lanes::FixedPose flat_pose(const Pose& X) {
@@ -124,6 +131,10 @@ LaneModel::LaneModel(const Model& model, bool at_platform) : model_(model) {
   for (int i = 0; i < 3; ++i) program_.arm[i] = arm[i];
   for (int i = 0; i < 3; ++i) program_.p_PT[i] = mechanism.X_PT.p[i];
   for (int i = 0; i < 9; ++i) program_.R_PT[i] = mechanism.X_PT.R(i / 3, i % 3);
+  for (Component c : mechanism.controlled) controlled_.push_back(static_cast<int>(c));
+  program_.controlled = controlled_.data();
+  const Matrix3 R_MT_home = tip(mechanism, model.home).R;
+  for (int i = 0; i < 9; ++i) program_.R_MT_home[i] = R_MT_home(i / 3, i % 3);
 }
 
 int LaneModel::add_fixed(const Pose& without_errors, const Pose& with_errors) {
@@ -153,7 +164,7 @@ void LaneModel::flatten(const Series& series, lanes::Series& flat) {
       case PartKind::passive:
       case PartKind::compliance: {
         lanes::Part joint{.operation = part.joint.kind == JointKind::prismatic ? lanes::Operation::slide : lanes::Operation::turn,
-                          .value = program_.states++, .row = row_of(part), .actuator = part.actuator, .k = part.k, .rest = part.rest};
+                          .value = program_.states++, .row = row_of(part), .actuator = part.actuator, .k = part.k, .rest = part.rest, .passive = part.kind == PartKind::passive};
         joint.axis = coordinate_axis(part.joint.axis, joint.sign);
         Matrix3 R_axis = Matrix3::Identity();
         if (joint.axis < 0) {  // about z of a frame that is turned there and back
@@ -200,30 +211,54 @@ void LaneModel::flatten(const Series& series, lanes::Series& flat) {
   flat.angular = angular.get();
 }
 
+// Calls visit(part, flat part) for every part that has coordinates.
+template <typename Visit>
+void LaneModel::for_each_coordinate(const Series& series, const std::vector<lanes::Part>& parts, const Visit& visit) {
+  auto flat = parts.begin();
+  for (const Part& part : series.parts) {
+    if (part.column < 0) continue;
+    while (flat->operation == lanes::Operation::fixed) ++flat;
+    visit(part, *flat++);
+  }
+}
+
 std::vector<double> LaneModel::state_of(const Configuration& configuration) const {
   std::vector<double> state(program_.states, 0.0);
   std::vector<SeriesWork> works;
   for (const Series& chain : model_.mechanism.chains) works.push_back(make_work(chain));
   const auto list = views(model_.mechanism, configuration, works);
   for (std::size_t s = 0; s < list.size(); ++s) {
-    const lanes::Series& flat = series_[s];
-    for (int i = 0; i < 6; ++i) state[flat.wrench + i] = list[s].state->F[i];
-    auto part = parts_[s].begin();
-    for (const Part& full : list[s].series->parts) {
-      if (full.column < 0) continue;
-      while (part->operation == lanes::Operation::fixed) ++part;
-      if (full.kind == PartKind::group) {
-        const Pose& X = list[s].state->groups[full.group].X;
-        put(X.R, X.p, &state[part->value]);
-      } else {
-        const int count = full.kind == PartKind::spring ? 6 : 1;
-        for (int i = 0; i < count; ++i) state[part->value + i] = list[s].state->x[full.column + i];
-      }
-      ++part;
-    }
+    const SeriesState& from = *list[s].state;
+    for (int i = 0; i < 6; ++i) state[series_[s].wrench + i] = from.F[i];
+    for_each_coordinate(*list[s].series, parts_[s], [&](const Part& part, const lanes::Part& flat) {
+      if (part.kind == PartKind::group) return put(from.groups[part.group].X, &state[flat.value]);
+      const int count = part.kind == PartKind::spring ? 6 : 1;
+      for (int i = 0; i < count; ++i) state[flat.value + i] = from.x[part.column + i];
+    });
   }
-  put(configuration.X_MP.R, configuration.X_MP.p, &state[program_.platform]);
+  put(configuration.X_MP, &state[program_.platform]);
   return state;
+}
+
+Configuration LaneModel::configuration_of(const double* state, const Configuration& like) const {
+  Configuration configuration = like;
+  std::vector<SeriesWork> works;
+  for (const Series& chain : model_.mechanism.chains) works.push_back(make_work(chain));
+  const auto list = views(model_.mechanism, configuration, works);
+  for (std::size_t s = 0; s < list.size(); ++s) {
+    auto& to = const_cast<SeriesState&>(*list[s].state);  // of `configuration`, which is not const
+    for (int i = 0; i < 6; ++i) to.F[i] = state[series_[s].wrench + i];
+    for_each_coordinate(*list[s].series, parts_[s], [&](const Part& part, const lanes::Part& flat) {
+      if (part.kind == PartKind::group) {
+        to.groups[part.group].X = pose_at(state + flat.value);
+        return;
+      }
+      const int count = part.kind == PartKind::spring ? 6 : 1;
+      for (int i = 0; i < count; ++i) to.x[part.column + i] = state[flat.value + i];
+    });
+  }
+  configuration.X_MP = pose_at(state + program_.platform);
+  return configuration;
 }
 
 }  // namespace counterflex

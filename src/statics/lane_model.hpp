@@ -36,7 +36,12 @@ class LaneModel {
   /// The state of a configuration as the kernels hold it.
   std::vector<double> state_of(const Configuration& configuration) const;
 
+  /// The configuration of a state; `like` says what states do not hold.
+  Configuration configuration_of(const double* state, const Configuration& like) const;
+
  private:
+  template <typename Visit>
+  static void for_each_coordinate(const Series& series, const std::vector<lanes::Part>& parts, const Visit& visit);
   void flatten(const Series& series, lanes::Series& flat);
   int add_fixed(const Pose& without_errors, const Pose& with_errors);
 
@@ -47,7 +52,7 @@ class LaneModel {
   std::deque<std::vector<double>> springs_;
   std::deque<std::unique_ptr<bool[]>> angular_;
   std::vector<lanes::FixedPose> fixed_[2];
-  std::vector<int> actuator_numbers_;
+  std::vector<int> actuator_numbers_, controlled_;
 };
 
 }  // namespace counterflex

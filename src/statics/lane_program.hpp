@@ -25,6 +25,7 @@ struct Part {
   int row;              ///< of its first equation in the series; -1 for an actuator
   int actuator;         ///< number; -1 for others
   double k, rest;       ///< joints: N/m or N m/rad, m or rad
+  bool passive;         ///< its spring is not felt by nominal kinematics
   const double* K;      ///< spring: 6x6 row-major, then theta_0 (6)
   int first_branch, branches;  ///< group: index into Program::series
 };
@@ -55,11 +56,13 @@ struct Program {
   double length;         ///< l
   double floor_per_metre;  ///< 16 eps k_max
   double p_PT[3], R_PT[9], arm[3];  ///< tip in P; where the load acts in P
+  const int* controlled;  ///< components of the tip, as many as actuators
+  double R_MT_home[9];    ///< orientation that nominal kinematics keeps where it is controlled
 };
 
 /// What is known of the machine around a place: everything that lanes share.
 struct Region {
-  double centre[3], half;      ///< the cube of commanded positions (M, m)
+  double centre[3], half;      ///< the cube of commanded positions in which polynomials hold (M, m)
   int degree;                  ///< of the polynomials in (p - centre) / half
   const double* polynomials;   ///< one an actuator, then three of the rotation vector of the nominal tip against R_centre
   const double* R_centre;      ///< row-major
@@ -71,6 +74,7 @@ struct Region {
   const double* const* by_actuators;  ///< by series: rows x actuators
   const double* forward;  ///< 6 x 6, from the platform's imbalance to its step
   const double* target;   ///< 9 x 9, with the tip's error and the commanded position besides
+  const double* kinematic;  ///< (6 + n) x (6 + n), with errors of the controlled components and actuators besides; or null
 };
 
 /// Waypoints, structure of arrays. In: p, F. Out: the rest.
@@ -87,6 +91,7 @@ struct Batch {
 
 struct Question {
   bool target;   ///< else forward
+  bool kinematics;  ///< actuators for the tip of the nominal machine: nothing yields to anything, forces are zero
   bool errors;   ///< whether assembly errors act
   bool go_on;    ///< begin with the state of the last call, else with the region's
 };
@@ -101,7 +106,14 @@ long doubles_needed(const Program& program);
 struct Kernel {
   Solve solve;
   const char* name;
+  int together;  ///< waypoints in one vector: their states stand side by side in memory
 };
+
+/// Entry `i` of the state that the last call has left for a lane.
+inline double state_entry(const Kernel& kernel, const Program& program, const double* memory, int i, int lane) {
+  const int vector = lane / kernel.together, within = lane % kernel.together;
+  return memory[(static_cast<long>(vector) * program.states + i) * kernel.together + within];
+}
 Kernel best_kernel();
 
 }  // namespace counterflex::lanes

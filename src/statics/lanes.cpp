@@ -1,71 +1,123 @@
 #include "counterflex/statics/lanes.hpp"
 
+#include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <unordered_map>
 
-#include "lane_region.hpp"
+#include "lane_zone.hpp"
 
 namespace counterflex {
 
-namespace lane_cells {
+namespace lane_grid {
 
-constexpr double region_share = 1.0 / 64;  // half an edge of a region, in units of l
-constexpr std::size_t most_regions = 512;
+constexpr double cell_share = 1.0 / 32;  // edge of a cell, in units of l
+constexpr long cells_along_zone = 4;
+constexpr std::size_t most_zones = 512, most_cells = 1024;
 constexpr double same_branch = 1e-3;  // l or rad: another branch is further away
 
-struct Cell {
+struct Index {
   long x, y, z;
-  bool operator==(const Cell&) const = default;
+  bool operator==(const Index&) const = default;
 };
 
-struct CellHash {
-  std::size_t operator()(const Cell& c) const {
-    return static_cast<std::size_t>(c.x * 73856093L ^ c.y * 19349663L ^ c.z * 83492791L);
+struct IndexHash {
+  std::size_t operator()(const Index& i) const {
+    return static_cast<std::size_t>(i.x * 73856093L ^ i.y * 19349663L ^ i.z * 83492791L);
   }
 };
 
-using RegionPointer = std::shared_ptr<const LaneRegion>;
-
-bool are_neighbours(const Cell& a, const Cell& b) {
+bool are_neighbours(const Index& a, const Index& b) {
   return std::abs(a.x - b.x) <= 1 && std::abs(a.y - b.y) <= 1 && std::abs(a.z - b.z) <= 1;
 }
 
-struct AlignedFree {
-  void operator()(double* memory) const { std::free(memory); }
+Index zone_of(const Index& cell) {
+  const auto along = [](long i) { return i >= 0 ? i / cells_along_zone : -((cells_along_zone - 1 - i) / cells_along_zone); };
+  return {along(cell.x), along(cell.y), along(cell.z)};
+}
+
+Vector3 centre_of(const Index& i, double edge) {
+  return edge * (Vector3(static_cast<double>(i.x), static_cast<double>(i.y), static_cast<double>(i.z)).array() + 0.5);
+}
+
+/// The things made last, up to a number; null ones, for places where nothing can be made, too. What is made depends on the
+/// index alone: two threads that make the same thing at once do no harm.
+template <class Thing>
+class Cache {
+ public:
+  using Pointer = std::shared_ptr<const Thing>;
+  explicit Cache(std::size_t most) : most_(most) {}
+
+  template <class Make>
+  Pointer get(const Index& index, const Make& make) {
+    {
+      const std::lock_guard lock(mutex_);
+      if (const auto found = things_.find(index); found != things_.end()) return use(found->second);
+    }
+    Pointer made = make();
+    const std::lock_guard lock(mutex_);
+    if (things_.size() >= most_) forget_older_half();
+    return use(things_.try_emplace(index, Entry{std::move(made), 0}).first->second);
+  }
+
+ private:
+  struct Entry {
+    Pointer thing;
+    unsigned long used;
+  };
+
+  Pointer use(Entry& entry) {
+    entry.used = ++clock_;
+    return entry.thing;
+  }
+
+  void forget_older_half() {
+    std::vector<unsigned long> times;
+    for (const auto& [index, entry] : things_) times.push_back(entry.used);
+    const auto middle = times.begin() + static_cast<long>(times.size() / 2);
+    std::nth_element(times.begin(), middle, times.end());
+    std::erase_if(things_, [limit = *middle](const auto& item) { return item.second.used < limit; });
+  }
+
+  const std::size_t most_;
+  std::mutex mutex_;
+  std::unordered_map<Index, Entry, IndexHash> things_;
+  unsigned long clock_ = 0;
 };
 
-}  // namespace lane_cells
+}  // namespace lane_grid
 
-using namespace lane_cells;
+using namespace lane_grid;
 
 struct LaneMachine::Impl {
   const Model& model;
   LaneModel lane_model;
-  bool able;
-  double half, reach;
-  std::mutex mutex{};
-  std::unordered_map<Cell, RegionPointer, CellHash> regions{};
+  const bool able;
+  const double edge, reach;  // of a cell; largest correction
+  Cache<LaneZone> zones{most_zones};
+  Cache<LaneCell> cells{most_cells};
 
-  Impl(const Model& m, bool at_platform, double r)
-      : model(m), lane_model(m, at_platform), able(LaneModel::can_do(m.mechanism)), half(region_share * m.mechanism.length), reach(r) {}
+  Impl(const Model& m, bool at_platform, double largest_correction)
+      : model(m),
+        lane_model(m, at_platform),
+        able(LaneModel::can_do(m.mechanism)),
+        edge(cell_share * m.mechanism.length),
+        reach(largest_correction) {}
 
-  Cell cell_of(const Vector3& p) const {
-    const Vector3 n = (p / (2 * half)).array().floor();
+  Index index_of(const Vector3& p) const {
+    const Vector3 n = (p / edge).array().floor();
     return {static_cast<long>(n[0]), static_cast<long>(n[1]), static_cast<long>(n[2])};
   }
 
-  // What is made for a cell depends on the cell alone; two threads may make the same one.
-  RegionPointer region(const Cell& cell, StaticsWork& work) {
-    {
-      const std::lock_guard lock(mutex);
-      if (const auto found = regions.find(cell); found != regions.end()) return found->second;
-    }
-    const Vector3 centre = 2 * half * (Vector3(static_cast<double>(cell.x), static_cast<double>(cell.y), static_cast<double>(cell.z)).array() + 0.5);
-    RegionPointer made = LaneRegion::make(model, lane_model, centre, half, reach, work);
-    const std::lock_guard lock(mutex);
-    if (regions.size() >= most_regions) regions.clear();
-    return regions.emplace(cell, std::move(made)).first->second;
+  std::shared_ptr<const LaneCell> cell(const Index& index, StaticsWork& work) {
+    return cells.get(index, [&]() -> std::shared_ptr<const LaneCell> {
+      const Index at = zone_of(index);
+      const double zone_edge = cells_along_zone * edge;
+      const auto zone = zones.get(at, [&]() -> std::shared_ptr<const LaneZone> {
+        return LaneZone::make(model, lane_model, centre_of(at, zone_edge), zone_edge / 2 + reach, work);
+      });
+      if (!zone) return nullptr;
+      return LaneCell::make(model, lane_model, zone, centre_of(index, edge), work);
+    });
   }
 };
 
@@ -85,7 +137,11 @@ LaneMachines::LaneMachines(LaneMachines&&) noexcept = default;
 
 const LaneMachine& LaneMachines::of(const Model& model, bool at_platform) const {
   const std::lock_guard lock(impl_->mutex);
-  return impl_->machines.try_emplace({&model, at_platform}, model, at_platform, impl_->reach).first->second;
+  const auto key = std::make_pair(&model, at_platform);
+  if (const auto found = impl_->machines.find(key); found != impl_->machines.end()) return found->second;
+  return impl_->machines
+      .emplace(std::piecewise_construct, std::forward_as_tuple(key), std::forward_as_tuple(model, at_platform, impl_->reach))
+      .first->second;
 }
 
 const char* lane_instructions() { return lanes::best_kernel().name; }
@@ -93,64 +149,61 @@ const char* lane_instructions() { return lanes::best_kernel().name; }
 struct LaneSolver::Impl {
   LaneMachine::Impl& machine;
   StaticsWork work;
-  lanes::Kernel kernel = lanes::best_kernel();
-  std::unique_ptr<double, AlignedFree> memory;
-  std::vector<double> rho;
-  lanes::Batch batch{};
-  RegionPointer region{};
-  Cell cell{};
+  LaneMemory memory;
+  std::shared_ptr<const LaneCell> cell{};
+  Index index{};
 
-  explicit Impl(LaneMachine::Impl& m) : machine(m), work(m.model.mechanism), rho(m.model.mechanism.travel.size() * lanes::width) {
-    const long count = (lanes::doubles_needed(m.lane_model.program()) + 7) / 8 * 8;
-    memory.reset(static_cast<double*>(std::aligned_alloc(64, static_cast<std::size_t>(count) * sizeof(double))));
-    batch.rho = rho.data();
-  }
+  explicit Impl(LaneMachine::Impl& m) : machine(m), work(m.model.mechanism), memory(m.lane_model) {}
 
-  void go_to(const Vector3& p) {
-    const Cell at = machine.cell_of(p);
-    if (region && at == cell) return;
-    cell = at;
-    region = machine.region(at, work);
+  /// To the cell that holds `p`; false where lanes cannot do with it.
+  bool go_to(const Vector3& p) {
+    const Index at = machine.index_of(p);
+    if (!cell || at != index) cell = machine.cell(at, work);
+    index = at;
+    return cell != nullptr;
   }
 
   bool in_travel(int lane) const {
     const auto& travel = machine.model.mechanism.travel;
-    for (std::size_t a = 0; a < travel.size(); ++a) {
-      const double value = rho[a * lanes::width + static_cast<std::size_t>(lane)];
-      if (!(value >= travel[a].min && value <= travel[a].max)) return false;
-    }
+    for (std::size_t a = 0; a < travel.size(); ++a)
+      if (const double rho = memory.rho(a, lane); !(rho >= travel[a].min && rho <= travel[a].max)) return false;
     return true;
   }
 
   void load(std::span<const LaneRequest> requests) {
     for (int lane = 0; lane < lanes::width; ++lane) {
       const LaneRequest& request = requests[std::min<std::size_t>(static_cast<std::size_t>(lane), requests.size() - 1)];
-      for (int i = 0; i < 3; ++i) batch.p[i][lane] = request.p[i];
-      for (int i = 0; i < 6; ++i) batch.F[i][lane] = request.F[i];
+      for (int i = 0; i < 3; ++i) memory.batch.p[i][lane] = request.p[i];
+      for (int i = 0; i < 6; ++i) memory.batch.F[i][lane] = request.F[i];
     }
   }
 
   LaneAnswer answer(int lane) const {
+    const lanes::Batch& batch = memory.batch;
     LaneAnswer result;
     for (int i = 0; i < 3; ++i) result.command[i] = batch.p[i][lane];
     for (int i = 0; i < 9; ++i) result.X_MT.R(i / 3, i % 3) = batch.tip[i][lane];
     for (int i = 0; i < 3; ++i) result.X_MT.p[i] = batch.tip[9 + i][lane];
     result.iterations = static_cast<int>(batch.iterations[lane]);
-    result.solved = batch.converged[lane] && in_travel(lane) && region->holds(result.command);
+    result.solved = batch.converged[lane] && in_travel(lane) && cell->zone().holds(result.command);
     return result;
   }
 
-  // All of one region.
-  void solve_batch(LaneQuestion question, bool errors, std::span<const LaneRequest> requests, std::span<LaneAnswer> answers, bool go_on) {
+  bool bears(std::span<const LaneRequest> requests, bool errors) {
     double size = 0;
     bool moments = false;
     for (const LaneRequest& request : requests) {
-      size = std::max({size, request.F.head<3>().norm(), request.F.tail<3>().norm() / machine.model.mechanism.length});
-      moments = moments || !request.F.tail<3>().isZero(0);
+      const Vector3 m = request.F.tail<3>();
+      size = std::max({size, request.F.head<3>().norm(), m.norm() / machine.model.mechanism.length});
+      moments = moments || !m.isZero(0);
     }
-    if (!region->bears(size, moments, errors, work)) return;
+    return cell->zone().bears(size, moments, errors, work);
+  }
+
+  // All in the cell; `go_on`: so was the batch before.
+  void solve_batch(const lanes::Question& question, std::span<const LaneRequest> requests, std::span<LaneAnswer> answers) {
     load(requests);
-    kernel.solve(machine.lane_model.program(), region->flat(), {question == LaneQuestion::target, errors, go_on}, batch, memory.get());
+    memory.solve(cell->flat(), question);
     for (std::size_t i = 0; i < requests.size(); ++i) answers[i] = answer(static_cast<int>(i));
   }
 };
@@ -162,52 +215,46 @@ LaneSolver::LaneSolver(LaneSolver&&) noexcept = default;
 void LaneSolver::solve(LaneQuestion question, bool errors, std::span<const LaneRequest> requests, std::span<LaneAnswer> answers) {
   std::fill(answers.begin(), answers.end(), LaneAnswer{});
   if (!impl_->machine.able) return;
-  const LaneRegion* before = nullptr;
-  for (std::size_t first = 0; first < requests.size();) {
-    impl_->go_to(requests[first].p);
-    std::size_t count = 1;
-    while (count < lanes::width && first + count < requests.size() && impl_->machine.cell_of(requests[first + count].p) == impl_->cell)
+  const LaneCell* before = nullptr;  // in which the kernel's memory has a state to go on from
+  for (std::size_t first = 0, count = 1; first < requests.size(); first += count, count = 1) {
+    const bool known = impl_->go_to(requests[first].p);
+    while (count < lanes::width && first + count < requests.size() &&
+           impl_->machine.index_of(requests[first + count].p) == impl_->index)
       ++count;
-    if (impl_->region) {
-      impl_->solve_batch(question, errors, requests.subspan(first, count), answers.subspan(first, count),
-                         before == impl_->region.get());
-    }
-    before = impl_->region.get();
-    first += count;
+    const auto batch = requests.subspan(first, count);
+    if (!known || !impl_->bears(batch, errors)) continue;
+    impl_->solve_batch({.target = question == LaneQuestion::target, .kinematics = false, .errors = errors, .go_on = before == impl_->cell.get()},
+                       batch, answers.subspan(first, count));
+    before = impl_->cell.get();
   }
 }
 
-const Configuration* LaneSolver::nominal_near(const Vector3& p) {
-  if (!impl_->machine.able) return nullptr;
-  impl_->go_to(p);
-  return impl_->region ? &impl_->region->nominal() : nullptr;
-}
-
-// Neighbouring regions agree about a place between them; along a longer way the nominal machine is followed.
-bool LaneSolver::joins(const Vector3& from, const Vector3& to) {
-  if (!impl_->machine.able) return false;
-  const Cell cell_from = impl_->machine.cell_of(from), cell_to = impl_->machine.cell_of(to);
-  impl_->go_to(from);
-  const RegionPointer begin = impl_->region;
-  if (cell_from == cell_to) return begin != nullptr;
-  impl_->go_to(to);
-  const RegionPointer end = impl_->region;
-  if (!begin || !end) return false;
-  const Eigen::VectorXd there = end->rho_at(to);
-  const double l = impl_->machine.model.mechanism.length;
-  if (are_neighbours(cell_from, cell_to)) return (begin->rho_at(to) - there).norm() < same_branch * l;
-  const NominalResult followed =
-      follow(impl_->machine.model, begin->nominal(), {tip(impl_->machine.model.mechanism, impl_->machine.model.home).R, to});
-  return followed.status == Status::converged &&
-         (actuator_values(impl_->machine.model.mechanism, followed.configuration) - there).norm() < same_branch * l;
-}
-
 bool LaneSolver::nominal_tip(const Vector3& p, Pose& X_MT) {
-  if (!impl_->machine.able) return false;
-  impl_->go_to(p);
-  if (!impl_->region) return false;
-  X_MT = {impl_->region->R_MT(p), p};
+  if (!impl_->machine.able || !impl_->go_to(p)) return false;
+  X_MT = {impl_->cell->zone().R_MT(p), p};
   return true;
+}
+
+const Configuration* LaneSolver::nominal_near(const Vector3& p) {
+  if (!impl_->machine.able || !impl_->go_to(p)) return nullptr;
+  return &impl_->cell->zone().nominal();
+}
+
+// Neighbouring zones agree about a place between them; along a longer way the nominal machine is followed.
+bool LaneSolver::joins(const Vector3& from, const Vector3& to) {
+  if (!impl_->machine.able || !impl_->go_to(from)) return false;
+  const std::shared_ptr<const LaneCell> begin = impl_->cell;
+  const Index zone_from = zone_of(impl_->index);
+  if (!impl_->go_to(to)) return false;
+  const Index zone_to = zone_of(impl_->index);
+  if (zone_from == zone_to) return true;
+  const Model& model = impl_->machine.model;
+  const Eigen::VectorXd there = impl_->cell->zone().rho_at(to);
+  const double limit = same_branch * model.mechanism.length;
+  if (are_neighbours(zone_from, zone_to)) return (begin->zone().rho_at(to) - there).norm() < limit;
+  const NominalResult followed = follow(model, begin->zone().nominal(), {tip(model.mechanism, model.home).R, to});
+  return followed.status == Status::converged &&
+         (actuator_values(model.mechanism, followed.configuration) - there).norm() < limit;
 }
 
 }  // namespace counterflex

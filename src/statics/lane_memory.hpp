@@ -1,0 +1,38 @@
+#pragma once
+/// A kernel's memory and one batch, for one thread.
+#include <cstdlib>
+#include <memory>
+#include <vector>
+
+#include "lane_model.hpp"
+
+namespace counterflex {
+
+class LaneMemory {
+ public:
+  explicit LaneMemory(const LaneModel& model);
+
+  /// Solves the batch with what a region shares.
+  void solve(const lanes::Region& region, const lanes::Question& question) {
+    kernel_.solve(model_.program(), region, question, batch, memory_.get());
+  }
+
+  /// The state of a lane after that.
+  std::vector<double> state(int lane) const;
+
+  double rho(std::size_t actuator, int lane) const { return rho_[actuator * lanes::width + static_cast<std::size_t>(lane)]; }
+
+  lanes::Batch batch{};
+
+ private:
+  struct Free {
+    void operator()(double* memory) const { std::free(memory); }
+  };
+
+  const LaneModel& model_;
+  lanes::Kernel kernel_ = lanes::best_kernel();
+  std::unique_ptr<double, Free> memory_;
+  std::vector<double> rho_;
+};
+
+}  // namespace counterflex

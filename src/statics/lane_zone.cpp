@@ -1,0 +1,149 @@
+#include "lane_zone.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "lane_polynomial.hpp"
+
+namespace counterflex {
+namespace {
+
+constexpr double polynomial_tolerance = 2e-12;         // m, rad
+constexpr double largest_kinematic_condition = 1e4;    // of the nominal Jacobian: far from a singularity
+constexpr double load_margin = 1.25;
+constexpr double slope_step = 1e-3;                    // of half an edge
+
+void put_in_lane(const Vector3& p, const Vector6& F, int lane, lanes::Batch& batch) {
+  for (int i = 0; i < 3; ++i) batch.p[i][lane] = p[i];
+  for (int i = 0; i < 6; ++i) batch.F[i][lane] = F[i];
+}
+
+// Actuators and rotation of the nominal tip at many places, one a row; empty where one is not reached.
+Eigen::MatrixXd kinematics_at(const LaneModel& lane_model, const LaneZone& zone, const std::vector<Vector3>& places,
+                              const Matrix3& R_centre) {
+  LaneMemory memory(lane_model);
+  const auto n = static_cast<Eigen::Index>(lane_model.program().actuators);
+  Eigen::MatrixXd values(static_cast<Eigen::Index>(places.size()), n + 3);
+  for (std::size_t first = 0; first < places.size(); first += lanes::width) {
+    for (int lane = 0; lane < lanes::width; ++lane)
+      put_in_lane(places[std::min(first + lane, places.size() - 1)], Vector6::Zero(), lane, memory.batch);
+    memory.solve(zone.flat(), {.target = false, .kinematics = true, .errors = false, .go_on = false});
+    for (int lane = 0; lane < lanes::width && first + lane < places.size(); ++lane) {
+      if (!memory.batch.converged[lane]) return {};
+      const auto row = static_cast<Eigen::Index>(first) + lane;
+      for (Eigen::Index a = 0; a < n; ++a) values(row, a) = memory.rho(static_cast<std::size_t>(a), lane);
+      Matrix3 R;
+      for (int i = 0; i < 9; ++i) R(i / 3, i % 3) = memory.batch.tip[i][lane];
+      values.row(row).tail<3>() = log_so3(R * R_centre.transpose());
+    }
+  }
+  return values;
+}
+
+}  // namespace
+
+bool LaneZone::find_centre(const LaneModel& lane_model, StaticsWork& work) {
+  const NominalResult followed = follow(model_, model_.home, {tip(model_.mechanism, model_.home).R, centre_});
+  if (followed.status != Status::converged) return false;
+  const ActuatorJacobian J = actuator_jacobian(model_, followed.configuration);
+  if (!(J.condition < largest_kinematic_condition)) return false;
+  nominal_ = followed.configuration;
+  R_centre_ = tip(model_.mechanism, nominal_).R;
+  const Equilibrium reference = solve_forward(model_, nominal_, {}, {}, work);
+  if (reference.status != Status::converged) return false;
+  reference_ = reference.configuration;
+  const Eigen::MatrixXd by_position = J.J.inverse().leftCols(3);
+  if (!tangents_.take(model_, lane_model, reference_, by_position, work)) return false;
+  tangents_.enter(flat_);
+  return flat_.kinematic != nullptr;
+}
+
+bool LaneZone::fit_kinematics(const LaneModel& lane_model, int degree) {
+  const auto places = [this](const std::vector<Vector3>& points) {
+    std::vector<Vector3> list;
+    for (const Vector3& x : points) list.push_back(centre_ + flat_.half * x);
+    return list;
+  };
+  const PolynomialFit& fit = polynomial_fit(degree);
+  const Eigen::MatrixXd values = kinematics_at(lane_model, *this, places(fit.points), R_centre_);
+  const Eigen::MatrixXd checks = kinematics_at(lane_model, *this, places(polynomial_checks()), R_centre_);
+  if (values.size() == 0 || checks.size() == 0) return false;
+  const Eigen::MatrixXd coefficients = fit.from_values * values;
+  for (std::size_t i = 0; i < polynomial_checks().size(); ++i) {
+    const Eigen::RowVectorXd miss =
+        monomials(polynomial_checks()[i], degree) * coefficients - checks.row(static_cast<Eigen::Index>(i));
+    if (!(miss.cwiseAbs().maxCoeff() <= polynomial_tolerance)) return false;
+  }
+  turns_ = coefficients.rightCols<3>().cwiseAbs().maxCoeff() > polynomial_tolerance;
+  polynomials_.assign(coefficients.data(), coefficients.data() + coefficients.size());  // by column: one output after another
+  flat_.degree = degree;
+  flat_.polynomials = polynomials_.data();
+  return true;
+}
+
+std::unique_ptr<LaneZone> LaneZone::make(const Model& model, const LaneModel& lane_model, const Vector3& centre, double half,
+                                         StaticsWork& work) {
+  std::unique_ptr<LaneZone> zone(new LaneZone(model));
+  zone->centre_ = centre;
+  for (int i = 0; i < 3; ++i) zone->flat_.centre[i] = centre[i];
+  zone->flat_.half = half;
+  if (!zone->find_centre(lane_model, work)) return nullptr;
+  for (const int degree : {2, 6, 8, 10})
+    if (zone->fit_kinematics(lane_model, degree)) return zone;
+  return nullptr;
+}
+
+Eigen::VectorXd LaneZone::outputs_at(const Vector3& p) const {
+  const Eigen::RowVectorXd powers = monomials((p - centre_) / flat_.half, flat_.degree);
+  const Eigen::Index terms = powers.size(), count = static_cast<Eigen::Index>(polynomials_.size()) / terms;
+  return Eigen::Map<const Eigen::MatrixXd>(polynomials_.data(), terms, count).transpose() * powers.transpose();
+}
+
+Eigen::VectorXd LaneZone::rho_at(const Vector3& p) const {
+  return outputs_at(p).head(static_cast<Eigen::Index>(model_.mechanism.travel.size()));
+}
+
+Eigen::MatrixXd LaneZone::actuators_by_position(const Vector3& p) const {
+  const double h = slope_step * flat_.half;
+  Eigen::MatrixXd J(static_cast<Eigen::Index>(model_.mechanism.travel.size()), 3);
+  for (int i = 0; i < 3; ++i) J.col(i) = (rho_at(p + h * Vector3::Unit(i)) - rho_at(p - h * Vector3::Unit(i))) / (2 * h);
+  return J;
+}
+
+Matrix3 LaneZone::R_MT(const Vector3& p) const {
+  return turns_ ? Matrix3(exp_so3(Vector3(outputs_at(p).tail<3>())) * R_centre_) : R_centre_;
+}
+
+bool LaneZone::bears(double size, bool moments, double errors, StaticsWork& work) const {
+  const int exponent = static_cast<int>(std::ceil(std::log2(std::max(size, 1.0))));
+  const std::array<int, 3> key{exponent, moments, errors > 0};
+  const std::lock_guard lock(mutex_);
+  if (const auto found = borne_.find(key); found != borne_.end()) return found->second;
+  const int axes = moments ? 6 : 3;
+  const double reach = load_margin * std::sqrt(axes) * std::ldexp(1.0, exponent);
+  bool borne = true;
+  for (int corner = 0; corner < 2 * axes && borne; ++corner) {
+    const int axis = corner / 2;
+    Load load;
+    load.F[axis] = (corner % 2 ? -1 : 1) * reach * (axis < 3 ? 1 : model_.mechanism.length);
+    borne = solve_forward(model_, nominal_, load, {.errors = errors}, work).status == Status::converged;
+  }
+  return borne_[key] = borne;
+}
+
+std::unique_ptr<LaneCell> LaneCell::make(const Model& model, const LaneModel& lane_model, std::shared_ptr<const LaneZone> zone,
+                                         const Vector3& centre, StaticsWork& work) {
+  auto cell = std::make_unique<LaneCell>();
+  cell->zone_ = std::move(zone);
+  LaneMemory memory(lane_model);
+  for (int lane = 0; lane < lanes::width; ++lane) put_in_lane(centre, Vector6::Zero(), lane, memory.batch);
+  memory.solve(cell->zone_->flat(), {.target = false, .kinematics = false, .errors = true, .go_on = false});
+  if (!memory.batch.converged[0]) return nullptr;
+  const Configuration reference = lane_model.configuration_of(memory.state(0).data(), cell->zone_->reference());
+  if (!cell->tangents_.take(model, lane_model, reference, cell->zone_->actuators_by_position(centre), work)) return nullptr;
+  cell->flat_ = cell->zone_->flat();
+  cell->tangents_.enter(cell->flat_);
+  return cell;
+}
+
+}  // namespace counterflex

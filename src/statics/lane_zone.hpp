@@ -1,0 +1,77 @@
+#pragma once
+/// What is known of nominal kinematics and of stability in a zone of commanded positions, and the tangents of smaller cells
+/// in it. All of it depends on the place alone, not on who asked first. EQUATIONS.md, section 11.
+#include <array>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <vector>
+
+#include "lane_memory.hpp"
+#include "lane_tangents.hpp"
+
+namespace counterflex {
+
+/// A cube of commanded positions in which the values of actuators are polynomials of the position.
+class LaneZone {
+ public:
+  /// The cube around `centre` (M, m), half its edge `half`. Null where the nominal machine is not reached there, is near a
+  /// singularity, has no stiffness or preloads of its own at the nominal configuration, or is not matched by polynomials to
+  /// 2e-12 (m, rad).
+  static std::unique_ptr<LaneZone> make(const Model& model, const LaneModel& lane_model, const Vector3& centre, double half,
+                                        StaticsWork& work);
+
+  const Configuration& nominal() const { return nominal_; }
+  const Configuration& reference() const { return reference_; }
+
+  /// What lanes share at the zone's centre.
+  const lanes::Region& flat() const { return flat_; }
+
+  /// Whether polynomials hold at a commanded position.
+  bool holds(const Vector3& p) const { return (p - centre_).cwiseAbs().maxCoeff() <= flat_.half; }
+
+  /// Values of the actuators for a commanded position, their change by it (actuators x 3), and the nominal tip's orientation.
+  Eigen::VectorXd rho_at(const Vector3& p) const;
+  Eigen::MatrixXd actuators_by_position(const Vector3& p) const;
+  Matrix3 R_MT(const Vector3& p) const;
+
+  /// Whether the machine, followed from its nominal configuration at the centre, is stable and well conditioned under every
+  /// load up to `size` (the larger of force and moment / l, N; no moment where `moments` is false). To first order the loads that
+  /// a machine bears are a convex set, so the corners of an octahedron that holds them with a margin speak for all.
+  bool bears(double size, bool moments, double errors, StaticsWork& work) const;
+
+ private:
+  explicit LaneZone(const Model& model) : model_(model) {}
+  bool find_centre(const LaneModel& lane_model, StaticsWork& work);
+  bool fit_kinematics(const LaneModel& lane_model, int degree);
+  Eigen::VectorXd outputs_at(const Vector3& p) const;
+
+  const Model& model_;
+  Vector3 centre_;
+  Matrix3 R_centre_;
+  Configuration nominal_, reference_;
+  LaneTangents tangents_;
+  lanes::Region flat_{};
+  bool turns_ = false;  ///< whether the nominal tip's orientation depends on the position
+  std::vector<double> polynomials_;
+  mutable std::mutex mutex_;
+  mutable std::map<std::array<int, 3>, bool> borne_;
+};
+
+/// A part of a zone small enough for one set of tangents.
+class LaneCell {
+ public:
+  /// Null where no equilibrium is found from the zone's, or where it has no stiffness.
+  static std::unique_ptr<LaneCell> make(const Model& model, const LaneModel& lane_model, std::shared_ptr<const LaneZone> zone,
+                                        const Vector3& centre, StaticsWork& work);
+
+  const LaneZone& zone() const { return *zone_; }
+  const lanes::Region& flat() const { return flat_; }
+
+ private:
+  std::shared_ptr<const LaneZone> zone_;
+  LaneTangents tangents_;
+  lanes::Region flat_{};
+};
+
+}  // namespace counterflex
