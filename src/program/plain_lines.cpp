@@ -112,8 +112,7 @@ bool takes_plain_lines(const Reading& r) {
   const bool in_place = r.program.expansion.lines.empty() && r.program.expansion.unused.empty();
   const bool increments =
       r.options.integer_words == IntegerWords::increments && r.dialect.integer_words_doubtful;
-  return moves && followed && alone && in_place && !increments && !r.dialect.sinumerik_words &&
-         state.feed_mode != FeedUnit::inverse_time;
+  return moves && followed && alone && in_place && !increments && state.feed_mode != FeedUnit::inverse_time;
 }
 
 std::size_t read_plain_lines(Reading& reading, Block& block, std::size_t most_moves) {
