@@ -114,20 +114,6 @@ void LineReader::remark_rest(std::string_view text) {
     add_remark(program_, block_.line, "what stands behind the end of the program stays as it is");
 }
 
-void LineReader::take_window(Program& to) {
-  std::vector<Move> moves = std::move(to.moves);
-  std::string text = std::move(to.text);
-  moves.clear();
-  text.clear();
-  moves.swap(program_.moves);
-  text.swap(program_.text);
-  to = program_;  // the rest is small
-  to.moves = std::move(moves);
-  to.text = std::move(text);
-  if (!to.moves.empty()) program_.before = to.moves.back();
-  program_.left_alone.clear();
-}
-
 void LineReader::begin_window(std::size_t read, std::optional<Move> first) {
   if (!program_.moves.empty()) program_.before = std::move(program_.moves.back());
   program_.moves.clear();  // the room is used again
@@ -140,6 +126,25 @@ void LineReader::begin_window(std::size_t read, std::optional<Move> first) {
   reading_.operation.begin_window(program_);
   reading_.run_begin = 0;
   block_.line_end = {read, read};
+}
+
+void LineReader::take_window(Program& to) {
+  to.file = program_.file;
+  to.dialect = program_.dialect;
+  to.integer_words = program_.integer_words;
+  to.before = program_.before;
+  to.after = program_.after;
+  to.work_offsets = program_.work_offsets;
+  to.operations = program_.operations;
+  to.block_count = program_.block_count;
+  to.expansion = program_.expansion;
+  to.text.swap(program_.text);
+  to.moves.swap(program_.moves);
+  to.left_alone.swap(program_.left_alone);
+  program_.text.clear();
+  program_.moves.clear();
+  program_.left_alone.clear();
+  if (!to.moves.empty()) program_.before = to.moves.back();
 }
 
 }  // namespace counterflex

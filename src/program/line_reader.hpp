@@ -52,7 +52,8 @@ class LineReader {
   /// follows them, `read` bytes of which have been read already and gave the `first` move.
   void begin_window(std::size_t read, std::optional<Move> first);
 
-  /// Moves the window to `to` and keeps what the next one needs of it.
+  /// Moves text, moves and blocks left alone of the window into `to`, and copies all else but the remarks;
+  /// the room that `to` had is used for the next window.
   void take_window(Program& to);
 
  private:

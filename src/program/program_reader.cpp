@@ -215,8 +215,8 @@ Program& ProgramReader::window() {
   return state_->program();
 }
 
-void ProgramReader::take_window(Program& to) {
-  state_->lines.take_window(to);
+void ProgramReader::take_window(Program& program) {
+  state_->lines.take_window(program);
 }
 
 struct TextReader::State {
@@ -236,10 +236,6 @@ TextReader::TextReader(const Program& original, const ReadOptions& options) {
 TextReader::~TextReader() = default;
 TextReader::TextReader(TextReader&&) noexcept = default;
 
-void TextReader::take_window(Program& to) {
-  state_->lines.take_window(to);
-}
-
 const Program& TextReader::read(std::string text) {
   LineReader& lines = state_->lines;
   lines.begin_window(0, std::nullopt);
@@ -252,6 +248,10 @@ const Program& TextReader::read(std::string text) {
   program.text = std::move(text);
   lines.read_all();
   return program;
+}
+
+void TextReader::take_window(Program& program) {
+  state_->lines.take_window(program);
 }
 
 }  // namespace counterflex

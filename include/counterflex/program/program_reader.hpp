@@ -19,10 +19,9 @@ inline constexpr std::size_t whole_program = static_cast<std::size_t>(-1);
 /// `read_program`. Klartext is one window, whatever its size.
 class ProgramReader {
  public:
-  /// `bytes` is read from its beginning, where its dialect needs it
-  /// once to see the program as a whole, then window by window; it
-  /// outlives the reader. `least_moves` of each window but the last. Throws `InputError` as `read_program`
-  /// does, where the dialect is not known.
+  /// `bytes` is read from its beginning, where its dialect needs it once to see the program as a whole, then
+  /// window by window; it outlives the reader. `least_moves` of each window but the last. Throws `InputError`
+  /// as `read_program` does, where the dialect is not known.
   ProgramReader(FileReader& bytes, const std::string& file, const ReadOptions& options,
                 std::size_t least_moves = window_moves);
   ~ProgramReader();
@@ -38,8 +37,8 @@ class ProgramReader {
   const Program& window() const;
   Program& window();
 
-  /// Moves the window to `to`, of which nothing but the room is used again; `window` is empty until the next
-  /// one, and cannot be extended.
+  /// Gives the window away, without `remarks` and `path_tolerances`: it stands on its own and stays as it is
+  /// while others are read. What `to` held is used again.
   void take_window(Program& to);
 
  private:
@@ -61,7 +60,7 @@ class TextReader {
   /// The window of the next portion, until the next call. Throws `InputError` as `read_program` does.
   const Program& read(std::string text);
 
-  /// Moves the window that was read last to `to`, of which nothing but the room is used again.
+  /// Gives that window away, as a ProgramReader does.
   void take_window(Program& to);
 
  private:
