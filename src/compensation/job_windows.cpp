@@ -63,7 +63,7 @@ bool JobWindows::next(JobWindow& window) {
   State& s = *state_;
   if (!s.next()) return false;
   s.leave();
-  s.reader.take(window.program);
+  s.reader.take_window(window.program);
   std::swap(window.path, s.path);
   window.forces = std::move(s.forces);
   s.forces.reset();

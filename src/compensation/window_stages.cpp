@@ -86,7 +86,7 @@ void write_window(const Job& job, CarriedState& carried, WindowWork& work) {
   result.counts = carried.rewriter.write(job.program, edits);
   result.text = std::move(result.counts.text);
   carried.corrected.read(result.text);
-  carried.corrected.take(result.corrected);
+  carried.corrected.take_window(result.corrected);
   work.pieces = emitted_pieces(job, emission, edits, result.counts, result.corrected);
   work.command = carried.command;
   if (!work.pieces.empty()) carried.command = work.pieces.back().commanded.end;

@@ -116,7 +116,7 @@ void LineReader::begin_window(std::size_t read, std::optional<Move> first) {
   block_.line_end = {read, read};
 }
 
-void LineReader::give_window(Program& to) {
+void LineReader::take_window(Program& to) {
   to.file = program_.file;
   to.dialect = program_.dialect;
   to.integer_words = program_.integer_words;

@@ -48,7 +48,7 @@ class LineReader {
 
   /// Moves text, moves and blocks left alone of the window into `to`, and copies all else but the remarks;
   /// the room that `to` had is used for the next window.
-  void give_window(Program& to);
+  void take_window(Program& to);
 
  private:
   const ReadOptions options_;

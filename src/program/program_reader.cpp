@@ -206,8 +206,8 @@ Program& ProgramReader::window() {
   return state_->program();
 }
 
-void ProgramReader::take(Program& program) {
-  state_->lines.give_window(program);
+void ProgramReader::take_window(Program& program) {
+  state_->lines.take_window(program);
 }
 
 struct TextReader::State {
@@ -241,8 +241,8 @@ const Program& TextReader::read(std::string text) {
   return program;
 }
 
-void TextReader::take(Program& program) {
-  state_->lines.give_window(program);
+void TextReader::take_window(Program& program) {
+  state_->lines.take_window(program);
 }
 
 }  // namespace counterflex

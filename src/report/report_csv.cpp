@@ -1,9 +1,9 @@
 #include <array>
 
 #include "counterflex/compensation/waypoint.hpp"
-#include "counterflex/files/numbers.hpp"
 #include "counterflex/geometry/units.hpp"
 #include "counterflex/report/formats.hpp"
+#include "fixed_digits.hpp"
 
 namespace counterflex {
 
@@ -16,7 +16,7 @@ constexpr std::array prefixes = {"before_",        "geometry_", "load_", "gravit
 
 void add(std::string& row, double value, int digits) {
   row += ',';
-  row += format_fixed(value, digits);
+  append_fixed(row, value, digits);
 }
 
 void add_deviation(std::string& row, const Vector6& d, bool known) {

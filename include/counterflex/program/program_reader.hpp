@@ -38,8 +38,8 @@ class ProgramReader {
   Program& window();
 
   /// Gives the window away, without `remarks` and `path_tolerances`: it stands on its own and stays as it is
-  /// while others are read. What `program` held is used again.
-  void take(Program& program);
+  /// while others are read. What `to` held is used again.
+  void take_window(Program& to);
 
  private:
   friend class TextReader;
@@ -61,7 +61,7 @@ class TextReader {
   const Program& read(std::string text);
 
   /// Gives that window away, as a ProgramReader does.
-  void take(Program& program);
+  void take_window(Program& to);
 
  private:
   struct State;
