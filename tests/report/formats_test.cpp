@@ -411,6 +411,19 @@ TEST_CASE("the summary of a prediction says what more and less force do to the p
       contains(text, "Without the force (dry run, spring pass, broken insert) the program is off by up to"));
 }
 
+TEST_CASE("a summary without causes says how to get them") {
+  MadeUpRun run;
+  const char* const how =
+      "\nIts causes, and what more, less or no force does to it: with --report or --json\n";
+  CHECK_FALSE(contains(summary_text(compensated(run, small_compensation()), false), how));
+  run.facts.attribution = false;
+  const std::string text = summary_text(compensated(run, small_compensation()), false);
+  CAPTURE(text);
+  CHECK(contains(text, how));
+  CHECK_FALSE(contains(text, "Where it comes from"));
+  CHECK_FALSE(contains(text, "30 %"));
+}
+
 TEST_CASE("the summary of a failure says what failed and shows no numbers that are not known") {
   const MadeUpRun run;
   Compensation none;
