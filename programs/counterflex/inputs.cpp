@@ -181,9 +181,7 @@ ProgramInput read_program_input(const std::string& role, const std::string& path
 
 ProgramFile open_program(const std::string& role, const std::string& path) {
   refuse_folder(path, Exit::usage);
-  FileReader bytes(path);
-  InputFile file{role, path, sha256(bytes)};
-  return {std::move(file), std::move(bytes)};
+  return {{role, path, {}}, FileReader(path)};
 }
 
 void warn_of(const Overview& program, Command command, Console& console) {

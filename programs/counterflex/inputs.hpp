@@ -40,8 +40,8 @@ struct ToolLengths {
 };
 ToolLengths read_tool_lengths(const Options& options, const Machine* machine);
 
-/// Gives the tools of `machine` the lengths of a tool table, which go before its own. With [spindle] a length says where
-/// the tip is, of tools too that the machine file does not name; without it these stay unknown.
+/// Gives the tools of `machine` the lengths of a tool table, which go before its own. With [spindle] a length
+/// says where the tip is, of tools too that the machine file does not name; without it these stay unknown.
 void take_lengths(const ToolLengths& lengths, Machine& machine);
 
 /// How `options`, and `machine` where they are silent, say that programs are read.
@@ -54,7 +54,8 @@ struct ProgramInput {
 ProgramInput read_program_input(const std::string& role, const std::string& path, const Options& options,
                                 const Machine* machine, const ReadOptions& read);
 
-/// A program that is read in windows, as often as needed; `bytes` is at its beginning.
+/// A program that is read in windows, as often as needed; `bytes` is at its beginning. The file's hash comes
+/// with the first look through it.
 struct ProgramFile {
   InputFile file;
   FileReader bytes;

@@ -29,6 +29,7 @@ ProgramLook look_through(const Options& options, ProgramFile& file, const ReadOp
   const std::string name = shown_name(options.program);
   ProgramLook look;
   try {
+    file.bytes.hash_along();
     ProgramReader reader(file.bytes, name, read);
     for (bool first = true; reader.next(); first = false) {
       add_window(look.program, reader.window());
@@ -38,6 +39,7 @@ ProgramLook look_through(const Options& options, ProgramFile& file, const ReadOp
   } catch (const InputError& error) {
     blame_dialect(error, options, machine, name);
   }
+  file.file.sha256 = sha256(file.bytes);
   return look;
 }
 

@@ -17,7 +17,8 @@ struct ProgramLook {
   bool is_corrected = false;  ///< the program carries the header of a corrected one
 };
 
-/// Reads the program to its end once; `also` looks at its windows, too. Throws `InputError`.
+/// Reads the program to its end once, and notes its hash; `also` looks at its windows, too. Throws
+/// `InputError`.
 ProgramLook look_through(
     const Options& options, ProgramFile& file, const ReadOptions& read, const Machine* machine,
     const std::function<void(const Program&)>& also = [](const Program&) {});

@@ -32,7 +32,9 @@ Descriptor copied(const std::string& path, const Descriptor& pipe) {
   return file;
 }
 
-// Follows a hash through portions of bytes.
+}  // namespace
+
+/// Follows a hash through portions of bytes.
 class Hash {
  public:
   Hash() : context_(EVP_MD_CTX_new(), &EVP_MD_CTX_free) {
@@ -55,15 +57,38 @@ class Hash {
   std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> context_;
 };
 
-}  // namespace
-
 struct FileReader::State {
   std::string path;
   Descriptor file{};
   off_t start = 0;                      ///< of what standard input still holds
   std::optional<struct stat> opened{};  ///< of a file that others may change
   std::optional<std::string> held{};    ///< instead of a file
-  std::size_t next = 0;                 ///< byte of `held`
+  std::size_t next = 0;                 ///< byte that is read next, from `start` on
+  std::optional<Hash> hash{};
+  std::size_t hashed = 0;  ///< bytes from the beginning that `hash` has
+  std::string digits{};    ///< of the whole, once its end has been read
+
+  std::size_t append(std::string& bytes, std::size_t most) {
+    if (held) {
+      const std::size_t count = std::min(most, held->size() - next);
+      bytes.append(*held, next, count);
+      return count;
+    }
+    const std::size_t before = bytes.size();
+    bytes.resize(before + most);
+    const ssize_t n = read_some(file.get(), bytes.data() + before, most);
+    bytes.resize(before + static_cast<std::size_t>(n > 0 ? n : 0));
+    if (n < 0) fail_reading(path);
+    return static_cast<std::size_t>(n);
+  }
+
+  void add_to_hash(std::string_view bytes) {
+    if (!hash || !digits.empty() || next > hashed) return;
+    if (bytes.empty() && next == hashed) digits = hash->digits();
+    if (next + bytes.size() <= hashed) return;
+    hash->add(bytes.substr(hashed - next));
+    hashed = next + bytes.size();
+  }
 };
 
 FileReader::FileReader(const std::string& path) : state_(new State{.path = path}) {
@@ -95,18 +120,11 @@ FileReader::~FileReader() = default;
 FileReader::FileReader(FileReader&&) noexcept = default;
 
 std::size_t FileReader::append(std::string& bytes, std::size_t most) {
-  if (state_->held) {
-    const std::size_t count = std::min(most, state_->held->size() - state_->next);
-    bytes.append(*state_->held, state_->next, count);
-    state_->next += count;
-    return count;
-  }
   const std::size_t before = bytes.size();
-  bytes.resize(before + most);
-  const ssize_t n = read_some(state_->file.get(), bytes.data() + before, most);
-  bytes.resize(before + static_cast<std::size_t>(n > 0 ? n : 0));
-  if (n < 0) fail_reading(state_->path);
-  return static_cast<std::size_t>(n);
+  const std::size_t count = state_->append(bytes, most);
+  if (most > 0) state_->add_to_hash(std::string_view(bytes).substr(before));
+  state_->next += count;
+  return count;
 }
 
 void FileReader::rewind() {
@@ -124,12 +142,18 @@ void FileReader::refuse_change() const {
   if (!same) throw InputError(Exit::transient_io, {state_->path}, "the file was changed while it was read");
 }
 
+void FileReader::hash_along() {
+  if (!state_->hash) state_->hash.emplace();
+}
+
 std::string sha256(FileReader& file) {
-  Hash hash;
+  file.hash_along();
+  const std::string& digits = file.state_->digits;
   file.rewind();
-  for (std::string bytes; file.append(bytes, portion) > 0; bytes.clear()) hash.add(bytes);
+  if (!digits.empty()) return digits;
+  for (std::string bytes; file.append(bytes, portion) > 0;) bytes.clear();
   file.rewind();
-  return hash.digits();
+  return digits;
 }
 
 std::string sha256(std::string_view bytes) {

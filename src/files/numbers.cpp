@@ -1,7 +1,6 @@
 #include "counterflex/files/numbers.hpp"
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cmath>
 #include <cstdint>
@@ -38,26 +37,9 @@ std::string format_fixed(double value, int decimals) {
   return text;
 }
 
-namespace {
-
-/// The nearest whole number, the even one of two, of a `value` far below 2^51: beyond that size a double has
-/// no digits after the point, so that the sum is rounded.
-double nearest_whole(double value) {
-  constexpr double size = 3.0 * (std::int64_t{1} << 51);
-  return (value + size) - size;
-}
-
-}  // namespace
-
 double rounded(double value, int decimals) {
-  // A whole number over a power of ten is the very number that its text is read as; only near a tie does the
-  // product's last bit count.
-  constexpr std::array<double, 10> powers{1, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9};
-  if (decimals >= 0 && static_cast<std::size_t>(decimals) < powers.size()) {
-    const double power = powers[static_cast<std::size_t>(decimals)];
-    const double scaled = value * power, whole = nearest_whole(scaled);
-    if (std::abs(scaled) < 1e12 && std::abs(scaled - whole) < 0.499) return whole == 0 ? 0.0 : whole / power;
-  }
+  if (const std::optional<double> whole = whole_steps(value, decimals))
+    return value_of_steps(*whole, decimals);
   return *read_number(format_fixed(value, decimals));
 }
 

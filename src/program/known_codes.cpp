@@ -34,6 +34,11 @@ std::optional<int> tenths_at(std::string_view text, std::size_t at) {
   return value;
 }
 
+/// Whether a code or an aside may begin with the character.
+bool begins_something(char c) {
+  return c == 'G' || c == 'g' || c == ';' || c == '%' || c == comment_open || c == '<';
+}
+
 bool begins_word(std::string_view text, std::size_t at) {
   return at == 0 || !is_letter(text[at - 1]);
 }
@@ -42,6 +47,7 @@ bool begins_word(std::string_view text, std::size_t at) {
 
 bool knows_codes(std::string_view text, const Dialect& dialect) {
   for (std::size_t at = 0; at < text.size(); ++at) {
+    if (!begins_something(text[at])) continue;
     at = behind_aside(text, at);
     if (at == text.size()) break;
     if (upper(text[at]) != 'G' || !begins_word(text, at)) continue;
@@ -52,7 +58,7 @@ bool knows_codes(std::string_view text, const Dialect& dialect) {
 }
 
 bool has_loose_comments(std::string_view text) {
-  for (std::size_t at = 0; (at = text.find_first_of("(;", at)) != std::string_view::npos;) {
+  for (std::size_t at = 0; (at = find_either(text, '(', ';', at)) != std::string_view::npos;) {
     const std::size_t end = end_of_line(text, at);
     if (text[at] == ';') {
       at = end;
@@ -69,13 +75,13 @@ bool names_grbl(std::string_view text) {
   constexpr std::string_view name = "GRBL";
   constexpr std::size_t looked_at = 4096;
   text = text.substr(0, looked_at);
-  for (std::size_t at = 0; (at = text.find_first_of("Gg", at)) != std::string_view::npos; ++at)
+  for (std::size_t at = 0; (at = find_either(text, 'G', 'g', at)) != std::string_view::npos; ++at)
     if (is_word(text.substr(at, name.size()), name)) return true;
   return false;
 }
 
 bool has_semicolon_comments(std::string_view text) {
-  for (std::size_t at = 0; (at = text.find_first_of("(;", at)) != std::string_view::npos; ++at) {
+  for (std::size_t at = 0; (at = find_either(text, '(', ';', at)) != std::string_view::npos; ++at) {
     const std::size_t end = end_of_line(text, at);
     if (text[at] == comment_open) {
       at = std::min(text.find(comment_close, at), end);

@@ -6,6 +6,9 @@
 
 namespace counterflex {
 
+/// What an inserted word or two may need.
+inline constexpr std::size_t room_for_words = 10;
+
 /// Characters of `line` that count towards `dialect.line_limit`.
 inline std::size_t counted_length(const Dialect& dialect, std::string_view line) {
   if (dialect.limit_counts_comments) return line.size();

@@ -4,14 +4,13 @@
 
 #include <algorithm>
 
+#include "counterflex/program/program_reader.hpp"
 #include "program/expand.hpp"
+#include "program/plain_lines.hpp"
 #include "program/remarks.hpp"
 
 namespace counterflex {
 namespace {
-
-// A dialect shows at the beginning of a program.
-constexpr std::size_t looked_at = 1 << 20;  // bytes
 
 /// Whole lines, so that no comment loses its end.
 std::string_view beginning(std::string_view text) {
@@ -60,6 +59,17 @@ LineReader::LineReader(const std::string& file, const ReadOptions& options, cons
 }
 
 bool LineReader::read_line() {
+  if (takes_plain_ && read_plain_lines(reading_, block_, program_.moves.size() + 1) > 0) return true;
+  const bool found = read_any_line();
+  takes_plain_ = !ended_ && takes_plain_lines(reading_);
+  return found;
+}
+
+void LineReader::read_plain(std::size_t most_moves) {
+  if (takes_plain_) read_plain_lines(reading_, block_, most_moves);
+}
+
+bool LineReader::read_any_line() {
   if (ended_ || !next_line(program_.text, block_)) return false;
   place_in_file(program_.expansion, block_);
   if (stands_unused(program_.expansion, block_.span.begin)) {
@@ -79,11 +89,13 @@ bool LineReader::read_line() {
 }
 
 void LineReader::read_all() {
-  // Growing step by step would copy every move several times.
-  const auto newlines = std::count(program_.text.begin(), program_.text.end(), '\n');
-  program_.moves.reserve(static_cast<std::size_t>(newlines) + 1);
-  while (read_line()) {
+  // Growing step by step would copy every move several times; room that is used again is large enough.
+  if (program_.moves.capacity() == 0) {
+    const auto newlines = std::count(program_.text.begin(), program_.text.end(), '\n');
+    program_.moves.reserve(static_cast<std::size_t>(newlines) + 1);
   }
+  do read_plain(whole_program);
+  while (read_line());
   remark_rest(std::string_view(program_.text).substr(position()));
 }
 

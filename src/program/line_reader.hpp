@@ -7,6 +7,9 @@
 
 namespace counterflex {
 
+/// A dialect shows at the beginning of a program: bytes of it.
+inline constexpr std::size_t looked_at = 1 << 20;
+
 /// The dialect of `options`, or the one that `text`, of which only the beginning counts, shows. Throws
 /// `InputError` (Exit::usage) where there is none of that name.
 const Dialect& choose_dialect(std::string_view text, const std::string& file, const ReadOptions& options);
@@ -28,6 +31,9 @@ class LineReader {
 
   /// Reads the next line of the program's text; false where there is none, or behind the program's end.
   bool read_line();
+
+  /// Reads on while lines are plain, until the program has `most_moves`: much faster than line by line.
+  void read_plain(std::size_t most_moves);
 
   /// Reads all lines of the program's text.
   void read_all();
@@ -51,12 +57,15 @@ class LineReader {
   void take_window(Program& to);
 
  private:
+  bool read_any_line();
+
   const ReadOptions options_;
   const Dialect& dialect_;
   Program program_;
   Reading reading_;
   Block block_;
   bool opened_ = false, ended_ = false;
+  bool takes_plain_ = false;  ///< `takes_plain_lines`
 };
 
 }  // namespace counterflex

@@ -2,8 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
-
-#include "counterflex/files/numbers.hpp"
+#include <cstring>
 
 namespace counterflex {
 namespace {
@@ -40,18 +39,6 @@ struct NumberText {
   std::string_view view() const { return {begin, static_cast<std::size_t>(end - begin)}; }
 };
 
-/// `whole` over ten to the power of `decimals`: much faster than for any number.
-void put_with_point(std::int64_t whole, int decimals, NumberText& text) {
-  constexpr std::ptrdiff_t room = 32;
-  text.end = text.begin = text.buffer.data() + room;
-  auto rest = static_cast<std::uint64_t>(whole < 0 ? -whole : whole);
-  for (int i = 0; i < decimals; ++i, rest /= 10) *--text.begin = static_cast<char>('0' + rest % 10);
-  *--text.begin = '.';
-  do *--text.begin = static_cast<char>('0' + rest % 10);
-  while ((rest /= 10) > 0);
-  if (whole < 0) *--text.begin = '-';
-}
-
 /// The nearest whole number, as `std::round`, of one that 64 bits hold.
 std::int64_t nearest(double value) {
   const auto whole = static_cast<std::int64_t>(value);
@@ -63,7 +50,10 @@ std::int64_t nearest(double value) {
 void put_number(double value, int decimals, NumberText& text) {
   constexpr double whole_numbers_of_64_bits = 1e15;
   const double scaled = decimals >= 0 && decimals < 10 ? value * power_of_ten(decimals) : 2e15;
-  if (std::abs(scaled) < whole_numbers_of_64_bits) return put_with_point(nearest(scaled), decimals, text);
+  if (std::abs(scaled) < whole_numbers_of_64_bits) {
+    text.end = put_steps(nearest(scaled), decimals, text.begin);
+    return;
+  }
   const std::string fixed = format_fixed(value, decimals);
   text.end = std::copy(fixed.begin(), fixed.end(), text.begin);
   if (decimals == 0) *text.end++ = '.';
@@ -91,7 +81,39 @@ void put_changed_number(std::string_view original, double value, int decimals, N
   if (style.plus && *text.begin != '-') *--text.begin = '+';
 }
 
+constexpr std::array<std::uint64_t, 20> whole_powers_of_ten = [] {
+  std::array<std::uint64_t, 20> powers{1};
+  for (std::size_t i = 1; i < powers.size(); ++i) powers[i] = powers[i - 1] * 10;
+  return powers;
+}();
+
+/// The last `count` digits of `number`, in front of `end`.
+void put_digits(std::uint64_t number, int count, char* end) {
+  static constexpr auto pairs = [] {
+    std::array<char, 200> digits{};
+    for (std::size_t i = 0; i < digits.size(); ++i)
+      digits[i] = static_cast<char>('0' + (i % 2 == 0 ? i / 20 : i / 2 % 10));
+    return digits;
+  }();
+  for (; count >= 2; count -= 2, number /= 100) std::memcpy(end -= 2, &pairs[number % 100 * 2], 2);
+  if (count == 1) *--end = static_cast<char>('0' + number % 10);
+}
+
 }  // namespace
+
+char* put_steps(std::int64_t whole, int decimals, char* to) {
+  if (whole < 0) *to++ = '-';
+  const auto steps = static_cast<std::uint64_t>(whole < 0 ? -whole : whole);
+  const std::uint64_t power = whole_powers_of_ten[static_cast<std::size_t>(decimals)];
+  const std::uint64_t before_point = steps / power;
+  int digits = 1;
+  while (before_point >= whole_powers_of_ten[static_cast<std::size_t>(digits)]) ++digits;
+  char* const point = to + digits;
+  put_digits(before_point, digits, point);
+  *point = '.';
+  put_digits(steps - before_point * power, decimals, point + 1 + decimals);
+  return point + 1 + decimals;
+}
 
 std::string inserted_number(double value, int decimals) {
   NumberText text;

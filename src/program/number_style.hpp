@@ -1,10 +1,11 @@
 #pragma once
 /// How coordinates are written.
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <string>
 #include <string_view>
+
+#include "counterflex/files/numbers.hpp"
 
 namespace counterflex {
 
@@ -18,18 +19,32 @@ std::string changed_number(std::string_view original, double value, int decimals
 /// `value` with `decimals` digits after the point, which it always has.
 std::string inserted_number(double value, int decimals);
 
+/// Writes `whole` over ten to the power of `decimals` at `to`, with a point; the end of it. It has at most 24
+/// characters for up to 9 decimals.
+char* put_steps(std::int64_t whole, int decimals, char* to);
+
 /// 10 to the power of `digits`, from 0 to 9 at least.
 inline double power_of_ten(int digits) {
-  constexpr std::array<double, 10> powers{1, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9};
   const auto i = static_cast<std::size_t>(digits);
-  return digits >= 0 && i < powers.size() ? powers[i] : std::pow(10.0, digits);
+  return digits >= 0 && i < small_powers_of_ten.size() ? small_powers_of_ten[i] : std::pow(10.0, digits);
+}
+
+/// Half a unit of the last of `decimals` digits.
+inline double half_of_last(int decimals) {
+  static constexpr auto halves = [] {
+    std::array<double, small_powers_of_ten.size()> table{};
+    for (std::size_t i = 0; i < table.size(); ++i) table[i] = 0.5 / small_powers_of_ten[i];
+    return table;
+  }();
+  const auto i = static_cast<std::size_t>(decimals);
+  return decimals >= 0 && i < halves.size() ? halves[i] : 0.5 / power_of_ten(decimals);
 }
 
 /// Whether `wanted` is within half a unit of the last of `decimals` digits of `original`, so that writing it
 /// anew would be no more exact; also where they differ by no more than arithmetic does, 1e-10.
 inline bool rounds_to(double original, double wanted, int decimals) {
   constexpr double least = 1e-10;  // digits beyond what a double of some metres holds are no correction
-  return std::abs(wanted - original) <= std::max(0.5 / power_of_ten(decimals), least);
+  return std::abs(wanted - original) <= std::max(half_of_last(decimals), least);
 }
 
 }  // namespace counterflex

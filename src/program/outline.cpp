@@ -32,7 +32,7 @@ Ending ending_at(std::string_view text, std::size_t at) {
 }
 
 Ending first_ending(std::string_view text, std::size_t from) {
-  for (std::size_t at = from; (at = text.find_first_of("Mm", at)) != std::string_view::npos; ++at)
+  for (std::size_t at = from; (at = find_either(text, 'M', 'm', at)) != std::string_view::npos; ++at)
     if (const Ending ending = ending_at(text, at); ending != Ending::none) return ending;
   return Ending::none;
 }
@@ -54,7 +54,7 @@ bool is_number_at(std::string_view text, std::size_t o) {
 /// Where lines begin with an O-number, in order.
 std::vector<std::size_t> numbers_in(std::string_view lines) {
   std::vector<std::size_t> numbers;
-  for (std::size_t at = 0; (at = lines.find_first_of("Oo", at)) != std::string_view::npos; ++at)
+  for (std::size_t at = 0; (at = find_either(lines, 'O', 'o', at)) != std::string_view::npos; ++at)
     if (is_number_at(lines, at)) numbers.push_back(at);
   return numbers;
 }
@@ -67,6 +67,10 @@ bool jumps_in(std::string_view lines) {
 }
 
 }  // namespace
+
+bool OutlineScan::may_find() const {
+  return dialect_.sinumerik_words || (dialect_.family & (shop_families | mach3_family)) != 0;
+}
 
 void OutlineScan::add(std::string_view lines) {
   if (!begun_) lines.remove_prefix(byte_order_mark(lines));

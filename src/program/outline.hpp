@@ -18,6 +18,8 @@ struct Outline {
 class OutlineScan {
  public:
   explicit OutlineScan(const Dialect& dialect) : dialect_(dialect) {}
+  /// Whether programs in the dialect can show anything.
+  bool may_find() const;
   void add(std::string_view lines);
   Outline finish();
 

@@ -16,13 +16,23 @@ void add_tool(std::vector<long>& tools, long tool) {
   if (at == tools.end() || *at != tool) tools.insert(at, tool);
 }
 
+/// Most moves share the tool and the offset of the one before.
+void add_tools_and_offsets(Overview& overview, const std::vector<Move>& moves) {
+  const Move* before = nullptr;
+  for (const Move& move : moves) {
+    if (before == nullptr || move.tool != before->tool || move.offset != before->offset) {
+      overview.offsets_used[move.offset] = true;
+      add_tool(overview.tools, move.tool);
+    }
+    before = &move;
+  }
+}
+
 void add_move(Overview& overview, const Move& move) {
   ++overview.moves;
   overview.plunges += is_plunge(move);
   overview.rapids += move.motion == Motion::rapid;
   overview.last_block_number = std::max(overview.last_block_number, move.block_number.value_or(0));
-  overview.offsets_used[move.offset] = true;
-  add_tool(overview.tools, move.tool);
   if (move.motion == Motion::feed && move.tool == 0 && !overview.first_feed_without_tool)
     overview.first_feed_without_tool = move.line;
   if (move.cycle && !overview.first_cycle_line) overview.first_cycle_line = move.line;
@@ -49,6 +59,7 @@ void add_window(Overview& overview, const Program& window) {
   overview.path_tolerances = window.path_tolerances;
   add_text(overview, window.text);
   for (const Move& move : window.moves) add_move(overview, move);
+  add_tools_and_offsets(overview, window.moves);
   for (const LeftAlone& block : window.left_alone) list(overview.left_alone, block);
   const int last_move = window.moves.empty() ? 0 : window.moves.back().line;
   overview.lines = window.expansion.file_lines > 0

@@ -50,19 +50,27 @@ struct Overall {
   Outline outline{};
 };
 
-/// Looks through the whole file, which is at its beginning afterwards.
-Overall look_through(FileReader& bytes, const std::string& file, const ReadOptions& options) {
+/// What `auto` looks at.
+const Dialect& dialect_of(FileReader& bytes, const std::string& file, const ReadOptions& options) {
   std::string text;
+  if (options.dialect == "auto")
+    while (text.size() < looked_at && bytes.append(text, bytes_at_once) > 0) {
+    }
+  return choose_dialect(text, file, options);
+}
+
+/// Looks through as much of the file as is needed, which is at its beginning afterwards.
+Overall look_through(FileReader& bytes, const std::string& file, const ReadOptions& options) {
   bytes.rewind();
-  std::size_t count = 1;
-  while (count > 0 && text.size() < (1 << 20)) count = bytes.append(text, bytes_at_once);
-  const Dialect& dialect = choose_dialect(text, file, options);
+  const Dialect& dialect = dialect_of(bytes, file, options);
+  bytes.rewind();
   OutlineScan scan(dialect);
-  while (count > 0) {
+  if (!scan.may_find()) return {&dialect, {}};
+  std::string text;
+  while (bytes.append(text, bytes_at_once) > 0) {
     const std::size_t whole = whole_lines(text).size();
     scan.add(std::string_view(text).substr(0, whole));
     text.erase(0, whole);
-    count = bytes.append(text, bytes_at_once);
   }
   scan.add(text);
   bytes.rewind();
@@ -111,11 +119,12 @@ struct ProgramReader::State {
 
   /// Reads on until the window holds `moves` and may end.
   void read_until_end(std::size_t moves) {
-    std::size_t before = program().moves.size();
-    while (!lines.has_ended() && read_line()) {
+    for (;;) {
+      lines.read_plain(moves);
+      const std::size_t before = program().moves.size();
+      if (lines.has_ended() || !read_line()) break;
       const std::size_t now = program().moves.size();
       const bool one = now == before + 1 && now > moves;
-      before = now;
       if (one && !lines.has_ended() && lines.may_end_before(program().moves.back())) return end_before_last();
     }
     while (least_moves == whole_program && append()) {

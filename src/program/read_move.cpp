@@ -139,11 +139,8 @@ std::string_view why_not_followed(const Reading& r) {
   return doubts != 0 ? doubt_text(doubts) : std::string_view();
 }
 
-Move& start_move(const Block& block, Reading& r, Motion motion) {
-  // A block is one move: a call beside words is what moves last, and leaves nothing known.
-  std::vector<Move>& moves = r.program.moves;
-  if (!moves.empty() && moves.back().block.begin == block.span.begin) moves.pop_back();
-  Move& move = moves.emplace_back();
+Move& begin_move(const Block& block, Reading& r, Motion motion) {
+  Move& move = r.program.moves.emplace_back();
   move.line = block.line;
   move.text_line = block.text_line;
   move.block_index = r.program.block_count - 1;
@@ -152,9 +149,6 @@ Move& start_move(const Block& block, Reading& r, Motion motion) {
   move.unit = r.state.unit.value_or(LengthUnit::millimetres);
   move.known_start = r.state.known;
   move.start_mm = r.state.position_mm;
-  // Cycles that are called at every position are left as they are, and so are the positions.
-  if (!why_not_followed(r).empty() && (r.state.displaced & modal_macro) == 0)
-    for (std::size_t axis = 0; axis < 3; ++axis) move.stands[axis] = !r.taken_away[axis];
   r.taken_away.fill(false);
   move.relative = r.relative();
   move.feed_mm_min = feed_mm_min(r.state);
@@ -163,10 +157,29 @@ Move& start_move(const Block& block, Reading& r, Motion motion) {
   move.tool = tool_of(r);
   move.operation = r.operation.index_in(r.program);
   if (r.state.force) move.force = r.state.force;
+  move.exact_stop = r.state.exact_stop;
+  return move;
+}
+
+Move& start_move(const Block& block, Reading& r, Motion motion) {
+  // A block is one move: a call beside words is what moves last, and leaves nothing known.
+  std::vector<Move>& moves = r.program.moves;
+  if (!moves.empty() && moves.back().block.begin == block.span.begin) moves.pop_back();
+  const std::array<bool, 3> taken_away = r.taken_away;
+  Move& move = begin_move(block, r, motion);
+  // Cycles that are called at every position are left as they are, and so are the positions.
+  if (!why_not_followed(r).empty() && (r.state.displaced & modal_macro) == 0)
+    for (std::size_t axis = 0; axis < 3; ++axis) move.stands[axis] = !taken_away[axis];
   move.block_delete = !empty(block.block_delete);
-  move.exact_stop = r.state.exact_stop || r.sorted.has(Action::stop_once);
+  if (r.sorted.has(Action::stop_once)) move.exact_stop = true;
   if (const Word* n = r.sorted.word('N')) move.block_number = count_of(*n);
   return move;
+}
+
+void allow_plain_changes(Move& move) {
+  const bool goes_on = !move.exact_stop;
+  move.may_split = move.motion == Motion::feed && goes_on;
+  move.may_jump = all_known(move.known_start) && move.feed_mm_min > 0 && goes_on;
 }
 
 void take_away(Reading& r, std::size_t axis) {

@@ -17,7 +17,10 @@ bool has_axis_word(const SortedBlock& sorted);
 /// that is in doubt.
 std::string_view why_not_followed(const Reading& reading);
 
-/// Adds a move to the program that begins where the tool is, with what is modal, and no words yet.
+/// Adds a move to the program that begins where the tool is, with what is modal alone.
+Move& begin_move(const Block& block, Reading& reading, Motion motion);
+
+/// The same with what the block says besides its places, in place of another move of the block.
 Move& start_move(const Block& block, Reading& reading, Motion motion);
 
 /// Takes the block's X, Y and Z into the move and the state; those that cannot be followed are fixed, their
@@ -29,6 +32,9 @@ void take_away(Reading& reading, std::size_t axis);
 
 /// The axis goes to a place of the block's own which the program does not show.
 void fix_axis(Reading& reading, Move& move, std::size_t axis);
+
+/// Decides what may be changed of a move that `takes_plain_lines` lets be read, as `finish_move` does.
+void allow_plain_changes(Move& move);
 
 /// Sets the end, and decides what may be changed.
 void finish_move(Reading& reading, Move& move);

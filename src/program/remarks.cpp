@@ -88,12 +88,12 @@ void remark_machine_codes(const Block& block, Reading& reading) {
 void remark_length(const Block& block, Reading& reading) {
   const std::size_t limit = reading.dialect.line_limit;
   const std::string_view line = part(reading.program.text, block.span);
-  if (limit == 0 || line.size() + 10 <= limit) return;  // what an inserted word or two may need
+  if (limit == 0 || line.size() + room_for_words <= limit) return;
   const std::size_t length = counted_length(reading.dialect, line);
   if (length > limit) {
     add_remark(reading.program, block.line,
                fmt::format("the line has {} characters; {} reads {}", length, reading.dialect.name, limit));
-  } else if (length + 10 > limit) {
+  } else if (length + room_for_words > limit) {
     add_remark(reading.program, block.line,
                fmt::format("the line has {} of the {} characters that {} reads: little room for corrections",
                            length, limit, reading.dialect.name));

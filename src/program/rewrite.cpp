@@ -6,6 +6,7 @@
 #include "program/klartext_lex.hpp"
 #include "program/klartext_rewrite.hpp"
 #include "program/rewrite_block.hpp"
+#include "program/rewrite_plain.hpp"
 #include "program/scanner.hpp"
 
 namespace counterflex {
@@ -65,6 +66,7 @@ struct Writing {
   const Program& program;
   const ProgramStyle& style;
   TextState& state;
+  const PlainRewriting common;
   std::size_t copied = 0;
   Rewritten out{};
 };
@@ -106,6 +108,11 @@ void pass_over(const Move& move, Writing& w) {
 
 void apply(const MoveEdit& edit, const WriteOptions& options, Writing& w) {
   const Span block = come_to(edit.move, w).block;
+  if (!w.state.restate_motion && append_plain_block(w.common, edit, w.copied, w.state.held, w.out)) {
+    w.out.blocks_of_edit.push_back(0);
+    w.copied = block.end;
+    return;
+  }
   copy_until(block.begin, w);
   const std::size_t inserted = w.out.inserted_blocks;
   rewrite_block(w.program, w.style, edit, options, w.state, w.out);
@@ -136,7 +143,7 @@ Rewritten Rewriter::write(const Program& window, const std::vector<MoveEdit>& ed
   if (window.dialect == klartext_name) return rewrite_klartext(window, edits, options);
   const bool first = !state_->style;
   if (first) state_->style = style_of(window);
-  Writing w{window, *state_->style, state_->text};
+  Writing w{window, *state_->style, state_->text, {window, options}};
   w.out.text.reserve(window.text.size() + window.text.size() / 8);
   w.out.blocks_of_edit.reserve(edits.size());
   if (first) begin(options, w);

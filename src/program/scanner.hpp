@@ -26,6 +26,11 @@ inline bool is_digit(char c) {
 inline bool is_letter(char c) {
   return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z');
 }
+/// Where the first of two characters stands from `at` on, or npos.
+inline std::size_t find_either(std::string_view text, char a, char b, std::size_t at) {
+  while (at < text.size() && text[at] != a && text[at] != b) ++at;
+  return at < text.size() ? at : std::string_view::npos;
+}
 inline char upper(char c) {
   return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
 }

@@ -49,6 +49,36 @@ TEST_CASE("a file is read in portions, and again from its beginning") {
   }
 }
 
+TEST_CASE("a hash taken along the way is that of the whole, however the file was read before") {
+  const std::string bytes = "G1 X1\n" + std::string(100000, 'y') + "\nend";
+  for (const std::size_t first : {0, 1, 7, 5000, 200000})
+    for (const std::size_t again : {0, 3, 9000, 200000}) {
+      CAPTURE(first);
+      CAPTURE(again);
+      FileReader reader = FileReader::of_bytes(bytes);
+      reader.hash_along();
+      for (const std::size_t most : {first, again}) {
+        std::string some;
+        reader.append(some, most);
+        reader.append(some, most / 2);
+        reader.rewind();
+      }
+      CHECK(in_portions(reader, 4096) == bytes);
+      CHECK(sha256(reader) == sha256(bytes));
+      CHECK(in_portions(reader, 4096) == bytes);
+    }
+  FileReader late = FileReader::of_bytes(bytes);
+  std::string some;
+  late.append(some, 100);
+  late.hash_along();
+  late.append(some, 100);
+  CHECK(sha256(late) == sha256(bytes));
+  CHECK(sha256(late) == sha256(bytes));
+  FileReader empty = FileReader::of_bytes("");
+  empty.hash_along();
+  CHECK(sha256(empty) == sha256(std::string_view()));
+}
+
 TEST_CASE("a file that is changed while it is read is refused, one that is not is not") {
   const Folder folder;
   write_file(folder.file("a.ngc"), "G1 X1\n");

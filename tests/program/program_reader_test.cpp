@@ -59,22 +59,26 @@ struct InWindows {
   Program last;
 };
 
-InWindows in_windows(const std::string& text, std::size_t least_moves, int extended = 0) {
+InWindows in_windows(const std::string& text, std::size_t least_moves, int extended = 0, bool taken = false) {
   InWindows all;
+  Program window_taken, corrected_taken;
   FileReader bytes = FileReader::of_bytes(text);
   ProgramReader reader(bytes, "p.ngc", {}, least_moves);
   TextReader again(reader);
   Rewriter rewriter({});
   while (reader.next()) {
     for (int i = 0; i < extended; ++i) reader.extend();
-    const Program& window = reader.window();
+    if (taken) reader.take_window(window_taken);
+    const Program& window = taken ? window_taken : reader.window();
     ++all.count;
     all.text += window.text;
     for (const std::string& move : said(window)) all.moves.push_back(move);
     all.left_alone += window.left_alone.size();
     const std::string written = rewriter.write(window, rigidly_shifted(window)).text;
     all.shifted += written;
-    for (const std::string& move : said(again.read(written))) all.corrected_moves.push_back(move);
+    const Program& read = again.read(written);
+    if (taken) again.take_window(corrected_taken);
+    for (const std::string& move : said(taken ? corrected_taken : read)) all.corrected_moves.push_back(move);
     all.last = window;
   }
   return all;
@@ -91,15 +95,18 @@ void check_windows(const std::string& text, std::size_t least_moves, int extende
     CHECK(diagnostic_of([&] { in_windows(text, least_moves, extended); }) == refused);
     return;
   }
-  const InWindows all = in_windows(text, least_moves, extended);
-  CHECK(all.text == text);
-  CHECK(all.moves == said(whole));
-  CHECK(all.left_alone == whole.left_alone.size());
-  CHECK(all.last.block_count == whole.block_count);
-  CHECK(all.last.work_offsets == whole.work_offsets);
-  CHECK(all.last.remarks.size() == whole.remarks.size());
-  CHECK(all.shifted == corrected);
-  CHECK(all.corrected_moves == said(read(corrected)));
+  for (const bool taken : {false, true}) {
+    CAPTURE(taken);
+    const InWindows all = in_windows(text, least_moves, extended, taken);
+    CHECK(all.text == text);
+    CHECK(all.moves == said(whole));
+    CHECK(all.left_alone == whole.left_alone.size());
+    CHECK(all.last.block_count == whole.block_count);
+    CHECK(all.last.work_offsets == whole.work_offsets);
+    CHECK(all.last.remarks.size() == (taken ? 0 : whole.remarks.size()));
+    CHECK(all.shifted == corrected);
+    CHECK(all.corrected_moves == said(read(corrected)));
+  }
 }
 
 /// Lines of a pocket, `count` moves long, of which all are known.
@@ -142,6 +149,20 @@ TEST_CASE("a window that is extended goes to the next place where it may end") {
   CHECK_FALSE(reader.window().after);
   CHECK_FALSE(reader.next());
   check_windows(text, 10, 3);
+}
+
+TEST_CASE("a window that is taken uses the room of the one that it takes the place of") {
+  FileReader bytes = FileReader::of_bytes(pocket(1000));
+  ProgramReader reader(bytes, "p.ngc", {}, 100);
+  Program window;
+  std::vector<const Move*> rooms;
+  for (; reader.next(); rooms.push_back(window.moves.data())) {
+    reader.take_window(window);
+    CHECK(window.moves.size() >= 1);
+    CHECK(reader.window().moves.empty());
+  }
+  REQUIRE(rooms.size() > 4);
+  for (std::size_t i = 4; i < rooms.size(); ++i) CHECK(rooms[i] == rooms[i - 2]);
 }
 
 TEST_CASE("windows end neither in contours, nor in cycles, nor in bodies, nor where an axis is unknown") {

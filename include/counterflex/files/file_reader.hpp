@@ -20,12 +20,17 @@ class FileReader {
   std::size_t append(std::string& bytes, std::size_t most);
   void rewind();
 
-  /// Throws `InputError` (Exit::transient_io) where the file is not what it was when it was opened, by size or
-  /// time: what was read of it need not belong together.
+  /// From now on, bytes that are read for the first time are hashed on the way: `sha256` then need not read
+  /// what has been read.
+  void hash_along();
+
+  /// Throws `InputError` (Exit::transient_io) where the file is not what it was when it was opened, by size
+  /// or time: what was read of it need not belong together.
   void refuse_change() const;
 
  private:
   FileReader();
+  friend std::string sha256(FileReader& file);
 
   struct State;
   std::unique_ptr<State> state_;

@@ -19,9 +19,9 @@ inline constexpr std::size_t whole_program = static_cast<std::size_t>(-1);
 /// `read_program`. Klartext is one window, whatever its size.
 class ProgramReader {
  public:
-  /// `bytes` is read from its beginning, once to see the program as a whole, then window by window; it
-  /// outlives the reader. `least_moves` of each window but the last. Throws `InputError` as `read_program`
-  /// does, where the dialect is not known.
+  /// `bytes` is read from its beginning, where its dialect needs it once to see the program as a whole, then
+  /// window by window; it outlives the reader. `least_moves` of each window but the last. Throws `InputError`
+  /// as `read_program` does, where the dialect is not known.
   ProgramReader(FileReader& bytes, const std::string& file, const ReadOptions& options,
                 std::size_t least_moves = window_moves);
   ~ProgramReader();
