@@ -6,7 +6,8 @@
 
 namespace counterflex {
 
-inline constexpr std::size_t chunk_size = 32;
+/// Enough for full batches of waypoints, few enough that a window keeps several threads busy.
+inline constexpr std::size_t chunk_size = 256;
 
 struct Chunk {
   std::size_t index, begin, end;  ///< items [begin, end)

@@ -6,35 +6,7 @@
 namespace counterflex {
 namespace {
 
-constexpr double smallest_interval = 1e-5;
 constexpr int samples = 16;
-
-Vector3 lagrange(const std::vector<CurveNode>& nodes, double u) {
-  Vector3 sum = Vector3::Zero();
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
-    double weight = 1;
-    for (std::size_t j = 0; j < nodes.size(); ++j)
-      if (j != i) weight *= (u - nodes[j].u) / (nodes[i].u - nodes[j].u);
-    sum += weight * nodes[i].c;
-  }
-  return sum;
-}
-
-// Interval a..b with its middle solved: quarters test the parabola; what it misses is halved.
-bool refine(const CurveNode& a, const CurveNode& m, const CurveNode& b, double accuracy,
-            const CorrectionAt& solve, CorrectionCurve& curve) {
-  CurveNode q, r;
-  if (!solve((a.u + m.u) / 2, q) || !solve((m.u + b.u) / 2, r)) return false;
-  const std::vector<CurveNode> parabola{a, m, b};
-  const double miss =
-      std::max((lagrange(parabola, q.u) - q.c).norm(), (lagrange(parabola, r.u) - r.c).norm());
-  // The five nodes together are better than the parabola by about an order: 8 times is asked of it.
-  if (miss < 8 * accuracy || b.u - a.u < smallest_interval) {
-    curve.add({{a, q, m, r, b}});
-    return true;
-  }
-  return refine(a, q, m, accuracy, solve, curve) && refine(m, r, b, accuracy, solve, curve);
-}
 
 // A vector to be interpolated linearly between knots, with the places where it has corners.
 struct Interpolated {
@@ -77,23 +49,22 @@ std::vector<double> greedy(const Interpolated& curve, double u0, double end, dou
 
 }  // namespace
 
+Vector3 polynomial_at(const std::vector<CurveNode>& nodes, double u) {
+  Vector3 sum = Vector3::Zero();
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    double weight = 1;
+    for (std::size_t j = 0; j < nodes.size(); ++j)
+      if (j != i) weight *= (u - nodes[j].u) / (nodes[i].u - nodes[j].u);
+    sum += weight * nodes[i].c;
+  }
+  return sum;
+}
+
 Vector3 CorrectionCurve::at(double u) const {
   const auto after = std::upper_bound(intervals_.begin(), intervals_.end(), u,
                                       [](double v, const CurveInterval& i) { return v < i.nodes.back().u; });
   const CurveInterval& interval = after == intervals_.end() ? intervals_.back() : *after;
-  return lagrange(interval.nodes, u);
-}
-
-bool sample_curve(const CurveNode& a, const CurveNode& b, double accuracy, const CorrectionAt& solve,
-                  CorrectionCurve& curve, bool may_wave) {
-  CurveNode m;
-  if (!solve((a.u + b.u) / 2, m)) return false;
-  // A second difference far below the accuracy: the line is the curve.
-  if (!may_wave && (m.c - (a.c + b.c) / 2).norm() < accuracy / 4) {
-    curve.add({{a, m, b}});
-    return true;
-  }
-  return refine(a, m, b, accuracy, solve, curve);
+  return polynomial_at(interval.nodes, u);
 }
 
 std::vector<double> choose_knots(const VectorAt& at, double u0, double u1, const std::vector<double>& corners,

@@ -31,14 +31,8 @@ class CorrectionCurve {
   std::vector<CurveInterval> intervals_;
 };
 
-/// Solves the correction at a fraction; false stops the sampling.
-using CorrectionAt = std::function<bool(double u, CurveNode& node)>;
-
-/// Samples [a.u, b.u] until the polynomial through the nodes predicts further ones within `accuracy` (m), at
-/// least at its middle, and where it `may_wave`, as around an arc, at its quarters, too. False where `solve`
-/// was.
-bool sample_curve(const CurveNode& a, const CurveNode& b, double accuracy, const CorrectionAt& solve,
-                  CorrectionCurve& curve, bool may_wave = false);
+/// The polynomial through nodes (Lagrange's form).
+Vector3 polynomial_at(const std::vector<CurveNode>& nodes, double u);
 
 /// Something to be interpolated, at a fraction.
 using VectorAt = std::function<Vector3(double u)>;

@@ -100,16 +100,6 @@ ActualSolution PathSolver::actual(const Vector3& target, const Load& load, const
   return result;
 }
 
-ActualSolution PathSolver::under_another_load(const Load& load) {
-  const Vector3 here = tip_of(*loaded_);
-  Equilibrium solved = refine_forward(model_, *loaded_, load, {}, work_);
-  // A warm start may fail, and may snap to where no growing force leads: the continuation decides.
-  const bool far = (tip_of(solved.configuration) - here).norm() > (here - tip_of(nominal())).norm();
-  if (far || solved.status != Status::converged)
-    solved = solve_forward(model_, nominal(), load, {}, work_);
-  return {solved.status, tip(model_.mechanism, solved.configuration), solved.iterations};
-}
-
 // Where the machine controls an orientation that the program does not state, only positions can be written:
 // (23) on them.
 TargetSolution PathSolver::by_outer_iteration(const Vector3& p_MT, const Load& load) {

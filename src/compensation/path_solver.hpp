@@ -19,6 +19,7 @@ struct ActualSolution {
   Status status = Status::not_converged;
   Pose X_MT;
   int iterations = 0;
+  bool in_travel = true;  ///< whether the actuators of the command are in their ranges
 };
 
 /// Where a forward solve begins: at the neighbour's solution, or at the nominal configuration, from where
@@ -37,10 +38,6 @@ class PathSolver {
   TargetSolution target(const Vector3& p_MT, const Load& load);
   ActualSolution actual(const Vector3& target, const Load& load, const Stage& stage,
                         Start start = Start::neighbour);
-
-  /// Where the tip stands under another load than in `actual`'s last solution, which had everything acting
-  /// and was converged. Neighbours go on from that one.
-  ActualSolution under_another_load(const Load& load);
 
   /// Whether the actuators of the last command are in their ranges.
   bool in_travel() const;

@@ -5,6 +5,9 @@
 
 namespace counterflex {
 
+inline constexpr double least_share =
+    0.02;  ///< of the tolerance: what rounding must leave of it where points are inserted
+
 struct Knot {
   double u = 1;                      ///< fraction of the segment
   Vector3 target = Vector3::Zero();  ///< M (m)

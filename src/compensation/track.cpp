@@ -9,6 +9,12 @@
 #include "path_solver.hpp"
 
 namespace counterflex {
+namespace {
+
+// Chunks of pieces begin at any segment: it must not be far from a start.
+constexpr std::size_t segments_between_starts = 32;
+
+}  // namespace
 
 Failure status_failure(Status status, int line) {
   if (status == Status::outside_travel)
@@ -50,7 +56,7 @@ NominalTrack track(const Job& job, const NominalPlace& start) {
     if (changes) solver = &solvers.of(model, model.home);
     const bool joins = i > 0 && !changes && job.path.segments[i - 1].wanted.end == segment.wanted.start;
     if (!joins && !go(segment.wanted.start, segment.line)) return result;
-    if (changes || i % chunk_size == 0) result.starts.push_back({i, solver->nominal()});
+    if (changes || i % segments_between_starts == 0) result.starts.push_back({i, solver->nominal()});
     if (!go(segment.wanted.end, segment.line)) return result;
   }
   result.end = {&solver->model(), solver->nominal()};

@@ -15,8 +15,8 @@ struct TrackStart {
 };
 
 struct NominalTrack {
-  std::vector<TrackStart> starts;  ///< of the first segment of every chunk, and of those that need another
-                                   ///< model than the one before
+  std::vector<TrackStart> starts;  ///< of every 32nd segment, and of those that need another model than the
+                                   ///< one before
   NominalPlace end;
   std::optional<Failure> failure;
 

@@ -56,22 +56,43 @@ bool differ(const Vector6& A, const Vector6& B) {
   return (A - B).norm() > rounding * std::max(A.norm(), B.norm());
 }
 
+/// The first index in [first, end) that is not `before` what is looked for, else `end`; `hint` is where it
+/// was the last time.
+template <class Before>
+std::size_t first_not(std::size_t hint, std::size_t first, std::size_t end, const Before& before) {
+  constexpr int steps_beside = 6;
+  std::size_t i = std::clamp(hint, first, end);
+  for (int step = 0; step < steps_beside; ++step) {
+    if (i < end && before(i))
+      first = ++i;
+    else if (i > first && !before(i - 1))
+      end = --i;
+    else
+      return i;
+  }
+  while (first < end) {
+    const std::size_t half = first + (end - first) / 2;
+    before(half) ? first = half + 1 : end = half;
+  }
+  return first;
+}
+
 /// The piece of the run that holds s; where two meet, the one on `side`.
-const ForcePiece& piece_at(const std::vector<ForcePiece>& pieces, const FeedRun& run, double s, Side side) {
-  const auto first = pieces.begin() + static_cast<std::ptrdiff_t>(run.first_piece);
-  const auto last = pieces.begin() + static_cast<std::ptrdiff_t>(run.end_piece) - 1;
-  if (side == Side::before)
-    return *std::lower_bound(first, last, s,
-                             [](const ForcePiece& piece, double at) { return piece.s1 < at; });
-  return *std::partition_point(first, last, [s](const ForcePiece& piece) { return piece.s1 <= s; });
+const ForcePiece& piece_at(const std::vector<ForcePiece>& pieces, const FeedRun& run, double s, Side side,
+                           std::size_t& hint) {
+  const std::size_t last = run.end_piece - 1;
+  hint = side == Side::before
+             ? first_not(hint, run.first_piece, last, [&](std::size_t i) { return pieces[i].s1 < s; })
+             : first_not(hint, run.first_piece, last, [&](std::size_t i) { return pieces[i].s1 <= s; });
+  return pieces[hint];
 }
 
 /// 1/b int_(s-b)^s f(u) du, f zero before the run.
-Vector6 mean(const std::vector<ForcePiece>& pieces, const FeedRun& run, double s) {
+Vector6 mean(const std::vector<ForcePiece>& pieces, const FeedRun& run, double s, ForceCursor& cursor) {
   const bool full = s - run.blend >= run.s0;
   const double from = full ? s - run.blend : run.s0, part = full ? 1 : (s - run.s0) / run.blend;
-  const ForcePiece& first = piece_at(pieces, run, from, Side::after);
-  const ForcePiece& last = piece_at(pieces, run, s, Side::before);
+  const ForcePiece& first = piece_at(pieces, run, from, Side::after, cursor.from);
+  const ForcePiece& last = piece_at(pieces, run, s, Side::before, cursor.to);
   if (from >= s) return Vector6::Zero();
   // Within one piece the mean is the value in the middle, free of the rounding of long integrals.
   if (&first == &last) return part * value(first, (from + s) / 2);
@@ -188,6 +209,11 @@ void PathForces::find_corners(FeedRun& run) {
 }
 
 Vector6 PathForces::at(std::size_t segment, double fraction, Side side) const {
+  ForceCursor cursor;
+  return at(segment, fraction, side, cursor);
+}
+
+Vector6 PathForces::at(std::size_t segment, double fraction, Side side, ForceCursor& cursor) const {
   const Place& place = places_[segment];
   if (place.run == no_run) return Vector6::Zero();
   const FeedRun& run = runs_[place.run];
@@ -195,35 +221,42 @@ Vector6 PathForces::at(std::size_t segment, double fraction, Side side) const {
   if (fraction >= 1) side = Side::before;
   const double inside = place.s0 + fraction * (place.s1 - place.s0);
   const double s = fraction >= 1 ? place.s1 : std::clamp(inside, place.s0, place.s1);
-  if (run.blend > 0) return mean(pieces_, run, s);
+  if (run.blend > 0) return mean(pieces_, run, s, cursor);
   // A fraction that `breaks` gave may round to the other side of its step.
   const double margin = (side == Side::before ? -1 : 1) * same_fraction * (place.s1 - place.s0);
-  const ForcePiece& piece = piece_at(pieces_, run, std::clamp(s + margin, place.s0, place.s1), side);
+  const double beside = std::clamp(s + margin, place.s0, place.s1);
+  const ForcePiece& piece = piece_at(pieces_, run, beside, side, cursor.to);
   return value(piece, std::clamp(s, piece.s0, piece.s1));
 }
 
 std::vector<double> PathForces::breaks(std::size_t segment) const {
-  const Place& place = places_[segment];
-  if (place.run == no_run) return {};
-  const FeedRun& run = runs_[place.run];
+  ForceCursor cursor;
   std::vector<double> fractions;
+  breaks(segment, cursor, fractions);
+  return fractions;
+}
+
+void PathForces::breaks(std::size_t segment, ForceCursor& cursor, std::vector<double>& fractions) const {
+  fractions.clear();
+  const Place& place = places_[segment];
+  if (place.run == no_run) return;
+  const FeedRun& run = runs_[place.run];
   const auto add = [&](double s) {
     const double fraction = (s - place.s0) / (place.s1 - place.s0);
     if (fraction > same_fraction && fraction < 1 - same_fraction) fractions.push_back(fraction);
   };
-  const auto first = corners_.begin() + static_cast<std::ptrdiff_t>(run.first_corner);
-  const auto end = corners_.begin() + static_cast<std::ptrdiff_t>(run.end_corner);
-  const auto add_shifted = [&](double shift) {
-    for (auto p = std::lower_bound(first, end, place.s0 - shift); p != end && *p + shift < place.s1; ++p)
-      add(*p + shift);
+  const auto add_shifted = [&](double shift, std::size_t& hint) {
+    hint = first_not(hint, run.first_corner, run.end_corner,
+                     [&](std::size_t i) { return corners_[i] < place.s0 - shift; });
+    for (std::size_t i = hint; i < run.end_corner && corners_[i] + shift < place.s1; ++i)
+      add(corners_[i] + shift);
   };
   // A step at p bends the mean at p and at p + b.
-  add_shifted(0);
-  if (run.blend > 0) add_shifted(run.blend);
+  add_shifted(0, cursor.corner);
+  if (run.blend > 0) add_shifted(run.blend, cursor.ramp_corner);
   std::sort(fractions.begin(), fractions.end());
   const auto same = [](double a, double b) { return b - a < same_fraction; };
   fractions.erase(std::unique(fractions.begin(), fractions.end(), same), fractions.end());
-  return fractions;
 }
 
 }  // namespace counterflex

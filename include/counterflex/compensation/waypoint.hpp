@@ -79,6 +79,21 @@ struct ForwardRun {
 };
 
 /// Solves the machine forward along `pieces` (guarantee 1 of DESIGN): every end, and samples between.
+///
+/// An arc is sampled at odd sixteenths, or once where its correction hardly changes. A line is sampled at the
+/// corners of the force and in the middle of each stretch between them; a stretch whose middle is off the
+/// line between its ends' deviations by more than a tenth of the tolerance, or where less than a fifth of the
+/// tolerance is left, is sampled at its odd sixteenths, too.
+///
+/// Short lines without steps of the force, whose deviation is foreseen as
+///
+///     e(v) = (1 - v) e(0) + v e(1) + S dF(v)      dF(v) = F(v) - (1 - v) F(0) - v F(1)
+///
+/// S the tip's response to the force, measured among them, are sampled inside where less than a fifth of the
+/// tolerance would be left. Of every eight others in a row the longest one, or the one that S dF bends most,
+/// is sampled once, or both are: if they are not as foreseen, all of the row is sampled. Which lines are in a
+/// row depends on those that are solved with them.
+///
 /// Parallel over chunks of fixed size, so that results do not depend on Job's threads. What differs from the
 /// wanted path is a matter for the caller; only a status other than converged is a failure here.
 ForwardRun solve_forward_along(const Job& job, const std::vector<Piece>& pieces, const Questions& questions);

@@ -148,6 +148,13 @@ struct ForceTail {
   std::optional<long> block_number;  ///< N of the moves so far
 };
 
+/// Where somebody stands who reads the forces of a path: what is asked for next is found at once where it is
+/// near. Any cursor gives the same answers.
+struct ForceCursor {
+  std::size_t from = 0, to = 0;             ///< pieces in which a mean begins and ends
+  std::size_t corner = 0, ramp_corner = 0;  ///< corners behind a segment's start, and those a blend before
+};
+
 /// On which side of a step a wrench is asked for. A place within 1e-9 of a segment from a step is at the
 /// step.
 enum class Side { before, after };
@@ -185,6 +192,7 @@ class PathForces {
   /// ends of a segment the wrench is the segment's own, whatever `side`: `at(i, 1)` is that before a step
   /// between two segments, `at(i + 1, 0)` that after it.
   Vector6 at(std::size_t segment, double fraction, Side side = Side::after) const;
+  Vector6 at(std::size_t segment, double fraction, Side side, ForceCursor& cursor) const;
 
   bool at_platform() const { return at_platform_; }
 
@@ -192,6 +200,8 @@ class PathForces {
   /// interpolation across them. With a blend these are the starts and ends of ramps; where the profile itself
   /// only changes its slope the mean has no corner.
   std::vector<double> breaks(std::size_t segment) const;
+  /// The same in `fractions`, whose memory is used again.
+  void breaks(std::size_t segment, ForceCursor& cursor, std::vector<double>& fractions) const;
 
   const std::vector<ForceNote>& notes() const { return notes_; }
 

@@ -1,0 +1,66 @@
+#pragma once
+/// What a place does when the force on it changes a little.
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "target_waves.hpp"
+
+namespace counterflex {
+
+/// Neighbouring pieces share one response: S with dp = S dF to first order, p the correction or the tip (m).
+inline constexpr std::size_t response_span = 64;
+
+struct ForceResponse {
+  Vector6 probes =
+      Vector6::Zero();            ///< sizes of the changes by which it is measured (N, N m), 0: none needed
+  Answer place = no_answer;       ///< where it is measured
+  std::array<Answer, 6> asked{};  ///< by component, where its probe is not 0
+  Eigen::Matrix<double, 3, 6> S = Eigen::Matrix<double, 3, 6>::Zero();  ///< m/N, m/(N m)
+  bool known = true;                                                    ///< false: a probe failed
+
+  /// Makes the probes as large as a change of force that S will be used for; `F` is the force there.
+  void provide_for(const Vector6& dF, const Vector6& F) {
+    constexpr double rounding = 1e-9;
+    for (int k = 0; k < 6; ++k)
+      if (std::abs(dF[k]) > rounding * (1 + std::abs(F[k]))) probes[k] = std::max(probes[k], std::abs(dF[k]));
+  }
+
+  template <class Ask>  // Answer(const Vector6& dF)
+  void ask(const Ask& ask_under) {
+    for (int k = 0; k < 6; ++k)
+      if (probes[k] > 0)
+        asked[static_cast<std::size_t>(k)] = ask_under(Vector6(probes[k] * Vector6::Unit(k)));
+  }
+
+  template <class Change>  // std::optional<Vector3>(Answer)
+  void measure(const Change& change) {
+    for (int k = 0; k < 6; ++k) {
+      if (probes[k] == 0) continue;
+      const auto moved = change(asked[static_cast<std::size_t>(k)]);
+      known = known && moved;
+      if (moved) S.col(k) = *moved / probes[k];
+    }
+  }
+};
+
+/// Pieces in a row of which one is looked into for all.
+inline constexpr std::size_t row_of_pieces = 8;
+
+/// Of the tolerance, or of what of it is left: bends by the force that are looked at for their own sake.
+inline constexpr double looked_at_share = 0.1;
+
+/// By how much of it the bend by the force may be other than foreseen.
+inline constexpr double bend_error = 0.3;
+
+/// Whether what was found inside a line is as foreseen, with a bend by the force (m); `room`: the tolerance,
+/// or what of it is left (m).
+inline bool is_as_foreseen(const Vector3& found, const Vector3& foreseen, const Vector3& bend, double room) {
+  constexpr double share = 0.025;
+  return (found - foreseen).norm() <= share * room + bend_error * bend.norm();
+}
+
+/// Lines shorter than this part of the machine's length l bend, if at all, as their neighbours do.
+inline constexpr double short_line = 0.02;
+
+}  // namespace counterflex

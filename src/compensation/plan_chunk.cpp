@@ -1,0 +1,257 @@
+#include "plan_chunk.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "counterflex/compensation/waypoint.hpp"
+
+namespace counterflex {
+namespace {
+
+constexpr double jump_share = 0.1;    // of the tolerance: larger steps of the correction are jumped
+constexpr double curve_share = 0.01;  // of the tolerance: accuracy of the sampled curve
+constexpr double sampled_angle = std::numbers::pi / 2;
+constexpr int group_samples = 8;     // along each move of a contour group
+constexpr double bend_share = 0.25;  // of the room for knots: what is taken for a line bends less
+
+}  // namespace
+
+ChunkPlanner::ChunkPlanner(const Job& job, WaypointSolver& solver)
+    : job_(job),
+      waves_(job, solver),
+      intervals_(waves_, curve_share * job.options.tolerance),
+      knots_(job, solver) {}
+
+std::optional<Failure> ChunkPlanner::plan(std::size_t begin, std::size_t end,
+                                          std::vector<PlannedSegment>& planned) {
+  clear();
+  for (std::size_t i = begin; i < end; ++i) ask_first(i);
+  choose_lines();
+  ask_responses();
+  if (!waves_.solve()) return waves_.failure();
+  judge_bends();
+  look_into_rows();
+  if (!waves_.solve()) return waves_.failure();
+  judge_rows();
+  if (!waves_.solve() || !intervals_.run()) return waves_.failure();
+  for (const Task& task : tasks_) {
+    planned[task.segment] = {};
+    if (!finish(task, planned[task.segment])) return knots_.failure();
+  }
+  return std::nullopt;
+}
+
+void ChunkPlanner::clear() {
+  waves_.clear();
+  intervals_.clear();
+  tasks_.clear();
+  answers_.clear();
+  limits_.clear();
+  bends_.clear();
+  responses_.clear();
+  lines_.clear();
+  looks_.clear();
+  next_interval_ = 0;
+}
+
+// Cycles are solved at their bottom when they are written; what is held needs no solution.
+void ChunkPlanner::ask_first(std::size_t index) {
+  Task task{.segment = index};
+  const Segment& segment = job_.path.segments[index];
+  const Move& move = job_.program.moves[segment.move];
+  if (move.handling == Handling::group) {
+    ask_group(task, segment.cutting);
+  } else if (move.handling != Handling::held && !move.cycle) {
+    task.kind = segment.cutting ? Kind::cut : Kind::rapid;
+    // With a blend a rapid starts where the cut ended.
+    if (segment.cutting || job_.options.blend == 0) task.start = waves_.ask(index, 0);
+    if (segment.cutting) add_limits(task);
+    if (segment.wanted.arc && segment.cutting)
+      sample(task);
+    else
+      task.end = waves_.ask(index, 1, Side::before);
+  }
+  tasks_.push_back(task);
+}
+
+void ChunkPlanner::ask_group(Task& task, bool cutting) {
+  task.kind = Kind::group;
+  task.first = answers_.size();
+  const int count = cutting ? group_samples : 1;
+  // A rapid begins with what was before the group.
+  for (int k = cutting ? 0 : 1; k <= count; ++k)
+    answers_.push_back(
+        waves_.ask(task.segment, static_cast<double>(k) / count, k == count ? Side::before : Side::after));
+  task.count = answers_.size() - task.first;
+}
+
+// Where sampling begins anew: at corners of the force, and often enough around an arc that a wave of the
+// correction does not pass for a line.
+void ChunkPlanner::add_limits(Task& task) {
+  waves_.breaks(task.segment, fractions_);
+  if (const auto& arc = segment(task).wanted.arc) {
+    const int parts = static_cast<int>(std::ceil(arc->sweep / sampled_angle));
+    for (int k = 1; k < parts; ++k) fractions_.push_back(static_cast<double>(k) / parts);
+    std::sort(fractions_.begin(), fractions_.end());
+    fractions_.erase(std::unique(fractions_.begin(), fractions_.end()), fractions_.end());
+  }
+  task.first = limits_.size();
+  task.count = fractions_.size();
+  limits_.insert(limits_.end(), fractions_.begin(), fractions_.end());
+}
+
+// Asks for what is inside a cut, and for its end.
+void ChunkPlanner::sample(Task& task) {
+  const bool may_wave = segment(task).wanted.arc.has_value();
+  IntervalEnd a{0, task.start};
+  for (std::size_t k = task.first; k < task.first + task.count; ++k) {
+    const double u = limits_[k];
+    intervals_.open(task.segment, a, {u}, may_wave);
+    a = {u, waves_.ask(task.segment, u)};
+  }
+  task.end = intervals_.open(task.segment, a, {1, task.end}, may_wave);
+}
+
+void ChunkPlanner::choose_lines() {
+  if (tasks_.size() < 2) return;
+  const double longest = short_line * waves_.solver().model().mechanism.length;
+  for (std::size_t t = 0; t < tasks_.size(); ++t) {
+    Task& task = tasks_[t];
+    if (task.kind != Kind::cut || segment(task).wanted.arc) continue;
+    task.length = (segment(task).wanted.end - segment(task).wanted.start).norm();
+    task.room = room_for_knots(job_, segment(task));
+    if (task.length <= longest && (job_.options.blend > 0 || task.count == 0)) lines_.push_back(t);
+  }
+}
+
+void ChunkPlanner::add_bends(Task& task) {
+  const Vector6 F0 = waves_.force(task.start), F1 = waves_.force(task.end);
+  const auto add = [&](double u) {
+    bends_.push_back({u, waves_.force_at(task.segment, u) - (1 - u) * F0 - u * F1});
+  };
+  task.first_bend = bends_.size();
+  for (std::size_t k = task.first; k < task.first + task.count; ++k) add(limits_[k]);
+  add(0.5);
+  task.bends = bends_.size() - task.first_bend;
+}
+
+void ChunkPlanner::ask_responses() {
+  responses_.resize(tasks_.size() / response_span + 1);
+  for (const std::size_t t : lines_) {
+    ForceResponse& response = responses_[t / response_span];
+    response.place = tasks_[t].end;
+    add_bends(tasks_[t]);
+    for (std::size_t k = tasks_[t].first_bend; k < bends_.size(); ++k)
+      response.provide_for(bends_[k].dF, waves_.force(response.place));
+  }
+  for (ForceResponse& response : responses_)
+    response.ask([&](const Vector6& dF) {
+      return waves_.ask_again(response.place, waves_.force(response.place) + dF);
+    });
+}
+
+// Leaves those in `lines_` which the force bends but little; the others are sampled.
+void ChunkPlanner::judge_bends() {
+  for (ForceResponse& response : responses_)
+    response.measure([&](Answer a) -> std::optional<Vector3> {
+      if (waves_.status(a) != Status::converged) return std::nullopt;
+      return waves_.correction(a) - waves_.correction(response.place);
+    });
+  const auto bends = [&](std::size_t t) {
+    Task& task = tasks_[t];
+    const ForceResponse& response = responses_[t / response_span];
+    for (std::size_t k = task.first_bend; k < task.first_bend + task.bends; ++k) {
+      const double bend = (response.S * bends_[k].dF).norm();
+      if (bend <= task.bend) continue;
+      task.bend = bend;
+      task.bend_u = bends_[k].u;
+    }
+    return !response.known || task.bend > bend_share * task.room;
+  };
+  lines_.erase(std::remove_if(lines_.begin(), lines_.end(), bends), lines_.end());
+  for (const std::size_t t : lines_) tasks_[t].as_line = true;
+  for (Task& task : tasks_)
+    if (task.kind == Kind::cut && !segment(task).wanted.arc && !task.as_line) sample(task);
+}
+
+void ChunkPlanner::look_into_rows() {
+  for (std::size_t begin = 0; begin < lines_.size(); begin += row_of_pieces) {
+    const auto row = std::span(lines_).subspan(begin, std::min(row_of_pieces, lines_.size() - begin));
+    const auto longest = *std::max_element(row.begin(), row.end(), [&](std::size_t a, std::size_t b) {
+      return tasks_[a].length < tasks_[b].length;
+    });
+    const auto most_bent = *std::max_element(row.begin(), row.end(), [&](std::size_t a, std::size_t b) {
+      return tasks_[a].bend < tasks_[b].bend;
+    });
+    const bool bent = tasks_[most_bent].bend > looked_at_share * tasks_[most_bent].room;
+    if (bent) look_into(begin, most_bent, tasks_[most_bent].bend_u);
+    if (!bent || most_bent != longest) look_into(begin, longest, 0.5);
+  }
+}
+
+void ChunkPlanner::look_into(std::size_t row, std::size_t t, double u) {
+  looks_.push_back({row, t, u, waves_.ask(tasks_[t].segment, u)});
+}
+
+bool ChunkPlanner::is_as_expected(const Look& look) const {
+  const Task& task = tasks_[look.task];
+  const double u = look.u;
+  const Vector6 dF = waves_.force(look.at) - (1 - u) * waves_.force(task.start) - u * waves_.force(task.end);
+  const Vector3 bend = responses_[look.task / response_span].S * dF;
+  const Vector3 expected = (1 - u) * waves_.correction(task.start) + u * waves_.correction(task.end) + bend;
+  return is_as_foreseen(waves_.correction(look.at), expected, bend, task.room);
+}
+
+void ChunkPlanner::judge_rows() {
+  for (const Look& look : looks_) {
+    if (is_as_expected(look)) continue;
+    const std::size_t end = std::min(look.row + row_of_pieces, lines_.size());
+    for (std::size_t k = look.row; k < end; ++k) {
+      Task& task = tasks_[lines_[k]];
+      if (task.as_line) sample(task);
+      task.as_line = false;
+    }
+  }
+}
+
+bool ChunkPlanner::finish(const Task& task, PlannedSegment& planned) {
+  const Curve& wanted = segment(task).wanted;
+  if (task.kind == Kind::held) return true;
+  if (task.kind == Kind::group) {
+    for (std::size_t k = task.first; k < task.first + task.count; ++k)
+      planned.group.push_back(waves_.correction(answers_[k]));
+    return true;
+  }
+  planned.starts_anywhere = task.start == no_answer;
+  planned.start_target = wanted.start;
+  if (task.start != no_answer) planned.start_target += waves_.correction(task.start);
+  if (task.kind == Kind::cut && !task.as_line) return finish_sampled(task, planned);
+  planned.knots = {{1, wanted.end + waves_.correction(task.end)}};
+  return true;
+}
+
+// Continuous stretches between steps of the force, each with its own knots.
+bool ChunkPlanner::finish_sampled(const Task& task, PlannedSegment& planned) {
+  const Curve& wanted = segment(task).wanted;
+  fractions_.assign(1, 0);
+  for (std::size_t k = task.first; k < task.first + task.count; ++k) fractions_.push_back(limits_[k]);
+  fractions_.push_back(1);
+  const auto& all = intervals_.done();
+  CorrectionCurve stretch;
+  for (bool ends = false; !ends; ++next_interval_) {
+    const SampledInterval& interval = all[next_interval_];
+    stretch.add(intervals_.curve(interval));
+    ends = interval.at[4] == task.end;
+    const Vector3 b = waves_.correction(interval.at[4]);
+    const Vector3 a = ends ? b : waves_.correction(all[next_interval_ + 1].at[0]);
+    const bool step = (a - b).norm() > jump_share * job_.options.tolerance;
+    if (!step && !ends) continue;
+    if (!knots_.add_stretch(task.segment, stretch, fractions_, planned)) return false;
+    if (step && !wanted.arc) planned.knots.push_back({interval.u[4], point_at(wanted, interval.u[4]) + a});
+    stretch = {};
+  }
+  return knots_.finish(task.segment, waves_.correction(task.end), planned);
+}
+
+}  // namespace counterflex

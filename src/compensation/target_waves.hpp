@@ -1,0 +1,61 @@
+#pragma once
+/// Corrections that are asked for in waves: many requests, then all their answers.
+#include <vector>
+
+#include "curve.hpp"
+#include "waypoint_solver.hpp"
+
+namespace counterflex {
+
+/// Number of an answer.
+using Answer = std::size_t;
+inline constexpr Answer no_answer = static_cast<Answer>(-1);
+
+class TargetWaves {
+ public:
+  TargetWaves(const Job& job, WaypointSolver& solver) : job_(job), solver_(solver) {}
+
+  /// Forgets everything that was asked.
+  void clear();
+
+  /// Asks for the correction at a fraction of a segment. What was asked just before at the same place and
+  /// with the same force, as the end of the segment that this one joins, is not asked again.
+  Answer ask(std::size_t segment, double u, Side side = Side::after);
+
+  /// The same place as an answer's, under another force than the one that acts. It may fail.
+  Answer ask_again(Answer answer, const Vector6& F);
+
+  /// Solves what has been asked since the last time. False where something that must not fail did: not
+  /// converged, or larger than the limit of corrections.
+  bool solve();
+
+  Status status(Answer a) const { return solutions_[a].status; }
+  Vector3 correction(Answer a) const { return solutions_[a].target - requests_[a].p_MT; }  ///< M (m)
+  Vector3 target(Answer a) const { return solutions_[a].target; }                          ///< M (m)
+  const Vector6& force(Answer a) const { return requests_[a].load.F; }
+  CurveNode node(double u, Answer a) const { return {u, correction(a)}; }
+
+  /// The force at a fraction of a segment.
+  Vector6 force_at(std::size_t segment, double u, Side side = Side::after) {
+    return job_.forces.at(segment, u, side, cursor_);
+  }
+  void breaks(std::size_t segment, std::vector<double>& fractions) {
+    job_.forces.breaks(segment, cursor_, fractions);
+  }
+
+  const std::optional<Failure>& failure() const { return failure_; }
+  WaypointSolver& solver() { return solver_; }
+
+ private:
+  bool check(Answer a);
+
+  const Job& job_;
+  WaypointSolver& solver_;
+  ForceCursor cursor_;
+  std::vector<TargetRequest> requests_;
+  std::vector<TargetSolution> solutions_;
+  std::vector<std::size_t> segments_;  // of the requests; no_segment for what may fail
+  std::optional<Failure> failure_;
+};
+
+}  // namespace counterflex
