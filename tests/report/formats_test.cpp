@@ -355,7 +355,7 @@ TEST_CASE("the summary of a prediction shows no residual") {
 TEST_CASE("where more force makes the machine give way, the summary, a warning and the JSON say so") {
   const MadeUpRun run;
   Compensation c = small_compensation();
-  c.waypoints[0].higher.status = Status::unstable;
+  c.waypoints[0].causes->higher.status = Status::unstable;
   const RunReport report = compensated(run, c);
   const std::string text = summary_text(report, false);
   CAPTURE(text);
@@ -374,7 +374,7 @@ TEST_CASE("a machine with masses has a fifth row of sources") {
   run.machine.chains.push_back({"arm", {PointMass{40, Vector3::Zero()}}});
   run.machine.gravity.g = {0, 0, -9.81};
   Compensation c = small_compensation();
-  c.waypoints[0].gravity.head<3>() = Vector3(0, 0, -0.02) * mm;
+  c.waypoints[0].causes->gravity.head<3>() = Vector3(0, 0, -0.02) * mm;
   const RunReport report = compensated(run, c);
   const std::string text = summary_text(report, false);
   CAPTURE(text);
