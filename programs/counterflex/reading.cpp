@@ -1,9 +1,31 @@
 #include "reading.hpp"
 
+#include <algorithm>
+
 namespace counterflex::cli {
+namespace {
+
+/// Whether the machine moves along all axes of any program: then none of them has to be taken as known.
+bool ignores_no_axis(const Machine& machine) {
+  const auto& controlled = machine.controlled;
+  const auto controls = [&](Component c) {
+    return std::find(controlled.begin(), controlled.end(), c) != controlled.end();
+  };
+  return controlled.empty() || (controls(Component::x) && controls(Component::y) && controls(Component::z));
+}
+
+/// Logged positions are looked for in space, with more than one pass.
+bool has_logs(const ForceSource& source) {
+  return std::any_of(source.rules.begin(), source.rules.end(), [](const ForceRule& rule) {
+    const auto* profile = std::get_if<ForceProfile>(&rule.content);
+    return profile != nullptr && profile->key == ForceKey::point;
+  });
+}
+
+}  // namespace
 
 ProgramLook look_through(const Options& options, ProgramFile& file, const ReadOptions& read,
-                         const Machine* machine) {
+                         const Machine* machine, const std::function<void(const Program&)>& also) {
   const std::string name = shown_name(options.program);
   ProgramLook look;
   try {
@@ -11,6 +33,7 @@ ProgramLook look_through(const Options& options, ProgramFile& file, const ReadOp
     ProgramReader reader(file.bytes, name, read);
     for (bool first = true; reader.next(); first = false) {
       add_window(look.program, reader.window());
+      also(reader.window());
       if (first) look.is_corrected = is_corrected(reader.window());
     }
   } catch (const InputError& error) {
@@ -33,6 +56,45 @@ void settle_forces(const PathInput& input, ForceSource& source) {
     }
     cover.end_pass();
   }
+}
+
+template <typename Work>
+void EarlyForces::keep_error(const Work& work) {
+  try {
+    work();
+  } catch (const InputError&) {
+    unsettled_ = std::current_exception();
+  }
+}
+
+EarlyForces::EarlyForces(const Options& options, const Machine& machine, ForceInput& input)
+    : source_(input.source) {
+  try {
+    input = read_force_input(options);
+  } catch (const InputError&) {
+    unread_ = std::current_exception();
+    return;
+  }
+  if (ignores_no_axis(machine) && !has_logs(source_)) keep_error([&] { cover_.emplace(source_); });
+}
+
+void EarlyForces::add(const Program& window) {
+  if (!cover_ || unsettled_ || !cover_->needs_pass()) return;
+  keep_error([&] {
+    const Toolpath path = build_toolpath(window, one_frame(window, {}), end_);
+    cover_->add(window, path);
+    end_ = path.end;
+  });
+}
+
+void EarlyForces::refuse_unread() const {
+  if (unread_) std::rethrow_exception(unread_);
+}
+
+void EarlyForces::settle(const PathInput& input) {
+  if (unsettled_) std::rethrow_exception(unsettled_);
+  if (!cover_) return settle_forces(input, source_);
+  if (cover_->needs_pass()) cover_->end_pass();
 }
 
 }  // namespace counterflex::cli

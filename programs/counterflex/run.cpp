@@ -122,15 +122,16 @@ std::unique_ptr<Run> prepare_run(const Options& options, Console& console) {
   run->tools = std::move(tools);
   const Machine& on = run->machine.machine;
   run->read = read_options(options, &on, run->tools);
-  ProgramLook look = look_through(options, run->file, run->read, &on);
+  EarlyForces forces(options, on, run->force_input);
+  ProgramLook look =
+      look_through(options, run->file, run->read, &on, [&](const Program& window) { forces.add(window); });
   run->program = std::move(look.program);
   run->is_corrected = look.is_corrected;
   run->tool_models = prepare_tools(on, run->machine.model, run->program.tools);
-  run->force_input = read_force_input(options);
+  forces.refuse_unread();
   run->work = place_work(on, run->machine.model, shown_name(options.machine), run->program);
   run->ignored = uncontrolled_axes(on, run->work.frames);
-  settle_forces({run->file.bytes, run->program.file, run->read, run->work.frames, run->ignored},
-                run->force_input.source);
+  forces.settle({run->file.bytes, run->program.file, run->read, run->work.frames, run->ignored});
   run->options = compensation_options(options, on);
   run->lanes.emplace(run->options.max_correction);
   run->facts = facts_of(options, *run);

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "counterflex/geometry/units.hpp"
 #include "window_stages.hpp"
 
@@ -24,10 +26,16 @@ std::optional<Failure> tolerance_failure(const Job& job, const std::vector<Waypo
 
 std::optional<Failure> decimals_failure(const Program& program, const Toolpath& path,
                                         const CompensationOptions& options) {
+  std::optional<std::pair<LengthUnit, int>> last;  // digits that have been found to be enough
   for (const Segment& segment : path.segments) {
     const Move& move = program.moves[segment.move];
+    const Decimals decimals = decimals_of(move, options.write);
+    const std::pair digits{move.unit,
+                           std::min({decimals.end[0], decimals.end[1], decimals.end[2], decimals.inserted})};
+    if (last == digits) continue;
     if (rounding_allowance(move, options.write) >= options.tolerance)
       return few_decimals_failure(move, options);
+    last = digits;
   }
   return std::nullopt;
 }

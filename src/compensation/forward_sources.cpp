@@ -25,8 +25,9 @@ class SourceBatch {
   }
 
   // The deviation under `stage` of a command at the end of every piece.
+  template <class Result>  // Vector6&(Waypoint&)
   void deviations(Vector3 ForwardPlace::*command, bool loaded, const Stage& stage, Start start,
-                  Vector6 Waypoint::*result) {
+                  const Result& result) {
     for (std::size_t i = 0; i < batch_.waypoints.size(); ++i) {
       const ForwardPlace& place = batch_.places[i];
       if (!batch_.waypoints[i].between) ask(i, {place.*command, loaded ? place.load : Load{}, stage, start});
@@ -35,7 +36,7 @@ class SourceBatch {
       Waypoint& w = batch_.waypoints[i];
       w.iterations += actual.iterations;
       if (actual.status == Status::converged)
-        w.*result = deviation(actual.X_MT, batch_.places[i].wanted);
+        result(w) = deviation(actual.X_MT, batch_.places[i].wanted);
       else if (w.status == Status::converged)
         w.status = actual.status;
     });
@@ -55,12 +56,12 @@ class OtherForces {
   OtherForces(WaypointSolver& solver, const ForwardBatch& batch) : questions_(solver, batch), batch_(batch) {}
 
   template <class Wanted>  // bool(const Waypoint&)
-  void solve(double factor, OtherForce Waypoint::*result, const Wanted& wanted) {
+  void solve(double factor, OtherForce Causes::*result, const Wanted& wanted) {
     for (std::size_t i = 0; i < batch_.waypoints.size(); ++i) {
       Waypoint& w = batch_.waypoints[i];
       if (!wanted(w)) continue;
       if (batch_.places[i].load.F.isZero(0))
-        w.*result = {w.after, Status::converged};
+        (*w.causes).*result = {w.after, Status::converged};
       else
         questions_.ask(i, request(i, factor, Start::neighbour));
     }
@@ -87,8 +88,8 @@ class OtherForces {
            size(actual.X_MT.p - place.actual.p) > size(place.actual.p - place.emitted);
   }
 
-  void take(std::size_t i, const ActualSolution& actual, OtherForce Waypoint::*result) {
-    OtherForce& other = batch_.waypoints[i].*result;
+  void take(std::size_t i, const ActualSolution& actual, OtherForce Causes::*result) {
+    OtherForce& other = (*batch_.waypoints[i].causes).*result;
     other = {Vector6::Zero(), actual.status};
     if (actual.status == Status::converged) other.deviation = deviation(actual.X_MT, batch_.places[i].wanted);
   }
@@ -101,39 +102,45 @@ class OtherForces {
 
 void add_before(WaypointSolver& solver, const ForwardBatch& batch) {
   SourceBatch(solver, batch)
-      .deviations(&ForwardPlace::original, true, {}, Start::neighbour, &Waypoint::before);
+      .deviations(&ForwardPlace::original, true, {}, Start::neighbour,
+                  [](Waypoint& w) -> Vector6& { return w.before; });
 }
 
 void add_sources(WaypointSolver& solver, const ForwardBatch& batch) {
   SourceBatch questions(solver, batch);
   const auto ask = [&](Vector3 ForwardPlace::*command, bool loaded, const Stage& stage,
-                       Vector6 Waypoint::*result) {
-    questions.deviations(command, loaded, stage, Start::nominal, result);
+                       Vector6 Causes::*result) {
+    questions.deviations(command, loaded, stage, Start::nominal,
+                         [result](Waypoint& w) -> Vector6& { return (*w.causes).*result; });
   };
-  ask(&ForwardPlace::original, false, {.load = 0, .gravity = 0}, &Waypoint::geometry);
-  ask(&ForwardPlace::original, true, {.errors = 0, .gravity = 0}, &Waypoint::load);
-  ask(&ForwardPlace::emitted, false, {.load = 0}, &Waypoint::air);
+  ask(&ForwardPlace::original, false, {.load = 0, .gravity = 0}, &Causes::geometry);
+  ask(&ForwardPlace::original, true, {.errors = 0, .gravity = 0}, &Causes::load);
+  ask(&ForwardPlace::emitted, false, {.load = 0}, &Causes::air);
   const Stage preloads{.errors = 0, .load = 0, .gravity = 0};
-  ask(&ForwardPlace::original, false, preloads, &Waypoint::superposition);
+  ask(&ForwardPlace::original, false, preloads, &Causes::superposition);
   const bool weighs = has_weight(solver.model().mechanism);
-  if (weighs) ask(&ForwardPlace::original, false, {.errors = 0, .load = 0}, &Waypoint::gravity);
+  if (weighs) ask(&ForwardPlace::original, false, {.errors = 0, .load = 0}, &Causes::gravity);
   for (Waypoint& w : batch.waypoints) {
     if (w.between) continue;
-    const Vector6 unloaded_perfect = w.superposition;
-    w.superposition = w.geometry + w.load - unloaded_perfect;
-    if (weighs) w.superposition += w.gravity - unloaded_perfect;
+    Causes& c = *w.causes;
+    const Vector6 unloaded_perfect = c.superposition;
+    c.superposition = c.geometry + c.load - unloaded_perfect;
+    if (weighs) c.superposition += c.gravity - unloaded_perfect;
   }
 }
 
 // Between ends, where only the largest deviation counts, the lower force is taken to do the opposite of the
 // higher one: half of the time for what differs in second order.
 void add_other_forces(WaypointSolver& solver, const ForwardBatch& batch) {
+  for (Waypoint& w : batch.waypoints) w.causes.emplace();
   OtherForces forces(solver, batch);
-  forces.solve(1 + force_change, &Waypoint::higher, [](const Waypoint&) { return true; });
-  const auto mirrors = [](const Waypoint& w) { return w.between && w.higher.status == Status::converged; };
+  forces.solve(1 + force_change, &Causes::higher, [](const Waypoint&) { return true; });
+  const auto mirrors = [](const Waypoint& w) {
+    return w.between && w.causes->higher.status == Status::converged;
+  };
   for (Waypoint& w : batch.waypoints)
-    if (mirrors(w)) w.lower.deviation = 2 * w.after - w.higher.deviation;
-  forces.solve(1 - force_change, &Waypoint::lower, [&](const Waypoint& w) { return !mirrors(w); });
+    if (mirrors(w)) w.causes->lower.deviation = 2 * w.after - w.causes->higher.deviation;
+  forces.solve(1 - force_change, &Causes::lower, [&](const Waypoint& w) { return !mirrors(w); });
 }
 
 }  // namespace counterflex

@@ -90,25 +90,29 @@ Matrix3 AxesAlong::tool_at(double fraction) const {
 }
 
 ForceAxes AxesAlong::at(double fraction, double towards) const {
+  if (frame_ == ForceFrame::machine) return {};
+  if (frame_ == ForceFrame::work) return {R_MW_, false};
   const Matrix3 R_MT = tool_at(fraction);
   const ForceAxes axes = axes_of(frame_, direction_at(segment_.wanted, fraction), R_MW_, R_MT);
   if (!segment_.wanted.arc || !axes.only_z) return axes;
   return axes_of(frame_, direction_at(segment_.wanted, fraction + beside * towards), R_MW_, R_MT);
 }
 
-std::vector<ForcePiece> turned_pieces(const ForcePiece& piece, const Segment& segment,
-                                      const AxesAlong& axes) {
+void turn_pieces(const ForcePiece& piece, const Segment& segment, const AxesAlong& axes,
+                 std::vector<ForcePiece>& pieces) {
   const Turning turning(piece, segment, axes);
-  if (!axes.turn())
-    return {{piece.s0, piece.s1, turning.after(piece.s0), turning.before(piece.s1), Vector6::Zero()}};
+  pieces.clear();
+  if (!axes.turn()) {
+    pieces.push_back(
+        {piece.s0, piece.s1, turning.after(piece.s0), turning.before(piece.s1), Vector6::Zero()});
+    return;
+  }
   const double part = (piece.s1 - piece.s0) / (segment.s_end - segment.s_start);
   const int count = 1 + static_cast<int>(part * axes.pieces());
-  std::vector<ForcePiece> pieces;
   const auto limit = [&](int i) {
     return i == count ? piece.s1 : piece.s0 + (piece.s1 - piece.s0) * i / count;
   };
   for (int i = 0; i < count; ++i) turning.halve(limit(i), limit(i + 1), pieces);
-  return pieces;
 }
 
 }  // namespace counterflex

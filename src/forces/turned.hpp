@@ -36,8 +36,9 @@ class AxesAlong {
 /// `piece` of `segment`, given in the frame of `axes`, in machine axes: one piece, or where the axes turn as
 /// many as keep each linear to within 1e-4 of the wrench. Where they flip, at the place of an arc at which
 /// the feed is parallel to the tool, the wrench steps. Pieces that go on smoothly are marked so, the first
-/// one never.
-std::vector<ForcePiece> turned_pieces(const ForcePiece& piece, const Segment& segment, const AxesAlong& axes);
+/// one never. They come into `pieces`, which loses what it held.
+void turn_pieces(const ForcePiece& piece, const Segment& segment, const AxesAlong& axes,
+                 std::vector<ForcePiece>& pieces);
 
 /// Whether two wrenches that meet differ by no more than what rounded coordinates turn an arc's tangent.
 bool nearly_same(const Vector6& A, const Vector6& B);

@@ -86,11 +86,10 @@ Vector6 in_machine_axes(const ForceAxes& axes, const Vector6& F) {
   return F_M;
 }
 
-std::vector<ForcePiece> profile_pieces(const ForceProfile& profile, const KeySpan& keys, double s0,
-                                       double s1) {
+void append_profile_pieces(const ForceProfile& profile, const KeySpan& keys, double s0, double s1,
+                           std::vector<ForcePiece>& pieces) {
   const double length = s1 - s0, range = keys.end - keys.start;
   const double margin = range * std::min(shortest_piece / length, 0.5);
-  std::vector<ForcePiece> pieces;
   const auto add = [&](double from, double to, double at, double end) {
     const std::size_t row = row_at(profile, (from + to) / 2);
     pieces.push_back({at, end, value(profile, row, from), value(profile, row, to), Vector6::Zero()});
@@ -106,7 +105,6 @@ std::vector<ForcePiece> profile_pieces(const ForceProfile& profile, const KeySpa
     at = s;
   }
   add(from, keys.end, at, s1);
-  return pieces;
 }
 
 Vector6 slope(const ForcePiece& piece) {
@@ -128,13 +126,6 @@ void append(const ForcePiece& piece, std::size_t first, std::vector<ForcePiece>&
   pieces.push_back(piece);
 }
 
-/// What a stretch is given, in its own frame, or why nothing.
-struct Unblended::Given {
-  std::vector<ForcePiece> pieces;
-  ForceFrame frame = ForceFrame::machine;
-  std::string why;  ///< empty: a force is given, though it may be zero
-};
-
 Unblended::Unblended(const ForceSource& source, const Program& program, const Toolpath& path,
                      const std::vector<Matrix3>& R_MT, std::optional<long>& block_number)
     : source_(source),
@@ -150,29 +141,31 @@ void Unblended::append_to(std::size_t i, std::size_t first_piece, std::vector<Fo
   const Segment& segment = path_.segments[i];
   std::string why;
   bool forced = false, lost = false;
-  const auto take = [&](const Given& given, const AxesAlong& axes, bool first) {
-    const bool only_z = given.frame == ForceFrame::feed && axes.at(0.5, 1).only_z;
-    std::string why_none = given.why;
-    if (why_none.empty() && is_zero(given)) {
+  const auto take = [&](const AxesAlong& axes, bool first) {
+    const bool only_z = given_.frame == ForceFrame::feed && axes.at(0.5, 1).only_z;
+    std::string why_none = given_.why;
+    if (why_none.empty() && is_zero(given_)) {
       why_none = given_zero;
-    } else if (only_z && std::any_of(given.pieces.begin(), given.pieces.end(), loses)) {
+    } else if (only_z && std::any_of(given_.pieces.begin(), given_.pieces.end(), loses)) {
       lost = true;
-      if (std::none_of(given.pieces.begin(), given.pieces.end(), keeps)) why_none = no_lateral_direction;
+      if (std::none_of(given_.pieces.begin(), given_.pieces.end(), keeps)) why_none = no_lateral_direction;
     }
     forced = forced || why_none.empty();
     if (why.empty()) why = why_none;
-    append_turned(given, segment, axes, first_piece, first, pieces);
+    append_turned(segment, axes, first_piece, first, pieces);
   };
   const auto axes_in = [&](ForceFrame frame) {
     return AxesAlong(frame, segment, path_.frames[segment.frame].X_MW.R, orientations(i));
   };
   if (in_air(source_, program_.moves[segment.move])) {
-    take({{{segment.s_start, segment.s_end}}, ForceFrame::machine, "it is wholly above --air-above"},
-         axes_in(ForceFrame::machine), true);
+    give_same(segment.s_start, segment.s_end, Vector6::Zero(), ForceFrame::machine);
+    given_.why = "it is wholly above --air-above";
+    take(axes_in(ForceFrame::machine), true);
   } else {
     for (const Stretch& stretch : coverage_.stretches(i)) {
       const AxesAlong axes = axes_in(stretch.rule != nullptr ? frame_of(*stretch.rule) : ForceFrame::machine);
-      take(given(stretch, i, axes), axes, stretch.from == 0);
+      give(stretch, i, axes);
+      take(axes, stretch.from == 0);
     }
   }
   if (lost)
@@ -187,33 +180,44 @@ bool Unblended::is_zero(const Given& given) const {
   return source_.scale == 0 || std::all_of(given.pieces.begin(), given.pieces.end(), zero);
 }
 
-Unblended::Given Unblended::given(const Stretch& stretch, std::size_t i, const AxesAlong& axes) const {
+void Unblended::give_same(double s0, double s1, const Vector6& F, ForceFrame frame) {
+  given_.pieces.clear();
+  given_.pieces.push_back({s0, s1, F, F, Vector6::Zero()});
+  given_.frame = frame;
+  given_.why.clear();
+}
+
+void Unblended::give(const Stretch& stretch, std::size_t i, const AxesAlong& axes) {
   const Segment& segment = path_.segments[i];
   const double length = segment.s_end - segment.s_start;
   const double s0 = segment.s_start + stretch.from * length,
                s1 = stretch.to == 1 ? segment.s_end : segment.s_start + stretch.to * length;
-  const auto same = [&](const Vector6& F) {
-    return std::vector<ForcePiece>{{s0, s1, F, F, Vector6::Zero()}};
-  };
-  if (stretch.comment) return {same(*program_.moves[segment.move].force), ForceFrame::machine, ""};
-  if (stretch.rule == nullptr)
-    return {same(Vector6::Zero()), ForceFrame::machine, "no force is given for it"};
-  const ForceRule& rule = *stretch.rule;
-  if (const auto* force = std::get_if<ConstantForce>(&rule.content))
-    return {same(force->F), force->frame, ""};
-  if (const auto* response = std::get_if<CutResponse>(&rule.content)) return cut(*response, s0, s1, i, axes);
-  const auto& profile = std::get<ForceProfile>(rule.content);
-  const KeySpan& keys = coverage_.keys(rule, i);
+  const ForceRule* rule = stretch.rule;
+  if (stretch.comment) return give_same(s0, s1, *program_.moves[segment.move].force, ForceFrame::machine);
+  if (rule == nullptr) {
+    give_same(s0, s1, Vector6::Zero(), ForceFrame::machine);
+    given_.why = "no force is given for it";
+    return;
+  }
+  if (const auto* force = std::get_if<ConstantForce>(&rule->content))
+    return give_same(s0, s1, force->F, force->frame);
+  if (const auto* response = std::get_if<CutResponse>(&rule->content))
+    return give_cut(*response, s0, s1, i, axes);
+  const auto& profile = std::get<ForceProfile>(rule->content);
+  const KeySpan& keys = coverage_.keys(*rule, i);
   const double range = keys.end - keys.start;
   const KeySpan here{stretch.from == 0 ? keys.start : keys.start + stretch.from * range,
                      stretch.to == 1 ? keys.end : keys.start + stretch.to * range};
-  return {profile_pieces(profile, here, s0, s1), profile.frame, ""};
+  given_.pieces.clear();
+  given_.frame = profile.frame;
+  given_.why.clear();
+  append_profile_pieces(profile, here, s0, s1, given_.pieces);
 }
 
 // Where the slope changes along the way, as on an upright arc, the force is linear between places close to
 // each other.
-Unblended::Given Unblended::cut(const CutResponse& response, double s0, double s1, std::size_t i,
-                                const AxesAlong& axes) const {
+void Unblended::give_cut(const CutResponse& response, double s0, double s1, std::size_t i,
+                         const AxesAlong& axes) {
   const Segment& segment = path_.segments[i];
   const double rpm = program_.moves[segment.move].spindle_rpm;
   const auto slope = [&](double s) {
@@ -224,22 +228,24 @@ Unblended::Given Unblended::cut(const CutResponse& response, double s0, double s
   const double middle = slope((s0 + s1) / 2);
   const bool even = std::abs(slope(s0) - middle) < same_slope && std::abs(slope(s1) - middle) < same_slope;
   const int parts = even ? 1 : slopes_per_piece * axes.pieces();
-  Given given{{}, ForceFrame::feed, force((s0 + s1) / 2).why};
+  given_.pieces.clear();
+  given_.frame = ForceFrame::feed;
+  given_.why = force((s0 + s1) / 2).why;
   for (int k = 0; k < parts; ++k) {
     const auto at = [&](int end) { return end == parts ? s1 : s0 + (s1 - s0) * end / parts; };
     const CutForce a = force(even ? (s0 + s1) / 2 : at(k)), b = even ? a : force(at(k + 1));
-    if (a.why.empty() || b.why.empty()) given.why.clear();
-    given.pieces.push_back({at(k), at(k + 1), a.F, b.F, Vector6::Zero(), k > 0});
+    if (a.why.empty() || b.why.empty()) given_.why.clear();
+    given_.pieces.push_back({at(k), at(k + 1), a.F, b.F, Vector6::Zero(), k > 0});
   }
-  return given;
 }
 
-void Unblended::append_turned(const Given& given, const Segment& segment, const AxesAlong& axes,
-                              std::size_t first_piece, bool first, std::vector<ForcePiece>& pieces) const {
-  const bool turns = given.frame == ForceFrame::feed || given.frame == ForceFrame::tool;
-  for (const ForcePiece& part : given.pieces) {
+void Unblended::append_turned(const Segment& segment, const AxesAlong& axes, std::size_t first_piece,
+                              bool first, std::vector<ForcePiece>& pieces) {
+  const bool turns = given_.frame == ForceFrame::feed || given_.frame == ForceFrame::tool;
+  for (const ForcePiece& part : given_.pieces) {
     bool begins = true;
-    for (ForcePiece piece : turned_pieces(part, segment, axes)) {
+    turn_pieces(part, segment, axes, turned_);
+    for (ForcePiece& piece : turned_) {
       piece.F0 *= source_.scale;
       piece.F1 *= source_.scale;
       if (begins) piece.goes_on = part.goes_on;

@@ -26,9 +26,10 @@ ForceAxes axes_of(ForceFrame frame, const Vector3& feed_M, const Matrix3& R_MW, 
 /// F in machine axes.
 Vector6 in_machine_axes(const ForceAxes& axes, const Vector6& F);
 
-/// The profile over keys, in the profile's frame: pieces on which it is linear, of path lengths [s0, s1].
-std::vector<ForcePiece> profile_pieces(const ForceProfile& profile, const KeySpan& keys, double s0,
-                                       double s1);
+/// Appends the profile over keys, in the profile's frame: pieces on which it is linear, of path lengths
+/// [s0, s1].
+void append_profile_pieces(const ForceProfile& profile, const KeySpan& keys, double s0, double s1,
+                           std::vector<ForcePiece>& pieces);
 
 /// How the wrench grows along a piece (N/m, N), and what it is at path length s.
 Vector6 slope(const ForcePiece& piece);
@@ -57,19 +58,27 @@ class Unblended {
                  ForceRemarks& remarks);
 
  private:
-  struct Given;
-  Given given(const Stretch& stretch, std::size_t i, const AxesAlong& axes) const;
-  Given cut(const CutResponse& response, double s0, double s1, std::size_t i, const AxesAlong& axes) const;
+  /// What a stretch is given, in its own frame, or why nothing.
+  struct Given {
+    std::vector<ForcePiece> pieces{};
+    ForceFrame frame = ForceFrame::machine;
+    std::string why{};  ///< empty: a force is given, though it may be zero
+  };
+  void give(const Stretch& stretch, std::size_t i, const AxesAlong& axes);
+  void give_same(double s0, double s1, const Vector6& F, ForceFrame frame);
+  void give_cut(const CutResponse& response, double s0, double s1, std::size_t i, const AxesAlong& axes);
   bool is_zero(const Given& given) const;
   std::span<const Matrix3> orientations(std::size_t i) const;  ///< of the tool on segment i
-  void append_turned(const Given& given, const Segment& segment, const AxesAlong& axes,
-                     std::size_t first_piece, bool first, std::vector<ForcePiece>& pieces) const;
+  void append_turned(const Segment& segment, const AxesAlong& axes, std::size_t first_piece, bool first,
+                     std::vector<ForcePiece>& pieces);
 
   const ForceSource& source_;
   const Program& program_;
   const Toolpath& path_;
   const std::vector<Matrix3>& R_MT_;
   Coverage coverage_;
+  Given given_;                     // of the stretch that is looked at
+  std::vector<ForcePiece> turned_;  // of one of its pieces
 };
 
 }  // namespace counterflex

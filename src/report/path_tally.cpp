@@ -110,8 +110,10 @@ void PathTally::add_cutting(const Waypoint& w) {
   WorstRow& row = lines_.row(w.line);
   row.after_mm = std::max(row.after_mm, w.after.head<3>().norm() / mm);
   piece_weight_ += w.weight;
-  add_other(m_.higher, w, w.higher, w.weight);
-  add_other(m_.lower, w, w.lower, w.weight);
+  if (w.causes) {
+    add_other(m_.higher, w, w.causes->higher, w.weight);
+    add_other(m_.lower, w, w.causes->lower, w.weight);
+  }
   if (!w.between) add_end(w);
 }
 
@@ -143,14 +145,18 @@ void PathTally::finish_end() {
   end_.reset();
 }
 
+void PathTally::measure_causes(const Waypoint& w, const Causes& causes, double weight) {
+  m_.geometry.add(sample(w, causes.geometry, weight));
+  m_.load.add(sample(w, causes.load, weight));
+  m_.gravity.add(sample(w, causes.gravity, weight));
+  m_.superposition.add(sample(w, causes.superposition, weight));
+  m_.without_force.add(sample(w, causes.air, weight));
+  keep(m_.air, causes.air.head<3>().norm(), w.line);
+}
+
 void PathTally::measure_end(const Waypoint& w, double weight) {
   m_.before.add(sample(w, w.before, weight));
-  m_.geometry.add(sample(w, w.geometry, weight));
-  m_.load.add(sample(w, w.load, weight));
-  m_.gravity.add(sample(w, w.gravity, weight));
-  m_.superposition.add(sample(w, w.superposition, weight));
-  m_.without_force.add(sample(w, w.air, weight));
-  keep(m_.air, w.air.head<3>().norm(), w.line);
+  if (w.causes) measure_causes(w, *w.causes, weight);
   WorstRow& row = lines_.row(w.line);
   row.before_mm = std::max(row.before_mm, w.before.head<3>().norm() / mm);
 }

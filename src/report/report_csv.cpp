@@ -1,9 +1,9 @@
 #include <array>
 
 #include "counterflex/compensation/waypoint.hpp"
-#include "counterflex/files/numbers.hpp"
 #include "counterflex/geometry/units.hpp"
 #include "counterflex/report/formats.hpp"
+#include "fixed_digits.hpp"
 
 namespace counterflex {
 
@@ -16,7 +16,7 @@ constexpr std::array prefixes = {"before_",        "geometry_", "load_", "gravit
 
 void add(std::string& row, double value, int digits) {
   row += ',';
-  row += format_fixed(value, digits);
+  append_fixed(row, value, digits);
 }
 
 void add_deviation(std::string& row, const Vector6& d, bool known) {
@@ -31,18 +31,19 @@ void add_deviation(std::string& row, const Vector6& d, bool known) {
 // A waypoint that was not solved has no deviations; zeros would look like perfection.
 void add_row(std::string& text, std::size_t index, const Waypoint& w, const CsvColumns& columns) {
   const bool solved = w.status == Status::converged;
-  const bool attributed = solved && columns.attribution;
+  const bool attributed = solved && columns.attribution && w.causes;
+  const Causes none, &causes = attributed ? *w.causes : none;
   text += std::to_string(index) + ',' + std::to_string(w.line) + (w.cutting ? ",1" : ",0");
   add(text, w.s / mm, path_digits);
   for (int i = 0; i < 3; ++i) add(text, w.p_MT[i] / mm, path_digits);
   for (int i = 0; i < 6; ++i) add(text, w.wrench[i], wrench_digits);
   add_deviation(text, w.before, solved);
-  add_deviation(text, w.geometry, attributed);
-  add_deviation(text, w.load, attributed);
-  add_deviation(text, w.gravity, attributed);
-  add_deviation(text, w.superposition, attributed);
+  add_deviation(text, causes.geometry, attributed);
+  add_deviation(text, causes.load, attributed);
+  add_deviation(text, causes.gravity, attributed);
+  add_deviation(text, causes.superposition, attributed);
   add_deviation(text, w.after, solved && columns.corrected);
-  add_deviation(text, w.air, attributed && columns.corrected);
+  add_deviation(text, causes.air, attributed && columns.corrected);
   add_deviation(text, w.correction, columns.corrected);
   text.append(",").append(to_string(w.status)).append(",").append(std::to_string(w.iterations)).append("\n");
 }

@@ -100,6 +100,8 @@ std::string source_row(const char* label, const DeviationStatistics& s) {
 }
 
 std::string sources_text(const RunReport& report, const Ink& ink) {
+  if (report.before && !report.facts.attribution)
+    return line_break() + "Its causes, and what more, less or no force does to it: with --report or --json\n";
   if (!report.sources) return "";
   const Sources& sources = *report.sources;
   std::string text = line_break() + ink.bold("Where it comes from") + ", largest values in mm\n";

@@ -11,11 +11,11 @@ using namespace counterflex::test;
 
 namespace {
 
-const std::string text = "G21 G90 G54\nG0 X0 Y0 Z5\nG1 Z0 F100\nX10\nM5\nM30\n";
+const std::string spindle_stop = "G21 G90 G54\nG0 X0 Y0 Z5\nG1 Z0 F100\nX10\nM5\nM30\n";
 
-/// The exit, line and words with which `changed` is refused as the corrected form of `text`.
+/// The exit, line and words with which `changed` is refused as the corrected form of `spindle_stop`.
 std::string refusal(const std::string& changed) {
-  const Shop shop({.machine = load_machine(orthoglide_perfect), .text = text});
+  const Shop shop({.machine = load_machine(orthoglide_perfect), .text = spindle_stop});
   const Job job = shop.job();
   try {
     const Program program = read_program(changed, "changed.ngc", {});
@@ -29,15 +29,15 @@ std::string refusal(const std::string& changed) {
 }
 
 std::string replaced(const std::string& what, const std::string& by) {
-  std::string changed = text;
+  std::string changed = spindle_stop;
   return changed.replace(changed.find(what), what.size(), by);
 }
 
 }  // namespace
 
 TEST_CASE("a program is its own corrected form where nothing has to be corrected") {
-  CHECK(refusal(text).empty());
-  CHECK(refusal("(COUNTERFLEX 1 VERSION 0.1.0)\n" + text).empty());
+  CHECK(refusal(spindle_stop).empty());
+  CHECK(refusal("(COUNTERFLEX 1 VERSION 0.1.0)\n" + spindle_stop).empty());
 }
 
 TEST_CASE("moves that leave the path and come back are refused") {

@@ -27,8 +27,10 @@ Vector6 cold_deviation(const Shop& shop, const Vector3& target, const Vector3& w
 
 bool same(const Waypoint& a, const Waypoint& b) {
   return a.segment == b.segment && a.fraction == b.fraction && a.after == b.after && a.before == b.before &&
-         a.correction == b.correction && a.air == b.air && a.higher.deviation == b.higher.deviation &&
-         a.lower.deviation == b.lower.deviation && a.iterations == b.iterations && a.weight == b.weight;
+         a.correction == b.correction && a.causes->air == b.causes->air &&
+         a.causes->higher.deviation == b.causes->higher.deviation &&
+         a.causes->lower.deviation == b.causes->lower.deviation && a.iterations == b.iterations &&
+         a.weight == b.weight;
 }
 
 }  // namespace
@@ -49,16 +51,16 @@ TEST_CASE("geometry, load, superposition and air are those of independent solves
       };
       CHECK(near(w.before, w.p_MT, w.wrench, {}));
       CHECK(near(w.after, emitted, w.wrench, {}));
-      CHECK(near(w.geometry, w.p_MT, Vector6::Zero(), {1, 0, 1, 0}));
-      CHECK(near(w.load, w.p_MT, w.wrench, {0, 1, 1, 0}));
-      CHECK(near(w.air, emitted, Vector6::Zero(), {1, 0, 1, 1}));
-      REQUIRE(w.higher.status == Status::converged);
-      REQUIRE(w.lower.status == Status::converged);
-      CHECK(near(w.higher.deviation, emitted, 1.3 * w.wrench, {}));
-      CHECK(near(w.lower.deviation, emitted, 0.7 * w.wrench, {}));
-      CHECK(w.gravity == Vector6(Vector6::Zero()));
-      CHECK((w.superposition - w.geometry - w.load).norm() < 1e-12);
-      largest = std::max(largest, (w.superposition - w.before).head<3>().norm());
+      CHECK(near(w.causes->geometry, w.p_MT, Vector6::Zero(), {1, 0, 1, 0}));
+      CHECK(near(w.causes->load, w.p_MT, w.wrench, {0, 1, 1, 0}));
+      CHECK(near(w.causes->air, emitted, Vector6::Zero(), {1, 0, 1, 1}));
+      REQUIRE(w.causes->higher.status == Status::converged);
+      REQUIRE(w.causes->lower.status == Status::converged);
+      CHECK(near(w.causes->higher.deviation, emitted, 1.3 * w.wrench, {}));
+      CHECK(near(w.causes->lower.deviation, emitted, 0.7 * w.wrench, {}));
+      CHECK(w.causes->gravity == Vector6(Vector6::Zero()));
+      CHECK((w.causes->superposition - w.causes->geometry - w.causes->load).norm() < 1e-12);
+      largest = std::max(largest, (w.causes->superposition - w.before).head<3>().norm());
     }
     // Errors and loads add up but for a little, and not exactly.
     CHECK(largest > 1e-9);
@@ -79,14 +81,15 @@ TEST_CASE("weights are a source of their own, and the three add up to all acting
     };
     const Vector6 none = Vector6::Zero(), preloads = cold(w.p_MT, none, {0, 0, 1, 0});
     const auto near = [](const Vector6& a, const Vector6& b) { return (a - b).head<3>().norm() < 1e-9; };
-    CHECK(near(w.geometry, cold(w.p_MT, none, {1, 0, 1, 0})));
-    CHECK(near(w.load, cold(w.p_MT, w.wrench, {0, 1, 1, 0})));
-    CHECK(near(w.gravity, cold(w.p_MT, none, {0, 0, 1, 1})));
-    CHECK(near(w.superposition, w.geometry + w.load + w.gravity - 2 * preloads));
-    CHECK(near(w.air, cold(w.p_MT + w.correction.head<3>(), none, {})));
-    CHECK(w.gravity.head<3>().norm() > 10e-6);
-    const double miss = (w.superposition - w.before).head<3>().norm();
-    CHECK(miss < 0.2 * w.gravity.head<3>().norm());
+    CHECK(near(w.causes->geometry, cold(w.p_MT, none, {1, 0, 1, 0})));
+    CHECK(near(w.causes->load, cold(w.p_MT, w.wrench, {0, 1, 1, 0})));
+    CHECK(near(w.causes->gravity, cold(w.p_MT, none, {0, 0, 1, 1})));
+    CHECK(near(w.causes->superposition,
+               w.causes->geometry + w.causes->load + w.causes->gravity - 2 * preloads));
+    CHECK(near(w.causes->air, cold(w.p_MT + w.correction.head<3>(), none, {})));
+    CHECK(w.causes->gravity.head<3>().norm() > 10e-6);
+    const double miss = (w.causes->superposition - w.before).head<3>().norm();
+    CHECK(miss < 0.2 * w.causes->gravity.head<3>().norm());
     largest = std::max(largest, miss);
   }
   CHECK(largest > 1e-9);
@@ -109,10 +112,13 @@ TEST_CASE("a force 30 % higher or lower leaves 30 % of what the force does, to f
   int under_force = 0;
   for (const Waypoint& w : compensated(shop, true).waypoints) {
     if (w.between) continue;
-    const Vector6 share = 0.3 * w.load;
-    CHECK((w.higher.deviation - w.after - share).head<3>().norm() <= 0.01 * share.head<3>().norm() + 1e-12);
-    CHECK((w.lower.deviation - w.after + share).head<3>().norm() <= 0.01 * share.head<3>().norm() + 1e-12);
-    CHECK((w.wrench.isZero(0) ? w.higher.deviation == w.after : w.load.head<3>().norm() > 0.1e-6));
+    const Vector6 share = 0.3 * w.causes->load;
+    CHECK((w.causes->higher.deviation - w.after - share).head<3>().norm() <=
+          0.01 * share.head<3>().norm() + 1e-12);
+    CHECK((w.causes->lower.deviation - w.after + share).head<3>().norm() <=
+          0.01 * share.head<3>().norm() + 1e-12);
+    CHECK((w.wrench.isZero(0) ? w.causes->higher.deviation == w.after
+                              : w.causes->load.head<3>().norm() > 0.1e-6));
     under_force += !w.wrench.isZero(0);
   }
   CHECK(under_force > 2);
@@ -131,8 +137,8 @@ TEST_CASE(
       const Vector3 target = point_at(piece.curve, (w.fraction - piece.u0) / (piece.u1 - piece.u0));
       const Vector3 higher = cold_tip(shop, target, 1.3 * w.wrench) - w.p_MT;
       const Vector3 lower = cold_tip(shop, target, 0.7 * w.wrench) - w.p_MT;
-      CHECK((w.higher.deviation.head<3>() - higher).norm() < 1e-9);
-      CHECK((w.lower.deviation.head<3>() - lower).norm() < 0.05 * lower.norm());
+      CHECK((w.causes->higher.deviation.head<3>() - higher).norm() < 1e-9);
+      CHECK((w.causes->lower.deviation.head<3>() - lower).norm() < 0.05 * lower.norm());
       ++between;
     }
   }
@@ -147,8 +153,8 @@ TEST_CASE("a force under which the machine would give way is no failure while it
   order.force = constant_force((Vector6() << -4500, 0, 0, 0, 0, 0).finished());
   const Compensation result = compensated(Shop(order), true);
   const Waypoint& last = result.waypoints.back();
-  CHECK(last.higher.status == Status::unstable);
-  CHECK(last.lower.status == Status::converged);
+  CHECK(last.causes->higher.status == Status::unstable);
+  CHECK(last.causes->lower.status == Status::converged);
   order.force = constant_force((Vector6() << -5850, 0, 0, 0, 0, 0).finished());
   CHECK(Shop(order).run().failure);
 }

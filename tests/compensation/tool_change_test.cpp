@@ -116,7 +116,8 @@ TEST_CASE("with several tools, too, the bytes do not depend on the number of thr
   bool same = true;
   for (std::size_t i = 0; i < one.waypoints.size(); ++i)
     same = same && one.waypoints[i].after == three.waypoints[i].after &&
-           one.waypoints[i].load == three.waypoints[i].load && one.waypoints[i].air == three.waypoints[i].air;
+           one.waypoints[i].causes->load == three.waypoints[i].causes->load &&
+           one.waypoints[i].causes->air == three.waypoints[i].causes->air;
   CHECK(same);
 }
 

@@ -2,8 +2,7 @@
 #include <fmt/format.h>
 
 #include "compensation/gantry.hpp"
-#include "compensation/shop.hpp"
-#include "counterflex/compensation/job_windows.hpp"
+#include "compensation/window_run.hpp"
 #include "counterflex/geometry/rotation.hpp"
 #include "counterflex/machine/tool.hpp"
 
@@ -11,47 +10,6 @@ using namespace counterflex;
 using namespace counterflex::test;
 
 namespace {
-
-/// What comes of a run whose windows have at least as many moves.
-struct WindowRun {
-  std::string text;
-  std::vector<Waypoint> waypoints;
-  std::vector<LeftAlone> left_alone;
-  std::optional<Failure> failure;
-  std::size_t windows = 0, inserted = 0, corrected = 0;
-  double largest = 0;
-};
-
-WindowRun in_windows(const Order& order, std::size_t least_moves, const WriteOptions& write = {}) {
-  const Model model = prepare(order.machine);
-  FileReader bytes = FileReader::of_bytes(order.text);
-  const ReadOptions read;
-  ProgramReader reader(bytes, "part.ngc", read, least_moves);
-  const std::vector<WorkFrame> frames(10, {{}, order.X_MW, order.datum_shift});
-  CompensationOptions options;
-  options.tolerance = order.tolerance;
-  options.max_correction = order.max_correction;
-  options.blend = order.force.blend;
-  options.threads = order.threads;
-  options.write = write;
-  const ToolModels tools =
-      prepare_tools(order.machine, model, overview_of(read_program(order.text, "part.ngc", read)).tools);
-  JobWindows windows({model, frames, order.ignored, order.force, options, read, &tools}, reader);
-  Compensator compensator(write, TextReader(reader), false);
-  WindowRun run;
-  while (!run.failure && windows.next()) {
-    const Compensation done = compensator.next(windows.job());
-    run.text += done.text;
-    run.waypoints.insert(run.waypoints.end(), done.waypoints.begin(), done.waypoints.end());
-    run.left_alone.insert(run.left_alone.end(), done.left_alone.begin(), done.left_alone.end());
-    run.failure = done.failure;
-    run.inserted += done.counts.inserted_blocks;
-    run.corrected += done.corrected_moves;
-    run.largest = std::max(run.largest, done.largest_correction);
-    ++run.windows;
-  }
-  return run;
-}
 
 /// Which short lines are sampled inside depends on those that are solved with them.
 std::vector<Waypoint> ends_among(const std::vector<Waypoint>& waypoints) {

@@ -355,7 +355,7 @@ TEST_CASE("the summary of a prediction shows no residual") {
 TEST_CASE("where more force makes the machine give way, the summary, a warning and the JSON say so") {
   const MadeUpRun run;
   Compensation c = small_compensation();
-  c.waypoints[0].higher.status = Status::unstable;
+  c.waypoints[0].causes->higher.status = Status::unstable;
   const RunReport report = compensated(run, c);
   const std::string text = summary_text(report, false);
   CAPTURE(text);
@@ -374,7 +374,7 @@ TEST_CASE("a machine with masses has a fifth row of sources") {
   run.machine.chains.push_back({"arm", {PointMass{40, Vector3::Zero()}}});
   run.machine.gravity.g = {0, 0, -9.81};
   Compensation c = small_compensation();
-  c.waypoints[0].gravity.head<3>() = Vector3(0, 0, -0.02) * mm;
+  c.waypoints[0].causes->gravity.head<3>() = Vector3(0, 0, -0.02) * mm;
   const RunReport report = compensated(run, c);
   const std::string text = summary_text(report, false);
   CAPTURE(text);
@@ -409,6 +409,19 @@ TEST_CASE("the summary of a prediction says what more and less force do to the p
   CHECK(contains(text, "With the force 30 % higher (wear, override) the program is off by up to"));
   CHECK(
       contains(text, "Without the force (dry run, spring pass, broken insert) the program is off by up to"));
+}
+
+TEST_CASE("a summary without causes says how to get them") {
+  MadeUpRun run;
+  const char* const how =
+      "\nIts causes, and what more, less or no force does to it: with --report or --json\n";
+  CHECK_FALSE(contains(summary_text(compensated(run, small_compensation()), false), how));
+  run.facts.attribution = false;
+  const std::string text = summary_text(compensated(run, small_compensation()), false);
+  CAPTURE(text);
+  CHECK(contains(text, how));
+  CHECK_FALSE(contains(text, "Where it comes from"));
+  CHECK_FALSE(contains(text, "30 %"));
 }
 
 TEST_CASE("the summary of a failure says what failed and shows no numbers that are not known") {

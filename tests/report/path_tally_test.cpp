@@ -59,7 +59,7 @@ TEST_CASE("segments whose numbers begin anew with a window are counted apart") {
 TEST_CASE("the path without the force is that of air, that under more of it is known where it was solved") {
   std::vector<Waypoint> path = {cut(0, 3, 5, Vector3(0.3, 0, 0)), cut(1, 4, 5, Vector3(0.5, 0, 0)),
                                 cut(2, 6, 5, Vector3(0.1, 0, 0))};
-  path[1].higher.status = path[2].higher.status = Status::unstable;
+  path[1].causes->higher.status = path[2].causes->higher.status = Status::unstable;
   const Measures m = tally_of(path).measures();
   CHECK(m.without_force.statistics().max_mm == m.air.mm);
   CHECK(m.without_force.statistics().max_line == m.air.line);
@@ -73,7 +73,7 @@ TEST_CASE("the path without the force is that of air, that under more of it is k
 
 TEST_CASE("more and less force are known between the ends of pieces, and weigh there as after does") {
   std::vector<Waypoint> path = {cut(1, 4, 5, Vector3(0.9, 0, 0)), cut(1, 4, 5, Vector3(0.3, 0, 0))};
-  for (Waypoint& w : path) w.after = w.higher.deviation;
+  for (Waypoint& w : path) w.after = w.causes->higher.deviation;
   path[0].between = true;
   const Measures m = tally_of(path).measures();
   const DeviationStatistics higher = m.higher.deviation.statistics(), lower = m.lower.deviation.statistics();

@@ -37,12 +37,12 @@ Waypoint random_waypoint(Thousandths& random, std::size_t segment, int line) {
   Waypoint w = cut(segment, line, random.next(), Vector3::Zero());
   w.before = random_deviation(random);
   w.after = random_deviation(random) / 10;
-  w.geometry = random_deviation(random);
-  w.load = random_deviation(random);
-  w.gravity = random_deviation(random);
-  w.air = random_deviation(random);
-  w.higher = {random_deviation(random), random.below(30) == 0 ? Status::unstable : Status::converged};
-  w.lower.deviation = random_deviation(random);
+  w.causes->geometry = random_deviation(random);
+  w.causes->load = random_deviation(random);
+  w.causes->gravity = random_deviation(random);
+  w.causes->air = random_deviation(random);
+  w.causes->higher = {random_deviation(random), random.below(30) == 0 ? Status::unstable : Status::converged};
+  w.causes->lower.deviation = random_deviation(random);
   w.correction = random.below(3) == 0 ? Vector6(Vector6::Zero()) : random_deviation(random);
   w.wrench = 1e5 * random_deviation(random);
   return w;

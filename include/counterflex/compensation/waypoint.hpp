@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "counterflex/compensation/options.hpp"
+#include "counterflex/program/rare.hpp"
 #include "counterflex/statics/status.hpp"
 
 namespace counterflex {
@@ -38,22 +39,8 @@ struct OtherForce {
   Status status = Status::converged;  ///< only then does the deviation mean something
 };
 
-/// Six-vectors: position (m), rotation vector (rad), axes of M, actual minus wanted.
-struct Waypoint {
-  std::size_t segment = 0;  ///< or no_segment
-  double fraction = 1;
-  int line = 0;
-  bool cutting = false;
-  bool between = false;  ///< a sample inside a piece: only `after`, `higher`, `lower` are known
-  bool exempt = false;
-  double weight = 0;                        ///< share of the cutting length (m)
-  double s = 0;                             ///< cutting path length (m)
-  Vector3 p_MT = Vector3::Zero();           ///< wanted tip
-  Vector3 direction = Vector3::Zero();      ///< unit vector of the path, zero where it has none
-  Vector3 tool_axis = Vector3::UnitZ();     ///< unit, from tip to spindle
-  Vector6 wrench = Vector6::Zero();         ///< acting, axes of M
-  Vector6 before = Vector6::Zero();         ///< the original program's target, solved forward
-  Vector6 after = Vector6::Zero();          ///< the emitted target, solved forward
+/// Where a deviation comes from, and what it becomes under other forces; as for a waypoint.
+struct Causes {
   Vector6 geometry = Vector6::Zero();       ///< before, assembly errors alone: no force, no weight
   Vector6 load = Vector6::Zero();           ///< before, forces alone: perfect assembly, no weight
   Vector6 gravity = Vector6::Zero();        ///< before, weights alone; zero for a machine without masses
@@ -61,7 +48,27 @@ struct Waypoint {
   Vector6 air = Vector6::Zero();            ///< the emitted target without force
   OtherForce higher, lower;  ///< the emitted target under 1.3 and 0.7 times the force; between the ends of a
                              ///< piece `lower` is mirrored from `higher`: right to second order
+};
+
+/// Six-vectors: position (m), rotation vector (rad), axes of M, actual minus wanted.
+struct Waypoint {
+  std::size_t segment = 0;  ///< or no_segment
+  double fraction = 1;
+  int line = 0;
+  bool cutting = false;
+  bool between = false;  ///< a sample inside a piece: only `after` and of the causes `higher` and `lower` are
+                         ///< known
+  bool exempt = false;
+  double weight = 0;                     ///< share of the cutting length (m)
+  double s = 0;                          ///< cutting path length (m)
+  Vector3 p_MT = Vector3::Zero();        ///< wanted tip
+  Vector3 direction = Vector3::Zero();   ///< unit vector of the path, zero where it has none
+  Vector3 tool_axis = Vector3::UnitZ();  ///< unit, from tip to spindle
+  Vector6 wrench = Vector6::Zero();      ///< acting, axes of M
+  Vector6 before = Vector6::Zero();      ///< the original program's target, solved forward
+  Vector6 after = Vector6::Zero();       ///< the emitted target, solved forward
   Vector6 correction = Vector6::Zero();  ///< emitted target minus the original program's
+  Rare<Causes> causes;                   ///< where they were asked for
   Status status = Status::converged;
   int iterations = 0;
 };
@@ -69,7 +76,7 @@ struct Waypoint {
 /// What is solved at each end of a piece besides `after`.
 struct Questions {
   bool before = true;
-  bool attribution = false;  ///< geometry, load, gravity, superposition, air, higher, lower
+  bool attribution = false;  ///< the causes
   bool inside = true;        ///< samples between the ends of feed pieces
 };
 

@@ -63,6 +63,7 @@ class PathTally {
   void begin_at_rapid(const Waypoint& w);
   void finish_end();
   void measure_end(const Waypoint& w, double weight);
+  void measure_causes(const Waypoint& w, const Causes& causes, double weight);
 
   Measures m_;
   WorstLines lines_;

@@ -1,0 +1,41 @@
+#include "fixed_digits.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <random>
+
+#include "counterflex/files/numbers.hpp"
+
+using namespace counterflex;
+
+namespace {
+
+std::string appended(double value, int decimals) {
+  std::string text = "x=";
+  append_fixed(text, value, decimals);
+  return text.substr(2);
+}
+
+}  // namespace
+
+TEST_CASE("cells of tables have the digits that numbers have elsewhere") {
+  std::mt19937_64 random(17);
+  std::uniform_real_distribution<double> exponent(-14, 16), part(-1, 1);
+  for (int k = 0; k < 20'000; ++k) {
+    const double value = part(random) * std::pow(10, exponent(random));
+    const int decimals = static_cast<int>(random() % 12);
+    CAPTURE(value);
+    CHECK(appended(value, decimals) == format_fixed(value, decimals));
+  }
+}
+
+TEST_CASE("cells of ties, of zeros and of what is almost a whole are those of format_fixed") {
+  for (const double value : {0.0, -0.0, 0.5, -0.5, 1.5, 0.125, 0.375, -2.5, 1e-9, -1e-9, 0.9999999, 999.99995,
+                             1e12, 123456789.0, -0.00000005})
+    for (int decimals = 0; decimals <= 9; ++decimals) {
+      CAPTURE(value);
+      CAPTURE(decimals);
+      CHECK(appended(value, decimals) == format_fixed(value, decimals));
+    }
+}
