@@ -51,8 +51,8 @@ class LaneKernel {
   }
 
   static V broadcast(double x) { return V{} + x; }
-  static V select(M mask, V yes, V no) { return (V)(((M)yes & mask) | ((M)no & ~mask)); }
-  static V larger(V a, V b) { return select(a > b, a, b); }
+  static V select(M mask, V yes, V no) { return mask ? yes : no; }
+  static V larger(V a, V b) { return a > b ? a : b; }
   static V magnitude(V a) { return larger(a, -a); }
   static bool any(M mask) {
     long long all = 0;
@@ -83,29 +83,32 @@ class LaneKernel {
         C[3 * i + j] = A[3 * i] * B[j] + A[3 * i + 1] * B[3 + j] + A[3 * i + 2] * B[6 + j];
   }
 
+  /// N rows of `multiply`: as many sums at once, so that none waits for its own last addition.
+  template <int N>
+  static void multiply_rows(const double* A, int columns, const V* x, V* y, bool add) {
+    V sum[N];
+    for (int r = 0; r < N; ++r) sum[r] = add ? y[r] : V{};
+    for (int k = 0; k < columns; ++k) {
+      const V xk = x[k];
+      for (int r = 0; r < N; ++r) sum[r] += A[r * columns + k] * xk;
+    }
+    for (int r = 0; r < N; ++r) y[r] = sum[r];
+  }
+
   /// y (+)= A x, A row-major and the same for all lanes.
   static void multiply(const double* A, int rows, int columns, const V* x, V* y, bool add) {
     int r = 0;
-    for (; r + 4 <= rows; r += 4) {
-      const double *a = A + static_cast<long>(r) * columns, *b = a + columns, *c = b + columns, *d = c + columns;
-      V s = add ? y[r] : V{}, t = add ? y[r + 1] : V{}, u = add ? y[r + 2] : V{}, v = add ? y[r + 3] : V{};
-      for (int k = 0; k < columns; ++k) {
-        const V xk = x[k];
-        s += a[k] * xk;
-        t += b[k] * xk;
-        u += c[k] * xk;
-        v += d[k] * xk;
-      }
-      y[r] = s;
-      y[r + 1] = t;
-      y[r + 2] = u;
-      y[r + 3] = v;
+    for (; r + 8 <= rows; r += 8) multiply_rows<8>(A + r * columns, columns, x, y + r, add);
+    if (rows - r >= 6) return multiply_rows<6>(A + r * columns, columns, x, y + r, add), multiply_rest(A, rows, r + 6, columns, x, y, add);
+    multiply_rest(A, rows, r, columns, x, y, add);
+  }
+
+  static void multiply_rest(const double* A, int rows, int r, int columns, const V* x, V* y, bool add) {
+    if (rows - r >= 4) {
+      multiply_rows<4>(A + r * columns, columns, x, y + r, add);
+      r += 4;
     }
-    for (; r < rows; ++r) {
-      V s = add ? y[r] : V{};
-      for (int k = 0; k < columns; ++k) s += A[static_cast<long>(r) * columns + k] * x[k];
-      y[r] = s;
-    }
+    for (; r < rows; ++r) multiply_rows<1>(A + r * columns, columns, x, y + r, add);
   }
 
   /// sin t / t, (1 - cos t) / t^2, (t - sin t) / t^3 for t^2 = t2 up to 0.25^2.
@@ -318,7 +321,7 @@ class LaneKernel {
     for (int s = 0; s < program_.series_count; ++s)
       if (program_.series[s].is_chain)
         for (int i = 0; i < 6; ++i) balance_[i] -= state_[program_.series[s].wrench + i];
-    force_ = larger(force_, root(wrench_size2(balance_)));
+    balance2_ = wrench_size2(balance_);
     note_wrench(F_);
     if (!question_.target && !question_.kinematics) return;
     find_tip();
@@ -369,11 +372,12 @@ class LaneKernel {
     for (int a = 0; a < program_.actuators; ++a) drho_[a] = rho[a] - rho_[a];
   }
 
-  /// The rest of all steps, from the platform inwards; their largest entry.
+  /// The rest of all steps, from the platform inwards; their largest entry, that of the platform's twist from above.
   void distribute() {
+    constexpr double axes = 1.7320508075688773;  // a vector is at most so much longer than its largest component
     const double l = program_.length;
-    V size2 = larger(dot(twist_, twist_), dot(twist_ + 3, twist_ + 3) * (l * l));
-    largest_step_ = root(size2);
+    largest_step_ = V{};
+    for (int i = 0; i < 6; ++i) largest_step_ = larger(largest_step_, magnitude(twist_[i]) * (i < 3 ? axes : axes * l));
     for (int s = program_.series_count - 1; s >= 0; --s) {
       const Series& series = program_.series[s];
       V* step = step_ + series.step;
@@ -493,6 +497,16 @@ class LaneKernel {
            program_.floor_per_metre * (root(dot(X + 9, X + 9)) + program_.length);
   }
 
+  /// Lanes in which what the next step would still move is within the limit: it is not taken any more.
+  M are_done() {
+    const M near = (closure2_ <= closure_limit * closure_limit) &
+                   (largest_step_ <= (question_.kinematics ? kinematic_step_limit : step_limit)) &
+                   (largest_angle2_ <= largest_angle * largest_angle);
+    if (!any(near & active_)) return near & active_;
+    const V limit = force_limit();
+    return near & (force_ <= limit) & (balance2_ <= limit * limit);
+  }
+
   void run(Batch& batch) {
     begin(batch);
     for (int iteration = 0; iteration < (question_.kinematics ? 3 : 1) * most_iterations; ++iteration) {
@@ -502,9 +516,7 @@ class LaneKernel {
       eliminate();
       solve_platform();
       distribute();
-      // What the next step would still move is within the limit: the state is not changed any more.
-      const M done = (closure2_ <= closure_limit * closure_limit) & (force_ <= force_limit()) &
-                     (largest_step_ <= (question_.kinematics ? kinematic_step_limit : step_limit)) & (largest_angle2_ <= largest_angle * largest_angle);
+      const M done = are_done();
       converged_ |= done & active_;
       active_ &= ~done;
       if (!any(active_)) break;
@@ -553,7 +565,7 @@ class LaneKernel {
   PartFrame* frames_;
   const V* end_step_[most_series];
   V F_[6], p_[3], wanted_[3], next_p_[3], tip_[3], balance_[6 + most_outputs], twist_[6];
-  V closure2_{}, force_{}, wrench2_{}, largest_angle2_{}, largest_step_{}, iterations_{};
+  V closure2_{}, force_{}, balance2_{}, wrench2_{}, largest_angle2_{}, largest_step_{}, iterations_{};
   M active_{}, converged_{};
 };
 

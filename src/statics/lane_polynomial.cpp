@@ -42,24 +42,15 @@ PolynomialFit make_fit(int degree) {
 }  // namespace
 
 Eigen::RowVectorXd monomials(const Vector3& x, int degree) {
+  Eigen::Matrix<double, 3, Eigen::Dynamic> powers(3, degree + 1);
+  powers.col(0).setOnes();
+  for (int i = 1; i <= degree; ++i) powers.col(i) = powers.col(i - 1).cwiseProduct(x);
   Eigen::RowVectorXd values(monomial_count(degree));
   Eigen::Index at = 0;
   for (int i = 0; i <= degree; ++i)
     for (int j = 0; j <= i; ++j)
-      for (int k = 0; k <= j; ++k)
-        values[at++] = std::pow(x[0], degree - i) * std::pow(x[1], i - j) * std::pow(x[2], j - k);
+      for (int k = 0; k <= j; ++k) values[at++] = powers(0, degree - i) * powers(1, i - j) * powers(2, j - k);
   return values;
-}
-
-int linear_term(int degree, int variable) {
-  int at = 0;
-  for (int i = 0; i <= degree; ++i)
-    for (int j = 0; j <= i; ++j)
-      for (int k = 0; k <= j; ++k, ++at) {
-        const int power[3] = {degree - i, i - j, j - k};
-        if (power[0] + power[1] + power[2] == 1 && power[variable] == 1) return at;
-      }
-  return -1;
 }
 
 const PolynomialFit& polynomial_fit(int degree) {

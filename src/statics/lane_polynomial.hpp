@@ -12,9 +12,6 @@ Eigen::RowVectorXd monomials(const Vector3& x, int degree);
 
 inline int monomial_count(int degree) { return (degree + 1) * (degree + 2) * (degree + 3) / 6; }
 
-/// Where the coefficient of the first power of x, y or z alone stands.
-int linear_term(int degree, int variable);
-
 /// Points at which a function is to be known, crowded towards the faces, and the matrix from its values there to the
 /// coefficients that fit them best.
 struct PolynomialFit {

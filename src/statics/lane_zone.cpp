@@ -10,6 +10,7 @@ namespace {
 
 constexpr double polynomial_tolerance = 2e-12;         // m, rad
 constexpr double largest_kinematic_condition = 1e4;    // of the nominal Jacobian: far from a singularity
+constexpr double constant_orientation = 1e-11;         // rad
 constexpr double load_margin = 1.25;
 constexpr double slope_step = 1e-3;                    // of half an edge
 
@@ -74,7 +75,7 @@ bool LaneZone::fit_kinematics(const LaneModel& lane_model, int degree) {
         monomials(polynomial_checks()[i], degree) * coefficients - checks.row(static_cast<Eigen::Index>(i));
     if (!(miss.cwiseAbs().maxCoeff() <= polynomial_tolerance)) return false;
   }
-  turns_ = coefficients.rightCols<3>().cwiseAbs().maxCoeff() > polynomial_tolerance;
+  turns_ = values.rightCols<3>().cwiseAbs().maxCoeff() > constant_orientation;
   polynomials_.assign(coefficients.data(), coefficients.data() + coefficients.size());  // by column: one output after another
   flat_.degree = degree;
   flat_.polynomials = polynomials_.data();
