@@ -50,6 +50,9 @@ ForwardRun solve_forward_from(const Job& job, const NominalTrack& nominal, std::
     }
   });
   ForwardRun all;
+  std::size_t count = 0;
+  for (const ForwardRun& run : runs) count += run.waypoints.size();
+  all.waypoints.reserve(count);
   for (ForwardRun& run : runs) {
     all.waypoints.insert(all.waypoints.end(), run.waypoints.begin(), run.waypoints.end());
     if (!run.failure) continue;

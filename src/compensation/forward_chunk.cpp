@@ -1,7 +1,6 @@
 #include "forward_chunk.hpp"
 
 #include <algorithm>
-#include <tuple>
 
 #include "track.hpp"
 
@@ -59,6 +58,17 @@ void ChunkForward::clear() {
   requests_.clear();
   wanted_.clear();
   actuals_.clear();
+}
+
+void ChunkForward::reserve(std::size_t pieces) {
+  const std::size_t samples = pieces + pieces / 2;
+  tasks_.reserve(pieces);
+  bends_.reserve(3 * pieces);
+  samples_.reserve(samples);
+  p_MT_.reserve(samples);
+  requests_.reserve(samples);
+  wanted_.reserve(samples);
+  actuals_.reserve(samples);
 }
 
 bool ChunkForward::run_waves() {
@@ -127,6 +137,7 @@ Vector3 ChunkForward::miss(std::size_t sample) const {
 
 void ChunkForward::begin(std::span<const Piece> pieces, const std::optional<Vector3>& command) {
   std::optional<Vector3> last = command;
+  reserve(pieces.size());
   for (const Piece& piece : pieces) {
     const bool position = piece.segment == no_segment;
     tasks_.push_back({.piece = &piece,
@@ -158,9 +169,11 @@ void ChunkForward::add_first(std::size_t t) {
 // Whether the end of the piece before, which was added last, is the start of this one, with the same force.
 bool ChunkForward::is_where_the_last_ended(const Task& task) {
   if (samples_.empty() || samples_.back().between) return false;
-  const Piece& piece = *task.piece;
-  return p_MT_.back() == wanted_at(task, piece.u0) &&
-         requests_.back().load.F == job_.forces.at(piece.segment, piece.u0, Side::after, cursor_);
+  const Piece &piece = *task.piece, &before = *tasks_[samples_.back().task].piece;
+  if (p_MT_.back() != wanted_at(task, piece.u0)) return false;
+  const bool follows = before.segment + 1 == piece.segment && before.u1 == 1 && piece.u0 == 0;
+  if (follows && job_.forces.follows(piece.segment)) return true;
+  return requests_.back().load.F == job_.forces.at(piece.segment, piece.u0, Side::after, cursor_);
 }
 
 // An arc along which the correction hardly changes is sampled once.
@@ -189,8 +202,9 @@ void ChunkForward::add_bends(Task& task) {
   task.first = bends_.size();
   for (const double u : fractions_)
     if (u > piece.u0 && u < piece.u1) add_at((u - piece.u0) / (piece.u1 - piece.u0));
-  add_at(0.5);
-  task.count = bends_.size() - task.first;
+  task.corners = bends_.size() - task.first;
+  if (!job_.forces.is_linear_between_breaks()) add_at(0.5);
+  task.bends = bends_.size() - task.first;
 }
 
 void ChunkForward::choose_short_lines() {
@@ -200,7 +214,7 @@ void ChunkForward::choose_short_lines() {
     if (!task.line) continue;
     add_bends(task);
     task.length = (task.piece->u1 - task.piece->u0) * length(task.segment->wanted);
-    const bool steps = job_.options.blend == 0 && task.count > 1;
+    const bool steps = job_.options.blend == 0 && task.corners > 0;
     if (task.length <= longest && !steps && tasks_.size() > 1) lines_.push_back(t);
   }
 }
@@ -210,7 +224,7 @@ void ChunkForward::ask_responses() {
   for (const std::size_t t : lines_) {
     ForceResponse& response = responses_[t / response_span];
     response.place = tasks_[t].end;
-    for (std::size_t k = tasks_[t].first; k < tasks_[t].first + tasks_[t].count; ++k)
+    for (std::size_t k = tasks_[t].first; k < tasks_[t].first + tasks_[t].bends; ++k)
       response.provide_for(bends_[k].dF, requests_[response.place].load.F);
   }
   for (ForceResponse& response : responses_)
@@ -227,7 +241,7 @@ void ChunkForward::judge_bends() {
   const auto comes_near = [&](std::size_t t) {
     Task& task = tasks_[t];
     const ForceResponse& response = responses_[t / response_span];
-    for (std::size_t k = task.first; k < task.first + task.count; ++k) {
+    for (std::size_t k = task.first; k < task.first + task.bends; ++k) {
       const double bend = (response.S * bends_[k].dF).norm();
       if (bend <= task.bend) continue;
       task.bend = bend;
@@ -292,8 +306,8 @@ void ChunkForward::sample(std::size_t t) {
   };
   double v0 = 0;
   std::size_t a = task.start;
-  for (std::size_t k = task.first; k < task.first + task.count; ++k) {
-    const bool last = k + 1 == task.first + task.count;  // the middle, which is no corner
+  for (std::size_t k = task.first; k <= task.first + task.corners; ++k) {
+    const bool last = k == task.first + task.corners;
     const double v1 = last ? 1 : bends_[k].v;
     const std::size_t m = inside((v0 + v1) / 2), b = last ? task.end : inside(v1);
     stretches_.push_back({t, v0, v1, a, m, b});
@@ -316,15 +330,26 @@ void ChunkForward::sample_closer() {
   }
 }
 
-// In order along the path.
+// Listed samples in order along the path. Most have been added in it.
+void ChunkForward::order_samples() {
+  begins_.assign(tasks_.size() + 1, 0);
+  for (const Sample& sample : samples_) begins_[sample.task + 1] += sample.listed;
+  for (std::size_t t = 0; t < tasks_.size(); ++t) begins_[t + 1] += begins_[t];
+  filled_.assign(begins_.begin(), begins_.end());
+  order_.resize(begins_.back());
+  for (std::size_t i = 0; i < samples_.size(); ++i) {
+    const Sample& sample = samples_[i];
+    if (!sample.listed) continue;
+    std::size_t k = filled_[sample.task]++;
+    for (; k > begins_[sample.task] && samples_[order_[k - 1]].v > sample.v; --k) order_[k] = order_[k - 1];
+    order_[k] = i;
+  }
+}
+
 void ChunkForward::write_waypoints(std::vector<Waypoint>& out) {
-  order_.clear();
-  for (std::size_t i = 0; i < samples_.size(); ++i)
-    if (samples_[i].listed) order_.push_back(i);
-  const auto before = [&](std::size_t i, std::size_t j) {
-    return std::tie(samples_[i].task, samples_[i].v) < std::tie(samples_[j].task, samples_[j].v);
-  };
-  std::stable_sort(order_.begin(), order_.end(), before);
+  order_samples();
+  out.reserve(out.size() + order_.size());
+  places_.reserve(order_.size());
   places_.clear();
   double v = 0, start = 0;  // of the sample before on this piece; what the start of the piece would stand for
   for (std::size_t k = 0; k < order_.size(); ++k) {

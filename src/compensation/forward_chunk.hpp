@@ -29,9 +29,10 @@ class ChunkForward {
     bool line = false;      // is judged inside, as a line
     bool foreseen = false;  // and so not sampled inside, unless for its row
     std::size_t look = no_answer;
-    double length = 0;                 // of a line (m)
-    std::size_t first = 0, count = 0;  // bends: corners, and last the middle
-    double bend = 0, bend_v = 0.5;     // the largest |S dF| (m), and where
+    double length = 0;  // of a line (m)
+    std::size_t first = 0, corners = 0,
+                bends = 0;          // in bends_; behind the corners the middle, if it is needed
+    double bend = 0, bend_v = 0.5;  // the largest |S dF| (m), and where
   };
   struct Sample {
     std::size_t task = 0;
@@ -54,6 +55,7 @@ class ChunkForward {
   };
 
   void clear();
+  void reserve(std::size_t pieces);
   std::size_t add(std::size_t task, double v, bool between, bool listed = true);
   std::size_t add_probe(std::size_t sample, const Vector6& dF);
   bool solve_added();
@@ -78,6 +80,7 @@ class ChunkForward {
 
   Vector3 wanted_at(const Task& task, double u) const;
   Vector3 miss(std::size_t sample) const;
+  void order_samples();
   // Every sample stands for half of the way to those beside it, the end for half of the way behind the start,
   // too.
   void write_waypoints(std::vector<Waypoint>& out);
@@ -104,7 +107,7 @@ class ChunkForward {
   std::vector<WantedPose> wanted_;
   std::vector<ActualSolution> actuals_;
 
-  std::vector<std::size_t> order_;
+  std::vector<std::size_t> begins_, filled_, order_;
   std::vector<ForwardPlace> places_;
 };
 

@@ -8,7 +8,10 @@ namespace {
 // One question to many waypoints.
 class SourceBatch {
  public:
-  SourceBatch(WaypointSolver& solver, const ForwardBatch& batch) : solver_(solver), batch_(batch) {}
+  SourceBatch(WaypointSolver& solver, const ForwardBatch& batch) : solver_(solver), batch_(batch) {
+    waypoints_.reserve(batch.waypoints.size());
+    requests_.reserve(batch.waypoints.size());
+  }
 
   void ask(std::size_t i, const ActualRequest& request) {
     waypoints_.push_back(i);

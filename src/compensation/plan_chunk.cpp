@@ -25,7 +25,7 @@ ChunkPlanner::ChunkPlanner(const Job& job, WaypointSolver& solver)
 
 std::optional<Failure> ChunkPlanner::plan(std::size_t begin, std::size_t end,
                                           std::vector<PlannedSegment>& planned) {
-  clear();
+  clear(end - begin);
   for (std::size_t i = begin; i < end; ++i) ask_first(i);
   choose_lines();
   ask_responses();
@@ -42,8 +42,8 @@ std::optional<Failure> ChunkPlanner::plan(std::size_t begin, std::size_t end,
   return std::nullopt;
 }
 
-void ChunkPlanner::clear() {
-  waves_.clear();
+void ChunkPlanner::clear(std::size_t segments) {
+  waves_.clear(segments + segments / 2);
   intervals_.clear();
   tasks_.clear();
   answers_.clear();
@@ -53,6 +53,10 @@ void ChunkPlanner::clear() {
   lines_.clear();
   looks_.clear();
   next_interval_ = 0;
+  tasks_.reserve(segments);
+  limits_.reserve(2 * segments);
+  bends_.reserve(3 * segments);
+  lines_.reserve(segments);
 }
 
 // Cycles are solved at their bottom when they are written; what is held needs no solution.
@@ -132,7 +136,7 @@ void ChunkPlanner::add_bends(Task& task) {
   };
   task.first_bend = bends_.size();
   for (std::size_t k = task.first; k < task.first + task.count; ++k) add(limits_[k]);
-  add(0.5);
+  if (!job_.forces.is_linear_between_breaks()) add(0.5);
   task.bends = bends_.size() - task.first_bend;
 }
 

@@ -45,7 +45,7 @@ class ChunkPlanner {
     Answer at;
   };
 
-  void clear();
+  void clear(std::size_t segments);
   const Segment& segment(const Task& task) const { return job_.path.segments[task.segment]; }
 
   // What is asked first: ends, and all of arcs and groups.

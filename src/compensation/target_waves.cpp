@@ -5,19 +5,24 @@
 
 namespace counterflex {
 
-void TargetWaves::clear() {
+void TargetWaves::clear(std::size_t requests) {
   requests_.clear();
   solutions_.clear();
   segments_.clear();
   failure_.reset();
+  requests_.reserve(requests);
+  solutions_.reserve(requests);
+  segments_.reserve(requests);
 }
 
 Answer TargetWaves::ask(std::size_t segment, double u, Side side) {
   const Vector3 p_MT = point_at(job_.path.segments[segment].wanted, u);
+  const bool same_place =
+      !requests_.empty() && segments_.back() != no_segment && requests_.back().p_MT == p_MT;
+  const bool follows = same_place && u == 0 && segments_.back() + 1 == segment;
+  if (follows && job_.forces.follows(segment)) return requests_.size() - 1;
   const Vector6 F = force_at(segment, u, side);
-  const bool asked = !requests_.empty() && segments_.back() != no_segment && requests_.back().p_MT == p_MT &&
-                     requests_.back().load.F == F;
-  if (!asked) {
+  if (!same_place || requests_.back().load.F != F) {
     requests_.push_back({p_MT, {F, job_.forces.at_platform()}});
     segments_.push_back(segment);
   }

@@ -15,8 +15,8 @@ class TargetWaves {
  public:
   TargetWaves(const Job& job, WaypointSolver& solver) : job_(job), solver_(solver) {}
 
-  /// Forgets everything that was asked.
-  void clear();
+  /// Forgets everything that was asked; about so many requests will come.
+  void clear(std::size_t requests);
 
   /// Asks for the correction at a fraction of a segment. What was asked just before at the same place and
   /// with the same force, as the end of the segment that this one joins, is not asked again.

@@ -167,6 +167,7 @@ void PathForces::close_run(double blend) {
   Vector6 sum = pieces_[run.first_piece].integral;
   for (std::size_t i = run.first_piece; i < run.end_piece; ++i) {
     pieces_[i].integral = sum;
+    is_linear_between_breaks_ = is_linear_between_breaks_ && pieces_[i].F0 == pieces_[i].F1;
     sum = integral(pieces_[i], pieces_[i].s1);
   }
   find_corners(run);
@@ -206,6 +207,12 @@ void PathForces::find_corners(FeedRun& run) {
     if (step || bend) corners_.push_back(pieces_[i].s0);
   }
   run.end_corner = corners_.size();
+}
+
+bool PathForces::follows(std::size_t segment) const {
+  if (segment == 0 || places_[segment].run == no_run) return false;
+  const Place &place = places_[segment], &before = places_[segment - 1];
+  return place.run == before.run && place.s0 == before.s1 && runs_[place.run].blend > 0;
 }
 
 Vector6 PathForces::at(std::size_t segment, double fraction, Side side) const {

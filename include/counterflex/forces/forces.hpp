@@ -194,6 +194,12 @@ class PathForces {
   Vector6 at(std::size_t segment, double fraction, Side side = Side::after) const;
   Vector6 at(std::size_t segment, double fraction, Side side, ForceCursor& cursor) const;
 
+  /// Whether a segment's start is the end of the one before it, with the same wrench.
+  bool follows(std::size_t segment) const;
+
+  /// Whether the wrench is linear between breaks: what is blended has steps, and no slopes.
+  bool is_linear_between_breaks() const { return is_linear_between_breaks_; }
+
   bool at_platform() const { return at_platform_; }
 
   /// Fractions strictly inside a segment where the wrench has a corner or a step, increasing: no smooth
@@ -237,6 +243,7 @@ class PathForces {
   std::vector<Unforced> unforced_;
   ForceTail tail_;
   bool is_final_ = true;
+  bool is_linear_between_breaks_ = true;
   std::size_t ramps_ = 0, jumps_ = 0;
   double largest_step_N_ = 0;
 };
