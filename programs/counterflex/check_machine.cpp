@@ -1,10 +1,10 @@
 #include <fmt/format.h>
 
-#include <Eigen/SVD>
 #include <cmath>
 
 #include "check.hpp"
 #include "counterflex/files/numbers.hpp"
+#include "counterflex/geometry/spectrum.hpp"
 #include "counterflex/geometry/units.hpp"
 #include "counterflex/machine/describe.hpp"
 #include "counterflex/machine/read_machine.hpp"
@@ -51,9 +51,8 @@ int spring_directions(const Model& model, std::size_t chain, StaticsWork& work) 
     if (yields(part, series))
       for (int i = 0; i < columns_of(part); ++i) columns.push_back(part.column + i);
   if (columns.empty()) return 0;
-  Eigen::JacobiSVD<Eigen::MatrixXd> svd(J(Eigen::all, columns));
-  svd.setThreshold(1e-9);
-  return static_cast<int>(svd.rank());
+  const Eigen::VectorXd sigma = singular_values(J(Eigen::all, columns));
+  return sigma[0] > 0 ? static_cast<int>((sigma.array() >= 1e-9 * sigma[0]).count()) : 0;
 }
 
 HomeFacts look_at_home(const Model& model) {

@@ -9,9 +9,9 @@
 namespace counterflex {
 namespace {
 
-// More windows at once than threads, so that no thread waits while another reads or writes; each takes some
-// megabytes.
-constexpr int spare_windows = 2, most_windows = 6;
+// As many windows at once as threads keep these at work, as the stages in order are the smaller part. Each
+// takes some megabytes: there are never more.
+constexpr int most_windows = 6;
 
 // A window under way. An error waits until all windows before it are done.
 struct Flight {
@@ -33,9 +33,7 @@ class WindowsUnderWay {
         attribution_(attribution),
         events_(events),
         carried_{Rewriter(options.write), std::move(corrected)},
-        flights_(threads_ == 1 ? 1
-                               : static_cast<std::size_t>(std::min(threads_ + spare_windows, most_windows))) {
-  }
+        flights_(static_cast<std::size_t>(std::clamp(threads_, 1, most_windows))) {}
 
   std::optional<Failure> run() {
     const std::vector<PipelineStage> stages{

@@ -11,6 +11,7 @@ namespace {
 
 constexpr double gain_probe = 50e-6;  // m
 constexpr double gain_margin = 1.01;
+constexpr std::size_t segments_of_a_gain = 32;
 
 }  // namespace
 
@@ -55,9 +56,10 @@ bool KnotPlanner::finish(std::size_t index, const Vector3& end, PlannedSegment& 
   return true;
 }
 
-// How much the tip moves for a change of target, at most: largest singular value, once a chunk and model.
+// How much the tip moves for a change of target, at most: largest singular value, once for neighbours.
 bool KnotPlanner::measure_gain(std::size_t index) {
-  if (gain_ > 0) return true;
+  if (gain_ > 0 && index / segments_of_a_gain == neighbours_) return true;
+  neighbours_ = index / segments_of_a_gain;
   const Segment& segment = job_.path.segments[index];
   std::array<ActualRequest, 6> requests;
   std::array<ActualSolution, 6> reached;

@@ -32,7 +32,8 @@ class KnotPlanner {
 
   const Job& job_;
   WaypointSolver& solver_;
-  double gain_ = 0;
+  double gain_ = 0;  // measured among these
+  std::size_t neighbours_ = 0;
   std::optional<Failure> failure_;
 };
 

@@ -3,22 +3,17 @@
 #include <fmt/format.h>
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+
+#include "counterflex/geometry/spectrum.hpp"
 
 namespace counterflex {
 namespace {
 
-using Block = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 6, 6>;
-
 /// 1/sqrt of the diagonal; 1 where it is zero.
 Vector6 scaling(const Matrix6& A) {
   return A.diagonal().unaryExpr([](double a) { return a > 0 ? 1 / std::sqrt(a) : 1.0; });
-}
-
-double smallest_eigenvalue(const Block& A) {
-  return Eigen::SelfAdjointEigenSolver<Block>(A, Eigen::EigenvaluesOnly).eigenvalues()[0];
 }
 
 std::optional<BadEntry> find_bad_diagonal(const Matrix6& A, bool semidefinite) {
@@ -72,7 +67,7 @@ std::optional<BadEntry> find_indefiniteness(const Matrix6& A, bool semidefinite)
   // The smallest eigenvalue of the leading blocks only falls as they grow; the first bad one names its last
   // row.
   for (int k = 0; k < 6; ++k) {
-    const double smallest = smallest_eigenvalue(scaled.topLeftCorner(k + 1, k + 1));
+    const double smallest = eigenvalues(scaled.topLeftCorner(k + 1, k + 1))[0];
     if (smallest >= least) continue;
     return BadEntry{
         k, k,

@@ -1,9 +1,9 @@
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
+#include "counterflex/geometry/spectrum.hpp"
 #include "counterflex/geometry/units.hpp"
 #include "counterflex/machine/describe.hpp"
 #include "phrases.hpp"
@@ -21,9 +21,7 @@ constexpr double large_error_angle = 5 * deg;
 int free_directions(const Spring& spring) {
   const Vector6 d = spring.K.diagonal().unaryExpr([](double k) { return k > 0 ? 1 / std::sqrt(k) : 1.0; });
   const Matrix6 scaled = d.asDiagonal() * spring.K * d.asDiagonal();
-  const Vector6 eigenvalues =
-      Eigen::SelfAdjointEigenSolver<Matrix6>(scaled, Eigen::EigenvaluesOnly).eigenvalues();
-  return static_cast<int>((eigenvalues.array() < 1e-9).count());
+  return static_cast<int>((eigenvalues(scaled).array() < 1e-9).count());
 }
 
 void note_springs(const Machine& machine, Notes& notes) {

@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 
+#include "counterflex/geometry/spectrum.hpp"
 #include "counterflex/statics/linear.hpp"
 #include "counterflex/statics/nested.hpp"
 
@@ -112,9 +112,9 @@ void find_weakest(const Matrix6& K, double length, PoseAnalysis& result) {
   Vector6 units = Vector6::Ones();
   units.tail<3>().setConstant(1 / length);
   const Matrix6 scaled = units.asDiagonal() * K * units.asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Matrix6> solver((scaled + scaled.transpose()) / 2);
-  result.weakest = solver.eigenvectors().col(0);
-  result.weakest_stiffness = solver.eigenvalues()[0];
+  const Spectrum stiffnesses = spectrum((scaled + scaled.transpose()) / 2);
+  result.weakest = stiffnesses.vectors.col(0);
+  result.weakest_stiffness = stiffnesses.values[0];
   show_largest_positive(result.weakest);
 }
 
@@ -123,9 +123,9 @@ void find_softest(const Matrix6& K, PoseAnalysis& result) {
   const Eigen::FullPivLU<Matrix6> lu(K);
   if (!lu.isInvertible()) return;
   const Matrix3 C = lu.inverse().topLeftCorner<3, 3>();
-  const Eigen::SelfAdjointEigenSolver<Matrix3> solver((C + C.transpose()) / 2);
-  result.softest = solver.eigenvectors().col(2);
-  result.softest_stiffness = 1 / solver.eigenvalues()[2];
+  const Spectrum compliances = spectrum((C + C.transpose()) / 2);
+  result.softest = compliances.vectors.col(2);
+  result.softest_stiffness = 1 / compliances.values[2];
   show_largest_positive(result.softest);
 }
 

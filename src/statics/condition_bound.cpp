@@ -108,7 +108,7 @@ struct Normal {
 double norm_through(const Eigen::MatrixXd& right, const Eigen::MatrixXd& left, Eigen::Index begin,
                     Eigen::MatrixXd inverse) {
   if (right.size() > 0) {
-    const Eigen::LLT<Eigen::MatrixXd> r(right), l(left);
+    const Eigen::LLT<Eigen::MatrixXd> r = cholesky(right), l = cholesky(left);
     if (r.info() != Eigen::Success || l.info() != Eigen::Success)
       return std::numeric_limits<double>::infinity();
     inverse.middleRows(begin, right.rows()) = (r.matrixU() * inverse.middleRows(begin, right.rows())).eval();
@@ -165,7 +165,8 @@ Matrix9 seen_through(const Entrance& in, const MatrixX9& z, bool leans, const Ma
   u.topLeftCorner(6, inputs) = z.block(in.first, 0, 6, inputs);
   if (in.leans()) u.bottomLeftCorner(3, inputs) = in.turn * z.topLeftCorner(in.first, inputs);
   if (in.leans() && leans) u.bottomRightCorner<3, 3>() += in.R.transpose();
-  return u.transpose() * response * u;
+  const Matrix9 response_u = response * u;
+  return u.transpose() * response_u;
 }
 
 Bounds bounds(const Series& series, const SeriesWork& work, const Units& units);
@@ -232,9 +233,10 @@ bool surely_well_conditioned(const Mechanism& mechanism, std::vector<SeriesWork>
     inside.add(bounds(mechanism.chains[i], works[i], units));
     K += works[i].K;
   }
+  const Eigen::PartialPivLU<Eigen::MatrixXd> platform(Eigen::MatrixXd(in_units(K, units)));
   const double inverse =
-      inside.inverse + norm_through(normal_of_platform(inside.right), normal_of_platform(inside.left), 0,
-                                    in_units(K, units).inverse());
+      inside.inverse +
+      norm_through(normal_of_platform(inside.right), normal_of_platform(inside.left), 0, platform.inverse());
   const double matrix =
       std::max(inside.matrix, in_units(load_tangent, units).norm()) + std::sqrt(works.size());
   return std::isfinite(inverse) && inverse * matrix < limit;

@@ -1,14 +1,24 @@
 #include "decompositions.hpp"
 
-template class Eigen::LLT<Eigen::MatrixXd>;
-template class Eigen::PartialPivLU<Eigen::MatrixXd>;
-template class Eigen::FullPivLU<Eigen::MatrixXd>;
-template class Eigen::ColPivHouseholderQR<Eigen::MatrixXd>;
-template class Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd>;
-template class Eigen::JacobiSVD<Eigen::MatrixXd>;
-template class Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>;
+template void Eigen::PartialPivLU<Eigen::MatrixXd>::compute();
+template void Eigen::FullPivLU<Eigen::MatrixXd>::computeInPlace();
+template void Eigen::ColPivHouseholderQR<Eigen::MatrixXd>::computeInPlace();
+template void Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd>::computeInPlace();
 
 namespace counterflex {
+
+Eigen::LLT<Eigen::MatrixXd> cholesky(const Eigen::MatrixXd& A) { return Eigen::LLT<Eigen::MatrixXd>(A); }
+
+Eigen::MatrixXd null_space(const Eigen::MatrixXd& C, double threshold) {
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr;
+  qr.setThreshold(threshold);
+  qr.compute(C.transpose());
+  const auto nullity = C.cols() - qr.rank();
+  Eigen::MatrixXd Z = Eigen::MatrixXd::Zero(C.cols(), nullity);
+  Z.bottomRows(nullity).setIdentity();
+  if (nullity > 0) Z.applyOnTheLeft(qr.householderQ().setLength(qr.rank()));
+  return Z;
+}
 
 Eigen::MatrixXd solved(const Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd>& A, const Eigen::MatrixXd& B) {
   return A.solve(B);

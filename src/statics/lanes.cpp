@@ -13,6 +13,8 @@ namespace lane_grid {
 constexpr double cell_share = 1.0 / 32;  // edge of a cell, in units of l
 constexpr long cells_along_zone = 4;
 constexpr std::size_t most_zones = 512, most_cells = 1024;
+constexpr double reach_of_tangents = 0.8;  // from the centre of their cell, in edges
+constexpr double state_reach = 2;          // in edges: further away lanes begin anew
 constexpr double same_branch = 1e-3;  // l or rad: another branch is further away
 
 struct Index {
@@ -200,7 +202,11 @@ struct LaneSolver::Impl {
     return cell->zone().bears(size, moments, errors, work);
   }
 
-  // All in the cell; `go_on`: so was the batch before.
+  // Whether the cell's tangents still do for a place beside it, so that batches are full.
+  bool may_join(const Vector3& p) const {
+    return (p - centre_of(index, machine.edge)).cwiseAbs().maxCoeff() <= reach_of_tangents * machine.edge && cell->zone().holds(p);
+  }
+
   void solve_batch(const lanes::Question& question, std::span<const LaneRequest> requests, std::span<LaneAnswer> answers) {
     load(requests);
     memory.solve(cell->flat(), question);
@@ -215,17 +221,20 @@ LaneSolver::LaneSolver(LaneSolver&&) noexcept = default;
 void LaneSolver::solve(LaneQuestion question, bool errors, std::span<const LaneRequest> requests, std::span<LaneAnswer> answers) {
   std::fill(answers.begin(), answers.end(), LaneAnswer{});
   if (!impl_->machine.able) return;
-  const LaneCell* before = nullptr;  // in which the kernel's memory has a state to go on from
+  std::optional<Vector3> before;  // where the kernel's memory has a state to go on from
   for (std::size_t first = 0, count = 1; first < requests.size(); first += count, count = 1) {
     const bool known = impl_->go_to(requests[first].p);
     while (count < lanes::width && first + count < requests.size() &&
-           impl_->machine.index_of(requests[first + count].p) == impl_->index)
+           (known ? impl_->may_join(requests[first + count].p)
+                  : impl_->machine.index_of(requests[first + count].p) == impl_->index))
       ++count;
     const auto batch = requests.subspan(first, count);
     if (!known || !impl_->bears(batch, errors)) continue;
-    impl_->solve_batch({.target = question == LaneQuestion::target, .kinematics = false, .errors = errors, .go_on = before == impl_->cell.get()},
-                       batch, answers.subspan(first, count));
-    before = impl_->cell.get();
+    const Vector3& p = batch.front().p;
+    const bool near = before && (p - *before).cwiseAbs().maxCoeff() <= state_reach * impl_->machine.edge;
+    impl_->solve_batch({.target = question == LaneQuestion::target, .kinematics = false, .errors = errors, .go_on = near}, batch,
+                       answers.subspan(first, count));
+    before = p;
   }
 }
 

@@ -57,9 +57,9 @@ bool condensed(const Model& model, const Vector6& F, const Units& units, Statics
     rhs -= work.chains[i].dF;
   }
   const Vector6 pose = units.of_pose();
-  const Eigen::FullPivLU<Matrix6> lu(pose.asDiagonal() * K * pose.asDiagonal() / units.energy());
+  const Eigen::FullPivLU<Eigen::MatrixXd> lu(Matrix6(pose.asDiagonal() * K * pose.asDiagonal() / units.energy()));
   if (!lu.isInvertible()) return false;
-  result.dt_P = pose.cwiseProduct(Vector6(lu.solve(pose.cwiseProduct(rhs) / units.energy())));
+  result.dt_P = pose.cwiseProduct(Vector6(solved(lu, pose.cwiseProduct(rhs) / units.energy())));
   for (std::size_t i = 0; i < work.chains.size(); ++i)
     take_step(mechanism.chains[i], result.dt_P, work.no_actuator_step, Vector3::Zero(), units, work.chains[i],
               result.configuration.chains[i]);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "counterflex/geometry/spectrum.hpp"
+
 namespace counterflex {
 namespace {
 
@@ -228,19 +230,12 @@ Condition condition(const WholeSystem& system, const Units& units) {
 double least_eigenvalue_ratio(const WholeSystem& system) {
   const auto columns = unknowns(system, false);
   const Eigen::MatrixXd C = system.C(Eigen::all, columns), A = system.A(columns, columns);
-  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr;
-  qr.setThreshold(1e-11);
-  qr.compute(C.transpose());
-  const auto nullity = C.cols() - qr.rank();
-  if (nullity == 0) return 0;
-  Eigen::MatrixXd Z = Eigen::MatrixXd::Zero(C.cols(), nullity);
-  Z.bottomRows(nullity).setIdentity();
-  Z.applyOnTheLeft(qr.householderQ().setLength(qr.rank()));
-  const Eigen::MatrixXd reduced = Z.transpose() * (0.5 * (A + A.transpose())) * Z;
-  const Eigen::VectorXd eigenvalues =
-      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(reduced, Eigen::EigenvaluesOnly).eigenvalues();
-  const double largest = eigenvalues.cwiseAbs().maxCoeff();
-  return largest > 0 ? eigenvalues[0] / largest : 0;
+  const Eigen::MatrixXd Z = null_space(C, 1e-11);
+  if (Z.cols() == 0) return 0;
+  const Eigen::MatrixXd symmetric = 0.5 * (A + A.transpose()), Z_A = Z.transpose() * symmetric;
+  const Eigen::VectorXd values = eigenvalues(Z_A * Z);
+  const double largest = values.cwiseAbs().maxCoeff();
+  return largest > 0 ? values[0] / largest : 0;
 }
 
 }  // namespace counterflex
