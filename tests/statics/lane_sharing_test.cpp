@@ -27,7 +27,7 @@ std::vector<LaneRequest> some_path(const LaneBench& bench, unsigned seed) {
   Random random(seed);
   std::vector<LaneRequest> path;
   for (int part = 0; part < 2; ++part)
-    for (const LaneRequest& request : cluster(bench, orthoglide_trial(), random, 20, 0.004))
+    for (const LaneRequest& request : cluster(bench, orthoglide_trial(), random, 20, 0.004, 0.5))
       path.push_back(request);
   return path;
 }

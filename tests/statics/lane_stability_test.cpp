@@ -116,7 +116,6 @@ TEST_CASE(
     "critical load") {
   constexpr double at_home = 0.05;
   LaneBench bench(telescope(at_home));
-  MESSAGE("length " << bench.model.mechanism.length);
   Tally tally;
   for (double rho = -0.03; rho <= 0.25; rho += 0.004)
     for (const double part : {0.3, 0.6, 0.95, 0.995, 1.005, 1.05, 1.3, 2.0}) {

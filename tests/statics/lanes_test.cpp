@@ -41,7 +41,7 @@ TEST_CASE(
 }
 
 TEST_CASE("in lanes a machine without its assembly errors stands where it does alone") {
-  for (const char* name : {"orthoglide_case_b", "hexapod_joint_springs", "laws_mixed"}) {
+  for (const std::string name : {"orthoglide_case_b", "hexapod_joint_springs", "serial6r_link6"}) {
     CAPTURE(name);
     for (const LaneTrial& lane_trial : lane_trials())
       if (lane_trial.trial.name == name) {
@@ -88,8 +88,10 @@ TEST_CASE("the nominal tip that lanes know is that of followed kinematics, orien
 TEST_CASE(
     "a machine with weights, or whose tip is not controlled in x, y and z, is left to the solver of single "
     "waypoints") {
-  for (const Machine& machine : {sample_machine("robot-spindle/machine"), machine_of("bar_buckling"),
-                                 machine_of("two_chains_coupled"), machine_of("arm")}) {
+  for (const Machine& machine :
+       {sample_machine("robot-spindle/machine"), machine_of("bar_buckling"), machine_of("two_chains_coupled"),
+        machine_of("arm"), machine_of("laws_mixed")}) {
+    CAPTURE(machine.name);
     LaneBench bench(machine);
     const LaneRequest at_home{bench.home().p, Vector6::Zero()};
     CHECK(!bench.solve(LaneQuestion::forward, true, {at_home})[0].solved);
