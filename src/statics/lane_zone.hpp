@@ -44,7 +44,7 @@ class LaneZone {
   explicit LaneZone(const Model& model) : model_(model) {}
   bool find_centre(const LaneModel& lane_model, StaticsWork& work);
   bool fit_kinematics(const LaneModel& lane_model, int degree);
-  Eigen::VectorXd outputs_at(const Vector3& p) const;
+  Eigen::RowVectorXd powers_at(const Vector3& p) const;
 
   const Model& model_;
   Vector3 centre_;
@@ -54,6 +54,7 @@ class LaneZone {
   lanes::Region flat_{};
   bool turns_ = false;  ///< whether the nominal tip's orientation depends on the position
   std::vector<double> polynomials_;
+  Eigen::Matrix<double, Eigen::Dynamic, 3> orientation_;  ///< polynomials of its rotation vector against the centre's
   mutable std::mutex mutex_;
   mutable std::map<std::array<int, 3>, bool> borne_;
 };
