@@ -108,12 +108,11 @@ bool takes_plain_lines(const Reading& r) {
   const bool moves = is_straight(state.motion) || is_arc(state.motion);
   const bool followed =
       state.unit && state.doubts == 0 && state.displaced == 0 && !r.in_body() && !state.entering_data;
-  const bool alone = state.contour == Contour::none && !r.after_corner && !r.block_relative;
+  const bool alone = state.contour == Contour::none && !r.after_corner;
   const bool in_place = r.program.expansion.lines.empty() && r.program.expansion.unused.empty();
   const bool increments =
       r.options.integer_words == IntegerWords::increments && r.dialect.integer_words_doubtful;
-  return moves && followed && alone && in_place && !increments && !r.dialect.sinumerik_words &&
-         state.feed_mode != FeedUnit::inverse_time;
+  return moves && followed && alone && in_place && !increments && state.feed_mode != FeedUnit::inverse_time;
 }
 
 std::size_t read_plain_lines(Reading& reading, Block& block, std::size_t most_moves) {

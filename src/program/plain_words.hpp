@@ -46,7 +46,10 @@ inline PlainWord plain_word_of(char letter) {
 
 /// Behind the digits at `at`, whose value is added to `value` as to the digits before them.
 inline const char* scan_digits(const char* at, std::uint64_t& value) {
-  for (; is_digit(*at); ++at) value = value * 10 + static_cast<std::uint64_t>(*at - '0');
+  const auto digit_at = [](const char* c) {
+    return static_cast<unsigned>(static_cast<unsigned char>(*c)) - '0';
+  };
+  for (unsigned digit = digit_at(at); digit <= 9; digit = digit_at(++at)) value = value * 10 + digit;
   return at;
 }
 
