@@ -1,6 +1,9 @@
 #include "reading.hpp"
 
 #include <algorithm>
+#include <utility>
+
+#include "counterflex/compensation/for_each_window.hpp"
 
 namespace counterflex::cli {
 namespace {
@@ -31,11 +34,13 @@ ProgramLook look_through(const Options& options, ProgramFile& file, const ReadOp
   try {
     file.bytes.hash_along();
     ProgramReader reader(file.bytes, name, read);
-    for (bool first = true; reader.next(); first = false) {
-      add_window(look.program, reader.window());
-      also(reader.window());
-      if (first) look.is_corrected = is_corrected(reader.window());
-    }
+    bool begun = false;
+    const auto first = [&](const Program& window) {
+      add_window(look.program, window);
+      if (!std::exchange(begun, true)) look.is_corrected = is_corrected(window);
+    };
+    for_each_window(
+        reader, also ? options.threads : 1, first, also ? also : [](const Program&) {});
   } catch (const InputError& error) {
     blame_dialect(error, options, machine, name);
   }

@@ -17,11 +17,11 @@ struct ProgramLook {
   bool is_corrected = false;  ///< the program carries the header of a corrected one
 };
 
-/// Reads the program to its end once, and notes its hash; `also` looks at its windows, too. Throws
+/// Reads the program to its end once, and notes its hash; `also` looks at its windows, too, while others are
+/// read. Throws
 /// `InputError`.
-ProgramLook look_through(
-    const Options& options, ProgramFile& file, const ReadOptions& read, const Machine* machine,
-    const std::function<void(const Program&)>& also = [](const Program&) {});
+ProgramLook look_through(const Options& options, ProgramFile& file, const ReadOptions& read,
+                         const Machine* machine, const std::function<void(const Program&)>& also = {});
 
 /// A program whose path is built window by window. Borrows all.
 struct PathInput {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 
 #include "target_waves.hpp"
 
@@ -47,20 +48,38 @@ struct ForceResponse {
 /// Pieces in a row of which one is looked into for all.
 inline constexpr std::size_t row_of_pieces = 8;
 
-/// Of the tolerance, or of what of it is left: bends by the force that are looked at for their own sake.
-inline constexpr double looked_at_share = 0.1;
-
 /// By how much of it the bend by the force may be other than foreseen.
 inline constexpr double bend_error = 0.3;
+
+/// Of the tolerance, or of what of it is left: what is found inside a line may be other than foreseen by so
+/// much.
+inline constexpr double foreseen_share = 0.025;
 
 /// Whether what was found inside a line is as foreseen, with a bend by the force (m); `room`: the tolerance,
 /// or what of it is left (m).
 inline bool is_as_foreseen(const Vector3& found, const Vector3& foreseen, const Vector3& bend, double room) {
-  constexpr double share = 0.025;
-  return (found - foreseen).norm() <= share * room + bend_error * bend.norm();
+  return (found - foreseen).norm() <= foreseen_share * room + bend_error * bend.norm();
 }
 
 /// Lines shorter than this part of the machine's length l bend, if at all, as their neighbours do.
 inline constexpr double short_line = 0.02;
+
+/// Looks into the line of a row that the force bends most, where it does, and into the middle of the longest
+/// one, unless the first look stands for both. A task has `length`, `bend` and `room` (m) and `bend_at`, a
+/// fraction.
+template <class Task, class Look>  // void(std::size_t task, double at)
+void look_into_row(std::span<const std::size_t> row, const std::vector<Task>& tasks, const Look& look) {
+  const auto most = [&](double Task::*what) {
+    return *std::max_element(row.begin(), row.end(),
+                             [&](std::size_t a, std::size_t b) { return tasks[a].*what < tasks[b].*what; });
+  };
+  const std::size_t longest = most(&Task::length), most_bent = most(&Task::bend);
+  const Task& bent = tasks[most_bent];
+  const bool bends = bent.bend > foreseen_share * bent.room;
+  if (bends) look(most_bent, bent.bend_at);
+  const bool for_both =
+      bends && std::abs(bent.bend_at - 0.5) < 0.25 && tasks[longest].length < 1.5 * bent.length;
+  if (!for_both && (!bends || most_bent != longest)) look(longest, 0.5);
+}
 
 }  // namespace counterflex

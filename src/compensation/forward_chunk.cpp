@@ -142,7 +142,8 @@ void ChunkForward::begin(std::span<const Piece> pieces, const std::optional<Vect
     const bool position = piece.segment == no_segment;
     tasks_.push_back({.piece = &piece,
                       .segment = position ? nullptr : &job_.path.segments[piece.segment],
-                      .begins_anew = last != piece.commanded.start});
+                      .begins_anew = last != piece.commanded.start,
+                      .room = job_.options.tolerance});
     last = piece.commanded.end;
     add_first(tasks_.size() - 1);
   }
@@ -245,7 +246,7 @@ void ChunkForward::judge_bends() {
       const double bend = (response.S * bends_[k].dF).norm();
       if (bend <= task.bend) continue;
       task.bend = bend;
-      task.bend_v = bends_[k].v;
+      task.bend_at = bends_[k].v;
     }
     const double ends = std::max(miss(task.start).norm(), miss(task.end).norm());
     return !response.known || ends + (1 + bend_error) * task.bend > near_share * job_.options.tolerance;
@@ -259,15 +260,7 @@ void ChunkForward::judge_bends() {
 void ChunkForward::look_into_rows() {
   for (std::size_t begin = 0; begin < lines_.size(); begin += row_of_pieces) {
     const auto row = std::span(lines_).subspan(begin, std::min(row_of_pieces, lines_.size() - begin));
-    const std::size_t longest = *std::max_element(row.begin(), row.end(), [&](std::size_t a, std::size_t b) {
-      return tasks_[a].length < tasks_[b].length;
-    });
-    const std::size_t most_bent =
-        *std::max_element(row.begin(), row.end(),
-                          [&](std::size_t a, std::size_t b) { return tasks_[a].bend < tasks_[b].bend; });
-    const bool bent = tasks_[most_bent].bend > looked_at_share * job_.options.tolerance;
-    if (bent) look_into(begin, most_bent, tasks_[most_bent].bend_v);
-    if (!bent || most_bent != longest) look_into(begin, longest, 0.5);
+    look_into_row(row, tasks_, [&](std::size_t t, double v) { look_into(begin, t, v); });
   }
 }
 

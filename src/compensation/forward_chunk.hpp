@@ -29,10 +29,11 @@ class ChunkForward {
     bool line = false;      // is judged inside, as a line
     bool foreseen = false;  // and so not sampled inside, unless for its row
     std::size_t look = no_answer;
+    double room = 0;    // the tolerance (m)
     double length = 0;  // of a line (m)
-    std::size_t first = 0, corners = 0,
-                bends = 0;          // in bends_; behind the corners the middle, if it is needed
-    double bend = 0, bend_v = 0.5;  // the largest |S dF| (m), and where
+    // In bends_; behind the corners of the force the middle, where it may be curved.
+    std::size_t first = 0, corners = 0, bends = 0;
+    double bend = 0, bend_at = 0.5;  // the largest |S dF| (m), and where
   };
   struct Sample {
     std::size_t task = 0;

@@ -13,7 +13,7 @@ struct PipelineStage {
   std::function<void(std::size_t slot, int threads)> work;
 };
 
-/// Takes items through `stages`, which are at least one. `begin` makes the next item in a free slot, in
+/// Takes items through `stages`. `begin` makes the next item in a free slot, in
 /// order; false: there are no more. The last stage comes in order and says when to stop: items behind that
 /// one are given up wherever they are. Slots are numbered from 0 to `slots` - 1; no item begins before the
 /// one that had its slot has left the last stage. What an item becomes depends on its stages alone, never on

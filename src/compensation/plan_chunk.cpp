@@ -169,7 +169,7 @@ void ChunkPlanner::judge_bends() {
       const double bend = (response.S * bends_[k].dF).norm();
       if (bend <= task.bend) continue;
       task.bend = bend;
-      task.bend_u = bends_[k].u;
+      task.bend_at = bends_[k].u;
     }
     return !response.known || task.bend > bend_share * task.room;
   };
@@ -182,15 +182,7 @@ void ChunkPlanner::judge_bends() {
 void ChunkPlanner::look_into_rows() {
   for (std::size_t begin = 0; begin < lines_.size(); begin += row_of_pieces) {
     const auto row = std::span(lines_).subspan(begin, std::min(row_of_pieces, lines_.size() - begin));
-    const auto longest = *std::max_element(row.begin(), row.end(), [&](std::size_t a, std::size_t b) {
-      return tasks_[a].length < tasks_[b].length;
-    });
-    const auto most_bent = *std::max_element(row.begin(), row.end(), [&](std::size_t a, std::size_t b) {
-      return tasks_[a].bend < tasks_[b].bend;
-    });
-    const bool bent = tasks_[most_bent].bend > looked_at_share * tasks_[most_bent].room;
-    if (bent) look_into(begin, most_bent, tasks_[most_bent].bend_u);
-    if (!bent || most_bent != longest) look_into(begin, longest, 0.5);
+    look_into_row(row, tasks_, [&](std::size_t t, double u) { look_into(begin, t, u); });
   }
 }
 

@@ -32,7 +32,7 @@ class ChunkPlanner {
     bool as_line = false;              // of a cut: its inside need not be solved
     double length = 0, room = 0;       // of a line; what its knots may miss (m)
     std::size_t first_bend = 0, bends = 0;
-    double bend = 0, bend_u = 0.5;  // the largest |S dF| (m), and where
+    double bend = 0, bend_at = 0.5;  // the largest |S dF| (m), and where
   };
   // Of the force along a line: at its corners, and in the middle, where it may be curved.
   struct Bend {

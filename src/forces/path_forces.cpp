@@ -129,6 +129,7 @@ PathForces::PathForces(const ForceSource& source, const Program& window, const T
   Unblended unblended(source, window, path, R_MT, tail_.block_number);
   ForceRemarks remarks;
   places_.reserve(path.segments.size());
+  pieces_.reserve(path.segments.size() + (before.open ? before.open->pieces.size() : 0));
   bool open = goes_on(before.open, window, path);
   if (open) take_up(*before.open);
   for (std::size_t i = 0; i < path.segments.size(); ++i) {
@@ -152,7 +153,7 @@ PathForces::PathForces(const ForceSource& source, const Program& window, const T
 }
 
 void PathForces::take_up(const OpenRun& before) {
-  pieces_ = before.pieces;
+  pieces_.assign(before.pieces.begin(), before.pieces.end());  // keeps the room
   corners_ = before.corners;
   taken_up_ = pieces_.size();
   runs_.push_back(before.run);

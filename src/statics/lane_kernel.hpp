@@ -368,7 +368,7 @@ class LaneKernel {
     if (!question_.target) return;
     for (int i = 0; i < 3; ++i) next_p_[i] = p_[i] + x[6 + i];
     V rho[most_outputs];
-    evaluate_polynomials(next_p_, rho, program_.actuators);
+    find_actuators(next_p_, rho);
     for (int a = 0; a < program_.actuators; ++a) drho_[a] = rho[a] - rho_[a];
   }
 
@@ -452,25 +452,37 @@ class LaneKernel {
       }
   }
 
-  /// The first `outputs` polynomials at p, by Horner's rule, two at a time.
-  void evaluate_polynomials(const V* p, V* out, int outputs, int first = 0) {
+  /// Actuators for a commanded position.
+  void find_actuators(const V* p, V* rho) {
     V x[3];
     for (int i = 0; i < 3; ++i) x[i] = (p[i] - region_.centre[i]) * (1 / region_.half);
-    const int d = region_.degree, terms = (d + 1) * (d + 2) * (d + 3) / 6;
-    for (int o = 0; o < outputs; ++o) {
-      const double* c = region_.polynomials + static_cast<long>(first + o) * terms;
-      V sum_x{};
-      for (int i = 0; i <= d; ++i) {  // coefficients stand from the highest powers down
-        V sum_y{};
-        for (int j = 0; j <= i; ++j) {
-          V sum_z{};
-          for (int k = 0; k <= j; ++k) sum_z = sum_z * x[2] + *c++;
-          sum_y = sum_y * x[1] + sum_z;
-        }
-        sum_x = sum_x * x[0] + sum_y;
+    const int n = program_.actuators;
+    for (int a = 0; a < n;) {
+      if (n - a >= 3) {
+        evaluate_polynomials<3>(x, region_.polynomials + a, n, rho + a);
+        a += 3;
+      } else {
+        evaluate_polynomials<1>(x, region_.polynomials + a, n, rho + a);
+        ++a;
       }
-      out[o] = sum_x;
     }
+  }
+
+  /// N polynomials at once by Horner's rule; coefficients stand from the highest powers down, `stride` apart.
+  template <int N>
+  void evaluate_polynomials(const V* x, const double* c, int stride, V* out) {
+    V sum_x[N]{}, sum_y[N], sum_z[N];
+    for (int i = 0; i <= region_.degree; ++i) {
+      for (V& sum : sum_y) sum = V{};
+      for (int j = 0; j <= i; ++j) {
+        for (V& sum : sum_z) sum = V{};
+        for (int k = 0; k <= j; ++k, c += stride)
+          for (int o = 0; o < N; ++o) sum_z[o] = sum_z[o] * x[2] + c[o];
+        for (int o = 0; o < N; ++o) sum_y[o] = sum_y[o] * x[1] + sum_z[o];
+      }
+      for (int o = 0; o < N; ++o) sum_x[o] = sum_x[o] * x[0] + sum_y[o];
+    }
+    for (int o = 0; o < N; ++o) out[o] = sum_x[o];
   }
 
   void begin(const Batch& batch) {
@@ -484,7 +496,7 @@ class LaneKernel {
     if (question_.kinematics)
       take_actuators();
     else
-      evaluate_polynomials(p_, rho_, program_.actuators);
+      find_actuators(p_, rho_);
     set_actuators();
     active_ = p_[0] == p_[0];
     converged_ = active_ & ~active_;
@@ -534,19 +546,14 @@ class LaneKernel {
   void finish(Batch& batch) {
     find_tip();
     const V* X = state_ + program_.platform;
-    V R_PT[9], R[9], phi[3];
+    V R_PT[9], R[9];
     for (int i = 0; i < 9; ++i) R_PT[i] = broadcast(program_.R_PT[i]);
     multiply(X, R_PT, R);
-    if (question_.kinematics)
-      for (V& angle : phi) angle = V{};
-    else
-      evaluate_polynomials(wanted_, phi, 3, program_.actuators);
     for (int lane = 0; lane < W; ++lane) {
       const int at = first_ + lane;
       for (int i = 0; i < 9; ++i) batch.tip[i][at] = R[i][lane];
       for (int i = 0; i < 3; ++i) batch.tip[9 + i][at] = tip_[i][lane];
       for (int i = 0; i < 3; ++i) batch.p[i][at] = p_[i][lane];
-      for (int i = 0; i < 3; ++i) batch.wanted_phi[i][at] = phi[i][lane];
       for (int a = 0; a < program_.actuators; ++a) batch.rho[a * width + at] = rho_[a][lane];
       batch.iterations[at] = iterations_[lane];
       batch.converged[at] = converged_[lane] != 0;

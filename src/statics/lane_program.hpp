@@ -64,8 +64,7 @@ struct Program {
 struct Region {
   double centre[3], half;      ///< the cube of commanded positions in which polynomials hold (M, m)
   int degree;                  ///< of the polynomials in (p - centre) / half
-  const double* polynomials;   ///< one an actuator, then three of the rotation vector of the nominal tip against R_centre
-  const double* R_centre;      ///< row-major
+  const double* polynomials;   ///< of the actuators: all of one power after another
   const double* start;         ///< state at the centre, without a load
   const double* cosine;        ///< of start's coordinates
   const double* sine;
@@ -82,9 +81,7 @@ struct Batch {
   double p[3][width];   ///< forward: commanded position; target: wanted tip, on return the position to command (M, m)
   double F[6][width];   ///< at the tip, or where Program::arm says
   double tip[12][width];      ///< R row-major, p
-  double wanted_phi[3][width];  ///< rotation vector of the nominal tip at p against R_centre
   double iterations[width];
-  double largest_change[width];  ///< rad: how far angles are from the region's; NaN where lanes failed
   double* rho;                ///< actuators x width
   bool converged[width];
 };

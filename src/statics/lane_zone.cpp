@@ -79,7 +79,10 @@ bool LaneZone::fit_kinematics(const LaneModel& lane_model, int degree) {
     if (!(miss.cwiseAbs().maxCoeff() <= polynomial_tolerance)) return false;
   }
   turns_ = values.rightCols<3>().cwiseAbs().maxCoeff() > constant_orientation;
-  polynomials_.assign(coefficients.data(), coefficients.data() + coefficients.size());  // by column: one output after another
+  const Eigen::Index n = coefficients.cols() - 3;
+  const Eigen::MatrixXd by_power = coefficients.leftCols(n).transpose();
+  polynomials_.assign(by_power.data(), by_power.data() + by_power.size());
+  orientation_ = coefficients.rightCols<3>();
   flat_.degree = degree;
   flat_.polynomials = polynomials_.data();
   return true;
@@ -97,14 +100,14 @@ std::unique_ptr<LaneZone> LaneZone::make(const Model& model, const LaneModel& la
   return nullptr;
 }
 
-Eigen::VectorXd LaneZone::outputs_at(const Vector3& p) const {
-  const Eigen::RowVectorXd powers = monomials((p - centre_) / flat_.half, flat_.degree);
-  const Eigen::Index terms = powers.size(), count = static_cast<Eigen::Index>(polynomials_.size()) / terms;
-  return Eigen::Map<const Eigen::MatrixXd>(polynomials_.data(), terms, count).transpose() * powers.transpose();
+Eigen::RowVectorXd LaneZone::powers_at(const Vector3& p) const {
+  return monomials((p - centre_) / flat_.half, flat_.degree);
 }
 
 Eigen::VectorXd LaneZone::rho_at(const Vector3& p) const {
-  return outputs_at(p).head(static_cast<Eigen::Index>(model_.mechanism.travel.size()));
+  const Eigen::RowVectorXd powers = powers_at(p);
+  const auto n = static_cast<Eigen::Index>(model_.mechanism.travel.size());
+  return Eigen::Map<const Eigen::MatrixXd>(polynomials_.data(), n, powers.size()) * powers.transpose();
 }
 
 Eigen::MatrixXd LaneZone::actuators_by_position(const Vector3& p) const {
@@ -115,7 +118,7 @@ Eigen::MatrixXd LaneZone::actuators_by_position(const Vector3& p) const {
 }
 
 Matrix3 LaneZone::R_MT(const Vector3& p) const {
-  return turns_ ? Matrix3(exp_so3(Vector3(outputs_at(p).tail<3>())) * R_centre_) : R_centre_;
+  return turns_ ? Matrix3(exp_so3(Vector3((powers_at(p) * orientation_).transpose())) * R_centre_) : R_centre_;
 }
 
 bool LaneZone::bears_at_centre(const Load& load, bool errors, StaticsWork& work) const {

@@ -45,7 +45,7 @@ class LaneZone {
   LaneZone(const Model& model, const LaneModel& lane_model) : model_(model), lane_model_(lane_model) {}
   bool find_centre(const LaneModel& lane_model, StaticsWork& work);
   bool fit_kinematics(const LaneModel& lane_model, int degree);
-  Eigen::VectorXd outputs_at(const Vector3& p) const;
+  Eigen::RowVectorXd powers_at(const Vector3& p) const;
   bool bears_octahedron(double force, double moment, bool errors, StaticsWork& work) const;
   bool bears_at_centre(const Load& load, bool errors, StaticsWork& work) const;
   bool bears_at_corners(const Load& load, bool errors, LaneMemory& memory, StaticsWork& work) const;
@@ -60,6 +60,7 @@ class LaneZone {
   lanes::Region flat_{};
   bool turns_ = false;  ///< whether the nominal tip's orientation depends on the position
   std::vector<double> polynomials_;
+  Eigen::Matrix<double, Eigen::Dynamic, 3> orientation_;  ///< polynomials of its rotation vector against the centre's
   mutable std::mutex mutex_;
   mutable std::map<std::array<double, 3>, bool> borne_;  ///< by force, moment / l and errors
 };

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "compensation/window_run.hpp"
+#include "counterflex/compensation/for_each_window.hpp"
 
 using namespace counterflex;
 using namespace counterflex::test;
@@ -95,4 +96,28 @@ TEST_CASE("what hears of a window that was read may refuse it, when its turn com
     CHECK(run.windows > 10);
     CHECK(run.waypoints.back().line <= 150);
   }
+}
+
+TEST_CASE("windows come in their order while others are read, and an error of the reader comes out") {
+  for (const int threads : {1, 2, 5})
+    for (const bool fails : {false, true}) {
+      const Order order = cuts(300, fails ? 250 : 0, "X1 F");
+      FileReader bytes = FileReader::of_bytes(order.text);
+      ProgramReader reader(bytes, "part.ngc", order.read, 8);
+      std::vector<int> first, behind;
+      const auto go = [&] {
+        for_each_window(
+            reader, threads, [&](const Program& window) { first.push_back(window.moves.front().line); },
+            [&](const Program& window) { behind.push_back(window.moves.front().line); });
+      };
+      if (fails)
+        CHECK_THROWS_AS(go(), InputError);
+      else
+        go();
+      CHECK(first.size() > 20);
+      CHECK(std::is_sorted(first.begin(), first.end()));
+      CHECK(first.size() >= behind.size());
+      CHECK(first.size() - behind.size() <= (fails ? 2 : 0));
+      CHECK(std::equal(behind.begin(), behind.end(), first.begin()));
+    }
 }

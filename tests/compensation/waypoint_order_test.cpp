@@ -1,0 +1,77 @@
+/// Targets all over the workspaces of the machines, asked for in one batch, far from one another.
+#include <doctest/doctest.h>
+
+#include "counterflex/compensation/options.hpp"
+#include "counterflex/geometry/units.hpp"
+#include "counterflex/machine/read_machine.hpp"
+#include "support/reference_data.hpp"
+#include "waypoint_solver.hpp"
+
+using namespace counterflex;
+using namespace counterflex::test;
+
+namespace {
+
+/// Corners of a block of positions of the tip (mm, machine axes).
+struct Block {
+  Vector3 low, high;
+};
+
+constexpr int per_axis = 5, asked = per_axis * per_axis * per_axis;
+constexpr int stride = 47;  // has no common divisor with 125: neighbours in a batch are far apart
+
+Vector3 place(const Block& block, int i) {
+  const int k = i * stride % asked;
+  const Eigen::Array3d share(k % per_axis, k / per_axis % per_axis, k / per_axis / per_axis);
+  return (block.low.array() + share / (per_axis - 1) * (block.high - block.low).array()) * mm;
+}
+
+/// A cut whose directions change from place to place.
+Load cut(int i) {
+  Load load;
+  load.F << 215.0 * (i % 3 - 1), 60.0 * (i % 5 - 2), -25, 1, 21.5 * (i % 2), 0;
+  return load;
+}
+
+/// Each target in a batch is the one that a solver finds which has been asked for nothing before.
+void check_order(const Machine& machine, const Block& block) {
+  CAPTURE(machine.name);
+  const Model model = prepare(machine);
+  const Program program = read_program("G21 G90\nG0 X0 Y0 Z0\nG1 X1 F600\nM30\n", "made.ngc", {});
+  const Toolpath path = build_toolpath(program, one_frame(program, {}));
+  const PathForces forces({}, program, path, {tip(model.mechanism, model.home).R});
+  const Job job{model, program, path, forces, {}, {}};
+  std::vector<TargetRequest> requests;
+  for (int i = 0; i < asked; ++i) requests.push_back({place(block, i), cut(i)});
+  std::vector<TargetSolution> together(asked);
+  WaypointSolver(job, model, model.home).targets(requests, together);
+  for (int i = 0; i < asked; ++i) {
+    CAPTURE(requests[i].p_MT.transpose());
+    CAPTURE(requests[i].load.F.transpose());
+    TargetSolution alone;
+    WaypointSolver(job, model, model.home).targets({&requests[i], 1}, {&alone, 1});
+    CHECK(to_string(together[i].status) == "converged");
+    CHECK(to_string(alone.status) == "converged");
+    CHECK((together[i].target - alone.target).norm() < 1e-9);
+  }
+}
+
+}  // namespace
+
+TEST_CASE("a target of the Orthoglide does not depend on what was asked before") {
+  const Block cube{{-73.65, -73.65, -73.65}, {126.35, 126.35, 126.35}};
+  check_order(load_machine(reference_machine_file("orthoglide_case_a")), cube);
+  check_order(load_machine(reference_machine_file("orthoglide_case_b")), cube);
+}
+
+TEST_CASE("a target of the hexapod does not depend on what was asked before") {
+  const Block block{{-120, -120, 780}, {120, 120, 940}};
+  check_order(load_machine(reference_machine_file("hexapod_joint_springs")), block);
+  check_order(load_machine(reference_machine_file("hexapod_free_joints")), block);
+}
+
+TEST_CASE("a target of a serial machine does not depend on what was asked before") {
+  check_order(load_machine(reference_machine_file("serial6r_link6")), {{1500, -300, 500}, {1900, 300, 900}});
+  check_order(load_machine(COUNTERFLEX_SOURCE_DIR "/samples/mill3/machine.toml"),
+              {{10, 10, -420}, {390, 240, -160}});
+}
