@@ -51,6 +51,20 @@ TEST_CASE("answers do not depend on what was asked before") {
   CHECK(same_answers(fresh.solve(LaneQuestion::target, true, path), expected));
 }
 
+TEST_CASE("what was forgotten is found again the same") {
+  LaneBench bench(machine_of("orthoglide_case_b"));
+  const auto path = some_path(bench, 53);
+  const auto expected = bench.solve(LaneQuestion::target, true, path);
+  CHECK(all_solved(expected));
+  const double cell = bench.model.mechanism.length / 32;
+  int known = 0;
+  for (int i = 0; i < 1728; ++i)  // more cells than are kept
+    known += bench.lanes.nominal_near(bench.home().p +
+                                      cell * Vector3(i % 12 - 4, i / 12 % 12 - 4, i / 144 - 4)) != nullptr;
+  CHECK(known > 1500);
+  CHECK(same_answers(bench.solve(LaneQuestion::target, true, path), expected));
+}
+
 TEST_CASE("threads that ask one machine at once get the answers of one thread") {
   const Machine machine = machine_of("orthoglide_case_b");
   LaneBench alone(machine), shared(machine);
