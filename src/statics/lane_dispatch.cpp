@@ -10,8 +10,8 @@ void solve_avx512(const Program&, const Region&, const Question&, Batch&, double
 
 Kernel best_kernel() {
 #if defined(__x86_64__)
-  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq")) return {solve_avx512, "AVX-512", 8};
-  if (__builtin_cpu_supports("avx2")) return {solve_avx2, "AVX2", 4};
+  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("fma")) return {solve_avx512, "AVX-512", 8};
+  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) return {solve_avx2, "AVX2", 4};
   return {solve_plain, "SSE2", 2};
 #else
   return {solve_plain, "plain", 2};
