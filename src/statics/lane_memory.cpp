@@ -2,8 +2,8 @@
 
 namespace counterflex {
 
-LaneMemory::LaneMemory(const LaneModel& model)
-    : model_(model), rho_(static_cast<std::size_t>(model.program().actuators) * lanes::width) {
+LaneMemory::LaneMemory(const LaneModel& model, lanes::Kernel kernel)
+    : model_(model), kernel_(kernel), rho_(static_cast<std::size_t>(model.program().actuators) * lanes::width) {
   constexpr long alignment = 64, per_line = alignment / sizeof(double);
   const long lines = lanes::doubles_needed(model.program()) / per_line + 1;
   memory_.reset(static_cast<double*>(std::aligned_alloc(alignment, static_cast<std::size_t>(lines * alignment))));

@@ -10,7 +10,7 @@ namespace counterflex {
 
 class LaneMemory {
  public:
-  explicit LaneMemory(const LaneModel& model);
+  explicit LaneMemory(const LaneModel& model, lanes::Kernel kernel = lanes::best_kernel());
 
   /// Solves the batch with what a region shares.
   void solve(const lanes::Region& region, const lanes::Question& question) {
@@ -30,7 +30,7 @@ class LaneMemory {
   };
 
   const LaneModel& model_;
-  lanes::Kernel kernel_ = lanes::best_kernel();
+  const lanes::Kernel kernel_;
   std::unique_ptr<double, Free> memory_;
   std::vector<double> rho_;
 };

@@ -20,6 +20,23 @@ void collect(const SeriesView& view, std::vector<SeriesView>& list) {
   }
 }
 
+// The states of the same series, in the order of `views`.
+void collect_states(SeriesState& state, std::vector<SeriesState*>& list) {
+  for (GroupState& group : state.groups) {
+    for (SeriesState& branch : group.branches) collect_states(branch, list);
+    for (SeriesState& branch : group.branches) list.push_back(&branch);
+  }
+}
+
+std::vector<SeriesState*> states_of(Configuration& configuration) {
+  std::vector<SeriesState*> list;
+  for (SeriesState& chain : configuration.chains) {
+    collect_states(chain, list);
+    list.push_back(&chain);
+  }
+  return list;
+}
+
 void put(const Pose& X, double* into) {
   for (int i = 0; i < 9; ++i) into[i] = X.R(i / 3, i % 3);
   for (int i = 0; i < 3; ++i) into[9 + i] = X.p[i];
@@ -61,17 +78,10 @@ Matrix3 z_to(const Vector3& axis) {
   return R;
 }
 
-// What stands before the next moving part, without and with assembly errors.
-struct Standing {
-  Pose X[2];
-  void add(const Pose& X_fixed) {
-    for (Pose& X_sum : X) X_sum = X_sum * X_fixed;
-  }
-};
-
-bool is_identity(const Standing& standing) {
-  return std::all_of(std::begin(standing.X), std::end(standing.X),
-                     [](const Pose& X) { return X.R == Matrix3::Identity() && X.p.isZero(0); });
+// The row of a part's first coordinate in its series' equations; -1 for an actuator.
+int row_of(const Series& series, const Part& part) {
+  const auto at = std::find(series.free.begin(), series.free.end(), part.column);
+  return at == series.free.end() ? -1 : 6 + static_cast<int>(at - series.free.begin());
 }
 
 }  // namespace
@@ -94,31 +104,51 @@ bool LaneModel::can_do(const Mechanism& mechanism) {
          mechanism.travel.size() <= 9;
 }
 
-LaneModel::LaneModel(const Model& model, bool at_platform) : model_(model) {
-  const Mechanism& mechanism = model.mechanism;
+// What stands before the next moving part, without and with assembly errors.
+struct LaneModel::Standing {
+  Pose X[2];
+  void add(const Pose& X_fixed) {
+    for (Pose& X_sum : X) X_sum = X_sum * X_fixed;
+  }
+  bool is_identity() const {
+    return std::all_of(std::begin(X), std::end(X),
+                       [](const Pose& X_sum) { return X_sum.R == Matrix3::Identity() && X_sum.p.isZero(0); });
+  }
+};
+
+LaneModel::LaneModel(const Model& model, bool at_platform) : model_(model), at_platform_(at_platform) {
   std::vector<SeriesWork> works;
-  for (const Series& chain : mechanism.chains) works.push_back(make_work(chain));
-  const auto list = views(mechanism, model.home, works);
+  for (const Series& chain : model.mechanism.chains) works.push_back(make_work(chain));
+  const auto list = views(model.mechanism, model.home, works);
   series_.resize(list.size());
-  std::map<const Series*, int> number;
-  for (std::size_t i = 0; i < list.size(); ++i) number[list[i].series] = static_cast<int>(i);
   for (std::size_t i = 0; i < list.size(); ++i) flatten(*list[i].series, series_[i]);
   program_.platform = program_.states;
   program_.states += 12;
+  join_ends(list);
+  describe_machine();
+}
+
+// Where chains and branches end, and which branches a group has.
+void LaneModel::join_ends(const std::vector<SeriesView>& list) {
+  std::map<const Series*, int> number;
+  for (std::size_t i = 0; i < list.size(); ++i) number[list[i].series] = static_cast<int>(i);
   for (std::size_t i = 0; i < list.size(); ++i) {
     if (list[i].is_chain) {
       series_[i].is_chain = true;
       series_[i].end = program_.platform;
     }
-    for (const lanes::Part& part : parts_[i])
-      if (part.operation == lanes::Operation::group) {
-        auto& mutable_part = const_cast<lanes::Part&>(part);
-        const SeriesGroup& group = list[i].series->groups[part.fixed];
-        mutable_part.first_branch = number.at(&group.branches.front());
-        mutable_part.branches = static_cast<int>(group.branches.size());
-        for (int b = 0; b < part.branches; ++b) series_[part.first_branch + b].end = part.value;
-      }
+    for (lanes::Part& part : parts_[i]) {
+      if (part.operation != lanes::Operation::group) continue;
+      const SeriesGroup& group = list[i].series->groups[part.fixed];
+      part.first_branch = number.at(&group.branches.front());
+      part.branches = static_cast<int>(group.branches.size());
+      for (int b = 0; b < part.branches; ++b) series_[part.first_branch + b].end = part.value;
+    }
   }
+}
+
+void LaneModel::describe_machine() {
+  const Mechanism& mechanism = model_.mechanism;
   program_.series = series_.data();
   program_.series_count = static_cast<int>(series_.size());
   program_.fixed[0] = fixed_[0].data();
@@ -127,77 +157,88 @@ LaneModel::LaneModel(const Model& model, bool at_platform) : model_(model) {
   program_.actuators = static_cast<int>(mechanism.travel.size());
   program_.length = mechanism.length;
   program_.floor_per_metre = 16 * std::numeric_limits<double>::epsilon() * mechanism.stiffest;
-  const Vector3 arm = at_platform ? mechanism.p_EP : mechanism.X_PT.p;
+  const Vector3 arm = at_platform_ ? mechanism.p_EP : mechanism.X_PT.p;
   for (int i = 0; i < 3; ++i) program_.arm[i] = arm[i];
   for (int i = 0; i < 3; ++i) program_.p_PT[i] = mechanism.X_PT.p[i];
   for (int i = 0; i < 9; ++i) program_.R_PT[i] = mechanism.X_PT.R(i / 3, i % 3);
   for (Component c : mechanism.controlled) controlled_.push_back(static_cast<int>(c));
   program_.controlled = controlled_.data();
-  const Matrix3 R_MT_home = tip(mechanism, model.home).R;
+  const Matrix3 R_MT_home = tip(mechanism, model_.home).R;
   for (int i = 0; i < 9; ++i) program_.R_MT_home[i] = R_MT_home(i / 3, i % 3);
 }
 
-int LaneModel::add_fixed(const Pose& without_errors, const Pose& with_errors) {
-  fixed_[0].push_back(flat_pose(without_errors));
-  fixed_[1].push_back(flat_pose(with_errors));
-  return static_cast<int>(fixed_[0].size()) - 1;
+// A part for what stands, unless that is nothing.
+void LaneModel::put_down(Standing& standing, std::vector<lanes::Part>& parts) {
+  if (standing.is_identity()) return;
+  fixed_[0].push_back(flat_pose(standing.X[0]));
+  fixed_[1].push_back(flat_pose(standing.X[1]));
+  const int number = static_cast<int>(fixed_[0].size()) - 1;
+  parts.push_back({.operation = lanes::Operation::fixed, .fixed = number, .actuator = -1});
+  standing = {};
+}
+
+void LaneModel::add_joint(const Part& part, int row, Standing& standing, std::vector<lanes::Part>& parts) {
+  const bool slides = part.joint.kind == JointKind::prismatic;
+  lanes::Part joint{.operation = slides ? lanes::Operation::slide : lanes::Operation::turn,
+                    .value = program_.states++,
+                    .row = row,
+                    .actuator = part.actuator,
+                    .k = part.k,
+                    .rest = part.rest,
+                    .passive = part.kind == PartKind::passive};
+  joint.axis = coordinate_axis(part.joint.axis, joint.sign);
+  Matrix3 R_axis = Matrix3::Identity();
+  if (joint.axis < 0) {  // about z of a frame that is turned there and back
+    R_axis = z_to(part.joint.axis);
+    joint.axis = 2;
+    joint.sign = 1;
+  }
+  standing.add(rotation(R_axis));
+  put_down(standing, parts);
+  parts.push_back(joint);
+  standing.add(rotation(R_axis.transpose()));
+}
+
+void LaneModel::add_spring(const Part& part, int row, std::vector<lanes::Part>& parts) {
+  std::vector<double>& K = springs_.emplace_back();
+  for (int i = 0; i < 36; ++i) K.push_back(part.K(i / 6, i % 6));
+  for (int i = 0; i < 6; ++i) K.push_back(part.theta_0[i]);
+  parts.push_back({.operation = lanes::Operation::spring, .value = program_.states, .row = row, .actuator = -1, .K = K.data()});
+  program_.states += 6;
+}
+
+// `fixed` says which group it is until `join_ends` knows its branches.
+void LaneModel::add_group(const Part& part, int row, std::vector<lanes::Part>& parts) {
+  parts.push_back(
+      {.operation = lanes::Operation::group, .fixed = part.group, .value = program_.states, .row = row, .actuator = -1});
+  program_.states += 12;
 }
 
 void LaneModel::flatten(const Series& series, lanes::Series& flat) {
   std::vector<lanes::Part>& parts = parts_.emplace_back();
   Standing standing;
-  const auto row_of = [&](const Part& part) {
-    const auto at = std::find(series.free.begin(), series.free.end(), part.column);
-    return at == series.free.end() ? -1 : 6 + static_cast<int>(at - series.free.begin());
-  };
-  const auto flush = [&] {
-    if (is_identity(standing)) return;
-    parts.push_back({.operation = lanes::Operation::fixed, .fixed = add_fixed(standing.X[0], standing.X[1]), .actuator = -1});
-    standing = {};
-  };
   for (const Part& part : series.parts) {
+    const int row = row_of(series, part);
+    if (part.kind == PartKind::spring || part.kind == PartKind::group) put_down(standing, parts);
     switch (part.kind) {
       case PartKind::mass: break;
       case PartKind::fixed: standing.add(part.X); break;
       case PartKind::error: standing.X[1] = standing.X[1] * part.X; break;
       case PartKind::actuator:
       case PartKind::passive:
-      case PartKind::compliance: {
-        lanes::Part joint{.operation = part.joint.kind == JointKind::prismatic ? lanes::Operation::slide : lanes::Operation::turn,
-                          .value = program_.states++, .row = row_of(part), .actuator = part.actuator, .k = part.k, .rest = part.rest, .passive = part.kind == PartKind::passive};
-        joint.axis = coordinate_axis(part.joint.axis, joint.sign);
-        Matrix3 R_axis = Matrix3::Identity();
-        if (joint.axis < 0) {  // about z of a frame that is turned there and back
-          R_axis = z_to(part.joint.axis);
-          joint.axis = 2;
-          joint.sign = 1;
-        }
-        standing.add(rotation(R_axis));
-        flush();
-        parts.push_back(joint);
-        standing.add(rotation(R_axis.transpose()));
-        break;
-      }
-      case PartKind::spring: {
-        flush();
-        std::vector<double>& K = springs_.emplace_back();
-        for (int i = 0; i < 36; ++i) K.push_back(part.K(i / 6, i % 6));
-        for (int i = 0; i < 6; ++i) K.push_back(part.theta_0[i]);
-        parts.push_back({.operation = lanes::Operation::spring, .value = program_.states, .row = row_of(part), .actuator = -1, .K = K.data()});
-        program_.states += 6;
-        break;
-      }
-      case PartKind::group:
-        flush();
-        parts.push_back({.operation = lanes::Operation::group, .fixed = part.group, .value = program_.states, .row = row_of(part), .actuator = -1});
-        program_.states += 12;
-        break;
+      case PartKind::compliance: add_joint(part, row, standing, parts); break;
+      case PartKind::spring: add_spring(part, row, parts); break;
+      case PartKind::group: add_group(part, row, parts); break;
     }
   }
-  flush();
+  put_down(standing, parts);
   flat.parts = parts.data();
   flat.part_count = static_cast<int>(parts.size());
   program_.most_parts = std::max(program_.most_parts, flat.part_count);
+  number_rows(series, flat);
+}
+
+void LaneModel::number_rows(const Series& series, lanes::Series& flat) {
   flat.rows = 6 + static_cast<int>(series.free.size());
   flat.wrench = program_.states;
   program_.states += 6;
@@ -245,8 +286,9 @@ Configuration LaneModel::configuration_of(const double* state, const Configurati
   std::vector<SeriesWork> works;
   for (const Series& chain : model_.mechanism.chains) works.push_back(make_work(chain));
   const auto list = views(model_.mechanism, configuration, works);
+  const auto states = states_of(configuration);
   for (std::size_t s = 0; s < list.size(); ++s) {
-    auto& to = const_cast<SeriesState&>(*list[s].state);  // of `configuration`, which is not const
+    SeriesState& to = *states[s];
     for (int i = 0; i < 6; ++i) to.F[i] = state[series_[s].wrench + i];
     for_each_coordinate(*list[s].series, parts_[s], [&](const Part& part, const lanes::Part& flat) {
       if (part.kind == PartKind::group) {

@@ -32,6 +32,7 @@ class LaneModel {
   static bool can_do(const Mechanism& mechanism);
 
   const lanes::Program& program() const { return program_; }
+  bool at_platform() const { return at_platform_; }
 
   /// The state of a configuration as the kernels hold it.
   std::vector<double> state_of(const Configuration& configuration) const;
@@ -42,10 +43,19 @@ class LaneModel {
  private:
   template <typename Visit>
   static void for_each_coordinate(const Series& series, const std::vector<lanes::Part>& parts, const Visit& visit);
+
+  struct Standing;
   void flatten(const Series& series, lanes::Series& flat);
-  int add_fixed(const Pose& without_errors, const Pose& with_errors);
+  void number_rows(const Series& series, lanes::Series& flat);
+  void add_joint(const Part& part, int row, Standing& standing, std::vector<lanes::Part>& parts);
+  void add_spring(const Part& part, int row, std::vector<lanes::Part>& parts);
+  void add_group(const Part& part, int row, std::vector<lanes::Part>& parts);
+  void put_down(Standing& standing, std::vector<lanes::Part>& parts);
+  void join_ends(const std::vector<SeriesView>& list);
+  void describe_machine();
 
   const Model& model_;
+  const bool at_platform_;
   lanes::Program program_{};
   std::vector<lanes::Series> series_;
   std::deque<std::vector<lanes::Part>> parts_;

@@ -111,6 +111,13 @@ inline double state_entry(const Kernel& kernel, const Program& program, const do
   const int vector = lane / kernel.together, within = lane % kernel.together;
   return memory[(static_cast<long>(vector) * program.states + i) * kernel.together + within];
 }
+
+/// Those that this computer can run, the best one last.
+struct Kernels {
+  Kernel list[3];
+  int count;
+};
+Kernels all_kernels();
 Kernel best_kernel();
 
 }  // namespace counterflex::lanes

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "lane_polynomial.hpp"
+#include "newton.hpp"
 
 namespace counterflex {
 namespace {
@@ -12,6 +13,8 @@ constexpr double polynomial_tolerance = 2e-12;         // m, rad
 constexpr double largest_kinematic_condition = 1e4;    // of the nominal Jacobian: far from a singularity
 constexpr double constant_orientation = 1e-11;         // rad
 constexpr double load_margin = 1.25;
+constexpr double largest_load = 1e12;                  // N
+constexpr double coarse_sizes = 0.5, fine_sizes = 2;   // of loads that are told apart, in an octave
 constexpr double slope_step = 1e-3;                    // of half an edge
 
 void put_in_lane(const Vector3& p, const Vector6& F, int lane, lanes::Batch& batch) {
@@ -87,7 +90,7 @@ bool LaneZone::fit_kinematics(const LaneModel& lane_model, int degree) {
 
 std::unique_ptr<LaneZone> LaneZone::make(const Model& model, const LaneModel& lane_model, const Vector3& centre, double half,
                                          StaticsWork& work) {
-  std::unique_ptr<LaneZone> zone(new LaneZone(model));
+  std::unique_ptr<LaneZone> zone(new LaneZone(model, lane_model));
   zone->centre_ = centre;
   for (int i = 0; i < 3; ++i) zone->flat_.centre[i] = centre[i];
   zone->flat_.half = half;
@@ -118,21 +121,68 @@ Matrix3 LaneZone::R_MT(const Vector3& p) const {
   return turns_ ? Matrix3(exp_so3(Vector3((powers_at(p) * orientation_).transpose())) * R_centre_) : R_centre_;
 }
 
-bool LaneZone::bears(double size, bool moments, double errors, StaticsWork& work) const {
-  const int exponent = static_cast<int>(std::ceil(std::log2(std::max(size, 1.0))));
-  const std::array<int, 3> key{exponent, moments, errors > 0};
-  const std::lock_guard lock(mutex_);
+bool LaneZone::bears_at_centre(const Load& load, bool errors, StaticsWork& work) const {
+  return solve_forward(model_, nominal_, load, {.errors = errors ? 1.0 : 0.0}, work).status == Status::converged;
+}
+
+bool LaneZone::bears_alone(const Vector3& p, const Load& load, bool errors, StaticsWork& work) const {
+  const NominalResult followed = follow(model_, nominal_, {tip(model_.mechanism, model_.home).R, p});
+  return followed.status == Status::converged &&
+         solve_forward(model_, followed.configuration, load, {.errors = errors ? 1.0 : 0.0}, work).status == Status::converged;
+}
+
+// One corner a lane; where lanes do not find an equilibrium, it is followed.
+bool LaneZone::bears_at_corners(const Load& load, bool errors, LaneMemory& memory, StaticsWork& work) const {
+  static_assert(lanes::width == 8);
+  const auto corner = [this](int lane) {
+    return Vector3(centre_ + flat_.half * Vector3(lane & 1 ? 1 : -1, lane & 2 ? 1 : -1, lane & 4 ? 1 : -1));
+  };
+  for (int lane = 0; lane < lanes::width; ++lane) put_in_lane(corner(lane), load.F, lane, memory.batch);
+  memory.solve(flat_, {.target = false, .kinematics = false, .errors = errors, .go_on = false});
+  for (int lane = 0; lane < lanes::width; ++lane) {
+    if (!memory.batch.converged[lane]) {
+      if (!bears_alone(corner(lane), load, errors, work)) return false;
+      continue;
+    }
+    const Configuration loaded = lane_model_.configuration_of(memory.state(lane).data(), reference_);
+    const Problem problem{load, {.errors = errors ? 1.0 : 0.0}, nullptr};
+    evaluate_all(model_, loaded, problem.stage, work.impl());
+    for (std::size_t i = 0; i < model_.mechanism.chains.size(); ++i)
+      if (!condense(model_.mechanism.chains[i], {model_.mechanism.length}, false, work.impl().chains[i])) return false;
+    if (!is_stable(model_, loaded, problem, work.impl())) return false;
+  }
+  return true;
+}
+
+// A vector of three components is in the octahedron of sqrt 3 times its length; with another beside it in that of the sum.
+bool LaneZone::bears_octahedron(double force, double moment, bool errors, StaticsWork& work) const {
+  const std::array<double, 3> key{force, moment, errors ? 1.0 : 0.0};
   if (const auto found = borne_.find(key); found != borne_.end()) return found->second;
-  const int axes = moments ? 6 : 3;
-  const double reach = load_margin * std::sqrt(axes) * std::ldexp(1.0, exponent);
+  const int axes = moment > 0 ? 6 : 3;
+  const double margin = load_margin * std::sqrt(3.0) * (moment > 0 ? 2 : 1);
+  LaneMemory memory(lane_model_);
   bool borne = true;
   for (int corner = 0; corner < 2 * axes && borne; ++corner) {
     const int axis = corner / 2;
-    Load load;
-    load.F[axis] = (corner % 2 ? -1 : 1) * reach * (axis < 3 ? 1 : model_.mechanism.length);
-    borne = solve_forward(model_, nominal_, load, {.errors = errors}, work).status == Status::converged;
+    Load load{Vector6::Zero(), lane_model_.at_platform()};
+    load.F[axis] = (corner % 2 ? -margin : margin) * (axis < 3 ? force : moment * model_.mechanism.length);
+    borne = bears_at_centre(load, errors, work) && bears_at_corners(load, errors, memory, work);
   }
   return borne_[key] = borne;
+}
+
+// Most loads are borne four times over: they are all one then.
+bool LaneZone::bears(double force, double moment, bool errors, StaticsWork& work) const {
+  const double turning = moment / model_.mechanism.length;
+  if (!(force <= largest_load && turning <= largest_load)) return false;
+  const std::lock_guard lock(mutex_);
+  for (const double sizes : {coarse_sizes, fine_sizes}) {
+    const auto rounded_up = [sizes](double size) {
+      return std::exp2(std::ceil(sizes * std::log2(std::max(size, 1.0))) / sizes);
+    };
+    if (bears_octahedron(rounded_up(force), moment > 0 ? rounded_up(turning) : 0, errors, work)) return true;
+  }
+  return false;
 }
 
 std::unique_ptr<LaneCell> LaneCell::make(const Model& model, const LaneModel& lane_model, std::shared_ptr<const LaneZone> zone,

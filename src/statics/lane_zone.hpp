@@ -35,18 +35,24 @@ class LaneZone {
   Eigen::MatrixXd actuators_by_position(const Vector3& p) const;
   Matrix3 R_MT(const Vector3& p) const;
 
-  /// Whether the machine, followed from its nominal configuration at the centre, is stable and well conditioned under every
-  /// load up to `size` (the larger of force and moment / l, N; no moment where `moments` is false). To first order the loads that
-  /// a machine bears are a convex set, so the corners of an octahedron that holds them with a margin speak for all.
-  bool bears(double size, bool moments, double errors, StaticsWork& work) const;
+  /// Whether the machine is stable and well conditioned under every force up to `force` (N) with every moment up to `moment`
+  /// (N m; 0: none). To first order the loads that it bears in a place are a convex set, so the corners of an octahedron that
+  /// holds them with a margin speak for all; at the centre they are followed from the nominal configuration, at the corners
+  /// of the cube their equilibria are judged.
+  bool bears(double force, double moment, bool errors, StaticsWork& work) const;
 
  private:
-  explicit LaneZone(const Model& model) : model_(model) {}
+  LaneZone(const Model& model, const LaneModel& lane_model) : model_(model), lane_model_(lane_model) {}
   bool find_centre(const LaneModel& lane_model, StaticsWork& work);
   bool fit_kinematics(const LaneModel& lane_model, int degree);
   Eigen::RowVectorXd powers_at(const Vector3& p) const;
+  bool bears_octahedron(double force, double moment, bool errors, StaticsWork& work) const;
+  bool bears_at_centre(const Load& load, bool errors, StaticsWork& work) const;
+  bool bears_at_corners(const Load& load, bool errors, LaneMemory& memory, StaticsWork& work) const;
+  bool bears_alone(const Vector3& p, const Load& load, bool errors, StaticsWork& work) const;
 
   const Model& model_;
+  const LaneModel& lane_model_;
   Vector3 centre_;
   Matrix3 R_centre_;
   Configuration nominal_, reference_;
@@ -56,7 +62,7 @@ class LaneZone {
   std::vector<double> polynomials_;
   Eigen::Matrix<double, Eigen::Dynamic, 3> orientation_;  ///< polynomials of its rotation vector against the centre's
   mutable std::mutex mutex_;
-  mutable std::map<std::array<int, 3>, bool> borne_;
+  mutable std::map<std::array<double, 3>, bool> borne_;  ///< by force, moment / l and errors
 };
 
 /// A part of a zone small enough for one set of tangents.

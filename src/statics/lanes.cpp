@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <unordered_map>
 
 #include "lane_zone.hpp"
@@ -15,6 +16,7 @@ constexpr long cells_along_zone = 4;
 constexpr std::size_t most_zones = 512, most_cells = 1024;
 constexpr double reach_of_tangents = 0.8;  // from the centre of their cell, in edges
 constexpr double state_reach = 2;          // in edges: further away lanes begin anew
+constexpr double farthest_cell = 1e6;      // from the origin of M: nothing that is a machine
 constexpr double same_branch = 1e-3;  // l or rad: another branch is further away
 
 struct Index {
@@ -105,9 +107,11 @@ struct LaneMachine::Impl {
         edge(cell_share * m.mechanism.length),
         reach(largest_correction) {}
 
-  Index index_of(const Vector3& p) const {
+  /// The cell that holds `p`; none where that is absurdly far or no number.
+  std::optional<Index> index_of(const Vector3& p) const {
     const Vector3 n = (p / edge).array().floor();
-    return {static_cast<long>(n[0]), static_cast<long>(n[1]), static_cast<long>(n[2])};
+    if (!(n.array().abs() <= farthest_cell).all()) return std::nullopt;
+    return Index{static_cast<long>(n[0]), static_cast<long>(n[1]), static_cast<long>(n[2])};
   }
 
   std::shared_ptr<const LaneCell> cell(const Index& index, StaticsWork& work) {
@@ -159,9 +163,10 @@ struct LaneSolver::Impl {
 
   /// To the cell that holds `p`; false where lanes cannot do with it.
   bool go_to(const Vector3& p) {
-    const Index at = machine.index_of(p);
-    if (!cell || at != index) cell = machine.cell(at, work);
-    index = at;
+    const std::optional<Index> at = machine.index_of(p);
+    if (!at) return false;
+    if (!cell || *at != index) cell = machine.cell(*at, work);
+    index = *at;
     return cell != nullptr;
   }
 
@@ -192,14 +197,19 @@ struct LaneSolver::Impl {
   }
 
   bool bears(std::span<const LaneRequest> requests, bool errors) {
-    double size = 0;
-    bool moments = false;
+    double force = 0, moment = 0;
     for (const LaneRequest& request : requests) {
-      const Vector3 m = request.F.tail<3>();
-      size = std::max({size, request.F.head<3>().norm(), m.norm() / machine.model.mechanism.length});
-      moments = moments || !m.isZero(0);
+      force = std::max(force, request.F.head<3>().norm());
+      moment = std::max(moment, request.F.tail<3>().norm());
     }
-    return cell->zone().bears(size, moments, errors, work);
+    return cell->zone().bears(force, moment, errors, work);
+  }
+
+  // The largest loads of a batch may not be borne together; each with its own then.
+  bool bears_any(std::span<const LaneRequest> requests, bool errors) {
+    for (std::size_t i = 0; i < requests.size(); ++i)
+      if (bears(requests.subspan(i, 1), errors)) return true;
+    return false;
   }
 
   // Whether the cell's tangents still do for a place beside it, so that batches are full.
@@ -224,16 +234,17 @@ void LaneSolver::solve(LaneQuestion question, bool errors, std::span<const LaneR
   std::optional<Vector3> before;  // where the kernel's memory has a state to go on from
   for (std::size_t first = 0, count = 1; first < requests.size(); first += count, count = 1) {
     const bool known = impl_->go_to(requests[first].p);
-    while (count < lanes::width && first + count < requests.size() &&
-           (known ? impl_->may_join(requests[first + count].p)
-                  : impl_->machine.index_of(requests[first + count].p) == impl_->index))
-      ++count;
+    while (known && count < lanes::width && first + count < requests.size() && impl_->may_join(requests[first + count].p)) ++count;
     const auto batch = requests.subspan(first, count);
-    if (!known || !impl_->bears(batch, errors)) continue;
+    if (!known) continue;
+    const bool all_borne = impl_->bears(batch, errors);
+    if (!all_borne && !impl_->bears_any(batch, errors)) continue;
     const Vector3& p = batch.front().p;
     const bool near = before && (p - *before).cwiseAbs().maxCoeff() <= state_reach * impl_->machine.edge;
     impl_->solve_batch({.target = question == LaneQuestion::target, .kinematics = false, .errors = errors, .go_on = near}, batch,
                        answers.subspan(first, count));
+    for (std::size_t i = 0; !all_borne && i < count; ++i)
+      if (!impl_->bears(batch.subspan(i, 1), errors)) answers[first + i].solved = false;
     before = p;
   }
 }

@@ -1,7 +1,8 @@
 #pragma once
-/// Waypoints solved several at once, one a lane of a vector register: the same equilibria as `solve_forward` and
-/// `solve_target`, to the same residuals, for machines and places where they are known to be stable and well conditioned.
-/// What is not solved here says so, and is a matter for these. EQUATIONS.md, section 11.
+/// Waypoints solved several at once, one a lane of a vector register: the same equilibria as those of `solve_forward` and
+/// `solve_target`, to the same residuals, where the machine is known to be stable and well conditioned. A yes is the
+/// promise that these would say `converged`; a no says nothing, they decide. For machines without weights whose tip is
+/// controlled in x, y and z; others get a no for everything. EQUATIONS.md, section 11, tells what is proven and what is sampled.
 #include <memory>
 #include <span>
 
@@ -15,21 +16,23 @@ struct LaneRequest {
   Vector6 F = Vector6::Zero();
 };
 
-/// Forward: where the tip stands when `p` is commanded. Target: what has to be commanded for the tip to be at `p`.
+/// Forward: where the tip stands when `p` is commanded. Target: what has to be commanded for the tip to be at `p`. Orientations
+/// that the machine controls are commanded as at home.
 enum class LaneQuestion { forward, target };
 
 struct LaneAnswer {
-  bool solved = false;               ///< converged, stable, well conditioned, on the branch of home, actuators in their ranges
-  Vector3 command = Vector3::Zero();  ///< position of the nominal tip, M (m)
-  Pose X_MT;                         ///< of the real tip
-  int iterations = 0;
+  bool solved = false;  ///< converged, stable, on the branch of home, actuators in their ranges; else the rest means nothing
+  Vector3 command = Vector3::Zero();  ///< commanded position of the nominal tip, M (m)
+  Pose X_MT;                          ///< of the real tip
+  int iterations = 0;                 ///< steps taken
 };
 
 /// What lanes need to know of a machine, found where waypoints are and kept. Shared by threads; what is found for a place
 /// does not depend on who asked first. `model` outlives it.
 class LaneMachine {
  public:
-  /// `at_platform`: where loads act, as in `Load`; `reach`: largest correction that may be asked for (m).
+  /// `at_platform`: where loads act, as in `Load`; `reach`: largest distance from wanted to commanded position (m): targets
+  /// that need more are not solved.
   LaneMachine(const Model& model, bool at_platform, double reach);
   ~LaneMachine();
 
@@ -40,7 +43,8 @@ class LaneMachine {
   std::unique_ptr<Impl> impl_;
 };
 
-/// The lane machines of a run: one for each model, made when it is asked for.
+/// The lane machines of a run: one for each model and place of loads, made when it is asked for. Models outlive it and stay
+/// where they are. Threads may share it.
 class LaneMachines {
  public:
   explicit LaneMachines(double reach);
@@ -64,17 +68,19 @@ class LaneSolver {
   ~LaneSolver();
   LaneSolver(LaneSolver&&) noexcept;
 
-  /// `errors`: whether assembly errors act.
+  /// `errors`: whether assembly errors act. `answers` is as long as `requests`; neighbours should stand beside each other,
+  /// they are solved together. A request that is no number is not solved.
   void solve(LaneQuestion question, bool errors, std::span<const LaneRequest> requests, std::span<LaneAnswer> answers);
 
   /// Pose of the nominal tip at a position, on the branch of home; false where it is not known.
   bool nominal_tip(const Vector3& p, Pose& X_MT);
 
-  /// A nominal configuration on the branch of home, not far from `p`; null where it is not known. It stands until the next
-  /// call.
+  /// A nominal configuration on the branch of home, not far from `p` (that of its zone's centre); null where none is known.
+  /// It stands until the next call.
   const Configuration* nominal_near(const Vector3& p);
 
-  /// Whether the straight way between two positions is known to stay on one branch.
+  /// Whether the straight way between two positions is known to stay on one branch: neighbouring zones agree, along a
+  /// longer way the nominal machine is followed. No where one of them is not known.
   bool joins(const Vector3& from, const Vector3& to);
 
  private:

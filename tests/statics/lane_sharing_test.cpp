@@ -1,0 +1,127 @@
+/// What is found for a place is the same whoever asked first, and requests that mean nothing harm no others.
+#include <cstring>
+#include <limits>
+#include <thread>
+
+#include "lanes_support.hpp"
+
+using namespace counterflex;
+using namespace counterflex::laws;
+
+namespace {
+
+bool same_answers(const std::vector<LaneAnswer>& a, const std::vector<LaneAnswer>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const LaneAnswer& x, const LaneAnswer& y) {
+    return x.solved == y.solved && x.iterations == y.iterations && x.command == y.command &&
+           x.X_MT.p == y.X_MT.p && x.X_MT.R == y.X_MT.R;
+  });
+}
+
+const Trial& orthoglide_trial() {
+  static const Trial trial = controlled_machines()[1];
+  return trial;
+}
+
+// Waypoints beside each other, then a jump, then more.
+std::vector<LaneRequest> some_path(const LaneBench& bench, unsigned seed) {
+  Random random(seed);
+  std::vector<LaneRequest> path;
+  for (int part = 0; part < 2; ++part)
+    for (const LaneRequest& request : cluster(bench, orthoglide_trial(), random, 20, 0.004, 0.5))
+      path.push_back(request);
+  return path;
+}
+
+bool all_solved(const std::vector<LaneAnswer>& answers) {
+  return std::all_of(answers.begin(), answers.end(), [](const LaneAnswer& answer) { return answer.solved; });
+}
+
+}  // namespace
+
+TEST_CASE("answers do not depend on what was asked before") {
+  const Machine machine = machine_of("orthoglide_case_b");
+  LaneBench fresh(machine), used(machine);
+  const auto path = some_path(fresh, 43);
+  const auto expected = fresh.solve(LaneQuestion::target, true, path);
+  CHECK(all_solved(expected));
+  used.solve(LaneQuestion::forward, false, some_path(used, 44));
+  used.solve(LaneQuestion::target, true, {path.rbegin(), path.rend()});
+  CHECK(same_answers(used.solve(LaneQuestion::target, true, path), expected));
+  CHECK(same_answers(used.solve(LaneQuestion::target, true, path), expected));
+  CHECK(same_answers(fresh.solve(LaneQuestion::target, true, path), expected));
+}
+
+TEST_CASE("what was forgotten is found again the same") {
+  LaneBench bench(machine_of("orthoglide_case_b"));
+  const auto path = some_path(bench, 53);
+  const auto expected = bench.solve(LaneQuestion::target, true, path);
+  CHECK(all_solved(expected));
+  const double cell = bench.model.mechanism.length / 32;
+  int known = 0;
+  for (int i = 0; i < 1728; ++i)  // more cells than are kept
+    known += bench.lanes.nominal_near(bench.home().p +
+                                      cell * Vector3(i % 12 - 4, i / 12 % 12 - 4, i / 144 - 4)) != nullptr;
+  CHECK(known > 1500);
+  CHECK(same_answers(bench.solve(LaneQuestion::target, true, path), expected));
+}
+
+TEST_CASE("threads that ask one machine at once get the answers of one thread") {
+  const Machine machine = machine_of("orthoglide_case_b");
+  LaneBench alone(machine), shared(machine);
+  const auto path = some_path(alone, 47);
+  const auto expected = alone.solve(LaneQuestion::forward, true, path);
+  std::vector<std::vector<LaneAnswer>> got(2, std::vector<LaneAnswer>(path.size()));
+  std::vector<std::thread> threads;
+  for (auto& answers : got)
+    threads.emplace_back([&] {
+      LaneSolver lanes(shared.machine);
+      lanes.solve(LaneQuestion::forward, true, path, answers);
+    });
+  for (std::thread& thread : threads) thread.join();
+  for (const auto& answers : got) CHECK(same_answers(answers, expected));
+}
+
+TEST_CASE("one lane machine serves a model and where its loads act, for the whole run") {
+  const Model model = model_of("orthoglide_case_b"), other = model_of("orthoglide_case_a");
+  const LaneMachines machines(5 * mm);
+  const LaneMachine* first = &machines.of(model, false);
+  CHECK(&machines.of(other, false) != first);
+  CHECK(&machines.of(model, true) != first);
+  CHECK(&machines.of(model, false) == first);
+}
+
+TEST_CASE(
+    "a request that is no number, absurdly far or absurdly loaded is not solved, and its neighbours are") {
+  LaneBench bench(machine_of("orthoglide_case_b"));
+  constexpr double infinity = std::numeric_limits<double>::infinity(),
+                   nan = std::numeric_limits<double>::quiet_NaN();
+  const Vector3 p = bench.home().p;
+  const Vector6 none = Vector6::Zero();
+  const std::vector<LaneRequest> bad{{Vector3(nan, 0, 0), none},       {Vector3(0, 1e300, 0), none},
+                                     {Vector3(0, 0, -infinity), none}, {p, Vector6::Constant(nan)},
+                                     {p, Vector6::Constant(infinity)}, {p, Vector6::Constant(1e300)},
+                                     {p, Vector6::Constant(1e9)}};
+  for (const LaneQuestion question : {LaneQuestion::forward, LaneQuestion::target})
+    for (const LaneRequest& request : bad) {
+      CAPTURE(request.p);
+      CAPTURE(request.F);
+      const auto answers = bench.solve(question, true, {{p, none}, request, {p, 10 * unit(1)}});
+      CHECK(answers[0].solved);
+      CHECK(!answers[1].solved);
+      CHECK(answers[2].solved);
+      CHECK(!bench.lanes.joins(p, Vector3(nan, 0, 0)));
+    }
+}
+
+TEST_CASE(
+    "a straight way within the workspace joins its ends, one to where the machine does not reach does not") {
+  LaneBench bench(machine_of("orthoglide_case_b"));
+  const Vector3 home = bench.home().p;
+  for (const Vector3& way :
+       {Vector3(0.002, 0, 0), Vector3(0.03, 0.01, 0), Vector3(0.1, 0.1, 0.1), Vector3(-0.07, 0.1, 0.05)}) {
+    CHECK(bench.lanes.joins(home, home + way));
+    CHECK(bench.lanes.joins(home + way, home));
+  }
+  CHECK(!bench.lanes.joins(home, home + Vector3(0.9, 0, 0)));
+  CHECK(!bench.lanes.joins(home + Vector3(0.9, 0, 0), home));
+}
