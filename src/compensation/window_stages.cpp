@@ -5,8 +5,10 @@
 namespace counterflex {
 namespace {
 
+constexpr double indistinct = 1e-10;  // m: of corrections that differ by rounding the first is named
+
 void note_correction(double size, int line, Compensation& result) {
-  if (size <= result.largest_correction) return;
+  if (result.largest_correction_line != 0 && size <= result.largest_correction + indistinct) return;
   result.largest_correction = size;
   result.largest_correction_line = line;
 }

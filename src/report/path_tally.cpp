@@ -18,7 +18,7 @@ DeviationSample sample(const Waypoint& w, const Vector6& deviation, double weigh
 }
 
 void keep(Largest& largest, double length, int line) {
-  if (largest.line == 0 || length / mm > largest.mm + 1e-12)
+  if (largest.line == 0 || length / mm > largest.mm + indistinct_mm)
     largest.line = line;  // the first but for rounding
   largest.mm = std::max(largest.mm, length / mm);
 }
@@ -56,8 +56,9 @@ WorstRow& WorstLines::row(int line) {
 
 std::vector<WorstRow> WorstLines::worst(double WorstRow::*key) const {
   std::vector<WorstRow> rows(std::min(rows_.size(), worst_rows));
+  const auto size = [&](const WorstRow& row) { return std::round(row.*key / indistinct_mm); };
   const auto worse = [&](const WorstRow& a, const WorstRow& b) {
-    return a.*key > b.*key || (a.*key == b.*key && a.line < b.line);
+    return size(a) > size(b) || (size(a) == size(b) && a.line < b.line);
   };
   std::partial_sort_copy(rows_.begin(), rows_.end(), rows.begin(), rows.end(), worse);
   return rows;

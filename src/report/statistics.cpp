@@ -26,7 +26,7 @@ double upper_edge(int bin) {
 
 void keep_maxima(DeviationStatistics& kept, const DeviationStatistics& other) {
   // The first of lines that differ by rounding is named.
-  if (kept.max_line == 0 || other.max_mm > kept.max_mm + smallest_mm) kept.max_line = other.max_line;
+  if (kept.max_line == 0 || other.max_mm > kept.max_mm + indistinct_mm) kept.max_line = other.max_line;
   kept.max_mm = std::max(kept.max_mm, other.max_mm);
   kept.max_axis_mm = kept.max_axis_mm.cwiseMax(other.max_axis_mm);
   kept.max_rotation_deg = std::max(kept.max_rotation_deg, other.max_rotation_deg);

@@ -101,7 +101,7 @@ TEST_CASE("beside a singularity, and where the machine does not reach, lanes say
     Tally tally;
     LaneBench bench(lane_trial.machine);
     const Vector3 way = random.vector(1).normalized();
-    for (double far = 0.2; far < 4; far *= 1.35) {
+    for (double far = 0.2; far < 4; far *= 1.6) {
       std::vector<LaneRequest> requests;
       for (int i = 0; i < 3; ++i)
         requests.push_back({bench.home().p + far * way + random.vector(0.005), random.six(100, 5)});

@@ -8,6 +8,10 @@
 
 namespace counterflex {
 
+/// Deviations that differ by less than this are equally large where the largest is named: solvers for different
+/// processors agree to a hundredth of it.
+inline constexpr double indistinct_mm = 1e-7;
+
 struct DeviationStatistics {
   double max_mm = 0;  ///< largest norm of the position deviation
   double rms_mm =
