@@ -1,6 +1,6 @@
 #pragma once
 /// The kernel behind lane_program.hpp for vectors of W doubles. Lanes never meet: each is solved as if it were alone, with
-/// the same operations in the same order for every W; results differ between instruction sets only by how these round.
+/// the same operations in the same order for every W, so that results do not depend on the instruction set.
 #include "lane_program.hpp"
 
 namespace counterflex::lanes {

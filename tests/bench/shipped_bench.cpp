@@ -33,13 +33,16 @@ std::array<std::vector<TargetRequest>, 2> there_and_back(const Case& c) {
   return ways;
 }
 
+constexpr double largest_correction = 5e-3;  // m
+
 void shipped(benchmark::State& state, CaseOf case_of) {
   const Case& c = case_of();
   if (!c.failure.empty()) return state.SkipWithError(("no nominal configuration: " + c.failure).c_str());
   const Program program = read_program("G21 G90\nG0 X0 Y0 Z0\nG1 X1 F600\nM30\n", "made.ngc", {});
   const Toolpath path = build_toolpath(program, one_frame(program, {}));
   const PathForces forces({}, program, path, {tip(c.model.mechanism, c.model.home).R});
-  const Job job{c.model, program, path, forces, {}, {}};
+  const LaneMachines lanes(largest_correction);
+  const Job job{.model = c.model, .program = program, .path = path, .forces = forces, .lanes = &lanes};
   WaypointSolver solver(job, c.model, c.nominal.front());
   const auto ways = there_and_back(c);
   std::vector<TargetSolution> solved(batch);
