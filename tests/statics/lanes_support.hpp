@@ -39,7 +39,7 @@ struct LaneBench {
   }
 };
 
-/// A machine for lanes: how far from home, within how many metres of each other and how hard it is tried.
+/// A machine for lanes, and how far from home and how hard it is tried.
 struct LaneTrial {
   Trial trial;
   Machine machine;
