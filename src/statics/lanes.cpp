@@ -260,7 +260,8 @@ const Configuration* LaneSolver::nominal_near(const Vector3& p) {
   return &impl_->cell->zone().nominal();
 }
 
-// Neighbouring zones agree about a place between them; along a longer way the nominal machine is followed.
+// Neighbouring zones agree about a place between them; along a longer way the nominal machine is followed, from its very
+// beginning: beside a singularity it would pass.
 bool LaneSolver::joins(const Vector3& from, const Vector3& to) {
   if (!impl_->machine.able || !impl_->go_to(from)) return false;
   const std::shared_ptr<const LaneCell> begin = impl_->cell;
@@ -271,8 +272,11 @@ bool LaneSolver::joins(const Vector3& from, const Vector3& to) {
   const Model& model = impl_->machine.model;
   const Eigen::VectorXd there = impl_->cell->zone().rho_at(to);
   const double limit = same_branch * model.mechanism.length;
-  if (are_neighbours(zone_from, zone_to)) return (begin->zone().rho_at(to) - there).norm() < limit;
-  const NominalResult followed = follow(model, begin->zone().nominal(), {tip(model.mechanism, model.home).R, to});
+  if (are_neighbours(zone_from, zone_to) && (begin->zone().rho_at(to) - there).norm() < limit) return true;
+  const Matrix3 R_MT = tip(model.mechanism, model.home).R;
+  const NominalResult start = follow(model, begin->zone().nominal(), {R_MT, from});
+  if (start.status != Status::converged) return false;
+  const NominalResult followed = follow(model, start.configuration, {R_MT, to});
   return followed.status == Status::converged &&
          (actuator_values(model.mechanism, followed.configuration) - there).norm() < limit;
 }

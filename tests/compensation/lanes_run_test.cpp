@@ -112,6 +112,8 @@ TEST_CASE("what is refused one by one is refused side by side, at the same line 
   const char* const there_and_back =
       "G21 G90\nG0 X0. Y0. Z0.\nG2 X40. Y0. I20. J300. F600\nG1 X900. F600\nG1 X0.\nM30\n";
   CHECK(check_same_run({.machine = load_machine(orthoglide_b), .text = there_and_back}).failure);
+  const char* const through_axis_1 = "G21 G90\nG0 X600. Y900. Z800.\nG0 X120.\nG1 Y-900. F600\nM30\n";
+  CHECK(check_same_run({.machine = load_machine(robot), .text = through_axis_1}).failure);
   Order little{.machine = load_machine(orthoglide_b), .text = long_line, .force = constant_force(milling())};
   little.max_correction = 0.2e-3;
   CHECK(check_same_run(little).failure);

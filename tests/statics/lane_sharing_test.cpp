@@ -125,3 +125,12 @@ TEST_CASE(
   CHECK(!bench.lanes.joins(home, home + Vector3(0.9, 0, 0)));
   CHECK(!bench.lanes.joins(home + Vector3(0.9, 0, 0), home));
 }
+
+// The wrist centre of the robot is above and behind its tip; on the axis of the first joint that may turn
+// freely.
+TEST_CASE("a straight way through a singularity joins nothing, though a way beside it does") {
+  LaneBench bench(machine_of("serial6r_joints"));
+  const auto way = [&](double x) { return bench.lanes.joins({x, 0.9, 0.8}, {x, -0.9, 0.8}); };
+  CHECK(!way(0.12));
+  CHECK(way(0.6));
+}
