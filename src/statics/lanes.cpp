@@ -11,10 +11,10 @@ namespace counterflex {
 
 namespace lane_grid {
 
-constexpr double cell_share = 1.0 / 32;  // edge of a cell, in units of l
-constexpr long cells_along_zone = 4;
+constexpr double cell_share = 1.0 / 24;  // edge of a cell, in units of l
+constexpr long cells_along_zone = 3;
 constexpr std::size_t most_zones = 512, most_cells = 1024;
-constexpr double reach_of_tangents = 0.8;  // from the centre of their cell, in edges
+constexpr double reach_of_tangents = 2;   // from the centre of their cell, in edges: full batches are worth an iteration
 constexpr double state_reach = 2;          // in edges: further away lanes begin anew
 constexpr double farthest_cell = 1e6;      // from the origin of M: nothing that is a machine
 constexpr double same_branch = 1e-3;  // l or rad: another branch is further away
