@@ -59,6 +59,7 @@ void shipped(benchmark::State& state, CaseOf case_of) {
       return;
     }
   }
+  state.SetLabel(lane_instructions());
   state.counters["items"] = batch;
   state.counters["steps"] = benchmark::Counter(iterations / batch, benchmark::Counter::kAvgIterations);
 }
