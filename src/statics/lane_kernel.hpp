@@ -362,6 +362,7 @@ class LaneKernel {
       multiply(region_.target, 9, 9, balance_, x, false);
     else
       multiply(region_.forward, 6, 6, balance_, x, false);
+    if (question_.target && region_.bend != nullptr) straighten(x);
     for (int i = 0; i < 6; ++i) twist_[i] = x[i];
     if (question_.kinematics)
       for (int a = 0; a < program_.actuators; ++a) drho_[a] = x[6 + a];
@@ -370,6 +371,21 @@ class LaneKernel {
     V rho[most_outputs];
     find_actuators(next_p_, rho);
     for (int a = 0; a < program_.actuators; ++a) drho_[a] = rho[a] - rho_[a];
+  }
+
+  /// Actuators change by the commanded position otherwise here than where the tangents were taken.
+  void straighten(V* x) {
+    V away[3], more[most_outputs], change[9];
+    for (int i = 0; i < 3; ++i) away[i] = p_[i] - region_.place[i];
+    for (int a = 0; a < program_.actuators; ++a) {
+      more[a] = V{};
+      for (int i = 0; i < 3; ++i) {
+        const double* bend = region_.bend + 9 * a + 3 * i;
+        more[a] += away[i] * (bend[0] * x[6] + bend[1] * x[7] + bend[2] * x[8]);
+      }
+    }
+    multiply(region_.straighten, 9, program_.actuators, more, change, false);
+    for (int i = 0; i < 9; ++i) x[i] += change[i];
   }
 
   /// The rest of all steps, from the platform inwards; their largest entry, that of the platform's twist from above.
@@ -493,6 +509,8 @@ class LaneKernel {
     for (int i = 0; i < 3; ++i) wanted_[i] = p_[i];
     if (!question_.go_on)
       for (int i = 0; i < program_.states; ++i) state_[i] = broadcast(region_.start[i]);
+    if (question_.target)
+      for (int i = 0; i < 3; ++i) p_[i] += state_[program_.correction + i];
     if (question_.kinematics)
       take_actuators();
     else
@@ -544,6 +562,8 @@ class LaneKernel {
   }
 
   void finish(Batch& batch) {
+    if (question_.target)
+      for (int i = 0; i < 3; ++i) state_[program_.correction + i] = p_[i] - wanted_[i];
     find_tip();
     const V* X = state_ + program_.platform;
     V R_PT[9], R[9];

@@ -49,8 +49,9 @@ struct Program {
   const FixedPose* fixed[2];    ///< without and with assembly errors
   const int* actuator_numbers;
   int actuators;
-  int states;            ///< length of the state: coordinates, wrenches, poses of groups, pose of the platform
+  int states;            ///< length of the state: coordinates, wrenches, poses of groups, pose of the platform, correction
   int platform;          ///< index of the platform's pose in it
+  int correction;        ///< and of the last target's: commanded less wanted position
   int rows;              ///< of all series together
   int most_parts;
   double length;         ///< l
@@ -73,6 +74,9 @@ struct Region {
   const double* const* by_actuators;  ///< by series: rows x actuators
   const double* forward;  ///< 6 x 6, from the platform's imbalance to its step
   const double* target;   ///< 9 x 9, with the tip's error and the commanded position besides
+  double place[3];          ///< where the tangents were taken (M, m)
+  const double* bend;       ///< of the actuators' change by the commanded position, by position: [actuator][by][of]; or null
+  const double* straighten;  ///< 9 x n: what such a change of actuators does to the solution with `target`
   const double* kinematic;  ///< (6 + n) x (6 + n), with errors of the controlled components and actuators besides; or null
 };
 

@@ -109,10 +109,23 @@ bool LaneTangents::take(const Model& model, const LaneModel& lane_model, const C
     cosine_.push_back(std::cos(x));
     sine_.push_back(std::sin(x));
   }
+  G_ = G;
   return take_platform(model, reference, K, G, J);
 }
 
-void LaneTangents::enter(lanes::Region& region) const {
+void LaneTangents::bend(const std::array<Eigen::MatrixXd, 3>& J_by_position) {
+  const Eigen::Index n = G_.cols();
+  const Eigen::Map<const Eigen::Matrix<double, 9, 9, Eigen::RowMajor>> solve(target_.data());
+  for (Eigen::Index a = 0; a < n; ++a)
+    for (const Eigen::MatrixXd& J : J_by_position)
+      for (Eigen::Index of = 0; of < 3; ++of) bend_.push_back(J(a, of));
+  straighten_ = row_major(-solve.leftCols<6>() * G_);
+}
+
+void LaneTangents::enter(lanes::Region& region, const Vector3& place) const {
+  for (int i = 0; i < 3; ++i) region.place[i] = place[i];
+  region.bend = bend_.empty() ? nullptr : bend_.data();
+  region.straighten = straighten_.data();
   region.start = start_.data();
   region.cosine = cosine_.data();
   region.sine = sine_.data();

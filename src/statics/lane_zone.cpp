@@ -15,7 +15,7 @@ constexpr double constant_orientation = 1e-11;         // rad
 constexpr double load_margin = 1.25;
 constexpr double largest_load = 1e12;                  // N
 constexpr double coarse_sizes = 0.5, fine_sizes = 2;   // of loads that are told apart, in an octave
-constexpr double slope_step = 1e-3;                    // of half an edge
+constexpr double slope_step = 1e-2;                    // of half an edge
 
 void put_in_lane(const Vector3& p, const Vector6& F, int lane, lanes::Batch& batch) {
   for (int i = 0; i < 3; ++i) batch.p[i][lane] = p[i];
@@ -58,7 +58,7 @@ bool LaneZone::find_centre(const LaneModel& lane_model, StaticsWork& work) {
   reference_ = reference.configuration;
   const Eigen::MatrixXd by_position = J.J.inverse().leftCols(3);
   if (!tangents_.take(model_, lane_model, reference_, by_position, work)) return false;
-  tangents_.enter(flat_);
+  tangents_.enter(flat_, centre_);
   return flat_.kinematic != nullptr;
 }
 
@@ -115,6 +115,15 @@ Eigen::MatrixXd LaneZone::actuators_by_position(const Vector3& p) const {
   Eigen::MatrixXd J(static_cast<Eigen::Index>(model_.mechanism.travel.size()), 3);
   for (int i = 0; i < 3; ++i) J.col(i) = (rho_at(p + h * Vector3::Unit(i)) - rho_at(p - h * Vector3::Unit(i))) / (2 * h);
   return J;
+}
+
+std::array<Eigen::MatrixXd, 3> LaneZone::bend_of_actuators(const Vector3& p) const {
+  const double h = slope_step * flat_.half;
+  std::array<Eigen::MatrixXd, 3> bend;
+  for (int i = 0; i < 3; ++i)
+    bend[static_cast<std::size_t>(i)] =
+        (actuators_by_position(p + h * Vector3::Unit(i)) - actuators_by_position(p - h * Vector3::Unit(i))) / (2 * h);
+  return bend;
 }
 
 Matrix3 LaneZone::R_MT(const Vector3& p) const {
@@ -196,7 +205,8 @@ std::unique_ptr<LaneCell> LaneCell::make(const Model& model, const LaneModel& la
   const Configuration reference = lane_model.configuration_of(memory.state(0).data(), cell->zone_->reference());
   if (!cell->tangents_.take(model, lane_model, reference, cell->zone_->actuators_by_position(centre), work)) return nullptr;
   cell->flat_ = cell->zone_->flat();
-  cell->tangents_.enter(cell->flat_);
+  cell->tangents_.bend(cell->zone_->bend_of_actuators(centre));
+  cell->tangents_.enter(cell->flat_, centre);
   return cell;
 }
 

@@ -33,6 +33,7 @@ class LaneZone {
   /// Values of the actuators for a commanded position, their change by it (actuators x 3), and the nominal tip's orientation.
   Eigen::VectorXd rho_at(const Vector3& p) const;
   Eigen::MatrixXd actuators_by_position(const Vector3& p) const;
+  std::array<Eigen::MatrixXd, 3> bend_of_actuators(const Vector3& p) const;  ///< how that changes by the position
   Matrix3 R_MT(const Vector3& p) const;
 
   /// Whether the machine is stable and well conditioned under every force up to `force` (N) with every moment up to `moment`
