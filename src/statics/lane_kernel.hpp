@@ -355,7 +355,7 @@ class LaneKernel {
     for (int s = 0; s < program_.series_count; ++s)
       if (program_.series[s].is_chain)
         for (int i = 0; i < 6; ++i) balance_[i] -= step_[program_.series[s].step + i];
-    V x[6 + most_outputs];
+    V x[6 + most_actuators];
     if (question_.kinematics)
       multiply(region_.kinematic, 6 + program_.actuators, 6 + program_.actuators, balance_, x, false);
     else if (question_.target)
@@ -368,14 +368,14 @@ class LaneKernel {
       for (int a = 0; a < program_.actuators; ++a) drho_[a] = x[6 + a];
     if (!question_.target) return;
     for (int i = 0; i < 3; ++i) next_p_[i] = p_[i] + x[6 + i];
-    V rho[most_outputs];
+    V rho[most_actuators];
     find_actuators(next_p_, rho);
     for (int a = 0; a < program_.actuators; ++a) drho_[a] = rho[a] - rho_[a];
   }
 
   /// Actuators change by the commanded position otherwise here than where the tangents were taken.
   void straighten(V* x) {
-    V away[3], more[most_outputs], change[9];
+    V away[3], more[most_actuators], change[9];
     for (int i = 0; i < 3; ++i) away[i] = p_[i] - region_.place[i];
     for (int a = 0; a < program_.actuators; ++a) {
       more[a] = V{};
@@ -400,7 +400,7 @@ class LaneKernel {
       const V* end = series.is_chain ? twist_ : end_step_[s];
       multiply(region_.by_end[s], series.rows, 6, end, step, true);
       if (moves_actuators() && series.actuators > 0) {
-        V own[most_outputs];
+        V own[most_actuators];
         for (int a = 0; a < series.actuators; ++a) own[a] = drho_[program_.actuator_numbers[series.first_actuator + a]];
         multiply(region_.by_actuators[s], series.rows, series.actuators, own, step, true);
       }
@@ -581,7 +581,6 @@ class LaneKernel {
     forget_failed();
   }
 
-  static constexpr int most_outputs = 12, most_series = 64;
 
   const Program& program_;
   const Region& region_;
@@ -591,7 +590,7 @@ class LaneKernel {
   V *state_, *rhs_, *step_, *rho_, *drho_;
   PartFrame* frames_;
   const V* end_step_[most_series];
-  V F_[6], p_[3], wanted_[3], next_p_[3], tip_[3], balance_[6 + most_outputs], twist_[6];
+  V F_[6], p_[3], wanted_[3], next_p_[3], tip_[3], balance_[6 + most_actuators], twist_[6];
   V closure2_{}, force_{}, balance2_{}, wrench2_{}, largest_angle2_{}, largest_step_{}, iterations_{};
   M active_{}, converged_{};
 };

@@ -96,12 +96,20 @@ std::vector<SeriesView> views(const Mechanism& mechanism, const Configuration& c
   return list;
 }
 
+// With the branches of their groups.
+int series_count(const std::vector<Series>& list) {
+  int count = static_cast<int>(list.size());
+  for (const Series& series : list)
+    for (const SeriesGroup& group : series.groups) count += series_count(group.branches);
+  return count;
+}
+
 bool LaneModel::can_do(const Mechanism& mechanism) {
   const auto controls = [&](Component c) {
     return std::count(mechanism.controlled.begin(), mechanism.controlled.end(), c) > 0;
   };
   return !has_weight(mechanism) && controls(Component::x) && controls(Component::y) && controls(Component::z) &&
-         mechanism.travel.size() <= 9;
+         mechanism.travel.size() <= lanes::most_actuators && series_count(mechanism.chains) <= lanes::most_series;
 }
 
 // What stands before the next moving part, without and with assembly errors.

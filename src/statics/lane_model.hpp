@@ -28,7 +28,8 @@ class LaneModel {
   LaneModel(const Model& model, bool at_platform);
   LaneModel(const LaneModel&) = delete;
 
-  /// Whether the kernels can do with this machine: it controls x, y and z of the tip and has no weights.
+  /// Whether the kernels can do with this machine: it controls x, y and z of the tip, has no weights, and no more actuators
+  /// and series than kernels have room for.
   static bool can_do(const Mechanism& mechanism);
 
   const lanes::Program& program() const { return program_; }

@@ -6,6 +6,7 @@
 namespace counterflex::lanes {
 
 inline constexpr int width = 8;  ///< waypoints that are solved at once
+inline constexpr int most_actuators = 9, most_series = 64;  ///< of a machine that kernels have room for
 
 enum class Operation { fixed, slide, turn, spring, group };
 

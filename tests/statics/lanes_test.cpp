@@ -99,6 +99,15 @@ TEST_CASE(
   }
 }
 
+TEST_CASE("a machine with more series than kernels have room for is left to the solver of single waypoints") {
+  Machine machine = machine_of("orthoglide_case_b");
+  CHECK(LaneModel::can_do(compile(machine)));
+  for (Chain& chain : machine.chains)
+    for (Element& element : chain.elements)
+      if (Group* group = std::get_if<Group>(&element)) group->branches.resize(40, group->branches.front());
+  CHECK(!LaneModel::can_do(compile(machine)));
+}
+
 TEST_CASE("in lanes a place outside of travel, or out of reach, is not solved") {
   LaneBench mill(sample_machine("mill3/machine"));
   const Vector3 inside(0.2, 0.12, mill.home().p.z() - 0.1);
