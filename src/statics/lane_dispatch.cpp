@@ -11,7 +11,7 @@ void solve_avx512(const Program&, const Region&, const Question&, Batch&, double
 Kernels all_kernels() {
 #if defined(__x86_64__)
   Kernels kernels{{{solve_plain, "SSE2", 2}}, 1};
-  if (__builtin_cpu_supports("avx2")) kernels.list[kernels.count++] = {solve_avx2, "AVX2", 4};
+  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) kernels.list[kernels.count++] = {solve_avx2, "AVX2", 4};
   if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq"))
     kernels.list[kernels.count++] = {solve_avx512, "AVX-512", 8};
   return kernels;

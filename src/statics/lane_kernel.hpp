@@ -305,7 +305,7 @@ class LaneKernel {
         for (int b = 0; b < part.branches; ++b)
           for (int i = 0; i < 6; ++i) rhs[part.row + i] += step_[program_.series[part.first_branch + b].step + i];
       }
-      multiply(region_.inside[s], series.rows, series.rows, rhs, step_ + series.step, false);
+      multiply(region_.tangents + series.inside, series.rows, series.rows, rhs, step_ + series.step, false);
     }
   }
 
@@ -359,9 +359,9 @@ class LaneKernel {
     if (question_.kinematics)
       multiply(region_.kinematic, 6 + program_.actuators, 6 + program_.actuators, balance_, x, false);
     else if (question_.target)
-      multiply(region_.target, 9, 9, balance_, x, false);
+      multiply(region_.tangents + program_.target, 9, 9, balance_, x, false);
     else
-      multiply(region_.forward, 6, 6, balance_, x, false);
+      multiply(region_.tangents + program_.forward, 6, 6, balance_, x, false);
     if (question_.target && region_.bend != nullptr) straighten(x);
     for (int i = 0; i < 6; ++i) twist_[i] = x[i];
     if (question_.kinematics)
@@ -398,11 +398,11 @@ class LaneKernel {
       const Series& series = program_.series[s];
       V* step = step_ + series.step;
       const V* end = series.is_chain ? twist_ : end_step_[s];
-      multiply(region_.by_end[s], series.rows, 6, end, step, true);
+      multiply(region_.tangents + series.by_end, series.rows, 6, end, step, true);
       if (moves_actuators() && series.actuators > 0) {
         V own[most_actuators];
         for (int a = 0; a < series.actuators; ++a) own[a] = drho_[program_.actuator_numbers[series.first_actuator + a]];
-        multiply(region_.by_actuators[s], series.rows, series.actuators, own, step, true);
+        multiply(region_.tangents + series.by_actuators, series.rows, series.actuators, own, step, true);
       }
       for (int i = 6; i < series.rows; ++i)
         largest_step_ = larger(largest_step_, magnitude(step[i]) * (series.angular[i - 6] ? l : 1));
@@ -427,6 +427,16 @@ class LaneKernel {
   }
 
   void take_step() {
+    move_bodies();
+    if (!moves_actuators()) return;
+    if (question_.target)
+      for (int i = 0; i < 3; ++i) p_[i] += kept(next_p_[i] - p_[i]);
+    for (int a = 0; a < program_.actuators; ++a) rho_[a] += kept(drho_[a]);
+    set_actuators();
+  }
+
+  /// Everything but actuators.
+  void move_bodies() {
     for (int s = 0; s < program_.series_count; ++s) {
       const Series& series = program_.series[s];
       const V* step = step_ + series.step;
@@ -444,11 +454,6 @@ class LaneKernel {
       }
     }
     move_pose(state_ + program_.platform, twist_);
-    if (!moves_actuators()) return;
-    if (question_.target)
-      for (int i = 0; i < 3; ++i) p_[i] += kept(next_p_[i] - p_[i]);
-    for (int a = 0; a < program_.actuators; ++a) rho_[a] += kept(drho_[a]);
-    set_actuators();
   }
 
   /// From the state with which the call begins.
@@ -507,18 +512,47 @@ class LaneKernel {
     for (int i = 0; i < 6; ++i)
       for (int lane = 0; lane < W; ++lane) F_[i][lane] = batch.F[i][first_ + lane];
     for (int i = 0; i < 3; ++i) wanted_[i] = p_[i];
-    if (!question_.go_on)
-      for (int i = 0; i < program_.states; ++i) state_[i] = broadcast(region_.start[i]);
-    if (question_.target)
-      for (int i = 0; i < 3; ++i) p_[i] += state_[program_.correction + i];
+    active_ = p_[0] == p_[0];
+    if (!question_.go_on) stand_at_start();
     if (question_.kinematics)
       take_actuators();
     else
       find_actuators(p_, rho_);
     set_actuators();
-    active_ = p_[0] == p_[0];
     converged_ = active_ & ~active_;
     iterations_ = V{};
+  }
+
+  /// Where the unloaded machine stands, by polynomials of the place, and what the load moves to first order.
+  void stand_at_start() {
+    for (int i = 0; i < program_.states; ++i) state_[i] = broadcast(region_.start[i]);
+    if (region_.displacement == nullptr) return;
+    V x[3], powers[most_monomials];
+    for (int i = 0; i < 3; ++i) x[i] = (p_[i] - region_.displacement_centre[i]) * (1 / region_.displacement_half);
+    const int count = find_monomials(x, powers), rows = program_.rows;
+    const double* response = region_.tangents + program_.response;
+    multiply(region_.displacement, rows, count, powers, step_, false);
+    multiply(region_.displacement + rows * count, 6, count, powers, twist_, false);
+    multiply(response, rows, 6, F_, step_, true);
+    multiply(response + rows * 6, 6, 6, F_, twist_, true);
+    move_bodies();
+  }
+
+  /// All powers together up to the degree, in the order of `evaluate_polynomials`.
+  int find_monomials(const V* x, V* powers) const {
+    const int degree = region_.displacement_degree;
+    V of[3][most_displacement_degree + 1];
+    for (int i = 0; i < 3; ++i) {
+      of[i][0] = broadcast(1);
+      for (int d = 1; d <= degree; ++d) of[i][d] = of[i][d - 1] * x[i];
+    }
+    int count = 0;
+    for (int i = 0; i <= degree; ++i)
+      for (int j = 0; j <= i; ++j) {
+        const V xy = of[0][degree - i] * of[1][i - j];
+        for (int k = 0; k <= j; ++k) powers[count++] = xy * of[2][j - k];
+      }
+    return count;
   }
 
   V force_limit() {
@@ -562,8 +596,6 @@ class LaneKernel {
   }
 
   void finish(Batch& batch) {
-    if (question_.target)
-      for (int i = 0; i < 3; ++i) state_[program_.correction + i] = p_[i] - wanted_[i];
     find_tip();
     const V* X = state_ + program_.platform;
     V R_PT[9], R[9];

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 namespace counterflex {
 namespace {
@@ -131,10 +132,25 @@ LaneModel::LaneModel(const Model& model, bool at_platform) : model_(model), at_p
   series_.resize(list.size());
   for (std::size_t i = 0; i < list.size(); ++i) flatten(*list[i].series, series_[i]);
   program_.platform = program_.states;
-  program_.correction = program_.platform + 12;
-  program_.states = program_.correction + 3;
+  program_.states = program_.platform + 12;
   join_ends(list);
   describe_machine();
+  place_tangents();
+}
+
+// All tangents stand in one block.
+void LaneModel::place_tangents() {
+  int next = 0;
+  const auto take = [&next](int count) { return std::exchange(next, next + count); };
+  for (lanes::Series& series : series_) {
+    series.inside = take(series.rows * series.rows);
+    series.by_end = take(series.rows * 6);
+    series.by_actuators = take(series.rows * series.actuators);
+  }
+  program_.forward = take(6 * 6);
+  program_.target = take(9 * 9);
+  program_.response = take((program_.rows + 6) * 6);
+  program_.tangents = next;
 }
 
 // Where chains and branches end, and which branches a group has.
@@ -288,6 +304,30 @@ std::vector<double> LaneModel::state_of(const Configuration& configuration) cons
   }
   put(configuration.X_MP, &state[program_.platform]);
   return state;
+}
+
+std::vector<double> LaneModel::step_between(const std::vector<double>& from, const std::vector<double>& to) const {
+  std::vector<double> step(static_cast<std::size_t>(program_.rows) + 6);
+  const auto subtract = [&](int row, int value, int count) {
+    for (int i = 0; i < count; ++i) step[row + i] = to[value + i] - from[value + i];
+  };
+  const auto subtract_pose = [&](int row, int value) {
+    const Vector6 moved = difference(pose_at(&to[value]), pose_at(&from[value]));
+    for (int i = 0; i < 6; ++i) step[row + i] = moved[i];
+  };
+  for (std::size_t s = 0; s < series_.size(); ++s) {
+    subtract(series_[s].step, series_[s].wrench, 6);
+    for (const lanes::Part& part : parts_[s]) {
+      if (part.operation == lanes::Operation::fixed || part.row < 0) continue;
+      const int row = series_[s].step + part.row;
+      if (part.operation == lanes::Operation::group)
+        subtract_pose(row, part.value);
+      else
+        subtract(row, part.value, part.operation == lanes::Operation::spring ? 6 : 1);
+    }
+  }
+  subtract_pose(program_.rows, program_.platform);
+  return step;
 }
 
 Configuration LaneModel::configuration_of(const double* state, const Configuration& like) const {

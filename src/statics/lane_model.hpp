@@ -38,6 +38,9 @@ class LaneModel {
   /// The state of a configuration as the kernels hold it.
   std::vector<double> state_of(const Configuration& configuration) const;
 
+  /// The step of everything that takes a state to another one: rows of the series, then the platform's twist.
+  std::vector<double> step_between(const std::vector<double>& from, const std::vector<double>& to) const;
+
   /// The configuration of a state; `like` says what states do not hold.
   Configuration configuration_of(const double* state, const Configuration& like) const;
 
@@ -54,6 +57,7 @@ class LaneModel {
   void put_down(Standing& standing, std::vector<lanes::Part>& parts);
   void join_ends(const std::vector<SeriesView>& list);
   void describe_machine();
+  void place_tangents();
 
   const Model& model_;
   const bool at_platform_;

@@ -7,6 +7,7 @@ namespace counterflex::lanes {
 
 inline constexpr int width = 8;  ///< waypoints that are solved at once
 inline constexpr int most_actuators = 9, most_series = 64;  ///< of a machine that kernels have room for
+inline constexpr int most_displacement_degree = 4, most_monomials = 35;
 
 enum class Operation { fixed, slide, turn, spring, group };
 
@@ -41,6 +42,7 @@ struct Series {
   int end;              ///< index in the state of the pose where it should end
   bool is_chain;        ///< it ends at the platform
   int first_actuator, actuators;  ///< into Program::actuator_numbers
+  int inside, by_end, by_actuators;  ///< where its tangents begin among Region::tangents
   const bool* angular;  ///< by row, from the seventh on
 };
 
@@ -50,10 +52,11 @@ struct Program {
   const FixedPose* fixed[2];    ///< without and with assembly errors
   const int* actuator_numbers;
   int actuators;
-  int states;            ///< length of the state: coordinates, wrenches, poses of groups, pose of the platform, correction
+  int states;            ///< length of the state: coordinates, wrenches, poses of groups, pose of the platform
   int platform;          ///< index of the platform's pose in it
-  int correction;        ///< and of the last target's: commanded less wanted position
-  int rows;              ///< of all series together
+  int rows;              ///< of all series together; a step of everything has 6 more, the platform's twist
+  int forward, target, response;  ///< where these begin among Region::tangents
+  int tangents;          ///< how many numbers those are
   int most_parts;
   double length;         ///< l
   double floor_per_metre;  ///< 16 eps k_max
@@ -62,23 +65,25 @@ struct Program {
   double R_MT_home[9];    ///< orientation that nominal kinematics keeps where it is controlled
 };
 
-/// What is known of the machine around a place: everything that lanes share.
+/// What is known of the machine around a place: everything that lanes share. Matrices are row-major.
 struct Region {
   double centre[3], half;      ///< the cube of commanded positions in which polynomials hold (M, m)
   int degree;                  ///< of the polynomials in (p - centre) / half
   const double* polynomials;   ///< of the actuators: all of one power after another
-  const double* start;         ///< state at the centre, without a load
+  const double* start;         ///< state from which turns and displacements count, without a load
   const double* cosine;        ///< of start's coordinates
   const double* sine;
-  const double* const* inside;  ///< by series: rows x rows, from (gap, gradient) to (dF, dx)
-  const double* const* by_end;  ///< by series: rows x 6, from a step of its end
-  const double* const* by_actuators;  ///< by series: rows x actuators
-  const double* forward;  ///< 6 x 6, from the platform's imbalance to its step
-  const double* target;   ///< 9 x 9, with the tip's error and the commanded position besides
+  /// Of every series: inside, rows x rows, from (gap, gradient) to (dF, dx); by_end, rows x 6, from a step of its end;
+  /// by_actuators, rows x actuators. Then forward, 6 x 6, from the platform's imbalance to its twist; target, 9 x 9, with the
+  /// tip's error and the commanded position besides; response, (rows + 6) x 6, from a load to the step of everything.
+  const double* tangents;
   double place[3];          ///< where the tangents were taken (M, m)
   const double* bend;       ///< of the actuators' change by the commanded position, by position: [actuator][by][of]; or null
   const double* straighten;  ///< 9 x n: what such a change of actuators does to the solution with `target`
-  const double* kinematic;  ///< (6 + n) x (6 + n), with errors of the controlled components and actuators besides; or null
+  const double* displacement;  ///< (rows + 6) x monomials, of start, without a load, by the position in the cube below; or null
+  int displacement_degree;
+  double displacement_centre[3], displacement_half;  ///< M, m
+  const double* kinematic;  ///< (6 + n) x (6 + n), target with errors of the controlled components and actuators; or null
 };
 
 /// Waypoints, structure of arrays. In: p, F. Out: the rest.
@@ -95,7 +100,7 @@ struct Question {
   bool target;   ///< else forward
   bool kinematics;  ///< actuators for the tip of the nominal machine: nothing yields to anything, forces are zero
   bool errors;   ///< whether assembly errors act
-  bool go_on;    ///< begin with the state of the last call, else with the region's
+  bool go_on;    ///< begin with the state in which the last call has left the same waypoints, else with the region's
 };
 
 /// Solves one batch. `memory` holds `doubles_needed` numbers, aligned to 64 bytes, and keeps the state from call to call.

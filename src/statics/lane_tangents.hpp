@@ -1,33 +1,37 @@
 #pragma once
 /// The tangents with which lanes iterate near a configuration, and the state with which they begin.
-#include <array>
 #include <vector>
 
 #include "lane_model.hpp"
 
 namespace counterflex {
 
-class LaneTangents {
+/// A state from which turns and displacements of lanes count.
+class LaneStart {
  public:
+  LaneStart() = default;
+  explicit LaneStart(std::vector<double> state);
+
+  const std::vector<double>& state() const { return state_; }
+  void enter(lanes::Region& region) const;
+
+ private:
+  std::vector<double> state_, cosine_, sine_;
+};
+
+struct LaneTangents {
+  std::vector<double> numbers;    ///< as Region::tangents
+  std::vector<double> kinematic;  ///< as Region::kinematic; empty where nominal kinematics is singular
+  std::vector<double> straighten;  ///< as Region::straighten
+
   /// At an equilibrium; `J` (actuators x 3) is the change of the actuators by the commanded position. False where a series or
   /// the platform has no stiffness of its own: lanes cannot do with the place then.
   bool take(const Model& model, const LaneModel& lane_model, const Configuration& reference, const Eigen::MatrixXd& J,
             StaticsWork& work);
 
-  /// For targets: how `J` changes by the commanded position, d J / d p_i.
-  void bend(const std::array<Eigen::MatrixXd, 3>& J_by_position);
-
-  /// Lets a region use them, which were taken at `place` (M, m).
-  void enter(lanes::Region& region, const Vector3& place) const;
-
  private:
-  bool take_platform(const Model& model, const Configuration& reference, const Matrix6& K, const Eigen::MatrixXd& G,
-                     const Eigen::MatrixXd& J);
-
-  Eigen::MatrixXd G_;  ///< change of the chains' wrench by the actuators
-  std::vector<double> bend_, straighten_, start_, cosine_, sine_, forward_, target_, kinematic_;
-  std::vector<std::vector<double>> matrices_;
-  std::vector<const double*> inside_, by_end_, by_actuators_;
+  bool take_platform(const Model& model, const lanes::Program& program, const Configuration& reference, const Matrix6& K,
+                     const Eigen::MatrixXd& G, const Eigen::MatrixXd& J);
 };
 
 }  // namespace counterflex

@@ -58,8 +58,11 @@ bool LaneZone::find_centre(const LaneModel& lane_model, StaticsWork& work) {
   reference_ = reference.configuration;
   const Eigen::MatrixXd by_position = J.J.inverse().leftCols(3);
   if (!tangents_.take(model_, lane_model, reference_, by_position, work)) return false;
-  tangents_.enter(flat_, centre_);
-  return flat_.kinematic != nullptr;
+  start_ = LaneStart(lane_model.state_of(reference_));
+  start_.enter(flat_);
+  flat_.tangents = tangents_.numbers.data();
+  flat_.kinematic = tangents_.kinematic.data();
+  return !tangents_.kinematic.empty();
 }
 
 bool LaneZone::fit_kinematics(const LaneModel& lane_model, int degree) {
@@ -117,12 +120,15 @@ Eigen::MatrixXd LaneZone::actuators_by_position(const Vector3& p) const {
   return J;
 }
 
-std::array<Eigen::MatrixXd, 3> LaneZone::bend_of_actuators(const Vector3& p) const {
+std::vector<double> LaneZone::bend_of_actuators(const Vector3& p) const {
   const double h = slope_step * flat_.half;
-  std::array<Eigen::MatrixXd, 3> bend;
-  for (int i = 0; i < 3; ++i)
-    bend[static_cast<std::size_t>(i)] =
-        (actuators_by_position(p + h * Vector3::Unit(i)) - actuators_by_position(p - h * Vector3::Unit(i))) / (2 * h);
+  std::vector<double> bend(static_cast<std::size_t>(9 * model_.mechanism.travel.size()));
+  for (int by = 0; by < 3; ++by) {
+    const Eigen::MatrixXd change =
+        (actuators_by_position(p + h * Vector3::Unit(by)) - actuators_by_position(p - h * Vector3::Unit(by))) / (2 * h);
+    for (Eigen::Index a = 0; a < change.rows(); ++a)
+      for (int of = 0; of < 3; ++of) bend[static_cast<std::size_t>(9 * a + 3 * by + of)] = change(a, of);
+  }
   return bend;
 }
 
@@ -192,22 +198,6 @@ bool LaneZone::bears(double force, double moment, bool errors, StaticsWork& work
     if (bears_octahedron(rounded_up(force), moment > 0 ? rounded_up(turning) : 0, errors, work)) return true;
   }
   return false;
-}
-
-std::unique_ptr<LaneCell> LaneCell::make(const Model& model, const LaneModel& lane_model, std::shared_ptr<const LaneZone> zone,
-                                         const Vector3& centre, StaticsWork& work) {
-  auto cell = std::make_unique<LaneCell>();
-  cell->zone_ = std::move(zone);
-  LaneMemory memory(lane_model);
-  for (int lane = 0; lane < lanes::width; ++lane) put_in_lane(centre, Vector6::Zero(), lane, memory.batch);
-  memory.solve(cell->zone_->flat(), {.target = false, .kinematics = false, .errors = true, .go_on = false});
-  if (!memory.batch.converged[0]) return nullptr;
-  const Configuration reference = lane_model.configuration_of(memory.state(0).data(), cell->zone_->reference());
-  if (!cell->tangents_.take(model, lane_model, reference, cell->zone_->actuators_by_position(centre), work)) return nullptr;
-  cell->flat_ = cell->zone_->flat();
-  cell->tangents_.bend(cell->zone_->bend_of_actuators(centre));
-  cell->tangents_.enter(cell->flat_, centre);
-  return cell;
 }
 
 }  // namespace counterflex

@@ -1,6 +1,6 @@
 #pragma once
-/// What is known of nominal kinematics and of stability in a zone of commanded positions, and the tangents of smaller cells
-/// in it. All of it depends on the place alone, not on who asked first. EQUATIONS.md, section 11.
+/// What is known of nominal kinematics and of stability in a zone of commanded positions. All of it depends on the place
+/// alone, not on who asked first. EQUATIONS.md, section 11.
 #include <array>
 #include <map>
 #include <memory>
@@ -33,7 +33,7 @@ class LaneZone {
   /// Values of the actuators for a commanded position, their change by it (actuators x 3), and the nominal tip's orientation.
   Eigen::VectorXd rho_at(const Vector3& p) const;
   Eigen::MatrixXd actuators_by_position(const Vector3& p) const;
-  std::array<Eigen::MatrixXd, 3> bend_of_actuators(const Vector3& p) const;  ///< how that changes by the position
+  std::vector<double> bend_of_actuators(const Vector3& p) const;  ///< how that changes by the position, as Region::bend
   Matrix3 R_MT(const Vector3& p) const;
 
   /// Whether the machine is stable and well conditioned under every force up to `force` (N) with every moment up to `moment`
@@ -57,6 +57,7 @@ class LaneZone {
   Vector3 centre_;
   Matrix3 R_centre_;
   Configuration nominal_, reference_;
+  LaneStart start_;
   LaneTangents tangents_;
   lanes::Region flat_{};
   bool turns_ = false;  ///< whether the nominal tip's orientation depends on the position
@@ -64,22 +65,6 @@ class LaneZone {
   Eigen::Matrix<double, Eigen::Dynamic, 3> orientation_;  ///< polynomials of its rotation vector against the centre's
   mutable std::mutex mutex_;
   mutable std::map<std::array<double, 3>, bool> borne_;  ///< by force, moment / l and errors
-};
-
-/// A part of a zone small enough for one set of tangents.
-class LaneCell {
- public:
-  /// Null where no equilibrium is found from the zone's, or where it has no stiffness.
-  static std::unique_ptr<LaneCell> make(const Model& model, const LaneModel& lane_model, std::shared_ptr<const LaneZone> zone,
-                                        const Vector3& centre, StaticsWork& work);
-
-  const LaneZone& zone() const { return *zone_; }
-  const lanes::Region& flat() const { return flat_; }
-
- private:
-  std::shared_ptr<const LaneZone> zone_;
-  LaneTangents tangents_;
-  lanes::Region flat_{};
 };
 
 }  // namespace counterflex

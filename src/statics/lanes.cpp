@@ -5,7 +5,7 @@
 #include <optional>
 #include <unordered_map>
 
-#include "lane_zone.hpp"
+#include "lane_cell.hpp"
 
 namespace counterflex {
 
@@ -13,9 +13,8 @@ namespace lane_grid {
 
 constexpr double cell_share = 1.0 / 24;  // edge of a cell, in units of l
 constexpr long cells_along_zone = 3;
+constexpr double reach_of_cells = 2;       // from their centres, in edges: so that batches are full
 constexpr std::size_t most_zones = 512, most_cells = 1024;
-constexpr double reach_of_tangents = 2;   // from the centre of their cell, in edges: full batches are worth an iteration
-constexpr double state_reach = 2;          // in edges: further away lanes begin anew
 constexpr double farthest_cell = 1e6;      // from the origin of M: nothing that is a machine
 constexpr double same_branch = 1e-3;  // l or rad: another branch is further away
 
@@ -122,7 +121,7 @@ struct LaneMachine::Impl {
         return LaneZone::make(model, lane_model, centre_of(at, zone_edge), zone_edge / 2 + reach, work);
       });
       if (!zone) return nullptr;
-      return LaneCell::make(model, lane_model, zone, centre_of(index, edge), work);
+      return LaneCell::make(model, lane_model, zone, centre_of(index, edge), reach_of_cells * edge, work);
     });
   }
 };
@@ -212,14 +211,9 @@ struct LaneSolver::Impl {
     return false;
   }
 
-  // Whether the cell's tangents still do for a place beside it, so that batches are full.
-  bool may_join(const Vector3& p) const {
-    return (p - centre_of(index, machine.edge)).cwiseAbs().maxCoeff() <= reach_of_tangents * machine.edge && cell->zone().holds(p);
-  }
-
   void solve_batch(const lanes::Question& question, std::span<const LaneRequest> requests, std::span<LaneAnswer> answers) {
     load(requests);
-    memory.solve(cell->flat(), question);
+    memory.solve(cell->region(question.errors), question);
     for (std::size_t i = 0; i < requests.size(); ++i) answers[i] = answer(static_cast<int>(i));
   }
 };
@@ -231,21 +225,17 @@ LaneSolver::LaneSolver(LaneSolver&&) noexcept = default;
 void LaneSolver::solve(LaneQuestion question, bool errors, std::span<const LaneRequest> requests, std::span<LaneAnswer> answers) {
   std::fill(answers.begin(), answers.end(), LaneAnswer{});
   if (!impl_->machine.able) return;
-  std::optional<Vector3> before;  // where the kernel's memory has a state to go on from
   for (std::size_t first = 0, count = 1; first < requests.size(); first += count, count = 1) {
     const bool known = impl_->go_to(requests[first].p);
-    while (known && count < lanes::width && first + count < requests.size() && impl_->may_join(requests[first + count].p)) ++count;
+    while (known && count < lanes::width && first + count < requests.size() && impl_->cell->holds(requests[first + count].p)) ++count;
     const auto batch = requests.subspan(first, count);
     if (!known) continue;
     const bool all_borne = impl_->bears(batch, errors);
     if (!all_borne && !impl_->bears_any(batch, errors)) continue;
-    const Vector3& p = batch.front().p;
-    const bool near = before && (p - *before).cwiseAbs().maxCoeff() <= state_reach * impl_->machine.edge;
-    impl_->solve_batch({.target = question == LaneQuestion::target, .kinematics = false, .errors = errors, .go_on = near}, batch,
+    impl_->solve_batch({.target = question == LaneQuestion::target, .kinematics = false, .errors = errors, .go_on = false}, batch,
                        answers.subspan(first, count));
     for (std::size_t i = 0; !all_borne && i < count; ++i)
       if (!impl_->bears(batch.subspan(i, 1), errors)) answers[first + i].solved = false;
-    before = p;
   }
 }
 
