@@ -1,6 +1,7 @@
 #pragma once
 /// What should be commanded along every segment: targets at knots, before they are rounded and written.
 #include "curve.hpp"
+#include "known_end.hpp"
 #include "track.hpp"
 
 namespace counterflex {
@@ -27,6 +28,7 @@ struct PlannedSegment {
 
 struct Plan {
   std::vector<PlannedSegment> segments;
+  std::vector<KnownEnd> ends;  ///< by segment, what was found with its target; empty where nothing is
   std::optional<Failure> failure;
 };
 

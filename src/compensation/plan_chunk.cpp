@@ -23,8 +23,7 @@ ChunkPlanner::ChunkPlanner(const Job& job, WaypointSolver& solver)
       intervals_(waves_, curve_share * job.options.tolerance),
       knots_(job, solver) {}
 
-std::optional<Failure> ChunkPlanner::plan(std::size_t begin, std::size_t end,
-                                          std::vector<PlannedSegment>& planned) {
+std::optional<Failure> ChunkPlanner::plan(std::size_t begin, std::size_t end, Plan& plan) {
   clear(end - begin);
   for (std::size_t i = begin; i < end; ++i) ask_first(i);
   choose_lines();
@@ -36,8 +35,9 @@ std::optional<Failure> ChunkPlanner::plan(std::size_t begin, std::size_t end,
   judge_rows();
   if (!waves_.solve() || !intervals_.run()) return waves_.failure();
   for (const Task& task : tasks_) {
-    planned[task.segment] = {};
-    if (!finish(task, planned[task.segment])) return knots_.failure();
+    plan.segments[task.segment] = {};
+    if (!finish(task, plan.segments[task.segment])) return knots_.failure();
+    if (task.end != no_answer && !plan.ends.empty()) plan.ends[task.segment] = waves_.known_end(task.end);
   }
   return std::nullopt;
 }
@@ -74,7 +74,7 @@ void ChunkPlanner::ask_first(std::size_t index) {
     if (segment.wanted.arc && segment.cutting)
       sample(task);
     else
-      task.end = waves_.ask(index, 1, Side::before);
+      task.end = waves_.ask_end(index);
   }
   tasks_.push_back(task);
 }

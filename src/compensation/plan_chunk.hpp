@@ -19,7 +19,7 @@ class ChunkPlanner {
 
   /// Segments [begin, end) of the solver's model. A failure need not be that of the first segment that fails,
   /// unless there is only one.
-  std::optional<Failure> plan(std::size_t begin, std::size_t end, std::vector<PlannedSegment>& planned);
+  std::optional<Failure> plan(std::size_t begin, std::size_t end, Plan& plan);
 
  private:
   enum class Kind { held, group, rapid, cut };

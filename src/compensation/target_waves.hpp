@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "curve.hpp"
+#include "foresight.hpp"
 #include "waypoint_solver.hpp"
 
 namespace counterflex {
@@ -13,7 +14,7 @@ inline constexpr Answer no_answer = static_cast<Answer>(-1);
 
 class TargetWaves {
  public:
-  TargetWaves(const Job& job, WaypointSolver& solver) : job_(job), solver_(solver) {}
+  TargetWaves(const Job& job, WaypointSolver& solver) : job_(job), solver_(solver), foresight_(job) {}
 
   /// Forgets everything that was asked; about so many requests will come.
   void clear(std::size_t requests);
@@ -21,6 +22,9 @@ class TargetWaves {
   /// Asks for the correction at a fraction of a segment. What was asked just before at the same place and
   /// with the same force, as the end of the segment that this one joins, is not asked again.
   Answer ask(std::size_t segment, double u, Side side = Side::after);
+
+  /// Asks for the correction at the end of a segment, and where the tip stands there before and after it.
+  Answer ask_end(std::size_t segment);
 
   /// The same place as an answer's, under another force than the one that acts. It may fail.
   Answer ask_again(Answer answer, const Vector6& F);
@@ -33,6 +37,8 @@ class TargetWaves {
   Vector3 correction(Answer a) const { return solutions_[a].target - requests_[a].p_MT; }  ///< M (m)
   Vector3 target(Answer a) const { return solutions_[a].target; }                          ///< M (m)
   const Vector6& force(Answer a) const { return requests_[a].load.F; }
+  /// What else has been found where a segment's end was asked for.
+  KnownEnd known_end(Answer a) const;
   CurveNode node(double u, Answer a) const { return {u, correction(a)}; }
 
   /// The force at a fraction of a segment.
@@ -55,6 +61,10 @@ class TargetWaves {
   std::vector<TargetRequest> requests_;
   std::vector<TargetSolution> solutions_;
   std::vector<std::size_t> segments_;  // of the requests; no_segment for what may fail
+  std::vector<EndRequest> ends_;       // in the order of requests
+  std::vector<KnownEnd> known_;        // of those that are solved
+  std::vector<EndRequest> wave_;
+  Foresight foresight_;
   std::optional<Failure> failure_;
 };
 

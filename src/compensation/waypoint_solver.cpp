@@ -1,5 +1,7 @@
 #include "waypoint_solver.hpp"
 
+#include <algorithm>
+
 namespace counterflex {
 namespace {
 
@@ -47,12 +49,15 @@ void WaypointSolver::wanted(std::span<const Vector3> p_MT, std::span<WantedPose>
 }
 
 void WaypointSolver::targets(std::span<const TargetRequest> requests, std::span<TargetSolution> out) {
+  targets(requests, {}, nullptr, out, {});
+}
+
+void WaypointSolver::targets(std::span<const TargetRequest> requests, std::span<const EndRequest> ends,
+                             const ForeseenCommand& foreseen, std::span<TargetSolution> out,
+                             std::span<KnownEnd> known) {
   const bool in_lanes = lanes_ && job_.options.method == Method::direct;
-  if (in_lanes) {
-    requests_.clear();
-    for (const TargetRequest& request : requests) requests_.push_back({request.p_MT, request.load.F});
-    solve_in_lanes(LaneQuestion::target, true);
-  }
+  std::fill(known.begin(), known.end(), KnownEnd{});
+  if (in_lanes) targets_in_lanes(requests, ends, foreseen, known);
   for (std::size_t i = 0; i < requests.size(); ++i) {
     const bool solved = in_lanes && answers_[i].solved;
     if (solved)
@@ -60,6 +65,55 @@ void WaypointSolver::targets(std::span<const TargetRequest> requests, std::span<
     else
       out[i] = one_by_one(requests[i].p_MT).target(requests[i].p_MT, requests[i].load);
     strayed_ = strayed_ || solved;
+  }
+}
+
+// Ends by themselves, so that batches are full of what is asked alike.
+void WaypointSolver::targets_in_lanes(std::span<const TargetRequest> requests,
+                                      std::span<const EndRequest> ends, const ForeseenCommand& foreseen,
+                                      std::span<KnownEnd> known) {
+  requests_.clear();
+  std::size_t end = 0;
+  for (std::size_t i = 0; i < requests.size(); ++i) {
+    if (end < ends.size() && ends[end].target == i)
+      ++end;
+    else
+      requests_.push_back({requests[i].p_MT, requests[i].load.F});
+  }
+  solve_in_lanes(LaneQuestion::target, true);
+  if (ends.empty()) return;
+  ends_in_lanes(requests, ends, foreseen, known);
+  // Both in the order of requests again, from behind: nothing is overwritten before it is moved.
+  std::size_t other = answers_.size();
+  answers_.resize(requests.size());
+  for (std::size_t i = requests.size(); i-- > 0;)
+    answers_[i] =
+        end > 0 && ends[end - 1].target == i ? through_[--end].target : LaneAnswer(answers_[--other]);
+}
+
+void WaypointSolver::ends_in_lanes(std::span<const TargetRequest> requests, std::span<const EndRequest> ends,
+                                   const ForeseenCommand& foreseen, std::span<KnownEnd> known) {
+  end_requests_.clear();
+  originals_.clear();
+  for (const EndRequest& end : ends) {
+    end_requests_.push_back({requests[end.target].p_MT, requests[end.target].load.F});
+    originals_.push_back(end.original);
+  }
+  through_.resize(ends.size());
+  lanes_->solve_through(
+      end_requests_, originals_,
+      [&](std::size_t i, const Vector3& target) { return known[i].after.command = foreseen(i, target); },
+      through_);
+  const auto know = [](const LaneAnswer& answer, KnownTip& tip) {
+    tip.X_MT = answer.X_MT;
+    tip.iterations = answer.iterations;
+    tip.known = answer.solved;
+  };
+  for (std::size_t i = 0; i < ends.size(); ++i) {
+    known[i].load = requests[ends[i].target].load;
+    known[i].before.command = originals_[i];
+    know(through_[i].before, known[i].before);
+    know(through_[i].after, known[i].after);
   }
 }
 
@@ -72,7 +126,8 @@ void WaypointSolver::actuals(std::span<const ActualRequest> requests, std::span<
   }
 }
 
-void WaypointSolver::actuals_in_lanes(std::span<const ActualRequest> requests, std::span<ActualSolution> out) {
+void WaypointSolver::actuals_in_lanes(std::span<const ActualRequest> requests,
+                                      std::span<ActualSolution> out) {
   const bool in_lanes = lanes_ && can_do(requests.front().stage);
   if (in_lanes) {
     requests_.clear();

@@ -1,8 +1,9 @@
 #pragma once
 /// Solves many waypoints of one model at once.
+#include <functional>
 #include <span>
 
-#include "path_solver.hpp"
+#include "known_end.hpp"
 
 namespace counterflex {
 
@@ -11,6 +12,15 @@ struct TargetRequest {
   Vector3 p_MT = Vector3::Zero();
   Load load;
 };
+
+/// Which of the targets ends a segment, and the command of the original program there, M (m).
+struct EndRequest {
+  std::size_t target = 0;
+  Vector3 original = Vector3::Zero();
+};
+
+/// The command (M, m) as which the target of an end, by its number among the ends, will be written.
+using ForeseenCommand = std::function<Vector3(std::size_t end, const Vector3& target)>;
 
 /// A commanded position, M (m), and what acts there.
 struct ActualRequest {
@@ -38,6 +48,13 @@ class WaypointSolver {
 
   void wanted(std::span<const Vector3> p_MT, std::span<WantedPose> out);
   void targets(std::span<const TargetRequest> requests, std::span<TargetSolution> out);
+
+  /// The same, and at some of them, in their order, where the tip stands for the original's command and for
+  /// the foreseen one: each solved from the one before, so that it costs less than three questions. `known`
+  /// is as long as `ends`; what lanes do not solve is not known. Errors act.
+  void targets(std::span<const TargetRequest> requests, std::span<const EndRequest> ends,
+               const ForeseenCommand& foreseen, std::span<TargetSolution> out, std::span<KnownEnd> known);
+
   void actuals(std::span<const ActualRequest> requests, std::span<ActualSolution> out);
 
   const Model& model() const { return model_; }
@@ -45,6 +62,10 @@ class WaypointSolver {
  private:
   PathSolver& one_by_one(const Vector3& p);
   void solve_in_lanes(LaneQuestion question, bool errors);
+  void targets_in_lanes(std::span<const TargetRequest> requests, std::span<const EndRequest> ends,
+                        const ForeseenCommand& foreseen, std::span<KnownEnd> known);
+  void ends_in_lanes(std::span<const TargetRequest> requests, std::span<const EndRequest> ends,
+                     const ForeseenCommand& foreseen, std::span<KnownEnd> known);
   void actuals_in_lanes(std::span<const ActualRequest> requests, std::span<ActualSolution> out);
 
   const Job& job_;
@@ -53,6 +74,9 @@ class WaypointSolver {
   std::optional<LaneSolver> lanes_;
   std::vector<LaneRequest> requests_;
   std::vector<LaneAnswer> answers_;
+  std::vector<LaneRequest> end_requests_;
+  std::vector<Vector3> originals_;
+  std::vector<LaneThrough> through_;
   std::optional<PathSolver> one_by_one_;
   bool strayed_ = false;  ///< lanes have solved since the last waypoint that was solved alone
 };

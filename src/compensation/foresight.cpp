@@ -1,0 +1,35 @@
+#include "foresight.hpp"
+
+#include <limits>
+
+#include "counterflex/geometry/units.hpp"
+
+namespace counterflex {
+
+Vector3 in_words_mm(const Job& job, const Move& move, const Vector3& target) {
+  return inverse(job.path.frames[move.offset].X_MW) * target / mm;
+}
+
+Vector3 commanded_by(const Job& job, const Move& move, const Vector3& words_mm) {
+  return job.path.frames[move.offset].X_MW * (words_mm * mm);
+}
+
+// Nothing where a move between them may have come elsewhere.
+HeldPosition Foresight::before(std::size_t segment) const {
+  if (last_ + 1 != segment) return {};
+  const std::size_t from = job_->path.segments[last_].move, to = job_->path.segments[segment].move;
+  if (from + 1 != to) return {};
+  return held_between(job_->program.moves[from], job_->program.moves[to], held_);
+}
+
+Vector3 Foresight::command(std::size_t segment, const Vector3& target) {
+  const Move& move = job_->program.moves[job_->path.segments[segment].move];
+  held_ = held_after(move, before(segment), in_words_mm(*job_, move, target), job_->options.write);
+  last_ = segment;
+  Vector3 words_mm;
+  for (Eigen::Index axis = 0; axis < 3; ++axis)
+    words_mm[axis] = held_[static_cast<std::size_t>(axis)].value_or(std::numeric_limits<double>::quiet_NaN());
+  return commanded_by(*job_, move, words_mm);
+}
+
+}  // namespace counterflex
