@@ -2,6 +2,7 @@
 
 #include <limits>
 
+#include "counterflex/geometry/curve.hpp"
 #include "counterflex/geometry/units.hpp"
 
 namespace counterflex {
@@ -22,14 +23,24 @@ HeldPosition Foresight::before(std::size_t segment) const {
   return held_between(job_->program.moves[from], job_->program.moves[to], held_);
 }
 
-Vector3 Foresight::command(std::size_t segment, const Vector3& target) {
-  const Move& move = job_->program.moves[job_->path.segments[segment].move];
-  held_ = held_after(move, before(segment), in_words_mm(*job_, move, target), job_->options.write);
-  last_ = segment;
+Vector3 Foresight::command(std::size_t segment, const HeldPosition& held) const {
   Vector3 words_mm;
-  for (Eigen::Index axis = 0; axis < 3; ++axis)
-    words_mm[axis] = held_[static_cast<std::size_t>(axis)].value_or(std::numeric_limits<double>::quiet_NaN());
-  return commanded_by(*job_, move, words_mm);
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    words_mm[static_cast<Eigen::Index>(axis)] = held[axis].value_or(std::numeric_limits<double>::quiet_NaN());
+  return commanded_by(*job_, job_->program.moves[job_->path.segments[segment].move], words_mm);
+}
+
+Vector3 Foresight::end(std::size_t segment, const Vector3& target) {
+  const Move& move = job_->program.moves[job_->path.segments[segment].move];
+  before_ = before(segment);
+  held_ = held_after(move, before_, in_words_mm(*job_, move, target), job_->options.write);
+  last_ = segment;
+  return command(segment, held_);
+}
+
+Vector3 Foresight::inside(std::size_t segment, double u) const {
+  if (last_ != segment) return Vector3::Constant(std::numeric_limits<double>::quiet_NaN());
+  return point_at(Curve{command(segment, before_), command(segment, held_), {}}, u);
 }
 
 }  // namespace counterflex

@@ -18,9 +18,9 @@ double odd_sixteenth(int k, int count) {
 
 }  // namespace
 
-ChunkForward::ChunkForward(const Job& job, const Questions& questions, std::span<const KnownEnd> ends,
+ChunkForward::ChunkForward(const Job& job, const Questions& questions, std::span<const KnownSegment> known,
                            WaypointSolver& solver)
-    : job_(job), questions_(questions), ends_(ends), solver_(solver) {
+    : job_(job), questions_(questions), segments_(known), solver_(solver) {
   for (const Component c : solver.model().mechanism.controlled)
     if (c <= Component::z) judged_[static_cast<int>(c)] = 1;
 }
@@ -103,14 +103,17 @@ std::size_t ChunkForward::add(std::size_t t, double v, bool between, bool listed
   samples_.push_back({.task = t, .v = v, .u = u, .between = between, .listed = listed});
   p_MT_.push_back(wanted_at(tasks_[t], u));
   requests_.push_back({point_at(piece.commanded, v), load, {}, between ? Start::neighbour : Start::nominal});
-  const KnownEnd* end = between ? nullptr : known_end(piece, v);
-  known_.push_back(end ? end->answer(requests_.back().target, load) : nullptr);
+  const KnownPlace* place = known_place(samples_.back());
+  known_.push_back(place ? place->answer(requests_.back().target, load) : nullptr);
   return samples_.size() - 1;
 }
 
-const KnownEnd* ChunkForward::known_end(const Piece& piece, double v) const {
-  const bool may_be = v == 1 && piece.u1 == 1 && piece.segment < ends_.size();
-  return may_be ? &ends_[piece.segment] : nullptr;
+const KnownPlace* ChunkForward::known_place(const Sample& sample) const {
+  const Piece& piece = *tasks_[sample.task].piece;
+  if (piece.segment >= segments_.size()) return nullptr;
+  const KnownSegment& segment = segments_[piece.segment];
+  if (sample.between) return segment.inside ? &*segment.inside : nullptr;
+  return sample.v == 1 && piece.u1 == 1 ? &segment.end : nullptr;
 }
 
 std::size_t ChunkForward::add_probe(std::size_t sample, const Vector6& dF) {
@@ -413,7 +416,7 @@ void ChunkForward::write_waypoint(std::size_t s, double share, std::vector<Waypo
   const Vector3 original = w.p_MT - job_.path.frames[frame].datum_shift, emitted = requests_[s].target;
   w.correction.head<3>() = emitted - original;
   places_.push_back(
-      {original, emitted, requests_[s].load, wanted_[s].X_MT, actuals_[s].X_MT, known_end(piece, sample.v)});
+      {original, emitted, requests_[s].load, wanted_[s].X_MT, actuals_[s].X_MT, known_place(sample)});
 }
 
 }  // namespace counterflex

@@ -12,8 +12,8 @@ namespace counterflex {
 /// The waypoints of pieces that need the same model; what is sampled `solve_forward_along` says.
 class ChunkForward {
  public:
-  /// `ends`: what is known at the ends of segments, by segment; empty: nothing.
-  ChunkForward(const Job& job, const Questions& questions, std::span<const KnownEnd> ends,
+  /// `known`: what is known already, by segment; it may be empty.
+  ChunkForward(const Job& job, const Questions& questions, std::span<const KnownSegment> known,
                WaypointSolver& solver);
 
   /// Solves `pieces`, all of the solver's model; `command` is where the piece before them ended. Appends
@@ -63,7 +63,7 @@ class ChunkForward {
   std::size_t add_probe(std::size_t sample, const Vector6& dF);
   bool solve_added();
   void solve_unknown(std::size_t first);
-  const KnownEnd* known_end(const Piece& piece, double v) const;
+  const KnownPlace* known_place(const Sample& sample) const;
   bool run_waves();
 
   void begin(std::span<const Piece> pieces, const std::optional<Vector3>& command);
@@ -94,7 +94,7 @@ class ChunkForward {
 
   const Job& job_;
   const Questions& questions_;
-  const std::span<const KnownEnd> ends_;
+  const std::span<const KnownSegment> segments_;
   WaypointSolver& solver_;
   Vector3 judged_ = Vector3::Zero();  // 1 for axes of M in which the tip is judged, else 0
   ForceCursor cursor_;

@@ -24,7 +24,8 @@ Answer IntervalWaves::open(std::size_t segment, IntervalEnd a, IntervalEnd b, bo
   i.at[2] = waves_.ask(segment, i.u[2]);
   if (may_wave) i.at[3] = waves_.ask(segment, i.u[3]);
   const auto ask_b = [&] {
-    return b.u == 1 ? waves_.ask_end(segment) : waves_.ask(segment, b.u, Side::before);
+    return b.u == 1 ? waves_.ask_end(segment, waves_.force_at(segment, 1, Side::before))
+                    : waves_.ask(segment, b.u, Side::before);
   };
   i.at[4] = b.at == no_answer ? ask_b() : b.at;
   open_.push_back(i);

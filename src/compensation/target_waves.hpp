@@ -23,11 +23,15 @@ class TargetWaves {
   /// with the same force, as the end of the segment that this one joins, is not asked again.
   Answer ask(std::size_t segment, double u, Side side = Side::after);
 
-  /// Asks for the correction at the end of a segment, and where the tip stands there before and after it.
-  Answer ask_end(std::size_t segment);
+  /// Asks for the correction at the end of a segment under the force there, and where the tip stands there
+  /// before and after it.
+  Answer ask_end(std::size_t segment, const Vector6& F);
 
-  /// The same place as an answer's, under another force than the one that acts. It may fail.
-  Answer ask_again(Answer answer, const Vector6& F);
+  /// The same inside a line of which the end has just been asked for.
+  Answer ask_inside(std::size_t segment, double u);
+
+  /// Asks for the correction at the end of a segment under a force that need not act. It may fail.
+  Answer ask_apart(std::size_t segment, const Vector6& F);
 
   /// Solves what has been asked since the last time. False where something that must not fail did: not
   /// converged, or larger than the limit of corrections.
@@ -37,8 +41,8 @@ class TargetWaves {
   Vector3 correction(Answer a) const { return solutions_[a].target - requests_[a].p_MT; }  ///< M (m)
   Vector3 target(Answer a) const { return solutions_[a].target; }                          ///< M (m)
   const Vector6& force(Answer a) const { return requests_[a].load.F; }
-  /// What else has been found where a segment's end was asked for.
-  KnownEnd known_end(Answer a) const;
+  /// What else has been found at the end or inside of a segment.
+  const KnownPlace& known(Answer a) const;
   CurveNode node(double u, Answer a) const { return {u, correction(a)}; }
 
   /// The force at a fraction of a segment.
@@ -53,6 +57,8 @@ class TargetWaves {
   WaypointSolver& solver() { return solver_; }
 
  private:
+  Answer add(std::size_t segment, const Vector3& p_MT, const Vector6& F);
+  void ask_through(Answer a, double u);
   bool check(Answer a);
 
   const Job& job_;
@@ -60,10 +66,12 @@ class TargetWaves {
   ForceCursor cursor_;
   std::vector<TargetRequest> requests_;
   std::vector<TargetSolution> solutions_;
-  std::vector<std::size_t> segments_;  // of the requests; no_segment for what may fail
-  std::vector<EndRequest> ends_;       // in the order of requests
-  std::vector<KnownEnd> known_;        // of those that are solved
-  std::vector<EndRequest> wave_;
+  std::vector<std::size_t> segments_;    // of the requests; no_segment for what may fail
+  Answer last_ = no_answer;              // of what was asked in the order of the path
+  std::vector<ThroughRequest> through_;  // in the order of requests
+  std::vector<double> fractions_;        // of their segments
+  std::vector<KnownPlace> known_;        // of those that are solved
+  std::vector<ThroughRequest> wave_;
   Foresight foresight_;
   std::optional<Failure> failure_;
 };

@@ -52,12 +52,12 @@ void WaypointSolver::targets(std::span<const TargetRequest> requests, std::span<
   targets(requests, {}, nullptr, out, {});
 }
 
-void WaypointSolver::targets(std::span<const TargetRequest> requests, std::span<const EndRequest> ends,
+void WaypointSolver::targets(std::span<const TargetRequest> requests, std::span<const ThroughRequest> through,
                              const ForeseenCommand& foreseen, std::span<TargetSolution> out,
-                             std::span<KnownEnd> known) {
+                             std::span<KnownPlace> known) {
   const bool in_lanes = lanes_ && job_.options.method == Method::direct;
-  std::fill(known.begin(), known.end(), KnownEnd{});
-  if (in_lanes) targets_in_lanes(requests, ends, foreseen, known);
+  std::fill(known.begin(), known.end(), KnownPlace{});
+  if (in_lanes) targets_in_lanes(requests, through, foreseen, known);
   for (std::size_t i = 0; i < requests.size(); ++i) {
     const bool solved = in_lanes && answers_[i].solved;
     if (solved)
@@ -68,52 +68,53 @@ void WaypointSolver::targets(std::span<const TargetRequest> requests, std::span<
   }
 }
 
-// Ends by themselves, so that batches are full of what is asked alike.
+// What is asked through by itself, so that batches are full of what is asked alike.
 void WaypointSolver::targets_in_lanes(std::span<const TargetRequest> requests,
-                                      std::span<const EndRequest> ends, const ForeseenCommand& foreseen,
-                                      std::span<KnownEnd> known) {
+                                      std::span<const ThroughRequest> through,
+                                      const ForeseenCommand& foreseen, std::span<KnownPlace> known) {
   requests_.clear();
-  std::size_t end = 0;
+  std::size_t next = 0;
   for (std::size_t i = 0; i < requests.size(); ++i) {
-    if (end < ends.size() && ends[end].target == i)
-      ++end;
+    if (next < through.size() && through[next].target == i)
+      ++next;
     else
       requests_.push_back({requests[i].p_MT, requests[i].load.F});
   }
   solve_in_lanes(LaneQuestion::target, true);
-  if (ends.empty()) return;
-  ends_in_lanes(requests, ends, foreseen, known);
+  if (through.empty()) return;
+  through_in_lanes(requests, through, foreseen, known);
   // Both in the order of requests again, from behind: nothing is overwritten before it is moved.
   std::size_t other = answers_.size();
   answers_.resize(requests.size());
   for (std::size_t i = requests.size(); i-- > 0;)
-    answers_[i] =
-        end > 0 && ends[end - 1].target == i ? through_[--end].target : LaneAnswer(answers_[--other]);
+    answers_[i] = next > 0 && through[next - 1].target == i ? through_answers_[--next].target
+                                                            : LaneAnswer(answers_[--other]);
 }
 
-void WaypointSolver::ends_in_lanes(std::span<const TargetRequest> requests, std::span<const EndRequest> ends,
-                                   const ForeseenCommand& foreseen, std::span<KnownEnd> known) {
-  end_requests_.clear();
+void WaypointSolver::through_in_lanes(std::span<const TargetRequest> requests,
+                                      std::span<const ThroughRequest> through,
+                                      const ForeseenCommand& foreseen, std::span<KnownPlace> known) {
+  through_requests_.clear();
   originals_.clear();
-  for (const EndRequest& end : ends) {
-    end_requests_.push_back({requests[end.target].p_MT, requests[end.target].load.F});
-    originals_.push_back(end.original);
+  for (const ThroughRequest& one : through) {
+    through_requests_.push_back({requests[one.target].p_MT, requests[one.target].load.F});
+    originals_.push_back(one.original);
   }
-  through_.resize(ends.size());
+  through_answers_.resize(through.size());
   lanes_->solve_through(
-      end_requests_, originals_,
+      through_requests_, originals_,
       [&](std::size_t i, const Vector3& target) { return known[i].after.command = foreseen(i, target); },
-      through_);
+      through_answers_);
   const auto know = [](const LaneAnswer& answer, KnownTip& tip) {
     tip.X_MT = answer.X_MT;
     tip.iterations = answer.iterations;
     tip.known = answer.solved;
   };
-  for (std::size_t i = 0; i < ends.size(); ++i) {
-    known[i].load = requests[ends[i].target].load;
+  for (std::size_t i = 0; i < through.size(); ++i) {
+    known[i].load = requests[through[i].target].load;
     known[i].before.command = originals_[i];
-    know(through_[i].before, known[i].before);
-    know(through_[i].after, known[i].after);
+    know(through_answers_[i].before, known[i].before);
+    know(through_answers_[i].after, known[i].after);
   }
 }
 

@@ -3,7 +3,7 @@
 #include <functional>
 #include <span>
 
-#include "known_end.hpp"
+#include "known_place.hpp"
 
 namespace counterflex {
 
@@ -13,14 +13,15 @@ struct TargetRequest {
   Load load;
 };
 
-/// Which of the targets ends a segment, and the command of the original program there, M (m).
-struct EndRequest {
+/// Which of the targets is asked more of, and the command of the original program there, M (m).
+struct ThroughRequest {
   std::size_t target = 0;
   Vector3 original = Vector3::Zero();
 };
 
-/// The command (M, m) as which the target of an end, by its number among the ends, will be written.
-using ForeseenCommand = std::function<Vector3(std::size_t end, const Vector3& target)>;
+/// The command (M, m) that will be written where request `i` of these has this target; no number where that
+/// is not known.
+using ForeseenCommand = std::function<Vector3(std::size_t i, const Vector3& target)>;
 
 /// A commanded position, M (m), and what acts there.
 struct ActualRequest {
@@ -51,9 +52,9 @@ class WaypointSolver {
 
   /// The same, and at some of them, in their order, where the tip stands for the original's command and for
   /// the foreseen one: each solved from the one before, so that it costs less than three questions. `known`
-  /// is as long as `ends`; what lanes do not solve is not known. Errors act.
-  void targets(std::span<const TargetRequest> requests, std::span<const EndRequest> ends,
-               const ForeseenCommand& foreseen, std::span<TargetSolution> out, std::span<KnownEnd> known);
+  /// is as long as `through`; what lanes do not solve is not known. Errors act.
+  void targets(std::span<const TargetRequest> requests, std::span<const ThroughRequest> through,
+               const ForeseenCommand& foreseen, std::span<TargetSolution> out, std::span<KnownPlace> known);
 
   void actuals(std::span<const ActualRequest> requests, std::span<ActualSolution> out);
 
@@ -62,10 +63,10 @@ class WaypointSolver {
  private:
   PathSolver& one_by_one(const Vector3& p);
   void solve_in_lanes(LaneQuestion question, bool errors);
-  void targets_in_lanes(std::span<const TargetRequest> requests, std::span<const EndRequest> ends,
-                        const ForeseenCommand& foreseen, std::span<KnownEnd> known);
-  void ends_in_lanes(std::span<const TargetRequest> requests, std::span<const EndRequest> ends,
-                     const ForeseenCommand& foreseen, std::span<KnownEnd> known);
+  void targets_in_lanes(std::span<const TargetRequest> requests, std::span<const ThroughRequest> through,
+                        const ForeseenCommand& foreseen, std::span<KnownPlace> known);
+  void through_in_lanes(std::span<const TargetRequest> requests, std::span<const ThroughRequest> through,
+                        const ForeseenCommand& foreseen, std::span<KnownPlace> known);
   void actuals_in_lanes(std::span<const ActualRequest> requests, std::span<ActualSolution> out);
 
   const Job& job_;
@@ -74,9 +75,9 @@ class WaypointSolver {
   std::optional<LaneSolver> lanes_;
   std::vector<LaneRequest> requests_;
   std::vector<LaneAnswer> answers_;
-  std::vector<LaneRequest> end_requests_;
+  std::vector<LaneRequest> through_requests_;
   std::vector<Vector3> originals_;
-  std::vector<LaneThrough> through_;
+  std::vector<LaneThrough> through_answers_;
   std::optional<PathSolver> one_by_one_;
   bool strayed_ = false;  ///< lanes have solved since the last waypoint that was solved alone
 };
