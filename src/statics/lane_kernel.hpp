@@ -389,7 +389,7 @@ class LaneKernel {
   }
 
   /// The rest of all steps, from the platform inwards; their largest entry, that of the platform's twist from above.
-  void distribute() {
+  void distribute(bool moves) {
     constexpr double axes = 1.7320508075688773;  // a vector is at most so much longer than its largest component
     const double l = program_.length;
     largest_step_ = V{};
@@ -399,7 +399,7 @@ class LaneKernel {
       V* step = step_ + series.step;
       const V* end = series.is_chain ? twist_ : end_step_[s];
       multiply(region_.by_end[s], series.rows, 6, end, step, true);
-      if (moves_actuators() && series.actuators > 0) {
+      if (moves && series.actuators > 0) {
         V own[most_actuators];
         for (int a = 0; a < series.actuators; ++a) own[a] = drho_[program_.actuator_numbers[series.first_actuator + a]];
         multiply(region_.by_actuators[s], series.rows, series.actuators, own, step, true);
@@ -509,16 +509,55 @@ class LaneKernel {
     for (int i = 0; i < 3; ++i) wanted_[i] = p_[i];
     if (!question_.go_on)
       for (int i = 0; i < program_.states; ++i) state_[i] = broadcast(region_.start[i]);
-    if (question_.target)
-      for (int i = 0; i < 3; ++i) p_[i] += state_[program_.correction + i];
+    active_ = p_[0] == p_[0];
+    find_standing();
     if (question_.kinematics)
       take_actuators();
     else
       find_actuators(p_, rho_);
     set_actuators();
-    active_ = p_[0] == p_[0];
     converged_ = active_ & ~active_;
     iterations_ = V{};
+  }
+
+  /// The first step of lanes that stand at an equilibrium, for another command or load: no series misses anything yet, only
+  /// the platform need be looked at.
+  void take_first_step() {
+    const M all = active_;
+    active_ &= standing_;
+    if (any(active_)) {
+      for (int i = 0; i < program_.rows; ++i) step_[i] = V{};
+      evaluate_platform();
+      if (!question_.target) pull_platform();
+      solve_platform();
+      distribute(true);
+      iterations_ += (V)((M)broadcast(1) & active_);
+      take_step();
+    }
+    active_ = all;
+  }
+
+  /// What the way of the actuators to the command does to the balance of a platform that stays.
+  void pull_platform() {
+    find_actuators(from_, drho_);
+    for (int a = 0; a < program_.actuators; ++a) drho_[a] = rho_[a] - drho_[a];
+    for (int s = 0; s < program_.series_count; ++s) {
+      const Series& series = program_.series[s];
+      if (!series.is_chain || series.actuators == 0) continue;
+      V own[most_actuators], wrench[6];
+      for (int a = 0; a < series.actuators; ++a) own[a] = drho_[program_.actuator_numbers[series.first_actuator + a]];
+      multiply(region_.by_actuators[s], 6, series.actuators, own, wrench, false);
+      for (int i = 0; i < 6; ++i) balance_[i] -= wrench[i];
+    }
+  }
+
+  /// Where lanes stand. Those of a target go on from there, others begin with the last correction.
+  void find_standing() {
+    const V* standing = state_ + program_.standing;
+    standing_ = standing[3] > V{};
+    for (int i = 0; i < 3; ++i) from_[i] = standing[i];
+    if (!question_.target) return;
+    for (int i = 0; i < 3; ++i) p_[i] = select(standing_, from_[i], p_[i] + state_[program_.correction + i]);
   }
 
   V force_limit() {
@@ -539,13 +578,14 @@ class LaneKernel {
 
   void run(Batch& batch) {
     begin(batch);
+    take_first_step();
     for (int iteration = 0; iteration < (question_.kinematics ? 3 : 1) * most_iterations; ++iteration) {
       closure2_ = force_ = wrench2_ = largest_angle2_ = V{};
       for (int s = 0; s < program_.series_count; ++s) evaluate(program_.series[s]);
       evaluate_platform();
       eliminate();
       solve_platform();
-      distribute();
+      distribute(moves_actuators());
       const M done = are_done();
       converged_ |= done & active_;
       active_ &= ~done;
@@ -564,6 +604,8 @@ class LaneKernel {
   void finish(Batch& batch) {
     if (question_.target)
       for (int i = 0; i < 3; ++i) state_[program_.correction + i] = p_[i] - wanted_[i];
+    for (int i = 0; i < 3; ++i) state_[program_.standing + i] = p_[i];
+    state_[program_.standing + 3] = broadcast(question_.kinematics ? 0 : 1);
     find_tip();
     const V* X = state_ + program_.platform;
     V R_PT[9], R[9];
@@ -590,9 +632,9 @@ class LaneKernel {
   V *state_, *rhs_, *step_, *rho_, *drho_;
   PartFrame* frames_;
   const V* end_step_[most_series];
-  V F_[6], p_[3], wanted_[3], next_p_[3], tip_[3], balance_[6 + most_actuators], twist_[6];
+  V F_[6], p_[3], wanted_[3], from_[3], next_p_[3], tip_[3], balance_[6 + most_actuators], twist_[6];
   V closure2_{}, force_{}, balance2_{}, wrench2_{}, largest_angle2_{}, largest_step_{}, iterations_{};
-  M active_{}, converged_{};
+  M active_{}, converged_{}, standing_{};
 };
 
 }  // namespace counterflex::lanes

@@ -50,9 +50,10 @@ struct Program {
   const FixedPose* fixed[2];    ///< without and with assembly errors
   const int* actuator_numbers;
   int actuators;
-  int states;            ///< length of the state: coordinates, wrenches, poses of groups, pose of the platform, correction
+  int states;            ///< length of the state: coordinates, wrenches, poses of groups, pose of the platform, correction, standing
   int platform;          ///< index of the platform's pose in it
   int correction;        ///< and of the last target's: commanded less wanted position
+  int standing;          ///< and of the command (M, m) at which the state is an equilibrium, then 1; 0 where it is none
   int rows;              ///< of all series together
   int most_parts;
   double length;         ///< l
@@ -95,7 +96,7 @@ struct Question {
   bool target;   ///< else forward
   bool kinematics;  ///< actuators for the tip of the nominal machine: nothing yields to anything, forces are zero
   bool errors;   ///< whether assembly errors act
-  bool go_on;    ///< begin with the state of the last call, else with the region's
+  bool go_on;    ///< begin with the state of the last call, which had the same errors, else with the region's
 };
 
 /// Solves one batch. `memory` holds `doubles_needed` numbers, aligned to 64 bytes, and keeps the state from call to call.
