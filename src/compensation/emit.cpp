@@ -64,7 +64,7 @@ bool Emitter::put_jump(const Segment& segment, const PlannedSegment& planned, Em
   piece_held_ = before(move);
   if (jump <= emitted_jump_share * job_.options.tolerance) return false;
   if (!move.may_jump) return true;
-  emitted.edit.jump_mm = written(move, planned.start_target);
+  emitted.edit.jump_mm = in_words_mm(job_, move, planned.start_target);
   go_through(move, {*emitted.edit.jump_mm}, piece_held_);
   return true;
 }
@@ -72,7 +72,7 @@ bool Emitter::put_jump(const Segment& segment, const PlannedSegment& planned, Em
 void Emitter::emit_line(const Segment& segment, const PlannedSegment& planned, EmittedMove& emitted) {
   const Move& move = job_.program.moves[segment.move];
   for (std::size_t k = 0; k + 1 < planned.knots.size(); ++k) {
-    emitted.edit.inserted.push_back({written(move, planned.knots[k].target)});
+    emitted.edit.inserted.push_back({in_words_mm(job_, move, planned.knots[k].target)});
     emitted.fractions.push_back(planned.knots[k].u);
   }
 }
@@ -83,7 +83,7 @@ void Emitter::finish_segment(const Segment& segment, const PlannedSegment& plann
   const Vector3 correction = planned.knots.back().target - segment.wanted.end;
   const Vector3 kept = correction_that_can_be_written(move, correction);
   emitted.exempt_end = emitted.in_part = kept != correction;
-  emitted.edit.end_mm = written(move, segment.wanted.end + kept);
+  emitted.edit.end_mm = in_words_mm(job_, move, segment.wanted.end + kept);
   hold(kept, {true, true, true});
   emitted.exempt = unsplit_miss > 0 || emitted.exempt_end;
   if (emitted.exempt_end)
@@ -112,7 +112,7 @@ Vector3 Emitter::correction_that_can_be_written(const Move& move, const Vector3&
 }
 
 Vector3 target_of(const Job& job, const Move& move) {
-  return job.path.frames[move.offset].X_MW * (move.end_mm * mm);
+  return commanded_by(job, move, move.end_mm);
 }
 
 Curve command_of(const Job& job, const Move& move) {

@@ -8,10 +8,6 @@
 
 namespace counterflex {
 
-Vector3 Emitter::written(const Move& move, const Vector3& target) const {
-  return inverse(frame(move).X_MW) * target / mm;
-}
-
 Vector3 Emitter::shift_mm(const Move& move, const Vector3& correction) const {
   return frame(move).X_MW.R.transpose() * (correction + frame(move).datum_shift) / mm;
 }

@@ -3,6 +3,7 @@
 /// the emitted text holds.
 #include "arc_fit.hpp"
 #include "emit.hpp"
+#include "foresight.hpp"
 #include "path_solver.hpp"
 
 namespace counterflex {
@@ -58,7 +59,6 @@ class Emitter {
 
   // Corrections as shifts of the text, program coordinates (mm).
   const WorkFrame& frame(const Move& move) const { return job_.path.frames[move.offset]; }
-  Vector3 written(const Move& move, const Vector3& target) const;
   Vector3 shift_mm(const Move& move, const Vector3& correction) const;
   Vector3 held_shift_mm(const Move& move) const;  ///< zero on axes that hold none
   void set_shift(const Move& move, const Vector3& shift_mm);

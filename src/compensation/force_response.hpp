@@ -27,6 +27,8 @@ struct ForceResponse {
       if (std::abs(dF[k]) > rounding * (1 + std::abs(F[k]))) probes[k] = std::max(probes[k], std::abs(dF[k]));
   }
 
+  bool is_needed() const { return !probes.isZero(0); }
+
   template <class Ask>  // Answer(const Vector6& dF)
   void ask(const Ask& ask_under) {
     for (int k = 0; k < 6; ++k)

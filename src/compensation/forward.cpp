@@ -17,12 +17,13 @@ const Model& model_of(const Job& job, const Piece& piece) {
 // Pieces of one model. What fails together is solved one by one: then each begins beside the one before it,
 // and the first failure is known.
 void solve_run(const Job& job, const NominalTrack& nominal, std::span<const Piece> pieces,
-               const Questions& questions, const std::optional<Vector3>& command, ForwardRun& out) {
+               const Questions& questions, const std::optional<Vector3>& command,
+               std::span<const KnownSegment> known, ForwardRun& out) {
   const Model& model = model_of(job, pieces.front());
   const std::size_t segment = pieces.front().segment, solved = out.waypoints.size();
   const auto solve_in = [&](std::size_t together) {
     WaypointSolver solver(job, model, segment == no_segment ? model.home : nominal.start_before(segment));
-    ChunkForward chunk(job, questions, solver);
+    ChunkForward chunk(job, questions, known, solver);
     std::optional<Vector3> last = command;
     out.failure.reset();
     out.waypoints.resize(solved);
@@ -39,14 +40,15 @@ void solve_run(const Job& job, const NominalTrack& nominal, std::span<const Piec
 }  // namespace
 
 ForwardRun solve_forward_from(const Job& job, const NominalTrack& nominal, std::span<const Piece> pieces,
-                              const Questions& questions, const std::optional<Vector3>& command) {
+                              const Questions& questions, const std::optional<Vector3>& command,
+                              std::span<const KnownSegment> known) {
   std::vector<ForwardRun> runs(chunk_count(pieces.size()));
   for_each_chunk(pieces.size(), job.options.threads, [&](const Chunk& chunk) {
     ForwardRun& run = runs[chunk.index];
     for (std::size_t i = chunk.begin, end = i; i < chunk.end && !run.failure; i = end) {
       while (end < chunk.end && &model_of(job, pieces[end]) == &model_of(job, pieces[i])) ++end;
       const std::optional<Vector3> last = i == 0 ? command : pieces[i - 1].commanded.end;
-      solve_run(job, nominal, pieces.subspan(i, end - i), questions, last, run);
+      solve_run(job, nominal, pieces.subspan(i, end - i), questions, last, known, run);
     }
   });
   ForwardRun all;

@@ -18,8 +18,9 @@ double odd_sixteenth(int k, int count) {
 
 }  // namespace
 
-ChunkForward::ChunkForward(const Job& job, const Questions& questions, WaypointSolver& solver)
-    : job_(job), questions_(questions), solver_(solver) {
+ChunkForward::ChunkForward(const Job& job, const Questions& questions, std::span<const KnownSegment> known,
+                           WaypointSolver& solver)
+    : job_(job), questions_(questions), segments_(known), solver_(solver) {
   for (const Component c : solver.model().mechanism.controlled)
     if (c <= Component::z) judged_[static_cast<int>(c)] = 1;
 }
@@ -58,6 +59,7 @@ void ChunkForward::clear() {
   requests_.clear();
   wanted_.clear();
   actuals_.clear();
+  known_.clear();
 }
 
 void ChunkForward::reserve(std::size_t pieces) {
@@ -69,6 +71,7 @@ void ChunkForward::reserve(std::size_t pieces) {
   requests_.reserve(samples);
   wanted_.reserve(samples);
   actuals_.reserve(samples);
+  known_.reserve(samples);
 }
 
 bool ChunkForward::run_waves() {
@@ -100,7 +103,17 @@ std::size_t ChunkForward::add(std::size_t t, double v, bool between, bool listed
   samples_.push_back({.task = t, .v = v, .u = u, .between = between, .listed = listed});
   p_MT_.push_back(wanted_at(tasks_[t], u));
   requests_.push_back({point_at(piece.commanded, v), load, {}, between ? Start::neighbour : Start::nominal});
+  const KnownPlace* place = known_place(samples_.back());
+  known_.push_back(place ? place->answer(requests_.back().target, load) : nullptr);
   return samples_.size() - 1;
+}
+
+const KnownPlace* ChunkForward::known_place(const Sample& sample) const {
+  const Piece& piece = *tasks_[sample.task].piece;
+  if (piece.segment >= segments_.size()) return nullptr;
+  const KnownSegment& segment = segments_[piece.segment];
+  if (sample.between) return segment.inside ? &*segment.inside : nullptr;
+  return sample.v == 1 && piece.u1 == 1 ? &segment.end : nullptr;
 }
 
 std::size_t ChunkForward::add_probe(std::size_t sample, const Vector6& dF) {
@@ -110,6 +123,7 @@ std::size_t ChunkForward::add_probe(std::size_t sample, const Vector6& dF) {
   request.load.F += dF;
   request.start = Start::neighbour;
   requests_.push_back(request);
+  known_.push_back(nullptr);
   return samples_.size() - 1;
 }
 
@@ -118,10 +132,26 @@ bool ChunkForward::solve_added() {
   wanted_.resize(samples_.size());
   actuals_.resize(samples_.size());
   solver_.wanted(std::span(p_MT_).subspan(first), std::span(wanted_).subspan(first));
-  solver_.actuals(std::span(requests_).subspan(first), std::span(actuals_).subspan(first));
+  solve_unknown(first);
   for (std::size_t i = first; i < samples_.size(); ++i)
     if (!samples_[i].may_fail && status(i) != Status::converged) return false;
   return true;
+}
+
+void ChunkForward::solve_unknown(std::size_t first) {
+  unknown_.clear();
+  unknown_requests_.clear();
+  for (std::size_t i = first; i < samples_.size(); ++i) {
+    if (const KnownTip* tip = known_[i]) {
+      actuals_[i] = {Status::converged, tip->X_MT, tip->iterations, true};
+    } else {
+      unknown_.push_back(i);
+      unknown_requests_.push_back(requests_[i]);
+    }
+  }
+  unknown_actuals_.resize(unknown_.size());
+  solver_.actuals(unknown_requests_, unknown_actuals_);
+  for (std::size_t k = 0; k < unknown_.size(); ++k) actuals_[unknown_[k]] = unknown_actuals_[k];
 }
 
 Status ChunkForward::status(std::size_t sample) const {
@@ -385,7 +415,8 @@ void ChunkForward::write_waypoint(std::size_t s, double share, std::vector<Waypo
   const std::size_t frame = task.segment ? task.segment->frame : piece.frame;
   const Vector3 original = w.p_MT - job_.path.frames[frame].datum_shift, emitted = requests_[s].target;
   w.correction.head<3>() = emitted - original;
-  places_.push_back({original, emitted, requests_[s].load, wanted_[s].X_MT, actuals_[s].X_MT});
+  places_.push_back(
+      {original, emitted, requests_[s].load, wanted_[s].X_MT, actuals_[s].X_MT, known_place(sample)});
 }
 
 }  // namespace counterflex

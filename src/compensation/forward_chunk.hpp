@@ -12,7 +12,9 @@ namespace counterflex {
 /// The waypoints of pieces that need the same model; what is sampled `solve_forward_along` says.
 class ChunkForward {
  public:
-  ChunkForward(const Job& job, const Questions& questions, WaypointSolver& solver);
+  /// `known`: what is known already, by segment; it may be empty.
+  ChunkForward(const Job& job, const Questions& questions, std::span<const KnownSegment> known,
+               WaypointSolver& solver);
 
   /// Solves `pieces`, all of the solver's model; `command` is where the piece before them ended. Appends
   /// their waypoints. Where one fails the last waypoint is the first of those that do; it need not be the
@@ -60,6 +62,8 @@ class ChunkForward {
   std::size_t add(std::size_t task, double v, bool between, bool listed = true);
   std::size_t add_probe(std::size_t sample, const Vector6& dF);
   bool solve_added();
+  void solve_unknown(std::size_t first);
+  const KnownPlace* known_place(const Sample& sample) const;
   bool run_waves();
 
   void begin(std::span<const Piece> pieces, const std::optional<Vector3>& command);
@@ -90,6 +94,7 @@ class ChunkForward {
 
   const Job& job_;
   const Questions& questions_;
+  const std::span<const KnownSegment> segments_;
   WaypointSolver& solver_;
   Vector3 judged_ = Vector3::Zero();  // 1 for axes of M in which the tip is judged, else 0
   ForceCursor cursor_;
@@ -107,6 +112,12 @@ class ChunkForward {
   std::vector<ActualRequest> requests_;
   std::vector<WantedPose> wanted_;
   std::vector<ActualSolution> actuals_;
+  std::vector<const KnownTip*> known_;  // answers that need no solving, or null
+
+  // Of those that do.
+  std::vector<std::size_t> unknown_;
+  std::vector<ActualRequest> unknown_requests_;
+  std::vector<ActualSolution> unknown_actuals_;
 
   std::vector<std::size_t> begins_, filled_, order_;
   std::vector<ForwardPlace> places_;

@@ -23,7 +23,11 @@ Answer IntervalWaves::open(std::size_t segment, IntervalEnd a, IntervalEnd b, bo
   if (may_wave) i.at[1] = waves_.ask(segment, i.u[1]);
   i.at[2] = waves_.ask(segment, i.u[2]);
   if (may_wave) i.at[3] = waves_.ask(segment, i.u[3]);
-  i.at[4] = b.at == no_answer ? waves_.ask(segment, b.u, Side::before) : b.at;
+  const auto ask_b = [&] {
+    return b.u == 1 ? waves_.ask_end(segment, waves_.force_at(segment, 1, Side::before))
+                    : waves_.ask(segment, b.u, Side::before);
+  };
+  i.at[4] = b.at == no_answer ? ask_b() : b.at;
   open_.push_back(i);
   return i.at[4];
 }

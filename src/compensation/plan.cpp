@@ -51,7 +51,7 @@ std::optional<Failure> plan_run(const Job& job, const NominalTrack& track, const
     WaypointSolver solver(job, model, track.start_before(run.begin));
     ChunkPlanner planner(job, solver);
     for (std::size_t i = run.begin; i < run.end; i += together)
-      if (auto failure = planner.plan(i, i + together, plan.segments)) return failure;
+      if (auto failure = planner.plan(i, i + together, plan)) return failure;
     return std::nullopt;
   };
   const std::size_t count = run.end - run.begin;
@@ -73,6 +73,7 @@ std::optional<Failure> plan_chunk(const Job& job, const NominalTrack& track, con
 Plan plan(const Job& job, const NominalTrack& track) {
   Plan result;
   result.segments.resize(job.path.segments.size());
+  if (job.lanes != nullptr) result.known.resize(job.path.segments.size());
   std::vector<std::optional<Failure>> failures(chunk_count(result.segments.size()));
   for_each_chunk(result.segments.size(), job.options.threads,
                  [&](const Chunk& chunk) { failures[chunk.index] = plan_chunk(job, track, chunk, result); });

@@ -1,6 +1,7 @@
 #pragma once
 /// What should be commanded along every segment: targets at knots, before they are rounded and written.
 #include "curve.hpp"
+#include "known_place.hpp"
 #include "track.hpp"
 
 namespace counterflex {
@@ -27,6 +28,7 @@ struct PlannedSegment {
 
 struct Plan {
   std::vector<PlannedSegment> segments;
+  std::vector<KnownSegment> known;  ///< by segment, what was found with its targets; or empty
   std::optional<Failure> failure;
 };
 

@@ -23,21 +23,24 @@ ChunkPlanner::ChunkPlanner(const Job& job, WaypointSolver& solver)
       intervals_(waves_, curve_share * job.options.tolerance),
       knots_(job, solver) {}
 
-std::optional<Failure> ChunkPlanner::plan(std::size_t begin, std::size_t end,
-                                          std::vector<PlannedSegment>& planned) {
+std::optional<Failure> ChunkPlanner::plan(std::size_t begin, std::size_t end, Plan& plan) {
   clear(end - begin);
-  for (std::size_t i = begin; i < end; ++i) ask_first(i);
+  for (std::size_t i = begin; i < end; ++i) add_task(i);
   choose_lines();
   ask_responses();
   if (!waves_.solve()) return waves_.failure();
   judge_bends();
   look_into_rows();
+  for (Task& task : tasks_) ask_first(task);
   if (!waves_.solve()) return waves_.failure();
+  for (Task& task : tasks_)
+    if (task.kind == Kind::cut && !segment(task).wanted.arc && !task.as_line) sample(task);
   judge_rows();
   if (!waves_.solve() || !intervals_.run()) return waves_.failure();
   for (const Task& task : tasks_) {
-    planned[task.segment] = {};
-    if (!finish(task, planned[task.segment])) return knots_.failure();
+    plan.segments[task.segment] = {};
+    if (!finish(task, plan.segments[task.segment])) return knots_.failure();
+    if (!plan.known.empty()) tell_known(task, plan.known[task.segment]);
   }
   return std::nullopt;
 }
@@ -60,27 +63,33 @@ void ChunkPlanner::clear(std::size_t segments) {
 }
 
 // Cycles are solved at their bottom when they are written; what is held needs no solution.
-void ChunkPlanner::ask_first(std::size_t index) {
+void ChunkPlanner::add_task(std::size_t index) {
   Task task{.segment = index};
   const Segment& segment = job_.path.segments[index];
   const Move& move = job_.program.moves[segment.move];
   if (move.handling == Handling::group) {
-    ask_group(task, segment.cutting);
+    task.kind = Kind::group;
   } else if (move.handling != Handling::held && !move.cycle) {
     task.kind = segment.cutting ? Kind::cut : Kind::rapid;
-    // With a blend a rapid starts where the cut ended.
-    if (segment.cutting || job_.options.blend == 0) task.start = waves_.ask(index, 0);
+    task.F_end = waves_.force_at(index, 1, Side::before);
     if (segment.cutting) add_limits(task);
-    if (segment.wanted.arc && segment.cutting)
-      sample(task);
-    else
-      task.end = waves_.ask(index, 1, Side::before);
   }
   tasks_.push_back(task);
 }
 
+// In the order of the path.
+void ChunkPlanner::ask_first(Task& task) {
+  if (task.kind == Kind::held) return;
+  const bool cutting = segment(task).cutting;
+  if (task.kind == Kind::group) return ask_group(task, cutting);
+  // With a blend a rapid starts where the cut ended.
+  if (cutting || job_.options.blend == 0) task.start = waves_.ask(task.segment, 0);
+  if (segment(task).wanted.arc && cutting) return sample(task);
+  task.end = waves_.ask_end(task.segment, task.F_end);
+  if (task.look_at) task.look = waves_.ask_inside(task.segment, *task.look_at);
+}
+
 void ChunkPlanner::ask_group(Task& task, bool cutting) {
-  task.kind = Kind::group;
   task.first = answers_.size();
   const int count = cutting ? group_samples : 1;
   // A rapid begins with what was before the group.
@@ -125,14 +134,22 @@ void ChunkPlanner::choose_lines() {
     if (task.kind != Kind::cut || segment(task).wanted.arc) continue;
     task.length = (segment(task).wanted.end - segment(task).wanted.start).norm();
     task.room = room_for_knots(job_, segment(task));
-    if (task.length <= longest && (job_.options.blend > 0 || task.count == 0)) lines_.push_back(t);
+    if (task.length > longest || (job_.options.blend == 0 && task.count > 0)) continue;
+    task.F_start = force_at_start(t);
+    lines_.push_back(t);
   }
 }
 
+Vector6 ChunkPlanner::force_at_start(std::size_t t) {
+  const std::size_t index = tasks_[t].segment;
+  const bool joins = t > 0 && tasks_[t - 1].segment + 1 == index && job_.forces.follows(index);
+  const bool known = joins && (tasks_[t - 1].kind == Kind::cut || tasks_[t - 1].kind == Kind::rapid);
+  return known ? tasks_[t - 1].F_end : waves_.force_at(index, 0);
+}
+
 void ChunkPlanner::add_bends(Task& task) {
-  const Vector6 F0 = waves_.force(task.start), F1 = waves_.force(task.end);
   const auto add = [&](double u) {
-    bends_.push_back({u, waves_.force_at(task.segment, u) - (1 - u) * F0 - u * F1});
+    bends_.push_back({u, waves_.force_at(task.segment, u) - (1 - u) * task.F_start - u * task.F_end});
   };
   task.first_bend = bends_.size();
   for (std::size_t k = task.first; k < task.first + task.count; ++k) add(limits_[k]);
@@ -140,26 +157,31 @@ void ChunkPlanner::add_bends(Task& task) {
   task.bends = bends_.size() - task.first_bend;
 }
 
+// Solved before all else: they tell which lines are looked into.
 void ChunkPlanner::ask_responses() {
   responses_.resize(tasks_.size() / response_span + 1);
+  places_.assign(responses_.size(), 0);
   for (const std::size_t t : lines_) {
     ForceResponse& response = responses_[t / response_span];
-    response.place = tasks_[t].end;
+    places_[t / response_span] = t;
     add_bends(tasks_[t]);
     for (std::size_t k = tasks_[t].first_bend; k < bends_.size(); ++k)
-      response.provide_for(bends_[k].dF, waves_.force(response.place));
+      response.provide_for(bends_[k].dF, tasks_[t].F_end);
   }
-  for (ForceResponse& response : responses_)
-    response.ask([&](const Vector6& dF) {
-      return waves_.ask_again(response.place, waves_.force(response.place) + dF);
-    });
+  for (std::size_t r = 0; r < responses_.size(); ++r) {
+    if (!responses_[r].is_needed()) continue;
+    const Task& place = tasks_[places_[r]];
+    responses_[r].place = waves_.ask_apart(place.segment, place.F_end);
+    responses_[r].ask([&](const Vector6& dF) { return waves_.ask_apart(place.segment, place.F_end + dF); });
+  }
 }
 
 // Leaves those in `lines_` which the force bends but little; the others are sampled.
 void ChunkPlanner::judge_bends() {
   for (ForceResponse& response : responses_)
     response.measure([&](Answer a) -> std::optional<Vector3> {
-      if (waves_.status(a) != Status::converged) return std::nullopt;
+      for (const Answer needed : {a, response.place})
+        if (waves_.status(needed) != Status::converged) return std::nullopt;
       return waves_.correction(a) - waves_.correction(response.place);
     });
   const auto bends = [&](std::size_t t) {
@@ -175,8 +197,6 @@ void ChunkPlanner::judge_bends() {
   };
   lines_.erase(std::remove_if(lines_.begin(), lines_.end(), bends), lines_.end());
   for (const std::size_t t : lines_) tasks_[t].as_line = true;
-  for (Task& task : tasks_)
-    if (task.kind == Kind::cut && !segment(task).wanted.arc && !task.as_line) sample(task);
 }
 
 void ChunkPlanner::look_into_rows() {
@@ -187,16 +207,17 @@ void ChunkPlanner::look_into_rows() {
 }
 
 void ChunkPlanner::look_into(std::size_t row, std::size_t t, double u) {
-  looks_.push_back({row, t, u, waves_.ask(tasks_[t].segment, u)});
+  tasks_[t].look_at = u;
+  looks_.push_back({row, t});
 }
 
 bool ChunkPlanner::is_as_expected(const Look& look) const {
   const Task& task = tasks_[look.task];
-  const double u = look.u;
-  const Vector6 dF = waves_.force(look.at) - (1 - u) * waves_.force(task.start) - u * waves_.force(task.end);
+  const double u = *task.look_at;
+  const Vector6 dF = waves_.force(task.look) - (1 - u) * task.F_start - u * task.F_end;
   const Vector3 bend = responses_[look.task / response_span].S * dF;
   const Vector3 expected = (1 - u) * waves_.correction(task.start) + u * waves_.correction(task.end) + bend;
-  return is_as_foreseen(waves_.correction(look.at), expected, bend, task.room);
+  return is_as_foreseen(waves_.correction(task.look), expected, bend, task.room);
 }
 
 void ChunkPlanner::judge_rows() {
@@ -225,6 +246,12 @@ bool ChunkPlanner::finish(const Task& task, PlannedSegment& planned) {
   if (task.kind == Kind::cut && !task.as_line) return finish_sampled(task, planned);
   planned.knots = {{1, wanted.end + waves_.correction(task.end)}};
   return true;
+}
+
+void ChunkPlanner::tell_known(const Task& task, KnownSegment& known) const {
+  known = {};
+  if (task.end != no_answer) known.end = waves_.known(task.end);
+  if (task.look != no_answer) known.inside = waves_.known(task.look);
 }
 
 // Continuous stretches between steps of the force, each with its own knots.

@@ -19,7 +19,7 @@ class ChunkPlanner {
 
   /// Segments [begin, end) of the solver's model. A failure need not be that of the first segment that fails,
   /// unless there is only one.
-  std::optional<Failure> plan(std::size_t begin, std::size_t end, std::vector<PlannedSegment>& planned);
+  std::optional<Failure> plan(std::size_t begin, std::size_t end, Plan& plan);
 
  private:
   enum class Kind { held, group, rapid, cut };
@@ -27,10 +27,12 @@ class ChunkPlanner {
   struct Task {
     std::size_t segment = 0;
     Kind kind = Kind::held;
-    Answer start = no_answer, end = no_answer;
+    Answer start = no_answer, end = no_answer, look = no_answer;
+    Vector6 F_start, F_end;            // of lines that may be short; of cuts and rapids
     std::size_t first = 0, count = 0;  // of a group: in answers_; of a cut: in limits_
     bool as_line = false;              // of a cut: its inside need not be solved
     double length = 0, room = 0;       // of a line; what its knots may miss (m)
+    std::optional<double> look_at{};   // a fraction
     std::size_t first_bend = 0, bends = 0;
     double bend = 0, bend_at = 0.5;  // the largest |S dF| (m), and where
   };
@@ -41,21 +43,21 @@ class ChunkPlanner {
   };
   struct Look {
     std::size_t row, task;
-    double u;
-    Answer at;
   };
 
   void clear(std::size_t segments);
   const Segment& segment(const Task& task) const { return job_.path.segments[task.segment]; }
 
   // What is asked first: ends, and all of arcs and groups.
-  void ask_first(std::size_t index);
+  void add_task(std::size_t index);
+  void ask_first(Task& task);
   void ask_group(Task& task, bool cutting);
   void add_limits(Task& task);
   void sample(Task& task);
 
   // Lines that need not be sampled.
   void choose_lines();
+  Vector6 force_at_start(std::size_t t);
   void add_bends(Task& task);
   void ask_responses();
   void judge_bends();
@@ -64,6 +66,7 @@ class ChunkPlanner {
   bool is_as_expected(const Look& look) const;
   void judge_rows();
 
+  void tell_known(const Task& task, KnownSegment& known) const;
   bool finish(const Task& task, PlannedSegment& planned);
   bool finish_sampled(const Task& task, PlannedSegment& planned);
 
@@ -76,6 +79,7 @@ class ChunkPlanner {
   std::vector<double> limits_;  // fractions
   std::vector<Bend> bends_;
   std::vector<ForceResponse> responses_;  // of spans of tasks
+  std::vector<std::size_t> places_;       // of them: tasks
   std::vector<std::size_t> lines_;        // tasks; a row begins with every eighth
   std::vector<Look> looks_;
   std::vector<double> fractions_;

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "curve.hpp"
+#include "foresight.hpp"
 #include "waypoint_solver.hpp"
 
 namespace counterflex {
@@ -13,7 +14,7 @@ inline constexpr Answer no_answer = static_cast<Answer>(-1);
 
 class TargetWaves {
  public:
-  TargetWaves(const Job& job, WaypointSolver& solver) : job_(job), solver_(solver) {}
+  TargetWaves(const Job& job, WaypointSolver& solver) : job_(job), solver_(solver), foresight_(job) {}
 
   /// Forgets everything that was asked; about so many requests will come.
   void clear(std::size_t requests);
@@ -22,8 +23,15 @@ class TargetWaves {
   /// with the same force, as the end of the segment that this one joins, is not asked again.
   Answer ask(std::size_t segment, double u, Side side = Side::after);
 
-  /// The same place as an answer's, under another force than the one that acts. It may fail.
-  Answer ask_again(Answer answer, const Vector6& F);
+  /// Asks for the correction at the end of a segment under the force there, and where the tip stands there
+  /// before and after it.
+  Answer ask_end(std::size_t segment, const Vector6& F);
+
+  /// The same inside a line of which the end has just been asked for.
+  Answer ask_inside(std::size_t segment, double u);
+
+  /// Asks for the correction at the end of a segment under a force that need not act. It may fail.
+  Answer ask_apart(std::size_t segment, const Vector6& F);
 
   /// Solves what has been asked since the last time. False where something that must not fail did: not
   /// converged, or larger than the limit of corrections.
@@ -33,6 +41,8 @@ class TargetWaves {
   Vector3 correction(Answer a) const { return solutions_[a].target - requests_[a].p_MT; }  ///< M (m)
   Vector3 target(Answer a) const { return solutions_[a].target; }                          ///< M (m)
   const Vector6& force(Answer a) const { return requests_[a].load.F; }
+  /// What else has been found at the end or inside of a segment.
+  const KnownPlace& known(Answer a) const;
   CurveNode node(double u, Answer a) const { return {u, correction(a)}; }
 
   /// The force at a fraction of a segment.
@@ -47,6 +57,8 @@ class TargetWaves {
   WaypointSolver& solver() { return solver_; }
 
  private:
+  Answer add(std::size_t segment, const Vector3& p_MT, const Vector6& F);
+  void ask_through(Answer a, double u);
   bool check(Answer a);
 
   const Job& job_;
@@ -54,7 +66,13 @@ class TargetWaves {
   ForceCursor cursor_;
   std::vector<TargetRequest> requests_;
   std::vector<TargetSolution> solutions_;
-  std::vector<std::size_t> segments_;  // of the requests; no_segment for what may fail
+  std::vector<std::size_t> segments_;    // of the requests; no_segment for what may fail
+  Answer last_ = no_answer;              // of what was asked in the order of the path
+  std::vector<ThroughRequest> through_;  // in the order of requests
+  std::vector<double> fractions_;        // of their segments
+  std::vector<KnownPlace> known_;        // of those that are solved
+  std::vector<ThroughRequest> wave_;
+  Foresight foresight_;
   std::optional<Failure> failure_;
 };
 

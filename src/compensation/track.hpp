@@ -5,6 +5,7 @@
 
 #include "chunks.hpp"
 #include "counterflex/compensation/waypoint.hpp"
+#include "known_place.hpp"
 
 namespace counterflex {
 
@@ -29,8 +30,10 @@ struct NominalTrack {
 NominalTrack track(const Job& job, const NominalPlace& start);
 
 /// Solves forward along pieces whose nominal track is known; `command` is where the piece before them ended.
+/// `known`: what is known, by segment; it may be empty.
 ForwardRun solve_forward_from(const Job& job, const NominalTrack& nominal, std::span<const Piece> pieces,
-                              const Questions& questions, const std::optional<Vector3>& command);
+                              const Questions& questions, const std::optional<Vector3>& command,
+                              std::span<const KnownSegment> known = {});
 
 /// The failure that a status at a line stands for: travel is a limit, all else is not compensated.
 Failure status_failure(Status status, int line);

@@ -1,5 +1,7 @@
 #include "waypoint_solver.hpp"
 
+#include <algorithm>
+
 namespace counterflex {
 namespace {
 
@@ -47,12 +49,15 @@ void WaypointSolver::wanted(std::span<const Vector3> p_MT, std::span<WantedPose>
 }
 
 void WaypointSolver::targets(std::span<const TargetRequest> requests, std::span<TargetSolution> out) {
+  targets(requests, {}, nullptr, out, {});
+}
+
+void WaypointSolver::targets(std::span<const TargetRequest> requests, std::span<const ThroughRequest> through,
+                             const ForeseenCommand& foreseen, std::span<TargetSolution> out,
+                             std::span<KnownPlace> known) {
   const bool in_lanes = lanes_ && job_.options.method == Method::direct;
-  if (in_lanes) {
-    requests_.clear();
-    for (const TargetRequest& request : requests) requests_.push_back({request.p_MT, request.load.F});
-    solve_in_lanes(LaneQuestion::target, true);
-  }
+  std::fill(known.begin(), known.end(), KnownPlace{});
+  if (in_lanes) targets_in_lanes(requests, through, foreseen, known);
   for (std::size_t i = 0; i < requests.size(); ++i) {
     const bool solved = in_lanes && answers_[i].solved;
     if (solved)
@@ -60,6 +65,56 @@ void WaypointSolver::targets(std::span<const TargetRequest> requests, std::span<
     else
       out[i] = one_by_one(requests[i].p_MT).target(requests[i].p_MT, requests[i].load);
     strayed_ = strayed_ || solved;
+  }
+}
+
+// What is asked through by itself, so that batches are full of what is asked alike.
+void WaypointSolver::targets_in_lanes(std::span<const TargetRequest> requests,
+                                      std::span<const ThroughRequest> through,
+                                      const ForeseenCommand& foreseen, std::span<KnownPlace> known) {
+  requests_.clear();
+  std::size_t next = 0;
+  for (std::size_t i = 0; i < requests.size(); ++i) {
+    if (next < through.size() && through[next].target == i)
+      ++next;
+    else
+      requests_.push_back({requests[i].p_MT, requests[i].load.F});
+  }
+  solve_in_lanes(LaneQuestion::target, true);
+  if (through.empty()) return;
+  through_in_lanes(requests, through, foreseen, known);
+  // Both in the order of requests again, from behind: nothing is overwritten before it is moved.
+  std::size_t other = answers_.size();
+  answers_.resize(requests.size());
+  for (std::size_t i = requests.size(); i-- > 0;)
+    answers_[i] = next > 0 && through[next - 1].target == i ? through_answers_[--next].target
+                                                            : LaneAnswer(answers_[--other]);
+}
+
+void WaypointSolver::through_in_lanes(std::span<const TargetRequest> requests,
+                                      std::span<const ThroughRequest> through,
+                                      const ForeseenCommand& foreseen, std::span<KnownPlace> known) {
+  through_requests_.clear();
+  originals_.clear();
+  for (const ThroughRequest& one : through) {
+    through_requests_.push_back({requests[one.target].p_MT, requests[one.target].load.F});
+    originals_.push_back(one.original);
+  }
+  through_answers_.resize(through.size());
+  lanes_->solve_through(
+      through_requests_, originals_,
+      [&](std::size_t i, const Vector3& target) { return known[i].after.command = foreseen(i, target); },
+      through_answers_);
+  const auto know = [](const LaneAnswer& answer, KnownTip& tip) {
+    tip.X_MT = answer.X_MT;
+    tip.iterations = answer.iterations;
+    tip.known = answer.solved;
+  };
+  for (std::size_t i = 0; i < through.size(); ++i) {
+    known[i].load = requests[through[i].target].load;
+    known[i].before.command = originals_[i];
+    know(through_answers_[i].before, known[i].before);
+    know(through_answers_[i].after, known[i].after);
   }
 }
 
@@ -72,7 +127,8 @@ void WaypointSolver::actuals(std::span<const ActualRequest> requests, std::span<
   }
 }
 
-void WaypointSolver::actuals_in_lanes(std::span<const ActualRequest> requests, std::span<ActualSolution> out) {
+void WaypointSolver::actuals_in_lanes(std::span<const ActualRequest> requests,
+                                      std::span<ActualSolution> out) {
   const bool in_lanes = lanes_ && can_do(requests.front().stage);
   if (in_lanes) {
     requests_.clear();

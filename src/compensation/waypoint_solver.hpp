@@ -1,8 +1,9 @@
 #pragma once
 /// Solves many waypoints of one model at once.
+#include <functional>
 #include <span>
 
-#include "path_solver.hpp"
+#include "known_place.hpp"
 
 namespace counterflex {
 
@@ -11,6 +12,16 @@ struct TargetRequest {
   Vector3 p_MT = Vector3::Zero();
   Load load;
 };
+
+/// Which of the targets is asked more of, and the command of the original program there, M (m).
+struct ThroughRequest {
+  std::size_t target = 0;
+  Vector3 original = Vector3::Zero();
+};
+
+/// The command (M, m) that will be written where request `i` of these has this target; no number where that
+/// is not known.
+using ForeseenCommand = std::function<Vector3(std::size_t i, const Vector3& target)>;
 
 /// A commanded position, M (m), and what acts there.
 struct ActualRequest {
@@ -38,6 +49,13 @@ class WaypointSolver {
 
   void wanted(std::span<const Vector3> p_MT, std::span<WantedPose> out);
   void targets(std::span<const TargetRequest> requests, std::span<TargetSolution> out);
+
+  /// The same, and at some of them, in their order, where the tip stands for the original's command and for
+  /// the foreseen one: each solved from the one before, so that it costs less than three questions. `known`
+  /// is as long as `through`; what lanes do not solve is not known. Errors act.
+  void targets(std::span<const TargetRequest> requests, std::span<const ThroughRequest> through,
+               const ForeseenCommand& foreseen, std::span<TargetSolution> out, std::span<KnownPlace> known);
+
   void actuals(std::span<const ActualRequest> requests, std::span<ActualSolution> out);
 
   const Model& model() const { return model_; }
@@ -45,6 +63,10 @@ class WaypointSolver {
  private:
   PathSolver& one_by_one(const Vector3& p);
   void solve_in_lanes(LaneQuestion question, bool errors);
+  void targets_in_lanes(std::span<const TargetRequest> requests, std::span<const ThroughRequest> through,
+                        const ForeseenCommand& foreseen, std::span<KnownPlace> known);
+  void through_in_lanes(std::span<const TargetRequest> requests, std::span<const ThroughRequest> through,
+                        const ForeseenCommand& foreseen, std::span<KnownPlace> known);
   void actuals_in_lanes(std::span<const ActualRequest> requests, std::span<ActualSolution> out);
 
   const Job& job_;
@@ -53,6 +75,9 @@ class WaypointSolver {
   std::optional<LaneSolver> lanes_;
   std::vector<LaneRequest> requests_;
   std::vector<LaneAnswer> answers_;
+  std::vector<LaneRequest> through_requests_;
+  std::vector<Vector3> originals_;
+  std::vector<LaneThrough> through_answers_;
   std::optional<PathSolver> one_by_one_;
   bool strayed_ = false;  ///< lanes have solved since the last waypoint that was solved alone
 };

@@ -78,6 +78,7 @@ void write_window(const Job& job, CarriedState& carried, WindowWork& work) {
   Compensation& result = work.result;
   note_planned_corrections(job, work.plan, result);
   Emission emission = emit(job, work.plan, carried.emitter);
+  work.known = std::move(work.plan.known);
   work.plan = {};
   note_first_corrections(job, emission, result);
   result.left_alone = std::move(emission.left_alone);
@@ -96,8 +97,10 @@ void write_window(const Job& job, CarriedState& carried, WindowWork& work) {
 
 void verify_window(const Job& job, bool attribution, WindowWork& work) {
   if (work.failed()) return;
-  ForwardRun run = solve_forward_from(job, work.track, work.pieces, {true, attribution, true}, work.command);
+  ForwardRun run =
+      solve_forward_from(job, work.track, work.pieces, {true, attribution, true}, work.command, work.known);
   work.pieces = {};
+  work.known = {};
   work.result.waypoints = std::move(run.waypoints);
   work.result.failure = run.failure ? run.failure : tolerance_failure(job, work.result.waypoints);
 }

@@ -20,6 +20,7 @@ struct CarriedState {
 struct WindowWork {
   NominalTrack track{};
   Plan plan{};
+  std::vector<KnownSegment> known{};  ///< by segment
   std::vector<Piece> pieces{};
   std::optional<Vector3> command{};  ///< end of the last piece of the window before
   Compensation result{};

@@ -389,7 +389,7 @@ class LaneKernel {
   }
 
   /// The rest of all steps, from the platform inwards; their largest entry, that of the platform's twist from above.
-  void distribute() {
+  void distribute(bool moves) {
     constexpr double axes = 1.7320508075688773;  // a vector is at most so much longer than its largest component
     const double l = program_.length;
     largest_step_ = V{};
@@ -399,7 +399,7 @@ class LaneKernel {
       V* step = step_ + series.step;
       const V* end = series.is_chain ? twist_ : end_step_[s];
       multiply(region_.tangents + series.by_end, series.rows, 6, end, step, true);
-      if (moves_actuators() && series.actuators > 0) {
+      if (moves && series.actuators > 0) {
         V own[most_actuators];
         for (int a = 0; a < series.actuators; ++a) own[a] = drho_[program_.actuator_numbers[series.first_actuator + a]];
         multiply(region_.tangents + series.by_actuators, series.rows, series.actuators, own, step, true);
@@ -513,7 +513,10 @@ class LaneKernel {
       for (int lane = 0; lane < W; ++lane) F_[i][lane] = batch.F[i][first_ + lane];
     for (int i = 0; i < 3; ++i) wanted_[i] = p_[i];
     active_ = p_[0] == p_[0];
-    if (!question_.go_on) stand_at_start();
+    if (question_.go_on)
+      find_standing();
+    else
+      stand_at_start();
     if (question_.kinematics)
       take_actuators();
     else
@@ -555,6 +558,46 @@ class LaneKernel {
     return count;
   }
 
+  /// The first step of lanes that stand at an equilibrium, for another command or load: no series misses anything yet, only
+  /// the platform need be looked at.
+  void take_first_step() {
+    const M all = active_;
+    active_ &= standing_;
+    if (any(active_)) {
+      for (int i = 0; i < program_.rows; ++i) step_[i] = V{};
+      evaluate_platform();
+      if (!question_.target) pull_platform();
+      solve_platform();
+      distribute(true);
+      iterations_ += (V)((M)broadcast(1) & active_);
+      take_step();
+    }
+    active_ = all;
+  }
+
+  /// What the way of the actuators to the command does to the balance of a platform that stays.
+  void pull_platform() {
+    find_actuators(from_, drho_);
+    for (int a = 0; a < program_.actuators; ++a) drho_[a] = rho_[a] - drho_[a];
+    for (int s = 0; s < program_.series_count; ++s) {
+      const Series& series = program_.series[s];
+      if (!series.is_chain || series.actuators == 0) continue;
+      V own[most_actuators], wrench[6];
+      for (int a = 0; a < series.actuators; ++a) own[a] = drho_[program_.actuator_numbers[series.first_actuator + a]];
+      multiply(region_.tangents + series.by_actuators, 6, series.actuators, own, wrench, false);
+      for (int i = 0; i < 6; ++i) balance_[i] -= wrench[i];
+    }
+  }
+
+  /// Lanes that stand at an equilibrium; a target goes on from its command.
+  void find_standing() {
+    const V* standing = state_ + program_.standing;
+    standing_ = standing[3] > V{};
+    for (int i = 0; i < 3; ++i) from_[i] = standing[i];
+    if (!question_.target) return;
+    for (int i = 0; i < 3; ++i) p_[i] = select(standing_, from_[i], p_[i]);
+  }
+
   V force_limit() {
     const V* X = state_ + program_.platform;
     return 1e-9 * larger(broadcast(1), root(wrench2_)) +
@@ -573,13 +616,14 @@ class LaneKernel {
 
   void run(Batch& batch) {
     begin(batch);
+    take_first_step();
     for (int iteration = 0; iteration < (question_.kinematics ? 3 : 1) * most_iterations; ++iteration) {
       closure2_ = force_ = wrench2_ = largest_angle2_ = V{};
       for (int s = 0; s < program_.series_count; ++s) evaluate(program_.series[s]);
       evaluate_platform();
       eliminate();
       solve_platform();
-      distribute();
+      distribute(moves_actuators());
       const M done = are_done();
       converged_ |= done & active_;
       active_ &= ~done;
@@ -590,9 +634,12 @@ class LaneKernel {
     finish(batch);
   }
 
-  /// A lane that failed leaves no state to go on from.
-  void forget_failed() {
+  /// Where lanes stand now. A lane that failed leaves no state to go on from.
+  void leave_state() {
     for (int i = 0; i < program_.states; ++i) state_[i] = select(converged_, state_[i], broadcast(region_.start[i]));
+    V* standing = state_ + program_.standing;
+    for (int i = 0; i < 3; ++i) standing[i] = p_[i];
+    standing[3] = select(converged_, broadcast(question_.kinematics ? 0 : 1), V{});
   }
 
   void finish(Batch& batch) {
@@ -610,7 +657,7 @@ class LaneKernel {
       batch.iterations[at] = iterations_[lane];
       batch.converged[at] = converged_[lane] != 0;
     }
-    forget_failed();
+    leave_state();
   }
 
 
@@ -622,9 +669,9 @@ class LaneKernel {
   V *state_, *rhs_, *step_, *rho_, *drho_;
   PartFrame* frames_;
   const V* end_step_[most_series];
-  V F_[6], p_[3], wanted_[3], next_p_[3], tip_[3], balance_[6 + most_actuators], twist_[6];
+  V F_[6], p_[3], wanted_[3], from_[3], next_p_[3], tip_[3], balance_[6 + most_actuators], twist_[6];
   V closure2_{}, force_{}, balance2_{}, wrench2_{}, largest_angle2_{}, largest_step_{}, iterations_{};
-  M active_{}, converged_{};
+  M active_{}, converged_{}, standing_{};
 };
 
 }  // namespace counterflex::lanes

@@ -132,7 +132,8 @@ LaneModel::LaneModel(const Model& model, bool at_platform) : model_(model), at_p
   series_.resize(list.size());
   for (std::size_t i = 0; i < list.size(); ++i) flatten(*list[i].series, series_[i]);
   program_.platform = program_.states;
-  program_.states = program_.platform + 12;
+  program_.standing = program_.platform + 12;
+  program_.states = program_.standing + 4;
   join_ends(list);
   describe_machine();
   place_tangents();

@@ -52,8 +52,9 @@ struct Program {
   const FixedPose* fixed[2];    ///< without and with assembly errors
   const int* actuator_numbers;
   int actuators;
-  int states;            ///< length of the state: coordinates, wrenches, poses of groups, pose of the platform
+  int states;            ///< length of the state: coordinates, wrenches, poses of groups, pose of the platform, standing
   int platform;          ///< index of the platform's pose in it
+  int standing;          ///< and of the command (M, m) at which the state is an equilibrium, then 1; 0 where it is none
   int rows;              ///< of all series together; a step of everything has 6 more, the platform's twist
   int forward, target, response;  ///< where these begin among Region::tangents
   int tangents;          ///< how many numbers those are
@@ -100,7 +101,8 @@ struct Question {
   bool target;   ///< else forward
   bool kinematics;  ///< actuators for the tip of the nominal machine: nothing yields to anything, forces are zero
   bool errors;   ///< whether assembly errors act
-  bool go_on;    ///< begin with the state in which the last call has left the same waypoints, else with the region's
+  bool go_on;    ///< begin with the state in which the last call, which had the same errors, has left the same waypoints, else
+                 ///< with the region's
 };
 
 /// Solves one batch. `memory` holds `doubles_needed` numbers, aligned to 64 bytes, and keeps the state from call to call.

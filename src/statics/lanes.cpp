@@ -1,7 +1,9 @@
 #include "counterflex/statics/lanes.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <unordered_map>
 
@@ -17,6 +19,8 @@ constexpr double reach_of_cells = 2;       // from their centres, in edges: so t
 constexpr std::size_t most_zones = 512, most_cells = 1024;
 constexpr double farthest_cell = 1e6;      // from the origin of M: nothing that is a machine
 constexpr double same_branch = 1e-3;  // l or rad: another branch is further away
+
+Vector3 no_position() { return Vector3::Constant(std::numeric_limits<double>::quiet_NaN()); }
 
 struct Index {
   long x, y, z;
@@ -176,10 +180,18 @@ struct LaneSolver::Impl {
     return true;
   }
 
-  void load(std::span<const LaneRequest> requests) {
+  // Lanes beyond the last request do what that does.
+  template <class Position>  // Vector3(std::size_t request)
+  void load_positions(std::size_t count, const Position& position) {
     for (int lane = 0; lane < lanes::width; ++lane) {
-      const LaneRequest& request = requests[std::min<std::size_t>(static_cast<std::size_t>(lane), requests.size() - 1)];
-      for (int i = 0; i < 3; ++i) memory.batch.p[i][lane] = request.p[i];
+      const Vector3 p = position(std::min(static_cast<std::size_t>(lane), count - 1));
+      for (int i = 0; i < 3; ++i) memory.batch.p[i][lane] = p[i];
+    }
+  }
+
+  void load_wrenches(std::span<const LaneRequest> requests) {
+    for (int lane = 0; lane < lanes::width; ++lane) {
+      const LaneRequest& request = requests[std::min(static_cast<std::size_t>(lane), requests.size() - 1)];
       for (int i = 0; i < 6; ++i) memory.batch.F[i][lane] = request.F[i];
     }
   }
@@ -211,10 +223,44 @@ struct LaneSolver::Impl {
     return false;
   }
 
-  void solve_batch(const lanes::Question& question, std::span<const LaneRequest> requests, std::span<LaneAnswer> answers) {
-    load(requests);
+  template <class Take>  // void(std::size_t request, const LaneAnswer&)
+  void solve_batch(const lanes::Question& question, std::size_t count, const Take& take) {
     memory.solve(cell->region(question.errors), question);
-    for (std::size_t i = 0; i < requests.size(); ++i) answers[i] = answer(static_cast<int>(i));
+    for (std::size_t i = 0; i < count; ++i) take(i, answer(static_cast<int>(i)));
+  }
+
+  void solve_through(std::span<const LaneRequest> requests, std::span<const Vector3> originals, const LaneWritten& written,
+                     std::span<LaneThrough> answers) {
+    const std::size_t count = requests.size();
+    load_wrenches(requests);
+    load_positions(count, [&](std::size_t i) { return originals[i]; });
+    solve_batch({.target = false, .kinematics = false, .errors = true, .go_on = false}, count,
+                [&](std::size_t i, const LaneAnswer& a) { answers[i].before = a; });
+    load_positions(count, [&](std::size_t i) { return requests[i].p; });
+    solve_batch({.target = true, .kinematics = false, .errors = true, .go_on = true}, count,
+                [&](std::size_t i, const LaneAnswer& a) { answers[i].target = a; });
+    std::array<Vector3, lanes::width> commands;
+    for (std::size_t i = 0; i < count; ++i)
+      commands[i] = answers[i].target.solved ? written(i, answers[i].target.command) : no_position();
+    load_positions(count, [&](std::size_t i) { return commands[i]; });
+    solve_batch({.target = false, .kinematics = false, .errors = true, .go_on = true}, count,
+                [&](std::size_t i, const LaneAnswer& a) { answers[i].after = a; });
+  }
+
+  // Solves in batches of neighbours, those whose loads are borne. A waypoint whose load is not borne is withdrawn again.
+  template <class Solve, class Withdraw>  // void(std::size_t first, std::size_t count), void(std::size_t request)
+  void in_batches(bool errors, std::span<const LaneRequest> requests, const Solve& solve, const Withdraw& withdraw) {
+    if (!machine.able) return;
+    for (std::size_t first = 0, count = 1; first < requests.size(); first += count, count = 1) {
+      if (!go_to(requests[first].p)) continue;
+      while (count < lanes::width && first + count < requests.size() && cell->holds(requests[first + count].p)) ++count;
+      const auto batch = requests.subspan(first, count);
+      const bool all_borne = bears(batch, errors);
+      if (!all_borne && !bears_any(batch, errors)) continue;
+      solve(first, count);
+      for (std::size_t i = 0; !all_borne && i < count; ++i)
+        if (!bears(batch.subspan(i, 1), errors)) withdraw(first + i);
+    }
   }
 };
 
@@ -224,19 +270,24 @@ LaneSolver::LaneSolver(LaneSolver&&) noexcept = default;
 
 void LaneSolver::solve(LaneQuestion question, bool errors, std::span<const LaneRequest> requests, std::span<LaneAnswer> answers) {
   std::fill(answers.begin(), answers.end(), LaneAnswer{});
-  if (!impl_->machine.able) return;
-  for (std::size_t first = 0, count = 1; first < requests.size(); first += count, count = 1) {
-    const bool known = impl_->go_to(requests[first].p);
-    while (known && count < lanes::width && first + count < requests.size() && impl_->cell->holds(requests[first + count].p)) ++count;
-    const auto batch = requests.subspan(first, count);
-    if (!known) continue;
-    const bool all_borne = impl_->bears(batch, errors);
-    if (!all_borne && !impl_->bears_any(batch, errors)) continue;
-    impl_->solve_batch({.target = question == LaneQuestion::target, .kinematics = false, .errors = errors, .go_on = false}, batch,
-                       answers.subspan(first, count));
-    for (std::size_t i = 0; !all_borne && i < count; ++i)
-      if (!impl_->bears(batch.subspan(i, 1), errors)) answers[first + i].solved = false;
-  }
+  const auto solve_some = [&](std::size_t first, std::size_t count) {
+    impl_->load_wrenches(requests.subspan(first, count));
+    impl_->load_positions(count, [&](std::size_t i) { return requests[first + i].p; });
+    impl_->solve_batch({.target = question == LaneQuestion::target, .kinematics = false, .errors = errors, .go_on = false}, count,
+                       [&](std::size_t i, const LaneAnswer& a) { answers[first + i] = a; });
+  };
+  impl_->in_batches(errors, requests, solve_some, [&](std::size_t i) { answers[i].solved = false; });
+}
+
+void LaneSolver::solve_through(std::span<const LaneRequest> requests, std::span<const Vector3> originals,
+                               const LaneWritten& written, std::span<LaneThrough> answers) {
+  std::fill(answers.begin(), answers.end(), LaneThrough{});
+  const auto solve_some = [&](std::size_t first, std::size_t count) {
+    const auto written_of = [&](std::size_t i, const Vector3& command) { return written(first + i, command); };
+    impl_->solve_through(requests.subspan(first, count), originals.subspan(first, count), written_of,
+                         answers.subspan(first, count));
+  };
+  impl_->in_batches(true, requests, solve_some, [&](std::size_t i) { answers[i] = {}; });
 }
 
 bool LaneSolver::nominal_tip(const Vector3& p, Pose& X_MT) {

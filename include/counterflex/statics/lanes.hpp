@@ -3,6 +3,7 @@
 /// `solve_target`, to the same residuals, where the machine is known to be stable and well conditioned. A yes is the
 /// promise that these would say `converged`; a no says nothing, they decide. For machines without weights whose tip is
 /// controlled in x, y and z; others get a no for everything. EQUATIONS.md, section 11, tells what is proven and what is sampled.
+#include <functional>
 #include <memory>
 #include <span>
 
@@ -26,6 +27,16 @@ struct LaneAnswer {
   Pose X_MT;                          ///< of the real tip
   int iterations = 0;                 ///< steps taken
 };
+
+/// What a waypoint is asked in one go: where the tip stands at the position that the original program commands, what has to
+/// be commanded for it to be at the wanted one, and where it stands when what is written of that is commanded.
+struct LaneThrough {
+  LaneAnswer before, target, after;
+};
+
+/// The position that will really be commanded for a target that is to be commanded by request `i` (M, m); no number where
+/// that is not known. Called for the targets that were solved, in the order of requests.
+using LaneWritten = std::function<Vector3(std::size_t i, const Vector3& command)>;
 
 /// What lanes need to know of a machine, found where waypoints are and kept. Shared by threads; what is found for a place
 /// does not depend on who asked first. `model` outlives it.
@@ -71,6 +82,12 @@ class LaneSolver {
   /// `errors`: whether assembly errors act. `answers` is as long as `requests`; neighbours should stand beside each other,
   /// they are solved together. A request that is no number is not solved.
   void solve(LaneQuestion question, bool errors, std::span<const LaneRequest> requests, std::span<LaneAnswer> answers);
+
+  /// The tip is wanted at the positions of `requests`; `originals` are what the original program commands there (M, m), as
+  /// many. Errors act. Each answer is one to a question of its own, with the promises of `solve`; that one begins where the
+  /// one before it has ended is what it saves. Without a target `after` is not solved.
+  void solve_through(std::span<const LaneRequest> requests, std::span<const Vector3> originals, const LaneWritten& written,
+                     std::span<LaneThrough> answers);
 
   /// Pose of the nominal tip at a position, on the branch of home; false where it is not known.
   bool nominal_tip(const Vector3& p, Pose& X_MT);
