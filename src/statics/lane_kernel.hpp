@@ -84,31 +84,34 @@ class LaneKernel {
   }
 
   /// N rows of `multiply`: as many sums at once, so that none waits for its own last addition.
-  template <int N>
-  static void multiply_rows(const double* A, int columns, const V* x, V* y, bool add) {
+  template <int N, bool add>
+  static void multiply_rows(const double* A, int columns, const V* x, V* y) {
     V sum[N];
-    for (int r = 0; r < N; ++r) sum[r] = add ? y[r] : V{};
-    for (int k = 0; k < columns; ++k) {
+#pragma GCC unroll 8
+    for (int r = 0; r < N; ++r) sum[r] = add ? y[r] : A[r * columns] * x[0];
+    for (int k = add ? 0 : 1; k < columns; ++k) {
       const V xk = x[k];
+#pragma GCC unroll 8
       for (int r = 0; r < N; ++r) sum[r] += A[r * columns + k] * xk;
     }
+#pragma GCC unroll 8
     for (int r = 0; r < N; ++r) y[r] = sum[r];
   }
 
-  /// y (+)= A x, A row-major and the same for all lanes.
-  static void multiply(const double* A, int rows, int columns, const V* x, V* y, bool add) {
+  /// y (+)= A x, A row-major and the same for all lanes; it has columns.
+  template <bool add>
+  static void multiply(const double* A, int rows, int columns, const V* x, V* y) {
     int r = 0;
-    for (; r + 8 <= rows; r += 8) multiply_rows<8>(A + r * columns, columns, x, y + r, add);
-    if (rows - r >= 6) return multiply_rows<6>(A + r * columns, columns, x, y + r, add), multiply_rest(A, rows, r + 6, columns, x, y, add);
-    multiply_rest(A, rows, r, columns, x, y, add);
-  }
-
-  static void multiply_rest(const double* A, int rows, int r, int columns, const V* x, V* y, bool add) {
-    if (rows - r >= 4) {
-      multiply_rows<4>(A + r * columns, columns, x, y + r, add);
-      r += 4;
+    for (; rows - r >= 8; r += 8) multiply_rows<8, add>(A + r * columns, columns, x, y + r);
+    switch (rows - r) {
+      case 7: return multiply_rows<7, add>(A + r * columns, columns, x, y + r);
+      case 6: return multiply_rows<6, add>(A + r * columns, columns, x, y + r);
+      case 5: return multiply_rows<5, add>(A + r * columns, columns, x, y + r);
+      case 4: return multiply_rows<4, add>(A + r * columns, columns, x, y + r);
+      case 3: return multiply_rows<3, add>(A + r * columns, columns, x, y + r);
+      case 2: return multiply_rows<2, add>(A + r * columns, columns, x, y + r);
+      case 1: return multiply_rows<1, add>(A + r * columns, columns, x, y + r);
     }
-    for (; r < rows; ++r) multiply_rows<1>(A + r * columns, columns, x, y + r, add);
   }
 
   /// sin t / t, (1 - cos t) / t^2, (t - sin t) / t^3 for t^2 = t2 up to 0.25^2.
@@ -229,7 +232,7 @@ class LaneKernel {
     const V* theta = state_ + part.value;
     V stretch[6];
     for (int i = 0; i < 6; ++i) stretch[i] = theta[i] - acting_preload_ * part.K[36 + i];
-    multiply(part.K, 6, 6, stretch, gradient, false);
+    multiply<false>(part.K, 6, 6, stretch, gradient);
     V force[3], moment[3], turned[3], twice[3];
     into(at.R, f, force);
     into(at.R, M_o, moment);
@@ -305,7 +308,7 @@ class LaneKernel {
         for (int b = 0; b < part.branches; ++b)
           for (int i = 0; i < 6; ++i) rhs[part.row + i] += step_[program_.series[part.first_branch + b].step + i];
       }
-      multiply(region_.tangents + series.inside, series.rows, series.rows, rhs, step_ + series.step, false);
+      multiply<false>(region_.tangents + series.inside, series.rows, series.rows, rhs, step_ + series.step);
     }
   }
 
@@ -357,11 +360,11 @@ class LaneKernel {
         for (int i = 0; i < 6; ++i) balance_[i] -= step_[program_.series[s].step + i];
     V x[6 + most_actuators];
     if (question_.kinematics)
-      multiply(region_.kinematic, 6 + program_.actuators, 6 + program_.actuators, balance_, x, false);
+      multiply<false>(region_.kinematic, 6 + program_.actuators, 6 + program_.actuators, balance_, x);
     else if (question_.target)
-      multiply(region_.tangents + program_.target, 9, 9, balance_, x, false);
+      multiply<false>(region_.tangents + program_.target, 9, 9, balance_, x);
     else
-      multiply(region_.tangents + program_.forward, 6, 6, balance_, x, false);
+      multiply<false>(region_.tangents + program_.forward, 6, 6, balance_, x);
     if (question_.target && region_.bend != nullptr) straighten(x);
     for (int i = 0; i < 6; ++i) twist_[i] = x[i];
     if (question_.kinematics)
@@ -384,7 +387,7 @@ class LaneKernel {
         more[a] += away[i] * (bend[0] * x[6] + bend[1] * x[7] + bend[2] * x[8]);
       }
     }
-    multiply(region_.straighten, 9, program_.actuators, more, change, false);
+    multiply<false>(region_.straighten, 9, program_.actuators, more, change);
     for (int i = 0; i < 9; ++i) x[i] += change[i];
   }
 
@@ -398,11 +401,11 @@ class LaneKernel {
       const Series& series = program_.series[s];
       V* step = step_ + series.step;
       const V* end = series.is_chain ? twist_ : end_step_[s];
-      multiply(region_.tangents + series.by_end, series.rows, 6, end, step, true);
+      multiply<true>(region_.tangents + series.by_end, series.rows, 6, end, step);
       if (moves && series.actuators > 0) {
         V own[most_actuators];
         for (int a = 0; a < series.actuators; ++a) own[a] = drho_[program_.actuator_numbers[series.first_actuator + a]];
-        multiply(region_.tangents + series.by_actuators, series.rows, series.actuators, own, step, true);
+        multiply<true>(region_.tangents + series.by_actuators, series.rows, series.actuators, own, step);
       }
       for (int i = 6; i < series.rows; ++i)
         largest_step_ = larger(largest_step_, magnitude(step[i]) * (series.angular[i - 6] ? l : 1));
@@ -534,10 +537,10 @@ class LaneKernel {
     for (int i = 0; i < 3; ++i) x[i] = (p_[i] - region_.displacement_centre[i]) * (1 / region_.displacement_half);
     const int count = find_monomials(x, powers), rows = program_.rows;
     const double* response = region_.tangents + program_.response;
-    multiply(region_.displacement, rows, count, powers, step_, false);
-    multiply(region_.displacement + rows * count, 6, count, powers, twist_, false);
-    multiply(response, rows, 6, F_, step_, true);
-    multiply(response + rows * 6, 6, 6, F_, twist_, true);
+    multiply<false>(region_.displacement, rows, count, powers, step_);
+    multiply<false>(region_.displacement + rows * count, 6, count, powers, twist_);
+    multiply<true>(response, rows, 6, F_, step_);
+    multiply<true>(response + rows * 6, 6, 6, F_, twist_);
     move_bodies();
   }
 
@@ -584,7 +587,7 @@ class LaneKernel {
       if (!series.is_chain || series.actuators == 0) continue;
       V own[most_actuators], wrench[6];
       for (int a = 0; a < series.actuators; ++a) own[a] = drho_[program_.actuator_numbers[series.first_actuator + a]];
-      multiply(region_.tangents + series.by_actuators, 6, series.actuators, own, wrench, false);
+      multiply<false>(region_.tangents + series.by_actuators, 6, series.actuators, own, wrench);
       for (int i = 0; i < 6; ++i) balance_[i] -= wrench[i];
     }
   }
