@@ -91,11 +91,11 @@ Vector3 ChunkForward::wanted_at(const Task& task, double u) const {
   return task.segment ? point_at(task.segment->wanted, u) : task.piece->wanted;
 }
 
-// What is written is proven from the nominal configuration on; samples between its ends begin at their
-// neighbour.
+// What is written is proven from the nominal configuration on, or known; samples between its ends begin at
+// their neighbour.
 std::size_t ChunkForward::add(std::size_t t, double v, bool between, bool listed) {
   const Piece& piece = *tasks_[t].piece;
-  const double u = piece.u0 + v * (piece.u1 - piece.u0);
+  const double u = v == 1 ? piece.u1 : piece.u0 + v * (piece.u1 - piece.u0);
   Load load;
   if (tasks_[t].segment)
     load = {job_.forces.at(piece.segment, u, v == 0 ? Side::after : Side::before, cursor_),
