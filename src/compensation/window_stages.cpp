@@ -20,6 +20,7 @@ void note_planned_corrections(const Job& job, const Plan& plan, Compensation& re
       note_correction((c + job.path.frames[segment.frame].datum_shift).norm(), segment.line, result);
     };
     const PlannedSegment& planned = plan.segments[s];
+    if (planned.end) note(*planned.end - segment.wanted.end);
     for (const Knot& knot : planned.knots) note(knot.target - point_at(segment.wanted, knot.u));
     for (const Vector3& c : planned.group) note(c);
     for (const CorrectionCurve& curve : planned.arc)

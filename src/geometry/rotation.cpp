@@ -61,6 +61,9 @@ Vector3 log_so3(const Matrix3& R) {
   if (q.w() < 0) q.coeffs() = -q.coeffs();
   const double n = q.vec().norm();
   if (n < 1e-12) return 2.0 / q.w() * q.vec();
+  // Deviations are small rotations: atan t = t - t^3/3 + ..., whose next term is below 1e-17 relative.
+  const double t = n / q.w(), t2 = t * t;
+  if (t2 < 1e-4) return 2.0 / q.w() * (1 - t2 * (1.0 / 3 - t2 * (1.0 / 5 - t2 * (1.0 / 7)))) * q.vec();
   return 2 * std::atan2(n, q.w()) / n * q.vec();
 }
 
