@@ -120,11 +120,13 @@ Vector3 target_of(const Job& job, const Move& move) {
 }
 
 Curve command_of(const Job& job, const Move& move) {
+  const Pose& X_MW = job.path.frames[move.offset].X_MW;
+  if (!move.arc) return {X_MW * Vector3(move.start_mm * mm), X_MW * Vector3(move.end_mm * mm), {}};
   Curve curve = curve_of(move);
   curve.start *= mm;
   curve.end *= mm;
-  if (curve.arc) curve.arc->centre *= mm;
-  return job.path.frames[move.offset].X_MW * curve;
+  curve.arc->centre *= mm;
+  return X_MW * curve;
 }
 
 Vector3 wanted_of(const Job& job, const Move& move) {

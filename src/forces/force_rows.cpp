@@ -108,13 +108,10 @@ const ForceRows::Record& ForceRows::spooled_record(std::size_t i) const {
   return block.records[i % block_rows];
 }
 
-bool ForceRows::is_first_beyond(std::size_t i, double key) const {
-  return (i == size() || record(i).key > key) && (i == 0 || record(i - 1).key <= key);
-}
-
 std::size_t ForceRows::beyond(double key) const {
-  for (std::size_t i = near_; i <= std::min(size(), near_ + looked_ahead); ++i)
-    if (is_first_beyond(i, key)) return near_ = i;
+  if (near_ == 0 || record(near_ - 1).key <= key)
+    for (std::size_t i = near_; i <= std::min(size(), near_ + looked_ahead); ++i)
+      if (i == size() || record(i).key > key) return near_ = i;
   std::size_t first = 0, count = size();
   while (count > 0) {
     const std::size_t half = count / 2;

@@ -56,14 +56,16 @@ Matrix3 exp_so3(const Vector3& phi) {
 }
 
 Vector3 log_so3(const Matrix3& R) {
+  // Deviations are small rotations: v = sin t a for phi = t a, and t / sin t = 1 + s^2/6 + 3 s^4/40 + ..., of
+  // which the next term is below 1e-17.
+  const Vector3 v = 0.5 * Vector3(R(2, 1) - R(1, 2), R(0, 2) - R(2, 0), R(1, 0) - R(0, 1));
+  const double s2 = v.squaredNorm();
+  if (s2 < 1e-4 && R.trace() > 0) return (1 + s2 * (1.0 / 6 + s2 * (3.0 / 40 + s2 * (5.0 / 112)))) * v;
   // The quaternion is well conditioned at every angle: phi = 2 atan2(|v|, w) v / |v|.
   Eigen::Quaterniond q(R);
   if (q.w() < 0) q.coeffs() = -q.coeffs();
   const double n = q.vec().norm();
   if (n < 1e-12) return 2.0 / q.w() * q.vec();
-  // Deviations are small rotations: atan t = t - t^3/3 + ..., whose next term is below 1e-17 relative.
-  const double t = n / q.w(), t2 = t * t;
-  if (t2 < 1e-4) return 2.0 / q.w() * (1 - t2 * (1.0 / 3 - t2 * (1.0 / 5 - t2 * (1.0 / 7)))) * q.vec();
   return 2 * std::atan2(n, q.w()) / n * q.vec();
 }
 

@@ -106,7 +106,6 @@ class ForceRows {
   const Record& spooled_record(std::size_t i) const;
   void spool_recent();
   void unpack(const Spooled& kept, std::size_t first, std::vector<Record>& records) const;
-  bool is_first_beyond(std::size_t i, double key) const;
 
   std::vector<Record> recent_;  ///< all rows, or those behind the spooled ones
   std::vector<Vector3> points_;
