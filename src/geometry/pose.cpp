@@ -14,7 +14,7 @@ Pose moved(const Pose& X_AB, const Vector6& step) {
 
 Vector6 difference(const Pose& to, const Pose& from) {
   Vector6 d;
-  d << to.p - from.p, log_so3(to.R * from.R.transpose());
+  d << to.p - from.p, rotation_between(to.R, from.R);
   return d;
 }
 

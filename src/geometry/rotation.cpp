@@ -56,17 +56,22 @@ Matrix3 exp_so3(const Vector3& phi) {
 }
 
 Vector3 log_so3(const Matrix3& R) {
-  // Deviations are small rotations: v = sin t a for phi = t a, and t / sin t = 1 + s^2/6 + 3 s^4/40 + ..., of
-  // which the next term is below 1e-17.
-  const Vector3 v = 0.5 * Vector3(R(2, 1) - R(1, 2), R(0, 2) - R(2, 0), R(1, 0) - R(0, 1));
-  const double s2 = v.squaredNorm();
-  if (s2 < 1e-4 && R.trace() > 0) return (1 + s2 * (1.0 / 6 + s2 * (3.0 / 40 + s2 * (5.0 / 112)))) * v;
   // The quaternion is well conditioned at every angle: phi = 2 atan2(|v|, w) v / |v|.
   Eigen::Quaterniond q(R);
   if (q.w() < 0) q.coeffs() = -q.coeffs();
   const double n = q.vec().norm();
   if (n < 1e-12) return 2.0 / q.w() * q.vec();
   return 2 * std::atan2(n, q.w()) / n * q.vec();
+}
+
+Vector3 rotation_between(const Matrix3& R_to, const Matrix3& R_from) {
+  // R_to R_from' - R_from R_to' = 2 sin t [a]x for the rotation by t about a: the vector of it is the sum of
+  // cross products of columns. t = (1 + s^2/6 + 3 s^4/40 + ...) s, s = sin t; the next term is below 1e-17.
+  const Vector3 v = 0.5 * (R_from.col(0).cross(R_to.col(0)) + R_from.col(1).cross(R_to.col(1)) +
+                           R_from.col(2).cross(R_to.col(2)));
+  const double s2 = v.squaredNorm(), trace = R_from.cwiseProduct(R_to).sum();
+  if (s2 < 1e-4 && trace > 0) return (1 + s2 * (1.0 / 6 + s2 * (3.0 / 40 + s2 * (5.0 / 112)))) * v;
+  return log_so3(R_to * R_from.transpose());
 }
 
 Matrix3 left_jacobian(const Vector3& phi) {
