@@ -1,8 +1,10 @@
 #include "fixed_digits.hpp"
 
+#include <charconv>
+#include <cmath>
 #include <cstdint>
 
-#include "program/number_style.hpp"
+#include "counterflex/files/numbers.hpp"
 
 namespace counterflex {
 
@@ -12,10 +14,17 @@ void append_fixed(std::string& text, double value, int decimals) {
     text += format_fixed(value, decimals);
     return;
   }
+  if (*whole < 0) text += '-';
+  const auto digits = static_cast<std::int64_t>(std::abs(*whole));
+  const auto power = static_cast<std::int64_t>(small_powers_of_ten[static_cast<std::size_t>(decimals)]);
   char buffer[24];
-  const char* const end = put_steps(static_cast<std::int64_t>(*whole), decimals, buffer);
-  const std::ptrdiff_t point = decimals == 0 ? 1 : 0;  // there is always one
-  text.append(buffer, static_cast<std::size_t>(end - buffer - point));
+  const char* end = std::to_chars(buffer, buffer + sizeof buffer, digits / power).ptr;
+  text.append(buffer, static_cast<std::size_t>(end - buffer));
+  if (decimals == 0) return;
+  // A leading one keeps the zeros behind the point.
+  end = std::to_chars(buffer, buffer + sizeof buffer, power + digits % power).ptr;
+  buffer[0] = '.';
+  text.append(buffer, static_cast<std::size_t>(end - buffer));
 }
 
 }  // namespace counterflex
