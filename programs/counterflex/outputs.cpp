@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
@@ -111,7 +112,13 @@ void RunFiles::add_program(std::string_view text) {
 }
 
 void RunFiles::add_waypoints(const std::vector<Waypoint>& waypoints) {
-  if (csv_) csv_->write(csv_rows(waypoints, columns_, next_row_));
+  constexpr std::size_t at_once = 256;  // a row has half a kilobyte
+  if (!csv_) return;
+  for (std::span<const Waypoint> rest(waypoints); !rest.empty();) {
+    const auto some = rest.first(std::min(at_once, rest.size()));
+    csv_->write(csv_rows(some, columns_, next_row_));
+    rest = rest.subspan(some.size());
+  }
 }
 
 void RunFiles::publish(const std::string& report_json, bool with_program) {

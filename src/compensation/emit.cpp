@@ -43,7 +43,10 @@ void Emitter::emit_move(std::size_t m, Index s) {
 void Emitter::emit_segment(std::size_t s) {
   const Segment& segment = job_.path.segments[s];
   const PlannedSegment& planned = plan_.segments[s];
-  EmittedMove emitted{.edit = {.move = segment.move}, .kind = Kind::segment, .segment = s};
+  EmittedMove& emitted = out_.moves.emplace_back();
+  emitted.edit.move = segment.move;
+  emitted.kind = Kind::segment;
+  emitted.segment = s;
   double unsplit_miss = planned.unsplit_miss, jump = 0;
   const bool jumps = put_jump(segment, planned, emitted, jump);
   if (segment.wanted.arc)
@@ -52,7 +55,7 @@ void Emitter::emit_segment(std::size_t s) {
     emit_line(segment, planned, emitted);
   // A block that must stay one begins where the last one ended.
   if (jumps && segment.cutting && !job_.program.moves[segment.move].may_split) unsplit_miss += jump;
-  finish_segment(segment, planned, unsplit_miss, std::move(emitted));
+  finish_segment(segment, planned, unsplit_miss, emitted);
 }
 
 // Whether the correction steps at the start; a feed move performs the step where one may be inserted.
@@ -61,8 +64,9 @@ bool Emitter::put_jump(const Segment& segment, const PlannedSegment& planned, Em
   const Move& move = job_.program.moves[segment.move];
   const Vector3 start = planned.start_target - segment.wanted.start;
   jump = planned.starts_anywhere || !state_.correction_known ? 0 : (start - state_.correction).norm();
-  piece_held_ = before(move);
-  if (jump <= emitted_jump_share * job_.options.tolerance) return false;
+  const bool jumps = jump > emitted_jump_share * job_.options.tolerance;
+  if (jumps || segment.wanted.arc) piece_held_ = before(move);
+  if (!jumps) return false;
   if (!move.may_jump) return true;
   emitted.edit.jump_mm = in_words_mm(job_, move, planned.start_target);
   go_through(move, {*emitted.edit.jump_mm}, piece_held_);
@@ -78,9 +82,9 @@ void Emitter::emit_line(const Segment& segment, const PlannedSegment& planned, E
 }
 
 void Emitter::finish_segment(const Segment& segment, const PlannedSegment& planned, double unsplit_miss,
-                             EmittedMove emitted) {
+                             EmittedMove& emitted) {
   const Move& move = job_.program.moves[segment.move];
-  const Vector3 correction = planned.knots.back().target - segment.wanted.end;
+  const Vector3 correction = (planned.end ? *planned.end : planned.knots.back().target) - segment.wanted.end;
   const Vector3 kept = correction_that_can_be_written(move, correction);
   emitted.exempt_end = emitted.in_part = kept != correction;
   emitted.edit.end_mm = in_words_mm(job_, move, segment.wanted.end + kept);
@@ -92,7 +96,7 @@ void Emitter::finish_segment(const Segment& segment, const PlannedSegment& plann
     list(move,
          fmt::format("not split, its end is corrected: between its ends the deviation may reach {:.4f} mm",
                      unsplit_miss / mm));
-  put(std::move(emitted));
+  take_in(emitted.edit);
 }
 
 // Where no axis words may be inserted, absent axes keep the correction that they have.
@@ -116,11 +120,13 @@ Vector3 target_of(const Job& job, const Move& move) {
 }
 
 Curve command_of(const Job& job, const Move& move) {
+  const Pose& X_MW = job.path.frames[move.offset].X_MW;
+  if (!move.arc) return {X_MW * Vector3(move.start_mm * mm), X_MW * Vector3(move.end_mm * mm), {}};
   Curve curve = curve_of(move);
   curve.start *= mm;
   curve.end *= mm;
-  if (curve.arc) curve.arc->centre *= mm;
-  return job.path.frames[move.offset].X_MW * curve;
+  curve.arc->centre *= mm;
+  return X_MW * curve;
 }
 
 Vector3 wanted_of(const Job& job, const Move& move) {

@@ -155,14 +155,17 @@ void Emitter::go_through(const Move& move, const Via& via, HeldPosition& held) c
 }
 
 void Emitter::put(EmittedMove emitted) {
-  const MoveEdit& edit = emitted.edit;
+  take_in(emitted.edit);
+  out_.moves.push_back(std::move(emitted));
+}
+
+void Emitter::take_in(const MoveEdit& edit) {
   const Move& move = job_.program.moves[edit.move];
   come_to(move);
   if (edit.jump_mm || !edit.inserted.empty()) state_.held = before(move);
   if (edit.jump_mm) go_through(move, {*edit.jump_mm}, state_.held);
   for (const Via& via : edit.inserted) go_through(move, via, state_.held);
   state_.held = held_after(move, state_.held, edit.end_mm, job_.options.write);
-  out_.moves.push_back(std::move(emitted));
 }
 
 void Emitter::pass(const Move& move) {

@@ -26,7 +26,7 @@ class Emitter {
   void emit_segment(std::size_t s);
   void emit_line(const Segment& segment, const PlannedSegment& planned, EmittedMove& emitted);
   void finish_segment(const Segment& segment, const PlannedSegment& planned, double jump,
-                      EmittedMove emitted);
+                      EmittedMove& emitted);
   bool put_jump(const Segment& segment, const PlannedSegment& planned, EmittedMove& emitted, double& jump);
   Vector3 correction_that_can_be_written(const Move& move, const Vector3& correction) const;
 
@@ -69,8 +69,9 @@ class Emitter {
   void come_to(const Move& move);
   HeldPosition before(const Move& move);
   void go_through(const Move& move, const Via& via, HeldPosition& held) const;
-  void put(EmittedMove emitted);  ///< the next edit
-  void pass(const Move& move);    ///< a move without an edit
+  void put(EmittedMove emitted);       ///< the next edit
+  void take_in(const MoveEdit& edit);  ///< what the text holds behind it
+  void pass(const Move& move);         ///< a move without an edit
 
   void list(const Move& move, std::string why) { out_.left_alone.push_back({move.line, std::move(why)}); }
   void list_held_words(const Move& move, const Vector3& miss);

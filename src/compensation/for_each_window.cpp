@@ -1,6 +1,5 @@
 #include "counterflex/compensation/for_each_window.hpp"
 
-#include <algorithm>
 #include <vector>
 
 #include "pipeline.hpp"
@@ -9,8 +8,8 @@ namespace counterflex {
 
 void for_each_window(ProgramReader& reader, int threads, const std::function<void(const Program&)>& first,
                      const std::function<void(const Program&)>& behind) {
-  constexpr int useful_threads = 2;
-  std::vector<Program> windows(static_cast<std::size_t>(std::clamp(threads, 1, useful_threads)));
+  // With one window more than are looked at neither thread waits for the other's.
+  std::vector<Program> windows(threads > 1 ? 3 : 1);
   const auto read = [&](std::size_t slot) {
     if (!reader.next()) return false;
     first(reader.window());

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "counterflex/compensation/waypoint.hpp"
 #include "forward_chunk.hpp"
@@ -9,7 +10,9 @@ namespace counterflex {
 namespace {
 
 constexpr std::size_t pieces_at_once = 8 * chunk_size;
+
 const Model& model_of(const Job& job, const Piece& piece) {
+  if (job.tools == nullptr || job.tools->empty()) return job.model;
   return piece.segment == no_segment ? model_with(job.model, job.tools, piece.tool)
                                      : model_of(job, job.path.segments[piece.segment]);
 }
@@ -42,21 +45,28 @@ void solve_run(const Job& job, const NominalTrack& nominal, std::span<const Piec
 ForwardRun solve_forward_from(const Job& job, const NominalTrack& nominal, std::span<const Piece> pieces,
                               const Questions& questions, const std::optional<Vector3>& command,
                               std::span<const KnownSegment> known) {
-  std::vector<ForwardRun> runs(chunk_count(pieces.size()));
-  for_each_chunk(pieces.size(), job.options.threads, [&](const Chunk& chunk) {
-    ForwardRun& run = runs[chunk.index];
+  const auto solve = [&](const Chunk& chunk, ForwardRun& run) {
     for (std::size_t i = chunk.begin, end = i; i < chunk.end && !run.failure; i = end) {
       while (end < chunk.end && &model_of(job, pieces[end]) == &model_of(job, pieces[i])) ++end;
       const std::optional<Vector3> last = i == 0 ? command : pieces[i - 1].commanded.end;
       solve_run(job, nominal, pieces.subspan(i, end - i), questions, last, known, run);
     }
-  });
+  };
   ForwardRun all;
+  if (job.options.threads == 1) {
+    all.waypoints.reserve(pieces.size() + pieces.size() / 2);
+    for_each_chunk(pieces.size(), 1, [&](const Chunk& chunk) { solve(chunk, all); });
+    return all;
+  }
+  std::vector<ForwardRun> runs(chunk_count(pieces.size()));
+  for_each_chunk(pieces.size(), job.options.threads,
+                 [&](const Chunk& chunk) { solve(chunk, runs[chunk.index]); });
   std::size_t count = 0;
   for (const ForwardRun& run : runs) count += run.waypoints.size();
   all.waypoints.reserve(count);
   for (ForwardRun& run : runs) {
-    all.waypoints.insert(all.waypoints.end(), run.waypoints.begin(), run.waypoints.end());
+    all.waypoints.insert(all.waypoints.end(), std::make_move_iterator(run.waypoints.begin()),
+                         std::make_move_iterator(run.waypoints.end()));
     if (!run.failure) continue;
     all.failure = run.failure;
     break;

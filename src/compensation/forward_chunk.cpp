@@ -371,7 +371,8 @@ void ChunkForward::order_samples() {
 
 void ChunkForward::write_waypoints(std::vector<Waypoint>& out) {
   order_samples();
-  out.reserve(out.size() + order_.size());
+  if (const std::size_t needed = out.size() + order_.size(); needed > out.capacity())
+    out.reserve(std::max(needed, 2 * out.capacity()));
   places_.reserve(order_.size());
   places_.clear();
   double v = 0, start = 0;  // of the sample before on this piece; what the start of the piece would stand for

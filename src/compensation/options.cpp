@@ -20,8 +20,4 @@ const Model& model_with(const Model& model, const ToolModels* tools, long tool) 
   return found == tools->end() ? model : found->second;
 }
 
-const Model& model_of(const Job& job, const Segment& segment) {
-  return model_with(job.model, job.tools, job.program.moves[segment.move].tool);
-}
-
 }  // namespace counterflex

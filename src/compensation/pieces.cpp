@@ -27,23 +27,25 @@ class PieceReader {
     std::size_t swallowed = stops_.size() - count;
     double u0 = 0;
     for (const Stop& stop : stops_) {
-      const Vector3 from = here();
+      const Vector3 from = swallowed > 0 || !tells_start() ? here() : Vector3(Vector3::Zero());
       const bool dropped = swallowed > 0 && is_held(stop, job_.program.moves[wanted.move]);
       if (dropped)
         --swallowed;
       else
         skip(1);
       if (stop.jump || (dropped && stop.u < 1)) continue;
-      if (stop.u > u0 || !wanted.cutting)
-        pieces.push_back({.segment = move.segment,
-                          .line = wanted.line,
-                          .u0 = u0,
-                          .u1 = stop.u,
-                          .frame = wanted.frame,
-                          .commanded = dropped ? Curve{from, from, {}} : command(from),
-                          .end_only = !wanted.cutting,
-                          .exempt = move.exempt,
-                          .exempt_end = move.exempt_end});
+      if (stop.u > u0 || !wanted.cutting) {
+        Piece& piece = pieces.emplace_back();
+        piece.segment = move.segment;
+        piece.line = wanted.line;
+        piece.u0 = u0;
+        piece.u1 = stop.u;
+        piece.frame = wanted.frame;
+        piece.commanded = dropped ? Curve{from, from, {}} : command(from);
+        piece.end_only = !wanted.cutting;
+        piece.exempt = move.exempt;
+        piece.exempt_end = move.exempt_end;
+      }
       u0 = stop.u;
     }
   }
@@ -102,6 +104,11 @@ class PieceReader {
       if (std::abs(stop.p_mm[axis] - held_mm[axis]) > 0.5 * digit * (1 + 1e-9)) return false;
     }
     return true;
+  }
+
+  // Whether the text tells where the next move starts.
+  bool tells_start() const {
+    return next_ < corrected_.moves.size() && all_known(corrected_.moves[next_].known_start);
   }
 
   // The way of the last move; where the text does not tell its start, from where it held the tool.

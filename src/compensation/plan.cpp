@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "counterflex/compensation/compensate.hpp"
@@ -12,8 +13,19 @@
 namespace counterflex {
 namespace {
 
+// The last digit of so many behind the point. It is asked for at every move.
+double last_digit(int decimals) {
+  static const auto common = [] {
+    std::array<double, 10> digits{};
+    for (std::size_t i = 0; i < digits.size(); ++i) digits[i] = std::pow(10.0, -static_cast<int>(i));
+    return digits;
+  }();
+  const auto i = static_cast<std::size_t>(decimals);  // beyond all where it is negative
+  return i < common.size() ? common[i] : std::pow(10.0, -decimals);
+}
+
 double rounding_of(LengthUnit unit, int decimals) {
-  return 0.5 * (unit == LengthUnit::inches ? inch : mm) * std::pow(10.0, -decimals) * std::sqrt(3.0);
+  return 0.5 * (unit == LengthUnit::inches ? inch : mm) * last_digit(decimals) * std::sqrt(3.0);
 }
 
 }  // namespace

@@ -17,7 +17,9 @@ struct Knot {
 struct PlannedSegment {
   Vector3 start_target = Vector3::Zero();  ///< where the segment should begin (M, m)
   bool starts_anywhere = false;            ///< a rapid begins where the move before it ended
-  std::vector<Knot> knots;           ///< the last one is its end; a step within is two knots at one fraction
+  std::optional<Vector3> end{};            ///< of a segment that is not divided: the target at its end (M, m)
+  std::vector<Knot> knots;           ///< else the last one is its end; a step within is two knots at one
+                                     ///< fraction
   std::vector<CorrectionCurve> arc;  ///< of an arc: its correction between steps of the force; its text is
                                      ///< fitted when it is known where the one before it ends
   std::vector<Vector3> group;        ///< of a move of a contour group: corrections at places along it (M, m)

@@ -244,7 +244,7 @@ bool ChunkPlanner::finish(const Task& task, PlannedSegment& planned) {
   planned.start_target = wanted.start;
   if (task.start != no_answer) planned.start_target += waves_.correction(task.start);
   if (task.kind == Kind::cut && !task.as_line) return finish_sampled(task, planned);
-  planned.knots = {{1, wanted.end + waves_.correction(task.end)}};
+  planned.end = wanted.end + waves_.correction(task.end);
   return true;
 }
 

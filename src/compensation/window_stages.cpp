@@ -20,6 +20,7 @@ void note_planned_corrections(const Job& job, const Plan& plan, Compensation& re
       note_correction((c + job.path.frames[segment.frame].datum_shift).norm(), segment.line, result);
     };
     const PlannedSegment& planned = plan.segments[s];
+    if (planned.end) note(*planned.end - segment.wanted.end);
     for (const Knot& knot : planned.knots) note(knot.target - point_at(segment.wanted, knot.u));
     for (const Vector3& c : planned.group) note(c);
     for (const CorrectionCurve& curve : planned.arc)
@@ -31,12 +32,11 @@ void note_planned_corrections(const Job& job, const Plan& plan, Compensation& re
 // Positions that come from unknown ones, and holes, have no segment.
 void note_first_corrections(const Job& job, const Emission& emission, Compensation& result) {
   for (const EmittedMove& emitted : emission.moves) {
+    const bool hole = emitted.kind == EmittedMove::Kind::hole;
+    if (!hole && emitted.kind != EmittedMove::Kind::first_known) continue;
     const Move& move = job.program.moves[emitted.edit.move];
     Vector3 shift = emitted.edit.end_mm - move.end_mm;
-    if (emitted.kind == EmittedMove::Kind::hole)
-      shift.z() = *emitted.edit.bottom_mm - move.cycle->bottom_mm;
-    else if (emitted.kind != EmittedMove::Kind::first_known)
-      continue;
+    if (hole) shift.z() = *emitted.edit.bottom_mm - move.cycle->bottom_mm;
     note_correction(shift.norm() * mm, move.line, result);
   }
 }
@@ -44,10 +44,12 @@ void note_first_corrections(const Job& job, const Emission& emission, Compensati
 void count_moves(const Job& job, const Emission& emission, Compensation& result) {
   OtherMoves& others = result.other_moves;
   for (const EmittedMove& emitted : emission.moves) {
-    const Handling handling = job.program.moves[emitted.edit.move].handling;
-    if (!emitted.in_part)
+    if (!emitted.in_part) {
       ++result.corrected_moves;
-    else if (handling == Handling::group)
+      continue;
+    }
+    const Handling handling = job.program.moves[emitted.edit.move].handling;
+    if (handling == Handling::group)
       ++others.grouped;
     else if (handling == Handling::own && emitted.kind != EmittedMove::Kind::shifted)
       ++others.in_part;
@@ -71,12 +73,12 @@ void plan_window(const Job& job, WindowWork& work) {
   if (work.failed()) return;
   work.plan = plan(job, work.track);
   work.result.failure = work.plan.failure;
+  if (!work.failed()) note_planned_corrections(job, work.plan, work.result);
 }
 
 void write_window(const Job& job, CarriedState& carried, WindowWork& work) {
   if (work.failed()) return;
   Compensation& result = work.result;
-  note_planned_corrections(job, work.plan, result);
   Emission emission = emit(job, work.plan, carried.emitter);
   work.known = std::move(work.plan.known);
   work.plan = {};

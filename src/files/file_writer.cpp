@@ -131,8 +131,11 @@ FileWriter::~FileWriter() = default;
 FileWriter::FileWriter(FileWriter&&) noexcept = default;
 
 void FileWriter::write(std::string_view bytes) {
-  state_->buffer += bytes;
-  if (state_->buffer.size() >= portion) state_->flush();
+  if (state_->buffer.size() + bytes.size() >= portion) state_->flush();
+  if (bytes.size() < portion)
+    state_->buffer += bytes;
+  else if (!write_all(state_->file.get(), bytes))
+    fail_writing(state_->path);
 }
 
 void FileWriter::publish() {

@@ -92,9 +92,13 @@ const std::vector<Stretch>& Coverage::stretches(std::size_t i) {
   const Move& move = window_.moves[segment.move];
   const ForceRule* rest = by_kind(move);
   claim(i);
+  stretches_.clear();
+  if (claims_.size() == 1 && claims_[0].least <= 0 && claims_[0].most >= 1) {  // nearly all there are
+    stretches_.push_back({0, 1, claims_[0].rule, claims_[0].rule == nullptr});
+    return stretches_;
+  }
   settle(segment.line);
   const double shortest = std::min(0.5, shortest_stretch / (segment.s_end - segment.s_start));
-  stretches_.clear();
   double done = 0;
   const auto fill = [&](double to) {
     if (to - done > shortest) stretches_.push_back({done, to, rest, false});

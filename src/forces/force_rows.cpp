@@ -1,6 +1,8 @@
 #include "counterflex/forces/force_rows.hpp"
 
 #include <algorithm>
+#include <bit>
+#include <cmath>
 
 namespace counterflex {
 namespace {
@@ -26,12 +28,7 @@ ForceRows& ForceRows::operator=(const ForceRows& other) {
 }
 
 void ForceRows::push_back(const ForceRow& row) {
-  if (recent_.size() == recent_most) {
-    static_assert(std::is_trivially_copyable_v<Record>);
-    spool_.append({reinterpret_cast<const char*>(recent_.data()), recent_.size() * sizeof(Record)});
-    spooled_ += recent_.size();
-    recent_.clear();
-  }
+  if (recent_.size() == recent_most) spool_recent();
   Record& record = recent_.emplace_back();
   record.key = row.key;
   std::copy_n(row.F.data(), 6, record.F.begin());
@@ -53,26 +50,68 @@ ForceRow ForceRows::operator[](std::size_t i) const {
           .point = point(i)};
 }
 
+// Most profiles have no moments, and their rows follow each other line by line: half of the bytes.
+void ForceRows::spool_recent() {
+  Spooled kept{.places = false, .line = recent_[0].line, .column = recent_[0].column};
+  if (!kept_.empty()) kept.offset = kept_.back().offset + kept_.back().bytes(recent_most);
+  const auto is_kept = [](double moment) { return moment != 0 || std::signbit(moment); };
+  for (std::size_t i = 0; i < recent_.size(); ++i) {
+    const Record& r = recent_[i];
+    if (std::any_of(r.F.begin() + 3, r.F.end(), is_kept)) kept.components = 6;
+    const auto line = kept.line + static_cast<std::int32_t>(i);
+    kept.places = kept.places || r.line != line || r.column != kept.column;
+  }
+  std::vector<double> numbers;
+  numbers.reserve(recent_.size() * kept.numbers());
+  for (const Record& r : recent_) {
+    numbers.push_back(r.key);
+    numbers.insert(numbers.end(), r.F.data(), r.F.data() + kept.components);
+    if (kept.places) numbers.push_back(std::bit_cast<double>(std::array{r.line, r.column}));
+  }
+  spool_.append({reinterpret_cast<const char*>(numbers.data()), kept.bytes(recent_.size())});
+  kept_.push_back(kept);
+  spooled_ += recent_.size();
+  recent_.clear();
+}
+
+/// The rows behind the `first` of those that are kept so, as many as `records` has.
+void ForceRows::unpack(const Spooled& kept, std::size_t first, std::vector<Record>& records) const {
+  numbers_.resize(records.size() * kept.numbers());
+  spool_.read(kept.offset + kept.bytes(first), reinterpret_cast<char*>(numbers_.data()),
+              kept.bytes(records.size()));
+  const double* at = numbers_.data();
+  for (std::size_t i = 0; i < records.size(); ++i) {
+    Record& r = records[i];
+    r.key = *at++;
+    r.F.fill(0);
+    std::copy_n(at, kept.components, r.F.begin());
+    at += kept.components;
+    r.line = kept.line + static_cast<std::int32_t>(first + i);
+    r.column = kept.column;
+    if (!kept.places) continue;
+    const auto place = std::bit_cast<std::array<std::int32_t, 2>>(*at++);
+    r.line = place[0];
+    r.column = place[1];
+  }
+}
+
 const ForceRows::Record& ForceRows::spooled_record(std::size_t i) const {
   const std::size_t number = i / block_rows;
   Block& block = blocks_[number % blocks_held];
   if (block.number != number) {
     block.records.resize(block_rows);
     block.number = static_cast<std::size_t>(-1);  // what is half read is no block
-    spool_.read(number * block_rows * sizeof(Record), reinterpret_cast<char*>(block.records.data()),
-                block_rows * sizeof(Record));
+    const std::size_t first = number * block_rows;
+    unpack(kept_[first / recent_most], first % recent_most, block.records);
     block.number = number;
   }
   return block.records[i % block_rows];
 }
 
-bool ForceRows::is_first_beyond(std::size_t i, double key) const {
-  return (i == size() || record(i).key > key) && (i == 0 || record(i - 1).key <= key);
-}
-
 std::size_t ForceRows::beyond(double key) const {
-  for (std::size_t i = near_; i <= std::min(size(), near_ + looked_ahead); ++i)
-    if (is_first_beyond(i, key)) return near_ = i;
+  if (near_ == 0 || record(near_ - 1).key <= key)
+    for (std::size_t i = near_; i <= std::min(size(), near_ + looked_ahead); ++i)
+      if (i == size() || record(i).key > key) return near_ = i;
   std::size_t first = 0, count = size();
   while (count > 0) {
     const std::size_t half = count / 2;

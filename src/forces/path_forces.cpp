@@ -168,7 +168,8 @@ void PathForces::close_run(double blend) {
   Vector6 sum = pieces_[run.first_piece].integral;
   for (std::size_t i = run.first_piece; i < run.end_piece; ++i) {
     pieces_[i].integral = sum;
-    is_linear_between_breaks_ = is_linear_between_breaks_ && pieces_[i].F0 == pieces_[i].F1;
+    pieces_[i].is_constant = pieces_[i].F0 == pieces_[i].F1;
+    is_linear_between_breaks_ = is_linear_between_breaks_ && pieces_[i].is_constant;
     sum = integral(pieces_[i], pieces_[i].s1);
   }
   find_corners(run);
@@ -262,6 +263,7 @@ void PathForces::breaks(std::size_t segment, ForceCursor& cursor, std::vector<do
   // A step at p bends the mean at p and at p + b.
   add_shifted(0, cursor.corner);
   if (run.blend > 0) add_shifted(run.blend, cursor.ramp_corner);
+  if (fractions.size() < 2) return;
   std::sort(fractions.begin(), fractions.end());
   const auto same = [](double a, double b) { return b - a < same_fraction; };
   fractions.erase(std::unique(fractions.begin(), fractions.end(), same), fractions.end());

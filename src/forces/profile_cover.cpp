@@ -34,15 +34,22 @@ KeyCover cover_by(const ForceProfile& profile, std::size_t row, std::size_t end,
 void append_covers(const ForceProfile& profile, const KeySpan& keys, bool alone,
                    std::vector<KeyCover>& found) {
   const auto& rows = profile.rows;
-  for (std::size_t row = row_at(profile, keys.start); row < rows.size();) {
+  const auto add = [&](std::size_t row, std::size_t end) {
+    const KeyCover cover = cover_by(profile, row, end, alone);
+    if (cover.least <= keys.end && cover.most >= keys.start) found.push_back(cover);
+  };
+  std::size_t row = row_at(profile, keys.start);
+  // The row of a line or a block number is the last one that is not beyond it.
+  if (keys.start == keys.end && row < rows.size() && !rows.ends(row) && rows.key(row) <= keys.end)
+    return add(row, row + 1);
+  while (row < rows.size()) {
     if (rows.ends(row)) {
       ++row;
       continue;
     }
     if (row > 0 && rows.key(row) > keys.end) break;
     const std::size_t end = end_of_cover(profile, row, keys.end);
-    const KeyCover cover = cover_by(profile, row, std::max(end, row + 1), alone);
-    if (cover.least <= keys.end && cover.most >= keys.start) found.push_back(cover);
+    add(row, std::max(end, row + 1));
     row = std::max(end, row + 1);
     if (row < rows.size() && rows.key(row) > keys.end) break;
   }

@@ -102,6 +102,11 @@ void turn_pieces(const ForcePiece& piece, const Segment& segment, const AxesAlon
                  std::vector<ForcePiece>& pieces) {
   const Turning turning(piece, segment, axes);
   pieces.clear();
+  if (axes.are_of_machine()) {
+    const Vector6 none = Vector6::Zero();  // added, it leaves no zero with a sign
+    pieces.push_back({piece.s0, piece.s1, piece.F0 + none, piece.F1 + none, none});
+    return;
+  }
   if (!axes.turn()) {
     pieces.push_back(
         {piece.s0, piece.s1, turning.after(piece.s0), turning.before(piece.s1), Vector6::Zero()});

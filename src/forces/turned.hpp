@@ -16,6 +16,7 @@ class AxesAlong {
       : frame_(frame), segment_(segment), R_MW_(R_MW), R_MT_(R_MT) {}
 
   bool turn() const;
+  bool are_of_machine() const { return frame_ == ForceFrame::machine; }
 
   /// Pieces of equal length that are short enough for the middle of each to tell how the axes turn in it.
   int pieces() const;

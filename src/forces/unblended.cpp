@@ -29,9 +29,9 @@ constexpr double shortest_piece = 1e-9;
 
 /// The profile at `key`, which lies in the interval that begins with `row`.
 Vector6 value(const ForceProfile& profile, std::size_t row, double key) {
-  const ForceRow from = profile.rows[row];
-  if (!profile.linear || row + 1 == profile.rows.size() || profile.rows.ends(row + 1)) return from.F;
-  const ForceRow to = profile.rows[row + 1];
+  const ForceRows& rows = profile.rows;
+  if (!profile.linear || row + 1 == rows.size() || rows.ends(row + 1)) return rows.wrench(row);
+  const ForceRow from = rows[row], to = rows[row + 1];
   const double w = std::clamp((key - from.key) / (to.key - from.key), 0.0, 1.0);
   return (1 - w) * from.F + w * to.F;
 }
@@ -89,6 +89,11 @@ Vector6 in_machine_axes(const ForceAxes& axes, const Vector6& F) {
 void append_profile_pieces(const ForceProfile& profile, const KeySpan& keys, double s0, double s1,
                            std::vector<ForcePiece>& pieces) {
   const double length = s1 - s0, range = keys.end - keys.start;
+  if (range == 0) {  // a line or a block number
+    const Vector6 F = value(profile, row_at(profile, keys.start), keys.start);
+    pieces.push_back({s0, s1, F, F, Vector6::Zero()});
+    return;
+  }
   const double margin = range * std::min(shortest_piece / length, 0.5);
   const auto add = [&](double from, double to, double at, double end) {
     const std::size_t row = row_at(profile, (from + to) / 2);
@@ -105,14 +110,6 @@ void append_profile_pieces(const ForceProfile& profile, const KeySpan& keys, dou
     at = s;
   }
   add(from, keys.end, at, s1);
-}
-
-Vector6 slope(const ForcePiece& piece) {
-  return (piece.F1 - piece.F0) / (piece.s1 - piece.s0);
-}
-
-Vector6 value(const ForcePiece& piece, double s) {
-  return piece.F0 + (s - piece.s0) * slope(piece);
 }
 
 void append(const ForcePiece& piece, std::size_t first, std::vector<ForcePiece>& pieces) {

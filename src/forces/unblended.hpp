@@ -32,8 +32,13 @@ void append_profile_pieces(const ForceProfile& profile, const KeySpan& keys, dou
                            std::vector<ForcePiece>& pieces);
 
 /// How the wrench grows along a piece (N/m, N), and what it is at path length s.
-Vector6 slope(const ForcePiece& piece);
-Vector6 value(const ForcePiece& piece, double s);
+inline Vector6 slope(const ForcePiece& piece) {
+  return (piece.F1 - piece.F0) / (piece.s1 - piece.s0);
+}
+inline Vector6 value(const ForcePiece& piece, double s) {
+  if (piece.is_constant) return piece.F0 + Vector6::Zero();  // no zero with a sign
+  return piece.F0 + (s - piece.s0) * slope(piece);
+}
 
 /// Appends `piece` to the pieces of a run that begin at `first`; one that goes on with the same constant is
 /// made longer.

@@ -31,10 +31,7 @@ Vector3 at_angle(const Cylinder& from, double angle) {
 
 }  // namespace
 
-Vector3 point_at(const Curve& curve, double u) {
-  if (u == 0) return curve.start;
-  if (u == 1) return curve.end;
-  if (!curve.arc) return curve.start + u * (curve.end - curve.start);
+Vector3 point_on_arc(const Curve& curve, double u) {
   const Cylinder a = about(*curve.arc, curve.start), b = about(*curve.arc, curve.end);
   const double radius = a.radius + u * (b.radius - a.radius), height = a.height + u * (b.height - a.height);
   return curve.arc->centre + radius * at_angle(a, u * curve.arc->sweep) + height * curve.arc->normal;
@@ -53,8 +50,7 @@ Vector3 direction_at(const Curve& curve, double u) {
   return size > 0 ? Vector3(rate / size) : Vector3(Vector3::Zero());
 }
 
-double length(const Curve& curve) {
-  if (!curve.arc) return (curve.end - curve.start).norm();
+double length_of_arc(const Curve& curve) {
   const Cylinder a = about(*curve.arc, curve.start), b = about(*curve.arc, curve.end);
   const double around = 0.5 * (a.radius + b.radius) * curve.arc->sweep;
   return std::hypot(around, b.radius - a.radius, b.height - a.height);

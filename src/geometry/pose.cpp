@@ -4,12 +4,6 @@
 
 namespace counterflex {
 
-Pose operator*(const Pose& X_AB, const Pose& X_BC) { return {X_AB.R * X_BC.R, X_AB.p + X_AB.R * X_BC.p}; }
-
-Vector3 operator*(const Pose& X_AB, const Vector3& p_B) { return X_AB.p + X_AB.R * p_B; }
-
-Pose inverse(const Pose& X_AB) { return {X_AB.R.transpose(), -(X_AB.R.transpose() * X_AB.p)}; }
-
 Pose translation(const Vector3& p) { return {Matrix3::Identity(), p}; }
 
 Pose rotation(const Matrix3& R) { return {R, Vector3::Zero()}; }
@@ -20,7 +14,7 @@ Pose moved(const Pose& X_AB, const Vector6& step) {
 
 Vector6 difference(const Pose& to, const Pose& from) {
   Vector6 d;
-  d << to.p - from.p, log_so3(to.R * from.R.transpose());
+  d << to.p - from.p, rotation_between(to.R, from.R);
   return d;
 }
 

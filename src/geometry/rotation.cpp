@@ -64,6 +64,16 @@ Vector3 log_so3(const Matrix3& R) {
   return 2 * std::atan2(n, q.w()) / n * q.vec();
 }
 
+Vector3 rotation_between(const Matrix3& R_to, const Matrix3& R_from) {
+  // R_to R_from' - R_from R_to' = 2 sin t [a]x for the rotation by t about a: the vector of it is the sum of
+  // cross products of columns. t = (1 + s^2/6 + 3 s^4/40 + ...) s, s = sin t; the next term is below 1e-17.
+  const Vector3 v = 0.5 * (R_from.col(0).cross(R_to.col(0)) + R_from.col(1).cross(R_to.col(1)) +
+                           R_from.col(2).cross(R_to.col(2)));
+  const double s2 = v.squaredNorm(), trace = R_from.cwiseProduct(R_to).sum();
+  if (s2 < 1e-4 && trace > 0) return (1 + s2 * (1.0 / 6 + s2 * (3.0 / 40 + s2 * (5.0 / 112)))) * v;
+  return log_so3(R_to * R_from.transpose());
+}
+
 Matrix3 left_jacobian(const Vector3& phi) {
   const auto k = coefficients(phi.norm());
   const Matrix3 S = skew(phi);

@@ -166,22 +166,47 @@ void doubt_skippable(const Move& move, const HeldPosition& before, HeldPosition&
     if (move.words[axis] || before[axis] != held[axis]) held[axis].reset();
 }
 
+namespace {
+
+/// Whether a word says where the axis goes, and nothing else does.
+bool is_said(const Move& move, std::size_t axis) {
+  return move.words[axis] && move.known_end[axis] && !move.relative && !move.fixed[axis] &&
+         !(move.cycle && axis == 2);
+}
+
+/// What `settle_axis` says of the position of such an axis, nearly all there are.
+double held_by_word(const Move& move, std::size_t axis, double wanted_mm, const WriteOptions& options) {
+  const double end_mm = component(move.end_mm, axis), wanted = in_unit(wanted_mm, move.unit);
+  const int decimals = decimals_of_word(move, decimals_shown(move.words[axis]), Place::end, options);
+  if (rounds_to(in_unit(end_mm, move.unit), wanted, decimals)) return end_mm;
+  const std::optional<double> steps = whole_steps(wanted, decimals);
+  return (steps ? value_of_steps(*steps, decimals) : rounded(wanted, decimals)) * mm_per(move.unit);
+}
+
+}  // namespace
+
 HeldPosition held_after(const Move& move, const HeldPosition& before, const Vector3& end_mm,
                         const WriteOptions& options) {
   const HeldPosition start = held_at_start(move, before);
   HeldPosition held;
   held.cycle_initial_mm = cycle_initial_after(move, start);
-  for (std::size_t axis = 0; axis < 3; ++axis)
-    held[axis] = settle_axis(move, axis, start, component(end_mm, axis), Place::end, options).held_mm;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double wanted_mm = component(end_mm, axis);
+    if (is_said(move, axis))
+      held[axis] = held_by_word(move, axis, wanted_mm, options);
+    else
+      held[axis] = settle_axis(move, axis, start, wanted_mm, Place::end, options).held_mm;
+  }
   doubt_skippable(move, start, held);
   return held;
 }
 
 Decimals decimals_of(const Move& move, const WriteOptions& options) {
-  Decimals decimals{};
-  decimals.inserted = decimals_of_word(move, no_decimals, Place::inside, options);
+  const int least = decimals_of_word(move, no_decimals, Place::inside, options);
+  Decimals decimals{{least, least, least}, least};
+  if (options.decimals >= 0) return decimals;
   for (std::size_t axis = 0; axis < 3; ++axis)
-    decimals.end[axis] = decimals_of_word(move, decimals_shown(move.words[axis]), Place::end, options);
+    decimals.end[axis] = std::max(least, decimals_shown(move.words[axis]));
   return decimals;
 }
 

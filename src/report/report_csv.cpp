@@ -32,7 +32,8 @@ void add_deviation(std::string& row, const Vector6& d, bool known) {
 void add_row(std::string& text, std::size_t index, const Waypoint& w, const CsvColumns& columns) {
   const bool solved = w.status == Status::converged;
   const bool attributed = solved && columns.attribution && w.causes;
-  const Causes none, &causes = attributed ? *w.causes : none;
+  static const Causes none;
+  const Causes& causes = attributed ? *w.causes : none;
   text += std::to_string(index) + ',' + std::to_string(w.line) + (w.cutting ? ",1" : ",0");
   add(text, w.s / mm, path_digits);
   for (int i = 0; i < 3; ++i) add(text, w.p_MT[i] / mm, path_digits);
@@ -59,7 +60,7 @@ std::string csv_header() {
   return row + ",status,iterations\n";
 }
 
-std::string csv_rows(const std::vector<Waypoint>& waypoints, const CsvColumns& columns,
+std::string csv_rows(std::span<const Waypoint> waypoints, const CsvColumns& columns,
                      std::size_t& next_index) {
   std::string text;
   for (const Waypoint& w : waypoints)

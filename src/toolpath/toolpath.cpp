@@ -1,5 +1,6 @@
 #include "counterflex/toolpath/toolpath.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -16,14 +17,18 @@ Curve scaled(Curve curve, double factor) {
   return curve;
 }
 
-Segment segment_of(const Move& move, std::size_t index, const std::vector<WorkFrame>& frames) {
-  Segment segment;
+/// `X_MW` is the wanted place of the move's coordinates.
+void fill_in(const Move& move, std::size_t index, const Pose& X_MW, Segment& segment) {
   segment.move = index;
   segment.line = move.line;
   segment.cutting = move.motion == Motion::feed;
   segment.frame = move.offset;
-  segment.wanted = wanted_frame(frames[move.offset]) * scaled(curve_of(move), mm);
-  return segment;
+  if (move.arc) {
+    segment.wanted = X_MW * scaled(curve_of(move), mm);
+    return;
+  }
+  segment.wanted.start = X_MW * Vector3(move.start_mm * mm);
+  segment.wanted.end = X_MW * Vector3(move.end_mm * mm);
 }
 
 /// Under G93 F says how long the move takes, whatever its length.
@@ -83,7 +88,9 @@ Curve curve_of(const Move& move) {
 
 double duration_of(const Move& move) {
   if (move.motion != Motion::feed || !gives_segment(move)) return 0;
-  const double way = length(scaled(curve_of(move), mm)), feed = feed_m_s(move, way);
+  const Vector3 start = move.start_mm * mm, end = move.end_mm * mm;
+  const double way = move.arc ? length(scaled(curve_of(move), mm)) : (end - start).norm();
+  const double feed = feed_m_s(move, way);
   return feed > 0 ? way / feed : 0;
 }
 
@@ -120,11 +127,14 @@ void ignore_axes(Program& program, const std::array<bool, 3>& ignored) {
 
 Toolpath build_toolpath(const Program& program, const std::vector<WorkFrame>& frames, const PathEnd& start) {
   Toolpath path{frames, {}, start};
+  std::vector<Pose> wanted(frames.size());
+  std::transform(frames.begin(), frames.end(), wanted.begin(), wanted_frame);
   path.segments.reserve(program.moves.size());
   for (std::size_t i = 0; i < program.moves.size(); ++i) {
     const Move& move = program.moves[i];
     if (!gives_segment(move)) continue;
-    Segment& segment = path.segments.emplace_back(segment_of(move, i, frames));
+    Segment& segment = path.segments.emplace_back();
+    fill_in(move, i, wanted[move.offset], segment);
     advance(move, segment, path.end);
     path.end = {segment.s_end, segment.t_end};
   }

@@ -40,8 +40,11 @@ struct Job {
 /// The machine with tool number `tool` in its spindle.
 const Model& model_with(const Model& model, const ToolModels* tools, long tool);
 
-/// The machine that makes a move of the path.
-const Model& model_of(const Job& job, const Segment& segment);
+/// The machine that makes a move of the path. Nearly always there is only one: no move is looked at then.
+inline const Model& model_of(const Job& job, const Segment& segment) {
+  if (job.tools == nullptr || job.tools->empty()) return job.model;
+  return model_with(job.model, job.tools, job.program.moves[segment.move].tool);
+}
 
 /// Why a run was refused: exit status, line of the original program, and what happened.
 struct Failure {

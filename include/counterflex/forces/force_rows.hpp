@@ -49,6 +49,7 @@ class ForceRows {
   ForceRow front() const { return (*this)[0]; }
   ForceRow back() const { return (*this)[size() - 1]; }
   double key(std::size_t i) const { return record(i).key; }
+  Vector6 wrench(std::size_t i) const { return Eigen::Map<const Vector6>(record(i).F.data()); }
   bool ends(std::size_t i) const { return record(i).column < 0; }
   Vector3 point(std::size_t i) const { return points_.empty() ? Vector3(Vector3::Zero()) : points_[i]; }
 
@@ -82,24 +83,39 @@ class ForceRows {
     std::int32_t column = 0;  ///< negative, and one less: the row ends the cover
   };
   static constexpr std::size_t block_rows = 1024, blocks_held = 4, recent_most = 8 * block_rows;
+  /// How `recent_most` rows are kept in the spool: as so many numbers each.
+  struct Spooled {
+    std::size_t offset = 0;             ///< of the first number in the spool (bytes)
+    std::size_t components = 3;         ///< of the wrench: moments are kept where there is one
+    bool places = true;                 ///< are kept: rows do not just follow each other, line by line
+    std::int32_t line = 0, column = 0;  ///< of the first row
+
+    std::size_t numbers() const { return 1 + components + (places ? 1 : 0); }
+    std::size_t bytes(std::size_t rows) const { return rows * numbers() * sizeof(double); }
+  };
   struct Block {
     std::size_t number = static_cast<std::size_t>(-1);
     std::vector<Record> records{};
   };
 
   const Record& record(std::size_t i) const {
-    return i >= spooled_ ? recent_[i - spooled_] : spooled_record(i);
+    if (i >= spooled_) return recent_[i - spooled_];
+    const Block& block = blocks_[i / block_rows % blocks_held];
+    return block.number == i / block_rows ? block.records[i % block_rows] : spooled_record(i);
   }
   const Record& spooled_record(std::size_t i) const;
-  bool is_first_beyond(std::size_t i, double key) const;
+  void spool_recent();
+  void unpack(const Spooled& kept, std::size_t first, std::vector<Record>& records) const;
 
   std::vector<Record> recent_;  ///< all rows, or those behind the spooled ones
   std::vector<Vector3> points_;
   Spool spool_;
+  std::vector<Spooled> kept_;
   std::size_t spooled_ = 0;  ///< rows, whole blocks
   bool all_zero_ = true;
   mutable std::array<Block, blocks_held> blocks_;
-  mutable std::size_t near_ = 0;  ///< the last answer of `beyond`
+  mutable std::vector<double> numbers_;  ///< of a block that is read
+  mutable std::size_t near_ = 0;         ///< the last answer of `beyond`
 };
 
 }  // namespace counterflex

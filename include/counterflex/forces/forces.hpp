@@ -120,7 +120,8 @@ struct ForcePiece {
   Vector6 F0 = Vector6::Zero();
   Vector6 F1 = Vector6::Zero();
   Vector6 integral = Vector6::Zero();
-  bool goes_on = false;  ///< smoothly from the piece before it: its start is no corner
+  bool goes_on = false;      ///< smoothly from the piece before it: its start is no corner
+  bool is_constant = false;  ///< known to be: F0 and F1 are the same
 };
 
 /// Feed moves between two rapids: cutting path length [s0, s1] (m), pieces and corners [first, end).

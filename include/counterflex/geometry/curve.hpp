@@ -21,14 +21,27 @@ struct Curve {
   std::optional<Arc> arc{};
 };
 
+/// `point_at` of an arc, inside of it.
+Vector3 point_on_arc(const Curve& curve, double u);
+
 /// The point at fraction `u` of the line's length or the arc's angle; its start and end exactly at 0 and 1.
-Vector3 point_at(const Curve& curve, double u);
+inline Vector3 point_at(const Curve& curve, double u) {
+  if (u == 0) return curve.start;
+  if (u == 1) return curve.end;
+  if (curve.arc) return point_on_arc(curve, u);
+  return curve.start + u * (curve.end - curve.start);
+}
 
 /// Unit vector along the curve at `u`; zero where the curve has no length.
 Vector3 direction_at(const Curve& curve, double u);
 
+/// `length` of an arc.
+double length_of_arc(const Curve& curve);
+
 /// Of a spiral to within a millionth of the change of its radius.
-double length(const Curve& curve);
+inline double length(const Curve& curve) {
+  return curve.arc ? length_of_arc(curve) : (curve.end - curve.start).norm();
+}
 
 /// The same curve between fractions `u0` < `u1`.
 Curve stretch(const Curve& curve, double u0, double u1);

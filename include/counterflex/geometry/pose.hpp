@@ -11,9 +11,11 @@ struct Pose {
   Vector3 p = Vector3::Zero();  ///< m
 };
 
-Pose operator*(const Pose& X_AB, const Pose& X_BC);
-Vector3 operator*(const Pose& X_AB, const Vector3& p_B);
-Pose inverse(const Pose& X_AB);
+inline Pose operator*(const Pose& X_AB, const Pose& X_BC) {
+  return {X_AB.R * X_BC.R, X_AB.p + X_AB.R * X_BC.p};
+}
+inline Vector3 operator*(const Pose& X_AB, const Vector3& p_B) { return X_AB.p + X_AB.R * p_B; }
+inline Pose inverse(const Pose& X_AB) { return {X_AB.R.transpose(), -(X_AB.R.transpose() * X_AB.p)}; }
 Pose translation(const Vector3& p);
 Pose rotation(const Matrix3& R);
 

@@ -15,6 +15,10 @@ Matrix3 exp_so3(const Vector3& phi);
 /// phi = Log(R), |phi| <= pi, the inverse of `exp_so3`. Accurate to rounding for any angle, near 0 and near pi too.
 Vector3 log_so3(const Matrix3& R);
 
+/// Log(R_to R_from'): the rotation vector from one orientation to another (rad). Costs little where they are
+/// nearly the same.
+Vector3 rotation_between(const Matrix3& R_to, const Matrix3& R_from);
+
 /// J_l(phi) with Exp(phi + dphi) = Exp(J_l dphi) Exp(phi) to first order: maps the rate of a rotation vector to the
 /// angular velocity in the axes of the frame in which `phi` is given.
 Matrix3 left_jacobian(const Vector3& phi);

@@ -1,6 +1,7 @@
 #pragma once
 /// A run's report as JSON, as CSV, and as text for a terminal. The same report gives the same bytes: no time
 /// stamps, no locale, a fixed order of keys.
+#include <span>
 #include <string>
 #include <vector>
 
@@ -25,8 +26,7 @@ std::string csv_header();
 /// One row a waypoint that is not `between`, in order; `next_index` is that of the first row (a file's first
 /// has 0) and becomes that of the row after the last; `cutting` is 0 or 1. Rotations of the correction follow
 /// as correction_rx_deg, correction_ry_deg, correction_rz_deg.
-std::string csv_rows(const std::vector<Waypoint>& waypoints, const CsvColumns& columns,
-                     std::size_t& next_index);
+std::string csv_rows(std::span<const Waypoint> waypoints, const CsvColumns& columns, std::size_t& next_index);
 
 /// The summary that a person reads: lines of at most 100 characters (paths and other long words stay whole).
 /// Deviations in mm with four decimals. `colour` adds ANSI sequences, nothing else.
