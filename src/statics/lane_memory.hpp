@@ -35,4 +35,10 @@ class LaneMemory {
   std::vector<double> rho_;
 };
 
+/// A request as one lane of a batch.
+inline void put_in_lane(const Vector3& p, const Vector6& F, int lane, lanes::Batch& batch) {
+  for (int i = 0; i < 3; ++i) batch.p[i][lane] = p[i];
+  for (int i = 0; i < 6; ++i) batch.F[i][lane] = F[i];
+}
+
 }  // namespace counterflex

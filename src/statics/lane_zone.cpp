@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "lane_polynomial.hpp"
-#include "newton.hpp"
+#include "lane_strength.hpp"
 
 namespace counterflex {
 namespace {
@@ -12,15 +12,9 @@ namespace {
 constexpr double polynomial_tolerance = 2e-12;         // m, rad
 constexpr double largest_kinematic_condition = 1e4;    // of the nominal Jacobian: far from a singularity
 constexpr double constant_orientation = 1e-11;         // rad
-constexpr double load_margin = 1.25;
 constexpr double largest_load = 1e12;                  // N
 constexpr double coarse_sizes = 0.5, fine_sizes = 2;   // of loads that are told apart, in an octave
 constexpr double slope_step = 1e-2;                    // of half an edge
-
-void put_in_lane(const Vector3& p, const Vector6& F, int lane, lanes::Batch& batch) {
-  for (int i = 0; i < 3; ++i) batch.p[i][lane] = p[i];
-  for (int i = 0; i < 6; ++i) batch.F[i][lane] = F[i];
-}
 
 // Actuators and rotation of the nominal tip at many places, one a row; empty where one is not reached.
 Eigen::MatrixXd kinematics_at(const LaneModel& lane_model, const LaneZone& zone, const std::vector<Vector3>& places,
@@ -130,54 +124,11 @@ Matrix3 LaneZone::R_MT(const Vector3& p) const {
   return turns_ ? Matrix3(exp_so3(Vector3((powers_at(p) * orientation_).transpose())) * R_centre_) : R_centre_;
 }
 
-bool LaneZone::bears_at_centre(const Load& load, bool errors, StaticsWork& work) const {
-  return solve_forward(model_, nominal_, load, {.errors = errors ? 1.0 : 0.0}, work).status == Status::converged;
-}
-
-bool LaneZone::bears_alone(const Vector3& p, const Load& load, bool errors, StaticsWork& work) const {
-  const NominalResult followed = follow(model_, nominal_, {tip(model_.mechanism, model_.home).R, p});
-  return followed.status == Status::converged &&
-         solve_forward(model_, followed.configuration, load, {.errors = errors ? 1.0 : 0.0}, work).status == Status::converged;
-}
-
-// One corner a lane; where lanes do not find an equilibrium, it is followed.
-bool LaneZone::bears_at_corners(const Load& load, bool errors, LaneMemory& memory, StaticsWork& work) const {
-  static_assert(lanes::width == 8);
-  const auto corner = [this](int lane) {
-    return Vector3(centre_ + flat_.half * Vector3(lane & 1 ? 1 : -1, lane & 2 ? 1 : -1, lane & 4 ? 1 : -1));
-  };
-  for (int lane = 0; lane < lanes::width; ++lane) put_in_lane(corner(lane), load.F, lane, memory.batch);
-  memory.solve(flat_, {.target = false, .kinematics = false, .errors = errors, .go_on = false});
-  for (int lane = 0; lane < lanes::width; ++lane) {
-    if (!memory.batch.converged[lane]) {
-      if (!bears_alone(corner(lane), load, errors, work)) return false;
-      continue;
-    }
-    const Configuration loaded = lane_model_.configuration_of(memory.state(lane).data(), reference_);
-    const Problem problem{load, {.errors = errors ? 1.0 : 0.0}, nullptr};
-    evaluate_all(model_, loaded, problem.stage, work.impl());
-    for (std::size_t i = 0; i < model_.mechanism.chains.size(); ++i)
-      if (!condense(model_.mechanism.chains[i], {model_.mechanism.length}, false, work.impl().chains[i])) return false;
-    if (!is_stable(model_, loaded, problem, work.impl())) return false;
-  }
-  return true;
-}
-
-// A vector of three components is in the octahedron of sqrt 3 times its length; with another beside it in that of the sum.
-bool LaneZone::bears_octahedron(double force, double moment, bool errors, StaticsWork& work) const {
-  const std::array<double, 3> key{force, moment, errors ? 1.0 : 0.0};
+bool LaneZone::bears_octahedron(double force, double turning, bool errors, StaticsWork& work) const {
+  const std::array<double, 3> key{force, turning, errors ? 1.0 : 0.0};
   if (const auto found = borne_.find(key); found != borne_.end()) return found->second;
-  const int axes = moment > 0 ? 6 : 3;
-  const double margin = load_margin * std::sqrt(3.0) * (moment > 0 ? 2 : 1);
-  LaneMemory memory(lane_model_);
-  bool borne = true;
-  for (int corner = 0; corner < 2 * axes && borne; ++corner) {
-    const int axis = corner / 2;
-    Load load{Vector6::Zero(), lane_model_.at_platform()};
-    load.F[axis] = (corner % 2 ? -margin : margin) * (axis < 3 ? force : moment * model_.mechanism.length);
-    borne = bears_at_centre(load, errors, work) && bears_at_corners(load, errors, memory, work);
-  }
-  return borne_[key] = borne;
+  const auto loads = corners_of_loads(force, turning * model_.mechanism.length, lane_model_.at_platform());
+  return borne_[key] = bears_everywhere(model_, lane_model_, *this, loads, errors, work);
 }
 
 // Most loads are borne four times over: they are all one then.
