@@ -25,17 +25,18 @@ Vector3 crowded_point(int n) {
 
 constexpr int check_count = 20;
 
+// Monomials at many points, one a row.
+Eigen::MatrixXd powers_at(const std::vector<Vector3>& points, int degree) {
+  Eigen::MatrixXd powers(static_cast<Eigen::Index>(points.size()), monomial_count(degree));
+  for (std::size_t i = 0; i < points.size(); ++i) powers.row(static_cast<Eigen::Index>(i)) = monomials(points[i], degree);
+  return powers;
+}
+
 PolynomialFit make_fit(int degree) {
   PolynomialFit fit;
   const int terms = monomial_count(degree), count = terms + terms / 2 + 8;
-  Eigen::MatrixXd values(count, terms);
-  for (int n = 0; n < count; ++n) {
-    fit.points.push_back(crowded_point(n + check_count + 1));
-    values.row(n) = monomials(fit.points.back(), degree);
-  }
-  Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> decomposition;
-  decomposition.compute(values);
-  fit.from_values = solved(decomposition, Eigen::MatrixXd(Eigen::MatrixXd::Identity(count, count)));
+  for (int n = 0; n < count; ++n) fit.points.push_back(crowded_point(n + check_count + 1));
+  fit.from_values = pseudo_inverse(powers_at(fit.points, degree));
   return fit;
 }
 
@@ -59,6 +60,15 @@ const PolynomialFit& polynomial_fit(int degree) {
   const std::lock_guard lock(mutex);
   const auto found = fits.find(degree);
   return found != fits.end() ? found->second : fits.emplace(degree, make_fit(degree)).first->second;
+}
+
+const Eigen::MatrixXd& powers_at_checks(int degree) {
+  static std::mutex mutex;
+  static std::map<int, Eigen::MatrixXd> powers;
+  const std::lock_guard lock(mutex);
+  Eigen::MatrixXd& of_degree = powers[degree];
+  if (of_degree.size() == 0) of_degree = powers_at(polynomial_checks(), degree);
+  return of_degree;
 }
 
 const std::vector<Vector3>& polynomial_checks() {

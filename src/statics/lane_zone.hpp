@@ -26,10 +26,9 @@ class LaneZone {
 
   const Vector3& centre() const { return centre_; }
 
-  /// A corner of the cube, 0 to 7.
-  Vector3 corner(int number) const {
-    return centre_ + flat_.half * Vector3(number & 1 ? 1 : -1, number & 2 ? 1 : -1, number & 4 ? 1 : -1);
-  }
+  /// Where a point of [-1, 1]^3 is in the cube, and corner 0 to 7.
+  Vector3 place_of(const Vector3& x) const { return centre_ + flat_.half * x; }
+  Vector3 corner(int number) const { return place_of({number & 1 ? 1. : -1., number & 2 ? 1. : -1., number & 4 ? 1. : -1.}); }
 
   /// What lanes share at the zone's centre.
   const lanes::Region& flat() const { return flat_; }
@@ -51,7 +50,8 @@ class LaneZone {
  private:
   LaneZone(const Model& model, const LaneModel& lane_model) : model_(model), lane_model_(lane_model) {}
   bool find_centre(const LaneModel& lane_model, StaticsWork& work);
-  bool fit_kinematics(const LaneModel& lane_model, int degree);
+  bool fit_kinematics(const LaneModel& lane_model);
+  void take_polynomials(const Eigen::MatrixXd& coefficients, int degree);
   Eigen::RowVectorXd powers_at(const Vector3& p) const;
   bool bears_octahedron(double force, double turning, bool errors, StaticsWork& work) const;
 
