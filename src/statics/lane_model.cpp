@@ -250,6 +250,7 @@ void LaneModel::flatten(const Series& series, lanes::Series& flat) {
 
 void LaneModel::number_rows(const Series& series, lanes::Series& flat) {
   flat.rows = 6 + static_cast<int>(series.free.size());
+  program_.most_free = std::max(program_.most_free, flat.rows - 6);
   flat.wrench = program_.states;
   program_.states += 6;
   flat.step = program_.rows;
