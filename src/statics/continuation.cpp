@@ -32,13 +32,15 @@ Equilibrium refine(const Model& model, const Configuration& start, const Problem
   result.configuration = start;
   const NewtonResult solved = solve(problem, work, result.configuration);
   result.iterations = solved.iterations;
-  if (!solved.converged) return result;
-  if (!is_stable(model, result.configuration, problem, work)) {
-    result.status = Status::unstable;
-    return result;
-  }
-  judge_condition(model, problem, work, result);
+  if (solved.converged) judge(model, problem, work, result);
   return result;
+}
+
+void judge(const Model& model, const Problem& problem, StaticsWork::Impl& work, Equilibrium& result) {
+  if (is_stable(model, result.configuration, problem, work))
+    judge_condition(model, problem, work, result);
+  else
+    result.status = Status::unstable;
 }
 
 Equilibrium continue_from(const Model& model, const Configuration& nominal, Problem problem, const EquilibriumSolver& solve,

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "newton.hpp"
+#include "continuation.hpp"
 
 namespace counterflex {
 namespace {
@@ -34,14 +34,21 @@ bool stands_alone(Judge& judge, const Vector3& p, const Load& load) {
          solve_forward(judge.model, nominal.configuration, load, judge.stage(), judge.work).status == Status::converged;
 }
 
-bool refines(Judge& judge, const Configuration& loaded, const Load& load) {
-  return refine_forward(judge.model, loaded, load, judge.stage(), judge.work).status == Status::converged;
-}
+Problem problem_of(const Judge& judge, const Load& load) { return {load, judge.stage(), nullptr}; }
 
-bool is_stable(Judge& judge, const Configuration& loaded, const Load& load) {
-  const Problem problem{load, judge.stage(), nullptr};
+bool stands_stable(Judge& judge, const Configuration& loaded, const Load& load) {
+  const Problem problem = problem_of(judge, load);
   evaluate_all(judge.model, loaded, problem.stage, judge.work.impl());
   return is_stable(judge.model, loaded, problem, judge.work.impl());
+}
+
+bool stands_well(Judge& judge, const Configuration& loaded, const Load& load) {
+  const Problem problem = problem_of(judge, load);
+  evaluate_all(judge.model, loaded, problem.stage, judge.work.impl());
+  Equilibrium found;
+  found.configuration = loaded;
+  counterflex::judge(judge.model, problem, judge.work.impl(), found);
+  return found.status == Status::converged;
 }
 
 // One corner a lane. Those that lanes do not prove are judged alone.
@@ -52,16 +59,16 @@ bool bears_at_corners(Judge& judge, const lanes::Region& region, const Load& loa
   const auto proven = judge.memory.stable(region, judge.question());
   for (int lane = 0; lane < lanes::width; ++lane) {
     if (proven[static_cast<std::size_t>(lane)]) continue;
-    const bool borne = judge.memory.batch.converged[lane] ? is_stable(judge, judge.found_in(lane), load)
+    const bool borne = judge.memory.batch.converged[lane] ? stands_stable(judge, judge.found_in(lane), load)
                                                           : stands_alone(judge, judge.zone.corner(lane), load);
     if (!borne) return false;
   }
   return true;
 }
 
-// Without a load the machine is followed to the centre; then one load a lane.
+// Without a load the machine is followed to the centre (with errors it was, when the zone was made); then one load a lane.
 bool bears_at_centre(Judge& judge, const std::vector<Load>& loads) {
-  if (!stands_alone(judge, judge.zone.centre(), {})) return false;
+  if (!judge.errors && !stands_alone(judge, judge.zone.centre(), {})) return false;
   for (std::size_t first = 0; first < loads.size(); first += lanes::width) {
     const std::size_t count = std::min<std::size_t>(lanes::width, loads.size() - first);
     for (int lane = 0; lane < lanes::width; ++lane)
@@ -70,7 +77,7 @@ bool bears_at_centre(Judge& judge, const std::vector<Load>& loads) {
     judge.memory.solve(judge.zone.flat(), judge.question());
     for (std::size_t i = 0; i < count; ++i) {
       const int lane = static_cast<int>(i);
-      const bool borne = judge.memory.batch.converged[lane] ? refines(judge, judge.found_in(lane), loads[first + i])
+      const bool borne = judge.memory.batch.converged[lane] ? stands_well(judge, judge.found_in(lane), loads[first + i])
                                                             : stands_alone(judge, judge.zone.centre(), loads[first + i]);
       if (!borne) return false;
     }
