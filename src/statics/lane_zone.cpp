@@ -77,7 +77,7 @@ bool LaneZone::fit_kinematics(const LaneModel& lane_model) {
   KinematicsOfZone kinematics{*this, R_centre_, LaneMemory(lane_model), n};
   Eigen::MatrixXd checks(static_cast<Eigen::Index>(polynomial_checks().size()), n + 3), values(0, n + 3);
   if (!kinematics.fill(polynomial_checks(), 0, checks)) return false;
-  for (const int degree : {2, 6, 8, 10}) {
+  for (const int degree : {2, 6, 7, 8, 10}) {
     const PolynomialFit& fit = polynomial_fit(degree);
     const Eigen::Index known = values.rows();
     values.conservativeResize(static_cast<Eigen::Index>(fit.points.size()), Eigen::NoChange);
