@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "continuation.hpp"
 
@@ -26,12 +27,14 @@ struct Judge {
   }
 };
 
-// Alone: from the zone's nominal configuration to a place, and from nothing to errors and load there.
-bool stands_alone(Judge& judge, const Vector3& p, const Load& load) {
+// Alone: from the zone's nominal configuration to a place, and from nothing to errors and load there. None where that fails.
+std::optional<Configuration> followed(Judge& judge, const Vector3& p, const Load& load) {
   const Matrix3 R_MT = tip(judge.model.mechanism, judge.model.home).R;
   const NominalResult nominal = follow(judge.model, judge.zone.nominal(), {R_MT, p});
-  return nominal.status == Status::converged &&
-         solve_forward(judge.model, nominal.configuration, load, judge.stage(), judge.work).status == Status::converged;
+  if (nominal.status != Status::converged) return std::nullopt;
+  Equilibrium found = solve_forward(judge.model, nominal.configuration, load, judge.stage(), judge.work);
+  if (found.status != Status::converged) return std::nullopt;
+  return std::move(found.configuration);
 }
 
 Problem problem_of(const Judge& judge, const Load& load) { return {load, judge.stage(), nullptr}; }
@@ -51,38 +54,63 @@ bool stands_well(Judge& judge, const Configuration& loaded, const Load& load) {
   return found.status == Status::converged;
 }
 
-// One corner a lane. Those that lanes do not prove are judged alone.
-bool bears_at_corners(Judge& judge, const lanes::Region& region, const Load& load) {
+// Without a load the machine is followed to the centre (with errors it was, when the zone was made); then one load a lane.
+// The loaded configurations; fewer where one is not borne.
+std::vector<Configuration> borne_at_centre(Judge& judge, const std::vector<Load>& loads) {
+  const Vector3& centre = judge.zone.centre();
+  std::vector<Configuration> list;
+  if (!judge.errors && !followed(judge, centre, {})) return list;
+  for (std::size_t first = 0; first < loads.size(); first += lanes::width) {
+    const std::size_t count = std::min<std::size_t>(lanes::width, loads.size() - first);
+    for (int lane = 0; lane < lanes::width; ++lane)
+      put_in_lane(centre, loads[first + std::min(static_cast<std::size_t>(lane), count - 1)].F, lane, judge.memory.batch);
+    judge.memory.solve(judge.zone.flat(), judge.question());
+    for (std::size_t i = 0; i < count; ++i) {
+      const Load& load = loads[first + i];
+      std::optional<Configuration> loaded;
+      if (!judge.memory.batch.converged[i])
+        loaded = followed(judge, centre, load);
+      else if (Configuration found = judge.found_in(static_cast<int>(i)); stands_well(judge, found, load))
+        loaded = std::move(found);
+      if (!loaded) return list;
+      list.push_back(std::move(*loaded));
+    }
+  }
+  return list;
+}
+
+void solve_corners(Judge& judge, const lanes::Region& region, const Load& load) {
   static_assert(lanes::width == 8);
   for (int lane = 0; lane < lanes::width; ++lane) put_in_lane(judge.zone.corner(lane), load.F, lane, judge.memory.batch);
   judge.memory.solve(region, judge.question());
+}
+
+// Those that lanes do not prove are judged alone.
+bool bears_where_solved(Judge& judge, const lanes::Region& region, const Load& load) {
   const auto proven = judge.memory.stable(region, judge.question());
   for (int lane = 0; lane < lanes::width; ++lane) {
     if (proven[static_cast<std::size_t>(lane)]) continue;
     const bool borne = judge.memory.batch.converged[lane] ? stands_stable(judge, judge.found_in(lane), load)
-                                                          : stands_alone(judge, judge.zone.corner(lane), load);
+                                                          : followed(judge, judge.zone.corner(lane), load).has_value();
     if (!borne) return false;
   }
   return true;
 }
 
-// Without a load the machine is followed to the centre (with errors it was, when the zone was made); then one load a lane.
-bool bears_at_centre(Judge& judge, const std::vector<Load>& loads) {
-  if (!judge.errors && !stands_alone(judge, judge.zone.centre(), {})) return false;
-  for (std::size_t first = 0; first < loads.size(); first += lanes::width) {
-    const std::size_t count = std::min<std::size_t>(lanes::width, loads.size() - first);
-    for (int lane = 0; lane < lanes::width; ++lane)
-      put_in_lane(judge.zone.centre(), loads[first + std::min(static_cast<std::size_t>(lane), count - 1)].F, lane,
-                  judge.memory.batch);
-    judge.memory.solve(judge.zone.flat(), judge.question());
-    for (std::size_t i = 0; i < count; ++i) {
-      const int lane = static_cast<int>(i);
-      const bool borne = judge.memory.batch.converged[lane] ? stands_well(judge, judge.found_in(lane), loads[first + i])
-                                                            : stands_alone(judge, judge.zone.centre(), loads[first + i]);
-      if (!borne) return false;
-    }
-  }
-  return true;
+// One corner a lane, with the zone's tangents; where these do not do, with those of the loaded centre.
+bool bears_at_corners(Judge& judge, const Configuration& loaded_centre, const Load& load) {
+  const lanes::Region& flat = judge.zone.flat();
+  solve_corners(judge, flat, load);
+  const auto& converged = judge.memory.batch.converged;
+  LaneTangents tangents;
+  if (std::count(std::begin(converged), std::end(converged), true) == lanes::width ||
+      !tangents.take(judge.model, judge.lane_model, loaded_centre, judge.zone.actuators_by_position(judge.zone.centre()),
+                     judge.work))
+    return bears_where_solved(judge, flat, load);
+  lanes::Region loaded = flat;
+  tangents.enter(loaded, judge.zone.centre());
+  solve_corners(judge, loaded, load);
+  return bears_where_solved(judge, loaded, load);
 }
 
 }  // namespace
@@ -103,9 +131,11 @@ std::vector<Load> corners_of_loads(double force, double moment, bool at_platform
 bool bears_everywhere(const Model& model, const LaneModel& lane_model, const LaneZone& zone, const std::vector<Load>& loads,
                       bool errors, StaticsWork& work) {
   Judge judge{model, lane_model, zone, errors, work};
-  return bears_at_centre(judge, loads) && std::all_of(loads.begin(), loads.end(), [&](const Load& load) {
-           return bears_at_corners(judge, zone.flat(), load);
-         });
+  const std::vector<Configuration> at_centre = borne_at_centre(judge, loads);
+  if (at_centre.size() < loads.size()) return false;
+  for (std::size_t i = 0; i < loads.size(); ++i)
+    if (!bears_at_corners(judge, at_centre[i], loads[i])) return false;
+  return true;
 }
 
 }  // namespace counterflex
