@@ -79,9 +79,10 @@ std::optional<LeastEnergy> least_energy(const Series& series, const SeriesWork& 
   const auto& [A, J, C, M] = part;
   const double rho = std::max(1.0, 10 * A.cwiseAbs().maxCoeff());
   if (rho > 1e4) return std::nullopt;  // the difference below would lose its digits
-  const Eigen::LLT<Eigen::MatrixXd> llt = cholesky(A + rho * J.transpose() * J);
+  const Eigen::LLT<Eigen::MatrixXd> llt = cholesky(A + rho * J.transpose().lazyProduct(J));
   if (llt.info() != Eigen::Success) return std::nullopt;
-  const Matrix6 compliance = J * llt.solve(J.transpose());
+  const Eigen::MatrixXd P_J = llt.solve(J.transpose());
+  const Matrix6 compliance = J.lazyProduct(P_J);
   const Eigen::LLT<Matrix6> inverse(compliance);
   if (inverse.info() != Eigen::Success || inverse.matrixLLT().diagonal().minCoeff() < 1e-7) return std::nullopt;
   LeastEnergy least;

@@ -1,6 +1,7 @@
 #include "continuation.hpp"
 
 #include <algorithm>
+#include <optional>
 
 namespace counterflex {
 namespace {
@@ -9,6 +10,50 @@ constexpr double unstable_ratio = -1e-9, largest_condition = 1e10;
 constexpr double first_step = 0.25, smallest_step = 1.0 / 1024;
 
 Stage part_of(const Stage& goal, double s) { return {s * goal.errors, s * goal.load, s * goal.preload, s * goal.gravity}; }
+
+// From `before` through `now`, `ratio` times as far again.
+void go_on(const SeriesState& before, double ratio, SeriesState& now) {
+  now.x += ratio * (now.x - before.x);
+  now.F += ratio * (now.F - before.F);
+  for (std::size_t g = 0; g < now.groups.size(); ++g) {
+    GroupState& group = now.groups[g];
+    group.X = moved(group.X, ratio * difference(group.X, before.groups[g].X));
+    for (std::size_t b = 0; b < group.branches.size(); ++b)
+      go_on(before.groups[g].branches[b], ratio, group.branches[b]);
+  }
+}
+
+Configuration extrapolated(const Configuration& before, const Configuration& now, double ratio) {
+  Configuration next = now;
+  next.X_MP = moved(now.X_MP, ratio * difference(now.X_MP, before.X_MP));
+  for (std::size_t i = 0; i < next.chains.size(); ++i) go_on(before.chains[i], ratio, next.chains[i]);
+  return next;
+}
+
+// An equilibrium that was followed so far.
+struct Followed {
+  double s = 0;
+  Configuration configuration;
+};
+
+bool solves(const Problem& problem, const EquilibriumSolver& solve, StaticsWork::Impl& work, Configuration& next,
+            int& iterations) {
+  const NewtonResult solved = solve(problem, work, next);
+  iterations += solved.iterations;
+  return solved.converged && !solved.jumped;  // a jump: past a limit point, to an equilibrium on another branch
+}
+
+// The next equilibrium, from where the last two point to, or else from the last.
+bool advances(const Problem& problem, const EquilibriumSolver& solve, const std::optional<Followed>& before,
+              const Followed& now, StaticsWork::Impl& work, Followed& next, int& iterations) {
+  if (before) {
+    next.configuration =
+        extrapolated(before->configuration, now.configuration, (next.s - now.s) / (now.s - before->s));
+    if (solves(problem, solve, work, next.configuration, iterations)) return true;
+  }
+  next.configuration = now.configuration;
+  return solves(problem, solve, work, next.configuration, iterations);
+}
 
 // What is reported of a solution that Newton found: `converged` unless the system there is singular.
 void judge_condition(const Model& model, const Problem& problem, StaticsWork::Impl& work, Equilibrium& result) {
@@ -32,37 +77,40 @@ Equilibrium refine(const Model& model, const Configuration& start, const Problem
   result.configuration = start;
   const NewtonResult solved = solve(problem, work, result.configuration);
   result.iterations = solved.iterations;
-  if (!solved.converged) return result;
-  if (!is_stable(model, result.configuration, problem, work)) {
-    result.status = Status::unstable;
-    return result;
-  }
-  judge_condition(model, problem, work, result);
+  if (solved.converged) judge(model, problem, work, result);
   return result;
+}
+
+void judge(const Model& model, const Problem& problem, StaticsWork::Impl& work, Equilibrium& result) {
+  if (is_stable(model, result.configuration, problem, work))
+    judge_condition(model, problem, work, result);
+  else
+    result.status = Status::unstable;
 }
 
 Equilibrium continue_from(const Model& model, const Configuration& nominal, Problem problem, const EquilibriumSolver& solve,
                           StaticsWork::Impl& work) {
   const Stage goal = problem.stage;
   Equilibrium result;
-  result.configuration = nominal;
-  double s = 0, step = first_step;
-  while (s < 1) {
-    const double next_s = std::min(1.0, s + step);
-    problem.stage = part_of(goal, next_s);
-    Configuration next = result.configuration;
-    const NewtonResult solved = solve(problem, work, next);
-    result.iterations += solved.iterations;
-    if (!solved.converged || solved.jumped) {  // a jump: past a limit point, to an equilibrium on another branch
-      if ((step /= 2) < smallest_step) return result;
-      continue;
+  std::optional<Followed> before;
+  Followed now{0, nominal};
+  double step = first_step;
+  while (now.s < 1) {
+    Followed next{std::min(1.0, now.s + step), {}};
+    problem.stage = part_of(goal, next.s);
+    if (!advances(problem, solve, before, now, work, next, result.iterations)) {
+      if ((step /= 2) >= smallest_step) continue;
+      result.configuration = std::move(now.configuration);
+      return result;
     }
-    result.configuration = std::move(next);
-    s = next_s;
-    if (is_stable(model, result.configuration, problem, work)) continue;
+    before = std::move(now);
+    now = std::move(next);
+    if (is_stable(model, now.configuration, problem, work)) continue;
+    result.configuration = std::move(now.configuration);
     result.status = Status::unstable;
     return result;
   }
+  result.configuration = std::move(now.configuration);
   judge_condition(model, problem, work, result);
   return result;
 }

@@ -17,6 +17,9 @@ Equilibrium continue_from(const Model& model, const Configuration& nominal, Prob
 Equilibrium refine(const Model& model, const Configuration& start, const Problem& problem, const EquilibriumSolver& solve,
                    StaticsWork::Impl& work);
 
+/// The status of an equilibrium at which the works are evaluated: converged, unstable or singular.
+void judge(const Model& model, const Problem& problem, StaticsWork::Impl& work, Equilibrium& result);
+
 /// Newton's method as such a solver.
 EquilibriumSolver newton_solver(const Model& model);
 

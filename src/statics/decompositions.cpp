@@ -20,6 +20,15 @@ Eigen::MatrixXd null_space(const Eigen::MatrixXd& C, double threshold) {
   return Z;
 }
 
+Eigen::MatrixXd pseudo_inverse(const Eigen::MatrixXd& A) {
+  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(A);
+  Eigen::MatrixXd Q = Eigen::MatrixXd::Identity(A.rows(), A.cols());
+  Q.applyOnTheLeft(qr.householderQ());
+  Eigen::MatrixXd inverse = Q.transpose();
+  qr.matrixQR().topRows(A.cols()).triangularView<Eigen::Upper>().solveInPlace(inverse);
+  return inverse;
+}
+
 Eigen::MatrixXd solved(const Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd>& A, const Eigen::MatrixXd& B) {
   return A.solve(B);
 }

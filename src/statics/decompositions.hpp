@@ -19,6 +19,9 @@ Eigen::LLT<Eigen::MatrixXd> cholesky(const Eigen::MatrixXd& A);
 /// An orthonormal basis, as columns, of the vectors x with C x = 0; what is zero is judged as in Eigen's QR of C'.
 Eigen::MatrixXd null_space(const Eigen::MatrixXd& C, double threshold);
 
+/// (A' A)^-1 A' of a matrix whose columns are independent.
+Eigen::MatrixXd pseudo_inverse(const Eigen::MatrixXd& A);
+
 /// Solutions of minimum norm, and of square systems: calls of Eigen's own `solve`.
 Eigen::MatrixXd solved(const Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd>& A, const Eigen::MatrixXd& B);
 Eigen::VectorXd solved(const Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd>& A, const Eigen::VectorXd& b);

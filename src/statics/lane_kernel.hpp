@@ -13,6 +13,8 @@ struct VectorOf {
 
 template <int W>
 class LaneKernel {
+  template <int>
+  friend class LaneCertificate;
   using V = typename VectorOf<W>::Real;
   using M = typename VectorOf<W>::Mask;
 

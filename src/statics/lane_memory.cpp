@@ -2,12 +2,26 @@
 
 namespace counterflex {
 
+namespace {
+
+double* aligned_doubles(long count) {
+  constexpr long alignment = 64, per_line = alignment / sizeof(double);
+  return static_cast<double*>(std::aligned_alloc(alignment, static_cast<std::size_t>((count / per_line + 1) * alignment)));
+}
+
+}  // namespace
+
 LaneMemory::LaneMemory(const LaneModel& model, lanes::Kernel kernel)
     : model_(model), kernel_(kernel), rho_(static_cast<std::size_t>(model.program().actuators) * lanes::width) {
-  constexpr long alignment = 64, per_line = alignment / sizeof(double);
-  const long lines = lanes::doubles_needed(model.program()) / per_line + 1;
-  memory_.reset(static_cast<double*>(std::aligned_alloc(alignment, static_cast<std::size_t>(lines * alignment))));
+  memory_.reset(aligned_doubles(lanes::doubles_needed(model.program())));
   batch.rho = rho_.data();
+}
+
+std::array<bool, lanes::width> LaneMemory::stable(const lanes::Region& region, const lanes::Question& question) {
+  if (!scratch_) scratch_.reset(aligned_doubles(lanes::doubles_of_certificate(model_.program())));
+  std::array<bool, lanes::width> yes{};
+  kernel_.judge(model_.program(), region, question, batch, memory_.get(), scratch_.get(), yes.data());
+  return yes;
 }
 
 std::vector<double> LaneMemory::state(int lane) const {

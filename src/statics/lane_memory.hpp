@@ -1,5 +1,6 @@
 #pragma once
 /// A kernel's memory and one batch, for one thread.
+#include <array>
 #include <cstdlib>
 #include <memory>
 #include <vector>
@@ -17,6 +18,9 @@ class LaneMemory {
     kernel_.solve(model_.program(), region, question, batch, memory_.get());
   }
 
+  /// Which lanes of that, with the same region and question, are proven stable.
+  std::array<bool, lanes::width> stable(const lanes::Region& region, const lanes::Question& question);
+
   /// The state of a lane after that.
   std::vector<double> state(int lane) const;
 
@@ -31,8 +35,14 @@ class LaneMemory {
 
   const LaneModel& model_;
   const lanes::Kernel kernel_;
-  std::unique_ptr<double, Free> memory_;
+  std::unique_ptr<double, Free> memory_, scratch_;  ///< the second of the certificate
   std::vector<double> rho_;
 };
+
+/// A request as one lane of a batch.
+inline void put_in_lane(const Vector3& p, const Vector6& F, int lane, lanes::Batch& batch) {
+  for (int i = 0; i < 3; ++i) batch.p[i][lane] = p[i];
+  for (int i = 0; i < 6; ++i) batch.F[i][lane] = F[i];
+}
 
 }  // namespace counterflex

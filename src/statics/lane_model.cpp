@@ -130,6 +130,7 @@ LaneModel::LaneModel(const Model& model, bool at_platform) : model_(model), at_p
   for (const Series& chain : model.mechanism.chains) works.push_back(make_work(chain));
   const auto list = views(model.mechanism, model.home, works);
   series_.resize(list.size());
+  for (const SeriesView& view : list) order_.push_back(view.series);
   for (std::size_t i = 0; i < list.size(); ++i) flatten(*list[i].series, series_[i]);
   program_.platform = program_.states;
   program_.standing = program_.platform + 12;
@@ -266,6 +267,7 @@ void LaneModel::flatten(const Series& series, lanes::Series& flat) {
 
 void LaneModel::number_rows(const Series& series, lanes::Series& flat) {
   flat.rows = 6 + static_cast<int>(series.free.size());
+  program_.most_free = std::max(program_.most_free, flat.rows - 6);
   flat.wrench = program_.states;
   program_.states += 6;
   flat.step = program_.rows;
@@ -333,14 +335,11 @@ std::vector<double> LaneModel::step_between(const std::vector<double>& from, con
 
 Configuration LaneModel::configuration_of(const double* state, const Configuration& like) const {
   Configuration configuration = like;
-  std::vector<SeriesWork> works;
-  for (const Series& chain : model_.mechanism.chains) works.push_back(make_work(chain));
-  const auto list = views(model_.mechanism, configuration, works);
   const auto states = states_of(configuration);
-  for (std::size_t s = 0; s < list.size(); ++s) {
+  for (std::size_t s = 0; s < states.size(); ++s) {
     SeriesState& to = *states[s];
     for (int i = 0; i < 6; ++i) to.F[i] = state[series_[s].wrench + i];
-    for_each_coordinate(*list[s].series, parts_[s], [&](const Part& part, const lanes::Part& flat) {
+    for_each_coordinate(*order_[s], parts_[s], [&](const Part& part, const lanes::Part& flat) {
       if (part.kind == PartKind::group) {
         to.groups[part.group].X = pose_at(state + flat.value);
         return;

@@ -62,6 +62,7 @@ class LaneModel {
   const Model& model_;
   const bool at_platform_;
   lanes::Program program_{};
+  std::vector<const Series*> order_;
   std::vector<lanes::Series> series_;
   std::deque<std::vector<lanes::Part>> parts_;
   std::deque<std::vector<double>> springs_;

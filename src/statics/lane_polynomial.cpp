@@ -1,5 +1,6 @@
 #include "lane_polynomial.hpp"
 
+#include <array>
 #include <cmath>
 #include <map>
 #include <mutex>
@@ -25,17 +26,56 @@ Vector3 crowded_point(int n) {
 
 constexpr int check_count = 20;
 
+// Monomials at many points, one a row.
+Eigen::MatrixXd powers_at(const std::vector<Vector3>& points, int degree) {
+  Eigen::MatrixXd powers(static_cast<Eigen::Index>(points.size()), monomial_count(degree));
+  for (std::size_t i = 0; i < points.size(); ++i) powers.row(static_cast<Eigen::Index>(i)) = monomials(points[i], degree);
+  return powers;
+}
+
+// Points stand in fours, (+-x, +-y, z): monomials whose powers of x and y are even or odd then have nothing to do with the
+// others, and four small systems take the place of a large one.
+constexpr int mirrors = 4;
+
+double sign_of(int power_x, int power_y, int mirror) {
+  return (power_x % 2 && mirror & 1 ? -1. : 1.) * (power_y % 2 && mirror & 2 ? -1. : 1.);
+}
+
+// Powers of x and y of every monomial, in their order.
+std::vector<std::array<int, 2>> powers_of(int degree) {
+  std::vector<std::array<int, 2>> list;
+  for (int i = 0; i <= degree; ++i)
+    for (int j = 0; j <= i; ++j) list.insert(list.end(), static_cast<std::size_t>(j + 1), {degree - i, i - j});
+  return list;
+}
+
+void fit_parity(int odd_x, int odd_y, const Eigen::MatrixXd& values, const std::vector<std::array<int, 2>>& powers,
+                PolynomialFit& fit) {
+  std::vector<int> terms;
+  for (std::size_t m = 0; m < powers.size(); ++m)
+    if (powers[m][0] % 2 == odd_x && powers[m][1] % 2 == odd_y) terms.push_back(static_cast<int>(m));
+  const Eigen::MatrixXd inverse = pseudo_inverse(values(Eigen::all, terms));
+  for (Eigen::Index point = 0; point < inverse.cols(); ++point)
+    for (int mirror = 0; mirror < mirrors; ++mirror)
+      fit.from_values(terms, mirrors * point + mirror) = inverse.col(point) * (sign_of(odd_x, odd_y, mirror) / mirrors);
+}
+
 PolynomialFit make_fit(int degree) {
   PolynomialFit fit;
-  const int terms = monomial_count(degree), count = terms + terms / 2 + 8;
-  Eigen::MatrixXd values(count, terms);
-  for (int n = 0; n < count; ++n) {
-    fit.points.push_back(crowded_point(n + check_count + 1));
-    values.row(n) = monomials(fit.points.back(), degree);
+  // What a high degree still misses is the points' own rounding: more of them average it out.
+  const int terms = monomial_count(degree), more = degree > 8 ? terms / 10 : 0;
+  const int fours = (terms + terms / 2) / mirrors + 2 + more;
+  std::vector<Vector3> points;
+  for (int n = 0; n < fours; ++n) {
+    points.push_back(crowded_point(n + check_count + 1));
+    for (int mirror = 0; mirror < mirrors; ++mirror)
+      fit.points.push_back(points.back().cwiseProduct(Vector3(mirror & 1 ? -1 : 1, mirror & 2 ? -1 : 1, 1)));
   }
-  Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> decomposition;
-  decomposition.compute(values);
-  fit.from_values = solved(decomposition, Eigen::MatrixXd(Eigen::MatrixXd::Identity(count, count)));
+  const Eigen::MatrixXd values = powers_at(points, degree);
+  const auto powers = powers_of(degree);
+  fit.from_values.resize(terms, static_cast<Eigen::Index>(fit.points.size()));
+  for (const int odd_x : {0, 1})
+    for (const int odd_y : {0, 1}) fit_parity(odd_x, odd_y, values, powers, fit);
   return fit;
 }
 
@@ -59,6 +99,15 @@ const PolynomialFit& polynomial_fit(int degree) {
   const std::lock_guard lock(mutex);
   const auto found = fits.find(degree);
   return found != fits.end() ? found->second : fits.emplace(degree, make_fit(degree)).first->second;
+}
+
+const Eigen::MatrixXd& powers_at_checks(int degree) {
+  static std::mutex mutex;
+  static std::map<int, Eigen::MatrixXd> powers;
+  const std::lock_guard lock(mutex);
+  Eigen::MatrixXd& of_degree = powers[degree];
+  if (of_degree.size() == 0) of_degree = powers_at(polynomial_checks(), degree);
+  return of_degree;
 }
 
 const std::vector<Vector3>& polynomial_checks() {

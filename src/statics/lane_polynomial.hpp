@@ -12,7 +12,7 @@ Eigen::RowVectorXd monomials(const Vector3& x, int degree);
 
 inline int monomial_count(int degree) { return (degree + 1) * (degree + 2) * (degree + 3) / 6; }
 
-/// Points at which a function is to be known, crowded towards the faces, and the matrix from its values there to the
+/// Points at which a function is to be known, crowded towards the faces (those of a lower degree first), and the matrix from its values there to the
 /// coefficients that fit them best.
 struct PolynomialFit {
   std::vector<Vector3> points;
@@ -22,5 +22,8 @@ const PolynomialFit& polynomial_fit(int degree);
 
 /// Points of the same kind that are in no fit, to judge one by.
 const std::vector<Vector3>& polynomial_checks();
+
+/// Monomials there, one point a row.
+const Eigen::MatrixXd& powers_at_checks(int degree);
 
 }  // namespace counterflex

@@ -59,6 +59,7 @@ struct Program {
   int forward, target, response;  ///< where these begin among Region::tangents
   int tangents;          ///< how many numbers those are
   int most_parts;
+  int most_free;         ///< coordinates of a series
   double length;         ///< l
   double floor_per_metre;  ///< 16 eps k_max
   double p_PT[3], R_PT[9], arm[3];  ///< tip in P; where the load acts in P
@@ -108,12 +109,19 @@ struct Question {
 /// Solves one batch. `memory` holds `doubles_needed` numbers, aligned to 64 bytes, and keeps the state from call to call.
 using Solve = void (*)(const Program&, const Region&, const Question&, Batch&, double* memory);
 
-/// Doubles of working memory that a kernel needs.
+/// Judges what `Solve` has just found, with the same arguments: true where a lane has converged and is proven stable. False
+/// says nothing. `scratch` holds `doubles_of_certificate` numbers, aligned to 64 bytes.
+using Judge = void (*)(const Program&, const Region&, const Question&, const Batch&, double* memory, double* scratch,
+                       bool* stable);
+
+/// Doubles of working memory that a kernel needs, and its certificate.
 long doubles_needed(const Program& program);
+long doubles_of_certificate(const Program& program);
 
 /// The kernel for the computer that this runs on, and its name ("AVX-512", "AVX2", "SSE2", "plain").
 struct Kernel {
   Solve solve;
+  Judge judge;
   const char* name;
   int together;  ///< waypoints in one vector: their states stand side by side in memory
 };

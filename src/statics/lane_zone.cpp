@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "lane_polynomial.hpp"
-#include "newton.hpp"
+#include "lane_strength.hpp"
 
 namespace counterflex {
 namespace {
@@ -12,36 +12,45 @@ namespace {
 constexpr double polynomial_tolerance = 2e-12;         // m, rad
 constexpr double largest_kinematic_condition = 1e4;    // of the nominal Jacobian: far from a singularity
 constexpr double constant_orientation = 1e-11;         // rad
-constexpr double load_margin = 1.25;
 constexpr double largest_load = 1e12;                  // N
 constexpr double coarse_sizes = 0.5, fine_sizes = 2;   // of loads that are told apart, in an octave
 constexpr double slope_step = 1e-2;                    // of half an edge
 
-void put_in_lane(const Vector3& p, const Vector6& F, int lane, lanes::Batch& batch) {
-  for (int i = 0; i < 3; ++i) batch.p[i][lane] = p[i];
-  for (int i = 0; i < 6; ++i) batch.F[i][lane] = F[i];
-}
+// Actuators and rotation vector of the nominal tip against the centre's, one a row, at places that are asked for in turn.
+struct KinematicsOfZone {
+  const LaneZone& zone;
+  const Matrix3& R_centre;
+  LaneMemory memory;
+  Eigen::Index actuators;
 
-// Actuators and rotation of the nominal tip at many places, one a row; empty where one is not reached.
-Eigen::MatrixXd kinematics_at(const LaneModel& lane_model, const LaneZone& zone, const std::vector<Vector3>& places,
-                              const Matrix3& R_centre) {
-  LaneMemory memory(lane_model);
-  const auto n = static_cast<Eigen::Index>(lane_model.program().actuators);
-  Eigen::MatrixXd values(static_cast<Eigen::Index>(places.size()), n + 3);
-  for (std::size_t first = 0; first < places.size(); first += lanes::width) {
-    for (int lane = 0; lane < lanes::width; ++lane)
-      put_in_lane(places[std::min(first + lane, places.size() - 1)], Vector6::Zero(), lane, memory.batch);
-    memory.solve(zone.flat(), {.target = false, .kinematics = true, .errors = false, .go_on = false});
-    for (int lane = 0; lane < lanes::width && first + lane < places.size(); ++lane) {
-      if (!memory.batch.converged[lane]) return {};
-      const auto row = static_cast<Eigen::Index>(first) + lane;
-      for (Eigen::Index a = 0; a < n; ++a) values(row, a) = memory.rho(static_cast<std::size_t>(a), lane);
-      Matrix3 R;
-      for (int i = 0; i < 9; ++i) R(i / 3, i % 3) = memory.batch.tip[i][lane];
-      values.row(row).tail<3>() = log_so3(R * R_centre.transpose());
+  // From row `first` on; false where a place is not reached.
+  bool fill(const std::vector<Vector3>& points, Eigen::Index first, Eigen::MatrixXd& values) {
+    const auto count = static_cast<Eigen::Index>(points.size());
+    for (; first < count; first += lanes::width) {
+      for (int lane = 0; lane < lanes::width; ++lane)
+        put_in_lane(zone.place_of(points[static_cast<std::size_t>(std::min(first + lane, count - 1))]), Vector6::Zero(), lane,
+                    memory.batch);
+      memory.solve(zone.flat(), {.target = false, .kinematics = true, .errors = false, .go_on = false});
+      for (int lane = 0; lane < lanes::width && first + lane < count; ++lane)
+        if (!take(lane, values.row(first + lane))) return false;
     }
+    return true;
   }
-  return values;
+
+  bool take(int lane, Eigen::Ref<Eigen::RowVectorXd, 0, Eigen::InnerStride<>> row) const {
+    if (!memory.batch.converged[lane]) return false;
+    for (Eigen::Index a = 0; a < actuators; ++a) row[a] = memory.rho(static_cast<std::size_t>(a), lane);
+    Matrix3 R;
+    for (int i = 0; i < 9; ++i) R(i / 3, i % 3) = memory.batch.tip[i][lane];
+    row.tail<3>() = log_so3(R * R_centre.transpose());
+    return true;
+  }
+};
+
+// The largest miss of polynomials at the points that judge them.
+bool fits(const Eigen::MatrixXd& coefficients, int degree, const Eigen::MatrixXd& checks) {
+  const Eigen::MatrixXd& powers = powers_at_checks(degree);
+  return (powers * coefficients - checks).cwiseAbs().maxCoeff() <= polynomial_tolerance;
 }
 
 }  // namespace
@@ -65,30 +74,32 @@ bool LaneZone::find_centre(const LaneModel& lane_model, StaticsWork& work) {
   return !tangents_.kinematic.empty();
 }
 
-bool LaneZone::fit_kinematics(const LaneModel& lane_model, int degree) {
-  const auto places = [this](const std::vector<Vector3>& points) {
-    std::vector<Vector3> list;
-    for (const Vector3& x : points) list.push_back(centre_ + flat_.half * x);
-    return list;
-  };
-  const PolynomialFit& fit = polynomial_fit(degree);
-  const Eigen::MatrixXd values = kinematics_at(lane_model, *this, places(fit.points), R_centre_);
-  const Eigen::MatrixXd checks = kinematics_at(lane_model, *this, places(polynomial_checks()), R_centre_);
-  if (values.size() == 0 || checks.size() == 0) return false;
-  const Eigen::MatrixXd coefficients = fit.from_values * values;
-  for (std::size_t i = 0; i < polynomial_checks().size(); ++i) {
-    const Eigen::RowVectorXd miss =
-        monomials(polynomial_checks()[i], degree) * coefficients - checks.row(static_cast<Eigen::Index>(i));
-    if (!(miss.cwiseAbs().maxCoeff() <= polynomial_tolerance)) return false;
+// The points of a fit are the first ones of every higher degree's.
+bool LaneZone::fit_kinematics(const LaneModel& lane_model) {
+  const auto n = static_cast<Eigen::Index>(lane_model.program().actuators);
+  KinematicsOfZone kinematics{*this, R_centre_, LaneMemory(lane_model), n};
+  Eigen::MatrixXd checks(static_cast<Eigen::Index>(polynomial_checks().size()), n + 3), values(0, n + 3);
+  if (!kinematics.fill(polynomial_checks(), 0, checks)) return false;
+  for (const int degree : {2, 6, 7, 8, 10}) {
+    const PolynomialFit& fit = polynomial_fit(degree);
+    const Eigen::Index known = values.rows();
+    values.conservativeResize(static_cast<Eigen::Index>(fit.points.size()), Eigen::NoChange);
+    if (!kinematics.fill(fit.points, known, values)) return false;
+    const Eigen::MatrixXd coefficients = fit.from_values * values;
+    if (!fits(coefficients, degree, checks)) continue;
+    take_polynomials(coefficients, degree);
+    turns_ = values.rightCols<3>().cwiseAbs().maxCoeff() > constant_orientation;
+    return true;
   }
-  turns_ = values.rightCols<3>().cwiseAbs().maxCoeff() > constant_orientation;
-  const Eigen::Index n = coefficients.cols() - 3;
-  const Eigen::MatrixXd by_power = coefficients.leftCols(n).transpose();
+  return false;
+}
+
+void LaneZone::take_polynomials(const Eigen::MatrixXd& coefficients, int degree) {
+  const Eigen::MatrixXd by_power = coefficients.leftCols(coefficients.cols() - 3).transpose();
   polynomials_.assign(by_power.data(), by_power.data() + by_power.size());
   orientation_ = coefficients.rightCols<3>();
   flat_.degree = degree;
   flat_.polynomials = polynomials_.data();
-  return true;
 }
 
 std::unique_ptr<LaneZone> LaneZone::make(const Model& model, const LaneModel& lane_model, const Vector3& centre, double half,
@@ -97,10 +108,8 @@ std::unique_ptr<LaneZone> LaneZone::make(const Model& model, const LaneModel& la
   zone->centre_ = centre;
   for (int i = 0; i < 3; ++i) zone->flat_.centre[i] = centre[i];
   zone->flat_.half = half;
-  if (!zone->find_centre(lane_model, work)) return nullptr;
-  for (const int degree : {2, 6, 8, 10})
-    if (zone->fit_kinematics(lane_model, degree)) return zone;
-  return nullptr;
+  if (!zone->find_centre(lane_model, work) || !zone->fit_kinematics(lane_model)) return nullptr;
+  return zone;
 }
 
 Eigen::RowVectorXd LaneZone::powers_at(const Vector3& p) const {
@@ -136,54 +145,11 @@ Matrix3 LaneZone::R_MT(const Vector3& p) const {
   return turns_ ? Matrix3(exp_so3(Vector3((powers_at(p) * orientation_).transpose())) * R_centre_) : R_centre_;
 }
 
-bool LaneZone::bears_at_centre(const Load& load, bool errors, StaticsWork& work) const {
-  return solve_forward(model_, nominal_, load, {.errors = errors ? 1.0 : 0.0}, work).status == Status::converged;
-}
-
-bool LaneZone::bears_alone(const Vector3& p, const Load& load, bool errors, StaticsWork& work) const {
-  const NominalResult followed = follow(model_, nominal_, {tip(model_.mechanism, model_.home).R, p});
-  return followed.status == Status::converged &&
-         solve_forward(model_, followed.configuration, load, {.errors = errors ? 1.0 : 0.0}, work).status == Status::converged;
-}
-
-// One corner a lane; where lanes do not find an equilibrium, it is followed.
-bool LaneZone::bears_at_corners(const Load& load, bool errors, LaneMemory& memory, StaticsWork& work) const {
-  static_assert(lanes::width == 8);
-  const auto corner = [this](int lane) {
-    return Vector3(centre_ + flat_.half * Vector3(lane & 1 ? 1 : -1, lane & 2 ? 1 : -1, lane & 4 ? 1 : -1));
-  };
-  for (int lane = 0; lane < lanes::width; ++lane) put_in_lane(corner(lane), load.F, lane, memory.batch);
-  memory.solve(flat_, {.target = false, .kinematics = false, .errors = errors, .go_on = false});
-  for (int lane = 0; lane < lanes::width; ++lane) {
-    if (!memory.batch.converged[lane]) {
-      if (!bears_alone(corner(lane), load, errors, work)) return false;
-      continue;
-    }
-    const Configuration loaded = lane_model_.configuration_of(memory.state(lane).data(), reference_);
-    const Problem problem{load, {.errors = errors ? 1.0 : 0.0}, nullptr};
-    evaluate_all(model_, loaded, problem.stage, work.impl());
-    for (std::size_t i = 0; i < model_.mechanism.chains.size(); ++i)
-      if (!condense(model_.mechanism.chains[i], {model_.mechanism.length}, false, work.impl().chains[i])) return false;
-    if (!is_stable(model_, loaded, problem, work.impl())) return false;
-  }
-  return true;
-}
-
-// A vector of three components is in the octahedron of sqrt 3 times its length; with another beside it in that of the sum.
-bool LaneZone::bears_octahedron(double force, double moment, bool errors, StaticsWork& work) const {
-  const std::array<double, 3> key{force, moment, errors ? 1.0 : 0.0};
+bool LaneZone::bears_octahedron(double force, double turning, bool errors, StaticsWork& work) const {
+  const std::array<double, 3> key{force, turning, errors ? 1.0 : 0.0};
   if (const auto found = borne_.find(key); found != borne_.end()) return found->second;
-  const int axes = moment > 0 ? 6 : 3;
-  const double margin = load_margin * std::sqrt(3.0) * (moment > 0 ? 2 : 1);
-  LaneMemory memory(lane_model_);
-  bool borne = true;
-  for (int corner = 0; corner < 2 * axes && borne; ++corner) {
-    const int axis = corner / 2;
-    Load load{Vector6::Zero(), lane_model_.at_platform()};
-    load.F[axis] = (corner % 2 ? -margin : margin) * (axis < 3 ? force : moment * model_.mechanism.length);
-    borne = bears_at_centre(load, errors, work) && bears_at_corners(load, errors, memory, work);
-  }
-  return borne_[key] = borne;
+  const auto loads = corners_of_loads(force, turning * model_.mechanism.length, lane_model_.at_platform());
+  return borne_[key] = bears_everywhere(model_, lane_model_, *this, loads, errors, work);
 }
 
 // Most loads are borne four times over: they are all one then.

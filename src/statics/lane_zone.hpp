@@ -24,6 +24,12 @@ class LaneZone {
   const Configuration& nominal() const { return nominal_; }
   const Configuration& reference() const { return reference_; }
 
+  const Vector3& centre() const { return centre_; }
+
+  /// Where a point of [-1, 1]^3 is in the cube, and corner 0 to 7.
+  Vector3 place_of(const Vector3& x) const { return centre_ + flat_.half * x; }
+  Vector3 corner(int number) const { return place_of({number & 1 ? 1. : -1., number & 2 ? 1. : -1., number & 4 ? 1. : -1.}); }
+
   /// What lanes share at the zone's centre.
   const lanes::Region& flat() const { return flat_; }
 
@@ -38,19 +44,16 @@ class LaneZone {
 
   /// Whether the machine is stable and well conditioned under every force up to `force` (N) with every moment up to `moment`
   /// (N m; 0: none). To first order the loads that it bears in a place are a convex set, so the corners of an octahedron that
-  /// holds them with a margin speak for all; at the centre they are followed from the nominal configuration, at the corners
-  /// of the cube their equilibria are judged.
+  /// holds them with a margin speak for all, at the centre and the corners of the cube. `lane_strength.hpp`.
   bool bears(double force, double moment, bool errors, StaticsWork& work) const;
 
  private:
   LaneZone(const Model& model, const LaneModel& lane_model) : model_(model), lane_model_(lane_model) {}
   bool find_centre(const LaneModel& lane_model, StaticsWork& work);
-  bool fit_kinematics(const LaneModel& lane_model, int degree);
+  bool fit_kinematics(const LaneModel& lane_model);
+  void take_polynomials(const Eigen::MatrixXd& coefficients, int degree);
   Eigen::RowVectorXd powers_at(const Vector3& p) const;
-  bool bears_octahedron(double force, double moment, bool errors, StaticsWork& work) const;
-  bool bears_at_centre(const Load& load, bool errors, StaticsWork& work) const;
-  bool bears_at_corners(const Load& load, bool errors, LaneMemory& memory, StaticsWork& work) const;
-  bool bears_alone(const Vector3& p, const Load& load, bool errors, StaticsWork& work) const;
+  bool bears_octahedron(double force, double turning, bool errors, StaticsWork& work) const;
 
   const Model& model_;
   const LaneModel& lane_model_;

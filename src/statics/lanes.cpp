@@ -13,8 +13,13 @@ namespace counterflex {
 
 namespace lane_grid {
 
-constexpr double cell_share = 1.0 / 24;  // edge of a cell, in units of l
-constexpr long cells_along_zone = 3;
+/// Edge of a cell, in units of l, and cells along an edge of a zone. A machine that only slides has nominal kinematics without
+/// bends and tangents that hardly change.
+struct Grid {
+  double cell_share;
+  long cells_along_zone;
+};
+constexpr Grid bent_grid{1.0 / 24, 3}, straight_grid{1.0 / 8, 8};
 constexpr double reach_of_cells = 2;       // from their centres, in edges: so that batches are full
 constexpr std::size_t most_zones = 512, most_cells = 1024;
 constexpr double farthest_cell = 1e6;      // from the origin of M: nothing that is a machine
@@ -37,13 +42,22 @@ bool are_neighbours(const Index& a, const Index& b) {
   return std::abs(a.x - b.x) <= 1 && std::abs(a.y - b.y) <= 1 && std::abs(a.z - b.z) <= 1;
 }
 
-Index zone_of(const Index& cell) {
-  const auto along = [](long i) { return i >= 0 ? i / cells_along_zone : -((cells_along_zone - 1 - i) / cells_along_zone); };
+Index zone_of(const Index& cell, long cells_along_zone) {
+  const auto along = [n = cells_along_zone](long i) { return i >= 0 ? i / n : -((n - 1 - i) / n); };
   return {along(cell.x), along(cell.y), along(cell.z)};
 }
 
 Vector3 centre_of(const Index& i, double edge) {
   return edge * (Vector3(static_cast<double>(i.x), static_cast<double>(i.y), static_cast<double>(i.z)).array() + 0.5);
+}
+
+bool only_slides(const Mechanism& mechanism) {
+  return std::all_of(mechanism.chains.begin(), mechanism.chains.end(), [](const Series& chain) {
+    return std::all_of(chain.parts.begin(), chain.parts.end(), [](const Part& part) {
+      const bool turns = part.kind == PartKind::actuator && part.joint.kind == JointKind::revolute;
+      return !turns && part.kind != PartKind::passive && part.kind != PartKind::group;
+    });
+  });
 }
 
 /// The things made last, up to a number; null ones, for places where nothing can be made, too. What is made depends on the
@@ -99,6 +113,7 @@ struct LaneMachine::Impl {
   const Model& model;
   LaneModel lane_model;
   const bool able;
+  const Grid grid;
   const double edge, reach;  // of a cell; largest correction
   Cache<LaneZone> zones{most_zones};
   Cache<LaneCell> cells{most_cells};
@@ -107,7 +122,8 @@ struct LaneMachine::Impl {
       : model(m),
         lane_model(m, at_platform),
         able(LaneModel::can_do(m.mechanism)),
-        edge(cell_share * m.mechanism.length),
+        grid(only_slides(m.mechanism) ? straight_grid : bent_grid),
+        edge(grid.cell_share * m.mechanism.length),
         reach(largest_correction) {}
 
   /// The cell that holds `p`; none where that is absurdly far or no number.
@@ -117,10 +133,12 @@ struct LaneMachine::Impl {
     return Index{static_cast<long>(n[0]), static_cast<long>(n[1]), static_cast<long>(n[2])};
   }
 
+  Index zone_of(const Index& cell) const { return lane_grid::zone_of(cell, grid.cells_along_zone); }
+
   std::shared_ptr<const LaneCell> cell(const Index& index, StaticsWork& work) {
     return cells.get(index, [&]() -> std::shared_ptr<const LaneCell> {
       const Index at = zone_of(index);
-      const double zone_edge = cells_along_zone * edge;
+      const double zone_edge = static_cast<double>(grid.cells_along_zone) * edge;
       const auto zone = zones.get(at, [&]() -> std::shared_ptr<const LaneZone> {
         return LaneZone::make(model, lane_model, centre_of(at, zone_edge), zone_edge / 2 + reach, work);
       });
@@ -306,9 +324,9 @@ const Configuration* LaneSolver::nominal_near(const Vector3& p) {
 bool LaneSolver::joins(const Vector3& from, const Vector3& to) {
   if (!impl_->machine.able || !impl_->go_to(from)) return false;
   const std::shared_ptr<const LaneCell> begin = impl_->cell;
-  const Index zone_from = zone_of(impl_->index);
+  const Index zone_from = impl_->machine.zone_of(impl_->index);
   if (!impl_->go_to(to)) return false;
-  const Index zone_to = zone_of(impl_->index);
+  const Index zone_to = impl_->machine.zone_of(impl_->index);
   if (zone_from == zone_to) return true;
   const Model& model = impl_->machine.model;
   const Eigen::VectorXd there = impl_->cell->zone().rho_at(to);

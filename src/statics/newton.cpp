@@ -29,14 +29,26 @@ struct PlatformSystem {
   Eigen::VectorXd rhs;
 };
 
-PlatformSystem assemble_platform(const Model& model, const Configuration& configuration, const Problem& problem,
-                                 const Units& units, const StaticsWork::Impl& work) {
+// What acts at the platform from outside, at a state.
+struct Outside {
+  PlatformTerms terms;
+  std::optional<Controlled> tip;  ///< where a target is given
+};
+
+Outside outside(const Model& model, const Configuration& configuration, const Problem& problem, const Units& units) {
+  Outside result{platform_terms(model, configuration, problem), std::nullopt};
+  if (problem.X_MT)
+    result.tip = to_controlled(tip_equations(model.mechanism, configuration.X_MP, *problem.X_MT), model.mechanism, units);
+  return result;
+}
+
+PlatformSystem assemble_platform(const Model& model, const Problem& problem, const Outside& acting, const Units& units,
+                                 const StaticsWork::Impl& work) {
   const Mechanism& mechanism = model.mechanism;
   const auto actuators = problem.X_MT ? static_cast<Eigen::Index>(mechanism.travel.size()) : 0;
   PlatformSystem system{Eigen::MatrixXd::Zero(6 + actuators, 6 + actuators), Eigen::VectorXd::Zero(6 + actuators)};
-  const PlatformTerms terms = platform_terms(model, configuration, problem);
-  Matrix6 K = terms.A;
-  Vector6 rhs = -terms.gradient;
+  Matrix6 K = acting.terms.A;
+  Vector6 rhs = -acting.terms.gradient;
   const Vector6 pose = units.of_pose();
   for (std::size_t i = 0; i < work.chains.size(); ++i) {
     K += work.chains[i].K;
@@ -51,23 +63,31 @@ PlatformSystem assemble_platform(const Model& model, const Configuration& config
   }
   system.matrix.topLeftCorner<6, 6>() = pose.asDiagonal() * K * pose.asDiagonal() / units.energy();
   system.rhs.head<6>() = rhs.cwiseProduct(pose) / units.energy();
-  if (problem.X_MT) {
-    const Controlled tip =
-        to_controlled(tip_equations(mechanism, configuration.X_MP, *problem.X_MT), mechanism, units);
-    system.matrix.bottomLeftCorner(actuators, 6) = tip.rows;
-    system.rhs.tail(actuators) = tip.rhs;
+  if (acting.tip) {
+    system.matrix.bottomLeftCorner(actuators, 6) = acting.tip->rows;
+    system.rhs.tail(actuators) = acting.tip->rhs;
   }
   return system;
 }
 
-bool condensed_step(const Model& model, const Problem& problem, const Units& units, StaticsWork::Impl& work,
-                    Configuration& configuration, Step& step) {
+// The solution of a regular square system; empty where the matrix may be singular. Pivots of columns are enough to show most
+// matrices regular, by far; full pivoting decides about the others.
+Eigen::VectorXd regular_solution(const Eigen::MatrixXd& A, const Eigen::VectorXd& b) {
+  constexpr double surely_regular = 1e-6;
+  const Eigen::PartialPivLU<Eigen::MatrixXd> partial(A);
+  const auto pivots = partial.matrixLU().diagonal().cwiseAbs();
+  if (pivots.minCoeff() > surely_regular * pivots.maxCoeff()) return partial.solve(b);
+  const Eigen::FullPivLU<Eigen::MatrixXd> full(A);
+  return full.rank() < A.cols() ? Eigen::VectorXd() : solved(full, b);
+}
+
+bool condensed_step(const Model& model, const Problem& problem, const Outside& acting, const Units& units,
+                    StaticsWork::Impl& work, Configuration& configuration, Step& step) {
   const Mechanism& mechanism = model.mechanism;
   if (!condense_all(model, problem.X_MT != nullptr, units, work)) return false;
-  const PlatformSystem system = assemble_platform(model, configuration, problem, units, work);
-  const Eigen::FullPivLU<Eigen::MatrixXd> lu(system.matrix);
-  if (lu.rank() < system.matrix.cols()) return false;
-  const Eigen::VectorXd x = solved(lu, system.rhs);
+  const PlatformSystem system = assemble_platform(model, problem, acting, units, work);
+  const Eigen::VectorXd x = regular_solution(system.matrix, system.rhs);
+  if (x.size() == 0) return false;
   const Vector6 dxi = x.head<6>().cwiseProduct(units.of_pose());
   Eigen::VectorXd drho = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(mechanism.travel.size()));
   if (problem.X_MT)
@@ -82,27 +102,21 @@ bool condensed_step(const Model& model, const Problem& problem, const Units& uni
 }
 
 // Where a chain cannot be condensed, the whole system takes the step.
-void whole_step(const Model& model, const Problem& problem, const Units& units, StaticsWork::Impl& work,
-                Configuration& configuration, Step& step) {
+void whole_step(const Model& model, const Problem& problem, const Outside& acting, const Units& units,
+                StaticsWork::Impl& work, Configuration& configuration, Step& step) {
   evaluate_all(model, configuration, problem.stage, work);
-  std::optional<Controlled> controlled;
-  if (problem.X_MT)
-    controlled = to_controlled(tip_equations(model.mechanism, configuration.X_MP, *problem.X_MT), model.mechanism, units);
-  const WholeStep whole = solve_whole(whole_system(model, configuration, problem, work), controlled, units);
+  const WholeStep whole = solve_whole(whole_system(model, configuration, problem, work), acting.tip, units);
   step.largest = apply(model.mechanism, whole, units, configuration);
 }
 
-Residual residual_of(const Model& model, const Configuration& configuration, const Problem& problem, const Units& units,
-                     const StaticsWork::Impl& work) {
+Residual residual_of(const Model& model, const Configuration& configuration, const Problem& problem, const Outside& acting,
+                     const Units& units, const StaticsWork::Impl& work) {
   Residual residual;
   for (std::size_t i = 0; i < work.chains.size(); ++i)
     add_residual(model.mechanism.chains[i], configuration.chains[i], work.chains[i], units, residual);
-  const PlatformTerms terms = platform_terms(model, configuration, problem);
-  residual.force = std::max(residual.force, wrench_size(terms.gradient, units));
+  residual.force = std::max(residual.force, wrench_size(acting.terms.gradient, units));
   residual.largest = std::max(residual.largest, wrench_size(problem.load.F, units) * problem.stage.load);
-  if (!problem.X_MT) return residual;
-  const Controlled tip = to_controlled(tip_equations(model.mechanism, configuration.X_MP, *problem.X_MT), model.mechanism, units);
-  residual.closure = std::max(residual.closure, tip.rhs.cwiseAbs().maxCoeff() * units.length);
+  if (acting.tip) residual.closure = std::max(residual.closure, acting.tip->rhs.cwiseAbs().maxCoeff() * units.length);
   return residual;
 }
 
@@ -172,7 +186,8 @@ NewtonResult newton(const Model& model, const Problem& problem, StaticsWork::Imp
   Step step;
   for (; result.iterations < most_newton_steps; ++result.iterations) {
     evaluate_all(model, configuration, problem.stage, work);
-    const Residual residual = residual_of(model, configuration, problem, units, work);
+    const Outside acting = outside(model, configuration, problem, units);
+    const Residual residual = residual_of(model, configuration, problem, acting, units, work);
     if (!std::isfinite(residual.closure + residual.force)) return result;
     result.converged = residual.closure <= closure_tolerance && step.largest <= step_tolerance &&
                        residual.force <= force_tolerance(model.mechanism, configuration.X_MP, residual.largest);
@@ -180,8 +195,8 @@ NewtonResult newton(const Model& model, const Problem& problem, StaticsWork::Imp
       result.jumped = is_jump(travelled(model.mechanism, start, configuration, units), predicted);
       return result;
     }
-    if (!condensed_step(model, problem, units, work, configuration, step))
-      whole_step(model, problem, units, work, configuration, step);
+    if (!condensed_step(model, problem, acting, units, work, configuration, step))
+      whole_step(model, problem, acting, units, work, configuration, step);
     if (result.iterations == 0) predicted = travelled(model.mechanism, start, configuration, units);
   }
   return result;

@@ -6,8 +6,8 @@ namespace counterflex {
 
 /// For the platform at `X_MP`: rows d(deviation)/d(twist of P) of the controlled components (SI), and the deviation there.
 struct TipEquations {
-  Eigen::MatrixXd rows;
-  Eigen::VectorXd error;
+  ControlledRows rows;
+  ControlledValues error;
 };
 TipEquations tip_equations(const Mechanism& mechanism, const Pose& X_MP, const Pose& X_MT);
 

@@ -1,0 +1,141 @@
+#include "lane_strength.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "continuation.hpp"
+
+namespace counterflex {
+namespace {
+
+constexpr double load_margin = 1.25;
+
+/// What stays the same while one zone is judged.
+struct Judge {
+  const Model& model;
+  const LaneModel& lane_model;
+  const LaneZone& zone;
+  bool errors;
+  StaticsWork& work;
+  LaneMemory memory{lane_model};
+
+  Stage stage() const { return {.errors = errors ? 1.0 : 0.0}; }
+  lanes::Question question() const { return {.target = false, .kinematics = false, .errors = errors, .go_on = false}; }
+  Configuration found_in(int lane) const {
+    return lane_model.configuration_of(memory.state(lane).data(), zone.reference());
+  }
+};
+
+// Alone: from the zone's nominal configuration to a place, and from nothing to errors and load there. None where that fails.
+std::optional<Configuration> followed(Judge& judge, const Vector3& p, const Load& load) {
+  const Matrix3 R_MT = tip(judge.model.mechanism, judge.model.home).R;
+  const NominalResult nominal = follow(judge.model, judge.zone.nominal(), {R_MT, p});
+  if (nominal.status != Status::converged) return std::nullopt;
+  Equilibrium found = solve_forward(judge.model, nominal.configuration, load, judge.stage(), judge.work);
+  if (found.status != Status::converged) return std::nullopt;
+  return std::move(found.configuration);
+}
+
+Problem problem_of(const Judge& judge, const Load& load) { return {load, judge.stage(), nullptr}; }
+
+bool stands_stable(Judge& judge, const Configuration& loaded, const Load& load) {
+  const Problem problem = problem_of(judge, load);
+  evaluate_all(judge.model, loaded, problem.stage, judge.work.impl());
+  return is_stable(judge.model, loaded, problem, judge.work.impl());
+}
+
+bool stands_well(Judge& judge, const Configuration& loaded, const Load& load) {
+  const Problem problem = problem_of(judge, load);
+  evaluate_all(judge.model, loaded, problem.stage, judge.work.impl());
+  Equilibrium found;
+  found.configuration = loaded;
+  counterflex::judge(judge.model, problem, judge.work.impl(), found);
+  return found.status == Status::converged;
+}
+
+// Without a load the machine is followed to the centre (with errors it was, when the zone was made); then one load a lane.
+// The loaded configurations; fewer where one is not borne.
+std::vector<Configuration> borne_at_centre(Judge& judge, const std::vector<Load>& loads) {
+  const Vector3& centre = judge.zone.centre();
+  std::vector<Configuration> list;
+  if (!judge.errors && !followed(judge, centre, {})) return list;
+  for (std::size_t first = 0; first < loads.size(); first += lanes::width) {
+    const std::size_t count = std::min<std::size_t>(lanes::width, loads.size() - first);
+    for (int lane = 0; lane < lanes::width; ++lane)
+      put_in_lane(centre, loads[first + std::min(static_cast<std::size_t>(lane), count - 1)].F, lane, judge.memory.batch);
+    judge.memory.solve(judge.zone.flat(), judge.question());
+    for (std::size_t i = 0; i < count; ++i) {
+      const Load& load = loads[first + i];
+      std::optional<Configuration> loaded;
+      if (!judge.memory.batch.converged[i])
+        loaded = followed(judge, centre, load);
+      else if (Configuration found = judge.found_in(static_cast<int>(i)); stands_well(judge, found, load))
+        loaded = std::move(found);
+      if (!loaded) return list;
+      list.push_back(std::move(*loaded));
+    }
+  }
+  return list;
+}
+
+void solve_corners(Judge& judge, const lanes::Region& region, const Load& load) {
+  static_assert(lanes::width == 8);
+  for (int lane = 0; lane < lanes::width; ++lane) put_in_lane(judge.zone.corner(lane), load.F, lane, judge.memory.batch);
+  judge.memory.solve(region, judge.question());
+}
+
+// Those that lanes do not prove are judged alone.
+bool bears_where_solved(Judge& judge, const lanes::Region& region, const Load& load) {
+  const auto proven = judge.memory.stable(region, judge.question());
+  for (int lane = 0; lane < lanes::width; ++lane) {
+    if (proven[static_cast<std::size_t>(lane)]) continue;
+    const bool borne = judge.memory.batch.converged[lane] ? stands_stable(judge, judge.found_in(lane), load)
+                                                          : followed(judge, judge.zone.corner(lane), load).has_value();
+    if (!borne) return false;
+  }
+  return true;
+}
+
+// One corner a lane, with the zone's tangents; where these do not do, with those of the loaded centre.
+bool bears_at_corners(Judge& judge, const Configuration& loaded_centre, const Load& load) {
+  const lanes::Region& flat = judge.zone.flat();
+  solve_corners(judge, flat, load);
+  const auto& converged = judge.memory.batch.converged;
+  LaneTangents tangents;
+  if (std::count(std::begin(converged), std::end(converged), true) == lanes::width ||
+      !tangents.take(judge.model, judge.lane_model, loaded_centre, judge.zone.actuators_by_position(judge.zone.centre()),
+                     judge.work))
+    return bears_where_solved(judge, flat, load);
+  lanes::Region loaded = flat;
+  tangents.enter(loaded, judge.zone.centre());
+  solve_corners(judge, loaded, load);
+  return bears_where_solved(judge, loaded, load);
+}
+
+}  // namespace
+
+// A vector of three components is in the octahedron of sqrt 3 times its length; with another beside it in that of the sum.
+std::vector<Load> corners_of_loads(double force, double moment, bool at_platform) {
+  const int axes = moment > 0 ? 6 : 3;
+  const double margin = load_margin * std::sqrt(3.0) * (moment > 0 ? 2 : 1);
+  std::vector<Load> loads;
+  for (int axis = 0; axis < axes; ++axis)
+    for (const double sign : {1.0, -1.0}) {
+      loads.push_back({Vector6::Zero(), at_platform});
+      loads.back().F[axis] = sign * margin * (axis < 3 ? force : moment);
+    }
+  return loads;
+}
+
+bool bears_everywhere(const Model& model, const LaneModel& lane_model, const LaneZone& zone, const std::vector<Load>& loads,
+                      bool errors, StaticsWork& work) {
+  Judge judge{model, lane_model, zone, errors, work};
+  const std::vector<Configuration> at_centre = borne_at_centre(judge, loads);
+  if (at_centre.size() < loads.size()) return false;
+  for (std::size_t i = 0; i < loads.size(); ++i)
+    if (!bears_at_corners(judge, at_centre[i], loads[i])) return false;
+  return true;
+}
+
+}  // namespace counterflex
