@@ -237,8 +237,8 @@ bool ChunkPlanner::finish(const Task& task, PlannedSegment& planned) {
 }
 
 void ChunkPlanner::tell_known(const Task& task, KnownSegment& known) const {
-  known = {};
-  if (task.end != no_answer) known.end = waves_.known(task.end);
+  known.end = task.end == no_answer ? KnownPlace{} : waves_.known(task.end);
+  known.inside.reset();
   if (task.look != no_answer) known.inside = waves_.known(task.look);
 }
 
