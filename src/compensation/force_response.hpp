@@ -66,9 +66,26 @@ inline bool is_as_foreseen(const Vector3& found, const Vector3& foreseen, const 
 /// Lines shorter than this part of the machine's length l bend, if at all, as their neighbours do.
 inline constexpr double short_line = 0.02;
 
+/// By how much the force inside a line is other than on the straight line between its ends.
+struct ForceBend {
+  double at;  ///< fraction of the line
+  Vector6 dF;
+};
+
+/// Tells a task with `bend` (m) and `bend_at` where along its line the force bends most, and how much.
+template <class Task>
+void find_bend(Task& task, std::span<const ForceBend> bends, const ForceResponse& response) {
+  for (const ForceBend& one : bends) {
+    const double bend = (response.S * one.dF).norm();
+    if (bend <= task.bend) continue;
+    task.bend = bend;
+    task.bend_at = one.at;
+  }
+}
+
 /// Looks into the line of a row that the force bends most, where it does, and into the middle of the longest
 /// one, unless the first look stands for both. A task has `length`, `bend` and `room` (m) and `bend_at`, a
-/// fraction.
+/// fraction. No line is looked into twice.
 template <class Task, class Look>  // void(std::size_t task, double at)
 void look_into_row(std::span<const std::size_t> row, const std::vector<Task>& tasks, const Look& look) {
   const auto most = [&](double Task::*what) {
@@ -82,6 +99,18 @@ void look_into_row(std::span<const std::size_t> row, const std::vector<Task>& ta
   const bool for_both =
       bends && std::abs(bent.bend_at - 0.5) < 0.25 && tasks[longest].length < 1.5 * bent.length;
   if (!for_both && (!bends || most_bent != longest)) look(longest, 0.5);
+}
+
+/// The row of lines that begins at one of them.
+inline std::span<const std::size_t> row_from(const std::vector<std::size_t>& lines, std::size_t begin) {
+  return std::span(lines).subspan(begin, std::min(row_of_pieces, lines.size() - begin));
+}
+
+/// The same for all rows; a row is told by the number of its first line among `lines`.
+template <class Task, class Look>  // void(std::size_t row, std::size_t task, double at)
+void look_into_rows(const std::vector<std::size_t>& lines, const std::vector<Task>& tasks, const Look& look) {
+  for (std::size_t row = 0; row < lines.size(); row += row_of_pieces)
+    look_into_row(row_from(lines, row), tasks, [&](std::size_t t, double at) { look(row, t, at); });
 }
 
 }  // namespace counterflex

@@ -79,7 +79,7 @@ bool ChunkForward::run_waves() {
   ask_responses();
   if (!solve_added()) return false;
   judge_bends();
-  look_into_rows();
+  look_into_lines();
   if (!solve_added()) return false;
   judge_rows();
   if (!solve_added()) return false;
@@ -272,12 +272,7 @@ void ChunkForward::judge_bends() {
   const auto comes_near = [&](std::size_t t) {
     Task& task = tasks_[t];
     const ForceResponse& response = responses_[t / response_span];
-    for (std::size_t k = task.first; k < task.first + task.bends; ++k) {
-      const double bend = (response.S * bends_[k].dF).norm();
-      if (bend <= task.bend) continue;
-      task.bend = bend;
-      task.bend_at = bends_[k].v;
-    }
+    find_bend(task, std::span(bends_).subspan(task.first, task.bends), response);
     const double ends = std::max(miss(task.start).norm(), miss(task.end).norm());
     return !response.known || ends + (1 + bend_error) * task.bend > near_share * job_.options.tolerance;
   };
@@ -287,16 +282,11 @@ void ChunkForward::judge_bends() {
     if (tasks_[t].line && !tasks_[t].foreseen) sample(t);
 }
 
-void ChunkForward::look_into_rows() {
-  for (std::size_t begin = 0; begin < lines_.size(); begin += row_of_pieces) {
-    const auto row = std::span(lines_).subspan(begin, std::min(row_of_pieces, lines_.size() - begin));
-    look_into_row(row, tasks_, [&](std::size_t t, double v) { look_into(begin, t, v); });
-  }
-}
-
-void ChunkForward::look_into(std::size_t row, std::size_t t, double v) {
-  tasks_[t].look = add(t, v, true);
-  looks_.push_back({row, tasks_[t].look});
+void ChunkForward::look_into_lines() {
+  look_into_rows(lines_, tasks_, [&](std::size_t row, std::size_t t, double v) {
+    tasks_[t].look = add(t, v, true);
+    looks_.push_back({row, tasks_[t].look});
+  });
 }
 
 bool ChunkForward::went_as_foreseen(const Look& look) const {
@@ -313,10 +303,9 @@ bool ChunkForward::went_as_foreseen(const Look& look) const {
 void ChunkForward::judge_rows() {
   for (const Look& look : looks_) {
     if (went_as_foreseen(look)) continue;
-    const std::size_t end = std::min(look.row + row_of_pieces, lines_.size());
-    for (std::size_t k = look.row; k < end; ++k) {
-      if (tasks_[lines_[k]].foreseen) sample(lines_[k]);
-      tasks_[lines_[k]].foreseen = false;
+    for (const std::size_t t : row_from(lines_, look.row)) {
+      if (tasks_[t].foreseen) sample(t);
+      tasks_[t].foreseen = false;
     }
   }
 }
@@ -331,7 +320,7 @@ void ChunkForward::sample(std::size_t t) {
   std::size_t a = task.start;
   for (std::size_t k = task.first; k <= task.first + task.corners; ++k) {
     const bool last = k == task.first + task.corners;
-    const double v1 = last ? 1 : bends_[k].v;
+    const double v1 = last ? 1 : bends_[k].at;
     const std::size_t m = inside((v0 + v1) / 2), b = last ? task.end : inside(v1);
     stretches_.push_back({t, v0, v1, a, m, b});
     v0 = v1;

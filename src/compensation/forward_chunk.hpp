@@ -43,10 +43,6 @@ class ChunkForward {
     bool between = false, listed = true;
     bool may_fail = false;  // a probe
   };
-  struct Bend {
-    double v;
-    Vector6 dF;
-  };
   // Between two neighbouring corners: samples at its ends and in its middle.
   struct Stretch {
     std::size_t task;
@@ -75,8 +71,7 @@ class ChunkForward {
   void choose_short_lines();
   void ask_responses();
   void judge_bends();
-  void look_into_rows();
-  void look_into(std::size_t row, std::size_t t, double v);
+  void look_into_lines();
   bool went_as_foreseen(const Look& look) const;
   void judge_rows();
   void sample(std::size_t t);
@@ -100,7 +95,7 @@ class ChunkForward {
   ForceCursor cursor_;
   std::vector<Task> tasks_;
   std::vector<double> fractions_;
-  std::vector<Bend> bends_;
+  std::vector<ForceBend> bends_;
   std::vector<ForceResponse> responses_;  // of spans of tasks
   std::vector<std::size_t> lines_;        // short ones; a row begins with every eighth
   std::vector<Look> looks_;

@@ -30,7 +30,7 @@ std::optional<Failure> ChunkPlanner::plan(std::size_t begin, std::size_t end, Pl
   ask_responses();
   if (!waves_.solve()) return waves_.failure();
   judge_bends();
-  look_into_rows();
+  look_into_lines();
   for (Task& task : tasks_) ask_first(task);
   if (!waves_.solve()) return waves_.failure();
   for (Task& task : tasks_)
@@ -187,28 +187,18 @@ void ChunkPlanner::judge_bends() {
   const auto bends = [&](std::size_t t) {
     Task& task = tasks_[t];
     const ForceResponse& response = responses_[t / response_span];
-    for (std::size_t k = task.first_bend; k < task.first_bend + task.bends; ++k) {
-      const double bend = (response.S * bends_[k].dF).norm();
-      if (bend <= task.bend) continue;
-      task.bend = bend;
-      task.bend_at = bends_[k].u;
-    }
+    find_bend(task, std::span(bends_).subspan(task.first_bend, task.bends), response);
     return !response.known || task.bend > bend_share * task.room;
   };
   lines_.erase(std::remove_if(lines_.begin(), lines_.end(), bends), lines_.end());
   for (const std::size_t t : lines_) tasks_[t].as_line = true;
 }
 
-void ChunkPlanner::look_into_rows() {
-  for (std::size_t begin = 0; begin < lines_.size(); begin += row_of_pieces) {
-    const auto row = std::span(lines_).subspan(begin, std::min(row_of_pieces, lines_.size() - begin));
-    look_into_row(row, tasks_, [&](std::size_t t, double u) { look_into(begin, t, u); });
-  }
-}
-
-void ChunkPlanner::look_into(std::size_t row, std::size_t t, double u) {
-  tasks_[t].look_at = u;
-  looks_.push_back({row, t});
+void ChunkPlanner::look_into_lines() {
+  look_into_rows(lines_, tasks_, [&](std::size_t row, std::size_t t, double u) {
+    tasks_[t].look_at = u;
+    looks_.push_back({row, t});
+  });
 }
 
 bool ChunkPlanner::is_as_expected(const Look& look) const {
@@ -223,11 +213,9 @@ bool ChunkPlanner::is_as_expected(const Look& look) const {
 void ChunkPlanner::judge_rows() {
   for (const Look& look : looks_) {
     if (is_as_expected(look)) continue;
-    const std::size_t end = std::min(look.row + row_of_pieces, lines_.size());
-    for (std::size_t k = look.row; k < end; ++k) {
-      Task& task = tasks_[lines_[k]];
-      if (task.as_line) sample(task);
-      task.as_line = false;
+    for (const std::size_t t : row_from(lines_, look.row)) {
+      if (tasks_[t].as_line) sample(tasks_[t]);
+      tasks_[t].as_line = false;
     }
   }
 }
@@ -249,8 +237,8 @@ bool ChunkPlanner::finish(const Task& task, PlannedSegment& planned) {
 }
 
 void ChunkPlanner::tell_known(const Task& task, KnownSegment& known) const {
-  known = {};
-  if (task.end != no_answer) known.end = waves_.known(task.end);
+  known.end = task.end == no_answer ? KnownPlace{} : waves_.known(task.end);
+  known.inside.reset();
   if (task.look != no_answer) known.inside = waves_.known(task.look);
 }
 

@@ -36,11 +36,6 @@ class ChunkPlanner {
     std::size_t first_bend = 0, bends = 0;
     double bend = 0, bend_at = 0.5;  // the largest |S dF| (m), and where
   };
-  // Of the force along a line: at its corners, and in the middle, where it may be curved.
-  struct Bend {
-    double u;
-    Vector6 dF;
-  };
   struct Look {
     std::size_t row, task;
   };
@@ -61,8 +56,7 @@ class ChunkPlanner {
   void add_bends(Task& task);
   void ask_responses();
   void judge_bends();
-  void look_into_rows();
-  void look_into(std::size_t row, std::size_t t, double u);
+  void look_into_lines();
   bool is_as_expected(const Look& look) const;
   void judge_rows();
 
@@ -76,8 +70,8 @@ class ChunkPlanner {
   KnotPlanner knots_;
   std::vector<Task> tasks_;
   std::vector<Answer> answers_;
-  std::vector<double> limits_;  // fractions
-  std::vector<Bend> bends_;
+  std::vector<double> limits_;    // fractions
+  std::vector<ForceBend> bends_;  // at corners of the force, and in the middle, where it may be curved
   std::vector<ForceResponse> responses_;  // of spans of tasks
   std::vector<std::size_t> places_;       // of them: tasks
   std::vector<std::size_t> lines_;        // tasks; a row begins with every eighth

@@ -1,7 +1,5 @@
 #include "target_waves.hpp"
 
-#include <algorithm>
-
 #include "counterflex/compensation/waypoint.hpp"
 #include "track.hpp"
 
@@ -11,6 +9,7 @@ void TargetWaves::clear(std::size_t requests) {
   requests_.clear();
   solutions_.clear();
   segments_.clear();
+  number_through_.clear();
   through_.clear();
   fractions_.clear();
   known_.clear();
@@ -19,6 +18,7 @@ void TargetWaves::clear(std::size_t requests) {
   requests_.reserve(requests);
   solutions_.reserve(requests);
   segments_.reserve(requests);
+  number_through_.reserve(requests);
   through_.reserve(requests);
   fractions_.reserve(requests);
   known_.reserve(requests);
@@ -27,6 +27,7 @@ void TargetWaves::clear(std::size_t requests) {
 Answer TargetWaves::add(std::size_t segment, const Vector3& p_MT, const Vector6& F) {
   requests_.push_back({p_MT, {F, job_.forces.at_platform()}});
   segments_.push_back(segment);
+  number_through_.push_back(none_through);
   return requests_.size() - 1;
 }
 
@@ -61,17 +62,14 @@ Answer TargetWaves::ask_apart(std::size_t segment, const Vector6& F) {
 
 void TargetWaves::ask_through(Answer a, double u) {
   const Vector3& datum_shift = job_.path.frames[job_.path.segments[segments_[a]].frame].datum_shift;
+  number_through_[a] = through_.size();
   through_.push_back({a, requests_[a].p_MT - datum_shift});
   fractions_.push_back(u);
 }
 
 const KnownPlace& TargetWaves::known(Answer a) const {
   static const KnownPlace nothing;
-  const auto found =
-      std::lower_bound(through_.begin(), through_.end(), a,
-                       [](const ThroughRequest& one, Answer answer) { return one.target < answer; });
-  if (found == through_.end() || found->target != a) return nothing;
-  return known_[static_cast<std::size_t>(found - through_.begin())];
+  return number_through_[a] == none_through ? nothing : known_[number_through_[a]];
 }
 
 bool TargetWaves::solve() {

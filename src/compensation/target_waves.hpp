@@ -57,6 +57,8 @@ class TargetWaves {
   WaypointSolver& solver() { return solver_; }
 
  private:
+  static constexpr std::size_t none_through = static_cast<std::size_t>(-1);
+
   Answer add(std::size_t segment, const Vector3& p_MT, const Vector6& F);
   void ask_through(Answer a, double u);
   bool check(Answer a);
@@ -66,11 +68,12 @@ class TargetWaves {
   ForceCursor cursor_;
   std::vector<TargetRequest> requests_;
   std::vector<TargetSolution> solutions_;
-  std::vector<std::size_t> segments_;    // of the requests; no_segment for what may fail
-  Answer last_ = no_answer;              // of what was asked in the order of the path
-  std::vector<ThroughRequest> through_;  // in the order of requests
-  std::vector<double> fractions_;        // of their segments
-  std::vector<KnownPlace> known_;        // of those that are solved
+  std::vector<std::size_t> segments_;        // of the requests; no_segment for what may fail
+  Answer last_ = no_answer;                  // of what was asked in the order of the path
+  std::vector<std::size_t> number_through_;  // by request: its number in through_, or none
+  std::vector<ThroughRequest> through_;      // in the order of requests
+  std::vector<double> fractions_;            // of their segments
+  std::vector<KnownPlace> known_;            // of those that are solved
   std::vector<ThroughRequest> wave_;
   Foresight foresight_;
   std::optional<Failure> failure_;
