@@ -22,16 +22,18 @@ void collect(const SeriesView& view, std::vector<SeriesView>& list) {
 }
 
 // The states of the same series, in the order of `views`.
-void collect_states(SeriesState& state, std::vector<SeriesState*>& list) {
-  for (GroupState& group : state.groups) {
-    for (SeriesState& branch : group.branches) collect_states(branch, list);
-    for (SeriesState& branch : group.branches) list.push_back(&branch);
+template <class State>
+void collect_states(State& state, std::vector<State*>& list) {
+  for (auto& group : state.groups) {
+    for (State& branch : group.branches) collect_states(branch, list);
+    for (State& branch : group.branches) list.push_back(&branch);
   }
 }
 
-std::vector<SeriesState*> states_of(Configuration& configuration) {
-  std::vector<SeriesState*> list;
-  for (SeriesState& chain : configuration.chains) {
+template <class State>
+std::vector<State*> states_of(auto& chains) {
+  std::vector<State*> list;
+  for (State& chain : chains) {
     collect_states(chain, list);
     list.push_back(&chain);
   }
@@ -293,13 +295,11 @@ void LaneModel::for_each_coordinate(const Series& series, const std::vector<lane
 
 std::vector<double> LaneModel::state_of(const Configuration& configuration) const {
   std::vector<double> state(program_.states, 0.0);
-  std::vector<SeriesWork> works;
-  for (const Series& chain : model_.mechanism.chains) works.push_back(make_work(chain));
-  const auto list = views(model_.mechanism, configuration, works);
-  for (std::size_t s = 0; s < list.size(); ++s) {
-    const SeriesState& from = *list[s].state;
+  const auto states = states_of<const SeriesState>(configuration.chains);
+  for (std::size_t s = 0; s < states.size(); ++s) {
+    const SeriesState& from = *states[s];
     for (int i = 0; i < 6; ++i) state[series_[s].wrench + i] = from.F[i];
-    for_each_coordinate(*list[s].series, parts_[s], [&](const Part& part, const lanes::Part& flat) {
+    for_each_coordinate(*order_[s], parts_[s], [&](const Part& part, const lanes::Part& flat) {
       if (part.kind == PartKind::group) return put(from.groups[part.group].X, &state[flat.value]);
       const int count = part.kind == PartKind::spring ? 6 : 1;
       for (int i = 0; i < count; ++i) state[flat.value + i] = from.x[part.column + i];
@@ -335,7 +335,7 @@ std::vector<double> LaneModel::step_between(const std::vector<double>& from, con
 
 Configuration LaneModel::configuration_of(const double* state, const Configuration& like) const {
   Configuration configuration = like;
-  const auto states = states_of(configuration);
+  const auto states = states_of<SeriesState>(configuration.chains);
   for (std::size_t s = 0; s < states.size(); ++s) {
     SeriesState& to = *states[s];
     for (int i = 0; i < 6; ++i) to.F[i] = state[series_[s].wrench + i];

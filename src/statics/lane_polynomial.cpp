@@ -93,6 +93,31 @@ Eigen::RowVectorXd monomials(const Vector3& x, int degree) {
   return values;
 }
 
+Eigen::Matrix<double, Eigen::Dynamic, 9> derivatives_of_monomials(const Vector3& x, int degree) {
+  // Powers of each coordinate, and their first and second derivatives.
+  std::vector<std::array<Vector3, 3>> powers(static_cast<std::size_t>(degree) + 1);
+  powers[0] = {Vector3::Ones(), Vector3::Zero(), Vector3::Zero()};
+  for (std::size_t n = 1; n < powers.size(); ++n)
+    for (std::size_t order = 0; order < 3; ++order) {
+      powers[n][order] = powers[n - 1][order].cwiseProduct(x);
+      if (order > 0) powers[n][order] += static_cast<double>(order) * powers[n - 1][order - 1];
+    }
+  Eigen::Matrix<double, Eigen::Dynamic, 9> result(monomial_count(degree), 9);
+  Eigen::Index at = 0;
+  for (int i = 0; i <= degree; ++i)
+    for (int j = 0; j <= i; ++j)
+      for (int k = 0; k <= j; ++k, ++at) {
+        const auto &a = powers[static_cast<std::size_t>(degree - i)], &b = powers[static_cast<std::size_t>(i - j)],
+                   &c = powers[static_cast<std::size_t>(j - k)];
+        const auto product = [&](std::size_t of_x, std::size_t of_y, std::size_t of_z) {
+          return a[of_x][0] * b[of_y][1] * c[of_z][2];
+        };
+        result.row(at) << product(1, 0, 0), product(0, 1, 0), product(0, 0, 1), product(2, 0, 0), product(1, 1, 0),
+            product(1, 0, 1), product(0, 2, 0), product(0, 1, 1), product(0, 0, 2);
+      }
+  return result;
+}
+
 const PolynomialFit& polynomial_fit(int degree) {
   static std::mutex mutex;
   static std::map<int, PolynomialFit> fits;

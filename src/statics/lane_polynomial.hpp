@@ -10,6 +10,9 @@ namespace counterflex {
 /// x^(d-i) y^(i-j) z^(j-k) for i = 0..d, j = 0..i, k = 0..j.
 Eigen::RowVectorXd monomials(const Vector3& x, int degree);
 
+/// Their derivatives by x, y, z (columns 0 to 2) and by xx, xy, xz, yy, yz, zz (3 to 8), a monomial a row.
+Eigen::Matrix<double, Eigen::Dynamic, 9> derivatives_of_monomials(const Vector3& x, int degree);
+
 inline int monomial_count(int degree) { return (degree + 1) * (degree + 2) * (degree + 3) / 6; }
 
 /// Points at which a function is to be known, crowded towards the faces (those of a lower degree first), and the matrix from its values there to the

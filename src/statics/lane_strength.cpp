@@ -108,7 +108,9 @@ bool bears_at_corners(Judge& judge, const Configuration& loaded_centre, const Lo
                      judge.work))
     return bears_where_solved(judge, flat, load);
   lanes::Region loaded = flat;
-  tangents.enter(loaded, judge.zone.centre());
+  const LaneStart start(judge.lane_model.state_of(loaded_centre));
+  start.enter(loaded);
+  loaded.tangents = tangents.numbers.data();
   solve_corners(judge, loaded, load);
   return bears_where_solved(judge, loaded, load);
 }

@@ -14,7 +14,6 @@ constexpr double largest_kinematic_condition = 1e4;    // of the nominal Jacobia
 constexpr double constant_orientation = 1e-11;         // rad
 constexpr double largest_load = 1e12;                  // N
 constexpr double coarse_sizes = 0.5, fine_sizes = 2;   // of loads that are told apart, in an octave
-constexpr double slope_step = 1e-2;                    // of half an edge
 
 // Actuators and rotation vector of the nominal tip against the centre's, one a row, at places that are asked for in turn.
 struct KinematicsOfZone {
@@ -116,28 +115,25 @@ Eigen::RowVectorXd LaneZone::powers_at(const Vector3& p) const {
   return monomials((p - centre_) / flat_.half, flat_.degree);
 }
 
-Eigen::VectorXd LaneZone::rho_at(const Vector3& p) const {
-  const Eigen::RowVectorXd powers = powers_at(p);
-  const auto n = static_cast<Eigen::Index>(model_.mechanism.travel.size());
-  return Eigen::Map<const Eigen::MatrixXd>(polynomials_.data(), n, powers.size()) * powers.transpose();
+Eigen::Map<const Eigen::MatrixXd> LaneZone::coefficients() const {
+  return {polynomials_.data(), static_cast<Eigen::Index>(model_.mechanism.travel.size()), monomial_count(flat_.degree)};
 }
 
+Eigen::VectorXd LaneZone::rho_at(const Vector3& p) const { return coefficients() * powers_at(p).transpose(); }
+
 Eigen::MatrixXd LaneZone::actuators_by_position(const Vector3& p) const {
-  const double h = slope_step * flat_.half;
-  Eigen::MatrixXd J(static_cast<Eigen::Index>(model_.mechanism.travel.size()), 3);
-  for (int i = 0; i < 3; ++i) J.col(i) = (rho_at(p + h * Vector3::Unit(i)) - rho_at(p - h * Vector3::Unit(i))) / (2 * h);
-  return J;
+  const auto slopes = derivatives_of_monomials((p - centre_) / flat_.half, flat_.degree);
+  return coefficients() * slopes.leftCols<3>() / flat_.half;
 }
 
 std::vector<double> LaneZone::bend_of_actuators(const Vector3& p) const {
-  const double h = slope_step * flat_.half;
-  std::vector<double> bend(static_cast<std::size_t>(9 * model_.mechanism.travel.size()));
-  for (int by = 0; by < 3; ++by) {
-    const Eigen::MatrixXd change =
-        (actuators_by_position(p + h * Vector3::Unit(by)) - actuators_by_position(p - h * Vector3::Unit(by))) / (2 * h);
-    for (Eigen::Index a = 0; a < change.rows(); ++a)
-      for (int of = 0; of < 3; ++of) bend[static_cast<std::size_t>(9 * a + 3 * by + of)] = change(a, of);
-  }
+  constexpr int second_by[3][3] = {{0, 1, 2}, {1, 3, 4}, {2, 4, 5}};  // xx xy xz yy yz zz
+  const auto slopes = derivatives_of_monomials((p - centre_) / flat_.half, flat_.degree);
+  const Eigen::MatrixXd second = coefficients() * slopes.rightCols<6>() / (flat_.half * flat_.half);
+  std::vector<double> bend;
+  for (Eigen::Index a = 0; a < second.rows(); ++a)
+    for (const auto& by : second_by)
+      for (const int of : by) bend.push_back(second(a, of));
   return bend;
 }
 

@@ -53,6 +53,7 @@ class LaneZone {
   bool fit_kinematics(const LaneModel& lane_model);
   void take_polynomials(const Eigen::MatrixXd& coefficients, int degree);
   Eigen::RowVectorXd powers_at(const Vector3& p) const;
+  Eigen::Map<const Eigen::MatrixXd> coefficients() const;  ///< actuators x powers
   bool bears_octahedron(double force, double turning, bool errors, StaticsWork& work) const;
 
   const Model& model_;

@@ -38,6 +38,27 @@ TEST_CASE("monomials stand from the highest power of x down, as the kernels read
   CHECK(monomials({2, 3, 5}, 2)[1] == 6);
 }
 
+TEST_CASE("derivatives of monomials are their central differences") {
+  const Vector3 x(0.3, -0.7, 0.45);
+  constexpr double h = 1e-4;
+  for (const int degree : {1, 2, 7}) {
+    const auto slopes = derivatives_of_monomials(x, degree);
+    int second = 3;
+    for (int i = 0; i < 3; ++i) {
+      const Vector3 way = h * Vector3::Unit(i);
+      const Eigen::RowVectorXd expected = (monomials(x + way, degree) - monomials(x - way, degree)) / (2 * h);
+      CHECK((slopes.col(i).transpose() - expected).cwiseAbs().maxCoeff() < 1e-6);
+      for (int j = i; j < 3; ++j, ++second) {
+        const Vector3 other = h * Vector3::Unit(j);
+        const Eigen::VectorXd change = (derivatives_of_monomials(x + other, degree).col(i) -
+                                        derivatives_of_monomials(x - other, degree).col(i)) /
+                                       (2 * h);
+        CHECK((slopes.col(second) - change).cwiseAbs().maxCoeff() < 1e-6);
+      }
+    }
+  }
+}
+
 TEST_CASE("points of the check are in no fit, and all points are in the cube") {
   for (const int degree : {2, 10})
     for (const Vector3& point : polynomial_fit(degree).points) {
