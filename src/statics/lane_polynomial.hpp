@@ -15,8 +15,8 @@ Eigen::Matrix<double, Eigen::Dynamic, 9> derivatives_of_monomials(const Vector3&
 
 inline int monomial_count(int degree) { return (degree + 1) * (degree + 2) * (degree + 3) / 6; }
 
-/// Points at which a function is to be known, crowded towards the faces (those of a lower degree first), and the matrix from its values there to the
-/// coefficients that fit them best.
+/// Points at which a function is to be known, crowded towards the faces (those of a lower degree first), and the matrix from
+/// its values there to the coefficients that fit them best.
 struct PolynomialFit {
   std::vector<Vector3> points;
   Eigen::MatrixXd from_values;
