@@ -131,16 +131,6 @@ TEST_CASE("a lane that failed leaves nothing to its next waypoint") {
   });
 }
 
-TEST_CASE("a batch that goes on begins where the same waypoints stood: asked again it is there at once") {
-  for_kernel_benches([](const KernelBench& bench, bool target, const auto& batches) {
-    const LaneMemory once = bench.solve({batches[0]}, target), again = bench.solve({batches[0], batches[0]}, false);
-    for (int lane = 0; lane < lanes::width; ++lane) {
-      CHECK(once.batch.iterations[lane] > 0);
-      CHECK(again.batch.iterations[lane] == 0);
-    }
-  });
-}
-
 TEST_CASE("requests in another order within a batch are answered in that order, to the bit") {
   for_kernel_benches([](const KernelBench& bench, bool target, const auto& batches) {
     auto permuted = batches;
