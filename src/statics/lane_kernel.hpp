@@ -1,35 +1,54 @@
 #pragma once
 /// The kernel behind lane_program.hpp for vectors of W doubles. Lanes never meet: each is solved as if it were alone, with
-/// the same operations in the same order for every W, so that results do not depend on the instruction set.
-#include "lane_program.hpp"
+/// the same operations in the same order for every W, so that results depend on the instruction set by fused multiply-adds alone.
+#include "lane_series.hpp"
 
 namespace counterflex::lanes {
 
 template <int W>
-struct VectorOf {
-  typedef double Real __attribute__((vector_size(W * sizeof(double))));
-  typedef long long Mask __attribute__((vector_size(W * sizeof(double))));
-};
-
-template <int W>
-class LaneKernel {
+class LaneKernel : LaneSeries<W> {
   template <int>
   friend class LaneCertificate;
-  using V = typename VectorOf<W>::Real;
-  using M = typename VectorOf<W>::Mask;
+  using Base = LaneSeries<W>;
+  using V = typename Base::V;
+  using M = typename Base::M;
+  using Frame = typename Base::Frame;
+  using PartFrame = typename Base::PartFrame;
+  using Base::broadcast;
+  using Base::select;
+  using Base::larger;
+  using Base::magnitude;
+  using Base::dot;
+  using Base::cross;
+  using Base::into;
+  using Base::rotate;
+  using Base::multiply;
+  using Base::product;
+  using Base::add_product;
+  using Base::exp_coefficients;
+  using Base::any;
+  using Base::root;
+  using Base::place;
+  using Base::evaluate;
+  using Base::difference;
+  using Base::exponential;
+  using Base::note_wrench;
+  using Base::wrench_size2;
+  using Base::forget_residuals;
+  using Base::program_;
+  using Base::region_;
+  using Base::question_;
+  using Base::state_;
+  using Base::rhs_;
+  using Base::frames_;
+  using Base::closure2_;
+  using Base::force_;
+  using Base::wrench2_;
+  using Base::largest_angle2_;
 
   static constexpr double closure_limit = 1e-12, step_limit = 1e-11, largest_angle = 0.25;
   static constexpr double kinematic_step_limit = 1e-13;
   static constexpr int most_iterations = 16;
-
-  struct Frame {
-    V R[9], p[3];
-  };
-
-  /// Where a part acts: its axes before, and the point about which it turns.
-  struct PartFrame {
-    V R[9], o[3];
-  };
 
  public:
   static void solve(const Program& program, const Region& region, const Question& question, Batch& batch, double* memory) {
@@ -41,7 +60,7 @@ class LaneKernel {
 
  private:
   LaneKernel(const Program& program, const Region& region, const Question& question, double* memory, int first)
-      : program_(program), region_(region), question_(question), first_(first) {
+      : Base(program, region, question), first_(first) {
     // State of all lanes first (it survives), then what one call uses.
     state_ = reinterpret_cast<V*>(memory) + static_cast<long>(first / W) * program.states;
     V* rest = reinterpret_cast<V*>(memory + static_cast<long>(width) * program.states);
@@ -50,253 +69,6 @@ class LaneKernel {
     rho_ = step_ + program.rows;
     drho_ = rho_ + program.actuators;
     frames_ = reinterpret_cast<PartFrame*>(drho_ + program.actuators);
-  }
-
-  static V broadcast(double x) { return V{} + x; }
-  static V select(M mask, V yes, V no) { return mask ? yes : no; }
-  static V larger(V a, V b) { return a > b ? a : b; }
-  static V magnitude(V a) { return larger(a, -a); }
-  static bool any(M mask) {
-    long long all = 0;
-    for (int i = 0; i < W; ++i) all |= mask[i];
-    return all != 0;
-  }
-  static V root(V a) {
-    V b{};
-    for (int i = 0; i < W; ++i) b[i] = __builtin_sqrt(a[i]);
-    return b;
-  }
-  static V dot(const V* a, const V* b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-  static void cross(const V* a, const V* b, V* c) {
-    c[0] = a[1] * b[2] - a[2] * b[1];
-    c[1] = a[2] * b[0] - a[0] * b[2];
-    c[2] = a[0] * b[1] - a[1] * b[0];
-  }
-  /// R' a
-  static void into(const V* R, const V* a, V* b) {
-    for (int i = 0; i < 3; ++i) b[i] = R[i] * a[0] + R[3 + i] * a[1] + R[6 + i] * a[2];
-  }
-  static void rotate(const V* R, const V* a, V* b) {
-    for (int i = 0; i < 3; ++i) b[i] = R[3 * i] * a[0] + R[3 * i + 1] * a[1] + R[3 * i + 2] * a[2];
-  }
-  static void multiply(const V* A, const V* B, V* C) {
-    for (int i = 0; i < 3; ++i)
-      for (int j = 0; j < 3; ++j)
-        C[3 * i + j] = A[3 * i] * B[j] + A[3 * i + 1] * B[3 + j] + A[3 * i + 2] * B[6 + j];
-  }
-
-  /// N rows of `multiply`: as many sums at once, so that none waits for its own last addition.
-  template <int N, bool add>
-  static void multiply_rows(const double* A, int columns, const V* x, V* y) {
-    V sum[N];
-#pragma GCC unroll 8
-    for (int r = 0; r < N; ++r) sum[r] = add ? y[r] : A[r * columns] * x[0];
-    for (int k = add ? 0 : 1; k < columns; ++k) {
-      const V xk = x[k];
-#pragma GCC unroll 8
-      for (int r = 0; r < N; ++r) sum[r] += A[r * columns + k] * xk;
-    }
-#pragma GCC unroll 8
-    for (int r = 0; r < N; ++r) y[r] = sum[r];
-  }
-
-  /// y (+)= A x, A row-major and the same for all lanes; it has columns.
-  template <bool add>
-  static void multiply(const double* A, int rows, int columns, const V* x, V* y) {
-    int r = 0;
-    for (; rows - r >= 8; r += 8) multiply_rows<8, add>(A + r * columns, columns, x, y + r);
-    switch (rows - r) {
-      case 7: return multiply_rows<7, add>(A + r * columns, columns, x, y + r);
-      case 6: return multiply_rows<6, add>(A + r * columns, columns, x, y + r);
-      case 5: return multiply_rows<5, add>(A + r * columns, columns, x, y + r);
-      case 4: return multiply_rows<4, add>(A + r * columns, columns, x, y + r);
-      case 3: return multiply_rows<3, add>(A + r * columns, columns, x, y + r);
-      case 2: return multiply_rows<2, add>(A + r * columns, columns, x, y + r);
-      case 1: return multiply_rows<1, add>(A + r * columns, columns, x, y + r);
-    }
-  }
-
-  /// sin t / t, (1 - cos t) / t^2, (t - sin t) / t^3 for t^2 = t2 up to 0.25^2.
-  static void exp_coefficients(V t2, V& a, V& b, V& c) {
-    a = 1 - t2 * (1.0 / 6) * (1 - t2 * (1.0 / 20) * (1 - t2 * (1.0 / 42) * (1 - t2 * (1.0 / 72) * (1 - t2 * (1.0 / 110)))));
-    b = 0.5 - t2 * (1.0 / 24) * (1 - t2 * (1.0 / 30) * (1 - t2 * (1.0 / 56) * (1 - t2 * (1.0 / 90) * (1 - t2 * (1.0 / 132)))));
-    c = 1.0 / 6 - t2 * (1.0 / 120) * (1 - t2 * (1.0 / 42) * (1 - t2 * (1.0 / 72) * (1 - t2 * (1.0 / 110))));
-  }
-
-  /// The rotation about phi.
-  void exponential(const V* phi, V* E, V& b, V& c) {
-    const V t2 = dot(phi, phi);
-    note_angle(t2);
-    V a;
-    exp_coefficients(t2, a, b, c);
-    const V x = phi[0], y = phi[1], z = phi[2];
-    E[0] = 1 - b * (y * y + z * z);
-    E[4] = 1 - b * (x * x + z * z);
-    E[8] = 1 - b * (x * x + y * y);
-    E[1] = b * x * y - a * z;
-    E[3] = b * x * y + a * z;
-    E[2] = b * x * z + a * y;
-    E[6] = b * x * z - a * y;
-    E[5] = b * y * z - a * x;
-    E[7] = b * y * z + a * x;
-  }
-
-  void note_angle(V squared) { largest_angle2_ = larger(largest_angle2_, squared); }
-
-  void apply_fixed(const FixedPose& fixed, Frame& X) {
-    if (fixed.shifts)
-      for (int i = 0; i < 3; ++i)
-        X.p[i] += X.R[3 * i] * fixed.p[0] + X.R[3 * i + 1] * fixed.p[1] + X.R[3 * i + 2] * fixed.p[2];
-    if (!fixed.turns) return;
-    for (int i = 0; i < 3; ++i) {
-      const V a = X.R[3 * i], b = X.R[3 * i + 1], c = X.R[3 * i + 2];
-      for (int j = 0; j < 3; ++j) X.R[3 * i + j] = a * fixed.R[j] + b * fixed.R[3 + j] + c * fixed.R[6 + j];
-    }
-  }
-
-  void apply_slide(const Part& part, Frame& X, PartFrame& at) {
-    const V way = state_[part.value] * part.sign;
-    for (int i = 0; i < 3; ++i) {
-      at.R[i] = X.R[3 * i + part.axis] * part.sign;
-      X.p[i] += X.R[3 * i + part.axis] * way;
-    }
-  }
-
-  void apply_turn(const Part& part, Frame& X, PartFrame& at) {
-    const V d = state_[part.value] - region_.start[part.value], d2 = d * d;
-    note_angle(d2);
-    V a, b, unused;
-    exp_coefficients(d2, a, b, unused);
-    const V sin_d = a * d, cos_d = 1 - b * d2;
-    const double c0 = region_.cosine[part.value], s0 = region_.sine[part.value];
-    const V c = c0 * cos_d - s0 * sin_d, s = (s0 * cos_d + c0 * sin_d) * part.sign;
-    const int j = (part.axis + 1) % 3, k = (part.axis + 2) % 3;
-    for (int i = 0; i < 3; ++i) {
-      at.R[i] = X.R[3 * i + part.axis] * part.sign;
-      at.o[i] = X.p[i];
-      const V u = X.R[3 * i + j], v = X.R[3 * i + k];
-      X.R[3 * i + j] = c * u + s * v;
-      X.R[3 * i + k] = c * v - s * u;
-    }
-  }
-
-  /// The part's frame before, and the point behind its translation; then its rotation.
-  void apply_pose(const V* p, const V* R, Frame& X, PartFrame& at) {
-    for (int i = 0; i < 9; ++i) at.R[i] = X.R[i];
-    V way[3];
-    rotate(X.R, p, way);
-    for (int i = 0; i < 3; ++i) at.o[i] = X.p[i] += way[i];
-    multiply(at.R, R, X.R);
-  }
-
-  void place(const Series& series, Frame& X) {
-    for (int i = 0; i < 9; ++i) X.R[i] = broadcast(i % 4 == 0 ? 1 : 0);
-    for (int i = 0; i < 3; ++i) X.p[i] = V{};
-    for (int k = 0; k < series.part_count; ++k) {
-      const Part& part = series.parts[k];
-      switch (part.operation) {
-        case Operation::fixed: apply_fixed(program_.fixed[question_.errors][part.fixed], X); break;
-        case Operation::slide: apply_slide(part, X, frames_[k]); break;
-        case Operation::turn: apply_turn(part, X, frames_[k]); break;
-        case Operation::spring: {
-          V E[9], b, c;
-          exponential(state_ + part.value + 3, E, b, c);
-          apply_pose(state_ + part.value, E, X, frames_[k]);
-          break;
-        }
-        case Operation::group: apply_pose(state_ + part.value + 9, state_ + part.value, X, frames_[k]); break;
-      }
-    }
-  }
-
-  /// (p_to - p_from, Log(R_to R_from')), exact where it is small.
-  void difference(const V* to, const Frame& from, V* d) {
-    V D[9];
-    for (int i = 0; i < 3; ++i)
-      for (int j = 0; j < 3; ++j)
-        D[3 * i + j] = to[3 * i] * from.R[3 * j] + to[3 * i + 1] * from.R[3 * j + 1] + to[3 * i + 2] * from.R[3 * j + 2];
-    for (int i = 0; i < 3; ++i) d[i] = to[9 + i] - from.p[i];
-    d[3] = 0.5 * (D[7] - D[5]);
-    d[4] = 0.5 * (D[2] - D[6]);
-    d[5] = 0.5 * (D[3] - D[1]);
-    const V s2 = dot(d + 3, d + 3);
-    note_angle(s2);
-    note_angle(select(D[0] + D[4] + D[8] > 1, V{}, broadcast(1)));
-    const V scale = 1 + s2 * (1.0 / 6) * (1 + s2 * (9.0 / 20) * (1 + s2 * (25.0 / 42)));
-    for (int i = 3; i < 6; ++i) d[i] *= scale;
-  }
-
-  V joint_force(const Part& part) const {
-    return (part.passive ? acting_springs_ * part.k : part.k) * (state_[part.value] - part.rest);
-  }
-
-  void spring_gradient(const Part& part, const V* f, const V* M_o, const PartFrame& at, V* gradient) {
-    const V* theta = state_ + part.value;
-    V stretch[6];
-    for (int i = 0; i < 6; ++i) stretch[i] = theta[i] - acting_preload_ * part.K[36 + i];
-    multiply<false>(part.K, 6, 6, stretch, gradient);
-    V force[3], moment[3], turned[3], twice[3];
-    into(at.R, f, force);
-    into(at.R, M_o, moment);
-    V a, b, c;
-    exp_coefficients(dot(theta + 3, theta + 3), a, b, c);
-    cross(theta + 3, moment, turned);  // J_l' M = M - b phi x M + c phi x (phi x M)
-    cross(theta + 3, turned, twice);
-    for (int i = 0; i < 3; ++i) gradient[i] -= force[i];
-    for (int i = 0; i < 3; ++i) gradient[3 + i] -= moment[i] - b * turned[i] + c * twice[i];
-  }
-
-  void group_gradient(const Part& part, const V* f, const V* M_o, const PartFrame& at, V* gradient) {
-    V force[3], moment[3];
-    into(at.R, f, force);
-    into(at.R, M_o, moment);
-    for (int i = 0; i < 3; ++i) gradient[i] = -force[i];
-    for (int i = 0; i < 3; ++i) gradient[3 + i] = -moment[i];
-    for (int b = 0; b < part.branches; ++b)
-      for (int i = 0; i < 6; ++i) gradient[i] += state_[program_.series[part.first_branch + b].wrench + i];
-  }
-
-  /// Gap and gradient of a series: its right-hand side.
-  void evaluate(const Series& series) {
-    Frame X;
-    place(series, X);
-    V* rhs = rhs_ + series.step;
-    difference(state_ + series.end, X, rhs);
-    const V *f = state_ + series.wrench, *m = f + 3;
-    for (int k = 0; k < series.part_count; ++k) {
-      const Part& part = series.parts[k];
-      if (part.operation == Operation::fixed || part.row < 0) continue;
-      const PartFrame& at = frames_[k];
-      V* gradient = rhs + part.row;
-      if (part.operation == Operation::slide) {
-        gradient[0] = joint_force(part) - dot(at.R, f);
-        continue;
-      }
-      V r[3], M_o[3];
-      for (int i = 0; i < 3; ++i) r[i] = X.p[i] - at.o[i];
-      cross(r, f, M_o);
-      for (int i = 0; i < 3; ++i) M_o[i] += m[i];
-      if (part.operation == Operation::turn)
-        gradient[0] = joint_force(part) - dot(at.R, M_o);
-      else if (part.operation == Operation::spring)
-        spring_gradient(part, f, M_o, at, gradient);
-      else
-        group_gradient(part, f, M_o, at, gradient);
-    }
-    note_residual(series, rhs, f);
-  }
-
-  void note_wrench(const V* F) { wrench2_ = larger(wrench2_, wrench_size2(F)); }
-  V wrench_size2(const V* F) {
-    const double l = program_.length;
-    return larger(dot(F, F), dot(F + 3, F + 3) * (1 / (l * l)));
-  }
-
-  void note_residual(const Series& series, const V* rhs, const V* F) {
-    const double l = program_.length;
-    closure2_ = larger(closure2_, larger(dot(rhs, rhs), dot(rhs + 3, rhs + 3) * (l * l)));
-    for (int i = 6; i < series.rows; ++i) force_ = larger(force_, magnitude(rhs[i]) * (series.angular[i - 6] ? 1 / l : 1));
-    note_wrench(F);
   }
 
   /// Eliminates the inside of every series, branches first: steps for a held end.
@@ -310,7 +82,7 @@ class LaneKernel {
         for (int b = 0; b < part.branches; ++b)
           for (int i = 0; i < 6; ++i) rhs[part.row + i] += step_[program_.series[part.first_branch + b].step + i];
       }
-      multiply<false>(region_.tangents + series.inside, series.rows, series.rows, rhs, step_ + series.step);
+      product(region_.tangents + series.inside, series.rows, series.rows, rhs, step_ + series.step);
     }
   }
 
@@ -362,11 +134,11 @@ class LaneKernel {
         for (int i = 0; i < 6; ++i) balance_[i] -= step_[program_.series[s].step + i];
     V x[6 + most_actuators];
     if (question_.kinematics)
-      multiply<false>(region_.kinematic, 6 + program_.actuators, 6 + program_.actuators, balance_, x);
+      product(region_.kinematic, 6 + program_.actuators, 6 + program_.actuators, balance_, x);
     else if (question_.target)
-      multiply<false>(region_.tangents + program_.target, 9, 9, balance_, x);
+      product(region_.tangents + program_.target, 9, 9, balance_, x);
     else
-      multiply<false>(region_.tangents + program_.forward, 6, 6, balance_, x);
+      product(region_.tangents + program_.forward, 6, 6, balance_, x);
     if (question_.target && region_.bend != nullptr) straighten(x);
     for (int i = 0; i < 6; ++i) twist_[i] = x[i];
     if (question_.kinematics)
@@ -389,7 +161,7 @@ class LaneKernel {
         more[a] += away[i] * (bend[0] * x[6] + bend[1] * x[7] + bend[2] * x[8]);
       }
     }
-    multiply<false>(region_.straighten, 9, program_.actuators, more, change);
+    product(region_.straighten, 9, program_.actuators, more, change);
     for (int i = 0; i < 9; ++i) x[i] += change[i];
   }
 
@@ -403,11 +175,11 @@ class LaneKernel {
       const Series& series = program_.series[s];
       V* step = step_ + series.step;
       const V* end = series.is_chain ? twist_ : end_step_[s];
-      multiply<true>(region_.tangents + series.by_end, series.rows, 6, end, step);
+      add_product(region_.tangents + series.by_end, series.rows, 6, end, step);
       if (moves && series.actuators > 0) {
         V own[most_actuators];
         for (int a = 0; a < series.actuators; ++a) own[a] = drho_[program_.actuator_numbers[series.first_actuator + a]];
-        multiply<true>(region_.tangents + series.by_actuators, series.rows, series.actuators, own, step);
+        add_product(region_.tangents + series.by_actuators, series.rows, series.actuators, own, step);
       }
       for (int i = 6; i < series.rows; ++i)
         largest_step_ = larger(largest_step_, magnitude(step[i]) * (series.angular[i - 6] ? l : 1));
@@ -482,33 +254,7 @@ class LaneKernel {
   void find_actuators(const V* p, V* rho) {
     V x[3];
     for (int i = 0; i < 3; ++i) x[i] = (p[i] - region_.centre[i]) * (1 / region_.half);
-    const int n = program_.actuators;
-    for (int a = 0; a < n;) {
-      if (n - a >= 3) {
-        evaluate_polynomials<3>(x, region_.polynomials + a, n, rho + a);
-        a += 3;
-      } else {
-        evaluate_polynomials<1>(x, region_.polynomials + a, n, rho + a);
-        ++a;
-      }
-    }
-  }
-
-  /// N polynomials at once by Horner's rule; coefficients stand from the highest powers down, `stride` apart.
-  template <int N>
-  void evaluate_polynomials(const V* x, const double* c, int stride, V* out) {
-    V sum_x[N]{}, sum_y[N], sum_z[N];
-    for (int i = 0; i <= region_.degree; ++i) {
-      for (V& sum : sum_y) sum = V{};
-      for (int j = 0; j <= i; ++j) {
-        for (V& sum : sum_z) sum = V{};
-        for (int k = 0; k <= j; ++k, c += stride)
-          for (int o = 0; o < N; ++o) sum_z[o] = sum_z[o] * x[2] + c[o];
-        for (int o = 0; o < N; ++o) sum_y[o] = sum_y[o] * x[1] + sum_z[o];
-      }
-      for (int o = 0; o < N; ++o) sum_x[o] = sum_x[o] * x[0] + sum_y[o];
-    }
-    for (int o = 0; o < N; ++o) out[o] = sum_x[o];
+    Base::evaluate_polynomials(program_.actuators, region_.degree, region_.polynomials, x, rho);
   }
 
   void begin(const Batch& batch) {
@@ -537,30 +283,13 @@ class LaneKernel {
     if (region_.displacement == nullptr) return;
     V x[3], powers[most_monomials];
     for (int i = 0; i < 3; ++i) x[i] = (p_[i] - region_.displacement_centre[i]) * (1 / region_.displacement_half);
-    const int count = find_monomials(x, powers), rows = program_.rows;
+    const int count = Base::find_monomials(region_.displacement_degree, x, powers), rows = program_.rows;
     const double* response = region_.tangents + program_.response;
-    multiply<false>(region_.displacement, rows, count, powers, step_);
-    multiply<false>(region_.displacement + rows * count, 6, count, powers, twist_);
-    multiply<true>(response, rows, 6, F_, step_);
-    multiply<true>(response + rows * 6, 6, 6, F_, twist_);
+    product(region_.displacement, rows, count, powers, step_);
+    product(region_.displacement + rows * count, 6, count, powers, twist_);
+    add_product(response, rows, 6, F_, step_);
+    add_product(response + rows * 6, 6, 6, F_, twist_);
     move_bodies();
-  }
-
-  /// All powers together up to the degree, in the order of `evaluate_polynomials`.
-  int find_monomials(const V* x, V* powers) const {
-    const int degree = region_.displacement_degree;
-    V of[3][most_displacement_degree + 1];
-    for (int i = 0; i < 3; ++i) {
-      of[i][0] = broadcast(1);
-      for (int d = 1; d <= degree; ++d) of[i][d] = of[i][d - 1] * x[i];
-    }
-    int count = 0;
-    for (int i = 0; i <= degree; ++i)
-      for (int j = 0; j <= i; ++j) {
-        const V xy = of[0][degree - i] * of[1][i - j];
-        for (int k = 0; k <= j; ++k) powers[count++] = xy * of[2][j - k];
-      }
-    return count;
   }
 
   /// The first step of lanes that stand at an equilibrium, for another command or load: no series misses anything yet, only
@@ -589,7 +318,7 @@ class LaneKernel {
       if (!series.is_chain || series.actuators == 0) continue;
       V own[most_actuators], wrench[6];
       for (int a = 0; a < series.actuators; ++a) own[a] = drho_[program_.actuator_numbers[series.first_actuator + a]];
-      multiply<false>(region_.tangents + series.by_actuators, 6, series.actuators, own, wrench);
+      product(region_.tangents + series.by_actuators, 6, series.actuators, own, wrench);
       for (int i = 0; i < 6; ++i) balance_[i] -= wrench[i];
     }
   }
@@ -623,7 +352,7 @@ class LaneKernel {
     begin(batch);
     take_first_step();
     for (int iteration = 0; iteration < (question_.kinematics ? 3 : 1) * most_iterations; ++iteration) {
-      closure2_ = force_ = wrench2_ = largest_angle2_ = V{};
+      forget_residuals();
       for (int s = 0; s < program_.series_count; ++s) evaluate(program_.series[s]);
       evaluate_platform();
       eliminate();
@@ -665,17 +394,11 @@ class LaneKernel {
     leave_state();
   }
 
-
-  const Program& program_;
-  const Region& region_;
-  const Question question_;
-  const double acting_springs_ = question_.kinematics ? 0 : 1, acting_preload_ = acting_springs_;
   const int first_;
-  V *state_, *rhs_, *step_, *rho_, *drho_;
-  PartFrame* frames_;
+  V *step_, *rho_, *drho_;
   const V* end_step_[most_series];
   V F_[6], p_[3], wanted_[3], from_[3], next_p_[3], tip_[3], balance_[6 + most_actuators], twist_[6];
-  V closure2_{}, force_{}, balance2_{}, wrench2_{}, largest_angle2_{}, largest_step_{}, iterations_{};
+  V balance2_{}, largest_step_{}, iterations_{};
   M active_{}, converged_{}, standing_{};
 };
 
