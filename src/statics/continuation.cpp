@@ -34,6 +34,7 @@ Configuration extrapolated(const Configuration& before, const Configuration& now
 struct Followed {
   double s = 0;
   Configuration configuration;
+  bool stable = false;
 };
 
 bool solves(const Problem& problem, const EquilibriumSolver& solve, StaticsWork::Impl& work, Configuration& next,
@@ -43,16 +44,27 @@ bool solves(const Problem& problem, const EquilibriumSolver& solve, StaticsWork:
   return solved.converged && !solved.jumped;  // a jump: past a limit point, to an equilibrium on another branch
 }
 
-// The next equilibrium, from where the last two point to, or else from the last.
-bool advances(const Problem& problem, const EquilibriumSolver& solve, const std::optional<Followed>& before,
-              const Followed& now, StaticsWork::Impl& work, Followed& next, int& iterations) {
-  if (before) {
-    next.configuration =
-        extrapolated(before->configuration, now.configuration, (next.s - now.s) / (now.s - before->s));
-    if (solves(problem, solve, work, next.configuration, iterations)) return true;
-  }
+// The next equilibrium, from where the last two point to. What is found there counts only if it is stable and where they
+// point to: the last equilibrium decides otherwise.
+bool goes_on(const Model& model, const Problem& problem, const EquilibriumSolver& solve, const Followed& before,
+             const Followed& now, StaticsWork::Impl& work, Followed& next, int& iterations) {
+  const double ratio = (next.s - now.s) / (now.s - before.s);
+  const Configuration foreseen = extrapolated(before.configuration, now.configuration, ratio);
+  next.configuration = foreseen;
+  next.stable = solves(problem, solve, work, next.configuration, iterations) &&
+                !ends_elsewhere(model.mechanism, now.configuration, foreseen, next.configuration) &&
+                is_stable(model, next.configuration, problem, work);
+  return next.stable;
+}
+
+bool advances(const Model& model, const Problem& problem, const EquilibriumSolver& solve,
+              const std::optional<Followed>& before, const Followed& now, StaticsWork::Impl& work, Followed& next,
+              int& iterations) {
+  if (before && goes_on(model, problem, solve, *before, now, work, next, iterations)) return true;
   next.configuration = now.configuration;
-  return solves(problem, solve, work, next.configuration, iterations);
+  if (!solves(problem, solve, work, next.configuration, iterations)) return false;
+  next.stable = is_stable(model, next.configuration, problem, work);
+  return true;
 }
 
 // What is reported of a solution that Newton found: `converged` unless the system there is singular.
@@ -93,19 +105,19 @@ Equilibrium continue_from(const Model& model, const Configuration& nominal, Prob
   const Stage goal = problem.stage;
   Equilibrium result;
   std::optional<Followed> before;
-  Followed now{0, nominal};
+  Followed now{0, nominal, true};
   double step = first_step;
   while (now.s < 1) {
     Followed next{std::min(1.0, now.s + step), {}};
     problem.stage = part_of(goal, next.s);
-    if (!advances(problem, solve, before, now, work, next, result.iterations)) {
+    if (!advances(model, problem, solve, before, now, work, next, result.iterations)) {
       if ((step /= 2) >= smallest_step) continue;
       result.configuration = std::move(now.configuration);
       return result;
     }
     before = std::move(now);
     now = std::move(next);
-    if (is_stable(model, now.configuration, problem, work)) continue;
+    if (now.stable) continue;
     result.configuration = std::move(now.configuration);
     result.status = Status::unstable;
     return result;

@@ -6,11 +6,9 @@ namespace counterflex {
 namespace {
 
 constexpr int displacement_degree = 3;
+static_assert(displacement_degree <= lanes::most_displacement_degree);
 
-void put_unloaded(const Vector3& p, int lane, lanes::Batch& batch) {
-  for (int i = 0; i < 3; ++i) batch.p[i][lane] = p[i];
-  for (auto& component : batch.F) component[lane] = 0;
-}
+void put_unloaded(const Vector3& p, int lane, lanes::Batch& batch) { put_in_lane(p, Vector6::Zero(), lane, batch); }
 
 }  // namespace
 

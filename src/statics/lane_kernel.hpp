@@ -197,6 +197,7 @@ class LaneKernel : LaneSeries<W> {
   void move_pose(V* X, const V* step) {
     V phi[3], E[9], b, c, R[9];
     for (int i = 0; i < 3; ++i) phi[i] = kept(step[3 + i]);
+    turned2_ = larger(turned2_, dot(phi, phi));
     exponential(phi, E, b, c);
     for (int i = 0; i < 9; ++i) R[i] = X[i];
     multiply(E, R, X);
@@ -264,10 +265,8 @@ class LaneKernel : LaneSeries<W> {
       for (int lane = 0; lane < W; ++lane) F_[i][lane] = batch.F[i][first_ + lane];
     for (int i = 0; i < 3; ++i) wanted_[i] = p_[i];
     active_ = p_[0] == p_[0];
-    if (question_.go_on)
-      find_standing();
-    else
-      stand_at_start();
+    if (question_.go_on) find_standing();
+    stand_at_start();
     if (question_.kinematics)
       take_actuators();
     else
@@ -277,9 +276,17 @@ class LaneKernel : LaneSeries<W> {
     iterations_ = V{};
   }
 
-  /// Where the unloaded machine stands, by polynomials of the place, and what the load moves to first order.
+  /// Lanes that stand nowhere: where the unloaded machine is, by polynomials of the place, and what the load moves to first
+  /// order.
   void stand_at_start() {
-    for (int i = 0; i < program_.states; ++i) state_[i] = broadcast(region_.start[i]);
+    const M all = active_;
+    active_ &= ~standing_;
+    if (any(active_)) go_to_start();
+    active_ = all;
+  }
+
+  void go_to_start() {
+    for (int i = 0; i < program_.states; ++i) state_[i] = select(standing_, state_[i], broadcast(region_.start[i]));
     if (region_.displacement == nullptr) return;
     V x[3], powers[most_monomials];
     for (int i = 0; i < 3; ++i) x[i] = (p_[i] - region_.displacement_centre[i]) * (1 / region_.displacement_half);
@@ -323,11 +330,14 @@ class LaneKernel : LaneSeries<W> {
     }
   }
 
-  /// Lanes that stand at an equilibrium; a target goes on from its command.
+  /// Lanes that stand at an equilibrium of a command for which the polynomials hold; a target goes on from there.
   void find_standing() {
     const V* standing = state_ + program_.standing;
     standing_ = standing[3] > V{};
-    for (int i = 0; i < 3; ++i) from_[i] = standing[i];
+    for (int i = 0; i < 3; ++i) {
+      from_[i] = standing[i];
+      standing_ &= magnitude(from_[i] - region_.centre[i]) <= region_.half;
+    }
     if (!question_.target) return;
     for (int i = 0; i < 3; ++i) p_[i] = select(standing_, from_[i], p_[i]);
   }
@@ -342,7 +352,7 @@ class LaneKernel : LaneSeries<W> {
   M are_done() {
     const M near = (closure2_ <= closure_limit * closure_limit) &
                    (largest_step_ <= (question_.kinematics ? kinematic_step_limit : step_limit)) &
-                   (largest_angle2_ <= largest_angle * largest_angle);
+                   (largest_angle2_ <= largest_angle * largest_angle) & (turned2_ <= largest_angle * largest_angle);
     if (!any(near & active_)) return near & active_;
     const V limit = force_limit();
     return near & (force_ <= limit) & (balance2_ <= limit * limit);
@@ -399,6 +409,7 @@ class LaneKernel : LaneSeries<W> {
   const V* end_step_[most_series];
   V F_[6], p_[3], wanted_[3], from_[3], next_p_[3], tip_[3], balance_[6 + most_actuators], twist_[6];
   V balance2_{}, largest_step_{}, iterations_{};
+  V turned2_{};  ///< the largest turn of a pose by a step of this call
   M active_{}, converged_{}, standing_{};
 };
 

@@ -1,5 +1,7 @@
 #include "lane_memory.hpp"
 
+#include <algorithm>
+
 namespace counterflex {
 
 namespace {
@@ -28,6 +30,7 @@ std::vector<double> LaneMemory::state(int lane) const {
   std::vector<double> state;
   for (int i = 0; i < model_.program().states; ++i)
     state.push_back(lanes::state_entry(kernel_, model_.program(), memory_.get(), i, lane));
+  std::fill(state.begin() + model_.program().standing, state.end(), 0.0);
   return state;
 }
 

@@ -21,7 +21,7 @@ class LaneMemory {
   /// Which lanes of that, with the same region and question, are proven stable.
   std::array<bool, lanes::width> stable(const lanes::Region& region, const lanes::Question& question);
 
-  /// The state of a lane after that.
+  /// The state of a lane after that, without where it stands: it may be the start of others.
   std::vector<double> state(int lane) const;
 
   double rho(std::size_t actuator, int lane) const { return rho_[actuator * lanes::width + static_cast<std::size_t>(lane)]; }

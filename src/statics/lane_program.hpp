@@ -102,8 +102,8 @@ struct Question {
   bool target;   ///< else forward
   bool kinematics;  ///< actuators for the tip of the nominal machine: nothing yields to anything, forces are zero
   bool errors;   ///< whether assembly errors act
-  bool go_on;    ///< begin with the state in which the last call, which had the same errors, has left the same waypoints, else
-                 ///< with the region's
+  bool go_on;    ///< lanes that the last call, with the same errors, has left at an equilibrium begin there, others at the
+                 ///< region's start
 };
 
 /// Solves one batch. `memory` holds `doubles_needed` numbers, aligned to 64 bytes, and keeps the state from call to call.

@@ -37,16 +37,8 @@ std::optional<Configuration> followed(Judge& judge, const Vector3& p, const Load
   return std::move(found.configuration);
 }
 
-Problem problem_of(const Judge& judge, const Load& load) { return {load, judge.stage(), nullptr}; }
-
-bool stands_stable(Judge& judge, const Configuration& loaded, const Load& load) {
-  const Problem problem = problem_of(judge, load);
-  evaluate_all(judge.model, loaded, problem.stage, judge.work.impl());
-  return is_stable(judge.model, loaded, problem, judge.work.impl());
-}
-
 bool stands_well(Judge& judge, const Configuration& loaded, const Load& load) {
-  const Problem problem = problem_of(judge, load);
+  const Problem problem{load, judge.stage(), nullptr};
   evaluate_all(judge.model, loaded, problem.stage, judge.work.impl());
   Equilibrium found;
   found.configuration = loaded;
@@ -54,12 +46,24 @@ bool stands_well(Judge& judge, const Configuration& loaded, const Load& load) {
   return found.status == Status::converged;
 }
 
+// Whether the platform stands elsewhere than the tangent of the unloaded machine foresees it, by more than half: on the other
+// side of a limit load, say.
+bool stands_elsewhere(const Judge& judge, const Configuration& unloaded, const Configuration& loaded, const Load& load) {
+  const lanes::Program& program = judge.lane_model.program();
+  const double* response = judge.zone.flat().tangents + program.response + program.rows * 6;
+  const Vector6 twist = Eigen::Map<const Eigen::Matrix<double, 6, 6, Eigen::RowMajor>>(response) * load.F;
+  Configuration foreseen = unloaded;
+  foreseen.X_MP = moved(unloaded.X_MP, twist);
+  return ends_elsewhere(judge.model.mechanism, unloaded, foreseen, loaded);
+}
+
 // Without a load the machine is followed to the centre (with errors it was, when the zone was made); then one load a lane.
 // The loaded configurations; fewer where one is not borne.
 std::vector<Configuration> borne_at_centre(Judge& judge, const std::vector<Load>& loads) {
   const Vector3& centre = judge.zone.centre();
   std::vector<Configuration> list;
-  if (!judge.errors && !followed(judge, centre, {})) return list;
+  const std::optional<Configuration> unloaded = judge.errors ? judge.zone.reference() : followed(judge, centre, {});
+  if (!unloaded) return list;
   for (std::size_t first = 0; first < loads.size(); first += lanes::width) {
     const std::size_t count = std::min<std::size_t>(lanes::width, loads.size() - first);
     for (int lane = 0; lane < lanes::width; ++lane)
@@ -68,10 +72,11 @@ std::vector<Configuration> borne_at_centre(Judge& judge, const std::vector<Load>
     for (std::size_t i = 0; i < count; ++i) {
       const Load& load = loads[first + i];
       std::optional<Configuration> loaded;
-      if (!judge.memory.batch.converged[i])
+      if (judge.memory.batch.converged[i]) loaded = judge.found_in(static_cast<int>(i));
+      if (!loaded || stands_elsewhere(judge, *unloaded, *loaded, load))
         loaded = followed(judge, centre, load);
-      else if (Configuration found = judge.found_in(static_cast<int>(i)); stands_well(judge, found, load))
-        loaded = std::move(found);
+      else if (!stands_well(judge, *loaded, load))
+        loaded.reset();
       if (!loaded) return list;
       list.push_back(std::move(*loaded));
     }
@@ -90,7 +95,7 @@ bool bears_where_solved(Judge& judge, const lanes::Region& region, const Load& l
   const auto proven = judge.memory.stable(region, judge.question());
   for (int lane = 0; lane < lanes::width; ++lane) {
     if (proven[static_cast<std::size_t>(lane)]) continue;
-    const bool borne = judge.memory.batch.converged[lane] ? stands_stable(judge, judge.found_in(lane), load)
+    const bool borne = judge.memory.batch.converged[lane] ? stands_well(judge, judge.found_in(lane), load)
                                                           : followed(judge, judge.zone.corner(lane), load).has_value();
     if (!borne) return false;
   }

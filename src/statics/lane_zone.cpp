@@ -54,7 +54,7 @@ bool fits(const Eigen::MatrixXd& coefficients, int degree, const Eigen::MatrixXd
 
 }  // namespace
 
-bool LaneZone::find_centre(const LaneModel& lane_model, StaticsWork& work) {
+bool LaneZone::find_centre(StaticsWork& work) {
   const NominalResult followed = follow(model_, model_.home, {tip(model_.mechanism, model_.home).R, centre_});
   if (followed.status != Status::converged) return false;
   const ActuatorJacobian J = actuator_jacobian(model_, followed.configuration);
@@ -65,8 +65,8 @@ bool LaneZone::find_centre(const LaneModel& lane_model, StaticsWork& work) {
   if (reference.status != Status::converged) return false;
   reference_ = reference.configuration;
   const Eigen::MatrixXd by_position = J.J.inverse().leftCols(3);
-  if (!tangents_.take(model_, lane_model, reference_, by_position, work)) return false;
-  start_ = LaneStart(lane_model.state_of(reference_));
+  if (!tangents_.take(model_, lane_model_, reference_, by_position, work)) return false;
+  start_ = LaneStart(lane_model_.state_of(reference_));
   start_.enter(flat_);
   flat_.tangents = tangents_.numbers.data();
   flat_.kinematic = tangents_.kinematic.data();
@@ -74,9 +74,9 @@ bool LaneZone::find_centre(const LaneModel& lane_model, StaticsWork& work) {
 }
 
 // The points of a fit are the first ones of every higher degree's.
-bool LaneZone::fit_kinematics(const LaneModel& lane_model) {
-  const auto n = static_cast<Eigen::Index>(lane_model.program().actuators);
-  KinematicsOfZone kinematics{*this, R_centre_, LaneMemory(lane_model), n};
+bool LaneZone::fit_kinematics() {
+  const auto n = static_cast<Eigen::Index>(lane_model_.program().actuators);
+  KinematicsOfZone kinematics{*this, R_centre_, LaneMemory(lane_model_), n};
   Eigen::MatrixXd checks(static_cast<Eigen::Index>(polynomial_checks().size()), n + 3), values(0, n + 3);
   if (!kinematics.fill(polynomial_checks(), 0, checks)) return false;
   for (const int degree : {2, 6, 7, 8, 10}) {
@@ -107,7 +107,7 @@ std::unique_ptr<LaneZone> LaneZone::make(const Model& model, const LaneModel& la
   zone->centre_ = centre;
   for (int i = 0; i < 3; ++i) zone->flat_.centre[i] = centre[i];
   zone->flat_.half = half;
-  if (!zone->find_centre(lane_model, work) || !zone->fit_kinematics(lane_model)) return nullptr;
+  if (!zone->find_centre(work) || !zone->fit_kinematics()) return nullptr;
   return zone;
 }
 

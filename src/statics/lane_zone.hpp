@@ -42,15 +42,15 @@ class LaneZone {
   std::vector<double> bend_of_actuators(const Vector3& p) const;  ///< how that changes by the position, as Region::bend
   Matrix3 R_MT(const Vector3& p) const;
 
-  /// Whether the machine is stable and well conditioned under every force up to `force` (N) with every moment up to `moment`
+  /// Whether the machine is stable, and as far as that is judged well conditioned, under every force up to `force` (N) with every moment up to `moment`
   /// (N m; 0: none). To first order the loads that it bears in a place are a convex set, so the corners of an octahedron that
   /// holds them with a margin speak for all, at the centre and the corners of the cube. `lane_strength.hpp`.
   bool bears(double force, double moment, bool errors, StaticsWork& work) const;
 
  private:
   LaneZone(const Model& model, const LaneModel& lane_model) : model_(model), lane_model_(lane_model) {}
-  bool find_centre(const LaneModel& lane_model, StaticsWork& work);
-  bool fit_kinematics(const LaneModel& lane_model);
+  bool find_centre(StaticsWork& work);
+  bool fit_kinematics();
   void take_polynomials(const Eigen::MatrixXd& coefficients, int degree);
   Eigen::RowVectorXd powers_at(const Vector3& p) const;
   Eigen::Map<const Eigen::MatrixXd> coefficients() const;  ///< actuators x powers

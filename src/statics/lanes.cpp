@@ -13,8 +13,8 @@ namespace counterflex {
 
 namespace lane_grid {
 
-/// Edge of a cell, in units of l, and cells along an edge of a zone. A machine that only slides has nominal kinematics without
-/// bends and tangents that hardly change.
+/// Edge of a cell, in units of l, and cells along an edge of a zone. One chain that only slides has nominal kinematics without
+/// bends, and to first order in the load a Hessian that is linear in the position.
 struct Grid {
   double cell_share;
   long cells_along_zone;
@@ -52,7 +52,7 @@ Vector3 centre_of(const Index& i, double edge) {
 }
 
 bool only_slides(const Mechanism& mechanism) {
-  return std::all_of(mechanism.chains.begin(), mechanism.chains.end(), [](const Series& chain) {
+  return mechanism.chains.size() == 1 && std::all_of(mechanism.chains.begin(), mechanism.chains.end(), [](const Series& chain) {
     return std::all_of(chain.parts.begin(), chain.parts.end(), [](const Part& part) {
       const bool turns = part.kind == PartKind::actuator && part.joint.kind == JointKind::revolute;
       return !turns && part.kind != PartKind::passive && part.kind != PartKind::group;

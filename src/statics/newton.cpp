@@ -70,13 +70,14 @@ PlatformSystem assemble_platform(const Model& model, const Problem& problem, con
   return system;
 }
 
-// The solution of a regular square system; empty where the matrix may be singular. Pivots of columns are enough to show most
-// matrices regular, by far; full pivoting decides about the others.
+// The solution of a regular square system; empty where the matrix may be singular. Pivots of columns, none of which is small
+// beside the entries of the matrix, are enough to show most matrices regular, by far; full pivoting decides about the others.
 Eigen::VectorXd regular_solution(const Eigen::MatrixXd& A, const Eigen::VectorXd& b) {
   constexpr double surely_regular = 1e-6;
   const Eigen::PartialPivLU<Eigen::MatrixXd> partial(A);
-  const auto pivots = partial.matrixLU().diagonal().cwiseAbs();
-  if (pivots.minCoeff() > surely_regular * pivots.maxCoeff()) return partial.solve(b);
+  const double least = partial.matrixLU().diagonal().cwiseAbs().minCoeff();
+  const double largest = std::max(A.cwiseAbs().maxCoeff(), partial.matrixLU().cwiseAbs().maxCoeff());
+  if (least > surely_regular * largest) return partial.solve(b);
   const Eigen::FullPivLU<Eigen::MatrixXd> full(A);
   return full.rank() < A.cols() ? Eigen::VectorXd() : solved(full, b);
 }
@@ -140,6 +141,10 @@ bool is_jump(const Eigen::VectorXd& way, const Eigen::VectorXd& predicted) {
   return surplus > jump_floor && surplus > 0.5 * predicted.norm();
 }
 
+Place place_of(const Mechanism& mechanism, const Configuration& configuration) {
+  return {configuration.X_MP, actuator_values(mechanism, configuration)};
+}
+
 }  // namespace
 
 AppliedWrench applied_wrench(const Mechanism& mechanism, const Pose& X_MP, const Load& load, double factor) {
@@ -178,9 +183,16 @@ double force_tolerance(const Mechanism& mechanism, const Pose& X_MP, double larg
          16 * eps * mechanism.stiffest * (X_MP.p.norm() + mechanism.length);
 }
 
+bool ends_elsewhere(const Mechanism& mechanism, const Configuration& from, const Configuration& foreseen,
+                    const Configuration& found) {
+  const Units units{mechanism.length};
+  const Place start = place_of(mechanism, from);
+  return is_jump(travelled(mechanism, start, found, units), travelled(mechanism, start, foreseen, units));
+}
+
 NewtonResult newton(const Model& model, const Problem& problem, StaticsWork::Impl& work, Configuration& configuration) {
   const Units units{model.mechanism.length};
-  const Place start{configuration.X_MP, actuator_values(model.mechanism, configuration)};
+  const Place start = place_of(model.mechanism, configuration);
   Eigen::VectorXd predicted = Eigen::VectorXd::Zero(6 + static_cast<Eigen::Index>(model.mechanism.travel.size()));
   NewtonResult result;
   Step step;

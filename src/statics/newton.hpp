@@ -45,6 +45,10 @@ struct NewtonResult {
   int iterations = 0;
   bool jumped = false;  ///< platform or actuators ended elsewhere than the tangent at the start leads: by more than half
 };
+/// Whether platform or actuators ended elsewhere than foreseen, by more than half of the way from `from`.
+bool ends_elsewhere(const Mechanism& mechanism, const Configuration& from, const Configuration& foreseen,
+                    const Configuration& found);
+
 /// On success the works are evaluated at the solution.
 NewtonResult newton(const Model& model, const Problem& problem, StaticsWork::Impl& work, Configuration& configuration);
 

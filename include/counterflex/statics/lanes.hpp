@@ -72,7 +72,8 @@ class LaneMachines {
 /// The name of the instructions that lanes use on this computer.
 const char* lane_instructions();
 
-/// Solves for one thread. Answers depend on the requests of a call and their order alone.
+/// Solves for one thread. Answers depend on the requests of a call and their order alone,
+/// and in their last bits on whether the computer fuses multiply-adds.
 class LaneSolver {
  public:
   explicit LaneSolver(const LaneMachine& machine);
