@@ -21,7 +21,7 @@ WaypointSolver::WaypointSolver(const Job& job, const Model& model, Configuration
   if (job.lanes != nullptr) lanes_.emplace(job.lanes->of(model, job.forces.at_platform()));
 }
 
-// Begins beside `p` where lanes have been on the way since.
+// Begins beside `p` where others have been answered since.
 PathSolver& WaypointSolver::one_by_one(const Vector3& p) {
   const Configuration* near = lanes_ && (strayed_ || !one_by_one_) ? lanes_->nominal_near(p) : nullptr;
   strayed_ = false;
@@ -133,13 +133,21 @@ void WaypointSolver::actuals_in_lanes(std::span<const ActualRequest> requests,
   if (in_lanes) {
     requests_.clear();
     for (const ActualRequest& request : requests)
-      requests_.push_back({request.target, request.stage.load * request.load.F});
+      if (request.known == nullptr)
+        requests_.push_back({request.target, request.stage.load * request.load.F});
     solve_in_lanes(LaneQuestion::forward, requests.front().stage.errors == 1);
   }
+  std::size_t next = 0;  // in answers_
   for (std::size_t i = 0; i < requests.size(); ++i) {
     const ActualRequest& request = requests[i];
-    if (in_lanes && can_do(request.stage) && answers_[i].solved) {
-      out[i] = {Status::converged, answers_[i].X_MT, answers_[i].iterations, true};
+    if (const KnownTip* known = request.known) {
+      out[i] = {Status::converged, known->X_MT, known->iterations, true};
+      strayed_ = true;
+      continue;
+    }
+    const LaneAnswer* answer = in_lanes ? &answers_[next++] : nullptr;
+    if (answer != nullptr && answer->solved && can_do(request.stage)) {
+      out[i] = {Status::converged, answer->X_MT, answer->iterations, true};
       strayed_ = true;
       continue;
     }

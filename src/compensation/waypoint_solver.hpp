@@ -23,12 +23,15 @@ struct ThroughRequest {
 /// is not known.
 using ForeseenCommand = std::function<Vector3(std::size_t i, const Vector3& target)>;
 
-/// A commanded position, M (m), and what acts there.
+/// A commanded position, M (m), and what acts there. What is known already is answered with it: it is asked
+/// for with all else so that what follows on the path begins where it is, not where something was solved
+/// last.
 struct ActualRequest {
   Vector3 target = Vector3::Zero();
   Load load;
   Stage stage{};
   Start start{};
+  const KnownTip* known = nullptr;
 };
 
 /// The wanted pose of the tip at a position. Its controlled orientation is home's, uncontrolled components
@@ -79,7 +82,7 @@ class WaypointSolver {
   std::vector<Vector3> originals_;
   std::vector<LaneThrough> through_answers_;
   std::optional<PathSolver> one_by_one_;
-  bool strayed_ = false;  ///< lanes have solved since the last waypoint that was solved alone
+  bool strayed_ = false;  ///< the path has gone on since the last waypoint that was solved alone
 };
 
 }  // namespace counterflex

@@ -154,6 +154,37 @@ TEST_CASE("what was foreseen is not solved again, before and after") {
   }
 }
 
+TEST_CASE(
+    "a waypoint that is solved alone begins beside itself, whether what lies before it is known or not") {
+  Order order = order_of(absolute);
+  // Two lines far from each other have a load that lanes leave to others.
+  std::string rows = "# frame = machine\n# sense = on_tool\nline, fx_N, fy_N, fz_N\n";
+  for (int line = 4; line < 44; ++line)
+    rows += fmt::format("{}, {}, -5, 0\n", line, line == 12 || line == 35 ? 1500 : 20);
+  order.force.rules = read_force_csv(rows, "forces.csv");
+  order.force.blend = 0;
+  WrittenRun knows(order), does_not(order);
+  const std::vector<KnownSegment> known = knows.work.known;
+  does_not.work.known.clear();
+  const std::vector<Waypoint> a = knows.verify(), b = does_not.verify();
+  REQUIRE(a.size() == b.size());
+  std::size_t alone = 0, between = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    if (a[i].segment == no_segment || a[i].between) continue;
+    if (known[a[i].segment].end.after.known) {
+      between += alone > 0;
+      continue;
+    }
+    CAPTURE(a[i].line);
+    CHECK(a[i].iterations == b[i].iterations);
+    CHECK(a[i].before == b[i].before);
+    CHECK(a[i].after == b[i].after);
+    ++alone;
+  }
+  CHECK(alone == 2);
+  CHECK(between >= 20);
+}
+
 TEST_CASE("lines that are looked into when they are planned are not looked into again") {
   WrittenRun run(order_of(absolute));
   std::size_t looks = 0, found = 0;
