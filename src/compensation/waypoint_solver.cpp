@@ -16,6 +16,10 @@ bool can_do(const Stage& stage) {
 
 }  // namespace
 
+bool has_lanes_for_targets(const Job& job) {
+  return job.lanes != nullptr && job.options.method == Method::direct;
+}
+
 WaypointSolver::WaypointSolver(const Job& job, const Model& model, Configuration start)
     : job_(job), model_(model), start_(std::move(start)) {
   if (job.lanes != nullptr) lanes_.emplace(job.lanes->of(model, job.forces.at_platform()));
@@ -55,7 +59,7 @@ void WaypointSolver::targets(std::span<const TargetRequest> requests, std::span<
 void WaypointSolver::targets(std::span<const TargetRequest> requests, std::span<const ThroughRequest> through,
                              const ForeseenCommand& foreseen, std::span<TargetSolution> out,
                              std::span<KnownPlace> known) {
-  const bool in_lanes = lanes_ && job_.options.method == Method::direct;
+  const bool in_lanes = has_lanes_for_targets(job_);
   std::fill(known.begin(), known.end(), KnownPlace{});
   if (in_lanes) targets_in_lanes(requests, through, foreseen, known);
   for (std::size_t i = 0; i < requests.size(); ++i) {

@@ -41,6 +41,9 @@ struct WantedPose {
   Pose X_MT;
 };
 
+/// Whether targets are solved in lanes where these can: only then is anything known besides them.
+bool has_lanes_for_targets(const Job& job);
+
 /// Answers requests in batches; neighbours in a batch should be neighbours on the path. Side by side in lanes
 /// where the job has them and they know the place, one by one else. What is answered depends on all requests
 /// since the start, in their order, and on nothing else. `out` is as long as the requests. Numerical trouble

@@ -11,8 +11,7 @@ namespace {
 
 // A run of one window that is stopped before it is verified.
 struct WrittenRun {
-  explicit WrittenRun(const Order& order) : shop(order), lanes(order.max_correction), job(shop.job()) {
-    job.lanes = &lanes;
+  explicit WrittenRun(const Order& order) : shop(in_lanes(order)), job(shop.job()) {
     CarriedState carried{Rewriter(job.options.write), TextReader(job.program, job.read)};
     begin_window(job, carried, work);
     plan_window(job, work);
@@ -41,8 +40,12 @@ struct WrittenRun {
     return result;
   }
 
+  static Order in_lanes(Order order) {
+    order.in_lanes = true;
+    return order;
+  }
+
   Shop shop;
-  LaneMachines lanes;
   Job job;
   WindowWork work;
 };
@@ -201,12 +204,43 @@ TEST_CASE("lines that are looked into when they are planned are not looked into 
   CHECK(found + 1 >= looks);
 }
 
-TEST_CASE("a job without lanes foresees nothing") {
-  const Shop shop(order_of(absolute));
-  const Job job = shop.job();
-  CarriedState carried{Rewriter(job.options.write), TextReader(job.program, job.read)};
-  WindowWork work;
-  begin_window(job, carried, work);
-  plan_window(job, work);
-  CHECK(work.plan.known.empty());
+TEST_CASE("what planning finds does not depend on the number of threads") {
+  Order order = order_of(zigzag("G21 G90\nG0 X0. Y0. Z0.\nF1200\n", 700, "G1 X{:.3f} Y{:.3f} Z{:.3f}", 0.1));
+  const WrittenRun one(order);
+  order.threads = 3;
+  const WrittenRun three(order);
+  CHECK(one.count().foreseen > 650);
+  REQUIRE(one.work.known.size() == three.work.known.size());
+  const auto same = [](const KnownTip& a, const KnownTip& b) {
+    if (!a.known) return !b.known;
+    return b.known && a.command == b.command && a.X_MT.p == b.X_MT.p && a.X_MT.R == b.X_MT.R &&
+           a.iterations == b.iterations;
+  };
+  const auto same_place = [&](const KnownPlace& a, const KnownPlace& b) {
+    return same(a.before, b.before) && same(a.after, b.after) && a.load.F == b.load.F;
+  };
+  for (std::size_t s = 0; s < one.work.known.size(); ++s) {
+    CAPTURE(s);
+    const KnownSegment &a = one.work.known[s], &b = three.work.known[s];
+    CHECK(same_place(a.end, b.end));
+    REQUIRE(a.inside.has_value() == b.inside.has_value());
+    if (a.inside) CHECK(same_place(*a.inside, *b.inside));
+  }
+}
+
+TEST_CASE("without lanes, and where targets are not solved in them, no place is known") {
+  const Shop without(order_of(absolute));
+  Order nested = order_of(absolute);
+  nested.method = Method::nested;
+  nested.in_lanes = true;
+  const Shop other_method(nested);
+  for (const Shop* shop : {&without, &other_method}) {
+    const Job job = shop->job();
+    CarriedState carried{Rewriter(job.options.write), TextReader(job.program, job.read)};
+    WindowWork work;
+    begin_window(job, carried, work);
+    plan_window(job, work);
+    CHECK(!work.failed());
+    CHECK(work.plan.known.empty());
+  }
 }
