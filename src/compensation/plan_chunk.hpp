@@ -54,6 +54,7 @@ class ChunkPlanner {
   void choose_lines();
   Vector6 force_at_start(std::size_t t);
   void add_bends(Task& task);
+  bool solve_responses();
   void ask_responses();
   void judge_bends();
   void look_into_lines();

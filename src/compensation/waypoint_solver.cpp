@@ -36,6 +36,11 @@ PathSolver& WaypointSolver::one_by_one(const Vector3& p) {
   return *one_by_one_;
 }
 
+void WaypointSolver::begin_anew() {
+  if (one_by_one_) one_by_one_->stand_at(start_);
+  strayed_ = true;
+}
+
 void WaypointSolver::solve_in_lanes(LaneQuestion question, bool errors) {
   answers_.resize(requests_.size());
   lanes_->solve(question, errors, requests_, answers_);

@@ -64,6 +64,10 @@ class WaypointSolver {
 
   void actuals(std::span<const ActualRequest> requests, std::span<ActualSolution> out);
 
+  /// What is asked next does not follow on the path: it begins at the start again, not at what was solved
+  /// last.
+  void begin_anew();
+
   const Model& model() const { return model_; }
 
  private:
