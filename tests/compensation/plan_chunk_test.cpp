@@ -20,11 +20,10 @@ TEST_CASE("the first target of a path is found from its start, whatever was prob
   Plan plan;
   plan.segments.resize(job.path.segments.size());
   REQUIRE(!ChunkPlanner(job, solver).plan(0, plan.segments.size(), plan));
-  const TargetRequest first{job.path.segments[0].wanted.end,
-                            {job.forces.at(0, 1, Side::before), job.forces.at_platform()}};
+  const TargetRequest first{job.path.segments[0].wanted.start,
+                            {job.forces.at(0, 0), job.forces.at_platform()}};
   TargetSolution alone;
   WaypointSolver(job, shop.model, shop.model.home).targets({&first, 1}, {&alone, 1});
   REQUIRE(alone.status == Status::converged);
-  REQUIRE(plan.segments[0].end.has_value());
-  CHECK(*plan.segments[0].end - first.p_MT == alone.target - first.p_MT);
+  CHECK(plan.segments[0].start_target == first.p_MT + (alone.target - first.p_MT));
 }
