@@ -59,7 +59,6 @@ void ChunkForward::clear() {
   requests_.clear();
   wanted_.clear();
   actuals_.clear();
-  known_.clear();
 }
 
 void ChunkForward::reserve(std::size_t pieces) {
@@ -71,7 +70,6 @@ void ChunkForward::reserve(std::size_t pieces) {
   requests_.reserve(samples);
   wanted_.reserve(samples);
   actuals_.reserve(samples);
-  known_.reserve(samples);
 }
 
 bool ChunkForward::run_waves() {
@@ -102,9 +100,10 @@ std::size_t ChunkForward::add(std::size_t t, double v, bool between, bool listed
             job_.forces.at_platform()};
   samples_.push_back({.task = t, .v = v, .u = u, .between = between, .listed = listed});
   p_MT_.push_back(wanted_at(tasks_[t], u));
-  requests_.push_back({point_at(piece.commanded, v), load, {}, between ? Start::neighbour : Start::nominal});
-  const KnownPlace* place = known_place(samples_.back());
-  known_.push_back(place ? place->answer(requests_.back().target, load) : nullptr);
+  ActualRequest& request = requests_.emplace_back();
+  request = {point_at(piece.commanded, v), load, {}, between ? Start::neighbour : Start::nominal};
+  if (const KnownPlace* place = known_place(samples_.back()))
+    request.known = place->answer(request.target, load);
   return samples_.size() - 1;
 }
 
@@ -122,8 +121,8 @@ std::size_t ChunkForward::add_probe(std::size_t sample, const Vector6& dF) {
   ActualRequest request = requests_[sample];
   request.load.F += dF;
   request.start = Start::neighbour;
+  request.known = nullptr;
   requests_.push_back(request);
-  known_.push_back(nullptr);
   return samples_.size() - 1;
 }
 
@@ -132,26 +131,10 @@ bool ChunkForward::solve_added() {
   wanted_.resize(samples_.size());
   actuals_.resize(samples_.size());
   solver_.wanted(std::span(p_MT_).subspan(first), std::span(wanted_).subspan(first));
-  solve_unknown(first);
+  solver_.actuals(std::span(requests_).subspan(first), std::span(actuals_).subspan(first));
   for (std::size_t i = first; i < samples_.size(); ++i)
     if (!samples_[i].may_fail && status(i) != Status::converged) return false;
   return true;
-}
-
-void ChunkForward::solve_unknown(std::size_t first) {
-  unknown_.clear();
-  unknown_requests_.clear();
-  for (std::size_t i = first; i < samples_.size(); ++i) {
-    if (const KnownTip* tip = known_[i]) {
-      actuals_[i] = {Status::converged, tip->X_MT, tip->iterations, true};
-    } else {
-      unknown_.push_back(i);
-      unknown_requests_.push_back(requests_[i]);
-    }
-  }
-  unknown_actuals_.resize(unknown_.size());
-  solver_.actuals(unknown_requests_, unknown_actuals_);
-  for (std::size_t k = 0; k < unknown_.size(); ++k) actuals_[unknown_[k]] = unknown_actuals_[k];
 }
 
 Status ChunkForward::status(std::size_t sample) const {

@@ -58,7 +58,6 @@ class ChunkForward {
   std::size_t add(std::size_t task, double v, bool between, bool listed = true);
   std::size_t add_probe(std::size_t sample, const Vector6& dF);
   bool solve_added();
-  void solve_unknown(std::size_t first);
   const KnownPlace* known_place(const Sample& sample) const;
   bool run_waves();
 
@@ -107,12 +106,6 @@ class ChunkForward {
   std::vector<ActualRequest> requests_;
   std::vector<WantedPose> wanted_;
   std::vector<ActualSolution> actuals_;
-  std::vector<const KnownTip*> known_;  // answers that need no solving, or null
-
-  // Of those that do.
-  std::vector<std::size_t> unknown_;
-  std::vector<ActualRequest> unknown_requests_;
-  std::vector<ActualSolution> unknown_actuals_;
 
   std::vector<std::size_t> begins_, filled_, order_;
   std::vector<ForwardPlace> places_;

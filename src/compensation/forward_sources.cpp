@@ -34,11 +34,9 @@ class SourceBatch {
     for (std::size_t i = 0; i < batch_.waypoints.size(); ++i) {
       const ForwardPlace& place = batch_.places[i];
       if (batch_.waypoints[i].between) continue;
-      const ActualRequest request{place.*command, loaded ? place.load : Load{}, stage, start};
-      if (const KnownTip* tip = known_answer(place, request))
-        take(i, {Status::converged, tip->X_MT, tip->iterations}, result);
-      else
-        ask(i, request);
+      ActualRequest request{place.*command, loaded ? place.load : Load{}, stage, start};
+      request.known = known_answer(place, request);
+      ask(i, request);
     }
     answer([&](std::size_t i, const ActualSolution& actual) { take(i, actual, result); });
   }

@@ -27,8 +27,7 @@ std::optional<Failure> ChunkPlanner::plan(std::size_t begin, std::size_t end, Pl
   clear(end - begin);
   for (std::size_t i = begin; i < end; ++i) add_task(i);
   choose_lines();
-  ask_responses();
-  if (!waves_.solve()) return waves_.failure();
+  if (!solve_responses()) return waves_.failure();
   judge_bends();
   look_into_lines();
   for (Task& task : tasks_) ask_first(task);
@@ -157,7 +156,16 @@ void ChunkPlanner::add_bends(Task& task) {
   task.bends = bends_.size() - task.first_bend;
 }
 
-// Solved before all else: they tell which lines are looked into.
+// Before all else: they tell which lines are looked into. They end far from where the path begins.
+bool ChunkPlanner::solve_responses() {
+  ask_responses();
+  const auto is_needed = [](const ForceResponse& response) { return response.is_needed(); };
+  if (std::none_of(responses_.begin(), responses_.end(), is_needed)) return true;
+  const bool solved = waves_.solve();
+  waves_.solver().begin_anew();
+  return solved;
+}
+
 void ChunkPlanner::ask_responses() {
   responses_.resize(tasks_.size() / response_span + 1);
   places_.assign(responses_.size(), 0);

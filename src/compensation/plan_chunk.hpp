@@ -28,7 +28,7 @@ class ChunkPlanner {
     std::size_t segment = 0;
     Kind kind = Kind::held;
     Answer start = no_answer, end = no_answer, look = no_answer;
-    Vector6 F_start, F_end;            // of lines that may be short; of cuts and rapids
+    Vector6 F_start = Vector6::Zero(), F_end = Vector6::Zero();  // of short lines; of cuts and rapids
     std::size_t first = 0, count = 0;  // of a group: in answers_; of a cut: in limits_
     bool as_line = false;              // of a cut: its inside need not be solved
     double length = 0, room = 0;       // of a line; what its knots may miss (m)
@@ -54,6 +54,7 @@ class ChunkPlanner {
   void choose_lines();
   Vector6 force_at_start(std::size_t t);
   void add_bends(Task& task);
+  bool solve_responses();
   void ask_responses();
   void judge_bends();
   void look_into_lines();

@@ -19,6 +19,7 @@ void TargetWaves::clear(std::size_t requests) {
   solutions_.reserve(requests);
   segments_.reserve(requests);
   number_through_.reserve(requests);
+  if (!has_lanes_for_targets(job_)) return;
   through_.reserve(requests);
   fractions_.reserve(requests);
   known_.reserve(requests);
@@ -61,6 +62,7 @@ Answer TargetWaves::ask_apart(std::size_t segment, const Vector6& F) {
 }
 
 void TargetWaves::ask_through(Answer a, double u) {
+  if (!has_lanes_for_targets(job_)) return;
   const Vector3& datum_shift = job_.path.frames[job_.path.segments[segments_[a]].frame].datum_shift;
   number_through_[a] = through_.size();
   through_.push_back({a, requests_[a].p_MT - datum_shift});

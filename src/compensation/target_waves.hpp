@@ -24,7 +24,7 @@ class TargetWaves {
   Answer ask(std::size_t segment, double u, Side side = Side::after);
 
   /// Asks for the correction at the end of a segment under the force there, and where the tip stands there
-  /// before and after it.
+  /// before and after it, if targets are solved in lanes.
   Answer ask_end(std::size_t segment, const Vector6& F);
 
   /// The same inside a line of which the end has just been asked for.

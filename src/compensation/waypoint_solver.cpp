@@ -16,12 +16,16 @@ bool can_do(const Stage& stage) {
 
 }  // namespace
 
+bool has_lanes_for_targets(const Job& job) {
+  return job.lanes != nullptr && job.options.method == Method::direct;
+}
+
 WaypointSolver::WaypointSolver(const Job& job, const Model& model, Configuration start)
     : job_(job), model_(model), start_(std::move(start)) {
   if (job.lanes != nullptr) lanes_.emplace(job.lanes->of(model, job.forces.at_platform()));
 }
 
-// Begins beside `p` where lanes have been on the way since.
+// Begins beside `p` where others have been answered since.
 PathSolver& WaypointSolver::one_by_one(const Vector3& p) {
   const Configuration* near = lanes_ && (strayed_ || !one_by_one_) ? lanes_->nominal_near(p) : nullptr;
   strayed_ = false;
@@ -30,6 +34,11 @@ PathSolver& WaypointSolver::one_by_one(const Vector3& p) {
   else if (near != nullptr)
     one_by_one_->stand_at(*near);
   return *one_by_one_;
+}
+
+void WaypointSolver::begin_anew() {
+  if (one_by_one_) one_by_one_->stand_at(start_);
+  strayed_ = true;
 }
 
 void WaypointSolver::solve_in_lanes(LaneQuestion question, bool errors) {
@@ -55,7 +64,7 @@ void WaypointSolver::targets(std::span<const TargetRequest> requests, std::span<
 void WaypointSolver::targets(std::span<const TargetRequest> requests, std::span<const ThroughRequest> through,
                              const ForeseenCommand& foreseen, std::span<TargetSolution> out,
                              std::span<KnownPlace> known) {
-  const bool in_lanes = lanes_ && job_.options.method == Method::direct;
+  const bool in_lanes = has_lanes_for_targets(job_);
   std::fill(known.begin(), known.end(), KnownPlace{});
   if (in_lanes) targets_in_lanes(requests, through, foreseen, known);
   for (std::size_t i = 0; i < requests.size(); ++i) {
@@ -133,13 +142,21 @@ void WaypointSolver::actuals_in_lanes(std::span<const ActualRequest> requests,
   if (in_lanes) {
     requests_.clear();
     for (const ActualRequest& request : requests)
-      requests_.push_back({request.target, request.stage.load * request.load.F});
+      if (request.known == nullptr)
+        requests_.push_back({request.target, request.stage.load * request.load.F});
     solve_in_lanes(LaneQuestion::forward, requests.front().stage.errors == 1);
   }
+  std::size_t next = 0;  // in answers_
   for (std::size_t i = 0; i < requests.size(); ++i) {
     const ActualRequest& request = requests[i];
-    if (in_lanes && can_do(request.stage) && answers_[i].solved) {
-      out[i] = {Status::converged, answers_[i].X_MT, answers_[i].iterations, true};
+    if (const KnownTip* known = request.known) {
+      out[i] = {Status::converged, known->X_MT, known->iterations, true};
+      strayed_ = true;
+      continue;
+    }
+    const LaneAnswer* answer = in_lanes ? &answers_[next++] : nullptr;
+    if (answer != nullptr && answer->solved && can_do(request.stage)) {
+      out[i] = {Status::converged, answer->X_MT, answer->iterations, true};
       strayed_ = true;
       continue;
     }

@@ -23,12 +23,15 @@ struct ThroughRequest {
 /// is not known.
 using ForeseenCommand = std::function<Vector3(std::size_t i, const Vector3& target)>;
 
-/// A commanded position, M (m), and what acts there.
+/// A commanded position, M (m), and what acts there. What is known already is answered with it: it is asked
+/// for with all else so that what follows on the path begins where it is, not where something was solved
+/// last.
 struct ActualRequest {
   Vector3 target = Vector3::Zero();
   Load load;
   Stage stage{};
   Start start{};
+  const KnownTip* known = nullptr;
 };
 
 /// The wanted pose of the tip at a position. Its controlled orientation is home's, uncontrolled components
@@ -37,6 +40,9 @@ struct WantedPose {
   Status status = Status::not_converged;
   Pose X_MT;
 };
+
+/// Whether targets are solved in lanes where these can: only then is anything known besides them.
+bool has_lanes_for_targets(const Job& job);
 
 /// Answers requests in batches; neighbours in a batch should be neighbours on the path. Side by side in lanes
 /// where the job has them and they know the place, one by one else. What is answered depends on all requests
@@ -57,6 +63,10 @@ class WaypointSolver {
                const ForeseenCommand& foreseen, std::span<TargetSolution> out, std::span<KnownPlace> known);
 
   void actuals(std::span<const ActualRequest> requests, std::span<ActualSolution> out);
+
+  /// What is asked next does not follow on the path: it begins at the start again, not at what was solved
+  /// last.
+  void begin_anew();
 
   const Model& model() const { return model_; }
 
@@ -79,7 +89,7 @@ class WaypointSolver {
   std::vector<Vector3> originals_;
   std::vector<LaneThrough> through_answers_;
   std::optional<PathSolver> one_by_one_;
-  bool strayed_ = false;  ///< lanes have solved since the last waypoint that was solved alone
+  bool strayed_ = false;  ///< the path has gone on since the last waypoint that was solved alone
 };
 
 }  // namespace counterflex

@@ -54,6 +54,20 @@ TEST_CASE("windows give the same bytes and numbers on any number of threads") {
   }
 }
 
+TEST_CASE("windows whose waypoints are solved side by side give the same bytes on any number of threads") {
+  for (const char* machine : {small_mill.c_str(), orthoglide_b.c_str()}) {
+    CAPTURE(machine);
+    Order order = cuts(600);
+    order.machine = load_machine(machine);
+    order.in_lanes = true;
+    const WindowRun one = in_windows(order, 280);
+    CHECK_FALSE(one.failure);
+    CHECK(one.windows >= 2);
+    order.threads = 3;
+    check_same_bytes(in_windows(order, 280), one);
+  }
+}
+
 TEST_CASE("the first window that fails is named on any number of threads, and none behind it is heard of") {
   for (const char* wrong : {"X99999", "X1 F", "X1 X2"}) {
     CAPTURE(wrong);

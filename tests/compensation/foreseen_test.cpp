@@ -11,8 +11,7 @@ namespace {
 
 // A run of one window that is stopped before it is verified.
 struct WrittenRun {
-  explicit WrittenRun(const Order& order) : shop(order), lanes(order.max_correction), job(shop.job()) {
-    job.lanes = &lanes;
+  explicit WrittenRun(const Order& order) : shop(in_lanes(order)), job(shop.job()) {
     CarriedState carried{Rewriter(job.options.write), TextReader(job.program, job.read)};
     begin_window(job, carried, work);
     plan_window(job, work);
@@ -41,8 +40,12 @@ struct WrittenRun {
     return result;
   }
 
+  static Order in_lanes(Order order) {
+    order.in_lanes = true;
+    return order;
+  }
+
   Shop shop;
-  LaneMachines lanes;
   Job job;
   WindowWork work;
 };
@@ -154,6 +157,37 @@ TEST_CASE("what was foreseen is not solved again, before and after") {
   }
 }
 
+TEST_CASE(
+    "a waypoint that is solved alone begins beside itself, whether what lies before it is known or not") {
+  Order order = order_of(absolute);
+  // Two lines far from each other have a load that lanes leave to others.
+  std::string rows = "# frame = machine\n# sense = on_tool\nline, fx_N, fy_N, fz_N\n";
+  for (int line = 4; line < 44; ++line)
+    rows += fmt::format("{}, {}, -5, 0\n", line, line == 12 || line == 35 ? 1500 : 20);
+  order.force.rules = read_force_csv(rows, "forces.csv");
+  order.force.blend = 0;
+  WrittenRun knows(order), does_not(order);
+  const std::vector<KnownSegment> known = knows.work.known;
+  does_not.work.known.clear();
+  const std::vector<Waypoint> a = knows.verify(), b = does_not.verify();
+  REQUIRE(a.size() == b.size());
+  std::size_t alone = 0, between = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    if (a[i].segment == no_segment || a[i].between) continue;
+    if (known[a[i].segment].end.after.known) {
+      between += alone > 0;
+      continue;
+    }
+    CAPTURE(a[i].line);
+    CHECK(a[i].iterations == b[i].iterations);
+    CHECK(a[i].before == b[i].before);
+    CHECK(a[i].after == b[i].after);
+    ++alone;
+  }
+  CHECK(alone == 2);
+  CHECK(between >= 20);
+}
+
 TEST_CASE("lines that are looked into when they are planned are not looked into again") {
   WrittenRun run(order_of(absolute));
   std::size_t looks = 0, found = 0;
@@ -170,12 +204,43 @@ TEST_CASE("lines that are looked into when they are planned are not looked into 
   CHECK(found + 1 >= looks);
 }
 
-TEST_CASE("a job without lanes foresees nothing") {
-  const Shop shop(order_of(absolute));
-  const Job job = shop.job();
-  CarriedState carried{Rewriter(job.options.write), TextReader(job.program, job.read)};
-  WindowWork work;
-  begin_window(job, carried, work);
-  plan_window(job, work);
-  CHECK(work.plan.known.empty());
+TEST_CASE("what planning finds does not depend on the number of threads") {
+  Order order = order_of(zigzag("G21 G90\nG0 X0. Y0. Z0.\nF1200\n", 700, "G1 X{:.3f} Y{:.3f} Z{:.3f}", 0.1));
+  const WrittenRun one(order);
+  order.threads = 3;
+  const WrittenRun three(order);
+  CHECK(one.count().foreseen > 650);
+  REQUIRE(one.work.known.size() == three.work.known.size());
+  const auto same = [](const KnownTip& a, const KnownTip& b) {
+    if (!a.known) return !b.known;
+    return b.known && a.command == b.command && a.X_MT.p == b.X_MT.p && a.X_MT.R == b.X_MT.R &&
+           a.iterations == b.iterations;
+  };
+  const auto same_place = [&](const KnownPlace& a, const KnownPlace& b) {
+    return same(a.before, b.before) && same(a.after, b.after) && a.load.F == b.load.F;
+  };
+  for (std::size_t s = 0; s < one.work.known.size(); ++s) {
+    CAPTURE(s);
+    const KnownSegment &a = one.work.known[s], &b = three.work.known[s];
+    CHECK(same_place(a.end, b.end));
+    REQUIRE(a.inside.has_value() == b.inside.has_value());
+    if (a.inside) CHECK(same_place(*a.inside, *b.inside));
+  }
+}
+
+TEST_CASE("without lanes, and where targets are not solved in them, no place is known") {
+  const Shop without(order_of(absolute));
+  Order nested = order_of(absolute);
+  nested.method = Method::nested;
+  nested.in_lanes = true;
+  const Shop other_method(nested);
+  for (const Shop* shop : {&without, &other_method}) {
+    const Job job = shop->job();
+    CarriedState carried{Rewriter(job.options.write), TextReader(job.program, job.read)};
+    WindowWork work;
+    begin_window(job, carried, work);
+    plan_window(job, work);
+    CHECK(!work.failed());
+    CHECK(work.plan.known.empty());
+  }
 }

@@ -1,4 +1,5 @@
 // Runs whose waypoints are solved side by side are the runs whose waypoints are solved one by one.
+#include "counterflex/machine/tool.hpp"
 #include "gantry.hpp"
 
 using namespace counterflex;
@@ -97,6 +98,29 @@ TEST_CASE(
   CHECK(!check_same_run(axes).failure);
   CHECK(!check_same_run({.machine = displaced_gantry(),
                          .text = "G21 G90\nG0 X0 Y0 Z0\nG1 X500 F100\nG2 X0 Y0 I-250 J0\nM30\n"})
+             .failure);
+}
+
+TEST_CASE("each tool's moves are compensated side by side as they are one by one") {
+  Order order{.machine = load_machine(mill),
+              .text =
+                  "G21 G90\nT1 M6\nG0 X10. Y10. Z-240.\nG1 X60. F600\nY25.\nX10.\nT2 M6\nG1 X60.\nY40.\n"
+                  "T1 M6\nG1 X20.\nM30\n",
+              .force = constant_force((Vector6() << 200, -100, 30, 0, 0, 0).finished())};
+  for (const auto& [number, stiffness] : {std::pair{1, 10e6}, {2, 40e6}})
+    order.machine.tools[number] = {.from = ToolStiffness::radial, .yields = radial_tool(stiffness)};
+  const Compensation together = check_same_run(order);
+  CHECK(!together.failure);
+  order.machine.tools.clear();
+  CHECK((together.waypoints.back().correction - check_same_run(order).waypoints.back().correction).norm() >
+        1e-5);
+}
+
+TEST_CASE("the nested method finds side by side what it finds one by one") {
+  CHECK(!check_same_run({.machine = load_machine(orthoglide_b),
+                         .text = "G21 G90\nG0 X0. Y0. Z0.\nG1 X10. F600\nG1 Y10.\nM30\n",
+                         .force = constant_force(milling()),
+                         .method = Method::nested})
              .failure);
 }
 

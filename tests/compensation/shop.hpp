@@ -45,6 +45,7 @@ struct Order {
   Vector3 datum_shift = Vector3::Zero();
   std::array<bool, 3> ignored{};  ///< program axes that the machine does not control
   ReadOptions read{};
+  bool in_lanes = false;  ///< waypoints side by side
 };
 
 /// Keeps alive what a job borrows.
@@ -66,9 +67,12 @@ struct Shop {
     options.threads = order.threads;
     options.write.decimals = order.decimals;
     datum_shift = order.datum_shift;
+    if (order.in_lanes) lanes.emplace(order.max_correction);
   }
 
-  Job job() const { return {model, program, path, *forces, options, read, &tools}; }
+  Job job() const {
+    return {model, program, path, *forces, options, read, &tools, lanes ? &*lanes : nullptr};
+  }
   Compensation run(bool attribution = false) const { return compensate(job(), attribution); }
 
   Model model;
@@ -80,6 +84,7 @@ struct Shop {
   std::optional<PathForces> forces;
   CompensationOptions options;
   Vector3 datum_shift;
+  std::optional<LaneMachines> lanes;
 };
 
 inline ForceSource constant_force(const Vector6& F, double blend = 2e-3) {

@@ -45,7 +45,11 @@ inline void run_in_windows(
   if (!order.machine.tools.empty())
     tools = prepare_tools(order.machine, model,
                           overview_of(read_program(order.text, "part.ngc", order.read)).tools);
-  JobWindows windows({model, frames, order.ignored, order.force, options, order.read, &tools}, reader);
+  std::optional<LaneMachines> lanes;
+  if (order.in_lanes) lanes.emplace(order.max_correction);
+  JobWindows windows(
+      {model, frames, order.ignored, order.force, options, order.read, &tools, lanes ? &*lanes : nullptr},
+      reader);
   const WindowEvents events{read, [&](const Job&) { ++run.begun; },
                             [&](const Job&, Compensation& done) { add(done, run); }};
   run.failure = compensate_windows(windows, options, TextReader(reader), false, events);
