@@ -116,17 +116,17 @@ Vector3 Emitter::correction_that_can_be_written(const Move& move, const Vector3&
 }
 
 Vector3 target_of(const Job& job, const Move& move) {
-  return commanded_by(job, move, move.end_mm);
+  return position_of_words(job, move, move.end_mm);
 }
 
 Curve command_of(const Job& job, const Move& move) {
-  const Pose& X_MW = job.path.frames[move.offset].X_MW;
-  if (!move.arc) return {X_MW * Vector3(move.start_mm * mm), X_MW * Vector3(move.end_mm * mm), {}};
+  if (!move.arc)
+    return {position_of_words(job, move, move.start_mm), position_of_words(job, move, move.end_mm), {}};
   Curve curve = curve_of(move);
   curve.start *= mm;
   curve.end *= mm;
   curve.arc->centre *= mm;
-  return X_MW * curve;
+  return job.path.frames[move.offset].X_MW * curve;
 }
 
 Vector3 wanted_of(const Job& job, const Move& move) {

@@ -2,8 +2,8 @@
 /// Goes through the moves of a program in order, keeps the correction that holds where the tool is, and what
 /// the emitted text holds.
 #include "arc_fit.hpp"
+#include "commands.hpp"
 #include "emit.hpp"
-#include "foresight.hpp"
 #include "path_solver.hpp"
 
 namespace counterflex {
@@ -25,7 +25,7 @@ class Emitter {
   void emit_move(std::size_t m, Index s);
   void emit_segment(std::size_t s);
   void emit_line(const Segment& segment, const PlannedSegment& planned, EmittedMove& emitted);
-  void finish_segment(const Segment& segment, const PlannedSegment& planned, double jump,
+  void finish_segment(const Segment& segment, const PlannedSegment& planned, double unsplit_miss,
                       EmittedMove& emitted);
   bool put_jump(const Segment& segment, const PlannedSegment& planned, EmittedMove& emitted, double& jump);
   Vector3 correction_that_can_be_written(const Move& move, const Vector3& correction) const;

@@ -8,7 +8,7 @@ namespace counterflex {
 
 void for_each_window(ProgramReader& reader, int threads, const std::function<void(const Program&)>& first,
                      const std::function<void(const Program&)>& behind) {
-  // With one window more than are looked at neither thread waits for the other's.
+  // One that is read, one that `behind` looks at, and one between them, so that neither waits for the other.
   std::vector<Program> windows(threads > 1 ? 3 : 1);
   const auto read = [&](std::size_t slot) {
     if (!reader.next()) return false;

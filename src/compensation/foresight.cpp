@@ -2,18 +2,10 @@
 
 #include <limits>
 
+#include "commands.hpp"
 #include "counterflex/geometry/curve.hpp"
-#include "counterflex/geometry/units.hpp"
 
 namespace counterflex {
-
-Vector3 in_words_mm(const Job& job, const Move& move, const Vector3& target) {
-  return inverse(job.path.frames[move.offset].X_MW) * target / mm;
-}
-
-Vector3 commanded_by(const Job& job, const Move& move, const Vector3& words_mm) {
-  return job.path.frames[move.offset].X_MW * (words_mm * mm);
-}
 
 // Nothing where a move between them may have come elsewhere.
 HeldPosition Foresight::before(std::size_t segment) const {
@@ -27,10 +19,10 @@ Vector3 Foresight::command(std::size_t segment, const HeldPosition& held) const 
   Vector3 words_mm;
   for (std::size_t axis = 0; axis < 3; ++axis)
     words_mm[static_cast<Eigen::Index>(axis)] = held[axis].value_or(std::numeric_limits<double>::quiet_NaN());
-  return commanded_by(*job_, job_->program.moves[job_->path.segments[segment].move], words_mm);
+  return position_of_words(*job_, job_->program.moves[job_->path.segments[segment].move], words_mm);
 }
 
-Vector3 Foresight::end(std::size_t segment, const Vector3& target) {
+Vector3 Foresight::foresee_end(std::size_t segment, const Vector3& target) {
   const Move& move = job_->program.moves[job_->path.segments[segment].move];
   before_ = before(segment);
   held_ = held_after(move, before_, in_words_mm(*job_, move, target), job_->options.write);

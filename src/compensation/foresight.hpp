@@ -5,12 +5,6 @@
 
 namespace counterflex {
 
-/// A target (M, m) in the program coordinates of a move (mm): what words are asked to say.
-Vector3 in_words_mm(const Job& job, const Move& move, const Vector3& target);
-
-/// The position (M, m) that words of a move command (program coordinates, mm).
-Vector3 commanded_by(const Job& job, const Move& move, const Vector3& words_mm);
-
 /// Foresees what is commanded along segments, one after another along the path: their ends in words rounded
 /// to their digits, as emission has them written, and the lines between them. Where it does not know what the
 /// text holds before a move, or where points are inserted, it may be wrong; who uses it compares.
@@ -20,7 +14,7 @@ class Foresight {
 
   /// The command (M, m) with which a segment ends whose target is `target` (M, m); no number where it cannot
   /// be foreseen.
-  Vector3 end(std::size_t segment, const Vector3& target);
+  Vector3 foresee_end(std::size_t segment, const Vector3& target);
 
   /// The command at a fraction of the line of which the end was foreseen last; no number for another segment.
   Vector3 inside(std::size_t segment, double u) const;

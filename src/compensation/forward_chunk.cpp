@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "commands.hpp"
 #include "track.hpp"
 
 namespace counterflex {
@@ -386,7 +387,7 @@ void ChunkForward::write_waypoint(std::size_t s, double share, std::vector<Waypo
   w.iterations = actuals_[s].iterations;
   if (w.status == Status::converged) w.after = deviation(actuals_[s].X_MT, wanted_[s].X_MT);
   const std::size_t frame = task.segment ? task.segment->frame : piece.frame;
-  const Vector3 original = w.p_MT - job_.path.frames[frame].datum_shift, emitted = requests_[s].target;
+  const Vector3 original = original_command(job_, frame, w.p_MT), emitted = requests_[s].target;
   w.correction.head<3>() = emitted - original;
   places_.push_back(
       {original, emitted, requests_[s].load, wanted_[s].X_MT, actuals_[s].X_MT, known_place(sample)});

@@ -43,9 +43,7 @@ class SourceBatch {
 
  private:
   static const KnownTip* known_answer(const ForwardPlace& place, const ActualRequest& request) {
-    const bool everything_acts = request.stage.errors == 1 && request.stage.load == 1 &&
-                                 request.stage.preload == 1 && request.stage.gravity == 1;
-    if (place.known == nullptr || !everything_acts) return nullptr;
+    if (place.known == nullptr || !everything_acts(request.stage)) return nullptr;
     return place.known->answer(request.target, request.load);
   }
 

@@ -6,6 +6,7 @@
 #include <limits>
 #include <vector>
 
+#include "commands.hpp"
 #include "counterflex/compensation/compensate.hpp"
 #include "counterflex/geometry/units.hpp"
 #include "emit.hpp"
@@ -104,7 +105,7 @@ class Matcher {
                         job_.path.segments[segment_].move == m;
     const auto target = solves ? expected_.at(segment_, 1, Side::before) : std::nullopt;
     if (!target) return original.end_mm + correction_mm_;
-    return inverse(job_.path.frames[original.offset].X_MW) * *target / mm;
+    return in_words_mm(job_, original, *target);
   }
 
   // Inserted blocks say motion, axes and F, and the F is the one that acts.

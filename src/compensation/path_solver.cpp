@@ -30,10 +30,6 @@ Configuration neighbour(const Configuration& loaded, const Configuration& nomina
   return start;
 }
 
-bool everything_acts(const Stage& stage) {
-  return stage.errors == 1 && stage.load == 1 && stage.preload == 1 && stage.gravity == 1;
-}
-
 }  // namespace
 
 Load load_at(const Job& job, std::size_t segment, double fraction) {

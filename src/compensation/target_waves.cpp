@@ -1,5 +1,6 @@
 #include "target_waves.hpp"
 
+#include "commands.hpp"
 #include "counterflex/compensation/waypoint.hpp"
 #include "track.hpp"
 
@@ -63,9 +64,9 @@ Answer TargetWaves::ask_apart(std::size_t segment, const Vector6& F) {
 
 void TargetWaves::ask_through(Answer a, double u) {
   if (!has_lanes_for_targets(job_)) return;
-  const Vector3& datum_shift = job_.path.frames[job_.path.segments[segments_[a]].frame].datum_shift;
   number_through_[a] = through_.size();
-  through_.push_back({a, requests_[a].p_MT - datum_shift});
+  const std::size_t frame = job_.path.segments[segments_[a]].frame;
+  through_.push_back({a, original_command(job_, frame, requests_[a].p_MT)});
   fractions_.push_back(u);
 }
 
@@ -83,7 +84,7 @@ bool TargetWaves::solve() {
   const auto foreseen = [&](std::size_t i, const Vector3& target) {
     const std::size_t segment = segments_[first + wave_[i].target];
     const double u = fractions_[first_through + i];
-    return u == 1 ? foresight_.end(segment, target) : foresight_.inside(segment, u);
+    return u == 1 ? foresight_.foresee_end(segment, target) : foresight_.inside(segment, u);
   };
   solver_.targets(std::span(requests_).subspan(first), wave_, foreseen, std::span(solutions_).subspan(first),
                   std::span(known_).subspan(first_through));

@@ -66,7 +66,8 @@ Vector3 log_so3(const Matrix3& R) {
 
 Vector3 rotation_between(const Matrix3& R_to, const Matrix3& R_from) {
   // R_to R_from' - R_from R_to' = 2 sin t [a]x for the rotation by t about a: the vector of it is the sum of
-  // cross products of columns. t = (1 + s^2/6 + 3 s^4/40 + ...) s, s = sin t; the next term is below 1e-17.
+  // cross products of columns. t = (1 + s^2/6 + 3 s^4/40 + 5 s^6/112 + ...) s, s = sin t; the next term is
+  // below 1e-17.
   const Vector3 v = 0.5 * (R_from.col(0).cross(R_to.col(0)) + R_from.col(1).cross(R_to.col(1)) +
                            R_from.col(2).cross(R_to.col(2)));
   const double s2 = v.squaredNorm(), trace = R_from.cwiseProduct(R_to).sum();

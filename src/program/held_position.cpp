@@ -179,8 +179,7 @@ double held_by_word(const Move& move, std::size_t axis, double wanted_mm, const 
   const double end_mm = component(move.end_mm, axis), wanted = in_unit(wanted_mm, move.unit);
   const int decimals = decimals_of_word(move, decimals_shown(move.words[axis]), Place::end, options);
   if (rounds_to(in_unit(end_mm, move.unit), wanted, decimals)) return end_mm;
-  const std::optional<double> steps = whole_steps(wanted, decimals);
-  return (steps ? value_of_steps(*steps, decimals) : rounded(wanted, decimals)) * mm_per(move.unit);
+  return rounded(wanted, decimals) * mm_per(move.unit);
 }
 
 }  // namespace

@@ -43,4 +43,8 @@ struct Stage {
 };
 inline constexpr Stage nominal_stage{0, 0, 0, 0};
 
+inline bool everything_acts(const Stage& stage) {
+  return stage.errors == 1 && stage.load == 1 && stage.preload == 1 && stage.gravity == 1;
+}
+
 }  // namespace counterflex

@@ -1,0 +1,17 @@
+#pragma once
+/// Positions in the words of a program, and what they command.
+#include "counterflex/compensation/options.hpp"
+
+namespace counterflex {
+
+/// A target (M, m) in the program coordinates of a move (mm): what words are asked to say.
+Vector3 in_words_mm(const Job& job, const Move& move, const Vector3& target);
+
+/// The position (M, m) that words of a move command (program coordinates, mm).
+Vector3 position_of_words(const Job& job, const Move& move, const Vector3& words_mm);
+
+/// What the original program commands (M, m) where the tip is wanted at `p_MT`; `frame`: index into
+/// Toolpath::frames.
+Vector3 original_command(const Job& job, std::size_t frame, const Vector3& p_MT);
+
+}  // namespace counterflex
