@@ -7,8 +7,9 @@ namespace counterflex::lanes {
 template <int W>
 class LaneCertificate {
   using Kernel = LaneKernel<W>;
-  using V = typename Kernel::V;
-  using M = typename Kernel::M;
+  using Vectors = LaneVectors<W>;
+  using V = typename Vectors::V;
+  using M = typename Vectors::M;
 
   static constexpr double smallest_diagonal = 1e-7, largest_penalty = 1e4, margin = 1e-7;
 
@@ -46,7 +47,7 @@ class LaneCertificate {
         for (int i = 0; i < 36; ++i) K[i] += least_[36L * s + i];
     subtract_load(batch, first, K);
     V largest{};
-    for (const V& x : K) largest = Kernel::larger(largest, Kernel::magnitude(x));
+    for (const V& x : K) largest = Vectors::larger(largest, Vectors::magnitude(x));
     for (int i = 0; i < 6; ++i) K[7 * i] -= margin * largest;
     factor(K, 6, 0);
     return ok_;
@@ -58,11 +59,11 @@ class LaneCertificate {
   void subtract_load(const Batch& batch, int first, V* K) {
     V arm[3], r[3];
     const V* f = kernel_.F_;
-    for (int i = 0; i < 3; ++i) arm[i] = Kernel::broadcast(program_.arm[i]);
-    Kernel::rotate(kernel_.state_ + program_.platform, arm, r);
+    for (int i = 0; i < 3; ++i) arm[i] = Vectors::broadcast(program_.arm[i]);
+    Vectors::rotate(kernel_.state_ + program_.platform, arm, r);
     for (int i = 0; i < 3; ++i)
       for (int lane = 0; lane < W; ++lane) kernel_.F_[i][lane] = batch.F[i][first + lane];
-    const V along = Kernel::dot(f, r);
+    const V along = Vectors::dot(f, r);
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j)
         K[6 * (3 + i) + 3 + j] -= (0.5 * (r[i] * f[j] + r[j] * f[i]) - (i == j ? along : V{})) * (1 / energy());
@@ -88,7 +89,7 @@ class LaneCertificate {
         C[6 * i + j] = sum;
       }
     factor(C, 6, smallest_diagonal);
-    for (int i = 0; i < 36; ++i) columns[i] = Kernel::broadcast(i % 7 == 0 ? 1 : 0);
+    for (int i = 0; i < 36; ++i) columns[i] = Vectors::broadcast(i % 7 == 0 ? 1 : 0);
     for (int r = 0; r < 6; ++r) solve_lower(C, 6, columns + r, Z + r, 6);
     for (int i = 0; i < 6; ++i)
       for (int j = 0; j < 6; ++j) {
@@ -105,7 +106,7 @@ class LaneCertificate {
 
   void put_turn(int c, const V* w, const V* r) {
     V v[3];
-    Kernel::cross(w, r, v);
+    Vectors::cross(w, r, v);
     put_column(c, v, w);
   }
 
@@ -131,9 +132,9 @@ class LaneCertificate {
     if (part.operation == Operation::spring)
       left_jacobian(kernel_.state_ + part.value + 3, axes);
     else
-      for (int i = 0; i < 9; ++i) axes[i] = Kernel::broadcast(i % 4 == 0 ? 1 : 0);
+      for (int i = 0; i < 9; ++i) axes[i] = Vectors::broadcast(i % 4 == 0 ? 1 : 0);
     V turned[9];
-    Kernel::multiply(R, axes, turned);
+    Vectors::multiply(R, axes, turned);
     const V none[3]{};
     for (int i = 0; i < 3; ++i) {
       const V v[3] = {R[i], R[3 + i], R[6 + i]}, w[3] = {turned[i], turned[3 + i], turned[6 + i]};
@@ -145,8 +146,8 @@ class LaneCertificate {
   // J_l = I + b [phi] + c [phi]^2
   static void left_jacobian(const V* phi, V* J) {
     V a, b, c;
-    const V t2 = Kernel::dot(phi, phi);
-    Kernel::exp_coefficients(t2, a, b, c);
+    const V t2 = Vectors::dot(phi, phi);
+    Vectors::exp_coefficients(t2, a, b, c);
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j) J[3 * i + j] = c * phi[i] * phi[j] + (i == j ? 1 - c * t2 : V{});
     for (int i = 0; i < 3; ++i) {
@@ -161,10 +162,10 @@ class LaneCertificate {
     const V *f = kernel_.state_ + series.wrench, *m = f + 3;
     for (int k = 0; k < n; ++k) {
       V f_x_w[3], m_x_w[3];
-      Kernel::cross(f, w_ + 3 * k, f_x_w);
-      Kernel::cross(m, w_ + 3 * k, m_x_w);
+      Vectors::cross(f, w_ + 3 * k, f_x_w);
+      Vectors::cross(m, w_ + 3 * k, m_x_w);
       for (int j = k; j < n; ++j)
-        A_[j * n + k] = -Kernel::dot(v_ + 3 * j, f_x_w) - 0.5 * Kernel::dot(w_ + 3 * j, m_x_w);
+        A_[j * n + k] = -Vectors::dot(v_ + 3 * j, f_x_w) - 0.5 * Vectors::dot(w_ + 3 * j, m_x_w);
     }
     for (int k = 0; k < series.part_count; ++k) {
       const Part& part = series.parts[k];
@@ -178,9 +179,9 @@ class LaneCertificate {
     const int c = part.row - 3;
     for (int k = 0; k < 3; ++k) {
       V f_x_w[3];
-      Kernel::cross(f, w_ + 3 * (c + k), f_x_w);
+      Vectors::cross(f, w_ + 3 * (c + k), f_x_w);
       for (int j = 0; j < 3; ++j) {
-        const V half = 0.5 * Kernel::dot(v_ + 3 * (c + j), f_x_w);
+        const V half = 0.5 * Vectors::dot(v_ + 3 * (c + j), f_x_w);
         V& entry = A_[(c + (j > k ? j : k)) * n + c + (j > k ? k : j)];
         if (j == k)
           entry = -2 * half;
@@ -191,9 +192,9 @@ class LaneCertificate {
     if (part.operation != Operation::spring) return;
     V r[3], M_o[3], M_before[3], D[9];
     for (int i = 0; i < 3; ++i) r[i] = end_.p[i] - at.o[i];
-    Kernel::cross(r, f, M_o);
+    Vectors::cross(r, f, M_o);
     for (int i = 0; i < 3; ++i) M_o[i] += m[i];
-    Kernel::into(at.R, M_o, M_before);
+    Vectors::into(at.R, M_o, M_before);
     bend_of_jacobian(kernel_.state_ + part.value + 3, M_before, D);
     for (int j = 0; j < 3; ++j)
       for (int k = 0; k <= j; ++k) A_[(c + j) * n + c + k] -= 0.5 * (D[3 * j + k] + D[3 * k + j]);
@@ -201,19 +202,19 @@ class LaneCertificate {
 
   // Column k: (dJ_l / dphi_k)' M.
   static void bend_of_jacobian(const V* phi, const V* moment, V* D) {
-    const V t2 = Kernel::dot(phi, phi);
+    const V t2 = Vectors::dot(phi, phi);
     V a, b, c, turned[3], twice[3];
-    Kernel::exp_coefficients(t2, a, b, c);
+    Vectors::exp_coefficients(t2, a, b, c);
     const V db = 2 * (-1.0 / 24 + t2 * (1.0 / 360 - t2 * (1.0 / 13440 - t2 * (1.0 / 907200))));
     const V dc = 2 * (-1.0 / 120 + t2 * (1.0 / 2520 - t2 * (1.0 / 120960 - t2 * (1.0 / 9979200))));
-    Kernel::cross(phi, moment, turned);
-    Kernel::cross(phi, turned, twice);
+    Vectors::cross(phi, moment, turned);
+    Vectors::cross(phi, turned, twice);
     for (int k = 0; k < 3; ++k) {
       V unit[3]{}, one[3], two[3], three[3];
       unit[k] += 1;
-      Kernel::cross(unit, moment, one);
-      Kernel::cross(phi, one, two);
-      Kernel::cross(unit, turned, three);
+      Vectors::cross(unit, moment, one);
+      Vectors::cross(phi, one, two);
+      Vectors::cross(unit, turned, three);
       for (int i = 0; i < 3; ++i)
         D[3 * i + k] = phi[k] * (dc * twice[i] - db * turned[i]) - b * one[i] + c * (two[i] + three[i]);
     }
@@ -256,8 +257,8 @@ class LaneCertificate {
   V penalise(int n) {
     V rho{};
     for (int i = 0; i < n; ++i)
-      for (int j = 0; j <= i; ++j) rho = Kernel::larger(rho, Kernel::magnitude(A_[i * n + j]));
-    rho = Kernel::larger(Kernel::broadcast(1), 10 * rho);
+      for (int j = 0; j <= i; ++j) rho = Vectors::larger(rho, Vectors::magnitude(A_[i * n + j]));
+    rho = Vectors::larger(Vectors::broadcast(1), 10 * rho);
     ok_ &= rho <= largest_penalty;
     for (int i = 0; i < n; ++i)
       for (int j = 0; j <= i; ++j) {
@@ -280,7 +281,7 @@ class LaneCertificate {
         }
         const M positive = sum > smallest * smallest;
         ok_ &= positive;
-        A[i * n + i] = 1 / Kernel::root(Kernel::select(positive, sum, Kernel::broadcast(1)));
+        A[i * n + i] = 1 / Vectors::root(Vectors::select(positive, sum, Vectors::broadcast(1)));
       }
   }
 

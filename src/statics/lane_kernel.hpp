@@ -20,12 +20,10 @@ class LaneKernel : LaneSeries<W> {
   using Base::magnitude;
   using Base::dot;
   using Base::cross;
-  using Base::into;
   using Base::rotate;
   using Base::multiply;
   using Base::product;
   using Base::add_product;
-  using Base::exp_coefficients;
   using Base::any;
   using Base::root;
   using Base::place;

@@ -49,14 +49,20 @@ bool surely_stable_alone(const Model& model, Certified& in, int lane, const Load
   return surely_stable(model.mechanism, in.work.impl().chains, applied.tangent, {model.mechanism.length});
 }
 
+template <class Check>  // void(const LaneTrial&, const Model&, const Vector3& p)
+void for_lane_trials(const Check& check) {
+  for (const LaneTrial& lane_trial : lane_trials()) {
+    CAPTURE(lane_trial.trial.name);
+    const Model model = prepare(lane_trial.machine);
+    check(lane_trial, model, tip(model.mechanism, model.home).p + lane_trial.trial.centre);
+  }
+}
+
 }  // namespace
 
 TEST_CASE("lanes prove stable what is proven so alone, and nothing else, up to loads that no machine bears") {
   Random random(61);
-  for (const LaneTrial& lane_trial : lane_trials()) {
-    CAPTURE(lane_trial.trial.name);
-    const Model model = prepare(lane_trial.machine);
-    const Vector3 p = tip(model.mechanism, model.home).p + lane_trial.trial.centre;
+  for_lane_trials([&](const LaneTrial& lane_trial, const Model& model, const Vector3& p) {
     Certified in(model, lane_trial.at_platform, p);
     REQUIRE(in.zone != nullptr);
     int proven = 0;
@@ -75,21 +81,18 @@ TEST_CASE("lanes prove stable what is proven so alone, and nothing else, up to l
       }
     }
     CHECK(proven >= 8);
-  }
+  });
 }
 
 TEST_CASE("all lane kernels prove the same") {
   Random random(67);
-  for (const LaneTrial& lane_trial : lane_trials()) {
-    CAPTURE(lane_trial.trial.name);
-    const Model model = prepare(lane_trial.machine);
-    const Vector3 p = tip(model.mechanism, model.home).p + lane_trial.trial.centre;
+  for_lane_trials([&](const LaneTrial& lane_trial, const Model& model, const Vector3& p) {
     const auto requests = eight_about(p, random, lane_trial.trial, 10);
     const auto expected = Certified(model, lane_trial.at_platform, p).solve(requests, true);
     const lanes::Kernels kernels = lanes::all_kernels();
     for (int i = 0; i < kernels.count; ++i)
       CHECK(Certified(model, lane_trial.at_platform, p, kernels.list[i]).solve(requests, true) == expected);
-  }
+  });
 }
 
 TEST_CASE("the corners of loads hold every force with every moment, a quarter further out") {

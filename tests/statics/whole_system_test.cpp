@@ -2,6 +2,7 @@
 #include "whole_system.hpp"
 
 #include "laws_weights.hpp"
+#include "newton.hpp"
 
 using namespace counterflex;
 using namespace counterflex::laws;
@@ -84,4 +85,25 @@ elements = [{ spring = "s" }, { rigid = { xyz_mm = [0, 0, 0] } }])");
   StaticsWork work(model.mechanism);
   CHECK(model.mechanism.length == 0.1);  // so 10000 N m/rad stand for 1e6 N/m, and 50000 for 5e6
   CHECK(stability(model, model.home, {}, {}, work) == doctest::Approx(1e6 / 5e6).epsilon(1e-9));
+}
+
+TEST_CASE(
+    "a platform that ends elsewhere than foreseen by more than half of its way has jumped, unless it is by "
+    "next to nothing") {
+  const Model model = model_of(controlled_machines().front().name);
+  const double l = model.mechanism.length;
+  const auto moved_by = [&](double way) {
+    Configuration configuration = model.home;
+    configuration.X_MP.p.x() += way * l;
+    return configuration;
+  };
+  const auto jumps = [&](double foreseen, double way) {
+    return ends_elsewhere(model.mechanism, model.home, moved_by(foreseen), moved_by(way));
+  };
+  CHECK(!jumps(0.01, 0.01));
+  CHECK(!jumps(0.01, 0.0149));
+  CHECK(jumps(0.01, 0.0151));
+  CHECK(jumps(0.01, 0.0049));
+  CHECK(!jumps(0, 0.9e-4));
+  CHECK(jumps(0, 1.1e-4));
 }

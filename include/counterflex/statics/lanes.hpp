@@ -35,7 +35,8 @@ struct LaneThrough {
 };
 
 /// The position that will really be commanded for a target that is to be commanded by request `i` (M, m); no number where
-/// that is not known. Called for the targets that were solved, in the order of requests.
+/// that is not known. Called for targets that converged, in the order of requests; answers under loads that are not borne are
+/// withdrawn afterwards.
 using LaneWritten = std::function<Vector3(std::size_t i, const Vector3& command)>;
 
 /// What lanes need to know of a machine, found where waypoints are and kept. Shared by threads; what is found for a place
