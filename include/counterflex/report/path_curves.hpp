@@ -1,0 +1,127 @@
+#pragma once
+/// The path in a bounded number of stretches, for curves and pictures: what a plot can show of a program of any
+/// length, without losing a peak. Lengths in mm, angles in degrees, as reports show them.
+#include <array>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "counterflex/compensation/waypoint.hpp"
+
+namespace counterflex {
+
+/// What has a curve. Deviations are actual minus wanted, axes of the machine; names end in their unit.
+enum class Quantity : std::uint8_t {
+  before_x,
+  before_y,
+  before_z,
+  before,  ///< norm
+  before_along,
+  before_across,
+  before_tool_axis,
+  before_rotation,
+  after_x,
+  after_y,
+  after_z,
+  after,
+  after_along,
+  after_across,
+  after_tool_axis,
+  after_rotation,
+  geometry_x,
+  geometry_y,
+  geometry_z,
+  geometry,
+  load_x,
+  load_y,
+  load_z,
+  load,
+  gravity_x,
+  gravity_y,
+  gravity_z,
+  gravity,
+  superposition_x,
+  superposition_y,
+  superposition_z,
+  superposition,
+  discrepancy_x,  ///< before minus superposition
+  discrepancy_y,
+  discrepancy_z,
+  discrepancy,
+  air,
+  correction_x,
+  correction_y,
+  correction_z,
+  correction,
+  force_x,
+  force_y,
+  force_z,
+  force,
+};
+inline constexpr std::size_t quantity_count = static_cast<std::size_t>(Quantity::force) + 1;
+
+/// "before_x_mm", "before_mm", "before_rotation_deg", "force_N": as the page's data has it.
+std::string_view name_of(Quantity quantity);
+
+/// Consecutive waypoints of feed moves.
+struct Stretch {
+  double s_mm = 0;      ///< cutting path length where it ends
+  int first_line = 0;   ///< of the original program, in the order of the path
+  int last_line = 0;
+  std::int32_t operation = -1;     ///< of its first waypoint, as the caller counts them; -1: not said
+  bool begins_after_rapid = false; ///< a rapid precedes a waypoint of it
+  /// At the waypoint with the largest deviation `after` (of a prediction: `before`): the wanted tip, and the
+  /// deviations there; NaN where unknown.
+  std::array<float, 3> place{}, before{}, after{};
+  std::array<float, quantity_count> least{}, largest{};  ///< NaN where nothing is known
+};
+
+/// A place on the path that a plot marks.
+struct PathMark {
+  double s_mm = 0;
+  int line = 0;
+};
+
+/// The first ones, and how many there are.
+struct PathMarks {
+  std::vector<PathMark> rows;
+  std::size_t count = 0;
+};
+
+/// Gathers waypoints in the order of the path. Waypoints that were not solved are passed over. While there are
+/// at most `most_stretches` each has a stretch of its own; where there are more, neighbours are merged two by
+/// two, again and again, so that memory stays bounded.
+class PathCurves {
+ public:
+  static constexpr std::size_t most_stretches = 8192;
+  static constexpr std::size_t most_marks = 2000;
+
+  /// `corrected`: whether there is a corrected program, so that after, correction and air mean something.
+  explicit PathCurves(bool corrected);
+
+  /// The next waypoint; `operation` as the caller counts them.
+  void add(const Waypoint& w, std::int32_t operation);
+
+  /// A step of the force profile.
+  void add_force_step(double s_mm, int line);
+
+  /// All so far, in order; where waypoints were merged the last stretch may be shorter than the others.
+  const std::vector<Stretch>& stretches() const;
+  std::size_t waypoints_per_stretch() const { return per_stretch_; }  ///< a power of two; 1: nothing was merged
+  std::size_t waypoints() const { return waypoints_; }
+  const PathMarks& rapids() const { return rapids_; }
+  const PathMarks& force_steps() const { return force_steps_; }
+  bool corrected() const { return corrected_; }
+
+ private:
+  void merge_neighbours();
+
+  bool corrected_;
+  std::vector<Stretch> stretches_;
+  std::size_t per_stretch_ = 1, in_last_ = 0, waypoints_ = 0;
+  bool after_rapid_ = false;
+  PathMarks rapids_, force_steps_;
+};
+
+}  // namespace counterflex
