@@ -1,6 +1,7 @@
 'use strict';
 (() => {
   const {colour} = counterflex.theme;
+  const {data} = counterflex;
   const closest = 34;  // px between labels of lines
 
   function vertical(canvas, area, x, dash, width) {
@@ -46,7 +47,7 @@
   /** Where blocks end, from the lines of neighbouring stretches; none where a stretch holds several blocks. */
   function blockEnds(curves) {
     const marks = [];
-    if (!curves || curves.waypoints_per_stretch > 1) return marks;
+    if (curves.waypoints_per_stretch > 1) return marks;
     const {s_mm: s, first_line: line} = curves;
     for (let i = 0; i < s.length; ++i) if (i === 0 || line[i] !== line[i - 1]) marks.push({s: i === 0 ? 0 : s[i - 1], line: line[i]});
     return marks;
@@ -55,8 +56,9 @@
   /** Marks of a run in path length: where blocks begin, rapids, steps of the force. */
   function of(run) {
     const {curves} = run;
-    const zipped = (m) => (m ? m.s_mm.map((s, i) => ({s, line: m.line[i]})) : []);
-    return {blocks: blockEnds(curves), rapids: zipped(curves && curves.rapids), steps: zipped(curves && curves.force_steps)};
+    if (!curves) return {blocks: [], rapids: [], steps: []};
+    const placed = (marks) => marks.s_mm.map((s) => ({s, line: curves.first_line[data.stretchAt(curves, s)]}));
+    return {blocks: blockEnds(curves), rapids: placed(curves.rapids), steps: placed(curves.force_steps)};
   }
 
   function drawBlocks(canvas, area, blocks) {

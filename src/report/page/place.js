@@ -14,7 +14,7 @@
   /** What is known of a stretch of the path, in the form of a row of the worst blocks. */
   function ofStretch(run, i) {
     const c = run.curves;
-    const operation = run.report.operations[c.operation[i]];
+    const operation = (run.report.operations || [])[c.operation[i]];
     const causes = {};
     for (const part of ['geometry', 'load', 'gravity', 'discrepancy']) causes[`${part}_mm`] = at(c, `${part}_mm`, i);
     return {

@@ -33,6 +33,24 @@
   /** Magnitudes, for a logarithmic scale; what is zero cannot be on it. */
   const magnitudes = (rows) => rows.map((row) => row.map((v, c) => (c === 0 || v === null || Number.isNaN(v) ? v : Math.abs(v) || null)));
 
+  /** Values that the range of the plot must hold although no curve reaches them: levels that are not far from the curves. */
+  function heldLevels({rows, levels}) {
+    if (!levels || levels.length === 0) return [];
+    let largest = 0;
+    for (const row of rows) for (let c = 1; c < row.length; ++c) if (Math.abs(row[c]) > largest) largest = Math.abs(row[c]);
+    return levels.map((level) => level.value).filter((value) => Math.abs(value) < 5 * largest);
+  }
+
+  /** Rows with a column more for each value held: a series that is not drawn. */
+  const withLevels = (rows, held) => (held.length === 0 ? rows : rows.map((row) => row.concat(held)));
+
+  /** Options of each series by its name; those of levels make them invisible. */
+  function seriesOptions(series, held) {
+    const drawn = series.map((s) => [s.label, {strokePattern: s.dash || null, strokeWidth: s.width || 2}]);
+    const hidden = held.map((_, i) => [`level ${i}`, {plotter: () => {}, highlightCircleSize: 0}]);
+    return Object.fromEntries([...drawn, ...hidden]);
+  }
+
   /** What is in view, in the unit of the axis; null: all. */
   function windowOf({group, context}) {
     return group.window && group.window.map((s) => s * context.units.lengthScale);
@@ -40,17 +58,18 @@
 
   /** What changes with data, unit, theme and window. */
   function options(plot) {
-    const {content} = plot;
+    const {series, rows, log} = plot.content;
+    const held = heldLevels(plot.content);
     const axis = {axisLineColor: colour('--muted'), gridLineColor: colour('--line'), axisLabelFontSize: 12, axisLabelFormatter: tick};
     return {
-      file: content.log ? magnitudes(content.rows) : content.rows,
-      labels: ['s', ...content.series.map((s) => s.label)],
-      colors: content.series.map((s) => colour(s.colour)),
-      series: Object.fromEntries(content.series.map((s) => [s.label, {strokePattern: s.dash || null, strokeWidth: s.width || 2}])),
-      visibility: content.series.map((s) => !plot.hidden.has(s.label)),
+      file: withLevels(log ? magnitudes(rows) : rows, held),
+      labels: ['s', ...series.map((s) => s.label), ...held.map((_, i) => `level ${i}`)],
+      colors: [...series.map((s) => colour(s.colour)), ...held.map(() => colour('--limit'))],
+      series: seriesOptions(series, held),
+      visibility: [...series.map((s) => !plot.hidden.has(s.label)), ...held.map(() => true)],
       dateWindow: windowOf(plot),
-      logscale: Boolean(content.log),
-      includeZero: !content.log,
+      logscale: Boolean(log),
+      includeZero: !log,
       axes: {x: {...axis, drawGrid: false, ticker: Dygraph.numericTicks}, y: {...axis, axisLabelWidth: 64, pixelsPerLabel: 26}},
     };
   }

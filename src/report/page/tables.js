@@ -54,7 +54,7 @@
   function aligned(runs) {
     const rows = [];
     runs.forEach((run, r) => {
-      for (const operation of run.report.operations) {
+      for (const operation of run.report.operations || []) {
         const free = (row) => !row.of[r] && row.operation.tool === operation.tool && row.operation.operation === operation.operation;
         let row = rows.find(free);
         if (!row) rows.push(row = {operation, of: []});
@@ -84,7 +84,7 @@
     const columns = [{title: 'Operation', class: 'text'}, {title: 'Tool'}, {title: 'Lines'}, {title: 'Moves', number: true},
       {title: `Length, ${units.lengthLabel}`, number: true}, corrected && {title: 'Corrected', number: true},
       ...acrossTitles(runs, 'Before'), ...(corrected ? acrossTitles(runs, 'After') : [])].filter(Boolean);
-    const count = Math.max(...runs.map((run) => run.report.operation_count));
+    const count = Math.max(...runs.map((run) => run.report.operation_count || 0));
     return [table(`Largest deviation, in ${units.label}`, columns, rows.map((row) => operationRow(row, context, corrected))),
       count > rows.length ? el('p', {class: 'note'}, `and ${count - rows.length} more`) : null];
   }
