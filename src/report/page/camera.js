@@ -51,10 +51,11 @@
    */
   function fit(camera, box, size, margin) {
     const {right, up} = basis(camera);
-    const largest = Math.max(...box.high.map((v, i) => v - box.low[i])) || 10;
+    const largest = Math.max(...box.high.map((v, i) => v - box.low[i]));
+    const least = largest > 0 ? 0.05 * largest : 10;
     const extent = (axis) => {
       const along = corners(box).map((p) => dot(axis, p));
-      return Math.max(Math.max(...along) - Math.min(...along), 0.05 * largest);
+      return Math.max(Math.max(...along) - Math.min(...along), least);
     };
     const free = (length) => Math.max(0.4 * length, length - 2 * margin);
     const k = Math.min(free(size.width) / extent(right), free(size.height) / extent(up));

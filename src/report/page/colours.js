@@ -2,16 +2,16 @@
 /**
  * The colour scale of deviations, and colours of a theme.
  *
- * Small deviations are blue, large ones yellow (dark ground) or brown (light ground); the lightness runs one way,
+ * Small deviations are blue, large ones yellow (dark ground) or dark red (light ground); the lightness runs one way,
  * away from the ground, so that the scale reads without colour vision and on a grey printer. It is interpolated in
  * OKLab between a few points. Source: B. Ottosson, "A perceptual color space for image processing", 2020.
  */
 (() => {
   /** Points of the scale: [fraction, lightness 0..1, chroma, hue in degrees]. */
-  const onLight = [[0, 0.76, 0.10, 238], [0.3, 0.65, 0.10, 245], [0.55, 0.54, 0.06, 60], [0.8, 0.44, 0.11, 48],
-    [1, 0.31, 0.10, 32]];
-  const onDark = [[0, 0.47, 0.13, 262], [0.3, 0.58, 0.10, 252], [0.55, 0.70, 0.06, 110], [0.8, 0.82, 0.13, 92],
-    [1, 0.95, 0.14, 102]];
+  const onLight = [[0, 0.78, 0.11, 232], [0.3, 0.66, 0.14, 258], [0.55, 0.55, 0.19, 318], [0.8, 0.44, 0.17, 10],
+    [1, 0.29, 0.11, 28]];
+  const onDark = [[0, 0.48, 0.14, 264], [0.3, 0.59, 0.11, 225], [0.55, 0.71, 0.14, 158], [0.8, 0.83, 0.17, 115],
+    [1, 0.96, 0.13, 103]];
 
   const fromLinear = (v) => (v <= 0.0031308 ? 12.92 * v : 1.055 * v ** (1 / 2.4) - 0.055);
   const toLinear = (v) => (v <= 0.04045 ? v / 12.92 : ((v + 0.055) / 1.055) ** 2.4);

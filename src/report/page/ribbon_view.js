@@ -98,7 +98,7 @@
   function meshOf(layer) {
     const material = new THREE.ShaderMaterial({vertexShader: vertexShader, fragmentShader: fragmentShader,
       uniforms: Object.fromEntries(uniformNames.map((name) => [name, {value: 0}])), side: THREE.DoubleSide,
-      transparent: true});
+      transparent: true, depthWrite: layer.covers, depthTest: layer.covers});
     const mesh = new THREE.Mesh(geometryOf(layer.path, layer.style === 'rapid'), material);
     mesh.frustumCulled = false;
     return mesh;

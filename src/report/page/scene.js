@@ -38,14 +38,17 @@
     return {root, stage, canvas, paper, said};
   }
 
-  /** The layers of a picture, from the bottom: rapids, the wanted path, and the one that is shown. */
+  /**
+   * The layers of a picture, from the bottom: rapids, the wanted path, and the one that is shown. What `covers` hides
+   * what is behind it; the wanted path beside another never does.
+   */
   function layersOf({path, kind, factor}, theme) {
-    const base = {path, factor: 0, opacity: 1, dash: [], width: 2, colour: theme.muted};
+    const base = {path, factor: 0, opacity: 1, covers: false, dash: [], width: 2, colour: theme.muted};
     const dot = path.count === 1 ? 4 : 1;
     const rapids = {...base, factor, style: 'rapid', width: 1.2, dash: [5, 4], opacity: 0.8};
-    const wanted = {...base, style: 'plain', colour: theme.ink, opacity: kind === 'wanted' ? 1 : 0.45,
+    const wanted = {...base, style: 'plain', covers: kind === 'wanted', colour: theme.ink, opacity: kind === 'wanted' ? 1 : 0.45,
       width: (kind === 'wanted' ? 2.5 : 1.2) * dot};
-    const shown = {...base, factor, style: 'deviation', width: 4 * dot};
+    const shown = {...base, factor, style: 'deviation', covers: true, width: 4 * dot};
     return kind === 'wanted' ? [rapids, wanted] : [rapids, wanted, shown];
   }
 
