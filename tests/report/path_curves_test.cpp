@@ -148,6 +148,14 @@ TEST_CASE("of a prediction there is nothing after, and waypoints that were not s
   CHECK(value(stretch.largest, Quantity::before) == doctest::Approx(0.5));
 }
 
+TEST_CASE("gravity has a curve where weights act, and none elsewhere") {
+  for (const bool weighs : {false, true}) {
+    PathCurves curves(true, weighs);
+    curves.add(step(0, 0.5), 0);
+    CHECK(std::isnan(value(curves.stretches()[0].largest, Quantity::gravity)) != weighs);
+  }
+}
+
 TEST_CASE("marks are thinned out evenly, and counted") {
   PathMarks marks;
   for (int i = 0; i < 10000; ++i) marks.add(i);
