@@ -33,7 +33,7 @@ float largest_of_all(const PathCurves& curves, Quantity quantity) {
 }
 
 PathCurves with_spikes(std::size_t count, const std::vector<std::size_t>& spikes) {
-  PathCurves curves(true);
+  PathCurves curves(true, true);
   for (std::size_t i = 0; i < count; ++i) {
     const auto spike = std::find(spikes.begin(), spikes.end(), i) - spikes.begin();
     const bool planted = spike < static_cast<std::ptrdiff_t>(spikes.size());
