@@ -44,12 +44,12 @@
 
   /** Round numbers under the scale, as far as they leave room for the largest at its end. */
   function scaleNumbers(context, theme, bar, units, x, y, width) {
-    const last = String(units.number(bar.mostMm));
+    const last = String(units.number(bar.most_mm));
     context.font = font;
     const room = width - context.measureText(last).width / 2 - 8;
     const perMm = units.scale;
-    for (const tick of ticks(bar.mostMm * perMm, 4)) {
-      const at = (width * tick) / (bar.mostMm * perMm);
+    for (const tick of ticks(bar.most_mm * perMm, 4)) {
+      const at = (width * tick) / (bar.most_mm * perMm);
       const half = context.measureText(String(tick)).width / 2;
       if (at + half > room) continue;
       line(context, theme.ink, 1, [x + at, y], [x + at, y + 4]);
@@ -61,10 +61,10 @@
 
   /** A triangle at the tolerance, or beyond the end where all is within it. */
   function toleranceMark(context, theme, bar, units, x, y, width) {
-    if (!(bar.toleranceMm > 0)) return;
-    const within = bar.toleranceMm >= bar.mostMm;
-    const at = x + Math.min(1, bar.toleranceMm / bar.mostMm) * width;
-    const text = `tolerance ${units.format(bar.toleranceMm)}`;
+    if (!(bar.tolerance_mm > 0)) return;
+    const within = bar.tolerance_mm >= bar.most_mm;
+    const at = x + Math.min(1, bar.tolerance_mm / bar.most_mm) * width;
+    const text = `tolerance ${units.format(bar.tolerance_mm)}`;
     if (within) return write(context, theme, `all within the ${text}`, x, y + 36, 'left', theme.muted);
     context.beginPath();
     context.moveTo(at, y - 1);
@@ -75,10 +75,10 @@
     write(context, theme, `\u25be ${text}`, x, y + 36, 'left', theme.muted);
   }
 
-  /** The scale of colours, upper left: {title, mostMm, toleranceMm}; without a largest value the title alone. */
+  /** The scale of colours, upper left: {title, most_mm, tolerance_mm}; without a largest value the title alone. */
   function colourBar(context, size, theme, bar, units) {
     write(context, theme, bar.title, edge, edge + 6);
-    if (!(bar.mostMm > 0)) return;
+    if (!(bar.most_mm > 0)) return;
     const width = Math.round(Math.min(260, 0.6 * size.width));
     const y = edge + 22;
     gradient(context, theme, edge, y, width, 10);
