@@ -65,7 +65,7 @@
     if (blocks.length === 0 || blocks.length > area.w / 24) return;
     canvas.strokeStyle = colour('--line');
     for (const {x} of blocks) vertical(canvas, area, x, [], 1);
-    labels(canvas, blocks, area.y + area.h - 4);
+    labels(canvas, blocks, area.y + 17);
   }
 
   function drawRapids(canvas, area, rapids) {
@@ -89,7 +89,6 @@
       vertical(canvas, dense ? {y: area.y, h: 6} : area, x, [1, 3], 1);
       if (!dense) triangle(canvas, x, area.y);
     }
-    if (!dense) labels(canvas, steps, area.y + 16);
   }
 
   /** Draws marks under the curves. `toX` takes path length to the canvas, `shown` says which kinds are wanted. */

@@ -23,7 +23,7 @@
   function contents(node) {
     const sections = [...document.querySelectorAll('main section')].filter((section) => !section.hidden);
     fill(node, el('ul', null, sections.map((section) => el('li', null,
-        el('a', {href: `#${section.id}`}, section.querySelector('h2').textContent)))));
+        el('a', {href: `#${section.id}`}, section.dataset.short)))));
   }
 
   function render(node, units) {

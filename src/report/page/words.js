@@ -70,7 +70,7 @@
     geometry_mm: 'Errors of assembly',
     load_mm: 'Cutting force',
     gravity_mm: 'Weight of the parts',
-    discrepancy_mm: 'Acting together',
+    discrepancy_mm: 'Discrepancy',
   };
   const partSentences = {
     geometry_mm: 'mostly errors of assembly',
