@@ -35,6 +35,14 @@
     return Array.from({length: Math.floor(most / step) + 1}, (_, i) => Number((i * step).toPrecision(6)));
   }
 
+  /** Ground behind numbers, so that lines do not run through them. */
+  function plate(context, theme, x, y, width, height) {
+    context.globalAlpha = 0.8;
+    context.fillStyle = counterflex.colours.css(theme.ground);
+    context.fillRect(x, y, width, height);
+    context.globalAlpha = 1;
+  }
+
   function gradient(context, theme, x, y, width, height) {
     for (let i = 0; i < width; ++i) {
       context.fillStyle = counterflex.colours.css(counterflex.colours.at(i / (width - 1), theme.dark));
@@ -77,10 +85,11 @@
 
   /** The scale of colours, upper left: {title, most_mm, tolerance_mm}; without a largest value the title alone. */
   function colourBar(context, size, theme, bar, units) {
-    write(context, theme, bar.title, edge, edge + 6);
-    if (!(bar.most_mm > 0)) return;
+    if (!(bar.most_mm > 0)) return write(context, theme, bar.title, edge, edge + 6);
     const width = Math.round(Math.min(260, 0.6 * size.width));
     const y = edge + 22;
+    plate(context, theme, 0, 0, width + 4 * edge, y + 48);
+    write(context, theme, bar.title, edge, edge + 6);
     gradient(context, theme, edge, y, width, 10);
     scaleNumbers(context, theme, bar, units, edge, y + 10, width);
     toleranceMark(context, theme, bar, units, edge, y, width);
@@ -111,6 +120,7 @@
     const length = counterflex.pathModel.oneTwoFive(Math.min(120, 0.25 * size.width) / pixelsPerUnit);
     const [x, y] = [size.width - edge, size.height - edge - 4];
     const left = x - length * pixelsPerUnit;
+    plate(context, theme, left - edge, y - 44, x - left + 2 * edge, 44 + 2 * edge);
     line(context, theme.ink, 2, [left, y - 5], [left, y], [x, y], [x, y - 5]);
     write(context, theme, `${length} ${units.lengthLabel}`, (left + x) / 2, y - 12, 'center');
     if (factor > 0) write(context, theme, `deviation \u00d7 ${factor}`, x, y - 32, 'right', theme.muted);

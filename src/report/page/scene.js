@@ -178,10 +178,14 @@
       if (this.frame === 0) this.frame = requestAnimationFrame(() => this.draw());
     }
 
+    /** The camera from where one looks, with the whole path in a picture of that size. */
+    whole(size) {
+      return counterflex.camera.fit(this.camera, this.shown.box, size, margin);
+    }
+
     /** The camera for a picture of that size: fitted anew unless it was moved by hand. */
     fitted(size) {
-      return this.camera.fitted && size.width > 0
-        ? counterflex.camera.fit(this.camera, this.shown.box, size, margin) : this.camera;
+      return this.camera.fitted && size.width > 0 ? this.whole(size) : this.camera;
     }
 
     marked() {
@@ -214,14 +218,14 @@
         centre: centre.join(' '), span: this.camera.span.toPrecision(6)});
     }
 
-    /** On paper one cannot switch: before and after stand one below the other, from where one looks. */
+    /** On paper one cannot turn or switch: the whole path, before and after one below the other. */
     drawForPrint() {
       const size = {width: 960, height: 480, ratio: 2};
       const known = ['before', 'after'].filter((kind) => picture.knows(this.runs[this.shown.run], kind));
       const canvases = (known.length > 0 ? known : ['wanted']).map((kind) => {
         const canvas = el('canvas', {class: 'scene-paper'});
         const shown = picture.describe(this.facts, this.runs, this.shown.run, kind, this.shown.factor);
-        picture.paint(this.view, canvas, size, {shown, camera: this.fitted(size), units: this.units,
+        picture.paint(this.view, canvas, size, {shown, camera: this.whole(size), units: this.units,
           theme: counterflex.colours.paper, marked: this.marked()});
         return canvas;
       });

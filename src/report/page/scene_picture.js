@@ -50,13 +50,16 @@
       : [rapids, wanted, {...base, factor, style: 'deviation', covers: true, width: 4 * dot}];
   }
 
-  /** "line 12: 4.1 um" of a stretch, without the deviation where that is unknown or not shown. */
-  function words({curves, kind}, i, units) {
+  /**
+   * "line 12: 4.1 um" of a stretch: "up to" where it holds several waypoints, "about" where the deviation is taken
+   * from its neighbours; the line alone where it is unknown or not shown.
+   */
+  function words({curves, kind, path, most_mm}, i, units) {
     const [first, last] = [curves.first_line[i], curves.last_line[i]];
     const lines = first === last ? `line ${first}` : `lines ${first} to ${last}`;
-    const quantity = curves.quantities[`${kind}_mm`];
-    const value = quantity ? quantity.largest[i] : NaN;
-    if (!Number.isFinite(value)) return lines;
+    if (kind === 'wanted' || path.fraction[i] < 0) return lines;
+    const value = curves.quantities[`${kind}_mm`].largest[i];
+    if (!Number.isFinite(value)) return `${lines}: about ${units.format(path.fraction[i] * most_mm)}`;
     return `${lines}: ${first === last ? '' : 'up to '}${units.format(value)}`;
   }
 
