@@ -27,6 +27,12 @@ test('a default exaggeration makes the largest deviation about a twentieth of th
     }
 });
 
+test('an exaggeration that is right for a small deviation gives way to the usual one for a large deviation', () => {
+  assert.equal(pathModel.bearable(5000, 40, 0.0003), 5000);
+  assert.equal(pathModel.bearable(5000, 40, 0.08), pathModel.exaggeration(40, 0.08));
+  assert.equal(pathModel.bearable(20, 40, 0.08), 20);
+});
+
 test('without a deviation nothing is exaggerated', () => assert.equal(pathModel.exaggeration(100, 0), 1));
 
 test('the steps of the slider hold the default and reach the smallest of the deviations', () => {
@@ -69,6 +75,12 @@ test('a kind without any value is not known, and drawn as wanted', () => {
   const curves = curves_of([0.1, 0.2]);
   assert.deepEqual(plain(pathModel.kinds.map((kind) => pathModel.has(curves, kind))), [true, true, false]);
   const path = pathModel.build(curves, 'after', [0, 0, 0], 0);
+  close(path.fraction, [-1, -1]);
+  close(path.deviation, [0, 0, 0, 0, 0, 0]);
+});
+
+test('the wanted path has no deviation, whatever is known of the others', () => {
+  const path = pathModel.build(curves_of([0.1, 0.2]), 'wanted', [0, 0, 0], 0);
   close(path.fraction, [-1, -1]);
   close(path.deviation, [0, 0, 0, 0, 0, 0]);
 });

@@ -64,7 +64,7 @@
   }
 
   /** Turned by radians; the elevation stays between straight down and straight up. */
-  const turn = (camera, byAzimuth, byElevation) => ({...camera, azimuth: camera.azimuth + byAzimuth,
+  const turn = (camera, byAzimuth, byElevation) => ({...camera, azimuth: camera.azimuth + byAzimuth, fitted: false,
     elevation: Math.min(quarter, Math.max(-quarter, camera.elevation + byElevation))});
 
   /** Moved so that the picture slides by pixels to the right and down. */

@@ -35,6 +35,14 @@
     return Array.from({length: Math.floor(most / step) + 1}, (_, i) => Number((i * step).toPrecision(6)));
   }
 
+  /** Ground behind numbers, so that lines do not run through them. */
+  function plate(context, theme, x, y, width, height) {
+    context.globalAlpha = 0.8;
+    context.fillStyle = counterflex.colours.css(theme.ground);
+    context.fillRect(x, y, width, height);
+    context.globalAlpha = 1;
+  }
+
   function gradient(context, theme, x, y, width, height) {
     for (let i = 0; i < width; ++i) {
       context.fillStyle = counterflex.colours.css(counterflex.colours.at(i / (width - 1), theme.dark));
@@ -44,12 +52,12 @@
 
   /** Round numbers under the scale, as far as they leave room for the largest at its end. */
   function scaleNumbers(context, theme, bar, units, x, y, width) {
-    const last = String(units.number(bar.mostMm));
+    const last = String(units.number(bar.most_mm));
     context.font = font;
     const room = width - context.measureText(last).width / 2 - 8;
     const perMm = units.scale;
-    for (const tick of ticks(bar.mostMm * perMm, 4)) {
-      const at = (width * tick) / (bar.mostMm * perMm);
+    for (const tick of ticks(bar.most_mm * perMm, 4)) {
+      const at = (width * tick) / (bar.most_mm * perMm);
       const half = context.measureText(String(tick)).width / 2;
       if (at + half > room) continue;
       line(context, theme.ink, 1, [x + at, y], [x + at, y + 4]);
@@ -61,10 +69,10 @@
 
   /** A triangle at the tolerance, or beyond the end where all is within it. */
   function toleranceMark(context, theme, bar, units, x, y, width) {
-    if (!(bar.toleranceMm > 0)) return;
-    const within = bar.toleranceMm >= bar.mostMm;
-    const at = x + Math.min(1, bar.toleranceMm / bar.mostMm) * width;
-    const text = `tolerance ${units.format(bar.toleranceMm)}`;
+    if (!(bar.tolerance_mm > 0)) return;
+    const within = bar.tolerance_mm >= bar.most_mm;
+    const at = x + Math.min(1, bar.tolerance_mm / bar.most_mm) * width;
+    const text = `tolerance ${units.format(bar.tolerance_mm)}`;
     if (within) return write(context, theme, `all within the ${text}`, x, y + 36, 'left', theme.muted);
     context.beginPath();
     context.moveTo(at, y - 1);
@@ -75,12 +83,13 @@
     write(context, theme, `\u25be ${text}`, x, y + 36, 'left', theme.muted);
   }
 
-  /** The scale of colours, upper left: {title, mostMm, toleranceMm}; without a largest value the title alone. */
+  /** The scale of colours, upper left: {title, most_mm, tolerance_mm}; without a largest value the title alone. */
   function colourBar(context, size, theme, bar, units) {
-    write(context, theme, bar.title, edge, edge + 6);
-    if (!(bar.mostMm > 0)) return;
+    if (!(bar.most_mm > 0)) return write(context, theme, bar.title, edge, edge + 6);
     const width = Math.round(Math.min(260, 0.6 * size.width));
     const y = edge + 22;
+    plate(context, theme, 0, 0, width + 4 * edge, y + 48);
+    write(context, theme, bar.title, edge, edge + 6);
     gradient(context, theme, edge, y, width, 10);
     scaleNumbers(context, theme, bar, units, edge, y + 10, width);
     toleranceMark(context, theme, bar, units, edge, y, width);
@@ -111,6 +120,7 @@
     const length = counterflex.pathModel.oneTwoFive(Math.min(120, 0.25 * size.width) / pixelsPerUnit);
     const [x, y] = [size.width - edge, size.height - edge - 4];
     const left = x - length * pixelsPerUnit;
+    plate(context, theme, left - edge, y - 44, x - left + 2 * edge, 44 + 2 * edge);
     line(context, theme.ink, 2, [left, y - 5], [left, y], [x, y], [x, y - 5]);
     write(context, theme, `${length} ${units.lengthLabel}`, (left + x) / 2, y - 12, 'center');
     if (factor > 0) write(context, theme, `deviation \u00d7 ${factor}`, x, y - 32, 'right', theme.muted);

@@ -41,13 +41,17 @@
   }
 
   /** The exaggeration that makes the largest deviation about a twentieth of the path's size; 1 at least. */
-  const exaggeration = (sizeMm, deviationMm) =>
-    (deviationMm > 0 ? Math.max(1, oneTwoFive((0.05 * sizeMm) / deviationMm)) : 1);
+  const exaggeration = (size_mm, deviation_mm) =>
+    (deviation_mm > 0 ? Math.max(1, oneTwoFive((0.05 * size_mm) / deviation_mm)) : 1);
+
+  /** The factor itself, unless it draws the deviation larger than half the path: then the usual one. */
+  const bearable = (factor, size_mm, deviation_mm) =>
+    (factor * deviation_mm > 0.5 * size_mm ? exaggeration(size_mm, deviation_mm) : factor);
 
   /** 1, 2, 5, 10 ... up to what makes the smallest of the largest deviations half as large as the path. */
-  function exaggerations(sizeMm, deviationsMm) {
-    const known = deviationsMm.filter((v) => v > 0);
-    const top = known.length > 0 ? (0.5 * sizeMm) / Math.min(...known) : 1;
+  function exaggerations(size_mm, deviations_mm) {
+    const known = deviations_mm.filter((v) => v > 0);
+    const top = known.length > 0 ? (0.5 * size_mm) / Math.min(...known) : 1;
     const steps = [1];
     for (let decade = 1; steps[steps.length - 1] < top && decade < 1e9; decade *= 10)
       steps.push(2 * decade, 5 * decade, 10 * decade);
@@ -94,17 +98,17 @@
 
   /**
    * One run's path of a kind, around `origin` (mm, machine frame): {count, place, deviation (0 where unknown),
-   * fraction (of `mostMm`; -1 where unknown), rapid (1: a rapid leads to here)}.
+   * fraction (of `most_mm`; -1 where unknown), rapid (1: a rapid leads to here)}.
    */
-  function build(curves, kind, origin, mostMm) {
+  function build(curves, kind, origin, most_mm) {
     const count = curves.place_mm.length / 3;
     const runs = feedRuns(curves.after_rapid);
     const place = Float32Array.from(curves.place_mm, (v, i) => v - origin[i % 3]);
     const path = {count, place, deviation: new Float32Array(3 * count), rapid: curves.after_rapid,
       fraction: new Float32Array(count).fill(-1)};
-    if (!has(curves, kind)) return path;
+    if (kind === 'wanted' || !has(curves, kind)) return path;
     const value = filled(curves.quantities[`${kind}_mm`].largest, 1, curves.s_mm, runs);
-    path.fraction = value.map((v) => (Number.isFinite(v) ? (mostMm > 0 ? v / mostMm : 0) : -1));
+    path.fraction = value.map((v) => (Number.isFinite(v) ? (most_mm > 0 ? v / most_mm : 0) : -1));
     path.deviation = filled(curves[`place_${kind}_mm`], 3, curves.s_mm, runs)
       .map((v) => (Number.isFinite(v) ? v : 0));
     return path;
@@ -120,6 +124,6 @@
     return bounds([{place_mm: path.place}, {place_mm: drawn}]);
   }
 
-  counterflex.pathModel = {kinds, has, bounds, sizeOf, largest, oneTwoFive, exaggeration, exaggerations, filled,
-    feedRuns, build, drawnAt, boxOf};
+  counterflex.pathModel = {kinds, has, bounds, sizeOf, largest, oneTwoFive, exaggeration, exaggerations, bearable,
+    filled, feedRuns, build, drawnAt, boxOf};
 })();
