@@ -12,7 +12,8 @@ let browser = null;
 async function launched() {
   browser = browser || await chromium.launch({
     executablePath: process.env.COUNTERFLEX_BROWSER,
-    args: ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader'],
+    // WebGL in software; what is flat is then drawn without the detour through it.
+    args: ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--disable-accelerated-2d-canvas'],
   });
   return browser;
 }
