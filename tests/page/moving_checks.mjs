@@ -125,7 +125,7 @@ test('components, the logarithm and units redraw the curves', () => visit('pocke
   assert.match(await title(), /rotation, in degrees/);
   await page.check('input[name=component][value="x_"]');
   await page.check('input[name=unit][value=inch]');
-  assert.match(await title(), /x, in in/);
+  assert.match(await title(), /x, in inches/);
 }));
 
 test('two runs stand side by side, their curves in the same plots', async () => {

@@ -46,7 +46,7 @@
   }
 
   const labelOf = (part) => components.find(([p]) => p === part)[1];
-  const unitOf = (part, units) => (part === 'rotation_' ? 'degrees' : units.label);
+  const unitOf = (part, units) => (part === 'rotation_' ? 'degrees' : units.words);
   const scaleOf = (part, units) => (part === 'rotation_' ? 1 : units.scale);
 
   /** Deviations as text; they are in the unit shown already. */
@@ -148,7 +148,7 @@
     const note = el('p', {class: 'note'});
     const say = () => fill(note, discrepancySentence(context));
     const content = () => describe(context, group, points, sourceSeries(state.part), context.units.scale, {
-      title: `Sources of the deviation before: ${labelOf(state.part)}, in ${context.units.label}`, log: state.log, text: textIn('', context.units)});
+      title: `Sources of the deviation before: ${labelOf(state.part)}, in ${context.units.words}`, log: state.log, text: textIn('', context.units)});
     state.plots.push(counterflex.plot.create(context, group, content, 'sources'));
     context.units.subscribe(say);
     say();

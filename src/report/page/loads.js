@@ -89,7 +89,7 @@
     const scale = unit ? 1 : context.units.scale;
     const series = seriesOf(context, points, name, scale);
     return {
-      title: `${words} of each chain, in ${unit || context.units.label}`, series, ...tables.tabulate(series, group.total, context.units.lengthScale),
+      title: `${words} of each chain, in ${unit || context.units.words}`, series, ...tables.tabulate(series, group.total, context.units.lengthScale),
       levels: levels(context, name, scale), text: (v) => textOf(v / scale, unit, context.units),
       lineAt: (run, stretch) => (stretch < 0 ? '\u2013' : context.runs[run].curves.first_line[stretch]),
       select: ({run, stretch}) => stretch >= 0 && context.selection.set(run, stretch),

@@ -30,14 +30,24 @@
     return -1;
   }
 
-  /** Magnitudes, for a logarithmic scale; what is zero cannot be on it. */
-  const magnitudes = (rows) => rows.map((row) => row.map((v, c) => (c === 0 || v === null || Number.isNaN(v) ? v : Math.abs(v) || null)));
+  /** Largest size of a value of all rows. */
+  function largestOf(rows) {
+    let largest = 0;
+    for (const row of rows) for (let c = 1; c < row.length; ++c) if (Math.abs(row[c]) > largest) largest = Math.abs(row[c]);
+    return largest;
+  }
+
+  /** Sizes, for a logarithmic scale of four decades: what is less stands at its bottom. */
+  function magnitudes(rows) {
+    const least = largestOf(rows) * 1e-4;
+    const size = (v) => (v === null || Number.isNaN(v) ? v : Math.max(Math.abs(v), least) || null);
+    return rows.map((row) => row.map((v, c) => (c === 0 ? v : size(v))));
+  }
 
   /** Values that the range of the plot must hold although no curve reaches them: levels that are not far from the curves. */
   function heldLevels({rows, levels}) {
     if (!levels || levels.length === 0) return [];
-    let largest = 0;
-    for (const row of rows) for (let c = 1; c < row.length; ++c) if (Math.abs(row[c]) > largest) largest = Math.abs(row[c]);
+    const largest = largestOf(rows);
     return levels.map((level) => level.value).filter((value) => Math.abs(value) < 5 * largest);
   }
 

@@ -23,7 +23,7 @@
   function airCard(report, units) {
     const {air} = report.summary;
     const note = `${words.inLine(air.line)}: dry run, spring pass, broken insert`;
-    return card('air', 'Off without the cutting force', units.format(air.max_mm), note, air.max_mm > tolerance(report) ? 'warn' : '');
+    return card('air', 'Overcut if the force is missing', units.format(air.max_mm), note, air.max_mm > tolerance(report) ? 'warn' : '');
   }
 
   function correctionCard(report, units) {
@@ -50,7 +50,7 @@
       before && deviationCard('before', after ? 'Before' : 'Deviation, as programmed', before, units),
       after && deviationCard('after', 'After (model residual)', after, units),
       before && !after && acrossCard(before, units),
-      times && card('factor', 'Smaller', `${times} \u00d7`, 'largest before / largest after'),
+      times && card('factor', 'Factor', `${times} \u00d7`, 'smaller at its largest'),
       typeof share === 'number' && correctedCard(report),
       air && airCard(report, units),
       correction && correction.max_mm > 0 && correctionCard(report, units),

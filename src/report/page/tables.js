@@ -35,7 +35,7 @@
     const before = runs.map((run) => run.report.summary.before), after = runs.map((run) => run.report.summary.after);
     if (!before.some(Boolean)) return null;
     const corrected = after.some(Boolean);
-    const columns = [{title: `In ${units.label}`}, ...acrossTitles(runs, 'Before'), ...(corrected ? acrossTitles(runs, 'After') : [])];
+    const columns = [{title: `In ${units.words}`}, ...acrossTitles(runs, 'Before'), ...(corrected ? acrossTitles(runs, 'After') : [])];
     const rows = statistics.map(([what, key, axis]) => {
       const cells = (list) => across(list.map((s) => value(s, key, axis)), key, units);
       return [what, ...cells(before), ...(corrected ? cells(after) : [])];
@@ -81,11 +81,11 @@
     const rows = aligned(runs);
     if (rows.length === 0) return null;
     const corrected = runs.some((run) => run.report.summary.after);
-    const columns = [{title: 'Operation', class: 'text'}, {title: 'Tool'}, {title: 'Lines'}, {title: 'Moves', number: true},
+    const columns = [{title: 'Operation', class: 'text'}, {title: 'Tool'}, {title: 'Lines', class: 'lines'}, {title: 'Moves', number: true},
       {title: `Length, ${units.lengthLabel}`, number: true}, corrected && {title: 'Corrected', number: true},
       ...acrossTitles(runs, 'Before'), ...(corrected ? acrossTitles(runs, 'After') : [])].filter(Boolean);
     const count = Math.max(...runs.map((run) => run.report.operation_count || 0));
-    return [table(`Largest deviation, in ${units.label}`, columns, rows.map((row) => operationRow(row, context, corrected))),
+    return [table(`Largest deviation, in ${units.words}`, columns, rows.map((row) => operationRow(row, context, corrected))),
       count > rows.length ? el('p', {class: 'note'}, `and ${count - rows.length} more`) : null];
   }
 
@@ -100,7 +100,7 @@
   function sensitivityOf(run, units) {
     const {sensitivity, after, before} = run.report.summary;
     if (!sensitivity) return null;
-    const columns = [{title: `In ${units.label}`}, {title: 'Largest', number: true}, {title: 'Line', number: true},
+    const columns = [{title: `In ${units.words}`}, {title: 'Largest', number: true}, {title: 'Line', number: true},
       {title: '95 % below', number: true}, {title: 'Across the path', number: true}];
     const rows = [sensitivityRow('Force as given', after || before, units),
       ...otherForces.map(([key, what]) => sensitivityRow(what, sensitivity[key], units))];

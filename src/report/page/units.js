@@ -1,9 +1,9 @@
 'use strict';
 (() => {
   const scales = {
-    um: {label: '\u00b5m', perMm: 1000, length: 'mm', lengthPerMm: 1, lengthDigits: 1},
-    mm: {label: 'mm', perMm: 1, length: 'mm', lengthPerMm: 1, lengthDigits: 1},
-    inch: {label: 'in', perMm: 1 / 25.4, length: 'in', lengthPerMm: 1 / 25.4, lengthDigits: 3},
+    um: {label: '\u00b5m', words: '\u00b5m', perMm: 1000, length: 'mm', lengthPerMm: 1, lengthDigits: 1},
+    mm: {label: 'mm', words: 'mm', perMm: 1, length: 'mm', lengthPerMm: 1, lengthDigits: 1},
+    inch: {label: 'in', words: 'inches', perMm: 1 / 25.4, length: 'in', lengthPerMm: 1 / 25.4, lengthDigits: 3},
   };
 
   /** Decimals with which a deviation is shown: about what a shop reads off an instrument, more where it is tiny. */
@@ -28,6 +28,7 @@
       nameOf: (unit) => scales[unit].label,
       get shown() { return shown; },
       get label() { return scales[shown].label; },
+      get words() { return scales[shown].words; },
       get lengthLabel() { return scales[shown].length; },
       get lengthScale() { return scales[shown].lengthPerMm; },
       get scale() { return scales[shown].perMm; },

@@ -20,12 +20,15 @@
     ].filter(Boolean);
   }
 
+  /** Comments may be long; the card of the place has the whole. */
+  const clamped = (text) => (text ? el('span', {class: 'clamp', title: text}, text) : '\u2013');
+
   function cells(row, report, units, go) {
     const line = jump(`${row.line}`, 'place', go, `Line ${row.line}: show it in all views`);
     const cause = words.cause(row.causes).replace(/^mostly /, '');
     return [
       line, units.number(row.before_mm), report.summary.after && units.number(row.after_mm),
-      `${fixed(row.force_N, 0)} N`, words.toolName(row.tool), row.operation || '\u2013', cause || '\u2013',
+      `${fixed(row.force_N, 0)} N`, words.toolName(row.tool), clamped(row.operation), cause || '\u2013',
     ].filter((cell) => cell !== null && cell !== undefined);
   }
 
@@ -47,7 +50,7 @@
     if (report.worst.length === 0) return el('p', null, 'No feed move was solved.');
     const go = (row) => context.goToRow(index, row);
     const rows = report.worst.map((row) => cells(row, report, units, () => go(row)));
-    const caption = `${run.letter ? `${run.letter}: ` : ''}Largest deviation of each block, in ${units.label}` +
+    const caption = `${run.letter ? `${run.letter}: ` : ''}Largest deviation of each block, in ${units.words}` +
         (report.summary.after ? ', the largest after correction first' : '');
     return clickable(table(caption, columnsOf(report), rows), index, report.worst, go);
   }
