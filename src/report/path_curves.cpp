@@ -181,13 +181,12 @@ void PathCurves::add(const Waypoint& w, std::int32_t operation) {
   bool after_rapid = rapid_.has_value();
   if (after_rapid) {
     rapids_.add(s_mm_);
-    after_rapid = !begin_at_rapid(w, operation);
+    if (begin_at_rapid(w, operation)) after_rapid = false;
   }
   push(w, operation, after_rapid);
 }
 
 // The end of a rapid is where the feed move after it starts, as the statistics have it (path_tally.hpp).
-// False where it is elsewhere.
 bool PathCurves::begin_at_rapid(const Waypoint& w, std::int32_t operation) {
   Waypoint start = *std::exchange(rapid_, std::nullopt);
   const double chord = (w.p_MT - start.p_MT).norm();

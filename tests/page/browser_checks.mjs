@@ -4,6 +4,7 @@ import {close} from './browser.mjs';
 import './drawing_checks.mjs';
 import './number_checks.mjs';
 import './moving_checks.mjs';
+import './load_checks.mjs';
 import './look_checks.mjs';
 import './large_checks.mjs';
 

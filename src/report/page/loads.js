@@ -6,10 +6,10 @@
 
   /** The loads that chains have: name in the data, words, unit; a null unit is that of deviations. */
   const quantities = [
-    ['moment_max_Nm', 'Moment in a joint', 'N m'], ['spring_force_max_N', 'Force in a spring', 'N'],
-    ['spring_torque_max_Nm', 'Torque in a spring', 'N m'], ['spring_translation_max_mm', 'Stretch of a spring', null],
-    ['spring_rotation_max_deg', 'Turn of a spring', 'deg'], ['group_moment_max_Nm', 'Moment of a group of springs', 'N m'],
-    ['passive_change_max_deg', 'Change of a passive joint', 'deg'],
+    ['moment_max_Nm', 'Moment at the end', 'N m'], ['spring_translation_max_mm', 'Spring deflection', null],
+    ['spring_rotation_max_deg', 'Spring rotation', 'deg'], ['spring_force_max_N', 'Spring force', 'N'],
+    ['spring_torque_max_Nm', 'Spring torque', 'N m'], ['group_moment_max_Nm', 'Group moment', 'N m'],
+    ['passive_change_max_deg', "Passive joint's change", 'deg'],
   ];
 
   const colours = ['--x', '--y', '--z', '--gravity', '--sum', '--discrepancy'];
@@ -47,7 +47,8 @@
     if (rows.length === 0) return null;
     const columns = [{title: 'Chain'}, {title: 'Load', class: 'text'}, {title: 'Largest', number: true}, {title: 'Line', number: true},
       ...(limited ? [{title: 'Limit', number: true}, {title: 'Of the limit', class: 'text'}] : [])];
-    const caption = `Largest loads at ${loads.places} places of the path${limited ? '' : '; the machine file gives no limits'}`;
+    const notes = [loads.unsolved > 0 && `not known at ${loads.unsolved} more`, !limited && 'the machine file gives no limits'].filter(Boolean);
+    const caption = [`Largest loads at ${loads.places} places of the path`, ...notes].join('; ');
     return table(`${run.letter ? `${run.letter}: ` : ''}${caption}`, columns, rows);
   }
 
@@ -80,7 +81,7 @@
 
   /** Those that some chain has at all. */
   function present(context) {
-    const some = ([name]) => context.runs.some((run) => run.loads && run.loads.chains.some((chain) => (chain[name] || []).some((v) => v > 0)));
+    const some = ([name]) => context.runs.some((run) => run.loads && run.loads.chains.some((chain) => (chain[name] || []).some((v) => v > 1e-9)));
     return quantities.filter(some);
   }
 
