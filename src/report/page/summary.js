@@ -16,7 +16,7 @@
 
   function correctedCard(report) {
     const share = report.summary.corrected_percent;
-    const note = `of the cutting length; ${report.blocks.corrected} of ${words.counted(report.blocks.moves, 'move')}`;
+    const note = `of the cutting length, within tolerance; ${report.blocks.corrected} of ${words.counted(report.blocks.moves, 'move')}`;
     return card('corrected', 'Corrected', percent(share), note, share < 100 ? 'warn' : '');
   }
 

@@ -1,6 +1,6 @@
 'use strict';
 (() => {
-  const {known} = counterflex.units;
+  const {known, percent} = counterflex.units;
 
   /** "1 move", "2 moves". */
   const counted = (count, what) => `${count} ${what}${count === 1 ? '' : 's'}`;
@@ -46,13 +46,22 @@
         (times ? `: ${times} times smaller.` : '.');
   }
 
-  /** The result of a run in a sentence, and whether it is a good one: 'good', 'bad' or 'neutral'. */
+  /** What somebody who trusts the tolerance has to know: where blocks cannot be corrected more than it remains. */
+  function missed({summary, options}, units) {
+    const tolerance = options['tolerance-mm'];
+    if (!(summary.after.max_mm > tolerance)) return '';
+    const share = known(summary.corrected_percent) ? `; ${percent(summary.corrected_percent)} of the cutting length is held to it` : '';
+    return ` That is more than the tolerance of ${units.format(tolerance)}${share}.`;
+  }
+
+  /** The result of a run in a sentence, and whether it is a good one: 'good', 'warn', 'bad' or 'neutral'. */
   function verdict(report, units) {
     const {before, after} = report.summary;
     if (report.failure) return {text: failed(report), kind: 'bad'};
     if (!before) return {text: 'Nothing was solved: the program has no feed move whose deviation could be told.', kind: 'neutral'};
     if (!after) return {text: predicted(before, units), kind: 'neutral'};
-    return {text: corrected(before, after, units), kind: 'good'};
+    const more = missed(report, units);
+    return {text: corrected(before, after, units) + more, kind: more ? 'warn' : 'good'};
   }
 
   /** Which of two runs leaves less, in a sentence. */
@@ -79,21 +88,31 @@
     discrepancy_mm: 'mostly what assembly and force do together, more than each alone',
   };
 
+  const shortNames = {geometry_mm: 'assembly', load_mm: 'force', gravity_mm: 'weight', discrepancy_mm: 'both together'};
+
   /** The parts of a deviation that are known: [{key, name, mm}], as they are listed above. */
   function parts(causes) {
     if (!causes) return [];
     return Object.keys(partNames).filter((key) => known(causes[key])).map((key) => ({key, name: partNames[key], mm: causes[key]}));
   }
 
-  /** What bends the machine there, in words: of several parts, one that is more than twice the next is "mostly". */
-  function cause(causes) {
+  /** The parts that matter, the largest first: one that is more than twice the next is alone. */
+  function leading(causes) {
     const sorted = parts(causes).filter((part) => part.mm > 0).sort((a, b) => b.mm - a.mm);
-    if (sorted.length === 0) return '';
-    if (sorted.length === 1 || sorted[0].mm > 2 * sorted[1].mm) return partSentences[sorted[0].key];
-    return `${sorted[0].name.toLowerCase()} and ${sorted[1].name.toLowerCase()}`;
+    return sorted.length > 1 && sorted[0].mm <= 2 * sorted[1].mm ? sorted.slice(0, 2) : sorted.slice(0, 1);
   }
+
+  /** What bends the machine there, in words; '' where that is unknown. */
+  function cause(causes) {
+    const [first, second] = leading(causes);
+    if (!first) return '';
+    return second ? `${first.name.toLowerCase()} and ${second.name.toLowerCase()}` : partSentences[first.key];
+  }
+
+  /** The same in a word or two. */
+  const causeInShort = (causes) => leading(causes).map(({key}) => shortNames[key]).join(', ');
 
   const toolName = (tool) => (tool > 0 ? `T${tool}` : '\u2013');
 
-  counterflex.words = {counted, inLine, factor, fileName, title, verdict, comparison, parts, cause, toolName};
+  counterflex.words = {counted, inLine, factor, fileName, title, verdict, comparison, parts, cause, causeInShort, toolName};
 })();

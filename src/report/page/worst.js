@@ -16,7 +16,7 @@
     const after = Boolean(report.summary.after);
     return [
       {title: 'Line'}, {title: 'Before', number: true}, after && {title: 'After', number: true},
-      {title: 'Force', number: true}, {title: 'Tool'}, {title: 'Operation', class: 'text'}, {title: 'Mostly', class: 'text'},
+      {title: 'Force', number: true}, {title: 'Tool'}, {title: 'Operation', class: 'text'}, {title: 'Mostly from'},
     ].filter(Boolean);
   }
 
@@ -25,10 +25,9 @@
 
   function cells(row, report, units, go) {
     const line = jump(`${row.line}`, 'place', go, `Line ${row.line}: show it in all views`);
-    const cause = words.cause(row.causes).replace(/^mostly /, '');
     return [
       line, units.number(row.before_mm), report.summary.after && units.number(row.after_mm),
-      `${fixed(row.force_N, 0)} N`, words.toolName(row.tool), clamped(row.operation), cause || '\u2013',
+      `${fixed(row.force_N, 0)} N`, words.toolName(row.tool), clamped(row.operation), words.causeInShort(row.causes) || '\u2013',
     ].filter((cell) => cell !== null && cell !== undefined);
   }
 
