@@ -96,7 +96,8 @@ void warn_of_run(Run& run, Command command, Console& console) {
 }  // namespace
 
 RunInput Run::input() const {
-  return {machine.model, work.frames, ignored, force_input.source, options, read, &tool_models, lanes ? &*lanes : nullptr};
+  return {machine.model, work.frames, ignored,      force_input.source,
+          options,       read,        &tool_models, lanes ? &*lanes : nullptr};
 }
 
 RunContext Run::context() const {
@@ -198,8 +199,9 @@ void Windows::refuse_uncontrolled_moves(const Job& job) {
   }
 }
 
-Exit deliver(const Options& options, const Run& run, const RunReport& report, RunFiles& files,
-             Console& console) {
+Exit deliver(const Options& options, const Run& run, RunReport report, RunFiles& files, Console& console) {
+  const MachineInput& on = run.machine;
+  add_loads(report, solve_loads(on.model, run.load_places.places(), run.options.threads), on.machine);
   run.file.bytes.refuse_change();  // it was read more than once
   const std::optional<Failure>& failure = report.failure;
   const std::string json = to_json(report);

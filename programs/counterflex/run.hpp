@@ -5,6 +5,7 @@
 
 #include "console.hpp"
 #include "counterflex/compensation/job_windows.hpp"
+#include "counterflex/compensation/loads_along.hpp"
 #include "counterflex/report/run_tally.hpp"
 #include "inputs.hpp"
 #include "options.hpp"
@@ -27,6 +28,7 @@ struct Run {
   RunFacts facts;
   ToolModels tool_models;  ///< of the program's tools
   std::optional<LaneMachines> lanes{};
+  LoadPlaces load_places{};  ///< of the path, where causes are asked for
 
   RunInput input() const;
   RunContext context() const;
@@ -77,7 +79,6 @@ class Windows {
 /// Gives the run's files their names, and says the result: the summary, or the JSON document, on standard
 /// output; the summary on standard error where the corrected program has standard output. Then the failure,
 /// if there is one; its exit status.
-Exit deliver(const Options& options, const Run& run, const RunReport& report, RunFiles& files,
-             Console& console);
+Exit deliver(const Options& options, const Run& run, RunReport report, RunFiles& files, Console& console);
 
 }  // namespace counterflex::cli

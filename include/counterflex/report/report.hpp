@@ -11,6 +11,7 @@
 #include "counterflex/program/capped.hpp"
 #include "counterflex/program/line_lengths.hpp"
 #include "counterflex/program/overview.hpp"
+#include "counterflex/report/path_loads.hpp"
 #include "counterflex/report/statistics.hpp"
 #include "counterflex/report/without_force.hpp"
 
@@ -147,6 +148,7 @@ struct RunReport {
   std::optional<TextSize> text_after;
   ControlFacts control;
   ForceSummary forces;
+  std::optional<PathLoads> loads{};  ///< with attribution, see `add_loads`
   Capped<Remark> warnings;
   std::vector<WorstRow> worst;  ///< at most ten lines, the largest `after` first (`before` for `predict`)
   std::string work;             ///< where program coordinates were taken to be, in words
@@ -165,6 +167,9 @@ struct RunContext {
   const Overview& program;               ///< the original one, its axes that nobody corrects made known
   const RunFacts& facts;
 };
+
+/// Adds the loads along the run's path, and a warning for every limit of `machine` that they exceed.
+void add_loads(RunReport& report, LoadsAlong along, const Machine& machine);
 
 class RunTally;
 
