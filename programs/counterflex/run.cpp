@@ -156,6 +156,10 @@ void refuse_what_cannot_be_compensated(const Run& run) {
         "twice");
 }
 
+bool wants_loads(const Run& run) {
+  return run.facts.attribution || !run.machine.machine.load_limits.empty();
+}
+
 Windows::Windows(Run& run, Console& console, std::size_t least_moves)
     : run_(run),
       console_(console),

@@ -42,7 +42,8 @@ LoadsOfChain loads_of_chain(const LoadsAlong& along, std::size_t chain, const Ma
 
 // With four significant digits, or as many as there are before the point.
 std::string four_digits(double value) {
-  const int before_point = value > 0 ? static_cast<int>(std::floor(std::log10(value))) + 1 : 1;
+  const double shown = *read_number(fmt::format("{:.3e}", value));  // 99.999 is 100.0, not 100.00
+  const int before_point = shown > 0 ? static_cast<int>(std::floor(std::log10(shown))) + 1 : 1;
   return format_fixed(value, std::clamp(4 - before_point, 0, 7));
 }
 

@@ -154,3 +154,18 @@ TEST_CASE("loads along a path are those that analyze says of the commanded targe
               doctest::Approx(value_of(pose.chains[c], kind)).epsilon(1e-7));
   }
 }
+
+TEST_CASE("loads are said with four digits, however large they are") {
+  LoadsOfChain chain;
+  chain.name = "arm";
+  for (const auto& [value, text] : {std::pair{99.99999, "100.0"},
+                                    {123456.7, "123457"},
+                                    {0.00123456, "0.001235"},
+                                    {0.0, "0.000"},
+                                    {9.5, "9.500"},
+                                    {1000.0, "1000"}}) {
+    chain[LoadKind::group_moment].value = value;
+    CHECK(load_in_words(chain, LoadKind::group_moment) ==
+          "chain arm: group moment " + std::string(text) + " N m");
+  }
+}

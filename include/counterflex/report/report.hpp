@@ -148,7 +148,7 @@ struct RunReport {
   std::optional<TextSize> text_after;
   ControlFacts control;
   ForceSummary forces;
-  std::optional<PathLoads> loads{};  ///< with attribution, see `add_loads`
+  std::optional<PathLoads> loads{};  ///< where they were solved, see `add_loads`
   Capped<Remark> warnings;
   std::vector<WorstRow> worst;  ///< at most ten lines, the largest `after` first (`before` for `predict`)
   std::string work;             ///< where program coordinates were taken to be, in words
