@@ -74,10 +74,11 @@ OutputPaths output_paths(const Options& options) {
   if (options.report) {
     if (options.report->empty() || *options.report == "-")
       throw InputError(Exit::usage, {},
-                       "--report takes the stem of the names of two files, not standard output");
+                       "--report takes the stem of the names of three files, not standard output");
     paths.report_json = *options.report + ".json";
     paths.report_csv = *options.report + ".csv";
-    outputs.insert(outputs.end(), {paths.report_json, paths.report_csv});
+    paths.report_page = *options.report + ".html";
+    outputs.insert(outputs.end(), {paths.report_json, paths.report_csv, paths.report_page});
   }
   if (paths.program == "-" && options.json)
     throw InputError(
@@ -105,6 +106,8 @@ RunFiles::RunFiles(const OutputPaths& paths, const CsvColumns& columns) : paths_
   if (paths.report_csv.empty()) return;
   csv_.emplace(paths.report_csv);
   csv_->write(csv_header());
+  json_.emplace(paths.report_json);
+  page_.emplace(paths.report_page);
 }
 
 void RunFiles::add_program(std::string_view text) {
@@ -121,11 +124,22 @@ void RunFiles::add_waypoints(const std::vector<Waypoint>& waypoints) {
   }
 }
 
-void RunFiles::publish(const std::string& report_json, bool with_program) {
+void RunFiles::add_report(const RunReport& report, const std::string& report_json, const PathCurves& curves) {
+  if (json_) json_->write(report_json);
+  if (!page_) return;
+  std::vector<PageRun> runs(1);
+  runs[0].report = report_json;
+  runs[0].curves = curves_json(curves);
+  runs[0].loads = loads_json(report.loads);
+  write_page(page_title(report), runs, [&](std::string_view part) { page_->write(part); });
+}
+
+void RunFiles::publish(bool with_program) {
   {
     const HeldSignals held;
-    if (!paths_.report_json.empty()) write_file(paths_.report_json, report_json);
+    if (json_) json_->publish();
     if (csv_) csv_->publish();
+    if (page_) page_->publish();
     if (program_ && with_program && !program_to_stdout()) program_->publish();
   }
   if (program_ && with_program && program_to_stdout()) program_->publish();

@@ -203,13 +203,23 @@ void Windows::refuse_uncontrolled_moves(const Job& job) {
   }
 }
 
-Exit deliver(const Options& options, const Run& run, RunReport report, RunFiles& files, Console& console) {
+RunTally tally_for(const Options& options, const Run& run) {
+  std::optional<PathCurves> curves;
+  if (options.report) curves.emplace(options.command != Command::predict, weighs(run.machine.machine));
+  return RunTally(run.facts.min_block_ms, std::move(curves));
+}
+
+Exit deliver(const Options& options, Run& run, RunReport report, const RunTally& tally, RunFiles& files,
+             Console& console) {
+  run.lanes.reset();  // nothing is solved in them any more; the report takes their memory
   const MachineInput& on = run.machine;
   add_loads(report, solve_loads(on.model, run.load_places.places(), run.options.threads), on.machine);
+  if (options.report || options.json) add_texts(report, run.file.bytes);
   run.file.bytes.refuse_change();  // it was read more than once
   const std::optional<Failure>& failure = report.failure;
   const std::string json = to_json(report);
-  files.publish(json, !failure);
+  if (tally.curves()) files.add_report(report, json, *tally.curves());
+  files.publish(!failure);
   console.finish_warnings();
   if (options.json)
     write_result(json);
