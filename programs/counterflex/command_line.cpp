@@ -176,6 +176,19 @@ void add_verify(CLI::App& app, Options& options) {
   add_run(command, options);
 }
 
+void add_compare(CLI::App& app, Options& options) {
+  CLI::App& command = add_command(app, options, "compare", Command::compare,
+                                  "Show the reports of two runs side by side: machines, methods, tolerances");
+  command
+      .add_option("REPORT", options.reports, "Two reports, STEM.json or STEM.html, as --report wrote them")
+      ->required()
+      ->expected(2)
+      ->type_name("");
+  value_option(command, "--report", "STEM", "Write STEM.json and STEM.html, a page of both runs",
+               [&](const std::string& text) { options.report = text; });
+  add_output(command, options);
+}
+
 void add_analyze(CLI::App& app, Options& options) {
   CLI::App& command =
       add_command(app, options, "analyze", Command::analyze,
@@ -273,6 +286,7 @@ std::variant<Options, Exit> read_command_line(int argc, const char* const* argv)
   add_compensate(app, options);
   add_predict(app, options);
   add_verify(app, options);
+  add_compare(app, options);
   add_analyze(app, options);
   add_show_forces(app, options);
   add_check(app, options);

@@ -9,15 +9,16 @@
 
 namespace counterflex::cli {
 
-enum class Command { compensate, predict, verify, analyze, forces, check };
+enum class Command { compensate, predict, verify, compare, analyze, forces, check };
 
 struct Options {
   Command command = Command::check;
 
-  std::string program;             ///< verify: the original
-  std::string corrected;           ///< verify alone
-  std::vector<std::string> files;  ///< check alone
-  std::string machine;             ///< empty: none, which check and forces alone allow
+  std::string program;               ///< verify: the original
+  std::string corrected;             ///< verify alone
+  std::vector<std::string> files;    ///< check alone
+  std::vector<std::string> reports;  ///< compare alone: two
+  std::string machine;               ///< empty: none, which check and forces alone allow
 
   std::vector<std::string> forces;     ///< files
   std::vector<ForceRule> force_rules;  ///< of --force

@@ -9,6 +9,7 @@
 
 #include "counterflex/files/files.hpp"
 #include "counterflex/files/input_error.hpp"
+#include "counterflex/report/report_file.hpp"
 #include "signals.hpp"
 
 namespace counterflex::cli {
@@ -56,6 +57,13 @@ void check_paths(const std::vector<std::string>& outputs, const std::vector<std:
   }
 }
 
+std::string stem_of_report(const Options& options) {
+  if (options.report->empty() || *options.report == "-")
+    throw InputError(Exit::usage, {},
+                     "--report takes the stem of the names of two files, not standard output");
+  return *options.report;
+}
+
 }  // namespace
 
 std::string default_output(const std::string& program) {
@@ -72,11 +80,8 @@ OutputPaths output_paths(const Options& options) {
     outputs.push_back(paths.program);
   }
   if (options.report) {
-    if (options.report->empty() || *options.report == "-")
-      throw InputError(Exit::usage, {},
-                       "--report takes the stem of the names of two files, not standard output");
-    paths.report_json = *options.report + ".json";
-    paths.report_csv = *options.report + ".csv";
+    paths.report_json = stem_of_report(options) + ".json";
+    paths.report_csv = stem_of_report(options) + ".csv";
     outputs.insert(outputs.end(), {paths.report_json, paths.report_csv});
   }
   if (paths.program == "-" && options.json)
@@ -84,6 +89,16 @@ OutputPaths output_paths(const Options& options) {
         Exit::usage, {},
         "the program and the document of --json cannot both go to standard output; give -o a file");
   check_paths(outputs, inputs_of(options));
+  return paths;
+}
+
+ComparisonPaths comparison_paths(const Options& options) {
+  if (!options.report) return {};
+  ComparisonPaths paths{stem_of_report(options) + ".json", stem_of_report(options) + ".html"};
+  std::vector<std::string> inputs = options.reports;
+  for (const std::string& report : options.reports)
+    if (const std::string page = page_beside(report); !page.empty()) inputs.push_back(page);
+  check_paths({paths.json, paths.page}, inputs);
   return paths;
 }
 

@@ -24,6 +24,14 @@ struct OutputPaths {
 /// output; Exit::transient_io where its folder does not exist.
 OutputPaths output_paths(const Options& options);
 
+/// What `compare` writes; empty paths without --report.
+struct ComparisonPaths {
+  std::string json, page;
+};
+
+/// Throws as `output_paths`. The pages beside the reports are inputs, too.
+ComparisonPaths comparison_paths(const Options& options);
+
 /// Throws as `output_paths` where --output of a command that writes no program cannot be written.
 void check_output(const Options& options);
 

@@ -107,6 +107,7 @@ void refuse_stdin_twice(const Options& options) {
   std::vector<std::string> paths{options.program, options.corrected, options.machine,
                                  options.tool_table.value_or("")};
   paths.insert(paths.end(), options.forces.begin(), options.forces.end());
+  paths.insert(paths.end(), options.reports.begin(), options.reports.end());
   const auto count = std::count(paths.begin(), paths.end(), "-");
   if (count > 1) throw InputError(Exit::usage, {}, "standard input (-) can be only one of the inputs");
 }
