@@ -70,16 +70,19 @@ std::string main_sentence(const Comparison& c, const ShownLength& length) {
   }
   if (after[0] || after[1]) return of_unlike(c, before, after, length);
   if (before[0] && before[1]) return of_deviations(c, *before[0], *before[1], length);
-  return "There is nothing to compare: at least one of the runs solved nothing.";
+  return "There is no deviation to compare.";
 }
 
 }  // namespace
 
 std::string conclusion_of(const Comparison& comparison) {
   std::string text = main_sentence(comparison, ShownLength{comparison.unit});
-  for (const ComparedRun& run : comparison.runs)
-    if (!run.failure.empty())
-      text += fmt::format(" {} failed: its numbers are those of the part that was solved.", run.name);
+  const TwoValues before = values_of(comparison, "/summary/before/max_mm");
+  for (std::size_t i = 0; i < before.size(); ++i)
+    if (const ComparedRun& run = comparison.runs[i]; !run.failure.empty())
+      text += before[i]
+                  ? fmt::format(" {} failed: its numbers are those of the part that was solved.", run.name)
+                  : fmt::format(" {} failed before anything was solved.", run.name);
   const auto& differences = comparison.differences;
   if (std::any_of(differences.begin(), differences.end(),
                   [](const RunDifference& d) { return d.what == "file: program"; }))
