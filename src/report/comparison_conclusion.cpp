@@ -54,9 +54,9 @@ std::string of_unlike(const Comparison& c, const TwoValues& before, const TwoVal
   const ComparedRun& other = c.runs[without];
   std::string text =
       fmt::format("{} leaves a largest model residual of {}", c.runs[with].name, length(*after[with]));
-  if (!before[without]) return text + fmt::format("; {} was not solved.", other.name);
-  return text + fmt::format("; {}, which corrects nothing, is off by up to {}.", other.name,
-                            length(*before[without]));
+  if (!before[without]) return text + ".";
+  const char* why = other.command == "predict" ? ", which corrects nothing," : "";
+  return text + fmt::format("; {}{} is off by up to {}.", other.name, why, length(*before[without]));
 }
 
 std::string main_sentence(const Comparison& c, const ShownLength& length) {
