@@ -125,7 +125,7 @@ void add_report(CLI::App& app, Options& options) {
   value_option(
       app, "--min-block-ms", "TIME", "Feed moves that take less are warned of [2]",
       [&](const std::string& text) { options.min_block_ms = number_of("--min-block-ms", text, {0}); });
-  value_option(app, "--report", "STEM", "Write STEM.json and STEM.csv",
+  value_option(app, "--report", "STEM", "Write STEM.html, STEM.json and STEM.csv",
                [&](const std::string& text) { options.report = text; });
 }
 

@@ -11,10 +11,10 @@ bool is_reported(const Failure& failure) {
   return failure.exit == Exit::not_compensated || failure.exit == Exit::limit;
 }
 
-void add(Compensation& window, const PathForces& forces, const Run& run, RunTally& tally, RunFiles& files) {
-  tally.add_forces(forces);
+void add(const Job& job, Compensation& window, const Run& run, RunTally& tally, RunFiles& files) {
+  tally.add_forces(job.forces);
   tally.add_compensation(window);
-  tally.add_waypoints(window.waypoints);
+  tally.add_waypoints(window.waypoints, job);
   files.add_waypoints(window.waypoints);
   files.add_program(window.text);
   if (window.text.empty()) return;
@@ -39,7 +39,7 @@ std::optional<Failure> compensate_all(Run& run, RunTally& tally, RunFiles& files
     for (const LeftAlone& block : window.left_alone)
       console.warning(run.program.file, block.line, "not corrected: " + block.why);
     alone.unlock();
-    add(window, job.forces, run, tally, files);
+    add(job, window, run, tally, files);
   };
   return compensate_windows(windows.jobs(), run.options, TextReader(windows.reader()), run.facts.attribution,
                             {read, begun, done});
@@ -53,11 +53,11 @@ Exit run_compensate(const Options& options, Console& console) {
   refuse_what_cannot_be_compensated(*run);
   run->options.write.header = header_of(options, *run);
   RunFiles files(paths, {.attribution = run->facts.attribution});
-  RunTally tally(run->facts.min_block_ms);
+  RunTally tally = tally_for(options, *run);
   const std::optional<Failure> failure = compensate_all(*run, tally, files, console);
   if (!failure) run->facts.output = paths.program;
   if (!failure || is_reported(*failure))
-    return deliver(options, *run, report_compensation(run->context(), tally, failure), files, console);
+    return deliver(options, *run, report_compensation(run->context(), tally, failure), tally, files, console);
   console.error(located(run->program.file, *failure));
   return failure->exit;
 }

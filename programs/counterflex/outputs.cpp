@@ -60,7 +60,7 @@ void check_paths(const std::vector<std::string>& outputs, const std::vector<std:
 std::string stem_of_report(const Options& options) {
   if (options.report->empty() || *options.report == "-")
     throw InputError(Exit::usage, {},
-                     "--report takes the stem of the names of two files, not standard output");
+                     "--report takes the stem of the names of files, not standard output");
   return *options.report;
 }
 
@@ -82,7 +82,8 @@ OutputPaths output_paths(const Options& options) {
   if (options.report) {
     paths.report_json = stem_of_report(options) + ".json";
     paths.report_csv = stem_of_report(options) + ".csv";
-    outputs.insert(outputs.end(), {paths.report_json, paths.report_csv});
+    paths.report_page = stem_of_report(options) + ".html";
+    outputs.insert(outputs.end(), {paths.report_json, paths.report_csv, paths.report_page});
   }
   if (paths.program == "-" && options.json)
     throw InputError(
@@ -120,6 +121,8 @@ RunFiles::RunFiles(const OutputPaths& paths, const CsvColumns& columns) : paths_
   if (paths.report_csv.empty()) return;
   csv_.emplace(paths.report_csv);
   csv_->write(csv_header());
+  json_.emplace(paths.report_json);
+  page_.emplace(paths.report_page);
 }
 
 void RunFiles::add_program(std::string_view text) {
@@ -136,11 +139,19 @@ void RunFiles::add_waypoints(const std::vector<Waypoint>& waypoints) {
   }
 }
 
-void RunFiles::publish(const std::string& report_json, bool with_program) {
+void RunFiles::add_report(const RunReport& report, const std::string& report_json, const PathCurves& curves) {
+  if (json_) json_->write(report_json);
+  if (!page_) return;
+  const PageRun run{"", report_json, curves_json(curves), "null"};
+  write_page(page_title(report), {run}, [&](std::string_view part) { page_->write(part); });
+}
+
+void RunFiles::publish(bool with_program) {
   {
     const HeldSignals held;
-    if (!paths_.report_json.empty()) write_file(paths_.report_json, report_json);
+    if (json_) json_->publish();
     if (csv_) csv_->publish();
+    if (page_) page_->publish();
     if (program_ && with_program && !program_to_stdout()) program_->publish();
   }
   if (program_ && with_program && program_to_stdout()) program_->publish();

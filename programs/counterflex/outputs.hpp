@@ -7,6 +7,7 @@
 
 #include "counterflex/files/file_writer.hpp"
 #include "counterflex/report/formats.hpp"
+#include "counterflex/report/page.hpp"
 #include "options.hpp"
 
 namespace counterflex::cli {
@@ -16,6 +17,7 @@ struct OutputPaths {
   std::string program;  ///< "-": standard output
   std::string report_json;
   std::string report_csv;
+  std::string report_page;
 };
 
 /// The paths of `options`, the program's among them for `compensate`: NAME.comp.EXT beside the input unless
@@ -49,15 +51,18 @@ class RunFiles {
   void add_program(std::string_view text);
   void add_waypoints(const std::vector<Waypoint>& waypoints);
 
+  /// What is known when the run has ended. Nothing where no report is wanted.
+  void add_report(const RunReport& report, const std::string& report_json, const PathCurves& curves);
+
   /// Gives the files their names, deaf to interrupts meanwhile, the corrected program's too if
   /// `with_program`; standard output comes last.
-  void publish(const std::string& report_json, bool with_program);
+  void publish(bool with_program);
 
  private:
   OutputPaths paths_;
   CsvColumns columns_;
   std::size_t next_row_ = 0;
-  std::optional<FileWriter> program_, csv_;
+  std::optional<FileWriter> program_, csv_, json_, page_;
 };
 
 /// Text on standard output. Throws `InputError` (Exit::transient_io).

@@ -16,7 +16,7 @@ std::optional<Failure> predict_all(Run& run, RunTally& tally, RunFiles& files, C
     const ForwardRun forward = solve_forward_along(
         job, original_pieces(job, spacing), {.before = true, .attribution = true, .inside = false}, state);
     tally.add_forces(job.forces);
-    tally.add_waypoints(forward.waypoints);
+    tally.add_waypoints(forward.waypoints, job);
     files.add_waypoints(forward.waypoints);
     if (forward.failure) return forward.failure;
   }
@@ -29,9 +29,9 @@ Exit run_predict(const Options& options, Console& console) {
   const OutputPaths paths = output_paths(options);
   const auto run = prepare_run(options, console);
   RunFiles files(paths, {.corrected = false});
-  RunTally tally(run->facts.min_block_ms);
+  RunTally tally = tally_for(options, *run);
   const std::optional<Failure> failure = predict_all(*run, tally, files, console);
-  return deliver(options, *run, report_prediction(run->context(), tally, failure), files, console);
+  return deliver(options, *run, report_prediction(run->context(), tally, failure), tally, files, console);
 }
 
 }  // namespace counterflex::cli

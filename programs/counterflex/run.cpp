@@ -96,7 +96,8 @@ void warn_of_run(Run& run, Command command, Console& console) {
 }  // namespace
 
 RunInput Run::input() const {
-  return {machine.model, work.frames, ignored, force_input.source, options, read, &tool_models, lanes ? &*lanes : nullptr};
+  return {machine.model, work.frames, ignored,      force_input.source,
+          options,       read,        &tool_models, lanes ? &*lanes : nullptr};
 }
 
 RunContext Run::context() const {
@@ -199,12 +200,20 @@ void Windows::refuse_uncontrolled_moves(const Job& job) {
   }
 }
 
-Exit deliver(const Options& options, const Run& run, const RunReport& report, RunFiles& files,
+RunTally tally_for(const Options& options, const Run& run) {
+  std::optional<PathCurves> curves;
+  if (options.report) curves.emplace(options.command != Command::predict);
+  return RunTally(run.facts.min_block_ms, std::move(curves));
+}
+
+Exit deliver(const Options& options, Run& run, RunReport report, const RunTally& tally, RunFiles& files,
              Console& console) {
+  if (options.report || options.json) add_texts(report, run.file.bytes);
   run.file.bytes.refuse_change();  // it was read more than once
   const std::optional<Failure>& failure = report.failure;
   const std::string json = to_json(report);
-  files.publish(json, !failure);
+  if (tally.curves()) files.add_report(report, json, *tally.curves());
+  files.publish(!failure);
   console.finish_warnings();
   if (options.json)
     write_result(json);

@@ -74,10 +74,14 @@ class Windows {
   std::optional<Vector3> first_;  ///< where the path begins
 };
 
+/// What the run's waypoints and windows are to be added to: with the path's curves where a page is to show
+/// them.
+RunTally tally_for(const Options& options, const Run& run);
+
 /// Gives the run's files their names, and says the result: the summary, or the JSON document, on standard
 /// output; the summary on standard error where the corrected program has standard output. Then the failure,
 /// if there is one; its exit status.
-Exit deliver(const Options& options, const Run& run, const RunReport& report, RunFiles& files,
+Exit deliver(const Options& options, Run& run, RunReport report, const RunTally& tally, RunFiles& files,
              Console& console);
 
 }  // namespace counterflex::cli

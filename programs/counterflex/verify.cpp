@@ -17,21 +17,21 @@ Exit run_verify(const Options& options, Console& console) {
   const Job job = windows.job();
   const std::vector<Piece> pieces = match_programs(job, corrected.program);
   RunFiles files(paths, {});
-  RunTally tally(run->facts.min_block_ms);
+  RunTally tally = tally_for(options, *run);
   tally.add_forces(job.forces);
   tally.add_corrected(corrected.program);
   std::optional<Failure> missed;
   const auto unsolved =
       solve_forward_in_portions(job, pieces, {.before = true, .attribution = true, .inside = true},
                                 [&](const std::vector<Waypoint>& waypoints) {
-                                  tally.add_waypoints(waypoints);
+                                  tally.add_waypoints(waypoints, job);
                                   files.add_waypoints(waypoints);
                                   if (!missed) missed = tolerance_failure(job, waypoints);
                                 });
   const std::optional<Failure> failure = unsolved ? unsolved : missed;
   return deliver(options, *run,
-                 report_verification(run->context(), tally, overview_of(corrected.program), failure), files,
-                 console);
+                 report_verification(run->context(), tally, overview_of(corrected.program), failure), tally,
+                 files, console);
 }
 
 }  // namespace counterflex::cli

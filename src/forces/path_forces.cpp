@@ -204,6 +204,7 @@ void PathForces::find_corners(FeedRun& run) {
     const bool bend = run.blend == 0 && !entry && differ(slope(pieces_[i - 1]), slope(pieces_[i]));
     if (step) {
       ++steps;
+      steps_.push_back(pieces_[i].s0);
       largest_step_N_ = std::max(largest_step_N_, (pieces_[i].F0 - before).head<3>().norm());
     }
     if (step || bend) corners_.push_back(pieces_[i].s0);

@@ -53,4 +53,10 @@ std::vector<Actuator> actuators(const Machine& machine) {
   return found;
 }
 
+bool turns_joints(const Machine& machine) {
+  const std::vector<Actuator> all = actuators(machine);
+  return std::any_of(all.begin(), all.end(),
+                     [](const Actuator& actuator) { return actuator.joint.kind == JointKind::revolute; });
+}
+
 }  // namespace counterflex

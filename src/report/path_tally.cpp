@@ -23,6 +23,21 @@ void keep(Largest& largest, double length, int line) {
   largest.mm = std::max(largest.mm, length / mm);
 }
 
+/// Whether `deviation` is the largest of its line so far; then it is kept, with its place.
+bool keep_worst(double& largest_mm, WorstPlace& place, const Waypoint& w, const Vector6& deviation) {
+  const double here_mm = deviation.head<3>().norm() / mm;
+  if (place.known && here_mm <= largest_mm) return false;
+  largest_mm = here_mm;
+  place = {true, w.s / mm, w.p_MT / mm, w.wrench.head<3>().norm()};
+  return true;
+}
+
+DeviationParts parts_of(const Waypoint& w, const Causes& causes) {
+  const auto size_mm = [](const Vector6& deviation) { return deviation.head<3>().norm() / mm; };
+  return {size_mm(causes.geometry), size_mm(causes.load), size_mm(causes.gravity),
+          size_mm(w.before - causes.superposition)};
+}
+
 bool before_line(const WorstRow& row, int line) {
   return row.line < line;
 }
@@ -48,7 +63,7 @@ WorstRow& WorstLines::row(int line) {
       keep_the_worst();
       found = place();
     }
-    found = rows_.insert(found, WorstRow{line, 0, 0});
+    found = rows_.insert(found, WorstRow{.line = line});
   }
   if (line != last_) last_but_one_ = std::exchange(last_, line);
   return *found;
@@ -74,10 +89,10 @@ void WorstLines::keep_the_worst() {
   });
 }
 
-void PathTally::add(const Waypoint& w) {
+void PathTally::add(const Waypoint& w, std::int32_t operation) {
   if (w.status != Status::converged) return;
   if (!w.between) add_target(w);
-  if (w.cutting) return add_cutting(w);
+  if (w.cutting) return add_cutting(w, operation);
   finish_end();
   rapid_ = w;
 }
@@ -94,6 +109,12 @@ std::vector<WorstRow> PathTally::worst(double WorstRow::*key) const {
   return whole.lines_.worst(key);
 }
 
+std::vector<OperationTally> PathTally::operations() const {
+  PathTally whole = *this;
+  whole.finish_end();
+  return std::move(whole.operations_);
+}
+
 void PathTally::add_target(const Waypoint& w) {
   const double length = w.correction.head<3>().norm();
   keep(m_.correction, length, w.line);
@@ -103,46 +124,64 @@ void PathTally::add_target(const Waypoint& w) {
   ++m_.segments_changed;
 }
 
-void PathTally::add_cutting(const Waypoint& w) {
+void PathTally::add_cutting(const Waypoint& w, std::int32_t operation) {
   m_.after.add(sample(w, w.after, w.weight));
   m_.path_mm += w.weight / mm;
+  if (!w.exempt) m_.corrected_mm += w.weight / mm;
   m_.largest_N = std::max(m_.largest_N, w.wrench.head<3>().norm());
   m_.largest_Nm = std::max(m_.largest_Nm, w.wrench.tail<3>().norm());
+  add_to_operation(w, operation);
   WorstRow& row = lines_.row(w.line);
-  row.after_mm = std::max(row.after_mm, w.after.head<3>().norm() / mm);
+  row.operation = operation;
+  keep_worst(row.after_mm, row.at_after, w, w.after);
   piece_weight_ += w.weight;
   if (w.causes) {
     add_other(m_.higher, w, w.causes->higher, w.weight);
     add_other(m_.lower, w, w.causes->lower, w.weight);
   }
-  if (!w.between) add_end(w);
+  if (!w.between) add_end(w, operation);
+}
+
+void PathTally::add_to_operation(const Waypoint& w, std::int32_t operation) {
+  if (operation == no_operation) return;
+  const auto index = static_cast<std::size_t>(operation);
+  if (index >= operations_.size()) operations_.resize(index + 1);
+  OperationTally& tally = operations_[index];
+  tally.after.add(sample(w, w.after, w.weight));
+  tally.length_mm += w.weight / mm;
+  if (!w.exempt) tally.corrected_mm += w.weight / mm;
+  if (tally.first_line == 0) tally.first_line = w.line;
+  tally.first_line = std::min(tally.first_line, w.line);
+  tally.last_line = std::max(tally.last_line, w.line);
+  const std::pair move{w.segment, w.line};
+  if (tally.last_move == move) return;
+  tally.last_move = move;
+  ++tally.moves;
 }
 
 // Trapezoids: a piece weighs on both of its ends, or on its last one alone where the other is not known.
-void PathTally::add_end(const Waypoint& w) {
-  if (rapid_) begin_at_rapid(w);
+void PathTally::add_end(const Waypoint& w, std::int32_t operation) {
+  if (rapid_) begin_at_rapid(w, operation);
   const double share = end_ ? piece_weight_ / 2 : 0;
-  end_weight_ += share;
+  if (end_) end_->weight += share;
   finish_end();
-  end_ = w;
-  end_weight_ = piece_weight_ - share;
+  end_ = End{w, operation, piece_weight_ - share};
   piece_weight_ = 0;
 }
 
 // The end of a rapid is where the feed move after it starts; its force has not yet grown there.
-void PathTally::begin_at_rapid(const Waypoint& w) {
+void PathTally::begin_at_rapid(const Waypoint& w, std::int32_t operation) {
   const double gap = std::abs((w.p_MT - rapid_->p_MT).norm() - piece_weight_);
   if (!end_ && gap < same_place) {
-    end_ = *rapid_;
-    end_->line = w.line;
-    end_->direction = w.direction;
-    end_weight_ = 0;
+    end_ = End{*rapid_, operation, 0};
+    end_->at.line = w.line;
+    end_->at.direction = w.direction;
   }
   rapid_.reset();
 }
 
 void PathTally::finish_end() {
-  if (end_) measure_end(*end_, end_weight_);
+  if (end_) measure_end(*end_);
   end_.reset();
 }
 
@@ -155,11 +194,14 @@ void PathTally::measure_causes(const Waypoint& w, const Causes& causes, double w
   keep(m_.air, causes.air.head<3>().norm(), w.line);
 }
 
-void PathTally::measure_end(const Waypoint& w, double weight) {
-  m_.before.add(sample(w, w.before, weight));
-  if (w.causes) measure_causes(w, *w.causes, weight);
+void PathTally::measure_end(const End& end) {
+  const Waypoint& w = end.at;
+  m_.before.add(sample(w, w.before, end.weight));
+  if (end.operation != no_operation)
+    operations_[static_cast<std::size_t>(end.operation)].before.add(sample(w, w.before, end.weight));
+  if (w.causes) measure_causes(w, *w.causes, end.weight);
   WorstRow& row = lines_.row(w.line);
-  row.before_mm = std::max(row.before_mm, w.before.head<3>().norm() / mm);
+  if (keep_worst(row.before_mm, row.at_before, w, w.before) && w.causes) row.causes = parts_of(w, *w.causes);
 }
 
 }  // namespace counterflex

@@ -67,6 +67,23 @@ Sensitivity sensitivity(const Measures& measures) {
           measures.without_force.statistics()};
 }
 
+std::optional<double> percent_of(double part, double all) {
+  return all > 0 ? std::optional(100 * part / all) : std::nullopt;
+}
+
+std::vector<OperationReport> operation_reports(const RunTally& tally) {
+  std::vector<OperationTally> tallies = tally.path().operations();
+  const auto& names = tally.operation_names();
+  tallies.resize(names.size());
+  std::vector<OperationReport> rows;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const OperationTally& t = tallies[i];
+    rows.push_back({names[i].tool, names[i].operation, t.first_line, t.last_line, t.moves, t.length_mm,
+                    percent_of(t.corrected_mm, t.length_mm), t.before.statistics(), t.after.statistics()});
+  }
+  return rows;
+}
+
 // What all commands report alike.
 RunReport common(const RunContext& context, const RunTally& tally, const Measures& measures,
                  const std::optional<Failure>& failure) {
@@ -79,6 +96,9 @@ RunReport common(const RunContext& context, const RunTally& tally, const Measure
   report.path_mm = measures.path_mm;
   report.before = known(measures.before, failure);
   if (context.facts.attribution && report.before) report.sources = sources(measures, weighs(context.machine));
+  report.corrected_percent = percent_of(measures.corrected_mm, measures.path_mm);
+  report.operations = operation_reports(tally);
+  report.units = {tally.unit(), turns_joints(context.machine)};
   report.blocks.total = context.program.blocks;
   report.blocks.moves = context.program.moves;
   report.blocks.left_alone = context.program.left_alone;
@@ -107,6 +127,11 @@ RunReport report_prediction(const RunContext& context, const RunTally& tally,
                             const std::optional<Failure>& failure) {
   RunReport report = common(context, tally, tally.path().measures(), failure);
   report.command = Command::predict;
+  report.corrected_percent.reset();
+  for (OperationReport& operation : report.operations) {
+    operation.corrected_percent.reset();
+    operation.after.reset();
+  }
   report.worst = tally.path().worst(&WorstRow::before_mm);
   report.warnings = all_warnings(context, tally, report);
   return report;

@@ -23,6 +23,10 @@ Json statistics_json(const DeviationStatistics& s) {
           {"max_tool_axis_mm", number(s.max_tool_axis_mm, digits)}};
 }
 
+Json optional_number(const std::optional<double>& value) {
+  return value ? number(*value, digits) : Json(nullptr);
+}
+
 Json optional_statistics(const std::optional<DeviationStatistics>& s) {
   return s ? statistics_json(*s) : Json(nullptr);
 }
@@ -78,6 +82,7 @@ Json summary_json(const RunReport& report) {
           {"sensitivity", sensitivity_json(report.sensitivity)},
           {"air", largest_json(report.air)},
           {"correction", largest_json(report.correction)},
+          {"corrected_percent", optional_number(report.corrected_percent)},
           {"path_mm", number(report.path_mm, digits)}};
 }
 
@@ -153,13 +158,11 @@ Json lines_json(const std::optional<LineLengths>& lines) {
 }
 
 Json control_json(const ControlFacts& control) {
-  const auto optional = [](const std::optional<double>& value) {
-    return value ? number(*value, digits) : Json(nullptr);
-  };
   Json tolerances = Json::array();
   for (const PathTolerance& t : control.tolerances)
-    tolerances.push_back(
-        {{"line", t.line}, {"path_mm", optional(t.path_mm)}, {"merge_mm", optional(t.merge_mm)}});
+    tolerances.push_back({{"line", t.line},
+                          {"path_mm", optional_number(t.path_mm)},
+                          {"merge_mm", optional_number(t.merge_mm)}});
   return {{"short_blocks", short_blocks_json(control.short_blocks)},
           {"lines", lines_json(control.lines)},
           {"path_tolerances", std::move(tolerances)},
@@ -173,13 +176,58 @@ Json warnings_json(const std::vector<Remark>& warnings) {
   return list;
 }
 
+Json operations_json(const std::vector<OperationReport>& operations) {
+  Json list = Json::array();
+  for (const OperationReport& operation : operations)
+    list.push_back({{"tool", operation.tool},
+                    {"operation", operation.name},
+                    {"first_line", operation.first_line},
+                    {"last_line", operation.last_line},
+                    {"moves", operation.moves},
+                    {"length_mm", number(operation.length_mm, digits)},
+                    {"corrected_percent", optional_number(operation.corrected_percent)},
+                    {"before", statistics_json(operation.before)},
+                    {"after", optional_statistics(operation.after)}});
+  return list;
+}
+
+Json parts_json(const std::optional<DeviationParts>& parts, bool weights) {
+  if (!parts) return nullptr;
+  return {{"geometry_mm", number(parts->geometry_mm, digits)},
+          {"load_mm", number(parts->load_mm, digits)},
+          {"gravity_mm", weights ? number(parts->gravity_mm, digits) : Json(nullptr)},
+          {"discrepancy_mm", number(parts->discrepancy_mm, digits)}};
+}
+
+/// The place of a row is that of the deviation by which rows are ordered.
+Json worst_row_json(const RunReport& report, const WorstRow& row) {
+  const WorstPlace& place = report.after ? row.at_after : row.at_before;
+  const bool weights = report.sources && report.sources->gravity;
+  Json json = {{"line", row.line},
+               {"before_mm", number(row.before_mm, digits)},
+               {"after_mm", report.after ? number(row.after_mm, digits) : Json(nullptr)},
+               {"s_mm", number(place.s_mm, digits)},
+               {"place_mm", numbers(place.place_mm, digits)},
+               {"force_N", number(place.force_N, 4)},
+               {"causes", parts_json(row.causes, weights)},
+               {"text", row.text}};
+  if (row.operation < 0) return json;
+  const OperationReport& operation = report.operations[static_cast<std::size_t>(row.operation)];
+  json["tool"] = operation.tool;
+  json["operation"] = operation.name;
+  return json;
+}
+
 Json worst_json(const RunReport& report) {
   Json list = Json::array();
-  for (const WorstRow& row : report.worst)
-    list.push_back({{"line", row.line},
-                    {"before_mm", number(row.before_mm, digits)},
-                    {"after_mm", report.after ? number(row.after_mm, digits) : Json(nullptr)}});
+  for (const WorstRow& row : report.worst) list.push_back(worst_row_json(report, row));
   return list;
+}
+
+/// What people of this program and this machine read lengths in.
+Json units_json(const ShownUnits& units) {
+  const bool inch = units.program == LengthUnit::inches;
+  return {{"program", inch ? "inch" : "mm"}, {"shown", inch ? "inch" : units.revolute ? "mm" : "um"}};
 }
 
 Json assumptions_json(const RunReport& report) {
@@ -190,14 +238,11 @@ Json assumptions_json(const RunReport& report) {
 }
 
 Json tools_json(const std::vector<UsedTool>& tools) {
-  const auto optional = [](const std::optional<double>& value) {
-    return value ? number(*value, digits) : Json(nullptr);
-  };
   Json list = Json::array();
   for (const UsedTool& tool : tools)
     list.push_back({{"number", tool.number},
-                    {"length_mm", optional(tool.length_mm)},
-                    {"radial_N_per_um", optional(tool.radial_N_per_um)},
+                    {"length_mm", optional_number(tool.length_mm)},
+                    {"radial_N_per_um", optional_number(tool.radial_N_per_um)},
                     {"stiffness", tool.stiffness}});
   return list;
 }
@@ -227,7 +272,9 @@ std::string to_json(const RunReport& report) {
                    {"assumptions", assumptions_json(report)},
                    {"warning_count", report.warnings.count},
                    {"warnings", warnings_json(report.warnings.rows)},
-                   {"worst", worst_json(report)}};
+                   {"worst", worst_json(report)},
+                   {"operations", operations_json(report.operations)},
+                   {"units", units_json(report.units)}};
   if (!report.tools.empty()) document["tools"] = tools_json(report.tools);
   return dump(document);
 }

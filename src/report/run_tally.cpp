@@ -7,16 +7,53 @@
 
 namespace counterflex {
 
-RunTally::RunTally(double min_block_ms) : min_block_ms_(min_block_ms) {}
+std::int32_t OperationNames::number_of(const Program& window, const Move& move) {
+  const std::string& operation = window.operations[move.operation];
+  const auto is_it = [&](const Name& name) { return name.tool == move.tool && name.operation == operation; };
+  if (last_ >= 0 && is_it(names_[static_cast<std::size_t>(last_)])) return last_;
+  std::size_t i =
+      static_cast<std::size_t>(std::find_if(names_.begin(), names_.end(), is_it) - names_.begin());
+  if (i == names_.size() && i < listed_at_most)
+    names_.push_back(i + 1 < listed_at_most ? Name{move.tool, operation} : Name{0, "other operations"});
+  i = std::min(i, listed_at_most - 1);
+  return last_ = static_cast<std::int32_t>(i);
+}
+
+RunTally::RunTally(double min_block_ms, std::optional<PathCurves> curves)
+    : min_block_ms_(min_block_ms), curves_(std::move(curves)) {}
+
+void RunTally::add(const Waypoint& w, std::int32_t operation) {
+  path_.add(w, operation);
+  if (curves_) curves_->add(w, operation);
+}
 
 void RunTally::add_waypoints(const std::vector<Waypoint>& waypoints) {
-  for (const Waypoint& w : waypoints) path_.add(w);
+  for (const Waypoint& w : waypoints) add(w, PathTally::no_operation);
+}
+
+void RunTally::add_waypoints(const std::vector<Waypoint>& waypoints, const Job& window) {
+  std::size_t segment = no_segment;
+  std::int32_t operation = PathTally::no_operation;
+  for (const Waypoint& w : waypoints) {
+    if (w.segment != segment) {
+      segment = w.segment;
+      operation = PathTally::no_operation;
+      if (segment != no_segment && w.cutting) {
+        const Move& move = window.program.moves[window.path.segments[segment].move];
+        operation = operation_names_.number_of(window.program, move);
+        if (!unit_) unit_ = move.unit;
+      }
+    }
+    add(w, operation);
+  }
 }
 
 void RunTally::add_forces(const PathForces& forces) {
   forces_.ramps += forces.ramps();
   forces_.jumps += forces.jumps();
   forces_.largest_step_N = std::max(forces_.largest_step_N, forces.largest_step_N());
+  if (curves_)
+    for (const double s : forces.steps()) curves_->add_force_step(s / mm);
   for (const Unforced& move : forces.unforced()) add_unforced(forces_.without, move);
   for (const ForceNote& note : forces.notes()) list(force_notes_, Remark{note.line, note.what});
 }

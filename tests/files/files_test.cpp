@@ -161,3 +161,12 @@ TEST_CASE("SHA-256 gives the digests of the standard's examples") {
   CHECK(sha256(std::string(1000000, 'a')) ==
         "cdc76e5c9914fb9281a1c7e284d73e67f1809a48a497200e046d39ccc7112cd0");
 }
+
+// RFC 4648, section 10; the digest is that of FIPS 180-2, appendix B.1.
+TEST_CASE("base64 is that of its standard, and integrity that of the digest's bytes") {
+  CHECK(base64("") == "");
+  CHECK(base64("f") == "Zg==");
+  CHECK(base64("fo") == "Zm8=");
+  CHECK(base64("foobar") == "Zm9vYmFy");
+  CHECK(integrity("abc") == "sha256-ungWv48Bz+pBQUDeXa4iI7ADYaOWF3qctBD/YfIAFa0=");
+}

@@ -74,3 +74,17 @@ TEST_CASE("a compliance is given as stiffness or as compliance") {
             "{ compliance = \"prismatic\", axis = \"y\", compliance_m_per_N = 1e-7, preload = \"home\" }")
             .stiffness == doctest::Approx(1e7));
 }
+
+TEST_CASE("a machine turns joints where one of its actuators does, in a branch, too") {
+  const Element slide = Actuator{{JointKind::prismatic, Vector3::UnitX()}};
+  const Element turn = Actuator{{JointKind::revolute, Vector3::UnitZ()}};
+  const Element free = Passive{{JointKind::revolute, Vector3::UnitZ()}};
+  const auto machine_of = [](std::vector<Element> elements) {
+    Machine machine;
+    machine.chains = {{"arm", std::move(elements)}};
+    return machine;
+  };
+  CHECK_FALSE(turns_joints(machine_of({slide, free})));
+  CHECK(turns_joints(machine_of({slide, turn})));
+  CHECK(turns_joints(machine_of({slide, Group{{{"bar", {turn}}}}})));
+}

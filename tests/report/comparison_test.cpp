@@ -54,7 +54,7 @@ TEST_CASE("a run compared with itself differs in nothing") {
   CHECK(comparison.numbers.size() > 20);
   for (const ComparedNumber& number : comparison.numbers)
     if (number.difference()) CHECK(*number.difference() == 0);
-  CHECK(contains(comparison.conclusion, "a and a leave the same: a largest model residual of 0.0060 mm."));
+  CHECK(contains(comparison.conclusion, "a and a leave the same: a largest model residual of 6.0 um."));
 }
 
 TEST_CASE("differences are the second run's value minus the first one's, percents are of the first") {
@@ -69,10 +69,9 @@ TEST_CASE("differences are the second run's value minus the first one's, percent
   CHECK(number_at(comparison, "/summary/after/max_mm").difference() == -0.003);
   CHECK(number_at(comparison, "/summary/before/max_axis_mm/1").values[0] == 0.3);
   CHECK_FALSE(number_at(comparison, "/summary/before/max_rotation_deg").percent());
-  CHECK(contains(
-      comparison.conclusion,
-      "b leaves 0.0030 mm less than a: a largest model residual of 0.0030 mm instead of 0.0060 mm."));
-  CHECK(contains(comparison.conclusion, "Uncorrected, b is off by up to 0.2500 mm, 0.2500 mm less than a."));
+  CHECK(contains(comparison.conclusion,
+                 "b leaves 3.0 um less than a: a largest model residual of 3.0 um instead of 6.0 um."));
+  CHECK(contains(comparison.conclusion, "Uncorrected, b is off by up to 250.0 um, 250.0 um less than a."));
 }
 
 TEST_CASE("every number of a comparison is the one in the report") {
@@ -129,7 +128,7 @@ TEST_CASE("what a prediction does not have is a dash on the terminal and null in
   CHECK(std::any_of(lines.begin(), lines.end(), [](const std::string& line) {
     return line == "  largest                                        -      0.0060           -";
   }));
-  CHECK(contains(comparison.conclusion, "a, which corrects nothing, is off by up to 0.5000 mm"));
+  CHECK(contains(comparison.conclusion, "a, which corrects nothing, is off by up to 500.0 um"));
 }
 
 TEST_CASE("two predictions, and runs that solved nothing, have a conclusion, too") {
@@ -138,7 +137,7 @@ TEST_CASE("two predictions, and runs that solved nothing, have a conclusion, too
   const ReportFile nothing =
       report_named("b", to_json(predicted(run, {}, Failure{Exit::not_compensated, 4, "no equilibrium"})));
   CHECK(
-      contains(compare(a, a, "0.1.0").conclusion, "Uncorrected, a and a are off alike, by up to 0.5000 mm."));
+      contains(compare(a, a, "0.1.0").conclusion, "Uncorrected, a and a are off alike, by up to 500.0 um."));
   const Comparison comparison = compare(a, nothing, "0.1.0");
   CHECK(comparison.runs[1].failure == "line 4: no equilibrium");
   CHECK(comparison.conclusion == "There is no deviation to compare. b failed before anything was solved.");

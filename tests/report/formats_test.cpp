@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <sstream>
 
+#include "counterflex/files/file_reader.hpp"
 #include "made_up_run.hpp"
 #include "support/text.hpp"
 
@@ -17,6 +18,8 @@ Compensation small_compensation() {
   Compensation c;
   c.text = "G21 G0 X1\n";
   c.waypoints = {cut(1, 4, 100, Vector3(0, 0.3, -0.4))};
+  c.waypoints[0].s = 100 * mm;
+  c.waypoints[0].p_MT = Vector3(1, 2, 3) * mm;
   c.left_alone = {{5, "exact stop: not split"}};
   c.counts.inserted_blocks = 2;
   c.corrected_moves = 3;
@@ -35,7 +38,9 @@ std::string csv_of(const std::vector<Waypoint>& waypoints, const CsvColumns& col
 
 TEST_CASE("the JSON of a compensation has every key, in this order") {
   const MadeUpRun run;
-  const RunReport report = compensated(run, small_compensation());
+  RunReport report = compensated(run, small_compensation());
+  FileReader program = FileReader::of_bytes(made_up_program);
+  add_texts(report, program);
   const std::string hash_a(64, 'a'), hash_b(64, 'b');
   CHECK(to_json(report) == R"({
   "schema": "counterflex-report 1",
@@ -169,6 +174,7 @@ TEST_CASE("the JSON of a compensation has every key, in this order") {
       "max_mm": 0.5,
       "line": 4
     },
+    "corrected_percent": 100.0,
     "path_mm": 100.0
   },
   "forces": {
@@ -235,11 +241,71 @@ TEST_CASE("the JSON of a compensation has every key, in this order") {
     {
       "line": 4,
       "before_mm": 0.5,
-      "after_mm": 0.005
+      "after_mm": 0.005,
+      "s_mm": 100.0,
+      "place_mm": [1.0, 2.0, 3.0],
+      "force_N": 50.0,
+      "causes": {
+        "geometry_mm": 0.125,
+        "load_mm": 0.25,
+        "gravity_mm": null,
+        "discrepancy_mm": 0.125
+      },
+      "text": "G1 X100 F600",
+      "tool": 0,
+      "operation": "made up"
     }
-  ]
+  ],
+  "operations": [
+    {
+      "tool": 0,
+      "operation": "made up",
+      "first_line": 4,
+      "last_line": 4,
+      "moves": 1,
+      "length_mm": 100.0,
+      "corrected_percent": 100.0,
+      "before": {
+        "max_mm": 0.5,
+        "rms_mm": 0.5,
+        "mean_mm": 0.5,
+        "p95_mm": 0.5,
+        "max_line": 4,
+        "max_axis_mm": [0.0, 0.3, 0.4],
+        "max_rotation_deg": 0.0,
+        "max_along_mm": 0.0,
+        "max_across_mm": 0.3,
+        "max_tool_axis_mm": 0.4
+      },
+      "after": {
+        "max_mm": 0.005,
+        "rms_mm": 0.005,
+        "mean_mm": 0.005,
+        "p95_mm": 0.005,
+        "max_line": 4,
+        "max_axis_mm": [0.0, 0.003, 0.004],
+        "max_rotation_deg": 0.0,
+        "max_along_mm": 0.0,
+        "max_across_mm": 0.003,
+        "max_tool_axis_mm": 0.004
+      }
+    }
+  ],
+  "units": {
+    "program": "mm",
+    "shown": "um"
+  }
 }
 )");
+}
+
+TEST_CASE("lengths are shown in inches of an inch program, else in mm of a machine that turns joints") {
+  RunReport report;
+  CHECK(contains(to_json(report), "\"program\": \"mm\",\n    \"shown\": \"um\""));
+  report.units.revolute = true;
+  CHECK(contains(to_json(report), "\"program\": \"mm\",\n    \"shown\": \"mm\""));
+  report.units.program = LengthUnit::inches;
+  CHECK(contains(to_json(report), "\"program\": \"inch\",\n    \"shown\": \"inch\""));
 }
 
 TEST_CASE("the JSON of a failure says so, and holds null where nothing was solved") {

@@ -49,7 +49,7 @@ struct MadeUpRun {
   RunTally tally(const std::vector<Waypoint>& waypoints) const {
     RunTally result(facts.min_block_ms);
     result.add_forces(forces);
-    result.add_waypoints(waypoints);
+    result.add_waypoints(waypoints, job);
     return result;
   }
 };

@@ -119,3 +119,23 @@ TEST_CASE("thousands of lines later a line that is none of the worst is forgotte
   CHECK(lines.row(1).after_mm == 0);
   CHECK(lines.row(2).after_mm == 0.9);
 }
+
+TEST_CASE("a worst line says where its largest deviations are, and what the one before is made of") {
+  Waypoint small = cut(0, 5, 1, Vector3(0.1, 0, 0)), large = cut(0, 5, 1, Vector3(0.4, 0, 0)),
+           last = cut(0, 5, 1, Vector3(0.2, 0, 0));
+  small.s = 1 * mm;
+  large.s = 2 * mm;
+  large.p_MT = Vector3(7, 8, 9) * mm;
+  last.s = 3 * mm;
+  last.after = 10 * last.after;
+  const PathTally tally = tally_of({small, large, last});
+  const WorstRow row = tally.worst(&WorstRow::before_mm).at(0);
+  CHECK(row.at_before.s_mm == doctest::Approx(2));
+  CHECK(row.at_before.place_mm.isApprox(Vector3(7, 8, 9)));
+  CHECK(row.at_before.force_N == doctest::Approx(50));
+  CHECK(row.at_after.s_mm == doctest::Approx(3));
+  REQUIRE(row.causes);
+  CHECK(row.causes->geometry_mm == doctest::Approx(0.1));
+  CHECK(row.causes->load_mm == doctest::Approx(0.2));
+  CHECK(row.causes->discrepancy_mm == doctest::Approx(0.1));
+}

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "counterflex/files/file_reader.hpp"
 #include "made_up_run.hpp"
 
 using namespace counterflex;
@@ -227,4 +228,15 @@ TEST_CASE("what is assumed is said of every offset that the program uses") {
   CHECK(report().datum.ends_with(
       "The work frame G54 was taken to be truly there, not found by touching the part off "
       "with this machine."));
+}
+
+TEST_CASE("worst lines get the text of the program, line ends aside") {
+  RunReport report;
+  report.worst = {{.line = 2}, {.line = 1}, {.line = 4}, {.line = 9}};
+  FileReader program = FileReader::of_bytes("G21\r\nG1 X1\n\n" + std::string(300, 'X'));
+  add_texts(report, program);
+  CHECK(report.worst[0].text == "G1 X1");
+  CHECK(report.worst[1].text == "G21");
+  CHECK(report.worst[2].text == std::string(200, 'X'));
+  CHECK(report.worst[3].text == "");
 }

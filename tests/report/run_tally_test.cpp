@@ -241,3 +241,61 @@ TEST_CASE("blocks that the program lists stand before the compensation's of the 
   CHECK(report.blocks.left_alone.rows[2].why == "second");
   CHECK(report.blocks.left_alone.rows[3].why == "later");
 }
+
+TEST_CASE("operations are told apart by tool and comment, and their parts make up the whole") {
+  const std::string text =
+      "G21 G90 G0 X0 Y0 Z0\n"
+      "(ROUGH)\n"
+      "T1 M6\n"
+      "G1 X100 F600\n"
+      "T2 M6\n"
+      "Y50\n"
+      "(FINISH)\n"
+      "X90\n"
+      "M30\n";
+  MadeUpRun run;
+  run.program = read_program(text, "made_up.ngc", {});
+  run.path = build_toolpath(run.program, one_frame(run.program, {}));
+  std::vector<Waypoint> path;
+  for (std::size_t i = 0; i < run.path.segments.size(); ++i) {
+    const Segment& segment = run.path.segments[i];
+    if (!segment.cutting) continue;
+    path.push_back(cut(i, segment.line, length(segment.wanted) / mm, Vector3(0.1 * segment.line, 0, 0)));
+  }
+  path.back().exempt = true;
+  const Overview overview = overview_of(run.program);
+  RunTally tally(2);
+  tally.add_waypoints(path, run.job);
+  const RunReport report = report_verification(run.context(overview), tally, overview, {});
+  REQUIRE(report.operations.size() == 3);
+  CHECK(report.operations[0].tool == 1);
+  CHECK(report.operations[0].name == "ROUGH");
+  CHECK(report.operations[1].tool == 2);
+  CHECK(report.operations[1].name == "ROUGH");
+  CHECK(report.operations[2].name == "FINISH");
+  CHECK(report.operations[2].first_line == 8);
+  double sum_mm = 0;
+  for (const OperationReport& operation : report.operations) {
+    CHECK(operation.moves == 1);
+    CHECK(operation.before.max_mm == doctest::Approx(0.1 * operation.first_line));
+    sum_mm += operation.length_mm;
+  }
+  CHECK(sum_mm == doctest::Approx(report.path_mm));
+  CHECK(*report.operations[0].corrected_percent == doctest::Approx(100));
+  CHECK(*report.operations[2].corrected_percent == 0);
+  CHECK(*report.corrected_percent == doctest::Approx(100 * 150 / 160.0));
+}
+
+TEST_CASE("of more operations than are listed the last one stands for all others") {
+  std::string text = "G21 G90 G0 X0 Y0 Z0\n";
+  for (int i = 1; i <= 150; ++i)
+    text += "(PART " + std::to_string(i) + ")\nG1 X" + std::to_string(i) + " F600\n";
+  const Program program = read_program(text, "made_up.ngc", {});
+  OperationNames names;
+  for (int twice = 0; twice < 2; ++twice)
+    for (std::size_t m = 1; m < program.moves.size(); ++m)
+      CHECK(names.number_of(program, program.moves[m]) ==
+            static_cast<std::int32_t>(std::min(m, listed_at_most) - 1));
+  CHECK(names.names().size() == listed_at_most);
+  CHECK(names.names().back().operation == "other operations");
+}

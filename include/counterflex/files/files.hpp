@@ -15,4 +15,10 @@ void write_file(const std::string& path, std::string_view bytes);
 /// SHA-256 of `bytes`, 64 lower-case hexadecimal digits.
 std::string sha256(std::string_view bytes);
 
+/// RFC 4648, with padding.
+std::string base64(std::string_view bytes);
+
+/// "sha256-" and the digest in base64: how a page's security policy names what it allows.
+std::string integrity(std::string_view bytes);
+
 }  // namespace counterflex

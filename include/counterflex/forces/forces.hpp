@@ -220,6 +220,7 @@ class PathForces {
   std::size_t ramps() const { return ramps_; }
   std::size_t jumps() const { return jumps_; }
   double largest_step_N() const { return largest_step_N_; }
+  const std::vector<double>& steps() const { return steps_; }  ///< where all of these are: path lengths (m)
 
  private:
   /// Where a segment lies.
@@ -247,6 +248,7 @@ class PathForces {
   bool is_linear_between_breaks_ = true;
   std::size_t ramps_ = 0, jumps_ = 0;
   double largest_step_N_ = 0;
+  std::vector<double> steps_;
 };
 
 /// Whether the rules have one force for every feed move of a program, gathered window by window before

@@ -164,8 +164,10 @@ double total_mass(const Machine& machine);
 
 /// Whether weights act on it: there are masses, and something pulls at them.
 bool weighs(const Machine& machine);
-
 /// All actuators in their order.
 std::vector<Actuator> actuators(const Machine& machine);
+
+/// Whether an actuator turns: a robot's do, and those of a machine with rotary drives.
+bool turns_joints(const Machine& machine);
 
 }  // namespace counterflex

@@ -1,9 +1,9 @@
 #pragma once
-/// The path in a bounded number of stretches, for curves and pictures: what a plot can show of a program of any
-/// length, without losing a peak. Lengths in mm, angles in degrees, as reports show them.
+/// The path in a bounded number of stretches, for curves and pictures: what a plot can show of a program of
+/// any length, without losing a peak. Lengths in mm, angles in degrees, as reports show them.
 #include <array>
 #include <cstdint>
-#include <string>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -66,36 +66,37 @@ std::string_view name_of(Quantity quantity);
 
 /// Consecutive waypoints of feed moves.
 struct Stretch {
-  double s_mm = 0;      ///< cutting path length where it ends
-  int first_line = 0;   ///< of the original program, in the order of the path
+  double s_mm = 0;     ///< cutting path length where it ends
+  int first_line = 0;  ///< of the original program, in the order of the path
   int last_line = 0;
-  std::int32_t operation = -1;     ///< of its first waypoint, as the caller counts them; -1: not said
-  bool begins_after_rapid = false; ///< a rapid precedes a waypoint of it
+  std::int32_t operation = -1;      ///< of its first waypoint, as the caller counts them; -1: not said
+  bool begins_after_rapid = false;  ///< a rapid precedes a waypoint of it
   /// At the waypoint with the largest deviation `after` (of a prediction: `before`): the wanted tip, and the
   /// deviations there; NaN where unknown.
   std::array<float, 3> place{}, before{}, after{};
   std::array<float, quantity_count> least{}, largest{};  ///< NaN where nothing is known
 };
 
-/// A place on the path that a plot marks.
-struct PathMark {
-  double s_mm = 0;
-  int line = 0;
-};
-
-/// The first ones, and how many there are.
+/// Places that a plot marks, by cutting path length (mm), in the order of the path: all of them, or evenly
+/// thinned out where there are more than `most`.
 struct PathMarks {
-  std::vector<PathMark> rows;
-  std::size_t count = 0;
+  static constexpr std::size_t most = 2000;
+  std::vector<double> s_mm;
+  std::size_t count = 0;  ///< all, with those that were thinned out
+
+  void add(double s);
+
+ private:
+  std::size_t stride_ = 1;
 };
 
-/// Gathers waypoints in the order of the path. Waypoints that were not solved are passed over. While there are
-/// at most `most_stretches` each has a stretch of its own; where there are more, neighbours are merged two by
-/// two, again and again, so that memory stays bounded.
+/// Gathers waypoints in the order of the path. Waypoints that were not solved are passed over; where a feed
+/// move starts at the end of a rapid, that is its first one. While there are at most `most_stretches` each
+/// has a stretch of its own; where there are more, neighbours are merged two by two, again and again, so that
+/// memory stays bounded.
 class PathCurves {
  public:
   static constexpr std::size_t most_stretches = 8192;
-  static constexpr std::size_t most_marks = 2000;
 
   /// `corrected`: whether there is a corrected program, so that after, correction and air mean something.
   explicit PathCurves(bool corrected);
@@ -104,23 +105,29 @@ class PathCurves {
   void add(const Waypoint& w, std::int32_t operation);
 
   /// A step of the force profile.
-  void add_force_step(double s_mm, int line);
+  void add_force_step(double s_mm);
 
-  /// All so far, in order; where waypoints were merged the last stretch may be shorter than the others.
-  const std::vector<Stretch>& stretches() const;
-  std::size_t waypoints_per_stretch() const { return per_stretch_; }  ///< a power of two; 1: nothing was merged
+  /// All so far, in order; where waypoints were merged the last stretch may have fewer than the others.
+  const std::vector<Stretch>& stretches() const { return stretches_; }
+  std::size_t waypoints_per_stretch() const {
+    return per_stretch_;
+  }  ///< a power of two; 1: nothing was merged
   std::size_t waypoints() const { return waypoints_; }
   const PathMarks& rapids() const { return rapids_; }
   const PathMarks& force_steps() const { return force_steps_; }
   bool corrected() const { return corrected_; }
 
  private:
+  void begin_at_rapid(const Waypoint& w, std::int32_t operation);
+  void push(const Waypoint& w, std::int32_t operation, bool after_rapid);
   void merge_neighbours();
+  Quantity picture() const;  ///< whose largest value decides what a stretch shows in space
 
   bool corrected_;
   std::vector<Stretch> stretches_;
   std::size_t per_stretch_ = 1, in_last_ = 0, waypoints_ = 0;
-  bool after_rapid_ = false;
+  double s_mm_ = 0;  ///< of the last waypoint
+  std::optional<Waypoint> rapid_;
   PathMarks rapids_, force_steps_;
 };
 

@@ -1,5 +1,6 @@
 #pragma once
 /// From waypoints to numbers, waypoint by waypoint, in memory that does not grow with their number.
+#include <cstdint>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -24,7 +25,17 @@ struct Measures {
   Largest air, correction;
   double largest_N = 0, largest_Nm = 0;
   double path_mm = 0;
+  double corrected_mm = 0;           ///< of it, what is held to the tolerance
   std::size_t segments_changed = 0;  ///< feed moves and rapids whose target is not the original one
+};
+
+/// The moves of a tool and an operation, wherever they are in the program.
+struct OperationTally {
+  DeviationTally before, after;
+  int first_line = 0, last_line = 0;
+  std::size_t moves = 0;
+  double length_mm = 0, corrected_mm = 0;  ///< of feed moves, and of these what is held to the tolerance
+  std::optional<std::pair<std::size_t, int>> last_move;  ///< segment and line
 };
 
 /// Rows by line, one a line, of which the worst are wanted. From the 4096th line on all are forgotten now and
@@ -50,19 +61,30 @@ class WorstLines {
 /// numbers may begin anew with every window.
 class PathTally {
  public:
-  void add(const Waypoint& w);
+  /// `operation` counts from 0, as the caller does; `no_operation`: it is not known.
+  static constexpr std::int32_t no_operation = -1;
+  void add(const Waypoint& w, std::int32_t operation = no_operation);
 
   /// Of all waypoints so far, the last of which ends the path.
   Measures measures() const;
   std::vector<WorstRow> worst(double WorstRow::*key) const;
+  std::vector<OperationTally> operations() const;  ///< by their numbers; one that has no feed move is empty
 
  private:
+  /// The end of a piece, and what it weighs so far.
+  struct End {
+    Waypoint at;
+    std::int32_t operation = no_operation;
+    double weight = 0;
+  };
+
   void add_target(const Waypoint& w);
-  void add_cutting(const Waypoint& w);
-  void add_end(const Waypoint& w);
-  void begin_at_rapid(const Waypoint& w);
+  void add_cutting(const Waypoint& w, std::int32_t operation);
+  void add_to_operation(const Waypoint& w, std::int32_t operation);
+  void add_end(const Waypoint& w, std::int32_t operation);
+  void begin_at_rapid(const Waypoint& w, std::int32_t operation);
   void finish_end();
-  void measure_end(const Waypoint& w, double weight);
+  void measure_end(const End& end);
   void measure_causes(const Waypoint& w, const Causes& causes, double weight);
 
   Measures m_;
@@ -70,8 +92,8 @@ class PathTally {
   std::optional<std::pair<std::size_t, int>> last_changed_;  ///< segment and line
   double piece_weight_ = 0;  ///< of the piece under way: all means but those of `after`, `higher` and `lower`
                              ///< are over the ends of pieces
-  std::optional<Waypoint> end_;  ///< the last one, and what it weighs so far
-  double end_weight_ = 0;
+  std::optional<End> end_;   ///< the last one
+  std::vector<OperationTally> operations_;
   std::optional<Waypoint> rapid_;  ///< the last waypoint, where it ends a rapid
 };
 

@@ -1,6 +1,7 @@
 #pragma once
 /// What a run did, measured: everything that the report's JSON and the summary on the terminal say. Lengths
 /// in mm, angles in degrees, as reports show them.
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <variant>
@@ -40,13 +41,31 @@ struct RunFacts {
   std::string output;       ///< path of the corrected program; empty: none was written
   double min_block_ms = 2;  ///< what takes less time is a short block
   bool attribution =
-      false;             ///< the waypoints' geometry, load, superposition, air, higher and lower were solved
+      false;  ///< the waypoints' geometry, load, superposition, air, higher and lower were solved
+};
+
+/// Where a line's largest deviation is.
+struct WorstPlace {
+  bool known = false;
+  double s_mm = 0;                     ///< cutting path length
+  Vector3 place_mm = Vector3::Zero();  ///< wanted tip in M
+  double force_N = 0;                  ///< acting there
+};
+
+/// The sizes of what a deviation is made of: norms, in mm.
+struct DeviationParts {
+  double geometry_mm = 0, load_mm = 0, gravity_mm = 0;
+  double discrepancy_mm = 0;  ///< of the deviation from the superposition of its causes
 };
 
 struct WorstRow {
   int line = 0;
   double before_mm = 0;
   double after_mm = 0;
+  WorstPlace at_before, at_after;
+  std::optional<DeviationParts> causes;  ///< of `before_mm`, where they were asked for
+  std::int32_t operation = -1;           ///< index into RunReport::operations
+  std::string text{};                    ///< the program's line, see `add_texts`
 };
 
 /// Something largest, and the line of the original program where it is.
@@ -96,6 +115,18 @@ struct BlockCounts {
   Capped<LeftAlone> left_alone;
 };
 
+/// The moves of one tool in one operation.
+struct OperationReport {
+  long tool = 0;                      ///< in the spindle; 0: none known
+  std::string name;                   ///< the comment that stood last alone in its line; empty: none
+  int first_line = 0, last_line = 0;  ///< the least and the largest of its feed moves
+  std::size_t moves = 0;              ///< feed moves
+  double length_mm = 0;
+  std::optional<double> corrected_percent;  ///< of the length, as for the run
+  DeviationStatistics before;
+  std::optional<DeviationStatistics> after;
+};
+
 /// Size of the program text.
 struct TextSize {
   std::size_t blocks = 0;
@@ -128,6 +159,12 @@ struct UsedTool {
   std::string stiffness;                  ///< where that is from, in words
 };
 
+/// Lengths as the people of a program and a machine have them.
+struct ShownUnits {
+  LengthUnit program = LengthUnit::millimetres;
+  bool revolute = false;  ///< the machine turns a joint: its deviations are shown in mm, not in um
+};
+
 struct RunReport {
   Command command = Command::compensate;
   RunFacts facts;  ///< its `warnings` stay the caller's own; all are in `warnings` below
@@ -141,7 +178,11 @@ struct RunReport {
   std::optional<Sensitivity> sensitivity;     ///< with attribution, where a force acts
   std::optional<Largest>
       air;  ///< largest deviation of a feed move of the corrected program without the force
-  std::optional<Largest> correction;  ///< largest change of a target
+  std::optional<Largest> correction;        ///< largest change of a target
+  std::optional<double> corrected_percent;  ///< of `path_mm`: what is corrected and held to the tolerance
+  std::vector<OperationReport> operations;  ///< in the order in which they are met; of many the last one
+                                            ///< stands for all others
+  ShownUnits units;
   BlockCounts blocks;
   TextSize text_before;
   std::optional<TextSize> text_after;
@@ -167,6 +208,11 @@ struct RunContext {
 };
 
 class RunTally;
+class FileReader;
+
+/// Fills in the texts of the worst lines, cut to 200 bytes, from the original program's bytes: they are read
+/// to the last of these lines. Throws as `FileReader` does.
+void add_texts(RunReport& report, FileReader& program);
 
 /// The report of a run whose waypoints, forces and texts `tally` has: those of the original program
 /// (`predict`), or of the corrected one; a run that failed may have any part of them. `corrected` is the

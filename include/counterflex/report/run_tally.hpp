@@ -4,20 +4,44 @@
 #include <vector>
 
 #include "counterflex/compensation/compensate.hpp"
+#include "counterflex/report/path_curves.hpp"
 #include "counterflex/report/path_tally.hpp"
 #include "counterflex/report/report.hpp"
 
 namespace counterflex {
+
+/// The tools and operations of a program as they are met, at most `listed_at_most`: the last one stands for
+/// all others then.
+class OperationNames {
+ public:
+  struct Name {
+    long tool = 0;
+    std::string operation;
+  };
+
+  /// The number of the operation of a window's move.
+  std::int32_t number_of(const Program& window, const Move& move);
+
+  const std::vector<Name>& names() const { return names_; }
+
+ private:
+  std::vector<Name> names_;
+  std::int32_t last_ = -1;
+};
 
 /// Each part is added in the order of the program. Where it is cut into windows changes nothing in the
 /// report.
 class RunTally {
  public:
   /// `min_block_ms`: feed moves that take less are short blocks (RunFacts).
-  explicit RunTally(double min_block_ms);
+  /// `curves`: where the path is to be drawn, too.
+  explicit RunTally(double min_block_ms, std::optional<PathCurves> curves = {});
 
-  /// The next waypoints of the path, cut anywhere.
+  /// The next waypoints of the path, cut anywhere; of the operations of their moves nothing is known.
   void add_waypoints(const std::vector<Waypoint>& waypoints);
+
+  /// The same for waypoints of a window, or some of them.
+  void add_waypoints(const std::vector<Waypoint>& waypoints, const Job& window);
 
   /// The next window's: its ramps, jumps, moves without a force and notes are added to those before.
   void add_forces(const PathForces& forces);
@@ -32,6 +56,9 @@ class RunTally {
   void add_corrected(const Program& corrected_window);
 
   const PathTally& path() const { return path_; }
+  const std::optional<PathCurves>& curves() const { return curves_; }
+  const std::vector<OperationNames::Name>& operation_names() const { return operation_names_.names(); }
+  LengthUnit unit() const { return unit_.value_or(LengthUnit::millimetres); }  ///< of the first feed move
   const ForceSummary& forces() const { return forces_; }  ///< of ramps, jumps, steps and moves without one
   const Capped<Remark>& force_notes() const { return force_notes_; }
   const Capped<LeftAlone>& left_alone() const { return left_alone_; }
@@ -46,8 +73,13 @@ class RunTally {
   const std::optional<ShortBlocks>& short_blocks() const { return short_blocks_; }
 
  private:
+  void add(const Waypoint& w, std::int32_t operation);
+
   double min_block_ms_;
   PathTally path_;
+  std::optional<PathCurves> curves_;
+  OperationNames operation_names_;
+  std::optional<LengthUnit> unit_;
   ForceSummary forces_;
   Capped<Remark> force_notes_;
   Capped<LeftAlone> left_alone_;

@@ -8,8 +8,8 @@
 
 namespace counterflex {
 
-/// Deviations that differ by less than this are equally large where the largest is named: solvers for different
-/// processors agree to a hundredth of it.
+/// Deviations that differ by less than this are equally large where the largest is named: solvers for
+/// different processors agree to a hundredth of it.
 inline constexpr double indistinct_mm = 1e-7;
 
 struct DeviationStatistics {

@@ -1,0 +1,40 @@
+#pragma once
+/// Reports as a page: one HTML file that needs nothing but itself.
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "counterflex/report/path_curves.hpp"
+#include "counterflex/report/report.hpp"
+
+namespace counterflex {
+
+/// A run as the page has it. Its members but the name are JSON documents; "null": there is none.
+struct PageRun {
+  std::string name;             ///< for people, where there are two
+  std::string report;           ///< "counterflex-report 1", as `to_json` writes it
+  std::string curves = "null";  ///< as `curves_json` writes them
+  std::string loads = "null";   ///< loads of joints and springs along the path
+};
+
+/// The curves of a path: arrays of numbers as base64 of their bytes, little-endian. Lengths in mm, angles in
+/// degrees, forces in N; NaN where a quantity is not known, and no array for one that is known nowhere.
+///
+///     {"waypoints", "stretches": n, "waypoints_per_stretch",
+///      "s_mm": float64[n], "first_line", "last_line", "operation": int32[n], "after_rapid": uint8[n],
+///      "place_mm", "place_before_mm", "place_after_mm": float32[3n],
+///      "quantities": {name: {"least", "largest": float32[n]}},    "least" is left out where both are the
+///      same "rapids", "force_steps": {"count", "s_mm": [...]}}
+std::string curves_json(const PathCurves& curves);
+
+/// The page of one run, or of two side by side, from its beginning to its end: `take` gets it in parts. It
+/// loads nothing: what it runs is in it, and its security policy allows nothing else. The data of all runs
+/// are one JSON document, "counterflex-page 1", in the element `counterflex-data`.
+void write_page(const std::string& title, const std::vector<PageRun>& runs,
+                const std::function<void(std::string_view)>& take);
+
+/// "groove.ngc on Orthoglide".
+std::string page_title(const RunReport& report);
+
+}  // namespace counterflex

@@ -1,0 +1,108 @@
+#include "counterflex/report/page.hpp"
+
+#include <fmt/core.h>
+
+#include "counterflex/files/files.hpp"
+#include "json_numbers.hpp"
+#include "page_assets.hpp"
+
+namespace counterflex {
+namespace {
+
+using Take = std::function<void(std::string_view)>;
+
+/// Text as an element's content.
+std::string escaped(std::string_view text) {
+  std::string result;
+  for (const char c : text) {
+    if (c == '&')
+      result += "&amp;";
+    else if (c == '<')
+      result += "&lt;";
+    else
+      result += c;
+  }
+  return result;
+}
+
+/// JSON in which no browser finds the end of its element: all `<` are in strings.
+void write_json(std::string_view json, const Take& take) {
+  for (std::size_t from = 0; from < json.size();) {
+    const std::size_t sign = std::min(json.find('<', from), json.size());
+    take(json.substr(from, sign - from));
+    if (sign < json.size()) take("\\u003c");
+    from = sign + 1;
+  }
+}
+
+std::string sources(std::span<const std::string_view> texts) {
+  std::string list;
+  for (const std::string_view text : texts) list.append(" '").append(integrity(text)).append("'");
+  return list;
+}
+
+void write_policy(const Take& take) {
+  take(
+      fmt::format("<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; script-src{}; "
+                  "style-src{}; img-src data: blob:; base-uri 'none'; form-action 'none'\">\n",
+                  sources(page_scripts()), sources(page_styles())));
+}
+
+void write_elements(const char* name, std::span<const std::string_view> texts, const Take& take) {
+  for (const std::string_view text : texts) {
+    take(fmt::format("<{}>", name));
+    take(text);
+    take(fmt::format("</{}>\n", name));
+  }
+}
+
+void write_data(const std::vector<PageRun>& runs, const Take& take) {
+  take(
+      "<script type=\"application/json\" id=\"counterflex-data\">{\"schema\": \"counterflex-page 1\", "
+      "\"runs\": [");
+  const char* separator = "\n";
+  for (const PageRun& run : runs) {
+    take(separator);
+    take("{\"name\": ");
+    write_json(Json(run.name).dump(-1, ' ', false, Json::error_handler_t::replace), take);
+    for (const auto& [key, json] :
+         {std::pair{"report", &run.report}, {"curves", &run.curves}, {"loads", &run.loads}}) {
+      take(fmt::format(",\n\"{}\": ", key));
+      write_json(*json, take);
+    }
+    take("}");
+    separator = ",\n";
+  }
+  take("]}</script>\n");
+}
+
+}  // namespace
+
+void write_page(const std::string& title, const std::vector<PageRun>& runs, const Take& take) {
+  std::string_view rest = page_template();
+  while (!rest.empty()) {
+    const std::string_view line = rest.substr(0, std::min(rest.find('\n'), rest.size() - 1) + 1);
+    rest.remove_prefix(line.size());
+    if (line == "<!-- counterflex: csp -->\n")
+      write_policy(take);
+    else if (line == "<!-- counterflex: title -->\n")
+      take("<title>" + escaped(title) + "</title>\n");
+    else if (line == "<!-- counterflex: styles -->\n")
+      write_elements("style", page_styles(), take);
+    else if (line == "<!-- counterflex: data -->\n")
+      write_data(runs, take);
+    else if (line == "<!-- counterflex: scripts -->\n")
+      write_elements("script", page_scripts(), take);
+    else
+      take(line);
+  }
+}
+
+std::string page_title(const RunReport& report) {
+  std::string program = "program";
+  for (const InputFile& input : report.facts.inputs)
+    if (input.name == "program") program = input.path.substr(input.path.find_last_of('/') + 1);
+  return report.machine.empty() ? program : program + " on " + report.machine;
+}
+
+}  // namespace counterflex

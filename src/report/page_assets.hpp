@@ -1,0 +1,12 @@
+#pragma once
+/// What a page is made of, embedded when the program is built: page.cmake says from which files.
+#include <span>
+#include <string_view>
+
+namespace counterflex {
+
+std::string_view page_template();
+std::span<const std::string_view> page_styles();
+std::span<const std::string_view> page_scripts();  ///< in the order in which they run
+
+}  // namespace counterflex

@@ -1,0 +1,234 @@
+#include "counterflex/report/path_curves.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "counterflex/geometry/units.hpp"
+#include "counterflex/report/statistics.hpp"
+
+namespace counterflex {
+namespace {
+
+constexpr float unknown = std::numeric_limits<float>::quiet_NaN();
+constexpr double joined = 1e-9;  // m
+
+using Values = std::array<float, quantity_count>;
+
+constexpr std::array<std::string_view, quantity_count> quantity_names = {"before_x_mm",
+                                                                         "before_y_mm",
+                                                                         "before_z_mm",
+                                                                         "before_mm",
+                                                                         "before_along_mm",
+                                                                         "before_across_mm",
+                                                                         "before_tool_axis_mm",
+                                                                         "before_rotation_deg",
+                                                                         "after_x_mm",
+                                                                         "after_y_mm",
+                                                                         "after_z_mm",
+                                                                         "after_mm",
+                                                                         "after_along_mm",
+                                                                         "after_across_mm",
+                                                                         "after_tool_axis_mm",
+                                                                         "after_rotation_deg",
+                                                                         "geometry_x_mm",
+                                                                         "geometry_y_mm",
+                                                                         "geometry_z_mm",
+                                                                         "geometry_mm",
+                                                                         "load_x_mm",
+                                                                         "load_y_mm",
+                                                                         "load_z_mm",
+                                                                         "load_mm",
+                                                                         "gravity_x_mm",
+                                                                         "gravity_y_mm",
+                                                                         "gravity_z_mm",
+                                                                         "gravity_mm",
+                                                                         "superposition_x_mm",
+                                                                         "superposition_y_mm",
+                                                                         "superposition_z_mm",
+                                                                         "superposition_mm",
+                                                                         "discrepancy_x_mm",
+                                                                         "discrepancy_y_mm",
+                                                                         "discrepancy_z_mm",
+                                                                         "discrepancy_mm",
+                                                                         "air_mm",
+                                                                         "correction_x_mm",
+                                                                         "correction_y_mm",
+                                                                         "correction_z_mm",
+                                                                         "correction_mm",
+                                                                         "force_x_N",
+                                                                         "force_y_N",
+                                                                         "force_z_N",
+                                                                         "force_N"};
+
+float& at(Values& values, Quantity first, int offset = 0) {
+  return values[static_cast<std::size_t>(first) + static_cast<std::size_t>(offset)];
+}
+
+/// Three components from `first` on, and their norm behind them.
+void set_vector(Values& values, Quantity first, const Vector3& v) {
+  for (int i = 0; i < 3; ++i) at(values, first, i) = static_cast<float>(v[i]);
+  at(values, first, 3) = static_cast<float>(v.norm());
+}
+
+void set_position(Values& values, Quantity first, const Vector6& deviation) {
+  set_vector(values, first, deviation.head<3>() / mm);
+}
+
+/// Position, its split and the rotation: the eight quantities of before and after.
+void set_deviation(Values& values, Quantity first, const Waypoint& w, const Vector6& deviation) {
+  set_position(values, first, deviation);
+  const DeviationSplit split = split_deviation(deviation.head<3>() / mm, w.direction, w.tool_axis);
+  at(values, first, 4) = static_cast<float>(split.along);
+  at(values, first, 5) = static_cast<float>(split.across);
+  at(values, first, 6) = static_cast<float>(split.tool_axis);
+  at(values, first, 7) = static_cast<float>(deviation.tail<3>().norm() / deg);
+}
+
+void set_causes(Values& values, const Waypoint& w, const Causes& causes, bool corrected) {
+  set_position(values, Quantity::geometry_x, causes.geometry);
+  set_position(values, Quantity::load_x, causes.load);
+  set_position(values, Quantity::gravity_x, causes.gravity);
+  set_position(values, Quantity::superposition_x, causes.superposition);
+  set_position(values, Quantity::discrepancy_x, w.before - causes.superposition);
+  if (corrected) at(values, Quantity::air) = static_cast<float>(causes.air.head<3>().norm() / mm);
+}
+
+Values values_of(const Waypoint& w, bool corrected) {
+  Values values;
+  values.fill(unknown);
+  set_vector(values, Quantity::force_x, w.wrench.head<3>());
+  if (corrected) set_deviation(values, Quantity::after_x, w, w.after);
+  if (w.between) return values;
+  set_deviation(values, Quantity::before_x, w, w.before);
+  if (w.causes) set_causes(values, w, *w.causes, corrected);
+  if (corrected) set_position(values, Quantity::correction_x, w.correction);
+  return values;
+}
+
+std::array<float, 3> floats(const Vector3& v) {
+  return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
+}
+
+Stretch stretch_of(const Waypoint& w, bool corrected) {
+  Stretch stretch;
+  stretch.s_mm = w.s / mm;
+  stretch.first_line = stretch.last_line = w.line;
+  stretch.place = floats(w.p_MT / mm);
+  stretch.before.fill(unknown);
+  stretch.after.fill(unknown);
+  if (!w.between) stretch.before = floats(w.before.head<3>() / mm);
+  if (corrected) stretch.after = floats(w.after.head<3>() / mm);
+  stretch.least = stretch.largest = values_of(w, corrected);
+  return stretch;
+}
+
+/// The first where the other is unknown.
+float lesser(float a, float b) {
+  return b < a || std::isnan(a) ? b : a;
+}
+
+float greater(float a, float b) {
+  return b > a || std::isnan(a) ? b : a;
+}
+
+/// Whether the picture of two stretches together is better taken from the second one.
+bool shows_more(const Stretch& b, const Stretch& a, Quantity by) {
+  const auto i = static_cast<std::size_t>(by);
+  return b.largest[i] > a.largest[i] || std::isnan(a.largest[i]);
+}
+
+void append(Stretch& a, const Stretch& b, Quantity picture) {
+  if (shows_more(b, a, picture)) {
+    a.place = b.place;
+    a.before = b.before;
+    a.after = b.after;
+  }
+  a.s_mm = b.s_mm;
+  a.last_line = b.last_line;
+  if (a.operation < 0) a.operation = b.operation;
+  a.begins_after_rapid = a.begins_after_rapid || b.begins_after_rapid;
+  for (std::size_t i = 0; i < quantity_count; ++i) {
+    a.least[i] = lesser(a.least[i], b.least[i]);
+    a.largest[i] = greater(a.largest[i], b.largest[i]);
+  }
+}
+
+}  // namespace
+
+std::string_view name_of(Quantity quantity) {
+  return quantity_names[static_cast<std::size_t>(quantity)];
+}
+
+void PathMarks::add(double s) {
+  if (count++ % stride_ != 0) return;
+  if (s_mm.size() == most) {
+    for (std::size_t i = 0; 2 * i < most; ++i) s_mm[i] = s_mm[2 * i];
+    s_mm.resize(most / 2);
+    stride_ *= 2;
+  }
+  s_mm.push_back(s);
+}
+
+PathCurves::PathCurves(bool corrected) : corrected_(corrected) {}
+
+void PathCurves::add(const Waypoint& w, std::int32_t operation) {
+  if (w.status != Status::converged) return;
+  if (!w.cutting) {
+    rapid_ = w;
+    return;
+  }
+  const bool after_rapid = rapid_.has_value();
+  if (after_rapid) {
+    rapids_.add(s_mm_);
+    begin_at_rapid(w, operation);
+  }
+  push(w, operation, after_rapid);
+}
+
+// The end of a rapid is where the feed move after it starts, as the statistics have it (path_tally.hpp).
+void PathCurves::begin_at_rapid(const Waypoint& w, std::int32_t operation) {
+  Waypoint start = *std::exchange(rapid_, std::nullopt);
+  const double chord = (w.p_MT - start.p_MT).norm();
+  if (std::abs(chord - (w.s - s_mm_ * mm)) > joined) return;
+  start.line = w.line;
+  start.s = s_mm_ * mm;
+  start.direction = w.direction;
+  push(start, operation, true);
+}
+
+void PathCurves::push(const Waypoint& w, std::int32_t operation, bool after_rapid) {
+  Stretch stretch = stretch_of(w, corrected_);
+  stretch.operation = operation;
+  stretch.begins_after_rapid = after_rapid;
+  s_mm_ = stretch.s_mm;
+  ++waypoints_;
+  if (!stretches_.empty() && in_last_ < per_stretch_) {
+    ++in_last_;
+    return append(stretches_.back(), stretch, picture());
+  }
+  if (stretches_.size() == most_stretches) merge_neighbours();
+  if (stretches_.capacity() < most_stretches && stretches_.size() >= 1024) stretches_.reserve(most_stretches);
+  stretches_.push_back(stretch);
+  in_last_ = 1;
+}
+
+void PathCurves::merge_neighbours() {
+  const std::size_t pairs = stretches_.size() / 2;
+  for (std::size_t i = 0; i < pairs; ++i) {
+    stretches_[i] = stretches_[2 * i];
+    append(stretches_[i], stretches_[2 * i + 1], picture());
+  }
+  stretches_.resize(pairs);
+  per_stretch_ *= 2;
+}
+
+Quantity PathCurves::picture() const {
+  return corrected_ ? Quantity::after : Quantity::before;
+}
+
+void PathCurves::add_force_step(double s_mm) {
+  force_steps_.add(s_mm);
+}
+
+}  // namespace counterflex

@@ -1,0 +1,131 @@
+#include "counterflex/report/page.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cstring>
+#include <nlohmann/json.hpp>
+
+#include "counterflex/files/files.hpp"
+#include "made_up_run.hpp"
+#include "support/text.hpp"
+
+using namespace counterflex;
+using namespace counterflex::test;
+
+namespace {
+
+std::string page_of(const std::string& title, const std::vector<PageRun>& runs) {
+  std::string page;
+  write_page(title, runs, [&](std::string_view part) { page += part; });
+  return page;
+}
+
+std::string between(const std::string& text, const std::string& begin, const std::string& end,
+                    std::size_t from = 0) {
+  const std::size_t first = text.find(begin, from) + begin.size();
+  return text.substr(first, text.find(end, first) - first);
+}
+
+const std::string data_begins = "<script type=\"application/json\" id=\"counterflex-data\">";
+
+/// The contents of elements that begin with `tag`.
+std::vector<std::string> contents(const std::string& page, const std::string& tag, const std::string& end) {
+  std::vector<std::string> found;
+  for (std::size_t at = page.find(tag); at != std::string::npos; at = page.find(tag, at + 1))
+    found.push_back(between(page, tag, end, at));
+  return found;
+}
+
+/// The bytes of four characters of base64 at a time.
+std::string decoded(const std::string& text) {
+  const std::string digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string bytes;
+  for (std::size_t i = 0; i < text.size(); i += 4) {
+    unsigned group = 0;
+    for (std::size_t k = 0; k < 4; ++k) {
+      const std::size_t digit = digits.find(text[i + k]);
+      group = group << 6 | static_cast<unsigned>(digit == std::string::npos ? 0 : digit);
+    }
+    for (int shift = 16; shift >= 0; shift -= 8) bytes += static_cast<char>(group >> shift & 255);
+  }
+  return bytes.substr(0, bytes.size() - static_cast<std::size_t>(std::count(text.begin(), text.end(), '=')));
+}
+
+template <typename T>
+std::vector<T> array_of(const nlohmann::json& text) {
+  const std::string bytes = decoded(text.get<std::string>());
+  std::vector<T> values(bytes.size() / sizeof(T));
+  std::memcpy(values.data(), bytes.data(), bytes.size());
+  return values;
+}
+
+}  // namespace
+
+TEST_CASE("a page allows the scripts and styles that it holds, and nothing else") {
+  const std::string page = page_of("part", {{"", "{}"}});
+  const std::string policy = between(page, "http-equiv=\"Content-Security-Policy\" content=\"", "\"");
+  CHECK(policy.starts_with("default-src 'none'; script-src 'sha256-"));
+  for (const char* loose : {"unsafe", "http", "*", "'self'"}) CHECK_FALSE(contains(policy, loose));
+  std::size_t scripts = 0;
+  for (const std::string& script : contents(page, "<script>", "</script>")) {
+    CHECK(contains(policy, "'" + integrity(script) + "'"));
+    ++scripts;
+  }
+  CHECK(scripts >= 4);
+  for (const std::string& style : contents(page, "<style>", "</style>"))
+    CHECK(contains(policy, "'" + integrity(style) + "'"));
+  // Not an address to be loaded from, in what is ours: the libraries name their licences'.
+  CHECK_FALSE(contains(page, " src="));
+  CHECK_FALSE(contains(page, "<link"));
+}
+
+TEST_CASE("the data of a page is what was reported, whatever it holds") {
+  const std::string report = R"({"what": "</script><b>&amp;\u2028"})";
+  const std::string page = page_of("a < b & c", {{"A", report, "{\"k\": 1}"}, {"B", "{}"}});
+  CHECK(contains(page, "<title>a &lt; b &amp; c</title>"));
+  const std::string data = between(page, data_begins, "</script>");
+  CHECK_FALSE(contains(data, "<"));
+  const auto document = nlohmann::json::parse(data);
+  CHECK(document["schema"] == "counterflex-page 1");
+  REQUIRE(document["runs"].size() == 2);
+  CHECK(document["runs"][0]["report"] == nlohmann::json::parse(report));
+  CHECK(document["runs"][0]["curves"]["k"] == 1);
+  CHECK(document["runs"][1]["name"] == "B");
+  CHECK(document["runs"][1]["loads"].is_null());
+}
+
+TEST_CASE("curves are written as the bytes of their numbers") {
+  PathCurves curves(true);
+  std::vector<Waypoint> path = made_up_waypoints();
+  path[1].s = 75 * mm;  // away from the rapid's end
+  for (const Waypoint& w : path) curves.add(w, 2);
+  curves.add_force_step(12.5);
+  const auto document = nlohmann::json::parse(curves_json(curves));
+  const std::size_t n = curves.stretches().size();
+  CHECK(document["stretches"] == n);
+  CHECK(document["force_steps"]["s_mm"][0] == 12.5);
+  CHECK(array_of<std::int32_t>(document["operation"]) == std::vector<std::int32_t>(n, 2));
+  REQUIRE(array_of<double>(document["s_mm"]).size() == n);
+  const auto after = array_of<float>(document["quantities"]["after_mm"]["largest"]);
+  REQUIRE(after.size() == n);
+  CHECK(after[0] == doctest::Approx(0.006));
+  CHECK(std::isnan(array_of<float>(document["quantities"]["before_mm"]["largest"])[0]));
+  CHECK_FALSE(document["quantities"]["after_mm"].contains("least"));
+  CHECK(array_of<float>(document["place_mm"]).size() == 3 * n);
+}
+
+TEST_CASE("a quantity that is known nowhere has no array") {
+  PathCurves curves(false);
+  Waypoint w = cut(1, 4, 75, Vector3(0, 0.3, 0));
+  w.causes.reset();
+  curves.add(w, 0);
+  const auto quantities = nlohmann::json::parse(curves_json(curves))["quantities"];
+  CHECK(quantities.contains("before_mm"));
+  for (const char* name : {"after_mm", "geometry_mm", "air_mm", "correction_mm"})
+    CHECK_FALSE(quantities.contains(name));
+}
+
+TEST_CASE("a page is named after program and machine") {
+  const MadeUpRun run;
+  CHECK(page_title(predicted(run, made_up_waypoints())) == "made_up.ngc on Mill");
+}
