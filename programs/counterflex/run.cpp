@@ -208,6 +208,7 @@ RunTally tally_for(const Options& options, const Run& run) {
 
 Exit deliver(const Options& options, Run& run, RunReport report, const RunTally& tally, RunFiles& files,
              Console& console) {
+  run.lanes.reset();  // nothing is solved any more; the report takes their memory
   if (options.report || options.json) add_texts(report, run.file.bytes);
   run.file.bytes.refuse_change();  // it was read more than once
   const std::optional<Failure>& failure = report.failure;
