@@ -127,6 +127,8 @@ void add_report(CLI::App& app, Options& options) {
       [&](const std::string& text) { options.min_block_ms = number_of("--min-block-ms", text, {0}); });
   value_option(app, "--report", "STEM", "Write STEM.html, STEM.json and STEM.csv",
                [&](const std::string& text) { options.report = text; });
+  value_option(app, "--plot", "FILE.svg", "Write the deviation along the path and its causes as a picture",
+               [&](const std::string& text) { options.plot = text; });
 }
 
 CLI::Option* add_file(CLI::App& app, const std::string& name, std::string& file, const std::string& help) {

@@ -1,11 +1,36 @@
 #include "commands.hpp"
-#include "counterflex/files/files.hpp"
+#include "counterflex/files/file_writer.hpp"
 #include "counterflex/report/comparison.hpp"
+#include "counterflex/report/page.hpp"
 #include "outputs.hpp"
 #include "run.hpp"
+#include "signals.hpp"
 #include "version.hpp"
 
 namespace counterflex::cli {
+namespace {
+
+PageRun page_run(const ReportFile& file) {
+  PageRun run;
+  run.name = file.name;
+  run.report = file.report;
+  if (!file.curves.empty()) run.curves = file.curves;
+  if (!file.loads.empty()) run.loads = file.loads;
+  return run;
+}
+
+void write_files(const ComparisonPaths& paths, const std::string& json, const ReportFile& a,
+                 const ReportFile& b) {
+  FileWriter document(paths.json), page(paths.page);
+  document.write(json);
+  write_page(a.name + " and " + b.name, {page_run(a), page_run(b)},
+             [&](std::string_view part) { page.write(part); });
+  const HeldSignals held;
+  document.publish();
+  page.publish();
+}
+
+}  // namespace
 
 Exit run_compare(const Options& options, Console& console) {
   refuse_stdin_twice(options);
@@ -18,7 +43,7 @@ Exit run_compare(const Options& options, Console& console) {
     if (!file->remark.empty()) console.warning(file->path, 0, file->remark);
   const Comparison comparison = compare(a, b, version);
   const std::string json = to_json(comparison);
-  if (!paths.json.empty()) write_file(paths.json, json);
+  if (options.report) write_files(paths, json, a, b);
   console.finish_warnings();
   write_result(options.json ? json : to_text(comparison, console.colour_out()));
   return Exit::done;

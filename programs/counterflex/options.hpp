@@ -46,6 +46,7 @@ struct Options {
   std::optional<std::string> output;
   bool materials = false;             ///< forces alone
   std::optional<std::string> report;  ///< stem
+  std::optional<std::string> plot;    ///< a file
   bool json = false;
   bool quiet = false;
   bool verbose = false;

@@ -18,6 +18,7 @@ struct OutputPaths {
   std::string report_json;
   std::string report_csv;
   std::string report_page;
+  std::string plot;
 };
 
 /// The paths of `options`, the program's among them for `compensate`: NAME.comp.EXT beside the input unless
@@ -51,7 +52,7 @@ class RunFiles {
   void add_program(std::string_view text);
   void add_waypoints(const std::vector<Waypoint>& waypoints);
 
-  /// What is known when the run has ended. Nothing where no report is wanted.
+  /// What is known when the run has ended. Nothing where neither report nor plot is wanted.
   void add_report(const RunReport& report, const std::string& report_json, const PathCurves& curves);
 
   /// Gives the files their names, deaf to interrupts meanwhile, the corrected program's too if
@@ -62,7 +63,7 @@ class RunFiles {
   OutputPaths paths_;
   CsvColumns columns_;
   std::size_t next_row_ = 0;
-  std::optional<FileWriter> program_, csv_, json_, page_;
+  std::optional<FileWriter> program_, csv_, json_, page_, plot_;
 };
 
 /// Text on standard output. Throws `InputError` (Exit::transient_io).

@@ -4,6 +4,7 @@
 
 #include "counterflex/files/numbers.hpp"
 #include "counterflex/geometry/units.hpp"
+#include "counterflex/report/page.hpp"
 #include "plot_page.hpp"
 #include "svg.hpp"
 
@@ -24,13 +25,15 @@ constexpr PlotStyle together_style{"acting together", "#000000", 1.3, "", Quanti
 
 std::vector<PlotStyle> styles_of(const RunReport& report) {
   if (!report.sources) return {together_style};
-  std::vector<PlotStyle> styles{superposition_style, geometry_style, load_style};
+  std::vector<PlotStyle> styles{geometry_style, load_style};
   if (report.sources->gravity) styles.push_back(gravity_style);
-  styles.push_back(together_style);
+  styles.insert(styles.end(), {superposition_style, together_style});
   return styles;
 }
 
-PlotUnits units_of(const RunReport&) {
+PlotUnits units_of(const ShownUnits& units) {
+  if (units.program == LengthUnit::inches) return {"inch", mm / inch, 5, "inch", mm / inch};
+  if (units.revolute) return {"mm", 1, 4, "mm", 1};
   return {"\u00b5m", 1000, 1, "mm", 1};
 }
 
@@ -39,7 +42,7 @@ PlotPage page_of(const PathCurves& curves, const RunReport& report) {
   const double path = stretches.empty() ? 0 : stretches.back().s_mm;
   return {.curves = curves,
           .report = report,
-          .units = units_of(report),
+          .units = units_of(report.units),
           .columns = plot_columns(curves, most_columns),
           .x = {plot_left, path > 0 ? (plot_right - plot_left) / path : 0},
           .path_mm = path,
@@ -55,7 +58,7 @@ std::string opening(const PlotPage& page, double height) {
       "<rect width=\"800\" height=\"{0:.0f}\" fill=\"#ffffff\"/>\n"
       "<g font-family=\"Helvetica, Arial, sans-serif\" font-size=\"12\" fill=\"#1a1a1a\" "
       "stroke-linecap=\"round\" stroke-linejoin=\"round\">\n",
-      height, xml_escaped(plot_title(page.report)), xml_escaped(plot_description(page)));
+      height, xml_escaped(page_title(page.report)), xml_escaped(plot_description(page)));
 }
 
 }  // namespace
@@ -75,7 +78,7 @@ std::string to_svg(const PathCurves& curves, const RunReport& report) {
   const PlotPart panels = plot_panels(page, 92);
   const PlotPart caption = plot_caption(page, panels.bottom + 12);
   std::string svg = opening(page, caption.bottom + 14);
-  svg += svg_text(plot_left, 28, Anchor::start, shortened(plot_title(report), title_width),
+  svg += svg_text(plot_left, 28, Anchor::start, shortened(page_title(report), title_width),
                   " font-size=\"16\" font-weight=\"600\"");
   svg += svg_text(plot_left, 50, Anchor::start, "Deviation of the tool tip before, and its causes");
   svg += plot_legend(page, 76);

@@ -40,7 +40,7 @@ struct PlotPage {
   PlotColumns columns;
   PlotMap x;  ///< of path length
   double path_mm = 0;
-  std::vector<PlotStyle> styles;  ///< of the upper panels, in the order in which they are drawn
+  std::vector<PlotStyle> styles;  ///< of the upper panels
 
   /// "4.1 um".
   std::string deviation_text(double value_mm) const;
@@ -61,9 +61,6 @@ std::string plot_legend(const PlotPage& page, double base_line);
 
 /// What the plot shows, in sentences.
 PlotPart plot_caption(const PlotPage& page, double top);
-
-/// "PROGRAM on MACHINE".
-std::string plot_title(const RunReport& report);
 
 /// The largest deviations, for those who do not see the plot.
 std::string plot_description(const PlotPage& page);

@@ -16,7 +16,7 @@ constexpr int most_component_ticks = 5, most_residual_ticks = 4, most_path_ticks
 
 constexpr std::string_view grid_stroke = R"( stroke="#e4e4e4")";
 constexpr std::string_view zero_stroke = R"( stroke="#9a9a9a")";
-constexpr std::string_view step_stroke = R"( stroke="#606060" stroke-dasharray="1 3")";
+constexpr std::string_view step_stroke = R"( stroke="#909090" stroke-dasharray="1 3")";
 constexpr std::string_view tolerance_stroke =
     R"( stroke="#d55e00" stroke-width="1.3" stroke-dasharray="6 4")";
 
@@ -31,14 +31,16 @@ struct PlotPanel {
   double bottom() const { return top + height; }
 };
 
-PlotPanel panel_at(const PlotPage& page, double top, double height, PlotRange range_mm, int most_ticks) {
+/// Of values, in mm.
+struct PlotRange {
+  double least = 0, largest = 0;
+};
+
+PlotPanel panel_at(const PlotPage& page, double top, double height, PlotRange range, int most_ticks) {
   const double per_mm = page.units.deviation_per_mm;
-  const PlotRange range = widened_to_ticks({range_mm.least * per_mm, range_mm.largest * per_mm}, most_ticks);
-  const double px = height / (range.largest - range.least);
-  return {top,
-          height,
-          round_ticks(range.least, range.largest, most_ticks),
-          {top + range.largest * px, -px * per_mm}};
+  const PlotTicks ticks = ticks_around(range.least * per_mm, range.largest * per_mm, most_ticks);
+  const double px = height / (ticks.values.back() - ticks.values.front());
+  return {top, height, ticks, {top + ticks.values.back() * px, -px * per_mm}};
 }
 
 Quantity component_of(Quantity x, int axis) {
@@ -81,7 +83,7 @@ std::string scale(const PlotPage& page, const PlotPanel& panel, const std::strin
 }
 
 PlotTicks path_ticks(const PlotPage& page) {
-  return round_ticks(0, page.path_mm * page.units.path_per_mm, most_path_ticks);
+  return ticks_within(0, page.path_mm * page.units.path_per_mm, most_path_ticks);
 }
 
 /// Round path lengths, and where the force steps.
@@ -115,11 +117,14 @@ std::string frame_of(const PlotPanel& panel) {
       plot_left, panel.top, plot_right - plot_left, panel.height);
 }
 
+/// Broad curves below narrow ones.
 std::string component_panel(const PlotPage& page, const PlotPanel& panel, int axis) {
   std::string svg = scale(page, panel, fmt::format("in {}, {}", "xyz"[axis], page.units.deviation));
   svg += upright_lines(page, panel);
-  for (const PlotStyle& style : page.styles)
-    svg += curve_of(page, style, component_of(style.x, axis), panel.y);
+  std::vector<PlotStyle> styles = page.styles;
+  std::stable_sort(styles.begin(), styles.end(),
+                   [](const PlotStyle& a, const PlotStyle& b) { return a.width > b.width; });
+  for (const PlotStyle& style : styles) svg += curve_of(page, style, component_of(style.x, axis), panel.y);
   return svg + frame_of(panel);
 }
 

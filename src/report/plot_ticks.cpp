@@ -24,31 +24,33 @@ TickStep tick_step(double width, int most) {
   return {10 * ten, std::max(0, -power - 1)};
 }
 
-}  // namespace
-
-PlotTicks round_ticks(double least, double largest, int most) {
-  PlotTicks ticks;
-  if (!(largest > least)) return {{least}, 0};
-  const TickStep step = tick_step(largest - least, most);
-  const double first = std::ceil(least / step.size - tick_slack),
-               last = std::floor(largest / step.size + tick_slack);
+PlotTicks ticks_of(const TickStep& step, double first, double last) {
+  PlotTicks ticks{.values = {}, .decimals = step.decimals};
   for (double i = first; i <= last; ++i) ticks.values.push_back(i * step.size);
-  ticks.decimals = step.decimals;
   return ticks;
 }
 
-PlotRange widened_to_ticks(PlotRange range, int most) {
-  if (!std::isfinite(range.least)) range.least = 0;
-  if (!std::isfinite(range.largest)) range.largest = 0;
-  const double size = std::max(std::abs(range.least), std::abs(range.largest));
-  const double least_width = size > 0 ? 1e-6 * size : 1;
-  if (range.largest - range.least < least_width) {
-    range.least -= least_width / 2;
-    range.largest += least_width / 2;
+}  // namespace
+
+PlotTicks ticks_within(double least, double largest, int most) {
+  if (!(largest > least)) return {{least}, 0};
+  const TickStep step = tick_step(largest - least, most);
+  return ticks_of(step, std::ceil(least / step.size - tick_slack),
+                  std::floor(largest / step.size + tick_slack));
+}
+
+PlotTicks ticks_around(double least, double largest, int most) {
+  if (!std::isfinite(least)) least = 0;
+  if (!std::isfinite(largest)) largest = 0;
+  const double size = std::max(std::abs(least), std::abs(largest));
+  const double width = std::max(largest - least, size > 0 ? 1e-6 * size : 1);
+  // Widened, a range may have one interval more than its width asks for.
+  for (int intervals = most;; --intervals) {
+    const TickStep step = tick_step(width, std::max(1, intervals));
+    const double first = std::floor(least / step.size + tick_slack);
+    const double last = std::max(first + 1, std::ceil(largest / step.size - tick_slack));
+    if (last - first <= most) return ticks_of(step, first, last);
   }
-  const double step = tick_step(range.largest - range.least, most).size;
-  return {std::floor(range.least / step + tick_slack) * step,
-          std::ceil(range.largest / step - tick_slack) * step};
 }
 
 }  // namespace counterflex

@@ -4,20 +4,17 @@
 
 namespace counterflex {
 
-/// Multiples of 1, 2 or 5 times a power of ten.
+/// Multiples of 1, 2 or 5 times a power of ten, one interval apart.
 struct PlotTicks {
   std::vector<double> values;  ///< ascending
   int decimals = 0;            ///< that their labels need
 };
 
-/// The ticks in [least, largest], at most `most` and at least one interval of them where least < largest.
-PlotTicks round_ticks(double least, double largest, int most);
+/// The ticks in [least, largest], of at most `most` intervals; `least` alone where it is not less.
+PlotTicks ticks_within(double least, double largest, int most);
 
-/// [least, largest] widened to ticks, so that both ends have one; wide enough to be drawn where the two are
-/// equal. What is not finite counts as 0.
-struct PlotRange {
-  double least = 0, largest = 0;
-};
-PlotRange widened_to_ticks(PlotRange range, int most);
+/// Ticks of at most `most` (2 or more) intervals, the first of them not above `least` and the last not below
+/// `largest`; they are apart even where these two are equal. What is not finite counts as 0.
+PlotTicks ticks_around(double least, double largest, int most);
 
 }  // namespace counterflex

@@ -1,7 +1,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <filesystem>
+#include <cmath>
 
 #include "counterflex/files/numbers.hpp"
 #include "plot_page.hpp"
@@ -11,7 +11,7 @@ namespace counterflex {
 
 namespace {
 
-constexpr std::size_t caption_width = 118;  // characters
+constexpr std::size_t caption_width = 112;  // characters
 constexpr double caption_line = 16;         // px
 
 /// The largest distance of all acting together from the superposition.
@@ -23,6 +23,14 @@ double largest_discrepancy(const PlotPage& page) {
   return largest;
 }
 
+/// To the last digit that is shown, in mm: no limit is quoted too low.
+double rounded_up(double value_mm, const PlotUnits& units) {
+  const double per_mm =
+      units.deviation_per_mm * small_powers_of_ten[static_cast<std::size_t>(units.deviation_decimals)];
+  constexpr double slack = 1e-3;
+  return std::max(1.0, std::ceil(value_mm * per_mm - slack)) / per_mm;
+}
+
 std::string caption_text(const PlotPage& page) {
   const RunReport& report = page.report;
   std::string text =
@@ -30,7 +38,7 @@ std::string caption_text(const PlotPage& page) {
       "runs.";
   if (report.sources)
     text += fmt::format(" All acting together are within {} of the superposition.",
-                        page.deviation_text(largest_discrepancy(page)));
+                        page.deviation_text(rounded_up(largest_discrepancy(page), page.units)));
   if (page.curves.corrected())
     text +=
         " Below, the size of what the model leaves of it when the corrected program runs: not the accuracy "
@@ -82,14 +90,6 @@ std::string plot_legend(const PlotPage& page, double base_line) {
     x += sample + gap + character * letters + item_gap;
   }
   return svg;
-}
-
-std::string plot_title(const RunReport& report) {
-  std::string program = "a program";
-  for (const InputFile& input : report.facts.inputs)
-    if (input.name == "program")
-      program = input.path == "-" ? "standard input" : std::filesystem::path(input.path).filename().string();
-  return fmt::format("{} on {}", program, report.machine.empty() ? "an unnamed machine" : report.machine);
 }
 
 std::string plot_description(const PlotPage& page) {
