@@ -202,7 +202,8 @@ void Windows::refuse_uncontrolled_moves(const Job& job) {
 
 RunTally tally_for(const Options& options, const Run& run) {
   std::optional<PathCurves> curves;
-  if (options.report || options.plot) curves.emplace(options.command != Command::predict);
+  if (options.report || options.plot)
+    curves.emplace(options.command != Command::predict, weighs(run.machine.machine));
   return RunTally(run.facts.min_block_ms, std::move(curves));
 }
 
