@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "counterflex/files/numbers.hpp"
 #include "made_up_run.hpp"
 #include "plot_points.hpp"
 #include "plot_ticks.hpp"
@@ -195,10 +196,10 @@ TEST_CASE("the plot has three components with their causes, and the residual bel
   const RunReport report = report_of_made_up();
   const PathCurves curves = path_with(50, [](std::size_t i) { return 0.01 * static_cast<double>(i); });
   const std::string svg = to_svg(curves, report);
-  for (const char* words :
+  for (const std::string words :
        {"made_up.ngc on Mill", "geometry alone", "load alone", "superposition", "acting together",
         "in x, \u00b5m", "in y, \u00b5m", "in z, \u00b5m", "tolerance 5.0 \u00b5m", "cutting path length, mm",
-        "Model residual after", "off by up to 500.0 \u00b5m, in line 4"}) {
+        "Model residual after", "off by up to 500.0 \u00b5m, in line 5"}) {
     CAPTURE(words);
     CHECK(contains(svg, words));
   }
