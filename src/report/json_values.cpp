@@ -8,11 +8,32 @@ namespace counterflex {
 
 namespace {
 
+constexpr int deepest = 100;  // a page's data have seven levels
+
 /// What the parser says behind its own place: "syntax error while parsing value - ...".
 std::string parser_message(const std::string& what) {
   const std::size_t column = what.find("column ");
   const std::size_t colon = what.find(": ", column == std::string::npos ? 0 : column);
   return colon == std::string::npos ? what : what.substr(colon + 2);
+}
+
+/// Where lists and objects are nested so deep that to go through them again would take all of the stack; the
+/// end of the text where they are not.
+std::size_t too_deep(std::string_view text) {
+  int depth = 0;
+  bool in_string = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (in_string && c == '\\')
+      ++i;
+    else if (c == '"')
+      in_string = !in_string;
+    else if (!in_string && (c == '[' || c == '{') && ++depth > deepest)
+      return i;
+    else if (!in_string && (c == ']' || c == '}'))
+      --depth;
+  }
+  return text.size();
 }
 
 }  // namespace
@@ -26,6 +47,9 @@ Location place_of(std::string_view text, std::size_t offset, const std::string& 
 }
 
 Json parse_json(std::string_view text, std::string_view whole, std::size_t offset, const std::string& file) {
+  if (const std::size_t at = too_deep(text); at < text.size())
+    throw InputError(Exit::usage, place_of(whole, offset + at, file),
+                     fmt::format("lists and objects are nested more than {} deep", deepest));
   try {
     return Json::parse(text);
   } catch (const Json::parse_error& error) {

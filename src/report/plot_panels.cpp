@@ -100,14 +100,15 @@ std::string upright_lines(const PlotPage& page, const PlotPanel& panel) {
   return svg;
 }
 
-/// A band is filled, and its outline thin and solid.
+/// A band is filled, that of all together hardly, as it lies on the others; its outline is thin and solid.
 std::string curve_of(const PlotPage& page, const PlotStyle& style, Quantity quantity, const PlotMap& y) {
   const auto points = plot_points(page.curves, page.columns, quantity);
   if (points.empty()) return "";
   const std::string data = path_data(points, page.columns.single, page.x, y);
   if (page.columns.single) return fmt::format("<path fill=\"none\"{} d=\"{}\"/>\n", stroke_of(style), data);
-  return fmt::format("<path fill=\"{0}\" fill-opacity=\"0.3\" stroke=\"{0}\" d=\"{1}\"/>\n", style.colour,
-                     data);
+  return fmt::format(
+      "<path fill=\"{0}\" fill-opacity=\"{1}\" stroke=\"{0}\" stroke-width=\"0.8\" d=\"{2}\"/>\n",
+      style.colour, style.x == Quantity::before_x ? "0.06" : "0.25", data);
 }
 
 std::string frame_of(const PlotPanel& panel) {

@@ -111,6 +111,11 @@ TEST_CASE("what is no report is refused at its place") {
         "be compared");
   CHECK(contains(refusal("a.json", "[1, 2]"), "a.json:1:1: error: the document's schema is not said"));
   CHECK(contains(refusal("a.json", ""), "a.json:1:1: error: is no JSON"));
+  const std::string deep = "{\"machine\": " + std::string(100000, '[') + std::string(100000, ']') + "}";
+  CHECK(refusal("a.json", deep) == "a.json:1:112: error: lists and objects are nested more than 100 deep");
+  CHECK(contains(
+      refusal("a.json", "{\"schema\": \"" + std::string(200, '[') + "\\\"" + std::string(200, '{') + "\"}"),
+      "the document's schema is"));
   CHECK(contains(refusal("a.html", "<html>"), "a.html:1:1: error: is no page of counterflex"));
   CHECK(contains(refusal("a.html", page_of("{,")), "a.html:3:98: error: is no JSON"));
   CHECK(contains(refusal("a.html", page_of("{\"report\": null}")), "the document's schema is not said"));
