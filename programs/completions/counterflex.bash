@@ -7,7 +7,7 @@ _counterflex_words() {
   case $1 in
     compensate) echo "$program $forces --blend-mm --output --plot --report --min-block-ms --json --quiet --verbose --help" ;;
     predict | verify) echo "$program $forces --blend-mm --plot --report --min-block-ms --json --quiet --verbose --help" ;;
-    compare) echo "--report --json --quiet --verbose --help" ;;
+    compare) echo "--name --report --json --quiet --verbose --help" ;;
     analyze) echo "--machine --at --tool --force --method --json --quiet --verbose --help" ;;
     forces) echo "$reading $forces --output --materials --json --quiet --verbose --help" ;;
     check) echo "$reading --json --quiet --verbose --help" ;;

@@ -186,6 +186,10 @@ void add_compare(CLI::App& app, Options& options) {
       ->required()
       ->expected(2)
       ->type_name("");
+  command
+      .add_option("--name", options.names, "What a run is called; given twice, in the order of the reports")
+      ->type_name("NAME")
+      ->allow_extra_args(false);
   value_option(command, "--report", "STEM", "Write STEM.json and STEM.html, a page of both runs",
                [&](const std::string& text) { options.report = text; });
   add_output(command, options);

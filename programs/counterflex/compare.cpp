@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include "commands.hpp"
 #include "counterflex/files/file_writer.hpp"
 #include "counterflex/report/comparison.hpp"
@@ -9,6 +11,17 @@
 
 namespace counterflex::cli {
 namespace {
+
+void name_runs(const Options& options, ReportFile& a, ReportFile& b) {
+  if (options.names.empty()) return tell_apart(a, b);
+  if (options.names.size() != 2)
+    throw InputError(
+        Exit::usage, {},
+        fmt::format("--name is given {} times; it is for both runs or for none, in the order of the reports",
+                    options.names.size()));
+  a.name = options.names[0];
+  b.name = options.names[1];
+}
 
 PageRun page_run(const ReportFile& file) {
   PageRun run;
@@ -38,7 +51,7 @@ Exit run_compare(const Options& options, Console& console) {
   const WithCurves with = options.report ? WithCurves::yes : WithCurves::no;
   ReportFile a = read_report_file(options.reports.front(), with);
   ReportFile b = read_report_file(options.reports.back(), with);
-  tell_apart(a, b);
+  name_runs(options, a, b);
   for (const ReportFile* file : {&a, &b})
     if (!file->remark.empty()) console.warning(file->path, 0, file->remark);
   const Comparison comparison = compare(a, b, version);

@@ -18,6 +18,7 @@ struct Options {
   std::string corrected;             ///< verify alone
   std::vector<std::string> files;    ///< check alone
   std::vector<std::string> reports;  ///< compare alone: two
+  std::vector<std::string> names;    ///< of these, or none
   std::string machine;               ///< empty: none, which check and forces alone allow
 
   std::vector<std::string> forces;     ///< files

@@ -148,6 +148,21 @@ TEST_CASE("two predictions, and runs that solved nothing, have a conclusion, too
                  " b failed: its numbers are those of the part that was solved."));
 }
 
+TEST_CASE("the conclusion is in the unit that both reports show deviations in, else in mm") {
+  const auto report = [](const char* unit, const char* largest_mm) {
+    return report_named("r", std::string(R"({"schema": "counterflex-report 1", "units": {"shown": ")") +
+                                 unit + R"("}, "summary": {"after": {"max_mm": )" + largest_mm + "}}}");
+  };
+  const auto conclusion = [&](const char* unit_a, const char* unit_b) {
+    return compare(report(unit_a, "0.254"), report(unit_b, "0.0508"), "").conclusion;
+  };
+  CHECK(contains(conclusion("inch", "inch"),
+                 "a largest model residual of 0.00200 inch instead of 0.01000 inch."));
+  CHECK(contains(conclusion("mm", "mm"), "of 0.0508 mm instead of 0.2540 mm."));
+  CHECK(contains(conclusion("um", "um"), "of 50.8 um instead of 254.0 um."));
+  CHECK(contains(conclusion("um", "inch"), "of 0.0508 mm instead of 0.2540 mm."));
+}
+
 TEST_CASE("operations are matched by tool and comment, and one that only the second run has comes last") {
   const auto report = [](const std::string& rows) {
     return R"({"schema": "counterflex-report 1", "units": {"shown": "um"}, "operations": [)" + rows + "]}";
