@@ -108,6 +108,7 @@ void refuse_stdin_twice(const Options& options) {
   std::vector<std::string> paths{options.program, options.corrected, options.machine,
                                  options.tool_table.value_or("")};
   paths.insert(paths.end(), options.forces.begin(), options.forces.end());
+  paths.insert(paths.end(), options.reports.begin(), options.reports.end());
   const auto count = std::count(paths.begin(), paths.end(), "-");
   if (count > 1) throw InputError(Exit::usage, {}, "standard input (-) can be only one of the inputs");
 }
@@ -205,7 +206,8 @@ void Windows::refuse_uncontrolled_moves(const Job& job) {
 
 RunTally tally_for(const Options& options, const Run& run) {
   std::optional<PathCurves> curves;
-  if (options.report) curves.emplace(options.command != Command::predict, weighs(run.machine.machine));
+  if (options.report || options.plot)
+    curves.emplace(options.command != Command::predict, weighs(run.machine.machine));
   return RunTally(run.facts.min_block_ms, std::move(curves));
 }
 

@@ -125,7 +125,7 @@ class PathCurves {
   };
 
  private:
-  void begin_at_rapid(const Waypoint& w, std::int32_t operation);
+  bool begin_at_rapid(const Waypoint& w, std::int32_t operation);  ///< whether it could
   void push(const Waypoint& w, std::int32_t operation, bool after_rapid);
   void merge_neighbours();
   Quantity picture() const;  ///< whose largest value decides what a stretch shows in space
