@@ -213,9 +213,11 @@
       const text = stretch < 0 ? '' : picture.words(this.shown, stretch, this.units);
       if (text !== this.parts.said.textContent) this.parts.said.textContent = text;
       const centre = this.camera.centre.map((v, i) => (v + this.facts.origin[i]).toFixed(3));
+      const degrees = (angle) => Math.round((angle * 180) / Math.PI);
       const {kind, run, factor} = this.shown;
       Object.assign(this.parts.root.dataset, {renderer: this.view.name, kind, run, factor, stretch,
-        centre: centre.join(' '), span: this.camera.span.toPrecision(6)});
+        centre: centre.join(' '), span: this.camera.span.toPrecision(6),
+        azimuth: degrees(this.camera.azimuth), elevation: degrees(this.camera.elevation)});
     }
 
     /** On paper one cannot turn or switch: the whole path, before and after one below the other. */
