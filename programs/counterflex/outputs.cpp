@@ -127,8 +127,10 @@ void RunFiles::add_waypoints(const std::vector<Waypoint>& waypoints) {
 void RunFiles::add_report(const RunReport& report, const std::string& report_json, const PathCurves& curves) {
   if (json_) json_->write(report_json);
   if (!page_) return;
-  const PageRun run{"", report_json, curves_json(curves), "null"};
-  write_page(page_title(report), {run}, [&](std::string_view part) { page_->write(part); });
+  std::vector<PageRun> runs(1);
+  runs[0].report = report_json;
+  runs[0].curves = curves_json(curves);
+  write_page(page_title(report), runs, [&](std::string_view part) { page_->write(part); });
 }
 
 void RunFiles::publish(bool with_program) {

@@ -201,12 +201,13 @@ void Windows::refuse_uncontrolled_moves(const Job& job) {
 
 RunTally tally_for(const Options& options, const Run& run) {
   std::optional<PathCurves> curves;
-  if (options.report) curves.emplace(options.command != Command::predict);
+  if (options.report) curves.emplace(options.command != Command::predict, weighs(run.machine.machine));
   return RunTally(run.facts.min_block_ms, std::move(curves));
 }
 
 Exit deliver(const Options& options, Run& run, RunReport report, const RunTally& tally, RunFiles& files,
              Console& console) {
+  run.lanes.reset();  // nothing is solved any more; the report takes their memory
   if (options.report || options.json) add_texts(report, run.file.bytes);
   run.file.bytes.refuse_change();  // it was read more than once
   const std::optional<Failure>& failure = report.failure;

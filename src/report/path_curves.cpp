@@ -85,24 +85,24 @@ void set_deviation(Values& values, Quantity first, const Waypoint& w, const Vect
   at(values, first, 7) = static_cast<float>(deviation.tail<3>().norm() / deg);
 }
 
-void set_causes(Values& values, const Waypoint& w, const Causes& causes, bool corrected) {
+void set_causes(Values& values, const Waypoint& w, const Causes& causes, PathCurves::Known known) {
   set_position(values, Quantity::geometry_x, causes.geometry);
   set_position(values, Quantity::load_x, causes.load);
-  set_position(values, Quantity::gravity_x, causes.gravity);
+  if (known.weights) set_position(values, Quantity::gravity_x, causes.gravity);
   set_position(values, Quantity::superposition_x, causes.superposition);
   set_position(values, Quantity::discrepancy_x, w.before - causes.superposition);
-  if (corrected) at(values, Quantity::air) = static_cast<float>(causes.air.head<3>().norm() / mm);
+  if (known.corrected) at(values, Quantity::air) = static_cast<float>(causes.air.head<3>().norm() / mm);
 }
 
-Values values_of(const Waypoint& w, bool corrected) {
+Values values_of(const Waypoint& w, PathCurves::Known known) {
   Values values;
   values.fill(unknown);
   set_vector(values, Quantity::force_x, w.wrench.head<3>());
-  if (corrected) set_deviation(values, Quantity::after_x, w, w.after);
+  if (known.corrected) set_deviation(values, Quantity::after_x, w, w.after);
   if (w.between) return values;
   set_deviation(values, Quantity::before_x, w, w.before);
-  if (w.causes) set_causes(values, w, *w.causes, corrected);
-  if (corrected) set_position(values, Quantity::correction_x, w.correction);
+  if (w.causes) set_causes(values, w, *w.causes, known);
+  if (known.corrected) set_position(values, Quantity::correction_x, w.correction);
   return values;
 }
 
@@ -110,7 +110,7 @@ std::array<float, 3> floats(const Vector3& v) {
   return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
 }
 
-Stretch stretch_of(const Waypoint& w, bool corrected) {
+Stretch stretch_of(const Waypoint& w, PathCurves::Known known) {
   Stretch stretch;
   stretch.s_mm = w.s / mm;
   stretch.first_line = stretch.last_line = w.line;
@@ -118,8 +118,8 @@ Stretch stretch_of(const Waypoint& w, bool corrected) {
   stretch.before.fill(unknown);
   stretch.after.fill(unknown);
   if (!w.between) stretch.before = floats(w.before.head<3>() / mm);
-  if (corrected) stretch.after = floats(w.after.head<3>() / mm);
-  stretch.least = stretch.largest = values_of(w, corrected);
+  if (known.corrected) stretch.after = floats(w.after.head<3>() / mm);
+  stretch.least = stretch.largest = values_of(w, known);
   return stretch;
 }
 
@@ -170,7 +170,7 @@ void PathMarks::add(double s) {
   s_mm.push_back(s);
 }
 
-PathCurves::PathCurves(bool corrected) : corrected_(corrected) {}
+PathCurves::PathCurves(bool corrected, bool weighs) : known_{corrected, weighs} {}
 
 void PathCurves::add(const Waypoint& w, std::int32_t operation) {
   if (w.status != Status::converged) return;
@@ -198,7 +198,7 @@ void PathCurves::begin_at_rapid(const Waypoint& w, std::int32_t operation) {
 }
 
 void PathCurves::push(const Waypoint& w, std::int32_t operation, bool after_rapid) {
-  Stretch stretch = stretch_of(w, corrected_);
+  Stretch stretch = stretch_of(w, known_);
   stretch.operation = operation;
   stretch.begins_after_rapid = after_rapid;
   s_mm_ = stretch.s_mm;
@@ -224,7 +224,7 @@ void PathCurves::merge_neighbours() {
 }
 
 Quantity PathCurves::picture() const {
-  return corrected_ ? Quantity::after : Quantity::before;
+  return known_.corrected ? Quantity::after : Quantity::before;
 }
 
 void PathCurves::add_force_step(double s_mm) {

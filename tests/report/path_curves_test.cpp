@@ -33,7 +33,7 @@ float largest_of_all(const PathCurves& curves, Quantity quantity) {
 }
 
 PathCurves with_spikes(std::size_t count, const std::vector<std::size_t>& spikes) {
-  PathCurves curves(true);
+  PathCurves curves(true, true);
   for (std::size_t i = 0; i < count; ++i) {
     const auto spike = std::find(spikes.begin(), spikes.end(), i) - spikes.begin();
     const bool planted = spike < static_cast<std::ptrdiff_t>(spikes.size());
@@ -146,6 +146,14 @@ TEST_CASE("of a prediction there is nothing after, and waypoints that were not s
     CHECK(std::isnan(value(stretch.largest, q)));
   CHECK(std::isnan(stretch.after[0]));
   CHECK(value(stretch.largest, Quantity::before) == doctest::Approx(0.5));
+}
+
+TEST_CASE("gravity has a curve where weights act, and none elsewhere") {
+  for (const bool weighs : {false, true}) {
+    PathCurves curves(true, weighs);
+    curves.add(step(0, 0.5), 0);
+    CHECK(std::isnan(value(curves.stretches()[0].largest, Quantity::gravity)) != weighs);
+  }
 }
 
 TEST_CASE("marks are thinned out evenly, and counted") {

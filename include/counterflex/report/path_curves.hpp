@@ -98,8 +98,9 @@ class PathCurves {
  public:
   static constexpr std::size_t most_stretches = 8192;
 
-  /// `corrected`: whether there is a corrected program, so that after, correction and air mean something.
-  explicit PathCurves(bool corrected);
+  /// `corrected`: whether there is a corrected program, so that after, correction and air mean something;
+  /// `weighs`: whether weights act, so that gravity does.
+  explicit PathCurves(bool corrected, bool weighs = false);
 
   /// The next waypoint; `operation` as the caller counts them.
   void add(const Waypoint& w, std::int32_t operation);
@@ -115,7 +116,13 @@ class PathCurves {
   std::size_t waypoints() const { return waypoints_; }
   const PathMarks& rapids() const { return rapids_; }
   const PathMarks& force_steps() const { return force_steps_; }
-  bool corrected() const { return corrected_; }
+  bool corrected() const { return known_.corrected; }
+
+  /// Which quantities mean something.
+  struct Known {
+    bool corrected = false;
+    bool weights = false;
+  };
 
  private:
   void begin_at_rapid(const Waypoint& w, std::int32_t operation);
@@ -123,7 +130,7 @@ class PathCurves {
   void merge_neighbours();
   Quantity picture() const;  ///< whose largest value decides what a stretch shows in space
 
-  bool corrected_;
+  Known known_;
   std::vector<Stretch> stretches_;
   std::size_t per_stretch_ = 1, in_last_ = 0, waypoints_ = 0;
   double s_mm_ = 0;  ///< of the last waypoint
