@@ -178,23 +178,24 @@ void PathCurves::add(const Waypoint& w, std::int32_t operation) {
     rapid_ = w;
     return;
   }
-  const bool after_rapid = rapid_.has_value();
+  bool after_rapid = rapid_.has_value();
   if (after_rapid) {
     rapids_.add(s_mm_);
-    begin_at_rapid(w, operation);
+    after_rapid = !begin_at_rapid(w, operation);
   }
   push(w, operation, after_rapid);
 }
 
 // The end of a rapid is where the feed move after it starts, as the statistics have it (path_tally.hpp).
-void PathCurves::begin_at_rapid(const Waypoint& w, std::int32_t operation) {
+bool PathCurves::begin_at_rapid(const Waypoint& w, std::int32_t operation) {
   Waypoint start = *std::exchange(rapid_, std::nullopt);
   const double chord = (w.p_MT - start.p_MT).norm();
-  if (std::abs(chord - (w.s - s_mm_ * mm)) > joined) return;
+  if (std::abs(chord - (w.s - s_mm_ * mm)) > joined) return false;
   start.line = w.line;
   start.s = s_mm_ * mm;
   start.direction = w.direction;
   push(start, operation, true);
+  return true;
 }
 
 void PathCurves::push(const Waypoint& w, std::int32_t operation, bool after_rapid) {
