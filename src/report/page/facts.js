@@ -46,7 +46,7 @@
 
   /** Assumptions, inputs with their hashes, options and version. */
   function render({runs}) {
-    return [el('div', {class: 'runs'}, runs.map(assumptions)), inputs(runs), options(runs)];
+    return el('div', {class: 'stack'}, el('div', {class: 'runs'}, runs.map(assumptions)), inputs(runs), options(runs));
   }
 
   const blockRows = [['Blocks', 'total'], ['Moves', 'moves'], ['Corrected each on its own', 'corrected'], ['Corrected in part', 'corrected_in_part'],
@@ -93,7 +93,7 @@
   /** Counts of blocks, what a control may make of them, and tools. */
   function program({runs, units}) {
     const blocks = blockRows.map(([what, key]) => [what, ...runs.map((run) => countText(run.report.blocks[key]))]);
-    return [compared('Blocks and control', runs, [...blocks, ...controlRows(runs)]), runs.map((run) => toolTable(run, units))];
+    return el('div', {class: 'stack'}, compared('Blocks and control', runs, [...blocks, ...controlRows(runs)]), runs.map((run) => toolTable(run, units)));
   }
 
   counterflex.facts = {render, program};

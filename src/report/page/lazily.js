@@ -1,15 +1,14 @@
 'use strict';
 (() => {
-  /** Builds plots when they come into view, a little before they do. */
+  const soon = window.requestIdleCallback || ((work) => setTimeout(work, 20));
+
+  /** Builds plots one after another while the page has nothing else to do. */
   counterflex.lazily = (plots) => {
-    const observer = new IntersectionObserver((entries) => {
-      for (const entry of entries) {
-        if (!entry.isIntersecting) continue;
-        observer.unobserve(entry.target);
-        const plot = plots.find(({host}) => host === entry.target);
-        plot.ensure();
-      }
-    }, {rootMargin: '200px'});
-    for (const plot of plots) observer.observe(plot.host);
+    const [next, ...rest] = plots;
+    if (!next) return;
+    soon(() => {
+      next.ensure();
+      counterflex.lazily(rest);
+    });
   };
 })();

@@ -27,27 +27,31 @@
     return el('span', {class: 'use'}, drawing, `${share.toFixed(0)} %${over ? ': above the limit' : ''}`);
   }
 
-  function rowsOf(chain, context, run) {
+  function rowsOf(chain, context, limited) {
     return quantities.filter(([name]) => chain[name] && chain[name].largest > 0).map(([name, words, unit]) => {
       const load = chain[name];
-      const cells = [chain.name, words, textOf(load.largest, unit, context.units), String(load.line),
-        known(load.limit) ? textOf(load.limit, unit, context.units) : '\u2013', use(load)];
-      return Object.assign(cells, {limited: known(load.limit), mark: load.limit && load.largest > load.limit ? 'exceeded' : ''});
+      const largest = [chain.name, words, textOf(load.largest, unit, context.units), String(load.line)];
+      const limit = limited ? [known(load.limit) ? textOf(load.limit, unit, context.units) : '\u2013', use(load)] : [];
+      return Object.assign([...largest, ...limit], {limited: known(load.limit), mark: load.limit && load.largest > load.limit ? 'exceeded' : ''});
     });
   }
+
+  const hasLimit = (chain) => quantities.some(([name]) => chain[name] && known(chain[name].limit));
 
   /** The largest loads of each chain against their limits, those that have one first. */
   function tableOf(run, context) {
     const {loads} = run.report;
     if (!loads) return null;
-    const columns = [{title: 'Chain'}, {title: 'Load', class: 'text'}, {title: 'Largest', number: true}, {title: 'Line', number: true},
-      {title: 'Limit', number: true}, {title: 'Of the limit', class: 'text'}];
-    const rows = loads.chains.flatMap((chain) => rowsOf(chain, context, run)).sort((a, b) => b.limited - a.limited);
+    const limited = loads.chains.some(hasLimit);
+    const rows = loads.chains.flatMap((chain) => rowsOf(chain, context, limited)).sort((a, b) => b.limited - a.limited);
     if (rows.length === 0) return null;
-    return table(`${run.letter ? `${run.letter}: ` : ''}Largest loads at ${loads.places} places of the path`, columns, rows);
+    const columns = [{title: 'Chain'}, {title: 'Load', class: 'text'}, {title: 'Largest', number: true}, {title: 'Line', number: true},
+      ...(limited ? [{title: 'Limit', number: true}, {title: 'Of the limit', class: 'text'}] : [])];
+    const caption = `Largest loads at ${loads.places} places of the path${limited ? '' : '; the machine file gives no limits'}`;
+    return table(`${run.letter ? `${run.letter}: ` : ''}${caption}`, columns, rows);
   }
 
-  const render = (context) => context.runs.map((run) => tableOf(run, context));
+  const render = (context) => el('div', {class: 'runs'}, context.runs.map((run) => tableOf(run, context)));
 
   /** Points of a run's loads; their stretches are those of the curves, so that a click selects one. */
   function pointsOf(run) {

@@ -31,6 +31,11 @@
     return card('correction', 'Largest correction', units.format(correction.max_mm), words.inLine(correction.line));
   }
 
+  /** What does harm of a deviation: the part across the path. */
+  function acrossCard(s, units) {
+    return card('across', 'Across the path', units.format(s.max_across_mm), 'what is along the path does no harm');
+  }
+
   /** Tolerance in mm; infinite where the run has none. */
   function tolerance(report) {
     const value = report.options['tolerance-mm'];
@@ -44,6 +49,7 @@
     return [
       before && deviationCard('before', after ? 'Before' : 'Deviation, as programmed', before, units),
       after && deviationCard('after', 'After (model residual)', after, units),
+      before && !after && acrossCard(before, units),
       times && card('factor', 'Smaller', `${times} \u00d7`, 'largest before / largest after'),
       typeof share === 'number' && correctedCard(report),
       air && airCard(report, units),
