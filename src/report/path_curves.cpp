@@ -187,6 +187,7 @@ void PathCurves::add(const Waypoint& w, std::int32_t operation) {
 }
 
 // The end of a rapid is where the feed move after it starts, as the statistics have it (path_tally.hpp).
+// False where it is elsewhere.
 bool PathCurves::begin_at_rapid(const Waypoint& w, std::int32_t operation) {
   Waypoint start = *std::exchange(rapid_, std::nullopt);
   const double chord = (w.p_MT - start.p_MT).norm();

@@ -5,19 +5,19 @@ import {colours, data_in, pixels, report_of, texts, visit, write_page} from './b
 const scene = (page) => page.$eval('#path-view .scene-view', (node) => ({...node.dataset}));
 
 test('a page draws its curves and its path without a complaint or a request', () => visit('groove', async (page) => {
-  assert.ok(await pixels(page, '.plot.before', '--before') > 300);
-  assert.ok(await pixels(page, '.plot.after', '--after') > 300);
+  assert.ok(await pixels(page, '.plot.before canvas', '--before') > 300);
+  assert.ok(await pixels(page, '.plot.after canvas', '--after') > 300);
   assert.equal((await scene(page)).renderer, 'webgl');
 }));
 
 test('plots below are drawn, too, while the page is idle', () => visit('groove', async (page) => {
   await page.waitForFunction(() => document.querySelectorAll('.plot.force canvas').length > 0);
-  assert.ok(await pixels(page, '.plot.sources', '--geometry') > 300);
-  assert.ok(await pixels(page, '.plot.force', '--x') > 100);
+  assert.ok(await pixels(page, '.plot.sources canvas', '--geometry') > 300);
+  assert.ok(await pixels(page, '.plot.force canvas', '--x') > 100);
 }));
 
 test('without WebGL everything is drawn flat', () => visit('groove', async (page) => {
-  assert.ok(await pixels(page, '.plot.before', '--before') > 300);
+  assert.ok(await pixels(page, '.plot.before canvas', '--before') > 300);
   assert.notEqual((await scene(page)).renderer, 'webgl');
   assert.ok(await colours(page, '#path-view canvas') > 20);
 }, {webgl: false}));
@@ -61,7 +61,29 @@ test('a page without attribution is drawn without what it lacks', async () => {
   await visit('without_attribution', async (page) => {
     assert.equal(await page.locator('#sources').isVisible(), false);
     assert.equal(await page.locator('#sensitivity').isVisible(), false);
-    assert.ok(await pixels(page, '.plot.before', '--before') > 300);
+    assert.ok(await pixels(page, '.plot.before canvas', '--before') > 300);
+  });
+});
+
+/** Curves of their first stretch alone. */
+function first_stretch(curves) {
+  const cut = (base64, bytes) => Buffer.from(base64, 'base64').subarray(0, bytes).toString('base64');
+  const sizes = {s_mm: 8, first_line: 4, last_line: 4, operation: 4, after_rapid: 1, place_mm: 12, place_before_mm: 12, place_after_mm: 12};
+  const quantities = Object.entries(curves.quantities).map(([name, q]) => [name, {largest: cut(q.largest, 4)}]);
+  const arrays = Object.entries(sizes).map(([name, bytes]) => [name, cut(curves[name], bytes)]);
+  return {...curves, ...Object.fromEntries(arrays), quantities: Object.fromEntries(quantities), stretches: 1, waypoints: 1};
+}
+
+test('a path of a single place is drawn, and one of none is left out', async () => {
+  const data = data_in('groove');
+  data.runs[0].curves = first_stretch(data.runs[0].curves);
+  write_page('groove', data, 'single');
+  await visit('single', async (page) => assert.ok(await pixels(page, '.plot.before canvas', '--before') > 4));
+  data.runs[0].curves = null;
+  write_page('groove', data, 'without_curves');
+  await visit('without_curves', async (page) => {
+    for (const part of ['#path', '#curves', '#sources', '#force']) assert.equal(await page.locator(part).isVisible(), false, part);
+    assert.ok(await page.locator('[data-card=before]').isVisible());
   });
 });
 

@@ -14,6 +14,6 @@ test('the page of a long program is small and soon ready, however long the progr
 });
 
 test('of merged points least and largest are drawn', () => visit('large', async (page) => {
-  assert.ok(await pixels(page, '.plot.before', '--before') > 2000);
+  assert.ok(await pixels(page, '.plot.before canvas', '--before') > 2000);
   assert.match(await page.innerText('#curves'), /Each stretch of \d+ points is drawn with its least and its largest value/);
 }));

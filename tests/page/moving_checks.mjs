@@ -94,6 +94,22 @@ test('under the mouse stand line and values, in both plots', () => visit('pocket
   assert.match(after, /line \d+: after [\d.]+ \u00b5m/);
 }));
 
+test('under the mouse stands what is there, also where the curves are zoomed and between the points', () => visit('pocket', async (page) => {
+  await page.locator('.plot.before').scrollIntoViewIfNeeded();
+  const box = await page.locator('.plot.before').boundingBox();
+  for (const zooms of [0, 3]) {
+    await page.focus('.plot.before');
+    for (let i = 0; i < zooms; ++i) await page.keyboard.press('+');
+    for (const share of [0.1, 0.5, 0.99]) {
+      await page.mouse.move(box.x + share * box.width, box.y + 100);
+      const [text] = await texts(page, '#curves .readout');
+      const s = parseFloat(text), ticks = await axis(page, 'before');
+      assert.ok(s > Math.min(...ticks) - spread(ticks) / 3 && s < Math.max(...ticks) + spread(ticks) / 3, `${text} of ${ticks}`);
+      assert.match(text, /line \d+: before/);
+    }
+  }
+}));
+
 test('an operation zooms the curves to it', () => visit('hostile', async (page) => {
   const whole = await axis(page, 'before');
   await page.click('#operations tbody tr:nth-child(2) a');

@@ -124,7 +124,7 @@ TEST_CASE("a feed move begins at the end of the rapid before it, where the path 
   CHECK(curves.stretches()[0].s_mm == 0);
   CHECK(curves.stretches()[0].operation == 3);
   CHECK(curves.stretches()[0].begins_after_rapid);
-  CHECK_FALSE(curves.stretches()[1].begins_after_rapid);  // the line to it is the feed move
+  CHECK_FALSE(curves.stretches()[1].begins_after_rapid);  // from there it is a feed move
   CHECK(curves.rapids().count == 1);
 
   PathCurves apart(true);

@@ -125,7 +125,6 @@ class PathCurves {
   };
 
  private:
-  /// Begins a feed move where the rapid ended, if the two join: whether they do.
   bool begin_at_rapid(const Waypoint& w, std::int32_t operation);
   void push(const Waypoint& w, std::int32_t operation, bool after_rapid);
   void merge_neighbours();

@@ -61,13 +61,21 @@
     return signed ? [{value, label}, {value: -value, label: ''}] : [{value, label}];
   }
 
-  function deviation(context, group, points, state, base, rest) {
+  /** The tolerance in the title of a plot, where its line may be out of sight. */
+  function toleranceText(context, part) {
+    const [level] = toleranceLevels(context, part, true);
+    return level ? `; ${level.label}` : '';
+  }
+
+  /** What the plot of the deviation `base` shows: `look` = {title, colour, colours: of two runs, levels: whether the tolerance is drawn}. */
+  function deviation(context, group, points, state, base, look) {
     const {units} = context;
     return () => {
-      const wanted = [{name: quantityName(base, state.part), label: base, ...rest}];
-      const title = `${rest.title}: ${labelOf(state.part)}, in ${unitOf(state.part, units)}`;
-      return describe(context, group, points, wanted, scaleOf(state.part, units), {title, log: state.log, text: textIn(state.part, units),
-        levels: rest.levels ? toleranceLevels(context, state.part, state.log) : []});
+      const {part, log} = state;
+      const wanted = [{name: quantityName(base, part), label: base, colour: look.colour, colours: look.colours}];
+      const title = `${look.title}: ${labelOf(part)}, in ${unitOf(part, units)}${look.levels ? toleranceText(context, part) : ''}`;
+      const levels = look.levels ? toleranceLevels(context, part, log) : [];
+      return describe(context, group, points, wanted, scaleOf(part, units), {title, log, text: textIn(part, units), levels});
     };
   }
 
@@ -99,14 +107,14 @@
   /** Before and after, each on its own scale. */
   function deviations(context, group, points) {
     const state = {part: '', log: false, plots: []};
-    const plot = (base, rest) => counterflex.plot.create(context, group, deviation(context, group, points, state, base, rest), base);
+    const plot = (base, look) => counterflex.plot.create(context, group, deviation(context, group, points, state, base, look), base);
     if (has(context, 'before_mm')) state.plots.push(plot('before', {title: 'Before', colour: '--before', colours: ['--before', '--other-run']}));
     if (has(context, 'after_mm')) state.plots.push(plot('after', {title: 'After (model residual)', colour: '--after',
       colours: ['--after', '--other-run'], levels: true}));
     const present = components.filter(([part]) => has(context, quantityName('before', part)));
     const controls = el('div', {class: 'controls'}, componentChoice(context, state, 'component', present), logBox(state, group));
     return {plots: state.plots, content: [controls, counterflex.plotGroup.controls(group), state.plots.map((plot) => plot.node),
-      el('p', {class: 'note'}, help), mergedNote(context)]};
+      el('p', {class: 'note help'}, help), mergedNote(context)]};
   }
 
   const sourceSeries = (part) => [

@@ -85,8 +85,9 @@
   function callbacks(plot) {
     const {group, context} = plot;
     return {
-      highlightCallback(event, x, points, k) {
-        readout(plot, k);
+      highlightCallback(event, x) {
+        const k = nearestRow(plot.content.rows, x);
+        if (k >= 0) readout(plot, k);
         group.hover(x / context.units.lengthScale, plot);
       },
       unhighlightCallback() {
@@ -144,8 +145,30 @@
     action(plot.group);
   }
 
+  /** A copy of the drawing: what a canvas that was on the screen holds is not sure to be printed. */
+  function copyForPaper(plot) {
+    const drawn = plot.host.querySelector('canvas');
+    const copy = el('canvas', {class: 'paper-copy', width: drawn.width, height: drawn.height});
+    copy.style.width = drawn.style.width;
+    copy.style.height = drawn.style.height;
+    copy.getContext('2d').drawImage(drawn, 0, 0);
+    drawn.after(copy);
+  }
+
+  /** For paper: sharp, and as wide as the page; and back. */
+  function setPrinting(plot, on) {
+    plot.ensure();
+    plot.host.querySelectorAll('.paper-copy').forEach((copy) => copy.remove());
+    plot.host.style.width = on ? `${paperWidth}px` : '';
+    quietly(plot, () => {
+      plot.graph.updateOptions({pixelRatio: on ? 3 : null}, true);
+      plot.graph.resize();
+    });
+    if (on) copyForPaper(plot);
+  }
+
   function frame(plot, className) {
-    plot.host = el('div', {class: `plot ${className}`, tabindex: 0, role: 'img', keydown: (event) => key(plot, event)});
+    plot.host = el('div', {class: `plot ${className}`, tabindex: 0, role: 'application', keydown: (event) => key(plot, event)});
     plot.legend = {title: el('h3'), entries: el('div', {class: 'entries'}), paper: el('div', {class: 'entries paper'}),
       readout: el('p', {class: 'readout'}, '\u00a0')};
     const {title, entries, paper, readout: values} = plot.legend;
@@ -177,15 +200,7 @@
         plot.graph.setSelection(k);
         readout(plot, k);
       },
-      /** For paper: sharp, and as wide as the page. */
-      setPrinting(on) {
-        plot.ensure();
-        plot.host.style.width = on ? `${paperWidth}px` : '';
-        quietly(plot, () => {
-          plot.graph.updateOptions({pixelRatio: on ? 2 : null}, true);
-          plot.graph.resize();
-        });
-      },
+      setPrinting: (on) => setPrinting(plot, on),
     });
     group.plots.push(plot);
     return plot;
