@@ -5,12 +5,13 @@ _counterflex_words() {
   local reading='--machine --dialect --units --integer-words --expand-subprograms --work --tool-table'
   local program="$reading --tolerance-mm --method --max-correction-mm --decimals --threads"
   case $1 in
-    compensate) echo "$program $forces --blend-mm --output --report --min-block-ms --json --quiet --verbose --help" ;;
-    predict | verify) echo "$program $forces --blend-mm --report --min-block-ms --json --quiet --verbose --help" ;;
+    compensate) echo "$program $forces --blend-mm --output --plot --report --min-block-ms --json --quiet --verbose --help" ;;
+    predict | verify) echo "$program $forces --blend-mm --plot --report --min-block-ms --json --quiet --verbose --help" ;;
+    compare) echo "--name --report --json --quiet --verbose --help" ;;
     analyze) echo "--machine --at --tool --force --method --json --quiet --verbose --help" ;;
     forces) echo "$reading $forces --output --materials --json --quiet --verbose --help" ;;
     check) echo "$reading --json --quiet --verbose --help" ;;
-    *) echo "compensate predict verify analyze forces check --version --help" ;;
+    *) echo "compensate predict verify compare analyze forces check --version --help" ;;
   esac
 }
 
@@ -22,7 +23,7 @@ _counterflex() {
     --dialect) values='auto linuxcnc grbl fanuc haas mach3 siemens heidenhain' ;;
     --integer-words) values='units increments' ;;
     --units) values='mm inch' ;;
-    -m | --machine | --tool-table | -f | --forces | -o | --output | --report) return ;;  # files: readline completes them
+    -m | --machine | --tool-table | -f | --forces | -o | --output | --report | --plot) return ;;  # files: readline completes them
     *) if [[ $COMP_CWORD -eq 1 || $current == -* ]]; then
          values=$(_counterflex_words "$([ "$COMP_CWORD" -gt 1 ] && echo "${COMP_WORDS[1]}")")
        fi ;;

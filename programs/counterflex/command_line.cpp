@@ -127,6 +127,8 @@ void add_report(CLI::App& app, Options& options) {
       [&](const std::string& text) { options.min_block_ms = number_of("--min-block-ms", text, {0}); });
   value_option(app, "--report", "STEM", "Write STEM.html, STEM.json and STEM.csv",
                [&](const std::string& text) { options.report = text; });
+  value_option(app, "--plot", "FILE.svg", "Write the deviation along the path and its causes as a picture",
+               [&](const std::string& text) { options.plot = text; });
 }
 
 CLI::Option* add_file(CLI::App& app, const std::string& name, std::string& file, const std::string& help) {
@@ -174,6 +176,23 @@ void add_verify(CLI::App& app, Options& options) {
   add_file(command, "ORIGINAL", options.program, "The program that says what is wanted");
   add_file(command, "CORRECTED", options.corrected, "The program that is to be judged");
   add_run(command, options);
+}
+
+void add_compare(CLI::App& app, Options& options) {
+  CLI::App& command = add_command(app, options, "compare", Command::compare,
+                                  "Show the reports of two runs side by side: machines, methods, tolerances");
+  command
+      .add_option("REPORT", options.reports, "Two reports, STEM.json or STEM.html, as --report wrote them")
+      ->required()
+      ->expected(2)
+      ->type_name("");
+  command
+      .add_option("--name", options.names, "What a run is called; given twice, in the order of the reports")
+      ->type_name("NAME")
+      ->allow_extra_args(false);
+  value_option(command, "--report", "STEM", "Write STEM.json and STEM.html, a page of both runs",
+               [&](const std::string& text) { options.report = text; });
+  add_output(command, options);
 }
 
 void add_analyze(CLI::App& app, Options& options) {
@@ -273,6 +292,7 @@ std::variant<Options, Exit> read_command_line(int argc, const char* const* argv)
   add_compensate(app, options);
   add_predict(app, options);
   add_verify(app, options);
+  add_compare(app, options);
   add_analyze(app, options);
   add_show_forces(app, options);
   add_check(app, options);

@@ -10,6 +10,7 @@ namespace counterflex::cli {
 Exit run_compensate(const Options& options, Console& console);
 Exit run_predict(const Options& options, Console& console);
 Exit run_verify(const Options& options, Console& console);
+Exit run_compare(const Options& options, Console& console);
 Exit run_analyze(const Options& options, Console& console);
 Exit run_forces(const Options& options, Console& console);
 Exit run_check(const Options& options, Console& console);

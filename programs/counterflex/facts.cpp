@@ -55,7 +55,8 @@ RunFacts facts_of(const Options& options, const Run& run) {
   RunFacts facts;
   facts.version = version;
   // It takes several times as long as all else of `compensate`, which is not the command that asks for it.
-  facts.attribution = options.command != Command::compensate || options.json || options.report;
+  facts.attribution =
+      options.command != Command::compensate || options.json || options.report || options.plot;
   facts.inputs = {run.file.file, run.machine.file};
   const auto& forces = run.force_input.files;
   facts.inputs.insert(facts.inputs.end(), forces.begin(), forces.end());

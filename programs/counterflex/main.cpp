@@ -19,6 +19,8 @@ Exit run_command(const Options& options, Console& console) {
       return run_predict(options, console);
     case Command::verify:
       return run_verify(options, console);
+    case Command::compare:
+      return run_compare(options, console);
     case Command::analyze:
       return run_analyze(options, console);
     case Command::forces:

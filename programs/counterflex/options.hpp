@@ -9,15 +9,17 @@
 
 namespace counterflex::cli {
 
-enum class Command { compensate, predict, verify, analyze, forces, check };
+enum class Command { compensate, predict, verify, compare, analyze, forces, check };
 
 struct Options {
   Command command = Command::check;
 
-  std::string program;             ///< verify: the original
-  std::string corrected;           ///< verify alone
-  std::vector<std::string> files;  ///< check alone
-  std::string machine;             ///< empty: none, which check and forces alone allow
+  std::string program;               ///< verify: the original
+  std::string corrected;             ///< verify alone
+  std::vector<std::string> files;    ///< check alone
+  std::vector<std::string> reports;  ///< compare alone: two
+  std::vector<std::string> names;    ///< of these, or none
+  std::string machine;               ///< empty: none, which check and forces alone allow
 
   std::vector<std::string> forces;     ///< files
   std::vector<ForceRule> force_rules;  ///< of --force
@@ -45,6 +47,7 @@ struct Options {
   std::optional<std::string> output;
   bool materials = false;             ///< forces alone
   std::optional<std::string> report;  ///< stem
+  std::optional<std::string> plot;    ///< a file
   bool json = false;
   bool quiet = false;
   bool verbose = false;

@@ -9,6 +9,8 @@
 
 #include "counterflex/files/files.hpp"
 #include "counterflex/files/input_error.hpp"
+#include "counterflex/report/plot.hpp"
+#include "counterflex/report/report_file.hpp"
 #include "signals.hpp"
 
 namespace counterflex::cli {
@@ -56,6 +58,18 @@ void check_paths(const std::vector<std::string>& outputs, const std::vector<std:
   }
 }
 
+std::string stem_of_report(const Options& options) {
+  if (options.report->empty() || *options.report == "-")
+    throw InputError(Exit::usage, {}, "--report takes the stem of the names of files, not standard output");
+  return *options.report;
+}
+
+std::string path_of_plot(const std::string& path) {
+  if (fs::path(path).extension() != ".svg")
+    throw InputError(Exit::usage, {}, fmt::format("--plot writes a file that ends in .svg, not '{}'", path));
+  return path;
+}
+
 }  // namespace
 
 std::string default_output(const std::string& program) {
@@ -72,19 +86,27 @@ OutputPaths output_paths(const Options& options) {
     outputs.push_back(paths.program);
   }
   if (options.report) {
-    if (options.report->empty() || *options.report == "-")
-      throw InputError(Exit::usage, {},
-                       "--report takes the stem of the names of three files, not standard output");
-    paths.report_json = *options.report + ".json";
-    paths.report_csv = *options.report + ".csv";
-    paths.report_page = *options.report + ".html";
+    paths.report_json = stem_of_report(options) + ".json";
+    paths.report_csv = stem_of_report(options) + ".csv";
+    paths.report_page = stem_of_report(options) + ".html";
     outputs.insert(outputs.end(), {paths.report_json, paths.report_csv, paths.report_page});
   }
+  if (options.plot) outputs.push_back(paths.plot = path_of_plot(*options.plot));
   if (paths.program == "-" && options.json)
     throw InputError(
         Exit::usage, {},
         "the program and the document of --json cannot both go to standard output; give -o a file");
   check_paths(outputs, inputs_of(options));
+  return paths;
+}
+
+ComparisonPaths comparison_paths(const Options& options) {
+  if (!options.report) return {};
+  ComparisonPaths paths{stem_of_report(options) + ".json", stem_of_report(options) + ".html"};
+  std::vector<std::string> inputs = options.reports;
+  for (const std::string& report : options.reports)
+    if (const std::string page = page_beside(report); !page.empty()) inputs.push_back(page);
+  check_paths({paths.json, paths.page}, inputs);
   return paths;
 }
 
@@ -103,6 +125,7 @@ void check_output(const Options& options) {
 
 RunFiles::RunFiles(const OutputPaths& paths, const CsvColumns& columns) : paths_(paths), columns_(columns) {
   if (!paths.program.empty()) program_.emplace(paths.program);
+  if (!paths.plot.empty()) plot_.emplace(paths.plot);
   if (paths.report_csv.empty()) return;
   csv_.emplace(paths.report_csv);
   csv_->write(csv_header());
@@ -126,10 +149,12 @@ void RunFiles::add_waypoints(const std::vector<Waypoint>& waypoints) {
 
 void RunFiles::add_report(const RunReport& report, const std::string& report_json, const PathCurves& curves) {
   if (json_) json_->write(report_json);
+  if (plot_) plot_->write(to_svg(curves, report));
   if (!page_) return;
   std::vector<PageRun> runs(1);
   runs[0].report = report_json;
   runs[0].curves = curves_json(curves);
+  runs[0].loads = loads_json(report.loads);
   write_page(page_title(report), runs, [&](std::string_view part) { page_->write(part); });
 }
 
@@ -139,6 +164,7 @@ void RunFiles::publish(bool with_program) {
     if (json_) json_->publish();
     if (csv_) csv_->publish();
     if (page_) page_->publish();
+    if (plot_) plot_->publish();
     if (program_ && with_program && !program_to_stdout()) program_->publish();
   }
   if (program_ && with_program && program_to_stdout()) program_->publish();

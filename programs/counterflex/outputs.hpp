@@ -18,6 +18,7 @@ struct OutputPaths {
   std::string report_json;
   std::string report_csv;
   std::string report_page;
+  std::string plot;
 };
 
 /// The paths of `options`, the program's among them for `compensate`: NAME.comp.EXT beside the input unless
@@ -25,6 +26,14 @@ struct OutputPaths {
 /// input, by whatever name, where two are the same, or where the program and --json both want standard
 /// output; Exit::transient_io where its folder does not exist.
 OutputPaths output_paths(const Options& options);
+
+/// What `compare` writes; empty paths without --report.
+struct ComparisonPaths {
+  std::string json, page;
+};
+
+/// Throws as `output_paths`. The pages beside the reports are inputs, too.
+ComparisonPaths comparison_paths(const Options& options);
 
 /// Throws as `output_paths` where --output of a command that writes no program cannot be written.
 void check_output(const Options& options);
@@ -43,7 +52,7 @@ class RunFiles {
   void add_program(std::string_view text);
   void add_waypoints(const std::vector<Waypoint>& waypoints);
 
-  /// What is known when the run has ended. Nothing where no report is wanted.
+  /// What is known when the run has ended. Nothing where neither report nor plot is wanted.
   void add_report(const RunReport& report, const std::string& report_json, const PathCurves& curves);
 
   /// Gives the files their names, deaf to interrupts meanwhile, the corrected program's too if
@@ -54,7 +63,7 @@ class RunFiles {
   OutputPaths paths_;
   CsvColumns columns_;
   std::size_t next_row_ = 0;
-  std::optional<FileWriter> program_, csv_, json_, page_;
+  std::optional<FileWriter> program_, csv_, json_, page_, plot_;
 };
 
 /// Text on standard output. Throws `InputError` (Exit::transient_io).

@@ -108,6 +108,7 @@ void refuse_stdin_twice(const Options& options) {
   std::vector<std::string> paths{options.program, options.corrected, options.machine,
                                  options.tool_table.value_or("")};
   paths.insert(paths.end(), options.forces.begin(), options.forces.end());
+  paths.insert(paths.end(), options.reports.begin(), options.reports.end());
   const auto count = std::count(paths.begin(), paths.end(), "-");
   if (count > 1) throw InputError(Exit::usage, {}, "standard input (-) can be only one of the inputs");
 }
@@ -156,6 +157,10 @@ void refuse_what_cannot_be_compensated(const Run& run) {
         "twice");
 }
 
+bool wants_loads(const Run& run) {
+  return run.facts.attribution || !run.machine.machine.load_limits.empty();
+}
+
 Windows::Windows(Run& run, Console& console, std::size_t least_moves)
     : run_(run),
       console_(console),
@@ -201,13 +206,16 @@ void Windows::refuse_uncontrolled_moves(const Job& job) {
 
 RunTally tally_for(const Options& options, const Run& run) {
   std::optional<PathCurves> curves;
-  if (options.report) curves.emplace(options.command != Command::predict, weighs(run.machine.machine));
+  if (options.report || options.plot)
+    curves.emplace(options.command != Command::predict, weighs(run.machine.machine));
   return RunTally(run.facts.min_block_ms, std::move(curves));
 }
 
 Exit deliver(const Options& options, Run& run, RunReport report, const RunTally& tally, RunFiles& files,
              Console& console) {
-  run.lanes.reset();  // nothing is solved any more; the report takes their memory
+  run.lanes.reset();  // nothing is solved in them any more; the report takes their memory
+  const MachineInput& on = run.machine;
+  add_loads(report, solve_loads(on.model, run.load_places.places(), run.options.threads), on.machine);
   if (options.report || options.json) add_texts(report, run.file.bytes);
   run.file.bytes.refuse_change();  // it was read more than once
   const std::optional<Failure>& failure = report.failure;

@@ -6,6 +6,7 @@ import './number_checks.mjs';
 import './moving_checks.mjs';
 import './load_checks.mjs';
 import './look_checks.mjs';
+import './scene_checks.mjs';
 import './large_checks.mjs';
 
 after(close);

@@ -43,20 +43,23 @@ test('the shorter side of the picture shows the span', () => {
 });
 
 test('a fitted box is whole in the picture and touches its margin', () => {
-  for (const view of Object.values(camera.views)) {
-    const project = camera.projector(camera.fit({...start, ...view}, box, size, 60), size);
-    const corners = [0, 1, 2, 3, 4, 5, 6, 7].map((b) =>
-      project(...[0, 1, 2].map((k) => ((b >> k) & 1 ? box.high[k] : box.low[k]))));
-    const margin = Math.min(...corners.map(([x, y]) => Math.min(x, y, size.width - x, size.height - y)));
-    assert.ok(Math.abs(margin - 60) < 1e-6, `${margin}`);
-  }
+  for (const view of Object.values(camera.views))
+    for (const picture of [size, {width: 300, height: 500}]) {
+      const project = camera.projector(camera.fit({...start, ...view}, box, picture, [20, 60]), picture);
+      const corners = [0, 1, 2, 3, 4, 5, 6, 7].map((b) =>
+        project(...[0, 1, 2].map((k) => ((b >> k) & 1 ? box.high[k] : box.low[k]))));
+      const beside = Math.min(...corners.map(([x]) => Math.min(x, picture.width - x))) - 20;
+      const above = Math.min(...corners.map(([, y]) => Math.min(y, picture.height - y))) - 60;
+      assert.ok(Math.abs(Math.min(beside, above)) < 1e-6, `${beside} ${above}`);
+    }
 });
 
 test('flat boxes, lines and points are fitted with a finite span', () => {
-  const boxes = [{low: [0, 0, 5], high: [100, 50, 5]}, {low: [0, 0, 0], high: [0, 0, 100]}, {low: [1, 2, 3], high: [1, 2, 3]}];
+  const boxes = [{low: [0, 0, 5], high: [100, 50, 5]}, {low: [0, 0, 0], high: [0, 0, 100]},
+    {low: [1, 2, 3], high: [1, 2, 3]}];
   for (const flat of boxes)
     for (const view of Object.values(camera.views)) {
-      const {span} = camera.fit({...start, ...view}, flat, size, 60);
+      const {span} = camera.fit({...start, ...view}, flat, size, [60, 60]);
       assert.ok(span > 1 && span < 1000, `${span}`);
     }
 });

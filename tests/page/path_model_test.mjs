@@ -7,7 +7,8 @@ const {pathModel, pick} = load_scripts('path_model.js', 'pick.js');
 /** Curves of a path along x, one stretch a mm; deviations in z. */
 function curves_of(before, after_rapid = before.map((_, i) => (i === 0 ? 1 : 0))) {
   const spread = (values) => Float32Array.from(values.flatMap((v) => (Number.isNaN(v) ? [v, v, v] : [0, 0, v])));
-  return {s_mm: Float64Array.from(before, (_, i) => i), place_mm: Float32Array.from(before.flatMap((_, i) => [i, 0, 0])),
+  return {s_mm: Float64Array.from(before, (_, i) => i),
+    place_mm: Float32Array.from(before.flatMap((_, i) => [i, 0, 0])),
     after_rapid: Uint8Array.from(after_rapid), place_before_mm: spread(before),
     place_after_mm: spread(before.map(() => NaN)), quantities: {before_mm: {largest: Float32Array.from(before)}}};
 }

@@ -8,7 +8,8 @@ const units = {format: (mm) => `${(1000 * mm).toFixed(1)} um`};
 /** A run whose deviations before are these, along x in steps of a mm, in z. */
 function run_of(before, lines = before.map((_, i) => [i + 1, i + 1])) {
   const places = Float32Array.from(before.flatMap((_, i) => [i, 0, 0]));
-  const curves = {s_mm: Float64Array.from(before, (_, i) => i), place_mm: places, place_before_mm: Float32Array.from(before.flatMap((v) => [0, 0, v])),
+  const curves = {s_mm: Float64Array.from(before, (_, i) => i), place_mm: places,
+    place_before_mm: Float32Array.from(before.flatMap((v) => [0, 0, v])),
     place_after_mm: places.map(() => NaN), after_rapid: Uint8Array.from(before, (_, i) => (i === 0 ? 1 : 0)),
     first_line: Int32Array.from(lines, (l) => l[0]), last_line: Int32Array.from(lines, (l) => l[1]),
     quantities: {before_mm: {largest: Float32Array.from(before)}}};
@@ -24,7 +25,8 @@ test('a place is called by its line and deviation', () => {
 });
 
 test('a stretch of several lines says so, and that its deviation is the largest', () => {
-  assert.equal(scenePicture.words(shown(run_of([0.1, 0.2], [[1, 4], [5, 9]])), 0, units), 'lines 1 to 4: up to 100.0 um');
+  const several = run_of([0.1, 0.2], [[1, 4], [5, 9]]);
+  assert.equal(scenePicture.words(shown(several), 0, units), 'lines 1 to 4: up to 100.0 um');
 });
 
 test('a deviation between known ones is about so large, an unknown one is not told', () => {
@@ -45,6 +47,11 @@ test('runs share origin, colours and exaggeration, so that they can be compared'
 test('a run without curves, or with empty ones, cannot be shown', () => {
   for (const run of [undefined, {curves: null}, {curves: {place_mm: new Float32Array(0)}}])
     assert.equal(scenePicture.usable(run), false);
+});
+
+test('a run is called by letter and name, once where they are the same', () => {
+  assert.equal(scenePicture.nameOf({letter: 'A', name: 'before calibration'}), 'A: before calibration');
+  assert.equal(scenePicture.nameOf({letter: 'B', name: 'B'}), 'B');
 });
 
 test('the tolerance is the one of the run', () => assert.equal(shown(run_of([0.1])).tolerance_mm, 0.005));

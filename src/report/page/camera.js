@@ -46,8 +46,8 @@
     [0, 1, 2].map((axis) => ((bits >> axis) & 1 ? high[axis] : low[axis])));
 
   /**
-   * Seen from the same side, the whole box, with `margin` pixels of `size` left free on all sides. What has no
-   * extent in the picture is shown with some of its surroundings, a single point with 10 mm.
+   * Seen from the same side, the whole box, with `margin` = [pixels left and right, pixels above and below] left
+   * free. What has no extent in the picture is shown with some of its surroundings, a single point with 10 mm.
    */
   function fit(camera, box, size, margin) {
     const {right, up} = basis(camera);
@@ -57,8 +57,8 @@
       const along = corners(box).map((p) => dot(axis, p));
       return Math.max(Math.max(...along) - Math.min(...along), least);
     };
-    const free = (length) => Math.max(0.4 * length, length - 2 * margin);
-    const k = Math.min(free(size.width) / extent(right), free(size.height) / extent(up));
+    const free = (length, edge) => Math.max(0.4 * length, length - 2 * edge);
+    const k = Math.min(free(size.width, margin[0]) / extent(right), free(size.height, margin[1]) / extent(up));
     const centre = box.low.map((v, i) => (v + box.high[i]) / 2);
     return {...camera, centre, span: Math.min(size.width, size.height) / k, fitted: true};
   }

@@ -114,16 +114,19 @@
     }
   }
 
-  /** A length of the picture's scale, lower right, and how much the deviation is exaggerated. */
-  function lengths(context, size, theme, camera, units, factor) {
+  /** A length of the picture's scale, lower right, and notes above it. */
+  function lengths(context, size, theme, camera, units, notes) {
     const pixelsPerUnit = counterflex.camera.scale(camera, size) / units.lengthScale;
     const length = counterflex.pathModel.oneTwoFive(Math.min(120, 0.25 * size.width) / pixelsPerUnit);
     const [x, y] = [size.width - edge, size.height - edge - 4];
     const left = x - length * pixelsPerUnit;
-    plate(context, theme, left - edge, y - 44, x - left + 2 * edge, 44 + 2 * edge);
+    context.font = font;
+    const width = Math.max(x - left, ...notes.map((note) => context.measureText(note).width)) + 2 * edge;
+    const height = 24 + 18 * notes.length + edge;
+    plate(context, theme, size.width - width, size.height - height - edge, width, height + edge);
     line(context, theme.ink, 2, [left, y - 5], [left, y], [x, y], [x, y - 5]);
     write(context, theme, `${length} ${units.lengthLabel}`, (left + x) / 2, y - 12, 'center');
-    if (factor > 0) write(context, theme, `deviation \u00d7 ${factor}`, x, y - 32, 'right', theme.muted);
+    notes.forEach((note, i) => write(context, theme, note, x, y - 32 - 18 * i, 'right', theme.muted));
   }
 
   /** A ring around a place in the picture, and its label beside it, inside the picture: {x, y, text}. */
@@ -147,13 +150,13 @@
     write(context, theme, mark.text, x + 6, y);
   }
 
-  /** All of it: `picture` = {theme, camera, units, bar, factor (0: none), marks: [{x, y, text, radius}]}. */
+  /** All of it: `picture` = {theme, camera, units, bar, notes: [text], marks: [{x, y, text, radius}]}. */
   function draw(context, size, picture) {
     const {theme, camera, units} = picture;
     for (const mark of picture.marks) label(context, size, theme, mark, mark.radius);
     colourBar(context, size, theme, picture.bar, units);
     triad(context, size, theme, camera);
-    lengths(context, size, theme, camera, units, picture.factor);
+    lengths(context, size, theme, camera, units, picture.notes);
   }
 
   counterflex.overlay = {draw, ticks};

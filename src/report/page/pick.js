@@ -3,10 +3,10 @@
 (() => {
   /** A path in the picture: pixels x and y, and mm towards the eye, of each stretch. */
   function projected(path, factor, project) {
-    const picture = {x: new Float32Array(path.count), y: new Float32Array(path.count), depth: new Float32Array(path.count)};
+    const [x, y, depth] = [0, 1, 2].map(() => new Float32Array(path.count));
     for (let i = 0; i < path.count; ++i)
-      [picture.x[i], picture.y[i], picture.depth[i]] = project(...counterflex.pathModel.drawnAt(path, i, factor));
-    return picture;
+      [x[i], y[i], depth[i]] = project(...counterflex.pathModel.drawnAt(path, i, factor));
+    return {x, y, depth};
   }
 
   /** How far along the line from (x0, y0) to (x1, y1) the point nearest to (x, y) is: 0..1. */

@@ -7,9 +7,10 @@
 (() => {
   const {el} = counterflex.dom;
   const picture = counterflex.scenePicture;
-  const margin = 70;  // pixels around a fitted path
-  const hint = 'Drag: turn. Shift or right button: move. Wheel (after a click), + and \u2212: zoom. Double click, 0: fit. '
-    + 'Click on the path, \u2190 \u2192: choose a place. Shift + arrows: turn. Ctrl + arrows: move.';
+  const margin = [30, 70];  // pixels beside a fitted path, and above and below for scales and axes
+  const hint = 'Drag: turn. Shift or right button: move. Wheel (after a click), + and \u2212: zoom. '
+    + 'Double click, 0: fit. Click on the path, \u2190 \u2192: choose a place. '
+    + 'Shift + arrows: turn. Ctrl + arrows: move.';
 
   /** The elements of the view inside the container. */
   function furnish(container, controls) {
@@ -42,8 +43,7 @@
     choices() {
       const anywhere = (kind) => this.runs.some((run) => picture.knows(run, kind));
       return {kinds: counterflex.pathModel.kinds.map((value) => ({value, enabled: anywhere(value)})),
-        runs: this.runs.map((run) => ({text: [run.letter, run.name].filter(Boolean).join(': '),
-          enabled: picture.usable(run)})),
+        runs: this.runs.map((run) => ({text: picture.nameOf(run), enabled: picture.usable(run)})),
         steps: this.facts.steps, usual: this.facts.usual};
     }
 
@@ -213,9 +213,11 @@
       const text = stretch < 0 ? '' : picture.words(this.shown, stretch, this.units);
       if (text !== this.parts.said.textContent) this.parts.said.textContent = text;
       const centre = this.camera.centre.map((v, i) => (v + this.facts.origin[i]).toFixed(3));
+      const degrees = (angle) => Math.round((angle * 180) / Math.PI);
       const {kind, run, factor} = this.shown;
       Object.assign(this.parts.root.dataset, {renderer: this.view.name, kind, run, factor, stretch,
-        centre: centre.join(' '), span: this.camera.span.toPrecision(6)});
+        centre: centre.join(' '), span: this.camera.span.toPrecision(6),
+        azimuth: degrees(this.camera.azimuth), elevation: degrees(this.camera.elevation)});
     }
 
     /** On paper one cannot turn or switch: the whole path, before and after one below the other. */

@@ -5,7 +5,10 @@
 
   let groups = 0;  // radio buttons of one group share a name
 
-  /** Radio buttons: `choices` = [{value, text, enabled}]. Returns {element, set(value)}; `chosen(value)` on a change. */
+  /**
+   * Radio buttons: `choices` = [{value, text, enabled}]. Returns {element, set(value)}; calls `chosen(value)` on a
+   * change.
+   */
   function radios(legend, choices, chosen) {
     const name = `scene-choice-${++groups}`;
     const inputs = choices.map(({value, enabled}) =>

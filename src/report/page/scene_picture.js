@@ -9,6 +9,9 @@
 
   const usable = (run) => Boolean(run && run.curves) && run.curves.place_mm.length > 0;
 
+  /** "A: before calibration", or what there is of it. */
+  const nameOf = ({letter, name}) => [...new Set([letter, name])].filter(Boolean).join(': ');
+
   /** Whether a run has a path of that kind. */
   const knows = (run, kind) => usable(run) && counterflex.pathModel.has(run.curves, kind);
 
@@ -75,6 +78,13 @@
     return {x, y, radius, text: words(shown, stretch, units)};
   }
 
+  /** What the picture needs to be understood, the lowest line first. */
+  function notes({kind, factor, path}) {
+    const rapids = path.rapid.some((rapid, i) => rapid && i > 0) ? ['dashed: rapids'] : [];
+    return kind === 'wanted' ? rapids
+      : [`deviation \u00d7 ${factor}`, ['thin: wanted path', ...rapids].join(', ')];
+  }
+
   /**
    * Draws `shown` with a `view` (flat or WebGL) on a canvas of `size` = {width, height, ratio}. `marked`: places with
    * a ring and a label, {stretch, radius in pixels}.
@@ -88,8 +98,8 @@
     counterflex.overlay.draw(context, size, {theme, camera, units,
       marks: marked.map((each) => mark(each, shown, project, units)),
       bar: {title: titles[shown.kind](units.label), most_mm: shown.most_mm, tolerance_mm: shown.tolerance_mm},
-      factor: shown.kind === 'wanted' ? 0 : shown.factor});
+      notes: notes(shown)});
   }
 
-  counterflex.scenePicture = {usable, knows, survey, describe, exaggerated, words, placeOf, paint};
+  counterflex.scenePicture = {usable, nameOf, knows, survey, describe, exaggerated, words, placeOf, paint};
 })();

@@ -1,0 +1,108 @@
+#include "json_values.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+
+namespace counterflex {
+
+namespace {
+
+constexpr int deepest = 100;  // a page's data have seven levels
+
+/// What the parser says behind its own place: "syntax error while parsing value - ...".
+std::string parser_message(const std::string& what) {
+  const std::size_t column = what.find("column ");
+  const std::size_t colon = what.find(": ", column == std::string::npos ? 0 : column);
+  return colon == std::string::npos ? what : what.substr(colon + 2);
+}
+
+/// Where lists and objects are nested so deep that to go through them again would take all of the stack; the
+/// end of the text where they are not.
+std::size_t too_deep(std::string_view text) {
+  int depth = 0;
+  bool in_string = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (in_string && c == '\\')
+      ++i;
+    else if (c == '"')
+      in_string = !in_string;
+    else if (!in_string && (c == '[' || c == '{') && ++depth > deepest)
+      return i;
+    else if (!in_string && (c == ']' || c == '}'))
+      --depth;
+  }
+  return text.size();
+}
+
+}  // namespace
+
+Location place_of(std::string_view text, std::size_t offset, const std::string& file) {
+  const std::string_view before = text.substr(0, std::min(offset, text.size()));
+  const auto line = std::count(before.begin(), before.end(), '\n') + 1;
+  const std::size_t last_break = before.rfind('\n');
+  const std::size_t start = last_break == std::string_view::npos ? 0 : last_break + 1;
+  return {file, static_cast<int>(line), static_cast<int>(before.size() - start) + 1};
+}
+
+Json parse_json(std::string_view text, std::string_view whole, std::size_t offset, const std::string& file) {
+  if (const std::size_t at = too_deep(text); at < text.size())
+    throw InputError(Exit::usage, place_of(whole, offset + at, file),
+                     fmt::format("lists and objects are nested more than {} deep", deepest));
+  try {
+    return Json::parse(text);
+  } catch (const Json::parse_error& error) {
+    const std::size_t byte = error.byte > 0 ? error.byte - 1 : 0;  // it counts from 1
+    throw InputError(Exit::usage, place_of(whole, offset + byte, file),
+                     "is no JSON: " + parser_message(error.what()));
+  }
+}
+
+std::string plain_text(const Json& value) {
+  return value.is_string() ? value.get<std::string>()
+                           : value.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+const Json* JsonSource::find(const std::string& pointer) const {
+  const Json::json_pointer at(pointer);
+  if (!document.contains(at)) return nullptr;
+  const Json& value = document.at(at);
+  return value.is_null() ? nullptr : &value;
+}
+
+void JsonSource::refuse(const std::string& pointer, const Json& value, const char* wanted) const {
+  constexpr std::size_t most = 60;
+  std::string seen = value.dump(-1, ' ', true, Json::error_handler_t::replace);
+  if (seen.size() > most) seen = seen.substr(0, most) + "...";
+  throw InputError(Exit::usage, {file},
+                   fmt::format("{} is {}; {} or null is allowed", pointer, seen, wanted));
+}
+
+std::optional<double> JsonSource::number(const std::string& pointer) const {
+  const Json* value = find(pointer);
+  if (value == nullptr) return std::nullopt;
+  if (!value->is_number()) refuse(pointer, *value, "a number");
+  return value->get<double>();
+}
+
+std::string JsonSource::text(const std::string& pointer) const {
+  const Json* value = find(pointer);
+  if (value == nullptr) return "";
+  if (!value->is_string()) refuse(pointer, *value, "a text");
+  return value->get<std::string>();
+}
+
+const Json* JsonSource::object(const std::string& pointer) const {
+  const Json* value = find(pointer);
+  if (value != nullptr && !value->is_object()) refuse(pointer, *value, "an object");
+  return value;
+}
+
+const Json* JsonSource::list(const std::string& pointer) const {
+  const Json* value = find(pointer);
+  if (value != nullptr && !value->is_array()) refuse(pointer, *value, "a list");
+  return value;
+}
+
+}  // namespace counterflex

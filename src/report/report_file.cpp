@@ -1,0 +1,134 @@
+#include "counterflex/report/report_file.hpp"
+
+#include <fmt/core.h>
+
+#include <filesystem>
+
+#include "counterflex/files/files.hpp"
+#include "json_values.hpp"
+
+namespace counterflex {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view report_schema = "counterflex-report 1";
+constexpr std::string_view page_schema = "counterflex-page 1";
+constexpr std::string_view data_begins = R"(<script type="application/json" id="counterflex-data">)";
+constexpr std::string_view data_ends = "</script>";
+
+std::string display_name(const std::string& path) {
+  return path == "-" ? "<stdin>" : path;
+}
+
+bool is_page(const std::string& path) {
+  return path.ends_with(".html");
+}
+
+/// Throws where `document`, which begins at byte `offset` of `whole`, does not say that it is of `schema`.
+void require_schema(const Json& document, std::string_view schema, std::string_view whole, std::size_t offset,
+                    const std::string& file) {
+  const auto said = document.is_object() ? document.find("schema") : document.end();
+  if (document.is_object() && said != document.end() && *said == schema) return;
+  const bool any = document.is_object() && said != document.end();
+  const std::size_t key = any ? whole.find("\"schema\"", offset) : offset;
+  throw InputError(Exit::usage, place_of(whole, key, file),
+                   fmt::format("the document's schema is {}; only \"{}\" can be compared",
+                               any ? said->dump() : "not said", report_schema));
+}
+
+/// The data of a page that shows one run: {"report", "curves", "loads"}.
+Json run_of_page(std::string_view html, const std::string& file) {
+  const std::size_t tag = html.find(data_begins);
+  if (tag == std::string_view::npos)
+    throw InputError(Exit::usage, {file, 1, 1}, "is no page of counterflex: it holds no counterflex-data");
+  const std::size_t begin = tag + data_begins.size();
+  const std::string_view data = html.substr(begin, html.find(data_ends, begin) - begin);
+  const Json page = parse_json(data, html, begin, file);
+  require_schema(page, page_schema, html, begin, file);
+  const Json* runs = JsonSource{page, file}.list("/runs");
+  const std::size_t count = runs == nullptr ? 0 : runs->size();
+  if (count != 1)
+    throw InputError(Exit::usage, {file},
+                     fmt::format("the page shows {} runs; give one of a single run", count));
+  return runs->front();
+}
+
+std::string text_of_part(const Json& run, const char* part) {
+  const auto found = run.find(part);
+  return found == run.end() || found->is_null() ? "" : found->dump();
+}
+
+void take_curves(const Json& run, ReportFile& file) {
+  file.curves = text_of_part(run, "curves");
+  file.loads = text_of_part(run, "loads");
+}
+
+ReportFile read_page(const std::string& path, WithCurves with) {
+  const std::string html = read_file(path);
+  const Json run = run_of_page(html, path);
+  const Json* report = JsonSource{run, path}.object("/report");
+  require_schema(report == nullptr ? Json() : *report, report_schema, html, html.find(data_begins), path);
+  ReportFile file{.path = path, .sha256 = sha256(html), .report = dump(*report)};
+  if (with == WithCurves::yes) take_curves(run, file);
+  return file;
+}
+
+/// Whatever is wrong with the page is no reason not to compare the reports.
+void look_beside(const Json& report, ReportFile& file) {
+  const std::string page = page_beside(file.path);
+  std::error_code ignored;
+  if (page.empty() || !fs::exists(page, ignored)) {
+    file.remark = "its page, STEM.html of STEM.json, is not there: its curves are left out";
+    return;
+  }
+  try {
+    const Json run = run_of_page(read_file(page), page);
+    // The order of keys does not matter.
+    if (run.contains("report") && nlohmann::json(run["report"]) == nlohmann::json(report))
+      take_curves(run, file);
+    else
+      file.remark = fmt::format("{} shows another report: its curves are left out", page);
+  } catch (const InputError& error) {
+    file.remark = fmt::format("its curves are left out: {}", error.what());
+  }
+}
+
+ReportFile read_json(const std::string& path, WithCurves with) {
+  const std::string name = display_name(path);
+  const std::string text = read_file(path);
+  const Json report = parse_json(text, text, 0, name);
+  require_schema(report, report_schema, text, 0, name);
+  ReportFile file{.path = name, .sha256 = sha256(text), .report = text};
+  if (with == WithCurves::yes) look_beside(report, file);
+  return file;
+}
+
+}  // namespace
+
+std::string page_beside(const std::string& path) {
+  if (!path.ends_with(".json")) return "";
+  return fs::path(path).replace_extension(".html").string();
+}
+
+ReportFile read_report_file(const std::string& path, WithCurves with) {
+  ReportFile file = is_page(path) ? read_page(path, with) : read_json(path, with);
+  file.name = path == "-" ? "stdin" : fs::path(path).stem().string();
+  return file;
+}
+
+void tell_apart(ReportFile& a, ReportFile& b) {
+  fs::path folder_a = fs::path(a.path).parent_path(), folder_b = fs::path(b.path).parent_path();
+  while (a.name == b.name && (folder_a.has_filename() || folder_b.has_filename())) {
+    if (folder_a.has_filename()) a.name = (folder_a.filename() / a.name).string();
+    if (folder_b.has_filename()) b.name = (folder_b.filename() / b.name).string();
+    folder_a = folder_a.parent_path();
+    folder_b = folder_b.parent_path();
+  }
+  if (a.name != b.name) return;
+  a.name += " (1)";
+  b.name += " (2)";
+}
+
+}  // namespace counterflex
