@@ -5,6 +5,9 @@
   /** "1 move", "2 moves". */
   const counted = (count, what) => `${count} ${what}${count === 1 ? '' : 's'}`;
 
+  /** A heading of something of one run, which of two says its letter. */
+  const ofRun = (run, text) => (run.letter ? `${run.letter}: ${text}` : text);
+
   const inLine = (line) => (line > 0 ? `line ${line}` : '');
 
   /** How many times smaller the largest deviation became; '' where that is not worth saying. */
@@ -50,7 +53,8 @@
   function missed({summary, options}, units) {
     const tolerance = options['tolerance-mm'];
     if (!(summary.after.max_mm > tolerance)) return '';
-    const share = known(summary.corrected_percent) ? `; ${percent(summary.corrected_percent)} of the cutting length is held to it` : '';
+    const {corrected_percent: held} = summary;
+    const share = known(held) ? `; ${percent(held)} of the cutting length is held to it` : '';
     return ` That is more than the tolerance of ${units.format(tolerance)}${share}.`;
   }
 
@@ -58,7 +62,7 @@
   function verdict(report, units) {
     const {before, after} = report.summary;
     if (report.failure) return {text: failed(report), kind: 'bad'};
-    if (!before) return {text: 'Nothing was solved: the program has no feed move whose deviation could be told.', kind: 'neutral'};
+    if (!before) return {text: 'Nothing was solved: no feed move has a deviation that could be told.', kind: 'neutral'};
     if (!after) return {text: predicted(before, units), kind: 'neutral'};
     const more = missed(report, units);
     return {text: corrected(before, after, units) + more, kind: more ? 'warn' : 'good'};
@@ -72,7 +76,8 @@
     const difference = b.max_mm - a.max_mm;
     const values = `A ${units.format(a.max_mm)}, B ${units.format(b.max_mm)}`;
     if (difference === 0) return `Both leave the same: ${values}.`;
-    return `B leaves ${units.format(Math.abs(difference))} ${difference < 0 ? 'less' : 'more'} than A at its worst: ${values}.`;
+    const size = `${units.format(Math.abs(difference))} ${difference < 0 ? 'less' : 'more'}`;
+    return `B leaves ${size} than A at its worst: ${values}.`;
   }
 
   const partNames = {
@@ -93,7 +98,8 @@
   /** The parts of a deviation that are known: [{key, name, mm}], as they are listed above. */
   function parts(causes) {
     if (!causes) return [];
-    return Object.keys(partNames).filter((key) => known(causes[key])).map((key) => ({key, name: partNames[key], mm: causes[key]}));
+    const present = Object.keys(partNames).filter((key) => known(causes[key]));
+    return present.map((key) => ({key, name: partNames[key], mm: causes[key]}));
   }
 
   /** The parts that matter, the largest first: one that is more than twice the next is alone. */
@@ -114,5 +120,5 @@
 
   const toolName = (tool) => (tool > 0 ? `T${tool}` : '\u2013');
 
-  counterflex.words = {counted, inLine, factor, fileName, title, verdict, comparison, parts, cause, causeInShort, toolName};
+  counterflex.words = {counted, ofRun, inLine, factor, title, verdict, comparison, parts, cause, causeInShort, toolName};
 })();
