@@ -52,3 +52,13 @@ test('a share is never rounded up to the whole', () => {
   assert.equal(units.percent(54.36), '54.3 %');
   assert.equal(units.percent(null), '\u2013');
 });
+
+const run = (before, after) => ({report: {summary: {before: {max_mm: before}, after: after === null ? null : {max_mm: after}}}});
+const compared = (...runs) => words.comparison(runs, units.create('um'));
+
+test('two runs are compared by what both have: the residual, or the deviation before', () => {
+  assert.match(compared(run(1, 0.004), run(2, 0.003)), /B is off by 1.0 \u00b5m less than A .* after correction/);
+  assert.match(compared(run(1, 0.004), run(2, null)), /B is off by 1000 \u00b5m more than A .* before correction/);
+  assert.match(compared(run(1, null), run(1, null)), /the same at their worst, before correction/);
+  assert.match(compared({report: {summary: {before: null, after: null}}}, run(1, 1)), /no deviation to compare/);
+});

@@ -49,7 +49,7 @@
     const body = rows.map((row) => el('tr', {class: row.mark}, columns.map((c, i) => cell(c, row[i], i === 0))));
     const whole = el('table', null, el('caption', null, caption), el('thead', null, el('tr', null, head)),
         el('tbody', null, body));
-    return el('div', {class: 'table', tabindex: 0, role: 'region', 'aria-label': caption}, whole);
+    return el('div', {class: 'table'}, whole);
   }
 
   /** Columns of words and of digits. */

@@ -13,6 +13,7 @@
       plots: [],
       total,
       window: null,
+      frame: 0,
       shown: {blocks: true, rapids: true, steps: true},
       marks: counterflex.marks.of(runs[0]),
       /** Shows path length `range` (mm) in all plots; null: all of it. */
@@ -30,7 +31,11 @@
       hover(s, from) {
         for (const plot of group.plots) if (plot !== from) plot.showValues(s);
       },
-      redraw: () => group.plots.forEach((plot) => plot.redraw()),
+      /** Draws marks anew, once however often it is asked for before the next picture. */
+      redraw() {
+        cancelAnimationFrame(group.frame);
+        group.frame = requestAnimationFrame(() => group.plots.forEach((plot) => plot.redraw()));
+      },
       refresh: () => group.plots.forEach((plot) => plot.refresh()),
       /** Path length of the selected stretch; NaN: none. */
       selected() {

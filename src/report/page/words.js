@@ -68,16 +68,18 @@
     return {text: corrected(before, after, units) + more, kind: more ? 'warn' : 'good'};
   }
 
-  /** Which of two runs leaves less, in a sentence. */
+  /** Which of two runs is off less, in a sentence: after correction where both have been corrected, else before. */
   function comparison(runs, units) {
-    const left = (run) => run.report.summary.after || run.report.summary.before;
-    const [a, b] = runs.map(left);
+    const summaries = runs.map((run) => run.report.summary);
+    const corrected = summaries.every((summary) => summary.after);
+    const [a, b] = summaries.map((summary) => (corrected ? summary.after : summary.before));
     if (!a || !b) return 'One of the runs has no deviation to compare.';
+    const what = corrected ? 'after correction (model residual)' : 'before correction';
     const difference = b.max_mm - a.max_mm;
     const values = `A ${units.format(a.max_mm)}, B ${units.format(b.max_mm)}`;
-    if (difference === 0) return `Both leave the same: ${values}.`;
+    if (difference === 0) return `Both are off by the same at their worst, ${what}: ${values}.`;
     const size = `${units.format(Math.abs(difference))} ${difference < 0 ? 'less' : 'more'}`;
-    return `B leaves ${size} than A at its worst: ${values}.`;
+    return `B is off by ${size} than A at its worst, ${what}: ${values}.`;
   }
 
   const partNames = {
