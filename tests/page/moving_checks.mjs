@@ -128,6 +128,26 @@ test('components, the logarithm and units redraw the curves', () => visit('pocke
   assert.match(await title(), /x, in inches/);
 }));
 
+test('the line of a remark takes both views there', () => visit('hostile', async (page) => {
+  const before = await axis(page, 'before'), camera_before = await camera(page);
+  const [link] = await page.$$('#remarks tbody a');
+  const line = await link.textContent();
+  await link.click();
+  await drawn_again(page, camera_before);
+  assert.ok(spread(await axis(page, 'before')) < spread(before));
+  assert.match(await page.innerText('#place h3'), new RegExp(`ine ${line}$`));
+}));
+
+test('two runs that failed stand side by side, too', async () => {
+  const data = data_in('failed');
+  data.runs.push(data_in('failed').runs[0]);
+  write_page('failed', data, 'two_failed');
+  await visit('two_failed', async (page) => {
+    assert.equal(await page.locator('.verdict.bad').count(), 2);
+    assert.match(await page.innerText('main > #verdict > .verdict'), /no deviation to compare/);
+  });
+});
+
 test('two runs stand side by side, their curves in the same plots', async () => {
   const data = data_in('pocket');
   data.runs.push(data_in('constant').runs[0]);

@@ -30,10 +30,10 @@
     return el('span', {class: 'use'}, drawing, `${(100 * share).toFixed(0)} %${exceeds(load) ? ': above the limit' : ''}`);
   }
 
-  function rowsOf(chain, context, limited) {
+  function rowsOf(chain, context, index, limited) {
     return quantities.filter(([name]) => chain[name] && chain[name].largest > 0).map(([name, what, unit]) => {
       const load = chain[name];
-      const largest = [chain.name, what, textOf(load.largest, unit, context.units), String(load.line)];
+      const largest = [chain.name, what, textOf(load.largest, unit, context.units), counterflex.lines.link(context, index, load.line)];
       const limit = limited ? [known(load.limit) ? textOf(load.limit, unit, context.units) : '\u2013', use(load)] : [];
       return Object.assign([...largest, ...limit], {limited: known(load.limit), mark: exceeds(load) ? 'exceeded' : ''});
     });
@@ -42,11 +42,13 @@
   const hasLimit = (chain) => quantities.some(([name]) => chain[name] && known(chain[name].limit));
 
   /** The largest loads of each chain against their limits, those that have one first. */
-  function tableOf(run, context) {
+  function tableOf(context, index) {
+    const run = context.runs[index];
     const {loads} = run.report;
     if (!loads) return null;
     const limited = loads.chains.some(hasLimit);
-    const rows = loads.chains.flatMap((chain) => rowsOf(chain, context, limited)).sort((a, b) => b.limited - a.limited);
+    const rows = loads.chains.flatMap((chain) => rowsOf(chain, context, index, limited))
+        .sort((a, b) => b.limited - a.limited);
     if (rows.length === 0) return null;
     const columns = [{title: 'Chain'}, textColumn('Load'), numberColumn('Largest'), numberColumn('Line'),
       ...(limited ? [numberColumn('Limit'), textColumn('Of the limit')] : [])];
@@ -56,7 +58,7 @@
     return table(words.ofRun(run, caption), columns, rows);
   }
 
-  const render = (context) => el('div', {class: 'runs'}, context.runs.map((run) => tableOf(run, context)));
+  const render = (context) => el('div', {class: 'runs'}, context.runs.map((_, i) => tableOf(context, i)));
 
   /** Points of a run's loads; their stretches are those of the curves, so that a click selects one. */
   function pointsOf(run) {

@@ -63,9 +63,21 @@
   function goToRow(context, run, row) {
     const stretch = selectRow(context, run, row);
     document.getElementById('place').scrollIntoView({block: 'nearest'});
-    if (stretch < 0) return;
-    context.group.setWindow(counterflex.plotGroup.neighbourhood(context.group, context.runs[run].curves, stretch));
+    if (stretch >= 0) showStretch(context, run, stretch);
+  }
+
+  /** Zooms curves and path to a stretch and selects it. */
+  function showStretch(context, run, stretch) {
+    const {curves} = context.runs[run];
+    context.selection.set(run, stretch);
+    context.group.setWindow(counterflex.plotGroup.neighbourhood(context.group, curves, stretch));
     if (context.scene) context.scene.goTo(run, stretch);
+  }
+
+  /** Takes all views to a stretch of the path, the reader to its cause. */
+  function goTo(context, run, stretch) {
+    showStretch(context, run, stretch);
+    goToSection('place');
   }
 
   /** Zooms the curves to an operation. */
@@ -115,6 +127,7 @@
   function start(runs) {
     const context = contextOf(runs);
     context.goToRow = (run, row) => goToRow(context, run, row);
+    context.goTo = (run, stretch) => goTo(context, run, stretch);
     context.goToOperation = (run, index) => goToOperation(context, run, index);
     counterflex.toolbar.render(document.getElementById('tools'), context.units);
     renderPlots(context);

@@ -3,8 +3,6 @@
   const {el, table, textColumn, numberColumn} = counterflex.dom;
   const words = counterflex.words;
 
-  const lineCell = (line) => (line > 0 ? String(line) : '\u2013');
-
   /** Rows of a list that may have been cut short. */
   function list(run, title, what, rows, count) {
     if (rows.length === 0) return null;
@@ -12,22 +10,22 @@
       count > rows.length ? el('p', {class: 'note'}, `and ${count - rows.length} more`) : null];
   }
 
-  function warnings(run) {
+  function warnings(run, link) {
     const {warnings: rows, warning_count: count} = run.report;
-    const cells = rows.map(({line, what}) => [lineCell(line), what]);
+    const cells = rows.map(({line, what}) => [link(line), what]);
     return list(run, words.counted(count, 'warning'), 'What', cells, count);
   }
 
-  function leftAlone(run) {
+  function leftAlone(run, link) {
     const {left_alone: rows, left_alone_count: count} = run.report.blocks;
     return list(run, `Not corrected, or not wholly: ${words.counted(count, 'block')}`, 'Why',
-        rows.map(({line, why}) => [lineCell(line), why]), count);
+        rows.map(({line, why}) => [link(line), why]), count);
   }
 
-  function withoutForce(run, units) {
+  function withoutForce(run, link, units) {
     const {reasons, moves, length_mm: length} = run.report.forces.without_force;
     if (moves === 0) return null;
-    const rows = reasons.map((r) => [r.why, String(r.moves), units.lengthNumber(r.length_mm), lineCell(r.first_line)]);
+    const rows = reasons.map((r) => [r.why, String(r.moves), units.lengthNumber(r.length_mm), link(r.first_line)]);
     const columns = [textColumn('Why'), numberColumn('Moves'), numberColumn(`Length, ${units.lengthLabel}`),
       numberColumn('First line')];
     const caption = `Without a cutting force: ${words.counted(moves, 'feed move')}, ${units.length(length)}`;
@@ -35,9 +33,10 @@
   }
 
   /** Warnings, blocks that are not corrected with their reasons, and moves without a force. */
-  function render({runs, units}) {
-    return el('div', {class: 'runs'}, runs.map((run) => {
-      const parts = [warnings(run), leftAlone(run), withoutForce(run, units)].filter(Boolean);
+  function render(context) {
+    return el('div', {class: 'runs'}, context.runs.map((run, i) => {
+      const link = (line) => counterflex.lines.link(context, i, line);
+      const parts = [warnings(run, link), leftAlone(run, link), withoutForce(run, link, context.units)].filter(Boolean);
       return el('div', {class: 'stack'}, parts.length > 0 ? parts : el('p', null, words.ofRun(run, 'Nothing to tell.')));
     }));
   }

@@ -99,24 +99,27 @@
   const otherForces = [['force_plus_30', 'Force 30 % higher (wear, override)'], ['force_minus_30', 'Force 30 % lower'],
     ['without_force', 'Force missing (dry run, spring pass, broken insert)']];
 
-  function sensitivityRow(what, s, units) {
+  function sensitivityRow(what, s, units, link) {
     if (!s) return [what, 'no stable equilibrium', unknown, unknown, unknown];
-    return [what, units.number(s.max_mm), String(s.max_line), units.number(s.p95_mm), units.number(s.max_across_mm)];
+    return [what, units.number(s.max_mm), link(s.max_line), units.number(s.p95_mm), units.number(s.max_across_mm)];
   }
 
-  function sensitivityOf(run, units) {
+  function sensitivityOf(context, index) {
+    const {units} = context;
+    const run = context.runs[index];
     const {sensitivity, after, before} = run.report.summary;
     if (!sensitivity) return null;
     const columns = [{title: `In ${units.words}`},
       ...['Largest', 'Line', '95 % below', 'Across the path'].map(numberColumn)];
-    const rows = [sensitivityRow('Force as given', after || before, units),
-      ...otherForces.map(([key, what]) => sensitivityRow(what, sensitivity[key], units))];
+    const link = (line) => counterflex.lines.link(context, index, line);
+    const cases = [['Force as given', after || before], ...otherForces.map(([key, what]) => [what, sensitivity[key]])];
+    const rows = cases.map(([what, s]) => sensitivityRow(what, s, units, link));
     return table(words.ofRun(run, `Deviation of the ${after ? 'corrected' : 'original'} program`), columns, rows);
   }
 
   /** What the program does under more, less or no force. */
-  function sensitivity({runs, units}) {
-    const tables = runs.map((run) => sensitivityOf(run, units)).filter(Boolean);
+  function sensitivity(context) {
+    const tables = context.runs.map((_, i) => sensitivityOf(context, i)).filter(Boolean);
     return tables.length > 0 ? el('div', {class: 'runs'}, tables) : null;
   }
 
