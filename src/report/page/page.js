@@ -126,6 +126,7 @@
 
   function start(runs) {
     const context = contextOf(runs);
+    root.dataset.runs = runs.length;
     context.goToRow = (run, row) => goToRow(context, run, row);
     context.goTo = (run, stretch) => goTo(context, run, stretch);
     context.goToOperation = (run, index) => goToOperation(context, run, index);
