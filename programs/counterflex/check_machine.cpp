@@ -152,6 +152,13 @@ nlohmann::ordered_json actuators_json(const Model& model, const HomeFacts& home)
   return list;
 }
 
+nlohmann::ordered_json load_limits_json(const LoadLimits& limits) {
+  nlohmann::ordered_json json = nlohmann::ordered_json::object();
+  for (const LoadKind kind : load_kinds)
+    if (limits[kind]) json[std::string(name_of(kind).key)] = rounded(*limits[kind] / name_of(kind).si, 9);
+  return json;
+}
+
 nlohmann::ordered_json chains_json(const Machine& machine, const HomeFacts& home) {
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
   for (std::size_t i = 0; i < machine.chains.size(); ++i) {
@@ -161,6 +168,7 @@ nlohmann::ordered_json chains_json(const Machine& machine, const HomeFacts& home
                     {"passive_joints", count.passives},
                     {"elastic_coordinates", count.elastic},
                     {"spring_directions", home.spring_directions[i]}});
+    if (!machine.load_limits.empty()) list.back()["limits"] = load_limits_json(machine.load_limits[i]);
   }
   return list;
 }

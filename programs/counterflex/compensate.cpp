@@ -39,6 +39,7 @@ std::optional<Failure> compensate_all(Run& run, RunTally& tally, RunFiles& files
     for (const LeftAlone& block : window.left_alone)
       console.warning(run.program.file, block.line, "not corrected: " + block.why);
     alone.unlock();
+    if (wants_loads(run)) run.load_places.add(job, window.waypoints);
     add(job, window, run, tally, files);
   };
   return compensate_windows(windows.jobs(), run.options, TextReader(windows.reader()), run.facts.attribution,

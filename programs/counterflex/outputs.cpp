@@ -154,6 +154,7 @@ void RunFiles::add_report(const RunReport& report, const std::string& report_jso
   std::vector<PageRun> runs(1);
   runs[0].report = report_json;
   runs[0].curves = curves_json(curves);
+  runs[0].loads = loads_json(report.loads);
   write_page(page_title(report), runs, [&](std::string_view part) { page_->write(part); });
 }
 

@@ -16,6 +16,7 @@ std::optional<Failure> predict_all(Run& run, RunTally& tally, RunFiles& files, C
     const ForwardRun forward = solve_forward_along(
         job, original_pieces(job, spacing), {.before = true, .attribution = true, .inside = false}, state);
     tally.add_forces(job.forces);
+    run.load_places.add(job, forward.waypoints);
     tally.add_waypoints(forward.waypoints, job);
     files.add_waypoints(forward.waypoints);
     if (forward.failure) return forward.failure;

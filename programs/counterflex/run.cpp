@@ -157,6 +157,10 @@ void refuse_what_cannot_be_compensated(const Run& run) {
         "twice");
 }
 
+bool wants_loads(const Run& run) {
+  return run.facts.attribution || !run.machine.machine.load_limits.empty();
+}
+
 Windows::Windows(Run& run, Console& console, std::size_t least_moves)
     : run_(run),
       console_(console),
@@ -209,7 +213,9 @@ RunTally tally_for(const Options& options, const Run& run) {
 
 Exit deliver(const Options& options, Run& run, RunReport report, const RunTally& tally, RunFiles& files,
              Console& console) {
-  run.lanes.reset();  // nothing is solved any more; the report takes their memory
+  run.lanes.reset();  // nothing is solved in them any more; the report takes their memory
+  const MachineInput& on = run.machine;
+  add_loads(report, solve_loads(on.model, run.load_places.places(), run.options.threads), on.machine);
   if (options.report || options.json) add_texts(report, run.file.bytes);
   run.file.bytes.refuse_change();  // it was read more than once
   const std::optional<Failure>& failure = report.failure;

@@ -5,6 +5,7 @@
 
 #include "console.hpp"
 #include "counterflex/compensation/job_windows.hpp"
+#include "counterflex/compensation/loads_along.hpp"
 #include "counterflex/report/run_tally.hpp"
 #include "inputs.hpp"
 #include "options.hpp"
@@ -27,6 +28,7 @@ struct Run {
   RunFacts facts;
   ToolModels tool_models;  ///< of the program's tools
   std::optional<LaneMachines> lanes{};
+  LoadPlaces load_places{};  ///< of the path, where loads are asked for
 
   RunInput input() const;
   RunContext context() const;
@@ -42,6 +44,9 @@ std::unique_ptr<Run> prepare_run(const Options& options, Console& console);
 /// Refuses a machine that controls nothing (Exit::machine_or_force) and a program that carries the header of
 /// a corrected one (Exit::program_text).
 void refuse_what_cannot_be_compensated(const Run& run);
+
+/// Whether the loads along the path are asked for: with their causes, or by the limits of the machine.
+bool wants_loads(const Run& run);
 
 /// Texts of the comments that a corrected program starts with.
 std::vector<std::string> header_of(const Options& options, const Run& run);

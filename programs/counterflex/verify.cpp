@@ -24,6 +24,7 @@ Exit run_verify(const Options& options, Console& console) {
   const auto unsolved =
       solve_forward_in_portions(job, pieces, {.before = true, .attribution = true, .inside = true},
                                 [&](const std::vector<Waypoint>& waypoints) {
+                                  run->load_places.add(job, waypoints);
                                   tally.add_waypoints(waypoints, job);
                                   files.add_waypoints(waypoints);
                                   if (!missed) missed = tolerance_failure(job, waypoints);

@@ -79,6 +79,27 @@ std::string gravity_phrase(const Machine& machine) {
                      machine.gravity.true_at_home ? "under the weights at home" : "unloaded");
 }
 
+std::string limits_phrase(const LoadLimits& limits) {
+  std::string text;
+  for (const LoadKind kind : load_kinds) {
+    const LoadName& name = name_of(kind);
+    if (limits[kind])
+      text += fmt::format("{}{} {:.9g} {}", text.empty() ? "at most " : ", ", name.words,
+                          *limits[kind] / name.si, name.unit);
+  }
+  return text.empty() ? "none" : text;
+}
+
+/// One line where all chains have the same limits, else one a chain.
+void describe_limits(const Machine& machine, std::string& text) {
+  const std::vector<LoadLimits>& all = machine.load_limits;
+  if (all.empty()) return;
+  const bool same = std::all_of(all.begin(), all.end(), [&](const LoadLimits& l) { return l == all[0]; });
+  for (std::size_t i = 0; i < (same ? 1 : all.size()); ++i)
+    text +=
+        fmt::format("{:<12} {}\n", same ? "loads" : "loads " + machine.chains[i].name, limits_phrase(all[i]));
+}
+
 void describe_settings(const Machine& machine, std::string& text) {
   const auto line = [&](std::string_view what, const std::string& said) {
     text += fmt::format("{:<12} {}\n", what, said);
@@ -96,6 +117,7 @@ void describe_settings(const Machine& machine, std::string& text) {
                               machine.control.units.empty() ? "not stated" : machine.control.units,
                               tool_change_phrase(machine.control)));
   line("correction", fmt::format("at most {:.9g} mm", machine.max_correction / mm));
+  describe_limits(machine, text);
   if (machine.work.empty()) line("work", "no offsets: programs are in the machine frame");
   for (const auto& [name, offset] : machine.work) {
     const std::string datum = offset.datum.touched_at

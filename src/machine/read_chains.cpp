@@ -74,7 +74,8 @@ const toml::node& read_list(const toml::table& chain, const std::string& owner, 
 }
 
 Chain read_chain(const toml::table& table, Library& library, const Source& source) {
-  check_keys(table, {"name", "base", "use", "elements", "platform", "errors", "transforms", "values"},
+  check_keys(table,
+             {"name", "base", "use", "elements", "platform", "errors", "transforms", "values", "limits"},
              "a chain", source);
   Chain chain;
   chain.name = as_text(required(table, "name", "a chain", table, source), "name", source);

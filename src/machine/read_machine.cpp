@@ -5,6 +5,7 @@
 #include "counterflex/files/files.hpp"
 #include "fields.hpp"
 #include "read_chains.hpp"
+#include "read_load_limits.hpp"
 #include "read_settings.hpp"
 #include "read_tools.hpp"
 
@@ -67,6 +68,7 @@ Machine read_machine(std::string_view text, const std::string& file) {
   read_program(document, source, machine);
   read_limits(document, source, machine);
   machine.chains = read_chains(document, source);
+  read_load_limits(document, source, machine);
   if (!machine.home_X_MP) machine.home_at = source.at(document.get("chain")->as_array()->get(0)->source());
   check_controlled(document, source, machine);
   check_home(document, source, machine);

@@ -7,6 +7,7 @@
 
 #include "counterflex/geometry/units.hpp"
 #include "counterflex/machine/work_names.hpp"
+#include "read_load_limits.hpp"
 #include "read_transform.hpp"
 #include "suggest.hpp"
 
@@ -147,7 +148,7 @@ void read_limits(const toml::table& document, const Source& source, Machine& mac
   const toml::node* node = document.get("limits");
   if (node == nullptr) return;
   const toml::table& table = as_table(*node, "limits", source);
-  check_keys(table, {"max_correction_mm"}, "[limits]", source);
+  check_keys(table, with_load_keys({"max_correction_mm"}), "[limits]", source);
   if (const toml::node* most = table.get("max_correction_mm"))
     machine.max_correction = as_positive(*most, {"max_correction_mm"}, {source}) * mm;
 }

@@ -92,6 +92,38 @@ void note_masses(const Machine& machine, Notes& notes) {
   if (pulls && kg == 0) notes.push_back("gravity_m_s2 but no masses: no weights act");
 }
 
+/// Whether an element can bear a load of this kind.
+bool bears(const Element& element, LoadKind kind) {
+  if (kind == LoadKind::group_moment) return std::holds_alternative<Group>(element);
+  const auto* passive = std::get_if<Passive>(&element);
+  if (kind == LoadKind::passive_change)
+    return passive != nullptr && passive->joint.kind == JointKind::revolute;
+  const bool turns = kind == LoadKind::spring_rotation || kind == LoadKind::spring_torque;
+  const auto* compliance = std::get_if<Compliance>(&element);
+  return std::holds_alternative<Spring>(element) ||
+         (compliance != nullptr && (compliance->joint.kind == JointKind::revolute) == turns);
+}
+
+bool bears(const Chain& chain, LoadKind kind) {
+  bool any = kind == LoadKind::moment;
+  for_each_element(chain.elements, [&](const Element& element) { any = any || bears(element, kind); });
+  return any;
+}
+
+/// Limits of what is not there: probably another kind of load was meant.
+void note_load_limits(const Machine& machine, Notes& notes) {
+  for (const LoadKind kind : load_kinds) {
+    bool given = false, borne = false;
+    for (std::size_t i = 0; i < machine.load_limits.size(); ++i)
+      if (machine.load_limits[i][kind]) {
+        given = true;
+        borne = borne || bears(machine.chains[i], kind);
+      }
+    if (given && !borne)
+      notes.push_back(fmt::format("{} limits what no chain has: it is never reached", name_of(kind).key));
+  }
+}
+
 bool has_errors(const Machine& machine) {
   bool any = false;
   for_each<AssemblyError>(
@@ -142,6 +174,7 @@ std::vector<std::string> structural_notes(const Machine& machine) {
   note_actuators(machine, notes);
   note_errors(machine, notes);
   note_tools(machine, notes);
+  note_load_limits(machine, notes);
   return notes;
 }
 

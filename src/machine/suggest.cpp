@@ -27,6 +27,10 @@ std::string_view stem(std::string_view name) {
   return name.substr(0, name.find('_'));
 }
 
+std::size_t common_beginning(std::string_view a, std::string_view b) {
+  return static_cast<std::size_t>(std::mismatch(a.begin(), a.end(), b.begin(), b.end()).first - a.begin());
+}
+
 }  // namespace
 
 std::string_view nearest(std::string_view name, const std::vector<std::string_view>& known) {
@@ -41,11 +45,14 @@ std::string_view nearest(std::string_view name, const std::vector<std::string_vi
     }
   }
   if (!best.empty()) return best;
-  const auto same_stem = [&](std::string_view candidate) {
-    return candidate.find('_') != std::string_view::npos && stem(candidate) == stem(name);
-  };
-  const auto found = std::find_if(known.begin(), known.end(), same_stem);
-  return found == known.end() ? std::string_view{} : *found;
+  std::size_t longest = 0;
+  for (const std::string_view candidate : known) {
+    const bool same_stem = candidate.find('_') != std::string_view::npos && stem(candidate) == stem(name);
+    if (!same_stem || common_beginning(name, candidate) <= longest) continue;
+    longest = common_beginning(name, candidate);
+    best = candidate;
+  }
+  return best;
 }
 
 std::string hint(std::string_view name, const std::vector<std::string_view>& known, std::string_view kind) {

@@ -2,6 +2,7 @@
 
 #include "counterflex/report/formats.hpp"
 #include "json_numbers.hpp"
+#include "loads_json.hpp"
 #include "names.hpp"
 
 namespace counterflex {
@@ -266,6 +267,7 @@ std::string to_json(const RunReport& report) {
                    {"failure", failure_json(report.failure)},
                    {"summary", summary_json(report)},
                    {"forces", forces_json(report)},
+                   {"loads", largest_loads_json(report.loads)},
                    {"blocks", blocks_json(report.blocks)},
                    {"text", text_json(report)},
                    {"control", control_json(report.control)},

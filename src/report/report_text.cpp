@@ -5,6 +5,7 @@
 #include "counterflex/files/numbers.hpp"
 #include "counterflex/report/formats.hpp"
 #include "force_text.hpp"
+#include "loads_text.hpp"
 #include "names.hpp"
 #include "text_layout.hpp"
 
@@ -201,7 +202,7 @@ std::string summary_text(const RunReport& report, bool colour) {
   const Ink ink{colour};
   std::string text = title(report, ink) + failure_text(report, ink);
   text += deviation_table(report, ink) + sources_text(report, ink) + worst_text(report, ink);
-  text += program_text(report, ink) + force_text(report, ink);
+  text += program_text(report, ink) + force_text(report, ink) + loads_text(report, ink);
   return text + left_alone_text(report, ink) + warnings_text(report, ink) + assumptions_text(report, ink);
 }
 

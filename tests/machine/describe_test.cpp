@@ -119,3 +119,35 @@ TEST_CASE("an ordinary machine is noted for nothing but its missing errors") {
   CHECK(structural_notes(machine) ==
         std::vector<std::string>{"no errors of assembly are given: the geometry is taken as perfect"});
 }
+
+TEST_CASE("limits of loads are described once where chains have the same, else by chain") {
+  const auto two_arms = [](const std::string& of_left) {
+    return describe(read_machine(header +
+                                     "home.xyz_mm = [0, 0, 0]\nlimits.spring_translation_max_mm = 0.25\n" +
+                                     chain_text(x_axis, of_left, "left") + chain_text(x_axis, "", "right"),
+                                 "machine.toml"));
+  };
+  CHECK(two_arms("").find("\nloads        at most spring deflection 0.25 mm\n") != std::string::npos);
+  const std::string differing = two_arms("limits.moment_max_Nm = 12.5\n");
+  CHECK(differing.find("\nloads left   at most moment at the end 12.5 N m, spring deflection 0.25 mm\n"
+                       "loads right  at most spring deflection 0.25 mm\n") != std::string::npos);
+}
+
+TEST_CASE("a limit of a load that no chain has is noted, as another one was probably meant") {
+  const auto noted = [](const std::string& element, const std::string& key) {
+    return has_note(machine_of(element, "limits." + key + " = 1\n"),
+                    key + " limits what no chain has: it is never reached");
+  };
+  const std::string slides = "{ compliance = \"prismatic\", axis = \"x\", stiffness_N_per_m = 1e6 }",
+                    turns = "{ compliance = \"revolute\", axis = \"x\", stiffness_Nm_per_rad = 1e6 }";
+  CHECK_FALSE(noted(x_axis, "moment_max_Nm"));
+  CHECK(noted(x_axis, "group_moment_max_Nm"));
+  CHECK(noted(x_axis, "spring_force_max_N"));
+  CHECK_FALSE(noted(slides, "spring_force_max_N"));
+  CHECK_FALSE(noted(slides, "spring_translation_max_mm"));
+  CHECK(noted(turns, "spring_translation_max_mm"));
+  CHECK_FALSE(noted(turns, "spring_torque_max_Nm"));
+  CHECK(noted(slides, "spring_rotation_max_deg"));
+  CHECK(noted("{ passive = \"prismatic\", axis = \"x\" }", "passive_change_max_deg"));
+  CHECK_FALSE(noted("{ passive = \"revolute\", axis = \"x\" }", "passive_change_max_deg"));
+}

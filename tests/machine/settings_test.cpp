@@ -94,3 +94,47 @@ TEST_CASE("tools have lengths, negative ones too, by number") {
 TEST_CASE("the limit of the correction is in millimetres") {
   CHECK(machine_with("limits.max_correction_mm = 2.5\n").max_correction == doctest::Approx(2.5e-3));
 }
+
+TEST_CASE("limits of loads are in the units of their keys, and a machine without any has none") {
+  const Machine machine = machine_with(
+      "[limits]\nmoment_max_Nm = 40\nspring_translation_max_mm = 0.5\npassive_change_max_deg = 3\n");
+  REQUIRE(machine.load_limits.size() == 1);
+  const LoadLimits& limits = machine.load_limits[0];
+  CHECK(limits[LoadKind::moment] == doctest::Approx(40));
+  CHECK(limits[LoadKind::spring_translation] == doctest::Approx(0.5e-3));
+  CHECK(limits[LoadKind::passive_change] == doctest::Approx(3 * 3.14159265 / 180));
+  CHECK_FALSE(limits[LoadKind::spring_force].has_value());
+  CHECK(machine.max_correction == 1e-3);
+  CHECK(machine_with("limits.max_correction_mm = 2\n").load_limits.empty());
+}
+
+TEST_CASE("every kind of load has its own key, and that key is read as this kind") {
+  for (const LoadKind kind : load_kinds) {
+    const std::string key(name_of(kind).key);
+    CAPTURE(key);
+    const Machine machine = machine_with("limits." + key + " = 2\n");
+    REQUIRE(machine.load_limits.size() == 1);
+    for (const LoadKind other : load_kinds)
+      CHECK(machine.load_limits[0][other].has_value() == (other == kind));
+    CHECK(*machine.load_limits[0][kind] == doctest::Approx(2 * name_of(kind).si));
+    CHECK(key.ends_with(name_of(kind).unit == "N m" ? "_Nm" : "_" + std::string(name_of(kind).unit)));
+  }
+}
+
+TEST_CASE("a chain's own limits go before the machine's, kind by kind") {
+  const Machine machine = read_machine(
+      header +
+          "controlled = []\nhome.xyz_mm = [0, 0, 0]\n[limits]\nmoment_max_Nm = 40\nspring_force_max_N = "
+          "500\n" +
+          chain_text(x_axis, "limits = { moment_max_Nm = 25, group_moment_max_Nm = 3 }\n", "left") +
+          chain_text(x_axis, "", "right"),
+      "machine.toml");
+  REQUIRE(machine.load_limits.size() == 2);
+  const LoadLimits &left = machine.load_limits[0], &right = machine.load_limits[1];
+  CHECK(left[LoadKind::moment] == 25);
+  CHECK(left[LoadKind::spring_force] == 500);
+  CHECK(left[LoadKind::group_moment] == 3);
+  CHECK(right[LoadKind::moment] == 40);
+  CHECK(right[LoadKind::spring_force] == 500);
+  CHECK_FALSE(right[LoadKind::group_moment].has_value());
+}

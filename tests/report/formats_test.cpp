@@ -190,6 +190,7 @@ TEST_CASE("the JSON of a compensation has every key, in this order") {
       "rows": []
     }
   },
+  "loads": null,
   "blocks": {
     "total": 6,
     "moves": 5,

@@ -12,6 +12,7 @@
 
 #include "counterflex/files/input_error.hpp"
 #include "counterflex/geometry/pose.hpp"
+#include "counterflex/machine/load_limits.hpp"
 
 namespace counterflex {
 
@@ -153,6 +154,7 @@ struct Machine {
   Vector3 p_EP = Vector3::Zero();  ///< reference point in the frame where the chains end: not zero for a
                                    ///< machine with a tool that yields (m)
   std::vector<Chain> chains;
+  std::vector<LoadLimits> load_limits;  ///< by chain; empty: the file gives none
 };
 
 /// The machine without its assembly errors.

@@ -15,7 +15,7 @@ struct PageRun {
   std::string name;             ///< for people, where there are two
   std::string report;           ///< "counterflex-report 1", as `to_json` writes it
   std::string curves = "null";  ///< as `curves_json` writes them
-  std::string loads = "null";   ///< loads of joints and springs along the path
+  std::string loads = "null";   ///< as `loads_json` writes them
 };
 
 /// The curves of a path: arrays of numbers as base64 of their bytes, little-endian. Lengths in mm, angles in

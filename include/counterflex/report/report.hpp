@@ -12,6 +12,7 @@
 #include "counterflex/program/capped.hpp"
 #include "counterflex/program/line_lengths.hpp"
 #include "counterflex/program/overview.hpp"
+#include "counterflex/report/path_loads.hpp"
 #include "counterflex/report/statistics.hpp"
 #include "counterflex/report/without_force.hpp"
 
@@ -188,6 +189,7 @@ struct RunReport {
   std::optional<TextSize> text_after;
   ControlFacts control;
   ForceSummary forces;
+  std::optional<PathLoads> loads{};  ///< where they were solved, see `add_loads`
   Capped<Remark> warnings;
   std::vector<WorstRow> worst;  ///< at most ten lines, the largest `after` first (`before` for `predict`)
   std::string work;             ///< where program coordinates were taken to be, in words
@@ -206,6 +208,9 @@ struct RunContext {
   const Overview& program;               ///< the original one, its axes that nobody corrects made known
   const RunFacts& facts;
 };
+
+/// Adds the loads along the run's path, and a warning for every limit of `machine` that they exceed.
+void add_loads(RunReport& report, LoadsAlong along, const Machine& machine);
 
 class RunTally;
 class FileReader;

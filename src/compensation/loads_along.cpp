@@ -1,0 +1,124 @@
+#include "counterflex/compensation/loads_along.hpp"
+
+#include <algorithm>
+
+#include "chunks.hpp"
+#include "commands.hpp"
+
+namespace counterflex {
+namespace {
+
+constexpr std::size_t most_load_stretches = LoadPlaces::most - 4;  // even, and room for the peaks
+
+// Solvers for different processors agree to less: of values that differ by less the first is the largest.
+constexpr double indistinct_share = 1e-7;
+
+double force_of(const LoadPlace& place) {
+  return place.load.F.head<3>().norm();
+}
+
+bool is_larger(double value, double than) {
+  return value > than * (1 + indistinct_share);
+}
+
+// Where the perfect machine stands for the commands, each place from the one before; none where it is not
+// reached, from home either.
+std::vector<std::optional<Configuration>> nominal_configurations(const Model& base,
+                                                                 const std::vector<LoadPlace>& places) {
+  std::vector<std::optional<Configuration>> all(places.size());
+  NominalToolPath path(home_of(base));
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const Model& model = *places[i].model;
+    Status status = path.go_to(model, places[i].target);
+    if (status != Status::converged) {
+      path = NominalToolPath(home_of(model));
+      status = path.go_to(model, places[i].target);
+    }
+    if (status == Status::converged) all[i] = path.configuration();
+  }
+  return all;
+}
+
+}  // namespace
+
+LoadPlace LoadPlaces::place_of(const Job& job, const Waypoint& w) const {
+  const Segment& segment = job.path.segments[w.segment];
+  const Vector3 target = original_command(job, segment.frame, w.p_MT) + w.correction.head<3>();
+  return {count_, w.s, w.line, target, {w.wrench, job.forces.at_platform()}, &model_of(job, segment)};
+}
+
+void LoadPlaces::add(const Job& job, const std::vector<Waypoint>& waypoints) {
+  for (const Waypoint& w : waypoints) {
+    if (!w.cutting || w.segment == no_segment || w.status != Status::converged) continue;
+    add_to_stretch(job, w);
+    add_peaks(job, w);
+    ++count_;
+  }
+}
+
+void LoadPlaces::add_to_stretch(const Job& job, const Waypoint& w) {
+  if (stretches_.empty() || in_last_ == per_stretch_) {
+    if (stretches_.size() == most_load_stretches) merge_neighbours();
+    stretches_.push_back(place_of(job, w));
+    in_last_ = 0;
+  } else if (is_larger(w.wrench.head<3>().norm(), force_of(stretches_.back()))) {
+    stretches_.back() = place_of(job, w);
+  }
+  ++in_last_;
+}
+
+void LoadPlaces::merge_neighbours() {
+  for (std::size_t i = 0; i < most_load_stretches / 2; ++i) {
+    const LoadPlace &first = stretches_[2 * i], &second = stretches_[2 * i + 1];
+    stretches_[i] = LoadPlace(is_larger(force_of(second), force_of(first)) ? second : first);
+  }
+  stretches_.resize(most_load_stretches / 2);
+  per_stretch_ *= 2;
+}
+
+// Between the ends of pieces the deviation before is not known.
+void LoadPlaces::add_peaks(const Job& job, const Waypoint& w) {
+  const auto raise = [&](Peak& peak, double value) {
+    if (is_larger(value, peak.value)) peak = {value, place_of(job, w)};
+  };
+  raise(force_, w.wrench.head<3>().norm());
+  raise(moment_, w.wrench.tail<3>().norm());
+  if (!w.between) raise(before_, w.before.head<3>().norm());
+}
+
+std::vector<LoadPlace> LoadPlaces::places() const {
+  std::vector<LoadPlace> all = stretches_;
+  for (const Peak* peak : {&force_, &moment_, &before_})
+    if (peak->place) all.push_back(*peak->place);
+  const auto before = [](const LoadPlace& a, const LoadPlace& b) { return a.number < b.number; };
+  const auto same = [](const LoadPlace& a, const LoadPlace& b) { return a.number == b.number; };
+  std::sort(all.begin(), all.end(), before);
+  all.erase(std::unique(all.begin(), all.end(), same), all.end());
+  return all;
+}
+
+LoadsAlong solve_loads(const Model& base, const std::vector<LoadPlace>& places, int threads) {
+  const auto nominal = nominal_configurations(base, places);
+  std::vector<LoadsAtPlace> solved(places.size());
+  for_each_chunk(places.size(), threads, [&](const Chunk& chunk) {
+    const Model* model = nullptr;
+    std::optional<StaticsWork> work;
+    for (std::size_t i = chunk.begin; i < chunk.end; ++i) {
+      if (!nominal[i]) continue;
+      const LoadPlace& place = places[i];
+      if (place.model != model) work.emplace(place.model->mechanism);
+      model = place.model;
+      const Equilibrium loaded = solve_forward(*model, *nominal[i], place.load, {}, *work);
+      if (loaded.status == Status::converged)
+        solved[i] = {place.s, place.line,
+                     loads_without_tool(base.mechanism, *model, loaded.configuration, {})};
+    }
+  });
+  LoadsAlong along;
+  for (LoadsAtPlace& at : solved)
+    if (!at.chains.empty()) along.places.push_back(std::move(at));
+  along.unsolved = places.size() - along.places.size();
+  return along;
+}
+
+}  // namespace counterflex
