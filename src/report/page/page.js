@@ -1,9 +1,152 @@
 'use strict';
+(() => {
+  const {el, fill} = counterflex.dom;
+  const root = document.documentElement;
 
-document.addEventListener('DOMContentLoaded', () => {
-  const data = JSON.parse(document.getElementById('counterflex-data').textContent);
-  const heading = document.createElement('h1');
-  heading.textContent = `${data.runs[0].report.summary.before?.max_mm} mm before`;
-  document.getElementById('page').append(heading);
-  document.documentElement.dataset.ready = 'yes';
-});
+  const body = (id) => document.querySelector(`#${id} .body`);
+
+  function hide(id) {
+    document.getElementById(id).hidden = true;
+  }
+
+  function goToSection(id) {
+    const section = document.getElementById(id);
+    section.scrollIntoView({block: 'start'});
+    section.tabIndex = -1;
+    section.focus({preventScroll: true});
+  }
+
+  /** What all parts of the page share. */
+  function contextOf(runs) {
+    const shown = (runs[0].report.units || {}).shown || 'um';
+    return {runs, units: counterflex.units.create(shown), selection: counterflex.selection.create(), scene: null, group: null, plots: []};
+  }
+
+  /** Sections of text and tables, which a change of unit writes anew. */
+  function renderTexts(context) {
+    const sections = {operations: counterflex.tables.operations, sensitivity: counterflex.tables.sensitivity,
+      remarks: counterflex.remarks.render, numbers: counterflex.tables.numbers, program: counterflex.facts.program, facts: counterflex.facts.render};
+    fill(document.getElementById('verdict'), counterflex.summary.render(context));
+    fill(body('worst'), counterflex.worst.render(context));
+    for (const [id, render] of Object.entries(sections)) {
+      const content = render(context);
+      document.getElementById(id).hidden = content === null;
+      fill(body(id), content);
+    }
+    fill(document.getElementById('load-tables'), counterflex.loads.render(context));
+    renderPlace(context);
+  }
+
+  /** The card of the selected place: that of a worst block where one was followed, else of the stretch. */
+  function renderPlace(context) {
+    const {selection, runs, row} = context;
+    const run = runs[selection.run];
+    const chosen = row && row.run === selection.run && row.stretch === selection.stretch ? row.row : null;
+    const known = chosen || (run.curves && selection.stretch >= 0 ? counterflex.place.ofStretch(run, selection.stretch) : null);
+    fill(body('place'), known ? counterflex.place.card(run, known, context.units) : el('p', null, 'Nothing is selected.'));
+    counterflex.worst.mark(body('worst'), selection.run, chosen ? chosen.line : -1);
+  }
+
+  function selectRow(context, run, row) {
+    const {curves} = context.runs[run];
+    const stretch = curves ? counterflex.worst.stretchOf(curves, row) : -1;
+    context.row = {run, stretch, row};
+    context.selection.set(run, stretch);
+    renderPlace(context);
+    return stretch;
+  }
+
+  /** Takes all views to a row of the worst blocks. */
+  function goToRow(context, run, row) {
+    const stretch = selectRow(context, run, row);
+    document.getElementById('place').scrollIntoView({block: 'nearest'});
+    if (stretch < 0) return;
+    context.group.setWindow(counterflex.plotGroup.neighbourhood(context.group, context.runs[run].curves, stretch));
+    if (context.scene) context.scene.goTo(run, stretch);
+  }
+
+  /** Zooms the curves to an operation. */
+  function goToOperation(context, run, index) {
+    const {curves} = context.runs[run];
+    goToSection('curves');
+    if (!curves) return;
+    const first = curves.operation.indexOf(index), last = curves.operation.lastIndexOf(index);
+    if (first < 0) return;
+    const begin = first > 0 ? curves.s_mm[first - 1] : 0;
+    context.group.setWindow([begin, Math.max(curves.s_mm[last], begin + context.group.total / 1000)]);
+    context.selection.set(run, first);
+    if (context.scene) context.scene.goTo(run, first);
+  }
+
+  function addPlots(context, id, made) {
+    if (!made || made.plots.length === 0) return false;
+    fill(body(id), made.content);
+    context.plots.push(...made.plots);
+    return true;
+  }
+
+  function renderPlots(context) {
+    const {curves, loads, plotGroup} = counterflex;
+    const group = context.group = plotGroup.create(context);
+    const points = curves.pointsOf(context);
+    const sections = {curves: curves.deviations, sources: curves.sources, force: curves.force};
+    for (const [id, make] of Object.entries(sections)) if (!addPlots(context, id, make(context, group, points))) hide(id);
+    const tables = el('div', {id: 'load-tables'});
+    const drawn = addPlots(context, 'loads', loads.plots(context, group));
+    body('loads').append(tables);
+    if (!drawn && !context.runs.some((run) => run.report.loads)) hide('loads');
+    for (const plot of context.plots.slice(0, 2)) plot.ensure();
+    counterflex.lazily(context.plots.slice(2));
+  }
+
+  function renderScene(context) {
+    const {runs, units, selection} = context;
+    if (!counterflex.scene || !runs.some((run) => run.curves)) return hide('path');
+    context.scene = counterflex.scene.create(document.getElementById('path-view'), {runs, units, selection});
+    units.subscribe(() => context.scene.unitChanged());
+    counterflex.theme.subscribe(() => context.scene.themeChanged());
+    window.addEventListener('resize', () => context.scene.resize());
+  }
+
+  function start(runs) {
+    const context = contextOf(runs);
+    context.goToRow = (run, row) => goToRow(context, run, row);
+    context.goToOperation = (run, index) => goToOperation(context, run, index);
+    counterflex.toolbar.render(document.getElementById('tools'), context.units);
+    renderPlots(context);
+    renderTexts(context);
+    renderScene(context);
+    context.units.subscribe(() => renderTexts(context));
+    context.selection.subscribe(() => renderPlace(context));
+    const worst = runs.findIndex((run) => run.report.worst.length > 0);
+    if (worst >= 0) selectRow(context, worst, runs[worst].report.worst[0]);
+    else hide('place');
+    counterflex.toolbar.contents(document.getElementById('contents'));
+    counterflex.paper(context);
+    counterflex.context = context;
+  }
+
+  function ready() {
+    root.dataset.ready = 'yes';
+    performance.mark('counterflex-ready');
+  }
+
+  /** What cannot be drawn is said, not left blank. */
+  function fail(error) {
+    root.dataset.ready = 'failed';
+    const text = `This report could not be drawn: ${error.message}. The same numbers are in the JSON file beside it.`;
+    document.getElementById('main').prepend(el('p', {class: 'trouble', role: 'alert'}, text));
+    console.error(error);
+  }
+
+  counterflex.goToSection = goToSection;
+
+  document.addEventListener('DOMContentLoaded', () => {
+    try {
+      start(counterflex.data.decode(JSON.parse(document.getElementById('counterflex-data').textContent)));
+      ready();
+    } catch (error) {
+      fail(error);
+    }
+  });
+})();

@@ -1,0 +1,175 @@
+'use strict';
+(() => {
+  const {el, fill, radios} = counterflex.dom;
+  const {series: tables} = counterflex;
+
+  /** What can be shown of a deviation: [part of the quantity's name, label]. */
+  const components = [['', 'total'], ['x_', 'x'], ['y_', 'y'], ['z_', 'z'], ['along_', 'along the path'], ['across_', 'across it'],
+    ['tool_axis_', 'along the tool axis'], ['rotation_', 'rotation']];
+  const axes = components.slice(0, 4);
+
+  const quantityName = (base, part) => (part === 'rotation_' ? `${base}_rotation_deg` : `${base}_${part}mm`);
+
+  const dashes = [null, [7, 4]];
+
+  /** Points of each run's curves, made once: all its quantities share them. */
+  function pointsOf(context) {
+    return context.runs.map((run) => (run.curves ? tables.places(run.curves) : []));
+  }
+
+  /** Series of quantities: `wanted` are {name, label, colour, dash, width}; of two runs each is there twice. */
+  function seriesOf(context, points, wanted, scale) {
+    const result = [];
+    context.runs.forEach((run, r) => {
+      for (const w of wanted) {
+        const quantity = run.curves && run.curves.quantities[w.name];
+        if (!quantity) continue;
+        const label = run.letter ? `${w.label} ${run.letter}` : w.label;
+        const dash = run.letter ? dashes[r] : w.dash;
+        const colour = run.letter && w.colours ? w.colours[r] : w.colour;
+        result.push({...w, label, dash, colour, run: r, points: points[r], values: tables.valuesAt(points[r], quantity, scale)});
+      }
+    });
+    return result;
+  }
+
+  /** What all plots of quantities along the path have in common. */
+  function describe(context, group, points, wanted, scale, rest) {
+    const list = seriesOf(context, points, wanted, scale);
+    return {
+      series: list,
+      ...tables.tabulate(list, group.total, context.units.lengthScale),
+      lineAt: (run, stretch) => (stretch < 0 ? '\u2013' : context.runs[run].curves.first_line[stretch]),
+      select: ({run, stretch}) => stretch >= 0 && context.selection.set(run, stretch),
+      ...rest,
+    };
+  }
+
+  const labelOf = (part) => components.find(([p]) => p === part)[1];
+  const unitOf = (part, units) => (part === 'rotation_' ? 'degrees' : units.words);
+  const scaleOf = (part, units) => (part === 'rotation_' ? 1 : units.scale);
+
+  /** Deviations as text; they are in the unit shown already. */
+  const textIn = (part, units) => (v) => (part === 'rotation_' ? `${v.toFixed(4)} deg` : units.format(v / units.scale));
+
+  /** The tolerance of the first run as levels on a scale of signed values or of sizes. */
+  function toleranceLevels(context, part, log) {
+    const tolerance = counterflex.summary.tolerance(context.runs[0].report);
+    if (part === 'rotation_' || tolerance === Infinity) return [];
+    const value = tolerance * context.units.scale, label = `tolerance ${context.units.format(tolerance)}`;
+    const signed = ['x_', 'y_', 'z_'].includes(part) && !log;
+    return signed ? [{value, label}, {value: -value, label: ''}] : [{value, label}];
+  }
+
+  /** The tolerance in the title of a plot, where its line may be out of sight. */
+  function toleranceText(context, part) {
+    const [level] = toleranceLevels(context, part, true);
+    return level ? `; ${level.label}` : '';
+  }
+
+  /** What the plot of the deviation `base` shows: `look` = {title, colour, colours: of two runs, levels: whether the tolerance is drawn}. */
+  function deviation(context, group, points, state, base, look) {
+    const {units} = context;
+    return () => {
+      const {part, log} = state;
+      const wanted = [{name: quantityName(base, part), label: base, colour: look.colour, colours: look.colours}];
+      const title = `${look.title}: ${labelOf(part)}, in ${unitOf(part, units)}${look.levels ? toleranceText(context, part) : ''}`;
+      const levels = look.levels ? toleranceLevels(context, part, log) : [];
+      return describe(context, group, points, wanted, scaleOf(part, units), {title, log, text: textIn(part, units), levels});
+    };
+  }
+
+  const has = (context, name) => context.runs.some((run) => run.curves && run.curves.quantities[name]);
+
+  function logBox(state, group) {
+    return el('label', {class: 'choice'}, el('input', {type: 'checkbox', change: (event) => {
+      state.log = event.target.checked;
+      state.plots.forEach((plot) => plot.refresh());
+    }}), el('span', null, 'logarithmic'));
+  }
+
+  function componentChoice(context, state, name, choices) {
+    return radios('Show', name, choices, state.part, (part) => {
+      state.part = part;
+      state.plots.forEach((plot) => plot.refresh());
+    });
+  }
+
+  const help = 'Drag to zoom, shift and drag to move along, double click for all; click to see the place in space.';
+
+  /** How curves of merged waypoints are to be read. */
+  function mergedNote(context) {
+    const merged = context.runs.map((run) => (run.curves ? run.curves.waypoints_per_stretch : 1));
+    if (Math.max(...merged) === 1) return null;
+    return el('p', {class: 'note'}, `Each stretch of ${merged.join(' and ')} points is drawn with its least and its largest value; no peak is left out.`);
+  }
+
+  /** Before and after, each on its own scale. */
+  function deviations(context, group, points) {
+    const state = {part: '', log: false, plots: []};
+    const plot = (base, look) => counterflex.plot.create(context, group, deviation(context, group, points, state, base, look), base);
+    if (has(context, 'before_mm')) state.plots.push(plot('before', {title: 'Before', colour: '--before', colours: ['--before', '--other-run']}));
+    if (has(context, 'after_mm')) state.plots.push(plot('after', {title: 'After (model residual)', colour: '--after',
+      colours: ['--after', '--other-run'], levels: true}));
+    const present = components.filter(([part]) => has(context, quantityName('before', part)));
+    const controls = el('div', {class: 'controls'}, componentChoice(context, state, 'component', present), logBox(state, group));
+    return {plots: state.plots, content: [controls, counterflex.plotGroup.controls(group), state.plots.map((plot) => plot.node),
+      el('p', {class: 'note help'}, help), mergedNote(context)]};
+  }
+
+  const sourceSeries = (part) => [
+    {name: quantityName('before', part), label: 'both together', colour: '--ink', width: 2.5},
+    {name: quantityName('geometry', part), label: 'geometry', colour: '--geometry'},
+    {name: quantityName('load', part), label: 'load', colour: '--load'},
+    {name: quantityName('gravity', part), label: 'gravity', colour: '--gravity'},
+    {name: quantityName('superposition', part), label: 'their sum', colour: '--sum', dash: [8, 4]},
+    {name: quantityName('discrepancy', part), label: 'discrepancy', colour: '--discrepancy', dash: [2, 3]},
+  ];
+
+  function largestOf(run, name) {
+    const {least, largest} = run.curves.quantities[name];
+    let result = 0;
+    for (let i = 0; i < largest.length; ++i)
+      for (const v of [least[i], largest[i]]) if (Math.abs(v) > result) result = Math.abs(v);
+    return result;
+  }
+
+  /** How well the parts add up, in a sentence; tells why the curve of the sum may hide under that of both. */
+  function discrepancySentence(context) {
+    const of = (run) => (run.curves && run.curves.quantities.discrepancy_mm ? context.units.format(largestOf(run, 'discrepancy_mm')) : 'not known');
+    const values = context.runs.map((run) => (run.letter ? `${run.letter} ${of(run)}` : of(run))).join(', ');
+    return `Both together differ from the sum of the parts by at most ${values} (discrepancy).`;
+  }
+
+  /** Geometry, load, gravity, their sum and what both together do: as in Figs 7 and 8 of the paper. */
+  function sources(context, group, points) {
+    if (!has(context, 'superposition_mm')) return null;
+    const state = {part: '', log: false, plots: []};
+    const note = el('p', {class: 'note'});
+    const say = () => fill(note, discrepancySentence(context));
+    const content = () => describe(context, group, points, sourceSeries(state.part), context.units.scale, {
+      title: `Sources of the deviation before: ${labelOf(state.part)}, in ${context.units.words}`, log: state.log, text: textIn('', context.units)});
+    state.plots.push(counterflex.plot.create(context, group, content, 'sources'));
+    context.units.subscribe(say);
+    say();
+    const controls = el('div', {class: 'controls'}, componentChoice(context, state, 'source-component', axes), logBox(state, group));
+    return {plots: state.plots, content: [controls, state.plots[0].node, note]};
+  }
+
+  const forceSeries = [
+    {name: 'force_N', label: 'total', colour: '--ink', width: 2.5}, {name: 'force_x_N', label: 'x', colour: '--x'},
+    {name: 'force_y_N', label: 'y', colour: '--y', dash: [8, 4]}, {name: 'force_z_N', label: 'z', colour: '--z', dash: [2, 3]},
+  ];
+
+  /** The cutting force on the tool. */
+  function force(context, group, points) {
+    const acts = context.runs.some((run) => run.report.forces.largest_N > 0);
+    if (!has(context, 'force_N') || !acts) return null;
+    const content = () => describe(context, group, points, forceSeries, 1, {
+      title: 'Cutting force on the tool, machine axes, in N', text: (v) => `${v.toFixed(1)} N`});
+    const plots = [counterflex.plot.create(context, group, content, 'force')];
+    return {plots, content: plots[0].node};
+  }
+
+  counterflex.curves = {pointsOf, deviations, sources, force};
+})();

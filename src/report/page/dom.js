@@ -1,0 +1,70 @@
+'use strict';
+(() => {
+  /** Sets attributes; functions listen to the event of their name, true stands for an empty attribute. */
+  function setAttributes(node, attributes) {
+    for (const [name, value] of Object.entries(attributes)) {
+      if (value === undefined || value === null || value === false) continue;
+      if (typeof value === 'function') node.addEventListener(name, value);
+      else node.setAttribute(name, value === true ? '' : value);
+    }
+  }
+
+  /** Text stays text: nothing of a file is ever read as markup. */
+  function append(node, children) {
+    for (const child of children.flat(Infinity))
+      if (child !== null && child !== undefined && child !== false) node.append(child);
+    return node;
+  }
+
+  /** An element with attributes and children: nodes, strings, lists of them; what is null is left out. */
+  function el(tag, attributes, ...children) {
+    const node = document.createElement(tag);
+    setAttributes(node, attributes || {});
+    return append(node, children);
+  }
+
+  function svg(tag, attributes, ...children) {
+    const node = document.createElementNS('http://www.w3.org/2000/svg', tag);
+    setAttributes(node, attributes || {});
+    return append(node, children);
+  }
+
+  /** Puts `children` in place of what `node` held. */
+  function fill(node, ...children) {
+    node.textContent = '';
+    return append(node, children);
+  }
+
+  function cell(column, content, head) {
+    const attributes = {class: column.number ? 'number' : column.class};
+    return head ? el('th', {...attributes, scope: 'row'}, content) : el('td', attributes, content);
+  }
+
+  /**
+   * A table. `columns`: {title, number: digits stand right, class}; `rows`: lists of cells, the first of which names the
+   * row; a row may have `mark`, a class.
+   */
+  function table(caption, columns, rows) {
+    const head = columns.map((c) => el('th', {scope: 'col', class: c.number ? 'number' : c.class}, c.title));
+    const body = rows.map((row) => el('tr', {class: row.mark}, columns.map((c, i) => cell(c, row[i], i === 0))));
+    return el('div', {class: 'table', tabindex: 0, role: 'region', 'aria-label': caption},
+        el('table', null, el('caption', null, caption), el('thead', null, el('tr', null, head)), el('tbody', null, body)));
+  }
+
+  /** Choices of which one holds, as radio buttons: `choices` are [value, label]; `change` gets the value. */
+  function radios(legend, name, choices, chosen, change) {
+    const buttons = choices.map(([value, label]) => el('label', null,
+        el('input', {type: 'radio', name, value, checked: value === chosen, change: () => change(value)}), el('span', null, label)));
+    return el('fieldset', {class: 'choice'}, el('legend', null, legend), buttons);
+  }
+
+  /** Something that takes the reader to a place of the page: a link, so that it is plain text on paper. */
+  function jump(text, target, go, label) {
+    return el('a', {href: `#${target}`, 'aria-label': label, click: (event) => {
+      event.preventDefault();
+      go();
+    }}, text);
+  }
+
+  counterflex.dom = {el, svg, fill, table, radios, jump};
+})();

@@ -1,0 +1,115 @@
+'use strict';
+(() => {
+  const {el, svg, table, radios} = counterflex.dom;
+  const {known} = counterflex.units;
+  const {series: tables, data} = counterflex;
+
+  /** The loads that chains have: name in the data, words, unit; a null unit is that of deviations. */
+  const quantities = [
+    ['moment_max_Nm', 'Moment at the end', 'N m'], ['spring_translation_max_mm', 'Spring deflection', null],
+    ['spring_rotation_max_deg', 'Spring rotation', 'deg'], ['spring_force_max_N', 'Spring force', 'N'],
+    ['spring_torque_max_Nm', 'Spring torque', 'N m'], ['group_moment_max_Nm', 'Group moment', 'N m'],
+    ['passive_change_max_deg', "Passive joint's change", 'deg'],
+  ];
+
+  const colours = ['--x', '--y', '--z', '--gravity', '--sum', '--discrepancy'];
+  const lineDashes = [null, [8, 4], [2, 3], [10, 3, 2, 3]];
+
+  const textOf = (value, unit, units) => (!known(value) ? '\u2013' : unit ? `${Number(value.toPrecision(4))} ${unit}` : units.format(value));
+
+  /** Share of its limit that a load uses, as a bar and in words. */
+  function use({largest, limit}) {
+    if (!known(limit)) return 'no limit given';
+    const share = (100 * largest) / limit;
+    const over = largest > limit;
+    const drawing = svg('svg', {viewBox: '0 0 100 10', preserveAspectRatio: 'none', 'aria-hidden': 'true', class: `part ${over ? 'over' : 'within'}`},
+        svg('rect', {x: 0, y: 0, width: Math.min(100, share).toFixed(1), height: 10}));
+    return el('span', {class: 'use'}, drawing, `${share.toFixed(0)} %${over ? ': above the limit' : ''}`);
+  }
+
+  function rowsOf(chain, context, limited) {
+    return quantities.filter(([name]) => chain[name] && chain[name].largest > 0).map(([name, words, unit]) => {
+      const load = chain[name];
+      const largest = [chain.name, words, textOf(load.largest, unit, context.units), String(load.line)];
+      const limit = limited ? [known(load.limit) ? textOf(load.limit, unit, context.units) : '\u2013', use(load)] : [];
+      return Object.assign([...largest, ...limit], {limited: known(load.limit), mark: load.limit && load.largest > load.limit ? 'exceeded' : ''});
+    });
+  }
+
+  const hasLimit = (chain) => quantities.some(([name]) => chain[name] && known(chain[name].limit));
+
+  /** The largest loads of each chain against their limits, those that have one first. */
+  function tableOf(run, context) {
+    const {loads} = run.report;
+    if (!loads) return null;
+    const limited = loads.chains.some(hasLimit);
+    const rows = loads.chains.flatMap((chain) => rowsOf(chain, context, limited)).sort((a, b) => b.limited - a.limited);
+    if (rows.length === 0) return null;
+    const columns = [{title: 'Chain'}, {title: 'Load', class: 'text'}, {title: 'Largest', number: true}, {title: 'Line', number: true},
+      ...(limited ? [{title: 'Limit', number: true}, {title: 'Of the limit', class: 'text'}] : [])];
+    const notes = [loads.unsolved > 0 && `not known at ${loads.unsolved} more`, !limited && 'the machine file gives no limits'].filter(Boolean);
+    const caption = [`Largest loads at ${loads.places} places of the path`, ...notes].join('; ');
+    return table(`${run.letter ? `${run.letter}: ` : ''}${caption}`, columns, rows);
+  }
+
+  const render = (context) => el('div', {class: 'runs'}, context.runs.map((run) => tableOf(run, context)));
+
+  /** Points of a run's loads; their stretches are those of the curves, so that a click selects one. */
+  function pointsOf(run) {
+    const stretch = (s) => (run.curves ? data.stretchAt(run.curves, s) : -1);
+    return run.loads.s_mm.map((s, i) => ({s, stretch: stretch(s), line: run.loads.line[i]}));
+  }
+
+  function seriesOf(context, points, name, scale) {
+    return context.runs.flatMap((run, r) => (!run.loads ? [] : run.loads.chains.map((chain, c) => ({
+      label: `${chain.name}${run.letter ? ` ${run.letter}` : ''}`, colour: colours[c % colours.length],
+      dash: run.letter ? lineDashes[r] : lineDashes[c % lineDashes.length], run: r, points: points[r],
+      values: chain[name].map((v) => (v === null ? null : v * scale)),
+    }))));
+  }
+
+  /** Limits of the chains, each value once. */
+  function levels(context, name, scale) {
+    const limits = new Map();
+    for (const run of context.runs)
+      for (const chain of (run.report.loads && run.report.loads.chains) || []) {
+        const limit = chain[name] && chain[name].limit;
+        if (known(limit)) limits.set(limit, [...(limits.get(limit) || []), chain.name]);
+      }
+    return [...limits].map(([limit, names]) => ({value: limit * scale, label: `limit of ${[...new Set(names)].join(', ')}`}));
+  }
+
+  /** Those that some chain has at all. */
+  function present(context) {
+    const some = ([name]) => context.runs.some((run) => run.loads && run.loads.chains.some((chain) => (chain[name] || []).some((v) => v > 1e-9)));
+    return quantities.filter(some);
+  }
+
+  function describe(context, group, points, state) {
+    const [name, words, unit] = quantities.find(([n]) => n === state.name);
+    const scale = unit ? 1 : context.units.scale;
+    const series = seriesOf(context, points, name, scale);
+    return {
+      title: `${words} of each chain, in ${unit || context.units.words}`, series, ...tables.tabulate(series, group.total, context.units.lengthScale),
+      levels: levels(context, name, scale), text: (v) => textOf(v / scale, unit, context.units),
+      lineAt: (run, stretch) => (stretch < 0 ? '\u2013' : context.runs[run].curves.first_line[stretch]),
+      select: ({run, stretch}) => stretch >= 0 && context.selection.set(run, stretch),
+    };
+  }
+
+  /** Loads over the path; null where none were computed. */
+  function plots(context, group) {
+    const choices = present(context);
+    if (choices.length === 0) return null;
+    const state = {name: choices[0][0]};
+    const points = context.runs.map((run) => (run.loads ? pointsOf(run) : []));
+    const plot = counterflex.plot.create(context, group, () => describe(context, group, points, state), 'loads');
+    const choice = radios('Show', 'load', choices.map(([name, words]) => [name, words]), state.name, (name) => {
+      state.name = name;
+      plot.refresh();
+    });
+    return {plots: [plot], content: [el('div', {class: 'controls'}, choice), plot.node]};
+  }
+
+  counterflex.loads = {render, plots};
+})();

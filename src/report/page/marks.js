@@ -1,0 +1,132 @@
+'use strict';
+(() => {
+  const {colour} = counterflex.theme;
+  const {data} = counterflex;
+  const closest = 34;  // px between labels of lines
+
+  function vertical(canvas, area, x, dash, width) {
+    canvas.setLineDash(dash);
+    canvas.lineWidth = width;
+    canvas.beginPath();
+    canvas.moveTo(Math.round(x) + 0.5, area.y);
+    canvas.lineTo(Math.round(x) + 0.5, area.y + area.h);
+    canvas.stroke();
+    canvas.setLineDash([]);
+  }
+
+  /** Marks in view: [{x, line}]; where they would stand closer than pixels, one of each pixel. */
+  function inView(marks, toX, area) {
+    const result = [];
+    let last = -Infinity;
+    for (const {s, line} of marks) {
+      const x = toX(s);
+      if (x < area.x || x > area.x + area.w || x - last < 1) continue;
+      result.push({x, line});
+      last = x;
+    }
+    return result;
+  }
+
+  function label(canvas, text, x, y) {
+    canvas.fillStyle = colour('--muted');
+    canvas.font = '11px sans-serif';
+    canvas.textAlign = 'left';
+    canvas.fillText(text, x + 3, y);
+  }
+
+  /** Writes the line numbers of marks as far as there is room. */
+  function labels(canvas, marks, y) {
+    let free = -Infinity;
+    for (const {x, line} of marks) {
+      if (x < free) continue;
+      label(canvas, String(line), x, y);
+      free = x + closest;
+    }
+  }
+
+  /** Where blocks end, from the lines of neighbouring stretches; none where a stretch holds several blocks. */
+  function blockEnds(curves) {
+    const marks = [];
+    if (curves.waypoints_per_stretch > 1) return marks;
+    const {s_mm: s, first_line: line} = curves;
+    for (let i = 0; i < s.length; ++i) if (i === 0 || line[i] !== line[i - 1]) marks.push({s: i === 0 ? 0 : s[i - 1], line: line[i]});
+    return marks;
+  }
+
+  /** Marks of a run in path length: where blocks begin, rapids, steps of the force. */
+  function of(run) {
+    const {curves} = run;
+    if (!curves) return {blocks: [], rapids: [], steps: []};
+    const placed = (marks) => marks.s_mm.map((s) => ({s, line: curves.first_line[data.stretchAt(curves, s)]}));
+    return {blocks: blockEnds(curves), rapids: placed(curves.rapids), steps: placed(curves.force_steps)};
+  }
+
+  function drawBlocks(canvas, area, blocks) {
+    if (blocks.length === 0 || blocks.length > area.w / 24) return;
+    canvas.strokeStyle = colour('--line');
+    for (const {x} of blocks) vertical(canvas, area, x, [], 1);
+    labels(canvas, blocks, area.y + 17);
+  }
+
+  function drawRapids(canvas, area, rapids) {
+    canvas.strokeStyle = colour('--muted');
+    const dense = rapids.length > area.w / 8;
+    for (const {x} of rapids) vertical(canvas, dense ? {y: area.y + area.h - 6, h: 6} : area, x, [3, 4], 1);
+  }
+
+  function triangle(canvas, x, y) {
+    canvas.beginPath();
+    canvas.moveTo(x - 4, y);
+    canvas.lineTo(x + 4, y);
+    canvas.lineTo(x, y + 7);
+    canvas.fill();
+  }
+
+  function drawSteps(canvas, area, steps) {
+    canvas.strokeStyle = canvas.fillStyle = colour('--step');
+    const dense = steps.length > area.w / 8;
+    for (const {x} of steps) {
+      vertical(canvas, dense ? {y: area.y, h: 6} : area, x, [1, 3], 1);
+      if (!dense) triangle(canvas, x, area.y);
+    }
+  }
+
+  /** Draws marks under the curves. `toX` takes path length to the canvas, `shown` says which kinds are wanted. */
+  function draw(canvas, area, marks, toX, shown) {
+    canvas.save();
+    if (shown.blocks) drawBlocks(canvas, area, inView(marks.blocks, toX, area));
+    if (shown.rapids) drawRapids(canvas, area, inView(marks.rapids, toX, area));
+    if (shown.steps) drawSteps(canvas, area, inView(marks.steps, toX, area));
+    canvas.restore();
+  }
+
+  /** The selected place: a line that stands out. */
+  function drawSelected(canvas, area, x) {
+    if (x < area.x || x > area.x + area.w) return;
+    canvas.save();
+    canvas.strokeStyle = canvas.fillStyle = colour('--accent');
+    vertical(canvas, area, x, [], 2);
+    triangle(canvas, x, area.y);
+    canvas.restore();
+  }
+
+  /** A horizontal limit with its name. */
+  function drawLevel(canvas, area, y, text) {
+    if (!(y >= area.y && y <= area.y + area.h)) return;
+    canvas.save();
+    canvas.strokeStyle = colour('--limit');
+    canvas.setLineDash([8, 4]);
+    canvas.lineWidth = 1.5;
+    canvas.beginPath();
+    canvas.moveTo(area.x, y);
+    canvas.lineTo(area.x + area.w, y);
+    canvas.stroke();
+    canvas.fillStyle = colour('--limit');
+    canvas.font = '11px sans-serif';
+    canvas.textAlign = 'right';
+    canvas.fillText(text, area.x + area.w - 4, y < area.y + 14 ? y + 12 : y - 4);
+    canvas.restore();
+  }
+
+  counterflex.marks = {of, draw, drawSelected, drawLevel};
+})();

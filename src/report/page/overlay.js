@@ -1,0 +1,163 @@
+'use strict';
+/**
+ * What lies over the path in its views, drawn on a 2-D canvas: the colour scale with its numbers, the axes of the
+ * machine, the scale of lengths, the exaggeration, and the label of the selected place.
+ */
+(() => {
+  const font = '12px system-ui, sans-serif';
+  const edge = 12;
+
+  /** Text with a halo in the ground's colour, legible over lines. */
+  function write(context, theme, text, x, y, align = 'left', colour = theme.ink) {
+    context.font = font;
+    context.textAlign = align;
+    context.textBaseline = 'middle';
+    context.lineJoin = 'round';
+    context.lineWidth = 3;
+    context.strokeStyle = counterflex.colours.css(theme.ground);
+    context.strokeText(text, x, y);
+    context.fillStyle = counterflex.colours.css(colour);
+    context.fillText(text, x, y);
+  }
+
+  function line(context, colour, width, ...points) {
+    context.beginPath();
+    points.forEach(([x, y], i) => (i === 0 ? context.moveTo(x, y) : context.lineTo(x, y)));
+    context.lineWidth = width;
+    context.strokeStyle = counterflex.colours.css(colour);
+    context.stroke();
+  }
+
+  /** Round numbers between 0 and `most`, in steps of 1, 2 or 5 times a power of ten; about `count` of them. */
+  function ticks(most, count) {
+    if (!(most > 0)) return [0];
+    const step = counterflex.pathModel.oneTwoFive(most / count);
+    return Array.from({length: Math.floor(most / step) + 1}, (_, i) => Number((i * step).toPrecision(6)));
+  }
+
+  /** Ground behind numbers, so that lines do not run through them. */
+  function plate(context, theme, x, y, width, height) {
+    context.globalAlpha = 0.8;
+    context.fillStyle = counterflex.colours.css(theme.ground);
+    context.fillRect(x, y, width, height);
+    context.globalAlpha = 1;
+  }
+
+  function gradient(context, theme, x, y, width, height) {
+    for (let i = 0; i < width; ++i) {
+      context.fillStyle = counterflex.colours.css(counterflex.colours.at(i / (width - 1), theme.dark));
+      context.fillRect(x + i, y, 1, height);
+    }
+  }
+
+  /** Round numbers under the scale, as far as they leave room for the largest at its end. */
+  function scaleNumbers(context, theme, bar, units, x, y, width) {
+    const last = String(units.number(bar.most_mm));
+    context.font = font;
+    const room = width - context.measureText(last).width / 2 - 8;
+    const perMm = units.scale;
+    for (const tick of ticks(bar.most_mm * perMm, 4)) {
+      const at = (width * tick) / (bar.most_mm * perMm);
+      const half = context.measureText(String(tick)).width / 2;
+      if (at + half > room) continue;
+      line(context, theme.ink, 1, [x + at, y], [x + at, y + 4]);
+      write(context, theme, String(tick), x + Math.max(at, half), y + 12, 'center');
+    }
+    line(context, theme.ink, 1, [x + width, y], [x + width, y + 4]);
+    write(context, theme, last, x + width, y + 12, 'center');
+  }
+
+  /** A triangle at the tolerance, or beyond the end where all is within it. */
+  function toleranceMark(context, theme, bar, units, x, y, width) {
+    if (!(bar.tolerance_mm > 0)) return;
+    const within = bar.tolerance_mm >= bar.most_mm;
+    const at = x + Math.min(1, bar.tolerance_mm / bar.most_mm) * width;
+    const text = `tolerance ${units.format(bar.tolerance_mm)}`;
+    if (within) return write(context, theme, `all within the ${text}`, x, y + 36, 'left', theme.muted);
+    context.beginPath();
+    context.moveTo(at, y - 1);
+    context.lineTo(at - 4, y - 7);
+    context.lineTo(at + 4, y - 7);
+    context.fillStyle = counterflex.colours.css(theme.ink);
+    context.fill();
+    write(context, theme, `\u25be ${text}`, x, y + 36, 'left', theme.muted);
+  }
+
+  /** The scale of colours, upper left: {title, most_mm, tolerance_mm}; without a largest value the title alone. */
+  function colourBar(context, size, theme, bar, units) {
+    if (!(bar.most_mm > 0)) return write(context, theme, bar.title, edge, edge + 6);
+    const width = Math.round(Math.min(260, 0.6 * size.width));
+    const y = edge + 22;
+    plate(context, theme, 0, 0, width + 4 * edge, y + 48);
+    write(context, theme, bar.title, edge, edge + 6);
+    gradient(context, theme, edge, y, width, 10);
+    scaleNumbers(context, theme, bar, units, edge, y + 10, width);
+    toleranceMark(context, theme, bar, units, edge, y, width);
+  }
+
+  /** The axes of the machine, lower left; an axis that points at the eye is a ring. */
+  function triad(context, size, theme, camera) {
+    const {right, up, back} = counterflex.camera.basis(camera);
+    const [x, y, length] = [edge + 34, size.height - edge - 34, 30];
+    const axes = ['x', 'y', 'z'].map((name, i) => ({name, i})).sort((a, b) => back[a.i] - back[b.i]);
+    for (const {name, i} of axes) {
+      const tip = [x + length * right[i], y - length * up[i]];
+      line(context, theme.ink, 2, [x, y], tip);
+      if (Math.hypot(right[i], up[i]) < 0.2) {
+        context.beginPath();
+        context.arc(x, y, 4, 0, 2 * Math.PI);
+        context.stroke();
+        write(context, theme, name, x - 12, y + 12, 'center');
+      } else {
+        write(context, theme, name, tip[0] + 9 * right[i], tip[1] - 9 * up[i], 'center');
+      }
+    }
+  }
+
+  /** A length of the picture's scale, lower right, and notes above it. */
+  function lengths(context, size, theme, camera, units, notes) {
+    const pixelsPerUnit = counterflex.camera.scale(camera, size) / units.lengthScale;
+    const length = counterflex.pathModel.oneTwoFive(Math.min(120, 0.25 * size.width) / pixelsPerUnit);
+    const [x, y] = [size.width - edge, size.height - edge - 4];
+    const left = x - length * pixelsPerUnit;
+    context.font = font;
+    const width = Math.max(x - left, ...notes.map((note) => context.measureText(note).width)) + 2 * edge;
+    const height = 24 + 18 * notes.length + edge;
+    plate(context, theme, size.width - width, size.height - height - edge, width, height + edge);
+    line(context, theme.ink, 2, [left, y - 5], [left, y], [x, y], [x, y - 5]);
+    write(context, theme, `${length} ${units.lengthLabel}`, (left + x) / 2, y - 12, 'center');
+    notes.forEach((note, i) => write(context, theme, note, x, y - 32 - 18 * i, 'right', theme.muted));
+  }
+
+  /** A ring around a place in the picture, and its label beside it, inside the picture: {x, y, text}. */
+  function label(context, size, theme, mark, radius) {
+    for (const [colour, width] of [[theme.ground, 5], [theme.ink, 2]]) {
+      context.beginPath();
+      context.arc(mark.x, mark.y, radius, 0, 2 * Math.PI);
+      context.lineWidth = width;
+      context.strokeStyle = counterflex.colours.css(colour);
+      context.stroke();
+    }
+    context.font = font;
+    const width = context.measureText(mark.text).width + 12;
+    const toLeft = mark.x + radius + 6 + width > size.width;
+    const x = Math.min(Math.max(2, toLeft ? mark.x - radius - 6 - width : mark.x + radius + 6), size.width - width - 2);
+    const y = Math.min(Math.max(14, mark.y - 16), size.height - 14);
+    context.fillStyle = counterflex.colours.css(theme.ground);
+    context.fillRect(x, y - 11, width, 22);
+    context.lineWidth = 1;
+    context.strokeRect(x + 0.5, y - 10.5, width - 1, 21);
+    write(context, theme, mark.text, x + 6, y);
+  }
+
+  /** All of it: `picture` = {theme, camera, units, bar, notes: [text], marks: [{x, y, text, radius}]}. */
+  function draw(context, size, picture) {
+    const {theme, camera, units} = picture;
+    for (const mark of picture.marks) label(context, size, theme, mark, mark.radius);
+    colourBar(context, size, theme, picture.bar, units);
+    triad(context, size, theme, camera);
+    lengths(context, size, theme, camera, units, picture.notes);
+  }
+
+  counterflex.overlay = {draw, ticks};
+})();

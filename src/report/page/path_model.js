@@ -1,0 +1,129 @@
+'use strict';
+/**
+ * What the path views draw: places of one run, near the origin for the sake of single precision, deviations there
+ * and which part of the largest one each is. Pure functions of the decoded curves.
+ */
+(() => {
+  const kinds = ['wanted', 'before', 'after'];
+
+  /** Whether the curves know a deviation of that kind anywhere. */
+  const has = (curves, kind) => kind === 'wanted' ||
+    (Boolean(curves.quantities[`${kind}_mm`]) && curves[`place_${kind}_mm`].some(Number.isFinite));
+
+  /** The box around the places of all curves, mm in the machine frame; null where there are none. */
+  function bounds(allCurves) {
+    const low = [Infinity, Infinity, Infinity];
+    const high = [-Infinity, -Infinity, -Infinity];
+    for (const {place_mm} of allCurves)
+      place_mm.forEach((v, i) => {
+        low[i % 3] = Math.min(low[i % 3], v);
+        high[i % 3] = Math.max(high[i % 3], v);
+      });
+    return low[0] <= high[0] ? {low, high} : null;
+  }
+
+  const sizeOf = ({low, high}) => Math.max(...high.map((v, i) => v - low[i])) || 10;
+
+  /** The largest deviation of a kind over all curves, mm; 0 where nothing is known. */
+  function largest(allCurves, kind) {
+    let most = 0;
+    for (const curves of allCurves)
+      for (const v of curves.quantities[`${kind}_mm`]?.largest ?? []) if (v > most) most = v;
+    return most;
+  }
+
+  /** The number 1, 2 or 5 times a power of ten that is nearest by ratio. */
+  function oneTwoFive(value) {
+    const decade = 10 ** Math.floor(Math.log10(value));
+    const near = (m) => Math.abs(Math.log(value / (m * decade)));
+    const m = [1, 2, 5, 10].reduce((best, each) => (near(each) < near(best) ? each : best));
+    return Number((m * decade).toPrecision(3));
+  }
+
+  /** The exaggeration that makes the largest deviation about a twentieth of the path's size; 1 at least. */
+  const exaggeration = (size_mm, deviation_mm) =>
+    (deviation_mm > 0 ? Math.max(1, oneTwoFive((0.05 * size_mm) / deviation_mm)) : 1);
+
+  /** The factor itself, unless it draws the deviation larger than half the path: then the usual one. */
+  const bearable = (factor, size_mm, deviation_mm) =>
+    (factor * deviation_mm > 0.5 * size_mm ? exaggeration(size_mm, deviation_mm) : factor);
+
+  /** 1, 2, 5, 10 ... up to what makes the smallest of the largest deviations half as large as the path. */
+  function exaggerations(size_mm, deviations_mm) {
+    const known = deviations_mm.filter((v) => v > 0);
+    const top = known.length > 0 ? (0.5 * size_mm) / Math.min(...known) : 1;
+    const steps = [1];
+    for (let decade = 1; steps[steps.length - 1] < top && decade < 1e9; decade *= 10)
+      steps.push(2 * decade, 5 * decade, 10 * decade);
+    return steps;
+  }
+
+  /** Stretches [from, to) without a rapid within. */
+  function feedRuns(after_rapid) {
+    const runs = [];
+    let from = 0;
+    for (let i = 1; i <= after_rapid.length; ++i)
+      if (i === after_rapid.length || after_rapid[i]) {
+        runs.push([from, i]);
+        from = i;
+      }
+    return runs;
+  }
+
+  /**
+   * Values with gaps filled: in a run of feed moves linear in path length between the known neighbours, at its
+   * ends like the nearest one; where a run knows none they stay NaN. `width` values a stretch.
+   */
+  function filled(values, width, s_mm, runs) {
+    const result = Float32Array.from(values);
+    const known = (i) => Number.isFinite(values[width * i]);
+    const between = (i, a, b, k) => {
+      const t = s_mm[b] > s_mm[a] ? (s_mm[i] - s_mm[a]) / (s_mm[b] - s_mm[a]) : 0;
+      return values[width * a + k] + t * (values[width * b + k] - values[width * a + k]);
+    };
+    for (const [from, to] of runs) {
+      let last = -1;
+      for (let i = from; i <= to; ++i) {
+        const end = i === to;
+        if (!end && !known(i)) continue;
+        if (end && last < 0) break;
+        for (let gap = last < 0 ? from : last + 1; gap < i; ++gap)
+          for (let k = 0; k < width; ++k)
+            result[width * gap + k] = between(gap, last < 0 ? i : last, end ? last : i, k);
+        last = i;
+      }
+    }
+    return result;
+  }
+
+  /**
+   * One run's path of a kind, around `origin` (mm, machine frame): {count, place, deviation (0 where unknown),
+   * fraction (of `most_mm`; -1 where unknown), rapid (1: a rapid leads to here)}.
+   */
+  function build(curves, kind, origin, most_mm) {
+    const count = curves.place_mm.length / 3;
+    const runs = feedRuns(curves.after_rapid);
+    const place = Float32Array.from(curves.place_mm, (v, i) => v - origin[i % 3]);
+    const path = {count, place, deviation: new Float32Array(3 * count), rapid: curves.after_rapid,
+      fraction: new Float32Array(count).fill(-1)};
+    if (kind === 'wanted' || !has(curves, kind)) return path;
+    const value = filled(curves.quantities[`${kind}_mm`].largest, 1, curves.s_mm, runs);
+    path.fraction = value.map((v) => (Number.isFinite(v) ? (most_mm > 0 ? v / most_mm : 0) : -1));
+    path.deviation = filled(curves[`place_${kind}_mm`], 3, curves.s_mm, runs)
+      .map((v) => (Number.isFinite(v) ? v : 0));
+    return path;
+  }
+
+  /** Where stretch `i` of a path is drawn: [x, y, z]. */
+  const drawnAt = ({place, deviation}, i, factor) =>
+    [0, 1, 2].map((k) => place[3 * i + k] + factor * deviation[3 * i + k]);
+
+  /** The box around a path as drawn and as wanted. */
+  function boxOf(path, factor) {
+    const drawn = path.place.map((v, i) => v + factor * path.deviation[i]);
+    return bounds([{place_mm: path.place}, {place_mm: drawn}]);
+  }
+
+  counterflex.pathModel = {kinds, has, bounds, sizeOf, largest, oneTwoFive, exaggeration, exaggerations, bearable,
+    filled, feedRuns, build, drawnAt, boxOf};
+})();

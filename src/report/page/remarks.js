@@ -1,0 +1,45 @@
+'use strict';
+(() => {
+  const {el, table} = counterflex.dom;
+  const words = counterflex.words;
+
+  const captioned = (run, text) => (run.letter ? `${run.letter}: ${text}` : text);
+  const lineCell = (line) => (line > 0 ? String(line) : '\u2013');
+
+  /** Rows of a list that may have been cut short. */
+  function list(run, title, what, rows, count) {
+    if (rows.length === 0) return null;
+    return [table(captioned(run, title), [{title: 'Line'}, {title: what, class: 'text'}], rows),
+      count > rows.length ? el('p', {class: 'note'}, `and ${count - rows.length} more`) : null];
+  }
+
+  function warnings(run) {
+    const {warnings: rows, warning_count: count} = run.report;
+    return list(run, words.counted(count, 'warning'), 'What', rows.map(({line, what}) => [lineCell(line), what]), count);
+  }
+
+  function leftAlone(run) {
+    const {left_alone: rows, left_alone_count: count} = run.report.blocks;
+    return list(run, `Not corrected, or not wholly: ${words.counted(count, 'block')}`, 'Why',
+        rows.map(({line, why}) => [lineCell(line), why]), count);
+  }
+
+  function withoutForce(run, units) {
+    const {reasons, moves, length_mm: length} = run.report.forces.without_force;
+    if (moves === 0) return null;
+    const rows = reasons.map((r) => [r.why, String(r.moves), units.lengthNumber(r.length_mm), lineCell(r.first_line)]);
+    const columns = [{title: 'Why', class: 'text'}, {title: 'Moves', number: true},
+      {title: `Length, ${units.lengthLabel}`, number: true}, {title: 'First line', number: true}];
+    return table(captioned(run, `Without a cutting force: ${words.counted(moves, 'feed move')}, ${units.length(length)}`), columns, rows);
+  }
+
+  /** Warnings, blocks that are not corrected with their reasons, and moves without a force. */
+  function render({runs, units}) {
+    return el('div', {class: 'runs'}, runs.map((run) => {
+      const parts = [warnings(run), leftAlone(run), withoutForce(run, units)].filter(Boolean);
+      return el('div', {class: 'stack'}, parts.length > 0 ? parts : el('p', null, captioned(run, 'Nothing to tell.')));
+    }));
+  }
+
+  counterflex.remarks = {render};
+})();

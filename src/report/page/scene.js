@@ -1,0 +1,260 @@
+'use strict';
+/**
+ * The path in space, coloured by deviation: `counterflex.scene.create(container, {runs, units, selection})`.
+ * It draws on demand, on one 2-D canvas: the path with WebGL where there is any, else flat, and over it what
+ * overlay.js draws.
+ */
+(() => {
+  const {el} = counterflex.dom;
+  const picture = counterflex.scenePicture;
+  const margin = [30, 70];  // pixels beside a fitted path, and above and below for scales and axes
+  const hint = 'Drag: turn. Shift or right button: move. Wheel (after a click), + and \u2212: zoom. '
+    + 'Double click, 0: fit. Click on the path, \u2190 \u2192: choose a place. '
+    + 'Shift + arrows: turn. Ctrl + arrows: move.';
+
+  /** The elements of the view inside the container. */
+  function furnish(container, controls) {
+    const canvas = el('canvas', {class: 'scene-canvas'});
+    const stage = el('div', {class: 'scene-stage', tabindex: 0, role: 'application',
+      'aria-label': `The path in space. ${hint}`}, canvas);
+    const said = el('p', {class: 'scene-said', 'aria-live': 'polite'});
+    const paper = el('div', {class: 'scene-print'});
+    const root = el('div', {class: 'scene-view'}, controls, stage, paper, el('p', {class: 'scene-hint'}, hint), said);
+    container.append(root);
+    return {root, stage, canvas, paper, said};
+  }
+
+  /** The view of runs of which one at least has a path. */
+  class Scene {
+    constructor(container, {runs, units, selection}) {
+      Object.assign(this, {container, runs, units, selection, hover: -1, frame: 0, points: null});
+      this.facts = picture.survey(runs);
+      const run = picture.usable(runs[selection.run]) ? selection.run : runs.findIndex(picture.usable);
+      const kind = ['before', 'after', 'wanted'].find((each) => picture.knows(runs[run], each));
+      this.camera = {...counterflex.camera.views.isometric, centre: [0, 0, 0], span: 1, fitted: true};
+      this.controls = counterflex.sceneControls.create(this.choices(), this.acts());
+      this.parts = furnish(container, this.controls.element);
+      this.view = counterflex.ribbonView.create(() => this.fallBack()) || counterflex.flatView.create();
+      this.present(picture.describe(this.facts, runs, run, kind, this.facts.usual));
+      this.listen();
+      this.draw();
+    }
+
+    choices() {
+      const anywhere = (kind) => this.runs.some((run) => picture.knows(run, kind));
+      return {kinds: counterflex.pathModel.kinds.map((value) => ({value, enabled: anywhere(value)})),
+        runs: this.runs.map((run) => ({text: picture.nameOf(run), enabled: picture.usable(run)})),
+        steps: this.facts.steps, usual: this.facts.usual};
+    }
+
+    /** What controls, mouse and keys do. */
+    acts() {
+      return {
+        show: (kind) => this.show(kind, this.shown.run),
+        run: (run) => this.show(this.shown.kind, run),
+        exaggerate: (factor) => this.exaggerate(factor),
+        look: (name) => this.move({...this.camera, ...counterflex.camera.views[name], fitted: true}),
+        turn: (dx, dy) => this.move(counterflex.camera.turn(this.camera, -0.01 * dx, 0.01 * dy)),
+        pan: (dx, dy) => this.move(counterflex.camera.pan(this.camera, this.size(), dx, dy)),
+        zoom: (factor, at) => this.zoom(factor, at),
+        pick: (x, y, reach) => this.pick(x, y, reach),
+        hover: (x, y) => this.pointAt(x, y),
+        step: (count) => this.step(count),
+      };
+    }
+
+    listen() {
+      counterflex.sceneInput.listen(this.parts.stage, this.acts());
+      this.selection.subscribe(() => this.selected());
+      if (typeof ResizeObserver !== 'undefined') new ResizeObserver(() => this.schedule()).observe(this.parts.stage);
+    }
+
+    /** Where WebGL goes away while the page is open. */
+    fallBack() {
+      this.view = counterflex.flatView.create();
+      this.schedule();
+    }
+
+    /** Shows another path or exaggeration, from the same side. */
+    present(shown) {
+      this.shown = shown;
+      this.hover = -1;
+      this.points = null;
+      this.controls.update(shown);
+      this.schedule();
+    }
+
+    /** Without that run or kind: the run as before, the wanted path. The factor gives way where it were absurd. */
+    show(kind, index) {
+      const run = picture.usable(this.runs[index]) ? index : this.shown.run;
+      const known = picture.knows(this.runs[run], kind) ? kind : 'wanted';
+      const factor = counterflex.pathModel.bearable(this.shown.factor, this.facts.size, this.facts.most[known]);
+      this.present(picture.describe(this.facts, this.runs, run, known, factor));
+    }
+
+    exaggerate(factor) {
+      this.present(picture.exaggerated(this.shown, factor > 0 ? factor : this.facts.usual));
+    }
+
+    size() {
+      const {clientWidth, clientHeight} = this.parts.stage;
+      return {width: clientWidth, height: clientHeight, ratio: Math.min(2, window.devicePixelRatio || 1)};
+    }
+
+    move(camera) {
+      this.camera = camera;
+      this.hover = -1;
+      this.points = null;
+      this.schedule();
+    }
+
+    zoom(factor, at) {
+      const size = this.size();
+      const limits = [1e-4 * this.facts.size, 20 * this.facts.size];
+      this.move(counterflex.camera.zoom(this.camera, size, factor, at || [size.width / 2, size.height / 2], limits));
+    }
+
+    /** The stretch that is selected in the run shown, -1 for none. */
+    chosen() {
+      const {run, stretch} = this.selection;
+      return run === this.shown.run && this.has(stretch) ? stretch : -1;
+    }
+
+    has(stretch) {
+      return Number.isInteger(stretch) && stretch >= 0 && stretch < this.shown.path.count;
+    }
+
+    nearest(x, y, reach) {
+      this.points = this.points || counterflex.pick.projected(this.shown.path, this.shown.factor,
+        counterflex.camera.projector(this.camera, this.size()));
+      return counterflex.pick.nearest(this.points, this.shown.path.rapid, x, y, reach);
+    }
+
+    pick(x, y, reach) {
+      const stretch = this.nearest(x, y, reach);
+      if (stretch >= 0) this.selection.set(this.shown.run, stretch);
+    }
+
+    pointAt(x, y) {
+      const stretch = x < 0 ? -1 : this.nearest(x, y, 10);
+      if (stretch === this.hover) return;
+      this.hover = stretch;
+      this.schedule();
+    }
+
+    step(count) {
+      const from = this.chosen();
+      const to = from < 0 ? 0 : Math.min(this.shown.path.count - 1, Math.max(0, from + count));
+      this.selection.set(this.shown.run, to);
+    }
+
+    /** Follows the selection: shows its run, and brings its place into the picture where it is outside. */
+    selected() {
+      const {run} = this.selection;
+      if (run !== this.shown.run && picture.usable(this.runs[run])) this.show(this.shown.kind, run);
+      const stretch = this.chosen();
+      if (stretch >= 0 && !this.inView(stretch)) this.centreOn(stretch, this.camera.span);
+      this.schedule();
+    }
+
+    inView(stretch) {
+      const size = this.size();
+      const [x, y] = counterflex.camera.projector(this.camera, size)(...picture.placeOf(this.shown, stretch));
+      return this.camera.fitted || (x > 20 && y > 20 && x < size.width - 20 && y < size.height - 20);
+    }
+
+    centreOn(stretch, span) {
+      this.move({...this.camera, centre: picture.placeOf(this.shown, stretch), span, fitted: false});
+    }
+
+    goTo(run, stretch) {
+      if (run !== this.shown.run) this.show(this.shown.kind, run);
+      if (run !== this.shown.run || !this.has(stretch)) return;
+      this.camera = this.fitted(this.size());
+      this.centreOn(stretch, Math.min(this.camera.span, 0.3 * this.facts.size));
+    }
+
+    schedule() {
+      if (this.frame === 0) this.frame = requestAnimationFrame(() => this.draw());
+    }
+
+    /** The camera from where one looks, with the whole path in a picture of that size. */
+    whole(size) {
+      return counterflex.camera.fit(this.camera, this.shown.box, size, margin);
+    }
+
+    /** The camera for a picture of that size: fitted anew unless it was moved by hand. */
+    fitted(size) {
+      return this.camera.fitted && size.width > 0 ? this.whole(size) : this.camera;
+    }
+
+    marked() {
+      const chosen = this.chosen();
+      const hover = this.hover >= 0 && this.hover !== chosen ? [{stretch: this.hover, radius: 4}] : [];
+      return chosen >= 0 ? [...hover, {stretch: chosen, radius: 7}] : hover;
+    }
+
+    draw() {
+      cancelAnimationFrame(this.frame);
+      this.frame = 0;
+      const size = this.size();
+      if (size.width === 0 || size.height === 0) return;
+      const {span} = this.camera;
+      this.camera = this.fitted(size);
+      if (span !== this.camera.span) this.points = null;
+      picture.paint(this.view, this.parts.canvas, size, {shown: this.shown, camera: this.camera, units: this.units,
+        theme: counterflex.colours.themeOf(this.container), marked: this.marked()});
+      this.tell();
+    }
+
+    /** For screen readers, and in data attributes of the view for those who test or script it. */
+    tell() {
+      const stretch = this.chosen();
+      const text = stretch < 0 ? '' : picture.words(this.shown, stretch, this.units);
+      if (text !== this.parts.said.textContent) this.parts.said.textContent = text;
+      const centre = this.camera.centre.map((v, i) => (v + this.facts.origin[i]).toFixed(3));
+      const degrees = (angle) => Math.round((angle * 180) / Math.PI);
+      const {kind, run, factor} = this.shown;
+      Object.assign(this.parts.root.dataset, {renderer: this.view.name, kind, run, factor, stretch,
+        centre: centre.join(' '), span: this.camera.span.toPrecision(6),
+        azimuth: degrees(this.camera.azimuth), elevation: degrees(this.camera.elevation)});
+    }
+
+    /** On paper one cannot turn or switch: the whole path, before and after one below the other. */
+    drawForPrint() {
+      const size = {width: 960, height: 480, ratio: 2};
+      const known = ['before', 'after'].filter((kind) => picture.knows(this.runs[this.shown.run], kind));
+      const canvases = (known.length > 0 ? known : ['wanted']).map((kind) => {
+        const canvas = el('canvas', {class: 'scene-paper'});
+        const shown = picture.describe(this.facts, this.runs, this.shown.run, kind, this.shown.factor);
+        picture.paint(this.view, canvas, size, {shown, camera: this.whole(size), units: this.units,
+          theme: counterflex.colours.paper, marked: this.marked()});
+        return canvas;
+      });
+      this.parts.paper.replaceChildren(...canvases);
+    }
+  }
+
+  /** A sentence where there is nothing to draw. */
+  function createEmpty(container) {
+    container.append(el('p', {class: 'scene-empty'}, 'The path cannot be shown: this report has no curves.'));
+    const nothing = () => {};
+    return {show: nothing, exaggerate: nothing, themeChanged: nothing, unitChanged: nothing, goTo: nothing,
+      resize: nothing, drawForPrint: nothing};
+  }
+
+  /**
+   * Builds the view inside `container`. `runs`: decoded runs; `units`: of units.js; `selection`: of selection.js.
+   * Drawn when it returns, if the container has a size.
+   */
+  function create(container, options) {
+    if (!options.runs.some(picture.usable)) return createEmpty(container);
+    const scene = new Scene(container, options);
+    const draw = () => scene.schedule();
+    return {show: (kind, run = scene.shown.run) => scene.show(kind, run),
+      exaggerate: (factor) => scene.exaggerate(factor), goTo: (run, stretch) => scene.goTo(run, stretch),
+      themeChanged: draw, unitChanged: draw, resize: draw, drawForPrint: () => scene.drawForPrint()};
+  }
+
+  counterflex.scene = {create};
+})();

@@ -1,0 +1,67 @@
+'use strict';
+/** The controls of the path view: what is shown, of which run, how much exaggerated, and from where. */
+(() => {
+  const {el} = counterflex.dom;
+
+  let groups = 0;  // radio buttons of one group share a name
+
+  /**
+   * Radio buttons: `choices` = [{value, text, enabled}]. Returns {element, set(value)}; calls `chosen(value)` on a
+   * change.
+   */
+  function radios(legend, choices, chosen) {
+    const name = `scene-choice-${++groups}`;
+    const inputs = choices.map(({value, enabled}) =>
+      el('input', {type: 'radio', name, value, disabled: !enabled, change: () => chosen(value)}));
+    const labels = choices.map(({text}, i) => el('label', null, inputs[i], el('span', null, text)));
+    return {element: el('fieldset', {class: 'choice'}, el('legend', null, legend), labels),
+      set(value) {
+        for (const input of inputs) input.checked = input.value === String(value);
+      }};
+  }
+
+  const nearestStep = (steps, factor) =>
+    steps.reduce((best, step, i) => (Math.abs(Math.log(step / factor)) < Math.abs(Math.log(steps[best] / factor))
+      ? i : best), 0);
+
+  /** The slider of the exaggeration, on `steps`; a double click goes back to `usual`. */
+  function slider(steps, usual, chosen) {
+    const output = el('output', {class: 'scene-factor'});
+    const input = el('input', {type: 'range', min: 0, max: steps.length - 1, step: 1, disabled: steps.length < 2,
+      title: 'Double click: as at first', input: () => chosen(steps[Number(input.value)]),
+      dblclick: () => chosen(usual)});
+    return {element: el('label', {class: 'scene-slider'}, 'Exaggeration ', input, output), set(factor) {
+      input.value = nearestStep(steps, factor);
+      output.textContent = `\u00d7 ${factor}`;
+      input.setAttribute('aria-valuetext', `${factor} times`);
+    }};
+  }
+
+  const views = [['top', 'Top'], ['front', 'Front'], ['side', 'Side'], ['isometric', 'Isometric'], ['fit', 'Fit']];
+
+  function viewButtons(look) {
+    return el('div', {class: 'scene-views', role: 'group', 'aria-label': 'View'}, views.map(([name, text]) =>
+      el('button', {type: 'button', value: name, click: () => look(name)}, text)));
+  }
+
+  const kindTexts = {wanted: 'wanted', before: 'before', after: 'after (model residual)'};
+
+  /**
+   * All controls: `options` = {kinds: [{value, enabled}], runs: [{text, enabled}], steps, usual}, `act` = {show(kind),
+   * run(index), exaggerate(factor), look(view)}. Returns {element, update({kind, run, factor})}.
+   */
+  function create(options, act) {
+    const kinds = radios('Path', options.kinds.map((kind) => ({...kind, text: kindTexts[kind.value]})), act.show);
+    const runs = options.runs.length < 2 ? null : radios('Run',
+      options.runs.map((run, i) => ({...run, value: String(i)})), (value) => act.run(Number(value)));
+    const factor = slider(options.steps, options.usual, act.exaggerate);
+    const parts = [kinds.element, ...(runs ? [runs.element] : []), factor.element, viewButtons(act.look)];
+    return {element: el('div', {class: 'scene-controls'}, parts), update(state) {
+      kinds.set(state.kind);
+      if (runs) runs.set(state.run);
+      factor.set(state.factor);
+    }};
+  }
+
+  counterflex.sceneControls = {create};
+})();

@@ -1,0 +1,105 @@
+'use strict';
+/**
+ * One picture of the path view: which path is shown, its layers, its words, and putting all on a canvas. `shown` is
+ * {curves, tolerance_mm, kind, run, factor, path, box}: what is to be seen, whatever the camera.
+ */
+(() => {
+  const titles = {wanted: () => 'Wanted path', before: (unit) => `Deviation before, ${unit}`,
+    after: (unit) => `Model residual after, ${unit}`};
+
+  const usable = (run) => Boolean(run && run.curves) && run.curves.place_mm.length > 0;
+
+  /** "A: before calibration", or what there is of it. */
+  const nameOf = ({letter, name}) => [...new Set([letter, name])].filter(Boolean).join(': ');
+
+  /** Whether a run has a path of that kind. */
+  const knows = (run, kind) => usable(run) && counterflex.pathModel.has(run.curves, kind);
+
+  /** What all pictures share: the runs' common origin and size, and the largest deviations of all runs. */
+  function survey(runs) {
+    const all = runs.filter(usable).map((run) => run.curves);
+    const box = counterflex.pathModel.bounds(all);
+    const most = {wanted: 0, before: counterflex.pathModel.largest(all, 'before'),
+      after: counterflex.pathModel.largest(all, 'after')};
+    const size = counterflex.pathModel.sizeOf(box);
+    return {most, size, origin: box.low.map((v, i) => (v + box.high[i]) / 2),
+      usual: counterflex.pathModel.exaggeration(size, most.before || most.after),
+      steps: counterflex.pathModel.exaggerations(size, [most.before, most.after])};
+  }
+
+  /** `shown` of a run's path of a kind, exaggerated by `factor`. */
+  function describe(facts, runs, run, kind, factor) {
+    const {curves, report} = runs[run];
+    const path = counterflex.pathModel.build(curves, kind, facts.origin, facts.most[kind]);
+    const tolerance_mm = Number((report.options || {})['tolerance-mm']);
+    return exaggerated({curves, tolerance_mm, kind, run, path, most_mm: facts.most[kind]}, factor);
+  }
+
+  const exaggerated = (shown, factor) =>
+    ({...shown, factor, box: counterflex.pathModel.boxOf(shown.path, factor)});
+
+  /**
+   * The layers of a picture, from the bottom: rapids, the wanted path, and the one that is shown. What `covers` hides
+   * what is behind it; the wanted path beside another never does.
+   */
+  function layers({path, kind, factor}, theme) {
+    const alone = kind === 'wanted';
+    const dot = path.count === 1 ? 4 : 1;
+    const base = {path, factor: 0, opacity: 1, covers: false, dash: [], width: 2, colour: theme.muted};
+    const rapids = {...base, factor, style: 'rapid', width: 1.2, dash: [5, 4], opacity: 0.8};
+    const wanted = {...base, style: 'plain', covers: alone, colour: theme.ink, opacity: alone ? 1 : 0.45,
+      width: (alone ? 2.5 : 1.2) * dot};
+    return alone ? [rapids, wanted]
+      : [rapids, wanted, {...base, factor, style: 'deviation', covers: true, width: 4 * dot}];
+  }
+
+  /**
+   * "line 12: 4.1 um" of a stretch: "up to" where it holds several waypoints, "about" where the deviation is taken
+   * from its neighbours; the line alone where it is unknown or not shown.
+   */
+  function words({curves, kind, path, most_mm}, i, units) {
+    const [first, last] = [curves.first_line[i], curves.last_line[i]];
+    const lines = first === last ? `line ${first}` : `lines ${first} to ${last}`;
+    if (kind === 'wanted' || path.fraction[i] < 0) return lines;
+    const value = curves.quantities[`${kind}_mm`].largest[i];
+    if (!Number.isFinite(value)) return `${lines}: about ${units.format(path.fraction[i] * most_mm)}`;
+    return `${lines}: ${first === last ? '' : 'up to '}${units.format(value)}`;
+  }
+
+  /** Where a stretch is drawn: [x, y, z], mm from the origin. */
+  const placeOf = ({path, factor}, stretch) => counterflex.pathModel.drawnAt(path, stretch, factor);
+
+  /** The distance from `centre` within which the box lies. */
+  const reachOf = (centre, {low, high}) =>
+    1 + Math.hypot(...centre.map((v, i) => Math.max(Math.abs(low[i] - v), Math.abs(high[i] - v))));
+
+  function mark({stretch, radius}, shown, project, units) {
+    const [x, y] = project(...placeOf(shown, stretch));
+    return {x, y, radius, text: words(shown, stretch, units)};
+  }
+
+  /** What the picture needs to be understood, the lowest line first. */
+  function notes({kind, factor, path}) {
+    const rapids = path.rapid.some((rapid, i) => rapid && i > 0) ? ['dashed: rapids'] : [];
+    return kind === 'wanted' ? rapids
+      : [`deviation \u00d7 ${factor}`, ['thin: wanted path', ...rapids].join(', ')];
+  }
+
+  /**
+   * Draws `shown` with a `view` (flat or WebGL) on a canvas of `size` = {width, height, ratio}. `marked`: places with
+   * a ring and a label, {stretch, radius in pixels}.
+   */
+  function paint(view, canvas, size, {shown, theme, camera, units, marked}) {
+    canvas.width = Math.round(size.width * size.ratio);
+    canvas.height = Math.round(size.height * size.ratio);
+    const context = canvas.getContext('2d');
+    const project = counterflex.camera.projector(camera, size);
+    view.draw(context, size, {theme, camera, layers: layers(shown, theme), reach: reachOf(camera.centre, shown.box)});
+    counterflex.overlay.draw(context, size, {theme, camera, units,
+      marks: marked.map((each) => mark(each, shown, project, units)),
+      bar: {title: titles[shown.kind](units.label), most_mm: shown.most_mm, tolerance_mm: shown.tolerance_mm},
+      notes: notes(shown)});
+  }
+
+  counterflex.scenePicture = {usable, nameOf, knows, survey, describe, exaggerated, words, placeOf, paint};
+})();

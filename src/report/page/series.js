@@ -1,0 +1,70 @@
+'use strict';
+(() => {
+  /** Null where nothing is known: lines are drawn through it. */
+  const orNull = (value) => (Number.isNaN(value) ? null : value);
+
+  /**
+   * Order in which least and largest of a stretch are drawn: first the one nearer to where the line comes from, so that
+   * a smooth curve stays smooth and a peak stays a peak.
+   */
+  function pair(least, largest, previous) {
+    return previous !== null && Math.abs(previous - largest) < Math.abs(previous - least) ? [largest, least] : [least, largest];
+  }
+
+  /** Where the points of a curve stand: path length and stretch of each, and where the line is broken by a rapid. */
+  function places(curves) {
+    const {s_mm: s, after_rapid: rapid, waypoints_per_stretch: merged} = curves;
+    const points = [];
+    for (let i = 0; i < s.length; ++i) {
+      const begin = i > 0 ? s[i - 1] : 0;
+      if (merged === 1 && i > 0 && rapid[i]) points.push({s: begin, stretch: i - 1, gap: true});
+      if (merged > 1) points.push({s: (begin + s[i]) / 2, stretch: i, second: false});
+      points.push({s: s[i], stretch: i, second: merged > 1});
+    }
+    return points;
+  }
+
+  /** Values of a quantity at `points`, each multiplied by `scale`; NaN breaks the line. */
+  function valuesAt(points, quantity, scale) {
+    const values = new Array(points.length);
+    let previous = null, next = null;
+    points.forEach((point, k) => {
+      if (point.gap) return void (values[k] = NaN);
+      const i = point.stretch;
+      if (point.second) values[k] = next;
+      else if (quantity.least === quantity.largest) values[k] = next = orNull(quantity.largest[i] * scale);
+      else [values[k], next] = pair(quantity.least[i] * scale, quantity.largest[i] * scale, previous).map(orNull);
+      if (values[k] !== null) previous = values[k];
+    });
+    return values;
+  }
+
+  /**
+   * Rows for dygraphs of several series. `series`: {run, points, values}, where series of one run share `points`.
+   * Returns {rows: [[s, value of each series]], places: [{run, stretch}] of each row}.
+   */
+  function tabulate(series, total, lengthScale) {
+    const groups = [];
+    series.forEach((one, index) => {
+      let group = groups.find((g) => g.points === one.points);
+      if (!group) groups.push(group = {points: one.points, run: one.run, members: []});
+      group.members.push({index, values: one.values});
+    });
+    const rows = groups.flatMap((group) => groupRows(group, series.length, lengthScale));
+    if (groups.length > 1) rows.sort((a, b) => a.row[0] - b.row[0]);
+    const end = (s) => ({row: [s * lengthScale, ...new Array(series.length).fill(null)], run: 0, stretch: -1});
+    const all = [end(0), ...rows, end(total)];
+    return {rows: all.map(({row}) => row), places: all.map(({run, stretch}) => ({run, stretch}))};
+  }
+
+  function groupRows({points, run, members}, width, lengthScale) {
+    return points.map((point, k) => {
+      const row = new Array(width + 1).fill(null);
+      row[0] = point.s * lengthScale;
+      for (const {index, values} of members) row[index + 1] = values[k];
+      return {row, run, stretch: point.stretch};
+    });
+  }
+
+  counterflex.series = {places, valuesAt, tabulate};
+})();

@@ -1,0 +1,122 @@
+'use strict';
+(() => {
+  const {el, jump} = counterflex.dom;
+  const {percent} = counterflex.units;
+  const words = counterflex.words;
+
+  /** A number that matters, with what it is and where. `mark` is 'warn' where the reader should look twice. */
+  function card(key, label, value, note, mark) {
+    return el('div', {class: `card ${mark || ''}`, 'data-card': key},
+        el('dt', null, label), el('dd', null, el('strong', null, value), el('span', null, note || '')));
+  }
+
+  function deviationCard(key, label, s, units) {
+    return card(key, label, units.format(s.max_mm), `${words.inLine(s.max_line)}, 95 % below ${units.format(s.p95_mm)}`);
+  }
+
+  function correctedCard(report) {
+    const share = report.summary.corrected_percent;
+    const note = `of the cutting length; ${report.blocks.corrected} of ${words.counted(report.blocks.moves, 'move')}`;
+    return card('corrected', 'Corrected', percent(share), note, share < 100 ? 'warn' : '');
+  }
+
+  function airCard(report, units) {
+    const {air} = report.summary;
+    const note = `${words.inLine(air.line)}: dry run, spring pass, broken insert`;
+    return card('air', 'Overcut if the force is missing', units.format(air.max_mm), note, air.max_mm > tolerance(report) ? 'warn' : '');
+  }
+
+  function correctionCard(report, units) {
+    const {correction} = report.summary;
+    return card('correction', 'Largest correction', units.format(correction.max_mm), words.inLine(correction.line));
+  }
+
+  /** What does harm of a deviation: the part across the path. */
+  function acrossCard(s, units) {
+    return card('across', 'Across the path', units.format(s.max_across_mm), 'what is along the path does no harm');
+  }
+
+  /** Tolerance in mm; infinite where the run has none. */
+  function tolerance(report) {
+    const value = report.options['tolerance-mm'];
+    return typeof value === 'number' ? value : Infinity;
+  }
+
+  /** The cards of a run; those without a value are left out. */
+  function cards(report, units) {
+    const {before, after, corrected_percent: share, air, correction} = report.summary;
+    const times = words.factor(before, after);
+    return [
+      before && deviationCard('before', after ? 'Before' : 'Deviation, as programmed', before, units),
+      after && deviationCard('after', 'After (model residual)', after, units),
+      before && !after && acrossCard(before, units),
+      times && card('factor', 'Factor', `${times} \u00d7`, 'smaller at its largest'),
+      typeof share === 'number' && correctedCard(report),
+      air && airCard(report, units),
+      correction && correction.max_mm > 0 && correctionCard(report, units),
+    ].filter(Boolean);
+  }
+
+  /** What somebody should look at before the program runs: sentences, each with the section that says more. */
+  function reminders(report, units) {
+    const {air} = report.summary;
+    const list = [];
+    const add = (text, target) => list.push({text, target});
+    if (report.blocks.left_alone_count > 0)
+      add(`${words.counted(report.blocks.left_alone_count, 'block')} not corrected, or not wholly`, 'remarks');
+    if (report.warning_count > 0) add(words.counted(report.warning_count, 'warning'), 'remarks');
+    if (exceeded(report) > 0) add(`${words.counted(exceeded(report), 'load')} above the limit of the machine file`, 'loads');
+    if (report.forces.without_force.moves > 0 && report.forces.largest_N > 0)
+      add(`${words.counted(report.forces.without_force.moves, 'feed move')} without a cutting force`, 'remarks');
+    if (air && !report.failure && air.max_mm > tolerance(report))
+      add(`without the cutting force it is off by up to ${units.format(air.max_mm)}: no dry run on the finished part`, 'sensitivity');
+    return list;
+  }
+
+  /** How many loads exceed their limits. */
+  function exceeded(report) {
+    let count = 0;
+    for (const chain of (report.loads && report.loads.chains) || [])
+      for (const load of Object.values(chain)) if (load.limit && load.largest > load.limit) ++count;
+    return count;
+  }
+
+  function reminderList(report, units) {
+    const list = reminders(report, units);
+    if (list.length === 0) return null;
+    const item = ({text, target}) => el('li', null, jump(text, target, () => counterflex.goToSection(target)));
+    return el('div', {class: 'reminders'}, el('h3', null, report.failure ? 'Seen so far' : 'Before you run it'), el('ul', null, list.map(item)));
+  }
+
+  /** What ran, on what: one line under the title. */
+  function subtitle(report) {
+    const {options} = report;
+    const bits = [`on ${report.machine || 'an unnamed machine'}`, report.command];
+    if (options.method) bits.push(`method ${options.method}`);
+    if (tolerance(report) < Infinity && report.command !== 'predict') bits.push(`tolerance ${options['tolerance-mm']} mm`);
+    if (report.output) bits.push(`written to ${report.output.split('/').pop()}`);
+    return bits.join(', ');
+  }
+
+  function verdictOf(run, units) {
+    const {text, kind} = words.verdict(run.report, units);
+    return el('p', {class: `verdict ${kind}`, role: kind === 'bad' ? 'alert' : null}, text);
+  }
+
+  function runSummary(run, units, alone) {
+    const {report} = run;
+    const heading = alone ? el('h1', null, words.title(report)) :
+        el('h2', null, el('b', {class: `letter ${run.letter}`}, run.letter), ` ${run.name === run.letter ? words.title(report) : run.name}`);
+    return el('div', {class: 'run'}, heading, el('p', {class: 'subtitle'}, subtitle(report)), verdictOf(run, units),
+        el('dl', {class: 'cards'}, cards(report, units)), reminderList(report, units));
+  }
+
+  /** Title, verdict, cards and reminders: of one run, or of two side by side under a sentence that compares them. */
+  function render({runs, units}) {
+    if (runs.length === 1) return runSummary(runs[0], units, true);
+    const both = el('div', {class: 'runs'}, runs.map((run) => runSummary(run, units, false)));
+    return [el('h1', null, 'Two runs compared'), el('p', {class: 'verdict neutral'}, words.comparison(runs, units)), both];
+  }
+
+  counterflex.summary = {render, tolerance};
+})();

@@ -1,0 +1,117 @@
+'use strict';
+(() => {
+  const {el, table, jump} = counterflex.dom;
+  const {known, percent} = counterflex.units;
+  const words = counterflex.words;
+
+  const unknown = '\u2013';
+  const value = (s, key, axis) => (!s ? null : axis === undefined ? s[key] : s[key][axis]);
+
+  /** [what, key of the statistics, axis]; angles have no unit to choose. */
+  const statistics = [
+    ['Largest', 'max_mm'], ['95 % of the length is below', 'p95_mm'], ['Root mean square', 'rms_mm'], ['Mean', 'mean_mm'],
+    ['Largest in x', 'max_axis_mm', 0], ['Largest in y', 'max_axis_mm', 1], ['Largest in z', 'max_axis_mm', 2],
+    ['Largest across the path', 'max_across_mm'], ['Largest along the tool axis', 'max_tool_axis_mm'],
+    ['Largest along the path (harmless)', 'max_along_mm'], ['Largest rotation, in degrees', 'max_rotation_deg'],
+  ];
+
+  const show = (key, x, units) => (!known(x) ? unknown : key.endsWith('_deg') ? x.toFixed(4) : units.number(x));
+  const signed = (key, x, units) => (known(x) && x > 0 ? `+${show(key, x, units)}` : show(key, x, units));
+
+  /** The cells of one number: of each run, and of two runs what B has more than A. */
+  function across(values, key, units) {
+    const cells = values.map((x) => show(key, x, units));
+    if (values.length === 2) cells.push(values.every(known) ? signed(key, values[1] - values[0], units) : unknown);
+    return cells;
+  }
+
+  function acrossTitles(runs, what) {
+    if (runs.length === 1) return [{title: what, number: true}];
+    return [...runs.map((run) => ({title: `${what} ${run.letter}`, number: true})), {title: 'B \u2212 A', number: true, class: 'difference'}];
+  }
+
+  /** Statistics of the deviation before and after. */
+  function numbers({runs, units}) {
+    const before = runs.map((run) => run.report.summary.before), after = runs.map((run) => run.report.summary.after);
+    if (!before.some(Boolean)) return null;
+    const corrected = after.some(Boolean);
+    const columns = [{title: `In ${units.words}`}, ...acrossTitles(runs, 'Before'), ...(corrected ? acrossTitles(runs, 'After') : [])];
+    const rows = statistics.map(([what, key, axis]) => {
+      const cells = (list) => across(list.map((s) => value(s, key, axis)), key, units);
+      return [what, ...cells(before), ...(corrected ? cells(after) : [])];
+    });
+    const line = (list) => [...list.map((s) => (s ? String(s.max_line) : unknown)), ...(runs.length === 2 ? [''] : [])];
+    rows.splice(1, 0, ['  in program line', ...line(before), ...(corrected ? line(after) : [])]);
+    const lengths = runs.map((run) => units.length(run.report.summary.path_mm)).join(' and ');
+    return [table('Deviation of the tool tip', columns, rows),
+      el('p', {class: 'note'}, `Over ${lengths} of feed moves, weighted by length. `,
+          corrected ? 'After: model residual, what the model leaves; it is not the accuracy of the part.' : '')];
+  }
+
+  const nameOf = (operation) => operation.operation || (operation.tool > 0 ? '(no name)' : '(the whole program)');
+
+  /** The runs' operations aligned by tool and name: [{operation, of: [operation or undefined, ...]}]. */
+  function aligned(runs) {
+    const rows = [];
+    runs.forEach((run, r) => {
+      for (const operation of run.report.operations || []) {
+        const free = (row) => !row.of[r] && row.operation.tool === operation.tool && row.operation.operation === operation.operation;
+        let row = rows.find(free);
+        if (!row) rows.push(row = {operation, of: []});
+        row.of[r] = operation;
+      }
+    });
+    return rows;
+  }
+
+  function operationRow({operation, of}, context, corrected) {
+    const {runs, units} = context;
+    const run = of.findIndex(Boolean);
+    const name = jump(nameOf(operation), 'curves', () => context.goToOperation(run, runs[run].report.operations.indexOf(of[run])),
+        `${nameOf(operation)}: show it in the curves`);
+    const largest = (key) => across(runs.map((_, r) => value(of[r] && of[r][key], 'max_mm')), 'max_mm', units);
+    const share = corrected ? runs.map((_, r) => (of[r] ? percent(of[r].corrected_percent) : unknown)).join(' / ') : null;
+    return [name, words.toolName(operation.tool), `${operation.first_line}\u2013${operation.last_line}`, String(operation.moves),
+      units.lengthNumber(operation.length_mm), share, ...largest('before'), ...(corrected ? largest('after') : [])].filter((c) => c !== null);
+  }
+
+  /** Each tool and operation with its largest deviations; following one zooms the curves to it. */
+  function operations(context) {
+    const {runs, units} = context;
+    const rows = aligned(runs);
+    if (rows.length === 0) return null;
+    const corrected = runs.some((run) => run.report.summary.after);
+    const columns = [{title: 'Operation', class: 'text'}, {title: 'Tool'}, {title: 'Lines', class: 'lines'}, {title: 'Moves', number: true},
+      {title: `Length, ${units.lengthLabel}`, number: true}, corrected && {title: 'Corrected', number: true},
+      ...acrossTitles(runs, 'Before'), ...(corrected ? acrossTitles(runs, 'After') : [])].filter(Boolean);
+    const count = Math.max(...runs.map((run) => run.report.operation_count || 0));
+    return [table(`Largest deviation, in ${units.words}`, columns, rows.map((row) => operationRow(row, context, corrected))),
+      count > rows.length ? el('p', {class: 'note'}, `and ${count - rows.length} more`) : null];
+  }
+
+  const otherForces = [['force_plus_30', 'Force 30 % higher (wear, override)'], ['force_minus_30', 'Force 30 % lower'],
+    ['without_force', 'Force missing (dry run, spring pass, broken insert)']];
+
+  function sensitivityRow(what, s, units) {
+    if (!s) return [what, 'no stable equilibrium', unknown, unknown, unknown];
+    return [what, units.number(s.max_mm), String(s.max_line), units.number(s.p95_mm), units.number(s.max_across_mm)];
+  }
+
+  function sensitivityOf(run, units) {
+    const {sensitivity, after, before} = run.report.summary;
+    if (!sensitivity) return null;
+    const columns = [{title: `In ${units.words}`}, {title: 'Largest', number: true}, {title: 'Line', number: true},
+      {title: '95 % below', number: true}, {title: 'Across the path', number: true}];
+    const rows = [sensitivityRow('Force as given', after || before, units),
+      ...otherForces.map(([key, what]) => sensitivityRow(what, sensitivity[key], units))];
+    return table(`${run.letter ? `${run.letter}: ` : ''}Deviation of the ${after ? 'corrected' : 'original'} program`, columns, rows);
+  }
+
+  /** What the program does under more, less or no force. */
+  function sensitivity({runs, units}) {
+    const tables = runs.map((run) => sensitivityOf(run, units)).filter(Boolean);
+    return tables.length > 0 ? el('div', {class: 'runs'}, tables) : null;
+  }
+
+  counterflex.tables = {numbers, operations, sensitivity, aligned};
+})();

@@ -1,0 +1,34 @@
+'use strict';
+(() => {
+  const {el, fill, radios} = counterflex.dom;
+
+  function unitChoice(units) {
+    return radios('Unit', 'unit', units.names.map((name) => [name, units.nameOf(name)]), units.shown, (unit) => units.set(unit));
+  }
+
+  /** A button that goes through auto, light and dark and says which it is. */
+  function themeButton() {
+    const {theme} = counterflex;
+    const button = el('button', {type: 'button', id: 'theme', click: () => {
+      const next = (theme.names.indexOf(theme.chosen) + 1) % theme.names.length;
+      theme.set(theme.names[next]);
+      say();
+    }});
+    const say = () => fill(button, `Colours: ${theme.chosen}`);
+    say();
+    return button;
+  }
+
+  /** Links to the sections that are there. */
+  function contents(node) {
+    const sections = [...document.querySelectorAll('main section')].filter((section) => !section.hidden);
+    fill(node, el('ul', null, sections.map((section) => el('li', null,
+        el('a', {href: `#${section.id}`}, section.dataset.short)))));
+  }
+
+  function render(node, units) {
+    fill(node, unitChoice(units), themeButton(), el('button', {type: 'button', id: 'print', click: () => window.print()}, 'Print'));
+  }
+
+  counterflex.toolbar = {render, contents};
+})();

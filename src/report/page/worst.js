@@ -1,0 +1,73 @@
+'use strict';
+(() => {
+  const {el, table, jump} = counterflex.dom;
+  const {fixed} = counterflex.units;
+  const words = counterflex.words;
+
+  /** Stretch of a row of the worst blocks: where its path length lies, but never one of another block beside it. */
+  function stretchOf(curves, row) {
+    let i = counterflex.data.stretchAt(curves, row.s_mm);
+    const holds = (k) => k >= 0 && k < curves.s_mm.length && curves.first_line[k] <= row.line && row.line <= curves.last_line[k];
+    if (!holds(i) && holds(i + 1)) ++i;
+    return i;
+  }
+
+  function columnsOf(report) {
+    const after = Boolean(report.summary.after);
+    return [
+      {title: 'Line'}, {title: 'Before', number: true}, after && {title: 'After', number: true},
+      {title: 'Force', number: true}, {title: 'Tool'}, {title: 'Operation', class: 'text'}, {title: 'Mostly', class: 'text'},
+    ].filter(Boolean);
+  }
+
+  /** Comments may be long; the card of the place has the whole. */
+  const clamped = (text) => (text ? el('span', {class: 'clamp', title: text}, text) : '\u2013');
+
+  function cells(row, report, units, go) {
+    const line = jump(`${row.line}`, 'place', go, `Line ${row.line}: show it in all views`);
+    const cause = words.cause(row.causes).replace(/^mostly /, '');
+    return [
+      line, units.number(row.before_mm), report.summary.after && units.number(row.after_mm),
+      `${fixed(row.force_N, 0)} N`, words.toolName(row.tool), clamped(row.operation), cause || '\u2013',
+    ].filter((cell) => cell !== null && cell !== undefined);
+  }
+
+  /** The rows are targets for the mouse as a whole; for the keyboard, their links. */
+  function clickable(node, run, rows, go) {
+    node.querySelectorAll('tbody tr').forEach((tr, i) => {
+      tr.dataset.line = rows[i].line;
+      tr.dataset.run = run;
+      tr.addEventListener('click', (event) => {
+        if (!event.target.closest('a')) go(rows[i]);
+      });
+    });
+    return node;
+  }
+
+  function tableOf(run, index, context) {
+    const {report} = run;
+    const {units} = context;
+    if (report.worst.length === 0) return el('p', null, 'No feed move was solved.');
+    const go = (row) => context.goToRow(index, row);
+    const rows = report.worst.map((row) => cells(row, report, units, () => go(row)));
+    const caption = `${run.letter ? `${run.letter}: ` : ''}Largest deviation of each block, in ${units.words}` +
+        (report.summary.after ? ', the largest after correction first' : '');
+    return clickable(table(caption, columnsOf(report), rows), index, report.worst, go);
+  }
+
+  /** Tables of the blocks with the largest deviations; following a row takes all views there. */
+  function render(context) {
+    return el('div', {class: 'stack'}, context.runs.map((run, i) => tableOf(run, i, context)));
+  }
+
+  /** Marks the row of a run's line as the selected one. */
+  function mark(body, run, line) {
+    for (const tr of body.querySelectorAll('tbody tr')) {
+      const chosen = tr.dataset.line === String(line) && tr.dataset.run === String(run);
+      tr.classList.toggle('chosen', chosen);
+      tr.querySelector('a').setAttribute('aria-current', String(chosen));
+    }
+  }
+
+  counterflex.worst = {render, stretchOf, mark};
+})();

@@ -1,0 +1,12 @@
+// All tests in a browser, one after another.
+import {after} from 'node:test';
+import {close} from './browser.mjs';
+import './drawing_checks.mjs';
+import './number_checks.mjs';
+import './moving_checks.mjs';
+import './load_checks.mjs';
+import './look_checks.mjs';
+import './scene_checks.mjs';
+import './large_checks.mjs';
+
+after(close);

@@ -1,0 +1,93 @@
+import assert from 'node:assert/strict';
+import test from 'node:test';
+import {colours, data_in, pixels, report_of, texts, visit, write_page} from './browser.mjs';
+
+const scene = (page) => page.$eval('#path-view .scene-view', (node) => ({...node.dataset}));
+
+test('a page draws its curves and its path without a complaint or a request', () => visit('groove', async (page) => {
+  assert.ok(await pixels(page, '.plot.before canvas', '--before') > 300);
+  assert.ok(await pixels(page, '.plot.after canvas', '--after') > 300);
+  assert.equal((await scene(page)).renderer, 'webgl');
+}));
+
+test('plots below are drawn, too, while the page is idle', () => visit('groove', async (page) => {
+  await page.waitForFunction(() => document.querySelectorAll('.plot.force canvas').length > 0);
+  assert.ok(await pixels(page, '.plot.sources canvas', '--geometry') > 300);
+  assert.ok(await pixels(page, '.plot.force canvas', '--x') > 100);
+}));
+
+test('without WebGL everything is drawn flat', () => visit('groove', async (page) => {
+  assert.ok(await pixels(page, '.plot.before canvas', '--before') > 300);
+  assert.notEqual((await scene(page)).renderer, 'webgl');
+  assert.ok(await colours(page, '#path-view canvas') > 20);
+}, {webgl: false}));
+
+for (const name of ['groove', 'pocket', 'predicted', 'face', 'hostile', 'failed', 'constant', 'large'])
+  test(`the page of the run "${name}" holds the report that is beside it, and says its verdict`, () => visit(name, async (page) => {
+    assert.deepEqual(data_in(name).runs[0].report, report_of(name));
+    const [verdict] = await texts(page, '.verdict');
+    assert.ok(verdict.length > 20 && !/undefined|NaN|null/.test(verdict), verdict);
+    const text = await page.innerText('main');
+    assert.doesNotMatch(text, /undefined|NaN|\[object|null/);
+  }));
+
+test('a failed run says so, where, and that no program was written', () => visit('failed', async (page) => {
+  const [verdict] = await texts(page, '.verdict.bad');
+  const {failure} = report_of('failed');
+  assert.ok(verdict.includes(`Line ${failure.line}`) && verdict.includes(failure.what), verdict);
+  assert.match(verdict, /No corrected program was written/);
+}));
+
+test('a prediction shows nothing of a corrected program', () => visit('predicted', async (page) => {
+  assert.equal(await page.locator('.plot.after').count(), 0);
+  assert.equal(await page.locator('[data-card=after]').count(), 0);
+  for (const part of ['#verdict', '#worst', '#curves', '#numbers']) assert.doesNotMatch(await page.innerText(part), /residual|[Aa]fter/);
+}));
+
+test('what a file says is text and nothing more', () => visit('hostile', async (page) => {
+  assert.equal(await page.locator('main img').count(), 0);
+  assert.equal(await page.locator('main td b, main a b, main th b').count(), 0);
+  assert.match(await page.innerText('#operations'), /<\/script><img src=x/i);
+  assert.match(await page.innerText('#operations'), /FINISH <b>/);
+}));
+
+test('a page without attribution is drawn without what it lacks', async () => {
+  const data = data_in('groove');
+  for (const name of Object.keys(data.runs[0].curves.quantities))
+    if (/^(geometry|load|gravity|superposition|discrepancy)_/.test(name)) delete data.runs[0].curves.quantities[name];
+  Object.assign(data.runs[0].report.summary, {sources: null, sensitivity: null});
+  for (const row of data.runs[0].report.worst) row.causes = null;
+  write_page('groove', data, 'without_attribution');
+  await visit('without_attribution', async (page) => {
+    assert.equal(await page.locator('#sources').isVisible(), false);
+    assert.equal(await page.locator('#sensitivity').isVisible(), false);
+    assert.ok(await pixels(page, '.plot.before canvas', '--before') > 300);
+  });
+});
+
+/** Curves of their first stretch alone. */
+function first_stretch(curves) {
+  const cut = (base64, bytes) => Buffer.from(base64, 'base64').subarray(0, bytes).toString('base64');
+  const sizes = {s_mm: 8, first_line: 4, last_line: 4, operation: 4, after_rapid: 1, place_mm: 12, place_before_mm: 12, place_after_mm: 12};
+  const quantities = Object.entries(curves.quantities).map(([name, q]) => [name, {largest: cut(q.largest, 4)}]);
+  const arrays = Object.entries(sizes).map(([name, bytes]) => [name, cut(curves[name], bytes)]);
+  return {...curves, ...Object.fromEntries(arrays), quantities: Object.fromEntries(quantities), stretches: 1, waypoints: 1};
+}
+
+test('a path of a single place is drawn, and one of none is left out', async () => {
+  const data = data_in('groove');
+  data.runs[0].curves = first_stretch(data.runs[0].curves);
+  write_page('groove', data, 'single');
+  await visit('single', async (page) => assert.ok(await pixels(page, '.plot.before canvas', '--before') > 4));
+  data.runs[0].curves = null;
+  write_page('groove', data, 'without_curves');
+  await visit('without_curves', async (page) => {
+    for (const part of ['#path', '#curves', '#sources', '#force']) assert.equal(await page.locator(part).isVisible(), false, part);
+    assert.ok(await page.locator('[data-card=before]').isVisible());
+  });
+});
+
+test('data that cannot be read are said to be so', async () => {
+  write_page('groove', {schema: 'counterflex-page 99', runs: []}, 'unreadable');
+  await assert.rejects(visit('unreadable', () => {}), /counterflex-page 99/);
+});

@@ -1,0 +1,19 @@
+// The page's scripts without a browser: pure functions are tested in node alone.
+import fs from 'node:fs';
+import path from 'node:path';
+import {fileURLToPath} from 'node:url';
+import vm from 'node:vm';
+
+const folder = path.join(path.dirname(fileURLToPath(import.meta.url)), '../../src/report/page');
+
+/** The object `counterflex` after these scripts of the page have run, in this order. */
+export function load_scripts(...names) {
+  const texts = names.map((name) => fs.readFileSync(path.join(folder, name), 'utf8'));
+  const context = vm.createContext({});
+  vm.runInContext('var counterflex = {};', context);
+  for (const [i, text] of texts.entries()) vm.runInContext(text, context, {filename: names[i]});
+  return context.counterflex;
+}
+
+/** Values that a script made, as those of the test's own world, so that deepEqual compares contents alone. */
+export const plain = (value) => JSON.parse(JSON.stringify(value));

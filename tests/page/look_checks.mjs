@@ -1,0 +1,53 @@
+import assert from 'node:assert/strict';
+import test from 'node:test';
+import {pixels, visit} from './browser.mjs';
+
+const brightness = (page) => page.evaluate(() => {
+  const [r, g, b] = getComputedStyle(document.body).backgroundColor.match(/\d+/g).map(Number);
+  return (0.2126 * r + 0.7152 * g + 0.0722 * b) / 255;
+});
+
+test('a page is dark where the system is, and the button overrules it', () => visit('groove', async (page) => {
+  assert.ok(await brightness(page) < 0.2);
+  assert.ok(await pixels(page, '.plot.before canvas', '--before') > 300);
+  await page.click('#theme');
+  assert.ok(await brightness(page) > 0.8);
+  assert.ok(await pixels(page, '.plot.before canvas', '--before') > 300);
+  await page.click('#theme');
+  assert.ok(await brightness(page) < 0.2);
+}, {scheme: 'dark'}));
+
+test('a page is light where the system is', () => visit('groove', async (page) => assert.ok(await brightness(page) > 0.8)));
+
+for (const name of ['groove', 'hostile', 'two'])
+  test(`the page "${name}" fits a narrow window`, () => visit(name, async (page) => {
+    assert.ok(await page.evaluate(() => document.documentElement.scrollWidth) <= 400);
+  }, {width: 400}));
+
+const pages_of = (pdf) => (pdf.toString('latin1').match(/\/Type\s*\/Page\b/g) || []).length;
+
+/** Pictures in a document: blank ones have few bytes. */
+function images_of(pdf) {
+  const found = pdf.toString('latin1').matchAll(/\/Subtype\s*\/Image\b[^>]*?\/Width (\d+)[^]*?\/Length (\d+)/g);
+  return [...found].map(([, width, bytes]) => ({width: Number(width), bytes: Number(bytes)}));
+}
+
+test('on paper a page is light, whole and without a button', () => visit('groove', async (page) => {
+  await page.emulateMedia({media: 'print'});
+  await page.waitForFunction(() => document.documentElement.hasAttribute('data-printing'));
+  assert.ok(await brightness(page) > 0.99);
+  assert.deepEqual(await page.$$eval('button, input, select', (nodes) => nodes.filter((n) => n.checkVisibility()).map((n) => n.textContent)), []);
+  for (const [plot, colour] of [['before', '--before'], ['after', '--after'], ['sources', '--geometry'], ['force', '--x']])
+    assert.ok(await pixels(page, `.plot.${plot} .paper-copy`, colour) > 300, plot);
+  const widths = await page.$$eval('.plot', (plots) => plots.map((plot) => plot.offsetWidth));
+  assert.ok(widths.every((width) => width <= 700), widths.join());
+  const pdf = await page.pdf({format: 'A4'});
+  assert.ok(pages_of(pdf) > 1);
+  const pictures = images_of(pdf).filter(({width}) => width >= 1900);
+  assert.ok(pictures.length > widths.length, `${pictures.length} pictures of ${widths.length} plots and the path`);
+  for (const {bytes} of pictures) assert.ok(bytes > 4000, `${bytes} bytes`);
+  await page.emulateMedia({media: 'screen'});
+  await page.waitForFunction(() => !document.documentElement.hasAttribute('data-printing'));
+  assert.ok(await brightness(page) < 0.2);
+  assert.ok(await page.$eval('.plot.before', (plot) => plot.offsetWidth) > 700);
+}, {scheme: 'dark'}));

@@ -1,0 +1,147 @@
+import assert from 'node:assert/strict';
+import test from 'node:test';
+import {data_in, report_of, texts, visit, write_page} from './browser.mjs';
+
+const axis = async (page, plot) => (await texts(page, `.plot.${plot} .dygraph-axis-label-x`)).map(Number);
+const camera = (page) => page.$eval('#path-view .scene-view', ({dataset}) => `${dataset.centre} ${dataset.span} ${dataset.stretch}`);
+const spread = (ticks) => Math.max(...ticks) - Math.min(...ticks);
+
+async function drawn_again(page, before) {
+  await page.waitForFunction((old) => {
+    const {dataset} = document.querySelector('#path-view .scene-view');
+    return `${dataset.centre} ${dataset.span} ${dataset.stretch}` !== old;
+  }, before);
+}
+
+/** Follows a row of the worst blocks by `act`, and sees both views and the cause go there. */
+async function follows(page, row, act) {
+  const {worst} = report_of('pocket');
+  const axis_before = await axis(page, 'before'), camera_before = await camera(page);
+  await act(`#worst tbody tr:nth-child(${row + 1}) a`);
+  await drawn_again(page, camera_before);
+  const axis_after = await axis(page, 'before');
+  assert.ok(spread(axis_after) < spread(axis_before), `${axis_before} and ${axis_after}`);
+  assert.deepEqual(await axis(page, 'after'), axis_after);
+  const s = worst[row].s_mm;
+  assert.ok(Math.min(...axis_after) - spread(axis_after) < s && s < Math.max(...axis_after) + spread(axis_after));
+  assert.match(await page.innerText('#place h3'), new RegExp(`ine ${worst[row].line}\\b`));
+  assert.ok((await page.innerText('#place pre')).includes(worst[row].text.trim()));
+  assert.match(await page.innerText('#place .cause'), /assembly|force/);
+}
+
+test('a click on a worst block takes both views there and says why it is off', () => visit('pocket', (page) =>
+  follows(page, 2, (link) => page.click(link))));
+
+test('so does Enter', () => visit('pocket', (page) => follows(page, 3, async (link) => {
+  await page.focus(link);
+  await page.keyboard.press('Enter');
+})));
+
+test('a click beside the link of a row does as well', () => visit('pocket', (page) =>
+  follows(page, 1, (link) => page.click(`${link.replace(/ a$/, '')} td:nth-child(4)`))));
+
+test('the worst block is chosen already when a page opens', () => visit('pocket', async (page) => {
+  assert.match(await page.innerText('#place h3'), new RegExp(`Line ${report_of('pocket').worst[0].line}$`));
+  assert.equal(await page.locator('#worst tr.chosen').count(), 1);
+}));
+
+test('every control is reached with the keyboard, the way past the bar first', () => visit('pocket', async (page) => {
+  await page.keyboard.press('Tab');
+  assert.equal(await page.evaluate(() => document.activeElement.className), 'skip');
+  const reached = new Set();
+  for (let i = 0; i < 120; ++i) {
+    await page.keyboard.press('Tab');
+    reached.add(await page.evaluate(() => {
+      const {activeElement: node} = document;
+      return node.id || node.name || node.className || node.textContent;
+    }));
+  }
+  for (const what of ['unit', 'theme', 'component', 'plot before', 'scene-stage']) assert.ok(reached.has(what), `${what} of ${[...reached].join('|')}`);
+}));
+
+test('keys on a plot zoom all plots, and Home shows all', () => visit('pocket', async (page) => {
+  const whole = await axis(page, 'after');
+  await page.focus('.plot.before');
+  await page.keyboard.press('+');
+  await page.keyboard.press('+');
+  const zoomed = await axis(page, 'after');
+  assert.ok(spread(zoomed) < 0.5 * spread(whole));
+  await page.keyboard.press('ArrowRight');
+  assert.ok(Math.max(...await axis(page, 'after')) > Math.max(...zoomed));
+  await page.keyboard.press('Home');
+  assert.deepEqual(await axis(page, 'after'), whole);
+}));
+
+test('dragging zooms both plots, and a double click shows all again', () => visit('pocket', async (page) => {
+  await page.locator('.plot.before').scrollIntoViewIfNeeded();
+  const whole = await axis(page, 'after');
+  const box = await page.locator('.plot.before').boundingBox();
+  await page.mouse.move(box.x + 0.4 * box.width, box.y + 100);
+  await page.mouse.down();
+  await page.mouse.move(box.x + 0.6 * box.width, box.y + 100, {steps: 4});
+  await page.mouse.up();
+  assert.ok(spread(await axis(page, 'after')) < 0.5 * spread(whole));
+  await page.mouse.dblclick(box.x + 0.5 * box.width, box.y + 100);
+  assert.deepEqual(await axis(page, 'after'), whole);
+}));
+
+test('under the mouse stand line and values, in both plots', () => visit('pocket', async (page) => {
+  await page.locator('.plot.before').scrollIntoViewIfNeeded();
+  const box = await page.locator('.plot.before').boundingBox();
+  await page.mouse.move(box.x + 0.5 * box.width, box.y + 100);
+  const [before, after] = await texts(page, '#curves .readout');
+  assert.match(before, /line \d+: before [\d.]+ \u00b5m/);
+  assert.match(after, /line \d+: after [\d.]+ \u00b5m/);
+}));
+
+test('under the mouse stands what is there, also where the curves are zoomed and between the points', () => visit('pocket', async (page) => {
+  await page.locator('.plot.before').scrollIntoViewIfNeeded();
+  const box = await page.locator('.plot.before').boundingBox();
+  for (const zooms of [0, 3]) {
+    await page.focus('.plot.before');
+    for (let i = 0; i < zooms; ++i) await page.keyboard.press('+');
+    for (const share of [0.1, 0.5, 0.99]) {
+      await page.mouse.move(box.x + share * box.width, box.y + 100);
+      const [text] = await texts(page, '#curves .readout');
+      const s = parseFloat(text), ticks = await axis(page, 'before');
+      assert.ok(s > Math.min(...ticks) - spread(ticks) / 3 && s < Math.max(...ticks) + spread(ticks) / 3, `${text} of ${ticks}`);
+      assert.match(text, /line \d+: before/);
+    }
+  }
+}));
+
+test('an operation zooms the curves to it', () => visit('hostile', async (page) => {
+  const whole = await axis(page, 'before');
+  await page.click('#operations tbody tr:nth-child(2) a');
+  assert.ok(spread(await axis(page, 'before')) < spread(whole));
+}));
+
+test('components, the logarithm and units redraw the curves', () => visit('pocket', async (page) => {
+  const title = () => page.innerText('#curves h3 >> nth=0');
+  await page.check('input[name=component][value="tool_axis_"]');
+  assert.match(await title(), /along the tool axis, in \u00b5m/);
+  await page.check('#curves label:has-text("logarithmic") input');
+  await page.check('input[name=component][value="rotation_"]');
+  assert.match(await title(), /rotation, in degrees/);
+  await page.check('input[name=component][value="x_"]');
+  await page.check('input[name=unit][value=inch]');
+  assert.match(await title(), /x, in inches/);
+}));
+
+test('two runs stand side by side, their curves in the same plots', async () => {
+  const data = data_in('pocket');
+  data.runs.push(data_in('constant').runs[0]);
+  data.runs[0].name = 'forces of each block';
+  write_page('pocket', data, 'two');
+  await visit('two', async (page) => {
+    assert.deepEqual(await texts(page, '.run .letter'), ['A', 'B']);
+    assert.deepEqual(await texts(page, '#curves figure:first-of-type button.entry'), ['before A', 'before B']);
+    assert.equal(await page.locator('#worst table').count(), 2);
+    const [a, b] = ['pocket', 'constant'].map((name) => 1000 * report_of(name).summary.after.max_mm);
+    const row = await texts(page, '#numbers tbody tr:first-child td');
+    assert.ok(Math.abs(Number(row[5]) - (b - a)) < 0.1, `${row} ${a} ${b}`);
+    assert.match(await page.innerText('#facts'), /forces, SHA-256 differs/);
+    await page.click('#worst .stack > :nth-child(2) tbody tr:nth-child(2) a');
+    assert.match(await page.innerText('#place h3'), /^B: /);
+  });
+});

@@ -1,0 +1,121 @@
+import assert from 'node:assert/strict';
+import test from 'node:test';
+import {load_scripts, plain} from './load_scripts.mjs';
+
+const {pathModel, pick} = load_scripts('path_model.js', 'pick.js');
+
+/** Curves of a path along x, one stretch a mm; deviations in z. */
+function curves_of(before, after_rapid = before.map((_, i) => (i === 0 ? 1 : 0))) {
+  const spread = (values) => Float32Array.from(values.flatMap((v) => (Number.isNaN(v) ? [v, v, v] : [0, 0, v])));
+  return {s_mm: Float64Array.from(before, (_, i) => i),
+    place_mm: Float32Array.from(before.flatMap((_, i) => [i, 0, 0])),
+    after_rapid: Uint8Array.from(after_rapid), place_before_mm: spread(before),
+    place_after_mm: spread(before.map(() => NaN)), quantities: {before_mm: {largest: Float32Array.from(before)}}};
+}
+
+const close = (actual, expected) => {
+  assert.equal(actual.length, expected.length);
+  expected.forEach((v, i) => assert.ok(Math.abs(actual[i] - v) < 1e-6, `${actual} is not ${expected}`));
+};
+
+test('a default exaggeration makes the largest deviation about a twentieth of the path', () => {
+  for (const size of [0.3, 17, 220, 4100])
+    for (const deviation of [1e-4, 0.0041, 0.07, 0.6]) {
+      const factor = pathModel.exaggeration(size, deviation);
+      const share = (factor * deviation) / size;
+      assert.ok(factor === 1 || (share > 0.05 / 1.6 && share < 0.05 * 1.6), `${size} ${deviation}: ${factor}`);
+      assert.match(factor.toExponential(), /^[125]e/);
+    }
+});
+
+test('an exaggeration that is right for a small deviation gives way to the usual one for a large deviation', () => {
+  assert.equal(pathModel.bearable(5000, 40, 0.0003), 5000);
+  assert.equal(pathModel.bearable(5000, 40, 0.08), pathModel.exaggeration(40, 0.08));
+  assert.equal(pathModel.bearable(20, 40, 0.08), 20);
+});
+
+test('without a deviation nothing is exaggerated', () => assert.equal(pathModel.exaggeration(100, 0), 1));
+
+test('the steps of the slider hold the default and reach the smallest of the deviations', () => {
+  const steps = pathModel.exaggerations(200, [1.7, 0.004]);
+  assert.ok(steps.includes(pathModel.exaggeration(200, 1.7)));
+  assert.ok(steps[steps.length - 1] >= (0.5 * 200) / 0.004);
+  assert.equal(steps[0], 1);
+  for (const step of steps) assert.match(step.toExponential(), /^[125]e/);
+});
+
+test('the box of a flat path, a line and a point has a size above zero; none is the box of nothing', () => {
+  for (const place_mm of [[0, 0, 5, 9, 9, 5], [0, 0, 0, 0, 0, 4], [1, 2, 3]])
+    assert.ok(pathModel.sizeOf(pathModel.bounds([{place_mm: Float32Array.from(place_mm)}])) > 0);
+  assert.equal(pathModel.bounds([{place_mm: new Float32Array(0)}]), null);
+});
+
+test('gaps between known deviations are linear in path length', () => {
+  const path = pathModel.build(curves_of([0.1, NaN, NaN, 0.4]), 'before', [0, 0, 0], 0.4);
+  close(path.fraction, [0.25, 0.5, 0.75, 1]);
+  close(path.deviation, [0, 0, 0.1, 0, 0, 0.2, 0, 0, 0.3, 0, 0, 0.4]);
+});
+
+test('at the ends of a run of feed moves the nearest known deviation holds', () => {
+  close(pathModel.build(curves_of([NaN, 0.2, NaN]), 'before', [0, 0, 0], 0.2).fraction, [1, 1, 1]);
+});
+
+test('deviations are not carried across a rapid: what a run does not know stays unknown', () => {
+  const path = pathModel.build(curves_of([0.2, 0.2, NaN, NaN], [1, 0, 1, 0]), 'before', [0, 0, 0], 0.2);
+  close(path.fraction, [1, 1, -1, -1]);
+  close(path.deviation, [0, 0, 0.2, 0, 0, 0.2, 0, 0, 0, 0, 0, 0]);
+});
+
+test('two stretches at one path length, the first of them unknown, give no division by zero', () => {
+  const curves = curves_of([0.1, NaN, 0.3]);
+  curves.s_mm.fill(5);
+  assert.ok(pathModel.build(curves, 'before', [0, 0, 0], 0.3).fraction.every((v) => v >= 0 && v <= 1));
+});
+
+test('a kind without any value is not known, and drawn as wanted', () => {
+  const curves = curves_of([0.1, 0.2]);
+  assert.deepEqual(plain(pathModel.kinds.map((kind) => pathModel.has(curves, kind))), [true, true, false]);
+  const path = pathModel.build(curves, 'after', [0, 0, 0], 0);
+  close(path.fraction, [-1, -1]);
+  close(path.deviation, [0, 0, 0, 0, 0, 0]);
+});
+
+test('the wanted path has no deviation, whatever is known of the others', () => {
+  const path = pathModel.build(curves_of([0.1, 0.2]), 'wanted', [0, 0, 0], 0);
+  close(path.fraction, [-1, -1]);
+  close(path.deviation, [0, 0, 0, 0, 0, 0]);
+});
+
+test('a path is drawn around the origin that is given, exaggerated', () => {
+  const path = pathModel.build(curves_of([0.1, 0.2]), 'before', [1, 2, 3], 0.2);
+  close(pathModel.drawnAt(path, 1, 10), [0, -2, -1]);
+  const box = pathModel.boxOf(path, 10);
+  close([...box.low, ...box.high], [-1, -2, -3, 0, -2, -1]);
+});
+
+// Seen from above, one pixel a mm, y down.
+const from_above = (x, y, z) => [x, -y, z];
+const picked = (places, after_rapid, x, y, reach = 10) => {
+  const path = {count: places.length, place: Float32Array.from(places.flat()),
+    deviation: new Float32Array(3 * places.length), rapid: Uint8Array.from(after_rapid)};
+  return pick.nearest(pick.projected(path, 1, from_above), path.rapid, x, y, reach);
+};
+
+test('a click near the path takes the nearer end of the nearest line', () => {
+  const corner = [[0, 0, 0], [100, 0, 0], [100, 100, 0]];
+  assert.equal(picked(corner, [1, 0, 0], 20, 4), 0);
+  assert.equal(picked(corner, [1, 0, 0], 80, -4), 1);
+  assert.equal(picked(corner, [1, 0, 0], 103, -90), 2);
+});
+
+test('a click beyond reach takes nothing, nor does one on a rapid', () => {
+  assert.equal(picked([[0, 0, 0], [100, 0, 0]], [1, 0], 50, 11), -1);
+  assert.equal(picked([[0, 0, 0], [100, 0, 0]], [1, 1], 50, 0), -1);
+});
+
+test('of lines that cover each other a click takes the one nearest to the eye', () => {
+  const passes = [[0, 0, 0], [100, 0, 0], [0, 0, 50], [100, 0, 50], [0, 0, 20], [100, 0, 20]];
+  assert.equal(picked(passes, [1, 0, 1, 0, 1, 0], 90, 0), 3);
+});
+
+test('a path of one place can be clicked', () => assert.equal(picked([[5, 5, 0]], [1], 6, -5), 0));

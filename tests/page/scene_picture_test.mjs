@@ -1,0 +1,57 @@
+import assert from 'node:assert/strict';
+import test from 'node:test';
+import {load_scripts, plain} from './load_scripts.mjs';
+
+const {scenePicture} = load_scripts('colours.js', 'camera.js', 'path_model.js', 'overlay.js', 'scene_picture.js');
+const units = {format: (mm) => `${(1000 * mm).toFixed(1)} um`};
+
+/** A run whose deviations before are these, along x in steps of a mm, in z. */
+function run_of(before, lines = before.map((_, i) => [i + 1, i + 1])) {
+  const places = Float32Array.from(before.flatMap((_, i) => [i, 0, 0]));
+  const curves = {s_mm: Float64Array.from(before, (_, i) => i), place_mm: places,
+    place_before_mm: Float32Array.from(before.flatMap((v) => [0, 0, v])),
+    place_after_mm: places.map(() => NaN), after_rapid: Uint8Array.from(before, (_, i) => (i === 0 ? 1 : 0)),
+    first_line: Int32Array.from(lines, (l) => l[0]), last_line: Int32Array.from(lines, (l) => l[1]),
+    quantities: {before_mm: {largest: Float32Array.from(before)}}};
+  return {name: '', report: {options: {'tolerance-mm': 0.005}}, curves};
+}
+
+function shown(run, kind = 'before') {
+  return scenePicture.describe(scenePicture.survey([run]), [run], 0, kind, 10);
+}
+
+test('a place is called by its line and deviation', () => {
+  assert.equal(scenePicture.words(shown(run_of([0.1, 0.2])), 1, units), 'line 2: 200.0 um');
+});
+
+test('a stretch of several lines says so, and that its deviation is the largest', () => {
+  const several = run_of([0.1, 0.2], [[1, 4], [5, 9]]);
+  assert.equal(scenePicture.words(shown(several), 0, units), 'lines 1 to 4: up to 100.0 um');
+});
+
+test('a deviation between known ones is about so large, an unknown one is not told', () => {
+  assert.equal(scenePicture.words(shown(run_of([0.1, NaN, 0.2])), 1, units), 'line 2: about 150.0 um');
+  assert.equal(scenePicture.words(shown(run_of([0.1, 0.2]), 'after'), 0, units), 'line 1');
+  assert.equal(scenePicture.words(shown(run_of([0.1, 0.2]), 'wanted'), 0, units), 'line 1');
+});
+
+test('runs share origin, colours and exaggeration, so that they can be compared', () => {
+  const [one, other] = [run_of([0.1, 0.1]), run_of([0.4, 0.4, 0.4])];
+  const facts = scenePicture.survey([one, other]);
+  assert.ok(Math.abs(facts.most.before - 0.4) < 1e-6);
+  assert.deepEqual(plain(facts.origin), [1, 0, 0]);
+  const path = scenePicture.describe(facts, [one, other], 0, 'before', 1).path;
+  assert.ok(Math.abs(path.fraction[0] - 0.25) < 1e-6);
+});
+
+test('a run without curves, or with empty ones, cannot be shown', () => {
+  for (const run of [undefined, {curves: null}, {curves: {place_mm: new Float32Array(0)}}])
+    assert.equal(scenePicture.usable(run), false);
+});
+
+test('a run is called by letter and name, once where they are the same', () => {
+  assert.equal(scenePicture.nameOf({letter: 'A', name: 'before calibration'}), 'A: before calibration');
+  assert.equal(scenePicture.nameOf({letter: 'B', name: 'B'}), 'B');
+});
+
+test('the tolerance is the one of the run', () => assert.equal(shown(run_of([0.1])).tolerance_mm, 0.005));
