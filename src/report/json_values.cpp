@@ -60,8 +60,9 @@ Json parse_json(std::string_view text, std::string_view whole, std::size_t offse
 }
 
 std::string plain_text(const Json& value) {
-  return value.is_string() ? value.get<std::string>()
-                           : value.dump(-1, ' ', false, Json::error_handler_t::replace);
+  if (value.is_string()) return value.get<std::string>();
+  if (value.is_number()) return fmt::format("{}", value.get<double>());  // 4, not 4.0
+  return value.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 const Json* JsonSource::find(const std::string& pointer) const {
