@@ -22,7 +22,7 @@ test('without WebGL everything is drawn flat', () => visit('groove', async (page
   assert.ok(await colours(page, '#path-view canvas') > 20);
 }, {webgl: false}));
 
-for (const name of ['groove', 'pocket', 'predicted', 'face', 'hostile', 'failed', 'constant', 'large'])
+for (const name of ['groove', 'pocket', 'predicted', 'face', 'hostile', 'failed', 'bracket', 'large'])
   test(`the page of the run "${name}" holds the report that is beside it, and says its verdict`, () => visit(name, async (page) => {
     assert.deepEqual(data_in(name).runs[0].report, report_of(name));
     const [verdict] = await texts(page, '.verdict');
@@ -36,6 +36,16 @@ test('a failed run says so, where, and that no program was written', () => visit
   const {failure} = report_of('failed');
   assert.ok(verdict.includes(`Line ${failure.line}`) && verdict.includes(failure.what), verdict);
   assert.match(verdict, /No corrected program was written/);
+}));
+
+test('what stays above the tolerance is said at once, and why blocks are not corrected below', () => visit('bracket', async (page) => {
+  const {blocks, warnings} = report_of('bracket');
+  const [verdict] = await texts(page, '.verdict.warn');
+  assert.match(verdict, /more than the tolerance of 5.0 \u00b5m; [\d.]+ % of the cutting length is held to it/);
+  const rows = await texts(page, '#remarks tbody tr');
+  assert.ok(blocks.left_alone.length > 3 && warnings.length > 0);
+  for (const {line, why} of blocks.left_alone) assert.ok(rows.includes(`${line}${why}`), why);
+  for (const {line, what} of warnings) assert.ok(rows.includes(`${line}${what}`), what);
 }));
 
 test('a prediction shows nothing of a corrected program', () => visit('predicted', async (page) => {

@@ -10,9 +10,9 @@ const folder = path.join(path.dirname(fileURLToPath(import.meta.url)), '../../sr
 export function load_scripts(...names) {
   const texts = names.map((name) => fs.readFileSync(path.join(folder, name), 'utf8'));
   const context = vm.createContext({});
-  vm.runInContext('var counterflex = {};', context);
+  if (!names.includes('page_data.js')) vm.runInContext('var counterflex = {};', context);  // else it makes it
   for (const [i, text] of texts.entries()) vm.runInContext(text, context, {filename: names[i]});
-  return context.counterflex;
+  return vm.runInContext('counterflex', context);
 }
 
 /** Values that a script made, as those of the test's own world, so that deepEqual compares contents alone. */

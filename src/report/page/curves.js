@@ -4,8 +4,8 @@
   const {series: tables} = counterflex;
 
   /** What can be shown of a deviation: [part of the quantity's name, label]. */
-  const components = [['', 'total'], ['x_', 'x'], ['y_', 'y'], ['z_', 'z'], ['along_', 'along the path'], ['across_', 'across it'],
-    ['tool_axis_', 'along the tool axis'], ['rotation_', 'rotation']];
+  const components = [['', 'total'], ['x_', 'x'], ['y_', 'y'], ['z_', 'z'], ['along_', 'along the path'],
+    ['across_', 'across it'], ['tool_axis_', 'along the tool axis'], ['rotation_', 'rotation']];
   const axes = components.slice(0, 4);
 
   const quantityName = (base, part) => (part === 'rotation_' ? `${base}_rotation_deg` : `${base}_${part}mm`);
@@ -27,7 +27,8 @@
         const label = run.letter ? `${w.label} ${run.letter}` : w.label;
         const dash = run.letter ? dashes[r] : w.dash;
         const colour = run.letter && w.colours ? w.colours[r] : w.colour;
-        result.push({...w, label, dash, colour, run: r, points: points[r], values: tables.valuesAt(points[r], quantity, scale)});
+        const values = tables.valuesAt(points[r], quantity, scale);
+        result.push({label, dash, colour, width: w.width, run: r, points: points[r], values});
       }
     });
     return result;
@@ -67,21 +68,26 @@
     return level ? `; ${level.label}` : '';
   }
 
-  /** What the plot of the deviation `base` shows: `look` = {title, colour, colours: of two runs, levels: whether the tolerance is drawn}. */
+  /**
+   * What the plot of the deviation `base` shows. `look`: {title, colour, colours: of two runs, levels: whether the
+   * tolerance is drawn}.
+   */
   function deviation(context, group, points, state, base, look) {
     const {units} = context;
     return () => {
       const {part, log} = state;
       const wanted = [{name: quantityName(base, part), label: base, colour: look.colour, colours: look.colours}];
-      const title = `${look.title}: ${labelOf(part)}, in ${unitOf(part, units)}${look.levels ? toleranceText(context, part) : ''}`;
+      const tolerance = look.levels ? toleranceText(context, part) : '';
+      const title = `${look.title}: ${labelOf(part)}, in ${unitOf(part, units)}${tolerance}`;
       const levels = look.levels ? toleranceLevels(context, part, log) : [];
-      return describe(context, group, points, wanted, scaleOf(part, units), {title, log, text: textIn(part, units), levels});
+      const rest = {title, log, text: textIn(part, units), levels};
+      return describe(context, group, points, wanted, scaleOf(part, units), rest);
     };
   }
 
   const has = (context, name) => context.runs.some((run) => run.curves && run.curves.quantities[name]);
 
-  function logBox(state, group) {
+  function logBox(state) {
     return el('label', {class: 'choice'}, el('input', {type: 'checkbox', change: (event) => {
       state.log = event.target.checked;
       state.plots.forEach((plot) => plot.refresh());
@@ -101,20 +107,28 @@
   function mergedNote(context) {
     const merged = context.runs.map((run) => (run.curves ? run.curves.waypoints_per_stretch : 1));
     if (Math.max(...merged) === 1) return null;
-    return el('p', {class: 'note'}, `Each stretch of ${merged.join(' and ')} points is drawn with its least and its largest value; no peak is left out.`);
+    const stretches = `Each stretch of ${merged.join(' and ')} points`;
+    return el('p', {class: 'note'}, `${stretches} is drawn with its least and its largest value; no peak is left out.`);
   }
+
+  const looks = {
+    before: {title: 'Before', colour: '--before', colours: ['--before', '--other-run']},
+    after: {title: 'After (model residual)', colour: '--after', colours: ['--after', '--other-run'], levels: true},
+  };
 
   /** Before and after, each on its own scale. */
   function deviations(context, group, points) {
     const state = {part: '', log: false, plots: []};
-    const plot = (base, look) => counterflex.plot.create(context, group, deviation(context, group, points, state, base, look), base);
-    if (has(context, 'before_mm')) state.plots.push(plot('before', {title: 'Before', colour: '--before', colours: ['--before', '--other-run']}));
-    if (has(context, 'after_mm')) state.plots.push(plot('after', {title: 'After (model residual)', colour: '--after',
-      colours: ['--after', '--other-run'], levels: true}));
+    for (const [base, look] of Object.entries(looks)) {
+      if (!has(context, `${base}_mm`)) continue;
+      const content = deviation(context, group, points, state, base, look);
+      state.plots.push(counterflex.plot.create(context, group, content, base));
+    }
     const present = components.filter(([part]) => has(context, quantityName('before', part)));
-    const controls = el('div', {class: 'controls'}, componentChoice(context, state, 'component', present), logBox(state, group));
-    return {plots: state.plots, content: [controls, counterflex.plotGroup.controls(group), state.plots.map((plot) => plot.node),
-      el('p', {class: 'note help'}, help), mergedNote(context)]};
+    const choice = componentChoice(context, state, 'component', present);
+    const controls = el('div', {class: 'controls'}, choice, logBox(state));
+    return {plots: state.plots, content: [controls, counterflex.plotGroup.controls(group),
+      state.plots.map((plot) => plot.node), el('p', {class: 'note help'}, help), mergedNote(context)]};
   }
 
   const sourceSeries = (part) => [
@@ -136,7 +150,8 @@
 
   /** How well the parts add up, in a sentence; tells why the curve of the sum may hide under that of both. */
   function discrepancySentence(context) {
-    const of = (run) => (run.curves && run.curves.quantities.discrepancy_mm ? context.units.format(largestOf(run, 'discrepancy_mm')) : 'not known');
+    const known = (run) => Boolean(run.curves && run.curves.quantities.discrepancy_mm);
+    const of = (run) => (known(run) ? context.units.format(largestOf(run, 'discrepancy_mm')) : 'not known');
     const values = context.runs.map((run) => (run.letter ? `${run.letter} ${of(run)}` : of(run))).join(', ');
     return `Both together differ from the sum of the parts by at most ${values} (discrepancy).`;
   }
@@ -148,17 +163,21 @@
     const note = el('p', {class: 'note'});
     const say = () => fill(note, discrepancySentence(context));
     const content = () => describe(context, group, points, sourceSeries(state.part), context.units.scale, {
-      title: `Sources of the deviation before: ${labelOf(state.part)}, in ${context.units.words}`, log: state.log, text: textIn('', context.units)});
+      title: `Sources of the deviation before: ${labelOf(state.part)}, in ${context.units.words}`,
+      log: state.log, text: textIn('', context.units)});
     state.plots.push(counterflex.plot.create(context, group, content, 'sources'));
     context.units.subscribe(say);
     say();
-    const controls = el('div', {class: 'controls'}, componentChoice(context, state, 'source-component', axes), logBox(state, group));
+    const choice = componentChoice(context, state, 'source-component', axes);
+    const controls = el('div', {class: 'controls'}, choice, logBox(state));
     return {plots: state.plots, content: [controls, state.plots[0].node, note]};
   }
 
   const forceSeries = [
-    {name: 'force_N', label: 'total', colour: '--ink', width: 2.5}, {name: 'force_x_N', label: 'x', colour: '--x'},
-    {name: 'force_y_N', label: 'y', colour: '--y', dash: [8, 4]}, {name: 'force_z_N', label: 'z', colour: '--z', dash: [2, 3]},
+    {name: 'force_N', label: 'total', colour: '--ink', width: 2.5},
+    {name: 'force_x_N', label: 'x', colour: '--x'},
+    {name: 'force_y_N', label: 'y', colour: '--y', dash: [8, 4]},
+    {name: 'force_z_N', label: 'z', colour: '--z', dash: [2, 3]},
   ];
 
   /** The cutting force on the tool. */

@@ -41,20 +41,32 @@
   }
 
   /**
-   * A table. `columns`: {title, number: digits stand right, class}; `rows`: lists of cells, the first of which names the
-   * row; a row may have `mark`, a class.
+   * A table. `columns`: {title, number: digits stand right, class}; `rows`: lists of cells, the first of which names
+   * the row; a row may have `mark`, a class.
    */
   function table(caption, columns, rows) {
     const head = columns.map((c) => el('th', {scope: 'col', class: c.number ? 'number' : c.class}, c.title));
     const body = rows.map((row) => el('tr', {class: row.mark}, columns.map((c, i) => cell(c, row[i], i === 0))));
-    return el('div', {class: 'table', tabindex: 0, role: 'region', 'aria-label': caption},
-        el('table', null, el('caption', null, caption), el('thead', null, el('tr', null, head)), el('tbody', null, body)));
+    const whole = el('table', null, el('caption', null, caption), el('thead', null, el('tr', null, head)),
+        el('tbody', null, body));
+    return el('div', {class: 'table'}, whole);
+  }
+
+  /** Columns of words and of digits. */
+  const textColumn = (title) => ({title, class: 'text'});
+  const numberColumn = (title) => ({title, number: true});
+
+  /** A bar filled to a share of its length, 0 to 1. */
+  function bar(share, className) {
+    return svg('svg', {viewBox: '0 0 100 10', preserveAspectRatio: 'none', 'aria-hidden': 'true', class: `part ${className}`},
+        svg('rect', {x: 0, y: 0, width: (100 * Math.min(1, share)).toFixed(2), height: 10}));
   }
 
   /** Choices of which one holds, as radio buttons: `choices` are [value, label]; `change` gets the value. */
   function radios(legend, name, choices, chosen, change) {
     const buttons = choices.map(([value, label]) => el('label', null,
-        el('input', {type: 'radio', name, value, checked: value === chosen, change: () => change(value)}), el('span', null, label)));
+        el('input', {type: 'radio', name, value, checked: value === chosen, change: () => change(value)}),
+        el('span', null, label)));
     return el('fieldset', {class: 'choice'}, el('legend', null, legend), buttons);
   }
 
@@ -66,5 +78,5 @@
     }}, text);
   }
 
-  counterflex.dom = {el, svg, fill, table, radios, jump};
+  counterflex.dom = {el, svg, fill, table, textColumn, numberColumn, bar, radios, jump};
 })();

@@ -1,6 +1,6 @@
 'use strict';
 (() => {
-  const {el, table} = counterflex.dom;
+  const {el, table, textColumn, numberColumn} = counterflex.dom;
   const {fixed, known} = counterflex.units;
   const words = counterflex.words;
 
@@ -8,7 +8,7 @@
 
   /** A table with a column for each run; rows whose values differ are marked. `rows`: [name, value of each run]. */
   function compared(caption, runs, rows) {
-    const columns = [{title: 'What'}, ...runs.map((run) => ({title: run.letter || 'Value', class: 'text'}))];
+    const columns = [{title: 'What'}, ...runs.map((run) => textColumn(run.letter || 'Value'))];
     const marked = rows.map(([name, ...values]) => {
       const differ = values.length > 1 && values.some((v) => v !== values[0]);
       const cells = [differ ? [name, el('b', {class: 'differs'}, ' differs')] : name, ...values];
@@ -20,7 +20,11 @@
   /** Keys of all objects, each once, in order of first appearance. */
   const keysOf = (objects) => [...new Set(objects.flatMap((o) => Object.keys(o)))];
 
-  const optionText = (v) => (v === undefined ? unknown : Array.isArray(v) ? v.join('; ') : v === true ? 'yes' : v === false ? 'no' : String(v));
+  function optionText(value) {
+    if (value === undefined) return unknown;
+    if (typeof value === 'boolean') return value ? 'yes' : 'no';
+    return Array.isArray(value) ? value.join('; ') : String(value);
+  }
 
   function inputs(runs) {
     const rows = [];
@@ -35,12 +39,13 @@
     const rows = keysOf(runs.map((run) => run.report.options))
         .map((name) => [name, ...runs.map((run) => optionText(run.report.options[name]))]);
     const of = (what, get) => [what, ...runs.map((run) => get(run.report) || unknown)];
-    return compared('Options', runs, [of('tool', (r) => r.tool), of('command', (r) => r.command), of('machine', (r) => r.machine), ...rows]);
+    const heads = [of('tool', (r) => r.tool), of('command', (r) => r.command), of('machine', (r) => r.machine)];
+    return compared('Options', runs, [...heads, ...rows]);
   }
 
   function assumptions(run) {
     const sentences = Object.values(run.report.assumptions).filter(Boolean);
-    return el('div', {class: 'stack'}, el('h3', null, run.letter ? `${run.letter}: ` : '', 'Taken for granted'),
+    return el('div', {class: 'stack'}, el('h3', null, words.ofRun(run, 'Taken for granted')),
         el('ul', null, sentences.map((sentence) => el('li', null, sentence))));
   }
 
@@ -49,9 +54,9 @@
     return el('div', {class: 'stack'}, el('div', {class: 'runs'}, runs.map(assumptions)), inputs(runs), options(runs));
   }
 
-  const blockRows = [['Blocks', 'total'], ['Moves', 'moves'], ['Corrected each on its own', 'corrected'], ['Corrected in part', 'corrected_in_part'],
-    ['With their contour as one shift', 'grouped'], ['Holding the correction before them', 'held'], ['Not corrected', 'not_corrected'],
-    ['Points added', 'inserted']];
+  const blockRows = [['Blocks', 'total'], ['Moves', 'moves'], ['Corrected each on its own', 'corrected'],
+    ['Corrected in part', 'corrected_in_part'], ['With their contour as one shift', 'grouped'],
+    ['Holding the correction before them', 'held'], ['Not corrected', 'not_corrected'], ['Points added', 'inserted']];
 
   const countText = (n) => (known(n) ? String(n) : unknown);
 
@@ -67,33 +72,47 @@
     return report.control.path_tolerances.map(of).join('; ') || 'none stated';
   }
 
+  function longestLine({control: {lines}}) {
+    return lines ? `${lines.longest} characters of ${lines.limit}` : unknown;
+  }
+
+  function largestForce({forces}) {
+    return known(forces.largest_N) ? `${fixed(forces.largest_N, 1)} N, ${fixed(forces.largest_Nm, 2)} N m` : unknown;
+  }
+
+  function forceSteps({forces}) {
+    const steps = `${words.counted(forces.ramps, 'ramp')}, ${words.counted(forces.jumps, 'jump')}`;
+    return `${steps}, largest ${fixed(forces.largest_step_N, 1)} N`;
+  }
+
   function controlRows(runs) {
     const of = (what, get) => [what, ...runs.map((run) => get(run.report))];
     return [
       of('Blocks of the text, before and after', (r) => `${r.text.blocks_before} / ${countText(r.text.blocks_after)}`),
       of('Bytes, before and after', (r) => `${r.text.bytes_before} / ${countText(r.text.bytes_after)}`),
       of('Feed moves shorter in time than allowed for', shortBlocks),
-      of('Longest line', (r) => (r.control.lines ? `${r.control.lines.longest} characters of ${r.control.lines.limit}` : unknown)),
+      of('Longest line', longestLine),
       of('Path tolerance of the control', pathTolerances),
-      of('Largest cutting force', (r) => (known(r.forces.largest_N) ? `${fixed(r.forces.largest_N, 1)} N, ${fixed(r.forces.largest_Nm, 2)} N m` : unknown)),
-      of('Steps of the force', (r) => `${words.counted(r.forces.ramps, 'ramp')}, ${words.counted(r.forces.jumps, 'jump')}, ` +
-          `largest ${fixed(r.forces.largest_step_N, 1)} N`),
+      of('Largest cutting force', largestForce),
+      of('Steps of the force', forceSteps),
     ];
   }
 
   function toolTable(run, units) {
     const {tools} = run.report;
     if (!tools || tools.length === 0) return null;
-    const columns = [{title: 'Tool'}, {title: `Length, ${units.lengthLabel}`, number: true}, {title: 'Stiffness at its tip, N/\u00b5m', number: true},
-      {title: 'From', class: 'text'}];
-    const rows = tools.map((t) => [`T${t.number}`, units.lengthNumber(t.length_mm), known(t.radial_N_per_um) ? fixed(t.radial_N_per_um, 2) : 'rigid', t.stiffness]);
-    return table(`${run.letter ? `${run.letter}: ` : ''}Tools`, columns, rows);
+    const columns = [{title: 'Tool'}, numberColumn(`Length, ${units.lengthLabel}`),
+      numberColumn('Stiffness at its tip, N/\u00b5m'), textColumn('From')];
+    const stiffness = (tool) => (known(tool.radial_N_per_um) ? fixed(tool.radial_N_per_um, 2) : 'rigid');
+    const rows = tools.map((t) => [`T${t.number}`, units.lengthNumber(t.length_mm), stiffness(t), t.stiffness]);
+    return table(words.ofRun(run, 'Tools'), columns, rows);
   }
 
   /** Counts of blocks, what a control may make of them, and tools. */
   function program({runs, units}) {
     const blocks = blockRows.map(([what, key]) => [what, ...runs.map((run) => countText(run.report.blocks[key]))]);
-    return el('div', {class: 'stack'}, compared('Blocks and control', runs, [...blocks, ...controlRows(runs)]), runs.map((run) => toolTable(run, units)));
+    const counts = compared('Blocks and control', runs, [...blocks, ...controlRows(runs)]);
+    return el('div', {class: 'stack'}, counts, runs.map((run) => toolTable(run, units)));
   }
 
   counterflex.facts = {render, program};

@@ -1,8 +1,8 @@
 'use strict';
 (() => {
-  const {el, svg, table, radios} = counterflex.dom;
+  const {el, bar, table, textColumn, numberColumn, radios} = counterflex.dom;
   const {known} = counterflex.units;
-  const {series: tables, data} = counterflex;
+  const {series: tables, data, words} = counterflex;
 
   /** The loads that chains have: name in the data, words, unit; a null unit is that of deviations. */
   const quantities = [
@@ -15,24 +15,27 @@
   const colours = ['--x', '--y', '--z', '--gravity', '--sum', '--discrepancy'];
   const lineDashes = [null, [8, 4], [2, 3], [10, 3, 2, 3]];
 
-  const textOf = (value, unit, units) => (!known(value) ? '\u2013' : unit ? `${Number(value.toPrecision(4))} ${unit}` : units.format(value));
+  function textOf(value, unit, units) {
+    if (!known(value)) return '\u2013';
+    return unit ? `${Number(value.toPrecision(4))} ${unit}` : units.format(value);
+  }
+
+  const exceeds = ({largest, limit}) => known(limit) && largest > limit;
 
   /** Share of its limit that a load uses, as a bar and in words. */
-  function use({largest, limit}) {
-    if (!known(limit)) return 'no limit given';
-    const share = (100 * largest) / limit;
-    const over = largest > limit;
-    const drawing = svg('svg', {viewBox: '0 0 100 10', preserveAspectRatio: 'none', 'aria-hidden': 'true', class: `part ${over ? 'over' : 'within'}`},
-        svg('rect', {x: 0, y: 0, width: Math.min(100, share).toFixed(1), height: 10}));
-    return el('span', {class: 'use'}, drawing, `${share.toFixed(0)} %${over ? ': above the limit' : ''}`);
+  function use(load) {
+    if (!known(load.limit)) return 'no limit given';
+    const share = load.largest / load.limit;
+    const drawing = bar(share, exceeds(load) ? 'over' : 'within');
+    return el('span', {class: 'use'}, drawing, `${(100 * share).toFixed(0)} %${exceeds(load) ? ': above the limit' : ''}`);
   }
 
   function rowsOf(chain, context, limited) {
-    return quantities.filter(([name]) => chain[name] && chain[name].largest > 0).map(([name, words, unit]) => {
+    return quantities.filter(([name]) => chain[name] && chain[name].largest > 0).map(([name, what, unit]) => {
       const load = chain[name];
-      const largest = [chain.name, words, textOf(load.largest, unit, context.units), String(load.line)];
+      const largest = [chain.name, what, textOf(load.largest, unit, context.units), String(load.line)];
       const limit = limited ? [known(load.limit) ? textOf(load.limit, unit, context.units) : '\u2013', use(load)] : [];
-      return Object.assign([...largest, ...limit], {limited: known(load.limit), mark: load.limit && load.largest > load.limit ? 'exceeded' : ''});
+      return Object.assign([...largest, ...limit], {limited: known(load.limit), mark: exceeds(load) ? 'exceeded' : ''});
     });
   }
 
@@ -45,11 +48,12 @@
     const limited = loads.chains.some(hasLimit);
     const rows = loads.chains.flatMap((chain) => rowsOf(chain, context, limited)).sort((a, b) => b.limited - a.limited);
     if (rows.length === 0) return null;
-    const columns = [{title: 'Chain'}, {title: 'Load', class: 'text'}, {title: 'Largest', number: true}, {title: 'Line', number: true},
-      ...(limited ? [{title: 'Limit', number: true}, {title: 'Of the limit', class: 'text'}] : [])];
-    const notes = [loads.unsolved > 0 && `not known at ${loads.unsolved} more`, !limited && 'the machine file gives no limits'].filter(Boolean);
-    const caption = [`Largest loads at ${loads.places} places of the path`, ...notes].join('; ');
-    return table(`${run.letter ? `${run.letter}: ` : ''}${caption}`, columns, rows);
+    const columns = [{title: 'Chain'}, textColumn('Load'), numberColumn('Largest'), numberColumn('Line'),
+      ...(limited ? [numberColumn('Limit'), textColumn('Of the limit')] : [])];
+    const caption = [`Largest loads at ${loads.places} places of the path`,
+      loads.unsolved > 0 && `not known at ${loads.unsolved} more`,
+      !limited && 'the machine file gives no limits'].filter(Boolean).join('; ');
+    return table(words.ofRun(run, caption), columns, rows);
   }
 
   const render = (context) => el('div', {class: 'runs'}, context.runs.map((run) => tableOf(run, context)));
@@ -76,21 +80,24 @@
         const limit = chain[name] && chain[name].limit;
         if (known(limit)) limits.set(limit, [...(limits.get(limit) || []), chain.name]);
       }
-    return [...limits].map(([limit, names]) => ({value: limit * scale, label: `limit of ${[...new Set(names)].join(', ')}`}));
+    const label = (names) => `limit of ${[...new Set(names)].join(', ')}`;
+    return [...limits].map(([limit, names]) => ({value: limit * scale, label: label(names)}));
   }
 
   /** Those that some chain has at all. */
   function present(context) {
-    const some = ([name]) => context.runs.some((run) => run.loads && run.loads.chains.some((chain) => (chain[name] || []).some((v) => v > 1e-9)));
-    return quantities.filter(some);
+    const chains = context.runs.flatMap((run) => (run.loads ? run.loads.chains : []));
+    return quantities.filter(([name]) => chains.some((chain) => (chain[name] || []).some((v) => v > 1e-9)));
   }
 
   function describe(context, group, points, state) {
-    const [name, words, unit] = quantities.find(([n]) => n === state.name);
+    const [name, what, unit] = quantities.find(([n]) => n === state.name);
     const scale = unit ? 1 : context.units.scale;
     const series = seriesOf(context, points, name, scale);
     return {
-      title: `${words} of each chain, in ${unit || context.units.words}`, series, ...tables.tabulate(series, group.total, context.units.lengthScale),
+      title: `${what} of each chain, in ${unit || context.units.words}`,
+      series,
+      ...tables.tabulate(series, group.total, context.units.lengthScale),
       levels: levels(context, name, scale), text: (v) => textOf(v / scale, unit, context.units),
       lineAt: (run, stretch) => (stretch < 0 ? '\u2013' : context.runs[run].curves.first_line[stretch]),
       select: ({run, stretch}) => stretch >= 0 && context.selection.set(run, stretch),
@@ -104,7 +111,7 @@
     const state = {name: choices[0][0]};
     const points = context.runs.map((run) => (run.loads ? pointsOf(run) : []));
     const plot = counterflex.plot.create(context, group, () => describe(context, group, points, state), 'loads');
-    const choice = radios('Show', 'load', choices.map(([name, words]) => [name, words]), state.name, (name) => {
+    const choice = radios('Show', 'load', choices, state.name, (name) => {
       state.name = name;
       plot.refresh();
     });

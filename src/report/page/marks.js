@@ -49,7 +49,8 @@
     const marks = [];
     if (curves.waypoints_per_stretch > 1) return marks;
     const {s_mm: s, first_line: line} = curves;
-    for (let i = 0; i < s.length; ++i) if (i === 0 || line[i] !== line[i - 1]) marks.push({s: i === 0 ? 0 : s[i - 1], line: line[i]});
+    for (let i = 0; i < s.length; ++i)
+      if (i === 0 || line[i] !== line[i - 1]) marks.push({s: i === 0 ? 0 : s[i - 1], line: line[i]});
     return marks;
   }
 

@@ -19,13 +19,15 @@
   /** What all parts of the page share. */
   function contextOf(runs) {
     const shown = (runs[0].report.units || {}).shown || 'um';
-    return {runs, units: counterflex.units.create(shown), selection: counterflex.selection.create(), scene: null, group: null, plots: []};
+    const units = counterflex.units.create(shown), selection = counterflex.selection.create();
+    return {runs, units, selection, scene: null, group: null, plots: []};
   }
 
   /** Sections of text and tables, which a change of unit writes anew. */
   function renderTexts(context) {
-    const sections = {operations: counterflex.tables.operations, sensitivity: counterflex.tables.sensitivity,
-      remarks: counterflex.remarks.render, numbers: counterflex.tables.numbers, program: counterflex.facts.program, facts: counterflex.facts.render};
+    const {tables, remarks, facts} = counterflex;
+    const sections = {operations: tables.operations, sensitivity: tables.sensitivity, remarks: remarks.render,
+      numbers: tables.numbers, program: facts.program, facts: facts.render};
     fill(document.getElementById('verdict'), counterflex.summary.render(context));
     fill(body('worst'), counterflex.worst.render(context));
     for (const [id, render] of Object.entries(sections)) {
@@ -42,8 +44,9 @@
     const {selection, runs, row} = context;
     const run = runs[selection.run];
     const chosen = row && row.run === selection.run && row.stretch === selection.stretch ? row.row : null;
-    const known = chosen || (run.curves && selection.stretch >= 0 ? counterflex.place.ofStretch(run, selection.stretch) : null);
-    fill(body('place'), known ? counterflex.place.card(run, known, context.units) : el('p', null, 'Nothing is selected.'));
+    const {place} = counterflex;
+    const known = chosen || (run.curves && selection.stretch >= 0 ? place.ofStretch(run, selection.stretch) : null);
+    fill(body('place'), known ? place.card(run, known, context.units) : el('p', null, 'Nothing is selected.'));
     counterflex.worst.mark(body('worst'), selection.run, chosen ? chosen.line : -1);
   }
 
@@ -90,7 +93,8 @@
     const group = context.group = plotGroup.create(context);
     const points = curves.pointsOf(context);
     const sections = {curves: curves.deviations, sources: curves.sources, force: curves.force};
-    for (const [id, make] of Object.entries(sections)) if (!addPlots(context, id, make(context, group, points))) hide(id);
+    for (const [id, make] of Object.entries(sections))
+      if (!addPlots(context, id, make(context, group, points))) hide(id);
     const tables = el('div', {id: 'load-tables'});
     const drawn = addPlots(context, 'loads', loads.plots(context, group));
     body('loads').append(tables);

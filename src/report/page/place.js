@@ -1,6 +1,6 @@
 'use strict';
 (() => {
-  const {el, svg} = counterflex.dom;
+  const {el, bar} = counterflex.dom;
   const {known, fixed} = counterflex.units;
   const words = counterflex.words;
 
@@ -18,17 +18,17 @@
     const causes = {};
     for (const part of ['geometry', 'load', 'gravity', 'discrepancy']) causes[`${part}_mm`] = at(c, `${part}_mm`, i);
     return {
-      line: c.first_line[i], last_line: c.last_line[i], s_mm: c.s_mm[i], place_mm: Array.from(c.place_mm.subarray(3 * i, 3 * i + 3)),
+      line: c.first_line[i], last_line: c.last_line[i], s_mm: c.s_mm[i],
+      place_mm: Array.from(c.place_mm.subarray(3 * i, 3 * i + 3)),
       before_mm: at(c, 'before_mm', i), after_mm: at(c, 'after_mm', i), force_N: at(c, 'force_N', i),
       tool: operation ? operation.tool : 0, operation: operation ? operation.operation : '', text: null, causes,
     };
   }
 
-  function bar(part, largest, units) {
-    const width = largest > 0 ? (100 * part.mm) / largest : 0;
-    const drawing = svg('svg', {viewBox: '0 0 100 10', preserveAspectRatio: 'none', 'aria-hidden': 'true', class: `part ${part.key}`},
-        svg('rect', {x: 0, y: 0, width: width.toFixed(2), height: 10}));
-    return el('div', {class: 'bar'}, el('dt', null, part.name), el('dd', null, drawing, el('span', null, units.format(part.mm))));
+  function barOf(part, largest, units) {
+    const drawing = bar(largest > 0 ? part.mm / largest : 0, part.key);
+    const size = el('span', null, units.format(part.mm));
+    return el('div', {class: 'bar'}, el('dt', null, part.name), el('dd', null, drawing, size));
   }
 
   /** Parts of the deviation before, longest bar full. */
@@ -36,7 +36,7 @@
     const parts = words.parts(causes);
     if (parts.length === 0) return null;
     const largest = Math.max(...parts.map((part) => part.mm));
-    return el('dl', {class: 'bars'}, parts.map((part) => bar(part, largest, units)));
+    return el('dl', {class: 'bars'}, parts.map((part) => barOf(part, largest, units)));
   }
 
   function causeSentence(row, units) {
@@ -63,7 +63,7 @@
   function card(run, row, units) {
     const lines = row.last_line > row.line ? `Lines ${row.line} to ${row.last_line}` : `Line ${row.line}`;
     return el('div', {class: 'place-card', 'data-line': row.line},
-        el('h3', null, run.letter ? `${run.letter}: ` : '', lines),
+        el('h3', null, words.ofRun(run, lines)),
         row.text ? el('pre', null, el('code', null, row.text)) : null,
         causeSentence(row, units), bars(row.causes, units), facts(row, units));
   }

@@ -33,7 +33,8 @@
   /** Largest size of a value of all rows. */
   function largestOf(rows) {
     let largest = 0;
-    for (const row of rows) for (let c = 1; c < row.length; ++c) if (Math.abs(row[c]) > largest) largest = Math.abs(row[c]);
+    for (const row of rows)
+      for (let c = 1; c < row.length; ++c) if (Math.abs(row[c]) > largest) largest = Math.abs(row[c]);
     return largest;
   }
 
@@ -44,7 +45,7 @@
     return rows.map((row) => row.map((v, c) => (c === 0 ? v : size(v))));
   }
 
-  /** Values that the range of the plot must hold although no curve reaches them: levels that are not far from the curves. */
+  /** Values that the plot must have room for although no curve reaches them: levels that are not far from the curves. */
   function heldLevels({rows, levels}) {
     if (!levels || levels.length === 0) return [];
     const largest = largestOf(rows);
@@ -70,7 +71,8 @@
   function options(plot) {
     const {series, rows, log} = plot.content;
     const held = heldLevels(plot.content);
-    const axis = {axisLineColor: colour('--muted'), gridLineColor: colour('--line'), axisLabelFontSize: 12, axisLabelFormatter: tick};
+    const axis = {axisLineColor: colour('--muted'), gridLineColor: colour('--line'), axisLabelFontSize: 12,
+      axisLabelFormatter: tick};
     return {
       file: withLevels(log ? magnitudes(rows) : rows, held),
       labels: ['s', ...series.map((s) => s.label), ...held.map((_, i) => `level ${i}`)],
@@ -80,7 +82,8 @@
       dateWindow: windowOf(plot),
       logscale: Boolean(log),
       includeZero: !log,
-      axes: {x: {...axis, drawGrid: false, ticker: Dygraph.numericTicks}, y: {...axis, axisLabelWidth: 64, pixelsPerLabel: 26}},
+      axes: {x: {...axis, drawGrid: false, ticker: Dygraph.numericTicks},
+        y: {...axis, axisLabelWidth: 64, pixelsPerLabel: 26}},
     };
   }
 
@@ -88,7 +91,8 @@
     const {content, group, context} = plot;
     const toX = (s) => g.toDomXCoord(s * context.units.lengthScale);
     counterflex.marks.draw(canvas, area, group.marks, toX, group.shown);
-    for (const level of content.levels || []) counterflex.marks.drawLevel(canvas, area, g.toDomYCoord(level.value), level.label);
+    for (const {value, label} of content.levels || [])
+      counterflex.marks.drawLevel(canvas, area, g.toDomYCoord(value), label);
     counterflex.marks.drawSelected(canvas, area, toX(group.selected()));
   }
 
@@ -117,8 +121,8 @@
     };
   }
 
-  const fixed = {connectSeparatedPoints: true, pointSize: 2, drawGapEdgePoints: true, highlightCircleSize: 4, xRangePad: 4, yRangePad: 12,
-    rightGap: 12, axisLineWidth: 1, gridLineWidth: 1};
+  const fixed = {connectSeparatedPoints: true, pointSize: 2, drawGapEdgePoints: true, highlightCircleSize: 4,
+    xRangePad: 4, yRangePad: 12, rightGap: 12, axisLineWidth: 1, gridLineWidth: 1};
 
   /** Changes the graph without telling the other plots that it was zoomed. */
   function quietly(plot, change) {
@@ -178,7 +182,8 @@
   }
 
   function frame(plot, className) {
-    plot.host = el('div', {class: `plot ${className}`, tabindex: 0, role: 'application', keydown: (event) => key(plot, event)});
+    plot.host = el('div', {class: `plot ${className}`, tabindex: 0, role: 'application',
+      keydown: (event) => key(plot, event)});
     plot.legend = {title: el('h3'), entries: el('div', {class: 'entries'}), paper: el('div', {class: 'entries paper'}),
       readout: el('p', {class: 'readout'}, '\u00a0')};
     const {title, entries, paper, readout: values} = plot.legend;

@@ -1,6 +1,6 @@
 'use strict';
 (() => {
-  const {data} = counterflex;
+  const {el} = counterflex.dom;
 
   /**
    * Plots over the same path length: they zoom and pan together and show their values at one place. `context`: {runs,
@@ -13,6 +13,7 @@
       plots: [],
       total,
       window: null,
+      frame: 0,
       shown: {blocks: true, rapids: true, steps: true},
       marks: counterflex.marks.of(runs[0]),
       /** Shows path length `range` (mm) in all plots; null: all of it. */
@@ -30,7 +31,11 @@
       hover(s, from) {
         for (const plot of group.plots) if (plot !== from) plot.showValues(s);
       },
-      redraw: () => group.plots.forEach((plot) => plot.redraw()),
+      /** Draws marks anew, once however often it is asked for before the next picture. */
+      redraw() {
+        cancelAnimationFrame(group.frame);
+        group.frame = requestAnimationFrame(() => group.plots.forEach((plot) => plot.redraw()));
+      },
       refresh: () => group.plots.forEach((plot) => plot.refresh()),
       /** Path length of the selected stretch; NaN: none. */
       selected() {
@@ -63,26 +68,37 @@
     while (first > 0 && curves.last_line[first - 1] === line) --first;
     while (last + 1 < curves.s_mm.length && curves.first_line[last + 1] === line) ++last;
     const begin = first > 0 ? curves.s_mm[first - 1] : 0, end = curves.s_mm[last];
-    const least = group.total / 50, most = group.total / 3, length = Math.min(Math.max(1.5 * (end - begin), least), most);
+    const least = group.total / 50, most = group.total / 3;
+    const length = Math.min(Math.max(1.5 * (end - begin), least), most);
     const middle = end - begin > most ? curves.s_mm[i] : (begin + end) / 2;
     return [middle - length / 2, middle + length / 2];
   }
 
-  const button = (text, label, click) => counterflex.dom.el('button', {type: 'button', 'aria-label': label, title: label, click}, text);
+  function button(text, label, click) {
+    return el('button', {type: 'button', 'aria-label': label, title: label, click}, text);
+  }
+
+  /** Whether marks of a kind are drawn. */
+  function markBox(group, key, text) {
+    const change = (event) => {
+      group.shown[key] = event.target.checked;
+      group.redraw();
+    };
+    return el('label', null, el('input', {type: 'checkbox', checked: group.shown[key], change}), el('span', null, text));
+  }
 
   /** Buttons that do what the mouse does, for the keyboard and for fingers. */
   function controls(group) {
-    const {el} = counterflex.dom;
-    const box = (key, text) => el('label', null, el('input', {type: 'checkbox', checked: group.shown[key], change: (event) => {
-      group.shown[key] = event.target.checked;
-      group.redraw();
-    }}), el('span', null, text));
+    const buttons = [button('+', 'Zoom in', () => group.zoom(0.5, 0)),
+      button('\u2212', 'Zoom out', () => group.zoom(2, 0)),
+      button('\u25c0', 'Back along the path', () => group.zoom(1, -0.25)),
+      button('\u25b6', 'On along the path', () => group.zoom(1, 0.25)),
+      button('All', 'The whole path', () => group.setWindow(null))];
+    const boxes = [['blocks', 'blocks'], ['rapids', 'rapids'], ['steps', 'force steps']];
     return el('div', {class: 'controls'},
-        el('div', {class: 'buttons', role: 'group', 'aria-label': 'Part of the path'},
-            button('+', 'Zoom in', () => group.zoom(0.5, 0)), button('\u2212', 'Zoom out', () => group.zoom(2, 0)),
-            button('\u25c0', 'Back along the path', () => group.zoom(1, -0.25)), button('\u25b6', 'On along the path', () => group.zoom(1, 0.25)),
-            button('All', 'The whole path', () => group.setWindow(null))),
-        el('fieldset', {class: 'choice'}, el('legend', null, 'Marks'), box('blocks', 'blocks'), box('rapids', 'rapids'), box('steps', 'force steps')));
+        el('div', {class: 'buttons', role: 'group', 'aria-label': 'Part of the path'}, buttons),
+        el('fieldset', {class: 'choice'}, el('legend', null, 'Marks'),
+            boxes.map(([key, text]) => markBox(group, key, text))));
   }
 
   counterflex.plotGroup = {create, controls, neighbourhood};

@@ -19,9 +19,11 @@
     const {content, context} = plot;
     const row = content.rows[k], {run, stretch} = content.places[k];
     const line = content.lineAt(run, stretch);
-    const known = content.series.map((s, i) => [s, row[i + 1]]).filter(([s, v]) => v !== null && !Number.isNaN(v) && !plot.hidden.has(s.label));
-    const values = known.map(([s, v]) => `${s.label} ${content.text(v)}`);
-    fill(plot.legend.readout, `${tick(Number(row[0].toFixed(3)))} ${context.units.lengthLabel}, line ${line}: ${values.join(', ')}`);
+    const told = (series, v) => v !== null && !Number.isNaN(v) && !plot.hidden.has(series.label);
+    const values = content.series.map((series, i) => [series, row[i + 1]]).filter(([series, v]) => told(series, v))
+        .map(([series, v]) => `${series.label} ${content.text(v)}`);
+    const place = `${tick(Number(row[0].toFixed(3)))} ${context.units.lengthLabel}`;
+    fill(plot.legend.readout, `${place}, line ${line}: ${values.join(', ')}`);
   }
 
   function clearReadout(plot) {
@@ -36,7 +38,8 @@
 
   function legendEntry(plot, series) {
     const shown = !plot.hidden.has(series.label);
-    return el('button', {type: 'button', class: 'entry', 'aria-pressed': String(shown), click: () => toggle(plot, series)}, swatch(series), series.label);
+    const attributes = {type: 'button', class: 'entry', 'aria-pressed': String(shown), click: () => toggle(plot, series)};
+    return el('button', attributes, swatch(series), series.label);
   }
 
   /** What the lines are, for the eye; on paper it stays without being a button. */
@@ -44,8 +47,10 @@
     const {content, legend} = plot;
     fill(legend.title, content.title);
     fill(legend.entries, content.series.map((series) => legendEntry(plot, series)));
-    fill(legend.paper, content.series.filter((s) => !plot.hidden.has(s.label)).map((s) => el('span', {class: 'entry'}, swatch(s), s.label)));
-    plot.host.setAttribute('aria-label', `${content.title}. Arrow keys move along the path, plus and minus zoom, Home shows all.`);
+    const drawn = content.series.filter((s) => !plot.hidden.has(s.label));
+    fill(legend.paper, drawn.map((s) => el('span', {class: 'entry'}, swatch(s), s.label)));
+    const keys = 'Arrow keys move along the path, plus and minus zoom, Home shows all.';
+    plot.host.setAttribute('aria-label', `${content.title}. ${keys}`);
   }
 
   counterflex.plotLegend = {fillLegend, readout, clearReadout, tick};

@@ -1,21 +1,21 @@
 'use strict';
 (() => {
-  const {el, table} = counterflex.dom;
+  const {el, table, textColumn, numberColumn} = counterflex.dom;
   const words = counterflex.words;
 
-  const captioned = (run, text) => (run.letter ? `${run.letter}: ${text}` : text);
   const lineCell = (line) => (line > 0 ? String(line) : '\u2013');
 
   /** Rows of a list that may have been cut short. */
   function list(run, title, what, rows, count) {
     if (rows.length === 0) return null;
-    return [table(captioned(run, title), [{title: 'Line'}, {title: what, class: 'text'}], rows),
+    return [table(words.ofRun(run, title), [{title: 'Line'}, textColumn(what)], rows),
       count > rows.length ? el('p', {class: 'note'}, `and ${count - rows.length} more`) : null];
   }
 
   function warnings(run) {
     const {warnings: rows, warning_count: count} = run.report;
-    return list(run, words.counted(count, 'warning'), 'What', rows.map(({line, what}) => [lineCell(line), what]), count);
+    const cells = rows.map(({line, what}) => [lineCell(line), what]);
+    return list(run, words.counted(count, 'warning'), 'What', cells, count);
   }
 
   function leftAlone(run) {
@@ -28,16 +28,17 @@
     const {reasons, moves, length_mm: length} = run.report.forces.without_force;
     if (moves === 0) return null;
     const rows = reasons.map((r) => [r.why, String(r.moves), units.lengthNumber(r.length_mm), lineCell(r.first_line)]);
-    const columns = [{title: 'Why', class: 'text'}, {title: 'Moves', number: true},
-      {title: `Length, ${units.lengthLabel}`, number: true}, {title: 'First line', number: true}];
-    return table(captioned(run, `Without a cutting force: ${words.counted(moves, 'feed move')}, ${units.length(length)}`), columns, rows);
+    const columns = [textColumn('Why'), numberColumn('Moves'), numberColumn(`Length, ${units.lengthLabel}`),
+      numberColumn('First line')];
+    const caption = `Without a cutting force: ${words.counted(moves, 'feed move')}, ${units.length(length)}`;
+    return table(words.ofRun(run, caption), columns, rows);
   }
 
   /** Warnings, blocks that are not corrected with their reasons, and moves without a force. */
   function render({runs, units}) {
     return el('div', {class: 'runs'}, runs.map((run) => {
       const parts = [warnings(run), leftAlone(run), withoutForce(run, units)].filter(Boolean);
-      return el('div', {class: 'stack'}, parts.length > 0 ? parts : el('p', null, captioned(run, 'Nothing to tell.')));
+      return el('div', {class: 'stack'}, parts.length > 0 ? parts : el('p', null, words.ofRun(run, 'Nothing to tell.')));
     }));
   }
 

@@ -8,7 +8,8 @@
    * a smooth curve stays smooth and a peak stays a peak.
    */
   function pair(least, largest, previous) {
-    return previous !== null && Math.abs(previous - largest) < Math.abs(previous - least) ? [largest, least] : [least, largest];
+    const falls = previous !== null && Math.abs(previous - largest) < Math.abs(previous - least);
+    return falls ? [largest, least] : [least, largest];
   }
 
   /** Where the points of a curve stand: path length and stretch of each, and where the line is broken by a rapid. */

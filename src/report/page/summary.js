@@ -11,19 +11,22 @@
   }
 
   function deviationCard(key, label, s, units) {
-    return card(key, label, units.format(s.max_mm), `${words.inLine(s.max_line)}, 95 % below ${units.format(s.p95_mm)}`);
+    const note = `${words.inLine(s.max_line)}, 95 % below ${units.format(s.p95_mm)}`;
+    return card(key, label, units.format(s.max_mm), note);
   }
 
   function correctedCard(report) {
     const share = report.summary.corrected_percent;
-    const note = `of the cutting length; ${report.blocks.corrected} of ${words.counted(report.blocks.moves, 'move')}`;
+    const {corrected, moves} = report.blocks;
+    const note = `of the cutting length, within tolerance; ${corrected} of ${words.counted(moves, 'move')}`;
     return card('corrected', 'Corrected', percent(share), note, share < 100 ? 'warn' : '');
   }
 
   function airCard(report, units) {
     const {air} = report.summary;
     const note = `${words.inLine(air.line)}: dry run, spring pass, broken insert`;
-    return card('air', 'Overcut if the force is missing', units.format(air.max_mm), note, air.max_mm > tolerance(report) ? 'warn' : '');
+    const mark = air.max_mm > tolerance(report) ? 'warn' : '';
+    return card('air', 'Overcut if the force is missing', units.format(air.max_mm), note, mark);
   }
 
   function correctionCard(report, units) {
@@ -60,16 +63,18 @@
   /** What somebody should look at before the program runs: sentences, each with the section that says more. */
   function reminders(report, units) {
     const {air} = report.summary;
+    const loads = exceeded(report);
     const list = [];
     const add = (text, target) => list.push({text, target});
     if (report.blocks.left_alone_count > 0)
       add(`${words.counted(report.blocks.left_alone_count, 'block')} not corrected, or not wholly`, 'remarks');
     if (report.warning_count > 0) add(words.counted(report.warning_count, 'warning'), 'remarks');
-    if (exceeded(report) > 0) add(`${words.counted(exceeded(report), 'load')} above the limit of the machine file`, 'loads');
+    if (loads > 0) add(`${words.counted(loads, 'load')} above the limit of the machine file`, 'loads');
     if (report.forces.without_force.moves > 0 && report.forces.largest_N > 0)
       add(`${words.counted(report.forces.without_force.moves, 'feed move')} without a cutting force`, 'remarks');
     if (air && !report.failure && air.max_mm > tolerance(report))
-      add(`without the cutting force it is off by up to ${units.format(air.max_mm)}: no dry run on the finished part`, 'sensitivity');
+      add(`without the cutting force it is off by up to ${units.format(air.max_mm)}: no dry run on the finished part`,
+          'sensitivity');
     return list;
   }
 
@@ -85,7 +90,8 @@
     const list = reminders(report, units);
     if (list.length === 0) return null;
     const item = ({text, target}) => el('li', null, jump(text, target, () => counterflex.goToSection(target)));
-    return el('div', {class: 'reminders'}, el('h3', null, report.failure ? 'Seen so far' : 'Before you run it'), el('ul', null, list.map(item)));
+    const title = report.failure ? 'Seen so far' : 'Before you run it';
+    return el('div', {class: 'reminders'}, el('h3', null, title), el('ul', null, list.map(item)));
   }
 
   /** What ran, on what: one line under the title. */
@@ -93,7 +99,8 @@
     const {options} = report;
     const bits = [`on ${report.machine || 'an unnamed machine'}`, report.command];
     if (options.method) bits.push(`method ${options.method}`);
-    if (tolerance(report) < Infinity && report.command !== 'predict') bits.push(`tolerance ${options['tolerance-mm']} mm`);
+    if (tolerance(report) < Infinity && report.command !== 'predict')
+      bits.push(`tolerance ${options['tolerance-mm']} mm`);
     if (report.output) bits.push(`written to ${report.output.split('/').pop()}`);
     return bits.join(', ');
   }
@@ -103,19 +110,24 @@
     return el('p', {class: `verdict ${kind}`, role: kind === 'bad' ? 'alert' : null}, text);
   }
 
-  function runSummary(run, units, alone) {
+  function headingOf(run) {
+    if (!run.letter) return el('h1', null, words.title(run.report));
+    const name = run.name === run.letter ? words.title(run.report) : run.name;
+    return el('h2', null, el('b', {class: `letter ${run.letter}`}, run.letter), ` ${name}`);
+  }
+
+  function runSummary(run, units) {
     const {report} = run;
-    const heading = alone ? el('h1', null, words.title(report)) :
-        el('h2', null, el('b', {class: `letter ${run.letter}`}, run.letter), ` ${run.name === run.letter ? words.title(report) : run.name}`);
-    return el('div', {class: 'run'}, heading, el('p', {class: 'subtitle'}, subtitle(report)), verdictOf(run, units),
+    return el('div', {class: 'run'}, headingOf(run), el('p', {class: 'subtitle'}, subtitle(report)), verdictOf(run, units),
         el('dl', {class: 'cards'}, cards(report, units)), reminderList(report, units));
   }
 
   /** Title, verdict, cards and reminders: of one run, or of two side by side under a sentence that compares them. */
   function render({runs, units}) {
-    if (runs.length === 1) return runSummary(runs[0], units, true);
-    const both = el('div', {class: 'runs'}, runs.map((run) => runSummary(run, units, false)));
-    return [el('h1', null, 'Two runs compared'), el('p', {class: 'verdict neutral'}, words.comparison(runs, units)), both];
+    if (runs.length === 1) return runSummary(runs[0], units);
+    const both = el('div', {class: 'runs'}, runs.map((run) => runSummary(run, units)));
+    const sentence = el('p', {class: 'verdict neutral'}, words.comparison(runs, units));
+    return [el('h1', null, 'Two runs compared'), sentence, both];
   }
 
   counterflex.summary = {render, tolerance};

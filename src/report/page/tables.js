@@ -1,6 +1,6 @@
 'use strict';
 (() => {
-  const {el, table, jump} = counterflex.dom;
+  const {el, table, textColumn, numberColumn, jump} = counterflex.dom;
   const {known, percent} = counterflex.units;
   const words = counterflex.words;
 
@@ -9,7 +9,8 @@
 
   /** [what, key of the statistics, axis]; angles have no unit to choose. */
   const statistics = [
-    ['Largest', 'max_mm'], ['95 % of the length is below', 'p95_mm'], ['Root mean square', 'rms_mm'], ['Mean', 'mean_mm'],
+    ['Largest', 'max_mm'], ['95 % of the length is below', 'p95_mm'], ['Root mean square', 'rms_mm'],
+    ['Mean', 'mean_mm'],
     ['Largest in x', 'max_axis_mm', 0], ['Largest in y', 'max_axis_mm', 1], ['Largest in z', 'max_axis_mm', 2],
     ['Largest across the path', 'max_across_mm'], ['Largest along the tool axis', 'max_tool_axis_mm'],
     ['Largest along the path (harmless)', 'max_along_mm'], ['Largest rotation, in degrees', 'max_rotation_deg'],
@@ -25,17 +26,21 @@
     return cells;
   }
 
+  /** Their columns. */
   function acrossTitles(runs, what) {
-    if (runs.length === 1) return [{title: what, number: true}];
-    return [...runs.map((run) => ({title: `${what} ${run.letter}`, number: true})), {title: 'B \u2212 A', number: true, class: 'difference'}];
+    if (runs.length === 1) return [numberColumn(what)];
+    return [...runs.map((run) => numberColumn(`${what} ${run.letter}`)), numberColumn('B \u2212 A')];
   }
+
+  const beforeAndAfter = (runs, corrected) =>
+    [...acrossTitles(runs, 'Before'), ...(corrected ? acrossTitles(runs, 'After') : [])];
 
   /** Statistics of the deviation before and after. */
   function numbers({runs, units}) {
     const before = runs.map((run) => run.report.summary.before), after = runs.map((run) => run.report.summary.after);
     if (!before.some(Boolean)) return null;
     const corrected = after.some(Boolean);
-    const columns = [{title: `In ${units.words}`}, ...acrossTitles(runs, 'Before'), ...(corrected ? acrossTitles(runs, 'After') : [])];
+    const columns = [{title: `In ${units.words}`}, ...beforeAndAfter(runs, corrected)];
     const rows = statistics.map(([what, key, axis]) => {
       const cells = (list) => across(list.map((s) => value(s, key, axis)), key, units);
       return [what, ...cells(before), ...(corrected ? cells(after) : [])];
@@ -55,8 +60,8 @@
     const rows = [];
     runs.forEach((run, r) => {
       for (const operation of run.report.operations || []) {
-        const free = (row) => !row.of[r] && row.operation.tool === operation.tool && row.operation.operation === operation.operation;
-        let row = rows.find(free);
+        const same = (other) => other.tool === operation.tool && other.operation === operation.operation;
+        let row = rows.find((one) => !one.of[r] && same(one.operation));
         if (!row) rows.push(row = {operation, of: []});
         row.of[r] = operation;
       }
@@ -67,12 +72,13 @@
   function operationRow({operation, of}, context, corrected) {
     const {runs, units} = context;
     const run = of.findIndex(Boolean);
-    const name = jump(nameOf(operation), 'curves', () => context.goToOperation(run, runs[run].report.operations.indexOf(of[run])),
-        `${nameOf(operation)}: show it in the curves`);
+    const go = () => context.goToOperation(run, runs[run].report.operations.indexOf(of[run]));
+    const name = jump(nameOf(operation), 'curves', go, `${nameOf(operation)}: show it in the curves`);
     const largest = (key) => across(runs.map((_, r) => value(of[r] && of[r][key], 'max_mm')), 'max_mm', units);
-    const share = corrected ? runs.map((_, r) => (of[r] ? percent(of[r].corrected_percent) : unknown)).join(' / ') : null;
-    return [name, words.toolName(operation.tool), `${operation.first_line}\u2013${operation.last_line}`, String(operation.moves),
-      units.lengthNumber(operation.length_mm), share, ...largest('before'), ...(corrected ? largest('after') : [])].filter((c) => c !== null);
+    const shares = runs.map((_, r) => (of[r] ? percent(of[r].corrected_percent) : unknown)).join(' / ');
+    const lines = `${operation.first_line}\u2013${operation.last_line}`;
+    return [name, words.toolName(operation.tool), lines, String(operation.moves), units.lengthNumber(operation.length_mm),
+      ...(corrected ? [shares] : []), ...largest('before'), ...(corrected ? largest('after') : [])];
   }
 
   /** Each tool and operation with its largest deviations; following one zooms the curves to it. */
@@ -81,11 +87,12 @@
     const rows = aligned(runs);
     if (rows.length === 0) return null;
     const corrected = runs.some((run) => run.report.summary.after);
-    const columns = [{title: 'Operation', class: 'text'}, {title: 'Tool'}, {title: 'Lines', class: 'lines'}, {title: 'Moves', number: true},
-      {title: `Length, ${units.lengthLabel}`, number: true}, corrected && {title: 'Corrected', number: true},
-      ...acrossTitles(runs, 'Before'), ...(corrected ? acrossTitles(runs, 'After') : [])].filter(Boolean);
+    const columns = [textColumn('Operation'), {title: 'Tool'}, {title: 'Lines', class: 'lines'}, numberColumn('Moves'),
+      numberColumn(`Length, ${units.lengthLabel}`), ...(corrected ? [numberColumn('Corrected')] : []),
+      ...beforeAndAfter(runs, corrected)];
     const count = Math.max(...runs.map((run) => run.report.operation_count || 0));
-    return [table(`Largest deviation, in ${units.words}`, columns, rows.map((row) => operationRow(row, context, corrected))),
+    const cells = rows.map((row) => operationRow(row, context, corrected));
+    return [table(`Largest deviation, in ${units.words}`, columns, cells),
       count > rows.length ? el('p', {class: 'note'}, `and ${count - rows.length} more`) : null];
   }
 
@@ -100,11 +107,11 @@
   function sensitivityOf(run, units) {
     const {sensitivity, after, before} = run.report.summary;
     if (!sensitivity) return null;
-    const columns = [{title: `In ${units.words}`}, {title: 'Largest', number: true}, {title: 'Line', number: true},
-      {title: '95 % below', number: true}, {title: 'Across the path', number: true}];
+    const columns = [{title: `In ${units.words}`},
+      ...['Largest', 'Line', '95 % below', 'Across the path'].map(numberColumn)];
     const rows = [sensitivityRow('Force as given', after || before, units),
       ...otherForces.map(([key, what]) => sensitivityRow(what, sensitivity[key], units))];
-    return table(`${run.letter ? `${run.letter}: ` : ''}Deviation of the ${after ? 'corrected' : 'original'} program`, columns, rows);
+    return table(words.ofRun(run, `Deviation of the ${after ? 'corrected' : 'original'} program`), columns, rows);
   }
 
   /** What the program does under more, less or no force. */

@@ -3,7 +3,8 @@
   const {el, fill, radios} = counterflex.dom;
 
   function unitChoice(units) {
-    return radios('Unit', 'unit', units.names.map((name) => [name, units.nameOf(name)]), units.shown, (unit) => units.set(unit));
+    const choices = units.names.map((name) => [name, units.nameOf(name)]);
+    return radios('Unit', 'unit', choices, units.shown, (unit) => units.set(unit));
   }
 
   /** A button that goes through auto, light and dark and says which it is. */
@@ -27,7 +28,8 @@
   }
 
   function render(node, units) {
-    fill(node, unitChoice(units), themeButton(), el('button', {type: 'button', id: 'print', click: () => window.print()}, 'Print'));
+    const print = el('button', {type: 'button', id: 'print', click: () => window.print()}, 'Print');
+    fill(node, unitChoice(units), themeButton(), print);
   }
 
   counterflex.toolbar = {render, contents};

@@ -1,9 +1,12 @@
 'use strict';
 (() => {
-  const {known} = counterflex.units;
+  const {known, percent} = counterflex.units;
 
   /** "1 move", "2 moves". */
   const counted = (count, what) => `${count} ${what}${count === 1 ? '' : 's'}`;
+
+  /** A heading of something of one run, which of two says its letter. */
+  const ofRun = (run, text) => (run.letter ? `${run.letter}: ${text}` : text);
 
   const inLine = (line) => (line > 0 ? `line ${line}` : '');
 
@@ -46,24 +49,37 @@
         (times ? `: ${times} times smaller.` : '.');
   }
 
-  /** The result of a run in a sentence, and whether it is a good one: 'good', 'bad' or 'neutral'. */
+  /** What somebody who trusts the tolerance has to know: where blocks cannot be corrected more than it remains. */
+  function missed({summary, options}, units) {
+    const tolerance = options['tolerance-mm'];
+    if (!(summary.after.max_mm > tolerance)) return '';
+    const {corrected_percent: held} = summary;
+    const share = known(held) ? `; ${percent(held)} of the cutting length is held to it` : '';
+    return ` That is more than the tolerance of ${units.format(tolerance)}${share}.`;
+  }
+
+  /** The result of a run in a sentence, and whether it is a good one: 'good', 'warn', 'bad' or 'neutral'. */
   function verdict(report, units) {
     const {before, after} = report.summary;
     if (report.failure) return {text: failed(report), kind: 'bad'};
-    if (!before) return {text: 'Nothing was solved: the program has no feed move whose deviation could be told.', kind: 'neutral'};
+    if (!before) return {text: 'Nothing was solved: no feed move has a deviation that could be told.', kind: 'neutral'};
     if (!after) return {text: predicted(before, units), kind: 'neutral'};
-    return {text: corrected(before, after, units), kind: 'good'};
+    const more = missed(report, units);
+    return {text: corrected(before, after, units) + more, kind: more ? 'warn' : 'good'};
   }
 
-  /** Which of two runs leaves less, in a sentence. */
+  /** Which of two runs is off less, in a sentence: after correction where both have been corrected, else before. */
   function comparison(runs, units) {
-    const left = (run) => run.report.summary.after || run.report.summary.before;
-    const [a, b] = runs.map(left);
+    const summaries = runs.map((run) => run.report.summary);
+    const corrected = summaries.every((summary) => summary.after);
+    const [a, b] = summaries.map((summary) => (corrected ? summary.after : summary.before));
     if (!a || !b) return 'One of the runs has no deviation to compare.';
+    const what = corrected ? 'after correction (model residual)' : 'before correction';
     const difference = b.max_mm - a.max_mm;
     const values = `A ${units.format(a.max_mm)}, B ${units.format(b.max_mm)}`;
-    if (difference === 0) return `Both leave the same: ${values}.`;
-    return `B leaves ${units.format(Math.abs(difference))} ${difference < 0 ? 'less' : 'more'} than A at its worst: ${values}.`;
+    if (difference === 0) return `Both are off by the same at their worst, ${what}: ${values}.`;
+    const size = `${units.format(Math.abs(difference))} ${difference < 0 ? 'less' : 'more'}`;
+    return `B is off by ${size} than A at its worst, ${what}: ${values}.`;
   }
 
   const partNames = {
@@ -79,21 +95,32 @@
     discrepancy_mm: 'mostly what assembly and force do together, more than each alone',
   };
 
+  const shortNames = {geometry_mm: 'assembly', load_mm: 'force', gravity_mm: 'weight', discrepancy_mm: 'both together'};
+
   /** The parts of a deviation that are known: [{key, name, mm}], as they are listed above. */
   function parts(causes) {
     if (!causes) return [];
-    return Object.keys(partNames).filter((key) => known(causes[key])).map((key) => ({key, name: partNames[key], mm: causes[key]}));
+    const present = Object.keys(partNames).filter((key) => known(causes[key]));
+    return present.map((key) => ({key, name: partNames[key], mm: causes[key]}));
   }
 
-  /** What bends the machine there, in words: of several parts, one that is more than twice the next is "mostly". */
-  function cause(causes) {
+  /** The parts that matter, the largest first: one that is more than twice the next is alone. */
+  function leading(causes) {
     const sorted = parts(causes).filter((part) => part.mm > 0).sort((a, b) => b.mm - a.mm);
-    if (sorted.length === 0) return '';
-    if (sorted.length === 1 || sorted[0].mm > 2 * sorted[1].mm) return partSentences[sorted[0].key];
-    return `${sorted[0].name.toLowerCase()} and ${sorted[1].name.toLowerCase()}`;
+    return sorted.length > 1 && sorted[0].mm <= 2 * sorted[1].mm ? sorted.slice(0, 2) : sorted.slice(0, 1);
   }
+
+  /** What bends the machine there, in words; '' where that is unknown. */
+  function cause(causes) {
+    const [first, second] = leading(causes);
+    if (!first) return '';
+    return second ? `${first.name.toLowerCase()} and ${second.name.toLowerCase()}` : partSentences[first.key];
+  }
+
+  /** The same in a word or two. */
+  const causeInShort = (causes) => leading(causes).map(({key}) => shortNames[key]).join(', ');
 
   const toolName = (tool) => (tool > 0 ? `T${tool}` : '\u2013');
 
-  counterflex.words = {counted, inLine, factor, fileName, title, verdict, comparison, parts, cause, toolName};
+  counterflex.words = {counted, ofRun, inLine, factor, title, verdict, comparison, parts, cause, causeInShort, toolName};
 })();

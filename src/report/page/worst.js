@@ -1,13 +1,13 @@
 'use strict';
 (() => {
-  const {el, table, jump} = counterflex.dom;
+  const {el, table, textColumn, numberColumn, jump} = counterflex.dom;
   const {fixed} = counterflex.units;
   const words = counterflex.words;
 
   /** Stretch of a row of the worst blocks: where its path length lies, but never one of another block beside it. */
   function stretchOf(curves, row) {
     let i = counterflex.data.stretchAt(curves, row.s_mm);
-    const holds = (k) => k >= 0 && k < curves.s_mm.length && curves.first_line[k] <= row.line && row.line <= curves.last_line[k];
+    const holds = (k) => curves.first_line[k] <= row.line && row.line <= curves.last_line[k];  // not beyond the ends
     if (!holds(i) && holds(i + 1)) ++i;
     return i;
   }
@@ -15,9 +15,9 @@
   function columnsOf(report) {
     const after = Boolean(report.summary.after);
     return [
-      {title: 'Line'}, {title: 'Before', number: true}, after && {title: 'After', number: true},
-      {title: 'Force', number: true}, {title: 'Tool'}, {title: 'Operation', class: 'text'}, {title: 'Mostly', class: 'text'},
-    ].filter(Boolean);
+      {title: 'Line'}, numberColumn('Before'), ...(after ? [numberColumn('After')] : []), numberColumn('Force'),
+      {title: 'Tool'}, textColumn('Operation'), {title: 'Mostly from'},
+    ];
   }
 
   /** Comments may be long; the card of the place has the whole. */
@@ -25,11 +25,11 @@
 
   function cells(row, report, units, go) {
     const line = jump(`${row.line}`, 'place', go, `Line ${row.line}: show it in all views`);
-    const cause = words.cause(row.causes).replace(/^mostly /, '');
     return [
-      line, units.number(row.before_mm), report.summary.after && units.number(row.after_mm),
-      `${fixed(row.force_N, 0)} N`, words.toolName(row.tool), clamped(row.operation), cause || '\u2013',
-    ].filter((cell) => cell !== null && cell !== undefined);
+      line, units.number(row.before_mm), ...(report.summary.after ? [units.number(row.after_mm)] : []),
+      `${fixed(row.force_N, 0)} N`, words.toolName(row.tool), clamped(row.operation),
+      words.causeInShort(row.causes) || '\u2013',
+    ];
   }
 
   /** The rows are targets for the mouse as a whole; for the keyboard, their links. */
@@ -50,8 +50,8 @@
     if (report.worst.length === 0) return el('p', null, 'No feed move was solved.');
     const go = (row) => context.goToRow(index, row);
     const rows = report.worst.map((row) => cells(row, report, units, () => go(row)));
-    const caption = `${run.letter ? `${run.letter}: ` : ''}Largest deviation of each block, in ${units.words}` +
-        (report.summary.after ? ', the largest after correction first' : '');
+    const order = report.summary.after ? ', the largest after correction first' : '';
+    const caption = words.ofRun(run, `Largest deviation of each block, in ${units.words}${order}`);
     return clickable(table(caption, columnsOf(report), rows), index, report.worst, go);
   }
 
