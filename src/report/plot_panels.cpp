@@ -12,6 +12,7 @@ namespace counterflex {
 namespace {
 
 constexpr double component_height = 150, residual_height = 110, panel_gap = 16, residual_gap = 36;  // px
+constexpr double label_x = 15;  // of the turned label of a scale
 constexpr int most_component_ticks = 5, most_residual_ticks = 4, most_path_ticks = 8;
 
 constexpr std::string_view grid_stroke = R"( stroke="#e4e4e4")";
@@ -78,8 +79,8 @@ std::string scale(const PlotPage& page, const PlotPanel& panel, const std::strin
     svg += svg_text(plot_left - 7, y + 4, Anchor::end, format_fixed(value, panel.ticks.decimals));
   }
   const double middle = panel.top + panel.height / 2;
-  return svg + svg_text(20, middle, Anchor::middle, label,
-                        fmt::format(" transform=\"rotate(-90 20 {:.1f})\"", middle));
+  return svg + svg_text(label_x, middle, Anchor::middle, label,
+                        fmt::format(" transform=\"rotate(-90 {:.1f} {:.1f})\"", label_x, middle));
 }
 
 PlotTicks path_ticks(const PlotPage& page) {

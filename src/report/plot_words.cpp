@@ -51,7 +51,7 @@ std::string caption_text(const PlotPage& page) {
     text += " Dotted lines: steps of the force.";
   if (!page.columns.single)
     text += " Bands: from the least to the largest of neighbouring places.";
-  else if (page.curves.rapids().count > 0)
+  else if (const auto& rapids = page.curves.rapids().s_mm; !rapids.empty() && rapids.back() > 0)
     text += " Curves are interrupted at rapids.";
   if (report.failure) text += " The run failed: " + report.failure->what;
   return text;

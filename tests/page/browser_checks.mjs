@@ -5,6 +5,7 @@ import './drawing_checks.mjs';
 import './number_checks.mjs';
 import './moving_checks.mjs';
 import './load_checks.mjs';
+import './comparison_checks.mjs';
 import './look_checks.mjs';
 import './scene_checks.mjs';
 import './large_checks.mjs';

@@ -145,6 +145,9 @@ TEST_CASE("a short path is drawn point by point, with a gap at each rapid") {
   CHECK(places[0] == doctest::Approx(1));
   CHECK(places[1] > 1.5);
   CHECK(count_of(path_data(points, true, {0, 1}, {0, 1}), "M") == 2);
+  CHECK(contains(to_svg(curves, report_of_made_up()), "interrupted at rapids"));
+  const PathCurves unbroken = path_with(5, [](std::size_t) { return 0.1; });
+  CHECK_FALSE(contains(to_svg(unbroken, report_of_made_up()), "at rapids"));
 }
 
 TEST_CASE("what a sample between does not know is drawn through") {

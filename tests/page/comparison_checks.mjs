@@ -1,0 +1,31 @@
+import assert from 'node:assert/strict';
+import test from 'node:test';
+import {data_in, pixels, report_of, texts, visit} from './browser.mjs';
+
+/** The number of a comparison's row, by the key of reports. */
+const values_of = (document, key) => document.summary.find((row) => row.key === key).values;
+
+test('the page of a comparison has both reports with the curves of their own pages', async () => {
+  const {runs} = data_in('compared');
+  assert.deepEqual(runs.map((run) => run.name), ['pocket', 'constant']);
+  for (const run of runs) {
+    assert.deepEqual(run.report, report_of(run.name));
+    assert.deepEqual(run.curves, data_in(run.name).runs[0].curves);
+    assert.deepEqual(run.loads, data_in(run.name).runs[0].loads);
+  }
+});
+
+test('the page of a comparison shows the numbers of its document, and curves of both runs', () => visit('compared', async (page) => {
+  const rows = await page.$$eval('#numbers tbody tr', (all) => all.map((tr) => [...tr.children].map((cell) => cell.textContent)));
+  const largest = rows.find((row) => row[0] === 'Largest');
+  const document = report_of('compared');
+  const expected = [...values_of(document, '/summary/before/max_mm'), ...values_of(document, '/summary/after/max_mm')];
+  const shown = largest.slice(1).filter((_, i) => [0, 1, 3, 4].includes(i));
+  expected.forEach((value, i) => assert.ok(Math.abs(Number(shown[i]) - 1000 * value) < 0.06, `${largest} lacks ${value}`));
+  assert.ok(await pixels(page, '.plot canvas', '--x') > 300);
+  assert.match((await texts(page, 'h1')).join(), /Two runs/);
+}));
+
+test('a prediction beside a compensation makes a page, too', () => visit('half_compared', async (page) => {
+  assert.equal(await page.locator('#numbers').isVisible(), true);
+}));
