@@ -1,6 +1,6 @@
 import assert from 'node:assert/strict';
 import test from 'node:test';
-import {bytes_of, data_in, pixels, visit} from './browser.mjs';
+import {bytes_of, data_in, pixels, visit, write_page} from './browser.mjs';
 
 test('the page of a long program is small and soon ready, however long the program', async () => {
   const {curves} = data_in('large').runs[0];
@@ -17,3 +17,12 @@ test('of merged points least and largest are drawn', () => visit('large', async 
   assert.ok(await pixels(page, '.plot.before canvas', '--before') > 2000);
   assert.match(await page.innerText('#curves'), /Each stretch of \d+ points is drawn with its least and its largest value/);
 }));
+
+test('where marks are thinned out a page says so', async () => {
+  const data = data_in('pocket');
+  const {force_steps: steps} = data.runs[0].curves;
+  steps.count = 64 * steps.s_mm.length;
+  write_page('pocket', data, 'thinned');
+  await visit('thinned', async (page) => assert.match(await page.innerText('#curves'), /Of every 64 steps of the force one is marked/));
+  await visit('pocket', async (page) => assert.doesNotMatch(await page.innerText('#curves'), /Of every/));
+});

@@ -103,6 +103,13 @@
 
   const help = 'Drag to zoom, shift and drag to move along, double click for all; click to see the place in space.';
 
+  /** What the marks leave out. */
+  function thinnedNote({marks}) {
+    const {rapids, steps} = marks.thinned;
+    const said = [rapids && `${rapids} rapids`, steps && `${steps} steps of the force`].filter(Boolean);
+    return said.length > 0 ? el('p', {class: 'note'}, `Of every ${said.join(' and of every ')} one is marked.`) : null;
+  }
+
   /** How curves of merged waypoints are to be read. */
   function mergedNote(context) {
     const merged = context.runs.map((run) => (run.curves ? run.curves.waypoints_per_stretch : 1));
@@ -128,7 +135,7 @@
     const choice = componentChoice(context, state, 'component', present);
     const controls = el('div', {class: 'controls'}, choice, logBox(state));
     return {plots: state.plots, content: [controls, counterflex.plotGroup.controls(group),
-      state.plots.map((plot) => plot.node), el('p', {class: 'note help'}, help), mergedNote(context)]};
+      state.plots.map((plot) => plot.node), el('p', {class: 'note help'}, help), mergedNote(context), thinnedNote(group)]};
   }
 
   const sourceSeries = (part) => [

@@ -54,12 +54,17 @@
     return marks;
   }
 
-  /** Marks of a run in path length: where blocks begin, rapids, steps of the force. */
+  /**
+   * Marks of a run in path length: where blocks begin, rapids, steps of the force. `thinned`: of how many rapids and
+   * steps one is marked; 0: all are.
+   */
   function of(run) {
     const {curves} = run;
-    if (!curves) return {blocks: [], rapids: [], steps: []};
+    if (!curves) return {blocks: [], rapids: [], steps: [], thinned: {}};
     const placed = (marks) => marks.s_mm.map((s) => ({s, line: curves.first_line[data.stretchAt(curves, s)]}));
-    return {blocks: blockEnds(curves), rapids: placed(curves.rapids), steps: placed(curves.force_steps)};
+    const thinned = ({count, s_mm: s}) => (s.length > 0 && count > s.length ? Math.round(count / s.length) : 0);
+    return {blocks: blockEnds(curves), rapids: placed(curves.rapids), steps: placed(curves.force_steps),
+      thinned: {rapids: thinned(curves.rapids), steps: thinned(curves.force_steps)}};
   }
 
   function drawBlocks(canvas, area, blocks) {
@@ -69,9 +74,11 @@
     labels(canvas, blocks, area.y + 17);
   }
 
-  function drawRapids(canvas, area, rapids) {
+  /** Marks that are too many, or stand for others beside them, are drawn at the edge alone. */
+  const tooMany = (marks, area, thinned) => thinned > 0 || marks.length > area.w / 8;
+
+  function drawRapids(canvas, area, rapids, dense) {
     canvas.strokeStyle = colour('--muted');
-    const dense = rapids.length > area.w / 8;
     for (const {x} of rapids) vertical(canvas, dense ? {y: area.y + area.h - 6, h: 6} : area, x, [3, 4], 1);
   }
 
@@ -83,9 +90,8 @@
     canvas.fill();
   }
 
-  function drawSteps(canvas, area, steps) {
+  function drawSteps(canvas, area, steps, dense) {
     canvas.strokeStyle = canvas.fillStyle = colour('--step');
-    const dense = steps.length > area.w / 8;
     for (const {x} of steps) {
       vertical(canvas, dense ? {y: area.y, h: 6} : area, x, [1, 3], 1);
       if (!dense) triangle(canvas, x, area.y);
@@ -96,8 +102,11 @@
   function draw(canvas, area, marks, toX, shown) {
     canvas.save();
     if (shown.blocks) drawBlocks(canvas, area, inView(marks.blocks, toX, area));
-    if (shown.rapids) drawRapids(canvas, area, inView(marks.rapids, toX, area));
-    if (shown.steps) drawSteps(canvas, area, inView(marks.steps, toX, area));
+    for (const [kind, drawKind] of [['rapids', drawRapids], ['steps', drawSteps]]) {
+      if (!shown[kind]) continue;
+      const visible = inView(marks[kind], toX, area);
+      drawKind(canvas, area, visible, tooMany(visible, area, marks.thinned[kind]));
+    }
     canvas.restore();
   }
 
