@@ -75,6 +75,20 @@ test('a page without attribution is drawn without what it lacks', async () => {
   });
 });
 
+test('a report of a version that said less is shown as far as it goes', async () => {
+  const data = data_in('groove');
+  const {report} = data.runs[0];
+  for (const key of ['operations', 'units', 'loads']) delete report[key];
+  delete report.summary.corrected_percent;
+  report.worst = report.worst.map(({line, before_mm, after_mm}) => ({line, before_mm, after_mm}));
+  write_page('groove', data, 'older');
+  await visit('older', async (page) => {
+    assert.ok(await pixels(page, '.plot.before canvas', '--before') > 300);
+    assert.match(await page.innerText('#place h3'), new RegExp(`Line ${report.worst[0].line}$`));
+    assert.doesNotMatch(await page.innerText('main'), /undefined|NaN|\[object|null/);
+  });
+});
+
 /** Curves of their first stretch alone. */
 function first_stretch(curves) {
   const cut = (base64, bytes) => Buffer.from(base64, 'base64').subarray(0, bytes).toString('base64');

@@ -51,12 +51,13 @@
   }
 
   function facts(row, units) {
-    const place = row.place_mm.map((x) => units.lengthNumber(x)).join(', ');
+    const place = (row.place_mm || []).map((x) => units.lengthNumber(x)).join(', ');
     return el('dl', {class: 'facts'},
         known(row.after_mm) && fact('After (model residual)', units.format(row.after_mm)),
         fact('Cutting force', known(row.force_N) ? `${fixed(row.force_N, 1)} N` : 'not known'),
         fact('Tool', words.toolName(row.tool)), row.operation && fact('Operation', row.operation),
-        fact('Place on the path', units.length(row.s_mm)), fact('Machine x, y, z', `${place} ${units.lengthLabel}`));
+        known(row.s_mm) && fact('Place on the path', units.length(row.s_mm)),
+        place && fact('Machine x, y, z', `${place} ${units.lengthLabel}`));
   }
 
   /** The card of a place: its line, its cause in words and bars, and what acts there. */

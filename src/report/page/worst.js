@@ -1,11 +1,12 @@
 'use strict';
 (() => {
   const {el, table, textColumn, numberColumn, jump} = counterflex.dom;
-  const {fixed} = counterflex.units;
+  const {fixed, known} = counterflex.units;
   const words = counterflex.words;
 
   /** Stretch of a row of the worst blocks: where its path length lies, but never one of another block beside it. */
   function stretchOf(curves, row) {
+    if (!known(row.s_mm)) return counterflex.lines.stretchOf(curves, row.line);
     let i = counterflex.data.stretchAt(curves, row.s_mm);
     const holds = (k) => curves.first_line[k] <= row.line && row.line <= curves.last_line[k];  // not beyond the ends
     if (!holds(i) && holds(i + 1)) ++i;
@@ -27,7 +28,7 @@
     const line = jump(`${row.line}`, 'place', go, `Line ${row.line}: show it in all views`);
     return [
       line, units.number(row.before_mm), ...(report.summary.after ? [units.number(row.after_mm)] : []),
-      `${fixed(row.force_N, 0)} N`, words.toolName(row.tool), clamped(row.operation),
+      known(row.force_N) ? `${fixed(row.force_N, 0)} N` : '\u2013', words.toolName(row.tool), clamped(row.operation),
       words.causeInShort(row.causes) || '\u2013',
     ];
   }
