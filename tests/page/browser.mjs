@@ -55,7 +55,7 @@ export async function visit(name, check, {width = 1400, scheme = 'light', webgl 
   try {
     const page = await context.newPage();
     page.first_address = pathToFileURL(path.join(folder, `${name}.html`)).href;
-    page.setDefaultTimeout(8000);
+    page.setDefaultTimeout(15000);
     const complaints = watch(page);
     if (!webgl) await page.addInitScript(without_webgl);
     await page.goto(page.first_address);
