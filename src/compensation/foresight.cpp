@@ -9,7 +9,7 @@ namespace counterflex {
 
 // Nothing where a move between them may have come elsewhere.
 HeldPosition Foresight::before(std::size_t segment) const {
-  if (last_ + 1 != segment) return {};
+  if (last_ == no_segment || last_ + 1 != segment) return {};
   const std::size_t from = job_->path.segments[last_].move, to = job_->path.segments[segment].move;
   if (from + 1 != to) return {};
   return held_between(job_->program.moves[from], job_->program.moves[to], held_);

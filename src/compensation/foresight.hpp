@@ -1,6 +1,6 @@
 #pragma once
 /// What the text will command, told before it is written.
-#include "counterflex/compensation/options.hpp"
+#include "counterflex/compensation/waypoint.hpp"
 #include "counterflex/program/rewrite.hpp"
 
 namespace counterflex {
@@ -24,7 +24,7 @@ class Foresight {
   Vector3 command(std::size_t segment, const HeldPosition& held) const;
 
   const Job* job_;
-  std::size_t last_ = static_cast<std::size_t>(-1);  // segment
+  std::size_t last_ = no_segment;
   HeldPosition before_{}, held_{};                   // of the text, before and behind it
 };
 
