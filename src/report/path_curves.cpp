@@ -123,6 +123,17 @@ Stretch stretch_of(const Waypoint& w, PathCurves::Known known) {
   return stretch;
 }
 
+/// What is the rapid's own at a place where a feed move begins.
+void forget_after(Stretch& stretch) {
+  const auto forget = [&](Quantity first, Quantity last) {
+    for (auto i = static_cast<std::size_t>(first); i <= static_cast<std::size_t>(last); ++i)
+      stretch.least[i] = stretch.largest[i] = unknown;
+  };
+  forget(Quantity::after_x, Quantity::after_rotation);
+  forget(Quantity::correction_x, Quantity::correction);
+  stretch.after.fill(unknown);
+}
+
 /// The first where the other is unknown.
 float lesser(float a, float b) {
   return b < a || std::isnan(a) ? b : a;
@@ -172,7 +183,7 @@ void PathMarks::add(double s) {
 
 PathCurves::PathCurves(bool corrected, bool weighs) : known_{corrected, weighs} {}
 
-void PathCurves::add(const Waypoint& w, std::int32_t operation) {
+void PathCurves::add(const Waypoint& w, std::int32_t operation, const Vector3* segment_start) {
   if (w.status != Status::converged) return;
   if (!w.cutting) {
     rapid_ = w;
@@ -181,27 +192,32 @@ void PathCurves::add(const Waypoint& w, std::int32_t operation) {
   bool after_rapid = rapid_.has_value();
   if (after_rapid) {
     rapids_.add(s_mm_);
-    if (begin_at_rapid(w, operation)) after_rapid = false;
+    if (begin_at_rapid(w, operation, segment_start)) after_rapid = false;
   }
-  push(w, operation, after_rapid);
-}
-
-// The end of a rapid is where the feed move after it starts, as the statistics have it (path_tally.hpp).
-bool PathCurves::begin_at_rapid(const Waypoint& w, std::int32_t operation) {
-  Waypoint start = *std::exchange(rapid_, std::nullopt);
-  const double chord = (w.p_MT - start.p_MT).norm();
-  if (std::abs(chord - (w.s - s_mm_ * mm)) > joined) return false;
-  start.line = w.line;
-  start.s = s_mm_ * mm;
-  start.direction = w.direction;
-  push(start, operation, true);
-  return true;
-}
-
-void PathCurves::push(const Waypoint& w, std::int32_t operation, bool after_rapid) {
   Stretch stretch = stretch_of(w, known_);
   stretch.operation = operation;
   stretch.begins_after_rapid = after_rapid;
+  push(stretch);
+}
+
+// The end of a rapid is where the feed move after it starts, as the statistics have it (path_tally.hpp).
+bool PathCurves::begin_at_rapid(const Waypoint& w, std::int32_t operation, const Vector3* segment_start) {
+  Waypoint start = *std::exchange(rapid_, std::nullopt);
+  const double gap = segment_start != nullptr ? (*segment_start - start.p_MT).norm()
+                                              : std::abs((w.p_MT - start.p_MT).norm() - (w.s - s_mm_ * mm));
+  if (gap > joined) return false;
+  start.line = w.line;
+  start.s = s_mm_ * mm;
+  start.direction = w.direction;
+  Stretch stretch = stretch_of(start, known_);
+  stretch.operation = operation;
+  stretch.begins_after_rapid = true;
+  forget_after(stretch);
+  push(stretch);
+  return true;
+}
+
+void PathCurves::push(const Stretch& stretch) {
   s_mm_ = stretch.s_mm;
   ++waypoints_;
   if (!stretches_.empty() && in_last_ < per_stretch_) {

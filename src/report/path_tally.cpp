@@ -24,11 +24,12 @@ void keep(Largest& largest, double length, int line) {
 }
 
 /// Whether `deviation` is the largest of its line so far; then it is kept, with its place.
-bool keep_worst(double& largest_mm, WorstPlace& place, const Waypoint& w, const Vector6& deviation) {
+bool keep_worst(double& largest_mm, WorstPlace& place, const Waypoint& w, const Vector6& deviation,
+                std::int32_t operation) {
   const double here_mm = deviation.head<3>().norm() / mm;
   if (place.known && here_mm <= largest_mm) return false;
   largest_mm = here_mm;
-  place = {true, w.s / mm, w.p_MT / mm, w.wrench.head<3>().norm()};
+  place = {true, w.s / mm, w.p_MT / mm, operation, w.wrench.head<3>().norm()};
   return true;
 }
 
@@ -89,10 +90,10 @@ void WorstLines::keep_the_worst() {
   });
 }
 
-void PathTally::add(const Waypoint& w, std::int32_t operation) {
+void PathTally::add(const Waypoint& w, std::int32_t operation, const Vector3* segment_start) {
   if (w.status != Status::converged) return;
   if (!w.between) add_target(w);
-  if (w.cutting) return add_cutting(w, operation);
+  if (w.cutting) return add_cutting(w, operation, segment_start);
   finish_end();
   rapid_ = w;
 }
@@ -124,56 +125,74 @@ void PathTally::add_target(const Waypoint& w) {
   ++m_.segments_changed;
 }
 
-void PathTally::add_cutting(const Waypoint& w, std::int32_t operation) {
+void PathTally::add_cutting(const Waypoint& w, std::int32_t operation, const Vector3* segment_start) {
   m_.after.add(sample(w, w.after, w.weight));
   m_.path_mm += w.weight / mm;
-  if (!w.exempt) m_.corrected_mm += w.weight / mm;
   m_.largest_N = std::max(m_.largest_N, w.wrench.head<3>().norm());
   m_.largest_Nm = std::max(m_.largest_Nm, w.wrench.tail<3>().norm());
   add_to_operation(w, operation);
   WorstRow& row = lines_.row(w.line);
-  row.operation = operation;
-  keep_worst(row.after_mm, row.at_after, w, w.after);
+  keep_worst(row.after_mm, row.at_after, w, w.after, operation);
   piece_weight_ += w.weight;
+  piece_exempt_ = piece_exempt_ || w.exempt;
   if (w.causes) {
     add_other(m_.higher, w, w.causes->higher, w.weight);
     add_other(m_.lower, w, w.causes->lower, w.weight);
   }
-  if (!w.between) add_end(w, operation);
+  if (!w.between) add_end(w, operation, segment_start);
+}
+
+OperationTally* PathTally::tally_of(std::int32_t operation) {
+  if (operation == no_operation) return nullptr;
+  const auto index = static_cast<std::size_t>(operation);
+  if (index >= operations_.size()) operations_.resize(index + 1);
+  return &operations_[index];
 }
 
 void PathTally::add_to_operation(const Waypoint& w, std::int32_t operation) {
-  if (operation == no_operation) return;
-  const auto index = static_cast<std::size_t>(operation);
-  if (index >= operations_.size()) operations_.resize(index + 1);
-  OperationTally& tally = operations_[index];
-  tally.after.add(sample(w, w.after, w.weight));
-  tally.length_mm += w.weight / mm;
-  if (!w.exempt) tally.corrected_mm += w.weight / mm;
-  if (tally.first_line == 0) tally.first_line = w.line;
-  tally.first_line = std::min(tally.first_line, w.line);
-  tally.last_line = std::max(tally.last_line, w.line);
+  OperationTally* tally = tally_of(operation);
+  if (tally == nullptr) return;
+  tally->after.add(sample(w, w.after, w.weight));
+  tally->length_mm += w.weight / mm;
+  tally->first_line = tally->first_line == 0 ? w.line : std::min(tally->first_line, w.line);
+  tally->last_line = std::max(tally->last_line, w.line);
   const std::pair move{w.segment, w.line};
-  if (tally.last_move == move) return;
-  tally.last_move = move;
-  ++tally.moves;
+  if (tally->last_move == move) return;
+  tally->last_move = move;
+  ++tally->moves;
 }
 
 // Trapezoids: a piece weighs on both of its ends, or on its last one alone where the other is not known.
-void PathTally::add_end(const Waypoint& w, std::int32_t operation) {
-  if (rapid_) begin_at_rapid(w, operation);
+void PathTally::add_end(const Waypoint& w, std::int32_t operation, const Vector3* segment_start) {
+  if (rapid_) begin_at_rapid(w, operation, segment_start);
   const double share = end_ ? piece_weight_ / 2 : 0;
-  if (end_) end_->weight += share;
+  if (end_) share_piece(w, operation, share);
   finish_end();
-  end_ = End{w, operation, piece_weight_ - share};
+  const double rest = piece_weight_ - share;
+  end_ = End{w, operation, rest, rest};
+  const double corrected_mm = std::exchange(piece_exempt_, false) ? 0 : piece_weight_ / mm;
+  m_.corrected_mm += corrected_mm;
+  if (OperationTally* tally = tally_of(operation)) tally->corrected_mm += corrected_mm;
   piece_weight_ = 0;
 }
 
+// Where another operation begins, its first piece starts at the end of the one before.
+void PathTally::share_piece(const Waypoint& w, std::int32_t operation, double share) {
+  end_->weight += share;
+  OperationTally* tally = tally_of(operation);
+  if (end_->operation == operation || tally == nullptr) return void(end_->weight_there += share);
+  Waypoint start = end_->at;
+  start.line = w.line;
+  start.direction = w.direction;
+  tally->before.add(sample(start, start.before, share));
+}
+
 // The end of a rapid is where the feed move after it starts; its force has not yet grown there.
-void PathTally::begin_at_rapid(const Waypoint& w, std::int32_t operation) {
-  const double gap = std::abs((w.p_MT - rapid_->p_MT).norm() - piece_weight_);
+void PathTally::begin_at_rapid(const Waypoint& w, std::int32_t operation, const Vector3* segment_start) {
+  const double gap = segment_start != nullptr ? (*segment_start - rapid_->p_MT).norm()
+                                              : std::abs((w.p_MT - rapid_->p_MT).norm() - piece_weight_);
   if (!end_ && gap < same_place) {
-    end_ = End{*rapid_, operation, 0};
+    end_ = End{*rapid_, operation, 0, 0};
     end_->at.line = w.line;
     end_->at.direction = w.direction;
   }
@@ -197,11 +216,12 @@ void PathTally::measure_causes(const Waypoint& w, const Causes& causes, double w
 void PathTally::measure_end(const End& end) {
   const Waypoint& w = end.at;
   m_.before.add(sample(w, w.before, end.weight));
-  if (end.operation != no_operation)
-    operations_[static_cast<std::size_t>(end.operation)].before.add(sample(w, w.before, end.weight));
+  if (OperationTally* tally = tally_of(end.operation))
+    tally->before.add(sample(w, w.before, end.weight_there));
   if (w.causes) measure_causes(w, *w.causes, end.weight);
   WorstRow& row = lines_.row(w.line);
-  if (keep_worst(row.before_mm, row.at_before, w, w.before) && w.causes) row.causes = parts_of(w, *w.causes);
+  if (keep_worst(row.before_mm, row.at_before, w, w.before, end.operation) && w.causes)
+    row.causes = parts_of(w, *w.causes);
 }
 
 }  // namespace counterflex

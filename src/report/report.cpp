@@ -45,9 +45,9 @@ ForceSummary force_summary(const RunTally& tally, const Measures& measures) {
   return forces;
 }
 
-// A run that failed before anything was solved has no deviations; zeros would look like perfection.
-std::optional<DeviationStatistics> known(const DeviationTally& tally, const std::optional<Failure>& failure) {
-  if (tally.samples() == 0 && failure) return std::nullopt;
+// What was solved nowhere has no deviation; zeros would look like perfection.
+std::optional<DeviationStatistics> known(const DeviationTally& tally) {
+  if (tally.samples() == 0) return std::nullopt;
   return tally.statistics();
 }
 
@@ -71,7 +71,7 @@ std::optional<double> percent_of(double part, double all) {
   return all > 0 ? std::optional(100 * part / all) : std::nullopt;
 }
 
-std::vector<OperationReport> operation_reports(const RunTally& tally) {
+std::vector<OperationReport> operation_reports(const RunTally& tally, bool failed) {
   std::vector<OperationTally> tallies = tally.path().operations();
   const auto& names = tally.operation_names();
   tallies.resize(names.size());
@@ -79,7 +79,8 @@ std::vector<OperationReport> operation_reports(const RunTally& tally) {
   for (std::size_t i = 0; i < names.size(); ++i) {
     const OperationTally& t = tallies[i];
     rows.push_back({names[i].tool, names[i].operation, t.first_line, t.last_line, t.moves, t.length_mm,
-                    percent_of(t.corrected_mm, t.length_mm), t.before.statistics(), t.after.statistics()});
+                    failed ? std::nullopt : percent_of(t.corrected_mm, t.length_mm), known(t.before),
+                    known(t.after)});
   }
   return rows;
 }
@@ -94,10 +95,10 @@ RunReport common(const RunContext& context, const RunTally& tally, const Measure
   report.method = context.options.method;
   report.tolerance_mm = context.options.tolerance / mm;
   report.path_mm = measures.path_mm;
-  report.before = known(measures.before, failure);
+  report.before = known(measures.before);
   if (context.facts.attribution && report.before) report.sources = sources(measures, weighs(context.machine));
-  report.corrected_percent = percent_of(measures.corrected_mm, measures.path_mm);
-  report.operations = operation_reports(tally);
+  if (!failure) report.corrected_percent = percent_of(measures.corrected_mm, measures.path_mm);
+  report.operations = operation_reports(tally, failure.has_value());
   report.units = {tally.unit(), turns_joints(context.machine)};
   report.blocks.total = context.program.blocks;
   report.blocks.moves = context.program.moves;
@@ -116,7 +117,7 @@ RunReport common(const RunContext& context, const RunTally& tally, const Measure
 }
 
 void add_residual(RunReport& report, const RunTally& tally, const Measures& measures) {
-  report.after = known(measures.after, report.failure);
+  report.after = known(measures.after);
   if (report.facts.attribution && report.after) report.air = measures.air;
   report.worst = tally.path().worst(&WorstRow::after_mm);
 }

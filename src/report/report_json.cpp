@@ -187,7 +187,7 @@ Json operations_json(const std::vector<OperationReport>& operations) {
                     {"moves", operation.moves},
                     {"length_mm", number(operation.length_mm, digits)},
                     {"corrected_percent", optional_number(operation.corrected_percent)},
-                    {"before", statistics_json(operation.before)},
+                    {"before", optional_statistics(operation.before)},
                     {"after", optional_statistics(operation.after)}});
   return list;
 }
@@ -212,8 +212,8 @@ Json worst_row_json(const RunReport& report, const WorstRow& row) {
                {"force_N", number(place.force_N, 4)},
                {"causes", parts_json(row.causes, weights)},
                {"text", row.text}};
-  if (row.operation < 0) return json;
-  const OperationReport& operation = report.operations[static_cast<std::size_t>(row.operation)];
+  if (place.operation < 0) return json;
+  const OperationReport& operation = report.operations[static_cast<std::size_t>(place.operation)];
   json["tool"] = operation.tool;
   json["operation"] = operation.name;
   return json;

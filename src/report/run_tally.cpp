@@ -22,29 +22,33 @@ std::int32_t OperationNames::number_of(const Program& window, const Move& move) 
 RunTally::RunTally(double min_block_ms, std::optional<PathCurves> curves)
     : min_block_ms_(min_block_ms), curves_(std::move(curves)) {}
 
-void RunTally::add(const Waypoint& w, std::int32_t operation) {
-  path_.add(w, operation);
-  if (curves_) curves_->add(w, operation);
+void RunTally::add(const Waypoint& w, std::int32_t operation, const Vector3* segment_start) {
+  path_.add(w, operation, segment_start);
+  if (curves_) curves_->add(w, operation, segment_start);
 }
 
 void RunTally::add_waypoints(const std::vector<Waypoint>& waypoints) {
-  for (const Waypoint& w : waypoints) add(w, PathTally::no_operation);
+  for (const Waypoint& w : waypoints) add(w, PathTally::no_operation, nullptr);
 }
 
 void RunTally::add_waypoints(const std::vector<Waypoint>& waypoints, const Job& window) {
   std::size_t segment = no_segment;
   std::int32_t operation = PathTally::no_operation;
+  const Vector3* start = nullptr;
   for (const Waypoint& w : waypoints) {
     if (w.segment != segment) {
       segment = w.segment;
       operation = PathTally::no_operation;
+      start = nullptr;
       if (segment != no_segment && w.cutting) {
-        const Move& move = window.program.moves[window.path.segments[segment].move];
+        const Segment& wanted = window.path.segments[segment];
+        const Move& move = window.program.moves[wanted.move];
+        start = &wanted.wanted.start;
         operation = operation_names_.number_of(window.program, move);
         if (!unit_) unit_ = move.unit;
       }
     }
-    add(w, operation);
+    add(w, operation, start);
   }
 }
 

@@ -3,6 +3,7 @@ import {after} from 'node:test';
 import {close} from './browser.mjs';
 import './drawing_checks.mjs';
 import './number_checks.mjs';
+import './curve_checks.mjs';
 import './moving_checks.mjs';
 import './load_checks.mjs';
 import './comparison_checks.mjs';

@@ -112,6 +112,7 @@ inline std::vector<Waypoint> made_up_waypoints() {
   list[0].after.head<3>() = Vector3(0, 0, 0.006) * mm;
   Waypoint rapid = cut(0, 3, 0, Vector3(9, 9, 9));
   rapid.cutting = false;
+  rapid.p_MT = Vector3(0, 0, 5) * mm;  // not where the feed move starts
   list.insert(list.begin(), rapid);
   return list;
 }

@@ -139,3 +139,12 @@ TEST_CASE("a worst line says where its largest deviations are, and what the one 
   CHECK(row.causes->load_mm == doctest::Approx(0.2));
   CHECK(row.causes->discrepancy_mm == doctest::Approx(0.1));
 }
+
+TEST_CASE("a line that runs in two operations names the one in which it was worst") {
+  PathTally tally;
+  tally.add(cut(0, 5, 1, Vector3(0.4, 0, 0)), 0);
+  tally.add(cut(1, 5, 1, Vector3(0.1, 0, 0)), 1);
+  const WorstRow row = tally.worst(&WorstRow::after_mm).at(0);
+  CHECK(row.at_after.operation == 0);
+  CHECK(row.at_before.operation == 0);
+}

@@ -277,13 +277,82 @@ TEST_CASE("operations are told apart by tool and comment, and their parts make u
   double sum_mm = 0;
   for (const OperationReport& operation : report.operations) {
     CHECK(operation.moves == 1);
-    CHECK(operation.before.max_mm == doctest::Approx(0.1 * operation.first_line));
+    CHECK(operation.before->max_mm == doctest::Approx(0.1 * operation.first_line));
     sum_mm += operation.length_mm;
   }
   CHECK(sum_mm == doctest::Approx(report.path_mm));
   CHECK(*report.operations[0].corrected_percent == doctest::Approx(100));
   CHECK(*report.operations[2].corrected_percent == 0);
   CHECK(*report.corrected_percent == doctest::Approx(100 * 150 / 160.0));
+}
+
+TEST_CASE("an arc begins at the end of the rapid before it, in the statistics and in the curves") {
+  MadeUpRun run;
+  run.program = read_program("G21 G90 G17 G0 X0 Y0 Z0\nG0 X10\nG2 X20 Y10 I10 J0 F600\nM30\n", "arc.ngc", {});
+  run.path = build_toolpath(run.program, one_frame(run.program, {}));
+  REQUIRE(run.path.segments.size() == 2);
+  const Segment& arc = run.path.segments[1];
+  Waypoint rapid = cut(0, 2, 0, Vector3(0, 0, 0.7)),
+           end = cut(1, 3, length(arc.wanted) / mm, Vector3(0, 0, 0.2));
+  rapid.cutting = false;
+  rapid.p_MT = arc.wanted.start;
+  end.p_MT = arc.wanted.end;
+  end.s = length(arc.wanted);
+  RunTally tally(2, PathCurves(true));
+  tally.add_waypoints({rapid, end}, run.job);
+  const auto before = static_cast<std::size_t>(Quantity::before),
+             after = static_cast<std::size_t>(Quantity::after);
+  CHECK(tally.path().measures().before.statistics().max_mm == doctest::Approx(0.7));
+  const auto& stretches = tally.curves()->stretches();
+  REQUIRE(stretches.size() == 2);
+  CHECK(stretches[0].largest[before] == doctest::Approx(0.7));
+  CHECK(std::isnan(stretches[0].largest[after]));  // the rapid's own
+  CHECK(stretches[1].largest[after] == doctest::Approx(tally.path().measures().after.statistics().max_mm));
+
+  rapid.p_MT += Vector3(0, 0, 1) * mm;
+  RunTally apart(2);
+  apart.add_waypoints({rapid, end}, run.job);
+  CHECK(apart.path().measures().before.statistics().max_mm == doctest::Approx(0.2));
+}
+
+TEST_CASE("where one operation follows another without a rapid both know the place between them") {
+  MadeUpRun run;
+  run.program = read_program("G21 G90 G0 X0 Y0 Z0\n(A)\nG1 X10 F600\n(B)\nY30\nM30\n", "two.ngc", {});
+  run.path = build_toolpath(run.program, one_frame(run.program, {}));
+  RunTally tally(2);
+  tally.add_waypoints({cut(0, 3, 10, Vector3(0.1, 0, 0)), cut(1, 5, 30, Vector3(0.05, 0, 0))}, run.job);
+  const std::vector<OperationTally> operations = tally.path().operations();
+  REQUIRE(operations.size() == 2);
+  CHECK(operations[0].before.statistics().max_mm == doctest::Approx(0.1));
+  CHECK(operations[0].before.statistics().mean_mm == doctest::Approx(0.1));
+  CHECK(operations[1].before.statistics().max_mm == doctest::Approx(0.1));
+  CHECK(operations[1].before.statistics().max_line == 5);
+  CHECK(operations[1].before.statistics().mean_mm == doctest::Approx(0.075));
+  CHECK(tally.path().measures().before.statistics().mean_mm == doctest::Approx((0.1 * 25 + 0.05 * 15) / 40));
+}
+
+TEST_CASE("a piece that may miss the tolerance somewhere is no part of what is corrected") {
+  PathTally tally;
+  Waypoint inside = cut(0, 3, 5, Vector3(0.1, 0, 0)), end = cut(0, 3, 5, Vector3(0.1, 0, 0)),
+           good = cut(1, 4, 30, Vector3(0.1, 0, 0));
+  inside.between = inside.exempt = true;
+  for (const Waypoint& w : {inside, end, good}) tally.add(w, 0);
+  CHECK(tally.measures().path_mm == doctest::Approx(40));
+  CHECK(tally.measures().corrected_mm == doctest::Approx(30));
+  CHECK(tally.operations().at(0).corrected_mm == doctest::Approx(30));
+}
+
+TEST_CASE("a run that failed says no corrected share, and what was solved nowhere has no deviation") {
+  const MadeUpRun run;
+  const Overview overview = overview_of(run.program);
+  const RunTally tally = run.tally(made_up_waypoints());
+  CHECK(report_compensation(run.context(overview), tally, {}).corrected_percent);
+  const RunReport failed =
+      report_compensation(run.context(overview), tally, Failure{Exit::limit, 4, "too far"});
+  CHECK_FALSE(failed.corrected_percent);
+  CHECK_FALSE(failed.operations.at(0).corrected_percent);
+  const RunReport none = report_prediction(run.context(overview), RunTally(2), {});
+  CHECK_FALSE(none.before);
 }
 
 TEST_CASE("of more operations than are listed the last one stands for all others") {

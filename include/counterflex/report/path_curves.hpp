@@ -102,8 +102,10 @@ class PathCurves {
   /// `weighs`: whether weights act, so that gravity does.
   explicit PathCurves(bool corrected, bool weighs = false);
 
-  /// The next waypoint; `operation` as the caller counts them.
-  void add(const Waypoint& w, std::int32_t operation);
+  /// The next waypoint; `operation` as the caller counts them, `segment_start` as for a PathTally. Of the
+  /// place where a feed move begins at a rapid's end nothing is said of after and correction: they are the
+  /// rapid's.
+  void add(const Waypoint& w, std::int32_t operation, const Vector3* segment_start = nullptr);
 
   /// A step of the force profile.
   void add_force_step(double s_mm);
@@ -125,8 +127,9 @@ class PathCurves {
   };
 
  private:
-  bool begin_at_rapid(const Waypoint& w, std::int32_t operation);  ///< whether it could
-  void push(const Waypoint& w, std::int32_t operation, bool after_rapid);
+  bool begin_at_rapid(const Waypoint& w, std::int32_t operation,
+                      const Vector3* segment_start);  ///< whether it could
+  void push(const Stretch& stretch);
   void merge_neighbours();
   Quantity picture() const;  ///< whose largest value decides what a stretch shows in space
 

@@ -25,7 +25,7 @@ struct Measures {
   Largest air, correction;
   double largest_N = 0, largest_Nm = 0;
   double path_mm = 0;
-  double corrected_mm = 0;           ///< of it, what is held to the tolerance
+  double corrected_mm = 0;           ///< of it, pieces that are held to the tolerance everywhere
   std::size_t segments_changed = 0;  ///< feed moves and rapids whose target is not the original one
 };
 
@@ -34,7 +34,7 @@ struct OperationTally {
   DeviationTally before, after;
   int first_line = 0, last_line = 0;
   std::size_t moves = 0;
-  double length_mm = 0, corrected_mm = 0;  ///< of feed moves, and of these what is held to the tolerance
+  double length_mm = 0, corrected_mm = 0;  ///< of feed moves, and of these whole pieces held to the tolerance
   std::optional<std::pair<std::size_t, int>> last_move;  ///< segment and line
 };
 
@@ -62,8 +62,10 @@ class WorstLines {
 class PathTally {
  public:
   /// `operation` counts from 0, as the caller does; `no_operation`: it is not known.
+  /// `segment_start`: where the wanted segment of a feed move starts (M, m), so that the end of a rapid there
+  /// counts as its first place; without it a line's length tells.
   static constexpr std::int32_t no_operation = -1;
-  void add(const Waypoint& w, std::int32_t operation = no_operation);
+  void add(const Waypoint& w, std::int32_t operation = no_operation, const Vector3* segment_start = nullptr);
 
   /// Of all waypoints so far, the last of which ends the path.
   Measures measures() const;
@@ -71,18 +73,20 @@ class PathTally {
   std::vector<OperationTally> operations() const;  ///< by their numbers; one that has no feed move is empty
 
  private:
-  /// The end of a piece, and what it weighs so far.
+  /// The end of a piece, and what it weighs so far, in all and in its own operation.
   struct End {
     Waypoint at;
     std::int32_t operation = no_operation;
-    double weight = 0;
+    double weight = 0, weight_there = 0;
   };
 
   void add_target(const Waypoint& w);
-  void add_cutting(const Waypoint& w, std::int32_t operation);
+  void add_cutting(const Waypoint& w, std::int32_t operation, const Vector3* segment_start);
   void add_to_operation(const Waypoint& w, std::int32_t operation);
-  void add_end(const Waypoint& w, std::int32_t operation);
-  void begin_at_rapid(const Waypoint& w, std::int32_t operation);
+  void add_end(const Waypoint& w, std::int32_t operation, const Vector3* segment_start);
+  void share_piece(const Waypoint& w, std::int32_t operation, double share);
+  void begin_at_rapid(const Waypoint& w, std::int32_t operation, const Vector3* segment_start);
+  OperationTally* tally_of(std::int32_t operation);
   void finish_end();
   void measure_end(const End& end);
   void measure_causes(const Waypoint& w, const Causes& causes, double weight);
@@ -90,6 +94,7 @@ class PathTally {
   Measures m_;
   WorstLines lines_;
   std::optional<std::pair<std::size_t, int>> last_changed_;  ///< segment and line
+  bool piece_exempt_ = false;  ///< somewhere the piece under way may miss the tolerance
   double piece_weight_ = 0;  ///< of the piece under way: all means but those of `after`, `higher` and `lower`
                              ///< are over the ends of pieces
   std::optional<End> end_;   ///< the last one

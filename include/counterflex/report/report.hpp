@@ -50,6 +50,7 @@ struct WorstPlace {
   bool known = false;
   double s_mm = 0;                     ///< cutting path length
   Vector3 place_mm = Vector3::Zero();  ///< wanted tip in M
+  std::int32_t operation = -1;         ///< index into RunReport::operations; -1: not known
   double force_N = 0;                  ///< acting there
 };
 
@@ -65,7 +66,6 @@ struct WorstRow {
   double after_mm = 0;
   WorstPlace at_before, at_after;
   std::optional<DeviationParts> causes;  ///< of `before_mm`, where they were asked for
-  std::int32_t operation = -1;           ///< index into RunReport::operations
   std::string text{};                    ///< the program's line, see `add_texts`
 };
 
@@ -123,9 +123,8 @@ struct OperationReport {
   int first_line = 0, last_line = 0;  ///< the least and the largest of its feed moves
   std::size_t moves = 0;              ///< feed moves
   double length_mm = 0;
-  std::optional<double> corrected_percent;  ///< of the length, as for the run
-  DeviationStatistics before;
-  std::optional<DeviationStatistics> after;
+  std::optional<double> corrected_percent;           ///< of the length, as for the run
+  std::optional<DeviationStatistics> before, after;  ///< none where nothing was solved
 };
 
 /// Size of the program text.

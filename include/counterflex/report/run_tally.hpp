@@ -73,7 +73,7 @@ class RunTally {
   const std::optional<ShortBlocks>& short_blocks() const { return short_blocks_; }
 
  private:
-  void add(const Waypoint& w, std::int32_t operation);
+  void add(const Waypoint& w, std::int32_t operation, const Vector3* segment_start);
 
   double min_block_ms_;
   PathTally path_;
