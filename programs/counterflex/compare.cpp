@@ -6,7 +6,6 @@
 #include "counterflex/report/page.hpp"
 #include "outputs.hpp"
 #include "run.hpp"
-#include "signals.hpp"
 #include "version.hpp"
 
 namespace counterflex::cli {
@@ -38,9 +37,7 @@ void write_files(const ComparisonPaths& paths, const std::string& json, const Re
   document.write(json);
   write_page(a.name + " and " + b.name, {page_run(a), page_run(b)},
              [&](std::string_view part) { page.write(part); });
-  const HeldSignals held;
-  document.publish();
-  page.publish();
+  publish_together({&document, &page});
 }
 
 }  // namespace
