@@ -6,7 +6,6 @@
 #include "counterflex/report/page.hpp"
 #include "outputs.hpp"
 #include "run.hpp"
-#include "signals.hpp"
 #include "version.hpp"
 
 namespace counterflex::cli {
@@ -32,15 +31,14 @@ PageRun page_run(const ReportFile& file) {
   return run;
 }
 
-void write_files(const ComparisonPaths& paths, const std::string& json, const ReportFile& a,
-                 const ReportFile& b) {
+void write_files(const ComparisonPaths& paths, const std::string& json, const std::string& conclusion,
+                 const ReportFile& a, const ReportFile& b) {
   FileWriter document(paths.json), page(paths.page);
   document.write(json);
-  write_page(a.name + " and " + b.name, {page_run(a), page_run(b)},
-             [&](std::string_view part) { page.write(part); });
-  const HeldSignals held;
-  document.publish();
-  page.publish();
+  write_page(
+      a.name + " and " + b.name, {page_run(a), page_run(b)}, [&](std::string_view part) { page.write(part); },
+      conclusion);
+  publish_together({&document, &page});
 }
 
 }  // namespace
@@ -56,7 +54,7 @@ Exit run_compare(const Options& options, Console& console) {
     if (!file->remark.empty()) console.warning(file->path, 0, file->remark);
   const Comparison comparison = compare(a, b, version);
   const std::string json = to_json(comparison);
-  if (options.report) write_files(paths, json, a, b);
+  if (options.report) write_files(paths, json, comparison.conclusion, a, b);
   console.finish_warnings();
   write_result(options.json ? json : to_text(comparison, console.colour_out()));
   return Exit::done;

@@ -5,6 +5,7 @@
 #include "commands.hpp"
 #include "forces_table.hpp"
 #include "materials.hpp"
+#include "outputs.hpp"
 #include "reading.hpp"
 #include "run.hpp"
 #include "work.hpp"
@@ -140,8 +141,7 @@ class Told {
       throw InputError(Exit::program_text, {program_},
                        "has no feed move, so that there is no profile to write");
     say(json_ ? json_foot(totals_) : table_foot(totals_));
-    if (profile_) profile_->publish();
-    if (page_) page_->publish();
+    publish_together({if_any(profile_), if_any(page_)});
     if (to_stdout_) console.note(table_foot(totals_));
   }
 

@@ -159,15 +159,23 @@ void RunFiles::add_report(const RunReport& report, const std::string& report_jso
 }
 
 void RunFiles::publish(bool with_program) {
-  {
-    const HeldSignals held;
-    if (json_) json_->publish();
-    if (csv_) csv_->publish();
-    if (page_) page_->publish();
-    if (plot_) plot_->publish();
-    if (program_ && with_program && !program_to_stdout()) program_->publish();
-  }
-  if (program_ && with_program && program_to_stdout()) program_->publish();
+  publish_together(
+      {if_any(json_), if_any(csv_), if_any(page_), if_any(plot_), with_program ? if_any(program_) : nullptr});
+}
+
+FileWriter* if_any(std::optional<FileWriter>& file) {
+  return file ? &*file : nullptr;
+}
+
+void publish_together(std::vector<FileWriter*> files) {
+  std::erase(files, nullptr);
+  for (FileWriter* file : files) file->complete();
+  // Who reads a stream may break it off, or be slow, so that interrupts must be heard.
+  for (FileWriter* file : files)
+    if (file->is_stream()) file->publish();
+  const HeldSignals held;
+  for (FileWriter* file : files)
+    if (!file->is_stream()) file->publish();
 }
 
 void write_result(std::string_view text) {

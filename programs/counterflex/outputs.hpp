@@ -55,8 +55,7 @@ class RunFiles {
   /// What is known when the run has ended. Nothing where neither report nor plot is wanted.
   void add_report(const RunReport& report, const std::string& report_json, const PathCurves& curves);
 
-  /// Gives the files their names, deaf to interrupts meanwhile, the corrected program's too if
-  /// `with_program`; standard output comes last.
+  /// All of them together, the corrected program among them if `with_program`.
   void publish(bool with_program);
 
  private:
@@ -65,6 +64,14 @@ class RunFiles {
   std::size_t next_row_ = 0;
   std::optional<FileWriter> program_, csv_, json_, page_, plot_;
 };
+
+/// Publishes files that belong together, none where one of them cannot be written: first all are completed,
+/// then streams receive what is theirs, and at last the files get their names, deaf to interrupts meanwhile.
+/// nullptr is none. Throws `InputError` (Exit::transient_io).
+void publish_together(std::vector<FileWriter*> files);
+
+/// nullptr: there is none.
+FileWriter* if_any(std::optional<FileWriter>& file);
 
 /// Text on standard output. Throws `InputError` (Exit::transient_io).
 void write_result(std::string_view text);

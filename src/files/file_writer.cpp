@@ -73,7 +73,7 @@ void sync_folder(const std::string& folder) {
 }
 
 /// Devices and pipes have no other name to rename from.
-bool is_stream(mode_t mode) {
+bool has_no_other_name(mode_t mode) {
   return !S_ISREG(mode) && !S_ISDIR(mode);
 }
 
@@ -97,6 +97,7 @@ struct FileWriter::State {
   std::optional<Unpublished> known{};
   Descriptor file{};
   std::string buffer{};
+  bool is_complete = false;
 
   ~State() {
     if (!temporary.empty()) ::unlink(temporary.c_str());
@@ -110,7 +111,7 @@ struct FileWriter::State {
 FileWriter::FileWriter(const std::string& path) : state_(new State{.path = path}) {
   struct stat facts {};
   const bool exists = path != "-" && ::stat(path.c_str(), &facts) == 0;
-  if (path == "-" || (exists && is_stream(facts.st_mode))) {
+  if (path == "-" || (exists && has_no_other_name(facts.st_mode))) {
     state_->file = nameless_file();
   } else {
     std::error_code ignored;
@@ -138,12 +139,23 @@ void FileWriter::write(std::string_view bytes) {
     fail_writing(state_->path);
 }
 
-void FileWriter::publish() {
+bool FileWriter::is_stream() const {
+  return state_->target.empty();
+}
+
+void FileWriter::complete() {
   State& s = *state_;
+  if (s.is_complete) return;
   s.flush();
-  if (!s.target.empty()) {
-    if (::fsync(s.file.get()) != 0 || !s.file.close() || ::rename(s.temporary.c_str(), s.target.c_str()) != 0)
-      fail_writing(s.path);
+  if (!is_stream() && (::fsync(s.file.get()) != 0 || !s.file.close())) fail_writing(s.path);
+  s.is_complete = true;
+}
+
+void FileWriter::publish() {
+  complete();
+  State& s = *state_;
+  if (!is_stream()) {
+    if (::rename(s.temporary.c_str(), s.target.c_str()) != 0) fail_writing(s.path);
     s.temporary.clear();
     s.known.reset();
     return sync_folder(folder_of(s.target));

@@ -11,16 +11,11 @@ namespace counterflex {
 namespace {
 
 constexpr int analysis_digits = 9;  // 1e-9 mm, deg, N, N m
-
-// Twelve significant analysis_digits.
-Json significant(double value) {
-  if (!std::isfinite(value)) return nullptr;
-  return *read_number(fmt::format("{:.11e}", value));
-}
+constexpr int significant_digits = 12;
 
 Json six(const Vector6& values) {
   Json list = Json::array();
-  for (double value : values) list.push_back(significant(value));
+  for (double value : values) list.push_back(significant(value, significant_digits));
   return list;
 }
 
@@ -81,12 +76,14 @@ Json pose_json(const PoseAnalysis& pose, const std::vector<Travel>& travel) {
           {"rotation_deg", if_known(numbers(Vector3(pose.deviation.tail<3>() / deg), analysis_digits))},
           {"stiffness_si", stiff ? matrix(pose.K) : Json(nullptr)},
           {"weakest_direction", direction ? six(pose.weakest) : Json(nullptr)},
-          {"weakest_stiffness_N_per_m", stiff ? significant(pose.weakest_stiffness) : Json(nullptr)},
+          {"weakest_stiffness_N_per_m",
+           stiff ? significant(pose.weakest_stiffness, significant_digits) : Json(nullptr)},
           {"softest_direction", soft ? numbers(pose.softest, analysis_digits) : Json(nullptr)},
-          {"softest_stiffness_N_per_m", soft ? significant(pose.softest_stiffness) : Json(nullptr)},
+          {"softest_stiffness_N_per_m",
+           soft ? significant(pose.softest_stiffness, significant_digits) : Json(nullptr)},
           {"indeterminate_wrenches", pose.indeterminate},
-          {"condition", if_known(significant(pose.condition))},
-          {"stability", if_known(significant(pose.stability))},
+          {"condition", if_known(significant(pose.condition, significant_digits))},
+          {"stability", if_known(significant(pose.stability, significant_digits))},
           {"actuators", known || pose.rho.size() > 0 ? actuators(pose.rho, travel) : Json(nullptr)},
           {"corrected", corrected_json(pose, travel)},
           {"chains", chains_json(pose.chains)}};

@@ -1,5 +1,7 @@
 #include "json_numbers.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 
 namespace counterflex {
@@ -46,6 +48,11 @@ void write(const Json& value, std::size_t indent, std::string& out) {
 }
 
 }  // namespace
+
+Json significant(double value, int digits) {
+  if (!std::isfinite(value)) return nullptr;
+  return *read_number(fmt::format("{:.{}e}", value, digits - 1));
+}
 
 std::string dump(const Json& document) {
   std::string text;

@@ -16,6 +16,9 @@ inline Json number(double value, int decimals) {
   return rounded(value, decimals);
 }
 
+/// With that many digits wherever the point is.
+Json significant(double value, int digits);
+
 template <typename Vector>
 Json numbers(const Vector& values, int decimals) {
   Json list = Json::array();

@@ -17,23 +17,48 @@ std::string parser_message(const std::string& what) {
   return colon == std::string::npos ? what : what.substr(colon + 2);
 }
 
+/// The end of the string that begins at `quote`, its closing quote.
+std::size_t end_of_string(std::string_view text, std::size_t quote) {
+  std::size_t i = quote + 1;
+  while (i < text.size() && text[i] != '"') i += text[i] == '\\' ? 2 : 1;
+  return i;
+}
+
 /// Where lists and objects are nested so deep that to go through them again would take all of the stack; the
 /// end of the text where they are not.
 std::size_t too_deep(std::string_view text) {
   int depth = 0;
-  bool in_string = false;
   for (std::size_t i = 0; i < text.size(); ++i) {
     const char c = text[i];
-    if (in_string && c == '\\')
-      ++i;
-    else if (c == '"')
-      in_string = !in_string;
-    else if (!in_string && (c == '[' || c == '{') && ++depth > deepest)
+    if (c == '"')
+      i = end_of_string(text, i);
+    else if ((c == '[' || c == '{') && ++depth > deepest)
       return i;
-    else if (!in_string && (c == ']' || c == '}'))
+    else if (c == ']' || c == '}')
       --depth;
   }
   return text.size();
+}
+
+/// Where the number that `what` quotes stands, the parser's "number overflow parsing '1e999'"; it does not
+/// say the byte. The beginning of the text where it quotes none.
+std::size_t place_of_number(std::string_view text, std::string_view what) {
+  const std::size_t open = what.find('\''), close = what.rfind('\'');
+  if (open == close) return 0;
+  const std::string_view number = what.substr(open + 1, close - open - 1);
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] == '"')
+      i = end_of_string(text, i);
+    else if (text.substr(i).starts_with(number))
+      return i;
+  }
+  return 0;
+}
+
+/// "[json.exception.out_of_range.406] " is for programmers.
+std::string without_tag(const std::string& what) {
+  const std::size_t end = what.find("] ");
+  return end == std::string::npos ? what : what.substr(end + 2);
 }
 
 }  // namespace
@@ -56,6 +81,9 @@ Json parse_json(std::string_view text, std::string_view whole, std::size_t offse
     const std::size_t byte = error.byte > 0 ? error.byte - 1 : 0;  // it counts from 1
     throw InputError(Exit::usage, place_of(whole, offset + byte, file),
                      "is no JSON: " + parser_message(error.what()));
+  } catch (const Json::exception& error) {  // a number that no double holds
+    throw InputError(Exit::usage, place_of(whole, offset + place_of_number(text, error.what()), file),
+                     "cannot be read: " + without_tag(error.what()));
   }
 }
 

@@ -27,7 +27,8 @@ struct JsonSource {
 };
 
 /// Parses `text`, which begins at byte `offset` of `whole`, the content of `file`. Throws `InputError`
-/// (Exit::usage) with line and column in `file` where it is no JSON, or nested absurdly deep.
+/// (Exit::usage) with line and column in `file` where it is no JSON, has a number that is too large, or is
+/// nested absurdly deep.
 Json parse_json(std::string_view text, std::string_view whole, std::size_t offset, const std::string& file);
 
 /// The place of a byte of `text`.

@@ -1,24 +1,18 @@
 #include "loads_json.hpp"
 
-#include <fmt/core.h>
-
 #include "counterflex/geometry/units.hpp"
 
 namespace counterflex {
 
 namespace {
 
-constexpr int load_decimals = 7;
-
-// Seven significant digits: loads differ in size by many orders.
-Json seven_digits(double value) {
-  return *read_number(fmt::format("{:.6e}", value));
-}
+// Significant: loads differ in size by many orders.
+constexpr int peak_digits = 10, place_digits = 7;
 
 Json peak_json(const LoadPeak& peak) {
-  return {{"largest", number(peak.value, load_decimals)},
+  return {{"largest", significant(peak.value, peak_digits)},
           {"line", peak.line},
-          {"limit", peak.limit ? number(*peak.limit, load_decimals) : Json(nullptr)}};
+          {"limit", peak.limit ? significant(*peak.limit, peak_digits) : Json(nullptr)}};
 }
 
 Json chain_peaks_json(const LoadsOfChain& chain) {
@@ -30,7 +24,7 @@ Json chain_peaks_json(const LoadsOfChain& chain) {
 Json list_of(const LoadsAlong& along, std::size_t chain, LoadKind kind) {
   Json list = Json::array();
   for (const LoadsAtPlace& place : along.places)
-    list.push_back(seven_digits(shown_value(place.chains[chain], kind)));
+    list.push_back(significant(shown_value(place.chains[chain], kind), place_digits));
   return list;
 }
 

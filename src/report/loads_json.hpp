@@ -6,7 +6,7 @@
 namespace counterflex {
 
 /// How many places were solved and how many were not; for every chain and kind of load the largest, its line
-/// and its limit, or null. Null where there are no loads.
+/// and its limit, or null, with ten significant digits. Null where there are no loads.
 Json largest_loads_json(const std::optional<PathLoads>& loads);
 
 }  // namespace counterflex

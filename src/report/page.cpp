@@ -56,7 +56,11 @@ void write_elements(const char* name, std::span<const std::string_view> texts, c
   }
 }
 
-void write_data(const std::vector<PageRun>& runs, const Take& take) {
+void write_text(const std::string& text, const Take& take) {
+  write_json(Json(text).dump(-1, ' ', false, Json::error_handler_t::replace), take);
+}
+
+void write_data(const std::vector<PageRun>& runs, const std::string& conclusion, const Take& take) {
   take(
       "<script type=\"application/json\" id=\"counterflex-data\">{\"schema\": \"counterflex-page 1\", "
       "\"runs\": [");
@@ -64,7 +68,7 @@ void write_data(const std::vector<PageRun>& runs, const Take& take) {
   for (const PageRun& run : runs) {
     take(separator);
     take("{\"name\": ");
-    write_json(Json(run.name).dump(-1, ' ', false, Json::error_handler_t::replace), take);
+    write_text(run.name, take);
     for (const auto& [key, json] :
          {std::pair{"report", &run.report}, {"curves", &run.curves}, {"loads", &run.loads}}) {
       take(fmt::format(",\n\"{}\": ", key));
@@ -73,12 +77,26 @@ void write_data(const std::vector<PageRun>& runs, const Take& take) {
     take("}");
     separator = ",\n";
   }
-  take("]}</script>\n");
+  take("]");
+  if (!conclusion.empty()) {
+    take(",\n\"conclusion\": ");
+    write_text(conclusion, take);
+  }
+  take("}</script>\n");
+}
+
+/// Without its folder.
+std::string file_of(const RunReport& report, std::string_view role) {
+  for (const InputFile& input : report.facts.inputs)
+    if (input.name == role)
+      return input.path == "-" ? "standard input" : input.path.substr(input.path.find_last_of('/') + 1);
+  return "program";
 }
 
 }  // namespace
 
-void write_page(const std::string& title, const std::vector<PageRun>& runs, const Take& take) {
+void write_page(const std::string& title, const std::vector<PageRun>& runs, const Take& take,
+                const std::string& conclusion) {
   std::string_view rest = page_template();
   while (!rest.empty()) {
     const std::string_view line = rest.substr(0, std::min(rest.find('\n'), rest.size() - 1) + 1);
@@ -90,7 +108,7 @@ void write_page(const std::string& title, const std::vector<PageRun>& runs, cons
     else if (line == "<!-- counterflex: styles -->\n")
       write_elements("style", page_styles(), take);
     else if (line == "<!-- counterflex: data -->\n")
-      write_data(runs, take);
+      write_data(runs, conclusion, take);
     else if (line == "<!-- counterflex: scripts -->\n")
       write_elements("script", page_scripts(), take);
     else
@@ -99,10 +117,9 @@ void write_page(const std::string& title, const std::vector<PageRun>& runs, cons
 }
 
 std::string page_title(const RunReport& report) {
-  std::string program = "program";
-  for (const InputFile& input : report.facts.inputs)
-    if (input.name == "program") program = input.path.substr(input.path.find_last_of('/') + 1);
-  return report.machine.empty() ? program : program + " on " + report.machine;
+  std::string name = file_of(report, "program");
+  if (report.command == Command::verify) name = file_of(report, "corrected") + " for " + name;
+  return report.machine.empty() ? name : name + " on " + report.machine;
 }
 
 }  // namespace counterflex

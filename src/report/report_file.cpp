@@ -17,6 +17,8 @@ constexpr std::string_view report_schema = "counterflex-report 1";
 constexpr std::string_view page_schema = "counterflex-page 1";
 constexpr std::string_view data_begins = R"(<script type="application/json" id="counterflex-data">)";
 constexpr std::string_view data_ends = "</script>";
+constexpr std::string_view byte_order_mark =
+    "\xEF\xBB\xBF";  // editors leave it; a page's JSON may not have it
 
 std::string display_name(const std::string& path) {
   return path == "-" ? "<stdin>" : path;
@@ -98,9 +100,11 @@ void look_beside(const Json& report, ReportFile& file) {
 ReportFile read_json(const std::string& path, WithCurves with) {
   const std::string name = display_name(path);
   const std::string text = read_file(path);
-  const Json report = parse_json(text, text, 0, name);
-  require_schema(report, report_schema, text, 0, name);
-  ReportFile file{.path = name, .sha256 = sha256(text), .report = text};
+  const std::size_t begin = text.starts_with(byte_order_mark) ? byte_order_mark.size() : 0;
+  const std::string_view document = std::string_view(text).substr(begin);
+  const Json report = parse_json(document, text, begin, name);
+  require_schema(report, report_schema, text, begin, name);
+  ReportFile file{.path = name, .sha256 = sha256(text), .report = std::string(document)};
   if (with == WithCurves::yes) look_beside(report, file);
   return file;
 }

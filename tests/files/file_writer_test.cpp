@@ -4,6 +4,7 @@
 
 #include "counterflex/files/file_reader.hpp"
 #include "counterflex/files/files.hpp"
+#include "counterflex/files/input_error.hpp"
 #include "files/folder.hpp"
 
 using namespace counterflex;
@@ -30,6 +31,44 @@ TEST_CASE("a file that is never published leaves nothing, and the old one as it 
   { FileWriter(folder.file("new.ngc")).write("x"); }
   CHECK(read_file(folder.file("out.ngc")) == "old");
   CHECK(folder.count() == 1);
+}
+
+TEST_CASE("a file that is complete waits for nothing but its name") {
+  const Folder folder;
+  write_file(folder.file("out.ngc"), "old");
+  FileWriter file(folder.file("out.ngc"));
+  CHECK(!file.is_stream());
+  file.write("G1 X1\n");
+  file.complete();
+  CHECK(read_file(folder.file("out.ngc")) == "old");
+  CHECK(folder.count() == 2);
+  std::string written;
+  for (const auto& entry : std::filesystem::directory_iterator(folder.path))
+    if (entry.path().extension() == ".tmp") written = read_file(entry.path().string());
+  CHECK(written == "G1 X1\n");
+  file.publish();
+  CHECK(read_file(folder.file("out.ngc")) == "G1 X1\n");
+  CHECK(folder.count() == 1);
+}
+
+TEST_CASE("a file that is complete and never published leaves nothing") {
+  const Folder folder;
+  {
+    FileWriter file(folder.file("out.ngc"));
+    file.write("x");
+    file.complete();
+    CHECK(folder.count() == 1);
+  }
+  CHECK(folder.count() == 0);
+}
+
+TEST_CASE("a device receives nothing before it is published, and its errors show then") {
+  if (!std::filesystem::exists("/dev/full")) return;
+  FileWriter full("/dev/full");
+  CHECK(full.is_stream());
+  full.write("x");
+  CHECK_NOTHROW(full.complete());
+  CHECK_THROWS_AS(full.publish(), InputError);
 }
 
 TEST_CASE("a file is read in portions, and again from its beginning") {

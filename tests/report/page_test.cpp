@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "counterflex/files/files.hpp"
+#include "counterflex/report/formats.hpp"
 #include "made_up_run.hpp"
 #include "support/text.hpp"
 
@@ -14,9 +15,11 @@ using namespace counterflex::test;
 
 namespace {
 
-std::string page_of(const std::string& title, const std::vector<PageRun>& runs) {
+std::string page_of(const std::string& title, const std::vector<PageRun>& runs,
+                    const std::string& conclusion = "") {
   std::string page;
-  write_page(title, runs, [&](std::string_view part) { page += part; });
+  write_page(
+      title, runs, [&](std::string_view part) { page += part; }, conclusion);
   return page;
 }
 
@@ -94,6 +97,16 @@ TEST_CASE("the data of a page is what was reported, whatever it holds") {
   CHECK(document["runs"][1]["loads"].is_null());
 }
 
+TEST_CASE("what to take home is told to the page where there is something") {
+  const auto data = [](const std::string& conclusion) {
+    return nlohmann::json::parse(
+        between(page_of("both", {{"A", "{}"}, {"B", "{}"}}, conclusion), data_begins, "</script>"));
+  };
+  CHECK(data("\"A\" </script> leaves less.")["conclusion"] == "\"A\" </script> leaves less.");
+  CHECK(data("A leaves less.")["runs"].size() == 2);
+  CHECK_FALSE(data("").contains("conclusion"));
+}
+
 TEST_CASE("curves are written as the bytes of their numbers") {
   PathCurves curves(true);
   std::vector<Waypoint> path = made_up_waypoints();
@@ -128,4 +141,15 @@ TEST_CASE("a quantity that is known nowhere has no array") {
 TEST_CASE("a page is named after program and machine") {
   const MadeUpRun run;
   CHECK(page_title(predicted(run, made_up_waypoints())) == "made_up.ngc on Mill");
+}
+
+TEST_CASE("a page says which files it is about as the summary does, folders aside") {
+  MadeUpRun run;
+  run.facts.inputs[0].path = "-";
+  CHECK(page_title(predicted(run, made_up_waypoints())) == "standard input on Mill");
+  run.facts.inputs[0].path = "in/made_up.ngc";
+  run.facts.inputs.push_back({"corrected", "out/made_up.comp.ngc", ""});
+  const RunReport report = verified(run, run.program, made_up_waypoints());
+  CHECK(page_title(report) == "made_up.comp.ngc for made_up.ngc on Mill");
+  CHECK(contains(summary_text(report, false), "verify out/made_up.comp.ngc for in/made_up.ngc\n"));
 }

@@ -120,6 +120,16 @@ TEST_CASE("the report's document has the largest loads with their lines and limi
                  "          \"limit\": null\n        }"));
 }
 
+TEST_CASE("small loads and limits keep their digits in the report's document") {
+  LoadsAlong along;
+  along.places = {{0, 3, {made_up_loads("left", 1.25e-8, 0), made_up_loads("right", 123456.789012, 0)}}};
+  const std::string json = to_json(with_loads(limited(1e-7 / 3, 1e-8), along));
+  CHECK(contains(json, "\"largest\": 1.25e-08,\n"));
+  CHECK(contains(json, "\"limit\": 3.333333333e-08\n"));
+  CHECK(contains(json, "\"largest\": 123456.789,\n"));
+  CHECK(contains(json, "\"limit\": 1e-08\n"));
+}
+
 TEST_CASE("the loads over the path are lists of equal length, seven digits a number") {
   LoadsAlong along = made_up_along();
   along.places[0].chains[1].spring_force_max = 1.0 / 3e4;

@@ -66,13 +66,27 @@ TEST_CASE("the order of keys and the blanks of a report do not make it another o
   CHECK_FALSE(read_report_file(json, WithCurves::yes).curves.empty());
 }
 
+TEST_CASE("a byte order mark before a report does not reach the page") {
+  const Folder folder;
+  const std::string text = "\xEF\xBB\xBF" + std::string(small_report);
+  const std::string json = write(folder, "run.json", text);
+  write(folder, "run.html", page_of(page_run(without_tags(small_report))));
+  const ReportFile file = read_report_file(json, WithCurves::yes);
+  CHECK(file.report == small_report);
+  CHECK(file.remark.empty());
+  CHECK(file.sha256 == sha256(text));
+  CHECK_THROWS_WITH_AS(read_report_file(write(folder, "bad.json", "\xEF\xBB\xBF{\n nix}"), WithCurves::no),
+                       doctest::Contains("bad.json:2:3: error: is no JSON"), InputError);
+}
+
 TEST_CASE("a page of another report, or one that is broken, costs the curves and no more") {
   const Folder folder;
   const std::string json = write(folder, "run.json", small_report);
   write(folder, "run.html", page_of(page_run(R"({"schema": "counterflex-report 1"})")));
   CHECK(contains(read_report_file(json, WithCurves::yes).remark, "shows another report"));
   for (const std::string& broken :
-       {std::string("<html></html>"), page_of(""), page_of("{}, {}"), page_of("{"), std::string()}) {
+       {std::string("<html></html>"), page_of(""), page_of("{}, {}"), page_of("{"), std::string(),
+        page_of(R"({"report": {"machine": 1e999}})")}) {
     CAPTURE(broken);
     write(folder, "run.html", broken);
     const ReportFile file = read_report_file(json, WithCurves::yes);
@@ -116,6 +130,10 @@ TEST_CASE("what is no report is refused at its place") {
   CHECK(contains(
       refusal("a.json", "{\"schema\": \"" + std::string(200, '[') + "\\\"" + std::string(200, '{') + "\"}"),
       "the document's schema is"));
+  CHECK(refusal("a.json", "{\"machine\": \"\\\"1e999\",\n  \"k\": [1, 1e999]}") ==
+        "a.json:2:12: error: cannot be read: number overflow parsing '1e999'");
+  CHECK(
+      contains(refusal("a.html", page_of("{\"report\": -1e999}")), "a.html:3:108: error: cannot be read: "));
   CHECK(contains(refusal("a.html", "<html>"), "a.html:1:1: error: is no page of counterflex"));
   CHECK(contains(refusal("a.html", page_of("{,")), "a.html:3:98: error: is no JSON"));
   CHECK(contains(refusal("a.html", page_of("{\"report\": null}")), "the document's schema is not said"));

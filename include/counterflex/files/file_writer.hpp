@@ -8,9 +8,9 @@ namespace counterflex {
 
 /// A file that is written in order to a temporary name in its folder, and gets its own name when it is
 /// published; if it never is, nothing of it stays. Through a symbolic link the file that it names is
-/// replaced, with its mode. "-" is standard output: that, pipes and devices receive everything at once when
-/// it is published. All members throw `InputError` (Exit::transient_io) naming the path where it cannot be
-/// written.
+/// replaced, with its mode. "-" is standard output: that, pipes and devices are streams, which receive
+/// everything at once when they are published. All members throw `InputError` (Exit::transient_io) naming the
+/// path where it cannot be written.
 class FileWriter {
  public:
   explicit FileWriter(const std::string& path);
@@ -18,7 +18,15 @@ class FileWriter {
   FileWriter(FileWriter&&) noexcept;
 
   void write(std::string_view bytes);
+
+  /// Everything is on the disk, the name still the temporary one: for a file, all that is left is to rename
+  /// it. A stream has received nothing yet. Nothing can be written any more.
+  void complete();
+
+  /// Completes it if need be.
   void publish();
+
+  bool is_stream() const;
 
  private:
   struct State;

@@ -30,11 +30,16 @@ std::string curves_json(const PathCurves& curves);
 
 /// The page of one run, or of two side by side, from its beginning to its end: `take` gets it in parts. It
 /// loads nothing: what it runs is in it, and its security policy allows nothing else. The data of all runs
-/// are one JSON document, "counterflex-page 1", in the element `counterflex-data`.
+/// are one JSON document, "counterflex-page 1", in the element `counterflex-data`:
+///
+///     {"schema", "runs": [{"name", "report", "curves", "loads"}], "conclusion": what to take home, in words}
+///
+/// without the last key where `conclusion` is empty.
 void write_page(const std::string& title, const std::vector<PageRun>& runs,
-                const std::function<void(std::string_view)>& take);
+                const std::function<void(std::string_view)>& take, const std::string& conclusion = "");
 
-/// "groove.ngc on Orthoglide".
+/// "groove.ngc on Orthoglide"; of a verification "groove.comp.ngc for groove.ngc on Orthoglide". "standard
+/// input" where a file has no name.
 std::string page_title(const RunReport& report);
 
 }  // namespace counterflex
