@@ -40,7 +40,7 @@
     return {
       series: list,
       ...tables.tabulate(list, group.total, context.units.lengthScale),
-      lineAt: (run, stretch) => (stretch < 0 ? '\u2013' : context.runs[run].curves.first_line[stretch]),
+      placeText: ({run, stretch}) => (stretch < 0 ? 'no line' : counterflex.lines.words(context.runs[run].curves, stretch)),
       select: ({run, stretch}) => stretch >= 0 && context.selection.set(run, stretch),
       ...rest,
     };

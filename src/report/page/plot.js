@@ -192,7 +192,7 @@
 
   /**
    * A plot over the path, built when `ensure` is called first. `describe` gives what it shows now: {title, series:
-   * [{label, colour, dash, width}], rows, places, levels: [{value, label}], log, text(value), lineAt(run, stretch),
+   * [{label, colour, dash, width}], rows, places, levels: [{value, label}], log, text(value), placeText(place),
    * select(place)}.
    */
   function create(context, group, describe, className) {

@@ -4,13 +4,11 @@
   const {fixed, known} = counterflex.units;
   const words = counterflex.words;
 
-  /** Stretch of a row of the worst blocks: where its path length lies, but never one of another block beside it. */
+  /** Stretch of a row of the worst blocks. */
   function stretchOf(curves, row) {
-    if (!known(row.s_mm)) return counterflex.lines.stretchOf(curves, row.line);
-    let i = counterflex.data.stretchAt(curves, row.s_mm);
-    const holds = (k) => curves.first_line[k] <= row.line && row.line <= curves.last_line[k];  // not beyond the ends
-    if (!holds(i) && holds(i + 1)) ++i;
-    return i;
+    const {lines} = counterflex;
+    if (known(row.s_mm)) return lines.stretchNear(curves, row.line, row.s_mm);
+    return lines.stretchOf(curves, row.line, known(row.after_mm) ? 'after_mm' : 'before_mm');
   }
 
   function columnsOf(report) {
