@@ -1,6 +1,6 @@
 import assert from 'node:assert/strict';
 import test from 'node:test';
-import {data_in, pixels, report_of, texts, visit} from './browser.mjs';
+import {data_in, pixels, report_of, texts, visit, write_page} from './browser.mjs';
 
 /** The number of a comparison's row, by the key of reports. */
 const values_of = (document, key) => document.summary.find((row) => row.key === key).values;
@@ -29,3 +29,12 @@ test('the page of a comparison shows the numbers of its document, and curves of 
 test('a prediction beside a compensation makes a page, too', () => visit('half_compared', async (page) => {
   assert.equal(await page.locator('#numbers').isVisible(), true);
 }));
+
+test('what was concluded of two runs is said as it stands in the data', async () => {
+  const data = {...data_in('compared'), conclusion: 'B is off by <b>less</b> than A.'};
+  write_page('compared', data, 'concluded');
+  await visit('concluded', async (page) => assert.deepEqual(await texts(page, '#verdict > .verdict'), [data.conclusion]));
+  delete data.conclusion;
+  write_page('compared', data, 'unconcluded');
+  await visit('unconcluded', async (page) => assert.deepEqual(await texts(page, '#verdict > .verdict'), []));
+});

@@ -52,6 +52,13 @@ test('the line of the largest load leads to where that load is largest', () => {
   assert.deepEqual(plain(loads.placeOfLargest({loads: null}, {name: 'x'}, 'moment_max_Nm')), {});
 });
 
+test('an operation is shown where its lines are, where no merged stretch is of it', () => {
+  const curves = {...curves_of([1, 2, 3], [5, 20, 40]), last_line: [19, 39, 60], operation: [0, 2, 2]};
+  assert.deepEqual(plain(lines.ofOperation(curves, 2, {first_line: 30, last_line: 60})), [1, 2]);
+  assert.deepEqual(plain(lines.ofOperation(curves, 1, {first_line: 18, last_line: 22})), [0, 1]);
+  assert.deepEqual(plain(lines.ofOperation(curves, 3, {first_line: 70, last_line: 80})), [-1, -1]);
+});
+
 test('a stretch of several lines is called by the first and the last', () => {
   const curves = {first_line: [1, 5], last_line: [4, 5]};
   assert.deepEqual([0, 1].map((i) => lines.words(curves, i)), ['lines 1 to 4', 'line 5']);

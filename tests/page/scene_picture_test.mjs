@@ -29,6 +29,12 @@ test('a stretch of several lines says so, and that its deviation is the largest'
   assert.equal(scenePicture.words(shown(several), 0, units), 'lines 1 to 4: up to 100.0 um');
 });
 
+test('so does one of several waypoints of one line', () => {
+  const merged = run_of([0.1, 0.2]);
+  merged.curves.waypoints_per_stretch = 8;
+  assert.equal(scenePicture.words(shown(merged), 1, units), 'line 2: up to 200.0 um');
+});
+
 test('a deviation between known ones is about so large, an unknown one is not told', () => {
   assert.equal(scenePicture.words(shown(run_of([0.1, NaN, 0.2])), 1, units), 'line 2: about 150.0 um');
   assert.equal(scenePicture.words(shown(run_of([0.1, 0.2]), 'after'), 0, units), 'line 1');

@@ -49,6 +49,17 @@
     return found < 0 ? stretchAt(curves, s) : found;
   }
 
+  /**
+   * First and last stretch of an operation; where merged stretches are all of other operations, those of its lines;
+   * [-1, -1]: the path has none.
+   */
+  function ofOperation(curves, index, {first_line: from, last_line: to}) {
+    const first = curves.operation.indexOf(index);
+    if (first >= 0) return [first, curves.operation.lastIndexOf(index)];
+    const begin = stretchOf(curves, from);
+    return begin < 0 ? [-1, -1] : [begin, Math.max(begin, stretchOf(curves, to))];
+  }
+
   /** "line 5", or "lines 5 to 9" of a stretch that holds several. */
   function words({first_line: first, last_line: last}, i) {
     return first[i] === last[i] ? `line ${first[i]}` : `lines ${first[i]} to ${last[i]}`;
@@ -68,5 +79,5 @@
     return counterflex.dom.jump(String(line), 'curves', go, `Line ${line}: show it in all views`);
   }
 
-  counterflex.lines = {stretchOf, stretchNear, words, link};
+  counterflex.lines = {stretchOf, stretchNear, ofOperation, words, link};
 })();

@@ -63,7 +63,8 @@
     if (kind === 'wanted' || path.fraction[i] < 0) return lines;
     const value = curves.quantities[`${kind}_mm`].largest[i];
     if (!Number.isFinite(value)) return `${lines}: about ${units.format(path.fraction[i] * most_mm)}`;
-    return `${lines}: ${first === last ? '' : 'up to '}${units.format(value)}`;
+    const single = first === last && !(curves.waypoints_per_stretch > 1);
+    return `${lines}: ${single ? '' : 'up to '}${units.format(value)}`;
   }
 
   /** Where a stretch is drawn: [x, y, z], mm from the origin. */

@@ -36,7 +36,8 @@
     [...acrossTitles(runs, 'Before'), ...(corrected ? acrossTitles(runs, 'After') : [])];
 
   /** Statistics of the deviation before and after. */
-  function numbers({runs, units}) {
+  function numbers(context) {
+    const {runs, units} = context;
     const before = runs.map((run) => run.report.summary.before), after = runs.map((run) => run.report.summary.after);
     if (!before.some(Boolean)) return null;
     const corrected = after.some(Boolean);
@@ -45,8 +46,9 @@
       const cells = (list) => across(list.map((s) => value(s, key, axis)), key, units);
       return [what, ...cells(before), ...(corrected ? cells(after) : [])];
     });
-    const line = (list) => [...list.map((s) => (s ? String(s.max_line) : unknown)), ...(runs.length === 2 ? [''] : [])];
-    rows.splice(1, 0, ['  in program line', ...line(before), ...(corrected ? line(after) : [])]);
+    const link = (s, run, quantity) => counterflex.lines.link(context, run, s ? s.max_line : 0, {quantity});
+    const line = (list, quantity) => [...list.map((s, run) => link(s, run, quantity)), ...(runs.length === 2 ? [''] : [])];
+    rows.splice(1, 0, ['  in program line', ...line(before, 'before_mm'), ...(corrected ? line(after, 'after_mm') : [])]);
     const lengths = runs.map((run) => units.length(run.report.summary.path_mm)).join(' and ');
     return [table('Deviation of the tool tip', columns, rows),
       el('p', {class: 'note'}, `Over ${lengths} of feed moves, weighted by length. `,
