@@ -38,3 +38,15 @@ test('what was concluded of two runs is said as it stands in the data', async ()
   write_page('compared', data, 'unconcluded');
   await visit('unconcluded', async (page) => assert.deepEqual(await texts(page, '#verdict > .verdict'), []));
 });
+
+test('marks and printed paths say of which run they are', () => visit('compared', async (page) => {
+  const title = () => page.innerText('#curves .marks-title');
+  await page.click('#worst .stack > :nth-child(1) tbody tr:nth-child(2) a');
+  assert.equal(await title(), 'Marks of A');
+  await page.click('#worst .stack > :nth-child(2) tbody tr:nth-child(2) a');
+  assert.equal(await title(), 'Marks of B');
+  await page.emulateMedia({media: 'print'});
+  await page.waitForFunction(() => document.querySelectorAll('.scene-paper').length === 4);
+  const shown = await page.$$eval('.scene-paper', (all) => all.map(({dataset}) => dataset.run + dataset.kind));
+  assert.deepEqual(shown, ['0before', '0after', '1before', '1after']);
+}));

@@ -1,8 +1,9 @@
 import assert from 'node:assert/strict';
 import test from 'node:test';
-import {load_scripts} from './load_scripts.mjs';
+import {load_scripts, plain} from './load_scripts.mjs';
 
-const {units, summary, facts} = load_scripts('units.js', 'dom.js', 'words.js', 'summary.js', 'facts.js');
+const {units, summary, facts, curves} =
+  load_scripts('units.js', 'dom.js', 'words.js', 'summary.js', 'facts.js', 'series.js', 'curves.js');
 const report = {machine: 'mill', command: 'compensate', options: {'tolerance-mm': 0.005},
   control: {path_tolerances: [{line: 3, path_mm: 0.0508}, {line: 9, path_mm: null}]}};
 
@@ -14,4 +15,15 @@ test('tolerances stand in the unit that was chosen', () => {
     assert.equal(facts.pathTolerances(report, shown), `line 3: ${control}; line 9: no path tolerance`);
   }
   assert.equal(facts.optionText('max-segment-mm', 2, units.create('um')), '2');
+});
+
+const runs_of = (...mm) => mm.map((tolerance, i) => ({letter: 'AB'[i], report: {options: tolerance === null ? {} : {'tolerance-mm': tolerance}}}));
+const labels = (...mm) => curves.tolerances({runs: runs_of(...mm), units: units.create('um')}).map(({label}) => label);
+
+test('of runs with different tolerances both are drawn, and called by their run', () => {
+  assert.deepEqual(plain(labels(0.005)), ['tolerance 5.0 \u00b5m']);
+  assert.deepEqual(plain(labels(0.005, 0.005)), ['tolerance 5.0 \u00b5m']);
+  assert.deepEqual(plain(labels(0.005, 0.02)), ['tolerance A 5.0 \u00b5m', 'tolerance B 20.0 \u00b5m']);
+  assert.deepEqual(plain(labels(null, 0.02)), ['tolerance B 20.0 \u00b5m']);
+  assert.deepEqual(plain(labels(null)), []);
 });

@@ -46,7 +46,9 @@
   function fillLegend(plot) {
     const {content, legend} = plot;
     fill(legend.title, content.title);
+    const focused = [...legend.entries.children].indexOf(document.activeElement);
     fill(legend.entries, content.series.map((series) => legendEntry(plot, series)));
+    if (focused >= 0 && legend.entries.children[focused]) legend.entries.children[focused].focus();
     const drawn = content.series.filter((s) => !plot.hidden.has(s.label));
     fill(legend.paper, drawn.map((s) => el('span', {class: 'entry'}, swatch(s), s.label)));
     const keys = 'Arrow keys move along the path, plus and minus zoom, Home shows all.';

@@ -1,6 +1,6 @@
 'use strict';
 (() => {
-  const {el, table, textColumn, numberColumn, jump} = counterflex.dom;
+  const {el, table, numberColumn, jump} = counterflex.dom;
   const {fixed, known} = counterflex.units;
   const words = counterflex.words;
 
@@ -15,7 +15,7 @@
     const after = Boolean(report.summary.after);
     return [
       {title: 'Line'}, numberColumn('Before'), ...(after ? [numberColumn('After')] : []), numberColumn('Force'),
-      {title: 'Tool'}, textColumn('Operation'), {title: 'Mostly from'},
+      {title: 'Tool', class: 'minor'}, {title: 'Operation', class: 'text minor'}, {title: 'Mostly from'},
     ];
   }
 
