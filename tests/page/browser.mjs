@@ -48,10 +48,10 @@ function without_webgl() {
 
 /**
  * Opens a page, hands it to `check` when it says that it is ready, and fails where it complained of anything meanwhile.
- * `options`: {width, scheme, webgl}.
+ * `options`: {width, scheme, webgl, touch}.
  */
-export async function visit(name, check, {width = 1400, scheme = 'light', webgl = true} = {}) {
-  const context = await (await launched()).newContext({viewport: {width, height: 900}, colorScheme: scheme});
+export async function visit(name, check, {width = 1400, scheme = 'light', webgl = true, touch = false} = {}) {
+  const context = await (await launched()).newContext({viewport: {width, height: 900}, colorScheme: scheme, hasTouch: touch});
   try {
     const page = await context.newPage();
     page.first_address = pathToFileURL(path.join(folder, `${name}.html`)).href;

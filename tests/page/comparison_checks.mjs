@@ -1,6 +1,6 @@
 import assert from 'node:assert/strict';
 import test from 'node:test';
-import {data_in, pixels, report_of, texts, visit} from './browser.mjs';
+import {data_in, pixels, report_of, texts, visit, write_page} from './browser.mjs';
 
 /** The number of a comparison's row, by the key of reports. */
 const values_of = (document, key) => document.summary.find((row) => row.key === key).values;
@@ -28,4 +28,25 @@ test('the page of a comparison shows the numbers of its document, and curves of 
 
 test('a prediction beside a compensation makes a page, too', () => visit('half_compared', async (page) => {
   assert.equal(await page.locator('#numbers').isVisible(), true);
+}));
+
+test('what was concluded of two runs is said as it stands in the data', async () => {
+  const data = {...data_in('compared'), conclusion: 'B is off by <b>less</b> than A.'};
+  write_page('compared', data, 'concluded');
+  await visit('concluded', async (page) => assert.deepEqual(await texts(page, '#verdict > .verdict'), [data.conclusion]));
+  delete data.conclusion;
+  write_page('compared', data, 'unconcluded');
+  await visit('unconcluded', async (page) => assert.deepEqual(await texts(page, '#verdict > .verdict'), []));
+});
+
+test('marks and printed paths say of which run they are', () => visit('compared', async (page) => {
+  const title = () => page.innerText('#curves .marks-title');
+  await page.click('#worst .stack > :nth-child(1) tbody tr:nth-child(2) a');
+  assert.equal(await title(), 'Marks of A');
+  await page.click('#worst .stack > :nth-child(2) tbody tr:nth-child(2) a');
+  assert.equal(await title(), 'Marks of B');
+  await page.emulateMedia({media: 'print'});
+  await page.waitForFunction(() => document.querySelectorAll('.scene-paper').length === 4);
+  const shown = await page.$$eval('.scene-paper', (all) => all.map(({dataset}) => dataset.run + dataset.kind));
+  assert.deepEqual(shown, ['0before', '0after', '1before', '1after']);
 }));

@@ -51,3 +51,26 @@ test('on paper a page is light, whole and without a button', () => visit('groove
   assert.ok(await brightness(page) < 0.2);
   assert.ok(await page.$eval('.plot.before', (plot) => plot.offsetWidth) > 700);
 }, {scheme: 'dark'}));
+
+test('paper has the whole path, whatever was zoomed', () => visit('pocket', async (page) => {
+  const ticks = () => page.$$eval('.plot.before .dygraph-axis-label-x', (nodes) => nodes.map((node) => Number(node.textContent)));
+  const range = async () => Math.max(...await ticks()) - Math.min(...await ticks());
+  const whole = await range();
+  await page.focus('.plot.before');
+  for (let i = 0; i < 4; ++i) await page.keyboard.press('+');
+  const zoomed = await range();
+  assert.ok(zoomed < 0.2 * whole);
+  await page.emulateMedia({media: 'print'});
+  await page.waitForFunction(() => document.documentElement.hasAttribute('data-printing'));
+  assert.ok(await range() > 0.7 * whole, `${await ticks()}`);
+  await page.emulateMedia({media: 'screen'});
+  await page.waitForFunction(() => !document.documentElement.hasAttribute('data-printing'));
+  assert.ok(await range() < 0.2 * whole);
+}));
+
+test('a narrow window shows line, deviations and cause of the worst blocks, and whole captions', () => visit('pocket', async (page) => {
+  const shown = await page.$$eval('#worst thead th', (all) => all.filter((th) => th.checkVisibility()).map((th) => th.textContent));
+  assert.deepEqual(shown, ['Line', 'Before', 'After', 'Force', 'Mostly from']);
+  for (const right of await page.$$eval('caption', (all) => all.filter((c) => c.checkVisibility()).map((c) => c.getBoundingClientRect().right)))
+    assert.ok(right <= 400, `${right}`);
+}, {width: 400}));

@@ -144,7 +144,7 @@ test('two runs that failed stand side by side, too', async () => {
   write_page('failed', data, 'two_failed');
   await visit('two_failed', async (page) => {
     assert.equal(await page.locator('.verdict.bad').count(), 2);
-    assert.match(await page.innerText('main > #verdict > .verdict'), /no deviation to compare/);
+    assert.equal(await page.locator('main > #verdict > .verdict').count(), 0);
   });
 });
 
@@ -165,3 +165,45 @@ test('two runs stand side by side, their curves in the same plots', async () => 
     assert.match(await page.innerText('#place h3'), /^B: /);
   });
 });
+
+test('a curve that is hidden with Enter keeps the focus on its name', () => visit('pocket', async (page) => {
+  await page.waitForFunction(() => document.querySelectorAll('.plot.sources canvas').length > 0);
+  await page.focus('#sources button.entry:nth-child(2)');
+  for (const pressed of ['false', 'true']) {
+    await page.keyboard.press('Enter');
+    assert.equal(await page.evaluate(() => document.activeElement.textContent), 'geometry');
+    assert.equal(await page.evaluate(() => document.activeElement.getAttribute('aria-pressed')), pressed);
+  }
+}));
+
+test('the line of the largest deviation before is followed from its card and from the numbers', () => visit('pocket', async (page) => {
+  const {max_line: line} = report_of('pocket').summary.before;
+  for (const link of ['[data-card=before] a', '#numbers tbody tr:nth-child(2) td:nth-child(2) a']) {
+    await page.click('#worst tbody tr:nth-child(4) a');
+    await page.click(link);
+    assert.match(await page.innerText('#place h3'), new RegExp(`Line ${line}$`));
+    const [told] = /[\d.]+/.exec(await page.innerText('#place .cause'));
+    assert.equal(told, /[\d.]+/.exec(await page.innerText('[data-card=before] strong'))[0]);
+  }
+}));
+
+/** One finger that goes from a place to another. */
+async function swipe(page, from, to) {
+  const client = await page.context().newCDPSession(page);
+  const touch = (type, points) => client.send('Input.dispatchTouchEvent', {type, touchPoints: points});
+  await touch('touchStart', [from]);
+  for (let k = 1; k <= 8; ++k) await touch('touchMove', [{x: from.x + (k * (to.x - from.x)) / 8, y: from.y + (k * (to.y - from.y)) / 8}]);
+  await touch('touchEnd', []);
+}
+
+test('a finger on a plot scrolls the page, and its tap selects', () => visit('pocket', async (page) => {
+  await page.locator('.plot.before').scrollIntoViewIfNeeded();
+  const whole = await axis(page, 'before'), top = await page.evaluate(() => scrollY);
+  const box = await page.locator('.plot.before').boundingBox();
+  const selected = await page.evaluate(() => counterflex.context.selection.stretch);
+  await page.touchscreen.tap(box.x + 0.8 * box.width, box.y + 100);
+  await page.waitForFunction((old) => counterflex.context.selection.stretch !== old, selected);
+  await swipe(page, {x: box.x + 200, y: box.y + 150}, {x: box.x + 190, y: box.y + 20});
+  await page.waitForFunction((old) => scrollY > old + 40, top);
+  assert.deepEqual(await axis(page, 'before'), whole);
+}, {touch: true}));

@@ -29,6 +29,12 @@ test('a stretch of several lines says so, and that its deviation is the largest'
   assert.equal(scenePicture.words(shown(several), 0, units), 'lines 1 to 4: up to 100.0 um');
 });
 
+test('so does one of several waypoints of one line', () => {
+  const merged = run_of([0.1, 0.2]);
+  merged.curves.waypoints_per_stretch = 8;
+  assert.equal(scenePicture.words(shown(merged), 1, units), 'line 2: up to 200.0 um');
+});
+
 test('a deviation between known ones is about so large, an unknown one is not told', () => {
   assert.equal(scenePicture.words(shown(run_of([0.1, NaN, 0.2])), 1, units), 'line 2: about 150.0 um');
   assert.equal(scenePicture.words(shown(run_of([0.1, 0.2]), 'after'), 0, units), 'line 1');
@@ -55,3 +61,30 @@ test('a run is called by letter and name, once where they are the same', () => {
 });
 
 test('the tolerance is the one of the run', () => assert.equal(shown(run_of([0.1])).tolerance_mm, 0.005));
+
+const with_after = (run, after) => {
+  run.curves.place_after_mm = Float32Array.from(after.flatMap((v) => [0, 0, v]));
+  run.curves.quantities.after_mm = {largest: Float32Array.from(after)};
+  return run;
+};
+
+test('paper has the path before and after of each run, each with a factor that it bears', () => {
+  const runs = [{...with_after(run_of([0.4, 0.4, 0.4]), [0.001, 0.001, 0.001]), letter: 'A'}, {...run_of([0.1, 0.1]), letter: 'B'}];
+  const facts = scenePicture.survey(runs);
+  const printed = scenePicture.printed(facts, runs, 900);
+  assert.deepEqual(plain(printed.map(({run, kind}) => [run, kind])), [[0, 'before'], [0, 'after'], [1, 'before']]);
+  const size = (box) => box.high[2] - box.low[2];
+  for (const {factor, box, kind} of printed)
+    assert.ok(factor * facts.most[kind] <= 0.5 * facts.size && size(box) <= 0.5 * facts.size, `${kind} ${factor} ${size(box)}`);
+  assert.equal(printed[1].factor, 900);
+  assert.deepEqual(plain(printed.map((each) => scenePicture.titleOf(each, 'mm'))),
+    ['A: Deviation before, mm', 'A: Model residual after, mm', 'B: Deviation before, mm']);
+});
+
+test('paper has the wanted path of a run without deviations, and nothing of one without a path', () => {
+  const wanted = run_of([NaN, NaN]);
+  wanted.curves.quantities = {};
+  const runs = [wanted, {curves: null, report: {}}];
+  assert.deepEqual(plain(scenePicture.printed(scenePicture.survey(runs), runs, 10).map(({run, kind}) => [run, kind])), [[0, 'wanted']]);
+  assert.equal(scenePicture.titleOf({kind: 'wanted', letter: ''}, 'mm'), 'Wanted path');
+});

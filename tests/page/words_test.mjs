@@ -53,12 +53,23 @@ test('a share is never rounded up to the whole', () => {
   assert.equal(units.percent(null), '\u2013');
 });
 
-const run = (before, after) => ({report: {summary: {before: {max_mm: before}, after: after === null ? null : {max_mm: after}}}});
-const compared = (...runs) => words.comparison(runs, units.create('um'));
+/** The report of a run in which so many moves were not corrected. */
+const report_of = (summary, not_corrected = 0) =>
+  ({command: 'compensate', options: {'tolerance-mm': 0.005}, blocks: {not_corrected}, failure: null, summary: {path_mm: 10, after: null, ...summary}});
+const verdict = (...report) => plain(words.verdict(report_of(...report), units.create('um')));
+const of = (max_mm) => ({max_mm, max_line: 3});
 
-test('two runs are compared by what both have: the residual, or the deviation before', () => {
-  assert.match(compared(run(1, 0.004), run(2, 0.003)), /B is off by 1.0 \u00b5m less than A .* after correction/);
-  assert.match(compared(run(1, 0.004), run(2, null)), /B is off by 1000 \u00b5m more than A .* before correction/);
-  assert.match(compared(run(1, null), run(1, null)), /the same at their worst, before correction/);
-  assert.match(compared({report: {summary: {before: null, after: null}}}, run(1, 1)), /no deviation to compare/);
+test('a run without a feed move is not said to be a good one', () => {
+  for (const summary of [{path_mm: 0, before: of(0), after: of(0)}, {path_mm: 0, before: null}])
+    assert.deepEqual(verdict(summary), {text: 'Nothing was solved: no feed move.', kind: 'warn'});
+  assert.match(verdict({path_mm: 0, before: null}, 3).text, /no feed move. 3 moves are not corrected/);
+  assert.equal(verdict({before: of(0.1), after: of(0.001)}).kind, 'good');
+});
+
+test('how many moves the numbers leave out is said', () => {
+  const {text, kind} = verdict({before: of(0.1), after: of(0.001)}, 1);
+  assert.match(text, /1 move is not corrected, and left out of these numbers/);
+  assert.equal(kind, 'warn');
+  assert.equal(verdict({before: of(0.1)}, 2).kind, 'warn');
+  assert.equal(verdict({before: of(0.1)}).kind, 'neutral');
 });

@@ -40,7 +40,7 @@
     return {
       series: list,
       ...tables.tabulate(list, group.total, context.units.lengthScale),
-      lineAt: (run, stretch) => (stretch < 0 ? '\u2013' : context.runs[run].curves.first_line[stretch]),
+      placeText: ({run, stretch}) => (stretch < 0 ? 'no line' : counterflex.lines.words(context.runs[run].curves, stretch)),
       select: ({run, stretch}) => stretch >= 0 && context.selection.set(run, stretch),
       ...rest,
     };
@@ -53,19 +53,27 @@
   /** Deviations as text; they are in the unit shown already. */
   const textIn = (part, units) => (v) => (part === 'rotation_' ? `${v.toFixed(4)} deg` : units.format(v / units.scale));
 
-  /** The tolerance of the first run as levels on a scale of signed values or of sizes. */
+  /** Tolerances of the runs, each once: [{mm, label}]; where not all have the same one the label says whose it is. */
+  function tolerances({runs, units}) {
+    const all = runs.map((run) => counterflex.summary.tolerance(run.report));
+    const common = all.every((mm) => mm === all[0]);
+    const label = (mm, i) => `tolerance ${common ? '' : `${runs[i].letter} `}${units.format(mm)}`;
+    return all.map((mm, i) => ({mm, label: label(mm, i)})).filter(({mm}, i) => mm < Infinity && (i === 0 || !common));
+  }
+
+  /** The tolerances as levels on a scale of signed values or of sizes. */
   function toleranceLevels(context, part, log) {
-    const tolerance = counterflex.summary.tolerance(context.runs[0].report);
-    if (part === 'rotation_' || tolerance === Infinity) return [];
-    const value = tolerance * context.units.scale, label = `tolerance ${context.units.format(tolerance)}`;
+    if (part === 'rotation_') return [];
     const signed = ['x_', 'y_', 'z_'].includes(part) && !log;
-    return signed ? [{value, label}, {value: -value, label: ''}] : [{value, label}];
+    return tolerances(context).flatMap(({mm, label}) => {
+      const value = mm * context.units.scale;
+      return signed ? [{value, label}, {value: -value, label: ''}] : [{value, label}];
+    });
   }
 
   /** The tolerance in the title of a plot, where its line may be out of sight. */
   function toleranceText(context, part) {
-    const [level] = toleranceLevels(context, part, true);
-    return level ? `; ${level.label}` : '';
+    return toleranceLevels(context, part, true).map(({label}) => `; ${label}`).join('');
   }
 
   /**
@@ -104,10 +112,12 @@
   const help = 'Drag to zoom, shift and drag to move along, double click for all; click to see the place in space.';
 
   /** What the marks leave out. */
-  function thinnedNote({marks}) {
-    const {rapids, steps} = marks.thinned;
-    const said = [rapids && `${rapids} rapids`, steps && `${steps} steps of the force`].filter(Boolean);
-    return said.length > 0 ? el('p', {class: 'note'}, `Of every ${said.join(' and of every ')} one is marked.`) : null;
+  function thinnedNote({runs}, {marks}) {
+    return marks.map(({thinned: {rapids, steps}}, i) => {
+      const said = [rapids && `${rapids} rapids`, steps && `${steps} steps of the force`].filter(Boolean);
+      const text = `Of every ${said.join(' and of every ')} one is marked.`;
+      return said.length > 0 ? el('p', {class: 'note'}, counterflex.words.ofRun(runs[i], text)) : null;
+    });
   }
 
   /** How curves of merged waypoints are to be read. */
@@ -134,8 +144,8 @@
     const present = components.filter(([part]) => has(context, quantityName('before', part)));
     const choice = componentChoice(context, state, 'component', present);
     const controls = el('div', {class: 'controls'}, choice, logBox(state));
-    return {plots: state.plots, content: [controls, counterflex.plotGroup.controls(group),
-      state.plots.map((plot) => plot.node), el('p', {class: 'note help'}, help), mergedNote(context), thinnedNote(group)]};
+    return {plots: state.plots, content: [controls, counterflex.plotGroup.controls(context, group),
+      state.plots.map((plot) => plot.node), el('p', {class: 'note help'}, help), mergedNote(context), thinnedNote(context, group)]};
   }
 
   const sourceSeries = (part) => [
@@ -197,5 +207,5 @@
     return {plots, content: plots[0].node};
   }
 
-  counterflex.curves = {pointsOf, deviations, sources, force};
+  counterflex.curves = {tolerances, pointsOf, deviations, sources, force};
 })();

@@ -20,8 +20,9 @@
   /** Keys of all objects, each once, in order of first appearance. */
   const keysOf = (objects) => [...new Set(objects.flatMap((o) => Object.keys(o)))];
 
-  function optionText(value) {
+  function optionText(name, value, units) {
     if (value === undefined) return unknown;
+    if (name === 'tolerance-mm' && known(value)) return units.format(value);
     if (typeof value === 'boolean') return value ? 'yes' : 'no';
     return Array.isArray(value) ? value.join('; ') : String(value);
   }
@@ -35,9 +36,10 @@
     return compared('Inputs', runs, rows);
   }
 
-  function options(runs) {
+  function options(runs, units) {
     const rows = keysOf(runs.map((run) => run.report.options))
-        .map((name) => [name, ...runs.map((run) => optionText(run.report.options[name]))]);
+        .map((name) => [name === 'tolerance-mm' ? 'tolerance' : name,
+          ...runs.map((run) => optionText(name, run.report.options[name], units))]);
     const of = (what, get) => [what, ...runs.map((run) => get(run.report) || unknown)];
     const heads = [of('tool', (r) => r.tool), of('command', (r) => r.command), of('machine', (r) => r.machine)];
     return compared('Options', runs, [...heads, ...rows]);
@@ -50,8 +52,8 @@
   }
 
   /** Assumptions, inputs with their hashes, options and version. */
-  function render({runs}) {
-    return el('div', {class: 'stack'}, el('div', {class: 'runs'}, runs.map(assumptions)), inputs(runs), options(runs));
+  function render({runs, units}) {
+    return el('div', {class: 'stack'}, el('div', {class: 'runs'}, runs.map(assumptions)), inputs(runs), options(runs, units));
   }
 
   const blockRows = [['Blocks', 'total'], ['Moves', 'moves'], ['Corrected each on its own', 'corrected'],
@@ -67,8 +69,8 @@
     return `${short.count}, shortest ${fixed(short.shortest_ms, 2)} ms, ${words.inLine(short.shortest_line)}`;
   }
 
-  function pathTolerances(report) {
-    const of = (t) => `${words.inLine(t.line)}: ${known(t.path_mm) ? `${t.path_mm} mm` : 'no path tolerance'}`;
+  function pathTolerances(report, units) {
+    const of = (t) => `${words.inLine(t.line)}: ${known(t.path_mm) ? units.format(t.path_mm) : 'no path tolerance'}`;
     return report.control.path_tolerances.map(of).join('; ') || 'none stated';
   }
 
@@ -85,14 +87,14 @@
     return `${steps}, largest ${fixed(forces.largest_step_N, 1)} N`;
   }
 
-  function controlRows(runs) {
+  function controlRows(runs, units) {
     const of = (what, get) => [what, ...runs.map((run) => get(run.report))];
     return [
       of('Blocks of the text, before and after', (r) => `${r.text.blocks_before} / ${countText(r.text.blocks_after)}`),
       of('Bytes, before and after', (r) => `${r.text.bytes_before} / ${countText(r.text.bytes_after)}`),
       of('Feed moves shorter in time than allowed for', shortBlocks),
       of('Longest line', longestLine),
-      of('Path tolerance of the control', pathTolerances),
+      of('Path tolerance of the control', (r) => pathTolerances(r, units)),
       of('Largest cutting force', largestForce),
       of('Steps of the force', forceSteps),
     ];
@@ -111,9 +113,9 @@
   /** Counts of blocks, what a control may make of them, and tools. */
   function program({runs, units}) {
     const blocks = blockRows.map(([what, key]) => [what, ...runs.map((run) => countText(run.report.blocks[key]))]);
-    const counts = compared('Blocks and control', runs, [...blocks, ...controlRows(runs)]);
+    const counts = compared('Blocks and control', runs, [...blocks, ...controlRows(runs, units)]);
     return el('div', {class: 'stack'}, counts, runs.map((run) => toolTable(run, units)));
   }
 
-  counterflex.facts = {render, program};
+  counterflex.facts = {render, program, optionText, pathTolerances};
 })();

@@ -2,7 +2,7 @@
 (() => {
   const {el, bar, table, textColumn, numberColumn, radios} = counterflex.dom;
   const {known} = counterflex.units;
-  const {series: tables, data, words} = counterflex;
+  const {series: tables, words} = counterflex;
 
   /** The loads that chains have: name in the data, words, unit; a null unit is that of deviations. */
   const quantities = [
@@ -30,10 +30,21 @@
     return el('span', {class: 'use'}, drawing, `${(100 * share).toFixed(0)} %${exceeds(load) ? ': above the limit' : ''}`);
   }
 
+  /** Where a run's load of a chain is largest: {s_mm}, {} where its places are not known. */
+  function placeOfLargest(run, chain, name) {
+    const values = run.loads && (run.loads.chains.find((one) => one.name === chain.name) || {})[name];
+    if (!values) return {};
+    const size = (i) => (known(values[i]) ? values[i] : -Infinity);
+    const best = values.reduce((b, _, i) => (size(i) > size(b) ? i : b), 0);
+    return {s_mm: run.loads.s_mm[best]};
+  }
+
   function rowsOf(chain, context, index, limited) {
     return quantities.filter(([name]) => chain[name] && chain[name].largest > 0).map(([name, what, unit]) => {
       const load = chain[name];
-      const largest = [chain.name, what, textOf(load.largest, unit, context.units), counterflex.lines.link(context, index, load.line)];
+      const where = placeOfLargest(context.runs[index], chain, name);
+      const line = counterflex.lines.link(context, index, load.line, where);
+      const largest = [chain.name, what, textOf(load.largest, unit, context.units), line];
       const limit = limited ? [known(load.limit) ? textOf(load.limit, unit, context.units) : '\u2013', use(load)] : [];
       return Object.assign([...largest, ...limit], {limited: known(load.limit), mark: exceeds(load) ? 'exceeded' : ''});
     });
@@ -62,8 +73,9 @@
 
   /** Points of a run's loads; their stretches are those of the curves, so that a click selects one. */
   function pointsOf(run) {
-    const stretch = (s) => (run.curves ? data.stretchAt(run.curves, s) : -1);
-    return run.loads.s_mm.map((s, i) => ({s, stretch: stretch(s), line: run.loads.line[i]}));
+    const {s_mm: all, line: lines} = run.loads;
+    const stretch = (s, line) => (run.curves ? counterflex.lines.stretchNear(run.curves, line, s) : -1);
+    return all.map((s, i) => ({s, stretch: stretch(s, lines[i]), line: lines[i]}));
   }
 
   function seriesOf(context, points, name, scale) {
@@ -101,7 +113,7 @@
       series,
       ...tables.tabulate(series, group.total, context.units.lengthScale),
       levels: levels(context, name, scale), text: (v) => textOf(v / scale, unit, context.units),
-      lineAt: (run, stretch) => (stretch < 0 ? '\u2013' : context.runs[run].curves.first_line[stretch]),
+      placeText: ({line}) => (line > 0 ? `line ${line}` : 'no line'),
       select: ({run, stretch}) => stretch >= 0 && context.selection.set(run, stretch),
     };
   }
@@ -120,5 +132,5 @@
     return {plots: [plot], content: [el('div', {class: 'controls'}, choice), plot.node]};
   }
 
-  counterflex.loads = {render, plots};
+  counterflex.loads = {render, plots, pointsOf, placeOfLargest};
 })();

@@ -1,7 +1,6 @@
 'use strict';
 (() => {
   const {colour} = counterflex.theme;
-  const {data} = counterflex;
   const closest = 34;  // px between labels of lines
 
   function vertical(canvas, area, x, dash, width) {
@@ -61,7 +60,7 @@
   function of(run) {
     const {curves} = run;
     if (!curves) return {blocks: [], rapids: [], steps: [], thinned: {}};
-    const placed = (marks) => marks.s_mm.map((s) => ({s, line: curves.first_line[data.stretchAt(curves, s)]}));
+    const placed = (marks) => marks.s_mm.map((s) => ({s}));
     const thinned = ({count, s_mm: s}) => (s.length > 0 && count > s.length ? Math.round(count / s.length) : 0);
     return {blocks: blockEnds(curves), rapids: placed(curves.rapids), steps: placed(curves.force_steps),
       thinned: {rapids: thinned(curves.rapids), steps: thinned(curves.force_steps)}};

@@ -17,10 +17,10 @@
   }
 
   /** What all parts of the page share. */
-  function contextOf(runs) {
+  function contextOf(runs, conclusion) {
     const shown = (runs[0].report.units || {}).shown || 'um';
     const units = counterflex.units.create(shown), selection = counterflex.selection.create();
-    return {runs, units, selection, scene: null, group: null, plots: []};
+    return {runs, conclusion, units, selection, scene: null, group: null, plots: []};
   }
 
   /** Sections of text and tables, which a change of unit writes anew. */
@@ -85,7 +85,7 @@
     const {curves} = context.runs[run];
     goToSection('curves');
     if (!curves) return;
-    const first = curves.operation.indexOf(index), last = curves.operation.lastIndexOf(index);
+    const [first, last] = counterflex.lines.ofOperation(curves, index, context.runs[run].report.operations[index]);
     if (first < 0) return;
     const begin = first > 0 ? curves.s_mm[first - 1] : 0;
     context.group.setWindow([begin, Math.max(curves.s_mm[last], begin + context.group.total / 1000)]);
@@ -124,8 +124,10 @@
     window.addEventListener('resize', () => context.scene.resize());
   }
 
-  function start(runs) {
-    const context = contextOf(runs);
+  function start(json) {
+    const {data} = counterflex;
+    const runs = data.decode(json);
+    const context = contextOf(runs, data.conclusion(json));
     root.dataset.runs = runs.length;
     context.goToRow = (run, row) => goToRow(context, run, row);
     context.goTo = (run, stretch) => goTo(context, run, stretch);
@@ -161,7 +163,7 @@
 
   document.addEventListener('DOMContentLoaded', () => {
     try {
-      start(counterflex.data.decode(JSON.parse(document.getElementById('counterflex-data').textContent)));
+      start(JSON.parse(document.getElementById('counterflex-data').textContent));
       ready();
     } catch (error) {
       fail(error);

@@ -67,5 +67,8 @@ const counterflex = {};
     return low;
   }
 
-  counterflex.data = {decode, stretchAt};
+  /** What was concluded of two runs, a sentence; '' where none is said. */
+  const conclusion = (json) => (typeof json.conclusion === 'string' ? json.conclusion : '');
+
+  counterflex.data = {decode, conclusion, stretchAt};
 })();

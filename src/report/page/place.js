@@ -11,16 +11,37 @@
     return Number.isNaN(value) ? null : value;
   }
 
+  const partNames = ['geometry', 'load', 'gravity', 'discrepancy'];
+
+  /**
+   * The stretch nearest to `i` along the same block that knows its deviation before and the parts of it, which between
+   * the ends of pieces nobody computed; `i` itself where none does.
+   */
+  function told(c, i) {
+    const present = partNames.filter((part) => c.quantities[`${part}_mm`]);
+    const attributed = (k) => present.length === 0 || present.some((part) => at(c, `${part}_mm`, k) !== null);
+    const knows = (k) => at(c, 'before_mm', k) !== null && attributed(k);
+    const line = c.first_line[i];
+    if (knows(i) || c.last_line[i] !== line) return i;
+    const search = (step) => {
+      let k = i + step;
+      while (c.first_line[k] === line && c.last_line[k] === line && !knows(k)) k += step;
+      return c.first_line[k] === line && knows(k) ? [k] : [];
+    };
+    const far = (k) => Math.abs(c.s_mm[k] - c.s_mm[i]);
+    return [...search(-1), ...search(1)].sort((a, b) => far(a) - far(b))[0] ?? i;
+  }
+
   /** What is known of a stretch of the path, in the form of a row of the worst blocks. */
   function ofStretch(run, i) {
     const c = run.curves;
     const operation = (run.report.operations || [])[c.operation[i]];
-    const causes = {};
-    for (const part of ['geometry', 'load', 'gravity', 'discrepancy']) causes[`${part}_mm`] = at(c, `${part}_mm`, i);
+    const from = told(c, i);
+    const causes = Object.fromEntries(partNames.map((part) => [`${part}_mm`, at(c, `${part}_mm`, from)]));
     return {
       line: c.first_line[i], last_line: c.last_line[i], s_mm: c.s_mm[i],
       place_mm: Array.from(c.place_mm.subarray(3 * i, 3 * i + 3)),
-      before_mm: at(c, 'before_mm', i), after_mm: at(c, 'after_mm', i), force_N: at(c, 'force_N', i),
+      before_mm: at(c, 'before_mm', from), about: from !== i, after_mm: at(c, 'after_mm', i), force_N: at(c, 'force_N', i),
       tool: operation ? operation.tool : 0, operation: operation ? operation.operation : '', text: null, causes,
     };
   }
@@ -42,7 +63,7 @@
   function causeSentence(row, units) {
     const cause = words.cause(row.causes);
     if (!cause) return null;
-    const size = known(row.before_mm) ? `Off by ${units.format(row.before_mm)} before: ` : '';
+    const size = known(row.before_mm) ? `Off by ${row.about ? 'about ' : ''}${units.format(row.before_mm)} before: ` : '';
     return el('p', {class: 'cause'}, `${size}${cause}.`);
   }
 

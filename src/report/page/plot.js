@@ -62,9 +62,9 @@
     return Object.fromEntries([...drawn, ...hidden]);
   }
 
-  /** What is in view, in the unit of the axis; null: all. */
-  function windowOf({group, context}) {
-    return group.window && group.window.map((s) => s * context.units.lengthScale);
+  /** What is in view, in the unit of the axis; null: all, as always on paper. */
+  function windowOf({group, context, printing}) {
+    return printing || !group.window ? null : group.window.map((s) => s * context.units.lengthScale);
   }
 
   /** What changes with data, unit, theme and window. */
@@ -90,7 +90,7 @@
   function underlay(plot, canvas, area, g) {
     const {content, group, context} = plot;
     const toX = (s) => g.toDomXCoord(s * context.units.lengthScale);
-    counterflex.marks.draw(canvas, area, group.marks, toX, group.shown);
+    counterflex.marks.draw(canvas, area, group.marks[context.selection.run], toX, group.shown);
     for (const {value, label} of content.levels || [])
       counterflex.marks.drawLevel(canvas, area, g.toDomYCoord(value), label);
     counterflex.marks.drawSelected(canvas, area, toX(group.selected()));
@@ -121,7 +121,14 @@
     };
   }
 
-  const fixed = {connectSeparatedPoints: true, pointSize: 2, drawGapEdgePoints: true, highlightCircleSize: 4,
+  const model = Dygraph.defaultInteractionModel;
+  const ofTwo = (action) => (event, g, context) => event.touches.length > 1 && action(event, g, context);
+
+  /** Two fingers zoom and move; one scrolls the page, and its tap is a click. */
+  const interactionModel = {...model, touchstart: ofTwo(model.touchstart), touchmove: ofTwo(model.touchmove),
+    touchend: () => {}};
+
+  const fixed = {interactionModel, connectSeparatedPoints: true, pointSize: 2, drawGapEdgePoints: true, highlightCircleSize: 4,
     xRangePad: 4, yRangePad: 12, rightGap: 12, axisLineWidth: 1, gridLineWidth: 1};
 
   /** Changes the graph without telling the other plots that it was zoomed. */
@@ -171,11 +178,12 @@
 
   /** For paper: sharp, and as wide as the page; and back. */
   function setPrinting(plot, on) {
+    plot.printing = on;
     plot.ensure();
     plot.host.querySelectorAll('.paper-copy').forEach((copy) => copy.remove());
     plot.host.style.width = on ? `${paperWidth}px` : '';
     quietly(plot, () => {
-      plot.graph.updateOptions({pixelRatio: on ? 3 : null}, true);
+      plot.graph.updateOptions({pixelRatio: on ? 3 : null, dateWindow: windowOf(plot)}, true);
       plot.graph.resize();
     });
     if (on) copyForPaper(plot);
@@ -192,11 +200,11 @@
 
   /**
    * A plot over the path, built when `ensure` is called first. `describe` gives what it shows now: {title, series:
-   * [{label, colour, dash, width}], rows, places, levels: [{value, label}], log, text(value), lineAt(run, stretch),
+   * [{label, colour, dash, width}], rows, places, levels: [{value, label}], log, text(value), placeText(place),
    * select(place)}.
    */
   function create(context, group, describe, className) {
-    const plot = {context, group, describe, hidden: new Set(), graph: null, busy: false};
+    const plot = {context, group, describe, hidden: new Set(), graph: null, busy: false, printing: false};
     frame(plot, className || '');
     Object.assign(plot, {
       ensure: () => plot.graph || build(plot),

@@ -1,6 +1,6 @@
 'use strict';
 (() => {
-  const {el} = counterflex.dom;
+  const {el, fill} = counterflex.dom;
 
   /**
    * Plots over the same path length: they zoom and pan together and show their values at one place. `context`: {runs,
@@ -15,7 +15,7 @@
       window: null,
       frame: 0,
       shown: {blocks: true, rapids: true, steps: true},
-      marks: counterflex.marks.of(runs[0]),
+      marks: runs.map((run) => counterflex.marks.of(run)),  // those of the selected run are drawn
       /** Shows path length `range` (mm) in all plots; null: all of it. */
       setWindow(range) {
         group.window = range && clamped(range, total);
@@ -78,6 +78,15 @@
     return el('button', {type: 'button', 'aria-label': label, title: label, click}, text);
   }
 
+  /** Whose marks are drawn. */
+  function marksTitle({runs, selection}) {
+    const node = el('legend', {class: 'marks-title'});
+    const say = () => fill(node, runs.length > 1 ? `Marks of ${runs[selection.run].letter}` : 'Marks');
+    selection.subscribe(say);
+    say();
+    return node;
+  }
+
   /** Whether marks of a kind are drawn. */
   function markBox(group, key, text) {
     const change = (event) => {
@@ -88,7 +97,7 @@
   }
 
   /** Buttons that do what the mouse does, for the keyboard and for fingers. */
-  function controls(group) {
+  function controls(context, group) {
     const buttons = [button('+', 'Zoom in', () => group.zoom(0.5, 0)),
       button('\u2212', 'Zoom out', () => group.zoom(2, 0)),
       button('\u25c0', 'Back along the path', () => group.zoom(1, -0.25)),
@@ -97,7 +106,7 @@
     const boxes = [['blocks', 'blocks'], ['rapids', 'rapids'], ['steps', 'force steps']];
     return el('div', {class: 'controls'},
         el('div', {class: 'buttons', role: 'group', 'aria-label': 'Part of the path'}, buttons),
-        el('fieldset', {class: 'choice'}, el('legend', null, 'Marks'),
+        el('fieldset', {class: 'choice'}, marksTitle(context),
             boxes.map(([key, text]) => markBox(group, key, text))));
   }
 

@@ -17,13 +17,13 @@
   /** Says what the curves are at a row. */
   function readout(plot, k) {
     const {content, context} = plot;
-    const row = content.rows[k], {run, stretch} = content.places[k];
-    const line = content.lineAt(run, stretch);
+    const row = counterflex.series.largestOfTwo(content.rows[k], content.places[k].twin);
     const told = (series, v) => v !== null && !Number.isNaN(v) && !plot.hidden.has(series.label);
     const values = content.series.map((series, i) => [series, row[i + 1]]).filter(([series, v]) => told(series, v))
         .map(([series, v]) => `${series.label} ${content.text(v)}`);
     const place = `${tick(Number(row[0].toFixed(3)))} ${context.units.lengthLabel}`;
-    fill(plot.legend.readout, `${place}, line ${line}: ${values.join(', ')}`);
+    const upTo = content.places[k].twin ? 'up to ' : '';
+    fill(plot.legend.readout, `${place}, ${content.placeText(content.places[k])}: ${upTo}${values.join(', ')}`);
   }
 
   function clearReadout(plot) {
@@ -46,7 +46,9 @@
   function fillLegend(plot) {
     const {content, legend} = plot;
     fill(legend.title, content.title);
+    const focused = [...legend.entries.children].indexOf(document.activeElement);
     fill(legend.entries, content.series.map((series) => legendEntry(plot, series)));
+    if (focused >= 0 && legend.entries.children[focused]) legend.entries.children[focused].focus();
     const drawn = content.series.filter((s) => !plot.hidden.has(s.label));
     fill(legend.paper, drawn.map((s) => el('span', {class: 'entry'}, swatch(s), s.label)));
     const keys = 'Arrow keys move along the path, plus and minus zoom, Home shows all.';

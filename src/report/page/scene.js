@@ -179,8 +179,8 @@
     }
 
     /** The camera from where one looks, with the whole path in a picture of that size. */
-    whole(size) {
-      return counterflex.camera.fit(this.camera, this.shown.box, size, margin);
+    whole(size, box = this.shown.box) {
+      return counterflex.camera.fit(this.camera, box, size, margin);
     }
 
     /** The camera for a picture of that size: fitted anew unless it was moved by hand. */
@@ -220,15 +220,16 @@
         azimuth: degrees(this.camera.azimuth), elevation: degrees(this.camera.elevation)});
     }
 
-    /** On paper one cannot turn or switch: the whole path, before and after one below the other. */
+    /** On paper one cannot turn or switch: the whole path of each run, before and after one below the other. */
     drawForPrint() {
       const size = {width: 960, height: 480, ratio: 2};
-      const known = ['before', 'after'].filter((kind) => picture.knows(this.runs[this.shown.run], kind));
-      const canvases = (known.length > 0 ? known : ['wanted']).map((kind) => {
-        const canvas = el('canvas', {class: 'scene-paper'});
-        const shown = picture.describe(this.facts, this.runs, this.shown.run, kind, this.shown.factor);
-        picture.paint(this.view, canvas, size, {shown, camera: this.whole(size), units: this.units,
-          theme: counterflex.colours.paper, marked: this.marked()});
+      const chosen = this.chosen();
+      const canvases = picture.printed(this.facts, this.runs, this.shown.factor).map((shown) => {
+        const canvas = el('canvas', {class: 'scene-paper', 'data-run': shown.run, 'data-kind': shown.kind,
+          'data-factor': shown.factor});
+        const marked = chosen >= 0 && shown.run === this.shown.run ? [{stretch: chosen, radius: 7}] : [];
+        picture.paint(this.view, canvas, size, {shown, camera: this.whole(size, shown.box), units: this.units,
+          theme: counterflex.colours.paper, marked});
         return canvas;
       });
       this.parts.paper.replaceChildren(...canvases);

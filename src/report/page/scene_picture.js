@@ -1,7 +1,7 @@
 'use strict';
 /**
  * One picture of the path view: which path is shown, its layers, its words, and putting all on a canvas. `shown` is
- * {curves, tolerance_mm, kind, run, factor, path, box}: what is to be seen, whatever the camera.
+ * {curves, letter, tolerance_mm, kind, run, factor, path, box}: what is to be seen, whatever the camera.
  */
 (() => {
   const titles = {wanted: () => 'Wanted path', before: (unit) => `Deviation before, ${unit}`,
@@ -27,12 +27,28 @@
       steps: counterflex.pathModel.exaggerations(size, [most.before, most.after])};
   }
 
+  /**
+   * What is printed, where one cannot switch: of each run its path before and after, or else the wanted one, each with
+   * `factor` or what it can bear of it.
+   */
+  function printed(facts, runs, factor) {
+    return runs.flatMap((run, index) => {
+      const known = ['before', 'after'].filter((kind) => knows(run, kind));
+      const kinds = known.length > 0 ? known : ['wanted'].filter((kind) => knows(run, kind));
+      const bearable = (kind) => counterflex.pathModel.bearable(factor, facts.size, facts.most[kind]);
+      return kinds.map((kind) => describe(facts, runs, index, kind, bearable(kind)));
+    });
+  }
+
+  /** What a picture shows, which of two runs says its letter. */
+  const titleOf = ({kind, letter}, unit) => (letter ? `${letter}: ` : '') + titles[kind](unit);
+
   /** `shown` of a run's path of a kind, exaggerated by `factor`. */
   function describe(facts, runs, run, kind, factor) {
-    const {curves, report} = runs[run];
+    const {curves, report, letter} = runs[run];
     const path = counterflex.pathModel.build(curves, kind, facts.origin, facts.most[kind]);
     const tolerance_mm = Number((report.options || {})['tolerance-mm']);
-    return exaggerated({curves, tolerance_mm, kind, run, path, most_mm: facts.most[kind]}, factor);
+    return exaggerated({curves, letter, tolerance_mm, kind, run, path, most_mm: facts.most[kind]}, factor);
   }
 
   const exaggerated = (shown, factor) =>
@@ -63,7 +79,8 @@
     if (kind === 'wanted' || path.fraction[i] < 0) return lines;
     const value = curves.quantities[`${kind}_mm`].largest[i];
     if (!Number.isFinite(value)) return `${lines}: about ${units.format(path.fraction[i] * most_mm)}`;
-    return `${lines}: ${first === last ? '' : 'up to '}${units.format(value)}`;
+    const single = first === last && !(curves.waypoints_per_stretch > 1);
+    return `${lines}: ${single ? '' : 'up to '}${units.format(value)}`;
   }
 
   /** Where a stretch is drawn: [x, y, z], mm from the origin. */
@@ -97,9 +114,9 @@
     view.draw(context, size, {theme, camera, layers: layers(shown, theme), reach: reachOf(camera.centre, shown.box)});
     counterflex.overlay.draw(context, size, {theme, camera, units,
       marks: marked.map((each) => mark(each, shown, project, units)),
-      bar: {title: titles[shown.kind](units.label), most_mm: shown.most_mm, tolerance_mm: shown.tolerance_mm},
+      bar: {title: titleOf(shown, units.label), most_mm: shown.most_mm, tolerance_mm: shown.tolerance_mm},
       notes: notes(shown)});
   }
 
-  counterflex.scenePicture = {usable, nameOf, knows, survey, describe, exaggerated, words, placeOf, paint};
+  counterflex.scenePicture = {usable, nameOf, knows, survey, describe, printed, titleOf, exaggerated, words, placeOf, paint};
 })();

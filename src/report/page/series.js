@@ -19,8 +19,8 @@
     for (let i = 0; i < s.length; ++i) {
       const begin = i > 0 ? s[i - 1] : 0;
       if (merged === 1 && i > 0 && rapid[i]) points.push({s: begin, stretch: i - 1, gap: true});
-      if (merged > 1) points.push({s: (begin + s[i]) / 2, stretch: i, second: false});
-      points.push({s: s[i], stretch: i, second: merged > 1});
+      if (merged > 1) points.push({s: (begin + s[i]) / 2, stretch: i, second: false, merged: true});
+      points.push({s: s[i], stretch: i, second: merged > 1, merged: merged > 1});
     }
     return points;
   }
@@ -42,7 +42,8 @@
 
   /**
    * Rows for dygraphs of several series. `series`: {run, points, values}, where series of one run share `points`.
-   * Returns {rows: [[s, value of each series]], places: [{run, stretch}] of each row}.
+   * Returns {rows: [[s, value of each series]], places: [{run, stretch, line: of the point where it has one, twin: the
+   * other row of a merged stretch}] of each row}.
    */
   function tabulate(series, total, lengthScale) {
     const groups = [];
@@ -55,17 +56,22 @@
     if (groups.length > 1) rows.sort((a, b) => a.row[0] - b.row[0]);
     const end = (s) => ({row: [s * lengthScale, ...new Array(series.length).fill(null)], run: 0, stretch: -1});
     const all = [end(0), ...rows, end(total)];
-    return {rows: all.map(({row}) => row), places: all.map(({run, stretch}) => ({run, stretch}))};
+    return {rows: all.map(({row}) => row), places: all.map(({row, ...place}) => place)};
   }
 
   function groupRows({points, run, members}, width, lengthScale) {
-    return points.map((point, k) => {
+    const rows = points.map((point, k) => {
       const row = new Array(width + 1).fill(null);
       row[0] = point.s * lengthScale;
       for (const {index, values} of members) row[index + 1] = values[k];
-      return {row, run, stretch: point.stretch};
+      return row;
     });
+    return points.map(({stretch, line, merged, second}, k) =>
+      ({row: rows[k], run, stretch, line, twin: merged ? rows[second ? k - 1 : k + 1] : undefined}));
   }
 
-  counterflex.series = {places, valuesAt, tabulate};
+  /** A row with the larger values, by size, of the two rows of a merged stretch; the row itself of a single one. */
+  const largestOfTwo = (row, twin) => (!twin ? row : row.map((v, c) => (c > 0 && Math.abs(twin[c]) > Math.abs(v) ? twin[c] : v)));
+
+  counterflex.series = {largestOfTwo, places, valuesAt, tabulate};
 })();

@@ -10,8 +10,14 @@
         el('dt', null, label), el('dd', null, el('strong', null, value), el('span', null, note || '')));
   }
 
-  function deviationCard(key, label, s, units) {
-    const note = `${words.inLine(s.max_line)}, 95 % below ${units.format(s.p95_mm)}`;
+  /** "line 12" that leads there: to where the quantity is largest in it; '' without a line. */
+  function lineNote({context, index}, line, quantity) {
+    return line > 0 ? ['line ', counterflex.lines.link(context, index, line, {quantity})] : '';
+  }
+
+  function deviationCard(key, label, s, place) {
+    const {units} = place.context;
+    const note = [lineNote(place, s.max_line, `${key}_mm`), `, 95 % below ${units.format(s.p95_mm)}`];
     return card(key, label, units.format(s.max_mm), note);
   }
 
@@ -22,16 +28,17 @@
     return card('corrected', 'Corrected', percent(share), note, share < 100 ? 'warn' : '');
   }
 
-  function airCard(report, units) {
+  function airCard(report, place) {
     const {air} = report.summary;
-    const note = `${words.inLine(air.line)}: dry run, spring pass, broken insert`;
+    const note = [lineNote(place, air.line, 'air_mm'), ': dry run, spring pass, broken insert'];
     const mark = air.max_mm > tolerance(report) ? 'warn' : '';
-    return card('air', 'Overcut if the force is missing', units.format(air.max_mm), note, mark);
+    return card('air', 'Overcut if the force is missing', place.context.units.format(air.max_mm), note, mark);
   }
 
-  function correctionCard(report, units) {
+  function correctionCard(report, place) {
     const {correction} = report.summary;
-    return card('correction', 'Largest correction', units.format(correction.max_mm), words.inLine(correction.line));
+    const note = lineNote(place, correction.line, 'correction_mm');
+    return card('correction', 'Largest correction', place.context.units.format(correction.max_mm), note);
   }
 
   /** What does harm of a deviation: the part across the path. */
@@ -45,18 +52,28 @@
     return typeof value === 'number' ? value : Infinity;
   }
 
+  const namesOf = (report) => (report.command === 'predict'
+    ? [['before', 'Deviation, as programmed']] : [['before', 'Before'], ['after', 'After (model residual)']]);
+
+  /** Those of a run in which nothing was solved: it has no number to show. */
+  const emptyCards = (report) => namesOf(report).map(([key, label]) => card(key, label, '\u2013', 'no feed move was solved'));
+
   /** The cards of a run; those without a value are left out. */
-  function cards(report, units) {
+  function cards(context, index) {
+    const {report} = context.runs[index];
+    const {units} = context;
+    const place = {context, index};
     const {before, after, corrected_percent: share, air, correction} = report.summary;
+    if (!report.failure && words.nothingSolved(report)) return emptyCards(report);
     const times = words.factor(before, after);
     return [
-      before && deviationCard('before', after ? 'Before' : 'Deviation, as programmed', before, units),
-      after && deviationCard('after', 'After (model residual)', after, units),
+      before && deviationCard('before', after ? 'Before' : 'Deviation, as programmed', before, place),
+      after && deviationCard('after', 'After (model residual)', after, place),
       before && !after && acrossCard(before, units),
       times && card('factor', 'Factor', `${times} \u00d7`, 'smaller at its largest'),
       typeof share === 'number' && correctedCard(report),
-      air && airCard(report, units),
-      correction && correction.max_mm > 0 && correctionCard(report, units),
+      air && airCard(report, place),
+      correction && correction.max_mm > 0 && correctionCard(report, place),
     ].filter(Boolean);
   }
 
@@ -95,12 +112,12 @@
   }
 
   /** What ran, on what: one line under the title. */
-  function subtitle(report) {
+  function subtitle(report, units) {
     const {options} = report;
     const bits = [`on ${report.machine || 'an unnamed machine'}`, report.command];
     if (options.method) bits.push(`method ${options.method}`);
     if (tolerance(report) < Infinity && report.command !== 'predict')
-      bits.push(`tolerance ${options['tolerance-mm']} mm`);
+      bits.push(`tolerance ${units.format(tolerance(report))}`);
     if (report.output) bits.push(`written to ${report.output.split('/').pop()}`);
     return bits.join(', ');
   }
@@ -116,19 +133,22 @@
     return el('h2', null, el('b', {class: `letter ${run.letter}`}, run.letter), ` ${name}`);
   }
 
-  function runSummary(run, units) {
-    const {report} = run;
-    return el('div', {class: 'run'}, headingOf(run), el('p', {class: 'subtitle'}, subtitle(report)), verdictOf(run, units),
-        el('dl', {class: 'cards'}, cards(report, units)), reminderList(report, units));
+  function runSummary(context, index) {
+    const run = context.runs[index];
+    const {units} = context;
+    const line = el('p', {class: 'subtitle'}, subtitle(run.report, units));
+    return el('div', {class: 'run'}, headingOf(run), line, verdictOf(run, units),
+        el('dl', {class: 'cards'}, cards(context, index)), reminderList(run.report, units));
   }
 
-  /** Title, verdict, cards and reminders: of one run, or of two side by side under a sentence that compares them. */
-  function render({runs, units}) {
-    if (runs.length === 1) return runSummary(runs[0], units);
-    const both = el('div', {class: 'runs'}, runs.map((run) => runSummary(run, units)));
-    const sentence = el('p', {class: 'verdict neutral'}, words.comparison(runs, units));
+  /** Title, verdict, cards and reminders: of one run, or of two side by side under what was concluded of them. */
+  function render(context) {
+    const {runs, conclusion} = context;
+    if (runs.length === 1) return runSummary(context, 0);
+    const both = el('div', {class: 'runs'}, runs.map((_, i) => runSummary(context, i)));
+    const sentence = conclusion ? el('p', {class: 'verdict neutral'}, conclusion) : null;
     return [el('h1', null, 'Two runs compared'), sentence, both];
   }
 
-  counterflex.summary = {render, tolerance};
+  counterflex.summary = {render, subtitle, tolerance};
 })();

@@ -36,7 +36,8 @@
     [...acrossTitles(runs, 'Before'), ...(corrected ? acrossTitles(runs, 'After') : [])];
 
   /** Statistics of the deviation before and after. */
-  function numbers({runs, units}) {
+  function numbers(context) {
+    const {runs, units} = context;
     const before = runs.map((run) => run.report.summary.before), after = runs.map((run) => run.report.summary.after);
     if (!before.some(Boolean)) return null;
     const corrected = after.some(Boolean);
@@ -45,8 +46,9 @@
       const cells = (list) => across(list.map((s) => value(s, key, axis)), key, units);
       return [what, ...cells(before), ...(corrected ? cells(after) : [])];
     });
-    const line = (list) => [...list.map((s) => (s ? String(s.max_line) : unknown)), ...(runs.length === 2 ? [''] : [])];
-    rows.splice(1, 0, ['  in program line', ...line(before), ...(corrected ? line(after) : [])]);
+    const link = (s, run, quantity) => counterflex.lines.link(context, run, s ? s.max_line : 0, {quantity});
+    const line = (list, quantity) => [...list.map((s, run) => link(s, run, quantity)), ...(runs.length === 2 ? [''] : [])];
+    rows.splice(1, 0, ['  in program line', ...line(before, 'before_mm'), ...(corrected ? line(after, 'after_mm') : [])]);
     const lengths = runs.map((run) => units.length(run.report.summary.path_mm)).join(' and ');
     return [table('Deviation of the tool tip', columns, rows),
       el('p', {class: 'note'}, `Over ${lengths} of feed moves, weighted by length. `,
@@ -90,14 +92,14 @@
     const columns = [textColumn('Operation'), {title: 'Tool'}, {title: 'Lines', class: 'lines'}, numberColumn('Moves'),
       numberColumn(`Length, ${units.lengthLabel}`), ...(corrected ? [numberColumn('Corrected')] : []),
       ...beforeAndAfter(runs, corrected)];
-    const count = Math.max(...runs.map((run) => run.report.operation_count || 0));
     const cells = rows.map((row) => operationRow(row, context, corrected));
-    return [table(`Largest deviation, in ${units.words}`, columns, cells),
-      count > rows.length ? el('p', {class: 'note'}, `and ${count - rows.length} more`) : null];
+    return table(`Largest deviation, in ${units.words}`, columns, cells);
   }
 
-  const otherForces = [['force_plus_30', 'Force 30 % higher (wear, override)'], ['force_minus_30', 'Force 30 % lower'],
-    ['without_force', 'Force missing (dry run, spring pass, broken insert)']];
+  /** What is said of them, and the quantity of the curves that is largest where they are. */
+  const otherForces = [['force_plus_30', 'Force 30 % higher (wear, override)', 'load_mm'],
+    ['force_minus_30', 'Force 30 % lower', 'load_mm'],
+    ['without_force', 'Force missing (dry run, spring pass, broken insert)', 'air_mm']];
 
   function sensitivityRow(what, s, units, link) {
     if (!s) return [what, 'no stable equilibrium', unknown, unknown, unknown];
@@ -111,9 +113,10 @@
     if (!sensitivity) return null;
     const columns = [{title: `In ${units.words}`},
       ...['Largest', 'Line', '95 % below', 'Across the path'].map(numberColumn)];
-    const link = (line) => counterflex.lines.link(context, index, line);
-    const cases = [['Force as given', after || before], ...otherForces.map(([key, what]) => [what, sensitivity[key]])];
-    const rows = cases.map(([what, s]) => sensitivityRow(what, s, units, link));
+    const link = (line, quantity) => counterflex.lines.link(context, index, line, {quantity});
+    const cases = [['Force as given', after || before, after ? 'after_mm' : 'before_mm'],
+      ...otherForces.map(([key, what, quantity]) => [what, sensitivity[key], quantity])];
+    const rows = cases.map(([what, s, quantity]) => sensitivityRow(what, s, units, (line) => link(line, quantity)));
     return table(words.ofRun(run, `Deviation of the ${after ? 'corrected' : 'original'} program`), columns, rows);
   }
 

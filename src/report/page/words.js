@@ -58,28 +58,26 @@
     return ` That is more than the tolerance of ${units.format(tolerance)}${share}.`;
   }
 
+  /** Whether a run has solved anything: one without a feed move has numbers of nothing. */
+  const nothingSolved = ({summary}) => summary.path_mm === 0 || !summary.before;
+
+  /** What the numbers do not cover. */
+  function leftOut({blocks}) {
+    const count = (blocks && blocks.not_corrected) || 0;
+    if (count === 0) return '';
+    return ` ${counted(count, 'move')} ${count === 1 ? 'is' : 'are'} not corrected, and left out of these numbers.`;
+  }
+
   /** The result of a run in a sentence, and whether it is a good one: 'good', 'warn', 'bad' or 'neutral'. */
   function verdict(report, units) {
     const {before, after} = report.summary;
     if (report.failure) return {text: failed(report), kind: 'bad'};
-    if (!before) return {text: 'Nothing was solved: no feed move has a deviation that could be told.', kind: 'neutral'};
-    if (!after) return {text: predicted(before, units), kind: 'neutral'};
-    const more = missed(report, units);
+    if (report.summary.path_mm === 0) return {text: `Nothing was solved: no feed move.${leftOut(report)}`, kind: 'warn'};
+    if (!before) return {text: 'Nothing was solved: no feed move has a deviation that could be told.', kind: 'warn'};
+    const without = leftOut(report);
+    if (!after) return {text: predicted(before, units) + without, kind: without ? 'warn' : 'neutral'};
+    const more = missed(report, units) + without;
     return {text: corrected(before, after, units) + more, kind: more ? 'warn' : 'good'};
-  }
-
-  /** Which of two runs is off less, in a sentence: after correction where both have been corrected, else before. */
-  function comparison(runs, units) {
-    const summaries = runs.map((run) => run.report.summary);
-    const corrected = summaries.every((summary) => summary.after);
-    const [a, b] = summaries.map((summary) => (corrected ? summary.after : summary.before));
-    if (!a || !b) return 'One of the runs has no deviation to compare.';
-    const what = corrected ? 'after correction (model residual)' : 'before correction';
-    const difference = b.max_mm - a.max_mm;
-    const values = `A ${units.format(a.max_mm)}, B ${units.format(b.max_mm)}`;
-    if (difference === 0) return `Both are off by the same at their worst, ${what}: ${values}.`;
-    const size = `${units.format(Math.abs(difference))} ${difference < 0 ? 'less' : 'more'}`;
-    return `B is off by ${size} than A at its worst, ${what}: ${values}.`;
   }
 
   const partNames = {
@@ -122,5 +120,5 @@
 
   const toolName = (tool) => (tool > 0 ? `T${tool}` : '\u2013');
 
-  counterflex.words = {counted, ofRun, inLine, factor, title, verdict, comparison, parts, cause, causeInShort, toolName};
+  counterflex.words = {counted, ofRun, inLine, factor, title, verdict, nothingSolved, parts, cause, causeInShort, toolName};
 })();

@@ -1,23 +1,21 @@
 'use strict';
 (() => {
-  const {el, table, textColumn, numberColumn, jump} = counterflex.dom;
+  const {el, table, numberColumn, jump} = counterflex.dom;
   const {fixed, known} = counterflex.units;
   const words = counterflex.words;
 
-  /** Stretch of a row of the worst blocks: where its path length lies, but never one of another block beside it. */
+  /** Stretch of a row of the worst blocks. */
   function stretchOf(curves, row) {
-    if (!known(row.s_mm)) return counterflex.lines.stretchOf(curves, row.line);
-    let i = counterflex.data.stretchAt(curves, row.s_mm);
-    const holds = (k) => curves.first_line[k] <= row.line && row.line <= curves.last_line[k];  // not beyond the ends
-    if (!holds(i) && holds(i + 1)) ++i;
-    return i;
+    const {lines} = counterflex;
+    if (known(row.s_mm)) return lines.stretchNear(curves, row.line, row.s_mm);
+    return lines.stretchOf(curves, row.line, known(row.after_mm) ? 'after_mm' : 'before_mm');
   }
 
   function columnsOf(report) {
     const after = Boolean(report.summary.after);
     return [
       {title: 'Line'}, numberColumn('Before'), ...(after ? [numberColumn('After')] : []), numberColumn('Force'),
-      {title: 'Tool'}, textColumn('Operation'), {title: 'Mostly from'},
+      {title: 'Tool', class: 'minor'}, {title: 'Operation', class: 'text minor'}, {title: 'Mostly from'},
     ];
   }
 
