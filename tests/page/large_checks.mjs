@@ -1,6 +1,6 @@
 import assert from 'node:assert/strict';
 import test from 'node:test';
-import {bytes_of, data_in, pixels, visit, write_page} from './browser.mjs';
+import {bytes_of, data_in, pixels, texts, visit, write_page} from './browser.mjs';
 
 test('the page of a long program is small, however long the program', () => {
   const {curves} = data_in('large').runs[0];
@@ -36,3 +36,12 @@ test('where marks are thinned out a page says so', async () => {
   await visit('thinned', async (page) => assert.match(await page.innerText('#curves'), /Of every 64 steps of the force one is marked/));
   await visit('pocket', async (page) => assert.doesNotMatch(await page.innerText('#curves'), /Of every/));
 });
+
+test('under the mouse stand the lines of a merged stretch and the largest value in them', () => visit('large', async (page) => {
+  await page.locator('.plot.before').scrollIntoViewIfNeeded();
+  const box = await page.locator('.plot.before').boundingBox();
+  await page.mouse.move(box.x + 0.5 * box.width, box.y + 100);
+  const [text] = await texts(page, '#curves .readout');
+  const [, first, last] = /, lines (\d+) to (\d+): up to before [\d.]+ \u00b5m$/.exec(text) || assert.fail(text);
+  assert.ok(Number(first) < Number(last), text);
+}));

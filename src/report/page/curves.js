@@ -145,7 +145,8 @@
     const choice = componentChoice(context, state, 'component', present);
     const controls = el('div', {class: 'controls'}, choice, logBox(state));
     return {plots: state.plots, content: [controls, counterflex.plotGroup.controls(context, group),
-      state.plots.map((plot) => plot.node), el('p', {class: 'note help'}, help), mergedNote(context), thinnedNote(context, group)]};
+      state.plots.map((plot) => plot.node), el('p', {class: 'note help'}, help), mergedNote(context),
+      thinnedNote(context, group)]};
   }
 
   const sourceSeries = (part) => [

@@ -35,7 +35,8 @@
   /** Warnings, blocks that are not corrected with their reasons, and moves without a force. */
   function render(context) {
     return el('div', {class: 'runs'}, context.runs.map((run, i) => {
-      const link = (line) => counterflex.lines.link(context, i, line, {quantity: run.report.summary.after ? 'after_mm' : 'before_mm'});
+      const quantity = run.report.summary.after ? 'after_mm' : 'before_mm';
+      const link = (line) => counterflex.lines.link(context, i, line, {quantity});
       const parts = [warnings(run, link), leftAlone(run, link), withoutForce(run, link, context.units)].filter(Boolean);
       return el('div', {class: 'stack'}, parts.length > 0 ? parts : el('p', null, words.ofRun(run, 'Nothing to tell.')));
     }));
