@@ -25,30 +25,23 @@ constexpr const char* sources_heading = "Largest deviation by its cause";
 constexpr const char* other_force_heading = "Largest deviation under another force";
 constexpr const char* program_heading = "Program";
 
-/// The rows of the tables, in their order.
-constexpr NumberRow number_rows[] = {
-    {"/summary/before/max_mm", before_heading, "largest"},
-    {"/summary/before/p95_mm", before_heading, "95 % of the length is below"},
-    {"/summary/before/rms_mm", before_heading, "root mean square"},
-    {"/summary/before/mean_mm", before_heading, "mean"},
-    {"/summary/before/max_axis_mm/0", before_heading, "largest in x"},
-    {"/summary/before/max_axis_mm/1", before_heading, "largest in y"},
-    {"/summary/before/max_axis_mm/2", before_heading, "largest in z"},
-    {"/summary/before/max_across_mm", before_heading, "largest across the path"},
-    {"/summary/before/max_tool_axis_mm", before_heading, "largest along the tool axis"},
-    {"/summary/before/max_along_mm", before_heading, "largest along the path (harmless)"},
-    {"/summary/before/max_rotation_deg", before_heading, "largest rotation, in deg", "deg"},
-    {"/summary/after/max_mm", after_heading, "largest"},
-    {"/summary/after/p95_mm", after_heading, "95 % of the length is below"},
-    {"/summary/after/rms_mm", after_heading, "root mean square"},
-    {"/summary/after/mean_mm", after_heading, "mean"},
-    {"/summary/after/max_axis_mm/0", after_heading, "largest in x"},
-    {"/summary/after/max_axis_mm/1", after_heading, "largest in y"},
-    {"/summary/after/max_axis_mm/2", after_heading, "largest in z"},
-    {"/summary/after/max_across_mm", after_heading, "largest across the path"},
-    {"/summary/after/max_tool_axis_mm", after_heading, "largest along the tool axis"},
-    {"/summary/after/max_along_mm", after_heading, "largest along the path (harmless)"},
-    {"/summary/after/max_rotation_deg", after_heading, "largest rotation, in deg", "deg"},
+/// Of each statistics, below its own key and heading.
+constexpr NumberRow statistics_rows[] = {
+    {"/max_mm", "", "largest"},
+    {"/p95_mm", "", "95 % of the length is below"},
+    {"/rms_mm", "", "root mean square"},
+    {"/mean_mm", "", "mean"},
+    {"/max_axis_mm/0", "", "largest in x"},
+    {"/max_axis_mm/1", "", "largest in y"},
+    {"/max_axis_mm/2", "", "largest in z"},
+    {"/max_across_mm", "", "largest across the path"},
+    {"/max_tool_axis_mm", "", "largest along the tool axis"},
+    {"/max_along_mm", "", "largest along the path (harmless)"},
+    {"/max_rotation_deg", "", "largest rotation, in deg", "deg"},
+};
+
+/// The rows behind them, in their order.
+constexpr NumberRow other_rows[] = {
     {"/summary/sources/geometry/max_mm", sources_heading, "geometry: errors of assembly alone"},
     {"/summary/sources/load/max_mm", sources_heading, "load: cutting forces alone"},
     {"/summary/sources/gravity/max_mm", sources_heading, "gravity: weights alone"},
@@ -111,10 +104,15 @@ std::optional<double> ComparedNumber::percent() const {
 
 std::vector<ComparedNumber> compared_numbers(const TwoReports& reports) {
   std::vector<ComparedNumber> numbers;
-  for (const NumberRow& row : number_rows) {
-    const auto a = reports[0].number(row.key), b = reports[1].number(row.key);
-    if (a || b) numbers.push_back({row.key, row.heading, row.label, row.unit, row.decimals, {a, b}});
-  }
+  const auto add = [&](const std::string& key, const char* heading, const NumberRow& row) {
+    const auto a = reports[0].number(key), b = reports[1].number(key);
+    if (a || b) numbers.push_back({key, heading, row.label, row.unit, row.decimals, {a, b}});
+  };
+  for (const NumberRow& row : statistics_rows)
+    add(std::string("/summary/before") + row.key, before_heading, row);
+  for (const NumberRow& row : statistics_rows)
+    add(std::string("/summary/after") + row.key, after_heading, row);
+  for (const NumberRow& row : other_rows) add(row.key, row.heading, row);
   return numbers;
 }
 
