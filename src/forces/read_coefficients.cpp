@@ -12,7 +12,7 @@ namespace counterflex {
 namespace force_file {
 namespace {
 
-using namespace machine_file;
+using namespace toml_file;
 
 struct Coefficient {
   std::string_view name, key;

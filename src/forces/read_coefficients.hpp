@@ -6,19 +6,19 @@
 #include <vector>
 
 #include "counterflex/forces/cutting_model.hpp"
-#include "machine/fields.hpp"
+#include "toml/fields.hpp"
 
 namespace counterflex::force_file {
 
 /// The coefficients in a table; `others` are keys that it may have besides. Throws where a unit is missing.
 CuttingCoefficients read_coefficients(const toml::node& node, std::string_view owner,
                                       const std::vector<std::string_view>& others,
-                                      const machine_file::Source& source);
+                                      const toml_file::Source& source);
 
 using Materials = std::map<std::string, CuttingCoefficients, std::less<>>;
 
 /// Those of the table `materials` and, where it has not their names, the published ones.
-Materials read_materials(const toml::table& document, const machine_file::Source& source);
+Materials read_materials(const toml::table& document, const toml_file::Source& source);
 
 /// The text of `coefficients.toml`.
 std::string_view published_toml();

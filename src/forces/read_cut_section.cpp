@@ -6,12 +6,12 @@
 
 #include "counterflex/geometry/units.hpp"
 #include "forces/read_selector.hpp"
-#include "machine/suggest.hpp"
+#include "toml/suggest.hpp"
 
 namespace counterflex::force_file {
 namespace {
 
-using namespace machine_file;
+using namespace toml_file;
 
 constexpr double steepest_helix_deg = 60;
 constexpr long most_flutes = 100;

@@ -15,13 +15,13 @@ struct Shelf {
 };
 
 /// The table `cutters`.
-Cutters read_cutters(const toml::table& document, const machine_file::Source& source);
+Cutters read_cutters(const toml::table& document, const toml_file::Source& source);
 
 /// "mean" or "surface".
-ForceAt read_force_at(const toml::node& node, const machine_file::Source& source);
+ForceAt read_force_at(const toml::node& node, const toml_file::Source& source);
 
 /// The section that is the `number`th of its file, counted from 1.
 CutSection read_cut_section(const toml::node& node, std::size_t number, const Shelf& shelf,
-                            const machine_file::Source& source);
+                            const toml_file::Source& source);
 
 }  // namespace counterflex::force_file

@@ -7,7 +7,7 @@
 namespace counterflex {
 namespace {
 
-using machine_file::Source;
+using toml_file::Source;
 
 constexpr std::string_view format_of_cuts = "counterflex-forces 1";
 
@@ -19,7 +19,7 @@ void check_format_of_cuts(const toml::table& document, const Source& source) {
   const auto* text = node->as_string();
   if (text == nullptr || text->get() != format_of_cuts)
     source.fail(*node,
-                fmt::format("format is {}; it must be \"{}\"", machine_file::seen(*node), format_of_cuts));
+                fmt::format("format is {}; it must be \"{}\"", toml_file::seen(*node), format_of_cuts));
 }
 
 const toml::array& sections_of(const toml::table& document, const Source& source) {
@@ -27,8 +27,8 @@ const toml::array& sections_of(const toml::table& document, const Source& source
   if (node == nullptr)
     source.fail_at_start("no [[section]]: the file says of no part of a program how it is cut");
   if (!node->is_array_of_tables())
-    source.fail(*node, fmt::format("section must be tables, each under [[section]], not {}",
-                                   machine_file::seen(*node)));
+    source.fail(
+        *node, fmt::format("section must be tables, each under [[section]], not {}", toml_file::seen(*node)));
   return *node->as_array();
 }
 
@@ -38,8 +38,8 @@ std::vector<CutSection> read_cutting_model(std::string_view text, const std::str
   const Source source(text, file);
   const toml::table document = source.parse();
   check_format_of_cuts(document, source);
-  machine_file::check_keys(document, {"format", "force_at", "cutters", "materials", "section"},
-                           "a file of cutting models", source);
+  toml_file::check_keys(document, {"format", "force_at", "cutters", "materials", "section"},
+                        "a file of cutting models", source);
   force_file::Shelf shelf{
       force_file::read_cutters(document, source), force_file::read_materials(document, source), {}};
   if (const toml::node* force_at = document.get("force_at"))

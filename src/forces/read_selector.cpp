@@ -7,7 +7,7 @@
 namespace counterflex::force_file {
 namespace {
 
-using namespace machine_file;
+using namespace toml_file;
 
 constexpr long most_lines = 2'000'000'000, most_tool = 999'999'999;
 

@@ -1,11 +1,11 @@
 #pragma once
 /// Which moves a rule covers, as a table says it.
 #include "counterflex/forces/force_rule.hpp"
-#include "machine/fields.hpp"
+#include "toml/fields.hpp"
 
 namespace counterflex::force_file {
 
 /// The keys `tool`, `op`, `lines` and `blocks` of a table, those of them that it has.
-ForceSelector read_selector(const toml::table& table, const machine_file::Source& source);
+ForceSelector read_selector(const toml::table& table, const toml_file::Source& source);
 
 }  // namespace counterflex::force_file

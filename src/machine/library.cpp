@@ -6,7 +6,7 @@
 
 #include "read_spring.hpp"
 
-namespace counterflex::machine_file {
+namespace counterflex::toml_file {
 namespace {
 
 /// Calls `add(name, key, node)` for each entry of the table under `kind`, in the order of the file.
@@ -60,4 +60,4 @@ void check_all_used(const Library& library, const Source& source) {
   check_used(library.springs, "spring", source);
 }
 
-}  // namespace counterflex::machine_file
+}  // namespace counterflex::toml_file

@@ -1,9 +1,9 @@
 #pragma once
 /// What a machine file defines once for its chains to use.
 #include "counterflex/machine/machine.hpp"
-#include "fields.hpp"
+#include "toml/fields.hpp"
 
-namespace counterflex::machine_file {
+namespace counterflex::toml_file {
 
 /// Springs are read at once; branches and templates are kept as nodes, for each chain fills them with its own
 /// numbers.
@@ -36,4 +36,4 @@ const toml::key* first_unused(const GivenByName<T>& given) {
   return first;
 }
 
-}  // namespace counterflex::machine_file
+}  // namespace counterflex::toml_file

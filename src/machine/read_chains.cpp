@@ -4,9 +4,9 @@
 
 #include "read_elements.hpp"
 #include "read_transform.hpp"
-#include "suggest.hpp"
+#include "toml/suggest.hpp"
 
-namespace counterflex::machine_file {
+namespace counterflex::toml_file {
 namespace {
 
 /// The entries of the chain's table `kind` (`values`, `transforms`, `errors`), each read by `read(node,
@@ -120,4 +120,4 @@ std::vector<Chain> read_chains(const toml::table& document, const Source& source
   return chains;
 }
 
-}  // namespace counterflex::machine_file
+}  // namespace counterflex::toml_file

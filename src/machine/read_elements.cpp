@@ -7,9 +7,9 @@
 #include "counterflex/geometry/units.hpp"
 #include "read_joint.hpp"
 #include "read_transform.hpp"
-#include "suggest.hpp"
+#include "toml/suggest.hpp"
 
-namespace counterflex::machine_file {
+namespace counterflex::toml_file {
 namespace {
 
 constexpr std::size_t most_elements = 10000;
@@ -151,4 +151,4 @@ std::vector<Element> read_elements(const toml::node& node, Expansion& expansion)
   return elements;
 }
 
-}  // namespace counterflex::machine_file
+}  // namespace counterflex::toml_file

@@ -4,7 +4,7 @@
 
 #include "library.hpp"
 
-namespace counterflex::machine_file {
+namespace counterflex::toml_file {
 
 /// The expansion of one chain: what its lists draw on, and what has been met so far.
 struct Expansion {
@@ -21,4 +21,4 @@ struct Expansion {
 /// use branches multiply).
 std::vector<Element> read_elements(const toml::node& node, Expansion& expansion);
 
-}  // namespace counterflex::machine_file
+}  // namespace counterflex::toml_file

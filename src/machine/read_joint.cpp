@@ -4,7 +4,7 @@
 
 #include "counterflex/geometry/units.hpp"
 
-namespace counterflex::machine_file {
+namespace counterflex::toml_file {
 namespace {
 
 /// The keys of a joint's kind, and the unit of its values.
@@ -139,4 +139,4 @@ Compliance read_compliance(const toml::table& table, const Reading& reading) {
   return compliance;
 }
 
-}  // namespace counterflex::machine_file
+}  // namespace counterflex::toml_file

@@ -1,12 +1,12 @@
 #pragma once
 /// Joints and one-coordinate springs as the machine file writes them.
 #include "counterflex/machine/machine.hpp"
-#include "fields.hpp"
+#include "toml/fields.hpp"
 
-namespace counterflex::machine_file {
+namespace counterflex::toml_file {
 
 Actuator read_actuator(const toml::table& table, const Reading& reading);
 Passive read_passive(const toml::table& table, const Reading& reading);
 Compliance read_compliance(const toml::table& table, const Reading& reading);
 
-}  // namespace counterflex::machine_file
+}  // namespace counterflex::toml_file

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "fields.hpp"
+#include "toml/fields.hpp"
 
-namespace counterflex::machine_file {
+namespace counterflex::toml_file {
 namespace {
 
 /// Those that `table` gives; of the others what `limits` has stays.
@@ -42,4 +42,4 @@ void read_load_limits(const toml::table& document, const Source& source, Machine
   if (any) machine.load_limits = std::move(limits);
 }
 
-}  // namespace counterflex::machine_file
+}  // namespace counterflex::toml_file

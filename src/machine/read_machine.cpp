@@ -3,16 +3,16 @@
 #include <fmt/format.h>
 
 #include "counterflex/files/files.hpp"
-#include "fields.hpp"
 #include "read_chains.hpp"
 #include "read_load_limits.hpp"
 #include "read_settings.hpp"
 #include "read_tools.hpp"
+#include "toml/fields.hpp"
 
 namespace counterflex {
 namespace {
 
-using namespace machine_file;
+using namespace toml_file;
 
 constexpr std::string_view format = "counterflex-machine 1";
 

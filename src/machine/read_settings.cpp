@@ -9,9 +9,9 @@
 #include "counterflex/machine/work_names.hpp"
 #include "read_load_limits.hpp"
 #include "read_transform.hpp"
-#include "suggest.hpp"
+#include "toml/suggest.hpp"
 
-namespace counterflex::machine_file {
+namespace counterflex::toml_file {
 namespace {
 
 const std::vector<std::string_view> component_names = {"x", "y", "z", "rx", "ry", "rz"};
@@ -153,4 +153,4 @@ void read_limits(const toml::table& document, const Source& source, Machine& mac
     machine.max_correction = as_positive(*most, {"max_correction_mm"}, {source}) * mm;
 }
 
-}  // namespace counterflex::machine_file
+}  // namespace counterflex::toml_file

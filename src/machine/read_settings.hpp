@@ -1,9 +1,9 @@
 #pragma once
 /// The parts of a machine file that are not its chains.
 #include "counterflex/machine/machine.hpp"
-#include "source.hpp"
+#include "toml/source.hpp"
 
-namespace counterflex::machine_file {
+namespace counterflex::toml_file {
 
 /// Each reads the table or key of its name from the document, where it is there, into `machine`.
 void read_controlled(const toml::table& document, const Source& source, Machine& machine);
@@ -15,4 +15,4 @@ void read_work(const toml::table& document, const Source& source, Machine& machi
 void read_program(const toml::table& document, const Source& source, Machine& machine);
 void read_limits(const toml::table& document, const Source& source, Machine& machine);
 
-}  // namespace counterflex::machine_file
+}  // namespace counterflex::toml_file

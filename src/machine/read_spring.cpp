@@ -7,7 +7,7 @@
 #include "counterflex/geometry/units.hpp"
 #include "definiteness.hpp"
 
-namespace counterflex::machine_file {
+namespace counterflex::toml_file {
 namespace {
 
 [[noreturn]] void fail_at_entry(const toml::node& matrix, std::string_view name, const BadEntry& bad,
@@ -103,4 +103,4 @@ Spring read_spring(const toml::node& node, const std::string& name, const Source
   return {name, read_stiffness(*table.get(form), form, reading), read_preload(table, owner, reading)};
 }
 
-}  // namespace counterflex::machine_file
+}  // namespace counterflex::toml_file

@@ -1,9 +1,9 @@
 #pragma once
 /// Springs of six coordinates as the machine file writes them.
 #include "counterflex/machine/machine.hpp"
-#include "fields.hpp"
+#include "toml/fields.hpp"
 
-namespace counterflex::machine_file {
+namespace counterflex::toml_file {
 
 /// The table `[springs.NAME]`.
 Spring read_spring(const toml::node& node, const std::string& name, const Source& source);
@@ -11,4 +11,4 @@ Spring read_spring(const toml::node& node, const std::string& name, const Source
 /// The stiffness that `compliance_si` or `stiffness_si` (`form`) gives, positive definite.
 Matrix6 read_definite_stiffness(const toml::node& node, std::string_view form, const Source& source);
 
-}  // namespace counterflex::machine_file
+}  // namespace counterflex::toml_file

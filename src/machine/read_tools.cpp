@@ -5,10 +5,10 @@
 #include "counterflex/files/numbers.hpp"
 #include "counterflex/geometry/units.hpp"
 #include "counterflex/machine/tool.hpp"
-#include "fields.hpp"
 #include "read_spring.hpp"
+#include "toml/fields.hpp"
 
-namespace counterflex::machine_file {
+namespace counterflex::toml_file {
 namespace {
 
 const std::vector<std::string_view> tool_keys = {"length_mm",       "diameter_mm",  "stickout_mm",
@@ -98,4 +98,4 @@ void read_tools(const toml::table& document, const Source& source, Machine& mach
   }
 }
 
-}  // namespace counterflex::machine_file
+}  // namespace counterflex::toml_file

@@ -1,11 +1,11 @@
 #pragma once
 /// The tools of a machine file.
 #include "counterflex/machine/machine.hpp"
-#include "source.hpp"
+#include "toml/source.hpp"
 
-namespace counterflex::machine_file {
+namespace counterflex::toml_file {
 
 /// The tables `[tools.T3]`, into `machine`.
 void read_tools(const toml::table& document, const Source& source, Machine& machine);
 
-}  // namespace counterflex::machine_file
+}  // namespace counterflex::toml_file

@@ -6,7 +6,7 @@
 
 #include "counterflex/geometry/units.hpp"
 
-namespace counterflex::machine_file {
+namespace counterflex::toml_file {
 namespace {
 
 Matrix3 read_quaternion(const toml::node& node, const Reading& reading) {
@@ -41,4 +41,4 @@ Pose read_transform(const toml::node& node, std::string_view name, const Reading
   return form == "xyz_mm" ? Pose{R, p} : rotation(R) * translation(p);
 }
 
-}  // namespace counterflex::machine_file
+}  // namespace counterflex::toml_file

@@ -1,9 +1,9 @@
 #pragma once
 /// Transforms as the machine file writes them.
 #include "counterflex/geometry/pose.hpp"
-#include "fields.hpp"
+#include "toml/fields.hpp"
 
-namespace counterflex::machine_file {
+namespace counterflex::toml_file {
 
 /// `xyz_mm` (translation first) or `xyz_after_mm` (rotation first), and one of `rpy_deg`, `rotvec_deg`,
 /// `quat_wxyz`; what is missing is identity. `name` is what messages call it, `more_keys` are keys that the
@@ -11,4 +11,4 @@ namespace counterflex::machine_file {
 Pose read_transform(const toml::node& node, std::string_view name, const Reading& reading,
                     const std::vector<std::string_view>& more_keys = {});
 
-}  // namespace counterflex::machine_file
+}  // namespace counterflex::toml_file

@@ -1,8 +1,8 @@
-#include "source.hpp"
+#include "toml/source.hpp"
 
 #include <utility>
 
-namespace counterflex::machine_file {
+namespace counterflex::toml_file {
 namespace {
 
 constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
@@ -67,4 +67,4 @@ const toml::key& key_of(const toml::table& table, std::string_view name) {
   return table.find(name)->first;
 }
 
-}  // namespace counterflex::machine_file
+}  // namespace counterflex::toml_file

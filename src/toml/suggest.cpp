@@ -1,4 +1,4 @@
-#include "suggest.hpp"
+#include "toml/suggest.hpp"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,7 @@
 #include <numeric>
 #include <utility>
 
-namespace counterflex::machine_file {
+namespace counterflex::toml_file {
 namespace {
 
 /// Levenshtein's distance.
@@ -62,4 +62,4 @@ std::string hint(std::string_view name, const std::vector<std::string_view>& kno
   return meant.empty() ? "; " + list : fmt::format("; did you mean \"{}\"? {}", meant, list);
 }
 
-}  // namespace counterflex::machine_file
+}  // namespace counterflex::toml_file

@@ -1,13 +1,13 @@
-#include "fields.hpp"
+#include "toml/fields.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "suggest.hpp"
+#include "toml/suggest.hpp"
 
-namespace counterflex::machine_file {
+namespace counterflex::toml_file {
 namespace {
 
 template <int N>
@@ -197,4 +197,4 @@ void check_preload_home(const toml::node& preload, const std::string& instead, c
   source.fail(preload, fmt::format("preload must be \"home\"{}, not {}", instead, seen(preload)));
 }
 
-}  // namespace counterflex::machine_file
+}  // namespace counterflex::toml_file

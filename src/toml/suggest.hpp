@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-namespace counterflex::machine_file {
+namespace counterflex::toml_file {
 
 /// The entry of `known` that `name` was probably meant to be, or empty: few letters differ, or only what
 /// follows the first underscore, the unit, does; then the one that begins most like it.
@@ -14,4 +14,4 @@ std::string_view nearest(std::string_view name, const std::vector<std::string_vi
 /// there are none`.
 std::string hint(std::string_view name, const std::vector<std::string_view>& known, std::string_view kind);
 
-}  // namespace counterflex::machine_file
+}  // namespace counterflex::toml_file

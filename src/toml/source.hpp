@@ -1,5 +1,5 @@
 #pragma once
-/// The text of a machine file as TOML, and where its nodes and keys stand.
+/// The text of a TOML file, and where its nodes and keys stand.
 #include <toml++/toml.h>
 
 #include <cstddef>
@@ -9,7 +9,7 @@
 
 #include "counterflex/files/input_error.hpp"
 
-namespace counterflex::machine_file {
+namespace counterflex::toml_file {
 
 /// Turns regions of toml++ (columns in code points) into locations (columns in bytes), and throws with them.
 /// Keeps a view of `text`, which must outlive it.
@@ -39,4 +39,4 @@ bool before(const toml::source_region& a, const toml::source_region& b);
 /// The key of `table` that is spelt `name`; it must be there.
 const toml::key& key_of(const toml::table& table, std::string_view name);
 
-}  // namespace counterflex::machine_file
+}  // namespace counterflex::toml_file

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "counterflex/geometry/pose.hpp"
-#include "source.hpp"
+#include "toml/source.hpp"
 
-namespace counterflex::machine_file {
+namespace counterflex::toml_file {
 
 /// Something that the file defines under a name for others to use.
 template <class T>
@@ -89,4 +89,4 @@ std::string_view one_of(const toml::table& table, const std::vector<std::string_
 /// Throws unless `preload` is "home"; `instead` ends the message with what else may be given.
 void check_preload_home(const toml::node& preload, const std::string& instead, const Source& source);
 
-}  // namespace counterflex::machine_file
+}  // namespace counterflex::toml_file
