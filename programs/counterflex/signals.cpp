@@ -4,19 +4,22 @@
 #include <unistd.h>
 
 #include "counterflex/files/file_writer.hpp"
-#include "counterflex/files/input_error.hpp"
 
 namespace counterflex::cli {
 namespace {
 
 constexpr int ending[] = {SIGINT, SIGTERM, SIGHUP};
 
-extern "C" void leave_interrupted(int) {
+extern "C" void leave_interrupted(int signal) {
   remove_unpublished();
-  ::_exit(static_cast<int>(Exit::interrupted));
+  ::_exit(status_of(signal));
 }
 
 }  // namespace
+
+int status_of(int signal) {
+  return 128 + signal;
+}
 
 void end_on_signals() {
   for (const int signal : ending) {
