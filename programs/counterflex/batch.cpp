@@ -1,17 +1,19 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cstddef>
 #include <filesystem>
-#include <numeric>
 
+#include "batch_estimate.hpp"
 #include "batch_folder.hpp"
 #include "batch_jobs.hpp"
 #include "batch_manifest.hpp"
-#include "batch_run.hpp"
+#include "batch_merge.hpp"
+#include "batch_units.hpp"
 #include "commands.hpp"
 #include "counterflex/batch/summary.hpp"
 #include "counterflex/files/file_writer.hpp"
 #include "counterflex/files/files.hpp"
-#include "job_process.hpp"
 #include "outputs.hpp"
 #include "version.hpp"
 
@@ -24,7 +26,9 @@ constexpr std::size_t rows_shown = 30;
 
 /// Paths of a jobs file, and so those in reports, are relative to its folder, from wherever it is called.
 std::string enter_folder_of(const std::string& file, Console& console) {
-  if (file == "-") throw InputError(Exit::usage, {}, "a jobs file has a folder, to which its paths are relative: not standard input");
+  if (file == "-")
+    throw InputError(Exit::usage, {},
+                     "a jobs file has a folder, to which its paths are relative: not standard input");
   const fs::path path(file);
   if (!path.has_parent_path()) return file;
   std::error_code error;
@@ -41,23 +45,16 @@ void check_flags(const Options& options) {
     throw InputError(Exit::usage, {}, "--resume goes with a run or a --shard of it");
 }
 
-std::vector<KeptUnit> kept_units(const Batch& batch) {
-  std::vector<KeptUnit> units;
-  for (const BatchJob& job : batch.jobs) units.push_back({job.key, job.output});
-  return units;
+std::vector<KeptUnit> kept(const std::vector<BatchUnit>& units) {
+  std::vector<KeptUnit> kept;
+  for (const BatchUnit& unit : units) kept.push_back(unit.kept);
+  return kept;
 }
 
-/// Of all jobs: their keys, in which everything is.
-std::string plan_of(const Batch& batch) {
-  std::string keys;
-  for (const BatchJob& job : batch.jobs) keys += job.key + "\n";
-  return sha256(keys);
-}
-
-BatchTask task_of(const BatchJob& job) {
-  return {job.program, job.work,
-          [&job](int threads, const SendLine& send) { do_job(job, threads, send); },
-          [&job](int status) { return lost_outcome(job, status); }};
+std::vector<BatchTask> tasks_of(const std::vector<BatchUnit>& units) {
+  std::vector<BatchTask> tasks;
+  for (const BatchUnit& unit : units) tasks.push_back(task_of(unit));
+  return tasks;
 }
 
 void write_summary(const Batch& batch, const std::vector<JobOutcome>& outcomes, const std::string& json) {
@@ -75,7 +72,8 @@ void warn_of_older(const std::vector<JobOutcome>& outcomes, Console& console) {
       console.warning(outcome.output, 0, fmt::format("is of an earlier run: {} failed now", outcome.program));
 }
 
-Exit conclude(const Options& options, const Batch& batch, const std::vector<JobOutcome>& outcomes, Console& console) {
+Exit conclude(const Options& options, const Batch& batch, const std::vector<JobOutcome>& outcomes,
+              Console& console) {
   const std::string json = summary_json(outcomes, version);
   write_summary(batch, outcomes, json);
   warn_of_older(outcomes, console);
@@ -84,22 +82,66 @@ Exit conclude(const Options& options, const Batch& batch, const std::vector<JobO
   return exit_of(outcomes);
 }
 
-/// Does what the manifest does not hold yet. The signal that stopped it, if any.
-std::optional<int> do_missing(const Options& options, const Batch& batch, const BatchFolder& folder, BatchManifest& manifest, Console& console) {
-  std::vector<BatchTask> tasks;
-  std::vector<std::size_t> units;
-  for (std::size_t i = 0; i < batch.jobs.size(); ++i) {
-    if (manifest.outcome(i)) continue;
-    units.push_back(i);
-    tasks.push_back(task_of(batch.jobs[i]));
-  }
-  const std::size_t proven = batch.jobs.size() - units.size();
-  if (options.resume) console.detail(fmt::format("{} of {} jobs are proven done", proven, batch.jobs.size()));
-  const AwaitedSignals signals;
-  return run_tasks(tasks, options.threads, signals,
-                   {.ended = [&](std::size_t task, JobOutcome outcome) { manifest.set(units[task], std::move(outcome)); },
-                    .now_and_then = [&] { manifest.save_sometimes(); }},
-                   console);
+/// One line that scripts take apart.
+Exit say_estimate(const Batch& batch) {
+  write_result(fmt::format("work_s={:.1f} jobs={}\n", estimated_seconds(batch), batch.jobs.size()));
+  return Exit::done;
+}
+
+std::string counted_units(const std::vector<BatchUnit>& units) {
+  const auto parts =
+      std::count_if(units.begin(), units.end(), [](const BatchUnit& unit) { return unit.is_part(); });
+  return fmt::format("{} jobs and {} parts of jobs", static_cast<std::ptrdiff_t>(units.size()) - parts,
+                     parts);
+}
+
+/// Does units, or those of them that are not proven done. The signal by which it was stopped, if any.
+std::optional<int> run_units(const Options& options, const std::vector<BatchUnit>& units,
+                             BatchManifest& manifest, Console& console) {
+  if (options.resume) manifest.take_proven();
+  if (options.resume)
+    console.detail(fmt::format("{} of {} are proven done", manifest.ended().size(), units.size()));
+  return do_missing(tasks_of(units), options.threads, manifest, console);
+}
+
+Exit run_shard(const Options& options, const Batch& batch, Console& console) {
+  const auto [index, count] = *options.shard;
+  const BatchFolder folder(batch, BatchFolder::Use::shared, console);
+  folder.make_state("shards");
+  const auto by_shard = units_by_shard(batch, count, folder);
+  const auto& units = by_shard[static_cast<std::size_t>(index - 1)];
+  BatchManifest manifest(shard_manifest(folder, index, count), plan_of(by_shard), kept(units));
+  const auto stopped = run_units(options, units, manifest, console);
+  manifest.save();
+  if (stopped) return static_cast<Exit>(status_of(*stopped));
+  const std::vector<JobOutcome> outcomes = manifest.ended();
+  const auto failed = std::count_if(outcomes.begin(), outcomes.end(),
+                                    [](const JobOutcome& o) { return o.exit != Exit::done; });
+  write_result(fmt::format("shard {} of {}: {}, {} failed\n", index, count, counted_units(units), failed));
+  return exit_of(outcomes);
+}
+
+Exit run_merge(const Options& options, const Batch& batch, Console& console) {
+  const BatchFolder folder(batch, BatchFolder::Use::alone, console);
+  BatchManifest manifest(folder.state("manifest.json"), plan_of(batch), kept(whole_jobs(batch)));
+  const auto stopped = merge_shards(batch, folder, options.threads, manifest, console);
+  folder.sweep();
+  if (stopped) return static_cast<Exit>(status_of(*stopped));
+  manifest.save();
+  const Exit exit = conclude(options, batch, manifest.ended(), console);
+  remove_shards(folder);
+  return exit;
+}
+
+Exit run_all(const Options& options, const Batch& batch, Console& console) {
+  const BatchFolder folder(batch, BatchFolder::Use::alone, console);
+  const std::vector<BatchUnit> units = whole_jobs(batch);
+  BatchManifest manifest(folder.state("manifest.json"), plan_of(batch), kept(units));
+  const auto stopped = run_units(options, units, manifest, console);
+  folder.sweep();
+  manifest.save();
+  if (stopped) return static_cast<Exit>(status_of(*stopped));
+  return conclude(options, batch, manifest.ended(), console);
 }
 
 }  // namespace
@@ -107,14 +149,9 @@ std::optional<int> do_missing(const Options& options, const Batch& batch, const 
 Exit run_batch(const Options& options, Console& console) {
   check_flags(options);
   const Batch batch = read_batch(enter_folder_of(options.jobs, console));
-  const BatchFolder folder(batch, BatchFolder::Use::alone, console);
-  BatchManifest manifest(folder.state("manifest.json"), plan_of(batch), kept_units(batch));
-  if (options.resume) manifest.take_proven();
-  const auto stopped = do_missing(options, batch, folder, manifest, console);
-  folder.sweep();
-  manifest.save();
-  if (stopped) return static_cast<Exit>(status_of(*stopped));
-  return conclude(options, batch, manifest.ended(), console);
+  if (options.estimate) return say_estimate(batch);
+  if (options.shard) return run_shard(options, batch, console);
+  return options.merge ? run_merge(options, batch, console) : run_all(options, batch, console);
 }
 
 }  // namespace counterflex::cli

@@ -21,6 +21,9 @@ class BatchFolder {
   /// written. Throws `InputError` (Exit::transient_io) where another run holds one, or it cannot be written.
   BatchFolder(const Batch& batch, Use use, Console& console);
 
+  /// Makes a folder of the state.
+  void make_state(const std::string& name) const;
+
   /// The path of a file of the state.
   std::string state(const std::string& name) const;
 

@@ -1,6 +1,7 @@
 #include "batch_jobs.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -13,16 +14,14 @@
 #include "counterflex/settings/project_file.hpp"
 #include "globs.hpp"
 #include "inputs.hpp"
+#include "layers.hpp"
 #include "outputs.hpp"
-#include "settings_layers.hpp"
 #include "version.hpp"
 
 namespace counterflex::cli {
 namespace {
 
 namespace fs = std::filesystem;
-
-using Layers = std::vector<std::vector<Setting>>;
 
 /// A file by whatever name, so that two names of one can be compared.
 std::string one_name(const std::string& path) {
@@ -31,18 +30,15 @@ std::string one_name(const std::string& path) {
   return canonical.empty() ? path : canonical.native();
 }
 
-/// What decides the bytes of the outputs besides those of the inputs: versions of all options, and all paths,
+/// What decides the bytes of the outputs besides those of the inputs: all options, and all paths,
 /// which reports name.
 std::string key_of(const Layers& layers, const BatchJob& job) {
-  std::map<std::string, std::string> texts;
-  for (const auto& layer : layers)  // the strongest first: others do not count
-    for (const Setting& setting : layer) {
-      std::string text;
-      for (const std::string& value : setting.values) text += value + '\n';
-      if (setting.option != "threads" && setting.option != "output") texts.emplace(setting.option, text);
-    }
   std::string all = fmt::format("counterflex {}\n{}\n{}\n", version, job.program, job.output);
-  for (const auto& [option, text] : texts) all += option + "\n" + text + "\n";
+  for (const Setting& setting : effective_settings(Command::compensate, layers)) {
+    if (setting.option == "threads" || setting.option == "output") continue;
+    all += setting.option + '\n';
+    for (const std::string& value : setting.values) all += value + '\n';
+  }
   return sha256(all);
 }
 
@@ -61,7 +57,7 @@ double work_of(const BatchJob& job) {
 /// Jobs as they are found, which have to be apart.
 class JobList {
  public:
-  explicit JobList(const JobsFile& file) : file_(file), environment_(read_environment()) {}
+  explicit JobList(const JobsFile& file) : file_(file), environment_(read_environment(environ)) {}
 
   std::vector<BatchJob> take() {
     for (const JobEntry& entry : file_.jobs)

@@ -1,5 +1,6 @@
 #include "batch_manifest.hpp"
 
+#include <algorithm>
 #include <filesystem>
 #include <map>
 #include <utility>
@@ -19,19 +20,33 @@ constexpr std::chrono::milliseconds between_saves(500);
 BatchManifest::BatchManifest(std::string path, std::string plan, std::vector<KeptUnit> units)
     : path_(std::move(path)), plan_(std::move(plan)), units_(std::move(units)), outcomes_(units_.size()) {}
 
-void BatchManifest::take_proven() {
+std::vector<std::optional<JobOutcome>> BatchManifest::recorded(bool failed_too) const {
+  std::vector<std::optional<JobOutcome>> outcomes(units_.size());
   std::error_code missing;
-  if (!std::filesystem::exists(path_, missing)) return;
+  if (!std::filesystem::exists(path_, missing)) return outcomes;
   const Manifest manifest = read_manifest(read_input(path_, Exit::machine_or_force), path_);
-  if (manifest.version != version) return;
-  std::map<std::string, const JobOutcome*> recorded;
-  for (const JobOutcome& outcome : manifest.jobs) recorded[outcome.output] = &outcome;
+  if (manifest.version != version) return outcomes;
+  std::map<std::string, const JobOutcome*> by_output;
+  for (const JobOutcome& outcome : manifest.jobs) by_output[outcome.output] = &outcome;
   FileHashes on_disk;
   for (std::size_t i = 0; i < units_.size(); ++i) {
-    const auto found = recorded.find(units_[i].output);
-    if (found != recorded.end() && is_proven(*found->second, units_[i].key, on_disk))
-      outcomes_[i] = *found->second;
+    const auto found = by_output.find(units_[i].output);
+    if (found == by_output.end() || found->second->key != units_[i].key) continue;
+    const bool failed = found->second->exit != Exit::done;
+    if (failed ? failed_too : is_proven(*found->second, units_[i].key, on_disk)) outcomes[i] = *found->second;
   }
+  return outcomes;
+}
+
+void BatchManifest::take_proven() {
+  outcomes_ = recorded(false);
+}
+
+bool BatchManifest::take_all_ended() {
+  auto outcomes = recorded(true);
+  const bool all = std::all_of(outcomes.begin(), outcomes.end(), [](const auto& o) { return o.has_value(); });
+  if (all) outcomes_ = std::move(outcomes);
+  return all;
 }
 
 void BatchManifest::set(std::size_t unit, JobOutcome outcome) {

@@ -25,6 +25,10 @@ class BatchManifest {
   /// (Exit::machine_or_force) where it cannot be trusted; nothing has been changed then.
   void take_proven();
 
+  /// Takes all units from the file, those that failed, too, where it has all of them: whether it has. Throws
+  /// as `take_proven`.
+  bool take_all_ended();
+
   /// A unit has ended.
   void set(std::size_t unit, JobOutcome outcome);
 
@@ -39,6 +43,8 @@ class BatchManifest {
   void save();
 
  private:
+  std::vector<std::optional<JobOutcome>> recorded(bool failed_too) const;
+
   std::string path_, plan_;
   std::vector<KeptUnit> units_;
   std::vector<std::optional<JobOutcome>> outcomes_;

@@ -36,8 +36,7 @@ double BatchProgress::time_left(double elapsed) const {
 }
 
 std::string BatchProgress::text() const {
-  const double elapsed =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - begun_).count();
+  const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun_).count();
   std::string text = fmt::format("{} of {} jobs", ended_, work_.size());
   if (failed_ > 0) text += fmt::format(", {} failed", failed_);
   if (elapsed < settled) return text;

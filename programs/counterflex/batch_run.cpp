@@ -14,8 +14,8 @@ namespace counterflex::cli {
 namespace {
 
 constexpr int tick_ms = 250;
-constexpr int patience_ms = 400;   // for workers that are asked to end
-constexpr int hesitation_ms = 100;  // for a signal that has ended a worker to arrive here, too
+constexpr int patience_ms = 400;      // for workers that are asked to end
+constexpr int hesitation_ms = 100;    // for a signal that has ended a worker to arrive here, too
 constexpr double large_share = 0.25;  // of what one processor has to do in all
 
 class TaskRun {

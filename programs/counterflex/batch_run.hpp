@@ -15,8 +15,7 @@ namespace counterflex::cli {
 
 /// Something that a worker does for a job: the job itself, or a part of it.
 struct BatchTask {
-  std::string name;  ///< what progress and diagnostics call it
-  double work = 0;
+  double work = 0;  ///< as that of a job
   std::function<void(int threads, const SendLine&)> run;
   std::function<JobOutcome(int status)> lost;  ///< its outcome where the process has sent none
 };

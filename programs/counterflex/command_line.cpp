@@ -241,6 +241,22 @@ void add_check(CLI::App& app, Options& options) {
   add_output(command, options);
 }
 
+void add_batch(CLI::App& app, Options& options) {
+  CLI::App& command =
+      add_command(app, options, "batch", Command::batch,
+                  "Compensate all programs of a list of jobs, and sum up what became of them");
+  add_file(command, "JOBS", options.jobs, "The jobs file (.toml)");
+  command.add_flag("--resume", options.resume, "Do only what is not proven done by the last run");
+  value_option(command, "--shard", "I/N", "Do part I of N, which other processes or computers do the rest of",
+               [&](const std::string& text) { options.shard = read_shard(text); });
+  command.add_flag("--merge", options.merge, "Put together what all shards have done");
+  command.add_flag("--estimate", options.estimate,
+                   "Say how long the jobs would take on one processor, by trying some of them");
+  value_option(command, "--threads", "N", "Processors to use; the result does not depend on it; all of them",
+               [&](const std::string& text) { options.threads = integer_of("--threads", text, 1, 1024); });
+  add_output(command, options);
+}
+
 void describe_program(CLI::App& app) {
   app.description(
       "Bends a machining program against the errors and the deflection of its machine, and reports the "
@@ -297,6 +313,7 @@ std::variant<Options, Exit> read_command_line(int argc, const char* const* argv)
   add_analyze(app, options);
   add_show_forces(app, options);
   add_check(app, options);
+  add_batch(app, options);
   try {
     auto words = joined(argc, argv);
     std::reverse(words.begin(), words.end());

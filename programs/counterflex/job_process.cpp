@@ -45,18 +45,19 @@ void do_job(const BatchJob& job, int threads, const SendLine& send) {
   JobOutcome outcome = outcome_for(job);
   Options options = job.options;
   options.threads = std::min(threads, options.threads);
-  Console console(options,
-                  {.error =
-                       [&](std::string_view diagnostic) {
-                         if (outcome.error.empty()) outcome.error = diagnostic;
-                       },
-                   .solving = [&](int line, int lines) { send(fmt::format("{}{} {}", line_word, line, lines)); },
-                   .solved = [&](std::size_t waypoints) { send(fmt::format("{}{}", solved_word, waypoints)); }});
+  Console console(
+      options, {.error =
+                    [&](std::string_view diagnostic) {
+                      if (outcome.error.empty()) outcome.error = diagnostic;
+                    },
+                .solving = [&](int line, int lines) { send(fmt::format("{}{} {}", line_word, line, lines)); },
+                .solved = [&](std::size_t waypoints) { send(fmt::format("{}{}", solved_word, waypoints)); }});
   outcome.exit = guarded(console, [&] {
-    return compensate_program(options, console, [&](const Run& run, const RunEnd& end, const RunFiles& files) {
-      note_report(run, end, files, outcome);
-      return exit_of(run, end.report.failure, console);
-    });
+    return compensate_program(options, console,
+                              [&](const Run& run, const RunEnd& end, const RunFiles& files) {
+                                note_report(run, end, files, outcome);
+                                return exit_of(run, end.report.failure, console);
+                              });
   });
   send(fmt::format("{}{}", outcome_word, to_json_line(outcome)));
 }

@@ -4,12 +4,13 @@
 #include <string>
 #include <vector>
 
+#include "counterflex/batch/shards.hpp"
 #include "counterflex/compensation/options.hpp"
 #include "counterflex/program/program.hpp"
 
 namespace counterflex::cli {
 
-enum class Command { compensate, predict, verify, compare, analyze, forces, check };
+enum class Command { compensate, predict, verify, compare, analyze, forces, check, batch };
 
 struct Options {
   Command command = Command::check;
@@ -48,6 +49,13 @@ struct Options {
   bool materials = false;             ///< forces alone
   std::optional<std::string> report;  ///< stem
   std::optional<std::string> plot;    ///< a file
+
+  std::string jobs;            ///< batch alone, as all that follows: the jobs file
+  bool resume = false;         ///< what is proven done is not done again
+  std::optional<Shard> shard;  ///< this part alone
+  bool merge = false;          ///< what the shards have done
+  bool estimate = false;       ///< say how long it would take
+
   bool json = false;
   bool quiet = false;
   bool verbose = false;
