@@ -48,6 +48,7 @@ struct Options {
   bool materials = false;             ///< forces alone
   std::optional<std::string> report;  ///< stem
   std::optional<std::string> plot;    ///< a file
+  bool hash_outputs = false;          ///< batch alone: it records what was written
   bool json = false;
   bool quiet = false;
   bool verbose = false;
