@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <set>
 
-#include "counterflex/files/input_error.hpp"
+#include "counterflex/files/folders.hpp"
 #include "counterflex/files/temporaries.hpp"
 
 namespace counterflex::cli {
@@ -22,18 +22,11 @@ std::set<std::string> folders_of(const Batch& batch) {
   const fs::path own = fs::path(batch.folder).lexically_normal();
   std::set<std::string> folders{batch.folder};
   for (const BatchJob& job : batch.jobs) {
-    const fs::path folder = fs::path(job.output).parent_path();
+    const fs::path folder = folder_of(job.output);
     const fs::path inside = folder.lexically_normal().lexically_relative(own);
-    if (inside.empty() || inside.begin()->native() == "..")
-      folders.insert(folder.empty() ? "." : folder.native());
+    if (inside.empty() || inside.begin()->native() == "..") folders.insert(folder.native());
   }
   return folders;
-}
-
-void make_folder(const std::string& folder) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error) throw InputError(Exit::transient_io, {folder}, "cannot make the folder: " + error.message());
 }
 
 /// All that a job may be writing when it is killed.
@@ -61,7 +54,7 @@ BatchFolder::BatchFolder(const Batch& batch, Use use, Console& console)
     outputs_.push_back(state(name));
   for (const BatchJob& job : batch.jobs) {
     add_outputs(job, outputs_);
-    make_folder(fs::path(job.output).parent_path().native());
+    make_folder(folder_of(job.output));
   }
   sweep();
 }

@@ -12,8 +12,9 @@ namespace counterflex::cli {
 /// Looks whether all shards of the state have done what is theirs, and whether it is still as they left it;
 /// then writes the programs that were split, and fills `manifest`, which is of all jobs. The signal by which
 /// it was stopped, if any: what the shards have done stays as it is. Where they were merged before, and
-/// nothing is left of them, nothing is done again. Throws `InputError`: Exit::transient_io where a shard is missing or its work has been
-/// changed, Exit::machine_or_force where its manifest cannot be trusted; nothing is written then.
+/// nothing is left of them, nothing is done again. Throws `InputError`: Exit::transient_io where a shard is
+/// missing or its work has been changed, Exit::machine_or_force where its manifest cannot be trusted; nothing
+/// is written then.
 std::optional<int> merge_shards(const Batch& batch, const BatchFolder& folder, int threads,
                                 BatchManifest& manifest, Console& console);
 

@@ -55,7 +55,7 @@ Exit compensate_program(const Options& options, Console& console, const TellEnd&
   const auto run = prepare_run(options, console);
   refuse_what_cannot_be_compensated(*run);
   run->options.write.header = header_of(options, *run);
-  RunFiles files(paths, {.attribution = run->facts.attribution});
+  RunFiles files(paths, {.attribution = run->facts.attribution}, options.hash_outputs);
   RunTally tally = tally_for(options, *run);
   const std::optional<Failure> failure = compensate_all(*run, tally, files, console);
   if (!failure) run->facts.output = paths.program;

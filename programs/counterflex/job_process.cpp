@@ -18,7 +18,7 @@ constexpr std::string_view line_word = "line ", solved_word = "solved ", outcome
 void note_report(const Run& run, const RunEnd& end, const RunFiles& files, JobOutcome& outcome) {
   const RunReport& report = end.report;
   for (const InputFile& input : run.facts.inputs) outcome.inputs.push_back({input.path, input.sha256});
-  outcome.outputs = files.hashes();
+  outcome.outputs = files.published();
   if (report.before) outcome.before_mm = report.before->max_mm;
   if (report.after) outcome.after_mm = report.after->max_mm;
   outcome.corrected_percent = report.corrected_percent;
@@ -44,6 +44,7 @@ double share_of(std::string_view text) {
 void do_job(const BatchJob& job, int threads, const SendLine& send) {
   JobOutcome outcome = outcome_for(job);
   Options options = job.options;
+  options.hash_outputs = true;
   options.threads = std::min(threads, options.threads);
   Console console(
       options, {.error =

@@ -55,6 +55,7 @@ struct Options {
   std::optional<Shard> shard;  ///< this part alone
   bool merge = false;          ///< what the shards have done
   bool estimate = false;       ///< say how long it would take
+  bool hash_outputs = false;   ///< of its jobs: it records what was written
 
   bool json = false;
   bool quiet = false;

@@ -123,14 +123,19 @@ void check_output(const Options& options) {
                      fmt::format("a force profile is .csv, not '{}': -f would not read it", extension));
 }
 
-RunFiles::RunFiles(const OutputPaths& paths, const CsvColumns& columns) : paths_(paths), columns_(columns) {
-  if (!paths.program.empty()) program_.emplace(paths.program);
-  if (!paths.plot.empty()) plot_.emplace(paths.plot);
-  if (paths.report_csv.empty()) return;
-  csv_.emplace(paths.report_csv);
-  csv_->write(csv_header());
-  json_.emplace(paths.report_json);
-  page_.emplace(paths.report_page);
+RunFiles::RunFiles(const OutputPaths& paths, const CsvColumns& columns, bool hashed)
+    : paths_(paths), columns_(columns) {
+  const auto open = [&](std::optional<FileWriter>& file, const std::string& path) {
+    if (path.empty()) return;
+    file.emplace(path);
+    if (hashed) file->hash_along();
+  };
+  open(program_, paths.program);
+  open(plot_, paths.plot);
+  open(csv_, paths.report_csv);
+  open(json_, paths.report_json);
+  open(page_, paths.report_page);
+  if (csv_) csv_->write(csv_header());
 }
 
 void RunFiles::add_program(std::string_view text) {
@@ -159,8 +164,10 @@ void RunFiles::add_report(const RunReport& report, const std::string& report_jso
 }
 
 void RunFiles::publish(bool with_program) {
-  publish_together(
-      {if_any(json_), if_any(csv_), if_any(page_), if_any(plot_), with_program ? if_any(program_) : nullptr});
+  FileWriter* program = with_program ? if_any(program_) : nullptr;
+  publish_together({if_any(json_), if_any(csv_), if_any(page_), if_any(plot_), program});
+  for (const FileWriter* file : {program, if_any(json_), if_any(csv_), if_any(page_), if_any(plot_)})
+    if (file != nullptr && !file->is_stream()) published_.push_back({file->path(), file->sha256()});
 }
 
 FileWriter* if_any(std::optional<FileWriter>& file) {
@@ -173,9 +180,9 @@ void publish_together(std::vector<FileWriter*> files) {
   // Who reads a stream may break it off, or be slow, so that interrupts must be heard.
   for (FileWriter* file : files)
     if (file->is_stream()) file->publish();
+  std::erase_if(files, [](const FileWriter* file) { return file->is_stream(); });
   const HeldSignals held;
-  for (FileWriter* file : files)
-    if (!file->is_stream()) file->publish();
+  FileWriter::publish_files(files);
 }
 
 void write_result(std::string_view text) {

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "counterflex/batch/job_outcome.hpp"
 #include "counterflex/files/file_writer.hpp"
 #include "counterflex/report/formats.hpp"
 #include "counterflex/report/page.hpp"
@@ -45,7 +46,8 @@ std::string default_output(const std::string& program);
 class RunFiles {
  public:
   /// Throws `InputError` (Exit::transient_io), as all members do, where a file cannot be written.
-  RunFiles(const OutputPaths& paths, const CsvColumns& columns);
+  /// `hashed`: what is written is hashed on the way.
+  RunFiles(const OutputPaths& paths, const CsvColumns& columns, bool hashed = false);
 
   bool program_to_stdout() const { return paths_.program == "-"; }
 
@@ -58,11 +60,16 @@ class RunFiles {
   /// All of them together, the corrected program among them if `with_program`.
   void publish(bool with_program);
 
+  /// The files that have got their names, the corrected program first where it is one of them; without hashes
+  /// unless they were asked for.
+  const std::vector<FileHash>& published() const { return published_; }
+
  private:
   OutputPaths paths_;
   CsvColumns columns_;
   std::size_t next_row_ = 0;
   std::optional<FileWriter> program_, csv_, json_, page_, plot_;
+  std::vector<FileHash> published_;
 };
 
 /// Publishes files that belong together, none where one of them cannot be written: first all are completed,
