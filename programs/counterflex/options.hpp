@@ -1,5 +1,6 @@
 #pragma once
 /// What the command line says, as plain data. Texts that need a file to make sense of them stay texts.
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -32,10 +33,11 @@ struct Options {
   std::optional<LengthUnit> units;
   IntegerWords integer_words = IntegerWords::unsaid;
   bool expand_subprograms = false;
-  std::vector<std::string> work;          ///< "G54=X,Y,Z[,RX,RY,RZ]"
-  std::optional<std::string> tool_table;  ///< a file
-  std::vector<std::string> at;            ///< "X,Y,Z[,R,P,Y]"
-  std::optional<std::string> tool;        ///< "T3"
+  std::vector<std::string> work;           ///< "G54=X,Y,Z[,RX,RY,RZ]"
+  std::optional<std::string> tool_table;   ///< a file
+  std::map<long, double> tool_lengths_mm;  ///< of --tool-length
+  std::vector<std::string> at;             ///< "X,Y,Z[,R,P,Y]"
+  std::optional<std::string> tool;         ///< "T3"
 
   Method method = Method::direct;
   double tolerance = 5e-6;               ///< m
@@ -45,12 +47,14 @@ struct Options {
   double min_block_ms = 2;
 
   std::optional<std::string> output;
+  std::vector<std::string> folders;   ///< of outputs: made before anything is written, if they are missing
   bool materials = false;             ///< forces alone
   std::optional<std::string> report;  ///< stem
   std::optional<std::string> plot;    ///< a file
   bool json = false;
   bool quiet = false;
   bool verbose = false;
+  std::string project_file;  ///< which settings are from; empty: none
 };
 
 }  // namespace counterflex::cli
