@@ -83,14 +83,22 @@ Options options_of(Command command, const Layers& layers, const std::string& pro
   return options;
 }
 
-std::optional<std::string> project_file_of(const SettingSources& sources, const std::string& program) {
-  if (sources.config || sources.no_config) return sources.config;
-  return find_project_file(program);
+std::string config_text(Command command, const Layers& layers) {
+  std::vector<Setting> settings = effective_settings(command, layers);
+  for (const SettingOption& option : setting_options()) {
+    if (option.builtin.empty() || !has_setting(command, option.option)) continue;
+    if (said_in(settings, option.option) != nullptr) continue;
+    settings.push_back({std::string(option.option), {std::string(option.builtin)}, {}, Origin::builtin});
+  }
+  return to_project_text(settings);
 }
 
-std::vector<Setting> read_project_file(const std::optional<std::string>& file) {
-  if (!file) return {};
-  return read_project(read_input(*file, Exit::machine_or_force), *file);
+ProgramLayers layers_of(const SettingSources& sources, const std::string& program) {
+  auto file = sources.config;
+  if (!file && !sources.no_config) file = find_project_file(program);
+  ProgramLayers result{{sources.flags, sources.environment}, file.value_or("")};
+  if (file) result.layers.push_back(read_project(read_input(*file, Exit::machine_or_force), *file));
+  return result;
 }
 
 }  // namespace counterflex::cli

@@ -7,10 +7,18 @@
 
 #include "counterflex/compensation/options.hpp"
 #include "counterflex/program/program.hpp"
+#include "counterflex/settings/setting.hpp"
 
 namespace counterflex::cli {
 
 enum class Command { compensate, predict, verify, compare, analyze, forces, check };
+
+/// Where settings come from besides jobs files.
+struct SettingSources {
+  std::vector<Setting> flags, environment;
+  std::optional<std::string> config;  ///< the project file that --config names
+  bool no_config = false;             ///< no project file is looked for
+};
 
 struct Options {
   Command command = Command::check;
@@ -54,7 +62,9 @@ struct Options {
   bool json = false;
   bool quiet = false;
   bool verbose = false;
-  std::string project_file;  ///< which settings are from; empty: none
+  SettingSources sources;    ///< what this command line, and the environment, say of them
+  std::string project_file;  ///< from which settings are, too; empty: none
+  bool print_config = false;
 };
 
 }  // namespace counterflex::cli

@@ -91,6 +91,7 @@ std::optional<std::string> output_stem(const Options& options, const std::option
 }  // namespace
 
 Setting merged_output(const std::vector<Setting>& outputs) {
+  for (const Setting& output : outputs) judge_setting(output);
   Setting merged = outputs.front();
   if (merged.values.empty() || merged.values[0] == "-") return merged;
   OutputParts parts = parts_of(merged.values[0]);
@@ -116,6 +117,7 @@ void check_pattern(const std::string& name, const std::string& text) {
 }
 
 void name_outputs(Options& options, const std::vector<Setting>& settings) {
+  if (!has_setting(options.command, "output")) return;
   Naming naming{options, settings, known_parts(options.program)};
   options.output = named(options.output, "output", "{name}{ext}", naming);
   naming.parts.output = output_stem(options, options.output);

@@ -9,7 +9,8 @@
 namespace counterflex::cli {
 
 /// The strongest folder with the strongest name: `-o DIR/` goes with the project file's {name}_CF{ext}. The
-/// first of `outputs`, the strongest, wins where the others do not complete it. Not empty.
+/// first of `outputs`, the strongest, wins where the others do not complete it. Not empty. Throws
+/// `InputError` at the place of a pattern that is none.
 Setting merged_output(const std::vector<Setting>& outputs);
 
 /// Throws `InputError` (Exit::usage) for a word in braces that nothing stands for; `name` is the option's.

@@ -32,6 +32,7 @@ std::vector<std::string> inputs_of(const Options& options) {
   if (!options.corrected.empty()) inputs.push_back(options.corrected);
   inputs.insert(inputs.end(), options.forces.begin(), options.forces.end());
   if (options.tool_table) inputs.push_back(*options.tool_table);
+  if (!options.project_file.empty()) inputs.push_back(options.project_file);
   return inputs;
 }
 

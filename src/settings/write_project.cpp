@@ -15,7 +15,7 @@ namespace {
 using setting_file::Key;
 using setting_file::Kind;
 
-std::string quoted(std::string_view text) {
+std::string toml_text(std::string_view text) {
   std::string result = "\"";
   for (const char c : text) {
     const auto code = static_cast<unsigned char>(c);
@@ -29,9 +29,9 @@ std::string quoted(std::string_view text) {
   return result.append(1, '"');
 }
 
-std::string quoted_list(const std::vector<std::string>& values) {
+std::string toml_list(const std::vector<std::string>& values) {
   std::string list = "[";
-  for (const std::string& value : values) list.append(list.size() > 1 ? ", " : "").append(quoted(value));
+  for (const std::string& value : values) list.append(list.size() > 1 ? ", " : "").append(toml_text(value));
   return list.append(1, ']');
 }
 
@@ -45,14 +45,14 @@ std::string plain_number(std::string_view text) {
 }
 
 std::string value_text(const std::vector<std::string>& values, Kind kind) {
-  if (kind == Kind::paths || kind == Kind::forces) return quoted_list(values);
+  if (kind == Kind::paths || kind == Kind::forces) return toml_list(values);
   if (values.empty()) return "false";
   const std::string& value = values.back();
   if (kind == Kind::number || kind == Kind::whole) return plain_number(value);
   if (kind == Kind::truth) return value;
   if (kind == Kind::report && value == setting_file::report_beside_output) return "true";
   if (kind == Kind::plot && value == setting_file::plot_beside_output) return "true";
-  return quoted(value);
+  return toml_text(value);
 }
 
 /// Names of files may hold anything, comments may not.
@@ -99,14 +99,14 @@ std::vector<std::string> at_commas(const std::string& text) {
 std::string offset_table(const std::string& name, const std::string& value) {
   const std::string known = work_offset_name(name).value_or(name);
   const auto numbers = at_commas(value);
-  std::string text = fmt::format("[work.{}]\nxyz_mm = {}\n", quoted(known), three_numbers(numbers, 0));
+  std::string text = fmt::format("[work.{}]\nxyz_mm = {}\n", toml_text(known), three_numbers(numbers, 0));
   if (numbers.size() > 3) text += fmt::format("rpy_deg = {}\n", three_numbers(numbers, 3));
   return text;
 }
 
 std::string length_table(const std::string& name, const std::string& value) {
   const auto tool = read_tool_number(name);
-  return fmt::format("[tools.{}]\nlength_mm = {}\n", tool ? fmt::format("T{}", *tool) : quoted(name),
+  return fmt::format("[tools.{}]\nlength_mm = {}\n", tool ? fmt::format("T{}", *tool) : toml_text(name),
                      plain_number(value));
 }
 
