@@ -52,10 +52,7 @@ BatchFolder::BatchFolder(const Batch& batch, Use use, Console& console)
   }
   for (const char* name : {"manifest.json", "../summary.json", "../summary.csv"})
     outputs_.push_back(state(name));
-  for (const BatchJob& job : batch.jobs) {
-    add_outputs(job, outputs_);
-    make_folder(folder_of(job.output));
-  }
+  for (const BatchJob& job : batch.jobs) add_outputs(job, outputs_);
   sweep();
 }
 

@@ -86,13 +86,23 @@ class JobList {
     const Layers layers{entry.settings, file_.defaults, environment_, project_settings(program)};
     BatchJob job;
     job.program = program;
-    job.options = options_of(Command::compensate, layers, program);
+    job.options = options_for(program, layers, entry);
     job.output = *job.options.output;
     job.key = key_of(layers, job);
     job.work = work_of(job);
     outputs_.emplace(one_name(job.output), places_.size());
     places_.emplace(one_name(job.output), entry.where);
     jobs_.push_back(std::move(job));
+  }
+
+  /// A machine that nobody names is the fault of the list.
+  static Options options_for(const std::string& program, const Layers& layers, const JobEntry& entry) {
+    try {
+      return options_of(Command::compensate, layers, program);
+    } catch (const InputError& error) {
+      if (!error.where().file.empty()) throw;
+      throw InputError(Exit::machine_or_force, entry.where, fmt::format("{}: {}", program, error.what()));
+    }
   }
 
   /// Programs of one folder have one project file.
