@@ -11,6 +11,13 @@ namespace counterflex::cli {
 
 enum class Command { compensate, predict, verify, compare, analyze, forces, check };
 
+/// One of several equally long parts of a program that processes compensate side by side.
+struct PartOfProgram {
+  int part = 0;  ///< from 0
+  int parts = 1;
+  std::string file;  ///< where it is recorded
+};
+
 struct Options {
   Command command = Command::check;
 
@@ -48,6 +55,8 @@ struct Options {
   bool materials = false;             ///< forces alone
   std::optional<std::string> report;  ///< stem
   std::optional<std::string> plot;    ///< a file
+  std::optional<PartOfProgram> part;  ///< compensate alone, of a batch: this part, and nothing but its record
+  std::vector<std::string> recorded;  ///< compensate alone, of a batch: records of parts, to be taken over
   bool json = false;
   bool quiet = false;
   bool verbose = false;

@@ -55,10 +55,10 @@ void RecordWriter::add(std::string_view record) {
   write(record);
 }
 
-void RecordWriter::publish() {
+FileWriter RecordWriter::finish() {
   add({});
   file_.write(hash_.digits());
-  file_.publish();
+  return std::move(file_);
 }
 
 void check_record_file(const std::string& path, const std::string& run) {
@@ -71,7 +71,8 @@ void check_record_file(const std::string& path, const std::string& run) {
     refuse_record(path, "is not a recorded part of a program (counterflex-part 1)");
   file.rewind();
   Sha256 hash;
-  if (hash_to_digits(file, hash) != hash.digits()) refuse_damage(path);
+  const std::string digits = hash_to_digits(file, hash);
+  if (digits != hash.digits()) refuse_damage(path);
   if (begin != header) refuse_record(path, "was recorded in another run, with other files or options");
 }
 

@@ -15,7 +15,7 @@ class RecordWriter {
  public:
   RecordWriter(const std::string& path, const std::string& run);
   void add(std::string_view record);
-  void publish();
+  FileWriter finish();  ///< nothing can be added any more
 
  private:
   void write(std::string_view bytes);

@@ -12,16 +12,22 @@ bool is_of_the_job(const InputError& error) {
 
 class WindowRecorder {
  public:
-  WindowRecorder(JobWindows& windows, CarriedState& carried, bool attribution, Span part, RecordWriter& file)
-      : windows_(windows), carried_(carried), attribution_(attribution), part_(part), file_(file) {}
+  WindowRecorder(JobWindows& windows, CarriedState& carried, bool attribution, Span part,
+                 const WindowEvents& events, RecordWriter& file)
+      : windows_(windows),
+        carried_(carried),
+        attribution_(attribution),
+        part_(part),
+        events_(events),
+        file_(file) {}
 
-  WindowStages stages(const std::function<void(const Job&)>& read) {
+  WindowStages stages() {
     using Member = void (WindowRecorder::*)(const Job&, Flight&);
     const auto stage = [this](Member work) {
       return [this, work](const Job& job, Flight& flight) { (this->*work)(job, flight); };
     };
     return {.next = [this](Flight& flight) { return next(flight); },
-            .read = read,
+            .read = events_.read,
             .begin = stage(&WindowRecorder::begin),
             .plan = stage(&WindowRecorder::plan),
             .write = stage(&WindowRecorder::write),
@@ -78,35 +84,40 @@ class WindowRecorder {
     record.commands = digest_of_commands(flight.work.result.corrected);
     record.result = std::move(flight.work.result);
     flight.bytes = to_bytes(record);
+    flight.work.result = std::move(record.result);
     flight.record.reset();
   }
 
-  void done(const Job&, Flight& flight) {
-    if (flight.role == Role::compensated && !flight.work.failed()) file_.add(flight.bytes);
+  void done(const Job& job, Flight& flight) {
+    if (flight.role != Role::compensated) return;
+    events_.begun(job);
+    if (!flight.work.failed()) file_.add(flight.bytes);
+    events_.done(job, flight.work.result);
   }
 
   JobWindows& windows_;
   CarriedState& carried_;
   const bool attribution_;
   const Span part_;
+  const WindowEvents& events_;
   RecordWriter& file_;
   std::size_t next_byte_ = 0;
 };
 
 }  // namespace
 
-void record_windows(JobWindows& windows, const CompensationOptions& options, TextReader corrected,
-                    bool attribution, Span part, const std::string& run, const std::string& file,
-                    const std::function<void(const Job&)>& read) {
+FileWriter record_windows(JobWindows& windows, const CompensationOptions& options, TextReader corrected,
+                          bool attribution, Span part, const std::string& run, const std::string& file,
+                          const WindowEvents& events) {
   CarriedState carried{Rewriter(options.write), std::move(corrected)};
   RecordWriter writer(file, run);
-  WindowRecorder recorder(windows, carried, attribution, part, writer);
+  WindowRecorder recorder(windows, carried, attribution, part, events, writer);
   try {
-    run_windows(windows, options.threads, recorder.stages(read));
+    run_windows(windows, options.threads, recorder.stages());
   } catch (const InputError& error) {
     if (!is_of_the_job(error)) throw;
   }
-  writer.publish();
+  return writer.finish();
 }
 
 }  // namespace counterflex

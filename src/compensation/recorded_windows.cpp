@@ -91,6 +91,7 @@ class WindowTaker {
 
  private:
   bool next(Flight& flight) {
+    flight.record.reset();
     flight.bytes = recorded_.of_window(flight.index);
     return compensating_.next(flight);
   }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "counterflex/compensation/compensate_windows.hpp"
+#include "counterflex/files/file_writer.hpp"
 
 namespace counterflex {
 
@@ -15,12 +16,13 @@ namespace counterflex {
 /// to `file`: all of them, or all before the first that fails, which is left to the run that takes them over,
 /// with its error. For windows before the part only what is cheap is done: they are read, and the machine
 /// follows them; the last of them is compensated to come near to the state in which they leave the text.
-/// Windows behind the part are not read. `run` says what decides the results, files and options; `read` as in
-/// `WindowEvents`. The file appears whole or not at all, the same for any number of threads. Throws
+/// Windows behind the part are not read. `run` says what decides the results, files and options. `events`
+/// hear of windows before the part only that they were read. The file is the same for any number of threads;
+/// it has everything but its name, which the caller gives it when it knows that no input has changed. Throws
 /// `InputError` where the program or its forces can no longer be read, or the file cannot be written.
-void record_windows(JobWindows& windows, const CompensationOptions& options, TextReader corrected,
-                    bool attribution, Span part, const std::string& run, const std::string& file,
-                    const std::function<void(const Job&)>& read);
+FileWriter record_windows(JobWindows& windows, const CompensationOptions& options, TextReader corrected,
+                          bool attribution, Span part, const std::string& run, const std::string& file,
+                          const WindowEvents& events);
 
 /// The records of a run. A million blocks need some hundred megabytes: they are read when it is their turn.
 class RecordedWindows {
