@@ -21,6 +21,13 @@ struct SettingSources {
   bool no_config = false;             ///< no project file is looked for
 };
 
+/// One of several equally long parts of a program that processes compensate side by side.
+struct PartOfProgram {
+  int part = 0;  ///< from 0
+  int parts = 1;
+  std::string file;  ///< where it is recorded
+};
+
 struct Options {
   Command command = Command::check;
 
@@ -66,7 +73,10 @@ struct Options {
   std::optional<Shard> shard;  ///< this part alone
   bool merge = false;          ///< what the shards have done
   bool estimate = false;       ///< say how long it would take
-  bool hash_outputs = false;   ///< of its jobs: it records what was written
+
+  bool hash_outputs = false;          ///< compensate alone, of a batch, as what follows: for its manifest
+  std::optional<PartOfProgram> part;  ///< this part, and nothing but its record
+  std::vector<std::string> recorded;  ///< records of parts, to be taken over
 
   bool json = false;
   bool quiet = false;
