@@ -89,4 +89,9 @@ TEST_CASE("each line says where its value is from, in one line whatever the file
   CHECK(test::contains(text, "# COUNTERFLEX_METHOD\n"));
   CHECK(test::contains(text, "# a?b.toml:7\n"));
   CHECK(test::contains(text, "blend_mm = 2                              # default\n"));
+  const auto project =
+      test::project_with("[work.G54]\nxyz_mm = [1, 2, 3]\n[work.\"G54.1 P3\"]\nxyz_mm = [1, 2, 3]\n");
+  const std::string tables = to_project_text(project);
+  CHECK(test::contains(tables, "# p.toml:2\n[work.G54]\nxyz_mm = [1, 2, 3]\n"));
+  CHECK(test::contains(tables, "# p.toml:4\n[work.\"G54.1 P3\"]\n"));
 }
