@@ -20,6 +20,7 @@ struct OutputPaths {
   std::string report_csv;
   std::string report_page;
   std::string plot;
+  std::vector<std::string> folders;  ///< made, with those above them, before anything is written
 };
 
 /// The paths of `options`, the program's among them for `compensate`: NAME.comp.EXT beside the input unless
@@ -38,9 +39,6 @@ ComparisonPaths comparison_paths(const Options& options);
 
 /// Throws as `output_paths` where --output of a command that writes no program cannot be written.
 void check_output(const Options& options);
-
-/// "part.ngc" gives "part.comp.ngc".
-std::string default_output(const std::string& program);
 
 /// The files of a run, written as it goes; they get their names when it has ended, or never.
 class RunFiles {
