@@ -10,6 +10,8 @@
 namespace counterflex::cli {
 namespace {
 
+constexpr double least_part = 1 << 19;  // of a program, for which it is worth being cut
+
 BatchUnit unit_of(const BatchJob& job, const ShardUnit& which, const BatchFolder& folder) {
   BatchUnit unit{&job, which, {job.key, job.output}};
   if (!unit.is_part()) return unit;
@@ -38,7 +40,7 @@ std::vector<std::vector<BatchUnit>> units_by_shard(const Batch& batch, int shard
   std::vector<double> work;
   for (const BatchJob& job : batch.jobs) work.push_back(job.work);
   std::vector<std::vector<BatchUnit>> by_shard;
-  for (const auto& of_shard : plan_shards(work, shards)) {
+  for (const auto& of_shard : plan_shards(work, shards, least_part)) {
     auto& units = by_shard.emplace_back();
     for (const ShardUnit& which : of_shard) units.push_back(unit_of(batch.jobs[which.job], which, folder));
   }
@@ -66,10 +68,11 @@ BatchTask task_of(const BatchUnit& unit) {
   if (!unit.is_part())
     return {job.work, [&job](int threads, const SendLine& send) { do_job(job, threads, send); }, lost};
   const auto record = [&unit](int threads, const SendLine& send) {
-    BatchJob job = *unit.job;
-    job.key = unit.kept.key;
-    job.options.part = PartOfProgram{unit.which.part, unit.which.parts, unit.kept.output};
-    do_job(job, threads, send);
+    BatchJob part = *unit.job;
+    part.key = unit.kept.key;
+    part.output = unit.kept.output;
+    part.options.part = PartOfProgram{unit.which.part, unit.which.parts, unit.kept.output};
+    do_job(part, threads, send);
   };
   return {job.work / unit.which.parts, record, lost};
 }
