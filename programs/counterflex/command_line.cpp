@@ -241,6 +241,22 @@ void add_check(CLI::App& app, Options& options) {
   add_output(command, options);
 }
 
+void add_watch(CLI::App& app, Options& options) {
+  CLI::App& command = add_command(app, options, "watch", Command::watch,
+                                  "Compensate the programs that a post-processor drops into a folder");
+  add_file(command, "DIR", options.folder, "The folder");
+  value_option(command, "-o,--output", "DIR",
+               "The folder of the corrected programs; NAME.comp.EXT beside each program",
+               [&](const std::string& text) { options.output = text; });
+  command
+      .add_option("--pattern", options.patterns,
+                  "Only files whose names match, as in a shell; all programs; may be repeated")
+      ->type_name("'*.ngc'")
+      ->allow_extra_args(false);
+  command.add_flag("--once", options.once, "Do what is there and not yet done, and end");
+  add_run(command, options);
+}
+
 void describe_program(CLI::App& app) {
   app.description(
       "Bends a machining program against the errors and the deflection of its machine, and reports the "
@@ -296,6 +312,7 @@ std::variant<Options, Exit> read_command_line(int argc, const char* const* argv)
   add_analyze(app, options);
   add_show_forces(app, options);
   add_check(app, options);
+  add_watch(app, options);
   try {
     auto words = joined(argc, argv);
     std::reverse(words.begin(), words.end());

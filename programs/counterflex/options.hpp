@@ -9,17 +9,20 @@
 
 namespace counterflex::cli {
 
-enum class Command { compensate, predict, verify, compare, analyze, forces, check };
+enum class Command { compensate, predict, verify, compare, analyze, forces, check, watch };
 
 struct Options {
   Command command = Command::check;
 
-  std::string program;               ///< verify: the original
-  std::string corrected;             ///< verify alone
-  std::vector<std::string> files;    ///< check alone
-  std::vector<std::string> reports;  ///< compare alone: two
-  std::vector<std::string> names;    ///< of these, or none
-  std::string machine;               ///< empty: none, which check and forces alone allow
+  std::string program;                ///< verify: the original
+  std::string corrected;              ///< verify alone
+  std::vector<std::string> files;     ///< check alone
+  std::vector<std::string> reports;   ///< compare alone: two
+  std::vector<std::string> names;     ///< of these, or none
+  std::string folder;                 ///< watch alone
+  std::vector<std::string> patterns;  ///< watch alone: what names of programs match; none: any
+  bool once = false;                  ///< watch alone: what is there, and no more
+  std::string machine;                ///< empty: none, which check and forces alone allow
 
   std::vector<std::string> forces;     ///< files
   std::vector<ForceRule> force_rules;  ///< of --force
