@@ -265,7 +265,8 @@ void describe_program(CLI::App& app) {
   app.footer(
       "Exit status: 0 done, 1 internal error, 2 usage, 3 program text, 4 machine or force file, 5 tolerance "
       "missed or\n"
-      "not converged, 6 travel or correction limit, 75 input or output failed, 130 interrupted.");
+      "not converged, 6 travel or correction limit, 75 input or output failed, 130 interrupted (143 by "
+      "SIGTERM).");
   app.set_version_flag("--version", fmt::format("counterflex {}", version), "Print the version");
   app.require_subcommand(1);
   app.get_formatter()->column_width(38);

@@ -1,8 +1,9 @@
+#include "compensate.hpp"
+
 #include <mutex>
 
 #include "commands.hpp"
 #include "counterflex/compensation/compensate_windows.hpp"
-#include "run.hpp"
 
 namespace counterflex::cli {
 namespace {
@@ -41,6 +42,7 @@ std::optional<Failure> compensate_all(Run& run, RunTally& tally, RunFiles& files
     alone.unlock();
     if (wants_loads(run)) run.load_places.add(job, window.waypoints);
     add(job, window, run, tally, files);
+    console.solved(window.waypoints.size());
   };
   return compensate_windows(windows.jobs(), run.options, TextReader(windows.reader()), run.facts.attribution,
                             {read, begun, done});
@@ -48,7 +50,7 @@ std::optional<Failure> compensate_all(Run& run, RunTally& tally, RunFiles& files
 
 }  // namespace
 
-Exit run_compensate(const Options& options, Console& console) {
+Exit compensate_program(const Options& options, Console& console, const TellEnd& tell) {
   const OutputPaths paths = output_paths(options);
   const auto run = prepare_run(options, console);
   refuse_what_cannot_be_compensated(*run);
@@ -58,9 +60,16 @@ Exit run_compensate(const Options& options, Console& console) {
   const std::optional<Failure> failure = compensate_all(*run, tally, files, console);
   if (!failure) run->facts.output = paths.program;
   if (!failure || is_reported(*failure))
-    return deliver(options, *run, report_compensation(run->context(), tally, failure), tally, files, console);
-  console.error(located(run->program.file, *failure));
-  return failure->exit;
+    return tell(*run,
+                finish_run(options, *run, report_compensation(run->context(), tally, failure), tally, files),
+                files);
+  return exit_of(*run, failure, console);
+}
+
+Exit run_compensate(const Options& options, Console& console) {
+  return compensate_program(options, console, [&](const Run& run, const RunEnd& end, const RunFiles& files) {
+    return tell_result(options, run, end, files, console);
+  });
 }
 
 }  // namespace counterflex::cli

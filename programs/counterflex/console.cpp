@@ -5,6 +5,7 @@
 
 #include <cstdio>
 #include <cstdlib>
+#include <utility>
 
 namespace counterflex::cli {
 namespace {
@@ -35,8 +36,9 @@ void say(const std::string& text) {
 
 }  // namespace
 
-Console::Console(const Options& options)
-    : quiet_(options.quiet),
+Console::Console(const Options& options, ConsoleListener listener)
+    : listener_(std::move(listener)),
+      quiet_(options.quiet),
       verbose_(options.verbose && !options.quiet),
       terminal_(::isatty(STDERR_FILENO) == 1),
       colour_(colours_on(STDERR_FILENO)),
@@ -90,7 +92,17 @@ void Console::progress(std::string_view what) {
   showing_progress_ = true;
 }
 
+void Console::solving(int line, int lines) {
+  if (listener_.solving) return listener_.solving(line, lines);
+  progress(fmt::format("solving line {} of {}", line, lines));
+}
+
+void Console::solved(std::size_t waypoints) const {
+  if (listener_.solved) listener_.solved(waypoints);
+}
+
 void Console::error(std::string_view diagnostic) {
+  if (listener_.error) return listener_.error(diagnostic);
   erase_progress();
   say((colour_ ? painted(diagnostic, "error", 31) : std::string(diagnostic)) + "\n");
 }

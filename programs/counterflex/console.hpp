@@ -1,5 +1,7 @@
 #pragma once
 /// Standard error: warnings, what is being done, and errors. Results go to standard output, not through here.
+#include <cstddef>
+#include <functional>
 #include <map>
 #include <string>
 #include <string_view>
@@ -10,9 +12,16 @@
 
 namespace counterflex::cli {
 
+/// Hears what a run says of itself, where it has no terminal of its own.
+struct ConsoleListener {
+  std::function<void(std::string_view diagnostic)> error{};  ///< instead of standard error
+  std::function<void(int line, int lines)> solving{};        ///< has come to this line of so many
+  std::function<void(std::size_t waypoints)> solved{};       ///< so many more
+};
+
 class Console {
  public:
-  explicit Console(const Options& options);
+  explicit Console(const Options& options, ConsoleListener listener = {});
   ~Console();
   Console(const Console&) = delete;
   Console& operator=(const Console&) = delete;
@@ -32,6 +41,10 @@ class Console {
   /// a terminal.
   void progress(std::string_view what);
 
+  /// Progress of a run through its program.
+  void solving(int line, int lines);
+  void solved(std::size_t waypoints) const;
+
   /// A diagnostic as `InputError::what()` has it.
   void error(std::string_view diagnostic);
 
@@ -44,6 +57,7 @@ class Console {
  private:
   void erase_progress();
 
+  ConsoleListener listener_;
   bool quiet_, verbose_, terminal_, colour_, colour_out_;
   bool showing_progress_ = false;
   std::map<std::string, std::size_t> warnings_;

@@ -175,9 +175,7 @@ bool Windows::next() {
 }
 
 void Windows::check(const Job& window) {
-  console_.progress(fmt::format("solving line {} of {}",
-                                window.path.segments.empty() ? 0 : window.path.segments.front().line,
-                                run_.program.lines));
+  console_.solving(window.path.segments.empty() ? 0 : window.path.segments.front().line, run_.program.lines);
   refuse_uncontrolled_moves(window);
 }
 
@@ -211,27 +209,41 @@ RunTally tally_for(const Options& options, const Run& run) {
   return RunTally(run.facts.min_block_ms, std::move(curves));
 }
 
-Exit deliver(const Options& options, Run& run, RunReport report, const RunTally& tally, RunFiles& files,
-             Console& console) {
+RunEnd finish_run(const Options& options, Run& run, RunReport report, const RunTally& tally,
+                  RunFiles& files) {
   run.lanes.reset();  // nothing is solved in them any more; the report takes their memory
   const MachineInput& on = run.machine;
   add_loads(report, solve_loads(on.model, run.load_places.places(), run.options.threads), on.machine);
   if (options.report || options.json) add_texts(report, run.file.bytes);
   run.file.bytes.refuse_change();  // it was read more than once
-  const std::optional<Failure>& failure = report.failure;
-  const std::string json = to_json(report);
+  std::string json = to_json(report);
   if (tally.curves()) files.add_report(report, json, *tally.curves());
-  files.publish(!failure);
+  files.publish(!report.failure);
+  return {std::move(report), std::move(json)};
+}
+
+Exit tell_result(const Options& options, const Run& run, const RunEnd& end, const RunFiles& files,
+                 Console& console) {
   console.finish_warnings();
   if (options.json)
-    write_result(json);
+    write_result(end.json);
   else if (files.program_to_stdout())
-    console.note(summary_text(report, console.colour_error()));
+    console.note(summary_text(end.report, console.colour_error()));
   else
-    write_result(summary_text(report, console.colour_out()));
+    write_result(summary_text(end.report, console.colour_out()));
+  return exit_of(run, end.report.failure, console);
+}
+
+Exit exit_of(const Run& run, const std::optional<Failure>& failure, Console& console) {
   if (!failure) return Exit::done;
   console.error(located(run.program.file, *failure));
   return failure->exit;
+}
+
+Exit deliver(const Options& options, Run& run, RunReport report, const RunTally& tally, RunFiles& files,
+             Console& console) {
+  const RunEnd end = finish_run(options, run, std::move(report), tally, files);
+  return tell_result(options, run, end, files, console);
 }
 
 }  // namespace counterflex::cli

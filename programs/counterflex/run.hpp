@@ -83,9 +83,24 @@ class Windows {
 /// them.
 RunTally tally_for(const Options& options, const Run& run);
 
-/// Gives the run's files their names, and says the result: the summary, or the JSON document, on standard
-/// output; the summary on standard error where the corrected program has standard output. Then the failure,
-/// if there is one; its exit status.
+/// What a run has come to; its files have their names.
+struct RunEnd {
+  RunReport report;
+  std::string json;  ///< of the report
+};
+
+/// Completes the report and gives the run's files their names. Throws `InputError` (Exit::transient_io).
+RunEnd finish_run(const Options& options, Run& run, RunReport report, const RunTally& tally, RunFiles& files);
+
+/// Says the failure, if there is one; its exit status.
+Exit exit_of(const Run& run, const std::optional<Failure>& failure, Console& console);
+
+/// Says the result: the summary, or the JSON document, on standard output; the summary on standard error
+/// where the corrected program has standard output. Then the failure, if there is one; its exit status.
+Exit tell_result(const Options& options, const Run& run, const RunEnd& end, const RunFiles& files,
+                 Console& console);
+
+/// Finishes the run and says its result.
 Exit deliver(const Options& options, Run& run, RunReport report, const RunTally& tally, RunFiles& files,
              Console& console);
 

@@ -1,7 +1,13 @@
 #include "signals.hpp"
 
+#include <fmt/format.h>
+#include <poll.h>
 #include <pthread.h>
+#include <sys/signalfd.h>
 #include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
 
 #include "counterflex/files/file_writer.hpp"
 #include "counterflex/files/input_error.hpp"
@@ -11,12 +17,23 @@ namespace {
 
 constexpr int ending[] = {SIGINT, SIGTERM, SIGHUP};
 
-extern "C" void leave_interrupted(int) {
+sigset_t ending_set() {
+  sigset_t set;
+  ::sigemptyset(&set);
+  for (const int signal : ending) ::sigaddset(&set, signal);
+  return set;
+}
+
+extern "C" void leave_interrupted(int signal) {
   remove_unpublished();
-  ::_exit(static_cast<int>(Exit::interrupted));
+  ::_exit(status_of(signal));
 }
 
 }  // namespace
+
+int status_of(int signal) {
+  return 128 + signal;
+}
 
 void end_on_signals() {
   for (const int signal : ending) {
@@ -30,10 +47,35 @@ void end_on_signals() {
   std::signal(SIGPIPE, SIG_IGN);
 }
 
+AwaitedSignals::AwaitedSignals() {
+  const sigset_t awaited = ending_set();
+  ::pthread_sigmask(SIG_BLOCK, &awaited, nullptr);
+  descriptor_ = ::signalfd(-1, &awaited, SFD_CLOEXEC | SFD_NONBLOCK);
+  if (descriptor_ < 0)
+    throw InputError(Exit::transient_io, {},
+                     fmt::format("cannot wait for signals: {}", std::strerror(errno)));
+}
+
+AwaitedSignals::~AwaitedSignals() {
+  ::close(descriptor_);
+  hear_signals_again();
+}
+
+std::optional<int> AwaitedSignals::take(int timeout_ms) const {
+  pollfd watched{descriptor_, POLLIN, 0};
+  ::poll(&watched, 1, timeout_ms);
+  signalfd_siginfo came{};
+  if (::read(descriptor_, &came, sizeof came) != sizeof came) return std::nullopt;
+  return static_cast<int>(came.ssi_signo);
+}
+
+void hear_signals_again() {
+  const sigset_t heard = ending_set();
+  ::pthread_sigmask(SIG_UNBLOCK, &heard, nullptr);
+}
+
 HeldSignals::HeldSignals() {
-  sigset_t held;
-  ::sigemptyset(&held);
-  for (const int signal : ending) ::sigaddset(&held, signal);
+  const sigset_t held = ending_set();
   ::pthread_sigmask(SIG_BLOCK, &held, &before_);
 }
 

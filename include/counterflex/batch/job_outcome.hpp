@@ -18,15 +18,17 @@ struct FileHash {
 };
 
 struct JobOutcome {
-  std::string key;      ///< SHA-256 of what decides the outputs besides the bytes of the inputs: version and options
+  std::string
+      key;  ///< SHA-256 of what decides the outputs besides the bytes of the inputs: version and options
   std::string program;  ///< path of the original
   std::string output;   ///< path of the corrected program, which no other job of the batch has
   Exit exit = Exit::done;
   std::string error;              ///< the first diagnostic of a job that failed
   std::vector<FileHash> inputs;   ///< as they were read
   std::vector<FileHash> outputs;  ///< as they were written, the corrected program first where there is one
-  std::optional<double> before_mm, after_mm;  ///< largest deviation of feed moves; none where nothing was solved
-  std::optional<double> corrected_percent;    ///< of the cutting length
+  std::optional<double> before_mm,
+      after_mm;  ///< largest deviation of feed moves; none where nothing was solved
+  std::optional<double> corrected_percent;  ///< of the cutting length
   std::size_t warnings = 0;
   std::size_t moves = 0;  ///< of the program
   bool operator==(const JobOutcome&) const = default;

@@ -15,7 +15,7 @@ enum class Exit : int {
   not_compensated = 5,
   limit = 6,
   transient_io = 75,
-  interrupted = 130,
+  interrupted = 130,  ///< by SIGINT; other signals have 128 and their number
 };
 
 /// A place in a file; line and column count from 1, columns in bytes; 0 where there is none.

@@ -1,0 +1,51 @@
+#pragma once
+/// The keys of project and jobs files, and what kind of value each has.
+#include <array>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace counterflex::setting_file {
+
+enum class Kind {
+  text,
+  number,
+  whole,    ///< a whole number
+  truth,    ///< true or false
+  path,     ///< of one file
+  paths,    ///< of one or several
+  forces,   ///< texts and arrays of numbers
+  output,   ///< the name of an output, or a pattern
+  report,   ///< the same, or true or false
+  plot,     ///< the same; it ends in .svg
+  offsets,  ///< tables of [work]
+  lengths,  ///< tables of [tools]
+};
+
+struct Key {
+  std::string_view option;  ///< "tolerance-mm"
+  Kind kind;
+};
+
+inline constexpr std::array keys{Key{"machine", Kind::path},        Key{"forces", Kind::paths},
+                                 Key{"force", Kind::forces},        Key{"load-scale", Kind::number},
+                                 Key{"air-above", Kind::number},    Key{"blend-mm", Kind::number},
+                                 Key{"dialect", Kind::text},        Key{"units", Kind::text},
+                                 Key{"integer-words", Kind::text},  Key{"expand-subprograms", Kind::truth},
+                                 Key{"tool-table", Kind::path},     Key{"method", Kind::text},
+                                 Key{"tolerance-mm", Kind::number}, Key{"max-correction-mm", Kind::number},
+                                 Key{"decimals", Kind::whole},      Key{"threads", Kind::whole},
+                                 Key{"min-block-ms", Kind::number}, Key{"output", Kind::output},
+                                 Key{"report", Kind::report},       Key{"plot", Kind::plot},
+                                 Key{"work", Kind::offsets},        Key{"tool-length", Kind::lengths}};
+
+/// Of `report = true` and `plot = true`: beside the output.
+inline constexpr std::string_view report_beside_output = "{output}", plot_beside_output = "{output}.svg";
+
+/// "tolerance-mm" gives "tolerance_mm"; "tool-length" gives "tools", under which lengths stand.
+std::string key_of_option(std::string_view option);
+
+/// "tolerance-mm" gives "COUNTERFLEX_TOLERANCE_MM".
+std::string variable_of(std::string_view option);
+
+}  // namespace counterflex::setting_file
