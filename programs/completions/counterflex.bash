@@ -7,11 +7,12 @@ _counterflex_words() {
   case $1 in
     compensate) echo "$program $forces --blend-mm --output --plot --report --min-block-ms --json --quiet --verbose --help" ;;
     predict | verify) echo "$program $forces --blend-mm --plot --report --min-block-ms --json --quiet --verbose --help" ;;
+    watch) echo "$program $forces --blend-mm --output --plot --report --min-block-ms --once --pattern --json --quiet --verbose --help" ;;
     compare) echo "--name --report --json --quiet --verbose --help" ;;
     analyze) echo "--machine --at --tool --force --method --json --quiet --verbose --help" ;;
     forces) echo "$reading $forces --output --materials --json --quiet --verbose --help" ;;
     check) echo "$reading --json --quiet --verbose --help" ;;
-    *) echo "compensate predict verify compare analyze forces check --version --help" ;;
+    *) echo "compensate predict verify compare analyze forces check watch --version --help" ;;
   esac
 }
 

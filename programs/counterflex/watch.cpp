@@ -1,14 +1,15 @@
 #include <fmt/format.h>
-#include <poll.h>
-#include <sys/signalfd.h>
+#include <sys/epoll.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
+#include <cerrno>
 #include <chrono>
 #include <csignal>
+#include <cstring>
 #include <deque>
 #include <filesystem>
+#include <initializer_list>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
@@ -18,6 +19,7 @@
 #include "counterflex/files/input_error.hpp"
 #include "inputs.hpp"
 #include "outputs.hpp"
+#include "signals.hpp"
 #include "watch_job.hpp"
 #include "watched_folder.hpp"
 
@@ -28,45 +30,40 @@ namespace fs = std::filesystem;
 
 constexpr std::chrono::seconds pause_after_failure{30};
 
-/// Signals as something to wait for: what asks the watch to end, and the end of a child.
-class AwaitedSignals {
+/// Several descriptors to wait for as one: it can be read where one of them can.
+class AnyOf {
  public:
-  AwaitedSignals() {
-    ::sigset_t awaited;
-    ::sigemptyset(&awaited);
-    ::sigaddset(&awaited, SIGCHLD);
-    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
-      struct sigaction action {};
-      // Who started this with signals ignored (nohup) means it; blocked they would come all the same.
-      if (::sigaction(signal, nullptr, &action) == 0 && action.sa_handler != SIG_IGN)
-        ::sigaddset(&awaited, signal);
+  AnyOf(std::initializer_list<int> descriptors) : descriptor_(::epoll_create1(EPOLL_CLOEXEC)) {
+    for (const int descriptor : descriptors) {
+      epoll_event event{};
+      event.events = EPOLLIN;
+      if (::epoll_ctl(descriptor_, EPOLL_CTL_ADD, descriptor, &event) == 0) continue;
+      throw InputError(Exit::transient_io, {},
+                       fmt::format("cannot wait for files: {}", std::strerror(errno)));
     }
-    ::sigprocmask(SIG_BLOCK, &awaited, &before_);
-    descriptor_ = ::signalfd(-1, &awaited, SFD_NONBLOCK | SFD_CLOEXEC);
-    std::signal(SIGIO, SIG_IGN);  // that somebody opens a file just looked at
   }
-  ~AwaitedSignals() {
-    ::close(descriptor_);
-    ::sigprocmask(SIG_SETMASK, &before_, nullptr);
-  }
-  AwaitedSignals(const AwaitedSignals&) = delete;
-  AwaitedSignals& operator=(const AwaitedSignals&) = delete;
-
+  ~AnyOf() { ::close(descriptor_); }
+  AnyOf(const AnyOf&) = delete;
+  AnyOf& operator=(const AnyOf&) = delete;
   int descriptor() const { return descriptor_; }
-  const sigset_t& before() const { return before_; }
-
-  /// The signal that asks to end, if one has come.
-  std::optional<int> ending() {
-    signalfd_siginfo info{};
-    while (::read(descriptor_, &info, sizeof info) == sizeof info)
-      if (info.ssi_signo != SIGCHLD) return static_cast<int>(info.ssi_signo);
-    return std::nullopt;
-  }
 
  private:
-  sigset_t before_{};
-  int descriptor_ = -1;
+  int descriptor_;
 };
+
+nlohmann::ordered_json or_null(const std::optional<double>& number) {
+  return number ? nlohmann::ordered_json(*number) : nlohmann::ordered_json();
+}
+
+std::string json_line(const Options& job, const WatchResult& result) {
+  const nlohmann::ordered_json line{{"program", job.program},
+                                    {"output", watch_output(job)},
+                                    {"exit", static_cast<int>(result.exit)},
+                                    {"error", result.error},
+                                    {"before_mm", or_null(result.before_mm)},
+                                    {"after_mm", or_null(result.after_mm)}};
+  return line.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+}
 
 /// Of all files of the folder one at a time, in the order in which they came.
 class Watch {
@@ -86,19 +83,23 @@ class Watch {
   void hear();
   void begin_next();
   void begin(const std::string& name);
-  void end_child(Exit exit);
-  void tell(const Options& job, Exit exit) const;
+  void end_job(const WatchResult& result);
+  void tell(const WatchResult& result);
   void add_failed_again();
   bool is_own(const std::string& path) const;
-  bool is_idle() const { return !child_ && due_.empty(); }
-  void wait() const;
+  bool is_idle() const { return !job_ && due_.empty(); }
+  int patience_ms() const;
+  void wait();
 
   const Options& options_;
   Console& console_;
   AwaitedSignals signals_;
   WatchedFolder folder_;
-  std::deque<std::string> due_;  ///< names, each once
-  std::optional<WatchChild> child_;
+  AnyOf awaited_{signals_.descriptor(), folder_.descriptor()};
+  std::deque<std::string> due_;      ///< names, each once
+  std::optional<Options> job_;       ///< that is being done
+  std::optional<std::string> sent_;  ///< its result
+  Workers workers_;
   std::set<std::string> failed_;  ///< where another try may help
   Clock::time_point try_again_{};
   Exit first_failure_ = Exit::done;
@@ -127,13 +128,14 @@ void Watch::add(const std::string& name) {
 
 void Watch::hear() {
   const WatchedFolder::News news = folder_.read();
+  if (options_.once) return;
   for (const std::string& name : news.names) add(name);
   if (news.lost) add_what_is_there();
 }
 
 /// Begins with the first file that is complete; those that are still being written keep their turn.
 void Watch::begin_next() {
-  for (auto name = due_.begin(); !child_ && name != due_.end();) {
+  for (auto name = due_.begin(); !job_ && name != due_.end();) {
     const std::string path = folder_.path_of(*name);
     const bool busy = is_being_written(path);
     if (busy && options_.once) console_.note(path + ": it is being written; left for the next time\n");
@@ -154,29 +156,28 @@ void Watch::begin(const std::string& name) {
   if (!fs::is_regular_file(path, error) || fs::file_size(path, error) == 0 || error) return;
   if (is_own(path)) return console_.detail(path + ": a corrected program");
   failed_.erase(name);
-  child_.emplace(watch_job(options_, path), console_, signals_.before());
+  job_ = watch_job(options_, path);
+  workers_.start(0, [this](const SendLine& send) { do_watch_job(*job_, send); });
 }
 
-void Watch::end_child(Exit exit) {
-  const Options job = child_->job();
-  child_.reset();
-  if (first_failure_ == Exit::done) first_failure_ = exit;
-  if (exit == Exit::transient_io && !options_.once) {
-    failed_.insert(fs::path(job.program).filename().string());
+void Watch::end_job(const WatchResult& result) {
+  if (first_failure_ == Exit::done) first_failure_ = result.exit;
+  if (result.exit == Exit::transient_io && !options_.once) {
+    failed_.insert(fs::path(job_->program).filename().string());
     try_again_ = Clock::now() + pause_after_failure;
   }
-  tell(job, exit);
+  tell(result);
+  job_.reset();
+  sent_.reset();
 }
 
-void Watch::tell(const Options& job, Exit exit) const {
-  const std::string output = watch_output(job);
-  if (options_.json) {
-    const nlohmann::ordered_json line{
-        {"program", job.program}, {"output", output}, {"exit", static_cast<int>(exit)}};
-    write_result(line.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
-  } else if (exit == Exit::done) {
-    write_result(fmt::format("{} -> {}\n", job.program, output));
-  }
+void Watch::tell(const WatchResult& result) {
+  if (!result.error.empty()) console_.error(result.error);
+  if (options_.json)
+    write_result(json_line(*job_, result));
+  else if (result.exit == Exit::done)
+    write_result(fmt::format("{} -> {}: {:.3f} mm before, {:.4f} mm after\n", job_->program,
+                             watch_output(*job_), result.before_mm.value_or(0), result.after_mm.value_or(0)));
 }
 
 /// A full disk, or a server that was away, need not be there for ever.
@@ -185,26 +186,32 @@ void Watch::add_failed_again() {
   for (const std::string& name : std::exchange(failed_, {})) add(name);
 }
 
-/// Until something happens, or may be worth another look.
-void Watch::wait() const {
+/// For how long nothing can happen of which no event tells; -1: for ever.
+int Watch::patience_ms() const {
   constexpr int look_again_ms = 100;
-  int most_ms = -1;
-  if (!child_ && !due_.empty()) most_ms = look_again_ms;
-  if (!child_ && most_ms < 0 && !failed_.empty()) most_ms = 10 * look_again_ms;
-  std::array<pollfd, 2> awaited{pollfd{signals_.descriptor(), POLLIN, 0}, {folder_.descriptor(), POLLIN, 0}};
-  ::poll(awaited.data(), awaited.size(), most_ms);
+  if (job_) return -1;
+  if (!due_.empty()) return look_again_ms;  // they are being written
+  return failed_.empty() ? -1 : 10 * look_again_ms;
+}
+
+void Watch::wait() {
+  for (WorkerEvent& event : workers_.wait(awaited_.descriptor(), patience_ms()))
+    if (event.ended)
+      end_job(watch_result(sent_, *job_, event.status));
+    else
+      sent_ = std::move(event.line);
 }
 
 Exit Watch::run() {
+  constexpr int patience_at_end_ms = 700;
   for (;;) {
-    if (const auto signal = signals_.ending()) {
-      if (child_) child_->interrupt();
-      return static_cast<Exit>(*signal == SIGTERM ? 128 + SIGTERM : static_cast<int>(Exit::interrupted));
+    if (const auto signal = signals_.take()) {
+      workers_.end_all(patience_at_end_ms);
+      return static_cast<Exit>(status_of(*signal));
     }
-    if (!options_.once) hear();
-    if (Exit exit{}; child_ && child_->has_ended(console_, exit)) end_child(exit);
+    hear();
     add_failed_again();
-    if (!child_) begin_next();
+    if (!job_) begin_next();
     if (options_.once && is_idle()) return first_failure_;
     wait();
   }
@@ -235,6 +242,7 @@ void check_watch(const Options& options) {
 
 Exit run_watch(const Options& options, Console& console) {
   check_watch(options);
+  std::signal(SIGIO, SIG_IGN);  // that somebody opens a file which is just being looked at
   Watch watch(options, console);
   if (!options.once) console.detail(fmt::format("watching {}", options.folder));
   return watch.run();

@@ -1,17 +1,11 @@
 #include "watch_job.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/prctl.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
-#include <cerrno>
-#include <cstdio>
-#include <cstring>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 
-#include "commands.hpp"
+#include "compensate.hpp"
 #include "guarded.hpp"
 #include "outputs.hpp"
 
@@ -22,18 +16,15 @@ std::string in_folder(const std::string& folder, const std::filesystem::path& na
   return (std::filesystem::path(folder) / name).string();
 }
 
-[[noreturn]] void work_and_end(const Options& job, Console& console, const sigset_t& signals, pid_t parent) {
-  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-  if (::getppid() != parent) ::_exit(static_cast<int>(Exit::interrupted));  // it was too late to ask
-  ::sigprocmask(SIG_SETMASK, &signals, nullptr);
-  const int nowhere = ::open("/dev/null", O_RDWR | O_CLOEXEC);
-  if (nowhere >= 0) {
-    ::dup2(nowhere, STDIN_FILENO);
-    ::dup2(nowhere, STDOUT_FILENO);
-  }
-  const Exit exit = guarded(console, [&] { return run_compensate(job, console); });
-  std::fflush(nullptr);
-  ::_exit(static_cast<int>(exit));
+std::string line_of(const WatchResult& result) {
+  nlohmann::json json{{"exit", static_cast<int>(result.exit)}, {"error", result.error}};
+  if (result.before_mm) json["before_mm"] = *result.before_mm;
+  if (result.after_mm) json["after_mm"] = *result.after_mm;
+  return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+std::optional<double> number_in(const nlohmann::json& json, const char* key) {
+  return json.contains(key) ? std::optional(json[key].get<double>()) : std::nullopt;
 }
 
 }  // namespace
@@ -54,30 +45,31 @@ std::string watch_output(const Options& job) {
   return job.output.value_or(default_output(job.program));
 }
 
-WatchChild::WatchChild(Options job, Console& console, const sigset_t& signals) : job_(std::move(job)) {
-  std::fflush(nullptr);  // what is not written yet would be written twice
-  const pid_t parent = ::getpid();
-  pid_ = ::fork();
-  if (pid_ == 0) work_and_end(job_, console, signals, parent);
-  if (pid_ < 0)
-    throw InputError(Exit::transient_io, {job_.program},
-                     fmt::format("no process can be started for it: {}", std::strerror(errno)));
+void do_watch_job(const Options& job, const SendLine& send) {
+  WatchResult result;
+  const auto hear_error = [&](std::string_view diagnostic) {
+    if (result.error.empty()) result.error = diagnostic;
+  };
+  Console console(job, {.error = hear_error});
+  const auto tell = [&](const Run& run, const RunEnd& end, const RunFiles&) {
+    console.finish_warnings();
+    if (end.report.before) result.before_mm = end.report.before->max_mm;
+    if (end.report.after) result.after_mm = end.report.after->max_mm;
+    return exit_of(run, end.report.failure, console);
+  };
+  result.exit = guarded(console, [&] { return compensate_program(job, console, tell); });
+  send(line_of(result));
 }
 
-bool WatchChild::has_ended(Console& console, Exit& exit) {
-  int status = 0;
-  if (::waitpid(pid_, &status, WNOHANG) != pid_) return false;
-  exit = WIFEXITED(status) ? static_cast<Exit>(WEXITSTATUS(status)) : Exit::internal;
-  if (WIFSIGNALED(status))
-    console.error(fmt::format("{}: error: its run was ended by signal {} ({})", job_.program,
-                              WTERMSIG(status), ::strsignal(WTERMSIG(status))));
-  return true;
-}
-
-void WatchChild::interrupt() {
-  ::kill(pid_, SIGTERM);
-  int status = 0;
-  while (::waitpid(pid_, &status, 0) < 0 && errno == EINTR) continue;
+WatchResult watch_result(const std::optional<std::string>& sent, const Options& job, int ending) {
+  if (!sent)
+    return {Exit::internal,
+            fmt::format("{}: error: its run {} without a result", job.program, ending_text(ending)),
+            {},
+            {}};
+  const auto json = nlohmann::json::parse(*sent);
+  return {static_cast<Exit>(json["exit"].get<int>()), json["error"], number_in(json, "before_mm"),
+          number_in(json, "after_mm")};
 }
 
 }  // namespace counterflex::cli

@@ -1,13 +1,11 @@
 #pragma once
 /// One program of a watched folder, compensated by a child: what ends the child does not end the watch.
-#include <sys/types.h>
-
-#include <csignal>
+#include <optional>
 #include <string>
 
-#include "console.hpp"
 #include "counterflex/files/input_error.hpp"
 #include "options.hpp"
+#include "workers.hpp"
 
 namespace counterflex::cli {
 
@@ -18,24 +16,17 @@ Options watch_job(const Options& watch, const std::string& program);
 /// The corrected program that `job` is to write.
 std::string watch_output(const Options& job);
 
-/// A child at work. Its standard output goes nowhere; it dies with its parent.
-class WatchChild {
- public:
-  /// `signals` is the mask that the child begins with. Throws `InputError` (Exit::transient_io) where there
-  /// can be no child. Only for programs with one thread.
-  WatchChild(Options job, Console& console, const sigset_t& signals);
-
-  const Options& job() const { return job_; }
-
-  /// Whether it has ended; its exit status then, Exit::internal with a diagnostic where a signal ended it.
-  bool has_ended(Console& console, Exit& exit);
-
-  /// Ends it, and waits until its temporary files are removed.
-  void interrupt();
-
- private:
-  Options job_;
-  pid_t pid_ = -1;
+/// What became of it.
+struct WatchResult {
+  Exit exit = Exit::done;
+  std::string error;                          ///< the diagnostic of a failure
+  std::optional<double> before_mm, after_mm;  ///< largest deviations; none where nothing was solved
 };
+
+/// Does the job, says nothing but warnings, and sends its result: a worker's task.
+void do_watch_job(const Options& job, const SendLine& send);
+
+/// What it has sent; `ending` as `waitpid` gives it, for a worker that has ended before it could.
+WatchResult watch_result(const std::optional<std::string>& sent, const Options& job, int ending);
 
 }  // namespace counterflex::cli
