@@ -1,9 +1,12 @@
 #include "compensate.hpp"
 
+#include <fmt/format.h>
+
 #include <mutex>
 
 #include "commands.hpp"
-#include "counterflex/compensation/compensate_windows.hpp"
+#include "counterflex/compensation/recorded_windows.hpp"
+#include "part.hpp"
 
 namespace counterflex::cli {
 namespace {
@@ -24,7 +27,8 @@ void add(const Job& job, Compensation& window, const Run& run, RunTally& tally, 
 }
 
 /// Window by window, to the first failure. Windows are read while others are solved.
-std::optional<Failure> compensate_all(Run& run, RunTally& tally, RunFiles& files, Console& console) {
+std::optional<Failure> compensate_all(Run& run, RunTally& tally, RunFiles& files, Console& console,
+                                      RecordedWindows& recorded) {
   Windows windows(run, console);
   std::mutex speaking;
   const auto read = [&](const Job& job) {
@@ -44,8 +48,13 @@ std::optional<Failure> compensate_all(Run& run, RunTally& tally, RunFiles& files
     add(job, window, run, tally, files);
     console.solved(window.waypoints.size());
   };
-  return compensate_windows(windows.jobs(), run.options, TextReader(windows.reader()), run.facts.attribution,
-                            {read, begun, done});
+  const std::optional<Failure> failure =
+      compensate_windows(windows.jobs(), run.options, TextReader(windows.reader()), run.facts.attribution,
+                         {read, begun, done}, recorded);
+  if (recorded.taken() > 0)
+    console.detail(fmt::format("{} windows taken over from records, {} compensated", recorded.taken(),
+                               recorded.compensated()));
+  return failure;
 }
 
 }  // namespace
@@ -55,9 +64,10 @@ Exit compensate_program(const Options& options, Console& console, const TellEnd&
   const auto run = prepare_run(options, console);
   refuse_what_cannot_be_compensated(*run);
   run->options.write.header = header_of(options, *run);
-  RunFiles files(paths, {.attribution = run->facts.attribution});
+  RecordedWindows recorded(options.recorded, digest_of(*run));
+  RunFiles files(paths, {.attribution = run->facts.attribution}, options.hash_outputs);
   RunTally tally = tally_for(options, *run);
-  const std::optional<Failure> failure = compensate_all(*run, tally, files, console);
+  const std::optional<Failure> failure = compensate_all(*run, tally, files, console, recorded);
   if (!failure) run->facts.output = paths.program;
   if (!failure || is_reported(*failure))
     return tell(*run,

@@ -85,9 +85,13 @@ void Console::note(std::string_view text) {
 }
 
 void Console::progress(std::string_view what) {
+  progress_line(fmt::format("{} ...", what));
+}
+
+void Console::progress_line(std::string_view line) {
   if (quiet_ || !terminal_) return;
   erase_progress();
-  say(fmt::format("{} ...", what));
+  say(std::string(line));
   std::fflush(stderr);
   showing_progress_ = true;
 }

@@ -40,6 +40,7 @@ class Console {
   /// What is going on at the moment, on one line that the next output replaces; only where standard error is
   /// a terminal.
   void progress(std::string_view what);
+  void progress_line(std::string_view line);  ///< the same, as it is
 
   /// Progress of a run through its program.
   void solving(int line, int lines);

@@ -1,5 +1,5 @@
 #pragma once
-/// Diagnostics and exit statuses of what is thrown.
+/// What is thrown, as a diagnostic and an exit status.
 #include <exception>
 #include <string>
 
@@ -8,7 +8,7 @@
 
 namespace counterflex::cli {
 
-/// Turns whatever `run` throws into a diagnostic and an exit status.
+/// What `run` returns; whatever it throws is said through `console`.
 template <typename Run>
 Exit guarded(Console& console, const Run& run) {
   try {

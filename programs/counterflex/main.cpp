@@ -25,6 +25,8 @@ Exit run_command(const Options& options, Console& console) {
       return run_forces(options, console);
     case Command::check:
       return run_check(options, console);
+    case Command::batch:
+      return run_batch(options, console);
     case Command::watch:
       return run_watch(options, console);
   }
@@ -38,6 +40,7 @@ Exit run(int argc, char** argv) {
     if (const Exit* exit = std::get_if<Exit>(&command_line)) return *exit;
     const Options& options = std::get<Options>(command_line);
     Console console(options);
+    if (!options.project_file.empty()) console.detail("project file " + options.project_file);
     return guarded(console, [&] { return run_command(options, console); });
   });
 }

@@ -55,9 +55,9 @@ nlohmann::ordered_json or_null(const std::optional<double>& number) {
   return number ? nlohmann::ordered_json(*number) : nlohmann::ordered_json();
 }
 
-std::string json_line(const Options& job, const WatchResult& result) {
-  const nlohmann::ordered_json line{{"program", job.program},
-                                    {"output", watch_output(job)},
+std::string json_line(const std::string& program, const std::string& output, const WatchResult& result) {
+  const nlohmann::ordered_json line{{"program", program},
+                                    {"output", output},
                                     {"exit", static_cast<int>(result.exit)},
                                     {"error", result.error},
                                     {"before_mm", or_null(result.before_mm)},
@@ -84,9 +84,10 @@ class Watch {
   void begin_next();
   void begin(const std::string& name);
   void end_job(const WatchResult& result);
-  void tell(const WatchResult& result);
+  void tell(const std::string& program, const std::string& output, const WatchResult& result);
   void add_failed_again();
   bool is_own(const std::string& path) const;
+  bool is_done(const std::string& path) const;
   bool is_idle() const { return !job_ && due_.empty(); }
   int patience_ms() const;
   void wait();
@@ -112,12 +113,22 @@ bool Watch::is_own(const std::string& path) const {
   return named_so || has_corrected_header(path);
 }
 
-/// All programs whose corrected program is missing, or is not of their bytes.
+/// Whether there is a corrected program, of these bytes. What is wrong with the settings is said when the
+/// program is begun.
+bool Watch::is_done(const std::string& path) const {
+  try {
+    return is_corrected_from(watch_output(watch_job(options_, path)), path);
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
+/// All programs that are not done.
 void Watch::add_what_is_there() {
   for (const std::string& name : folder_.names()) {
     const std::string path = folder_.path_of(name);
     if (!may_be_program(name, options_.patterns) || is_own(path)) continue;
-    if (!is_corrected_from(watch_output(watch_job(options_, path)), path)) add(name);
+    if (!is_done(path)) add(name);
   }
 }
 
@@ -156,28 +167,32 @@ void Watch::begin(const std::string& name) {
   if (!fs::is_regular_file(path, error) || fs::file_size(path, error) == 0 || error) return;
   if (is_own(path)) return console_.detail(path + ": a corrected program");
   failed_.erase(name);
-  job_ = watch_job(options_, path);
+  try {
+    job_ = watch_job(options_, path);
+  } catch (const InputError& wrong) {
+    return tell(path, "", {wrong.exit(), wrong.what(), {}, {}});
+  }
   workers_.start(0, [this](const SendLine& send) { do_watch_job(*job_, send); });
 }
 
 void Watch::end_job(const WatchResult& result) {
-  if (first_failure_ == Exit::done) first_failure_ = result.exit;
   if (result.exit == Exit::transient_io && !options_.once) {
     failed_.insert(fs::path(job_->program).filename().string());
     try_again_ = Clock::now() + pause_after_failure;
   }
-  tell(result);
+  tell(job_->program, watch_output(*job_), result);
   job_.reset();
   sent_.reset();
 }
 
-void Watch::tell(const WatchResult& result) {
+void Watch::tell(const std::string& program, const std::string& output, const WatchResult& result) {
+  if (first_failure_ == Exit::done) first_failure_ = result.exit;
   if (!result.error.empty()) console_.error(result.error);
   if (options_.json)
-    write_result(json_line(*job_, result));
+    write_result(json_line(program, output, result));
   else if (result.exit == Exit::done)
-    write_result(fmt::format("{} -> {}: {:.3f} mm before, {:.4f} mm after\n", job_->program,
-                             watch_output(*job_), result.before_mm.value_or(0), result.after_mm.value_or(0)));
+    write_result(fmt::format("{} -> {}: {:.3f} mm before, {:.4f} mm after\n", program, output,
+                             result.before_mm.value_or(0), result.after_mm.value_or(0)));
 }
 
 /// A full disk, or a server that was away, need not be there for ever.
@@ -225,14 +240,7 @@ void check_watch(const Options& options) {
   if (std::find(read.begin(), read.end(), "-") != read.end())
     throw InputError(Exit::usage, {},
                      "standard input (-) can be read once, not for every program of a folder");
-  std::error_code error;
-  for (const auto& output : {options.output, options.report, options.plot})
-    if (output && !fs::is_directory(*output, error))
-      throw InputError(Exit::usage, {*output},
-                       "--output, --report and --plot of watch name folders that exist");
-  if (options.output && fs::equivalent(*options.output, options.folder, error))
-    throw InputError(Exit::usage, {*options.output},
-                     "corrected programs would replace their originals: name another folder");
+  refuse_shared_outputs(options);
   const MachineInput machine = read_machine_input(options);
   read_tool_lengths(options, &machine.machine);
   read_force_input(options);

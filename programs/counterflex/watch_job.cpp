@@ -7,14 +7,12 @@
 
 #include "compensate.hpp"
 #include "guarded.hpp"
+#include "layers.hpp"
+#include "output_names.hpp"
 #include "outputs.hpp"
 
 namespace counterflex::cli {
 namespace {
-
-std::string in_folder(const std::string& folder, const std::filesystem::path& name) {
-  return (std::filesystem::path(folder) / name).string();
-}
 
 std::string line_of(const WatchResult& result) {
   nlohmann::json json{{"exit", static_cast<int>(result.exit)}, {"error", result.error}};
@@ -27,22 +25,39 @@ std::optional<double> number_in(const nlohmann::json& json, const char* key) {
   return json.contains(key) ? std::optional(json[key].get<double>()) : std::nullopt;
 }
 
+[[noreturn]] void refuse_shared(const char* option, const std::string& path) {
+  throw InputError(
+      Exit::usage, {},
+      fmt::format("{} of every program would be {}; name a folder, which ends in /, or a pattern, "
+                  "as {{name}}_CF{{ext}}",
+                  option, path));
+}
+
 }  // namespace
 
 Options watch_job(const Options& watch, const std::string& program) {
-  const std::filesystem::path path(program);
-  Options job = watch;
-  job.command = Command::compensate;
-  job.program = program;
-  job.json = false;  // of the watch: a line for each program
-  if (watch.output) job.output = in_folder(*watch.output, path.filename());
-  if (watch.report) job.report = in_folder(*watch.report, path.stem());
-  if (watch.plot) job.plot = in_folder(*watch.plot, path.stem().string() + ".svg");
+  Options job = options_of(Command::compensate, layers_of(watch.sources, program).layers, program);
+  job.quiet = watch.quiet;
+  job.verbose = watch.verbose;
   return job;
 }
 
 std::string watch_output(const Options& job) {
   return job.output.value_or(default_output(job.program));
+}
+
+void refuse_shared_outputs(const Options& watch) {
+  const std::filesystem::path folder(watch.folder);
+  const Options one = watch_job(watch, (folder / "one.nc").string());
+  const Options other = watch_job(watch, (folder / "other.nc").string());
+  if (watch_output(one) == watch_output(other)) refuse_shared("--output", watch_output(one));
+  if (one.report && one.report == other.report) refuse_shared("--report", *one.report);
+  if (one.plot && one.plot == other.plot) refuse_shared("--plot", *one.plot);
+  std::error_code error;
+  if (std::filesystem::weakly_canonical(watch_output(one), error) ==
+      std::filesystem::weakly_canonical(one.program, error))
+    throw InputError(Exit::usage, {watch.folder},
+                     "corrected programs would replace their originals: name another folder with --output");
 }
 
 void do_watch_job(const Options& job, const SendLine& send) {

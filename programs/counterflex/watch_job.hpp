@@ -9,12 +9,16 @@
 
 namespace counterflex::cli {
 
-/// What `compensate` is asked to do for `program` by the options of the watch: --output, --report and --plot
-/// name folders in which files have the program's name.
+/// What `compensate` is asked to do for `program` by flags of the watch, environment and project file. Throws
+/// `InputError` for what is wrong with these.
 Options watch_job(const Options& watch, const std::string& program);
 
 /// The corrected program that `job` is to write.
 std::string watch_output(const Options& job);
+
+/// Throws `InputError` (Exit::usage) where outputs of different programs would be one file, or the program
+/// itself, whatever programs come.
+void refuse_shared_outputs(const Options& watch);
 
 /// What became of it.
 struct WatchResult {

@@ -1,5 +1,7 @@
 #include "window_stages.hpp"
 
+#include <stdexcept>
+
 #include "counterflex/geometry/units.hpp"
 
 namespace counterflex {
@@ -59,6 +61,28 @@ void count_moves(const Job& job, const Emission& emission, Compensation& result)
   others.left += job.program.moves.size() - emission.moves.size();
 }
 
+// `read` makes the program of the text.
+template <typename Read>
+void write_text(const Job& job, CarriedState& carried, WindowWork& work, const Read& read) {
+  if (work.failed()) return;
+  Compensation& result = work.result;
+  Emission emission = emit(job, work.plan, carried.emitter);
+  work.known = std::move(work.plan.known);
+  work.plan = {};
+  note_first_corrections(job, emission, result);
+  result.left_alone = std::move(emission.left_alone);
+  result.failure = emission.failure;
+  if (work.failed()) return;
+  count_moves(job, emission, result);
+  const std::vector<MoveEdit> edits = take_edits(emission);
+  result.counts = carried.rewriter.write(job.program, edits);
+  result.text = std::move(result.counts.text);
+  read(result);
+  work.pieces = emitted_pieces(job, emission, edits, result.counts, result.corrected);
+  work.command = carried.command;
+  if (!work.pieces.empty()) carried.command = work.pieces.back().commanded.end;
+}
+
 }  // namespace
 
 void begin_window(const Job& job, CarriedState& carried, WindowWork& work) {
@@ -77,24 +101,18 @@ void plan_window(const Job& job, WindowWork& work) {
 }
 
 void write_window(const Job& job, CarriedState& carried, WindowWork& work) {
-  if (work.failed()) return;
-  Compensation& result = work.result;
-  Emission emission = emit(job, work.plan, carried.emitter);
-  work.known = std::move(work.plan.known);
-  work.plan = {};
-  note_first_corrections(job, emission, result);
-  result.left_alone = std::move(emission.left_alone);
-  result.failure = emission.failure;
-  if (work.failed()) return;
-  count_moves(job, emission, result);
-  const std::vector<MoveEdit> edits = take_edits(emission);
-  result.counts = carried.rewriter.write(job.program, edits);
-  result.text = std::move(result.counts.text);
-  carried.corrected.read(result.text);
-  carried.corrected.take_window(result.corrected);
-  work.pieces = emitted_pieces(job, emission, edits, result.counts, result.corrected);
-  work.command = carried.command;
-  if (!work.pieces.empty()) carried.command = work.pieces.back().commanded.end;
+  write_text(job, carried, work, [&](Compensation& result) {
+    carried.corrected.read(result.text);
+    carried.corrected.take_window(result.corrected);
+  });
+}
+
+void write_window(const Job& job, CarriedState& carried, WindowWork& work, const TextRead& read) {
+  write_text(job, carried, work, [&](Compensation& result) {
+    if (result.text != read.text)
+      throw std::logic_error("a text that was written before comes out otherwise");
+    result.corrected = read.program;
+  });
 }
 
 void verify_window(const Job& job, bool attribution, WindowWork& work) {

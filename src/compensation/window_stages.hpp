@@ -34,8 +34,17 @@ void begin_window(const Job& job, CarriedState& carried, WindowWork& work);
 /// In any order.
 void plan_window(const Job& job, WindowWork& work);
 
+/// Text that has been written and read back.
+struct TextRead {
+  const std::string& text;
+  const Program& program;
+};
+
 /// In the order of windows: writes the text and reads it back.
 void write_window(const Job& job, CarriedState& carried, WindowWork& work);
+
+/// The same where that very text has been written and read before.
+void write_window(const Job& job, CarriedState& carried, WindowWork& work, const TextRead& read);
 
 /// In any order: solves what was written forward.
 void verify_window(const Job& job, bool attribution, WindowWork& work);

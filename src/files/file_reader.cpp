@@ -1,18 +1,16 @@
 #include "counterflex/files/file_reader.hpp"
 
 #include <fcntl.h>
-#include <fmt/format.h>
-#include <openssl/evp.h>
 #include <sys/stat.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <optional>
-#include <stdexcept>
 #include <vector>
 
 #include "counterflex/files/files.hpp"
 #include "counterflex/files/input_error.hpp"
+#include "counterflex/files/sha256.hpp"
 #include "files/descriptor.hpp"
 
 namespace counterflex {
@@ -34,29 +32,6 @@ Descriptor copied(const std::string& path, const Descriptor& pipe) {
 
 }  // namespace
 
-/// Follows a hash through portions of bytes.
-class Hash {
- public:
-  Hash() : context_(EVP_MD_CTX_new(), &EVP_MD_CTX_free) {
-    if (context_ == nullptr || EVP_DigestInit_ex(context_.get(), EVP_sha256(), nullptr) != 1) fail();
-  }
-  void add(std::string_view bytes) {
-    if (EVP_DigestUpdate(context_.get(), bytes.data(), bytes.size()) != 1) fail();
-  }
-  std::string digits() {
-    unsigned char digest[EVP_MAX_MD_SIZE];
-    unsigned int size = 0;
-    if (EVP_DigestFinal_ex(context_.get(), digest, &size) != 1) fail();
-    std::string text;
-    for (unsigned int i = 0; i < size; ++i) text += fmt::format("{:02x}", digest[i]);
-    return text;
-  }
-
- private:
-  [[noreturn]] static void fail() { throw std::runtime_error("SHA-256 is not available"); }
-  std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> context_;
-};
-
 struct FileReader::State {
   std::string path;
   Descriptor file{};
@@ -64,7 +39,7 @@ struct FileReader::State {
   std::optional<struct stat> opened{};  ///< of a file that others may change
   std::optional<std::string> held{};    ///< instead of a file
   std::size_t next = 0;                 ///< byte that is read next, from `start` on
-  std::optional<Hash> hash{};
+  std::optional<Sha256> hash{};
   std::size_t hashed = 0;  ///< bytes from the beginning that `hash` has
   std::string digits{};    ///< of the whole, once its end has been read
 
@@ -133,6 +108,13 @@ void FileReader::rewind() {
   if (::lseek(state_->file.get(), state_->start, SEEK_SET) < 0) fail_reading(state_->path);
 }
 
+std::size_t FileReader::size() const {
+  if (state_->held) return state_->held->size();
+  struct stat facts {};
+  if (::fstat(state_->file.get(), &facts) != 0) fail_reading(state_->path);
+  return static_cast<std::size_t>(facts.st_size - state_->start);
+}
+
 void FileReader::refuse_change() const {
   if (!state_->opened) return;
   struct stat now {};
@@ -154,12 +136,6 @@ std::string sha256(FileReader& file) {
   for (std::string bytes; file.append(bytes, portion) > 0;) bytes.clear();
   file.rewind();
   return digits;
-}
-
-std::string sha256(std::string_view bytes) {
-  Hash hash;
-  hash.add(bytes);
-  return hash.digits();
 }
 
 }  // namespace counterflex

@@ -4,11 +4,6 @@
 
 namespace counterflex {
 
-/// How far (mm) the sticky Z and R of the written text lie from those that the original repeats.
-struct HeldCycle {
-  double bottom_change_mm = 0, retract_change_mm = 0;
-};
-
 struct CycleWords {
   WordNumber bottom, retract;
 };

@@ -6,14 +6,6 @@
 
 namespace counterflex {
 
-/// What the text written so far leaves to the blocks that follow.
-struct TextState {
-  HeldPosition held{};
-  HeldCycle cycle{};
-  std::optional<int> restate_motion{};  ///< what a block that relies on the modal motion must say: that of
-                                        ///< the original, where inserted text may have left another
-};
-
 /// Appends the text of the block of `edit` and of the blocks inserted around it to `out.text`, without the
 /// block's own line end, counts in `out`, and moves `state` to what the text then holds. Throws as `rewrite`
 /// does.

@@ -85,6 +85,20 @@ struct Rewritten {
   std::vector<std::size_t> blocks_of_edit;  ///< blocks inserted for each edit: its jump and its points
 };
 
+/// How far (mm) the sticky Z and R of canned cycles in the written text lie from those that the original
+/// repeats.
+struct HeldCycle {
+  double bottom_change_mm = 0, retract_change_mm = 0;
+};
+
+/// What the text written so far leaves to the blocks that follow.
+struct TextState {
+  HeldPosition held{};
+  HeldCycle cycle{};
+  std::optional<int> restate_motion{};  ///< what a block that relies on the modal motion must say: that of
+                                        ///< the original, where inserted text may have left another
+};
+
 /// Writes a program window by window (ProgramReader).
 class Rewriter {
  public:
@@ -94,6 +108,11 @@ class Rewriter {
 
   /// The text of the next window with `edits` of its moves, as `rewrite` has it. Klartext is one window.
   Rewritten write(const Program& window, const std::vector<MoveEdit>& edits);
+
+  const TextState& state() const;
+
+  /// Goes on behind `window`, whose text is written already: by another rewriter, which it has left `state`.
+  void pass(const Program& window, const TextState& state);
 
  private:
   struct State;
