@@ -66,10 +66,11 @@ BatchTask task_of(const BatchUnit& unit) {
   if (!unit.is_part())
     return {job.work, [&job](int threads, const SendLine& send) { do_job(job, threads, send); }, lost};
   const auto record = [&unit](int threads, const SendLine& send) {
-    BatchJob job = *unit.job;
-    job.key = unit.kept.key;
-    job.options.part = PartOfProgram{unit.which.part, unit.which.parts, unit.kept.output};
-    do_job(job, threads, send);
+    BatchJob part = *unit.job;
+    part.key = unit.kept.key;
+    part.output = unit.kept.output;
+    part.options.part = PartOfProgram{unit.which.part, unit.which.parts, unit.kept.output};
+    do_job(part, threads, send);
   };
   return {job.work / unit.which.parts, record, lost};
 }
