@@ -12,7 +12,8 @@ _counterflex_words() {
     analyze) echo "--machine --at --tool --force --method $config --json --quiet --verbose --help" ;;
     forces) echo "$reading $forces --output --materials --json --quiet --verbose --help" ;;
     check) echo "$reading --json --quiet --verbose --help" ;;
-    *) echo "compensate predict verify compare analyze forces check watch --version --help" ;;
+    batch) echo "--resume --shard --merge --estimate --threads --json --quiet --verbose --help" ;;
+    *) echo "compensate predict verify compare analyze forces check batch watch --version --help" ;;
   esac
 }
 

@@ -148,7 +148,8 @@ Exit run_all(const Options& options, const Batch& batch, Console& console) {
 
 Exit run_batch(const Options& options, Console& console) {
   check_flags(options);
-  const Batch batch = read_batch(enter_folder_of(options.jobs, console));
+  Batch batch = read_batch(enter_folder_of(options.jobs, console));
+  for (BatchJob& job : batch.jobs) job.options.quiet = !options.verbose;  // the table counts their warnings
   if (options.estimate) return say_estimate(batch);
   if (options.shard) return run_shard(options, batch, console);
   return options.merge ? run_merge(options, batch, console) : run_all(options, batch, console);

@@ -62,27 +62,31 @@ class JobList {
   std::vector<BatchJob> take() {
     for (const JobEntry& entry : file_.jobs)
       for (const std::string& pattern : entry.programs) add_all(pattern, entry);
-    std::erase_if(jobs_, [&](const BatchJob& job) {
-      return found_.count(job.program) > 0 && outputs_.count(one_name(job.program)) > 0;
-    });
+    leave_out_outputs();
     refuse_shared_files();
-    return std::move(jobs_);
+    std::vector<BatchJob> jobs;
+    for (FoundJob& found : found_) jobs.push_back(std::move(found.job));
+    return jobs;
   }
 
  private:
+  struct FoundJob {
+    BatchJob job;
+    std::string program, output;  ///< by their one name
+    Location where;
+    bool by_glob;
+  };
+
   void add_all(const std::string& pattern, const JobEntry& entry) {
     std::error_code ignored;
-    if (!is_glob(pattern) || fs::exists(pattern, ignored)) return add(pattern, entry);
+    if (!is_glob(pattern) || fs::exists(pattern, ignored)) return add(pattern, entry, false);
     const std::vector<std::string> programs = files_matching(pattern);
     if (programs.empty())
       throw InputError(Exit::machine_or_force, entry.where, fmt::format("no file matches '{}'", pattern));
-    for (const std::string& program : programs) {
-      found_.insert(program);
-      add(program, entry);
-    }
+    for (const std::string& program : programs) add(program, entry, true);
   }
 
-  void add(const std::string& program, const JobEntry& entry) {
+  void add(const std::string& program, const JobEntry& entry, bool by_glob) {
     const Layers layers{entry.settings, file_.defaults, environment_, project_settings(program)};
     BatchJob job;
     job.program = program;
@@ -90,9 +94,7 @@ class JobList {
     job.output = *job.options.output;
     job.key = key_of(layers, job);
     job.work = work_of(job);
-    outputs_.emplace(one_name(job.output), places_.size());
-    places_.emplace(one_name(job.output), entry.where);
-    jobs_.push_back(std::move(job));
+    found_.push_back({job, one_name(job.program), one_name(job.output), entry.where, by_glob});
   }
 
   /// A machine that nobody names is the fault of the list.
@@ -114,17 +116,26 @@ class JobList {
     return found->second;
   }
 
+  /// What an earlier run has written is no program of the next one.
+  void leave_out_outputs() {
+    std::set<std::string> outputs;
+    for (const FoundJob& found : found_) outputs.insert(found.output);
+    std::erase_if(found_,
+                  [&](const FoundJob& found) { return found.by_glob && outputs.count(found.program) > 0; });
+  }
+
   void refuse_shared_files() const {
     std::set<std::string> inputs, outputs;
-    for (const BatchJob& job : jobs_) inputs.insert(one_name(job.program));
-    for (const BatchJob& job : jobs_) {
-      const std::string name = one_name(job.output);
+    for (const FoundJob& found : found_) inputs.insert(found.program);
+    for (const FoundJob& found : found_) {
       const auto refuse = [&](const std::string& why) {
-        throw InputError(Exit::machine_or_force, places_.find(name)->second,
-                         fmt::format("the output of {} would be {}, {}", job.program, job.output, why));
+        throw InputError(
+            Exit::machine_or_force, found.where,
+            fmt::format("the output of {} would be {}, {}", found.job.program, found.job.output, why));
       };
-      if (inputs.count(name) > 0) refuse("a program of this batch, and programs are never overwritten");
-      if (!outputs.insert(name).second)
+      if (inputs.count(found.output) > 0)
+        refuse("a program of this batch, and programs are never overwritten");
+      if (!outputs.insert(found.output).second)
         refuse("as that of another job is: give one of them another folder or name");
     }
   }
@@ -132,10 +143,7 @@ class JobList {
   const JobsFile& file_;
   const std::vector<Setting> environment_, none_{};
   std::map<std::string, std::vector<Setting>> projects_;
-  std::vector<BatchJob> jobs_;
-  std::set<std::string> found_;  // programs of globs
-  std::map<std::string, std::size_t> outputs_;
-  std::multimap<std::string, Location> places_;
+  std::vector<FoundJob> found_;
 };
 
 }  // namespace

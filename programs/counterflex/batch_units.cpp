@@ -10,6 +10,8 @@
 namespace counterflex::cli {
 namespace {
 
+constexpr double least_part = 1 << 19;  // of a program, for which it is worth being cut
+
 BatchUnit unit_of(const BatchJob& job, const ShardUnit& which, const BatchFolder& folder) {
   BatchUnit unit{&job, which, {job.key, job.output}};
   if (!unit.is_part()) return unit;
@@ -38,7 +40,7 @@ std::vector<std::vector<BatchUnit>> units_by_shard(const Batch& batch, int shard
   std::vector<double> work;
   for (const BatchJob& job : batch.jobs) work.push_back(job.work);
   std::vector<std::vector<BatchUnit>> by_shard;
-  for (const auto& of_shard : plan_shards(work, shards)) {
+  for (const auto& of_shard : plan_shards(work, shards, least_part)) {
     auto& units = by_shard.emplace_back();
     for (const ShardUnit& which : of_shard) units.push_back(unit_of(batch.jobs[which.job], which, folder));
   }

@@ -29,10 +29,12 @@ struct SizedUnit {
   double work = 0;
 };
 
-std::vector<SizedUnit> units_of(const std::vector<double>& work, double share, int shards) {
+std::vector<SizedUnit> units_of(const std::vector<double>& work, double share, int shards,
+                                double least_part) {
   std::vector<SizedUnit> units;
   for (std::size_t job = 0; job < work.size(); ++job) {
-    const int parts = std::clamp(static_cast<int>(std::ceil(work[job] / share)), 1, shards);
+    const double wanted = std::min(std::ceil(work[job] / share), std::floor(work[job] / least_part));
+    const int parts = static_cast<int>(std::clamp(wanted, 1.0, static_cast<double>(shards)));
     for (int part = 0; part < parts; ++part) units.push_back({{job, part, parts}, work[job] / parts});
   }
   return units;
@@ -51,9 +53,10 @@ Shard read_shard(std::string_view text) {
   return {*index, *count};
 }
 
-std::vector<std::vector<ShardUnit>> plan_shards(const std::vector<double>& work, int shards) {
+std::vector<std::vector<ShardUnit>> plan_shards(const std::vector<double>& work, int shards,
+                                                double least_part) {
   const double share = std::accumulate(work.begin(), work.end(), 0.0) / shards;
-  std::vector<SizedUnit> units = units_of(work, share, shards);
+  std::vector<SizedUnit> units = units_of(work, share, shards, least_part);
   std::stable_sort(units.begin(), units.end(),
                    [](const SizedUnit& a, const SizedUnit& b) { return a.work > b.work; });
   using Load = std::pair<double, int>;  // and the shard that has it

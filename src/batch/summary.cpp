@@ -67,14 +67,14 @@ std::string fixed_or(const std::optional<double>& value, int decimals, std::stri
 std::string row_of(const JobOutcome& outcome) {
   const std::string percent =
       outcome.corrected_percent ? fixed_or(outcome.corrected_percent, 1, "") + " %" : "-";
-  return fmt::format("{:<22}{:>9}{:>9}{:>11}{:>10}  {}\n", status_text(outcome.exit),
+  return fmt::format("{:<22}{:>11}{:>11}{:>11}{:>10}  {}\n", status_text(outcome.exit),
                      fixed_or(outcome.before_mm, 4, "-"), fixed_or(outcome.after_mm, 4, "-"), percent,
                      outcome.warnings, outcome.program);
 }
 
 std::string heading() {
-  return fmt::format("{:<22}{:>9}{:>9}{:>11}{:>10}  {}\n", "status", "before", "after", "corrected",
-                     "warnings", "program (mm)");
+  return fmt::format("{:<22}{:>11}{:>11}{:>11}{:>10}  {}\n", "status", "before mm", "after mm", "corrected",
+                     "warnings", "program");
 }
 
 }  // namespace

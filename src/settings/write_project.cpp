@@ -63,14 +63,14 @@ std::string in_one_line(std::string text) {
   return text;
 }
 
-std::string origin_text(const Setting& setting) {
+std::string origin_text(const Setting& setting, std::size_t value = 0) {
   switch (setting.origin) {
     case Origin::flag:
       return shown_option(setting.option, Origin::flag);
     case Origin::environment:
       return setting.where.file;
     case Origin::file:
-      return fmt::format("{}:{}", in_one_line(setting.where.file), setting.where.line);
+      return fmt::format("{}:{}", in_one_line(setting.where.file), place_of(setting, value).line);
     case Origin::builtin:
       break;
   }
@@ -96,31 +96,40 @@ std::vector<std::string> at_commas(const std::string& text) {
   return parts;
 }
 
+/// In quotation marks where TOML asks for them.
+std::string toml_key(const std::string& name) {
+  const bool bare = std::all_of(name.begin(), name.end(), [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
+  });
+  return bare && !name.empty() ? name : toml_text(name);
+}
+
 std::string offset_table(const std::string& name, const std::string& value) {
   const std::string known = work_offset_name(name).value_or(name);
   const auto numbers = at_commas(value);
-  std::string text = fmt::format("[work.{}]\nxyz_mm = {}\n", toml_text(known), three_numbers(numbers, 0));
+  std::string text = fmt::format("[work.{}]\nxyz_mm = {}\n", toml_key(known), three_numbers(numbers, 0));
   if (numbers.size() > 3) text += fmt::format("rpy_deg = {}\n", three_numbers(numbers, 3));
   return text;
 }
 
 std::string length_table(const std::string& name, const std::string& value) {
   const auto tool = read_tool_number(name);
-  return fmt::format("[tools.{}]\nlength_mm = {}\n", tool ? fmt::format("T{}", *tool) : toml_text(name),
+  return fmt::format("[tools.{}]\nlength_mm = {}\n", tool ? fmt::format("T{}", *tool) : toml_key(name),
                      plain_number(value));
 }
 
 /// Of two values for one name the later one counts, as on the command line.
 std::string tables_text(const Setting& setting, Kind kind) {
   std::map<std::string, std::string> tables;
-  for (const std::string& value : setting.values) {
+  for (std::size_t i = 0; i < setting.values.size(); ++i) {
+    const std::string& value = setting.values[i];
     const std::size_t equals = std::min(value.find('='), value.size() - 1);
     const std::string name = value.substr(0, equals), rest = value.substr(equals + 1);
-    std::string table = kind == Kind::offsets ? offset_table(name, rest) : length_table(name, rest);
-    tables[table.substr(0, table.find('\n'))] = std::move(table);
+    const std::string table = kind == Kind::offsets ? offset_table(name, rest) : length_table(name, rest);
+    tables[table.substr(0, table.find('\n'))] = fmt::format("\n# {}\n{}", origin_text(setting, i), table);
   }
   std::string text;
-  for (const auto& [head, table] : tables) text += fmt::format("\n# {}\n{}", origin_text(setting), table);
+  for (const auto& [head, table] : tables) text += table;
   return text;
 }
 

@@ -61,6 +61,18 @@ TEST_CASE("one huge job is cut so that each shard has a part") {
   CHECK(plan_shards({1000, 1, 1}, 1)[0] == std::vector<ShardUnit>{{0, 0, 1}, {1, 0, 1}, {2, 0, 1}});
 }
 
+TEST_CASE("no part is smaller than asked for") {
+  const auto parts = [](double least) {
+    std::size_t count = 0;
+    for (const auto& units : plan_shards({1000, 30}, 4, least)) count += units.size();
+    return count - 1;
+  };
+  CHECK(parts(0) == 4);
+  CHECK(parts(300) == 3);
+  CHECK(parts(501) == 1);
+  CHECK(parts(5000) == 1);
+}
+
 TEST_CASE("more shards than jobs leave some without work") {
   const auto plan = plan_shards({1, 1}, 2);
   CHECK(plan[0].size() + plan[1].size() == 2);

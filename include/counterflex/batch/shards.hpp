@@ -27,9 +27,11 @@ struct ShardUnit {
 };
 
 /// The units of each of `shards` shards, by `work` of the jobs (any unit, positive). A job that is more than
-/// the share of a shard is cut into as many parts as it has shares, rounded up; then, the largest first, each
+/// the share of a shard is cut into as many parts as it has shares, rounded up, but none smaller than
+/// `least_part`; then, the largest first, each
 /// unit goes to the shard that has least to do. Depends on its arguments alone; units of a shard are in the
 /// order of jobs.
-std::vector<std::vector<ShardUnit>> plan_shards(const std::vector<double>& work, int shards);
+std::vector<std::vector<ShardUnit>> plan_shards(const std::vector<double>& work, int shards,
+                                                double least_part = 0);
 
 }  // namespace counterflex
