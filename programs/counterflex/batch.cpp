@@ -107,9 +107,10 @@ std::string counted_units(const std::vector<BatchUnit>& units) {
 }
 
 /// What need not be done again.
-void take_proven(const Options& options, std::size_t units, BatchManifest& manifest, Console& console) {
+void take_proven(const Options& options, std::size_t units, const BatchFolder& folder,
+                 BatchManifest& manifest, Console& console) {
   if (!options.resume) return;
-  manifest.take_proven();
+  manifest.take_proven(folder.manifests());
   console.detail(fmt::format("{} of {} are proven done", manifest.ended().size(), units));
 }
 
@@ -120,7 +121,7 @@ Exit run_shard(const Options& options, const Batch& batch, Console& console) {
   const auto by_shard = units_by_shard(batch, count, folder);
   const auto& units = by_shard[static_cast<std::size_t>(index - 1)];
   BatchManifest manifest(shard_manifest(folder, index, count), plan_of(by_shard), kept(units));
-  take_proven(options, units.size(), manifest, console);
+  take_proven(options, units.size(), folder, manifest, console);
   const auto stopped = do_missing(tasks_of(units), options.threads, manifest, console);
   manifest.save();
   if (stopped) return static_cast<Exit>(status_of(*stopped));
@@ -147,13 +148,15 @@ Exit run_all(const Options& options, const Batch& batch, Console& console) {
   const BatchFolder folder(batch, BatchFolder::Use::alone, console);
   const std::vector<BatchUnit> units = whole_jobs(batch);
   BatchManifest manifest(folder.state("manifest.json"), plan_of(batch), kept(units));
-  take_proven(options, units.size(), manifest, console);
+  take_proven(options, units.size(), folder, manifest, console);
   remove_summary(batch);
   const auto stopped = do_missing(tasks_of(units), options.threads, manifest, console);
   folder.sweep();
   manifest.save();
   if (stopped) return static_cast<Exit>(status_of(*stopped));
-  return conclude(options, batch, manifest.ended(), console);
+  const Exit exit = conclude(options, batch, manifest.ended(), console);
+  remove_shards(folder);  // of an earlier try, which nobody will finish
+  return exit;
 }
 
 }  // namespace
