@@ -140,7 +140,7 @@ Exit run_merge(const Options& options, const Batch& batch, Console& console) {
   if (stopped) return static_cast<Exit>(status_of(*stopped));
   manifest.save();
   const Exit exit = conclude(options, batch, manifest.ended(), console);
-  remove_shards(folder);
+  if (exit != Exit::transient_io) remove_shards(folder);  // or another try would have nothing to merge
   return exit;
 }
 
