@@ -1,17 +1,19 @@
 # bash completion of counterflex
 
 _counterflex_words() {
-  local forces='--forces --force --load-scale --air-above'
-  local reading='--machine --dialect --units --integer-words --expand-subprograms --work --tool-table'
+  local forces='--forces --force --load-scale --air-above' config='--config --no-config --print-config'
+  local reading="--machine --dialect --units --integer-words --expand-subprograms --work --tool-table --tool-length $config"
   local program="$reading --tolerance-mm --method --max-correction-mm --decimals --threads"
   case $1 in
     compensate) echo "$program $forces --blend-mm --output --plot --report --min-block-ms --json --quiet --verbose --help" ;;
     predict | verify) echo "$program $forces --blend-mm --plot --report --min-block-ms --json --quiet --verbose --help" ;;
+    watch) echo "$program $forces --blend-mm --output --plot --report --min-block-ms --once --pattern --json --quiet --verbose --help" ;;
     compare) echo "--name --report --json --quiet --verbose --help" ;;
-    analyze) echo "--machine --at --tool --force --method --json --quiet --verbose --help" ;;
+    analyze) echo "--machine --at --tool --force --method $config --json --quiet --verbose --help" ;;
     forces) echo "$reading $forces --output --materials --json --quiet --verbose --help" ;;
     check) echo "$reading --json --quiet --verbose --help" ;;
-    *) echo "compensate predict verify compare analyze forces check --version --help" ;;
+    batch) echo "--resume --shard --merge --estimate --threads --json --quiet --verbose --help" ;;
+    *) echo "compensate predict verify compare analyze forces check batch watch --version --help" ;;
   esac
 }
 
@@ -23,7 +25,7 @@ _counterflex() {
     --dialect) values='auto linuxcnc grbl fanuc haas mach3 siemens heidenhain' ;;
     --integer-words) values='units increments' ;;
     --units) values='mm inch' ;;
-    -m | --machine | --tool-table | -f | --forces | -o | --output | --report | --plot) return ;;  # files: readline completes them
+    -m | --machine | --tool-table | --config | -f | --forces | -o | --output | --report | --plot) return ;;  # files: readline completes them
     *) if [[ $COMP_CWORD -eq 1 || $current == -* ]]; then
          values=$(_counterflex_words "$([ "$COMP_CWORD" -gt 1 ] && echo "${COMP_WORDS[1]}")")
        fi ;;

@@ -60,13 +60,12 @@ std::optional<Failure> compensate_all(Run& run, RunTally& tally, RunFiles& files
 }  // namespace
 
 Exit compensate_program(const Options& options, Console& console, const TellEnd& tell) {
-  if (options.part) return record_part(options, console, [](const Run&) {});
   const OutputPaths paths = output_paths(options);
   const auto run = prepare_run(options, console);
   refuse_what_cannot_be_compensated(*run);
   run->options.write.header = header_of(options, *run);
   RecordedWindows recorded(options.recorded, digest_of(*run));
-  RunFiles files(paths, {.attribution = run->facts.attribution});
+  RunFiles files(paths, {.attribution = run->facts.attribution}, options.hash_outputs);
   RunTally tally = tally_for(options, *run);
   const std::optional<Failure> failure = compensate_all(*run, tally, files, console, recorded);
   if (!failure) run->facts.output = paths.program;

@@ -66,6 +66,7 @@ void Console::more_warnings(const std::string& file, std::size_t count) {
 }
 
 void Console::finish_warnings() {
+  erase_progress();
   for (const auto& [file, count] : warnings_)
     if (!quiet_ && count > warnings_shown)
       say(fmt::format("{}: {} more warnings; a report lists them\n", file, count - warnings_shown));
@@ -85,9 +86,13 @@ void Console::note(std::string_view text) {
 }
 
 void Console::progress(std::string_view what) {
+  progress_line(fmt::format("{} ...", what));
+}
+
+void Console::progress_line(std::string_view line) {
   if (quiet_ || !terminal_) return;
   erase_progress();
-  say(fmt::format("{} ...", what));
+  say(std::string(line));
   std::fflush(stderr);
   showing_progress_ = true;
 }

@@ -29,7 +29,7 @@ class Console {
   /// "file:line: warning: what"; at most 20 of a file, `finish_warnings` counts the others. Line 0: none.
   void warning(const std::string& file, int line, std::string_view what);
   void more_warnings(const std::string& file, std::size_t count);  ///< that nobody needs to see
-  void finish_warnings();
+  void finish_warnings();  ///< the last word before a result: it clears the line of progress, too
 
   /// Told with --verbose only.
   void detail(std::string_view what);
@@ -40,6 +40,7 @@ class Console {
   /// What is going on at the moment, on one line that the next output replaces; only where standard error is
   /// a terminal.
   void progress(std::string_view what);
+  void progress_line(std::string_view line);  ///< the same, as it is
 
   /// Progress of a run through its program.
   void solving(int line, int lines);

@@ -46,6 +46,8 @@ std::vector<OptionValue> reading_options(const Options& options, const Run& run)
                       std::string(options.integer_words == IntegerWords::units ? "units" : "increments")});
   if (options.expand_subprograms) values.push_back({"expand-subprograms", true});
   for (const std::string& work : options.work) values.push_back({"work", work});
+  for (const auto& [number, length_mm] : options.tool_lengths_mm)
+    values.push_back({"tool-length", fmt::format("T{}={}", number, length_mm)});
   return values;
 }
 

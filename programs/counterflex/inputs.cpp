@@ -120,10 +120,11 @@ MachineInput read_machine_input(const Options& options) {
 ToolLengths read_tool_lengths(const Options& options, const Machine* machine) {
   ToolLengths tools;
   std::map<long, double> lengths;
+  for (const auto& [number, length_mm] : options.tool_lengths_mm) lengths[number] = length_mm * mm;
   if (options.tool_table) {
     const std::string text = read_input(*options.tool_table, Exit::machine_or_force);
     tools.file = input_file("tool-table", *options.tool_table, text);
-    lengths = read_tool_table(text, shown_name(*options.tool_table));
+    lengths.merge(read_tool_table(text, shown_name(*options.tool_table)));
   }
   if (machine != nullptr)
     for (const auto& [number, tool] : machine->tools)

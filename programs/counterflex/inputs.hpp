@@ -33,7 +33,8 @@ MachineInput read_machine_input(const Options& options);
 /// actuators hold the machine true there under its weight, though the file says that the control does.
 void refuse_home(const Model& model, const Machine& machine);
 
-/// Lengths of tools by number: those of --tool-table, and of `machine` for tools that it does not name.
+/// Lengths of tools by number: those of --tool-length, then of --tool-table, and of `machine` for tools that
+/// it does not name.
 struct ToolLengths {
   std::optional<InputFile> file;
   std::map<long, double> mm;

@@ -1,11 +1,9 @@
 /// counterflex: bends a machining program the other way.
 #include <malloc.h>
 
-#include <exception>
-#include <string>
-
 #include "command_line.hpp"
 #include "commands.hpp"
+#include "guarded.hpp"
 #include "signals.hpp"
 
 namespace counterflex::cli {
@@ -27,22 +25,10 @@ Exit run_command(const Options& options, Console& console) {
       return run_forces(options, console);
     case Command::check:
       return run_check(options, console);
-  }
-  return Exit::internal;
-}
-
-/// Turns whatever `run` throws into a diagnostic and an exit status.
-template <typename Run>
-Exit guarded(Console& console, const Run& run) {
-  try {
-    return run();
-  } catch (const InputError& error) {
-    console.error(error.what());
-    return error.exit();
-  } catch (const std::exception& error) {
-    console.error(std::string("error: internal error: ") + error.what());
-  } catch (...) {
-    console.error("error: internal error");
+    case Command::batch:
+      return run_batch(options, console);
+    case Command::watch:
+      return run_watch(options, console);
   }
   return Exit::internal;
 }
@@ -54,6 +40,7 @@ Exit run(int argc, char** argv) {
     if (const Exit* exit = std::get_if<Exit>(&command_line)) return *exit;
     const Options& options = std::get<Options>(command_line);
     Console console(options);
+    if (!options.project_file.empty()) console.detail("project file " + options.project_file);
     return guarded(console, [&] { return run_command(options, console); });
   });
 }

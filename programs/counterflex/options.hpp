@@ -1,15 +1,25 @@
 #pragma once
 /// What the command line says, as plain data. Texts that need a file to make sense of them stay texts.
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "counterflex/batch/shards.hpp"
 #include "counterflex/compensation/options.hpp"
 #include "counterflex/program/program.hpp"
+#include "counterflex/settings/setting.hpp"
 
 namespace counterflex::cli {
 
-enum class Command { compensate, predict, verify, compare, analyze, forces, check };
+enum class Command { compensate, predict, verify, compare, analyze, forces, check, batch, watch };
+
+/// Where settings come from besides jobs files.
+struct SettingSources {
+  std::vector<Setting> flags, environment;
+  std::optional<std::string> config;  ///< the project file that --config names
+  bool no_config = false;             ///< no project file is looked for
+};
 
 /// One of several equally long parts of a program that processes compensate side by side.
 struct PartOfProgram {
@@ -39,10 +49,11 @@ struct Options {
   std::optional<LengthUnit> units;
   IntegerWords integer_words = IntegerWords::unsaid;
   bool expand_subprograms = false;
-  std::vector<std::string> work;          ///< "G54=X,Y,Z[,RX,RY,RZ]"
-  std::optional<std::string> tool_table;  ///< a file
-  std::vector<std::string> at;            ///< "X,Y,Z[,R,P,Y]"
-  std::optional<std::string> tool;        ///< "T3"
+  std::vector<std::string> work;           ///< "G54=X,Y,Z[,RX,RY,RZ]"
+  std::optional<std::string> tool_table;   ///< a file
+  std::map<long, double> tool_lengths_mm;  ///< of --tool-length
+  std::vector<std::string> at;             ///< "X,Y,Z[,R,P,Y]"
+  std::optional<std::string> tool;         ///< "T3"
 
   Method method = Method::direct;
   double tolerance = 5e-6;               ///< m
@@ -52,14 +63,31 @@ struct Options {
   double min_block_ms = 2;
 
   std::optional<std::string> output;
+  std::vector<std::string> folders;   ///< of outputs: made before anything is written, if they are missing
   bool materials = false;             ///< forces alone
   std::optional<std::string> report;  ///< stem
   std::optional<std::string> plot;    ///< a file
-  std::optional<PartOfProgram> part;  ///< compensate alone, of a batch: this part, and nothing but its record
-  std::vector<std::string> recorded;  ///< compensate alone, of a batch: records of parts, to be taken over
+
+  std::string jobs;            ///< batch alone, as all that follows: the jobs file
+  bool resume = false;         ///< what is proven done is not done again
+  std::optional<Shard> shard;  ///< this part alone
+  bool merge = false;          ///< what the shards have done
+  bool estimate = false;       ///< say how long it would take
+
+  std::string folder;                 ///< watch alone, as what follows
+  std::vector<std::string> patterns;  ///< what names of programs match; none: any
+  bool once = false;                  ///< what is there, and no more
+
+  bool hash_outputs = false;          ///< compensate alone, of a batch, as what follows: for its manifest
+  std::optional<PartOfProgram> part;  ///< this part, and nothing but its record
+  std::vector<std::string> recorded;  ///< records of parts, to be taken over
+
   bool json = false;
   bool quiet = false;
   bool verbose = false;
+  SettingSources sources;    ///< what this command line, and the environment, say of them
+  std::string project_file;  ///< from which settings are, too; empty: none
+  bool print_config = false;
 };
 
 }  // namespace counterflex::cli

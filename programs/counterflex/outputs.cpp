@@ -11,6 +11,7 @@
 #include "counterflex/files/input_error.hpp"
 #include "counterflex/report/plot.hpp"
 #include "counterflex/report/report_file.hpp"
+#include "output_names.hpp"
 #include "signals.hpp"
 
 namespace counterflex::cli {
@@ -31,23 +32,26 @@ std::vector<std::string> inputs_of(const Options& options) {
   if (!options.corrected.empty()) inputs.push_back(options.corrected);
   inputs.insert(inputs.end(), options.forces.begin(), options.forces.end());
   if (options.tool_table) inputs.push_back(*options.tool_table);
+  if (!options.project_file.empty()) inputs.push_back(options.project_file);
   return inputs;
 }
 
-void check_place(const std::string& path) {
+void check_place(const std::string& path, const std::vector<std::string>& made = {}) {
   if (path == "-") return;
   std::error_code ignored;
   if (path.empty() || fs::is_directory(path, ignored))
     throw InputError(Exit::usage, {},
                      fmt::format("cannot write to '{}': it is not the name of a file", path));
   const fs::path folder = fs::path(path).parent_path();
-  if (!folder.empty() && !fs::is_directory(folder, ignored))
+  const bool is_made = std::find(made.begin(), made.end(), folder.string()) != made.end();
+  if (!folder.empty() && !is_made && !fs::is_directory(folder, ignored))
     throw InputError(Exit::transient_io, {path}, "cannot write the file: its folder does not exist");
 }
 
-void check_paths(const std::vector<std::string>& outputs, const std::vector<std::string>& inputs) {
+void check_paths(const std::vector<std::string>& outputs, const std::vector<std::string>& inputs,
+                 const std::vector<std::string>& made = {}) {
   for (std::size_t i = 0; i < outputs.size(); ++i) {
-    check_place(outputs[i]);
+    check_place(outputs[i], made);
     for (const std::string& input : inputs)
       if (same_file(outputs[i], input))
         throw InputError(Exit::usage, {outputs[i]},
@@ -55,6 +59,16 @@ void check_paths(const std::vector<std::string>& outputs, const std::vector<std:
     for (std::size_t k = 0; k < i; ++k)
       if (same_file(outputs[i], outputs[k]))
         throw InputError(Exit::usage, {outputs[i]}, "is to hold two different outputs");
+  }
+}
+
+void make_folders(const std::vector<std::string>& folders) {
+  for (const std::string& folder : folders) {
+    std::error_code error;
+    if (!folder.empty()) fs::create_directories(folder, error);
+    if (error)
+      throw InputError(Exit::transient_io, {folder},
+                       fmt::format("cannot make the folder: {}", error.message()));
   }
 }
 
@@ -71,12 +85,6 @@ std::string path_of_plot(const std::string& path) {
 }
 
 }  // namespace
-
-std::string default_output(const std::string& program) {
-  if (program == "-") return "-";
-  const fs::path path(program);
-  return (path.parent_path() / (path.stem().string() + ".comp" + path.extension().string())).string();
-}
 
 OutputPaths output_paths(const Options& options) {
   OutputPaths paths;
@@ -96,7 +104,8 @@ OutputPaths output_paths(const Options& options) {
     throw InputError(
         Exit::usage, {},
         "the program and the document of --json cannot both go to standard output; give -o a file");
-  check_paths(outputs, inputs_of(options));
+  check_paths(outputs, inputs_of(options), options.folders);
+  paths.folders = options.folders;
   return paths;
 }
 
@@ -123,14 +132,20 @@ void check_output(const Options& options) {
                      fmt::format("a force profile is .csv, not '{}': -f would not read it", extension));
 }
 
-RunFiles::RunFiles(const OutputPaths& paths, const CsvColumns& columns) : paths_(paths), columns_(columns) {
-  if (!paths.program.empty()) program_.emplace(paths.program);
-  if (!paths.plot.empty()) plot_.emplace(paths.plot);
-  if (paths.report_csv.empty()) return;
-  csv_.emplace(paths.report_csv);
-  csv_->write(csv_header());
-  json_.emplace(paths.report_json);
-  page_.emplace(paths.report_page);
+RunFiles::RunFiles(const OutputPaths& paths, const CsvColumns& columns, bool hashed)
+    : paths_(paths), columns_(columns) {
+  make_folders(paths.folders);
+  const auto open = [&](std::optional<FileWriter>& file, const std::string& path) {
+    if (path.empty()) return;
+    file.emplace(path);
+    if (hashed) file->hash_along();
+  };
+  open(program_, paths.program);
+  open(plot_, paths.plot);
+  open(csv_, paths.report_csv);
+  open(json_, paths.report_json);
+  open(page_, paths.report_page);
+  if (csv_) csv_->write(csv_header());
 }
 
 void RunFiles::add_program(std::string_view text) {
@@ -159,8 +174,10 @@ void RunFiles::add_report(const RunReport& report, const std::string& report_jso
 }
 
 void RunFiles::publish(bool with_program) {
-  publish_together(
-      {if_any(json_), if_any(csv_), if_any(page_), if_any(plot_), with_program ? if_any(program_) : nullptr});
+  FileWriter* program = with_program ? if_any(program_) : nullptr;
+  publish_together({if_any(json_), if_any(csv_), if_any(page_), if_any(plot_), program});
+  for (const FileWriter* file : {program, if_any(json_), if_any(csv_), if_any(page_), if_any(plot_)})
+    if (file != nullptr && !file->is_stream()) published_.push_back({file->path(), file->sha256()});
 }
 
 FileWriter* if_any(std::optional<FileWriter>& file) {
@@ -173,9 +190,9 @@ void publish_together(std::vector<FileWriter*> files) {
   // Who reads a stream may break it off, or be slow, so that interrupts must be heard.
   for (FileWriter* file : files)
     if (file->is_stream()) file->publish();
+  std::erase_if(files, [](const FileWriter* file) { return file->is_stream(); });
   const HeldSignals held;
-  for (FileWriter* file : files)
-    if (!file->is_stream()) file->publish();
+  FileWriter::publish_files(files);
 }
 
 void write_result(std::string_view text) {

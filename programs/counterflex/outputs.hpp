@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "counterflex/batch/job_outcome.hpp"
 #include "counterflex/files/file_writer.hpp"
 #include "counterflex/report/formats.hpp"
 #include "counterflex/report/page.hpp"
@@ -19,6 +20,7 @@ struct OutputPaths {
   std::string report_csv;
   std::string report_page;
   std::string plot;
+  std::vector<std::string> folders;  ///< made, with those above them, before anything is written
 };
 
 /// The paths of `options`, the program's among them for `compensate`: NAME.comp.EXT beside the input unless
@@ -38,14 +40,12 @@ ComparisonPaths comparison_paths(const Options& options);
 /// Throws as `output_paths` where --output of a command that writes no program cannot be written.
 void check_output(const Options& options);
 
-/// "part.ngc" gives "part.comp.ngc".
-std::string default_output(const std::string& program);
-
 /// The files of a run, written as it goes; they get their names when it has ended, or never.
 class RunFiles {
  public:
   /// Throws `InputError` (Exit::transient_io), as all members do, where a file cannot be written.
-  RunFiles(const OutputPaths& paths, const CsvColumns& columns);
+  /// `hashed`: what is written is hashed on the way.
+  RunFiles(const OutputPaths& paths, const CsvColumns& columns, bool hashed = false);
 
   bool program_to_stdout() const { return paths_.program == "-"; }
 
@@ -58,11 +58,16 @@ class RunFiles {
   /// All of them together, the corrected program among them if `with_program`.
   void publish(bool with_program);
 
+  /// The files that have got their names, the corrected program first where it is one of them; without hashes
+  /// unless they were asked for.
+  const std::vector<FileHash>& published() const { return published_; }
+
  private:
   OutputPaths paths_;
   CsvColumns columns_;
   std::size_t next_row_ = 0;
   std::optional<FileWriter> program_, csv_, json_, page_, plot_;
+  std::vector<FileHash> published_;
 };
 
 /// Publishes files that belong together, none where one of them cannot be written: first all are completed,

@@ -1,6 +1,7 @@
 #include "values.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <charconv>
@@ -25,11 +26,11 @@ std::vector<std::string_view> split(std::string_view text) {
   }
 }
 
-std::string offset_name(std::string_view text) {
+std::string offset_name(std::string_view text, std::string_view option) {
   const auto name = work_offset_name(text);
   if (!name)
     throw InputError(Exit::usage, {},
-                     fmt::format("--work: '{}' is not a work offset; {} are", text, work_offset_names));
+                     fmt::format("{}: '{}' is not a work offset; {} are", option, text, work_offset_names));
   return *name;
 }
 
@@ -76,14 +77,36 @@ PoseText pose_of(std::string_view name, std::string_view text) {
   return {Pose{from_rpy(values.tail<3>() * deg), values.head<3>() * mm}, parts.size() == 6};
 }
 
-std::pair<std::string, Pose> work_of(std::string_view text) {
+std::pair<std::string, Pose> work_of(std::string_view text, std::string_view name) {
   const std::size_t equals = text.find('=');
   if (equals == std::string_view::npos)
     throw InputError(
         Exit::usage, {},
-        fmt::format("--work: '{}' must be an offset and its pose, as G54=X,Y,Z[,RX,RY,RZ]", text));
-  const std::string name = offset_name(text.substr(0, equals));
-  return {name, pose_of("--work " + name, text.substr(equals + 1)).X};
+        fmt::format("{}: '{}' must be an offset and its pose, as G54=X,Y,Z[,RX,RY,RZ]", name, text));
+  const std::string offset = offset_name(text.substr(0, equals), name);
+  return {offset, pose_of(fmt::format("{} {}", name, offset), text.substr(equals + 1)).X};
+}
+
+std::pair<long, double> tool_length_of(std::string_view name, std::string_view text) {
+  const std::size_t equals = std::min(text.find('='), text.size());
+  const auto tool = read_tool_number(text.substr(0, equals));
+  if (!tool || equals == text.size())
+    throw InputError(Exit::usage, {},
+                     fmt::format("{}: '{}' must be a tool and its length in mm, as T1=50", name, text));
+  return {*tool, number_of(fmt::format("{} T{}", name, *tool), text.substr(equals + 1))};
+}
+
+std::size_t choice_of(std::string_view name, std::string_view text,
+                      const std::vector<std::string_view>& allowed) {
+  const auto found = std::find(allowed.begin(), allowed.end(), text);
+  if (found == allowed.end())
+    throw InputError(Exit::usage, {},
+                     fmt::format("{} is '{}', must be {}", name, text, fmt::join(allowed, " or ")));
+  return static_cast<std::size_t>(found - allowed.begin());
+}
+
+bool truth_of(std::string_view name, std::string_view text) {
+  return choice_of(name, text, {"true", "false"}) == 0;
 }
 
 }  // namespace counterflex::cli

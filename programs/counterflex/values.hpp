@@ -31,6 +31,16 @@ struct PoseText {
 PoseText pose_of(std::string_view name, std::string_view text);
 
 /// "G54=X,Y,Z[,RX,RY,RZ]": the offset as programs name it, and its pose.
-std::pair<std::string, Pose> work_of(std::string_view text);
+std::pair<std::string, Pose> work_of(std::string_view text, std::string_view name = "--work");
+
+/// "T1=50": the tool's number and its length in mm.
+std::pair<long, double> tool_length_of(std::string_view name, std::string_view text);
+
+/// Which of `allowed` it is.
+std::size_t choice_of(std::string_view name, std::string_view text,
+                      const std::vector<std::string_view>& allowed);
+
+/// "true" or "false".
+bool truth_of(std::string_view name, std::string_view text);
 
 }  // namespace counterflex::cli

@@ -1,7 +1,6 @@
 #include "counterflex/files/file_writer.hpp"
 
 #include <fcntl.h>
-#include <fmt/format.h>
 #include <sys/stat.h>
 
 #include <array>
@@ -11,8 +10,12 @@
 #include <cstring>
 #include <filesystem>
 #include <optional>
+#include <set>
 #include <vector>
 
+#include "counterflex/files/folders.hpp"
+#include "counterflex/files/sha256.hpp"
+#include "counterflex/files/temporaries.hpp"
 #include "files/descriptor.hpp"
 
 namespace counterflex {
@@ -50,26 +53,14 @@ class Unpublished {
 
 namespace {
 
-std::string folder_of(const std::string& path) {
-  const std::string folder = std::filesystem::path(path).parent_path().string();
-  return folder.empty() ? "." : folder;
-}
-
 /// A new file beside `path` that nobody else has.
 std::pair<std::string, int> create_beside(const std::string& path) {
   static std::atomic<unsigned> counter{0};
   for (;;) {
-    std::string name = fmt::format("{}.{}-{}.tmp", path, ::getpid(), counter++);
+    std::string name = temporary_name(path, ::getpid(), counter++);
     const int fd = ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
     if (fd >= 0 || errno != EEXIST) return {std::move(name), fd};
   }
-}
-
-/// Makes the rename survive a power cut where the file system can; where it cannot, the file is there all the
-/// same.
-void sync_folder(const std::string& folder) {
-  const Descriptor descriptor(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-  if (descriptor.get() >= 0) (void)::fsync(descriptor.get());
 }
 
 /// Devices and pipes have no other name to rename from.
@@ -98,6 +89,8 @@ struct FileWriter::State {
   Descriptor file{};
   std::string buffer{};
   bool is_complete = false;
+  std::optional<Sha256> hash{};
+  std::string digits{};  ///< of the hash, once it is complete
 
   ~State() {
     if (!temporary.empty()) ::unlink(temporary.c_str());
@@ -131,7 +124,20 @@ FileWriter::FileWriter(const std::string& path) : state_(new State{.path = path}
 FileWriter::~FileWriter() = default;
 FileWriter::FileWriter(FileWriter&&) noexcept = default;
 
+void FileWriter::hash_along() {
+  state_->hash.emplace();
+}
+
+const std::string& FileWriter::sha256() const {
+  return state_->digits;
+}
+
+const std::string& FileWriter::path() const {
+  return state_->path;
+}
+
 void FileWriter::write(std::string_view bytes) {
+  if (state_->hash) state_->hash->add(bytes);
   if (state_->buffer.size() + bytes.size() >= portion) state_->flush();
   if (bytes.size() < portion)
     state_->buffer += bytes;
@@ -148,18 +154,36 @@ void FileWriter::complete() {
   if (s.is_complete) return;
   s.flush();
   if (!is_stream() && (::fsync(s.file.get()) != 0 || !s.file.close())) fail_writing(s.path);
+  if (s.hash) s.digits = s.hash->digits();
   s.is_complete = true;
 }
 
 void FileWriter::publish() {
   complete();
-  State& s = *state_;
-  if (!is_stream()) {
-    if (::rename(s.temporary.c_str(), s.target.c_str()) != 0) fail_writing(s.path);
-    s.temporary.clear();
-    s.known.reset();
-    return sync_folder(folder_of(s.target));
+  if (is_stream()) return send();
+  rename();
+  sync_folder(folder_of(state_->target));
+}
+
+void FileWriter::publish_files(const std::vector<FileWriter*>& files) {
+  std::set<std::string> folders;
+  for (FileWriter* file : files) file->complete();
+  for (FileWriter* file : files) {
+    file->rename();
+    folders.insert(folder_of(file->state_->target));
   }
+  for (const std::string& folder : folders) sync_folder(folder);
+}
+
+void FileWriter::rename() {
+  State& s = *state_;
+  if (::rename(s.temporary.c_str(), s.target.c_str()) != 0) fail_writing(s.path);
+  s.temporary.clear();
+  s.known.reset();
+}
+
+void FileWriter::send() {
+  const State& s = *state_;
   const Descriptor stream = open_stream(s.path);
   if (::lseek(s.file.get(), 0, SEEK_SET) != 0) fail_writing(s.path);
   std::vector<char> bytes(portion);

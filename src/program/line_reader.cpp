@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "counterflex/program/program_reader.hpp"
+#include "counterflex/program/read_program.hpp"
 #include "program/expand.hpp"
 #include "program/plain_lines.hpp"
 #include "program/remarks.hpp"
@@ -29,13 +30,15 @@ Program begun(const std::string& file, const ReadOptions& options, const Dialect
 
 }  // namespace
 
+std::optional<std::string> unknown_dialect(const std::string& dialect) {
+  if (dialect == "auto" || find_dialect(dialect) != nullptr) return std::nullopt;
+  return fmt::format("dialect '{}' is not known: {} are", dialect, dialect_names());
+}
+
 const Dialect& choose_dialect(std::string_view text, const std::string& file, const ReadOptions& options) {
   if (options.dialect == "auto") return detect_dialect(beginning(text));
-  const Dialect* dialect = find_dialect(options.dialect);
-  if (dialect == nullptr)
-    throw InputError(Exit::usage, {file},
-                     fmt::format("dialect '{}' is not known: {} are", options.dialect, dialect_names()));
-  return *dialect;
+  if (const auto problem = unknown_dialect(options.dialect)) throw InputError(Exit::usage, {file}, *problem);
+  return *find_dialect(options.dialect);
 }
 
 std::array<bool, 3> axes_of_tool_change(const Dialect& dialect, const ReadOptions& options) {

@@ -7,6 +7,7 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 cp "$inputs"/* "$work"
 cd "$work" || exit 1
+unset "${!COUNTERFLEX_@}"  # settings of whoever runs the tests
 failures=0 sentence=''
 
 it() { sentence=$1; }

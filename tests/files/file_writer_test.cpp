@@ -62,6 +62,37 @@ TEST_CASE("a file that is complete and never published leaves nothing") {
   CHECK(folder.count() == 0);
 }
 
+TEST_CASE("a hash taken along the way is that of what was written, in portions of any size") {
+  const Folder folder;
+  FileWriter file(folder.file("out.ngc")), plain(folder.file("plain.ngc"));
+  file.hash_along();
+  std::string bytes;
+  for (const std::size_t size : {0, 5, 1 << 18, 1 << 20, 7}) {
+    const std::string some(size, static_cast<char>('a' + size % 26));
+    file.write(some);
+    plain.write(some);
+    bytes += some;
+  }
+  CHECK(file.sha256().empty());
+  file.complete();
+  CHECK(file.sha256() == sha256(bytes));
+  file.publish();
+  CHECK(read_file(folder.file("out.ngc")) == bytes);
+  CHECK(file.sha256() == sha256(bytes));
+  plain.publish();
+  CHECK(plain.sha256().empty());
+}
+
+TEST_CASE("files that are published together get their names in order, none behind one that cannot") {
+  const Folder folder;
+  FileWriter a(folder.file("a.ngc")), b(folder.file("b.ngc")), c(folder.file("c.ngc"));
+  for (FileWriter* file : {&a, &b, &c}) file->write("new");
+  std::filesystem::create_directories(folder.file("b.ngc"));  // a file cannot take the name of a folder
+  CHECK_THROWS_AS(FileWriter::publish_files({&a, &b, &c}), InputError);
+  CHECK(read_file(folder.file("a.ngc")) == "new");
+  CHECK(!std::filesystem::exists(folder.file("c.ngc")));
+}
+
 TEST_CASE("a device receives nothing before it is published, and its errors show then") {
   if (!std::filesystem::exists("/dev/full")) return;
   FileWriter full("/dev/full");

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "counterflex/settings/project_file.hpp"
+#include "support/text.hpp"
 
 namespace counterflex::test {
 

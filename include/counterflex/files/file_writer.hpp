@@ -3,6 +3,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace counterflex {
 
@@ -11,11 +12,16 @@ namespace counterflex {
 /// replaced, with its mode. "-" is standard output: that, pipes and devices are streams, which receive
 /// everything at once when they are published. All members throw `InputError` (Exit::transient_io) naming the
 /// path where it cannot be written.
+/// A file that is published survives a power cut where its file system can promise that; where the disk fails
+/// when only that is left to do, publishing throws although the file has its name.
 class FileWriter {
  public:
   explicit FileWriter(const std::string& path);
   ~FileWriter();
   FileWriter(FileWriter&&) noexcept;
+
+  /// Before the first byte: what is written is hashed on the way.
+  void hash_along();
 
   void write(std::string_view bytes);
 
@@ -26,9 +32,20 @@ class FileWriter {
   /// Completes it if need be.
   void publish();
 
+  /// Publishes files that are no streams: all are completed, then they get their names in this order, and at
+  /// last their folders are synced. Where one cannot get its name, those behind it do not get theirs.
+  static void publish_files(const std::vector<FileWriter*>& files);
+
   bool is_stream() const;
+  const std::string& path() const;
+
+  /// SHA-256 of what was written, whatever the disk makes of it; empty unless it is complete and hashed.
+  const std::string& sha256() const;
 
  private:
+  void rename();
+  void send();
+
   struct State;
   std::unique_ptr<State> state_;
 };

@@ -25,6 +25,9 @@ struct ReadOptions {
   bool expand_subprograms = false;  ///< calls by M98 and O-words with plain numbers become the bodies' text
 };
 
+/// What is wrong with `ReadOptions::dialect`; nothing where programs are read in it.
+std::optional<std::string> unknown_dialect(const std::string& dialect);
+
 /// Reads `text`, keeping every byte. `file` names it in diagnostics. Throws `InputError` with line and column
 /// for text that is wrong and for words that are not understood yet (Exit::program_text;
 /// Exit::machine_or_force for a FORCE comment): nothing is passed over. A dialect that does not exist is

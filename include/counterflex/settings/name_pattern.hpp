@@ -6,10 +6,10 @@
 
 namespace counterflex {
 
-/// What stands for the words in braces.
+/// What stands for the words in braces, as far as it is known.
 struct NameParts {
-  std::string name;                   ///< {name}: the program's file name without its extension
-  std::string ext;                    ///< {ext}: the extension with its dot, empty where there is none
+  std::optional<std::string> name;    ///< {name}: the program's file name without its extension
+  std::optional<std::string> ext;     ///< {ext}: the extension with its dot, empty where there is none
   std::optional<std::string> output;  ///< {output}: the path of the output without its extension
 };
 

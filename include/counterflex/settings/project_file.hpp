@@ -28,6 +28,10 @@ namespace counterflex {
 /// (Exit::machine_or_force) with line and column.
 std::vector<Setting> read_project(std::string_view text, const std::string& file);
 
+/// A project file that says `settings`, each with its origin as a comment. A file of this text in the working
+/// directory gives the same values, numbers in their shortest form.
+std::string to_project_text(const std::vector<Setting>& settings);
+
 /// The nearest `counterflex.toml` in the folder of `program` or above it; of the working directory where
 /// `program` is empty or "-". The path is relative to the working directory unless that is longer.
 std::optional<std::string> find_project_file(const std::string& program);

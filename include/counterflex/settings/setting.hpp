@@ -9,7 +9,7 @@
 
 namespace counterflex {
 
-enum class Origin { flag, environment, file };
+enum class Origin { flag, environment, file, builtin };
 
 /// Values as the command line takes them, so that one piece of code judges them all. A switch has "true" or
 /// "false". Without values the option is as if it had never been given: `report = false` hides what the

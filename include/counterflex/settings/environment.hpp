@@ -1,0 +1,15 @@
+#pragma once
+/// Settings that the environment gives: COUNTERFLEX_MACHINE, COUNTERFLEX_TOLERANCE_MM ...
+#include <string>
+#include <vector>
+
+#include "counterflex/settings/setting.hpp"
+
+namespace counterflex {
+
+/// The settings among `variables`, "NAME=VALUE" each as `environ` has them, whose end is nullptr. Several
+/// values of one option stand with ':' between them, as in PATH; a report or plot may be "true" or "false",
+/// as in a project file; an empty value is none. Other variables are passed over. Values are not judged.
+std::vector<Setting> read_environment(const char* const* variables);
+
+}  // namespace counterflex

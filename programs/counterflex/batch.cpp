@@ -1,0 +1,160 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <filesystem>
+
+#include "batch_estimate.hpp"
+#include "batch_folder.hpp"
+#include "batch_jobs.hpp"
+#include "batch_manifest.hpp"
+#include "batch_merge.hpp"
+#include "batch_units.hpp"
+#include "commands.hpp"
+#include "counterflex/batch/summary.hpp"
+#include "counterflex/files/file_writer.hpp"
+#include "counterflex/files/files.hpp"
+#include "outputs.hpp"
+#include "version.hpp"
+
+namespace counterflex::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t rows_shown = 30;
+
+/// Paths of a jobs file, and so those in reports, are relative to its folder, from wherever it is called.
+std::string enter_folder_of(const std::string& file, Console& console) {
+  if (file == "-")
+    throw InputError(Exit::usage, {},
+                     "a jobs file has a folder, to which its paths are relative: not standard input");
+  const fs::path path(file);
+  if (!path.has_parent_path()) return file;
+  std::error_code error;
+  fs::current_path(path.parent_path(), error);
+  if (error) throw InputError(Exit::machine_or_force, {file}, "cannot read the file: " + error.message());
+  console.detail(fmt::format("in {}/", path.parent_path().native()));
+  return path.filename().native();
+}
+
+void check_flags(const Options& options) {
+  const int asked = (options.merge ? 1 : 0) + (options.shard ? 1 : 0) + (options.estimate ? 1 : 0);
+  if (asked > 1) throw InputError(Exit::usage, {}, "--shard, --merge and --estimate exclude each other");
+  if (options.resume && (options.merge || options.estimate))
+    throw InputError(Exit::usage, {}, "--resume goes with a run or a --shard of it");
+}
+
+std::vector<KeptUnit> kept(const std::vector<BatchUnit>& units) {
+  std::vector<KeptUnit> kept;
+  for (const BatchUnit& unit : units) kept.push_back(unit.kept);
+  return kept;
+}
+
+std::vector<BatchTask> tasks_of(const std::vector<BatchUnit>& units) {
+  std::vector<BatchTask> tasks;
+  for (const BatchUnit& unit : units) tasks.push_back(task_of(unit));
+  return tasks;
+}
+
+void write_summary(const Batch& batch, const std::vector<JobOutcome>& outcomes, const std::string& json) {
+  FileWriter json_file(batch.folder + "/summary.json"), csv_file(batch.folder + "/summary.csv");
+  json_file.write(json);
+  csv_file.write(summary_csv(outcomes));
+  publish_together({&json_file, &csv_file});
+}
+
+/// An older program under the name that a job which failed would have written is no correction of this one.
+void warn_of_older(const std::vector<JobOutcome>& outcomes, Console& console) {
+  std::error_code ignored;
+  for (const JobOutcome& outcome : outcomes)
+    if (outcome.exit != Exit::done && fs::exists(outcome.output, ignored))
+      console.warning(outcome.output, 0, fmt::format("is of an earlier run: {} failed now", outcome.program));
+}
+
+Exit conclude(const Options& options, const Batch& batch, const std::vector<JobOutcome>& outcomes,
+              Console& console) {
+  const std::string json = summary_json(outcomes, version);
+  write_summary(batch, outcomes, json);
+  warn_of_older(outcomes, console);
+  console.finish_warnings();
+  write_result(options.json ? json : summary_table(outcomes, rows_shown));
+  return exit_of(outcomes);
+}
+
+/// One line that scripts take apart.
+Exit say_estimate(const Batch& batch) {
+  write_result(fmt::format("work_s={:.1f} jobs={}\n", estimated_seconds(batch), batch.jobs.size()));
+  return Exit::done;
+}
+
+std::string counted_units(const std::vector<BatchUnit>& units) {
+  const auto parts =
+      std::count_if(units.begin(), units.end(), [](const BatchUnit& unit) { return unit.is_part(); });
+  return fmt::format("{} jobs and {} parts of jobs", static_cast<std::ptrdiff_t>(units.size()) - parts,
+                     parts);
+}
+
+/// Does units, or those of them that are not proven done. The signal by which it was stopped, if any.
+std::optional<int> run_units(const Options& options, const std::vector<BatchUnit>& units,
+                             const BatchFolder& folder, BatchManifest& manifest, Console& console) {
+  if (options.resume) manifest.take_proven(folder.manifests());
+  if (options.resume)
+    console.detail(fmt::format("{} of {} are proven done", manifest.ended().size(), units.size()));
+  return do_missing(tasks_of(units), options.threads, manifest, console);
+}
+
+Exit run_shard(const Options& options, const Batch& batch, Console& console) {
+  const auto [index, count] = *options.shard;
+  const BatchFolder folder(batch, BatchFolder::Use::shared, console);
+  folder.make_state("shards");
+  const auto by_shard = units_by_shard(batch, count, folder);
+  const auto& units = by_shard[static_cast<std::size_t>(index - 1)];
+  BatchManifest manifest(shard_manifest(folder, index, count), plan_of(by_shard), kept(units));
+  const auto stopped = run_units(options, units, folder, manifest, console);
+  manifest.save();
+  if (stopped) return static_cast<Exit>(status_of(*stopped));
+  const std::vector<JobOutcome> outcomes = manifest.ended();
+  const auto failed = std::count_if(outcomes.begin(), outcomes.end(),
+                                    [](const JobOutcome& o) { return o.exit != Exit::done; });
+  write_result(fmt::format("shard {} of {}: {}, {} failed\n", index, count, counted_units(units), failed));
+  return exit_of(outcomes);
+}
+
+Exit run_merge(const Options& options, const Batch& batch, Console& console) {
+  const BatchFolder folder(batch, BatchFolder::Use::alone, console);
+  BatchManifest manifest(folder.state("manifest.json"), plan_of(batch), kept(whole_jobs(batch)));
+  const auto stopped = merge_shards(batch, folder, options.threads, manifest, console);
+  folder.sweep();
+  if (stopped) return static_cast<Exit>(status_of(*stopped));
+  manifest.save();
+  const Exit exit = conclude(options, batch, manifest.ended(), console);
+  remove_shards(folder);
+  return exit;
+}
+
+Exit run_all(const Options& options, const Batch& batch, Console& console) {
+  const BatchFolder folder(batch, BatchFolder::Use::alone, console);
+  const std::vector<BatchUnit> units = whole_jobs(batch);
+  BatchManifest manifest(folder.state("manifest.json"), plan_of(batch), kept(units));
+  const auto stopped = run_units(options, units, folder, manifest, console);
+  folder.sweep();
+  manifest.save();
+  if (stopped) return static_cast<Exit>(status_of(*stopped));
+  const Exit exit = conclude(options, batch, manifest.ended(), console);
+  remove_shards(folder);  // of an earlier try, which nobody will finish
+  return exit;
+}
+
+}  // namespace
+
+Exit run_batch(const Options& options, Console& console) {
+  check_flags(options);
+  Batch batch = read_batch(enter_folder_of(options.jobs, console));
+  for (BatchJob& job : batch.jobs) job.options.quiet = !options.verbose;  // the table counts their warnings
+  if (options.estimate) return say_estimate(batch);
+  if (options.shard) return run_shard(options, batch, console);
+  return options.merge ? run_merge(options, batch, console) : run_all(options, batch, console);
+}
+
+}  // namespace counterflex::cli

@@ -1,0 +1,156 @@
+#include "batch_jobs.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <set>
+
+#include "counterflex/files/files.hpp"
+#include "counterflex/settings/environment.hpp"
+#include "counterflex/settings/jobs_file.hpp"
+#include "counterflex/settings/project_file.hpp"
+#include "globs.hpp"
+#include "inputs.hpp"
+#include "layers.hpp"
+#include "outputs.hpp"
+#include "version.hpp"
+
+namespace counterflex::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A file by whatever name, so that two names of one can be compared.
+std::string one_name(const std::string& path) {
+  std::error_code ignored;
+  const fs::path canonical = fs::weakly_canonical(fs::absolute(path, ignored), ignored);
+  return canonical.empty() ? path : canonical.native();
+}
+
+/// What decides the bytes of the outputs besides those of the inputs: all options, and all paths,
+/// which reports name.
+std::string key_of(const Layers& layers, const BatchJob& job) {
+  std::string all = fmt::format("counterflex {}\n{}\n{}\n", version, job.program, job.output);
+  for (const Setting& setting : effective_settings(Command::compensate, layers)) {
+    if (setting.option == "threads" || setting.option == "output") continue;
+    all += setting.option + '\n';
+    for (const std::string& value : setting.values) all += value + '\n';
+  }
+  return sha256(all);
+}
+
+/// Bytes, and what every run takes to begin. Where causes are asked for, or each waypoint is iterated for,
+/// they take longer. It decides what is done first and where, nothing else.
+double work_of(const BatchJob& job) {
+  constexpr double beginning = 4096, causes = 2.5, nested = 500;
+  std::error_code missing;
+  const auto bytes = fs::file_size(job.program, missing);
+  double work = beginning + (missing ? 0.0 : static_cast<double>(bytes));
+  if (job.options.report || job.options.plot) work *= causes;
+  if (job.options.method == Method::nested) work *= nested;
+  return work;
+}
+
+/// Jobs as they are found, which have to be apart.
+class JobList {
+ public:
+  explicit JobList(const JobsFile& file) : file_(file), environment_(read_environment(environ)) {}
+
+  std::vector<BatchJob> take() {
+    for (const JobEntry& entry : file_.jobs)
+      for (const std::string& pattern : entry.programs) add_all(pattern, entry);
+    leave_out_outputs();
+    refuse_shared_files();
+    std::vector<BatchJob> jobs;
+    for (FoundJob& found : found_) jobs.push_back(std::move(found.job));
+    return jobs;
+  }
+
+ private:
+  struct FoundJob {
+    BatchJob job;
+    std::string program, output;  ///< by their one name
+    Location where;
+    bool by_glob;
+  };
+
+  void add_all(const std::string& pattern, const JobEntry& entry) {
+    std::error_code ignored;
+    if (!is_glob(pattern) || fs::exists(pattern, ignored)) return add(pattern, entry, false);
+    const std::vector<std::string> programs = files_matching(pattern);
+    if (programs.empty())
+      throw InputError(Exit::machine_or_force, entry.where, fmt::format("no file matches '{}'", pattern));
+    for (const std::string& program : programs) add(program, entry, true);
+  }
+
+  void add(const std::string& program, const JobEntry& entry, bool by_glob) {
+    const Layers layers{entry.settings, file_.defaults, environment_, project_settings(program)};
+    BatchJob job;
+    job.program = program;
+    job.options = options_for(program, layers, entry);
+    job.output = *job.options.output;
+    job.key = key_of(layers, job);
+    job.work = work_of(job);
+    found_.push_back({job, one_name(job.program), one_name(job.output), entry.where, by_glob});
+  }
+
+  /// A machine that nobody names is the fault of the list.
+  static Options options_for(const std::string& program, const Layers& layers, const JobEntry& entry) {
+    try {
+      return options_of(Command::compensate, layers, program);
+    } catch (const InputError& error) {
+      if (!error.where().file.empty()) throw;
+      throw InputError(Exit::machine_or_force, entry.where, fmt::format("{}: {}", program, error.what()));
+    }
+  }
+
+  /// Programs of one folder have one project file.
+  const std::vector<Setting>& project_settings(const std::string& program) {
+    const auto file = find_project_file(program);
+    if (!file) return none_;
+    const auto [found, is_new] = projects_.try_emplace(*file);
+    if (is_new) found->second = read_project(read_input(*file, Exit::machine_or_force), *file);
+    return found->second;
+  }
+
+  /// What an earlier run has written is no program of the next one.
+  void leave_out_outputs() {
+    std::set<std::string> outputs;
+    for (const FoundJob& found : found_) outputs.insert(found.output);
+    std::erase_if(found_,
+                  [&](const FoundJob& found) { return found.by_glob && outputs.count(found.program) > 0; });
+  }
+
+  void refuse_shared_files() const {
+    std::set<std::string> inputs, outputs;
+    for (const FoundJob& found : found_) inputs.insert(found.program);
+    for (const FoundJob& found : found_) {
+      const auto refuse = [&](const std::string& why) {
+        throw InputError(
+            Exit::machine_or_force, found.where,
+            fmt::format("the output of {} would be {}, {}", found.job.program, found.job.output, why));
+      };
+      if (inputs.count(found.output) > 0)
+        refuse("a program of this batch, and programs are never overwritten");
+      if (!outputs.insert(found.output).second)
+        refuse("as that of another job is: give one of them another folder or name");
+    }
+  }
+
+  const JobsFile& file_;
+  const std::vector<Setting> environment_, none_{};
+  std::map<std::string, std::vector<Setting>> projects_;
+  std::vector<FoundJob> found_;
+};
+
+}  // namespace
+
+Batch read_batch(const std::string& file) {
+  const JobsFile jobs_file = read_jobs(read_input(file, Exit::machine_or_force), file);
+  return {jobs_file.output, JobList(jobs_file).take()};
+}
+
+}  // namespace counterflex::cli

@@ -1,0 +1,30 @@
+#pragma once
+/// The jobs of a batch, ready to be done.
+#include <string>
+#include <vector>
+
+#include "options.hpp"
+
+namespace counterflex::cli {
+
+struct BatchJob {
+  std::string program, output;  ///< paths
+  Options options;              ///< of `compensate`
+  std::string key;              ///< of the outcome: SHA-256 of version, options and paths
+  double work = 0;              ///< of any unit: bytes of the program, weighed by what is done with them
+};
+
+/// What a jobs file asks for.
+struct Batch {
+  std::string folder;          ///< where summary and state are kept
+  std::vector<BatchJob> jobs;  ///< in the order of the file, those of a glob by name; no two have one output
+};
+
+/// Reads `file`, finds the programs, and settles the options of each, in which jobs go before defaults, these
+/// before the environment, and this before the project file of the program. A program that is not there is a
+/// job, which will fail; a glob without one is an error, and outputs of the batch itself are left out of it.
+/// Throws `InputError`: Exit::machine_or_force, with the place, for what is wrong with the file or two jobs
+/// with one output.
+Batch read_batch(const std::string& file);
+
+}  // namespace counterflex::cli

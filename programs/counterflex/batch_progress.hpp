@@ -1,0 +1,38 @@
+#pragma once
+/// How far a batch has come.
+#include <chrono>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace counterflex::cli {
+
+struct BatchTask;
+
+class BatchProgress {
+ public:
+  explicit BatchProgress(const std::vector<BatchTask>& tasks);
+
+  /// A task has come to this share of its work, and has solved more waypoints.
+  void add(std::size_t task, std::optional<double> share, std::size_t waypoints);
+
+  /// A task has ended.
+  void end(std::size_t task, bool done);
+
+  /// "12 of 200 jobs, 1 failed, 34000 waypoints/s, 2 min left".
+  std::string text() const;
+
+ private:
+  double time_left(double elapsed) const;
+
+  std::vector<double> work_, done_;  // by task
+  double all_work_ = 0;
+  std::size_t ended_ = 0, failed_ = 0, waypoints_ = 0;
+  std::chrono::steady_clock::time_point begun_ = std::chrono::steady_clock::now();
+};
+
+/// "40 s", "3 min", "2 h 10 min".
+std::string duration_text(double seconds);
+
+}  // namespace counterflex::cli

@@ -1,0 +1,16 @@
+#pragma once
+/// Names with wildcards.
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace counterflex::cli {
+
+/// Whether `text` has one of * ? [
+bool is_glob(std::string_view text);
+
+/// The files that `pattern` matches, sorted by their bytes: * ? [...] within a name, ** for any number of
+/// folders. Hidden files and folders are matched only where the pattern says their dot.
+std::vector<std::string> files_matching(const std::string& pattern);
+
+}  // namespace counterflex::cli

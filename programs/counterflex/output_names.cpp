@@ -1,0 +1,138 @@
+#include "output_names.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "counterflex/settings/name_pattern.hpp"
+#include "setting_options.hpp"
+
+namespace counterflex::cli {
+namespace {
+
+/// An output as it is said: in parts, where it is not a path.
+struct OutputParts {
+  std::string folder;   ///< ends in a slash; empty: none is said
+  std::string pattern;  ///< of the name; empty: none is said
+  bool whole = false;   ///< a path, which nothing completes
+};
+
+bool names_a_folder(const std::string& text) {
+  std::error_code ignored;
+  return text.ends_with('/') || (!is_pattern(text) && std::filesystem::is_directory(text, ignored));
+}
+
+OutputParts parts_of(const std::string& text) {
+  if (names_a_folder(text)) return {text.ends_with('/') ? text : text + "/", "", false};
+  const std::size_t name = text.find_last_of('/') + 1;  // 0 without a slash
+  if (!is_pattern(text)) return {text.substr(0, name), text.substr(name), true};
+  return {text.substr(0, name), text.substr(name), false};
+}
+
+NameParts known_parts(const std::string& program) {
+  if (program == "-" || program.empty()) return {};
+  const std::filesystem::path path(program);
+  return {path.stem().string(), path.extension().string(), std::nullopt};
+}
+
+std::string without_extension(const std::string& path) {
+  return std::filesystem::path(path).replace_extension().string();
+}
+
+/// The path that `text` says, beside the program where it says no folder; nothing where a part is not known.
+std::optional<std::string> filled_path(const std::string& text, const std::string& program,
+                                       const NameParts& parts) {
+  if (!unknown_placeholder(text, parts).empty()) return std::nullopt;
+  const std::string path = fill(text, parts);
+  if (!is_pattern(text) || text.find('/') != std::string::npos || text.starts_with("{output}")) return path;
+  return (std::filesystem::path(program).parent_path() / path).string();
+}
+
+struct Naming {
+  Options& options;
+  const std::vector<Setting>& settings;
+  NameParts parts;
+};
+
+[[noreturn]] void refuse_nameless(const Setting& setting, const std::string& text) {
+  blame_setting(setting, 0,
+                fmt::format("{} is '{}', but standard input has no name; give a path",
+                            name_in_messages(setting), text));
+}
+
+/// What `said` is with its words filled in; nothing where it has to be left out. `in_folder` is the name in a
+/// folder that is said alone.
+std::optional<std::string> named(const std::optional<std::string>& said, std::string_view option,
+                                 std::string_view in_folder, const Naming& naming) {
+  if (!said || *said == "-") return said;
+  const bool folder = said->ends_with('/');
+  if (!folder && !is_pattern(*said)) return said;
+  const std::string pattern = folder ? *said + std::string(in_folder) : *said;
+  const auto path = filled_path(pattern, naming.options.program, naming.parts);
+  if (path) {
+    naming.options.folders.push_back(std::filesystem::path(*path).parent_path().string());
+    return path;
+  }
+  const auto setting = std::find_if(naming.settings.begin(), naming.settings.end(),
+                                    [&](const Setting& entry) { return entry.option == option; });
+  if (setting != naming.settings.end() && setting->origin == Origin::flag) refuse_nameless(*setting, *said);
+  return std::nullopt;
+}
+
+/// {output}: of what compensate writes; the other commands' reports are not to take its reports' place.
+std::optional<std::string> output_stem(const Options& options, const std::optional<std::string>& output) {
+  if (options.command == Command::verify) return without_extension(options.corrected) + ".verify";
+  const std::string path = output && *output != "-" ? *output : default_output(options.program);
+  if (path == "-") return std::nullopt;
+  return without_extension(path) + (options.command == Command::predict ? ".predict" : "");
+}
+
+}  // namespace
+
+Setting merged_output(const std::vector<Setting>& outputs) {
+  for (const Setting& output : outputs) judge_setting(output);
+  Setting merged = outputs.front();
+  if (merged.values.empty() || merged.values[0] == "-") return merged;
+  OutputParts parts = parts_of(merged.values[0]);
+  for (std::size_t i = 1; i < outputs.size() && !parts.whole; ++i) {
+    if (outputs[i].values.empty()) break;
+    const OutputParts weaker = parts_of(outputs[i].values[0]);
+    if (weaker.whole) continue;
+    if (parts.folder.empty()) parts.folder = weaker.folder;
+    if (parts.pattern.empty()) parts.pattern = weaker.pattern;
+  }
+  merged.values[0] = parts.folder + parts.pattern;
+  return merged;
+}
+
+void check_pattern(const std::string& name, const std::string& text) {
+  const bool of_report = !name.ends_with("output");
+  const NameParts all{"", "", of_report ? std::optional<std::string>("") : std::nullopt};
+  const std::string unknown = unknown_placeholder(text, all);
+  if (unknown.empty()) return;
+  throw InputError(Exit::usage, {},
+                   fmt::format("{} is '{}', in which {{{}}} stands for nothing; {{name}}, {{ext}}{} do", name,
+                               text, unknown, of_report ? ", {output}" : ""));
+}
+
+void name_outputs(Options& options, const std::vector<Setting>& settings) {
+  if (!has_setting(options.command, "output") || options.command == Command::watch) return;
+  Naming naming{options, settings, known_parts(options.program)};
+  options.output = named(options.output, "output", "{name}{ext}", naming);
+  naming.parts.output = output_stem(options, options.output);
+  if (options.command != Command::compensate) {
+    options.output.reset();
+    options.folders.clear();
+  }
+  options.report = named(options.report, "report", "{name}", naming);
+  options.plot = named(options.plot, "plot", "{name}.svg", naming);
+}
+
+std::string default_output(const std::string& program) {
+  if (program == "-") return "-";
+  const std::filesystem::path path(program);
+  return (path.parent_path() / (path.stem().string() + ".comp" + path.extension().string())).string();
+}
+
+}  // namespace counterflex::cli

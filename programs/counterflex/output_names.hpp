@@ -1,0 +1,29 @@
+#pragma once
+/// Names of outputs that are said by a folder or a pattern.
+#include <string>
+#include <vector>
+
+#include "counterflex/settings/setting.hpp"
+#include "options.hpp"
+
+namespace counterflex::cli {
+
+/// The strongest folder with the strongest name: `-o DIR/` goes with the project file's {name}_CF{ext}. The
+/// first of `outputs`, the strongest, wins where the others do not complete it. Not empty. Throws
+/// `InputError` at the place of a pattern that is none.
+Setting merged_output(const std::vector<Setting>& outputs);
+
+/// Throws `InputError` (Exit::usage) for a word in braces that nothing stands for; `name` is the option's.
+void check_pattern(const std::string& name, const std::string& text);
+
+/// Turns folders and patterns of output, report and plot into the paths for the program of `options`, and
+/// notes in `Options::folders` those folders that may have to be made. Standard input has no name: what a
+/// file or the environment says that needs one is then left out, and a flag throws `InputError`
+/// (Exit::usage). `settings` are those that `options` was made of. Nothing for `watch`, whose programs
+/// are named one by one.
+void name_outputs(Options& options, const std::vector<Setting>& settings);
+
+/// "part.ngc" gives "part.comp.ngc".
+std::string default_output(const std::string& program);
+
+}  // namespace counterflex::cli

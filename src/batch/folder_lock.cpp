@@ -1,0 +1,91 @@
+#include "counterflex/batch/folder_lock.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <utility>
+
+#include "counterflex/files/folders.hpp"
+
+namespace counterflex {
+namespace {
+
+constexpr std::size_t longest_text = 1000;
+
+[[noreturn]] void fail_locking(const std::string& folder, const std::string& reason) {
+  throw InputError(Exit::transient_io, {folder}, "cannot lock the folder: " + reason);
+}
+
+bool file_system_has_no_locks(int error) {
+  return error == ENOLCK || error == ENOTSUP || error == EOPNOTSUPP || error == ENOSYS;
+}
+
+std::string one_line(std::string text) {
+  std::ranges::replace_if(
+      text, [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; }, ' ');
+  return text.substr(0, longest_text);
+}
+
+std::string text_of_holder(std::string_view command) {
+  std::array<char, 256> host{};
+  if (::gethostname(host.data(), host.size() - 1) != 0) host[0] = '?';
+  return one_line(fmt::format("{} {} {}", host.data(), ::getpid(), command)) + '\n';
+}
+
+/// "process PID on HOST (COMMAND)", from the text of the lock at `fd`.
+std::string holder(int fd) {
+  std::array<char, longest_text + 1> bytes{};
+  const ssize_t n = ::pread(fd, bytes.data(), bytes.size(), 0);
+  const std::string text(bytes.data(), static_cast<std::size_t>(std::max<ssize_t>(n, 0)));
+  const std::size_t host = text.find(' '), pid = text.find(' ', host + 1);
+  if (host == std::string::npos || pid == std::string::npos)
+    return "processes that have not said who they are, such as shards";
+  return one_line(fmt::format("process {} on {} ({})", text.substr(host + 1, pid - host - 1),
+                              text.substr(0, host), text.substr(pid + 1, text.find('\n') - pid - 1)));
+}
+
+/// The lock is what counts: a text that cannot be written, as on a full disk, is not missed.
+void write_text(int fd, std::string_view text) {
+  if (::ftruncate(fd, 0) != 0) return;
+  [[maybe_unused]] const ssize_t ignored = ::pwrite(fd, text.data(), text.size(), 0);
+}
+
+}  // namespace
+
+FolderLock::FolderLock(const std::string& folder, LockKind kind, std::string_view command) {
+  const std::string state = folder + "/.counterflex", path = state + "/lock";
+  make_folder(state);
+  fd_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
+  if (fd_ < 0) fail_locking(folder, fmt::format("{}: {}", path, std::strerror(errno)));
+  if (::flock(fd_, (kind == LockKind::exclusive ? LOCK_EX : LOCK_SH) | LOCK_NB) == 0) {
+    const bool alone = kind == LockKind::exclusive;
+    write_text(fd_, alone ? text_of_holder(command) : "");
+    if (alone) owner_ = ::getpid();
+    return;
+  }
+  const int error = errno;
+  if (file_system_has_no_locks(error)) why_not_ = std::strerror(error);
+  const std::string other = error == EWOULDBLOCK ? holder(fd_) : "";
+  if (why_not_.empty()) ::close(std::exchange(fd_, -1));
+  if (error == EWOULDBLOCK)
+    throw InputError(Exit::transient_io, {folder},
+                     fmt::format("another run is at work in this folder: {}", other));
+  if (why_not_.empty()) fail_locking(folder, std::strerror(error));
+}
+
+FolderLock::~FolderLock() {
+  if (fd_ < 0) return;
+  if (owner_ == ::getpid()) write_text(fd_, "");
+  ::close(fd_);
+}
+
+FolderLock::FolderLock(FolderLock&& other) noexcept
+    : fd_(std::exchange(other.fd_, -1)), owner_(other.owner_), why_not_(std::move(other.why_not_)) {}
+
+}  // namespace counterflex

@@ -1,0 +1,116 @@
+#include "counterflex/batch/job_outcome.hpp"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "batch/job_line.hpp"
+
+namespace counterflex {
+namespace {
+
+using LineJson = nlohmann::ordered_json;
+
+LineJson json_of(const std::vector<FileHash>& files) {
+  LineJson list = LineJson::array();
+  for (const FileHash& file : files)
+    list.push_back({{"path", utf8_of_bytes(file.path)}, {"sha256", utf8_of_bytes(file.sha256)}});
+  return list;
+}
+
+LineJson json_of(const std::optional<double>& value) {
+  return value ? LineJson(*value) : LineJson();
+}
+
+std::string text_at(const LineJson& object, const char* key) {
+  return bytes_of_utf8(object.at(key).get_ref<const std::string&>());
+}
+
+std::vector<FileHash> files_at(const LineJson& object, const char* key) {
+  std::vector<FileHash> files;
+  for (const LineJson& file : object.at(key).get_ref<const LineJson::array_t&>())
+    files.push_back({text_at(file, "path"), text_at(file, "sha256")});
+  return files;
+}
+
+std::optional<double> number_at(const LineJson& object, const char* key) {
+  const LineJson& value = object.at(key);
+  if (value.is_null()) return std::nullopt;
+  return value.get<double>();
+}
+
+JobOutcome outcome_from(const LineJson& object) {
+  JobOutcome outcome;
+  outcome.key = text_at(object, "key");
+  outcome.program = text_at(object, "program");
+  outcome.output = text_at(object, "output");
+  outcome.exit = static_cast<Exit>(object.at("exit").get<int>());
+  outcome.error = text_at(object, "error");
+  outcome.inputs = files_at(object, "inputs");
+  outcome.outputs = files_at(object, "outputs");
+  outcome.before_mm = number_at(object, "before_mm");
+  outcome.after_mm = number_at(object, "after_mm");
+  outcome.corrected_percent = number_at(object, "corrected_percent");
+  outcome.warnings = object.at("warnings").get<std::size_t>();
+  outcome.moves = object.at("moves").get<std::size_t>();
+  return outcome;
+}
+
+/// From 1: where two texts, one of which is no part of the other's beginning, begin to differ.
+std::size_t first_difference(std::string_view a, std::string_view b) {
+  const auto shorter = static_cast<std::ptrdiff_t>(std::min(a.size(), b.size()));
+  return static_cast<std::size_t>(std::mismatch(a.begin(), a.begin() + shorter, b.begin()).first -
+                                  a.begin()) +
+         1;
+}
+
+/// What the library says, without its number and the place, which is said otherwise.
+std::string without_name(const LineJson::exception& error) {
+  std::string_view text = error.what();
+  for (const std::string_view before : {std::string_view("] "), std::string_view(": syntax error ")})
+    if (const std::size_t at = text.find(before); at != std::string_view::npos)
+      text.remove_prefix(at + before.size());
+  return std::string(text);
+}
+
+}  // namespace
+
+std::string to_json_line(const JobOutcome& outcome) {
+  LineJson object;
+  object["key"] = utf8_of_bytes(outcome.key);
+  object["program"] = utf8_of_bytes(outcome.program);
+  object["output"] = utf8_of_bytes(outcome.output);
+  object["exit"] = static_cast<int>(outcome.exit);
+  object["error"] = utf8_of_bytes(outcome.error);
+  object["inputs"] = json_of(outcome.inputs);
+  object["outputs"] = json_of(outcome.outputs);
+  object["before_mm"] = json_of(outcome.before_mm);
+  object["after_mm"] = json_of(outcome.after_mm);
+  object["corrected_percent"] = json_of(outcome.corrected_percent);
+  object["warnings"] = outcome.warnings;
+  object["moves"] = outcome.moves;
+  return object.dump();
+}
+
+std::variant<JobOutcome, LineTrouble> read_job_line(std::string_view line) {
+  try {
+    JobOutcome outcome = outcome_from(LineJson::parse(line));
+    const std::string written = to_json_line(outcome);
+    if (written == line) return outcome;
+    return LineTrouble{first_difference(line, written), "the line is not as counterflex writes it"};
+  } catch (const LineJson::parse_error& error) {
+    return LineTrouble{std::max<std::size_t>(error.byte, 1), "the line is no JSON: " + without_name(error)};
+  } catch (const LineJson::exception& error) {
+    return LineTrouble{1, "the line is not that of a job: " + without_name(error)};
+  }
+}
+
+JobOutcome outcome_of(std::string_view line) {
+  auto read = read_job_line(line);
+  if (const auto* trouble = std::get_if<LineTrouble>(&read))
+    throw InputError(Exit::internal, {},
+                     fmt::format("the outcome of a job cannot be read: {}", trouble->what));
+  return std::get<JobOutcome>(std::move(read));
+}
+
+}  // namespace counterflex

@@ -1,0 +1,167 @@
+#include "counterflex/batch/summary.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <tuple>
+#include <utility>
+
+#include "counterflex/files/numbers.hpp"
+
+namespace counterflex {
+namespace {
+
+constexpr int shown_digits = 6;  // of a length in mm: no last bits
+
+bool is_done(const JobOutcome& outcome) {
+  return outcome.exit == Exit::done;
+}
+
+std::size_t count_done(const std::vector<JobOutcome>& outcomes) {
+  return static_cast<std::size_t>(std::count_if(outcomes.begin(), outcomes.end(), is_done));
+}
+
+using Document = nlohmann::ordered_json;
+
+Document number_or_null(const std::optional<double>& value, int decimals) {
+  return value ? Document(rounded(*value, decimals)) : Document();
+}
+
+Document files_of(const std::vector<FileHash>& files) {
+  Document list = Document::array();
+  for (const FileHash& file : files) list.push_back({{"path", file.path}, {"sha256", file.sha256}});
+  return list;
+}
+
+Document job_of(const JobOutcome& outcome) {
+  Document job;
+  job["program"] = outcome.program;
+  job["output"] = outcome.output;
+  job["status"] = status_text(outcome.exit);
+  job["exit_status"] = static_cast<int>(outcome.exit);
+  job["error"] = outcome.error.empty() ? Document() : Document(outcome.error);
+  job["before_mm"] = number_or_null(outcome.before_mm, shown_digits);
+  job["after_mm"] = number_or_null(outcome.after_mm, shown_digits);
+  job["corrected_percent"] = number_or_null(outcome.corrected_percent, 2);
+  job["warnings"] = outcome.warnings;
+  job["moves"] = outcome.moves;
+  job["inputs"] = files_of(outcome.inputs);
+  job["outputs"] = files_of(outcome.outputs);
+  return job;
+}
+
+/// What RFC 4180 wants in quotes.
+std::string csv_field(std::string_view text) {
+  if (text.find_first_of(",\"\r\n") == std::string_view::npos) return std::string(text);
+  std::string quoted = "\"";
+  for (const char c : text) quoted.append(c == '"' ? 2 : 1, c);
+  return quoted + '"';
+}
+
+std::string fixed_or(const std::optional<double>& value, int decimals, std::string_view none) {
+  return value ? format_fixed(*value, decimals) : std::string(none);
+}
+
+std::string row_of(const JobOutcome& outcome) {
+  const std::string percent =
+      outcome.corrected_percent ? fixed_or(outcome.corrected_percent, 1, "") + " %" : "-";
+  return fmt::format("{:<22}{:>11}{:>11}{:>11}{:>10}  {}\n", status_text(outcome.exit),
+                     fixed_or(outcome.before_mm, 4, "-"), fixed_or(outcome.after_mm, 4, "-"), percent,
+                     outcome.warnings, outcome.program);
+}
+
+std::string heading() {
+  return fmt::format("{:<22}{:>11}{:>11}{:>11}{:>10}  {}\n", "status", "before mm", "after mm", "corrected",
+                     "warnings", "program");
+}
+
+}  // namespace
+
+std::vector<JobOutcome> worst_first(std::vector<JobOutcome> outcomes) {
+  const auto badness = [](const JobOutcome& outcome) {
+    constexpr double none = -std::numeric_limits<double>::infinity();
+    return std::tuple(is_done(outcome), -outcome.after_mm.value_or(none), -outcome.before_mm.value_or(none));
+  };
+  std::sort(outcomes.begin(), outcomes.end(), [&](const JobOutcome& a, const JobOutcome& b) {
+    return std::tuple(badness(a), std::string_view(a.program), std::string_view(a.output)) <
+           std::tuple(badness(b), std::string_view(b.program), std::string_view(b.output));
+  });
+  return outcomes;
+}
+
+std::string_view status_text(Exit exit) {
+  switch (exit) {
+    case Exit::done:
+      return "done";
+    case Exit::internal:
+      return "internal error";
+    case Exit::usage:
+      return "cannot be run";
+    case Exit::program_text:
+      return "program refused";
+    case Exit::machine_or_force:
+      return "machine or force file";
+    case Exit::not_compensated:
+      return "not within tolerance";
+    case Exit::limit:
+      return "limit exceeded";
+    case Exit::transient_io:
+      return "input or output";
+    case Exit::interrupted:
+      return "interrupted";
+  }
+  return "failed";
+}
+
+Exit exit_of(const std::vector<JobOutcome>& outcomes) {
+  Exit worst = Exit::done;
+  for (const JobOutcome& outcome : outcomes) {
+    if (outcome.exit == Exit::transient_io) return Exit::transient_io;
+    if (is_done(outcome)) continue;
+    worst = is_done({.exit = worst}) ? outcome.exit : std::min(worst, outcome.exit);
+  }
+  return worst;
+}
+
+std::string summary_table(const std::vector<JobOutcome>& outcomes, std::size_t most_rows) {
+  const std::vector<JobOutcome> rows = worst_first(outcomes);
+  const std::size_t shown = std::min(rows.size(), most_rows);
+  std::string text = heading();
+  for (std::size_t i = 0; i < shown; ++i) text += row_of(rows[i]);
+  if (shown < rows.size()) text += fmt::format("and {} more, which are no worse\n", rows.size() - shown);
+  const std::size_t done = count_done(rows);
+  text += done == rows.size()
+              ? fmt::format("\n{} of {} jobs done\n", done, rows.size())
+              : fmt::format("\n{} of {} jobs done, {} failed\n", done, rows.size(), rows.size() - done);
+  for (std::size_t i = 0; i < shown && !is_done(rows[i]); ++i) text += fmt::format("  {}\n", rows[i].error);
+  return text;
+}
+
+std::string summary_json(const std::vector<JobOutcome>& outcomes, std::string_view version) {
+  const std::size_t done = count_done(outcomes);
+  Document document;
+  document["schema"] = "counterflex-batch 1";
+  document["tool"] = fmt::format("counterflex {}", version);
+  document["counts"] = {{"jobs", outcomes.size()}, {"done", done}, {"failed", outcomes.size() - done}};
+  document["exit_status"] = static_cast<int>(exit_of(outcomes));
+  document["jobs"] = Document::array();
+  for (const JobOutcome& outcome : worst_first(outcomes)) document["jobs"].push_back(job_of(outcome));
+  return document.dump(2, ' ', false, Document::error_handler_t::replace) + "\n";
+}
+
+std::string summary_csv(const std::vector<JobOutcome>& outcomes) {
+  std::string text =
+      "program,output,status,exit_status,before_mm,after_mm,corrected_percent,warnings,moves,error\n";
+  for (const JobOutcome& outcome : worst_first(outcomes))
+    text +=
+        fmt::format("{},{},{},{},{},{},{},{},{},{}\n", csv_field(outcome.program), csv_field(outcome.output),
+                    status_text(outcome.exit), static_cast<int>(outcome.exit),
+                    fixed_or(outcome.before_mm, shown_digits, ""),
+                    fixed_or(outcome.after_mm, shown_digits, ""), fixed_or(outcome.corrected_percent, 2, ""),
+                    outcome.warnings, outcome.moves, csv_field(outcome.error));
+  return text;
+}
+
+}  // namespace counterflex

@@ -1,0 +1,52 @@
+#include "counterflex/files/folders.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+
+#include "counterflex/files/input_error.hpp"
+#include "files/descriptor.hpp"
+
+namespace counterflex {
+namespace {
+
+[[noreturn]] void fail_at_folder(const std::string& folder, const char* what) {
+  throw InputError(Exit::transient_io, {folder},
+                   fmt::format("cannot {} the folder: {}", what, std::strerror(errno)));
+}
+
+/// A folder may be written to and not be opened; some file systems know nothing of syncing folders. One that
+/// has become read-only has failed.
+bool cannot_be_synced(int error) {
+  return error == EACCES || error == EPERM || error == EINVAL || error == ENOTSUP || error == ENOSYS;
+}
+
+}  // namespace
+
+std::string folder_of(const std::string& path) {
+  const std::string folder = std::filesystem::path(path).parent_path().string();
+  return folder.empty() ? "." : folder;
+}
+
+void make_folder(const std::string& path) {
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored)) return;
+  const std::string above = folder_of(path);
+  if (above != path) make_folder(above);
+  if (::mkdir(path.c_str(), 0777) != 0 && (errno != EEXIST || !std::filesystem::is_directory(path, ignored)))
+    fail_at_folder(path, "make");
+  sync_folder(above);
+}
+
+void sync_folder(const std::string& folder) {
+  const Descriptor descriptor(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  if ((descriptor.get() < 0 || ::fsync(descriptor.get()) != 0) && !cannot_be_synced(errno))
+    fail_at_folder(folder, "sync");
+}
+
+}  // namespace counterflex

@@ -1,0 +1,65 @@
+#include "counterflex/settings/environment.hpp"
+
+#include <string_view>
+
+#include "settings/keys.hpp"
+
+namespace counterflex {
+namespace {
+
+/// The value of the variable `name`; empty where there is none.
+std::string_view value_of_variable(const char* const* variables, const std::string& name) {
+  for (; *variables != nullptr; ++variables) {
+    const std::string_view variable = *variables;
+    if (variable.starts_with(name) && variable.substr(name.size()).starts_with('='))
+      return variable.substr(name.size() + 1);
+  }
+  return {};
+}
+
+std::vector<std::string> split_at_colons(std::string_view text) {
+  std::vector<std::string> parts;
+  for (;;) {
+    const std::size_t colon = text.find(':');
+    if (colon != 0 && !text.empty()) parts.emplace_back(text.substr(0, colon));
+    if (colon == std::string_view::npos) return parts;
+    text.remove_prefix(colon + 1);
+  }
+}
+
+std::vector<std::string> name_or_truth(std::string_view text, std::string_view beside_output) {
+  if (text == "false") return {};
+  return {std::string(text == "true" ? beside_output : text)};
+}
+
+std::vector<std::string> values_of(std::string_view text, setting_file::Kind kind) {
+  using setting_file::Kind;
+  switch (kind) {
+    case Kind::paths:
+    case Kind::forces:
+    case Kind::offsets:
+    case Kind::lengths:
+      return split_at_colons(text);
+    case Kind::report:
+      return name_or_truth(text, setting_file::report_beside_output);
+    case Kind::plot:
+      return name_or_truth(text, setting_file::plot_beside_output);
+    default:
+      return {std::string(text)};
+  }
+}
+
+}  // namespace
+
+std::vector<Setting> read_environment(const char* const* variables) {
+  std::vector<Setting> settings;
+  for (const setting_file::Key& key : setting_file::keys) {
+    const std::string name = setting_file::variable_of(key.option);
+    const std::string_view text = value_of_variable(variables, name);
+    if (text.empty()) continue;
+    settings.push_back({std::string(key.option), values_of(text, key.kind), {name}, Origin::environment});
+  }
+  return settings;
+}
+
+}  // namespace counterflex

@@ -1,0 +1,160 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+#include "counterflex/files/numbers.hpp"
+#include "counterflex/machine/work_names.hpp"
+#include "counterflex/settings/project_file.hpp"
+#include "settings/keys.hpp"
+#include "settings/number_text.hpp"
+
+namespace counterflex {
+namespace {
+
+using setting_file::Key;
+using setting_file::Kind;
+
+std::string toml_text(std::string_view text) {
+  std::string result = "\"";
+  for (const char c : text) {
+    const auto code = static_cast<unsigned char>(c);
+    if (c == '"' || c == '\\')
+      result.append(1, '\\').append(1, c);
+    else if (code < 0x20 || code == 0x7F)
+      result += fmt::format("\\u{:04X}", code);
+    else
+      result += c;
+  }
+  return result.append(1, '"');
+}
+
+std::string toml_list(const std::vector<std::string>& values) {
+  std::string list = "[";
+  for (const std::string& value : values) list.append(list.size() > 1 ? ", " : "").append(toml_text(value));
+  return list.append(1, ']');
+}
+
+/// As TOML writes it; what is no number stays, to be judged by who reads it.
+std::string plain_number(std::string_view text) {
+  const auto blank = [](char c) { return c == ' '; };
+  while (!text.empty() && blank(text.front())) text.remove_prefix(1);
+  while (!text.empty() && blank(text.back())) text.remove_suffix(1);
+  const auto number = read_number(text);
+  return number ? setting_file::number_text(*number) : std::string(text);
+}
+
+std::string value_text(const std::vector<std::string>& values, Kind kind) {
+  if (kind == Kind::paths || kind == Kind::forces) return toml_list(values);
+  if (values.empty()) return "false";
+  const std::string& value = values.back();
+  if (kind == Kind::number || kind == Kind::whole) return plain_number(value);
+  if (kind == Kind::truth) return value;
+  if (kind == Kind::report && value == setting_file::report_beside_output) return "true";
+  if (kind == Kind::plot && value == setting_file::plot_beside_output) return "true";
+  return toml_text(value);
+}
+
+/// Names of files may hold anything, comments may not.
+std::string in_one_line(std::string text) {
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; },
+      '?');
+  return text;
+}
+
+std::string origin_text(const Setting& setting, std::size_t value = 0) {
+  switch (setting.origin) {
+    case Origin::flag:
+      return shown_option(setting.option, Origin::flag);
+    case Origin::environment:
+      return setting.where.file;
+    case Origin::file:
+      return fmt::format("{}:{}", in_one_line(setting.where.file), place_of(setting, value).line);
+    case Origin::builtin:
+      break;
+  }
+  return "default";
+}
+
+/// "1,2,3" of the numbers from `first` on, at most three.
+std::string three_numbers(const std::vector<std::string>& numbers, std::size_t first) {
+  std::string text = "[";
+  for (std::size_t i = first; i < std::min(first + 3, numbers.size()); ++i)
+    text.append(i > first ? ", " : "").append(plain_number(numbers[i]));
+  return text.append(1, ']');
+}
+
+std::vector<std::string> at_commas(const std::string& text) {
+  std::vector<std::string> parts(1);
+  for (const char c : text) {
+    if (c == ',')
+      parts.emplace_back();
+    else
+      parts.back() += c;
+  }
+  return parts;
+}
+
+/// In quotation marks where TOML asks for them.
+std::string toml_key(const std::string& name) {
+  const bool bare = std::all_of(name.begin(), name.end(), [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
+  });
+  return bare && !name.empty() ? name : toml_text(name);
+}
+
+std::string offset_table(const std::string& name, const std::string& value) {
+  const std::string known = work_offset_name(name).value_or(name);
+  const auto numbers = at_commas(value);
+  std::string text = fmt::format("[work.{}]\nxyz_mm = {}\n", toml_key(known), three_numbers(numbers, 0));
+  if (numbers.size() > 3) text += fmt::format("rpy_deg = {}\n", three_numbers(numbers, 3));
+  return text;
+}
+
+std::string length_table(const std::string& name, const std::string& value) {
+  const auto tool = read_tool_number(name);
+  return fmt::format("[tools.{}]\nlength_mm = {}\n", tool ? fmt::format("T{}", *tool) : toml_key(name),
+                     plain_number(value));
+}
+
+/// Of two values for one name the later one counts, as on the command line.
+std::string tables_text(const Setting& setting, Kind kind) {
+  std::map<std::string, std::string> tables;
+  for (std::size_t i = 0; i < setting.values.size(); ++i) {
+    const std::string& value = setting.values[i];
+    const std::size_t equals = std::min(value.find('='), value.size() - 1);
+    const std::string name = value.substr(0, equals), rest = value.substr(equals + 1);
+    const std::string table = kind == Kind::offsets ? offset_table(name, rest) : length_table(name, rest);
+    tables[table.substr(0, table.find('\n'))] = fmt::format("\n# {}\n{}", origin_text(setting, i), table);
+  }
+  std::string text;
+  for (const auto& [head, table] : tables) text += table;
+  return text;
+}
+
+const Setting* setting_of(const std::vector<Setting>& settings, std::string_view option) {
+  const auto found = std::find_if(settings.begin(), settings.end(),
+                                  [&](const Setting& setting) { return setting.option == option; });
+  return found == settings.end() ? nullptr : &*found;
+}
+
+}  // namespace
+
+std::string to_project_text(const std::vector<Setting>& settings) {
+  std::string text = "format = \"counterflex-project 1\"\n", tables;
+  for (const Key& key : setting_file::keys) {
+    const Setting* setting = setting_of(settings, key.option);
+    if (setting == nullptr) continue;
+    if (key.kind == Kind::offsets || key.kind == Kind::lengths) {
+      tables += tables_text(*setting, key.kind);
+      continue;
+    }
+    const std::string line = fmt::format("{} = {}", setting_file::key_of_option(key.option),
+                                         value_text(setting->values, key.kind));
+    text += fmt::format("{:<40}  # {}\n", line, origin_text(*setting));
+  }
+  return text + tables;
+}
+
+}  // namespace counterflex

@@ -1,0 +1,76 @@
+#include "counterflex/batch/summary.hpp"
+
+#include <doctest/doctest.h>
+
+#include <nlohmann/json.hpp>
+
+namespace counterflex {
+namespace {
+
+JobOutcome job(const std::string& program, Exit exit, std::optional<double> after,
+               std::optional<double> before = 1) {
+  JobOutcome outcome;
+  outcome.program = program;
+  outcome.output = "out/" + program;
+  outcome.exit = exit;
+  outcome.before_mm = before;
+  outcome.after_mm = after;
+  if (exit != Exit::done) outcome.error = program + ":1:1: error: \"no\", it said";
+  return outcome;
+}
+
+std::vector<std::string> programs(const std::vector<JobOutcome>& outcomes) {
+  std::vector<std::string> names;
+  for (const JobOutcome& outcome : outcomes) names.push_back(outcome.program);
+  return names;
+}
+
+}  // namespace
+
+TEST_CASE("jobs that failed come first, then those with the largest deviation left") {
+  const std::vector<JobOutcome> jobs{job("small", Exit::done, 0.001),    job("none", Exit::done, {}, {}),
+                                     job("large", Exit::done, 0.004),    job("b", Exit::program_text, {}, {}),
+                                     job("equal", Exit::done, 0.001, 2), job("a", Exit::limit, {}, {})};
+  CHECK(programs(worst_first(jobs)) == std::vector<std::string>{"a", "b", "large", "equal", "small", "none"});
+}
+
+TEST_CASE(
+    "the status of a batch asks for another try where that may help, else it is the smallest that failed") {
+  CHECK(exit_of({}) == Exit::done);
+  CHECK(exit_of({job("a", Exit::done, 0)}) == Exit::done);
+  CHECK(exit_of({job("a", Exit::limit, {}), job("b", Exit::program_text, {}), job("c", Exit::done, 0)}) ==
+        Exit::program_text);
+  CHECK(exit_of({job("a", Exit::internal, {}), job("b", Exit::transient_io, {}), job("c", Exit::done, 0)}) ==
+        Exit::transient_io);
+}
+
+TEST_CASE("the table shows the worst jobs, says how many others there are, and why some failed") {
+  std::vector<JobOutcome> jobs{job("bad.ngc", Exit::not_compensated, {}, {})};
+  for (int i = 0; i < 5; ++i) jobs.push_back(job("part" + std::to_string(i), Exit::done, 0.001 * i));
+  const std::string text = summary_table(jobs, 3);
+  CHECK(text.find("not within tolerance") < text.find("bad.ngc"));
+  CHECK(text.find("part4") < text.find("part3"));
+  CHECK(text.find("part2") == std::string::npos);
+  CHECK(text.find("and 3 more") != std::string::npos);
+  CHECK(text.find("5 of 6 jobs done, 1 failed") != std::string::npos);
+  CHECK(text.find("  bad.ngc:1:1: error: \"no\", it said\n") != std::string::npos);
+}
+
+TEST_CASE("the documents say the same, and are read back whatever stands in names") {
+  const std::vector<JobOutcome> jobs{job("a, \"b\".ngc", Exit::done, 0.0041),
+                                     job("\xff.ngc", Exit::limit, {}, {})};
+  const auto document = nlohmann::json::parse(summary_json(jobs, "1.2"));
+  CHECK(document["tool"] == "counterflex 1.2");
+  CHECK(document["counts"]["failed"] == 1);
+  CHECK(document["exit_status"] == 6);
+  CHECK(document["jobs"][0]["before_mm"].is_null());
+  CHECK(document["jobs"][1]["program"] == "a, \"b\".ngc");
+  CHECK(document["jobs"][1]["after_mm"] == 0.0041);
+  const std::string csv = summary_csv(jobs);
+  CHECK(csv.find("\n\"a, \"\"b\"\".ngc\",\"out/a, \"\"b\"\".ngc\",done,0,1.000000,0.004100,,0,0,\n") !=
+        std::string::npos);
+  CHECK(csv.find(",limit exceeded,6,,,,0,0,\"\xff.ngc:1:1: error: \"\"no\"\", it said\"\n") !=
+        std::string::npos);
+}
+
+}  // namespace counterflex

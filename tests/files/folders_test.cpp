@@ -1,0 +1,39 @@
+#include "counterflex/files/folders.hpp"
+
+#include "counterflex/files/files.hpp"
+#include "counterflex/files/input_error.hpp"
+#include "files/folder.hpp"
+
+using namespace counterflex;
+using namespace counterflex::test;
+
+TEST_CASE("a folder is made with what is missing above it, and left alone where it is there") {
+  const Folder folder;
+  for (const char* path : {"a/b/c", "a/b/c", "d/", "d/e//f/", "."}) {
+    CAPTURE(path);
+    make_folder(folder.file(path));
+    CHECK(std::filesystem::is_directory(folder.file(path)));
+  }
+}
+
+TEST_CASE("a folder that cannot be made is named") {
+  const Folder folder;
+  write_file(folder.file("file"), "x");
+  for (const char* path : {"file", "file/below", "file/far/below"}) {
+    CAPTURE(path);
+    try {
+      make_folder(folder.file(path));
+      FAIL("it was made");
+    } catch (const InputError& error) {
+      CHECK(error.exit() == Exit::transient_io);
+      CHECK(error.where().file.starts_with(folder.file("file")));
+    }
+  }
+  CHECK(read_file(folder.file("file")) == "x");
+}
+
+TEST_CASE("syncing a folder that is not there is an error") {
+  const Folder folder;
+  CHECK_NOTHROW(sync_folder(folder.path.string()));
+  CHECK_THROWS_AS(sync_folder(folder.file("missing")), InputError);
+}

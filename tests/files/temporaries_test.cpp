@@ -1,0 +1,60 @@
+#include "counterflex/files/temporaries.hpp"
+
+#include <set>
+
+#include "counterflex/files/file_writer.hpp"
+#include "counterflex/files/files.hpp"
+#include "files/folder.hpp"
+
+using namespace counterflex;
+using namespace counterflex::test;
+
+TEST_CASE("a temporary name says what the file was to become") {
+  CHECK(temporary_name("a/b.ngc", 12, 3) == "a/b.ngc.12-3.tmp");
+  for (const char* path : {"b.ngc", "b", "b.1-2.tmp", ".b", "12-3"})
+    CHECK(wanted_name(temporary_name(path, 4711, 0)) == path);
+  for (const char* name : {"b.ngc", "b.tmp", "b.ngc.12.tmp", "b.ngc.12-.tmp", "b.ngc.-3.tmp", "b.ngc.12-3",
+                           "12-3.tmp", ".tmp", "", "b.ngc.x12-3.tmp", "b.ngc.12-3x.tmp", "b.ngc12-3.tmp"}) {
+    CAPTURE(name);
+    CHECK(wanted_name(name).empty());
+  }
+}
+
+TEST_CASE("what killed writers have left is swept, and nothing else") {
+  const Folder folder;
+  const auto names = [&] {
+    std::set<std::string> found;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder.path))
+      found.insert(entry.path().lexically_relative(folder.path).string());
+    return found;
+  };
+  std::filesystem::create_directories(folder.file("deep"));
+  std::filesystem::create_directories(folder.file("a.ngc.7-7.tmp"));
+  for (const char* name :
+       {"a.ngc", "b.ngc.12-3.tmp", "a.ngc.tmp", "a.ngc.12-3.tmp.bak", "a.ngcc.1-1.tmp", "deep/b.ngc.1-1.tmp"})
+    write_file(folder.file(name), "x");
+  std::filesystem::create_symlink("a.ngc", folder.file("a.ngc.8-8.tmp"));
+  const auto kept = names();
+  for (const char* name : {"a.ngc.12-3.tmp", "a.ngc.99999-0.tmp", "deep/a.ngc.1-1.tmp"})
+    write_file(folder.file(name), "x");
+  CHECK(sweep_temporaries(
+            {folder.file("a.ngc"), folder.file("deep/a.ngc"), folder.file("missing/a.ngc"), "", "-"}) == 3);
+  CHECK(names() == kept);
+}
+
+TEST_CASE(
+    "what a writer leaves that ends in the middle is swept, through links and in the present folder, too") {
+  const Folder folder;
+  std::filesystem::create_directories(folder.file("real"));
+  write_file(folder.file("real/a.ngc"), "old");
+  std::filesystem::create_symlink("real/a.ngc", folder.file("link.ngc"));
+  static std::vector<FileWriter*> ended;  // never destroyed
+  ended.push_back(new FileWriter(folder.file("link.ngc")));
+  const auto before = std::filesystem::current_path();
+  std::filesystem::current_path(folder.path);
+  ended.push_back(new FileWriter("here.ngc"));
+  CHECK(sweep_temporaries({"link.ngc", "here.ngc"}) == 2);
+  std::filesystem::current_path(before);
+  CHECK(folder.count() == 2);
+  CHECK(read_file(folder.file("real/a.ngc")) == "old");
+}

@@ -1,0 +1,51 @@
+#include "counterflex/settings/environment.hpp"
+
+#include <doctest/doctest.h>
+
+#include "setting_texts.hpp"
+
+using namespace counterflex;
+
+namespace {
+
+template <typename... Variables>
+std::vector<Setting> environment_of(Variables... variables) {
+  const char* const list[] = {variables..., nullptr};
+  return read_environment(list);
+}
+
+}  // namespace
+
+TEST_CASE("a variable COUNTERFLEX_OPTION is a setting, other variables are none") {
+  const auto settings = environment_of("PATH=/bin", "COUNTERFLEX_TOLERANCE_MM=0.01", "COUNTERFLEX_FOO=1",
+                                       "COUNTERFLEX_MACHINES=no", "counterflex_machine=no");
+  REQUIRE(settings.size() == 1);
+  CHECK(test::value(settings, "tolerance-mm") == "0.01");
+  CHECK(settings[0].origin == Origin::environment);
+  CHECK(settings[0].where.file == "COUNTERFLEX_TOLERANCE_MM");
+  CHECK(settings[0].where.line == 0);
+}
+
+TEST_CASE("an empty variable is none") {
+  CHECK(environment_of("COUNTERFLEX_MACHINE=", "COUNTERFLEX_FORCES=").empty());
+}
+
+TEST_CASE("several values stand with colons between them, of options that take several") {
+  using Texts = std::vector<std::string>;
+  const auto settings = environment_of("COUNTERFLEX_FORCES=a.csv:b.csv", "COUNTERFLEX_FORCE=1,2,3:T3=4,5,6",
+                                       "COUNTERFLEX_WORK=:G54=1,2,3:", "COUNTERFLEX_TOOL_LENGTH=T1=50:T2=60",
+                                       "COUNTERFLEX_MACHINE=a:b.toml");
+  CHECK(test::values(settings, "forces") == Texts{"a.csv", "b.csv"});
+  CHECK(test::values(settings, "force") == Texts{"1,2,3", "T3=4,5,6"});
+  CHECK(test::values(settings, "work") == Texts{"G54=1,2,3"});
+  CHECK(test::values(settings, "tool-length") == Texts{"T1=50", "T2=60"});
+  CHECK(test::values(settings, "machine") == Texts{"a:b.toml"});
+}
+
+TEST_CASE("reports and plots of the environment may be true or false, as in a project file") {
+  const auto yes = environment_of("COUNTERFLEX_REPORT=true", "COUNTERFLEX_PLOT=true");
+  CHECK(test::value(yes, "report") == "{output}");
+  CHECK(test::value(yes, "plot") == "{output}.svg");
+  CHECK(test::values(environment_of("COUNTERFLEX_REPORT=false"), "report").empty());
+  CHECK(test::value(environment_of("COUNTERFLEX_REPORT=r/{name}"), "report") == "r/{name}");
+}

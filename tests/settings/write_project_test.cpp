@@ -1,0 +1,97 @@
+#include <doctest/doctest.h>
+
+#include "counterflex/settings/project_file.hpp"
+#include "setting_texts.hpp"
+
+using namespace counterflex;
+
+namespace {
+
+using Texts = std::vector<std::string>;
+
+Setting flag(const std::string& option, const Texts& values) {
+  return {option, values, {}, Origin::flag};
+}
+
+/// What a file in the working directory says that holds `settings`.
+std::vector<Setting> read_back(const std::vector<Setting>& settings) {
+  return read_project(to_project_text(settings), "counterflex.toml");
+}
+
+}  // namespace
+
+TEST_CASE("what is written of settings is read as the same settings") {
+  const std::vector<Setting> settings{flag("machine", {"../shop/mill \"5\" \\ b.toml"}),
+                                      flag("forces", {"a.csv", "/abs/b\n.toml"}),
+                                      flag("force", {"1,2,3", "T3=4,5,6"}),
+                                      flag("load-scale", {"0"}),
+                                      flag("air-above", {"-2.5"}),
+                                      flag("blend-mm", {"0.1"}),
+                                      flag("dialect", {"fanuc"}),
+                                      flag("units", {"inch"}),
+                                      flag("integer-words", {"units"}),
+                                      flag("expand-subprograms", {"true"}),
+                                      flag("tool-table", {"t.tbl"}),
+                                      flag("method", {"nested"}),
+                                      flag("tolerance-mm", {"0.0050000000000000001"}),
+                                      flag("max-correction-mm", {"5"}),
+                                      flag("decimals", {"4"}),
+                                      flag("threads", {"3"}),
+                                      flag("min-block-ms", {"0.00001"}),
+                                      flag("output", {"x/{name}_CF{ext}"}),
+                                      flag("report", {"{output}"}),
+                                      flag("plot", {}),
+                                      flag("work", {"G54=1,2.5,-3", "G54.1 P3=0,0,0,0,0,90"}),
+                                      flag("tool-length", {"T1=50", "T12=62.25"})};
+  const auto read = read_back(settings);
+  REQUIRE(read.size() == settings.size());
+  for (const Setting& setting : settings) {
+    CAPTURE(setting.option);
+    if (setting.option == "tolerance-mm")
+      CHECK(test::values(read, setting.option) == Texts{"0.005"});
+    else
+      CHECK(test::values(read, setting.option) == setting.values);
+  }
+}
+
+TEST_CASE("numbers as the command line takes them become numbers as TOML takes them") {
+  const auto read =
+      read_back({flag("air-above", {".5"}), flag("tolerance-mm", {"+5e-3"}), flag("blend-mm", {"2."}),
+                 flag("work", {"g59.1= 1, +2 ,.5"}), flag("tool-length", {"01=+5."})});
+  CHECK(test::value(read, "air-above") == "0.5");
+  CHECK(test::value(read, "tolerance-mm") == "0.005");
+  CHECK(test::value(read, "blend-mm") == "2");
+  CHECK(test::value(read, "work") == "G59.1=1,2,0.5");
+  CHECK(test::value(read, "tool-length") == "T1=5");
+}
+
+TEST_CASE("of two values for one offset or tool the later one is written, as it is the one in force") {
+  const auto read =
+      read_back({flag("work", {"g54=1,1,1", "G54=2,2,2"}), flag("tool-length", {"T1=5", "1=6"})});
+  CHECK(test::value(read, "work") == "G54=2,2,2");
+  CHECK(test::value(read, "tool-length") == "T1=6");
+}
+
+TEST_CASE("what is said to be none is written as none, where a file can say so") {
+  const auto read = read_back({flag("report", {}), flag("force", {}), flag("work", {})});
+  CHECK(test::values(read, "report").empty());
+  CHECK(test::values(read, "force").empty());
+  CHECK(read.size() == 2);
+}
+
+TEST_CASE("each line says where its value is from, in one line whatever the file is called") {
+  const std::string text =
+      to_project_text({flag("machine", {"m"}),
+                       {"method", {"nested"}, {"COUNTERFLEX_METHOD"}, Origin::environment},
+                       {"decimals", {"4"}, {"a\nb.toml", 7, 1}, Origin::file},
+                       {"blend-mm", {"2"}, {}, Origin::builtin}});
+  CHECK(test::contains(text, "machine = \"m\"                             # --machine\n"));
+  CHECK(test::contains(text, "# COUNTERFLEX_METHOD\n"));
+  CHECK(test::contains(text, "# a?b.toml:7\n"));
+  CHECK(test::contains(text, "blend_mm = 2                              # default\n"));
+  const auto project =
+      test::project_with("[work.G54]\nxyz_mm = [1, 2, 3]\n[work.\"G54.1 P3\"]\nxyz_mm = [1, 2, 3]\n");
+  const std::string tables = to_project_text(project);
+  CHECK(test::contains(tables, "# p.toml:2\n[work.G54]\nxyz_mm = [1, 2, 3]\n"));
+  CHECK(test::contains(tables, "# p.toml:4\n[work.\"G54.1 P3\"]\n"));
+}
