@@ -87,6 +87,16 @@ bool reads_sources(const Options& options) {
   return options.command != Command::compare && options.command != Command::batch && !options.materials;
 }
 
+std::vector<SettingRemark> remarks_on_environment() {
+  std::vector<SettingRemark> remarks;
+  for (const auto& [name, meant] : misspelt_variables(environ)) {
+    SettingRemark& remark = remarks.emplace_back();
+    remark.where.file = name;
+    remark.what = fmt::format("is no setting and does nothing; did you mean {}?", meant);
+  }
+  return remarks;
+}
+
 }  // namespace
 
 std::variant<Options, Exit> read_command_line(int argc, const char* const* argv) {
@@ -102,6 +112,7 @@ std::variant<Options, Exit> read_command_line(int argc, const char* const* argv)
   } catch (const CLI::ParseError& error) {
     return leave(app, error);
   }
+  options.remarks = remarks_on_environment();
   if (!reads_sources(options)) return with_settings(options, {options.sources.flags});
   options.sources.environment = read_environment(environ);
   const ProgramLayers said = layers_of(options.sources, placing_program(options));
