@@ -23,10 +23,10 @@ void describe_program(CLI::App& app) {
       "deviation\n"
       "before and after.");
   app.footer(
-      "Exit status: 0 done, 1 internal error, 2 usage, 3 program text, 4 machine or force file, 5 tolerance "
-      "missed or\n"
-      "not converged, 6 travel or correction limit, 75 input or output failed, 130 interrupted (143 by "
-      "SIGTERM).");
+      "Exit status: 0 done, 1 internal error, 2 usage, 3 program text, 4 machine, force, job or project "
+      "file,\n"
+      "5 tolerance missed or not converged, 6 travel or correction limit, 75 input or output failed,\n"
+      "130 interrupted (143 by SIGTERM).");
   app.set_version_flag("--version", fmt::format("counterflex {}", version), "Print the version");
   app.require_subcommand(1);
   app.get_formatter()->column_width(38);
@@ -113,8 +113,8 @@ std::variant<Options, Exit> read_command_line(int argc, const char* const* argv)
     return leave(app, error);
   }
   options.remarks = remarks_on_environment();
-  if (!reads_sources(options)) return with_settings(options, {options.sources.flags});
   options.sources.environment = read_environment(environ);
+  if (!reads_sources(options)) return with_settings(options, {options.sources.flags});
   const ProgramLayers said = layers_of(options.sources, placing_program(options));
   options.project_file = said.project_file;
   const bool print = options.print_config;
