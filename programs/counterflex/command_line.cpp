@@ -21,7 +21,7 @@ void describe_program(CLI::App& app) {
   app.description(
       "Bends a machining program against the errors and the deflection of its machine, and reports the "
       "deviation\n"
-      "before and after.");
+      "before and after. counterflex PROGRAM is counterflex compensate PROGRAM.");
   app.footer(
       "Exit status: 0 done, 1 internal error, 2 usage, 3 program text, 4 machine, force, job or project "
       "file,\n"
@@ -112,6 +112,8 @@ std::variant<Options, Exit> read_command_line(int argc, const char* const* argv)
   } catch (const CLI::ParseError& error) {
     return leave(app, error);
   }
+  if (options.sources.config && options.sources.no_config)
+    throw InputError(Exit::usage, {}, "--config names a project file, and --no-config wants none");
   options.remarks = remarks_on_environment();
   options.sources.environment = read_environment(environ);
   if (!reads_sources(options)) return with_settings(options, {options.sources.flags});
