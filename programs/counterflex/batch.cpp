@@ -97,8 +97,8 @@ std::string counted_units(const std::vector<BatchUnit>& units) {
 
 /// Does units, or those of them that are not proven done. The signal by which it was stopped, if any.
 std::optional<int> run_units(const Options& options, const std::vector<BatchUnit>& units,
-                             BatchManifest& manifest, Console& console) {
-  if (options.resume) manifest.take_proven();
+                             const BatchFolder& folder, BatchManifest& manifest, Console& console) {
+  if (options.resume) manifest.take_proven(folder.manifests());
   if (options.resume)
     console.detail(fmt::format("{} of {} are proven done", manifest.ended().size(), units.size()));
   return do_missing(tasks_of(units), options.threads, manifest, console);
@@ -111,7 +111,7 @@ Exit run_shard(const Options& options, const Batch& batch, Console& console) {
   const auto by_shard = units_by_shard(batch, count, folder);
   const auto& units = by_shard[static_cast<std::size_t>(index - 1)];
   BatchManifest manifest(shard_manifest(folder, index, count), plan_of(by_shard), kept(units));
-  const auto stopped = run_units(options, units, manifest, console);
+  const auto stopped = run_units(options, units, folder, manifest, console);
   manifest.save();
   if (stopped) return static_cast<Exit>(status_of(*stopped));
   const std::vector<JobOutcome> outcomes = manifest.ended();
@@ -137,11 +137,13 @@ Exit run_all(const Options& options, const Batch& batch, Console& console) {
   const BatchFolder folder(batch, BatchFolder::Use::alone, console);
   const std::vector<BatchUnit> units = whole_jobs(batch);
   BatchManifest manifest(folder.state("manifest.json"), plan_of(batch), kept(units));
-  const auto stopped = run_units(options, units, manifest, console);
+  const auto stopped = run_units(options, units, folder, manifest, console);
   folder.sweep();
   manifest.save();
   if (stopped) return static_cast<Exit>(status_of(*stopped));
-  return conclude(options, batch, manifest.ended(), console);
+  const Exit exit = conclude(options, batch, manifest.ended(), console);
+  remove_shards(folder);  // of an earlier try, which nobody will finish
+  return exit;
 }
 
 }  // namespace

@@ -74,6 +74,7 @@ Exit leave(const CLI::App& app, const CLI::ParseError& error) {
 
 /// Whose folder, and those above, may hold the project file: of several files the first program.
 std::string placing_program(const Options& options) {
+  if (options.command == Command::watch) return (std::filesystem::path(options.folder) / "any").string();
   if (options.command != Command::check) return options.program;
   const auto program = std::find_if(options.files.begin(), options.files.end(),
                                     [](const std::string& file) { return !file.ends_with(".toml"); });

@@ -191,6 +191,21 @@ void add_batch(CLI::App& app, Options& options) {
   add_output(command, options);
 }
 
+void add_watch(CLI::App& app, Options& options) {
+  CLI::App& command = add_command(app, options, "watch", Command::watch,
+                                  "Compensate the programs that a post-processor drops into a folder");
+  add_file(command, "DIR", options.folder, "The folder");
+  command
+      .add_option("--pattern", options.patterns,
+                  "Only files whose names match, as in a shell; all programs; may be repeated")
+      ->type_name("'*.ngc'")
+      ->allow_extra_args(false);
+  command.add_flag("--once", options.once, "Do what is there and not yet done, and end");
+  add_setting(command, options, "output",
+              "The folder of the corrected programs, or a pattern; NAME.comp.EXT beside each program");
+  add_run(command, options);
+}
+
 }  // namespace
 
 void add_commands(CLI::App& app, Options& options) {
@@ -202,6 +217,7 @@ void add_commands(CLI::App& app, Options& options) {
   add_show_forces(app, options);
   add_check(app, options);
   add_batch(app, options);
+  add_watch(app, options);
 }
 
 }  // namespace counterflex::cli

@@ -16,4 +16,7 @@ Exit run_forces(const Options& options, Console& console);
 Exit run_check(const Options& options, Console& console);
 Exit run_batch(const Options& options, Console& console);
 
+/// Until it is interrupted: compensates the programs that appear in a folder.
+Exit run_watch(const Options& options, Console& console);
+
 }  // namespace counterflex::cli

@@ -27,6 +27,8 @@ Exit run_command(const Options& options, Console& console) {
       return run_check(options, console);
     case Command::batch:
       return run_batch(options, console);
+    case Command::watch:
+      return run_watch(options, console);
   }
   return Exit::internal;
 }

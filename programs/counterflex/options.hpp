@@ -12,7 +12,7 @@
 
 namespace counterflex::cli {
 
-enum class Command { compensate, predict, verify, compare, analyze, forces, check, batch };
+enum class Command { compensate, predict, verify, compare, analyze, forces, check, batch, watch };
 
 /// Where settings come from besides jobs files.
 struct SettingSources {
@@ -79,6 +79,10 @@ struct Options {
   std::optional<Shard> shard;  ///< this part alone
   bool merge = false;          ///< what the shards have done
   bool estimate = false;       ///< say how long it would take
+
+  std::string folder;                 ///< watch alone, as what follows
+  std::vector<std::string> patterns;  ///< what names of programs match; none: any
+  bool once = false;                  ///< what is there, and no more
 
   bool hash_outputs = false;          ///< compensate alone, of a batch, as what follows: for its manifest
   std::optional<PartOfProgram> part;  ///< this part, and nothing but its record

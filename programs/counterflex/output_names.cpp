@@ -117,7 +117,7 @@ void check_pattern(const std::string& name, const std::string& text) {
 }
 
 void name_outputs(Options& options, const std::vector<Setting>& settings) {
-  if (!has_setting(options.command, "output")) return;
+  if (!has_setting(options.command, "output") || options.command == Command::watch) return;
   Naming naming{options, settings, known_parts(options.program)};
   options.output = named(options.output, "output", "{name}{ext}", naming);
   naming.parts.output = output_stem(options, options.output);

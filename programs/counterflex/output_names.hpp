@@ -19,7 +19,8 @@ void check_pattern(const std::string& name, const std::string& text);
 /// Turns folders and patterns of output, report and plot into the paths for the program of `options`, and
 /// notes in `Options::folders` those folders that may have to be made. Standard input has no name: what a
 /// file or the environment says that needs one is then left out, and a flag throws `InputError`
-/// (Exit::usage). `settings` are those that `options` was made of.
+/// (Exit::usage). `settings` are those that `options` was made of. Nothing for `watch`, whose programs
+/// are named one by one.
 void name_outputs(Options& options, const std::vector<Setting>& settings);
 
 /// Notes in `options` an output, report or plot of a file that has one name for all programs: each run takes

@@ -161,6 +161,7 @@ bool has_setting(Command command, std::string_view option) {
     case Command::compensate:
     case Command::predict:
     case Command::verify:
+    case Command::watch:
       return true;
     case Command::analyze:
       return is_among(option, {"machine", "method"});

@@ -17,10 +17,14 @@ namespace {
 
 constexpr int ending[] = {SIGINT, SIGTERM, SIGHUP};
 
+/// Without those that are ignored (nohup): a signal that waits is not.
 sigset_t ending_set() {
   sigset_t set;
   ::sigemptyset(&set);
-  for (const int signal : ending) ::sigaddset(&set, signal);
+  for (const int signal : ending) {
+    struct sigaction action {};
+    if (::sigaction(signal, nullptr, &action) == 0 && action.sa_handler != SIG_IGN) ::sigaddset(&set, signal);
+  }
   return set;
 }
 

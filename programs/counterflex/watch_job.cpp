@@ -1,0 +1,90 @@
+#include "watch_job.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "compensate.hpp"
+#include "guarded.hpp"
+#include "layers.hpp"
+#include "output_names.hpp"
+#include "outputs.hpp"
+
+namespace counterflex::cli {
+namespace {
+
+std::string line_of(const WatchResult& result) {
+  nlohmann::json json{{"exit", static_cast<int>(result.exit)}, {"error", result.error}};
+  if (result.before_mm) json["before_mm"] = *result.before_mm;
+  if (result.after_mm) json["after_mm"] = *result.after_mm;
+  return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+std::optional<double> number_in(const nlohmann::json& json, const char* key) {
+  return json.contains(key) ? std::optional(json[key].get<double>()) : std::nullopt;
+}
+
+[[noreturn]] void refuse_shared(const char* option, const std::string& path) {
+  throw InputError(
+      Exit::usage, {},
+      fmt::format("{} of every program would be {}; name a folder, which ends in /, or a pattern, "
+                  "as {{name}}_CF{{ext}}",
+                  option, path));
+}
+
+}  // namespace
+
+Options watch_job(const Options& watch, const std::string& program) {
+  Options job = options_of(Command::compensate, layers_of(watch.sources, program).layers, program);
+  job.quiet = watch.quiet;
+  job.verbose = watch.verbose;
+  return job;
+}
+
+std::string watch_output(const Options& job) {
+  return job.output.value_or(default_output(job.program));
+}
+
+void refuse_shared_outputs(const Options& watch) {
+  const std::filesystem::path folder(watch.folder);
+  const Options one = watch_job(watch, (folder / "one.nc").string());
+  const Options other = watch_job(watch, (folder / "other.nc").string());
+  if (watch_output(one) == watch_output(other)) refuse_shared("--output", watch_output(one));
+  if (one.report && one.report == other.report) refuse_shared("--report", *one.report);
+  if (one.plot && one.plot == other.plot) refuse_shared("--plot", *one.plot);
+  std::error_code error;
+  if (std::filesystem::weakly_canonical(watch_output(one), error) ==
+      std::filesystem::weakly_canonical(one.program, error))
+    throw InputError(Exit::usage, {watch.folder},
+                     "corrected programs would replace their originals: name another folder with --output");
+}
+
+void do_watch_job(const Options& job, const SendLine& send) {
+  WatchResult result;
+  const auto hear_error = [&](std::string_view diagnostic) {
+    if (result.error.empty()) result.error = diagnostic;
+  };
+  Console console(job, {.error = hear_error});
+  const auto tell = [&](const Run& run, const RunEnd& end, const RunFiles&) {
+    console.finish_warnings();
+    if (end.report.before) result.before_mm = end.report.before->max_mm;
+    if (end.report.after) result.after_mm = end.report.after->max_mm;
+    return exit_of(run, end.report.failure, console);
+  };
+  result.exit = guarded(console, [&] { return compensate_program(job, console, tell); });
+  send(line_of(result));
+}
+
+WatchResult watch_result(const std::optional<std::string>& sent, const Options& job, int ending) {
+  if (!sent)
+    return {Exit::internal,
+            fmt::format("{}: error: its run {} without a result", job.program, ending_text(ending)),
+            {},
+            {}};
+  const auto json = nlohmann::json::parse(*sent);
+  return {static_cast<Exit>(json["exit"].get<int>()), json["error"], number_in(json, "before_mm"),
+          number_in(json, "after_mm")};
+}
+
+}  // namespace counterflex::cli

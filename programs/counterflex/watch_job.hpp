@@ -1,0 +1,36 @@
+#pragma once
+/// One program of a watched folder, compensated by a child: what ends the child does not end the watch.
+#include <optional>
+#include <string>
+
+#include "counterflex/files/input_error.hpp"
+#include "options.hpp"
+#include "workers.hpp"
+
+namespace counterflex::cli {
+
+/// What `compensate` is asked to do for `program` by flags of the watch, environment and project file. Throws
+/// `InputError` for what is wrong with these.
+Options watch_job(const Options& watch, const std::string& program);
+
+/// The corrected program that `job` is to write.
+std::string watch_output(const Options& job);
+
+/// Throws `InputError` (Exit::usage) where outputs of different programs would be one file, or the program
+/// itself, whatever programs come.
+void refuse_shared_outputs(const Options& watch);
+
+/// What became of it.
+struct WatchResult {
+  Exit exit = Exit::done;
+  std::string error;                          ///< the diagnostic of a failure
+  std::optional<double> before_mm, after_mm;  ///< largest deviations; none where nothing was solved
+};
+
+/// Does the job, says nothing but warnings, and sends its result: a worker's task.
+void do_watch_job(const Options& job, const SendLine& send);
+
+/// What it has sent; `ending` as `waitpid` gives it, for a worker that has ended before it could.
+WatchResult watch_result(const std::optional<std::string>& sent, const Options& job, int ending);
+
+}  // namespace counterflex::cli

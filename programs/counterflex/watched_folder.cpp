@@ -1,0 +1,161 @@
+#include "watched_folder.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <fnmatch.h>
+#include <sys/inotify.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <initializer_list>
+
+#include "counterflex/files/file_reader.hpp"
+#include "counterflex/files/files.hpp"
+#include "counterflex/files/input_error.hpp"
+
+namespace counterflex::cli {
+namespace {
+
+constexpr std::uint32_t heard_of =
+    IN_CLOSE_WRITE | IN_MOVED_TO | IN_CREATE | IN_DELETE_SELF | IN_MOVE_SELF | IN_ONLYDIR;
+constexpr std::uint32_t end_of_folder = IN_DELETE_SELF | IN_MOVE_SELF | IN_UNMOUNT | IN_IGNORED;
+
+/// A link is complete as soon as it is there; any other new file is so when it is closed.
+bool is_link(const std::string& path) {
+  std::error_code error;
+  if (std::filesystem::is_symlink(path, error)) return true;
+  return std::filesystem::is_regular_file(path, error) && std::filesystem::hard_link_count(path, error) > 1;
+}
+
+bool ends_with_any(const std::string& name, std::initializer_list<std::string_view> endings) {
+  return std::any_of(endings.begin(), endings.end(),
+                     [&](std::string_view end) { return name.ends_with(end); });
+}
+
+bool is_hidden_or_temporary(const std::string& name) {
+  return name.empty() || name.front() == '.' || name.front() == '#' ||
+         ends_with_any(name, {"~", ".tmp", ".temp", ".part", ".partial", ".crdownload", ".swp", ".bak"});
+}
+
+bool is_no_program(const std::string& name) {
+  return ends_with_any(name, {".toml", ".csv", ".json", ".html", ".svg"});
+}
+
+/// The first bytes of a file, enough for a header; none where it cannot be read.
+std::string beginning_of(const std::string& path) {
+  constexpr std::size_t enough = 1 << 14;
+  std::string bytes;
+  try {
+    FileReader(path).append(bytes, enough);
+  } catch (const InputError&) {
+    return {};
+  }
+  return bytes;
+}
+
+/// Adds what one event tells.
+void add_event(const inotify_event& event, const std::string& path, WatchedFolder::News& news) {
+  if ((event.mask & IN_Q_OVERFLOW) != 0) news.lost = true;
+  if (event.len == 0 || (event.mask & IN_ISDIR) != 0) return;
+  const std::string name = event.name;
+  if ((event.mask & IN_CREATE) == 0 || is_link((std::filesystem::path(path) / name).string()))
+    news.names.push_back(name);
+}
+
+}  // namespace
+
+WatchedFolder::WatchedFolder(const std::string& path) : path_(path) {
+  descriptor_ = ::inotify_init1(IN_NONBLOCK | IN_CLOEXEC);
+  if (descriptor_ >= 0 && ::inotify_add_watch(descriptor_, path.c_str(), heard_of) >= 0) return;
+  const int reason = errno;
+  if (descriptor_ >= 0) ::close(descriptor_);
+  const bool of_path = reason == ENOENT || reason == ENOTDIR || reason == EACCES;
+  throw InputError(of_path ? Exit::usage : Exit::transient_io, {path},
+                   fmt::format("cannot watch the folder: {}", std::strerror(reason)));
+}
+
+WatchedFolder::~WatchedFolder() {
+  ::close(descriptor_);
+}
+
+WatchedFolder::News WatchedFolder::read() {
+  News news;
+  alignas(inotify_event) std::array<char, 1 << 14> bytes;
+  for (ssize_t n; (n = ::read(descriptor_, bytes.data(), bytes.size())) > 0;)
+    for (const char* at = bytes.data(); at < bytes.data() + n;) {
+      const auto& event = *reinterpret_cast<const inotify_event*>(at);
+      if ((event.mask & end_of_folder) != 0) gone();
+      add_event(event, path_, news);
+      at += sizeof event + event.len;
+    }
+  return news;
+}
+
+void WatchedFolder::gone() const {
+  throw InputError(Exit::transient_io, {path_}, "the watched folder was removed or renamed");
+}
+
+std::vector<std::string> WatchedFolder::names() const {
+  std::vector<std::string> names;
+  std::error_code error;
+  for (std::filesystem::directory_iterator entry(path_, error), end; !error && entry != end;
+       entry.increment(error)) {
+    std::error_code unknown;
+    if (entry->is_regular_file(unknown)) names.push_back(entry->path().filename().string());
+  }
+  if (error) throw InputError(Exit::transient_io, {path_}, "cannot read the folder: " + error.message());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+std::string WatchedFolder::path_of(const std::string& name) const {
+  return (std::filesystem::path(path_) / name).string();
+}
+
+bool may_be_program(const std::string& name, const std::vector<std::string>& patterns) {
+  if (is_hidden_or_temporary(name)) return false;
+  if (patterns.empty()) return !is_no_program(name);
+  return std::any_of(patterns.begin(), patterns.end(), [&](const std::string& pattern) {
+    return ::fnmatch(pattern.c_str(), name.c_str(), FNM_PERIOD) == 0;
+  });
+}
+
+bool is_being_written(const std::string& path) {
+  // A lease to read is refused where somebody writes. It is given back at once; whoever opens the file to
+  // write meanwhile waits for that long, and the signal about it is ignored.
+  const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+  if (file < 0) return false;
+  const bool busy = ::fcntl(file, F_SETLEASE, F_RDLCK) != 0 && errno == EAGAIN;
+  ::close(file);
+  return busy;
+}
+
+bool has_corrected_header(const std::string& path) {
+  const std::string bytes = beginning_of(path);
+  for (const char* mark : {"(COUNTERFLEX 1", ";COUNTERFLEX 1", "; COUNTERFLEX 1"})
+    if (bytes.find(mark) != std::string::npos) return true;
+  return false;
+}
+
+bool is_corrected_from(const std::string& output, const std::string& program) {
+  constexpr std::size_t digits_in_header = 16;
+  const std::string bytes = beginning_of(output);
+  const std::size_t at = bytes.find("COUNTERFLEX 1 PROGRAM ");
+  if (at == std::string::npos) return false;
+  std::string digits;
+  try {
+    FileReader reader(program);
+    digits = sha256(reader).substr(0, digits_in_header);
+  } catch (const InputError&) {
+    return false;
+  }
+  for (char& c : digits) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  return bytes.compare(at + std::strlen("COUNTERFLEX 1 PROGRAM "), digits_in_header, digits) == 0;
+}
+
+}  // namespace counterflex::cli

@@ -1,0 +1,92 @@
+"""A post-processor for FreeCAD's CAM (Path) workbench: lets another one write the program, and compensates it.
+
+Put this file where FreeCAD looks for post-processors (Preferences, CAM, Job Preferences, Defaults; else the folder of macros)
+and choose `counterflex` as the post-processor of a job. Its arguments:
+
+    --post NAME           the post-processor that writes the program, `linuxcnc` unless given; one that is a script, with an
+                          `export` function: in newer versions of FreeCAD those whose names end in _legacy
+    --counterflex PATH    the program counterflex, if it is not in PATH
+    --compensate "..."    options of `counterflex compensate`: "-m /shop/mill.toml -f /shop/forces.csv --report /shop/reports/"
+
+All other arguments go to that post-processor. Where counterflex fails, so does the post-processing, with its message: nothing
+is written under the name of the program.
+"""
+
+import argparse
+import importlib
+import os
+import shlex
+import subprocess
+import sys
+import tempfile
+
+TOOLTIP = "Compensates the program of another post-processor with counterflex."
+
+parser = argparse.ArgumentParser(prog="counterflex", add_help=False, allow_abbrev=False)
+parser.add_argument("--post", default="linuxcnc", help="the post-processor that writes the program")
+parser.add_argument("--counterflex", default="counterflex", help="the program counterflex")
+parser.add_argument("--compensate", default="", help='options of counterflex, as "-m mill.toml -f forces.csv"')
+TOOLTIP_ARGS = parser.format_help()
+
+
+def export(objectslist, filename, argstring):
+    """FreeCAD calls this: the text of the corrected program, which is also written to `filename` unless that is "-"."""
+    own, others = parser.parse_known_args(shlex.split(argstring))
+    program = posted(own.post, objectslist, shlex.join(["--no-show-editor", *others]))
+    corrected = compensated(own.counterflex, shlex.split(own.compensate), program)
+    if filename != "-":
+        write(filename, corrected)
+    return corrected
+
+
+def posted(name, objectslist, argstring):
+    """What the post-processor `name` makes of the objects; some return it, others only write it."""
+    post = find_post(name)
+    with tempfile.TemporaryDirectory() as folder:
+        filename = os.path.join(folder, "posted.nc")
+        text = post.export(objectslist, filename, argstring)
+        if isinstance(text, str) and text:
+            return text
+        if os.path.exists(filename):
+            with open(filename, newline="") as file:
+                return file.read()
+    raise RuntimeError(f"counterflex: the post-processor {name} made no program")
+
+
+def find_post(name):
+    """The module NAME_post, from where FreeCAD looks for post-processors."""
+    places = []
+    try:
+        import Path
+
+        places = list(Path.Preferences.searchPathsPost())
+    except (ImportError, AttributeError):
+        pass  # an older FreeCAD, or none: what Python itself finds
+    sys.path[:0] = places
+    try:
+        post = importlib.import_module(f"{name}_post")
+    finally:
+        del sys.path[: len(places)]
+    if not callable(getattr(post, "export", None)):
+        raise RuntimeError(f"counterflex: {name} is no post-processor with an export function; try {name}_legacy")
+    return post
+
+
+def compensated(counterflex, options, program):
+    """The corrected program; RuntimeError with counterflex's own message where there is none."""
+    command = [counterflex, "compensate", "-", *options, "-o", "-", "--quiet"]
+    run = subprocess.run(command, input=program.encode(), capture_output=True)
+    if run.returncode != 0:
+        message = run.stderr.decode(errors="replace").strip()
+        raise RuntimeError(f"counterflex ended with status {run.returncode}: {message}")
+    return run.stdout.decode()
+
+
+def write(filename, text):
+    """Under another name first: half a program is never found under this one."""
+    unfinished = filename + ".part"
+    with open(unfinished, "w", newline="") as file:
+        file.write(text)
+        file.flush()
+        os.fsync(file.fileno())
+    os.replace(unfinished, filename)
