@@ -20,6 +20,7 @@
 #include "inputs.hpp"
 #include "outputs.hpp"
 #include "signals.hpp"
+#include "watch_claims.hpp"
 #include "watch_job.hpp"
 #include "watched_folder.hpp"
 
@@ -85,9 +86,10 @@ class Watch {
   void begin(const std::string& name);
   void end_job(const WatchResult& result);
   void tell(const std::string& program, const std::string& output, const WatchResult& result);
+  void warn_of_older(const WatchResult& result);
   void add_failed_again();
   bool is_own(const std::string& path) const;
-  bool is_done(const std::string& path) const;
+  bool is_done(const std::string& path);
   bool is_idle() const { return !job_ && due_.empty(); }
   int patience_ms() const;
   void wait();
@@ -101,6 +103,7 @@ class Watch {
   std::optional<Options> job_;       ///< that is being done
   std::optional<std::string> sent_;  ///< its result
   Workers workers_;
+  OutputClaims claims_;
   std::set<std::string> failed_;  ///< where another try may help
   Clock::time_point try_again_{};
   Exit first_failure_ = Exit::done;
@@ -113,11 +116,14 @@ bool Watch::is_own(const std::string& path) const {
   return named_so || has_corrected_header(path);
 }
 
-/// Whether there is a corrected program, of these bytes. What is wrong with the settings is said when the
-/// program is begun.
-bool Watch::is_done(const std::string& path) const {
+/// Whether there is a corrected program, of these bytes: its name is taken. What is wrong with the settings
+/// is said when the program is begun.
+bool Watch::is_done(const std::string& path) {
   try {
-    return is_corrected_from(watch_output(watch_job(options_, path)), path);
+    const Options job = watch_job(options_, path);
+    if (!is_corrected_from(watch_output(job), path)) return false;
+    claims_.claim(job);
+    return true;
   } catch (const InputError&) {
     return false;
   }
@@ -169,7 +175,9 @@ void Watch::begin(const std::string& name) {
   failed_.erase(name);
   try {
     job_ = watch_job(options_, path);
+    claims_.claim(*job_);
   } catch (const InputError& wrong) {
+    job_.reset();
     return tell(path, "", {wrong.exit(), wrong.what(), {}, {}});
   }
   workers_.start(0, [this](const SendLine& send) { do_watch_job(*job_, send); });
@@ -181,6 +189,7 @@ void Watch::end_job(const WatchResult& result) {
     try_again_ = Clock::now() + pause_after_failure;
   }
   tell(job_->program, watch_output(*job_), result);
+  warn_of_older(result);
   job_.reset();
   sent_.reset();
 }
@@ -193,6 +202,15 @@ void Watch::tell(const std::string& program, const std::string& output, const Wa
   else if (result.exit == Exit::done)
     write_result(fmt::format("{} -> {}: {:.3f} mm before, {:.4f} mm after\n", program, output,
                              result.before_mm.value_or(0), result.after_mm.value_or(0)));
+}
+
+/// A corrected program of an older text, under the name that this one's would have, is no correction of it.
+void Watch::warn_of_older(const WatchResult& result) {
+  std::error_code ignored;
+  const std::string output = watch_output(*job_);
+  if (result.exit == Exit::done || !fs::is_regular_file(output, ignored)) return;
+  console_.warning(output, 0, fmt::format("is of an earlier run: {} failed now", job_->program));
+  console_.finish_warnings();  // none is too many in a watch that goes on for weeks
 }
 
 /// A full disk, or a server that was away, need not be there for ever.
