@@ -152,17 +152,17 @@ void Watch::hear() {
 
 /// Begins with the first file that is complete; those that are still being written keep their turn.
 void Watch::begin_next() {
-  for (auto name = due_.begin(); !job_ && name != due_.end();) {
-    const std::string path = folder_.path_of(*name);
+  for (std::size_t i = 0; !job_ && i < due_.size();) {
+    const std::string name = due_[i], path = folder_.path_of(name);
     const bool busy = is_being_written(path);
     if (busy && options_.once) console_.note(path + ": it is being written; left for the next time\n");
     if (busy && !options_.once) {
-      ++name;
+      ++i;
       continue;
     }
-    const std::string taken = *name;
-    name = due_.erase(name);
-    if (!busy) begin(taken);
+    hear();  // that it was closed just now: no second time
+    std::erase(due_, name);
+    if (!busy) begin(name);
   }
 }
 

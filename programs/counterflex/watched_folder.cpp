@@ -25,21 +25,27 @@ constexpr std::uint32_t heard_of =
     IN_CLOSE_WRITE | IN_MOVED_TO | IN_CREATE | IN_DELETE_SELF | IN_MOVE_SELF | IN_ONLYDIR;
 constexpr std::uint32_t end_of_folder = IN_DELETE_SELF | IN_MOVE_SELF | IN_UNMOUNT | IN_IGNORED;
 
-/// A link is complete as soon as it is there; any other new file is so when it is closed.
-bool is_link(const std::string& path) {
+/// What is linked is heard of but once, whatever becomes of its other names and even where somebody still
+/// has it open; a new file is empty, and will be closed.
+bool is_linked(const std::string& path) {
   std::error_code error;
   if (std::filesystem::is_symlink(path, error)) return true;
-  return std::filesystem::is_regular_file(path, error) && std::filesystem::hard_link_count(path, error) > 1;
+  return std::filesystem::is_regular_file(path, error) && std::filesystem::file_size(path, error) > 0 &&
+         !error;
 }
 
+/// Without regard to case: programs that write for other systems shout.
 bool ends_with_any(const std::string& name, std::initializer_list<std::string_view> endings) {
+  std::string lower = name;
+  for (char& c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   return std::any_of(endings.begin(), endings.end(),
-                     [&](std::string_view end) { return name.ends_with(end); });
+                     [&](std::string_view end) { return lower.ends_with(end); });
 }
 
 bool is_hidden_or_temporary(const std::string& name) {
-  return name.empty() || name.front() == '.' || name.front() == '#' ||
-         ends_with_any(name, {"~", ".tmp", ".temp", ".part", ".partial", ".crdownload", ".swp", ".bak"});
+  return name.empty() || name.front() == '.' || name.front() == '#' || name.starts_with("~$") ||
+         ends_with_any(name, {"~", ".tmp", ".temp", ".part", ".partial", ".filepart", ".crdownload", ".swp",
+                              ".bak", ".lock"});
 }
 
 bool is_no_program(const std::string& name) {
@@ -58,15 +64,6 @@ std::string beginning_of(const std::string& path) {
   return bytes;
 }
 
-/// Adds what one event tells.
-void add_event(const inotify_event& event, const std::string& path, WatchedFolder::News& news) {
-  if ((event.mask & IN_Q_OVERFLOW) != 0) news.lost = true;
-  if (event.len == 0 || (event.mask & IN_ISDIR) != 0) return;
-  const std::string name = event.name;
-  if ((event.mask & IN_CREATE) == 0 || is_link((std::filesystem::path(path) / name).string()))
-    news.names.push_back(name);
-}
-
 }  // namespace
 
 WatchedFolder::WatchedFolder(const std::string& path) : path_(path) {
@@ -83,16 +80,26 @@ WatchedFolder::~WatchedFolder() {
   ::close(descriptor_);
 }
 
-WatchedFolder::News WatchedFolder::read() {
-  News news;
+std::vector<WatchedFolder::Event> WatchedFolder::events() {
+  std::vector<Event> events;
   alignas(inotify_event) std::array<char, 1 << 14> bytes;
   for (ssize_t n; (n = ::read(descriptor_, bytes.data(), bytes.size())) > 0;)
     for (const char* at = bytes.data(); at < bytes.data() + n;) {
       const auto& event = *reinterpret_cast<const inotify_event*>(at);
-      if ((event.mask & end_of_folder) != 0) gone();
-      add_event(event, path_, news);
+      events.push_back({event.mask, event.len > 0 ? event.name : ""});
       at += sizeof event + event.len;
     }
+  return events;
+}
+
+WatchedFolder::News WatchedFolder::read() {
+  News news;
+  for (const Event& event : events()) {
+    if ((event.mask & end_of_folder) != 0) gone();
+    if ((event.mask & IN_Q_OVERFLOW) != 0) news.lost = true;
+    if (event.name.empty() || (event.mask & IN_ISDIR) != 0) continue;
+    if ((event.mask & IN_CREATE) == 0 || is_linked(path_of(event.name))) news.names.push_back(event.name);
+  }
   return news;
 }
 

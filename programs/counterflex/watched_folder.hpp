@@ -1,11 +1,13 @@
 #pragma once
 /// A folder in which programs appear, and what of it is to be compensated.
+#include <cstdint>
 #include <string>
 #include <vector>
 
 namespace counterflex::cli {
 
-/// Hears of files that are complete: closed by who wrote them, moved in, or linked.
+/// Hears of files that are complete: closed by who wrote them or moved in; and of those that are linked,
+/// which somebody may still have open.
 class WatchedFolder {
  public:
   /// Throws `InputError`: Exit::usage where it is no folder, Exit::transient_io where it cannot be watched.
@@ -32,6 +34,12 @@ class WatchedFolder {
   std::string path_of(const std::string& name) const;
 
  private:
+  struct Event {
+    std::uint32_t mask = 0;
+    std::string name{};
+  };
+
+  std::vector<Event> events();  ///< since the last time
   [[noreturn]] void gone() const;
 
   std::string path_;
