@@ -12,7 +12,6 @@
 #include <initializer_list>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <set>
 #include <utility>
 
 #include "commands.hpp"
@@ -21,6 +20,7 @@
 #include "outputs.hpp"
 #include "signals.hpp"
 #include "watch_claims.hpp"
+#include "watch_failures.hpp"
 #include "watch_job.hpp"
 #include "watched_folder.hpp"
 
@@ -77,13 +77,13 @@ class Watch {
   Exit run();
 
  private:
-  using Clock = std::chrono::steady_clock;
-
   void add_what_is_there();
   void add(const std::string& name);
   void hear();
   void begin_next();
   void begin(const std::string& name);
+  void refuse_taken(const Options& job);
+  void fail(const std::string& path, const WatchResult& result);
   void end_job(const WatchResult& result);
   void tell(const std::string& program, const std::string& output, const WatchResult& result);
   void warn_of_older(const WatchResult& result);
@@ -104,8 +104,8 @@ class Watch {
   std::optional<std::string> sent_;  ///< its result
   Workers workers_;
   OutputClaims claims_;
-  std::set<std::string> failed_;  ///< where another try may help
-  Clock::time_point try_again_{};
+  WatchFailures failures_;
+  FileStamps seen_;  ///< of the files that the job reads besides its program, before it did
   Exit first_failure_ = Exit::done;
 };
 
@@ -121,9 +121,7 @@ bool Watch::is_own(const std::string& path) const {
 bool Watch::is_done(const std::string& path) {
   try {
     const Options job = watch_job(options_, path);
-    if (!is_corrected_from(watch_output(job), path)) return false;
-    claims_.claim(job);
-    return true;
+    return is_corrected_from(watch_output(job), path) && !claims_.claim(job);
   } catch (const InputError&) {
     return false;
   }
@@ -166,29 +164,50 @@ void Watch::begin_next() {
   }
 }
 
-/// Nothing where there is no program: it was taken away, it is still empty, or it is corrected already.
+/// Nothing where there is no program: it was taken away, it is still empty, or it is corrected already. What
+/// is linked may come later.
 void Watch::begin(const std::string& name) {
   const std::string path = folder_.path_of(name);
+  failures_.erase(path);
   std::error_code error;
+  if (fs::is_symlink(path, error) && !fs::exists(path, error)) failures_.add(path, stamps_of({path}), {});
   if (!fs::is_regular_file(path, error) || fs::file_size(path, error) == 0 || error) return;
   if (is_own(path)) return console_.detail(path + ": a corrected program");
-  failed_.erase(name);
+  seen_ = stamps_of(files_with_settings(options_, path));
   try {
-    job_ = watch_job(options_, path);
-    claims_.claim(*job_);
+    const Options job = watch_job(options_, path);
+    seen_.merge(stamps_of(files_beside_program(job)));
+    refuse_taken(job);
+    job_ = job;
   } catch (const InputError& wrong) {
-    job_.reset();
-    return tell(path, "", {wrong.exit(), wrong.what(), {}, {}});
+    return fail(path, {wrong.exit(), wrong.what(), {}, {}});
   }
   workers_.start(0, [this](const SendLine& send) { do_watch_job(*job_, send); });
 }
 
+void Watch::refuse_taken(const Options& job) {
+  const auto taken = claims_.claim(job);
+  if (!taken) return;
+  seen_.merge(stamps_of({taken->owner}));
+  throw InputError(Exit::usage, {job.program},
+                   fmt::format("its output would be {}, as that of {} is: give one of them another name, or "
+                               "name outputs with {{name}}{{ext}}",
+                               taken->path, taken->owner));
+}
+
+void Watch::fail(const std::string& path, const WatchResult& result) {
+  const bool unreadable = ::access(path.c_str(), R_OK) != 0;
+  if (unreadable) seen_.merge(stamps_of({path}));
+  const bool may_pass = unreadable || result.exit == Exit::transient_io;
+  failures_.add(path, std::exchange(seen_, {}), may_pass ? std::optional(pause_after_failure) : std::nullopt);
+  tell(path, job_ ? watch_output(*job_) : "", result);
+}
+
 void Watch::end_job(const WatchResult& result) {
-  if (result.exit == Exit::transient_io && !options_.once) {
-    failed_.insert(fs::path(job_->program).filename().string());
-    try_again_ = Clock::now() + pause_after_failure;
-  }
-  tell(job_->program, watch_output(*job_), result);
+  if (result.exit == Exit::done)
+    tell(job_->program, watch_output(*job_), result);
+  else
+    fail(job_->program, result);
   warn_of_older(result);
   job_.reset();
   sent_.reset();
@@ -213,10 +232,10 @@ void Watch::warn_of_older(const WatchResult& result) {
   console_.finish_warnings();  // none is too many in a watch that goes on for weeks
 }
 
-/// A full disk, or a server that was away, need not be there for ever.
+/// A full disk, or a server that was away, need not be there for ever, and what is wrong is mended.
 void Watch::add_failed_again() {
-  if (failed_.empty() || Clock::now() < try_again_) return;
-  for (const std::string& name : std::exchange(failed_, {})) add(name);
+  if (failures_.empty() || options_.once) return;
+  for (const std::string& program : failures_.take_due()) add(fs::path(program).filename().string());
 }
 
 /// For how long nothing can happen of which no event tells; -1: for ever.
@@ -224,7 +243,7 @@ int Watch::patience_ms() const {
   constexpr int look_again_ms = 100;
   if (job_) return -1;
   if (!due_.empty()) return look_again_ms;  // they are being written
-  return failed_.empty() ? -1 : 10 * look_again_ms;
+  return failures_.empty() ? -1 : 10 * look_again_ms;
 }
 
 void Watch::wait() {

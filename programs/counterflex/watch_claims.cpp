@@ -1,11 +1,8 @@
 #include "watch_claims.hpp"
 
-#include <fmt/format.h>
-
 #include <filesystem>
 #include <set>
 
-#include "counterflex/files/input_error.hpp"
 #include "watch_job.hpp"
 
 namespace counterflex::cli {
@@ -29,20 +26,18 @@ std::vector<std::string> files_of_watch_job(const Options& job) {
   return files;
 }
 
-void OutputClaims::claim(const Options& job) {
+std::optional<TakenOutput> OutputClaims::claim(const Options& job) {
   std::erase_if(owners_, [&](const auto& claimed) { return claimed.second == job.program; });
   std::set<std::string> claimed;
   for (const std::string& path : files_of_watch_job(job)) {
     const auto owner = owners_.find(name_of_output(path));
     std::error_code gone;
     if (owner != owners_.end() && std::filesystem::exists(owner->second, gone))
-      throw InputError(Exit::usage, {job.program},
-                       fmt::format("its output would be {}, as that of {} is: give one of them another name, "
-                                   "or name outputs with {{name}} and {{ext}}",
-                                   path, owner->second));
+      return TakenOutput{path, owner->second};
     claimed.insert(name_of_output(path));
   }
   for (const std::string& name : claimed) owners_[name] = job.program;
+  return std::nullopt;
 }
 
 }  // namespace counterflex::cli
