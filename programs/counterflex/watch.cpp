@@ -70,9 +70,7 @@ std::string json_line(const std::string& program, const std::string& output, con
 class Watch {
  public:
   Watch(const Options& options, Console& console)
-      : options_(options), console_(console), folder_(options.folder) {
-    add_what_is_there();
-  }
+      : options_(options), console_(console), folder_(options.folder) {}
 
   Exit run();
 
@@ -93,6 +91,9 @@ class Watch {
   bool is_idle() const { return !job_ && due_.empty(); }
   int patience_ms() const;
   void wait();
+  bool is_interrupted();
+  void give_up();
+  Exit run_on();
 
   const Options& options_;
   Console& console_;
@@ -102,6 +103,8 @@ class Watch {
   std::deque<std::string> due_;      ///< names, each once
   std::optional<Options> job_;       ///< that is being done
   std::optional<std::string> sent_;  ///< its result
+  pid_t process_ = 0;                ///< that does it; 0 until it says so
+  std::optional<int> interrupt_;
   Workers workers_;
   OutputClaims claims_;
   WatchFailures failures_;
@@ -121,15 +124,17 @@ bool Watch::is_own(const std::string& path) const {
 bool Watch::is_done(const std::string& path) {
   try {
     const Options job = watch_job(options_, path);
-    return is_corrected_from(watch_output(job), path) && !claims_.claim(job);
+    return is_corrected_from(watch_output(job), path, [this] { return is_interrupted(); }) &&
+           !claims_.claim(job);
   } catch (const InputError&) {
     return false;
   }
 }
 
-/// All programs that are not done.
+/// All programs that are not done. To know that can take minutes, which an interrupt is not to wait for.
 void Watch::add_what_is_there() {
   for (const std::string& name : folder_.names()) {
+    if (is_interrupted()) return;
     const std::string path = folder_.path_of(name);
     if (!may_be_program(name, options_.patterns) || is_own(path)) continue;
     if (!is_done(path)) add(name);
@@ -182,6 +187,7 @@ void Watch::begin(const std::string& name) {
   } catch (const InputError& wrong) {
     return fail(path, {wrong.exit(), wrong.what(), {}, {}});
   }
+  process_ = 0;
   workers_.start(0, [this](const SendLine& send) { do_watch_job(*job_, send); });
 }
 
@@ -238,34 +244,58 @@ void Watch::add_failed_again() {
   for (const std::string& program : failures_.take_due()) add(fs::path(program).filename().string());
 }
 
-/// For how long nothing can happen of which no event tells; -1: for ever.
+/// For how long nothing can happen of which no event tells.
 int Watch::patience_ms() const {
   constexpr int look_again_ms = 100;
-  if (job_) return -1;
+  constexpr int folder_ms = 100 * look_again_ms;  // of which no event need tell that it has gone
+  if (job_) return folder_ms;
   if (!due_.empty()) return look_again_ms;  // they are being written
-  return failures_.empty() ? -1 : 10 * look_again_ms;
+  return failures_.empty() ? folder_ms : 10 * look_again_ms;
 }
 
 void Watch::wait() {
   for (WorkerEvent& event : workers_.wait(awaited_.descriptor(), patience_ms()))
-    if (event.ended)
+    if (event.ended) {
+      if (!sent_) sweep_after(process_, *job_);
       end_job(watch_result(sent_, *job_, event.status));
-    else
+    } else if (const pid_t process = process_of_watch_job(event.line)) {
+      process_ = process;
+    } else {
       sent_ = std::move(event.line);
+    }
 }
 
-Exit Watch::run() {
+bool Watch::is_interrupted() {
+  if (!interrupt_) interrupt_ = signals_.take();
+  return interrupt_.has_value();
+}
+
+/// The job ends itself, or else it is ended: either way nothing stays of what it was writing.
+void Watch::give_up() {
   constexpr int patience_at_end_ms = 700;
-  for (;;) {
-    if (const auto signal = signals_.take()) {
-      workers_.end_all(patience_at_end_ms);
-      return static_cast<Exit>(status_of(*signal));
-    }
+  workers_.end_all(patience_at_end_ms);
+  if (job_ && process_ != 0) sweep_after(process_, *job_);
+}
+
+Exit Watch::run_on() {
+  add_what_is_there();
+  while (!is_interrupted()) {
     hear();
     add_failed_again();
     if (!job_) begin_next();
     if (options_.once && is_idle()) return first_failure_;
     wait();
+  }
+  give_up();
+  return static_cast<Exit>(status_of(*interrupt_));
+}
+
+Exit Watch::run() {
+  try {
+    return run_on();
+  } catch (const InputError&) {
+    give_up();
+    throw;
   }
 }
 

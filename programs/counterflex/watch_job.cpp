@@ -1,18 +1,24 @@
 #include "watch_job.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <vector>
 
 #include "compensate.hpp"
+#include "counterflex/files/temporaries.hpp"
 #include "guarded.hpp"
 #include "layers.hpp"
 #include "output_names.hpp"
 #include "outputs.hpp"
+#include "watch_claims.hpp"
 
 namespace counterflex::cli {
 namespace {
+
+namespace fs = std::filesystem;
 
 std::string line_of(const WatchResult& result) {
   nlohmann::json json{{"exit", static_cast<int>(result.exit)}, {"error", result.error}};
@@ -23,6 +29,21 @@ std::string line_of(const WatchResult& result) {
 
 std::optional<double> number_in(const nlohmann::json& json, const char* key) {
   return json.contains(key) ? std::optional(json[key].get<double>()) : std::nullopt;
+}
+
+/// The temporary files that `process` has made of `output`: those of other processes may be in use.
+std::vector<fs::path> left_by(pid_t process, const std::string& output) {
+  std::error_code error;
+  const fs::path target = fs::canonical(output, error);
+  const fs::path file = error ? fs::path(output) : target;
+  const std::string wanted = file.filename().string(), start = fmt::format("{}.{}-", wanted, process);
+  std::vector<fs::path> left;
+  for (fs::directory_iterator entry(file.has_parent_path() ? file.parent_path() : ".", error), end;
+       !error && entry != end; entry.increment(error)) {
+    const std::string name = entry->path().filename().string();
+    if (name.starts_with(start) && wanted_name(name) == wanted) left.push_back(entry->path());
+  }
+  return left;
 }
 
 [[noreturn]] void refuse_shared(const char* option, const std::string& path) {
@@ -61,6 +82,7 @@ void refuse_shared_outputs(const Options& watch) {
 }
 
 void do_watch_job(const Options& job, const SendLine& send) {
+  send(nlohmann::json{{"process", ::getpid()}}.dump());
   WatchResult result;
   const auto hear_error = [&](std::string_view diagnostic) {
     if (result.error.empty()) result.error = diagnostic;
@@ -74,6 +96,17 @@ void do_watch_job(const Options& job, const SendLine& send) {
   };
   result.exit = guarded(console, [&] { return compensate_program(job, console, tell); });
   send(line_of(result));
+}
+
+pid_t process_of_watch_job(const std::string& sent) {
+  const auto json = nlohmann::json::parse(sent);
+  return json.contains("process") ? json["process"].get<pid_t>() : 0;
+}
+
+void sweep_after(pid_t killed, const Options& job) {
+  std::error_code ignored;
+  for (const std::string& output : files_of_watch_job(job))
+    for (const fs::path& file : left_by(killed, output)) fs::remove(file, ignored);
 }
 
 WatchResult watch_result(const std::optional<std::string>& sent, const Options& job, int ending) {

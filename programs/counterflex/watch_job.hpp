@@ -1,5 +1,7 @@
 #pragma once
 /// One program of a watched folder, compensated by a child: what ends the child does not end the watch.
+#include <sys/types.h>
+
 #include <optional>
 #include <string>
 
@@ -27,10 +29,17 @@ struct WatchResult {
   std::optional<double> before_mm, after_mm;  ///< largest deviations; none where nothing was solved
 };
 
-/// Does the job, says nothing but warnings, and sends its result: a worker's task.
+/// Does the job, says nothing but warnings, and sends first which process it is in, and at last its result: a
+/// worker's task.
 void do_watch_job(const Options& job, const SendLine& send);
 
-/// What it has sent; `ending` as `waitpid` gives it, for a worker that has ended before it could.
+/// The process of which `sent` tells, or 0 where it is a result.
+pid_t process_of_watch_job(const std::string& sent);
+
+/// Removes what the process, which was killed, has left of the outputs of `job`.
+void sweep_after(pid_t killed, const Options& job);
+
+/// The result that it has sent; `ending` as `waitpid` gives it, for a worker that has ended before it could.
 WatchResult watch_result(const std::optional<std::string>& sent, const Options& job, int ending);
 
 }  // namespace counterflex::cli

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <fnmatch.h>
 #include <sys/inotify.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -15,8 +16,8 @@
 #include <initializer_list>
 
 #include "counterflex/files/file_reader.hpp"
-#include "counterflex/files/files.hpp"
 #include "counterflex/files/input_error.hpp"
+#include "counterflex/files/sha256.hpp"
 
 namespace counterflex::cli {
 namespace {
@@ -68,7 +69,13 @@ std::string beginning_of(const std::string& path) {
 
 WatchedFolder::WatchedFolder(const std::string& path) : path_(path) {
   descriptor_ = ::inotify_init1(IN_NONBLOCK | IN_CLOEXEC);
-  if (descriptor_ >= 0 && ::inotify_add_watch(descriptor_, path.c_str(), heard_of) >= 0) return;
+  struct stat facts {};
+  if (descriptor_ >= 0 && ::stat(path.c_str(), &facts) == 0 &&
+      ::inotify_add_watch(descriptor_, path.c_str(), heard_of) >= 0) {
+    device_ = facts.st_dev;
+    inode_ = facts.st_ino;
+    return;
+  }
   const int reason = errno;
   if (descriptor_ >= 0) ::close(descriptor_);
   const bool of_path = reason == ENOENT || reason == ENOTDIR || reason == EACCES;
@@ -92,7 +99,13 @@ std::vector<WatchedFolder::Event> WatchedFolder::events() {
   return events;
 }
 
+bool WatchedFolder::is_still_there() const {
+  struct stat facts {};
+  return ::stat(path_.c_str(), &facts) == 0 && facts.st_dev == device_ && facts.st_ino == inode_;
+}
+
 WatchedFolder::News WatchedFolder::read() {
+  if (!is_still_there()) gone();
   News news;
   for (const Event& event : events()) {
     if ((event.mask & end_of_folder) != 0) gone();
@@ -104,7 +117,8 @@ WatchedFolder::News WatchedFolder::read() {
 }
 
 void WatchedFolder::gone() const {
-  throw InputError(Exit::transient_io, {path_}, "the watched folder was removed or renamed");
+  throw InputError(Exit::transient_io, {path_},
+                   "the watched folder was removed, or renamed, or another one has its path");
 }
 
 std::vector<std::string> WatchedFolder::names() const {
@@ -149,18 +163,23 @@ bool has_corrected_header(const std::string& path) {
   return false;
 }
 
-bool is_corrected_from(const std::string& output, const std::string& program) {
-  constexpr std::size_t digits_in_header = 16;
+bool is_corrected_from(const std::string& output, const std::string& program,
+                       const std::function<bool()>& stop) {
+  constexpr std::size_t digits_in_header = 16, portion = 1 << 20;
   const std::string bytes = beginning_of(output);
   const std::size_t at = bytes.find("COUNTERFLEX 1 PROGRAM ");
   if (at == std::string::npos) return false;
-  std::string digits;
+  Sha256 hash;
   try {
     FileReader reader(program);
-    digits = sha256(reader).substr(0, digits_in_header);
+    for (std::string read; reader.append(read, portion) > 0; read.clear()) {
+      if (stop()) return false;
+      hash.add(read);
+    }
   } catch (const InputError&) {
     return false;
   }
+  std::string digits = hash.digits().substr(0, digits_in_header);
   for (char& c : digits) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
   return bytes.compare(at + std::strlen("COUNTERFLEX 1 PROGRAM "), digits_in_header, digits) == 0;
 }

@@ -1,6 +1,9 @@
 #pragma once
 /// A folder in which programs appear, and what of it is to be compensated.
+#include <sys/types.h>
+
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -22,7 +25,8 @@ class WatchedFolder {
   };
 
   /// What has happened since the last time, without waiting. Throws `InputError` (Exit::transient_io) where
-  /// the folder is there no more.
+  /// the folder is there no more, or its path leads to another one: of that a folder itself hears nothing
+  /// where one above it is renamed, so ask now and then.
   News read();
 
   /// To wait for.
@@ -39,11 +43,14 @@ class WatchedFolder {
     std::string name{};
   };
 
+  bool is_still_there() const;
   std::vector<Event> events();  ///< since the last time
   [[noreturn]] void gone() const;
 
   std::string path_;
   int descriptor_ = -1;
+  dev_t device_ = 0;
+  ino_t inode_ = 0;
 };
 
 /// Whether a file of this name is to be looked at: not where it is hidden, temporary, or what counterflex
@@ -57,7 +64,9 @@ bool is_being_written(const std::string& path);
 /// Whether the file starts as a corrected program.
 bool has_corrected_header(const std::string& path);
 
-/// Whether the header of the corrected program at `output` names the bytes of `program`.
-bool is_corrected_from(const std::string& output, const std::string& program);
+/// Whether the header of the corrected program at `output` names the bytes of `program`. False, too, where
+/// `stop` wants that while they are read.
+bool is_corrected_from(const std::string& output, const std::string& program,
+                       const std::function<bool()>& stop);
 
 }  // namespace counterflex::cli
