@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <set>
 
@@ -62,6 +63,15 @@ void BatchFolder::make_state(const std::string& name) const {
 
 std::string BatchFolder::state(const std::string& name) const {
   return (fs::path(state_folder(folder_)) / name).lexically_normal().native();
+}
+
+std::vector<std::string> BatchFolder::manifests() const {
+  std::vector<std::string> files{state("manifest.json")};
+  std::error_code missing;
+  for (const auto& entry : fs::directory_iterator(state("shards"), missing))
+    if (entry.path().extension() == ".json") files.push_back(entry.path().native());
+  std::sort(files.begin(), files.end());
+  return files;
 }
 
 void BatchFolder::sweep() const {

@@ -27,6 +27,9 @@ class BatchFolder {
   /// The path of a file of the state.
   std::string state(const std::string& name) const;
 
+  /// The manifests that stand in the state: of the batch and of shards, sorted.
+  std::vector<std::string> manifests() const;
+
   /// Removes what is half written, of workers that were killed; nobody else may be writing then. Nothing
   /// where the folder is shared, or there are no locks.
   void sweep() const;

@@ -15,36 +15,48 @@ namespace {
 
 constexpr std::chrono::milliseconds between_saves(500);
 
+/// Of this version's manifests, by output.
+std::multimap<std::string, JobOutcome> outcomes_in(const std::vector<std::string>& files) {
+  std::multimap<std::string, JobOutcome> outcomes;
+  for (const std::string& file : files) {
+    std::error_code missing;
+    if (!std::filesystem::exists(file, missing)) continue;
+    Manifest manifest = read_manifest(read_input(file, Exit::machine_or_force), file);
+    if (manifest.version != version) continue;
+    for (JobOutcome& outcome : manifest.jobs) outcomes.emplace(outcome.output, std::move(outcome));
+  }
+  return outcomes;
+}
+
 }  // namespace
 
 BatchManifest::BatchManifest(std::string path, std::string plan, std::vector<KeptUnit> units)
     : path_(std::move(path)), plan_(std::move(plan)), units_(std::move(units)), outcomes_(units_.size()) {}
 
-std::vector<std::optional<JobOutcome>> BatchManifest::recorded(bool failed_too) const {
+std::vector<std::optional<JobOutcome>> BatchManifest::recorded(const std::vector<std::string>& files,
+                                                               bool failed_too) const {
+  const std::multimap<std::string, JobOutcome> by_output = outcomes_in(files);
   std::vector<std::optional<JobOutcome>> outcomes(units_.size());
-  std::error_code missing;
-  if (!std::filesystem::exists(path_, missing)) return outcomes;
-  const Manifest manifest = read_manifest(read_input(path_, Exit::machine_or_force), path_);
-  if (manifest.version != version) return outcomes;
-  std::map<std::string, const JobOutcome*> by_output;
-  for (const JobOutcome& outcome : manifest.jobs) by_output[outcome.output] = &outcome;
   FileHashes on_disk;
   for (std::size_t i = 0; i < units_.size(); ++i) {
-    const auto found = by_output.find(units_[i].output);
-    if (found == by_output.end() || found->second->key != units_[i].key) continue;
-    const bool failed = found->second->exit != Exit::done;
-    if (failed ? failed_too : is_proven(*found->second, units_[i].key, on_disk)) outcomes[i] = *found->second;
+    const auto [begin, end] = by_output.equal_range(units_[i].output);
+    for (auto known = begin; known != end && !outcomes[i]; ++known) {
+      const JobOutcome& outcome = known->second;
+      const bool failed = failed_too && outcome.exit != Exit::done && outcome.key == units_[i].key;
+      if (failed || is_proven(outcome, units_[i].key, on_disk)) outcomes[i] = outcome;
+    }
   }
   return outcomes;
 }
 
-void BatchManifest::take_proven() {
-  outcomes_ = recorded(false);
+void BatchManifest::take_proven(const std::vector<std::string>& files) {
+  outcomes_ = recorded(files, false);
 }
 
 bool BatchManifest::take_all_ended() {
-  auto outcomes = recorded(true);
-  const bool all = std::all_of(outcomes.begin(), outcomes.end(), [](const auto& o) { return o.has_value(); });
+  auto outcomes = recorded({path_}, true);
+  const bool all =
+      std::all_of(outcomes.begin(), outcomes.end(), [](const auto& outcome) { return outcome.has_value(); });
   if (all) outcomes_ = std::move(outcomes);
   return all;
 }

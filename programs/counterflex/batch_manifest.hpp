@@ -21,12 +21,13 @@ class BatchManifest {
   /// `path` of the file, and what it is the manifest of (`Manifest::plan`).
   BatchManifest(std::string path, std::string plan, std::vector<KeptUnit> units);
 
-  /// Takes from the file what is proven done. No file: nothing is. Throws `InputError`
-  /// (Exit::machine_or_force) where it cannot be trusted; nothing has been changed then.
-  void take_proven();
+  /// Takes what is proven done by any of `files`, manifests of this batch, whoever wrote them. A file that is
+  /// missing proves nothing. Throws `InputError` (Exit::machine_or_force) where one cannot be trusted;
+  /// nothing has been changed then.
+  void take_proven(const std::vector<std::string>& files);
 
-  /// Takes all units from the file, those that failed, too, where it has all of them: whether it has. Throws
-  /// as `take_proven`.
+  /// Takes all units from its own file, those that failed, too, where it has all of them: whether it has.
+  /// Throws as `take_proven`.
   bool take_all_ended();
 
   /// A unit has ended.
@@ -43,7 +44,8 @@ class BatchManifest {
   void save();
 
  private:
-  std::vector<std::optional<JobOutcome>> recorded(bool failed_too) const;
+  std::vector<std::optional<JobOutcome>> recorded(const std::vector<std::string>& files,
+                                                  bool failed_too) const;
 
   std::string path_, plan_;
   std::vector<KeptUnit> units_;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <exception>
 #include <filesystem>
 #include <map>
 #include <set>
@@ -33,18 +34,6 @@ std::set<int> counts_of_shards(const BatchFolder& folder) {
   return counts;
 }
 
-int count_of_shards(const BatchFolder& folder) {
-  const std::set<int> counts = counts_of_shards(folder);
-  if (counts.empty())
-    throw InputError(Exit::transient_io, {folder.state("shards")},
-                     "no shard has been done here; run them with --shard");
-  if (counts.size() > 1)
-    throw InputError(Exit::usage, {folder.state("shards")},
-                     fmt::format("there are shards of {} and of {}; remove those that are not wanted",
-                                 *counts.begin(), *counts.rbegin()));
-  return *counts.begin();
-}
-
 [[noreturn]] void refuse_shard(const std::string& path, int index, int count, const std::string& why) {
   throw InputError(Exit::transient_io, {path},
                    fmt::format("{}; run --shard {}/{} --resume and merge again", why, index, count));
@@ -53,8 +42,8 @@ int count_of_shards(const BatchFolder& folder) {
 /// What the shards have done, by unit's output.
 class ShardResults {
  public:
-  ShardResults(const Batch& batch, const BatchFolder& folder)
-      : folder_(folder), count_(count_of_shards(folder)), units_(units_by_shard(batch, count_, folder)) {
+  ShardResults(const Batch& batch, const BatchFolder& folder, int count)
+      : folder_(folder), count_(count), units_(units_by_shard(batch, count_, folder)) {
     const std::string plan = plan_of(units_);
     for (int index = 1; index <= count_; ++index) read(index, plan);
   }
@@ -91,6 +80,19 @@ class ShardResults {
   FileHashes on_disk_;
 };
 
+/// Of the shards that stand here, those that are complete: a batch may have been shared out anew.
+ShardResults complete_results(const Batch& batch, const BatchFolder& folder) {
+  std::exception_ptr incomplete;
+  for (const int count : counts_of_shards(folder)) try {
+      return ShardResults(batch, folder, count);
+    } catch (const InputError&) {
+      incomplete = std::current_exception();
+    }
+  if (incomplete) std::rethrow_exception(incomplete);
+  throw InputError(Exit::transient_io, {folder.state("shards")},
+                   "no shard has been done here; run them with --shard");
+}
+
 /// A program that was split: the files of its parts, or the outcome of a part that failed.
 struct SplitJob {
   std::vector<std::string> records{};
@@ -115,7 +117,7 @@ std::map<std::size_t, SplitJob> split_jobs(const ShardResults& results) {
 std::optional<int> merge_shards(const Batch& batch, const BatchFolder& folder, int threads,
                                 BatchManifest& manifest, Console& console) {
   if (counts_of_shards(folder).empty() && manifest.take_all_ended()) return std::nullopt;
-  const ShardResults results(batch, folder);
+  const ShardResults results = complete_results(batch, folder);
   for (const auto& units : results.units())
     for (const BatchUnit& unit : units)
       if (!unit.is_part()) manifest.set(unit.which.job, results.outcome(unit));

@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "batch_progress.hpp"
+#include "counterflex/files/input_error.hpp"
 #include "job_process.hpp"
 
 namespace counterflex::cli {
@@ -62,9 +63,19 @@ class TaskRun {
       const std::size_t task = order_[next_];
       alone_ = is_large(task);
       if (alone_ && workers_.running() > 0) break;
+      if (!start(task, alone_ ? threads_ : 1)) break;
       ++next_;
-      const int threads = alone_ ? threads_ : 1;
+    }
+  }
+
+  /// A system that has no more processes may have some when one of these has ended: false.
+  bool start(std::size_t task, int threads) {
+    try {
       workers_.start(task, [&](const SendLine& send) { tasks_[task].run(threads, send); });
+      return true;
+    } catch (const InputError&) {
+      if (workers_.running() == 0) throw;
+      return false;
     }
   }
 

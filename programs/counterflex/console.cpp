@@ -66,6 +66,7 @@ void Console::more_warnings(const std::string& file, std::size_t count) {
 }
 
 void Console::finish_warnings() {
+  erase_progress();
   for (const auto& [file, count] : warnings_)
     if (!quiet_ && count > warnings_shown)
       say(fmt::format("{}: {} more warnings; a report lists them\n", file, count - warnings_shown));

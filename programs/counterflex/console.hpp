@@ -29,7 +29,7 @@ class Console {
   /// "file:line: warning: what"; at most 20 of a file, `finish_warnings` counts the others. Line 0: none.
   void warning(const std::string& file, int line, std::string_view what);
   void more_warnings(const std::string& file, std::size_t count);  ///< that nobody needs to see
-  void finish_warnings();
+  void finish_warnings();  ///< the last word before a result: it clears the line of progress, too
 
   /// Told with --verbose only.
   void detail(std::string_view what);

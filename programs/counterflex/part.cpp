@@ -5,6 +5,7 @@
 
 #include "counterflex/compensation/recorded_windows.hpp"
 #include "counterflex/files/sha256.hpp"
+#include "counterflex/program/last_words.hpp"
 
 namespace counterflex::cli {
 namespace {
@@ -56,6 +57,8 @@ Exit record_part(const Options& options, Console& console, const std::function<v
   const auto run = prepare_run(options, console);
   refuse_what_cannot_be_compensated(*run);
   run->options.write.header = header_of(options, *run);
+  RecordedPart part{bytes_of(*options.part, run->file.bytes.size())};
+  part.last_words = last_words_before(part.bytes.begin, run->file.bytes, run->program.file, run->read);
   Windows windows(*run, console);
   std::mutex speaking;
   const auto read = [&](const Job& job) {
@@ -66,9 +69,9 @@ Exit record_part(const Options& options, Console& console, const std::function<v
     const std::lock_guard alone(speaking);
     console.solved(window.waypoints.size());
   };
-  FileWriter file = record_windows(windows.jobs(), run->options, TextReader(windows.reader()),
-                                   run->facts.attribution, bytes_of(*options.part, run->file.bytes.size()),
-                                   digest_of(*run), options.part->file, {read, [](const Job&) {}, done});
+  FileWriter file =
+      record_windows(windows.jobs(), run->options, TextReader(windows.reader()), run->facts.attribution, part,
+                     digest_of(*run), options.part->file, {read, [](const Job&) {}, done});
   run->file.bytes.refuse_change();  // it was read more than once
   publish_together({&file});
   tell(*run);

@@ -100,9 +100,9 @@ std::string_view status_text(Exit exit) {
     case Exit::usage:
       return "cannot be run";
     case Exit::program_text:
-      return "program text";
+      return "program refused";
     case Exit::machine_or_force:
-      return "machine or forces";
+      return "machine or force file";
     case Exit::not_compensated:
       return "not within tolerance";
     case Exit::limit:

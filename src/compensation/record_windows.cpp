@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "counterflex/compensation/recorded_windows.hpp"
 #include "record_file.hpp"
 #include "windows_under_way.hpp"
@@ -12,7 +14,7 @@ bool is_of_the_job(const InputError& error) {
 
 class WindowRecorder {
  public:
-  WindowRecorder(JobWindows& windows, CarriedState& carried, bool attribution, Span part,
+  WindowRecorder(JobWindows& windows, CarriedState& carried, bool attribution, const RecordedPart& part,
                  const WindowEvents& events, RecordWriter& file)
       : windows_(windows),
         carried_(carried),
@@ -40,13 +42,23 @@ class WindowRecorder {
   using Role = Flight::Role;
 
   bool next(Flight& flight) {
-    if (next_byte_ >= part_.end || !windows_.next(flight.window)) return false;
+    if (next_byte_ >= part_.bytes.end || !windows_.next(flight.window)) return false;
     const std::size_t begin = next_byte_;
     next_byte_ += flight.window.program.text.size();
-    const bool leads_to_part = next_byte_ >= part_.begin && next_byte_ < part_.end;
-    flight.role = begin >= part_.begin ? Role::compensated : leads_to_part ? Role::before_part : Role::passed;
+    flight.role = role_of({begin, next_byte_});
     flight.record.reset();
     return true;
+  }
+
+  // What the windows of the part are entered with comes from the one before them, and from those that have
+  // said an axis last: where its correction hardly changes, what they have written stays.
+  Role role_of(Span window) const {
+    if (window.begin >= part_.bytes.begin) return Role::compensated;
+    const bool leads_to_part = window.end >= part_.bytes.begin && window.end < part_.bytes.end;
+    const bool said_last = std::ranges::any_of(part_.last_words, [&](const std::optional<std::size_t>& at) {
+      return at && *at >= window.begin && *at < window.end;
+    });
+    return leads_to_part || said_last ? Role::before_part : Role::passed;
   }
 
   void begin(const Job& job, Flight& flight) {
@@ -63,7 +75,7 @@ class WindowRecorder {
 
   void write(const Job& job, Flight& flight) {
     if (flight.role == Role::passed) return pass(job);
-    if (flight.role == Role::before_part) carried_.emitter.held = carried_.rewriter.state().held;
+    if (flight.role == Role::before_part) carried_.emitter = {.held = carried_.rewriter.state().held};
     const WindowState entry = state_of(carried_);
     write_window(job, carried_, flight.work);
     if (!flight.record) return;
@@ -98,7 +110,7 @@ class WindowRecorder {
   JobWindows& windows_;
   CarriedState& carried_;
   const bool attribution_;
-  const Span part_;
+  const RecordedPart& part_;
   const WindowEvents& events_;
   RecordWriter& file_;
   std::size_t next_byte_ = 0;
@@ -107,8 +119,8 @@ class WindowRecorder {
 }  // namespace
 
 FileWriter record_windows(JobWindows& windows, const CompensationOptions& options, TextReader corrected,
-                          bool attribution, Span part, const std::string& run, const std::string& file,
-                          const WindowEvents& events) {
+                          bool attribution, const RecordedPart& part, const std::string& run,
+                          const std::string& file, const WindowEvents& events) {
   CarriedState carried{Rewriter(options.write), std::move(corrected)};
   RecordWriter writer(file, run);
   WindowRecorder recorder(windows, carried, attribution, part, events, writer);

@@ -8,6 +8,9 @@
 namespace counterflex {
 namespace {
 
+static_assert(sizeof(Waypoint) == 320 && sizeof(Causes) == 368,
+              "what is added to a waypoint is to be kept, too");
+
 // The numbers of a waypoint, as many as there are bits in a mask: most are those of the one before it.
 constexpr std::size_t numbers_of_waypoint = 36, numbers_of_causes = 42;
 template <std::size_t count>

@@ -6,6 +6,9 @@
 namespace counterflex {
 namespace {
 
+static_assert(sizeof(Rewritten) == 80 && sizeof(OtherMoves) == 32 && sizeof(LeftAlone) == 48,
+              "what is added to the result of a window is to be kept, too");
+
 void put_left_alone(const LeftAlone& block, std::string& bytes) {
   put(block.line, bytes);
   put(std::string_view(block.why), bytes);

@@ -9,6 +9,9 @@
 namespace counterflex {
 namespace {
 
+static_assert(sizeof(CarriedState) == 288 && sizeof(EmitterState) == 104 && sizeof(TextState) == 88,
+              "what is carried from window to window besides is to be compared and restored, too");
+
 void put_held(const HeldPosition& held, std::string& bytes) {
   for (const std::optional<double>& axis : held) put_optional(axis, bytes);
   put_optional(held.cycle_initial_mm, bytes);

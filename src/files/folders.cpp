@@ -20,10 +20,10 @@ namespace {
                    fmt::format("cannot {} the folder: {}", what, std::strerror(errno)));
 }
 
-/// A folder may be written to and not be opened; some file systems know nothing of syncing folders.
+/// A folder may be written to and not be opened; some file systems know nothing of syncing folders. One that
+/// has become read-only has failed.
 bool cannot_be_synced(int error) {
-  return error == EACCES || error == EPERM || error == EINVAL || error == ENOTSUP || error == EROFS ||
-         error == ENOSYS;
+  return error == EACCES || error == EPERM || error == EINVAL || error == ENOTSUP || error == ENOSYS;
 }
 
 }  // namespace

@@ -27,32 +27,51 @@ inline void add(const Compensation& done, WindowRun& run) {
   ++run.windows;
 }
 
+/// What a run in windows borrows: windows that have at least as many moves.
+struct WindowShop {
+  WindowShop(const Order& of, std::size_t least_moves, const WriteOptions& write = {})
+      : order(of),
+        model(prepare(of.machine)),
+        bytes(FileReader::of_bytes(of.text)),
+        reader(bytes, "part.ngc", of.read, least_moves),
+        frames(10, {{}, of.X_MW, of.datum_shift}) {
+    options.tolerance = of.tolerance;
+    options.max_correction = of.max_correction;
+    options.blend = of.force.blend;
+    options.threads = of.threads;
+    options.write = write;
+    if (!of.machine.tools.empty())
+      tools = prepare_tools(of.machine, model, overview_of(read_program(of.text, "part.ngc", of.read)).tools);
+    if (of.in_lanes) lanes.emplace(of.max_correction);
+    windows.emplace(RunInput{model, frames, order.ignored, order.force, options, order.read, &tools,
+                             lanes ? &*lanes : nullptr},
+                    reader);
+  }
+
+  const Order& order;
+  Model model;
+  FileReader bytes;
+  ProgramReader reader;
+  std::vector<WorkFrame> frames;
+  CompensationOptions options;
+  ToolModels tools;
+  std::optional<LaneMachines> lanes;
+  std::optional<JobWindows> windows;
+};
+
+inline WindowEvents events_for(
+    WindowRun& run, const std::function<void(const Job&)>& read = [](const Job&) {}) {
+  return {read, [&run](const Job&) { ++run.begun; },
+          [&run](const Job&, Compensation& done) { add(done, run); }};
+}
+
 /// `run` has what was heard even where something is thrown; `read` hears of windows that were read.
 inline void run_in_windows(
     const Order& order, std::size_t least_moves, const WriteOptions& write, WindowRun& run,
     const std::function<void(const Job&)>& read = [](const Job&) {}) {
-  const Model model = prepare(order.machine);
-  FileReader bytes = FileReader::of_bytes(order.text);
-  ProgramReader reader(bytes, "part.ngc", order.read, least_moves);
-  const std::vector<WorkFrame> frames(10, {{}, order.X_MW, order.datum_shift});
-  CompensationOptions options;
-  options.tolerance = order.tolerance;
-  options.max_correction = order.max_correction;
-  options.blend = order.force.blend;
-  options.threads = order.threads;
-  options.write = write;
-  ToolModels tools;
-  if (!order.machine.tools.empty())
-    tools = prepare_tools(order.machine, model,
-                          overview_of(read_program(order.text, "part.ngc", order.read)).tools);
-  std::optional<LaneMachines> lanes;
-  if (order.in_lanes) lanes.emplace(order.max_correction);
-  JobWindows windows(
-      {model, frames, order.ignored, order.force, options, order.read, &tools, lanes ? &*lanes : nullptr},
-      reader);
-  const WindowEvents events{read, [&](const Job&) { ++run.begun; },
-                            [&](const Job&, Compensation& done) { add(done, run); }};
-  run.failure = compensate_windows(windows, options, TextReader(reader), false, events);
+  WindowShop shop(order, least_moves, write);
+  run.failure =
+      compensate_windows(*shop.windows, shop.options, TextReader(shop.reader), false, events_for(run, read));
 }
 
 inline WindowRun in_windows(const Order& order, std::size_t least_moves, const WriteOptions& write = {}) {

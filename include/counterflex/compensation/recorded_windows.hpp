@@ -12,7 +12,14 @@
 
 namespace counterflex {
 
-/// Compensates the windows that begin in `part`, bytes of the program's text, and writes what comes of them
+/// The windows of a program that begin at `bytes` of its text. To record them a run has to know in which
+/// state those before them leave the text: `last_words` are the bytes where they have said each axis last.
+struct RecordedPart {
+  Span bytes;
+  std::array<std::optional<std::size_t>, 3> last_words{};
+};
+
+/// Compensates the windows of `part` and writes what comes of them
 /// to `file`: all of them, or all before the first that fails, which is left to the run that takes them over,
 /// with its error. For windows before the part only what is cheap is done: they are read, and the machine
 /// follows them; the last of them is compensated to come near to the state in which they leave the text.
@@ -21,8 +28,8 @@ namespace counterflex {
 /// it has everything but its name, which the caller gives it when it knows that no input has changed. Throws
 /// `InputError` where the program or its forces can no longer be read, or the file cannot be written.
 FileWriter record_windows(JobWindows& windows, const CompensationOptions& options, TextReader corrected,
-                          bool attribution, Span part, const std::string& run, const std::string& file,
-                          const WindowEvents& events);
+                          bool attribution, const RecordedPart& part, const std::string& run,
+                          const std::string& file, const WindowEvents& events);
 
 /// The records of a run. A million blocks need some hundred megabytes: they are read when it is their turn.
 class RecordedWindows {
