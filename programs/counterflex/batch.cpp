@@ -64,6 +64,17 @@ void write_summary(const Batch& batch, const std::vector<JobOutcome>& outcomes, 
   publish_together({&json_file, &csv_file});
 }
 
+/// From here on until all have ended there is none: the table of an earlier run would be taken for this
+/// one's.
+void remove_summary(const Batch& batch) {
+  for (const char* name : {"/summary.json", "/summary.csv"}) {
+    std::error_code error;
+    if (fs::remove(batch.folder + name, error); error)
+      throw InputError(Exit::transient_io, {batch.folder + name},
+                       "cannot remove the file: " + error.message());
+  }
+}
+
 /// An older program under the name that a job which failed would have written is no correction of this one.
 void warn_of_older(const std::vector<JobOutcome>& outcomes, Console& console) {
   std::error_code ignored;
@@ -95,13 +106,12 @@ std::string counted_units(const std::vector<BatchUnit>& units) {
                      parts);
 }
 
-/// Does units, or those of them that are not proven done. The signal by which it was stopped, if any.
-std::optional<int> run_units(const Options& options, const std::vector<BatchUnit>& units,
-                             const BatchFolder& folder, BatchManifest& manifest, Console& console) {
-  if (options.resume) manifest.take_proven(folder.manifests());
-  if (options.resume)
-    console.detail(fmt::format("{} of {} are proven done", manifest.ended().size(), units.size()));
-  return do_missing(tasks_of(units), options.threads, manifest, console);
+/// What need not be done again.
+void take_proven(const Options& options, std::size_t units, const BatchFolder& folder,
+                 BatchManifest& manifest, Console& console) {
+  if (!options.resume) return;
+  manifest.take_proven(folder.manifests());
+  console.detail(fmt::format("{} of {} are proven done", manifest.ended().size(), units));
 }
 
 Exit run_shard(const Options& options, const Batch& batch, Console& console) {
@@ -111,7 +121,8 @@ Exit run_shard(const Options& options, const Batch& batch, Console& console) {
   const auto by_shard = units_by_shard(batch, count, folder);
   const auto& units = by_shard[static_cast<std::size_t>(index - 1)];
   BatchManifest manifest(shard_manifest(folder, index, count), plan_of(by_shard), kept(units));
-  const auto stopped = run_units(options, units, folder, manifest, console);
+  take_proven(options, units.size(), folder, manifest, console);
+  const auto stopped = do_missing(tasks_of(units), options.threads, manifest, console);
   manifest.save();
   if (stopped) return static_cast<Exit>(status_of(*stopped));
   const std::vector<JobOutcome> outcomes = manifest.ended();
@@ -129,7 +140,7 @@ Exit run_merge(const Options& options, const Batch& batch, Console& console) {
   if (stopped) return static_cast<Exit>(status_of(*stopped));
   manifest.save();
   const Exit exit = conclude(options, batch, manifest.ended(), console);
-  remove_shards(folder);
+  if (exit != Exit::transient_io) remove_shards(folder);  // or another try would have nothing to merge
   return exit;
 }
 
@@ -137,7 +148,9 @@ Exit run_all(const Options& options, const Batch& batch, Console& console) {
   const BatchFolder folder(batch, BatchFolder::Use::alone, console);
   const std::vector<BatchUnit> units = whole_jobs(batch);
   BatchManifest manifest(folder.state("manifest.json"), plan_of(batch), kept(units));
-  const auto stopped = run_units(options, units, folder, manifest, console);
+  take_proven(options, units.size(), folder, manifest, console);
+  remove_summary(batch);
+  const auto stopped = do_missing(tasks_of(units), options.threads, manifest, console);
   folder.sweep();
   manifest.save();
   if (stopped) return static_cast<Exit>(status_of(*stopped));

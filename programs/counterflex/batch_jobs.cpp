@@ -30,6 +30,23 @@ std::string one_name(const std::string& path) {
   return canonical.empty() ? path : canonical.native();
 }
 
+/// All files that a job writes, and all that it reads.
+std::vector<std::string> files_written(const Options& options) {
+  std::vector<std::string> files{*options.output};
+  if (options.report)
+    for (const char* ending : {".html", ".json", ".csv"}) files.push_back(*options.report + ending);
+  if (options.plot) files.push_back(*options.plot);
+  return files;
+}
+
+std::vector<std::string> files_read(const Options& options) {
+  std::vector<std::string> files = options.forces;
+  files.push_back(options.program);
+  files.push_back(options.machine);
+  if (options.tool_table) files.push_back(*options.tool_table);
+  return files;
+}
+
 /// What decides the bytes of the outputs besides those of the inputs: all options, and all paths,
 /// which reports name.
 std::string key_of(const Layers& layers, const BatchJob& job) {
@@ -125,19 +142,25 @@ class JobList {
   }
 
   void refuse_shared_files() const {
-    std::set<std::string> inputs, outputs;
-    for (const FoundJob& found : found_) inputs.insert(found.program);
-    for (const FoundJob& found : found_) {
-      const auto refuse = [&](const std::string& why) {
-        throw InputError(
-            Exit::machine_or_force, found.where,
-            fmt::format("the output of {} would be {}, {}", found.job.program, found.job.output, why));
-      };
-      if (inputs.count(found.output) > 0)
-        refuse("a program of this batch, and programs are never overwritten");
-      if (!outputs.insert(found.output).second)
-        refuse("as that of another job is: give one of them another folder or name");
-    }
+    std::set<std::string> inputs, outputs, summaries;
+    for (const char* name : {"/summary.json", "/summary.csv"})
+      summaries.insert(one_name(file_.output + name));
+    for (const FoundJob& found : found_)
+      for (const std::string& path : files_read(found.job.options)) inputs.insert(one_name(path));
+    for (const FoundJob& found : found_)
+      for (const std::string& path : files_written(found.job.options)) {
+        const std::string name = one_name(path);
+        if (inputs.count(name) > 0)
+          refuse(found, path, "an input of this batch, and inputs are never overwritten");
+        if (summaries.count(name) > 0) refuse(found, path, "the summary of the batch");
+        if (!outputs.insert(name).second)
+          refuse(found, path, "as that of another job is: give one of them another folder or name");
+      }
+  }
+
+  [[noreturn]] static void refuse(const FoundJob& found, const std::string& path, const std::string& why) {
+    throw InputError(Exit::machine_or_force, found.where,
+                     fmt::format("the output of {} would be {}, {}", found.job.program, path, why));
   }
 
   const JobsFile& file_;

@@ -21,12 +21,12 @@ void describe_program(CLI::App& app) {
   app.description(
       "Bends a machining program against the errors and the deflection of its machine, and reports the "
       "deviation\n"
-      "before and after.");
+      "before and after. counterflex PROGRAM is counterflex compensate PROGRAM.");
   app.footer(
-      "Exit status: 0 done, 1 internal error, 2 usage, 3 program text, 4 machine or force file, 5 tolerance "
-      "missed or\n"
-      "not converged, 6 travel or correction limit, 75 input or output failed, 130 interrupted (143 by "
-      "SIGTERM).");
+      "Exit status: 0 done, 1 internal error, 2 usage, 3 program text, 4 machine, force, job or project "
+      "file,\n"
+      "5 tolerance missed or not converged, 6 travel or correction limit, 75 input or output failed,\n"
+      "130 interrupted (143 by SIGTERM).");
   app.set_version_flag("--version", fmt::format("counterflex {}", version), "Print the version");
   app.require_subcommand(1);
   app.get_formatter()->column_width(38);
@@ -88,6 +88,16 @@ bool reads_sources(const Options& options) {
   return options.command != Command::compare && options.command != Command::batch && !options.materials;
 }
 
+std::vector<SettingRemark> remarks_on_environment() {
+  std::vector<SettingRemark> remarks;
+  for (const auto& [name, meant] : misspelt_variables(environ)) {
+    SettingRemark& remark = remarks.emplace_back();
+    remark.where.file = name;
+    remark.what = fmt::format("is no setting and does nothing; did you mean {}?", meant);
+  }
+  return remarks;
+}
+
 }  // namespace
 
 std::variant<Options, Exit> read_command_line(int argc, const char* const* argv) {
@@ -103,8 +113,11 @@ std::variant<Options, Exit> read_command_line(int argc, const char* const* argv)
   } catch (const CLI::ParseError& error) {
     return leave(app, error);
   }
-  if (!reads_sources(options)) return with_settings(options, {options.sources.flags});
+  if (options.sources.config && options.sources.no_config)
+    throw InputError(Exit::usage, {}, "--config names a project file, and --no-config wants none");
+  options.remarks = remarks_on_environment();
   options.sources.environment = read_environment(environ);
+  if (!reads_sources(options)) return with_settings(options, {options.sources.flags});
   const ProgramLayers said = layers_of(options.sources, placing_program(options));
   options.project_file = said.project_file;
   const bool print = options.print_config;

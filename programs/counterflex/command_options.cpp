@@ -26,8 +26,8 @@ void add_setting(CLI::App& app, Options& options, std::string_view name, std::st
   const std::string names(setting.flags), type(setting.type);
   const std::string help(other_help.empty() ? setting.help : other_help);
   if (type.empty())
-    app.add_flag_callback(
-        names, [keep] { keep({"true"}); }, help);
+    app.add_flag_function(
+        names, [keep](std::int64_t count) { keep({count > 0 ? "true" : "false"}); }, help);
   else if (setting.repeated)
     app.add_option_function<std::vector<std::string>>(names, keep, help)
         ->type_name(type)
@@ -51,11 +51,9 @@ void add_reading(CLI::App& app, Options& options) {
 }
 
 void add_config(CLI::App& app, Options& options) {
-  CLI::Option* config =
-      value_option(app, "--config", "FILE", "The project file; counterflex.toml beside the program or above",
-                   [&](const std::string& file) { options.sources.config = file; });
-  app.add_flag("--no-config", options.sources.no_config, "Take nothing from a project file")
-      ->excludes(config);
+  value_option(app, "--config", "FILE", "The project file; counterflex.toml beside the program or above",
+               [&](const std::string& file) { options.sources.config = file; });
+  app.add_flag("--no-config", options.sources.no_config, "Take nothing from a project file");
   app.add_flag("--print-config", options.print_config,
                "Print what is in force, and where it is from, as a project file");
 }

@@ -58,7 +58,10 @@ std::vector<Setting> effective_settings(Command command, const Layers& layers) {
 Options with_settings(Options options, const Layers& layers) {
   options.threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   const std::vector<Setting> settings = effective_settings(options.command, layers);
-  for (const Setting& setting : settings) apply_setting(setting, options);
+  for (const Setting& setting : settings) {
+    apply_setting(setting, options);
+    remark_on_name(setting, options);
+  }
   name_outputs(options, settings);
   return options;
 }

@@ -40,6 +40,8 @@ Exit run(int argc, char** argv) {
     if (const Exit* exit = std::get_if<Exit>(&command_line)) return *exit;
     const Options& options = std::get<Options>(command_line);
     Console console(options);
+    for (const SettingRemark& remark : options.remarks)
+      console.warning(remark.where.file, remark.where.line, remark.what);
     if (!options.project_file.empty()) console.detail("project file " + options.project_file);
     return guarded(console, [&] { return run_command(options, console); });
   });

@@ -28,6 +28,12 @@ struct PartOfProgram {
   std::string file;  ///< where it is recorded
 };
 
+/// A warning about a setting.
+struct SettingRemark {
+  Location where;
+  std::string what;
+};
+
 struct Options {
   Command command = Command::check;
 
@@ -88,6 +94,7 @@ struct Options {
   SettingSources sources;    ///< what this command line, and the environment, say of them
   std::string project_file;  ///< from which settings are, too; empty: none
   bool print_config = false;
+  std::vector<SettingRemark> remarks;  ///< on what is said for this run
 };
 
 }  // namespace counterflex::cli

@@ -129,6 +129,18 @@ void name_outputs(Options& options, const std::vector<Setting>& settings) {
   options.plot = named(options.plot, "plot", "{name}.svg", naming);
 }
 
+void remark_on_name(const Setting& setting, Options& options) {
+  const bool names = setting.option == "output" || setting.option == "report" || setting.option == "plot";
+  if (!names || setting.origin != Origin::file || setting.values.empty()) return;
+  const std::string& text = setting.values[0];
+  if (text == "-" || text.ends_with('/') || is_pattern(text)) return;
+  SettingRemark& remark = options.remarks.emplace_back();
+  remark.where = setting.where;
+  remark.what =
+      fmt::format("{} is '{}' for all programs; a name with {{name}} is one for each, and a folder ends in /",
+                  name_in_messages(setting), text);
+}
+
 std::string default_output(const std::string& program) {
   if (program == "-") return "-";
   const std::filesystem::path path(program);

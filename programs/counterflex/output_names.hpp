@@ -23,6 +23,10 @@ void check_pattern(const std::string& name, const std::string& text);
 /// are named one by one.
 void name_outputs(Options& options, const std::vector<Setting>& settings);
 
+/// Notes in `options` an output, report or plot of a file that has one name for all programs: each run takes
+/// the place of the one before.
+void remark_on_name(const Setting& setting, Options& options);
+
 /// "part.ngc" gives "part.comp.ngc".
 std::string default_output(const std::string& program);
 

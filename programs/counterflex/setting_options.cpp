@@ -58,7 +58,7 @@ void take_report(const std::string& name, const std::string& text, Options& opti
 using Text = const std::string&;
 
 const std::array option_table{
-    SettingOption{"machine", "-m,--machine", "MACHINE", "The machine file", "", false,
+    SettingOption{"machine", "-m,--machine", "MACHINE", "The machine file; the project file's", "", false,
                   [](Text, Text text, Options& options) { options.machine = text; }},
     SettingOption{"forces", "-f,--forces", "FORCES",
                   "Forces by place, tool or operation (.csv), cutting models (.toml); may be repeated", "",

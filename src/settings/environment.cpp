@@ -3,6 +3,7 @@
 #include <string_view>
 
 #include "settings/keys.hpp"
+#include "toml/suggest.hpp"
 
 namespace counterflex {
 namespace {
@@ -60,6 +61,24 @@ std::vector<Setting> read_environment(const char* const* variables) {
     settings.push_back({std::string(key.option), values_of(text, key.kind), {name}, Origin::environment});
   }
   return settings;
+}
+
+std::vector<std::pair<std::string, std::string>> misspelt_variables(const char* const* variables) {
+  constexpr std::string_view prefix = "COUNTERFLEX_";
+  std::vector<std::string> names;
+  for (const setting_file::Key& key : setting_file::keys)
+    names.push_back(setting_file::variable_of(key.option));
+  std::vector<std::string_view> known;
+  for (const std::string& name : names) known.push_back(std::string_view(name).substr(prefix.size()));
+  std::vector<std::pair<std::string, std::string>> misspelt;
+  for (; *variables != nullptr; ++variables) {
+    const std::string_view variable = *variables, name = variable.substr(0, variable.find('='));
+    if (!name.starts_with(prefix)) continue;
+    const std::string_view meant = toml_file::nearest(name.substr(prefix.size()), known);
+    if (meant.empty() || name.substr(prefix.size()) == meant) continue;
+    misspelt.emplace_back(name, std::string(prefix).append(meant));
+  }
+  return misspelt;
 }
 
 }  // namespace counterflex

@@ -26,9 +26,11 @@ std::vector<Setting> read_project(std::string_view text, const std::string& file
 }
 
 std::optional<std::string> find_project_file(const std::string& program) {
-  const fs::path here = fs::current_path();
+  std::error_code nowhere;
+  const fs::path here = fs::current_path(nowhere);
   fs::path folder = here;
   if (!program.empty() && program != "-") folder = (here / program).lexically_normal().parent_path();
+  if (!folder.is_absolute()) return std::nullopt;  // the working directory has been removed
   for (;; folder = folder.parent_path()) {
     std::error_code ignored;
     const fs::path file = folder / "counterflex.toml";

@@ -14,6 +14,7 @@ import tempfile
 sys.dont_write_bytecode = True  # nothing is left in the tree
 
 import kernels
+import small_jobs
 import whole_runs
 from reader import Reader
 from timing import Failed
@@ -86,6 +87,7 @@ def main():
     with tempfile.TemporaryDirectory() as work:
         try:
             whole_runs.tables(options.counterflex, Reader(options.interpreter, work), sizes, work, options.rounds, say)
+            small_jobs.table(options.counterflex, work, say)
         except Failed as failure:
             say('failed: %s' % failure)
             return 1

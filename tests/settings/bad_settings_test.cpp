@@ -52,3 +52,17 @@ TEST_CASE("a bad project or jobs file causes exactly the diagnostic that its fir
     CHECK(diagnostic_of(text, name) == name + ":" + expected);
   }
 }
+
+TEST_CASE("a file that breaks off anywhere is read or refused, with a place in it") {
+  const std::string text =
+      "format = \"counterflex-jobs 1\"\noutput = \"out\"\nforce = [[1, 2.5, 3], \"T1=1,2,3\"]\nreport = "
+      "true\n"
+      "[work.G54]\nxyz_mm = [1, 2, 3]\n[tools.T1]\nlength_mm = 5\n[[job]]\nprogram = [\"a\", \"b\"]\n";
+  REQUIRE(diagnostic_of(text, "jobs.toml") == "none");
+  std::size_t refused = 0;
+  for (std::size_t length = 0; length < text.size(); ++length) {
+    CAPTURE(length);
+    refused += diagnostic_of(text.substr(0, length), "jobs.toml") != "none";
+  }
+  CHECK(refused >= text.size() - 2);
+}

@@ -26,6 +26,23 @@ TEST_CASE("a variable COUNTERFLEX_OPTION is a setting, other variables are none"
   CHECK(settings[0].where.line == 0);
 }
 
+TEST_CASE("a variable that is nearly a setting is noticed, others are not") {
+  const char* const list[] = {"COUNTERFLEX_TOLERANCE=1",
+                              "COUNTERFLEX_MACHIN=m",
+                              "COUNTERFLEX_MACHINE=m",
+                              "COUNTERFLEX_PROGRAMS=p",
+                              "COUNTERFLEX_CORPUS=c",
+                              "COUNTERFLEX_BROWSER=b",
+                              "COUNTERFLEX_MAX_CORRECTION",
+                              "COUNTERFLEX_",
+                              "TOLERANCE_M=1",
+                              nullptr};
+  using Pairs = std::vector<std::pair<std::string, std::string>>;
+  CHECK(misspelt_variables(list) == Pairs{{"COUNTERFLEX_TOLERANCE", "COUNTERFLEX_TOLERANCE_MM"},
+                                          {"COUNTERFLEX_MACHIN", "COUNTERFLEX_MACHINE"},
+                                          {"COUNTERFLEX_MAX_CORRECTION", "COUNTERFLEX_MAX_CORRECTION_MM"}});
+}
+
 TEST_CASE("an empty variable is none") {
   CHECK(environment_of("COUNTERFLEX_MACHINE=", "COUNTERFLEX_FORCES=").empty());
 }

@@ -59,6 +59,18 @@ TEST_CASE("without a program's name the search begins in the working directory")
   CHECK(find_project_file("") == "counterflex.toml");
 }
 
+TEST_CASE("in a folder that has been removed there is no project file, but for a program elsewhere") {
+  const TemporaryFolder folder;
+  project_in("shop");
+  const std::string program = (folder.path() / "shop/a.ngc").string();
+  fs::create_directory("gone");
+  fs::current_path("gone");
+  fs::remove(folder.path() / "gone");
+  CHECK_FALSE(find_project_file("-").has_value());
+  CHECK_FALSE(find_project_file("a.ngc").has_value());
+  CHECK(find_project_file(program) == (folder.path() / "shop/counterflex.toml").string());
+}
+
 TEST_CASE("a folder that is called like a project file is none") {
   const TemporaryFolder folder;
   project_in("shop");

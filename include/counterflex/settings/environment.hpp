@@ -1,6 +1,7 @@
 #pragma once
 /// Settings that the environment gives: COUNTERFLEX_MACHINE, COUNTERFLEX_TOLERANCE_MM ...
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "counterflex/settings/setting.hpp"
@@ -11,5 +12,8 @@ namespace counterflex {
 /// values of one option stand with ':' between them, as in PATH; a report or plot may be "true" or "false",
 /// as in a project file; an empty value is none. Other variables are passed over. Values are not judged.
 std::vector<Setting> read_environment(const char* const* variables);
+
+/// Variables that are no settings, but nearly are, each with what was probably meant: COUNTERFLEX_TOLERANCE.
+std::vector<std::pair<std::string, std::string>> misspelt_variables(const char* const* variables);
 
 }  // namespace counterflex
