@@ -144,6 +144,7 @@ Exit run_shard(const Options& options, const Batch& batch, Console& console) {
 Exit run_merge(const Options& options, const Batch& batch, Console& console) {
   const BatchFolder folder(batch, BatchFolder::Use::alone, console);
   BatchManifest manifest(folder.state("manifest.json"), plan_of(batch), kept(whole_jobs(batch)));
+  if (has_shards(folder)) remove_summary(batch);
   const auto stopped = merge_shards(batch, folder, options.threads, manifest, console);
   folder.sweep();
   if (stopped) return static_cast<Exit>(status_of(*stopped));

@@ -113,9 +113,13 @@ std::map<std::size_t, SplitJob> split_jobs(const ShardResults& results) {
 
 }  // namespace
 
+bool has_shards(const BatchFolder& folder) {
+  return !counts_of_shards(folder).empty();
+}
+
 std::optional<int> merge_shards(const Batch& batch, const BatchFolder& folder, int threads,
                                 BatchManifest& manifest, Console& console) {
-  if (counts_of_shards(folder).empty() && manifest.take_all_ended()) return std::nullopt;
+  if (!has_shards(folder) && manifest.take_all_ended()) return std::nullopt;
   const ShardResults results = complete_results(batch, folder);
   for (const auto& units : results.units())
     for (const BatchUnit& unit : units)

@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
@@ -11,10 +12,19 @@
 
 namespace counterflex {
 
+/// Disks, networks and what the system has run out of may be better at another try; a file that is missing or
+/// forbidden is not.
+static bool may_pass(int error) {
+  constexpr int passing[] = {EIO,    ESTALE, ETIMEDOUT, ENOSPC, EDQUOT, EMFILE,
+                             ENFILE, ENOMEM, EAGAIN,    ENODEV, ENXIO};
+  return std::ranges::find(passing, error) != std::end(passing);
+}
+
 void fail_reading(const std::string& path) {
   const std::string reason = std::strerror(errno);
-  if (path == "-") throw InputError(Exit::usage, {}, "cannot read standard input: " + reason);
-  throw InputError(Exit::usage, {path, 0, 0}, "cannot read the file: " + reason);
+  const Exit exit = may_pass(errno) ? Exit::transient_io : Exit::usage;
+  if (path == "-") throw InputError(exit, {}, "cannot read standard input: " + reason);
+  throw InputError(exit, {path, 0, 0}, "cannot read the file: " + reason);
 }
 
 void fail_writing(const std::string& path) {

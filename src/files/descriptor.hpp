@@ -8,8 +8,8 @@
 
 namespace counterflex {
 
-/// Throws `InputError` with the reason in errno: Exit::usage for reading, Exit::transient_io for writing
-/// `path`.
+/// Throws `InputError` with the reason in errno: Exit::transient_io for writing `path`, and for reading it
+/// where the reason may pass; else Exit::usage.
 [[noreturn]] void fail_reading(const std::string& path);
 [[noreturn]] void fail_writing(const std::string& path);
 

@@ -5,7 +5,7 @@
 
 namespace counterflex {
 
-/// The bytes of a file; "-" is standard input. Throws `InputError` (Exit::usage) where it cannot be read.
+/// The bytes of a file; "-" is standard input. Throws as `FileReader` where it cannot be read.
 std::string read_file(const std::string& path);
 
 /// Writes `bytes` under `path` or not at all: to a temporary name in the same folder, flushed, then renamed. "-" is
