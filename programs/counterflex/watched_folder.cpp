@@ -4,12 +4,15 @@
 #include <fmt/format.h>
 #include <fnmatch.h>
 #include <sys/inotify.h>
+#include <sys/stat.h>
+#include <sys/vfs.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <cctype>
 #include <cerrno>
+#include <chrono>
 #include <cstring>
 #include <filesystem>
 #include <initializer_list>
@@ -44,6 +47,25 @@ bool is_hidden_or_temporary(const std::string& name) {
 
 bool is_no_program(const std::string& name) {
   return ends_with_any(name, {".toml", ".csv", ".json", ".html", ".svg"});
+}
+
+/// Whether a lease that was refused with `error` was so because somebody writes. It also is to who does not
+/// own the file, by some file systems to everybody, and by a file server where it has no mind to give any.
+bool can_tell(int file, int error) {
+  constexpr std::array<long, 3> file_servers{0x6969, 0xFF534D42, 0xFE534D42};  // NFS, CIFS, SMB2
+  struct statfs system {};
+  return error == EAGAIN && ::fstatfs(file, &system) == 0 &&
+         std::find(file_servers.begin(), file_servers.end(), system.f_type) == file_servers.end();
+}
+
+/// Within the last few seconds: somebody may be about to write more. A time that is to come says nothing.
+bool was_just_changed(int file) {
+  using namespace std::chrono;
+  struct stat facts {};
+  if (::fstat(file, &facts) != 0) return false;
+  const auto now = system_clock::now().time_since_epoch();
+  const auto age = now - (seconds(facts.st_mtim.tv_sec) + nanoseconds(facts.st_mtim.tv_nsec));
+  return age < seconds(3) && age > -seconds(60);
 }
 
 /// The first bytes of a file, enough for a header; none where it cannot be read.
@@ -130,7 +152,8 @@ bool is_being_written(const std::string& path) {
   // write meanwhile waits for that long, and the signal about it is ignored.
   const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
   if (file < 0) return false;
-  const bool busy = ::fcntl(file, F_SETLEASE, F_RDLCK) != 0 && errno == EAGAIN;
+  const bool refused = ::fcntl(file, F_SETLEASE, F_RDLCK) != 0;
+  const bool busy = refused && (can_tell(file, errno) || was_just_changed(file));
   ::close(file);
   return busy;
 }
