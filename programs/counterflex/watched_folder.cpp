@@ -92,9 +92,11 @@ bool is_fresh(int file) {
 }
 
 /// A lease to read is refused where somebody writes. Whoever opens the file to write meanwhile waits until it
-/// is given back, when the file is closed; the signal about that is ignored.
+/// is given back, when the file is closed; the signal about that is ignored. Of the files of other users the
+/// system does not tell.
 bool has_writer(int file) {
-  return ::fcntl(file, F_SETLEASE, F_RDLCK) != 0 && errno == EAGAIN;
+  if (::fcntl(file, F_SETLEASE, F_RDLCK) == 0) return false;
+  return errno == EAGAIN || is_fresh(file);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <fcntl.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
@@ -12,17 +13,21 @@
 
 namespace counterflex {
 
-/// Disks, networks and what the system has run out of may be better at another try; a file that is missing or
-/// forbidden is not.
-static bool may_pass(int error) {
-  constexpr int passing[] = {EIO,    ESTALE, ETIMEDOUT, ENOSPC, EDQUOT, EMFILE,
-                             ENFILE, ENOMEM, EAGAIN,    ENODEV, ENXIO};
-  return std::ranges::find(passing, error) != std::end(passing);
+namespace {
+
+/// Whether another try would find the same, until somebody changes what is named or who may read it.
+bool is_of_path(int error) {
+  constexpr std::array lasting{ENOENT, EACCES, EPERM, EISDIR, ENOTDIR, ELOOP, ENAMETOOLONG,
+                               ENXIO,   // a socket
+                               EBADF};  // a standard input that is closed
+  return std::find(lasting.begin(), lasting.end(), error) != lasting.end();
 }
+
+}  // namespace
 
 void fail_reading(const std::string& path) {
   const std::string reason = std::strerror(errno);
-  const Exit exit = may_pass(errno) ? Exit::transient_io : Exit::usage;
+  const Exit exit = is_of_path(errno) ? Exit::usage : Exit::transient_io;
   if (path == "-") throw InputError(exit, {}, "cannot read standard input: " + reason);
   throw InputError(exit, {path, 0, 0}, "cannot read the file: " + reason);
 }

@@ -8,8 +8,8 @@
 
 namespace counterflex {
 
-/// Throws `InputError` with the reason in errno: Exit::transient_io for writing `path`, and for reading it
-/// where the reason may pass; else Exit::usage.
+/// Throws `InputError` with the reason in errno: for reading `path` Exit::usage where it names nothing that
+/// can be read, else Exit::transient_io (a server that is away, a disk that fails), which writing always has.
 [[noreturn]] void fail_reading(const std::string& path);
 [[noreturn]] void fail_writing(const std::string& path);
 
