@@ -61,31 +61,47 @@ struct Naming {
                             name_in_messages(setting), text));
 }
 
+/// What keeps the reports of the other commands apart from those of compensate.
+std::string_view mark_of(Command command) {
+  if (command == Command::predict) return ".predict";
+  return command == Command::verify ? ".verify" : "";
+}
+
+/// The name of a report or plot with the mark of its command, before the ending of a plot. Flags are said for
+/// this run alone and taken at their word; {output} has the mark already.
+std::string marked(std::string name, const Setting& setting, Command command) {
+  const bool own = setting.option == "output" || setting.origin == Origin::flag;
+  if (own || name.find("{output}") != std::string::npos) return name;
+  const std::size_t ending = setting.option == "plot" ? std::string_view(".svg").size() : 0;
+  return name.insert(name.size() - ending, mark_of(command));
+}
+
 /// What `said` is with its words filled in; nothing where it has to be left out. `in_folder` is the name in a
 /// folder that is said alone.
 std::optional<std::string> named(const std::optional<std::string>& said, std::string_view option,
                                  std::string_view in_folder, const Naming& naming) {
   if (!said || *said == "-") return said;
-  const bool folder = said->ends_with('/');
-  if (!folder && !is_pattern(*said)) return said;
-  const std::string pattern = folder ? *said + std::string(in_folder) : *said;
+  const Setting& setting = *std::find_if(naming.settings.begin(), naming.settings.end(),
+                                         [&](const Setting& entry) { return entry.option == option; });
+  const std::string pattern =
+      marked(said->ends_with('/') ? *said + std::string(in_folder) : *said, setting, naming.options.command);
+  if (!is_pattern(pattern)) return pattern;
   const auto path = filled_path(pattern, naming.options.program, naming.parts);
   if (path) {
     naming.options.folders.push_back(std::filesystem::path(*path).parent_path().string());
     return path;
   }
-  const auto setting = std::find_if(naming.settings.begin(), naming.settings.end(),
-                                    [&](const Setting& entry) { return entry.option == option; });
-  if (setting != naming.settings.end() && setting->origin == Origin::flag) refuse_nameless(*setting, *said);
+  if (setting.origin == Origin::flag) refuse_nameless(setting, *said);
   return std::nullopt;
 }
 
-/// {output}: of what compensate writes; the other commands' reports are not to take its reports' place.
+/// {output}: of what compensate writes, with the mark of the command.
 std::optional<std::string> output_stem(const Options& options, const std::optional<std::string>& output) {
-  if (options.command == Command::verify) return without_extension(options.corrected) + ".verify";
+  const std::string mark(mark_of(options.command));
+  if (options.command == Command::verify) return without_extension(options.corrected) + mark;
   const std::string path = output && *output != "-" ? *output : default_output(options.program);
   if (path == "-") return std::nullopt;
-  return without_extension(path) + (options.command == Command::predict ? ".predict" : "");
+  return without_extension(path) + mark;
 }
 
 }  // namespace
