@@ -20,7 +20,7 @@ struct OutputParts {
 
 bool names_a_folder(const std::string& text) {
   std::error_code ignored;
-  return text.ends_with('/') || (!is_pattern(text) && std::filesystem::is_directory(text, ignored));
+  return text.ends_with('/') || (!is_pattern(text) && std::filesystem::is_directory(fill(text, {}), ignored));
 }
 
 OutputParts parts_of(const std::string& text) {
@@ -85,7 +85,7 @@ std::optional<std::string> named(const std::optional<std::string>& said, std::st
                                          [&](const Setting& entry) { return entry.option == option; });
   const std::string pattern =
       marked(said->ends_with('/') ? *said + std::string(in_folder) : *said, setting, naming.options.command);
-  if (!is_pattern(pattern)) return pattern;
+  if (!is_pattern(pattern)) return fill(pattern, {});
   const auto path = filled_path(pattern, naming.options.program, naming.parts);
   if (path) {
     naming.options.folders.push_back(std::filesystem::path(*path).parent_path().string());
@@ -127,9 +127,12 @@ void check_pattern(const std::string& name, const std::string& text) {
   const NameParts all{"", "", of_report ? std::optional<std::string>("") : std::nullopt};
   const std::string unknown = unknown_placeholder(text, all);
   if (unknown.empty()) return;
+  const std::string meant = nearest_placeholder(unknown);
+  const bool is_hint = !meant.empty() && meant != unknown;
   throw InputError(Exit::usage, {},
-                   fmt::format("{} is '{}', in which {{{}}} stands for nothing; {{name}}, {{ext}}{} do", name,
-                               text, unknown, of_report ? ", {output}" : ""));
+                   fmt::format("{} is '{}', in which {{{}}} stands for nothing; {{name}}, {{ext}}{} do{}",
+                               name, text, unknown, of_report ? ", {output}" : "",
+                               is_hint ? fmt::format("; did you mean {{{}}}?", meant) : ""));
 }
 
 void name_outputs(Options& options, const std::vector<Setting>& settings) {
@@ -154,7 +157,7 @@ void remark_on_name(const Setting& setting, Options& options) {
   remark.where = setting.where;
   remark.what =
       fmt::format("{} is '{}' for all programs; a name with {{name}} is one for each, and a folder ends in /",
-                  name_in_messages(setting), text);
+                  name_in_messages(setting), fill(text, {}));
 }
 
 std::string default_output(const std::string& program) {

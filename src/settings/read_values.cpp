@@ -66,11 +66,13 @@ void read_paths(const toml::node& node, const ValueContext& context, Setting& se
   for (const toml::node& entry : *node.as_array()) read_path(entry, context, setting);
 }
 
-/// A pattern without a folder stands beside the program, wherever the file is that says so.
+/// A pattern without a folder stands beside the program, wherever the file is that says so. The text alone is
+/// one: the folder of the file is called as it is called.
 void read_output_name(const toml::node& node, const ValueContext& context, Setting& setting) {
   const std::string text = toml_file::as_text(node, context.name, context.source);
   const bool only_a_name = is_pattern(text) && text.find('/') == std::string::npos;
-  add_value(setting, only_a_name ? text : joined_path(context.folder, text), node.source(), context.source);
+  add_value(setting, only_a_name ? text : joined_path(as_pattern(context.folder), text), node.source(),
+            context.source);
 }
 
 /// false leaves the setting without values: none is written.
