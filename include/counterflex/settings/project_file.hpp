@@ -29,7 +29,8 @@ namespace counterflex {
 std::vector<Setting> read_project(std::string_view text, const std::string& file);
 
 /// A project file that says `settings`, each with its origin as a comment. A file of this text in the working
-/// directory gives the same values, numbers in their shortest form.
+/// directory gives the same values, numbers in their shortest form. Throws `InputError` for a value that is
+/// not UTF-8: Exit::machine_or_force at the place of a file's, else Exit::usage.
 std::string to_project_text(const std::vector<Setting>& settings);
 
 /// The nearest `counterflex.toml` in the folder of `program` or above it; of the working directory where
