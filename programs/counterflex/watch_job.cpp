@@ -85,7 +85,7 @@ void do_watch_job(const Options& job, const SendLine& send) {
   send(nlohmann::json{{"process", ::getpid()}}.dump());
   WatchResult result;
   const auto hear_error = [&](std::string_view diagnostic) {
-    if (result.error.empty()) result.error = diagnostic;
+    if (result.error.empty()) result.error = with_file(std::string(diagnostic), job.program);
   };
   Console console(job, {.error = hear_error});
   const auto tell = [&](const Run& run, const RunEnd& end, const RunFiles&) {
