@@ -6,11 +6,13 @@
 #include <cstdlib>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <tuple>
 #include <utility>
 
 #include "counterflex/files/input_error.hpp"
 #include "job_process.hpp"
+#include "signals.hpp"
 
 namespace counterflex::cli {
 namespace {
@@ -44,8 +46,9 @@ class TemporaryFolder {
   std::string path_;
 };
 
-/// The time that `job` takes, from the part of it that is done in a few seconds.
-double tried_seconds(BatchJob job) {
+/// The time that `job` takes, from the part of it that is done in a few seconds. A signal stops it and is
+/// returned in `stopped`.
+double tried_seconds(BatchJob job, const AwaitedSignals& signals, std::optional<int>& stopped) {
   const TemporaryFolder folder;
   job.options.output = folder.file("tried");
   if (job.options.report) job.options.report = folder.file("report");
@@ -54,8 +57,9 @@ double tried_seconds(BatchJob job) {
   workers.start(0, [&](const SendLine& send) { do_job(job, 1, send); });
   const auto begun = Clock::now();
   double share = 0, elapsed = 0;
-  for (bool ended = false; !ended && elapsed < longest_try;) {
-    const auto events = workers.wait(-1, 100);
+  for (bool ended = false; !ended && !stopped && elapsed < longest_try;) {
+    const auto events = workers.wait(signals.descriptor(), 100);
+    stopped = signals.take();
     elapsed = std::chrono::duration<double>(Clock::now() - begun).count();
     for (const WorkerEvent& event : events) {
       ended = ended || event.ended;
@@ -73,10 +77,11 @@ struct JobKind {
   const BatchJob* largest = nullptr;
 };
 
-}  // namespace
+/// By machine, method, and whether causes are asked for.
+using JobKinds = std::map<std::tuple<std::string, Method, bool>, JobKind>;
 
-double estimated_seconds(const Batch& batch) {
-  std::map<std::tuple<std::string, Method, bool>, JobKind> kinds;
+JobKinds kinds_of(const Batch& batch) {
+  JobKinds kinds;
   for (const BatchJob& job : batch.jobs) {
     const bool causes = job.options.report || job.options.plot;
     JobKind& kind = kinds[{job.options.machine, job.options.method, causes}];
@@ -84,10 +89,26 @@ double estimated_seconds(const Batch& batch) {
     ++kind.jobs;
     if (kind.largest == nullptr || job.work > kind.largest->work) kind.largest = &job;
   }
+  return kinds;
+}
+
+double seconds_of(const JobKinds& kinds, std::optional<int>& stopped) {
+  const AwaitedSignals signals;
   double seconds = 0;
-  for (const auto& [name, kind] : kinds)
-    seconds += tried_seconds(*kind.largest) * kind.work / kind.largest->work +
+  for (const auto& [name, kind] : kinds) {
+    if (stopped) break;
+    seconds += tried_seconds(*kind.largest, signals, stopped) * kind.work / kind.largest->work +
                process_seconds * static_cast<double>(kind.jobs);
+  }
+  return seconds;
+}
+
+}  // namespace
+
+double estimated_seconds(const Batch& batch) {
+  std::optional<int> stopped;
+  const double seconds = seconds_of(kinds_of(batch), stopped);
+  if (stopped) end_by(*stopped);  // the temporary folder is gone
   return seconds;
 }
 

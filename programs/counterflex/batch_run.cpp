@@ -19,6 +19,9 @@ constexpr int patience_ms = 400;      // for workers that are asked to end
 constexpr int hesitation_ms = 100;    // for a signal that has ended a worker to arrive here, too
 constexpr double large_share = 0.25;  // of what one processor has to do in all
 
+using Clock = std::chrono::steady_clock;
+constexpr std::chrono::milliseconds between_progress(250);
+
 class TaskRun {
  public:
   TaskRun(const std::vector<BatchTask>& tasks, int threads, const AwaitedSignals& signals,
@@ -31,6 +34,7 @@ class TaskRun {
         progress_(tasks),
         outcomes_(tasks.size()),
         order_(tasks.size()) {
+    console_.never_wait();
     std::iota(order_.begin(), order_.end(), std::size_t{0});
     std::stable_sort(order_.begin(), order_.end(),
                      [&](std::size_t a, std::size_t b) { return tasks_[a].work > tasks_[b].work; });
@@ -50,12 +54,20 @@ class TaskRun {
         return stopped_;
       }
       listener_.now_and_then();
-      console_.progress_line(progress_.text());
+      show_progress();
     }
     return std::nullopt;
   }
 
  private:
+  /// Nobody reads it faster, and there may be an event of every window of every job.
+  void show_progress() {
+    const auto now = Clock::now();
+    if (shown_ && now - *shown_ < between_progress) return;
+    shown_ = now;
+    console_.progress_line(progress_.text());
+  }
+
   bool is_large(std::size_t task) const { return threads_ > 1 && tasks_[task].work > large_; }
 
   void start_some() {
@@ -110,6 +122,7 @@ class TaskRun {
   double large_ = 0;
   bool alone_ = false;  // a large task runs, or waits for the others to end
   std::optional<int> stopped_;
+  std::optional<Clock::time_point> shown_;  // progress
 };
 
 }  // namespace

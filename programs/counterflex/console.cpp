@@ -11,6 +11,7 @@ namespace counterflex::cli {
 namespace {
 
 constexpr std::size_t warnings_shown = 20;
+constexpr int last_words_ms = 200;  // for what a terminal has not taken yet
 
 bool colours_on(int descriptor) {
   const char* no_colour = std::getenv("NO_COLOR");
@@ -29,11 +30,6 @@ std::string painted(std::string_view diagnostic, std::string_view word, int colo
                       fmt::format("\033[1;{}m{}:\033[0m", colour, word));
 }
 
-/// What cannot be said on standard error cannot be said at all: no reason to fail.
-void say(const std::string& text) {
-  std::fputs(text.c_str(), stderr);
-}
-
 }  // namespace
 
 Console::Console(const Options& options, ConsoleListener listener)
@@ -46,6 +42,19 @@ Console::Console(const Options& options, ConsoleListener listener)
 
 Console::~Console() {
   erase_progress();
+  if (unsaid_) unsaid_->send(last_words_ms);
+}
+
+void Console::never_wait() {
+  if (!unsaid_) unsaid_.emplace(STDERR_FILENO);
+}
+
+/// What cannot be said on standard error cannot be said at all: no reason to fail.
+void Console::say(const std::string& text) {
+  if (unsaid_)
+    unsaid_->add(text);
+  else
+    std::fputs(text.c_str(), stderr);
 }
 
 void Console::erase_progress() {
@@ -71,6 +80,7 @@ void Console::finish_warnings() {
     if (!quiet_ && count > warnings_shown)
       say(fmt::format("{}: {} more warnings; a report lists them\n", file, count - warnings_shown));
   warnings_.clear();
+  if (unsaid_) unsaid_->send(last_words_ms);
 }
 
 void Console::detail(std::string_view what) {
@@ -90,6 +100,7 @@ void Console::progress(std::string_view what) {
 }
 
 void Console::progress_line(std::string_view line) {
+  if (unsaid_ && !unsaid_->is_clear()) return;
   if (quiet_ || !terminal_) return;
   erase_progress();
   say(std::string(line));
@@ -115,6 +126,10 @@ void Console::error(std::string_view diagnostic) {
 std::string located(const std::string& file, const Failure& failure) {
   if (failure.line > 0) return fmt::format("{}:{}:1: error: {}", file, failure.line, failure.what);
   return fmt::format("{}: error: {}", file, failure.what);
+}
+
+std::string with_file(const std::string& diagnostic, const std::string& file) {
+  return diagnostic.starts_with("error: ") ? file + ": " + diagnostic : diagnostic;
 }
 
 std::string shown_name(const std::string& path) {

@@ -3,12 +3,14 @@
 #include <cstddef>
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "counterflex/compensation/options.hpp"
 #include "options.hpp"
+#include "unsaid.hpp"
 
 namespace counterflex::cli {
 
@@ -25,6 +27,10 @@ class Console {
   ~Console();
   Console(const Console&) = delete;
   Console& operator=(const Console&) = delete;
+
+  /// From here on a stream that takes nothing, such as a terminal that was stopped, makes nobody wait: what
+  /// it does not take is said later, or never. For who has to hear signals, or to keep others at work.
+  void never_wait();
 
   /// "file:line: warning: what"; at most 20 of a file, `finish_warnings` counts the others. Line 0: none.
   void warning(const std::string& file, int line, std::string_view what);
@@ -56,16 +62,21 @@ class Console {
   bool colour_error() const { return colour_; }
 
  private:
+  void say(const std::string& text);
   void erase_progress();
 
   ConsoleListener listener_;
   bool quiet_, verbose_, terminal_, colour_, colour_out_;
   bool showing_progress_ = false;
+  std::optional<Unsaid> unsaid_{};
   std::map<std::string, std::size_t> warnings_;
 };
 
 /// "file:line:1: error: what"; without a line "file: error: what".
 std::string located(const std::string& file, const Failure& failure);
+
+/// A diagnostic that names no file, with the one that it is about.
+std::string with_file(const std::string& diagnostic, const std::string& file);
 
 /// How diagnostics name a file: "-" as "<stdin>".
 std::string shown_name(const std::string& path);

@@ -41,13 +41,14 @@ bool is_cutting_model(const std::string& path) {
   throw InputError(Exit::usage, {path}, fmt::format("a force file is .csv or .toml, not '{}'", extension));
 }
 
-/// What `read` gives; a file that cannot be read has the exit status `unreadable`.
+/// What `read` gives; a file that cannot be read has the exit status `unreadable`, unless it may be read
+/// another time.
 template <typename Read>
 auto or_unreadable(Exit unreadable, const Read& read) {
   try {
     return read();
   } catch (const InputError& error) {
-    if (unreadable == error.exit()) throw;
+    if (error.exit() != Exit::usage || unreadable == Exit::usage) throw;
     const std::string what = error.what();
     const std::size_t at = what.find("cannot read");
     throw InputError(unreadable, error.where(), at == std::string::npos ? what : what.substr(at));
@@ -161,7 +162,8 @@ ReadOptions read_options(const Options& options, const Machine* machine, const T
 
 void blame_dialect(const InputError& error, const Options& options, const Machine* machine,
                    const std::string& program) {
-  const bool of_machine = error.exit() == Exit::usage && machine != nullptr && !options.dialect;
+  const bool of_dialect = dynamic_cast<const UnknownDialect*>(&error) != nullptr;
+  const bool of_machine = of_dialect && machine != nullptr && !options.dialect;
   if (!of_machine) throw;
   throw InputError(
       Exit::program_text, {program},

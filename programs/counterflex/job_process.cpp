@@ -60,10 +60,12 @@ void do_job(const BatchJob& job, int threads, const SendLine& send) {
   Console console(
       options, {.error =
                     [&](std::string_view diagnostic) {
-                      if (outcome.error.empty()) outcome.error = diagnostic;
+                      if (outcome.error.empty())
+                        outcome.error = with_file(std::string(diagnostic), job.program);
                     },
                 .solving = [&](int line, int lines) { send(fmt::format("{}{} {}", line_word, line, lines)); },
                 .solved = [&](std::size_t waypoints) { send(fmt::format("{}{}", solved_word, waypoints)); }});
+  console.never_wait();
   outcome.exit = guarded(console, [&] {
     if (options.part)
       return record_part(options, console,

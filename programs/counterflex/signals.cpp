@@ -15,7 +15,7 @@
 namespace counterflex::cli {
 namespace {
 
-constexpr int ending[] = {SIGINT, SIGTERM, SIGHUP};
+constexpr int ending[] = {SIGINT, SIGTERM, SIGHUP, SIGQUIT};
 
 /// Without those that are ignored (nohup): a signal that waits is not.
 sigset_t ending_set() {
@@ -28,7 +28,7 @@ sigset_t ending_set() {
   return set;
 }
 
-extern "C" void leave_interrupted(int signal) {
+extern "C" [[noreturn]] void leave_interrupted(int signal) {
   remove_unpublished();
   ::_exit(status_of(signal));
 }
@@ -49,6 +49,12 @@ void end_on_signals() {
     ::sigaction(signal, &action, nullptr);
   }
   std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);
+}
+
+void end_by(int signal) {
+  ::raise(signal);
+  leave_interrupted(signal);
 }
 
 AwaitedSignals::AwaitedSignals() {
@@ -84,6 +90,15 @@ HeldSignals::HeldSignals() {
 }
 
 HeldSignals::~HeldSignals() {
+  ::pthread_sigmask(SIG_SETMASK, &before_, nullptr);
+}
+
+HeardSignals::HeardSignals() {
+  const sigset_t heard = ending_set();
+  ::pthread_sigmask(SIG_UNBLOCK, &heard, &before_);
+}
+
+HeardSignals::~HeardSignals() {
   ::pthread_sigmask(SIG_SETMASK, &before_, nullptr);
 }
 

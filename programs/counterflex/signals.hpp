@@ -8,9 +8,13 @@ namespace counterflex::cli {
 /// The exit status of a program that `signal` has ended, as a shell has it: 130 for SIGINT, 143 for SIGTERM.
 int status_of(int signal);
 
-/// From here on SIGINT, SIGTERM and SIGHUP end the program with their status, unless they were ignored
-/// before; a pipe that nobody reads any more makes writing fail.
+/// From here on SIGINT, SIGTERM, SIGHUP and SIGQUIT end the program with their status, unless they were
+/// ignored before; a pipe that nobody reads any more, and a file that would be larger than is allowed, make
+/// writing fail.
 void end_on_signals();
+
+/// Ends the program as `signal` does, one of those that have been waited for.
+[[noreturn]] void end_by(int signal);
 
 /// Signals that wait for a process which looks for them when it can: from here on they no longer end it.
 class AwaitedSignals {
@@ -40,6 +44,19 @@ class HeldSignals {
   ~HeldSignals();
   HeldSignals(const HeldSignals&) = delete;
   HeldSignals& operator=(const HeldSignals&) = delete;
+
+ private:
+  sigset_t before_;
+};
+
+/// While it lives, signals that are awaited end the program as ever: for what may take any time, such as
+/// writing to a terminal that was stopped.
+class HeardSignals {
+ public:
+  HeardSignals();
+  ~HeardSignals();
+  HeardSignals(const HeardSignals&) = delete;
+  HeardSignals& operator=(const HeardSignals&) = delete;
 
  private:
   sigset_t before_;

@@ -186,6 +186,7 @@ void Watch::end_job(const WatchResult& result) {
 }
 
 void Watch::tell(const std::string& program, const std::string& output, const WatchResult& result) {
+  const HeardSignals heard;  // nothing is under way
   if (first_failure_ == Exit::done) first_failure_ = result.exit;
   if (!result.error.empty()) console_.error(result.error);
   if (options_.json)

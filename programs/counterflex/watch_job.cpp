@@ -63,7 +63,7 @@ void refuse_shared_outputs(const Options& watch) {
 void do_watch_job(const Options& job, const SendLine& send) {
   WatchResult result;
   const auto hear_error = [&](std::string_view diagnostic) {
-    if (result.error.empty()) result.error = diagnostic;
+    if (result.error.empty()) result.error = with_file(std::string(diagnostic), job.program);
   };
   Console console(job, {.error = hear_error});
   const auto tell = [&](const Run& run, const RunEnd& end, const RunFiles&) {

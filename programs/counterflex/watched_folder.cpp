@@ -3,7 +3,10 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <fnmatch.h>
+#include <linux/magic.h>
 #include <sys/inotify.h>
+#include <sys/stat.h>
+#include <sys/vfs.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -11,6 +14,7 @@
 #include <cctype>
 #include <cerrno>
 #include <cstring>
+#include <ctime>
 #include <filesystem>
 #include <initializer_list>
 
@@ -65,6 +69,34 @@ void add_event(const inotify_event& event, const std::string& path, WatchedFolde
   const std::string name = event.name;
   if ((event.mask & IN_CREATE) == 0 || is_link((std::filesystem::path(path) / name).string()))
     news.names.push_back(name);
+}
+
+/// Where writers may be on other computers, of whom the system here does not know.
+bool is_on_server(int file) {
+  constexpr std::uint32_t nfs = NFS_SUPER_MAGIC, smb = SMB_SUPER_MAGIC, smb2 = 0xFE534D42, cifs = 0xFF534D42,
+                          fuse = 0x65735546, plan9 = V9FS_MAGIC, ceph = 0x00C36400, afs = AFS_FS_MAGIC;
+  struct statfs facts {};
+  if (::fstatfs(file, &facts) != 0) return false;
+  const auto type = static_cast<std::uint32_t>(facts.f_type);
+  const auto servers = {nfs, smb, smb2, cifs, fuse, plan9, ceph, afs};
+  return std::find(servers.begin(), servers.end(), type) != servers.end();
+}
+
+/// Whether it has been written in the last seconds.
+bool is_fresh(int file) {
+  constexpr std::time_t rest_s = 5;
+  struct stat facts {};
+  if (::fstat(file, &facts) != 0) return false;
+  const std::time_t age = std::time(nullptr) - facts.st_mtime;
+  return age >= 0 && age < rest_s;  // the clock of a server may be ahead
+}
+
+/// A lease to read is refused where somebody writes. Whoever opens the file to write meanwhile waits until it
+/// is given back, when the file is closed; the signal about that is ignored. Of the files of other users the
+/// system does not tell.
+bool has_writer(int file) {
+  if (::fcntl(file, F_SETLEASE, F_RDLCK) == 0) return false;
+  return errno == EAGAIN || is_fresh(file);
 }
 
 }  // namespace
@@ -126,11 +158,9 @@ bool may_be_program(const std::string& name, const std::vector<std::string>& pat
 }
 
 bool is_being_written(const std::string& path) {
-  // A lease to read is refused where somebody writes. It is given back at once; whoever opens the file to
-  // write meanwhile waits for that long, and the signal about it is ignored.
   const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
   if (file < 0) return false;
-  const bool busy = ::fcntl(file, F_SETLEASE, F_RDLCK) != 0 && errno == EAGAIN;
+  const bool busy = is_on_server(file) ? is_fresh(file) : has_writer(file);
   ::close(file);
   return busy;
 }

@@ -43,7 +43,8 @@ class WatchedFolder {
 /// these, which may ask for what else counterflex reads and writes.
 bool may_be_program(const std::string& name, const std::vector<std::string>& patterns);
 
-/// Whether somebody has the file open to write. False where the file system cannot tell.
+/// Whether somebody has the file open to write; where the system does not tell, of a file on a server or of
+/// another user, whether it has been written in the last five seconds.
 bool is_being_written(const std::string& path);
 
 /// Whether the file starts as a corrected program.

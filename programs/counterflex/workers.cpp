@@ -41,8 +41,12 @@ void send_line(int pipe, std::string_view line) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (::getppid() != parent) ::_exit(status_of(SIGKILL));  // it has died meanwhile
   hear_signals_again();
-  work([pipe](std::string_view line) { send_line(pipe, line); });
-  std::fflush(nullptr);
+  try {
+    work([pipe](std::string_view line) { send_line(pipe, line); });
+    std::fflush(nullptr);
+  } catch (...) {  // it would find its way through what is the parent's, and end the other workers
+    ::_exit(1);
+  }
   ::_exit(0);
 }
 
@@ -54,6 +58,11 @@ int end_of(pid_t process) {
 }
 
 }  // namespace
+
+/// Who ignores that its children end, as this program's caller may have, is not told how.
+Workers::Workers() {
+  std::signal(SIGCHLD, SIG_DFL);
+}
 
 Workers::~Workers() {
   end_all(0);

@@ -26,13 +26,13 @@ struct WorkerEvent {
 /// system has no more processes or pipes.
 class Workers {
  public:
-  Workers() = default;
+  Workers();
   ~Workers();
   Workers(const Workers&) = delete;
   Workers& operator=(const Workers&) = delete;
 
   /// Forks a process for `work`; it ends when that returns, without cleaning up what is its parent's. There
-  /// signals do what they did when this program began.
+  /// signals do what they did when this program began. A `work` that throws ends it with status 1.
   void start(std::size_t task, const std::function<void(const SendLine&)>& work);
 
   std::size_t running() const { return workers_.size(); }

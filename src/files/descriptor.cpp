@@ -2,6 +2,8 @@
 
 #include <fcntl.h>
 
+#include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
@@ -11,10 +13,23 @@
 
 namespace counterflex {
 
+namespace {
+
+/// Whether another try would find the same, until somebody changes what is named or who may read it.
+bool is_of_path(int error) {
+  constexpr std::array lasting{ENOENT, EACCES, EPERM, EISDIR, ENOTDIR, ELOOP, ENAMETOOLONG,
+                               ENXIO,   // a socket
+                               EBADF};  // a standard input that is closed
+  return std::find(lasting.begin(), lasting.end(), error) != lasting.end();
+}
+
+}  // namespace
+
 void fail_reading(const std::string& path) {
   const std::string reason = std::strerror(errno);
-  if (path == "-") throw InputError(Exit::usage, {}, "cannot read standard input: " + reason);
-  throw InputError(Exit::usage, {path, 0, 0}, "cannot read the file: " + reason);
+  const Exit exit = is_of_path(errno) ? Exit::usage : Exit::transient_io;
+  if (path == "-") throw InputError(exit, {}, "cannot read standard input: " + reason);
+  throw InputError(exit, {path, 0, 0}, "cannot read the file: " + reason);
 }
 
 void fail_writing(const std::string& path) {

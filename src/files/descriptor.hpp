@@ -8,8 +8,8 @@
 
 namespace counterflex {
 
-/// Throws `InputError` with the reason in errno: Exit::usage for reading, Exit::transient_io for writing
-/// `path`.
+/// Throws `InputError` with the reason in errno: for reading `path` Exit::usage where it names nothing that
+/// can be read, else Exit::transient_io (a server that is away, a disk that fails), which writing always has.
 [[noreturn]] void fail_reading(const std::string& path);
 [[noreturn]] void fail_writing(const std::string& path);
 

@@ -37,7 +37,7 @@ std::optional<std::string> unknown_dialect(const std::string& dialect) {
 
 const Dialect& choose_dialect(std::string_view text, const std::string& file, const ReadOptions& options) {
   if (options.dialect == "auto") return detect_dialect(beginning(text));
-  if (const auto problem = unknown_dialect(options.dialect)) throw InputError(Exit::usage, {file}, *problem);
+  if (const auto problem = unknown_dialect(options.dialect)) throw UnknownDialect(Exit::usage, {file}, *problem);
   return *find_dialect(options.dialect);
 }
 

@@ -11,7 +11,7 @@ namespace counterflex {
 inline constexpr std::size_t looked_at = 1 << 20;
 
 /// The dialect of `options`, or the one that `text`, of which only the beginning counts, shows. Throws
-/// `InputError` (Exit::usage) where there is none of that name.
+/// `UnknownDialect` where there is none of that name.
 const Dialect& choose_dialect(std::string_view text, const std::string& file, const ReadOptions& options);
 
 /// Axes that are unknown after a tool change.

@@ -1,7 +1,8 @@
-# What the tests of the command line share. A test is a script that sources this with the program and the JSON reader as
-# its arguments; it works in a folder of its own, which holds copies of data/.
+# What the tests of the command line share. A test is a script that sources this with the program, the JSON reader and, where it
+# has faults, the library that makes them (faulty_io.cpp) as its arguments; it works in a folder of its own, which holds copies of data/.
 set -uo pipefail
 counterflex=$(realpath "$1") json_value=$(realpath "$2")
+faulty_io=$(realpath "${3:-$1}")
 inputs=$(cd "$(dirname "${BASH_SOURCE[0]}")/data" && pwd)
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT

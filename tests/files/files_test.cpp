@@ -170,3 +170,12 @@ TEST_CASE("base64 is that of its standard, and integrity that of the digest's by
   CHECK(base64("foobar") == "Zm9vYmFy");
   CHECK(integrity("abc") == "sha256-ungWv48Bz+pBQUDeXa4iI7ADYaOWF3qctBD/YfIAFa0=");
 }
+
+TEST_CASE("a file that is not there is the caller's error, one that cannot be read at the moment is not") {
+  const Folder folder;
+  for (const std::string& path : {folder.file("missing"), folder.file("missing/below"), std::string("/")})
+    CHECK(error_of([&] { read_file(path); }).exit() == Exit::usage);
+  const InputError error = error_of([] { read_file("/proc/self/mem"); });  // nothing is at its beginning
+  CHECK(error.exit() == Exit::transient_io);
+  CHECK(mentions(error, "cannot read the file: Input/output error"));
+}

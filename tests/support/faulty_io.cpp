@@ -1,15 +1,18 @@
 // A library to be loaded before a program (LD_PRELOAD): a disk that fails, or a process that dies, at a call
 // that writes. Counted are the calls of the program and of all it has forked, together. The environment says:
 //
-//   FAULTY_FOLDER  files in this folder and below, and the folder itself; an absolute path without links
-//   FAULTY_CALLS   which of write, fsync, rename, open (that makes a file), flock, close, mkdir; all unless
-//   given FAULTY_AT      the number of the call that fails, from 1; or FAULTY_FROM    the first of those that
-//   fail, as on a disk that is full and stays so; or FAULTY_ONE_IN  each of them fails with one chance in so
-//   many, by FAULTY_SEED FAULTY_WITH    ENOSPC, EIO, EROFS, EINVAL ..., or kill: this process, or kill-group:
-//   its group, after half of what it writes FAULTY_LOG     a file that gets a line for each fault: the call
-//   and the path
+// - FAULTY_FOLDER: files in this folder and below, and the folder itself; an absolute path without links
+// - FAULTY_CALLS: which of write, fsync, rename, open (that makes a file), flock, close, mkdir; all of these
+//   unless given; or of calls that write nothing: read, lease (F_SETLEASE), thread (that is made)
+// - FAULTY_AT: the number of the call that fails, from 1
+// - FAULTY_FROM: or the first of those that fail, as on a disk that is full and stays so
+// - FAULTY_ONE_IN: or each of them fails with one chance in so many, by FAULTY_SEED
+// - FAULTY_WITH: ENOSPC, EIO, EROFS, EINVAL ..., or kill: this process, or kill-group: its group, after
+//   half of what it writes
+// - FAULTY_LOG: a file that gets a line for each fault: the call and the path
 #include <dlfcn.h>
 #include <fcntl.h>
+#include <pthread.h>
 #include <sys/file.h>
 #include <sys/mman.h>
 #include <sys/stat.h>
@@ -102,8 +105,13 @@ bool is_within(const std::string& path, const std::string& folder) {
   return path == folder || path.compare(0, folder.size() + 1, folder + '/') == 0;
 }
 
+bool writes_nothing(const std::string& call) {
+  return call == "read" || call == "lease" || call == "thread";
+}
+
 bool is_listed(const std::string& calls, const std::string& call) {
-  return calls.empty() || (',' + calls + ',').find(',' + call + ',') != std::string::npos;
+  return calls.empty() ? !writes_nothing(call)
+                       : (',' + calls + ',').find(',' + call + ',') != std::string::npos;
 }
 
 /// Numbers that look like chance, the same for the same call of the same seed.
@@ -184,6 +192,35 @@ int open(const char* path, int flags, ...) {
   const mode_t mode = va_arg(rest, mode_t);
   va_end(rest);
   return fails("open", path) ? -1 : real(path, flags, mode);
+}
+
+ssize_t read(int fd, void* bytes, size_t size) {
+  static auto* const real = next<ssize_t(int, void*, size_t)>("read");
+  return fails("read", fd) ? -1 : real(fd, bytes, size);
+}
+
+int fcntl64(int fd, int command, ...) {
+  static auto* const real = next<int(int, int, ...)>("fcntl64");
+  va_list rest;
+  va_start(rest, command);
+  void* const argument = va_arg(rest, void*);
+  va_end(rest);
+  return command == F_SETLEASE && fails("lease", fd) ? -1 : real(fd, command, argument);
+}
+
+int fcntl(int fd, int command, ...) {
+  va_list rest;
+  va_start(rest, command);
+  void* const argument = va_arg(rest, void*);
+  va_end(rest);
+  return fcntl64(fd, command, argument);
+}
+
+int pthread_create(pthread_t* thread, const pthread_attr_t* facts, void* (*work)(void*), void* of) noexcept {
+  static auto* const real =
+      next<int(pthread_t*, const pthread_attr_t*, void* (*)(void*), void*)>("pthread_create");
+  const bool failed = plan() != nullptr && fails("thread", plan()->folder.c_str());
+  return failed ? errno : real(thread, facts, work, of);
 }
 
 int flock(int fd, int operation) noexcept {

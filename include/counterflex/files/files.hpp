@@ -5,11 +5,13 @@
 
 namespace counterflex {
 
-/// The bytes of a file; "-" is standard input. Throws `InputError` (Exit::usage) where it cannot be read.
+/// The bytes of a file; "-" is standard input. Throws `InputError` where it cannot be read
+/// (as `FileReader`).
 std::string read_file(const std::string& path);
 
-/// Writes `bytes` under `path` or not at all: to a temporary name in the same folder, flushed, then renamed. "-" is
-/// standard output. Throws `InputError` (Exit::transient_io) naming the path, and leaves no temporary file.
+/// Writes `bytes` under `path` or not at all: to a temporary name in the same folder, flushed, then renamed.
+/// "-" is standard output. Throws `InputError` (Exit::transient_io) naming the path, and leaves no temporary
+/// file.
 void write_file(const std::string& path, std::string_view bytes);
 
 /// SHA-256 of `bytes`, 64 lower-case hexadecimal digits.

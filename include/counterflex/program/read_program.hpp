@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "counterflex/files/input_error.hpp"
 #include "counterflex/program/program.hpp"
 
 namespace counterflex {
@@ -25,13 +26,19 @@ struct ReadOptions {
   bool expand_subprograms = false;  ///< calls by M98 and O-words with plain numbers become the bodies' text
 };
 
+/// A dialect in which programs are not read (Exit::usage).
+class UnknownDialect : public InputError {
+ public:
+  using InputError::InputError;
+};
+
 /// What is wrong with `ReadOptions::dialect`; nothing where programs are read in it.
 std::optional<std::string> unknown_dialect(const std::string& dialect);
 
 /// Reads `text`, keeping every byte. `file` names it in diagnostics. Throws `InputError` with line and column
 /// for text that is wrong and for words that are not understood yet (Exit::program_text;
 /// Exit::machine_or_force for a FORCE comment): nothing is passed over. A dialect that does not exist is
-/// Exit::usage.
+/// `UnknownDialect`.
 Program read_program(std::string text, const std::string& file, const ReadOptions& options);
 
 /// Whether the header of a corrected program stands in `text` (a comment that begins "COUNTERFLEX 1").

@@ -1,0 +1,25 @@
+#include "guarded.hpp"
+
+#include <doctest/doctest.h>
+
+using namespace counterflex;
+using namespace counterflex::cli;
+
+TEST_CASE(
+    "memory and threads that there are not enough of ask for another try, what is wrong by itself does not") {
+  std::string said;
+  Console console(Options{}, {.error = [&](std::string_view diagnostic) { said = diagnostic; }});
+  const auto thrown = [&](const auto& error) { return guarded(console, [&]() -> Exit { throw error; }); };
+  CHECK(thrown(std::bad_alloc()) == Exit::transient_io);
+  CHECK(said == "error: there is not enough memory");
+  CHECK(thrown(std::system_error(EAGAIN, std::generic_category())) == Exit::transient_io);
+  CHECK(said == "error: the system has no more threads");
+  CHECK(thrown(std::system_error(EPERM, std::generic_category())) == Exit::internal);
+  CHECK(thrown(std::logic_error("no")) == Exit::internal);
+  CHECK(said == "error: internal error: no");
+}
+
+TEST_CASE("a diagnostic that names no file gets the one it is about") {
+  CHECK(with_file("error: no memory", "a.ngc") == "a.ngc: error: no memory");
+  CHECK(with_file("b.toml:3:1: error: no", "a.ngc") == "b.toml:3:1: error: no");
+}

@@ -1,0 +1,40 @@
+#include "workers.hpp"
+
+#include <doctest/doctest.h>
+#include <sys/wait.h>
+
+#include <csignal>
+#include <stdexcept>
+
+using namespace counterflex::cli;
+
+namespace {
+
+/// How the worker of `task` ended, as `waitpid` gives it.
+int ending_of(Workers& workers, std::size_t task) {
+  while (workers.running() > 0)
+    for (const WorkerEvent& event : workers.wait(-1, -1))
+      if (event.ended && event.task == task) return event.status;
+  FAIL("the worker is not there");
+  return 0;
+}
+
+}  // namespace
+
+TEST_CASE("a worker that throws ends alone, with status 1") {
+  Workers workers;
+  workers.start(0, [](const SendLine&) { ::pause(); });
+  workers.start(1, [](const SendLine&) { throw std::runtime_error("nobody catches this"); });
+  const int status = ending_of(workers, 1);
+  CHECK(WIFEXITED(status));
+  CHECK(WEXITSTATUS(status) == 1);
+  CHECK(workers.running() == 1);
+  CHECK(workers.wait(-1, 100).empty());  // the other one has not been told to end
+}
+
+TEST_CASE("how a worker ended is known whatever the caller of the program ignores") {
+  std::signal(SIGCHLD, SIG_IGN);
+  Workers workers;
+  workers.start(0, [](const SendLine&) { ::raise(SIGKILL); });
+  CHECK(ending_text(ending_of(workers, 0)) == "was killed by signal 9");
+}
