@@ -32,9 +32,12 @@ void describe_program(CLI::App& app) {
   app.get_formatter()->column_width(38);
 }
 
-/// "--output=" says that a value follows, and CLI11 would take the next word as that, be it another option.
+/// "--output=" says that a value follows, and CLI11 would take the next word as that, be it another option;
+/// of
+/// "-o=" the sign.
 void refuse_no_value(std::string_view word) {
-  if (!word.starts_with("--") || word.find('=') != word.size() - 1) return;
+  const bool names_an_option = word.starts_with("--") || (word.size() == 3 && word[0] == '-');
+  if (!names_an_option || word.find('=') != word.size() - 1) return;
   word.remove_suffix(1);
   throw InputError(Exit::usage, {}, fmt::format("{} has no value", word));
 }
