@@ -83,13 +83,15 @@ void warn_of_older(const std::vector<JobOutcome>& outcomes, Console& console) {
       console.warning(outcome.output, 0, fmt::format("is of an earlier run: {} failed now", outcome.program));
 }
 
-Exit conclude(const Options& options, const Batch& batch, const std::vector<JobOutcome>& outcomes,
-              Console& console) {
+/// The table is told before anything is written: a disk that is full has no room for it.
+Exit conclude(const Options& options, const Batch& batch, BatchManifest& manifest, Console& console) {
+  const std::vector<JobOutcome> outcomes = manifest.ended();
   const std::string json = summary_json(outcomes, version);
-  write_summary(batch, outcomes, json);
   warn_of_older(outcomes, console);
   console.finish_warnings();
   write_result(options.json ? json : summary_table(outcomes, rows_shown));
+  manifest.save();
+  write_summary(batch, outcomes, json);
   return exit_of(outcomes);
 }
 
@@ -114,6 +116,12 @@ void take_proven(const Options& options, std::size_t units, const BatchFolder& f
   console.detail(fmt::format("{} of {} are proven done", manifest.ended().size(), units));
 }
 
+/// Of a run that was stopped: what it has done is kept.
+Exit saved(BatchManifest& manifest, int signal) {
+  manifest.save();
+  return static_cast<Exit>(status_of(signal));
+}
+
 Exit run_shard(const Options& options, const Batch& batch, Console& console) {
   const auto [index, count] = *options.shard;
   const BatchFolder folder(batch, BatchFolder::Use::shared, console);
@@ -122,9 +130,10 @@ Exit run_shard(const Options& options, const Batch& batch, Console& console) {
   const auto& units = by_shard[static_cast<std::size_t>(index - 1)];
   BatchManifest manifest(shard_manifest(folder, index, count), plan_of(by_shard), kept(units));
   take_proven(options, units.size(), folder, manifest, console);
+  remove_summary(batch);
   const auto stopped = do_missing(tasks_of(units), options.threads, manifest, console);
+  if (stopped) return saved(manifest, *stopped);
   manifest.save();
-  if (stopped) return static_cast<Exit>(status_of(*stopped));
   const std::vector<JobOutcome> outcomes = manifest.ended();
   const auto failed = std::count_if(outcomes.begin(), outcomes.end(),
                                     [](const JobOutcome& o) { return o.exit != Exit::done; });
@@ -135,12 +144,12 @@ Exit run_shard(const Options& options, const Batch& batch, Console& console) {
 Exit run_merge(const Options& options, const Batch& batch, Console& console) {
   const BatchFolder folder(batch, BatchFolder::Use::alone, console);
   BatchManifest manifest(folder.state("manifest.json"), plan_of(batch), kept(whole_jobs(batch)));
+  if (has_shards(folder)) remove_summary(batch);
   const auto stopped = merge_shards(batch, folder, options.threads, manifest, console);
   folder.sweep();
   if (stopped) return static_cast<Exit>(status_of(*stopped));
-  manifest.save();
-  const Exit exit = conclude(options, batch, manifest.ended(), console);
-  if (exit != Exit::transient_io) remove_shards(folder);  // or another try would have nothing to merge
+  const Exit exit = conclude(options, batch, manifest, console);
+  if (exit == Exit::done || fails_again(exit)) remove_shards(folder);  // else another try would want them
   return exit;
 }
 
@@ -152,9 +161,8 @@ Exit run_all(const Options& options, const Batch& batch, Console& console) {
   remove_summary(batch);
   const auto stopped = do_missing(tasks_of(units), options.threads, manifest, console);
   folder.sweep();
-  manifest.save();
-  if (stopped) return static_cast<Exit>(status_of(*stopped));
-  const Exit exit = conclude(options, batch, manifest.ended(), console);
+  if (stopped) return saved(manifest, *stopped);
+  const Exit exit = conclude(options, batch, manifest, console);
   remove_shards(folder);  // of an earlier try, which nobody will finish
   return exit;
 }
@@ -163,7 +171,8 @@ Exit run_all(const Options& options, const Batch& batch, Console& console) {
 
 Exit run_batch(const Options& options, Console& console) {
   check_flags(options);
-  Batch batch = read_batch(enter_folder_of(options.jobs, console));
+  const std::string from = fs::current_path().native();
+  Batch batch = read_batch(enter_folder_of(options.jobs, console), from);
   for (BatchJob& job : batch.jobs) job.options.quiet = !options.verbose;  // the table counts their warnings
   if (options.estimate) return say_estimate(batch);
   if (options.shard) return run_shard(options, batch, console);

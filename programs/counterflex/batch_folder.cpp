@@ -2,12 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <set>
+#include <utility>
 
 #include "counterflex/files/folders.hpp"
 #include "counterflex/files/temporaries.hpp"
+#include "globs.hpp"
 
 namespace counterflex::cli {
 namespace {
@@ -18,24 +19,17 @@ std::string state_folder(const std::string& folder) {
   return (fs::path(folder) / ".counterflex").native();
 }
 
-/// That of the batch, and those outside of it that jobs write to.
-std::set<std::string> folders_of(const Batch& batch) {
-  const fs::path own = fs::path(batch.folder).lexically_normal();
+/// All that results are written to, each by its one name, so that nobody waits for a lock of its own.
+std::set<std::string> make_folders_of(const Batch& batch) {
   std::set<std::string> folders{batch.folder};
-  for (const BatchJob& job : batch.jobs) {
-    const fs::path folder = folder_of(job.output);
-    const fs::path inside = folder.lexically_normal().lexically_relative(own);
-    if (inside.empty() || inside.begin()->native() == "..") folders.insert(folder.native());
+  for (const BatchJob& job : batch.jobs)
+    for (const std::string& file : files_written(job)) folders.insert(folder_of(file));
+  std::set<std::string> canonical;
+  for (const std::string& folder : folders) {
+    make_folder(folder);
+    canonical.insert(fs::canonical(folder).native());
   }
-  return folders;
-}
-
-/// All that a job may be writing when it is killed.
-void add_outputs(const BatchJob& job, std::vector<std::string>& outputs) {
-  outputs.push_back(job.output);
-  if (job.options.report)
-    for (const char* ending : {".json", ".csv", ".html"}) outputs.push_back(*job.options.report + ending);
-  if (job.options.plot) outputs.push_back(*job.options.plot);
+  return canonical;
 }
 
 }  // namespace
@@ -43,7 +37,7 @@ void add_outputs(const BatchJob& job, std::vector<std::string>& outputs) {
 BatchFolder::BatchFolder(const Batch& batch, Use use, Console& console)
     : folder_(batch.folder), alone_(use == Use::alone) {
   const LockKind kind = alone_ ? LockKind::exclusive : LockKind::shared;
-  for (const std::string& folder : folders_of(batch)) {
+  for (const std::string& folder : make_folders_of(batch)) {
     locks_.emplace_back(folder, kind, "counterflex batch");
     if (locks_.back().locked()) continue;
     console.warning(folder, 0,
@@ -53,7 +47,8 @@ BatchFolder::BatchFolder(const Batch& batch, Use use, Console& console)
   }
   for (const char* name : {"manifest.json", "../summary.json", "../summary.csv"})
     outputs_.push_back(state(name));
-  for (const BatchJob& job : batch.jobs) add_outputs(job, outputs_);
+  for (const BatchJob& job : batch.jobs)
+    for (std::string& file : files_written(job)) outputs_.push_back(std::move(file));
   sweep();
 }
 
@@ -67,10 +62,7 @@ std::string BatchFolder::state(const std::string& name) const {
 
 std::vector<std::string> BatchFolder::manifests() const {
   std::vector<std::string> files{state("manifest.json")};
-  std::error_code missing;
-  for (const auto& entry : fs::directory_iterator(state("shards"), missing))
-    if (entry.path().extension() == ".json") files.push_back(entry.path().native());
-  std::sort(files.begin(), files.end());
+  for (const std::string& file : files_matching(state("shards/*.json"))) files.push_back(file);
   return files;
 }
 

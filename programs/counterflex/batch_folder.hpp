@@ -27,7 +27,7 @@ class BatchFolder {
   /// The path of a file of the state.
   std::string state(const std::string& name) const;
 
-  /// The manifests that stand in the state: of the batch and of shards, sorted.
+  /// The manifests that stand in the state: of the batch, then of shards.
   std::vector<std::string> manifests() const;
 
   /// Removes what is half written, of workers that were killed; nobody else may be writing then. Nothing

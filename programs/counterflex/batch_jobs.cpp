@@ -17,6 +17,7 @@
 #include "layers.hpp"
 #include "outputs.hpp"
 #include "version.hpp"
+#include "watched_folder.hpp"
 
 namespace counterflex::cli {
 namespace {
@@ -30,21 +31,22 @@ std::string one_name(const std::string& path) {
   return canonical.empty() ? path : canonical.native();
 }
 
-/// All files that a job writes, and all that it reads.
-std::vector<std::string> files_written(const Options& options) {
-  std::vector<std::string> files{*options.output};
-  if (options.report)
-    for (const char* ending : {".html", ".json", ".csv"}) files.push_back(*options.report + ending);
-  if (options.plot) files.push_back(*options.plot);
-  return files;
-}
-
 std::vector<std::string> files_read(const Options& options) {
   std::vector<std::string> files = options.forces;
   files.push_back(options.program);
   files.push_back(options.machine);
   if (options.tool_table) files.push_back(*options.tool_table);
   return files;
+}
+
+/// What the environment says; its files are those that it names where the program was called.
+std::vector<Setting> environment_of(const std::string& from) {
+  std::vector<Setting> settings = read_environment(environ);
+  for (Setting& setting : settings)
+    if (setting.option == "machine" || setting.option == "forces" || setting.option == "tool-table")
+      for (std::string& path : setting.values)
+        if (path != "-") path = (fs::path(from) / path).lexically_normal().native();
+  return settings;
 }
 
 /// What decides the bytes of the outputs besides those of the inputs: all options, and all paths,
@@ -74,12 +76,11 @@ double work_of(const BatchJob& job) {
 /// Jobs as they are found, which have to be apart.
 class JobList {
  public:
-  explicit JobList(const JobsFile& file) : file_(file), environment_(read_environment(environ)) {}
+  JobList(const JobsFile& file, const std::string& from) : file_(file), environment_(environment_of(from)) {}
 
   std::vector<BatchJob> take() {
     for (const JobEntry& entry : file_.jobs)
       for (const std::string& pattern : entry.programs) add_all(pattern, entry);
-    leave_out_outputs();
     refuse_shared_files();
     std::vector<BatchJob> jobs;
     for (FoundJob& found : found_) jobs.push_back(std::move(found.job));
@@ -89,21 +90,25 @@ class JobList {
  private:
   struct FoundJob {
     BatchJob job;
-    std::string program, output;  ///< by their one name
     Location where;
-    bool by_glob;
   };
 
   void add_all(const std::string& pattern, const JobEntry& entry) {
     std::error_code ignored;
-    if (!is_glob(pattern) || fs::exists(pattern, ignored)) return add(pattern, entry, false);
-    const std::vector<std::string> programs = files_matching(pattern);
+    const fs::file_status found = fs::status(pattern, ignored);
+    if (fs::exists(found) && !fs::is_regular_file(found))
+      throw InputError(Exit::machine_or_force, entry.where,
+                       fmt::format("'{}' is no file of a program", pattern));
+    if (!is_glob(pattern) || fs::exists(found)) return add(pattern, entry);
+    std::vector<std::string> programs = files_matching(pattern);
+    std::erase_if(programs, has_corrected_header);
     if (programs.empty())
-      throw InputError(Exit::machine_or_force, entry.where, fmt::format("no file matches '{}'", pattern));
-    for (const std::string& program : programs) add(program, entry, true);
+      throw InputError(Exit::machine_or_force, entry.where,
+                       fmt::format("no file, or none that is not corrected already, matches '{}'", pattern));
+    for (const std::string& program : programs) add(program, entry);
   }
 
-  void add(const std::string& program, const JobEntry& entry, bool by_glob) {
+  void add(const std::string& program, const JobEntry& entry) {
     const Layers layers{entry.settings, file_.defaults, environment_, project_settings(program)};
     BatchJob job;
     job.program = program;
@@ -111,7 +116,12 @@ class JobList {
     job.output = *job.options.output;
     job.key = key_of(layers, job);
     job.work = work_of(job);
-    found_.push_back({job, one_name(job.program), one_name(job.output), entry.where, by_glob});
+    for (const std::string& file : files_read(job.options))
+      if (file == "-")
+        throw InputError(
+            Exit::machine_or_force, entry.where,
+            fmt::format("{}: a job cannot read standard input (-), which is not its own", program));
+    found_.push_back({std::move(job), entry.where});
   }
 
   /// A machine that nobody names is the fault of the list.
@@ -133,14 +143,6 @@ class JobList {
     return found->second;
   }
 
-  /// What an earlier run has written is no program of the next one.
-  void leave_out_outputs() {
-    std::set<std::string> outputs;
-    for (const FoundJob& found : found_) outputs.insert(found.output);
-    std::erase_if(found_,
-                  [&](const FoundJob& found) { return found.by_glob && outputs.count(found.program) > 0; });
-  }
-
   void refuse_shared_files() const {
     std::set<std::string> inputs, outputs, summaries;
     for (const char* name : {"/summary.json", "/summary.csv"})
@@ -148,7 +150,7 @@ class JobList {
     for (const FoundJob& found : found_)
       for (const std::string& path : files_read(found.job.options)) inputs.insert(one_name(path));
     for (const FoundJob& found : found_)
-      for (const std::string& path : files_written(found.job.options)) {
+      for (const std::string& path : files_written(found.job)) {
         const std::string name = one_name(path);
         if (inputs.count(name) > 0)
           refuse(found, path, "an input of this batch, and inputs are never overwritten");
@@ -171,9 +173,17 @@ class JobList {
 
 }  // namespace
 
-Batch read_batch(const std::string& file) {
+std::vector<std::string> files_written(const BatchJob& job) {
+  std::vector<std::string> files{job.output};
+  if (job.options.report)
+    for (const char* ending : {".html", ".json", ".csv"}) files.push_back(*job.options.report + ending);
+  if (job.options.plot) files.push_back(*job.options.plot);
+  return files;
+}
+
+Batch read_batch(const std::string& file, const std::string& from) {
   const JobsFile jobs_file = read_jobs(read_input(file, Exit::machine_or_force), file);
-  return {jobs_file.output, JobList(jobs_file).take()};
+  return {jobs_file.output, JobList(jobs_file, from).take()};
 }
 
 }  // namespace counterflex::cli

@@ -14,6 +14,9 @@ struct BatchJob {
   double work = 0;              ///< of any unit: bytes of the program, weighed by what is done with them
 };
 
+/// All files that a job writes.
+std::vector<std::string> files_written(const BatchJob& job);
+
 /// What a jobs file asks for.
 struct Batch {
   std::string folder;          ///< where summary and state are kept
@@ -21,10 +24,11 @@ struct Batch {
 };
 
 /// Reads `file`, finds the programs, and settles the options of each, in which jobs go before defaults, these
-/// before the environment, and this before the project file of the program. A program that is not there is a
-/// job, which will fail; a glob without one is an error, and outputs of the batch itself are left out of it.
-/// Throws `InputError`: Exit::machine_or_force, with the place, for what is wrong with the file or two jobs
-/// with one output.
-Batch read_batch(const std::string& file);
+/// before the environment, and this before the project file of the program. Relative paths of the environment
+/// are those of `from`. A program that is not there is a job, which will fail; a glob without one is an
+/// error, and programs that are corrected already are left out of it. Throws `InputError`:
+/// Exit::machine_or_force, with the place, for what is wrong with the file, and where a job would write a
+/// file that another one reads or writes; as `files_matching`.
+Batch read_batch(const std::string& file, const std::string& from);
 
 }  // namespace counterflex::cli

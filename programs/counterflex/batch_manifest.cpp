@@ -42,7 +42,7 @@ std::vector<std::optional<JobOutcome>> BatchManifest::recorded(const std::vector
     const auto [begin, end] = by_output.equal_range(units_[i].output);
     for (auto known = begin; known != end && !outcomes[i]; ++known) {
       const JobOutcome& outcome = known->second;
-      const bool failed = failed_too && outcome.exit != Exit::done && outcome.key == units_[i].key;
+      const bool failed = failed_too && fails_again(outcome.exit) && outcome.key == units_[i].key;
       if (failed || is_proven(outcome, units_[i].key, on_disk)) outcomes[i] = outcome;
     }
   }

@@ -26,7 +26,8 @@ class BatchManifest {
   /// nothing has been changed then.
   void take_proven(const std::vector<std::string>& files);
 
-  /// Takes all units from its own file, those that failed, too, where it has all of them: whether it has.
+  /// Takes all units from its own file, those that would fail again, too, where it has all of them: whether
+  /// it has.
   /// Throws as `take_proven`.
   bool take_all_ended();
 

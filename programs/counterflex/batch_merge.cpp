@@ -10,6 +10,7 @@
 
 #include "batch_units.hpp"
 #include "counterflex/files/input_error.hpp"
+#include "globs.hpp"
 #include "inputs.hpp"
 #include "version.hpp"
 
@@ -21,11 +22,9 @@ namespace fs = std::filesystem;
 /// Numbers that the names of the shards' manifests end in: "-of-N.json".
 std::set<int> counts_of_shards(const BatchFolder& folder) {
   std::set<int> counts;
-  std::error_code missing;
-  for (const auto& entry : fs::directory_iterator(folder.state("shards"), missing)) {
-    const std::string name = entry.path().stem().native();
+  for (const std::string& file : files_matching(folder.state("shards/*-of-*.json"))) {
+    const std::string name = fs::path(file).stem().native();
     const std::size_t of = name.find("-of-");
-    if (entry.path().extension() != ".json" || of == std::string::npos) continue;
     try {
       counts.insert(read_shard(name.substr(0, of) + "/" + name.substr(of + 4)).count);
     } catch (const InputError&) {  // no shard's
@@ -114,9 +113,13 @@ std::map<std::size_t, SplitJob> split_jobs(const ShardResults& results) {
 
 }  // namespace
 
+bool has_shards(const BatchFolder& folder) {
+  return !counts_of_shards(folder).empty();
+}
+
 std::optional<int> merge_shards(const Batch& batch, const BatchFolder& folder, int threads,
                                 BatchManifest& manifest, Console& console) {
-  if (counts_of_shards(folder).empty() && manifest.take_all_ended()) return std::nullopt;
+  if (!has_shards(folder) && manifest.take_all_ended()) return std::nullopt;
   const ShardResults results = complete_results(batch, folder);
   for (const auto& units : results.units())
     for (const BatchUnit& unit : units)

@@ -18,6 +18,9 @@ namespace counterflex::cli {
 std::optional<int> merge_shards(const Batch& batch, const BatchFolder& folder, int threads,
                                 BatchManifest& manifest, Console& console);
 
+/// Whether shards have left anything to merge.
+bool has_shards(const BatchFolder& folder);
+
 /// Removes what the shards have left in the state.
 void remove_shards(const BatchFolder& folder);
 

@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <filesystem>
 #include <set>
+#include <system_error>
+
+#include "counterflex/files/input_error.hpp"
 
 namespace counterflex::cli {
 namespace {
@@ -26,21 +29,38 @@ class Walk {
     if (part == parts_.size()) return take(at);
     const std::string& name = parts_[part].native();
     if (!is_glob(name)) return go(at / parts_[part], part + 1);
-    if (name == "**") go(at, part + 1);
-    std::error_code ignored;
-    for (const fs::directory_entry& entry : fs::directory_iterator(at.empty() ? "." : at, ignored)) {
-      const std::string entry_name = entry.path().filename().native();
-      if (::fnmatch(name == "**" ? "*" : name.c_str(), entry_name.c_str(), FNM_PERIOD) != 0) continue;
-      if (name != "**")
-        go(at / entry_name, part + 1);
-      else if (entry.is_directory(ignored) && !entry.is_symlink(ignored))
-        go(at / entry_name, part);
+    const bool any_depth = name == "**";
+    if (any_depth) go(at, part + 1);
+    for (const fs::path& entry : names_in(at)) {
+      if (::fnmatch(any_depth ? "*" : name.c_str(), entry.c_str(), FNM_PERIOD) != 0) continue;
+      std::error_code ignored;
+      if (!any_depth)
+        go(at / entry, part + 1);
+      else if (fs::is_directory(fs::symlink_status(at / entry, ignored)))
+        go(at / entry, part);
     }
   }
 
+  /// All of them, before any of them is gone into: the depth of folders needs no descriptors. A folder that
+  /// is not there has none; one that cannot be read might hold programs.
+  static std::vector<fs::path> names_in(const fs::path& folder) {
+    const fs::path place = folder.empty() ? fs::path(".") : folder;
+    std::vector<fs::path> names;
+    std::error_code error;
+    fs::directory_iterator entry(place, error);
+    for (; !error && entry != fs::directory_iterator(); entry.increment(error))
+      names.push_back(entry->path().filename());
+    if (!error || error == std::errc::no_such_file_or_directory || error == std::errc::not_a_directory)
+      return names;
+    const bool for_good = error == std::errc::permission_denied;
+    throw InputError(for_good ? Exit::machine_or_force : Exit::transient_io, {place.native()},
+                     "cannot read the folder: " + error.message());
+  }
+
+  /// Pipes and devices are no programs: nothing may ever come out of them.
   void take(const fs::path& path) {
     std::error_code ignored;
-    if (fs::exists(path, ignored) && !fs::is_directory(path, ignored)) found_.insert(path.native());
+    if (fs::is_regular_file(path, ignored)) found_.insert(path.native());
   }
 
   std::vector<fs::path> parts_;

@@ -8,6 +8,7 @@
 #include <filesystem>
 
 #include "counterflex/files/files.hpp"
+#include "counterflex/files/folders.hpp"
 #include "counterflex/files/input_error.hpp"
 #include "counterflex/report/plot.hpp"
 #include "counterflex/report/report_file.hpp"
@@ -63,13 +64,8 @@ void check_paths(const std::vector<std::string>& outputs, const std::vector<std:
 }
 
 void make_folders(const std::vector<std::string>& folders) {
-  for (const std::string& folder : folders) {
-    std::error_code error;
-    if (!folder.empty()) fs::create_directories(folder, error);
-    if (error)
-      throw InputError(Exit::transient_io, {folder},
-                       fmt::format("cannot make the folder: {}", error.message()));
-  }
+  for (const std::string& folder : folders)
+    if (!folder.empty()) make_folder(folder);
 }
 
 std::string stem_of_report(const Options& options) {

@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <fnmatch.h>
+#include <linux/magic.h>
 #include <sys/inotify.h>
 #include <sys/stat.h>
 #include <sys/vfs.h>
@@ -12,10 +13,11 @@
 #include <array>
 #include <cctype>
 #include <cerrno>
-#include <chrono>
 #include <cstring>
+#include <ctime>
 #include <filesystem>
 #include <initializer_list>
+#include <optional>
 
 #include "counterflex/files/file_reader.hpp"
 #include "counterflex/files/files.hpp"
@@ -49,25 +51,6 @@ bool is_no_program(const std::string& name) {
   return ends_with_any(name, {".toml", ".csv", ".json", ".html", ".svg"});
 }
 
-/// Whether a lease that was refused with `error` was so because somebody writes. It also is to who does not
-/// own the file, by some file systems to everybody, and by a file server where it has no mind to give any.
-bool can_tell(int file, int error) {
-  constexpr std::array<long, 3> file_servers{0x6969, 0xFF534D42, 0xFE534D42};  // NFS, CIFS, SMB2
-  struct statfs system {};
-  return error == EAGAIN && ::fstatfs(file, &system) == 0 &&
-         std::find(file_servers.begin(), file_servers.end(), system.f_type) == file_servers.end();
-}
-
-/// Within the last few seconds: somebody may be about to write more. A time that is to come says nothing.
-bool was_just_changed(int file) {
-  using namespace std::chrono;
-  struct stat facts {};
-  if (::fstat(file, &facts) != 0) return false;
-  const auto now = system_clock::now().time_since_epoch();
-  const auto age = now - (seconds(facts.st_mtim.tv_sec) + nanoseconds(facts.st_mtim.tv_nsec));
-  return age < seconds(3) && age > -seconds(60);
-}
-
 /// The first bytes of a file, enough for a header; none where it cannot be read.
 std::string beginning_of(const std::string& path) {
   constexpr std::size_t enough = 1 << 14;
@@ -87,6 +70,34 @@ void add_event(const inotify_event& event, const std::string& path, WatchedFolde
   const std::string name = event.name;
   if ((event.mask & IN_CREATE) == 0 || is_link((std::filesystem::path(path) / name).string()))
     news.names.push_back(name);
+}
+
+/// Where writers may be on other computers, of whom the system here does not know.
+bool is_on_server(int file) {
+  constexpr std::uint32_t nfs = NFS_SUPER_MAGIC, smb = SMB_SUPER_MAGIC, smb2 = 0xFE534D42, cifs = 0xFF534D42,
+                          fuse = 0x65735546, plan9 = V9FS_MAGIC, ceph = 0x00C36400, afs = AFS_FS_MAGIC;
+  struct statfs facts {};
+  if (::fstatfs(file, &facts) != 0) return false;
+  const auto type = static_cast<std::uint32_t>(facts.f_type);
+  const auto servers = {nfs, smb, smb2, cifs, fuse, plan9, ceph, afs};
+  return std::find(servers.begin(), servers.end(), type) != servers.end();
+}
+
+/// Whether it has been written in the last seconds.
+bool is_fresh(int file) {
+  constexpr std::time_t rest_s = 5;
+  struct stat facts {};
+  if (::fstat(file, &facts) != 0) return false;
+  const std::time_t age = std::time(nullptr) - facts.st_mtime;
+  return age < rest_s && age > -60;  // the clock of a server may be ahead; times far off say nothing
+}
+
+/// A lease to read is refused where somebody writes. Whoever opens the file to write meanwhile waits until it
+/// is given back, when the file is closed; the signal about that is ignored. Nothing where the system does
+/// not tell: of another user's file, and where there are no leases.
+std::optional<bool> has_writer(int file) {
+  if (::fcntl(file, F_SETLEASE, F_RDLCK) == 0) return false;
+  return errno == EAGAIN ? std::optional(true) : std::nullopt;
 }
 
 }  // namespace
@@ -148,12 +159,9 @@ bool may_be_program(const std::string& name, const std::vector<std::string>& pat
 }
 
 bool is_being_written(const std::string& path) {
-  // A lease to read is refused where somebody writes. It is given back at once; whoever opens the file to
-  // write meanwhile waits for that long, and the signal about it is ignored.
   const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
   if (file < 0) return false;
-  const bool refused = ::fcntl(file, F_SETLEASE, F_RDLCK) != 0;
-  const bool busy = refused && (can_tell(file, errno) || was_just_changed(file));
+  const bool busy = is_on_server(file) ? is_fresh(file) : has_writer(file).value_or(is_fresh(file));
   ::close(file);
   return busy;
 }

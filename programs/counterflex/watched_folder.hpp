@@ -43,8 +43,8 @@ class WatchedFolder {
 /// these, which may ask for what else counterflex reads and writes.
 bool may_be_program(const std::string& name, const std::vector<std::string>& patterns);
 
-/// Whether somebody has the file open to write. Where the system does not tell, of a file of somebody else or
-/// on a file server: whether it was changed within the last three seconds.
+/// Whether somebody has the file open to write; where the system does not tell, of a file on a server or of
+/// another user, whether it has been written in the last five seconds.
 bool is_being_written(const std::string& path);
 
 /// Whether the file starts as a corrected program.

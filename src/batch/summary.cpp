@@ -19,6 +19,11 @@ bool is_done(const JobOutcome& outcome) {
   return outcome.exit == Exit::done;
 }
 
+/// Nothing that a spindle would do.
+bool is_empty(const JobOutcome& outcome) {
+  return is_done(outcome) && outcome.moves == 0;
+}
+
 std::size_t count_done(const std::vector<JobOutcome>& outcomes) {
   return static_cast<std::size_t>(std::count_if(outcomes.begin(), outcomes.end(), is_done));
 }
@@ -39,7 +44,7 @@ Document job_of(const JobOutcome& outcome) {
   Document job;
   job["program"] = outcome.program;
   job["output"] = outcome.output;
-  job["status"] = status_text(outcome.exit);
+  job["status"] = status_text(outcome);
   job["exit_status"] = static_cast<int>(outcome.exit);
   job["error"] = outcome.error.empty() ? Document() : Document(outcome.error);
   job["before_mm"] = number_or_null(outcome.before_mm, shown_digits);
@@ -64,10 +69,17 @@ std::string fixed_or(const std::optional<double>& value, int decimals, std::stri
   return value ? format_fixed(*value, decimals) : std::string(none);
 }
 
+/// For a terminal: a name may hold anything.
+std::string without_controls(std::string text) {
+  std::replace_if(
+      text.begin(), text.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; }, '?');
+  return text;
+}
+
 std::string row_of(const JobOutcome& outcome) {
   const std::string percent =
       outcome.corrected_percent ? fixed_or(outcome.corrected_percent, 1, "") + " %" : "-";
-  return fmt::format("{:<22}{:>11}{:>11}{:>11}{:>10}  {}\n", status_text(outcome.exit),
+  return fmt::format("{:<22}{:>11}{:>11}{:>11}{:>10}  {}\n", status_text(outcome),
                      fixed_or(outcome.before_mm, 4, "-"), fixed_or(outcome.after_mm, 4, "-"), percent,
                      outcome.warnings, outcome.program);
 }
@@ -79,10 +91,16 @@ std::string heading() {
 
 }  // namespace
 
+bool fails_again(Exit exit) {
+  return exit == Exit::program_text || exit == Exit::machine_or_force || exit == Exit::not_compensated ||
+         exit == Exit::limit;
+}
+
 std::vector<JobOutcome> worst_first(std::vector<JobOutcome> outcomes) {
   const auto badness = [](const JobOutcome& outcome) {
     constexpr double none = -std::numeric_limits<double>::infinity();
-    return std::tuple(is_done(outcome), -outcome.after_mm.value_or(none), -outcome.before_mm.value_or(none));
+    return std::tuple(is_done(outcome), !is_empty(outcome), -outcome.after_mm.value_or(none),
+                      -outcome.before_mm.value_or(none));
   };
   std::sort(outcomes.begin(), outcomes.end(), [&](const JobOutcome& a, const JobOutcome& b) {
     return std::tuple(badness(a), std::string_view(a.program), std::string_view(a.output)) <
@@ -115,6 +133,10 @@ std::string_view status_text(Exit exit) {
   return "failed";
 }
 
+std::string_view status_text(const JobOutcome& outcome) {
+  return is_empty(outcome) ? "done, nothing moves" : status_text(outcome.exit);
+}
+
 Exit exit_of(const std::vector<JobOutcome>& outcomes) {
   Exit worst = Exit::done;
   for (const JobOutcome& outcome : outcomes) {
@@ -135,7 +157,8 @@ std::string summary_table(const std::vector<JobOutcome>& outcomes, std::size_t m
   text += done == rows.size()
               ? fmt::format("\n{} of {} jobs done\n", done, rows.size())
               : fmt::format("\n{} of {} jobs done, {} failed\n", done, rows.size(), rows.size() - done);
-  for (std::size_t i = 0; i < shown && !is_done(rows[i]); ++i) text += fmt::format("  {}\n", rows[i].error);
+  for (std::size_t i = 0; i < shown && !is_done(rows[i]); ++i)
+    text += fmt::format("  {}\n", without_controls(rows[i].error));
   return text;
 }
 

@@ -75,7 +75,6 @@ class WindowRecorder {
 
   void write(const Job& job, Flight& flight) {
     if (flight.role == Role::passed) return pass(job);
-    if (flight.role == Role::before_part) carried_.emitter = {.held = carried_.rewriter.state().held};
     const WindowState entry = state_of(carried_);
     write_window(job, carried_, flight.work);
     if (!flight.record) return;
@@ -83,8 +82,12 @@ class WindowRecorder {
     flight.record->exit = state_of(carried_);
   }
 
-  // The original's text: what it leaves is near to what the corrected one does.
-  void pass(const Job& job) { carried_.corrected.read(carried_.rewriter.write(job.program, {}).text); }
+  // The original's text: what it leaves is near to what the corrected one does. Which correction holds there
+  // is not known.
+  void pass(const Job& job) {
+    carried_.corrected.read(carried_.rewriter.write(job.program, {}).text);
+    carried_.emitter = {.held = carried_.rewriter.state().held};
+  }
 
   void verify(const Job& job, Flight& flight) {
     if (!flight.record) return;

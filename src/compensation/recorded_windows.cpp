@@ -1,6 +1,7 @@
 #include "counterflex/compensation/recorded_windows.hpp"
 
 #include <algorithm>
+#include <atomic>
 
 #include "counterflex/files/bytes.hpp"
 #include "record_file.hpp"
@@ -103,20 +104,27 @@ class WindowTaker {
 
   void plan(const Job& job, Flight& flight) {
     flight.record = window_record_of(std::exchange(flight.bytes, {}));
-    if (flight.record && flight.record->start == flight.start &&
-        flight.record->bytes == job.program.text.size())
-      return;
-    flight.record.reset();
-    compensating_.plan(job, flight);
+    const bool fits = flight.record && flight.record->start == flight.start &&
+                      flight.record->bytes == job.program.text.size();
+    if (!fits) flight.record.reset();
+    flight.is_planned = !fits || last_differed_;
+    if (flight.is_planned) compensating_.plan(job, flight);
   }
 
   void write(const Job& job, Flight& flight) {
     if (flight.record && !is_entered_as_recorded(job, *flight.record)) {
       flight.record.reset();
-      compensating_.plan(job, flight);
+      last_differed_ = true;
+      if (!flight.is_planned) compensating_.plan(job, flight);
     }
     if (!flight.record) return compensating_.write(job, flight);
+    take(job, flight);
+  }
+
+  void take(const Job& job, Flight& flight) {
+    last_differed_ = false;
     WindowRecord& record = *flight.record;
+    flight.work.plan = {};
     Compensation& result = flight.work.result = std::move(record.result);
     carried_.corrected.read(result.text);
     carried_.corrected.take_window(result.corrected);
@@ -149,6 +157,9 @@ class WindowTaker {
   const WindowStages compensating_;
   CarriedState& carried_;
   RecordedWindows::Impl& recorded_;
+  // Whether the last window that had a record was entered otherwise: the next ones may be, too, and are
+  // planned beforehand, side by side. What comes of them does not depend on it.
+  std::atomic<bool> last_differed_ = false;
 };
 
 }  // namespace

@@ -20,8 +20,9 @@ struct Flight {
 
   // Where windows are recorded, or taken over from records.
   enum class Role { compensated, passed, before_part } role = Role::compensated;
-  std::string bytes{};                   ///< of its record, or none
-  std::string start{};                   ///< `digest_of_start`
+  std::string bytes{};  ///< of its record, or none
+  std::string start{};  ///< `digest_of_start`
+  bool is_planned = false;
   std::optional<WindowRecord> record{};  ///< none: there is none that is of use
 
   bool goes_on() const { return !given_up && !error && !work.failed(); }

@@ -4,8 +4,7 @@
 #include <doctest/doctest.h>
 
 #include "compensation/busy_program.hpp"
-#include "compensation/window_run.hpp"
-#include "files/folder.hpp"
+#include "compensation/parts.hpp"
 #include "record_file.hpp"
 #include "window_record.hpp"
 

@@ -3,7 +3,7 @@
 
 #include <random>
 
-#include "compensation/busy_program.hpp"
+#include "compensation/gantry.hpp"
 #include "compensation/parts.hpp"
 #include "counterflex/files/bytes.hpp"
 #include "waypoint_bytes.hpp"
@@ -184,9 +184,9 @@ TEST_CASE("holes and contours long before a part do not keep it from being taken
   std::string text =
       "G21 G90 G17\nG0 X1 Y1 Z5\nG81 G98 X2.1 Y2 Z-3 R1 F100\nX4\nX6 Y4\nG80\nG0 X0 Y0\n"
       "G41 D1 G1 X6 Y-4 F400\nX15\nY3\nX6\nY-4\nG40 X5 Y-5\nG0 Z1\nG1 F500\n";
-  for (int k = 0; k < 200; ++k) text += fmt::format("X{} Y{}\n", 1 + k % 20, 0.5 * (k % 3));
-  Split split{on_mill(text)};
-  split.order.force = constant_force({40, -25, 15, 0, 0, 0});
+  for (int k = 0; k < 200; ++k)
+    text += fmt::format("X{} Y{}{}\n", 1 + k % 20, 0.5 * (k % 3), k == 40 ? " Z0.9" : "");
+  const Split split{{.machine = rigid_gantry("0.5, -0.25, 0.125", 0.001, 0.0005), .text = text}};
   const Folder folder;
   const Taken taken = take_over(split, record(split, 3, folder));
   check_same_run(taken.run, take_over(split, {}).run);

@@ -1,5 +1,7 @@
 #include "counterflex/files/temporaries.hpp"
 
+#include <sys/wait.h>
+
 #include <set>
 
 #include "counterflex/files/file_writer.hpp"
@@ -8,6 +10,22 @@
 
 using namespace counterflex;
 using namespace counterflex::test;
+
+namespace {
+
+/// Another process does, which is gone then.
+void begin_and_die(const std::string& path) {
+  const pid_t child = ::fork();
+  if (child == 0) {
+    const FileWriter file(path);
+    ::_exit(0);
+  }
+  int status = -1;
+  CHECK(::waitpid(child, &status, 0) == child);
+  CHECK(status == 0);
+}
+
+}  // namespace
 
 TEST_CASE("a temporary name says what the file was to become") {
   CHECK(temporary_name("a/b.ngc", 12, 3) == "a/b.ngc.12-3.tmp");
@@ -48,11 +66,10 @@ TEST_CASE(
   std::filesystem::create_directories(folder.file("real"));
   write_file(folder.file("real/a.ngc"), "old");
   std::filesystem::create_symlink("real/a.ngc", folder.file("link.ngc"));
-  static std::vector<FileWriter*> ended;  // never destroyed
-  ended.push_back(new FileWriter(folder.file("link.ngc")));
+  begin_and_die(folder.file("link.ngc"));
   const auto before = std::filesystem::current_path();
   std::filesystem::current_path(folder.path);
-  ended.push_back(new FileWriter("here.ngc"));
+  begin_and_die("here.ngc");
   CHECK(sweep_temporaries({"link.ngc", "here.ngc"}) == 2);
   std::filesystem::current_path(before);
   CHECK(folder.count() == 2);

@@ -8,12 +8,19 @@
 
 namespace counterflex {
 
-/// The outcomes, worst first: those that failed, then by the deviation that is left, then by the one before,
+/// Whether a job that ended so would fail again with the same inputs: it was understood and refused.
+bool fails_again(Exit exit);
+
+/// The outcomes, worst first: those that failed, those in which nothing moves, which is no program that
+/// anybody wanted, then by the deviation that is left, then by the one before,
 /// the largest first; equal ones by the path of the program.
 std::vector<JobOutcome> worst_first(std::vector<JobOutcome> outcomes);
 
 /// "done", or what failed, in a few words: "not within tolerance".
 std::string_view status_text(Exit exit);
+
+/// The same; of a job that is done and had nothing to correct, that.
+std::string_view status_text(const JobOutcome& outcome);
 
 /// The status of a batch: 0 where all are done; 75 where one may succeed if it is tried again; else the
 /// smallest of those that failed.
