@@ -17,6 +17,11 @@ _counterflex_words() {
   esac
 }
 
+# The command whose options are completed, by the first word: a program alone is compensated.
+_counterflex_command() {
+  if [[ ($1 == - || $1 != -*) && " $(_counterflex_words '') " != *" $1 "* ]]; then echo compensate; else echo "$1"; fi
+}
+
 _counterflex() {
   local current=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD - 1]} values=''
   COMPREPLY=()
@@ -27,7 +32,7 @@ _counterflex() {
     --units) values='mm inch' ;;
     -m | --machine | --tool-table | --config | -f | --forces | -o | --output | --report | --plot) return ;;  # files: readline completes them
     *) if [[ $COMP_CWORD -eq 1 || $current == -* ]]; then
-         values=$(_counterflex_words "$([ "$COMP_CWORD" -gt 1 ] && echo "${COMP_WORDS[1]}")")
+         values=$(_counterflex_words "$([ "$COMP_CWORD" -gt 1 ] && _counterflex_command "${COMP_WORDS[1]}")")
        fi ;;
   esac
   mapfile -t COMPREPLY < <(compgen -W "$values" -- "$current")

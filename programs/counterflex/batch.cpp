@@ -130,8 +130,7 @@ Exit run_shard(const Options& options, const Batch& batch, Console& console) {
   const auto& units = by_shard[static_cast<std::size_t>(index - 1)];
   BatchManifest manifest(shard_manifest(folder, index, count), plan_of(by_shard), kept(units));
   take_proven(options, units.size(), folder, manifest, console);
-  remove_summary(batch);
-  const auto stopped = do_missing(tasks_of(units), options.threads, manifest, console);
+  const auto stopped = do_missing(tasks_of(units), batch.threads, manifest, console);
   if (stopped) return saved(manifest, *stopped);
   manifest.save();
   const std::vector<JobOutcome> outcomes = manifest.ended();
@@ -145,7 +144,7 @@ Exit run_merge(const Options& options, const Batch& batch, Console& console) {
   const BatchFolder folder(batch, BatchFolder::Use::alone, console);
   BatchManifest manifest(folder.state("manifest.json"), plan_of(batch), kept(whole_jobs(batch)));
   if (has_shards(folder)) remove_summary(batch);
-  const auto stopped = merge_shards(batch, folder, options.threads, manifest, console);
+  const auto stopped = merge_shards(batch, folder, batch.threads, manifest, console);
   folder.sweep();
   if (stopped) return static_cast<Exit>(status_of(*stopped));
   const Exit exit = conclude(options, batch, manifest, console);
@@ -159,7 +158,7 @@ Exit run_all(const Options& options, const Batch& batch, Console& console) {
   BatchManifest manifest(folder.state("manifest.json"), plan_of(batch), kept(units));
   take_proven(options, units.size(), folder, manifest, console);
   remove_summary(batch);
-  const auto stopped = do_missing(tasks_of(units), options.threads, manifest, console);
+  const auto stopped = do_missing(tasks_of(units), batch.threads, manifest, console);
   folder.sweep();
   if (stopped) return saved(manifest, *stopped);
   const Exit exit = conclude(options, batch, manifest, console);
@@ -171,8 +170,9 @@ Exit run_all(const Options& options, const Batch& batch, Console& console) {
 
 Exit run_batch(const Options& options, Console& console) {
   check_flags(options);
-  const std::string from = fs::current_path().native();
-  Batch batch = read_batch(enter_folder_of(options.jobs, console), from);
+  std::error_code gone;
+  const std::string from = fs::current_path(gone).native();
+  Batch batch = read_batch(enter_folder_of(options.jobs, console), from, options.sources.flags);
   for (BatchJob& job : batch.jobs) job.options.quiet = !options.verbose;  // the table counts their warnings
   if (options.estimate) return say_estimate(batch);
   if (options.shard) return run_shard(options, batch, console);

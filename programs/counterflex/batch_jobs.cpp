@@ -76,7 +76,8 @@ double work_of(const BatchJob& job) {
 /// Jobs as they are found, which have to be apart.
 class JobList {
  public:
-  JobList(const JobsFile& file, const std::string& from) : file_(file), environment_(environment_of(from)) {}
+  JobList(const JobsFile& file, const std::vector<Setting>& environment)
+      : file_(file), environment_(environment) {}
 
   std::vector<BatchJob> take() {
     for (const JobEntry& entry : file_.jobs)
@@ -166,7 +167,8 @@ class JobList {
   }
 
   const JobsFile& file_;
-  const std::vector<Setting> environment_, none_{};
+  const std::vector<Setting>& environment_;
+  const std::vector<Setting> none_{};
   std::map<std::string, std::vector<Setting>> projects_;
   std::vector<FoundJob> found_;
 };
@@ -181,9 +183,13 @@ std::vector<std::string> files_written(const BatchJob& job) {
   return files;
 }
 
-Batch read_batch(const std::string& file, const std::string& from) {
+Batch read_batch(const std::string& file, const std::string& from, const std::vector<Setting>& flags) {
   const JobsFile jobs_file = read_jobs(read_input(file, Exit::machine_or_force), file);
-  return {jobs_file.output, JobList(jobs_file, from).take()};
+  const std::vector<Setting> environment = environment_of(from);
+  Options whole;
+  whole.command = Command::batch;
+  whole = with_settings(std::move(whole), {flags, environment, jobs_file.defaults});
+  return {jobs_file.output, JobList(jobs_file, environment).take(), whole.threads};
 }
 
 }  // namespace counterflex::cli

@@ -21,6 +21,7 @@ std::vector<std::string> files_written(const BatchJob& job);
 struct Batch {
   std::string folder;          ///< where summary and state are kept
   std::vector<BatchJob> jobs;  ///< in the order of the file, those of a glob by name; no two have one output
+  int threads = 1;             ///< for all of them together
 };
 
 /// Reads `file`, finds the programs, and settles the options of each, in which jobs go before defaults, these
@@ -28,7 +29,8 @@ struct Batch {
 /// are those of `from`. A program that is not there is a job, which will fail; a glob without one is an
 /// error, and programs that are corrected already are left out of it. Throws `InputError`:
 /// Exit::machine_or_force, with the place, for what is wrong with the file, and where a job would write a
-/// file that another one reads or writes; as `files_matching`.
-Batch read_batch(const std::string& file, const std::string& from);
+/// file that another one reads or writes; as `files_matching`. `flags` go before what environment and file
+/// say of the batch as a whole.
+Batch read_batch(const std::string& file, const std::string& from, const std::vector<Setting>& flags);
 
 }  // namespace counterflex::cli

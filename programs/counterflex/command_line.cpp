@@ -32,12 +32,22 @@ void describe_program(CLI::App& app) {
   app.get_formatter()->column_width(38);
 }
 
+/// "--output=" says that a value follows, and CLI11 would take the next word as that, be it another option.
+void refuse_no_value(std::string_view word) {
+  if (!word.starts_with("--") || word.find('=') != word.size() - 1) return;
+  word.remove_suffix(1);
+  throw InputError(Exit::usage, {}, fmt::format("{} has no value", word));
+}
+
 /// A value that begins with a minus, joined with the option before it: "--at -10,0,0" reads as
-/// "--at=-10,0,0".
+/// "--at=-10,0,0". Throws `InputError` (Exit::usage) for "--at=".
 std::vector<std::string> joined(int argc, const char* const* argv) {
   std::vector<std::string> words;
+  bool options_end = false;
   for (int i = 1; i < argc; ++i) {
     const std::string_view word = argv[i];
+    options_end = options_end || word == "--";
+    if (!options_end) refuse_no_value(word);
     const bool negative =
         word.size() > 1 && word[0] == '-' && (word[1] == '.' || (word[1] >= '0' && word[1] <= '9'));
     const bool takes_numbers =

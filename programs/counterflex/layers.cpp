@@ -100,6 +100,7 @@ ProgramLayers layers_of(const SettingSources& sources, const std::string& progra
   auto file = sources.config;
   if (!file && !sources.no_config) file = find_project_file(program);
   ProgramLayers result{{sources.flags, sources.environment}, file.value_or("")};
+  if (file) refuse_special_file(*file);
   if (file) result.layers.push_back(read_project(read_input(*file, Exit::machine_or_force), *file));
   return result;
 }

@@ -20,7 +20,7 @@ struct OutputParts {
 
 bool names_a_folder(const std::string& text) {
   std::error_code ignored;
-  return text.ends_with('/') || (!is_pattern(text) && std::filesystem::is_directory(text, ignored));
+  return text.ends_with('/') || (!is_pattern(text) && std::filesystem::is_directory(fill(text, {}), ignored));
 }
 
 OutputParts parts_of(const std::string& text) {
@@ -61,31 +61,47 @@ struct Naming {
                             name_in_messages(setting), text));
 }
 
+/// What keeps the reports of the other commands apart from those of compensate.
+std::string_view mark_of(Command command) {
+  if (command == Command::predict) return ".predict";
+  return command == Command::verify ? ".verify" : "";
+}
+
+/// The name of a report or plot with the mark of its command, before the ending of a plot. Flags are said for
+/// this run alone and taken at their word; {output} has the mark already.
+std::string marked(std::string name, const Setting& setting, Command command) {
+  const bool own = setting.option == "output" || setting.origin == Origin::flag;
+  if (own || name.find("{output}") != std::string::npos) return name;
+  const std::size_t ending = setting.option == "plot" ? std::string_view(".svg").size() : 0;
+  return name.insert(name.size() - ending, mark_of(command));
+}
+
 /// What `said` is with its words filled in; nothing where it has to be left out. `in_folder` is the name in a
 /// folder that is said alone.
 std::optional<std::string> named(const std::optional<std::string>& said, std::string_view option,
                                  std::string_view in_folder, const Naming& naming) {
   if (!said || *said == "-") return said;
-  const bool folder = said->ends_with('/');
-  if (!folder && !is_pattern(*said)) return said;
-  const std::string pattern = folder ? *said + std::string(in_folder) : *said;
+  const Setting& setting = *std::find_if(naming.settings.begin(), naming.settings.end(),
+                                         [&](const Setting& entry) { return entry.option == option; });
+  const std::string pattern =
+      marked(said->ends_with('/') ? *said + std::string(in_folder) : *said, setting, naming.options.command);
+  if (!is_pattern(pattern)) return fill(pattern, {});
   const auto path = filled_path(pattern, naming.options.program, naming.parts);
   if (path) {
     naming.options.folders.push_back(std::filesystem::path(*path).parent_path().string());
     return path;
   }
-  const auto setting = std::find_if(naming.settings.begin(), naming.settings.end(),
-                                    [&](const Setting& entry) { return entry.option == option; });
-  if (setting != naming.settings.end() && setting->origin == Origin::flag) refuse_nameless(*setting, *said);
+  if (setting.origin == Origin::flag) refuse_nameless(setting, *said);
   return std::nullopt;
 }
 
-/// {output}: of what compensate writes; the other commands' reports are not to take its reports' place.
+/// {output}: of what compensate writes, with the mark of the command.
 std::optional<std::string> output_stem(const Options& options, const std::optional<std::string>& output) {
-  if (options.command == Command::verify) return without_extension(options.corrected) + ".verify";
+  const std::string mark(mark_of(options.command));
+  if (options.command == Command::verify) return without_extension(options.corrected) + mark;
   const std::string path = output && *output != "-" ? *output : default_output(options.program);
   if (path == "-") return std::nullopt;
-  return without_extension(path) + (options.command == Command::predict ? ".predict" : "");
+  return without_extension(path) + mark;
 }
 
 }  // namespace
@@ -111,9 +127,12 @@ void check_pattern(const std::string& name, const std::string& text) {
   const NameParts all{"", "", of_report ? std::optional<std::string>("") : std::nullopt};
   const std::string unknown = unknown_placeholder(text, all);
   if (unknown.empty()) return;
+  const std::string meant = nearest_placeholder(unknown);
+  const bool is_hint = !meant.empty() && meant != unknown;
   throw InputError(Exit::usage, {},
-                   fmt::format("{} is '{}', in which {{{}}} stands for nothing; {{name}}, {{ext}}{} do", name,
-                               text, unknown, of_report ? ", {output}" : ""));
+                   fmt::format("{} is '{}', in which {{{}}} stands for nothing; {{name}}, {{ext}}{} do{}",
+                               name, text, unknown, of_report ? ", {output}" : "",
+                               is_hint ? fmt::format("; did you mean {{{}}}?", meant) : ""));
 }
 
 void name_outputs(Options& options, const std::vector<Setting>& settings) {
@@ -138,7 +157,7 @@ void remark_on_name(const Setting& setting, Options& options) {
   remark.where = setting.where;
   remark.what =
       fmt::format("{} is '{}' for all programs; a name with {{name}} is one for each, and a folder ends in /",
-                  name_in_messages(setting), text);
+                  name_in_messages(setting), fill(text, {}));
 }
 
 std::string default_output(const std::string& program) {

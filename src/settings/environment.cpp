@@ -33,14 +33,15 @@ std::vector<std::string> name_or_truth(std::string_view text, std::string_view b
   return {std::string(text == "true" ? beside_output : text)};
 }
 
+bool is_list(setting_file::Kind kind) {
+  using setting_file::Kind;
+  return kind == Kind::paths || kind == Kind::forces || kind == Kind::offsets || kind == Kind::lengths;
+}
+
 std::vector<std::string> values_of(std::string_view text, setting_file::Kind kind) {
   using setting_file::Kind;
+  if (is_list(kind)) return split_at_colons(text);
   switch (kind) {
-    case Kind::paths:
-    case Kind::forces:
-    case Kind::offsets:
-    case Kind::lengths:
-      return split_at_colons(text);
     case Kind::report:
       return name_or_truth(text, setting_file::report_beside_output);
     case Kind::plot:
@@ -57,7 +58,8 @@ std::vector<Setting> read_environment(const char* const* variables) {
   for (const setting_file::Key& key : setting_file::keys) {
     const std::string name = setting_file::variable_of(key.option);
     const std::string_view text = value_of_variable(variables, name);
-    if (text.empty()) continue;
+    const bool only_colons = is_list(key.kind) && split_at_colons(text).empty();
+    if (text.empty() || only_colons) continue;
     settings.push_back({std::string(key.option), values_of(text, key.kind), {name}, Origin::environment});
   }
   return settings;

@@ -65,7 +65,7 @@ std::string folder_of_batch(const JobsFile& jobs, const toml::table& document, c
     source.fail(*document.get("output"),
                 fmt::format("output is \"{}\"; that of all jobs must begin with the folder of the batch",
                             document.get("output")->as_string()->get()));
-  return folder;
+  return fill(folder, {});
 }
 
 }  // namespace

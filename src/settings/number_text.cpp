@@ -2,13 +2,18 @@
 
 #include <array>
 #include <charconv>
+#include <cmath>
 
 namespace counterflex::setting_file {
 
 std::string number_text(double value) {
-  std::array<char, 1100> buffer;  // the smallest double has 1074 digits behind the point
+  // TOML takes a number without a point or an exponent for an integer, of 64 bits; toml++ reads no more than
+  // 127 characters of a number.
+  const double size = std::abs(value);
+  const bool fixed = size == 0 || (size >= 1e-6 && size < 1e15);
+  std::array<char, 40> buffer;  // 15 digits before the point, or 22 behind it
   const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value == 0 ? 0.0 : value,
-                                 std::chars_format::fixed)
+                                 fixed ? std::chars_format::fixed : std::chars_format::scientific)
                        .ptr;
   return {buffer.data(), end};
 }

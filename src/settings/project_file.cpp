@@ -1,5 +1,8 @@
 #include "counterflex/settings/project_file.hpp"
 
+#include <sys/stat.h>
+#include <unistd.h>
+
 #include <filesystem>
 
 #include "settings/read_settings.hpp"
@@ -15,6 +18,18 @@ std::string short_name(const fs::path& path, const fs::path& from) {
   return relative.empty() || relative.size() > path.string().size() ? path.string() : relative;
 }
 
+bool is_standard_output(const fs::path& path) {
+  struct stat output, file;
+  return ::fstat(STDOUT_FILENO, &output) == 0 && S_ISREG(output.st_mode) &&
+         ::stat(path.c_str(), &file) == 0 && output.st_dev == file.st_dev && output.st_ino == file.st_ino;
+}
+
+bool is_project_file(const fs::path& path) {
+  std::error_code ignored;
+  return fs::exists(fs::symlink_status(path, ignored)) && !fs::is_directory(path, ignored) &&
+         !is_standard_output(path);
+}
+
 }  // namespace
 
 std::vector<Setting> read_project(std::string_view text, const std::string& file) {
@@ -25,6 +40,15 @@ std::vector<Setting> read_project(std::string_view text, const std::string& file
                                      source);
 }
 
+void refuse_special_file(const std::string& file) {
+  std::error_code ignored;
+  const fs::file_status status = fs::status(file, ignored);
+  if (!fs::exists(status) || fs::is_regular_file(status) || fs::is_directory(status)) return;
+  throw InputError(
+      Exit::machine_or_force, {file},
+      "cannot read the file: it is a pipe or a device, and a project file must be a regular file");
+}
+
 std::optional<std::string> find_project_file(const std::string& program) {
   std::error_code nowhere;
   const fs::path here = fs::current_path(nowhere);
@@ -32,9 +56,12 @@ std::optional<std::string> find_project_file(const std::string& program) {
   if (!program.empty() && program != "-") folder = (here / program).lexically_normal().parent_path();
   if (!folder.is_absolute()) return std::nullopt;  // the working directory has been removed
   for (;; folder = folder.parent_path()) {
-    std::error_code ignored;
     const fs::path file = folder / "counterflex.toml";
-    if (fs::exists(file, ignored) && !fs::is_directory(file, ignored)) return short_name(file, here);
+    if (is_project_file(file)) {
+      const std::string name = short_name(file, here);
+      refuse_special_file(name);
+      return name;
+    }
     if (folder == folder.parent_path()) return std::nullopt;
   }
 }

@@ -66,11 +66,13 @@ void read_paths(const toml::node& node, const ValueContext& context, Setting& se
   for (const toml::node& entry : *node.as_array()) read_path(entry, context, setting);
 }
 
-/// A pattern without a folder stands beside the program, wherever the file is that says so.
+/// A pattern without a folder stands beside the program, wherever the file is that says so. The text alone is
+/// one: the folder of the file is called as it is called.
 void read_output_name(const toml::node& node, const ValueContext& context, Setting& setting) {
   const std::string text = toml_file::as_text(node, context.name, context.source);
   const bool only_a_name = is_pattern(text) && text.find('/') == std::string::npos;
-  add_value(setting, only_a_name ? text : joined_path(context.folder, text), node.source(), context.source);
+  add_value(setting, only_a_name ? text : joined_path(as_pattern(context.folder), text), node.source(),
+            context.source);
 }
 
 /// false leaves the setting without values: none is written.
@@ -110,12 +112,22 @@ void add_named(const toml::key& key, const std::string& name, const std::string&
   add_value(setting, name + "=" + value, key.source(), source);
 }
 
+/// To TOML [work.G59.1] is a table "1" of [work.G59].
+void refuse_unquoted(const toml::key& key, const toml::table& table, const Source& source) {
+  for (const auto& [inner, node] : table) {
+    const std::string name = fmt::format("{}.{}", key.str(), inner.str());
+    if (node.is_table() && work_offset_name(name))
+      source.fail(inner, fmt::format("[work.{0}] must be written [work.\"{0}\"]", name));
+  }
+}
+
 void read_offset(const toml::key& key, const toml::node& node, const Source& source, Setting& setting) {
   const auto name = work_offset_name(key.str());
   if (!name)
     source.fail(key, fmt::format("\"{}\" is not a work offset; {} are", key.str(), work_offset_names));
   const std::string owner = fmt::format("[work.{}]", key.str());
   const toml::table& table = toml_file::as_table(node, owner, source);
+  refuse_unquoted(key, table, source);
   toml_file::check_keys(table, {"xyz_mm", "rpy_deg"}, owner, source);
   toml_file::required(table, "xyz_mm", owner, node, source);
   std::string value = vector_text(table, "xyz_mm", source);

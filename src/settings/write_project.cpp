@@ -4,6 +4,7 @@
 #include <map>
 
 #include "counterflex/files/numbers.hpp"
+#include "counterflex/files/utf8.hpp"
 #include "counterflex/machine/work_names.hpp"
 #include "counterflex/settings/project_file.hpp"
 #include "settings/keys.hpp"
@@ -55,12 +56,42 @@ std::string value_text(const std::vector<std::string>& values, Kind kind) {
   return toml_text(value);
 }
 
+bool is_no_character(std::string_view character) {
+  return character.size() == 1 && static_cast<unsigned char>(character[0]) >= 0x80;
+}
+
 /// Names of files may hold anything, comments may not.
-std::string in_one_line(std::string text) {
-  std::replace_if(
-      text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; },
-      '?');
-  return text;
+std::string in_one_line(std::string_view text) {
+  std::string line;
+  while (!text.empty()) {
+    const std::string_view next = first_character(text);
+    const bool control = static_cast<unsigned char>(next[0]) < 0x20 || next[0] == 0x7F;
+    line += control || is_no_character(next) ? "?" : next;
+    text.remove_prefix(next.size());
+  }
+  return line;
+}
+
+bool is_utf8(std::string_view text) {
+  while (!text.empty()) {
+    const std::string_view next = first_character(text);
+    if (is_no_character(next)) return false;
+    text.remove_prefix(next.size());
+  }
+  return true;
+}
+
+/// TOML is UTF-8, names of files need not be.
+void refuse_other_bytes(const Setting& setting) {
+  for (std::size_t i = 0; i < setting.values.size(); ++i) {
+    if (is_utf8(setting.values[i])) continue;
+    const bool of_file = setting.origin == Origin::file;
+    const std::string name =
+        shown_option(setting.option, setting.origin == Origin::flag ? Origin::flag : Origin::file);
+    throw InputError(of_file ? Exit::machine_or_force : Exit::usage, place_of(setting, i),
+                     fmt::format("{} is '{}', whose bytes are not UTF-8, as a project file must be", name,
+                                 in_one_line(setting.values[i])));
+  }
 }
 
 std::string origin_text(const Setting& setting, std::size_t value = 0) {
@@ -146,6 +177,7 @@ std::string to_project_text(const std::vector<Setting>& settings) {
   for (const Key& key : setting_file::keys) {
     const Setting* setting = setting_of(settings, key.option);
     if (setting == nullptr) continue;
+    refuse_other_bytes(*setting);
     if (key.kind == Kind::offsets || key.kind == Kind::lengths) {
       tables += tables_text(*setting, key.kind);
       continue;

@@ -47,6 +47,10 @@ TEST_CASE("an empty variable is none") {
   CHECK(environment_of("COUNTERFLEX_MACHINE=", "COUNTERFLEX_FORCES=").empty());
 }
 
+TEST_CASE("a list without a value in it is none, and hides nothing of a project file") {
+  CHECK(environment_of("COUNTERFLEX_FORCE=:", "COUNTERFLEX_FORCES=::", "COUNTERFLEX_WORK=:").empty());
+}
+
 TEST_CASE("several values stand with colons between them, of options that take several") {
   using Texts = std::vector<std::string>;
   const auto settings = environment_of("COUNTERFLEX_FORCES=a.csv:b.csv", "COUNTERFLEX_FORCE=1,2,3:T3=4,5,6",

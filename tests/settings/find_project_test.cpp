@@ -1,4 +1,5 @@
 #include <doctest/doctest.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <filesystem>
@@ -76,4 +77,23 @@ TEST_CASE("a folder that is called like a project file is none") {
   project_in("shop");
   fs::create_directory("shop/parts/counterflex.toml");
   CHECK(find_project_file("shop/parts/a.ngc") == "shop/counterflex.toml");
+}
+
+TEST_CASE("a link to nothing is found, to be missed by who reads it; a link to a folder is none") {
+  const TemporaryFolder folder;
+  project_in("shop");
+  fs::create_symlink("nowhere.toml", "shop/parts/counterflex.toml");
+  CHECK(find_project_file("shop/parts/a.ngc") == "shop/parts/counterflex.toml");
+  fs::remove("shop/parts/counterflex.toml");
+  fs::create_symlink("..", "shop/parts/counterflex.toml");
+  CHECK(find_project_file("shop/parts/a.ngc") == "shop/counterflex.toml");
+}
+
+TEST_CASE("a pipe that is called like a project file is refused") {
+  const TemporaryFolder folder;
+  REQUIRE(mkfifo("shop/counterflex.toml", 0600) == 0);
+  CHECK_THROWS_WITH_AS(find_project_file("shop/a.ngc"),
+                       "shop/counterflex.toml: error: cannot read the file: it is a pipe or a device, and a "
+                       "project file must be a regular file",
+                       InputError);
 }

@@ -1,6 +1,7 @@
 #include <doctest/doctest.h>
 
 #include "counterflex/settings/jobs_file.hpp"
+#include "counterflex/settings/name_pattern.hpp"
 #include "setting_texts.hpp"
 
 using namespace counterflex;
@@ -45,4 +46,15 @@ TEST_CASE("an output of a jobs file without a pattern is a folder, there or not"
 TEST_CASE("a folder of results that is absolute stays so") {
   CHECK(jobs_with("output = \"/tmp/out\"\n[[job]]\nprogram = \"a\"\n", "night/jobs.toml").output ==
         "/tmp/out");
+}
+
+TEST_CASE("braces of the folder in which a jobs file is are no pattern") {
+  const JobsFile jobs = jobs_with(
+      "output = \"out\"\nreport = \"r/{name}\"\n[[job]]\nprogram = \"a\"\noutput = \"left/{name}2{ext}\"\n",
+      "proj{x}/jobs.toml");
+  CHECK(jobs.output == "proj{x}/out");
+  CHECK(jobs.jobs[0].programs == std::vector<std::string>{"proj{x}/a"});
+  CHECK(fill(test::value(jobs.defaults, "output"), {}) == "proj{x}/out/");
+  CHECK(fill(test::value(jobs.defaults, "report"), {"n", {}, {}}) == "proj{x}/r/n");
+  CHECK(fill(test::value(jobs.jobs[0].settings, "output"), {"n", ".e", {}}) == "proj{x}/left/n2.e");
 }

@@ -4,10 +4,11 @@
 
 using namespace counterflex;
 
-TEST_CASE("words of lower-case letters in braces are placeholders, other braces are parts of names") {
+TEST_CASE("words of letters in braces are placeholders, other braces are parts of names") {
   CHECK(is_pattern("{name}_CF{ext}"));
   CHECK(is_pattern("a/{other}"));
-  for (const char* text : {"", "part.ngc", "{3F2504E0}/part", "{}", "{Name}", "{name", "name}", "{na me}"}) {
+  CHECK(is_pattern("{Name}"));
+  for (const char* text : {"", "part.ngc", "{3F2504E0}/part", "{}", "{name", "name}", "{na me}"}) {
     CAPTURE(text);
     CHECK_FALSE(is_pattern(text));
     CHECK(fill(text, {"n", "e", {}}) == text);
@@ -30,4 +31,25 @@ TEST_CASE("a placeholder that nothing fills is named") {
   CHECK(unknown_placeholder("{name}_{nmae}{ext}", {"a", "", {}}) == "nmae");
   CHECK(unknown_placeholder("{output}", {"a", "", {}}) == "output");
   CHECK(unknown_placeholder("{output}{name}{ext}", {"a", "", "b"}).empty());
+}
+
+TEST_CASE("a word that was probably meant is known, whatever the size of its letters") {
+  CHECK(nearest_placeholder("nmae") == "name");
+  CHECK(nearest_placeholder("NAME") == "name");
+  CHECK(nearest_placeholder("Ext") == "ext");
+  CHECK(nearest_placeholder("ouput") == "output");
+  CHECK(nearest_placeholder("x").empty());
+}
+
+TEST_CASE("a path as a pattern is that path again, whatever braces it has") {
+  for (const char* path : {"", "a/b", "proj{x}/", "{name}", "{{name}}", "{{{ext}", "{{}", "{{}x}",
+                           "{3F2504E0}/{a}{b}", "{", "{a", "}{", "{{}{{}name}}"}) {
+    const std::string pattern = as_pattern(path);
+    CAPTURE(path);
+    CAPTURE(pattern);
+    CHECK_FALSE(is_pattern(pattern));
+    CHECK(unknown_placeholder(pattern, {}).empty());
+    CHECK(fill(pattern, {"n", "e", "o"}) == path);
+    CHECK(fill(pattern + "/{name}", {"n", "e", "o"}) == std::string(path) + "/n");
+  }
 }

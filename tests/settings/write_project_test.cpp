@@ -1,5 +1,7 @@
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
+#include "counterflex/files/numbers.hpp"
 #include "counterflex/settings/project_file.hpp"
 #include "setting_texts.hpp"
 
@@ -63,6 +65,42 @@ TEST_CASE("numbers as the command line takes them become numbers as TOML takes t
   CHECK(test::value(read, "blend-mm") == "2");
   CHECK(test::value(read, "work") == "G59.1=1,2,0.5");
   CHECK(test::value(read, "tool-length") == "T1=5");
+}
+
+TEST_CASE("a number of any size is written as TOML reads it") {
+  for (const double size : {5e-324, 2.2250738585072014e-308, 1.2345678901234567e-300, 9.999999999999999e-7,
+                            1e-6, 0.1, 123456.789, 999999999999999.9, 1e15, 9007199254740993.0,
+                            9223372036854775807.0, 1e19, 1.2345678901234567e200, 1.7976931348623157e308})
+    for (const double value : {size, -size}) {
+      CAPTURE(value);
+      const auto text = fmt::format("{}", value);
+      const auto read = read_back({flag("air-above", {text}), flag("work", {"G54=" + text + ",0,0"})});
+      CHECK(read_number(test::value(read, "air-above")) == value);
+      CHECK(test::value(read, "work") == "G54=" + test::value(read, "air-above") + ",0,0");
+    }
+}
+
+TEST_CASE(
+    "a name whose bytes are not UTF-8 is not written, but refused by its place; in a comment it has marks") {
+  const auto problem = [](const Setting& setting) -> std::string {
+    try {
+      to_project_text({setting});
+    } catch (const InputError& error) {
+      CHECK(error.exit() == (setting.origin == Origin::file ? Exit::machine_or_force : Exit::usage));
+      return error.what();
+    }
+    return "none";
+  };
+  const std::string why = " is 'a?.toml', whose bytes are not UTF-8, as a project file must be";
+  CHECK(problem(flag("machine", {"a\xFF.toml"})) == "error: --machine" + why);
+  CHECK(problem({"machine", {"a\xFF.toml"}, {"COUNTERFLEX_MACHINE"}, Origin::environment}) ==
+        "COUNTERFLEX_MACHINE: error: machine" + why);
+  CHECK(problem({"forces", {"b", "a\xC3.toml"}, {}, Origin::file, {{"p.toml", 3, 1}, {"p.toml", 4, 2}}}) ==
+        "p.toml:4:2: error: forces" + why);
+  CHECK(problem(flag("machine", {"f\u00E4rbe.toml"})) == "none");
+  CHECK(test::contains(
+      to_project_text({{"decimals", {"4"}, {"\xFF\u00E4\xED\xA0\x80.toml", 7, 1}, Origin::file}}),
+      "# ?\u00E4???.toml:7\n"));
 }
 
 TEST_CASE("of two values for one offset or tool the later one is written, as it is the one in force") {

@@ -174,11 +174,6 @@ ssize_t pwrite(int fd, const void* bytes, size_t size, off_t offset) {
   return fails("write", fd) ? -1 : real(fd, bytes, size, offset);
 }
 
-ssize_t read(int fd, void* bytes, size_t most) {
-  static auto* const real = next<ssize_t(int, void*, size_t)>("read");
-  return fails("read", fd) ? -1 : real(fd, bytes, most);
-}
-
 int fsync(int fd) {
   static auto* const real = next<int(int)>("fsync");
   return fails("fsync", fd) ? -1 : real(fd);

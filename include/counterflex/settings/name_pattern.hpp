@@ -13,11 +13,17 @@ struct NameParts {
   std::optional<std::string> output;  ///< {output}: the path of the output without its extension
 };
 
-/// Whether `text` holds a word of lower-case letters in braces; other braces are parts of names.
+/// Whether `text` holds a word of letters in braces, known or not; other braces are parts of names.
 bool is_pattern(std::string_view text);
+
+/// The text that `fill` makes `path` of: "{{}" stands for a brace that begins a word.
+std::string as_pattern(std::string_view path);
 
 /// The first word in braces that `allowed` does not have; empty: none.
 std::string unknown_placeholder(std::string_view pattern, const NameParts& allowed);
+
+/// The word that an unknown one was probably meant to be; empty: none.
+std::string nearest_placeholder(std::string_view word);
 
 /// `pattern` with the parts in their places; unknown words stay as they are.
 std::string fill(std::string_view pattern, const NameParts& parts);
