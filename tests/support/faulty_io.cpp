@@ -194,6 +194,11 @@ int open(const char* path, int flags, ...) {
   return fails("open", path) ? -1 : real(path, flags, mode);
 }
 
+ssize_t read(int fd, void* bytes, size_t size) {
+  static auto* const real = next<ssize_t(int, void*, size_t)>("read");
+  return fails("read", fd) ? -1 : real(fd, bytes, size);
+}
+
 int fcntl64(int fd, int command, ...) {
   static auto* const real = next<int(int, int, ...)>("fcntl64");
   va_list rest;
