@@ -48,7 +48,7 @@ auto or_unreadable(Exit unreadable, const Read& read) {
   try {
     return read();
   } catch (const InputError& error) {
-    if (error.exit() != Exit::usage || unreadable == Exit::usage) throw;
+    if (error.exit() == unreadable || error.exit() == Exit::transient_io) throw;
     const std::string what = error.what();
     const std::size_t at = what.find("cannot read");
     throw InputError(unreadable, error.where(), at == std::string::npos ? what : what.substr(at));

@@ -17,6 +17,7 @@
 #include <ctime>
 #include <filesystem>
 #include <initializer_list>
+#include <optional>
 
 #include "counterflex/files/file_reader.hpp"
 #include "counterflex/files/input_error.hpp"
@@ -85,15 +86,15 @@ bool is_fresh(int file) {
   struct stat facts {};
   if (::fstat(file, &facts) != 0) return false;
   const std::time_t age = std::time(nullptr) - facts.st_mtime;
-  return age >= 0 && age < rest_s;  // the clock of a server may be ahead
+  return age < rest_s && age > -60;  // the clock of a server may be ahead; times far off say nothing
 }
 
 /// A lease to read is refused where somebody writes. Whoever opens the file to write meanwhile waits until it
-/// is given back, when the file is closed; the signal about that is ignored. Of the files of other users the
-/// system does not tell.
-bool has_writer(int file) {
+/// is given back, when the file is closed; the signal about that is ignored. Nothing where the system does
+/// not tell: of another user's file, and where there are no leases.
+std::optional<bool> has_writer(int file) {
   if (::fcntl(file, F_SETLEASE, F_RDLCK) == 0) return false;
-  return errno == EAGAIN || is_fresh(file);
+  return errno == EAGAIN ? std::optional(true) : std::nullopt;
 }
 
 }  // namespace
@@ -180,7 +181,7 @@ bool may_be_program(const std::string& name, const std::vector<std::string>& pat
 bool is_being_written(const std::string& path) {
   const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
   if (file < 0) return false;
-  const bool busy = is_on_server(file) ? is_fresh(file) : has_writer(file);
+  const bool busy = is_on_server(file) ? is_fresh(file) : has_writer(file).value_or(is_fresh(file));
   ::close(file);
   return busy;
 }

@@ -17,9 +17,8 @@ namespace {
 
 /// Whether another try would find the same, until somebody changes what is named or who may read it.
 bool is_of_path(int error) {
-  constexpr std::array lasting{ENOENT, EACCES, EPERM, EISDIR, ENOTDIR, ELOOP, ENAMETOOLONG,
-                               ENXIO,   // a socket
-                               EBADF};  // a standard input that is closed
+  constexpr std::array lasting{ENOENT,  EACCES, EPERM,        EISDIR,
+                               ENOTDIR, ELOOP,  ENAMETOOLONG, EBADF};  // a standard input that is closed
   return std::find(lasting.begin(), lasting.end(), error) != lasting.end();
 }
 

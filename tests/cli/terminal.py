@@ -9,7 +9,7 @@ import sys
 import time
 
 STOP, GO_ON = b"\x13", b"\x11"
-LIMIT = 120  # s, for anything that is waited for
+LIMIT = 60  # s, for anything that is waited for
 
 
 def fail(message):
@@ -94,7 +94,7 @@ def ended_now(process):
 def goes_on():
     process, terminal = start()
     os.write(terminal, STOP)
-    until(lambda: os.path.exists("done/summary.csv"), "the jobs go on")
+    until(lambda: os.path.exists("done/a.ngc") and os.path.exists("done/b.ngc"), "the jobs go on")
     os.write(terminal, GO_ON)
     text, status = said(terminal, process)
     if status != 2 or "missing.ngc: error: cannot read" not in text.replace("\x1b[1;31m", "").replace("\x1b[0m", ""):

@@ -5,13 +5,11 @@
 
 namespace counterflex {
 
-/// The bytes of a file; "-" is standard input. Throws `InputError` where it cannot be read
-/// (as `FileReader`).
+/// The bytes of a file; "-" is standard input. Throws as `FileReader` where it cannot be read.
 std::string read_file(const std::string& path);
 
-/// Writes `bytes` under `path` or not at all: to a temporary name in the same folder, flushed, then renamed.
-/// "-" is standard output. Throws `InputError` (Exit::transient_io) naming the path, and leaves no temporary
-/// file.
+/// Writes `bytes` under `path` or not at all: to a temporary name in the same folder, flushed, then renamed. "-" is
+/// standard output. Throws `InputError` (Exit::transient_io) naming the path, and leaves no temporary file.
 void write_file(const std::string& path, std::string_view bytes);
 
 /// SHA-256 of `bytes`, 64 lower-case hexadecimal digits.
