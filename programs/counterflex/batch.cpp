@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <exception>
 #include <filesystem>
 
 #include "batch_estimate.hpp"
@@ -83,15 +84,21 @@ void warn_of_older(const std::vector<JobOutcome>& outcomes, Console& console) {
       console.warning(outcome.output, 0, fmt::format("is of an earlier run: {} failed now", outcome.program));
 }
 
-/// The table is told before anything is written: a disk that is full has no room for it.
+/// The table is told also where nothing can be written any more: a full disk has no room for it.
 Exit conclude(const Options& options, const Batch& batch, BatchManifest& manifest, Console& console) {
   const std::vector<JobOutcome> outcomes = manifest.ended();
   const std::string json = summary_json(outcomes, version);
+  std::exception_ptr unsaved;
+  try {
+    manifest.save();
+    write_summary(batch, outcomes, json);
+  } catch (const InputError&) {
+    unsaved = std::current_exception();
+  }
   warn_of_older(outcomes, console);
   console.finish_warnings();
   write_result(options.json ? json : summary_table(outcomes, rows_shown));
-  manifest.save();
-  write_summary(batch, outcomes, json);
+  if (unsaved) std::rethrow_exception(unsaved);
   return exit_of(outcomes);
 }
 
