@@ -15,6 +15,7 @@
 #include "counterflex/batch/summary.hpp"
 #include "counterflex/files/file_writer.hpp"
 #include "counterflex/files/files.hpp"
+#include "counterflex/settings/project_file.hpp"
 #include "outputs.hpp"
 #include "version.hpp"
 
@@ -30,6 +31,7 @@ std::string enter_folder_of(const std::string& file, Console& console) {
   if (file == "-")
     throw InputError(Exit::usage, {},
                      "a jobs file has a folder, to which its paths are relative: not standard input");
+  refuse_special_file(file);
   const fs::path path(file);
   if (!path.has_parent_path()) return file;
   std::error_code error;

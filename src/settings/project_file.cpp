@@ -46,7 +46,7 @@ void refuse_special_file(const std::string& file) {
   if (!fs::exists(status) || fs::is_regular_file(status) || fs::is_directory(status)) return;
   throw InputError(
       Exit::machine_or_force, {file},
-      "cannot read the file: it is a pipe or a device, and a project file must be a regular file");
+      "cannot read the file: it is a pipe or a device, and must be a regular file");
 }
 
 std::optional<std::string> find_project_file(const std::string& program) {
