@@ -93,7 +93,7 @@ TEST_CASE("a pipe that is called like a project file is refused") {
   const TemporaryFolder folder;
   REQUIRE(mkfifo("shop/counterflex.toml", 0600) == 0);
   CHECK_THROWS_WITH_AS(find_project_file("shop/a.ngc"),
-                       "shop/counterflex.toml: error: cannot read the file: it is a pipe or a device, and a "
-                       "project file must be a regular file",
+                       "shop/counterflex.toml: error: cannot read the file: it is a pipe or a device, and "
+                       "must be a regular file",
                        InputError);
 }
