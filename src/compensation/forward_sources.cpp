@@ -38,21 +38,28 @@ class SourceBatch {
       request.known = known_answer(place, request);
       ask(i, request);
     }
-    answer([&](std::size_t i, const ActualSolution& actual) { take(i, actual, result); });
+    answer([&](std::size_t i, const ActualSolution& actual) {
+      take(i, actual, reference(batch_.places[i], stage), result);
+    });
   }
 
  private:
+  // The perfect machine is compared with the command: the shift of a datum is a deviation of the real one.
+  static Pose reference(const ForwardPlace& place, const Stage& stage) {
+    return stage.errors == 0 ? Pose{place.wanted.R, place.original} : place.wanted;
+  }
+
   static const KnownTip* known_answer(const ForwardPlace& place, const ActualRequest& request) {
     if (place.known == nullptr || !everything_acts(request.stage)) return nullptr;
     return place.known->answer(request.target, request.load);
   }
 
   template <class Result>
-  void take(std::size_t i, const ActualSolution& actual, const Result& result) {
+  void take(std::size_t i, const ActualSolution& actual, const Pose& reference, const Result& result) {
     Waypoint& w = batch_.waypoints[i];
     w.iterations += actual.iterations;
     if (actual.status == Status::converged)
-      result(w) = deviation(actual.X_MT, batch_.places[i].wanted);
+      result(w) = deviation(actual.X_MT, reference);
     else if (w.status == Status::converged)
       w.status = actual.status;
   }

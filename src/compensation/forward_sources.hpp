@@ -25,7 +25,8 @@ struct ForwardBatch {
 /// Fills `before` at the ends of pieces; a status that is not converged goes to the waypoint.
 void add_before(WaypointSolver& solver, const ForwardBatch& batch);
 
-/// Fills geometry, load, gravity, superposition and air at the ends of pieces, in the same way.
+/// Fills geometry, load, gravity, superposition and air at the ends of pieces, in the same way. The shift of a
+/// datum that was touched off is part of geometry alone.
 void add_sources(WaypointSolver& solver, const ForwardBatch& batch);
 
 /// Fills `higher` and `lower`. A force under which the machine gives way is no failure of a run: it does not

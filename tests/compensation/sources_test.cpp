@@ -179,6 +179,35 @@ TEST_CASE(
               .norm() < 1e-9);
 }
 
+TEST_CASE("the shift of a datum that was touched off is in the geometry, not in load, gravity or preloads") {
+  Order order{.machine = load_machine(orthoglide_b), .text = part, .force = constant_force(milling())};
+  order.machine.gravity.g = Vector3(1, -2, -9);
+  for (Chain& chain : order.machine.chains) chain.elements.push_back(PointMass{3, Vector3(0, 0, 0.05)});
+  const Shop plain(order);
+  order.datum_shift = Vector3(0.3, -0.2, 1.1) * mm;
+  const Shop touched(order);
+  const auto ends = [](const Shop& shop) {
+    std::vector<Waypoint> list = compensated(shop, true).waypoints;
+    std::erase_if(list, [](const Waypoint& w) { return w.between || w.fraction != 1; });
+    return list;
+  };
+  const std::vector<Waypoint> without = ends(plain), with = ends(touched);
+  REQUIRE(without.size() == with.size());
+  REQUIRE(with.size() > 2);
+  for (std::size_t i = 0; i < with.size(); ++i) {
+    const Causes &a = *without[i].causes, &b = *with[i].causes;
+    const auto same = [](const Vector6& x, const Vector6& y) { return (x - y).head<3>().norm() < 1e-11; };
+    CHECK(same(a.load, b.load));
+    CHECK(same(a.gravity, b.gravity));
+    Vector6 shift = Vector6::Zero();
+    shift.head<3>() = order.datum_shift;
+    CHECK(same(a.geometry - shift, b.geometry));
+    CHECK(same(a.superposition - shift, b.superposition));
+    CHECK(same(without[i].before - shift, with[i].before));
+    CHECK((b.superposition - b.geometry - b.load - b.gravity).norm() < 1e-9);  // without preloads
+  }
+}
+
 TEST_CASE("bytes and waypoints do not depend on the number of threads") {
   for (const double blend : {2e-3, 0.0}) {
     Order order{.machine = load_machine(orthoglide_b),
