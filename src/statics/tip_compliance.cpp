@@ -1,0 +1,56 @@
+#include "counterflex/statics/tip_compliance.hpp"
+
+#include <Eigen/LU>
+#include <cmath>
+#include <limits>
+
+#include "newton.hpp"
+
+namespace counterflex {
+namespace {
+
+constexpr double rigid_compliance = 1e-15;  // m/N: less is rounding
+constexpr double rigid_ratio = 1e-12;       // of the compliances' largest, without unit
+
+// Twist of the tip per twist of the reference point.
+Matrix6 tip_from_platform(const Mechanism& mechanism, const Pose& X_MP) {
+  Matrix6 T = Matrix6::Identity();
+  T.topRightCorner<3, 3>() = -skew(X_MP.R * mechanism.X_PT.p);
+  return T;
+}
+
+}  // namespace
+
+std::optional<Matrix6> compliance_at_tip(const Model& model, const Configuration& configuration, const Load& load,
+                                         const Stage& stage, StaticsWork& work) {
+  const Units units{model.mechanism.length};
+  evaluate_all(model, configuration, stage, work.impl());
+  WholeSystem system = whole_system(model, configuration, {load, stage, nullptr}, work.impl());
+  if (!std::isfinite(condition(system, units).value)) return std::nullopt;
+  const Matrix6 T = tip_from_platform(model.mechanism, configuration.X_MP);
+  system.gap.setZero();
+  Matrix6 C;
+  for (int k = 0; k < 6; ++k) {
+    system.gradient.setZero();
+    system.gradient.tail<6>() = -T.row(k).transpose().cwiseProduct(units.of_pose()) / units.energy();
+    const WholeStep step = solve_whole(system, std::nullopt, units);
+    C.col(k) = T * step.variables.tail<6>();
+  }
+  return C;
+}
+
+double stiffness_along(const Matrix6& compliance, const Vector3& direction) {
+  const double along = direction.dot(compliance.topLeftCorner<3, 3>() * direction);
+  return std::abs(along) < rigid_compliance ? std::numeric_limits<double>::infinity() : 1 / along;
+}
+
+std::optional<Matrix6> inverse_compliance(const Matrix6& compliance, double length) {
+  const Vector6 pose = Units{length}.of_pose();
+  const Matrix6 scaled = pose.cwiseInverse().asDiagonal() * compliance * pose.cwiseInverse().asDiagonal();
+  Eigen::FullPivLU<Matrix6> lu(scaled);
+  lu.setThreshold(rigid_ratio);
+  if (!lu.isInvertible()) return std::nullopt;
+  return pose.cwiseInverse().asDiagonal() * lu.inverse() * pose.cwiseInverse().asDiagonal();
+}
+
+}  // namespace counterflex
