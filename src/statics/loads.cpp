@@ -95,6 +95,17 @@ Vector3 arm_of(const Model& model, const Configuration& configuration) {
   return configuration.X_MP.R * model.mechanism.p_EP;
 }
 
+// From the end of a series to where its first `parts` parts end, axes of its start frame.
+Vector3 arm_to_part(const Series& series, std::size_t parts, const SeriesState& state, const Stage& stage) {
+  Pose X;
+  Vector3 p;
+  for (std::size_t i = 0; i <= series.parts.size(); ++i) {
+    if (i == parts) p = X.p;
+    if (i < series.parts.size()) X = X * part_pose(series.parts[i], state, stage);
+  }
+  return p - X.p;
+}
+
 }  // namespace
 
 std::vector<ChainLoads> loads(const Model& model, const Configuration& configuration, const Stage& stage) {
@@ -105,8 +116,15 @@ std::vector<ChainLoads> loads(const Model& model, const Configuration& configura
 std::vector<ChainLoads> loads_without_tool(const Mechanism& base, const Model& model,
                                            const Configuration& configuration, const Stage& stage) {
   const std::vector<Series>& chains = model.mechanism.chains;
-  if (base.chains.size() == chains.size())  // a tool's columns follow those of its chain
-    return chains_loads(chains, base.chains, configuration.chains, arm_of(model, configuration), stage);
+  if (base.chains.size() == chains.size()) {  // a tool's parts follow those of its chain
+    std::vector<ChainLoads> all;
+    for (std::size_t i = 0; i < chains.size(); ++i)
+      all.push_back(chain_loads(chains[i], base.chains[i].columns, configuration.chains[i],
+                                arm_to_part(chains[i], base.chains[i].parts.size(),
+                                            configuration.chains[i], stage),
+                                stage));
+    return all;
+  }
   const std::vector<Series>& branches = chains.front().groups.front().branches;
   return chains_loads(branches, branches, configuration.chains.front().groups.front().branches,
                       Vector3::Zero(), stage);

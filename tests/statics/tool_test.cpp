@@ -327,3 +327,17 @@ TEST_CASE("without a tool that yields, loads without the tool are all loads") {
     for (const LoadKind kind : load_kinds) CHECK(value_of(without[i], kind) == value_of(all[i], kind));
   }
 }
+
+TEST_CASE("the moment on a chain's end is about the reference point of the deflected machine") {
+  const Machine machine = load_machine(mill_file);
+  const Pair soft(machine, radial(1e6));
+  const Vector3 p_MT(0.2, 0.1, -0.2);
+  const Load load = pushing(3000, -500, 200);
+  const Configuration bent = loaded(soft.bent, p_MT, load).configuration;
+  const Vector6 F = loads_without_tool(soft.base.mechanism, soft.bent, bent, {}).at(0).wrench;
+  // The same wrench bends the machine without the tool in the same way.
+  const Configuration bare = loaded(soft.base, p_MT, {F, true}).configuration;
+  const Vector3 arm = tip(soft.bent.mechanism, bent).p - bare.X_MP.p;
+  CHECK((F.head<3>() - load.F.head<3>()).norm() < 1e-6);
+  CHECK((F.tail<3>() - arm.cross(Vector3(load.F.head<3>()))).norm() < 1e-6);
+}

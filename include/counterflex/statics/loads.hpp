@@ -29,7 +29,8 @@ std::vector<ChainLoads> loads(const Model& model, const Configuration& configura
 
 /// Of every chain of the machine that `base` is without a tool, at a configuration of `model`, the same
 /// machine with one: a tool that yields has no load here, and chains that it has made the branches of one
-/// chain (`with_tool`) are chains again. What is exerted on their ends is at `base`'s reference point.
+/// chain (`with_tool`) are chains again. What is exerted on their ends is at `base`'s reference point, where it
+/// is in the deflected machine.
 std::vector<ChainLoads> loads_without_tool(const Mechanism& base, const Model& model,
                                            const Configuration& configuration, const Stage& stage);
 
