@@ -80,7 +80,50 @@ bool uncondensed(const Model& model, const Configuration& nominal, const Vector6
   return true;
 }
 
+//     x = (sum K_b)^-1 sum K_b eps_b: where branches that end eps_b apart meet without a load
+std::optional<Vector6> group_eps(const std::vector<Series>& branches, const Units& units, std::vector<SeriesWork>& works);
+
+// A group's own part of eps is added to the branches' gaps, innermost groups first.
+std::optional<Vector6> series_eps(const Series& series, const SeriesState& nominal, const Stage& stage, const Units& units,
+                                  SeriesWork& work) {
+  Vector6 eps = own_eps(series, nominal, stage, work);
+  for (const Part& part : series.parts) {
+    if (part.kind != PartKind::group) continue;
+    const auto x = group_eps(series.groups[part.group].branches, units, work.groups[part.group]);
+    if (!x) return std::nullopt;
+    eps.head<3>() += work.v.middleCols<6>(part.column) * *x;
+    eps.tail<3>() += work.w.middleCols<6>(part.column) * *x;
+  }
+  return eps;
+}
+
+std::optional<Vector6> group_eps(const std::vector<Series>& branches, const Units& units, std::vector<SeriesWork>& works) {
+  Matrix6 K = Matrix6::Zero();
+  Vector6 F = Vector6::Zero();
+  for (std::size_t b = 0; b < branches.size(); ++b) {
+    if (!condense(branches[b], units, false, works[b])) return std::nullopt;
+    K += works[b].K;
+    F -= works[b].dF;
+  }
+  const Vector6 pose = units.of_pose();
+  Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> decomposition;
+  decomposition.setThreshold(1e-11);
+  decomposition.compute(pose.asDiagonal() * K * pose.asDiagonal() / units.energy());
+  const Eigen::VectorXd x = solved(decomposition, Eigen::VectorXd(pose.cwiseProduct(F) / units.energy()));
+  return pose.cwiseProduct(Vector6(x));
+}
+
 }  // namespace
+
+std::vector<std::optional<Vector6>> chain_eps(const Model& model, const Configuration& nominal, const Stage& stage,
+                                              StaticsWork& work) {
+  evaluate_linear(model, nominal, {stage.errors, 0, 0, 0}, work.impl());
+  std::vector<std::optional<Vector6>> all;
+  for (std::size_t i = 0; i < nominal.chains.size(); ++i)
+    all.push_back(series_eps(model.mechanism.chains[i], nominal.chains[i], {stage.errors, 0, 0, 0},
+                             {model.mechanism.length}, work.impl().chains[i]));
+  return all;
+}
 
 LinearResult linear_deviation(const Model& model, const Configuration& nominal, const Load& load, const Stage& stage,
                               StaticsWork& work) {

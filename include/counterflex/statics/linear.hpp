@@ -1,5 +1,7 @@
 #pragma once
 /// The linear theory of non-perfect chains (10)-(16): one step from the perfect nominal configuration.
+#include <optional>
+
 #include "counterflex/statics/equilibrium.hpp"
 
 namespace counterflex {
@@ -19,6 +21,12 @@ struct LinearResult {
 };
 LinearResult linear_deviation(const Model& model, const Configuration& nominal, const Load& load, const Stage& stage,
                               StaticsWork& work);
+
+/// (14): the first-order displacement of every chain's unloaded end by its errors, at the reference point of the nominal
+/// configuration (m, rad; axes of M). Groups are condensed: a motion of a group's end that its branches do not resist stays
+/// zero. Empty for a chain with a group whose branches have no stiffness of their own.
+std::vector<std::optional<Vector6>> chain_eps(const Model& model, const Configuration& nominal, const Stage& stage,
+                                              StaticsWork& work);
 
 /// The linear target: `X_MT` with `dt_T` taken from its controlled components.
 Pose linear_target(const Model& model, const Pose& X_MT, const LinearResult& linear);

@@ -1,0 +1,76 @@
+#include "counterflex/statics/chain_detail.hpp"
+
+#include "counterflex/statics/linear.hpp"
+
+namespace counterflex {
+namespace {
+
+constexpr Stage everything{};
+
+struct Collector {
+  ChainDetail& detail;
+
+  void series(const Series& series, const SeriesState& state, const std::string& path) {
+    int number = 0;
+    for (const Part& part : series.parts) {
+      if (part.kind == PartKind::mass) continue;
+      const std::string element = path + std::to_string(++number);
+      if (part.kind == PartKind::group) group(series, part, state, element);
+      if (part.column < 0 || part.kind == PartKind::group) continue;
+      if (path.empty()) list_row(part);
+      if (part.kind == PartKind::spring)
+        spring(part, state, element);
+      else
+        joint(part, state, element);
+    }
+  }
+
+  void group(const Series& series, const Part& part, const SeriesState& state, const std::string& element) {
+    const auto& branches = series.groups[part.group].branches;
+    for (std::size_t b = 0; b < branches.size(); ++b)
+      this->series(branches[b], state.groups[part.group].branches[b], element + "/" + branches[b].name + "/");
+  }
+
+  // Rows of K_Cq and K_Ctheta are of the chain's own columns.
+  void list_row(const Part& part) {
+    const std::size_t next = detail.coordinates.size();
+    if (part.kind == PartKind::passive) detail.passive.push_back(next);
+    if (part.kind == PartKind::compliance) detail.elastic.push_back(next);
+    for (std::size_t k = 0; part.kind == PartKind::spring && k < 6; ++k) detail.elastic.push_back(next + k);
+  }
+
+  void spring(const Part& part, const SeriesState& state, const std::string& element) {
+    const Vector6 theta = state.x.segment<6>(part.column), tau = part.K * (theta - part.theta_0);
+    for (int k = 0; k < 6; ++k)
+      detail.coordinates.push_back({element, part.kind, k, k >= 3, theta[k], theta[k], tau[k]});
+  }
+
+  void joint(const Part& part, const SeriesState& state, const std::string& element) {
+    const double x = state.x[part.column];
+    CoordinateDetail joint{element, part.kind, -1, part.joint.kind == JointKind::revolute, x,
+                           x - state.x_nominal[part.column]};
+    if (part.kind == PartKind::passive) joint.load = part.k * (x - part.rest);
+    if (part.kind == PartKind::compliance) joint.load = part.k * x;
+    detail.coordinates.push_back(joint);
+  }
+};
+
+}  // namespace
+
+std::vector<ChainDetail> chain_details(const Model& model, const Configuration& nominal, const Configuration& loaded,
+                                       const Vector6& dt_P, const StiffnessPlace& stiff, StaticsWork& work) {
+  const auto eps = chain_eps(model, nominal, everything, work);
+  std::vector<ChainDetail> all;
+  for (std::size_t i = 0; i < model.mechanism.chains.size(); ++i) {
+    const Series& series = model.mechanism.chains[i];
+    ChainDetail detail{.name = series.name, .wrench = loaded.chains[i].F, .eps = eps[i]};
+    detail.stiffness = chain_stiffness(model, i, stiff.configuration.chains[i], stiff.stage, work);
+    if (eps[i]) detail.dt = dt_P - *eps[i];
+    detail.energy = elastic_energy(series, loaded.chains[i], everything);
+    Collector{detail}.series(series, loaded.chains[i], "");
+    all.push_back(std::move(detail));
+  }
+  return all;
+}
+
+}  // namespace counterflex
