@@ -14,7 +14,6 @@ constexpr int most_iterations = 25;
 constexpr double smallest_part = 1.0 / 4096;  // of the way between two points
 constexpr double bracket = 1e-9;              // of the displacement of a critical state
 constexpr double force_unit = 1e6;            // N for a unit step of the force's variable
-constexpr Stage everything{};
 
 // An equilibrium with the tip at a displacement, and the step of everything per metre of it.
 struct State {
@@ -76,7 +75,7 @@ class Follower {
   bool solve(State& state) const {
     double last = std::numeric_limits<double>::infinity();
     for (int i = 0; i < most_iterations; ++i) {
-      evaluate_all(model_, state.configuration, everything, work_);
+      evaluate_all(model_, state.configuration, Stage{}, work_);
       const Vector6 along = direction_at_platform(state.configuration.X_MP);
       Augmented equations = augmented(whole_system(model_, state.configuration, problem(state), work_), along, units_);
       const double missing = state.displacement - displacement_of(state.configuration);
@@ -110,7 +109,7 @@ class Follower {
   }
 
   bool is_stable(const State& state) const {
-    evaluate_all(model_, state.configuration, everything, work_);
+    evaluate_all(model_, state.configuration, Stage{}, work_);
     return counterflex::is_stable(model_, state.configuration, problem(state), work_);
   }
 
@@ -122,7 +121,7 @@ class Follower {
   Problem problem(const State& state) const {
     Load load = request_.load;
     load.F.head<3>() += state.force * request_.direction;
-    return {load, everything, nullptr};
+    return {load, Stage{}, nullptr};
   }
 
   // The unit force at the tip as a wrench at the reference point; also d(displacement) per twist of that point.
@@ -209,7 +208,7 @@ bool follow_side(const Follower& follower, const State& free, const std::vector<
 
 ForceCurve force_curve(const Model& model, const Configuration& nominal, const CurveRequest& request, StaticsWork& work) {
   ForceCurve curve;
-  const Equilibrium loaded = solve_forward(model, nominal, request.load, everything, work);
+  const Equilibrium loaded = solve_forward(model, nominal, request.load, Stage{}, work);
   curve.status = loaded.status;
   if (loaded.status != Status::converged) return curve;
   const Follower follower(model, request, tip(model.mechanism, loaded.configuration).p, work.impl());

@@ -5,13 +5,13 @@
 namespace counterflex {
 namespace {
 
-constexpr double first_step = 0.25, smallest_step = 1.0 / 1024;
+constexpr double first_hold_step = 0.25, smallest_hold_step = 1.0 / 1024;
 
 // One chain, from the nominal configuration to the held pose.
 Status hold_chain(const Model& model, std::size_t i, const Pose& nominal, const Pose& held, const Stage& goal,
                   SeriesState& state, StaticsWork& work) {
   const Vector6 way = difference(held, nominal);
-  double s = 0, step = first_step;
+  double s = 0, step = first_hold_step;
   while (s < 1) {
     const double next = std::min(1.0, s + step);
     const Stage stage{next * goal.errors, next * goal.load, next * goal.preload, next * goal.gravity};
@@ -19,7 +19,7 @@ Status hold_chain(const Model& model, std::size_t i, const Pose& nominal, const 
     const Status status =
         solve_chain(model, i, next < 1 ? moved(nominal, next * way) : held, stage, ChainMethod::newton, tried, work).status;
     if (status != Status::converged) {
-      if ((step /= 2) < smallest_step) return status;
+      if ((step /= 2) < smallest_hold_step) return status;
       continue;
     }
     state = std::move(tried);

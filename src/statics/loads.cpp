@@ -98,7 +98,7 @@ Vector3 arm_of(const Model& model, const Configuration& configuration) {
 // From the end of a series to where its first `parts` parts end, axes of its start frame.
 Vector3 arm_to_part(const Series& series, std::size_t parts, const SeriesState& state, const Stage& stage) {
   Pose X;
-  Vector3 p;
+  Vector3 p = Vector3::Zero();
   for (std::size_t i = 0; i <= series.parts.size(); ++i) {
     if (i == parts) p = X.p;
     if (i < series.parts.size()) X = X * part_pose(series.parts[i], state, stage);
