@@ -1,5 +1,5 @@
 // Which moves of a corrected program belong to which of the original: inserted blocks come before the block
-// that they split, follow its path, and carry no number.
+// that they split and follow its path. The first piece has the number of the block.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -65,6 +65,7 @@ class Matcher {
     double best_miss = std::numeric_limits<double>::infinity(), gone_mm = 0;
     for (std::size_t j = next_; j <= last; ++j) {
       const Move& move = corrected_.moves[j];
+      if (j > next_ && begins_next(m, move)) break;
       gone_mm += length(curve_of(move));
       const double miss = (move.end_mm - end_mm).norm() + length_share * std::abs(gone_mm - length_mm);
       if (may_end(original, words, j) && miss < best_miss - nearer_mm) best = j, best_miss = miss;
@@ -76,6 +77,12 @@ class Matcher {
     return *best;
   }
 
+  // Whether a corrected move has the number of the original move behind `m`.
+  bool begins_next(std::size_t m, const Move& move) const {
+    const auto& originals = job_.program.moves;
+    return move.block_number && m + 1 < originals.size() && originals[m + 1].block_number == move.block_number;
+  }
+
   // A feed block whose words act at its beginning is itself the first piece: the others follow it.
   bool acts_first(const Move& original, const std::string& words) const {
     return original.motion == Motion::feed && !is_plain(words);
@@ -85,7 +92,7 @@ class Matcher {
     const Move& move = corrected_.moves[j];
     const std::string found = skeleton(corrected_, move);
     if (move.motion != original.motion) return false;
-    if (j > next_ && acts_first(original, words)) return is_plain(found) && !move.block_number;
+    if (j > next_ && acts_first(original, words)) return is_plain(found);
     return found == words;
   }
 
@@ -95,7 +102,7 @@ class Matcher {
     const std::string found = skeleton(corrected_, move);
     if (move.motion != Motion::feed) return false;
     if (j == next_ && acts_first(original, words)) return found == words;
-    return is_plain(found) && !move.block_number;
+    return is_plain(found);
   }
 
   // Where the move should end (mm): with its own correction, or with the one with which it is entered.
@@ -108,16 +115,29 @@ class Matcher {
     return in_words_mm(job_, original, *target);
   }
 
+  // A restart at the number of a block runs the whole move.
+  void check_numbers(const Move& original, std::size_t own) const {
+    for (std::size_t j = next_; j <= own; ++j) {
+      const Move& move = corrected_.moves[j];
+      const bool right = j == next_ ? move.block_number == original.block_number
+                                    : !move.block_number || original.block_number;
+      if (!right)
+        throw InputError(Exit::not_compensated, {corrected_.file, move.line, 1},
+                         "the N of a block belongs to its first piece, and other pieces of a block without N "
+                         "have none");
+    }
+  }
+
   // Inserted blocks say motion, axes and F, and the F is the one that acts.
   void check_inserted(const Move& original, std::size_t own) const {
     const std::string wanted = skeleton(job_.program, original);
     std::size_t own_blocks = 0;
+    check_numbers(original, own);
     for (std::size_t j = next_; j <= own; ++j) {
       const Move& move = corrected_.moves[j];
       const std::string found = skeleton(corrected_, move);
       if (found == wanted) ++own_blocks;
-      const bool plain =
-          is_plain(found) && found.find_first_of("(;") == std::string::npos && !move.block_number;
+      const bool plain = is_plain(found) && found.find_first_of("(;") == std::string::npos;
       const bool same_motion = move.motion == original.motion || (j < own && move.motion == Motion::feed);
       const bool same_feed = move.motion == Motion::rapid || move.feed_mode == FeedMode::inverse_time ||
                              move.feed_mm_min == original.feed_mm_min;

@@ -95,7 +95,7 @@ std::string skeleton(const Program& program, const Move& move) {
     at = number.end;
   }
   keep(move.block.end);
-  std::vector<std::string_view> names;
+  std::vector<std::string_view> names{"N"};
   if (move.feed_mode == FeedMode::inverse_time) names.push_back("F");
   if (move.arc && move.arc->turns > 0) names.insert(names.end(), {"P", "TURN="});
   return without_motion(text, names);

@@ -6,7 +6,7 @@
 namespace counterflex {
 namespace {
 
-static_assert(sizeof(Rewritten) == 80 && sizeof(OtherMoves) == 32 && sizeof(LeftAlone) == 48,
+static_assert(sizeof(Rewritten) == 96 && sizeof(OtherMoves) == 32 && sizeof(LeftAlone) == 48,
               "what is added to the result of a window is to be kept, too");
 
 void put_left_alone(const LeftAlone& block, std::string& bytes) {
@@ -31,6 +31,8 @@ void each_count(Result& result, const Take& take) {
   take(result.counts.changed_words);
   take(result.counts.inserted_words);
   take(result.counts.inserted_blocks);
+  take(result.counts.unnumbered_pieces);
+  take(result.counts.first_unnumbered_line);
   take(result.corrected_moves);
   take(result.other_moves.grouped);
   take(result.other_moves.held);

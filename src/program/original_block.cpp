@@ -54,11 +54,21 @@ std::string separator_of(const Original& o, const std::string& otherwise) {
   return std::string(is_axis(*(last - 1)) ? gap : gap.substr(0, 1));
 }
 
-/// Whether the block holds other words than those of the move itself, F and N, or sets the force: it acts
-/// from its beginning.
+/// A jump to the label of a Sinumerik block runs the whole move.
+bool begins_with_label(const Original& o) {
+  if (!o.dialect.sinumerik_words) return false;
+  const auto first = std::find_if(o.block.words.begin(), o.block.words.end(),
+                                  [](const Word& word) { return word.letter != 'N'; });
+  if (first == o.block.words.end()) return false;
+  return o.text({o.block.span.begin, first->span.begin}).find(':') != std::string_view::npos;
+}
+
+/// Whether the block holds other words than those of the move itself, F and N, begins with a label, or sets
+/// the force: it acts from its beginning.
 bool acts_itself(const Original& o) {
   const bool arc = o.move.arc.has_value();
-  return std::any_of(o.block.words.begin(), o.block.words.end(),
+  return begins_with_label(o) ||
+         std::any_of(o.block.words.begin(), o.block.words.end(),
                      [&](const Word& word) {
                        return !is_axis(word) && !is_motion(word) && word.letter != 'F' &&
                               word.letter != 'N' && !(arc && (is_centre(word) || word.letter == 'P'));

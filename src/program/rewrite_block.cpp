@@ -113,12 +113,41 @@ std::optional<int> restated_after(const Move& move, std::optional<int> before, c
   return move.block_delete ? before : std::nullopt;
 }
 
+/// The N of each piece of a block that is split: the first one has the block's own.
+class PieceNumbers {
+ public:
+  PieceNumbers(const Original& o, std::size_t pieces, const WriteOptions& options, Rewritten& out) : o_(o) {
+    word_ = find_word(o.block, 'N');
+    if (word_ == nullptr || pieces < 2 || options.number_pieces == nullptr) return;
+    const bool counts = word_->literal && !word_->point && word_->value >= 0;
+    numbered_ = counts && options.number_pieces->has_room_after(count_of(*word_), pieces - 1);
+    if (numbered_) return;
+    if (out.unnumbered_pieces == 0) out.first_unnumbered_line = o.move.line;
+    out.unnumbered_pieces += pieces - 1;
+  }
+
+  std::string of(std::size_t piece) const {
+    if (word_ == nullptr || (piece > 0 && !numbered_)) return {};
+    if (piece == 0) return std::string(o_.text(word_->span));
+    return fmt::format("{}{:0{}}", o_.text({word_->span.begin, word_->number.begin}),
+                       count_of(*word_) + static_cast<long>(piece), word_->number.end - word_->number.begin);
+  }
+
+ private:
+  const Original& o_;
+  const Word* word_ = nullptr;
+  bool numbered_ = false;
+};
+
 std::string text_of(const Original& o, const std::vector<PlannedStep>& steps, const CycleWords& cycle,
-                    ModalMotion& modal, Rewritten& out) {
+                    const WriteOptions& options, ModalMotion& modal, Rewritten& out) {
+  const PieceNumbers numbers(o, steps.size(), options, out);
   std::string text;
   bool own_is_past = false;
-  for (const PlannedStep& piece : steps) {
-    const BesidesPoint besides{must_state(piece.step.motion, modal), piece.feed_per_min, cycle};
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    const PlannedStep& piece = steps[i];
+    const BesidesPoint besides{must_state(piece.step.motion, modal), piece.feed_per_min, cycle,
+                               steps.size() > 1 ? std::optional(numbers.of(i)) : std::nullopt};
     if (piece.own) {
       text += own_block(o, piece.step, besides, out);
     } else {
@@ -177,7 +206,7 @@ void rewrite_block(const Program& program, const ProgramStyle& style, const Move
   ModalMotion modal = modal_motion(o, state.restate_motion);
   std::vector<PlannedStep> steps = settle_steps(o, plan(o, edit, modal.own), before, options);
   share_time(move, steps);
-  const std::string text = text_of(o, steps, cycle, modal, out);
+  const std::string text = text_of(o, steps, cycle, options, modal, out);
   if (text != o.text(o.block.span)) check_integer_words(o);
   state.held = steps.back().step.after;
   doubt_skippable(move, before, state.held);

@@ -146,6 +146,18 @@ void motion_changes(const Original& o, int motion, bool state_motion, Changes& c
   ++changes.inserted;
 }
 
+/// A word at the beginning of the block goes with the blanks behind it.
+void block_number_changes(const Original& o, const std::string& number, Changes& changes) {
+  const Word* word = find_word(o.block, 'N');
+  if (word == nullptr) return;
+  if (!number.empty()) return changes.list.push_back({word->span, number});
+  if (word != o.block.words.data()) return drop_word(o, *word, changes);
+  Span span = word->span;
+  while (span.end < o.block.span.end && (o.program.text[span.end] == ' ' || o.program.text[span.end] == '\t'))
+    ++span.end;
+  changes.list.push_back({span, {}});
+}
+
 /// As many digits as leave the time of a piece exact to a millionth.
 int feed_decimals(double feed) {
   return feed > 0 ? std::clamp(6 - static_cast<int>(std::floor(std::log10(feed))), 1, 9) : 1;
@@ -203,6 +215,7 @@ void append_centre(const Original& o, const ArcWords& words, std::string& line) 
 
 std::string own_block(const Original& o, const Step& step, const BesidesPoint& besides, Rewritten& out) {
   Changes changes;
+  if (besides.number) block_number_changes(o, *besides.number, changes);
   motion_changes(o, step.motion, besides.state_motion, changes);
   axis_changes(o, step, besides, changes);
   if (step.arc) centre_changes(o, *step.arc, changes);
@@ -216,7 +229,7 @@ std::string own_block(const Original& o, const Step& step, const BesidesPoint& b
 }
 
 std::string inserted_block(const Original& o, const Step& step, const BesidesPoint& besides) {
-  std::string line;
+  std::string line = besides.number.value_or("");
   if (besides.state_motion || std::any_of(o.block.words.begin(), o.block.words.end(), is_motion))
     append(o, motion_text(o, step.motion), line);
   for (std::size_t axis = 0; axis < 3; ++axis)

@@ -13,6 +13,7 @@ struct BesidesPoint {
   bool state_motion = false;             ///< a block without a motion word must say it
   std::optional<double> feed_per_min{};  ///< G93: F of this piece
   CycleWords cycle{};
+  std::optional<std::string> number{};  ///< N in place of the block's own, empty: no N; none: its own
 };
 
 /// The block of `o` itself, moving by `step`, without its line end. Throws `InputError` where it would be

@@ -66,12 +66,12 @@ TEST_CASE("a word that an arc omits is inserted only where the correction asks f
         "G3X10.010I-10.J0.500F50.\n");
 }
 
-TEST_CASE("a split arc is written as arcs in its own format, with N and comments on the block itself") {
+TEST_CASE("a split arc is written as arcs in its own format, with N on its first piece") {
   const double s = std::sqrt(50);
   MoveEdit edit{
       .inserted = {{{s, s, 0}, Vector3::Zero()}}, .end_mm = {0, 10, 0}, .centre_mm = Vector3::Zero()};
   CHECK(arc_rewritten("N7 G03 X0. Y10. I-10. J0. F50. (c)\n", edit) ==
-        "G03 X7.071 Y7.071 I-10.000 J0.000 F50.\nN7 G03 X0. Y10. I-7.071 J-7.071 F50. (c)\n");
+        "N7 G03 X7.071 Y7.071 I-10.000 J0.000 F50.\nG03 X0. Y10. I-7.071 J-7.071 F50. (c)\n");
   CHECK(arc_rewritten("/g3x0.y10.i-10.\n", edit) == "/g3x7.071y7.071i-10.000\n/g3x0.y10.i-7.071j-7.071\n");
   CHECK(arc_rewritten("G3 X0. Y10. R10.\n", edit) == "G3 X7.071 Y7.071 R10.000\nG3 X0. Y10. R10.\n");
   CHECK(arc_rewritten("G90.1 G3 X0. Y10. I0 J0\n", edit) ==

@@ -32,7 +32,7 @@ TEST_CASE("the pieces of a relative move are relative, and the block goes the re
   CHECK(
       relative_rewritten("N4 X3. F50.\n",
                          {{.move = 1, .inserted = {{{1, 0.25, 0}}, {{2, 0.25, 0}}}, .end_mm = {3, 0, 0}}}) ==
-      "X1.000 Y0.250 F50.\nX1.000 F50.\nN4 X1. Y-0.250 F50.\n");
+      "N4 X1.000 Y0.250 F50.\nX1.000 F50.\nX1. Y-0.250 F50.\n");
   CHECK(
       relative_rewritten("G1 X3. M8\nX1.\n", {{.move = 1, .inserted = {{{1, 0.25, 0}}}, .end_mm = {3, 0, 0}},
                                               {.move = 2, .end_mm = {4, 0, 0}}}) ==

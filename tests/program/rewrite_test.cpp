@@ -87,14 +87,55 @@ TEST_CASE("what a skippable block inserts is unknown afterwards and programmed a
 }
 
 TEST_CASE(
-    "pieces of a split move precede it and copy motion, feed and block delete, but no N and no comment") {
+    "pieces of a split move precede it and copy motion, feed and block delete, but no comment") {
   const MoveEdit edit{.inserted = {{{1, 0.25, 0}}, {{2, 0.25, 0}}}, .end_mm = {3, 0, 0}};
   CHECK(rewritten("N10 G01 X3. F100. (edge)\n", {3, 0, 0}) == "N10 G01 X3. F100. (edge)\n");
   CHECK(with_last_move(std::string(start) + "N10 G01 X3. F100. (edge)\r\n", edit) ==
         std::string(start) +
-            "G01 X1.000 Y0.250 F100.\r\nG01 X2.000 F100.\r\nN10 G01 X3. Y0.000 F100. (edge)\r\n");
+            "N10 G01 X1.000 Y0.250 F100.\r\nG01 X2.000 F100.\r\nG01 X3. Y0.000 F100. (edge)\r\n");
   CHECK(with_last_move(std::string(start) + "G1 F100\n/ x3.\n", edit) ==
         std::string(start) + "G1 F100\n/ x1.000 y0.250\n/ x2.000\n/ x3. y0.000\n");
+}
+
+TEST_CASE("the first piece of a split block has its N, so that a restart there runs the whole move") {
+  const MoveEdit edit{.inserted = {{{1, 0.25, 0}}}, .end_mm = {3, 0, 0}};
+  const auto split = [&](const std::string& block, const std::string& dialect) {
+    return with_last_move(start + block, edit, dialect).substr(sizeof start - 1);
+  };
+  CHECK(split("N50 G1 X3. F9.\n", "fanuc") == "N50 G1 X1.000 Y0.250 F9.\nG1 X3. Y0.000 F9.\n");
+  CHECK(split("G01 N50 X3. F9.\n", "haas") == "N50 G01 X1.000 Y0.250 F9.\nG01 X3. Y0.000 F9.\n");
+  CHECK(split("n50g1x3.f9.\n", "grbl") == "n50g1x1.000y0.250f9.\ng1x3.y0.000f9.\n");
+  CHECK(split("/N50 G1 X3. F9\n", "linuxcnc") == "/N50 G1 X1.000 Y0.250 F9\n/G1 X3. Y0.000 F9\n");
+  CHECK(split("N50 G1 X3. F9 M8\n", "mach3") == "N50 G1 X1. Y0.250 F9 M8\nG1 X3.000 Y0.000 F9\n");
+  CHECK(with_last_move("G71 G0 X0. Y0. Z0.\nN50 NEXT: G1 X3. F9\n", edit, "siemens") ==
+        "G71 G0 X0. Y0. Z0.\nN50 NEXT: G1 X1. Y0.250 F9\nG1 X3.000 Y0.000 F9\n");
+  CHECK(with_last_move(std::string(start) + "N50 Z5.\n", {.jump_mm = Vector3(0, 1, 0), .end_mm = {0, 1, 5}}) ==
+        std::string(start) + "N50 G1 Y1.000\nG0 Z5.\n");
+}
+
+TEST_CASE("the other pieces are numbered where the program leaves numbers free, and counted where not") {
+  const auto split = [](const std::string& text) {
+    const Program program = read(text, "mach3");
+    BlockNumbers numbers;
+    numbers.add(text);
+    numbers.finish();
+    const MoveEdit edit{.move = 1, .inserted = {{{1, 0.25, 0}}, {{2, 0.25, 0}}}, .end_mm = {3, 0, 0}};
+    return rewrite(program, {edit}, {.number_pieces = &numbers});
+  };
+  const std::string head = "G21 G0 X0. Y0. Z0.\n";
+  CHECK(split(head + "N0050 G1 X3. F9\nN0053 X4.\n").text ==
+        head + "N0050 G1 X1.000 Y0.250 F9\nN0051 G1 X2.000 F9\nN0052 G1 X3. Y0.000 F9\nN0053 X4.\n");
+  const std::string bare = "N50 G1 X1.000 Y0.250 F9\nG1 X2.000 F9\nG1 X3. Y0.000 F9\n";
+  for (const std::string rest : {"N52 X4.\n", "(BACK TO N51)\n", "N50 X4.\n"}) {
+    CAPTURE(rest);
+    const Rewritten out = split(head + "N50 G1 X3. F9\n" + rest);
+    CHECK(out.text == head + bare + rest);
+    CHECK(out.unnumbered_pieces == 2);
+    CHECK(out.first_unnumbered_line == 2);
+  }
+  CHECK(split(head + "N9998 G1 X3. F9\n").unnumbered_pieces == 2);
+  CHECK(split("N10000 " + head + "N9990 G1 X3. F9\n").unnumbered_pieces == 0);
+  CHECK(split(head + "G1 X3. F9\n").unnumbered_pieces == 0);
 }
 
 TEST_CASE("a last line without a line end gets none, and its pieces the file's") {

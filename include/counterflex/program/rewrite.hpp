@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "counterflex/geometry/curve.hpp"
+#include "counterflex/program/block_numbers.hpp"
 #include "counterflex/program/program.hpp"
 
 namespace counterflex {
@@ -16,6 +17,9 @@ struct WriteOptions {
   int decimals = -1;  ///< digits after the point of changed and inserted words; -1: the word's own, at least
                       ///< the dialect's resolution
   std::vector<std::string> header;  ///< texts of the header's comments, without comment characters
+  const BlockNumbers* number_pieces = nullptr;  ///< of the program: the pieces of a block Nn but the first
+                                                ///< become Nn+1, Nn+2 ... where these are free; null: they
+                                                ///< have no N
 };
 
 /// A point on the way of a move, and how it is come to: straight, or about a centre in the move's own plane
@@ -83,6 +87,8 @@ struct Rewritten {
   std::size_t inserted_words = 0;  ///< in blocks of the input
   std::size_t inserted_blocks = 0;
   std::vector<std::size_t> blocks_of_edit;  ///< blocks inserted for each edit: its jump and its points
+  std::size_t unnumbered_pieces = 0;        ///< for which `WriteOptions::number_pieces` had no room
+  int first_unnumbered_line = 0;            ///< line of the first block with such pieces; 0: none
 };
 
 /// How far (mm) the sticky Z and R of canned cycles in the written text lie from those that the original
@@ -119,12 +125,12 @@ class Rewriter {
   std::unique_ptr<State> state_;
 };
 
-/// Applies `edits`, in the order of moves, at most one a move. A move without an edit keeps its text, but a
-/// block that relies on the modal motion says it behind an edit that left another; an axis that is unknown at
-/// a move's end and has no word there is left alone, and so is a fixed one. Inserted points that the
-/// resolution cannot tell from the one before give no block. Throws `InputError` (Exit::program_text) for an
-/// integer word in a block that must be rewritten (see IntegerWords) and for a block that would be longer
-/// than the control reads.
+/// Applies `edits`, in the order of moves, at most one a move. The N of a block is that of its first piece. A
+/// move without an edit keeps its text, but a block that relies on the modal motion says it behind an edit
+/// that left another; an axis that is unknown at a move's end and has no word there is left alone, and so is
+/// a fixed one. Inserted points that the resolution cannot tell from the one before give no block. Throws
+/// `InputError` (Exit::program_text) for an integer word in a block that must be rewritten (see IntegerWords)
+/// and for a block that would be longer than the control reads.
 Rewritten rewrite(const Program& program, const std::vector<MoveEdit>& edits, const WriteOptions& options);
 
 }  // namespace counterflex
