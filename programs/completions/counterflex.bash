@@ -9,7 +9,7 @@ _counterflex_words() {
     predict | verify) echo "$program $forces --blend-mm --plot --report --min-block-ms --json --quiet --verbose --help" ;;
     watch) echo "$program $forces --blend-mm --output --plot --report --min-block-ms --once --pattern --json --quiet --verbose --help" ;;
     compare) echo "--name --report --json --quiet --verbose --help" ;;
-    analyze) echo "--machine --at --tool --force --method $config --json --quiet --verbose --help" ;;
+    analyze) echo "--machine --at --tool --force --full --hold --curve --output --method $config --json --quiet --verbose --help" ;;
     forces) echo "$reading $forces --output --materials --json --quiet --verbose --help" ;;
     check) echo "$reading --json --quiet --verbose --help" ;;
     batch) echo "--resume --shard --merge --estimate --threads --json --quiet --verbose --help" ;;

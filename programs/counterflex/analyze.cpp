@@ -74,10 +74,63 @@ const std::pair<const long, Tool>& tool_named(const std::string& text, const Mac
                                known.empty() ? "none" : known));
 }
 
+/// Throws (Exit::usage) where values are wrong or do not belong together; before files are read.
+void check_values(const Options& options) {
+  for (const std::string& text : options.at) pose_of("--at", text);
+  if (options.hold) pose_of("--hold", *options.hold);
+  if (options.curve) curve_of("--curve", *options.curve);
+  if (!options.output) return;
+  if (!options.curve)
+    throw InputError(Exit::usage, {}, "--output of analyze writes the points of --curve, which is not given");
+  if (!options.output->ends_with(".csv"))
+    throw InputError(Exit::usage, {},
+                     fmt::format("--output of analyze writes a file that ends in .csv, not '{}'", *options.output));
+  check_output(options);
+}
+
+AnalysisExtras extras_of(const Options& options, const Model& machine, const Model& model) {
+  AnalysisExtras extras{&machine.mechanism, options.full, {}, {}};
+  if (options.hold) {
+    const PoseText held = pose_of("--hold", *options.hold);
+    extras.hold = held.has_orientation ? held.X : Pose{tip(model.mechanism, model.home).R, held.X.p};
+  }
+  if (options.curve) {
+    const CurveText curve = curve_of("--curve", *options.curve);
+    extras.curve = CurveRequest{curve.direction, curve.from, curve.to, curve.steps};
+  }
+  return extras;
+}
+
+/// Says which states of --hold and --curve were not found.
+Exit judge_extras(const AnalysisReport& report, const Options& options, Console& console) {
+  Exit exit = Exit::done;
+  const auto fail = [&](const std::string& what) {
+    console.error(what);
+    exit = Exit::not_compensated;
+  };
+  for (std::size_t i = 0; i < report.poses.size(); ++i) {
+    const PoseAnalysis& pose = report.poses[i];
+    if (pose.held && pose.held->status != Status::converged)
+      fail(fmt::format("--hold {}: error: {}: {}", *options.hold, to_string(pose.held->status), pose.held->why));
+    if (pose.curve && pose.curve->status != Status::converged)
+      fail(fmt::format("--curve {}: error: {} at --at {}: {} of {} points were found", *options.curve,
+                       to_string(pose.curve->status), options.at[i], pose.curve->points.size(),
+                       report.curve->steps + 1));
+  }
+  return exit;
+}
+
+void write_curve(const AnalysisReport& report, const Options& options) {
+  if (!options.output) return;
+  FileWriter file(*options.output);
+  file.write(to_csv(report));
+  publish_together({&file});
+}
+
 }  // namespace
 
 Exit run_analyze(const Options& options, Console& console) {
-  for (const std::string& text : options.at) pose_of("--at", text);  // before files are read
+  check_values(options);
   const MachineInput input = read_machine_input(options);
   const Load load{options.force.value_or(Vector6::Zero()), false};
   console.progress("solving");
@@ -85,10 +138,12 @@ Exit run_analyze(const Options& options, Console& console) {
   const Model with_tool = tool ? prepare_with_tool(input.machine, input.model, tool->second) : Model{};
   const Model& model = tool ? with_tool : input.model;
   const std::vector<Pose> asked = wanted_poses(options, model);
-  AnalysisReport report = analyze(model, asked, load, options.method, version);
+  AnalysisReport report = analyze(model, asked, load, options.method, version, extras_of(options, input.model, model));
   if (tool) report.tool = fmt::format("tool T{}: {}", tool->first, stiffness_phrase(tool->second));
   write_result(options.json ? to_json(report) : to_text(report));
-  return judge(report, asked, options, console);
+  write_curve(report, options);
+  const Exit exit = judge(report, asked, options, console), extras = judge_extras(report, options, console);
+  return exit == Exit::done ? extras : exit;
 }
 
 }  // namespace counterflex::cli

@@ -144,6 +144,15 @@ void add_analyze(CLI::App& app, Options& options) {
                "A constant wrench on the tool at its tip in feed moves: N and N m, machine frame",
                [&](const std::string& text) { options.force = parse_force(text); });
   add_setting(command, options, "method");
+  command.add_flag("--full", options.full, "Every chain in full: stiffness, energy, each joint and spring by name");
+  value_option(command, "--hold", "X,Y,Z[,R,P,Y]",
+               "Hold the tip at this pose, the actuators commanded for --at: the wrenches of the chains",
+               [&](const std::string& text) { options.hold = text; });
+  value_option(command, "--curve", "DIRECTION=FROM:TO:STEPS",
+               "Force over displacement of the tip, mm, along x, y, z or a vector 1,0,1; the critical load",
+               [&](const std::string& text) { options.curve = text; });
+  value_option(command, "-o,--output", "OUTPUT", "A table (.csv) of the points of --curve to write",
+               [&](const std::string& text) { options.output = text; });
   add_config(command, options);
   add_output(command, options);
 }

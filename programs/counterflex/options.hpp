@@ -60,6 +60,9 @@ struct Options {
   std::map<long, double> tool_lengths_mm;  ///< of --tool-length
   std::vector<std::string> at;             ///< "X,Y,Z[,R,P,Y]"
   std::optional<std::string> tool;         ///< "T3"
+  bool full = false;                       ///< analyze alone: details of every chain
+  std::optional<std::string> hold;         ///< analyze alone: "X,Y,Z[,R,P,Y]"
+  std::optional<std::string> curve;        ///< analyze alone: "DIRECTION=FROM:TO:STEPS"
 
   Method method = Method::direct;
   double tolerance = 5e-6;               ///< m

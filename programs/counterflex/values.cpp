@@ -77,6 +77,28 @@ PoseText pose_of(std::string_view name, std::string_view text) {
   return {Pose{from_rpy(values.tail<3>() * deg), values.head<3>() * mm}, parts.size() == 6};
 }
 
+CurveText curve_of(std::string_view name, std::string_view text) {
+  const std::size_t equals = text.find('='), first = text.find(':', equals), second = text.find(':', first + 1);
+  if (equals == std::string_view::npos || first == std::string_view::npos || second == std::string_view::npos)
+    throw InputError(Exit::usage, {},
+                     fmt::format("{}: '{}' must be a direction, two displacements in mm and a number of steps, "
+                                 "as z=0:-12:24 or 1,0,1=0:5:10",
+                                 name, text));
+  const std::string_view axis = text.substr(0, equals);
+  CurveText curve{Vector3::Zero()};
+  if (axis == "x" || axis == "y" || axis == "z")
+    curve.direction[axis[0] - 'x'] = 1;
+  else
+    curve.direction = pose_of(name, axis).X.p;
+  if (curve.direction.norm() == 0)
+    throw InputError(Exit::usage, {}, fmt::format("{}: the direction of '{}' must not be zero", name, text));
+  curve.direction.normalize();
+  curve.from = number_of(name, text.substr(equals + 1, first - equals - 1)) * mm;
+  curve.to = number_of(name, text.substr(first + 1, second - first - 1)) * mm;
+  curve.steps = integer_of(name, text.substr(second + 1), 1, 10000);
+  return curve;
+}
+
 std::pair<std::string, Pose> work_of(std::string_view text, std::string_view name) {
   const std::size_t equals = text.find('=');
   if (equals == std::string_view::npos)

@@ -30,6 +30,15 @@ struct PoseText {
 };
 PoseText pose_of(std::string_view name, std::string_view text);
 
+/// "z=0:-12:24" or "1,0,1=0:5:10": a direction in the machine frame (made a unit vector), and the first and last
+/// displacement (mm) and the number of steps between them.
+struct CurveText {
+  Vector3 direction;
+  double from = 0, to = 0;  ///< m
+  int steps = 1;
+};
+CurveText curve_of(std::string_view name, std::string_view text);
+
 /// "G54=X,Y,Z[,RX,RY,RZ]": the offset as programs name it, and its pose.
 std::pair<std::string, Pose> work_of(std::string_view text, std::string_view name = "--work");
 

@@ -2,11 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/LU>
+#include <cmath>
 
 #include "counterflex/geometry/spectrum.hpp"
+#include "counterflex/statics/hold.hpp"
 #include "counterflex/statics/linear.hpp"
 #include "counterflex/statics/nested.hpp"
+#include "counterflex/statics/tip_compliance.hpp"
 
 namespace counterflex {
 
@@ -118,36 +120,68 @@ void find_weakest(const Matrix6& K, double length, PoseAnalysis& result) {
   show_largest_positive(result.weakest);
 }
 
-// What a pure force meets: the translational block of the compliance.
-void find_softest(const Matrix6& K, PoseAnalysis& result) {
-  const Eigen::FullPivLU<Matrix6> lu(K);
-  if (!lu.isInvertible()) return;
-  const Matrix3 C = lu.inverse().topLeftCorner<3, 3>();
+// What a force at the tip meets: the translational block of the compliance there.
+void find_softest(const Matrix6& compliance, PoseAnalysis& result) {
+  const Matrix3 C = compliance.topLeftCorner<3, 3>();
   const Spectrum compliances = spectrum((C + C.transpose()) / 2);
+  const double stiffness = stiffness_along(compliance, compliances.vectors.col(2));
+  if (!std::isfinite(stiffness)) return;
   result.softest = compliances.vectors.col(2);
-  result.softest_stiffness = 1 / compliances.values[2];
+  result.softest_stiffness = stiffness;
   show_largest_positive(result.softest);
 }
 
-void describe(const Model& model, const Solved& solved, const Load& load, StaticsWork& work,
-              PoseAnalysis& result) {
+void describe(const Mechanism& machine, const Model& model, const Solved& solved, const Load& load,
+              StaticsWork& work, PoseAnalysis& result) {
   result.deviation = solved.deviation;
-  result.chains = loads(model, solved.configuration, everything);
+  result.chains = loads_without_tool(machine, model, solved.configuration, everything);
   const ManipulatorStiffness sum = stiffness(model, solved.stiff, solved.stiff_stage, work);
   result.K = sum.K;
   result.stiffness_available = sum.available;
-  if (sum.available) {
-    find_weakest(sum.K, model.mechanism.length, result);
-    find_softest(sum.K, result);
-  }
+  if (sum.available) find_weakest(sum.K, model.mechanism.length, result);
   const Load acting = result.method == Method::linear ? Load{} : load;
+  result.tip_compliance = compliance_at_tip(model, solved.stiff, acting, solved.stiff_stage, work);
+  if (result.tip_compliance) {
+    find_softest(*result.tip_compliance, result);
+    result.tip_stiffness = inverse_compliance(*result.tip_compliance, model.mechanism.length);
+  }
   result.condition = static_condition(model, solved.stiff, acting, solved.stiff_stage, work);
   result.stability = stability(model, solved.stiff, acting, solved.stiff_stage, work);
 }
 
+HeldPose hold(const Model& model, const Configuration& nominal, const Pose& X_MT, StaticsWork& work) {
+  HeldPose result{X_MT};
+  const HeldPlatform held =
+      hold_platform(model, nominal, X_MT * inverse(model.mechanism.X_PT), everything, work);
+  result.status = held.status;
+  if (held.status != Status::converged) {
+    result.why = fmt::format("chain {}: {}", model.mechanism.chains[held.chain].name,
+                             held.status == Status::singular
+                                 ? "it has no stiffness of its own, so that some poses of its end cannot be held"
+                                 : "its equilibrium was not found; choose a pose nearer to the wanted one");
+    return result;
+  }
+  result.chains =
+      chain_details(model, nominal, held.configuration, difference(held.configuration.X_MP, nominal.X_MP),
+                    {held.configuration, everything}, work);
+  result.at_platform = holding_wrench(held.configuration);
+  result.at_tip = holding_wrench_at_tip(model.mechanism, held.configuration);
+  return result;
+}
+
+void add_extras(const Model& model, const Configuration& nominal, const Load& load,
+                const AnalysisExtras& extras, StaticsWork& work, PoseAnalysis& result) {
+  if (extras.hold) result.held = hold(model, nominal, *extras.hold, work);
+  if (!extras.curve) return;
+  CurveRequest request = *extras.curve;
+  request.load = load;
+  result.curve = force_curve(model, nominal, request, work);
+}
+
 }  // namespace
 
-PoseAnalysis analyze_pose(const Model& model, const Pose& X_MT, const Load& load, Method method) {
+PoseAnalysis analyze_pose(const Model& model, const Pose& X_MT, const Load& load, Method method,
+                          const AnalysisExtras& extras) {
   StaticsWork work(model.mechanism);
   PoseAnalysis result;
   result.X_MT = X_MT;
@@ -163,10 +197,16 @@ PoseAnalysis analyze_pose(const Model& model, const Pose& X_MT, const Load& load
                             : solve_finite(model, nominal.configuration, result.X_MT, load, work);
   result.status = with_travel(model.mechanism, result.rho, solved.status);
   result.why = words(result.status, false);
-  if (has_values(result.status))
-    describe(model, solved, load, work, result);
-  else
+  if (has_values(result.status)) {
+    describe(extras.machine ? *extras.machine : model.mechanism, model, solved, load, work, result);
+    if (extras.full)
+      result.details = chain_details(model, nominal.configuration, solved.configuration,
+                                     difference(solved.configuration.X_MP, nominal.configuration.X_MP),
+                                     {solved.stiff, solved.stiff_stage}, work);
+  } else {
     result.weakest = solved.weakest;
+  }
+  add_extras(model, nominal.configuration, load, extras, work, result);
   result.indeterminate = solved.indeterminate;
   if (solved.status == Status::singular && !solved.weakest.isZero(0))
     result.why += fmt::format(
@@ -181,10 +221,11 @@ PoseAnalysis analyze_pose(const Model& model, const Pose& X_MT, const Load& load
 }
 
 AnalysisReport analyze(const Model& model, const std::vector<Pose>& poses, const Load& load, Method method,
-                       const std::string& version) {
+                       const std::string& version, const AnalysisExtras& extras) {
   AnalysisReport report{version, model.mechanism.name, load, model.mechanism.travel, {}};
   report.weighs = has_weight(model.mechanism);
-  for (const Pose& X_MT : poses) report.poses.push_back(analyze_pose(model, X_MT, load, method));
+  report.curve = extras.curve;
+  for (const Pose& X_MT : poses) report.poses.push_back(analyze_pose(model, X_MT, load, method, extras));
   return report;
 }
 

@@ -2,28 +2,13 @@
 
 #include "counterflex/compensation/options.hpp"
 #include "counterflex/geometry/units.hpp"
-#include "counterflex/report/analysis.hpp"
+#include "analysis_parts.hpp"
 #include "json_numbers.hpp"
 #include "names.hpp"
 
 namespace counterflex {
 
 namespace {
-
-constexpr int analysis_digits = 9;  // 1e-9 mm, deg, N, N m
-constexpr int significant_digits = 12;
-
-Json six(const Vector6& values) {
-  Json list = Json::array();
-  for (double value : values) list.push_back(significant(value, significant_digits));
-  return list;
-}
-
-Json matrix(const Matrix6& K) {
-  Json rows = Json::array();
-  for (int i = 0; i < 6; ++i) rows.push_back(six(K.row(i).transpose()));
-  return rows;
-}
 
 Json actuators(const Eigen::VectorXd& rho, const std::vector<Travel>& travel) {
   Json list = Json::array();
@@ -62,9 +47,9 @@ Json chains_json(const std::vector<ChainLoads>& chains) {
   return list;
 }
 
-Json pose_json(const PoseAnalysis& pose, const std::vector<Travel>& travel) {
+Json standard_json(const PoseAnalysis& pose, const std::vector<Travel>& travel) {
   const bool known = has_values(pose.status), stiff = known && pose.stiffness_available;
-  const bool soft = stiff && pose.softest_stiffness != 0;
+  const bool soft = known && pose.softest_stiffness != 0;
   const bool direction = !pose.weakest.isZero(0);
   const auto if_known = [&](Json value) { return known ? value : Json(nullptr); };
   return {{"target_mm", numbers(Vector3(pose.X_MT.p / mm), analysis_digits)},
@@ -74,22 +59,44 @@ Json pose_json(const PoseAnalysis& pose, const std::vector<Travel>& travel) {
           {"why", pose.why.empty() ? Json(nullptr) : Json(pose.why)},
           {"displacement_mm", if_known(numbers(Vector3(pose.deviation.head<3>() / mm), analysis_digits))},
           {"rotation_deg", if_known(numbers(Vector3(pose.deviation.tail<3>() / deg), analysis_digits))},
-          {"stiffness_si", stiff ? matrix(pose.K) : Json(nullptr)},
-          {"weakest_direction", direction ? six(pose.weakest) : Json(nullptr)},
+          {"stiffness_si", stiff ? matrix_json(pose.K) : Json(nullptr)},
+          {"tip_stiffness_si", pose.tip_stiffness ? matrix_json(*pose.tip_stiffness) : Json(nullptr)},
+          {"tip_compliance_si", pose.tip_compliance ? matrix_json(*pose.tip_compliance) : Json(nullptr)},
+          {"weakest_direction", direction ? six_json(pose.weakest) : Json(nullptr)},
           {"weakest_stiffness_N_per_m",
-           stiff ? significant(pose.weakest_stiffness, significant_digits) : Json(nullptr)},
+           stiff ? significant(pose.weakest_stiffness, analysis_significant_digits) : Json(nullptr)},
           {"softest_direction", soft ? numbers(pose.softest, analysis_digits) : Json(nullptr)},
           {"softest_stiffness_N_per_m",
-           soft ? significant(pose.softest_stiffness, significant_digits) : Json(nullptr)},
+           soft ? significant(pose.softest_stiffness, analysis_significant_digits) : Json(nullptr)},
           {"indeterminate_wrenches", pose.indeterminate},
-          {"condition", if_known(significant(pose.condition, significant_digits))},
-          {"stability", if_known(significant(pose.stability, significant_digits))},
+          {"condition", if_known(significant(pose.condition, analysis_significant_digits))},
+          {"stability", if_known(significant(pose.stability, analysis_significant_digits))},
           {"actuators", known || pose.rho.size() > 0 ? actuators(pose.rho, travel) : Json(nullptr)},
           {"corrected", corrected_json(pose, travel)},
           {"chains", chains_json(pose.chains)}};
 }
 
+Json pose_json(const PoseAnalysis& pose, const std::vector<Travel>& travel) {
+  Json json = standard_json(pose, travel);
+  if (!pose.details.empty()) json["full"] = details_json(pose.details);
+  if (pose.held) json["held"] = held_json(*pose.held);
+  if (pose.curve) json["curve"] = curve_json(*pose.curve);
+  return json;
+}
+
 }  // namespace
+
+Json six_json(const Vector6& values) {
+  Json list = Json::array();
+  for (double value : values) list.push_back(significant(value, analysis_significant_digits));
+  return list;
+}
+
+Json matrix_json(const Matrix6& K) {
+  Json rows = Json::array();
+  for (int i = 0; i < 6; ++i) rows.push_back(six_json(K.row(i).transpose()));
+  return rows;
+}
 
 std::string to_json(const AnalysisReport& report) {
   Json poses = Json::array();

@@ -1,9 +1,13 @@
 #include <fmt/core.h>
 
+#include <array>
+#include <cmath>
+
 #include "counterflex/compensation/options.hpp"
 #include "counterflex/files/numbers.hpp"
 #include "counterflex/geometry/units.hpp"
-#include "counterflex/report/analysis.hpp"
+#include "analysis_parts.hpp"
+#include "counterflex/statics/tip_compliance.hpp"
 #include "names.hpp"
 #include "text_layout.hpp"
 
@@ -117,11 +121,21 @@ std::string corrected_targets(const AnalysisReport& report) {
   return text;
 }
 
+std::string newtons_per_um(double stiffness) {
+  return std::isfinite(stiffness) ? number_text(stiffness * um, 3) : "rigid";
+}
+
 std::string softest(const PoseAnalysis& pose) {
-  if (pose.softest_stiffness == 0) return "      singular: some force is not resisted\n";
-  return fmt::format("      softest to a force along ({}, {}, {}): {} N/um\n",
-                     number_text(pose.softest.x(), 3), number_text(pose.softest.y(), 3),
-                     number_text(pose.softest.z(), 3), number_text(pose.softest_stiffness * um, 3));
+  const Matrix6& C = *pose.tip_compliance;
+  std::string text = fmt::format("      a force at the tip along x, y, z meets {}, {}, {} N/um",
+                                 newtons_per_um(stiffness_along(C, Vector3::UnitX())),
+                                 newtons_per_um(stiffness_along(C, Vector3::UnitY())),
+                                 newtons_per_um(stiffness_along(C, Vector3::UnitZ())));
+  if (pose.softest_stiffness != 0)
+    text += fmt::format("\n      softest to a force at the tip along ({}, {}, {}): {} N/um",
+                        number_text(pose.softest.x(), 3), number_text(pose.softest.y(), 3),
+                        number_text(pose.softest.z(), 3), newtons_per_um(pose.softest_stiffness));
+  return text + "\n";
 }
 
 // What is zero but for rounding is shown as zero.
@@ -130,22 +144,43 @@ double clean(const Matrix6& K, int i, int j) {
   return std::abs(K(i, j)) < 1e-9 * scale ? 0.0 : K(i, j);
 }
 
-std::string stiffness_of(std::size_t index, const PoseAnalysis& pose) {
-  if (!pose.stiffness_available)
-    return fmt::format("  {:>3} none: a chain has no stiffness of its own at its end\n", index);
-  std::string text;
+// Names of the columns, and of the rows before them.
+struct MatrixLabels {
+  std::array<const char*, 6> columns, rows;
+};
+constexpr MatrixLabels stiffness_labels{{"x, m", "y, m", "z, m", "rx, rad", "ry, rad", "rz, rad"},
+                                        {"fx, N", "fy, N", "fz, N", "mx, N m", "my, N m", "mz, N m"}};
+constexpr MatrixLabels compliance_labels{{"fx, N", "fy, N", "fz, N", "mx, N m", "my, N m", "mz, N m"},
+                                         {"x, um", "y, um", "z, um", "rx, urad", "ry, urad", "rz, urad"}};
+
+std::string matrix_text(std::size_t index, const Matrix6& K, const MatrixLabels& labels) {
+  std::string text = fmt::format("  {:>3} {:<9}", index, "");
+  for (const char* column : labels.columns) text += fmt::format("{:>13}", column);
+  text += "\n";
   for (int i = 0; i < 6; ++i) {
-    text += i == 0 ? fmt::format("  {:>3} ", index) : "      ";
-    for (int j = 0; j < 6; ++j) text += fmt::format("{:>13.4e}", clean(pose.K, i, j));
+    text += fmt::format("      {:<9}", labels.rows[i]);
+    for (int j = 0; j < 6; ++j) text += fmt::format("{:>13.4e}", clean(K, i, j));
     text += "\n";
   }
-  return text + softest(pose);
+  return text;
+}
+
+std::string stiffness_of(std::size_t index, const PoseAnalysis& pose) {
+  if (!pose.tip_compliance)
+    return fmt::format("  {:>3} none: some wrench at the tip is not resisted\n", index);
+  if (!pose.tip_stiffness)
+    return fmt::format("  {:>3} none: the machine is rigid in some direction\n", index) + softest(pose);
+  return matrix_text(index, *pose.tip_stiffness, stiffness_labels) + softest(pose);
 }
 
 std::string stiffnesses(const AnalysisReport& report) {
-  std::string text = "\nStiffness at the reference point, N/m, N/rad, N m/m, N m/rad\n";
+  std::string text = "\nStiffness at the tool tip, machine axes: wrench (rows) per motion (columns)\n";
   for (std::size_t i = 0; i < report.poses.size(); ++i)
     if (has_values(report.poses[i].status)) text += stiffness_of(i + 1, report.poses[i]);
+  text += "\nCompliance at the tool tip, machine axes: motion (rows) per wrench (columns)\n";
+  for (std::size_t i = 0; i < report.poses.size(); ++i)
+    if (const auto& C = report.poses[i].tip_compliance)
+      text += matrix_text(i + 1, *C / um, compliance_labels);
   return text;
 }
 
@@ -153,7 +188,8 @@ std::string stiffnesses(const AnalysisReport& report) {
 
 std::string to_text(const AnalysisReport& report) {
   return title(report) + deviations(report) + chain_loads(report) + actuators(report) +
-         corrected_targets(report) + stiffnesses(report);
+         corrected_targets(report) + stiffnesses(report) + details_text(report) + held_text(report) +
+         curves_text(report);
 }
 
 }  // namespace counterflex

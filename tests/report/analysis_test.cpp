@@ -7,6 +7,8 @@
 
 #include "counterflex/geometry/units.hpp"
 #include "counterflex/machine/read_machine.hpp"
+#include "counterflex/machine/tool.hpp"
+#include "counterflex/statics/tool_models.hpp"
 #include "support/text.hpp"
 
 using namespace counterflex;
@@ -151,10 +153,96 @@ TEST_CASE(
   const PoseAnalysis pose = analyze_pose(orthoglide(), at_mm(126.35, 126.35, -73.65), {}, Method::linear);
   REQUIRE(pose.stiffness_available);
   CHECK((pose.K - pose.K.transpose()).norm() < 1e-9 * pose.K.norm());
-  const Matrix3 C = pose.K.inverse().topLeftCorner<3, 3>();
+  REQUIRE(pose.tip_compliance);
+  CHECK(pose.tip_compliance->isApprox(pose.K.inverse(), 1e-9));  // the tip is at the reference point
+  const Matrix3 C = pose.tip_compliance->topLeftCorner<3, 3>();
   CHECK(pose.softest.dot(C * pose.softest) == doctest::Approx(1 / pose.softest_stiffness).epsilon(1e-9));
   for (const Vector3& e : {Vector3(Vector3::UnitX()), Vector3(Vector3::UnitY()), Vector3(Vector3::UnitZ())})
     CHECK(e.dot(C * e) <= 1 / pose.softest_stiffness * (1 + 1e-9));
+}
+
+// Source: an independent solver; a force at the reference point would meet 1.012 N/um.
+TEST_CASE("the softest direction of a robot is that of a force at its tip") {
+  const Model model =
+      prepare(load_machine(std::string(COUNTERFLEX_SOURCE_DIR) + "/samples/robot-spindle/machine.toml"));
+  const AnalysisReport report =
+      analyze(model, {tip(model.mechanism, model.home)}, {}, Method::linear, "0.1.0");
+  CHECK(report.poses[0].softest_stiffness == doctest::Approx(0.590e6).epsilon(1e-3));
+  CHECK(contains(to_text(report), ": 0.590 N/um\n"));
+  CHECK(contains(to_text(report), "Stiffness at the tool tip"));
+  CHECK(contains(to_text(report), "      rx, urad "));
+}
+
+// Without the tool the same force at the same tip gives the machine's springs and joints the same loads.
+TEST_CASE("a tool that bends counts in no load of a pose, and leaves every chain its row") {
+  const struct {
+    const char* sample;
+    Pose X_MT;
+  } cases[] = {{"mill3", at_mm(200, 100, -200)}, {"orthoglide-groove", at_mm(0, 0, 0)}};
+  for (const auto& [sample, X_MT] : cases) {
+    CAPTURE(sample);
+    const Machine machine =
+        load_machine(std::string(COUNTERFLEX_SOURCE_DIR) + "/samples/" + sample + "/machine.toml");
+    const Model base = prepare(machine);
+    const Tool tool{.yields = radial_tool(2e6)};
+    const Model bent = prepare_with_tool(machine, base, tool);
+    const Load load{(Vector6() << 100, 0, 0, 0, 0, 0).finished()};
+    const Pose at{tip(base.mechanism, base.home).R, X_MT.p};
+    const PoseAnalysis rigid = analyze_pose(base, at, load, Method::direct);
+    const PoseAnalysis pose = analyze_pose(bent, at, load, Method::direct, {&base.mechanism});
+    REQUIRE(pose.status == Status::converged);
+    REQUIRE(pose.chains.size() == rigid.chains.size());
+    for (std::size_t i = 0; i < pose.chains.size(); ++i) {
+      CHECK(pose.chains[i].name == rigid.chains[i].name);
+      CHECK(pose.chains[i].moment_max == doctest::Approx(rigid.chains[i].moment_max).epsilon(0.01));
+      CHECK(pose.chains[i].spring_translation_max ==
+            doctest::Approx(rigid.chains[i].spring_translation_max).epsilon(0.01));
+      CHECK(pose.chains[i].spring_rotation_max ==
+            doctest::Approx(rigid.chains[i].spring_rotation_max).epsilon(0.01));
+    }
+  }
+}
+
+TEST_CASE("an analysis in full names every joint and spring, and gives each chain's matrices") {
+  const AnalysisReport report = analyze(orthoglide(), {at_mm(20, -30, 10)}, cutting_load(), Method::direct,
+                                        "0.1.0", {.full = true});
+  REQUIRE(report.poses[0].details.size() == 3);
+  const std::string json = to_json(report), text = to_text(report);
+  for (const char* key : {"\"full\": [", "\"energy_J\": ", "\"eps_si\": [", "\"dt_si\": [", "\"K_Cq_si\": [",
+                          "\"K_Ctheta_rows\": [\"5 spring x\", ", "\"element\": \"7/upper_bar/4\""})
+    CHECK(contains(json, key));
+  CHECK(contains(text, "  7/lower_bar/4 spring rz "));
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) {
+    CAPTURE(line);
+    CHECK(line.size() <= 100);
+    CHECK((line.empty() || line.back() != ' '));
+  }
+  CHECK_FALSE(contains(to_json(analyze(orthoglide(), {at_mm(0, 0, 0)}, {}, Method::direct, "0.1.0")), "\"full\""));
+}
+
+TEST_CASE("a held pose has the wrench that holds it, a curve its points, in text, JSON and CSV") {
+  AnalysisExtras extras;
+  extras.hold = at_mm(0.1, 0, 0);
+  extras.curve = CurveRequest{Vector3::UnitX(), 0, 0.1e-3, 2};
+  const AnalysisReport report =
+      analyze(orthoglide(), {at_mm(0, 0, 0)}, {}, Method::direct, "0.1.0", extras);
+  const PoseAnalysis& pose = report.poses[0];
+  REQUIRE(pose.held);
+  REQUIRE(pose.held->status == Status::converged);
+  Vector6 sum = Vector6::Zero();
+  for (const ChainDetail& chain : pose.held->chains) sum += chain.wrench;
+  CHECK((sum - pose.held->at_platform).norm() < 1e-9);
+  CHECK(pose.held->at_tip.norm() > 1);
+  REQUIRE(pose.curve);
+  REQUIRE(pose.curve->points.size() == 3);
+  REQUIRE(pose.tip_compliance);
+  CHECK(pose.curve->points[0].stiffness ==
+        doctest::Approx(1 / (*pose.tip_compliance)(0, 0)).epsilon(1e-6));
+  CHECK(contains(to_json(report), "\"wrench_at_tip_N_Nm\": ["));
+  CHECK(contains(to_json(report), "\"displacement_mm\": 0.05,"));
+  CHECK(contains(to_text(report), "Held with the tip at (0.1000, 0.0000, 0.0000) mm"));
+  CHECK(to_csv(report).starts_with("pose,displacement_mm,force_N,stiffness_N_per_m,stable,x_mm,y_mm,z_mm\n1,0."));
 }
 
 TEST_CASE("a pose outside the actuators' travel is analyzed and says so") {
@@ -227,6 +315,8 @@ TEST_CASE("the JSON of an analysis has its keys in order and lists on one line")
         [0.0, 0.0, 0.0, 0.0, 1000000.0, 0.0],
         [0.0, 0.0, 0.0, 0.0, 0.0, 1000000.0]
       ],
+      "tip_stiffness_si": null,
+      "tip_compliance_si": null,
       "weakest_direction": null,
       "weakest_stiffness_N_per_m": 0.0,
       "softest_direction": null,

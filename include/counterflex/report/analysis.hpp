@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "counterflex/compensation/options.hpp"
+#include "counterflex/statics/chain_detail.hpp"
+#include "counterflex/statics/force_curve.hpp"
 #include "counterflex/statics/loads.hpp"
 
 namespace counterflex {
@@ -23,6 +25,24 @@ struct CorrectedTarget {
                                           ///< `outside_travel`
 };
 
+/// The tip held at a pose, the actuators commanded for the analyzed one: paper's (1).
+struct HeldPose {
+  Pose X_MT;
+  Status status = Status::not_converged;
+  std::string why;  ///< in words where `status` is not `converged`; what follows means something only then
+  std::vector<ChainDetail> chains;
+  Vector6 at_platform = Vector6::Zero();  ///< what holds it: N, N m at the reference point, axes of M
+  Vector6 at_tip = Vector6::Zero();       ///< the same at the tip
+};
+
+/// What `analyze` computes besides the standard tables.
+struct AnalysisExtras {
+  const Mechanism* machine = nullptr;  ///< without the tool that the model has; null: the model has no tool of its own
+  bool full = false;                   ///< details of every chain
+  std::optional<Pose> hold;            ///< X_MT
+  std::optional<CurveRequest> curve;   ///< its load is the analysis's own
+};
+
 struct PoseAnalysis {
   Pose X_MT;  ///< wanted tip: what is controlled as asked for, the rest by nominal kinematics
   Method method = Method::direct;
@@ -34,6 +54,8 @@ struct PoseAnalysis {
       Vector6::Zero();          ///< position (m), rotation vector of R_actual R_target' (rad), axes of M
   Matrix6 K = Matrix6::Zero();  ///< SI, at the reference point; at the nominal pose for `linear`, else at the
                                 ///< loaded one
+  std::optional<Matrix6> tip_compliance;  ///< `compliance_at_tip`, at the same pose
+  std::optional<Matrix6> tip_stiffness;   ///< its inverse; none where the machine is rigid in a direction
   bool stiffness_available = false;          ///< every chain has a stiffness of its own
   Eigen::VectorXd rho;                       ///< nominal actuator values of the wanted pose (m, rad)
   std::optional<CorrectedTarget> corrected;  ///< none where the machine controls nothing
@@ -42,17 +64,21 @@ struct PoseAnalysis {
       Vector6::Zero();  ///< the twist of least stiffness (unit norm, lengths in units of l); zero: unknown
   double weakest_stiffness = 0;  ///< in that direction (N/m); 0: not computed
   Vector3 softest =
-      Vector3::Zero();           ///< direction (M) in which a force at the reference point moves it furthest
-  double softest_stiffness = 0;  ///< force over motion in that direction (N/m); 0: not computed
+      Vector3::Zero();           ///< direction (M) in which a force at the tip moves the tip furthest
+  double softest_stiffness = 0;  ///< force over motion in that direction (N/m); 0: not computed, or rigid
   bool indeterminate =
       false;             ///< redundant rigid closures: the chains' wrenches are the minimum-norm ones of many
   double condition = 0;  ///< of the static system; 0: not computed
   double stability = 0;  ///< see `stability` in statics/equilibrium.hpp; 0: not computed
+  std::vector<ChainDetail> details;  ///< of `AnalysisExtras::full`
+  std::optional<HeldPose> held;
+  std::optional<ForceCurve> curve;
 };
 
 /// The pose `X_MT` of the tip (in the controlled components; all six where nothing is controlled) under
-/// `load`. Never throws: what could not be solved is a status.
-PoseAnalysis analyze_pose(const Model& model, const Pose& X_MT, const Load& load, Method method);
+/// `load`. Loads of chains are those of `extras.machine`. Never throws: what could not be solved is a status.
+PoseAnalysis analyze_pose(const Model& model, const Pose& X_MT, const Load& load, Method method,
+                          const AnalysisExtras& extras = {});
 
 struct AnalysisReport {
   std::string version;  ///< of the tool
@@ -62,11 +88,12 @@ struct AnalysisReport {
   std::vector<PoseAnalysis> poses;
   std::string tool{};   ///< in the spindle, and its stiffness; empty: [tool]
   bool weighs = false;  ///< the machine's own weight acts, too
+  std::optional<CurveRequest> curve{};
 };
 
 /// Every pose of `poses` in order.
 AnalysisReport analyze(const Model& model, const std::vector<Pose>& poses, const Load& load, Method method,
-                       const std::string& version);
+                       const std::string& version, const AnalysisExtras& extras = {});
 
 /// "counterflex-analysis 1" of DESIGN, indented by two spaces, one newline at the end. What was not computed
 /// is null.
@@ -75,5 +102,8 @@ std::string to_json(const AnalysisReport& report);
 /// Tables for people: deviations of all poses, loads by chain, actuators, corrected targets, stiffness.
 /// ASCII, at most 100 columns wide.
 std::string to_text(const AnalysisReport& report);
+
+/// The force curves of all poses: pose, displacement, force, tangent stiffness, stable, position of the tip.
+std::string to_csv(const AnalysisReport& report);
 
 }  // namespace counterflex
