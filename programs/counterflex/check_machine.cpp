@@ -128,7 +128,7 @@ std::string home_text(const Machine& machine, const Model& model, const HomeFact
     line("condition", fmt::format("{:.3g} from actuators to tip", home.actuator_condition));
   if (home.status != Status::converged) return text;
   line("", fmt::format("{:.3g} of the static system", home.static_condition));
-  line("stability", fmt::format("stable: least over largest eigenvalue {:.3g}", home.stability));
+  line("stability", fmt::format("stable: least eigenvalue {:.3g}, each coordinate scaled by its own stiffness", home.stability));
   line("deviation",
        "tip off by " + position_text(home.deviation.head<3>()) + " without load" + weights_text(machine));
   return text;

@@ -8,6 +8,8 @@
 namespace counterflex {
 namespace {
 
+constexpr double smallest_pivot = 1e-13;  // of the diagonal before elimination
+
 // The least energy of a series by a twist xi of its end and, where it leans, a turn w of its start frame:
 // 1/2 (xi' K xi + 2 xi' L w + w' M w), without unit.
 struct LeastEnergy {
@@ -62,6 +64,11 @@ void add_branch(const Series& series, const Part& group, const LeastEnergy& bran
   part.M += M;
 }
 
+// Whether the pivots are positive by more than the rounding of the numbers that they are the difference of.
+bool above_rounding(const Eigen::LLT<Eigen::MatrixXd>& llt, const Eigen::MatrixXd& P) {
+  return (llt.matrixLLT().diagonal().array().square() > smallest_pivot * P.diagonal().array()).all();
+}
+
 // The least energy of a series, if its inside is positive definite with the end held.
 //     A + rho J'J > 0  =>  A > 0 on the null space of J;      K = (J (A + rho J'J)^-1 J')^-1 - rho
 std::optional<LeastEnergy> least_energy(const Series& series, const SeriesWork& work, const Units& units) {
@@ -79,8 +86,9 @@ std::optional<LeastEnergy> least_energy(const Series& series, const SeriesWork& 
   const auto& [A, J, C, M] = part;
   const double rho = std::max(1.0, 10 * A.cwiseAbs().maxCoeff());
   if (rho > 1e4) return std::nullopt;  // the difference below would lose its digits
-  const Eigen::LLT<Eigen::MatrixXd> llt = cholesky(A + rho * J.transpose().lazyProduct(J));
-  if (llt.info() != Eigen::Success) return std::nullopt;
+  const Eigen::MatrixXd P = A + rho * J.transpose().lazyProduct(J);
+  const Eigen::LLT<Eigen::MatrixXd> llt = cholesky(P);
+  if (llt.info() != Eigen::Success || !above_rounding(llt, P)) return std::nullopt;
   const Eigen::MatrixXd P_J = llt.solve(J.transpose());
   const Matrix6 compliance = J.lazyProduct(P_J);
   const Eigen::LLT<Matrix6> inverse(compliance);

@@ -6,7 +6,7 @@
 namespace counterflex {
 namespace {
 
-constexpr double unstable_ratio = -1e-9, largest_condition = 1e10;
+constexpr double largest_condition = 1e10;
 constexpr double first_step = 0.25, smallest_step = 1.0 / 1024;
 
 Stage part_of(const Stage& goal, double s) { return {s * goal.errors, s * goal.load, s * goal.preload, s * goal.gravity}; }
@@ -137,7 +137,7 @@ bool is_stable(const Model& model, const Configuration& configuration, const Pro
                const StaticsWork::Impl& work) {
   const auto applied = applied_wrench(model.mechanism, configuration.X_MP, problem.load, problem.stage.load);
   if (surely_stable(model.mechanism, work.chains, applied.tangent, {model.mechanism.length})) return true;
-  return least_eigenvalue_ratio(whole_system(model, configuration, problem, work)) >= unstable_ratio;
+  return least_scaled_eigenvalue(whole_system(model, configuration, problem, work)) >= 0;
 }
 
 }  // namespace counterflex

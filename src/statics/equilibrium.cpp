@@ -45,7 +45,7 @@ ManipulatorStiffness stiffness(const Model& model, const Configuration& configur
 double stability(const Model& model, const Configuration& configuration, const Load& load, const Stage& stage,
                  StaticsWork& work) {
   evaluate_all(model, configuration, stage, work.impl());
-  return least_eigenvalue_ratio(whole_system(model, configuration, {load, stage, nullptr}, work.impl()));
+  return least_scaled_eigenvalue(whole_system(model, configuration, {load, stage, nullptr}, work.impl()));
 }
 
 double static_condition(const Model& model, const Configuration& configuration, const Load& load, const Stage& stage,

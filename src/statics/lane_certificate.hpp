@@ -11,7 +11,7 @@ class LaneCertificate {
   using V = typename Vectors::V;
   using M = typename Vectors::M;
 
-  static constexpr double smallest_diagonal = 1e-7, largest_penalty = 1e4, margin = 1e-7;
+  static constexpr double smallest_diagonal = 1e-7, largest_penalty = 1e4, margin = 1e-7, smallest_pivot = 1e-13;
 
  public:
   /// After `Kernel::solve` with the same arguments. `scratch` holds `doubles_of_certificate` numbers, aligned to 64 bytes.
@@ -269,17 +269,19 @@ class LaneCertificate {
     return rho;
   }
 
-  // Cholesky's factor in the lower half, its diagonal inverted; a lane whose pivots are not positive is not ok.
+  // Cholesky's factor in the lower half, its diagonal inverted; a lane whose pivots are not positive, by more than the
+  // rounding of the diagonal before elimination, is not ok.
   void factor(V* A, int n, double smallest) {
     for (int i = 0; i < n; ++i)
       for (int j = 0; j <= i; ++j) {
         V sum = A[i * n + j];
+        const V before = sum;
         for (int k = 0; k < j; ++k) sum -= A[i * n + k] * A[j * n + k];
         if (j < i) {
           A[i * n + j] = sum * A[j * n + j];
           continue;
         }
-        const M positive = sum > smallest * smallest;
+        const M positive = (sum > smallest * smallest) & (sum > smallest_pivot * before);
         ok_ &= positive;
         A[i * n + i] = 1 / Vectors::root(Vectors::select(positive, sum, Vectors::broadcast(1)));
       }

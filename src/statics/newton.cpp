@@ -173,8 +173,15 @@ PlatformTerms platform_terms(const Model& model, const Configuration& configurat
 
 WholeSystem whole_system(const Model& model, const Configuration& configuration, const Problem& problem,
                          const StaticsWork::Impl& work) {
-  return assemble_whole(model.mechanism, work.chains, platform_terms(model, configuration, problem),
-                        {model.mechanism.length});
+  const Units units{model.mechanism.length};
+  const Outside acting{platform_terms(model, configuration, problem), std::nullopt};
+  const Residual residual = residual_of(model, configuration, problem, acting, units, work);
+  WholeSystem system = assemble_whole(model.mechanism, work.chains, acting.terms, units);
+  const double by_unit = units.length / units.energy();
+  system.wrench = std::max(1.0, residual.largest) * by_unit;
+  system.force_error =
+      std::min(residual.force, force_tolerance(model.mechanism, configuration.X_MP, residual.largest)) * by_unit;
+  return system;
 }
 
 double force_tolerance(const Mechanism& mechanism, const Pose& X_MP, double largest_wrench) {

@@ -1,6 +1,7 @@
 #include "whole_system.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "counterflex/geometry/spectrum.hpp"
@@ -10,6 +11,7 @@ namespace {
 
 constexpr double zero_singular_value = 1e-13;  // relative: below it is rounding
 constexpr double moves_platform = 1e-6;        // share of a zero mode that lies in the platform's pose
+constexpr double stiff_enough = 1e3;           // without unit: 1e9 N/m
 
 int count_columns(const Series& series) {
   int count = series.columns;
@@ -115,6 +117,23 @@ Eigen::MatrixXd bordered(const WholeSystem& system, const std::vector<int>& colu
   return B;
 }
 
+// Divides rows and columns of variables that are stiffer than `stiff_enough` until they are as stiff as that.
+void soften(const WholeSystem& system, const std::vector<int>& columns, Eigen::MatrixXd& B) {
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    const double stiffness = std::abs(system.A(columns[i], columns[i]));
+    if (stiffness <= stiff_enough) continue;
+    const auto at = static_cast<Eigen::Index>(i);
+    B.row(at) *= std::sqrt(stiff_enough / stiffness);
+    B.col(at) *= std::sqrt(stiff_enough / stiffness);
+  }
+}
+
+// What may be missing to the least eigenvalue: rounding of the matrices, and forces that are out of balance.
+double eigenvalue_error(const WholeSystem& system) {
+  constexpr double rounding = 16 * std::numeric_limits<double>::epsilon();
+  return rounding * static_cast<double>(system.variables.size()) + 4 * system.force_error / system.wrench;
+}
+
 struct StepApplier {
   const WholeStep& step;
   const Units& units;
@@ -207,7 +226,8 @@ double apply(const Mechanism& mechanism, const WholeStep& step, const Units& uni
 
 Condition condition(const WholeSystem& system, const Units& units) {
   const auto columns = unknowns(system, false);
-  const Eigen::MatrixXd B = bordered(system, columns, columns);
+  Eigen::MatrixXd B = bordered(system, columns, columns);
+  soften(system, columns, B);
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(B, Eigen::ComputeThinU | Eigen::ComputeThinV);
   const auto& sigma = svd.singularValues();
   const auto n = sigma.size(), pose = static_cast<Eigen::Index>(columns.size()) - 6;
@@ -227,15 +247,17 @@ Condition condition(const WholeSystem& system, const Units& units) {
   return result;
 }
 
-double least_eigenvalue_ratio(const WholeSystem& system) {
+double least_scaled_eigenvalue(const WholeSystem& system) {
   const auto columns = unknowns(system, false);
-  const Eigen::MatrixXd C = system.C(Eigen::all, columns), A = system.A(columns, columns);
+  Eigen::MatrixXd C = system.C(Eigen::all, columns), A = system.A(columns, columns);
+  const Eigen::VectorXd scale = A.diagonal().cwiseAbs().cwiseMax(system.wrench).cwiseSqrt().cwiseInverse();
+  C = C * scale.asDiagonal();
+  A = scale.asDiagonal() * A * scale.asDiagonal();
   const Eigen::MatrixXd Z = null_space(C, 1e-11);
   if (Z.cols() == 0) return 0;
   const Eigen::MatrixXd symmetric = 0.5 * (A + A.transpose()), Z_A = Z.transpose() * symmetric;
-  const Eigen::VectorXd values = eigenvalues(Z_A * Z);
-  const double largest = values.cwiseAbs().maxCoeff();
-  return largest > 0 ? values[0] / largest : 0;
+  const double least = eigenvalues(Z_A * Z)[0];
+  return least < 0 && least > -eigenvalue_error(system) ? 0 : least;
 }
 
 }  // namespace counterflex

@@ -22,7 +22,9 @@ struct WholeSystem {
   std::vector<Variable> variables;
   Eigen::MatrixXd A, C;
   Eigen::VectorXd gradient, gap;
-  int pose = 0;  ///< first of the platform's variables
+  int pose = 0;            ///< first of the platform's variables
+  double wrench = 0;       ///< largest that acts or is carried, at least 1 N; without unit
+  double force_error = 0;  ///< how far the forces are from balance, at most what a solution may miss; without unit
 };
 
 /// The platform's balance: sum of chain wrenches minus applied wrench, and the applied wrench's tangent.
@@ -58,7 +60,8 @@ WholeStep solve_whole(const WholeSystem& system, const std::optional<Controlled>
 double apply(const Mechanism& mechanism, const WholeStep& step, const Units& units, Configuration& configuration);
 
 /// Condition of the system with actuators held, redundant closures and zero modes that move no platform taken out;
-/// infinite where a zero mode moves the platform. `weakest` is the platform's twist (m, rad; norm 1 without unit).
+/// infinite where a zero mode moves the platform. A coordinate that is stiffer than 1e9 N/m counts as one of 1e9 N/m: a
+/// stiff spring alone makes no machine singular. `weakest` is the platform's twist (m, rad; norm 1 without unit).
 struct Condition {
   double value = 0;
   Vector6 weakest = Vector6::Zero();
@@ -66,7 +69,8 @@ struct Condition {
 };
 Condition condition(const WholeSystem& system, const Units& units);
 
-/// Smallest over largest eigenvalue of the symmetric part of A on the null space of C, actuators held.
-double least_eigenvalue_ratio(const WholeSystem& system);
+/// Least eigenvalue of the symmetric part of A on the null space of C, actuators held, every coordinate scaled by its own
+/// stiffness first. A negative one within its rounding error is 0. EQUATIONS.md, section 6.
+double least_scaled_eigenvalue(const WholeSystem& system);
 
 }  // namespace counterflex

@@ -64,8 +64,8 @@ struct ManipulatorStiffness {
 ManipulatorStiffness stiffness(const Model& model, const Configuration& configuration, const Stage& stage,
                                StaticsWork& work);
 
-/// Least over largest eigenvalue of the symmetric part of the reduced Hessian of energy (weights included) minus load, actuators held, pose
-/// free, in units of l and k l: below -1e-9 the configuration is unstable.
+/// Least eigenvalue of the symmetric part of the reduced Hessian of energy (with weights) minus load, pose free, actuators held, each
+/// coordinate scaled by its own stiffness. Below 0 the configuration is unstable; what is within the rounding error is 0.
 double stability(const Model& model, const Configuration& configuration, const Load& load, const Stage& stage,
                  StaticsWork& work);
 
