@@ -11,6 +11,8 @@ struct Library {
   GivenByName<Spring> springs;
   GivenByName<const toml::node*> branches;
   GivenByName<const toml::node*> templates;
+  std::size_t elements = 0;     ///< of all chains so far
+  std::size_t coordinates = 0;  ///< of all chains so far, see `read_elements`
 };
 
 /// Reads the tables `springs`, `branches` and `templates`.

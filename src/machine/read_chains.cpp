@@ -82,7 +82,8 @@ Chain read_chain(const toml::table& table, Library& library, const Source& sourc
   const toml::node& list = read_list(table, fmt::format("chain \"{}\"", chain.name), library, source);
   const toml::node& place = table.contains("use") ? *table.get("use") : list;
   Fillings fillings = read_fillings(table, chain.name, place, source);
-  Expansion expansion{source, library, fillings, {}, {}, 0};
+  Expansion expansion{source, library, fillings, {}, {}};
+  count_coordinates(6, table, expansion);
   if (const toml::node* base = table.get("base"))
     chain.elements.push_back(Rigid{read_transform(*base, "base", {source})});
   for (Element& element : read_elements(list, expansion)) chain.elements.push_back(std::move(element));

@@ -13,12 +13,15 @@ struct Expansion {
   Fillings& fillings;
   std::set<std::string> slots;             ///< error slots met
   std::vector<std::string> open_branches;  ///< branches inside which the reader is, outermost first
-  std::size_t element_count = 0;
 };
 
+/// Equations of the static system: 6 for each closure of a chain or branch. Throws at `node` where a machine has too many.
+void count_coordinates(std::size_t count, const toml::node& node, Expansion& expansion);
+
+
 /// The elements listed by `node`, branches of groups included. Throws at unknown names, a branch inside
-/// itself or more than 32 deep, an error slot met twice, more than 10000 elements in a chain (branches that
-/// use branches multiply).
+/// itself or more than 32 deep, an error slot met twice, more than 10000 elements in a machine (branches that
+/// use branches multiply), more than 1000 coordinates in a machine.
 std::vector<Element> read_elements(const toml::node& node, Expansion& expansion);
 
 }  // namespace counterflex::toml_file

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "counterflex/geometry/units.hpp"
+#include "read_spring.hpp"
 
 namespace counterflex::toml_file {
 namespace {
@@ -27,6 +28,10 @@ constexpr JointKeys revolute = {JointKind::revolute,
                                 "preload_deg",
                                 "stiffness_Nm_per_rad",
                                 "compliance_rad_per_Nm"};
+
+std::string_view unit_of(const JointKeys& keys) {
+  return keys.kind == JointKind::prismatic ? "N/m" : "N m/rad";
+}
 
 const JointKeys& read_kind(const toml::table& table, std::string_view element, const Source& source) {
   const toml::node& node = *table.get(element);
@@ -117,6 +122,8 @@ Passive read_passive(const toml::table& table, const Reading& reading) {
   passive.home = joint_value(table, keys.home, keys, 0, reading);
   if (const toml::node* node = table.get(keys.stiffness))
     passive.stiffness = as_not_negative(*node, {keys.stiffness}, reading);
+  if (const toml::node* node = table.get(keys.stiffness))
+    refuse_too_stiff(passive.stiffness, owner, unit_of(keys), *node, reading.source);
   read_preload(passive, table, keys, owner, reading);
   return passive;
 }
@@ -134,6 +141,7 @@ Compliance read_compliance(const toml::table& table, const Reading& reading) {
                         fmt::format("{} has neither {} nor {}", owner, keys.stiffness, keys.compliance));
   const double value = as_positive(*table.get(form), {form}, reading);
   compliance.stiffness = form == keys.stiffness ? value : 1 / value;
+  refuse_too_stiff(compliance.stiffness, owner, unit_of(keys), *table.get(form), reading.source);
   // In the nominal configuration its coordinate is 0, so that "home" is what it does anyway.
   if (const toml::node* preload = table.get("preload")) check_preload_home(*preload, "", reading.source);
   return compliance;

@@ -10,6 +10,10 @@
 namespace counterflex::toml_file {
 namespace {
 
+// Found by experiment: parallel machines with bars, guides and struts of 1e14 N/m are solved and judged rightly; from 1e18 on
+// Newton's method does not converge. Three stiff chains side by side become singular above 1e12 N/m.
+constexpr double most_stiffness = 1e14, sensible_stiffness = 1e12;
+
 [[noreturn]] void fail_at_entry(const toml::node& matrix, std::string_view name, const BadEntry& bad,
                                 const Source& source) {
   const auto row = static_cast<std::size_t>(bad.row), column = static_cast<std::size_t>(bad.column);
@@ -64,13 +68,20 @@ Matrix6 read_beam(const toml::node& node, const Reading& reading) {
   return turned(tip_compliance(beam), read_beam_axis(table, reading.source));
 }
 
-Matrix6 read_stiffness(const toml::node& node, std::string_view form, const Reading& reading) {
+Matrix6 stiffness_of(const toml::node& node, std::string_view form, const Reading& reading) {
   if (form == "compliance_si") return symmetric_inverse(read_symmetric(node, form, false, reading));
   if (form == "stiffness_si") return read_symmetric(node, form, true, reading);
   if (form == "compliance_diag_si")
     return read_diagonal(node, form, false, reading).cwiseInverse().asDiagonal();
   if (form == "stiffness_diag_si") return read_diagonal(node, form, true, reading).asDiagonal();
   return symmetric_inverse(read_beam(node, reading));
+}
+
+Matrix6 read_stiffness(const toml::node& node, std::string_view form, std::string_view owner, const Reading& reading) {
+  const Matrix6 K = stiffness_of(node, form, reading);
+  refuse_too_stiff(K.diagonal().head<3>().maxCoeff(), owner, "N/m", node, reading.source);
+  refuse_too_stiff(K.diagonal().tail<3>().maxCoeff(), owner, "N m/rad", node, reading.source);
+  return K;
 }
 
 Vector6 read_preload(const toml::table& table, std::string_view owner, const Reading& reading) {
@@ -82,6 +93,14 @@ Vector6 read_preload(const toml::table& table, std::string_view owner, const Rea
 }
 
 }  // namespace
+
+void refuse_too_stiff(double stiffness, std::string_view owner, std::string_view unit, const toml::node& node,
+                      const Source& source) {
+  if (stiffness <= most_stiffness) return;
+  source.fail(node, fmt::format("{}: {:.3g} {} is too stiff to solve in double precision; at most {:g} is allowed. Leave "
+                                "it out where the part is rigid, or use at most {:g}",
+                                owner, stiffness, unit, most_stiffness, sensible_stiffness));
+}
 
 Matrix6 read_definite_stiffness(const toml::node& node, std::string_view form, const Source& source) {
   const Matrix6 given = read_symmetric(node, form, false, {source});
@@ -100,7 +119,7 @@ Spring read_spring(const toml::node& node, const std::string& name, const Source
   if (form.empty())
     source.fail(node, fmt::format("{} has no stiffness; give one of {}", owner, fmt::join(forms, ", ")));
   const Reading reading{source};
-  return {name, read_stiffness(*table.get(form), form, reading), read_preload(table, owner, reading)};
+  return {name, read_stiffness(*table.get(form), form, owner, reading), read_preload(table, owner, reading)};
 }
 
 }  // namespace counterflex::toml_file
