@@ -126,7 +126,8 @@ void set_zero_offsets(const Eigen::VectorXd& offsets, Mechanism& mechanism) {
 }
 
 bool has_weight(const Mechanism& mechanism) {
-  return !mechanism.gravity.isZero(0) &&
+  if (mechanism.gravity.isZero(0)) return false;
+  return !zero_offsets(mechanism).isZero(0) ||
          std::any_of(mechanism.chains.begin(), mechanism.chains.end(), [](const Series& chain) { return chain.mass > 0; });
 }
 

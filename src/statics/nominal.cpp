@@ -144,8 +144,7 @@ Model prepare(const Machine& machine) {
   model.mechanism = compile(machine);
   find_home(machine, model);
   settle_at_home(model);
-  if (machine.gravity.true_at_home && model.home_status == Status::converged && weighs(machine))
-    hold_home(model);
+  if (machine.gravity.true_at_home && model.home_status == Status::converged) hold_home(model);
   return model;
 }
 

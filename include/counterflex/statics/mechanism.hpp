@@ -75,7 +75,7 @@ Mechanism compile(const Machine& machine);
 Eigen::VectorXd zero_offsets(const Mechanism& mechanism);
 void set_zero_offsets(const Eigen::VectorXd& offsets, Mechanism& mechanism);
 
-/// Whether weights act: only then does Stage::gravity change anything.
+/// Whether weights act, or a zero set at home (against preloads alone, too): only then does Stage::gravity change anything.
 bool has_weight(const Mechanism& mechanism);
 
 }  // namespace counterflex
