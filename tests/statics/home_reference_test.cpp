@@ -1,4 +1,6 @@
 /// A controller whose zero was set at home, under the machine's own weight.
+#include <fmt/format.h>
+
 #include "counterflex/statics/linear.hpp"
 #include "counterflex/statics/nested.hpp"
 #include "laws_weights.hpp"
@@ -140,4 +142,41 @@ elements = [
   { rigid = { xyz_mm = [0, 0, 800] }, mass = { kg = )";
   CHECK(model_of_text(text + "63 } }]").gravity_status == Status::converged);  // 63.7 kg: k = m g L
   CHECK(model_of_text(text + "65 } }]").gravity_status == Status::unstable);
+}
+
+TEST_CASE("a zero set at home is continuous in the mass: a machine without masses is the limit of light ones") {
+  // Two preloaded springs against each other; the first one moves with the actuator.
+  const auto machine = [](const std::string& mass) {
+    return model_of_text(R"(controlled = ["x"]
+gravity_m_s2 = [0, 0, -9.81]
+gravity_reference = "home"
+[home]
+xyz_mm = [0, 0, 0]
+[springs.a]
+stiffness_diag_si = [1e6, 1e6, 1e6, 1e5, 1e5, 1e5]
+preload_si = [3e-4, 0, 0, 0, 0, 0]
+[springs.b]
+stiffness_diag_si = [2e6, 2e6, 2e6, 1e5, 1e5, 1e5]
+[[chain]]
+name = "a"
+elements = [{ actuator = "prismatic", axis = "x" }, { spring = "a")" + mass + R"( }]
+[[chain]]
+name = "b"
+elements = [{ passive = "prismatic", axis = "x", stiffness_N_per_m = 1e5, preload_mm = 0.1 }, { spring = "b" }])");
+  };
+  const auto tip_at_home = [](const Model& model) {
+    StaticsWork work(model.mechanism);
+    const Equilibrium e = solve_forward(model, model.home, {}, {}, work);
+    REQUIRE(e.status == Status::converged);
+    return tip(model.mechanism, e.configuration).p;
+  };
+  const Model without = machine("");
+  CHECK(offsets_of(without).cwiseAbs().maxCoeff() > 1e-4);
+  CHECK(std::abs(tip_at_home(without).x()) < 1e-12);
+  for (const double kg : {1e-2, 1e-4, 1e-6}) {
+    CAPTURE(kg);
+    const Model light = machine(fmt::format(", mass = {{ kg = {} }}", kg));
+    CHECK((tip_at_home(light) - tip_at_home(without)).norm() < 1e-4 * kg + 1e-12);
+    CHECK((offsets_of(light) - offsets_of(without)).norm() < 1e-4 * kg + 1e-12);
+  }
 }
