@@ -1,11 +1,8 @@
 #include "commands.hpp"
-#include "counterflex/geometry/units.hpp"
 #include "run.hpp"
 
 namespace counterflex::cli {
 namespace {
-
-constexpr double spacing = 5 * mm;  // of the places on long moves
 
 /// Window by window, to the first failure.
 std::optional<Failure> predict_all(Run& run, RunTally& tally, RunFiles& files, Console& console) {
@@ -14,7 +11,7 @@ std::optional<Failure> predict_all(Run& run, RunTally& tally, RunFiles& files, C
   while (windows.next()) {
     const Job job = windows.job();
     const ForwardRun forward = solve_forward_along(
-        job, original_pieces(job, spacing), {.before = true, .attribution = true, .inside = false}, state);
+        job, original_pieces(job), {.before = true, .attribution = true, .inside = false}, state);
     tally.add_forces(job.forces);
     run.load_places.add(job, forward.waypoints);
     tally.add_waypoints(forward.waypoints, job);

@@ -11,7 +11,8 @@
 namespace counterflex {
 namespace {
 
-constexpr int fit_samples = 16;
+constexpr int least_fit_samples = 16;
+constexpr double fit_angle = std::numbers::pi / 8;  // samples are at most so far apart, on all turns
 constexpr int fit_iterations = 4;
 constexpr double fit_step_mm = 1e-4;       // of numerical derivatives
 constexpr double pull_to_source = 4e-4;    // where the curve hardly tells the centre it stays where it was
@@ -28,9 +29,11 @@ struct Sample {
 std::vector<Sample> samples_of(const ArcTask& task, const ArcPiece& piece) {
   std::vector<Sample> all;
   const double span = piece.u1 - piece.u0;
-  for (int k = 1; k <= fit_samples; ++k) {
-    const double v = static_cast<double>(k) / fit_samples;
-    all.push_back({v, task.commanded(k == fit_samples ? piece.u1 : piece.u0 + v * span)});
+  const int by_angle = static_cast<int>(std::ceil(span * task.source.arc->sweep / fit_angle)),
+            count = std::max(least_fit_samples, by_angle);
+  for (int k = 1; k <= count; ++k) {
+    const double v = static_cast<double>(k) / count;
+    all.push_back({v, task.commanded(k == count ? piece.u1 : piece.u0 + v * span)});
   }
   for (double corner : task.corners)
     if (corner > piece.u0 && corner < piece.u1)
@@ -92,7 +95,7 @@ class PieceFit {
   PieceFit(const ArcTask& task, const ArcPiece& piece)
       : task_(task), piece_(piece), plane_(plane_of(task.move)), samples_(samples_of(task, piece)) {
     for (Eigen::Index axis = 0; axis < 3; ++axis) start_[axis] = *piece.from[static_cast<std::size_t>(axis)];
-    end_ = samples_[fit_samples - 1].p_mm;
+    end_ = task.commanded(piece.u1);
   }
 
   FittedArc run() const {

@@ -28,8 +28,9 @@ struct ArcPiece {
 /// An arc that could be written for a piece.
 struct FittedArc {
   Via via;
-  Curve read;          ///< what a control reads
-  double miss_mm = 0;  ///< from the commanded curve, at sixteenths and corners
+  Curve read;  ///< what a control reads
+  double miss_mm =
+      0;  ///< from the commanded curve, at corners and 16 places or more, at most 22.5 degrees apart
   bool sound = false;  ///< radius rules of controls hold, and its sweep is the wanted one
 };
 

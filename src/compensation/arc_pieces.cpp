@@ -1,5 +1,6 @@
 #include "arc_pieces.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -92,13 +93,24 @@ class ArcDivider {
     if (task_.chord_room_mm <= 0) {
       result_.lack_digits = true;
     } else {
-      for (const double u :
-           choose_knots(task_.commanded, chords_->u0, u1, task_.corners, task_.chord_room_mm)) {
-        const Via via{task_.commanded(u)};
-        put(via, u, end_of(via, u));
+      // Knots are judged at sixteenths of the way between them, which must not be whole turns.
+      const double turns = (u1 - chords_->u0) * task_.source.arc->sweep / (2 * std::numbers::pi);
+      const int parts = std::max(1, static_cast<int>(std::ceil(turns - 1e-9)));
+      double begin = chords_->u0;
+      for (int k = 1; k <= parts; ++k) {
+        const double end = k == parts ? u1 : chords_->u0 + (u1 - chords_->u0) * k / parts;
+        put_chords_between(begin, end);
+        begin = end;
       }
     }
     chords_.reset();
+  }
+
+  void put_chords_between(double u0, double u1) {
+    for (const double u : choose_knots(task_.commanded, u0, u1, task_.corners, task_.chord_room_mm)) {
+      const Via via{task_.commanded(u)};
+      put(via, u, end_of(via, u));
+    }
   }
 
   Vector3 end_of(const Via& via, double u) const {

@@ -1,9 +1,9 @@
 #include <algorithm>
-#include <cmath>
 #include <iterator>
 
 #include "counterflex/compensation/waypoint.hpp"
 #include "forward_chunk.hpp"
+#include "sample_places.hpp"
 #include "track.hpp"
 
 namespace counterflex {
@@ -105,23 +105,16 @@ std::optional<Failure> solve_forward_in_portions(const Job& job, const std::vect
   return std::nullopt;
 }
 
-std::vector<Piece> original_pieces(const Job& job, double spacing) {
+std::vector<Piece> original_pieces(const Job& job) {
   std::vector<Piece> pieces;
+  std::vector<double> places;
+  ForceCursor cursor;
   for (std::size_t s = 0; s < job.path.segments.size(); ++s) {
     const Segment& segment = job.path.segments[s];
-    std::vector<double> ends;
-    if (segment.cutting) {
-      ends = job.forces.breaks(s);
-      const auto count =
-          std::max<long>(1, std::lround(std::ceil((segment.s_end - segment.s_start) / spacing)));
-      for (long k = 1; k < count; ++k) ends.push_back(static_cast<double>(k) / static_cast<double>(count));
-      std::sort(ends.begin(), ends.end());
-    }
-    ends.push_back(1);
+    const Pose back{Matrix3::Identity(), -job.path.frames[segment.frame].datum_shift};
+    places_along(job, s, cursor, places);
     double u0 = 0;
-    for (double u : ends) {
-      if (u <= u0) continue;
-      const Pose back{Matrix3::Identity(), -job.path.frames[segment.frame].datum_shift};
+    for (const double u : places) {
       pieces.push_back({.segment = s,
                         .line = segment.line,
                         .u0 = u0,

@@ -1,15 +1,14 @@
 #pragma once
-/// Solves neighbouring pieces forward together: what all of them need is solved at once, then what some need
-/// more.
+/// Solves neighbouring pieces forward together: first the samples of all of them, then closer ones where they
+/// are needed.
 #include <span>
 
 #include "counterflex/compensation/waypoint.hpp"
-#include "force_response.hpp"
 #include "forward_sources.hpp"
 
 namespace counterflex {
 
-/// The waypoints of pieces that need the same model; what is sampled `solve_forward_along` says.
+/// The waypoints of pieces that need the same model. `solve_forward_along` describes the samples.
 class ChunkForward {
  public:
   /// `known`: what is known already, by segment; it may be empty.
@@ -26,54 +25,38 @@ class ChunkForward {
   struct Task {
     const Piece* piece = nullptr;
     const Segment* segment = nullptr;  // none: a position
-    std::size_t start = no_answer, end = no_answer;
     bool begins_anew = false;
-    bool line = false;      // is judged inside, as a line
-    bool foreseen = false;  // and so not sampled inside, unless for its row
-    std::size_t look = no_answer;
-    double room = 0;    // the tolerance (m)
-    double length = 0;  // of a line (m)
-    // In bends_; behind the corners of the force the middle, where it may be curved.
-    std::size_t first = 0, corners = 0, bends = 0;
-    double bend = 0, bend_at = 0.5;  // the largest |S dF| (m), and where
   };
+  // A place on a piece: fraction `v` of the piece, `u` of the segment.
   struct Sample {
     std::size_t task = 0;
     double v = 1, u = 1;
-    bool between = false, listed = true;
-    bool may_fail = false;  // a probe
+    bool between = false;
+    bool place = false;  // of the original path
+    bool listed = true;
+    Side side = Side::before;  // of a step of the force
   };
-  // Between two neighbouring corners: samples at its ends and in its middle.
+  // Between two neighbouring places of a piece: samples at its ends and in its middle.
   struct Stretch {
     std::size_t task;
     double v0, v1;
     std::size_t a, m, b;
   };
-  struct Look {
-    std::size_t row, sample;
-  };
 
   void clear();
   void reserve(std::size_t pieces);
-  std::size_t add(std::size_t task, double v, bool between, bool listed = true);
-  std::size_t add_probe(std::size_t sample, const Vector6& dF);
+  std::size_t add(const Sample& sample);
+  std::size_t add_inside(std::size_t t, double v);
   bool solve_added();
   const KnownPlace* known_place(const Sample& sample) const;
-  bool run_waves();
 
   void begin(std::span<const Piece> pieces, const std::optional<Vector3>& command);
-  void add_first(std::size_t t);
+  void add_samples(std::size_t t);
+  std::size_t add_start(std::size_t t);
+  std::size_t add_behind_step(std::size_t before);
+  void read_places(const Piece& piece);
+  bool is_place(double u) const;
   bool is_where_the_last_ended(const Task& task);
-  int arc_samples(const Task& task) const;
-  void add_bends(Task& task);
-
-  void choose_short_lines();
-  void ask_responses();
-  void judge_bends();
-  void look_into_lines();
-  bool went_as_foreseen(const Look& look) const;
-  void judge_rows();
-  void sample(std::size_t t);
   void sample_closer();
   bool is_safe(const Stretch& stretch) const;
 
@@ -93,11 +76,8 @@ class ChunkForward {
   Vector3 judged_ = Vector3::Zero();  // 1 for axes of M in which the tip is judged, else 0
   ForceCursor cursor_;
   std::vector<Task> tasks_;
-  std::vector<double> fractions_;
-  std::vector<ForceBend> bends_;
-  std::vector<ForceResponse> responses_;  // of spans of tasks
-  std::vector<std::size_t> lines_;        // short ones; a row begins with every eighth
-  std::vector<Look> looks_;
+  std::vector<double> places_along_;  // fractions of the segment `places_of_`
+  std::size_t places_of_ = no_segment;
   std::vector<Stretch> stretches_;
 
   // By sample.

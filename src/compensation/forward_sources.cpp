@@ -27,13 +27,13 @@ class SourceBatch {
     requests_.clear();
   }
 
-  // The deviation under `stage` of a command at the end of every piece.
+  // The deviation under `stage` of a command at the end of every piece, and at places inside.
   template <class Result>  // Vector6&(Waypoint&)
   void deviations(Vector3 ForwardPlace::*command, bool loaded, const Stage& stage, Start start,
                   const Result& result) {
     for (std::size_t i = 0; i < batch_.waypoints.size(); ++i) {
       const ForwardPlace& place = batch_.places[i];
-      if (batch_.waypoints[i].between) continue;
+      if (!knows_before(batch_.waypoints[i])) continue;
       ActualRequest request{place.*command, loaded ? place.load : Load{}, stage, start};
       request.known = known_answer(place, request);
       ask(i, request);
@@ -142,7 +142,7 @@ void add_sources(WaypointSolver& solver, const ForwardBatch& batch) {
   const bool weighs = has_weight(solver.model().mechanism);
   if (weighs) ask(&ForwardPlace::original, false, {.errors = 0, .load = 0}, &Causes::gravity);
   for (Waypoint& w : batch.waypoints) {
-    if (w.between) continue;
+    if (!knows_before(w)) continue;
     Causes& c = *w.causes;
     const Vector6 unloaded_perfect = c.superposition;
     c.superposition = c.geometry + c.load - unloaded_perfect;

@@ -76,14 +76,14 @@ void LoadPlaces::merge_neighbours() {
   per_stretch_ *= 2;
 }
 
-// Between the ends of pieces the deviation before is not known.
+// The deviation before counts at the places of the original path.
 void LoadPlaces::add_peaks(const Job& job, const Waypoint& w) {
   const auto raise = [&](Peak& peak, double value) {
     if (is_larger(value, peak.value)) peak = {value, place_of(job, w)};
   };
   raise(force_, w.wrench.head<3>().norm());
   raise(moment_, w.wrench.tail<3>().norm());
-  if (!w.between) raise(before_, w.before.head<3>().norm());
+  if (w.place) raise(before_, w.before.head<3>().norm());
 }
 
 std::vector<LoadPlace> LoadPlaces::places() const {

@@ -65,7 +65,7 @@ void put_waypoint(const Waypoint& w, LastNumbers& last, std::string& bytes) {
   put(w.line, bytes);
   put(w.iterations, bytes);
   put(w.status, bytes);
-  for (const bool flag : {w.cutting, w.between, w.exempt, w.causes.has_value()}) put(flag, bytes);
+  for (const bool flag : {w.cutting, w.between, w.place, w.exempt, w.causes.has_value()}) put(flag, bytes);
   Numbers<numbers_of_waypoint> numbers;
   std::size_t i = 0;
   each_number(w, [&](const double& x) { numbers[i++] = x; });
@@ -84,7 +84,7 @@ void get_waypoint(BytesIn& bytes, LastNumbers& last, Waypoint& w) {
   w.line = bytes.get<int>();
   w.iterations = bytes.get<int>();
   w.status = bytes.get<Status>();
-  for (bool* flag : {&w.cutting, &w.between, &w.exempt}) *flag = bytes.get<bool>();
+  for (bool* flag : {&w.cutting, &w.between, &w.place, &w.exempt}) *flag = bytes.get<bool>();
   const bool has_causes = bytes.get<bool>();
   get_changes(bytes, last.place);
   std::size_t i = 0;
@@ -107,7 +107,7 @@ void put_waypoints(const std::vector<Waypoint>& waypoints, std::string& bytes) {
 }
 
 std::vector<Waypoint> get_waypoints(BytesIn& bytes) {
-  constexpr std::size_t least_bytes = 28;
+  constexpr std::size_t least_bytes = 29;
   std::vector<Waypoint> waypoints(bytes.get_count(least_bytes));
   LastNumbers last;
   for (Waypoint& w : waypoints) get_waypoint(bytes, last, w);

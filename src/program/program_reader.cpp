@@ -10,6 +10,9 @@ namespace {
 
 constexpr std::size_t bytes_at_once = 1 << 18;
 
+/// A full turn of an arc counts as so many moves, so that windows of many turns stay small.
+constexpr std::size_t moves_of_a_turn = 16;
+
 /// The whole lines at the beginning of `text`.
 std::string_view whole_lines(const std::string& text) {
   const std::size_t newline = text.rfind('\n');
@@ -93,7 +96,20 @@ struct ProgramReader::State {
   std::string behind;           ///< text behind the window
   std::size_t behind_read = 0;  ///< bytes of it that have been read: the line of `Program::after`
 
+  std::size_t counted = 0;  ///< moves of the window whose turns are in `turns`
+  std::size_t turns = 0;    ///< full turns of the window's arcs
+
   Program& program() { return lines.program(); }
+
+  /// The size of the window in moves, full turns of arcs included.
+  std::size_t window_size() {
+    const auto& moves = program().moves;
+    for (; counted < moves.size(); ++counted)
+      if (moves[counted].arc) turns += static_cast<std::size_t>(moves[counted].arc->turns);
+    return moves.size() + moves_of_a_turn * turns;
+  }
+
+  void restart_count() { counted = turns = 0; }
 
   bool append() {
     std::string& text = program().text;
@@ -124,7 +140,7 @@ struct ProgramReader::State {
       const std::size_t before = program().moves.size();
       if (lines.has_ended() || !read_line()) break;
       const std::size_t now = program().moves.size();
-      const bool one = now == before + 1 && now > moves;
+      const bool one = now == before + 1 && window_size() > moves;
       if (one && !lines.has_ended() && lines.may_end_before(program().moves.back())) return end_before_last();
     }
     while (least_moves == whole_program && append()) {
@@ -159,6 +175,7 @@ struct ProgramReader::State {
 
   bool next() {
     Program& p = program();
+    restart_count();
     lines.begin_window(behind_read, std::exchange(p.after, std::nullopt));
     p.text.swap(behind);
     behind.clear();
@@ -180,6 +197,7 @@ struct ProgramReader::State {
   bool extend() {
     Program& p = program();
     if (!p.after) return false;
+    restart_count();
     const std::size_t end = p.text.size();
     p.text += behind;
     shift_spans(*p.after, static_cast<std::ptrdiff_t>(end));

@@ -12,6 +12,7 @@ namespace counterflex {
 namespace {
 
 constexpr std::array<char, 3> letters_of_centre{'I', 'J', 'K'};
+constexpr double most_turns = 100;  // of one arc: each turn is sampled, and what is found is kept
 
 /// Axes of the plane: from the first to the second is counter-clockwise about the normal.
 struct Plane {
@@ -53,6 +54,11 @@ void check_words(const Block& block, const Reading& r) {
   if (turns != nullptr && turns->literal && (turns->value < 1 || turns->value != std::floor(turns->value)))
     refuse_word(block, r, *turns,
                 fmt::format("P{} is no number of turns: whole numbers from 1 are", turns->value));
+  if (turns != nullptr && turns->literal && turns->value > most_turns)
+    refuse_word(
+        block, r, *turns,
+        fmt::format("{:.0f} turns in one arc: at most {:.0f} are allowed; divide the arc into several blocks",
+                    turns->value, most_turns));
 }
 
 /// Whether I, J and K are coordinates: by G90.1, or because they say so themselves ("I=AC(5)").

@@ -86,11 +86,13 @@ void set_deviation(Values& values, Quantity first, const Waypoint& w, const Vect
 }
 
 void set_causes(Values& values, const Waypoint& w, const Causes& causes, PathCurves::Known known) {
-  set_position(values, Quantity::geometry_x, causes.geometry);
-  set_position(values, Quantity::load_x, causes.load);
-  if (known.weights) set_position(values, Quantity::gravity_x, causes.gravity);
-  set_position(values, Quantity::superposition_x, causes.superposition);
-  set_position(values, Quantity::discrepancy_x, w.before - causes.superposition);
+  if (w.place) {
+    set_position(values, Quantity::geometry_x, causes.geometry);
+    set_position(values, Quantity::load_x, causes.load);
+    if (known.weights) set_position(values, Quantity::gravity_x, causes.gravity);
+    set_position(values, Quantity::superposition_x, causes.superposition);
+    set_position(values, Quantity::discrepancy_x, w.before - causes.superposition);
+  }
   if (known.corrected) at(values, Quantity::air) = static_cast<float>(causes.air.head<3>().norm() / mm);
 }
 
@@ -99,9 +101,9 @@ Values values_of(const Waypoint& w, PathCurves::Known known) {
   values.fill(unknown);
   set_vector(values, Quantity::force_x, w.wrench.head<3>());
   if (known.corrected) set_deviation(values, Quantity::after_x, w, w.after);
+  if (w.place) set_deviation(values, Quantity::before_x, w, w.before);
+  if (w.causes && knows_before(w)) set_causes(values, w, *w.causes, known);
   if (w.between) return values;
-  set_deviation(values, Quantity::before_x, w, w.before);
-  if (w.causes) set_causes(values, w, *w.causes, known);
   if (known.corrected) set_position(values, Quantity::correction_x, w.correction);
   return values;
 }
@@ -117,7 +119,7 @@ Stretch stretch_of(const Waypoint& w, PathCurves::Known known) {
   stretch.place = floats(w.p_MT / mm);
   stretch.before.fill(unknown);
   stretch.after.fill(unknown);
-  if (!w.between) stretch.before = floats(w.before.head<3>() / mm);
+  if (w.place) stretch.before = floats(w.before.head<3>() / mm);
   if (known.corrected) stretch.after = floats(w.after.head<3>() / mm);
   stretch.least = stretch.largest = values_of(w, known);
   return stretch;

@@ -139,7 +139,21 @@ void PathTally::add_cutting(const Waypoint& w, std::int32_t operation, const Vec
     add_other(m_.higher, w, w.causes->higher, w.weight);
     add_other(m_.lower, w, w.causes->lower, w.weight);
   }
-  if (!w.between) add_end(w, operation, segment_start);
+  if (!w.between) close_piece(w, operation);
+  place_weight_ += w.weight;
+  if (w.place) add_place(w, operation, segment_start);
+}
+
+// A point that the text inserts is no place of the original path: of its causes only those of the emitted
+// target count.
+void PathTally::close_piece(const Waypoint& w, std::int32_t operation) {
+  const double corrected_mm = std::exchange(piece_exempt_, false) ? 0 : piece_weight_ / mm;
+  m_.corrected_mm += corrected_mm;
+  if (OperationTally* tally = tally_of(operation)) tally->corrected_mm += corrected_mm;
+  piece_weight_ = 0;
+  if (w.place || !w.causes) return;
+  m_.without_force.add(sample(w, w.causes->air, 0));
+  keep(m_.air, w.causes->air.head<3>().norm(), w.line);
 }
 
 OperationTally* PathTally::tally_of(std::int32_t operation) {
@@ -162,18 +176,16 @@ void PathTally::add_to_operation(const Waypoint& w, std::int32_t operation) {
   ++tally->moves;
 }
 
-// Trapezoids: a piece weighs on both of its ends, or on its last one alone where the other is not known.
-void PathTally::add_end(const Waypoint& w, std::int32_t operation, const Vector3* segment_start) {
+// Trapezoids: the way between two places weighs on both, or on the last one alone where the other is not
+// known.
+void PathTally::add_place(const Waypoint& w, std::int32_t operation, const Vector3* segment_start) {
   if (rapid_) begin_at_rapid(w, operation, segment_start);
-  const double share = end_ ? piece_weight_ / 2 : 0;
+  const double share = end_ ? place_weight_ / 2 : 0;
   if (end_) share_piece(w, operation, share);
   finish_end();
-  const double rest = piece_weight_ - share;
+  const double rest = place_weight_ - share;
   end_ = End{w, operation, rest, rest};
-  const double corrected_mm = std::exchange(piece_exempt_, false) ? 0 : piece_weight_ / mm;
-  m_.corrected_mm += corrected_mm;
-  if (OperationTally* tally = tally_of(operation)) tally->corrected_mm += corrected_mm;
-  piece_weight_ = 0;
+  place_weight_ = 0;
 }
 
 // Where another operation begins, its first piece starts at the end of the one before.
@@ -190,7 +202,7 @@ void PathTally::share_piece(const Waypoint& w, std::int32_t operation, double sh
 // The end of a rapid is where the feed move after it starts; its force has not yet grown there.
 void PathTally::begin_at_rapid(const Waypoint& w, std::int32_t operation, const Vector3* segment_start) {
   const double gap = segment_start != nullptr ? (*segment_start - rapid_->p_MT).norm()
-                                              : std::abs((w.p_MT - rapid_->p_MT).norm() - piece_weight_);
+                                              : std::abs((w.p_MT - rapid_->p_MT).norm() - place_weight_);
   if (!end_ && gap < same_place) {
     end_ = End{*rapid_, operation, 0, 0};
     end_->at.line = w.line;

@@ -90,6 +90,7 @@ TEST_CASE("the largest force of every part of a path is kept, wherever it stands
     waypoints[static_cast<std::size_t>(at)].wrench[1] = 300;
     for (std::size_t i = 40; i < waypoints.size(); i += 400) waypoints[i].wrench[0] = 200;
     waypoints[static_cast<std::size_t>(at)].between = at % 2 == 1;
+    waypoints[static_cast<std::size_t>(at)].place = at % 2 == 0;
     const auto places = kept(waypoints);
     CHECK(places.size() <= LoadPlaces::most);
     CHECK(has_line(places, 3 + at));
@@ -103,6 +104,7 @@ TEST_CASE("the largest moment and the largest deviation before are kept where th
   waypoints[1'235].wrench[5] = 7;
   waypoints[3'003].before[2] = 1e-4;
   waypoints[4'003].before[2] = 2e-4;
+  waypoints[4'003].place = false;
   waypoints[4'003].between = true;  // what it was before is not known there
   const auto places = kept(waypoints);
   CHECK(has_line(places, 3 + 1'235));
@@ -195,9 +197,8 @@ TEST_CASE("loads are the same to the last bit for any number of threads") {
                    .force = constant_force(milling())});
   const Job job = shop.job();
   LoadPlaces places;
-  places.add(job,
-             solve_forward_along(job, original_pieces(job, 5 * mm), {.attribution = true, .inside = false})
-                 .waypoints);
+  places.add(
+      job, solve_forward_along(job, original_pieces(job), {.attribution = true, .inside = false}).waypoints);
   REQUIRE(places.places().size() > 600);  // several chunks
   const LoadsAlong one = solve_loads(shop.model, places.places(), 1);
   CHECK(one.unsolved == 0);

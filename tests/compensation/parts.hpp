@@ -76,7 +76,7 @@ inline bool same_causes(const Causes& a, const Causes& b) {
 
 inline bool same_waypoint(const Waypoint& a, const Waypoint& b) {
   return a.segment == b.segment && same_bits(a.fraction, b.fraction) && a.line == b.line &&
-         a.cutting == b.cutting && a.between == b.between && a.exempt == b.exempt &&
+         a.cutting == b.cutting && a.between == b.between && a.place == b.place && a.exempt == b.exempt &&
          same_bits(a.weight, b.weight) && same_bits(a.s, b.s) && same_bits(a.p_MT, b.p_MT) &&
          same_bits(a.direction, b.direction) && same_bits(a.tool_axis, b.tool_axis) &&
          same_bits(a.wrench, b.wrench) && same_bits(a.before, b.before) && same_bits(a.after, b.after) &&

@@ -270,14 +270,14 @@ TEST_CASE("the pieces of the original cover its feed moves once, cut where the f
   const Shop shop({.machine = load_machine(orthoglide_b), .text = part, .force = constant_force(milling())});
   double length = 0, u = 1;
   bool corner = false;
-  for (const Piece& piece : original_pieces(shop.job(), 7e-3)) {
+  for (const Piece& piece : original_pieces(shop.job())) {
     const Segment& segment = shop.path.segments[piece.segment];
     CHECK(piece.end_only == !segment.cutting);
     if (!segment.cutting) continue;
     CHECK(piece.u0 == (u == 1 ? 0 : u));
     u = piece.u1;
     const double size = (piece.commanded.end - piece.commanded.start).norm();
-    CHECK(size <= 7e-3 + 1e-12);
+    CHECK(size <= 5e-3 + 1e-12);
     length += size;
     corner = corner || std::abs(piece.u1 - 2.0 / 120) < 1e-9;
   }

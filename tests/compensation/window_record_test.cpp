@@ -40,6 +40,7 @@ Waypoint any_waypoint(AnyNumbers& any) {
   w.line = any.integer();
   w.cutting = any.flag();
   w.between = any.flag();
+  w.place = any.flag();
   w.exempt = any.flag();
   w.weight = any.number();
   w.s = any.number();

@@ -167,7 +167,7 @@ TEST_CASE("a path solved forward in portions is the path solved at once") {
   for (int k = 1; k <= 2200; ++k) blocks += fmt::format("X{} Y{}\n", k % 50, k % 7);
   const Shop shop({.machine = displaced_gantry(), .text = blocks});
   const Questions questions{.before = true, .attribution = false, .inside = true};
-  const std::vector<Piece> pieces = original_pieces(shop.job(), 1);
+  const std::vector<Piece> pieces = original_pieces(shop.job());
   const ForwardRun whole = solve_forward_along(shop.job(), pieces, questions);
   std::vector<Waypoint> all;
   std::size_t portions = 0;

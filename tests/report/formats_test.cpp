@@ -332,6 +332,7 @@ TEST_CASE("text that is no UTF-8 does not spoil the JSON") {
 TEST_CASE("the CSV has the documented columns and a row for every waypoint that is not between") {
   std::vector<Waypoint> waypoints = {cut(0, 4, 1, Vector3(1, 0, 0)), cut(0, 4, 1, Vector3(0.1, -0.2, 0.3))};
   waypoints[0].between = true;
+  waypoints[0].place = false;
   waypoints[1].s = 0.1;
   waypoints[1].p_MT = Vector3(0.001, 0.002, -0.003);
   waypoints[1].before.tail<3>() = Vector3(0.5, -0.25, 0) * deg;

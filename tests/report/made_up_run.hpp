@@ -107,6 +107,7 @@ inline Waypoint cut(std::size_t segment, int line, double weight_mm, const Vecto
 inline std::vector<Waypoint> made_up_waypoints() {
   std::vector<Waypoint> list = {cut(1, 4, 75, Vector3(0, 0.3, 0)), cut(1, 4, 25, Vector3(0, 0.3, 0)),
                                 cut(2, 5, 50, Vector3(0.3, 0, -0.4)), cut(3, 6, 10, Vector3::Zero())};
+  list[0].place = false;
   list[0].between = true;  // only `after` is known there, and it is the worst
   list[0].before.setConstant(1);
   list[0].after.head<3>() = Vector3(0, 0, 0.006) * mm;

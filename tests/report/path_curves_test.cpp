@@ -101,6 +101,7 @@ TEST_CASE("a sample between knows what is after alone, and its peak is kept when
   for (std::size_t i = 0; i <= PathCurves::most_stretches; ++i) {
     Waypoint w = step(i, 0.1);
     w.between = i % 2 == 0;
+    w.place = !w.between;
     if (i == 6) w.after.head<3>() = Vector3(0, 0, 0.004) * mm;
     curves.add(w, 0);
     if (i == 6) CHECK(std::isnan(value(curves.stretches().back().largest, Quantity::before)));

@@ -75,6 +75,7 @@ TEST_CASE("more and less force are known between the ends of pieces, and weigh t
   std::vector<Waypoint> path = {cut(1, 4, 5, Vector3(0.9, 0, 0)), cut(1, 4, 5, Vector3(0.3, 0, 0))};
   for (Waypoint& w : path) w.after = w.causes->higher.deviation;
   path[0].between = true;
+  path[0].place = false;
   const Measures m = tally_of(path).measures();
   const DeviationStatistics higher = m.higher.deviation.statistics(), lower = m.lower.deviation.statistics();
   CHECK(higher.max_mm == doctest::Approx(0.9 / 100 + 0.3 * 0.45));

@@ -156,6 +156,7 @@ TEST_CASE("what a sample between does not know is drawn through") {
     Waypoint w = cut(0, 1, 1, Vector3(0.1, 0, 0));
     w.s = i * mm;
     w.between = i % 2 == 1;
+    w.place = !w.between;
     curves.add(w, -1);
   }
   const auto points = before_x(curves, 100);

@@ -62,6 +62,7 @@ std::vector<Waypoint> random_path(std::uint64_t seed, int moves) {
       Waypoint w = random_waypoint(random, segment, line);
       w.cutting = !rapid;
       w.between = samples > 1 && random.below(2) == 0;
+      w.place = !w.between;
       if (random.below(20) == 0) w.status = Status::singular;
       const bool joins = !path.empty() && !path.back().cutting && !w.between;
       if (joins) w.p_MT = path.back().p_MT + Vector3(w.weight, 0, 0);
@@ -111,6 +112,7 @@ TEST_CASE("a cut between a rapid and the feed move behind it loses neither the s
            feed = cut(1, 4, 40, Vector3(0, 0.4, 0));
   rapid.cutting = false;
   between.between = true;
+  between.place = false;
   feed.p_MT = Vector3(100, 0, 0) * mm;
   RunTally tally(2);
   for (const Waypoint& w : {rapid, between, feed}) tally.add_waypoints({w});
@@ -336,6 +338,7 @@ TEST_CASE("a piece that may miss the tolerance somewhere is no part of what is c
   Waypoint inside = cut(0, 3, 5, Vector3(0.1, 0, 0)), end = cut(0, 3, 5, Vector3(0.1, 0, 0)),
            good = cut(1, 4, 30, Vector3(0.1, 0, 0));
   inside.between = inside.exempt = true;
+  inside.place = false;
   for (const Waypoint& w : {inside, end, good}) tally.add(w, 0);
   CHECK(tally.measures().path_mm == doctest::Approx(40));
   CHECK(tally.measures().corrected_mm == doctest::Approx(30));

@@ -56,8 +56,8 @@ struct Waypoint {
   double fraction = 1;
   int line = 0;
   bool cutting = false;
-  bool between = false;  ///< a sample inside a piece: only `after` and of the causes `higher` and `lower` are
-                         ///< known
+  bool between = false;  ///< a sample inside a piece
+  bool place = true;     ///< of the original path: statistics of `before` and of its causes are over these
   bool exempt = false;
   double weight = 0;                     ///< share of the cutting length (m)
   double s = 0;                          ///< cutting path length (m)
@@ -73,7 +73,13 @@ struct Waypoint {
   int iterations = 0;
 };
 
-/// What is solved at each end of a piece besides `after`.
+/// Whether `before` and all causes are known. At other samples only `after` and the causes `higher` and
+/// `lower` are.
+inline bool knows_before(const Waypoint& w) {
+  return w.place || !w.between;
+}
+
+/// What is solved besides `after`.
 struct Questions {
   bool before = true;
   bool attribution = false;  ///< the causes
@@ -85,21 +91,19 @@ struct ForwardRun {
   std::optional<Failure> failure;   ///< the first waypoint that could not be solved
 };
 
-/// Solves the machine forward along `pieces` (guarantee 1 of DESIGN): every end, and samples between.
+/// Solves the machine forward along `pieces` (guarantee 2 of DESIGN): every end, and samples inside feed
+/// pieces.
 ///
-/// An arc is sampled at odd sixteenths, or once where its correction hardly changes. A line is sampled at the
-/// corners of the force and in the middle of each stretch between them; a stretch whose middle is off the
-/// line between its ends' deviations by more than a tenth of the tolerance, or where less than a fifth of the
-/// tolerance is left, is sampled at its odd sixteenths, too.
+/// The places of the original path are the ends of its segments and, along feed moves, the corners of the
+/// force and equal steps of at most 5 mm (a 64th of a longer move) and 22.5 degrees of an arc, on all of its
+/// turns. They do not depend on the pieces. `before` and its causes count there: all runs over one program
+/// agree on them.
 ///
-/// Short lines without steps of the force, whose deviation is foreseen as
-///
-///     e(v) = (1 - v) e(0) + v e(1) + S dF(v)      dF(v) = F(v) - (1 - v) F(0) - v F(1)
-///
-/// S the tip's response to the force, measured among them, are sampled inside where less than a fifth of the
-/// tolerance would be left. Of every eight others in a row the longest one, or the one that S dF bends most,
-/// is sampled once, or both are: if they are not as foreseen, all of the row is sampled. Which lines are in a
-/// row depends on those that are solved with them.
+/// A feed piece is sampled at the places inside it and in the middle between neighbouring places: a short
+/// line in its middle, an arc at least every 11.25 degrees. No piece is inferred from its neighbours. Where
+/// the middle is off the line between the deviations beside it by more than a tenth of the tolerance, or
+/// where less than a fifth of the tolerance is left, the odd sixteenths between the two places are sampled,
+/// too.
 ///
 /// Parallel over chunks of fixed size, so that results do not depend on Job's threads. What differs from the
 /// wanted path is a matter for the caller; only a status other than converged is a failure here.
@@ -122,8 +126,7 @@ using TakeWaypoints = std::function<void(const std::vector<Waypoint>&)>;
 std::optional<Failure> solve_forward_in_portions(const Job& job, const std::vector<Piece>& pieces,
                                                  const Questions& questions, const TakeWaypoints& take);
 
-/// The pieces of the original program itself: feed segments cut where the force has corners and to at most
-/// `spacing` (m).
-std::vector<Piece> original_pieces(const Job& job, double spacing);
+/// The pieces of the original program itself, one for each place of its path.
+std::vector<Piece> original_pieces(const Job& job);
 
 }  // namespace counterflex

@@ -8,7 +8,7 @@
 
 namespace counterflex {
 
-/// The least number of moves after which a window ends.
+/// The least number of moves after which a window ends. A full turn of an arc counts as 16 moves.
 inline constexpr std::size_t window_moves = 4096;
 /// Windows without an end.
 inline constexpr std::size_t whole_program = static_cast<std::size_t>(-1);

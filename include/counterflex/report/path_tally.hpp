@@ -73,7 +73,7 @@ class PathTally {
   std::vector<OperationTally> operations() const;  ///< by their numbers; one that has no feed move is empty
 
  private:
-  /// The end of a piece, and what it weighs so far, in all and in its own operation.
+  /// A place of the original path, and what it weighs so far, in all and in its own operation.
   struct End {
     Waypoint at;
     std::int32_t operation = no_operation;
@@ -83,7 +83,8 @@ class PathTally {
   void add_target(const Waypoint& w);
   void add_cutting(const Waypoint& w, std::int32_t operation, const Vector3* segment_start);
   void add_to_operation(const Waypoint& w, std::int32_t operation);
-  void add_end(const Waypoint& w, std::int32_t operation, const Vector3* segment_start);
+  void close_piece(const Waypoint& w, std::int32_t operation);
+  void add_place(const Waypoint& w, std::int32_t operation, const Vector3* segment_start);
   void share_piece(const Waypoint& w, std::int32_t operation, double share);
   void begin_at_rapid(const Waypoint& w, std::int32_t operation, const Vector3* segment_start);
   OperationTally* tally_of(std::int32_t operation);
@@ -95,9 +96,10 @@ class PathTally {
   WorstLines lines_;
   std::optional<std::pair<std::size_t, int>> last_changed_;  ///< segment and line
   bool piece_exempt_ = false;  ///< somewhere the piece under way may miss the tolerance
-  double piece_weight_ = 0;  ///< of the piece under way: all means but those of `after`, `higher` and `lower`
-                             ///< are over the ends of pieces
-  std::optional<End> end_;   ///< the last one
+  double piece_weight_ = 0;    ///< of the piece under way
+  double place_weight_ = 0;  ///< of the way since the last place of the original path: all means but those of
+                             ///< `after`, `higher` and `lower` are over these places
+  std::optional<End> end_;  ///< the last one
   std::vector<OperationTally> operations_;
   std::optional<Waypoint> rapid_;  ///< the last waypoint, where it ends a rapid
 };

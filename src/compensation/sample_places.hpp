@@ -1,0 +1,15 @@
+#pragma once
+/// Places of the original path. They do not depend on how a text divides it.
+#include <vector>
+
+#include "counterflex/compensation/options.hpp"
+
+namespace counterflex {
+
+/// Sets `fractions` to the places of a segment, increasing, the last one 1. A rapid has no other place. A
+/// feed move has places at the corners of the force, and in equal steps of at most 5 mm (a 64th of a longer
+/// move) and, around an arc, of at most 22.5 degrees: an arc of many turns has 16 places or more on each of
+/// them.
+void places_along(const Job& job, std::size_t segment, ForceCursor& cursor, std::vector<double>& fractions);
+
+}  // namespace counterflex
