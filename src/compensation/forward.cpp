@@ -2,6 +2,8 @@
 #include <iterator>
 
 #include "counterflex/compensation/waypoint.hpp"
+#include "counterflex/geometry/units.hpp"
+#include "emit.hpp"
 #include "forward_chunk.hpp"
 #include "sample_places.hpp"
 #include "track.hpp"
@@ -105,12 +107,41 @@ std::optional<Failure> solve_forward_in_portions(const Job& job, const std::vect
   return std::nullopt;
 }
 
+namespace {
+
+bool is_known_hole(const Move& move) {
+  const auto& fixed = move.fixed;
+  return move.cycle && move.handling == Handling::own && !fixed[0] && !fixed[1] && !fixed[2];
+}
+
+// The bottom of a hole of the original program.
+Piece piece_of_hole(const Job& job, const Move& move) {
+  const WorkFrame& frame = job.path.frames[move.offset];
+  const Vector3 commanded = frame.X_MW * (bottom_of(move) * mm);
+  return {.segment = no_segment,
+          .line = move.line,
+          .frame = move.offset,
+          .commanded = {commanded, commanded, {}},
+          .wanted = wanted_frame(frame) * (bottom_of(move) * mm),
+          .end_only = true,
+          .tool = move.tool};
+}
+
+}  // namespace
+
 std::vector<Piece> original_pieces(const Job& job) {
   std::vector<Piece> pieces;
   std::vector<double> places;
   ForceCursor cursor;
+  std::size_t next_move = 0;
+  const auto add_holes_before = [&](std::size_t end) {
+    for (; next_move < end; ++next_move)
+      if (is_known_hole(job.program.moves[next_move]))
+        pieces.push_back(piece_of_hole(job, job.program.moves[next_move]));
+  };
   for (std::size_t s = 0; s < job.path.segments.size(); ++s) {
     const Segment& segment = job.path.segments[s];
+    add_holes_before(segment.move);
     const Pose back{Matrix3::Identity(), -job.path.frames[segment.frame].datum_shift};
     places_along(job, s, cursor, places);
     double u0 = 0;
@@ -125,6 +156,7 @@ std::vector<Piece> original_pieces(const Job& job) {
       u0 = u;
     }
   }
+  add_holes_before(job.program.moves.size());
   return pieces;
 }
 
