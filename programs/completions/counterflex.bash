@@ -3,7 +3,7 @@
 _counterflex_words() {
   local forces='--forces --force --load-scale --air-above' config='--config --no-config --print-config'
   local reading="--machine --dialect --units --integer-words --expand-subprograms --work --tool-table --tool-length $config"
-  local program="$reading --tolerance-mm --method --max-correction-mm --decimals --threads"
+  local program="$reading --tolerance-mm --method --max-correction-mm --accept-partial --decimals --threads"
   case $1 in
     compensate) echo "$program $forces --blend-mm --output --plot --report --min-block-ms --json --quiet --verbose --help" ;;
     predict | verify) echo "$program $forces --blend-mm --plot --report --min-block-ms --json --quiet --verbose --help" ;;

@@ -74,8 +74,8 @@ void add_run(CLI::App& app, Options& options) {
   add_setting(app, options, "blend-mm");
   add_reading(app, options);
   add_settings(app, options,
-               {"method", "tolerance-mm", "max-correction-mm", "decimals", "threads", "min-block-ms",
-                "report", "plot"});
+               {"method", "tolerance-mm", "max-correction-mm", "accept-partial", "decimals", "threads",
+                "min-block-ms", "report", "plot"});
   add_config(app, options);
   add_output(app, options);
 }

@@ -16,7 +16,7 @@ bool is_reported(const Failure& failure) {
 }
 
 void add(const Job& job, Compensation& window, const Run& run, RunTally& tally, RunFiles& files) {
-  tally.add_forces(job.forces);
+  tally.add_window(job);
   tally.add_compensation(window);
   tally.add_waypoints(window.waypoints, job);
   files.add_waypoints(window.waypoints);
@@ -68,7 +68,7 @@ Exit compensate_program(const Options& options, Console& console, const TellEnd&
   RunFiles files(paths, {.attribution = run->facts.attribution}, options.hash_outputs);
   RunTally tally = tally_for(options, *run);
   const std::optional<Failure> failure = compensate_all(*run, tally, files, console, recorded);
-  if (!failure) run->facts.output = paths.program;
+  run->facts.output = paths.program;  // the report forgets it where none is written
   if (!failure || is_reported(*failure))
     return tell(*run,
                 finish_run(options, *run, report_compensation(run->context(), tally, failure), tally, files),

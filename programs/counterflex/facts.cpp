@@ -64,6 +64,7 @@ RunFacts facts_of(const Options& options, const Run& run) {
   facts.inputs.insert(facts.inputs.end(), forces.begin(), forces.end());
   if (run.tools.file) facts.inputs.push_back(*run.tools.file);
   facts.min_block_ms = options.min_block_ms;
+  facts.accept_partial = options.accept_partial;
   facts.options = {{"method", std::string(to_string(options.method))},
                    {"tolerance-mm", in_mm(run.options.tolerance)},
                    {"max-correction-mm", in_mm(run.options.max_correction)},
@@ -71,6 +72,7 @@ RunFacts facts_of(const Options& options, const Run& run) {
                    {"blend-mm", in_mm(options.blend)}};
   for (const ForceRule& rule : options.force_rules) facts.options.push_back({"force", text_of(rule)});
   if (options.air_above_mm) facts.options.push_back({"air-above", *options.air_above_mm});
+  if (options.accept_partial) facts.options.push_back({"accept-partial", true});
   if (options.decimals >= 0) facts.options.push_back({"decimals", static_cast<double>(options.decimals)});
   for (OptionValue& value : reading_options(options, run)) facts.options.push_back(std::move(value));
   return facts;

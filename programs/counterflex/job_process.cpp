@@ -28,6 +28,8 @@ void note_report(const Run& run, const RunEnd& end, const RunFiles& files, JobOu
   if (report.before) outcome.before_mm = report.before->max_mm;
   if (report.after) outcome.after_mm = report.after->max_mm;
   outcome.corrected_percent = report.corrected_percent;
+  outcome.verdict = to_string(report.verdict);
+  outcome.verdict_reason = report.verdict_reason;
   outcome.warnings = report.warnings.count;
   outcome.moves = report.blocks.moves;
 }
@@ -73,7 +75,7 @@ void do_job(const BatchJob& job, int threads, const SendLine& send) {
     return compensate_program(options, console,
                               [&](const Run& run, const RunEnd& end, const RunFiles& files) {
                                 note_report(run, end, files, outcome);
-                                return exit_of(run, end.report.failure, console);
+                                return exit_of(run, end.report, console);
                               });
   });
   send(fmt::format("{}{}", outcome_word, to_json_line(outcome)));

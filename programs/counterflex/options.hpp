@@ -67,6 +67,7 @@ struct Options {
   Method method = Method::direct;
   double tolerance = 5e-6;               ///< m
   std::optional<double> max_correction;  ///< m; none: the machine file's
+  bool accept_partial = false;           ///< a program is written though the verdict is PARTLY
   int decimals = -1;                     ///< -1: each word's own
   int threads = 1;
   double min_block_ms = 2;

@@ -12,7 +12,7 @@ std::optional<Failure> predict_all(Run& run, RunTally& tally, RunFiles& files, C
     const Job job = windows.job();
     const ForwardRun forward = solve_forward_along(
         job, original_pieces(job), {.before = true, .attribution = true, .inside = false}, state);
-    tally.add_forces(job.forces);
+    tally.add_window(job);
     run.load_places.add(job, forward.waypoints);
     tally.add_waypoints(forward.waypoints, job);
     files.add_waypoints(forward.waypoints);

@@ -218,7 +218,7 @@ RunEnd finish_run(const Options& options, Run& run, RunReport report, const RunT
   run.file.bytes.refuse_change();  // it was read more than once
   std::string json = to_json(report);
   if (tally.curves()) files.add_report(report, json, *tally.curves());
-  files.publish(!report.failure);
+  files.publish(report.exit == Exit::done);
   return {std::move(report), std::move(json)};
 }
 
@@ -231,7 +231,11 @@ Exit tell_result(const Options& options, const Run& run, const RunEnd& end, cons
     console.note(summary_text(end.report, console.colour_error()));
   else
     write_result(summary_text(end.report, console.colour_out()));
-  return exit_of(run, end.report.failure, console);
+  return exit_of(run, end.report, console);
+}
+
+Exit exit_of(const Run& run, const RunReport& report, Console& console) {
+  return exit_of(run, report.failure ? report.failure : refusal_of(report), console);
 }
 
 Exit exit_of(const Run& run, const std::optional<Failure>& failure, Console& console) {

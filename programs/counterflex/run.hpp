@@ -95,6 +95,9 @@ RunEnd finish_run(const Options& options, Run& run, RunReport report, const RunT
 /// Says the failure, if there is one; its exit status.
 Exit exit_of(const Run& run, const std::optional<Failure>& failure, Console& console);
 
+/// The same for the verdict of a report.
+Exit exit_of(const Run& run, const RunReport& report, Console& console);
+
 /// Says the result: the summary, or the JSON document, on standard output; the summary on standard error
 /// where the corrected program has standard output. Then the failure, if there is one; its exit status.
 Exit tell_result(const Options& options, const Run& run, const RunEnd& end, const RunFiles& files,

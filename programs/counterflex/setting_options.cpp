@@ -114,6 +114,10 @@ const std::array option_table{
                     options.max_correction = number_of(name, text, {0, true}) * mm;
                   }},
     SettingOption{
+        "accept-partial", "--accept-partial", "",
+        "Accept the verdict PARTLY: write the program though some feed moves miss the tolerance", "false",
+        false, [](Text name, Text text, Options& options) { options.accept_partial = truth_of(name, text); }},
+    SettingOption{
         "decimals", "--decimals", "N", "Digits after the point in corrected words; each word's own", "",
         false,
         [](Text name, Text text, Options& options) { options.decimals = integer_of(name, text, 0, 9); }},

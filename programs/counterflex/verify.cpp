@@ -18,7 +18,7 @@ Exit run_verify(const Options& options, Console& console) {
   const std::vector<Piece> pieces = match_programs(job, corrected.program);
   RunFiles files(paths, {});
   RunTally tally = tally_for(options, *run);
-  tally.add_forces(job.forces);
+  tally.add_window(job);
   tally.add_corrected(corrected.program);
   std::optional<Failure> missed;
   const auto unsolved =

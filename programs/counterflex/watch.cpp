@@ -60,10 +60,22 @@ std::string json_line(const std::string& program, const std::string& output, con
   const nlohmann::ordered_json line{{"program", program},
                                     {"output", output},
                                     {"exit", static_cast<int>(result.exit)},
+                                    {"verdict", result.verdict},
+                                    {"verdict_reason", result.verdict_reason},
                                     {"error", result.error},
                                     {"before_mm", or_null(result.before_mm)},
                                     {"after_mm", or_null(result.after_mm)}};
   return line.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+}
+
+std::string mm_text(const std::optional<double>& value, int decimals) {
+  return value ? fmt::format("{:.{}f} mm", *value, decimals) : "-";
+}
+
+std::string text_line(const std::string& program, const std::string& output, const WatchResult& result) {
+  const std::string reason = result.verdict_reason.empty() ? "" : fmt::format(" ({})", result.verdict_reason);
+  return fmt::format("{}{}: {} -> {}: {} before, {} after\n", result.verdict, reason, program, output,
+                     mm_text(result.before_mm, 3), mm_text(result.after_mm, 4));
 }
 
 /// Of all files of the folder one at a time, in the order in which they came.
@@ -226,8 +238,7 @@ void Watch::tell(const std::string& program, const std::string& output, const Wa
   if (options_.json)
     write_result(json_line(program, output, result));
   else if (result.exit == Exit::done)
-    write_result(fmt::format("{} -> {}: {:.3f} mm before, {:.4f} mm after\n", program, output,
-                             result.before_mm.value_or(0), result.after_mm.value_or(0)));
+    write_result(text_line(program, output, result));
 }
 
 /// A corrected program of an older text, under the name that this one's would have, is no correction of it.

@@ -21,7 +21,10 @@ namespace {
 namespace fs = std::filesystem;
 
 std::string line_of(const WatchResult& result) {
-  nlohmann::json json{{"exit", static_cast<int>(result.exit)}, {"error", result.error}};
+  nlohmann::json json{{"exit", static_cast<int>(result.exit)},
+                      {"error", result.error},
+                      {"verdict", result.verdict},
+                      {"verdict_reason", result.verdict_reason}};
   if (result.before_mm) json["before_mm"] = *result.before_mm;
   if (result.after_mm) json["after_mm"] = *result.after_mm;
   return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
@@ -92,7 +95,9 @@ void do_watch_job(const Options& job, const SendLine& send) {
     console.finish_warnings();
     if (end.report.before) result.before_mm = end.report.before->max_mm;
     if (end.report.after) result.after_mm = end.report.after->max_mm;
-    return exit_of(run, end.report.failure, console);
+    result.verdict = to_string(end.report.verdict);
+    result.verdict_reason = end.report.verdict_reason;
+    return exit_of(run, end.report, console);
   };
   result.exit = guarded(console, [&] { return compensate_program(job, console, tell); });
   send(line_of(result));
@@ -116,8 +121,12 @@ WatchResult watch_result(const std::optional<std::string>& sent, const Options& 
             {},
             {}};
   const auto json = nlohmann::json::parse(*sent);
-  return {static_cast<Exit>(json["exit"].get<int>()), json["error"], number_in(json, "before_mm"),
-          number_in(json, "after_mm")};
+  return {static_cast<Exit>(json["exit"].get<int>()),
+          json["error"],
+          number_in(json, "before_mm"),
+          number_in(json, "after_mm"),
+          json["verdict"],
+          json["verdict_reason"]};
 }
 
 }  // namespace counterflex::cli

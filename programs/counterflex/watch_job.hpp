@@ -27,6 +27,8 @@ struct WatchResult {
   Exit exit = Exit::done;
   std::string error;                          ///< the diagnostic of a failure
   std::optional<double> before_mm, after_mm;  ///< largest deviations; none where nothing was solved
+  std::string verdict = "FAILED";             ///< as in the report; FAILED where there is none
+  std::string verdict_reason{};
 };
 
 /// Does the job, says nothing but warnings, and sends first which process it is in, and at last its result: a

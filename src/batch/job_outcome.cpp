@@ -45,6 +45,8 @@ JobOutcome outcome_from(const LineJson& object) {
   outcome.program = text_at(object, "program");
   outcome.output = text_at(object, "output");
   outcome.exit = static_cast<Exit>(object.at("exit").get<int>());
+  outcome.verdict = text_at(object, "verdict");
+  outcome.verdict_reason = text_at(object, "verdict_reason");
   outcome.error = text_at(object, "error");
   outcome.inputs = files_at(object, "inputs");
   outcome.outputs = files_at(object, "outputs");
@@ -81,6 +83,8 @@ std::string to_json_line(const JobOutcome& outcome) {
   object["program"] = utf8_of_bytes(outcome.program);
   object["output"] = utf8_of_bytes(outcome.output);
   object["exit"] = static_cast<int>(outcome.exit);
+  object["verdict"] = utf8_of_bytes(outcome.verdict);
+  object["verdict_reason"] = utf8_of_bytes(outcome.verdict_reason);
   object["error"] = utf8_of_bytes(outcome.error);
   object["inputs"] = json_of(outcome.inputs);
   object["outputs"] = json_of(outcome.outputs);

@@ -12,7 +12,7 @@
 namespace counterflex {
 namespace {
 
-constexpr std::string_view beginning = "{\"format\":\"counterflex-manifest ", known_format = "1";
+constexpr std::string_view beginning = "{\"format\":\"counterflex-manifest ", known_format = "2";
 constexpr std::string_view end_of_jobs = "],", beginning_of_sum = "\"sha256\":\"", end_of_sum = "\"}";
 
 std::string first_line(const std::string& version, const std::string& plan) {

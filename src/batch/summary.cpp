@@ -19,9 +19,13 @@ bool is_done(const JobOutcome& outcome) {
   return outcome.exit == Exit::done;
 }
 
-/// Nothing that a spindle would do.
-bool is_empty(const JobOutcome& outcome) {
-  return is_done(outcome) && outcome.moves == 0;
+/// Its program is written, and it is not within the tolerance everywhere.
+bool is_partly(const JobOutcome& outcome) {
+  return is_done(outcome) && outcome.verdict != "OK";
+}
+
+std::size_t count_partly(const std::vector<JobOutcome>& outcomes) {
+  return static_cast<std::size_t>(std::count_if(outcomes.begin(), outcomes.end(), is_partly));
 }
 
 std::size_t count_done(const std::vector<JobOutcome>& outcomes) {
@@ -44,6 +48,8 @@ Document job_of(const JobOutcome& outcome) {
   Document job;
   job["program"] = outcome.program;
   job["output"] = outcome.output;
+  job["verdict"] = outcome.verdict;
+  job["verdict_reason"] = outcome.verdict_reason;
   job["status"] = status_text(outcome);
   job["exit_status"] = static_cast<int>(outcome.exit);
   job["error"] = outcome.error.empty() ? Document() : Document(outcome.error);
@@ -79,14 +85,14 @@ std::string without_controls(std::string text) {
 std::string row_of(const JobOutcome& outcome) {
   const std::string percent =
       outcome.corrected_percent ? fixed_or(outcome.corrected_percent, 1, "") + " %" : "-";
-  return fmt::format("{:<22}{:>11}{:>11}{:>11}{:>10}  {}\n", status_text(outcome),
+  return fmt::format("{:<19}{:<22}{:>11}{:>11}{:>11}{:>10}  {}\n", outcome.verdict, status_text(outcome),
                      fixed_or(outcome.before_mm, 4, "-"), fixed_or(outcome.after_mm, 4, "-"), percent,
                      outcome.warnings, outcome.program);
 }
 
 std::string heading() {
-  return fmt::format("{:<22}{:>11}{:>11}{:>11}{:>10}  {}\n", "status", "before mm", "after mm", "corrected",
-                     "warnings", "program");
+  return fmt::format("{:<19}{:<22}{:>11}{:>11}{:>11}{:>10}  {}\n", "verdict", "status", "before mm",
+                     "after mm", "corrected", "warnings", "program");
 }
 
 }  // namespace
@@ -99,7 +105,7 @@ bool fails_again(Exit exit) {
 std::vector<JobOutcome> worst_first(std::vector<JobOutcome> outcomes) {
   const auto badness = [](const JobOutcome& outcome) {
     constexpr double none = -std::numeric_limits<double>::infinity();
-    return std::tuple(is_done(outcome), !is_empty(outcome), -outcome.after_mm.value_or(none),
+    return std::tuple(is_done(outcome), !is_partly(outcome), -outcome.after_mm.value_or(none),
                       -outcome.before_mm.value_or(none));
   };
   std::sort(outcomes.begin(), outcomes.end(), [&](const JobOutcome& a, const JobOutcome& b) {
@@ -134,7 +140,9 @@ std::string_view status_text(Exit exit) {
 }
 
 std::string_view status_text(const JobOutcome& outcome) {
-  return is_empty(outcome) ? "done, nothing moves" : status_text(outcome.exit);
+  if (is_partly(outcome)) return "partly accepted";
+  if (outcome.verdict == "NOTHING CORRECTED") return "nothing corrected";
+  return outcome.verdict == "PARTLY" ? "partly, not accepted" : status_text(outcome.exit);
 }
 
 Exit exit_of(const std::vector<JobOutcome>& outcomes) {
@@ -151,23 +159,29 @@ std::string summary_table(const std::vector<JobOutcome>& outcomes, std::size_t m
   const std::vector<JobOutcome> rows = worst_first(outcomes);
   const std::size_t shown = std::min(rows.size(), most_rows);
   std::string text = heading();
-  for (std::size_t i = 0; i < shown; ++i) text += row_of(rows[i]);
+  for (std::size_t i = 0; i < shown; ++i) {
+    text += row_of(rows[i]);
+    if (is_partly(rows[i])) text += fmt::format("  {}\n", rows[i].verdict_reason);
+  }
   if (shown < rows.size()) text += fmt::format("and {} more, which are no worse\n", rows.size() - shown);
-  const std::size_t done = count_done(rows);
-  text += done == rows.size()
-              ? fmt::format("\n{} of {} jobs done\n", done, rows.size())
-              : fmt::format("\n{} of {} jobs done, {} failed\n", done, rows.size(), rows.size() - done);
+  const std::size_t partly = count_partly(rows), written = count_done(rows), failed = rows.size() - written;
+  text += fmt::format("\n{} of {} jobs done{}{}\n", written - partly, rows.size(),
+                      partly > 0 ? fmt::format(", {} partly", partly) : "",
+                      failed > 0 ? fmt::format(", {} failed", failed) : "");
   for (std::size_t i = 0; i < shown && !is_done(rows[i]); ++i)
     text += fmt::format("  {}\n", without_controls(rows[i].error));
   return text;
 }
 
 std::string summary_json(const std::vector<JobOutcome>& outcomes, std::string_view version) {
-  const std::size_t done = count_done(outcomes);
+  const std::size_t written = count_done(outcomes), partly = count_partly(outcomes);
   Document document;
   document["schema"] = "counterflex-batch 1";
   document["tool"] = fmt::format("counterflex {}", version);
-  document["counts"] = {{"jobs", outcomes.size()}, {"done", done}, {"failed", outcomes.size() - done}};
+  document["counts"] = {{"jobs", outcomes.size()},
+                        {"done", written - partly},
+                        {"partly", partly},
+                        {"failed", outcomes.size() - written}};
   document["exit_status"] = static_cast<int>(exit_of(outcomes));
   document["jobs"] = Document::array();
   for (const JobOutcome& outcome : worst_first(outcomes)) document["jobs"].push_back(job_of(outcome));
@@ -176,14 +190,15 @@ std::string summary_json(const std::vector<JobOutcome>& outcomes, std::string_vi
 
 std::string summary_csv(const std::vector<JobOutcome>& outcomes) {
   std::string text =
-      "program,output,status,exit_status,before_mm,after_mm,corrected_percent,warnings,moves,error\n";
+      "program,output,status,exit_status,before_mm,after_mm,corrected_percent,warnings,moves,error,verdict,"
+      "verdict_reason\n";
   for (const JobOutcome& outcome : worst_first(outcomes))
-    text +=
-        fmt::format("{},{},{},{},{},{},{},{},{},{}\n", csv_field(outcome.program), csv_field(outcome.output),
-                    status_text(outcome.exit), static_cast<int>(outcome.exit),
-                    fixed_or(outcome.before_mm, shown_digits, ""),
-                    fixed_or(outcome.after_mm, shown_digits, ""), fixed_or(outcome.corrected_percent, 2, ""),
-                    outcome.warnings, outcome.moves, csv_field(outcome.error));
+    text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{}\n", csv_field(outcome.program),
+                        csv_field(outcome.output), status_text(outcome), static_cast<int>(outcome.exit),
+                        fixed_or(outcome.before_mm, shown_digits, ""),
+                        fixed_or(outcome.after_mm, shown_digits, ""),
+                        fixed_or(outcome.corrected_percent, 2, ""), outcome.warnings, outcome.moves,
+                        csv_field(outcome.error), outcome.verdict, csv_field(outcome.verdict_reason));
   return text;
 }
 

@@ -9,17 +9,22 @@
 
 namespace counterflex {
 
+double position_miss(const Job& job, const Waypoint& w) {
+  Vector3 miss = Vector3::Zero();
+  for (Component c : job.model.mechanism.controlled)
+    if (c <= Component::z) miss[static_cast<int>(c)] = w.after[static_cast<int>(c)];
+  return miss.norm();
+}
+
 std::optional<Failure> tolerance_failure(const Job& job, const std::vector<Waypoint>& waypoints) {
   for (const Waypoint& w : waypoints) {
-    Vector3 miss = Vector3::Zero();
-    for (Component c : job.model.mechanism.controlled)
-      if (c <= Component::z) miss[static_cast<int>(c)] = w.after[static_cast<int>(c)];
-    if (miss.norm() <= job.options.tolerance || w.exempt) continue;
+    const double miss = position_miss(job, w);
+    if (miss <= job.options.tolerance || w.exempt) continue;
     return Failure{
         Exit::not_compensated, w.line,
         fmt::format("verification failed: the tip misses the path by {:.4f} mm at {:.1f} % of this move, the "
                     "tolerance is {:.4f} mm",
-                    miss.norm() / mm, 100 * w.fraction, job.options.tolerance / mm)};
+                    miss / mm, 100 * w.fraction, job.options.tolerance / mm)};
   }
   return std::nullopt;
 }

@@ -90,10 +90,10 @@ void WorstLines::keep_the_worst() {
   });
 }
 
-void PathTally::add(const Waypoint& w, std::int32_t operation, const Vector3* segment_start) {
+void PathTally::add(const Waypoint& w, std::int32_t operation, const Vector3* segment_start, bool is_within) {
   if (w.status != Status::converged) return;
   if (!w.between) add_target(w);
-  if (w.cutting) return add_cutting(w, operation, segment_start);
+  if (w.cutting) return add_cutting(w, operation, segment_start, is_within);
   finish_end();
   rapid_ = w;
 }
@@ -125,7 +125,8 @@ void PathTally::add_target(const Waypoint& w) {
   ++m_.segments_changed;
 }
 
-void PathTally::add_cutting(const Waypoint& w, std::int32_t operation, const Vector3* segment_start) {
+void PathTally::add_cutting(const Waypoint& w, std::int32_t operation, const Vector3* segment_start,
+                            bool is_within) {
   m_.after.add(sample(w, w.after, w.weight));
   m_.path_mm += w.weight / mm;
   m_.largest_N = std::max(m_.largest_N, w.wrench.head<3>().norm());
@@ -134,7 +135,7 @@ void PathTally::add_cutting(const Waypoint& w, std::int32_t operation, const Vec
   WorstRow& row = lines_.row(w.line);
   keep_worst(row.after_mm, row.at_after, w, w.after, operation);
   piece_weight_ += w.weight;
-  piece_exempt_ = piece_exempt_ || w.exempt;
+  piece_missed_ = piece_missed_ || !is_within;
   if (w.causes) {
     add_other(m_.higher, w, w.causes->higher, w.weight);
     add_other(m_.lower, w, w.causes->lower, w.weight);
@@ -147,7 +148,7 @@ void PathTally::add_cutting(const Waypoint& w, std::int32_t operation, const Vec
 // A point that the text inserts is no place of the original path: of its causes only those of the emitted
 // target count.
 void PathTally::close_piece(const Waypoint& w, std::int32_t operation) {
-  const double corrected_mm = std::exchange(piece_exempt_, false) ? 0 : piece_weight_ / mm;
+  const double corrected_mm = std::exchange(piece_missed_, false) ? 0 : piece_weight_ / mm;
   m_.corrected_mm += corrected_mm;
   if (OperationTally* tally = tally_of(operation)) tally->corrected_mm += corrected_mm;
   piece_weight_ = 0;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "assumptions.hpp"
 #include "control.hpp"
@@ -49,6 +50,10 @@ ForceSummary force_summary(const RunTally& tally, const Measures& measures) {
 std::optional<DeviationStatistics> known(const DeviationTally& tally) {
   if (tally.samples() == 0) return std::nullopt;
   return tally.statistics();
+}
+
+std::optional<Largest> known(const Largest& largest) {
+  return largest.line > 0 || largest.mm > 0 ? std::optional(largest) : std::nullopt;
 }
 
 Sources sources(const Measures& measures, bool weights) {
@@ -118,11 +123,65 @@ RunReport common(const RunContext& context, const RunTally& tally, const Measure
 
 void add_residual(RunReport& report, const RunTally& tally, const Measures& measures) {
   report.after = known(measures.after);
-  if (report.facts.attribution && report.after) report.air = measures.air;
+  if (report.facts.attribution && report.after) report.air = known(measures.air);
   report.worst = tally.path().worst(&WorstRow::after_mm);
 }
 
+std::string reason_of(const RunReport& report) {
+  switch (report.verdict) {
+    case Verdict::ok:
+      return "";
+    case Verdict::partly:
+      return partly_reason(report.feed_moves, report.tolerance_mm);
+    case Verdict::nothing_corrected:
+      return report.blocks.moves == 0 ? "the program has no move that was read"
+                                      : "no feed move has a position that is known";
+    case Verdict::failed:
+      break;
+  }
+  return report.failure ? report.failure->what : "";
+}
+
+// A prediction writes no program: what is unknown in it is no reason to fail.
+Exit status_of(const RunReport& report) {
+  switch (report.verdict) {
+    case Verdict::ok:
+      return Exit::done;
+    case Verdict::partly:
+      return report.facts.accept_partial || report.command == Command::predict ? Exit::done
+                                                                               : Exit::not_compensated;
+    case Verdict::nothing_corrected:
+      return Exit::program_text;
+    case Verdict::failed:
+      break;
+  }
+  return report.failure ? report.failure->exit : Exit::internal;
+}
+
+void add_verdict(RunReport& report, const RunTally& tally) {
+  report.feed_moves = tally.feed_moves();
+  if (report.command == Command::predict) {
+    report.feed_moves.within += std::exchange(report.feed_moves.missed, 0);
+    report.feed_moves.within_mm = report.path_mm;
+  }
+  report.verdict = report.failure ? Verdict::failed : verdict_of(report.feed_moves);
+  report.verdict_reason = reason_of(report);
+  report.exit = status_of(report);
+  if (report.exit != Exit::done) report.facts.output.clear();
+}
+
 }  // namespace
+
+std::optional<Failure> refusal_of(const RunReport& report) {
+  if (report.failure || report.exit == Exit::done) return std::nullopt;
+  const std::string_view end =
+      report.command == Command::compensate ? "; no corrected program was written" : "";
+  if (report.verdict == Verdict::nothing_corrected)
+    return Failure{report.exit, 0, fmt::format("NOTHING CORRECTED: {}{}", report.verdict_reason, end)};
+  return Failure{report.exit, report.feed_moves.missed > 0 ? report.feed_moves.worst_line : 0,
+                 fmt::format("{}{}; give --accept-partial to accept this, or a larger --tolerance-mm",
+                             verdict_text(report.verdict, report.verdict_reason), end)};
+}
 
 RunReport report_prediction(const RunContext& context, const RunTally& tally,
                             const std::optional<Failure>& failure) {
@@ -135,6 +194,7 @@ RunReport report_prediction(const RunContext& context, const RunTally& tally,
   }
   report.worst = tally.path().worst(&WorstRow::before_mm);
   report.warnings = all_warnings(context, tally, report);
+  add_verdict(report, tally);
   return report;
 }
 
@@ -144,7 +204,7 @@ RunReport report_compensation(const RunContext& context, const RunTally& tally,
   RunReport report = common(context, tally, measures, failure);
   report.command = Command::compensate;
   add_residual(report, tally, measures);
-  report.correction = tally.largest_correction();
+  report.correction = known(tally.largest_correction());
   report.blocks.corrected = tally.corrected_moves();
   report.blocks.others = tally.other_moves();
   report.blocks.inserted = tally.inserted_blocks();
@@ -152,6 +212,7 @@ RunReport report_compensation(const RunContext& context, const RunTally& tally,
   if (tally.text_bytes() > 0)
     report.text_after = TextSize{context.program.blocks + report.blocks.inserted, tally.text_bytes()};
   report.warnings = all_warnings(context, tally, report);
+  add_verdict(report, tally);
   return report;
 }
 
@@ -161,11 +222,12 @@ RunReport report_verification(const RunContext& context, const RunTally& tally, 
   RunReport report = common(context, tally, measures, failure);
   report.command = Command::verify;
   add_residual(report, tally, measures);
-  report.correction = measures.correction;
+  report.correction = known(measures.correction);
   report.blocks.corrected = measures.segments_changed;
   report.blocks.inserted = corrected.blocks - std::min(corrected.blocks, context.program.blocks);
   report.text_after = TextSize{corrected.blocks, corrected.bytes};
   report.warnings = all_warnings(context, tally, report);
+  add_verdict(report, tally);
   return report;
 }
 

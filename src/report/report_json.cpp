@@ -87,6 +87,23 @@ Json summary_json(const RunReport& report) {
           {"path_mm", number(report.path_mm, digits)}};
 }
 
+/// What is not known is not zero.
+Json feed_moves_json(const RunReport& report) {
+  const FeedMoves& moves = report.feed_moves;
+  const bool judged = report.command != Command::predict;
+  const auto of_judged = [&](const Json& value) { return judged ? value : Json(nullptr); };
+  const bool solved = judged && moves.worst_line > 0;
+  return {{"count", moves.count},
+          {"within", of_judged(moves.within)},
+          {"missed", of_judged(moves.missed)},
+          {"unknown", moves.unknown},
+          {"unknown_length", moves.unknown_length},
+          {"length_mm", number(moves.length_mm, digits)},
+          {"within_mm", of_judged(number(moves.within_mm, digits))},
+          {"worst_mm", solved ? number(moves.worst_mm, digits) : Json(nullptr)},
+          {"worst_line", solved ? Json(moves.worst_line) : Json(nullptr)}};
+}
+
 Json without_force_json(const WithoutForce& without) {
   Json reasons = Json::array(), rows = Json::array();
   for (const WithoutForceReason& reason : without.reasons)
@@ -260,12 +277,15 @@ std::string to_json(const RunReport& report) {
   Json document = {{"schema", "counterflex-report 1"},
                    {"tool", fmt::format("counterflex {}", report.facts.version)},
                    {"command", name_of(report.command)},
+                   {"verdict", to_string(report.verdict)},
+                   {"verdict_reason", report.verdict_reason},
                    {"machine", report.machine},
                    {"inputs", inputs_json(report.facts.inputs)},
                    {"output", output.empty() ? Json(nullptr) : Json(output)},
                    {"options", options_json(report.facts.options)},
                    {"failure", failure_json(report.failure)},
                    {"summary", summary_json(report)},
+                   {"feed_moves", feed_moves_json(report)},
                    {"forces", forces_json(report)},
                    {"loads", largest_loads_json(report.loads)},
                    {"blocks", blocks_json(report.blocks)},

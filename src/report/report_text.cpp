@@ -30,6 +30,12 @@ std::string what_was_done(const RunReport& report) {
   return fmt::format("{} {}", name_of(report.command), program);
 }
 
+std::string verdict_line(const RunReport& report, const Ink& ink) {
+  const std::string text = verdict_text(report.verdict, report.verdict_reason) + "\n";
+  if (report.verdict == Verdict::ok) return ink.good(text);
+  return report.verdict == Verdict::partly ? ink.warning(text) : ink.bad(text);
+}
+
 std::string title(const RunReport& report, const Ink& ink) {
   std::string text = ink.bold(what_was_done(report)) + "\n";
   const std::string machine = report.machine.empty() ? "an unnamed machine" : report.machine;
@@ -41,13 +47,15 @@ std::string title(const RunReport& report, const Ink& ink) {
 }
 
 std::string failure_text(const RunReport& report, const Ink& ink) {
-  if (!report.failure) return "";
-  const Failure& failure = *report.failure;
+  const std::optional<Failure> ended = report.failure ? report.failure : refusal_of(report);
+  if (!ended) return "";
+  const Failure& failure = *ended;
   const std::string where = failure.line > 0 ? fmt::format("line {}: ", failure.line) : "";
-  std::string text =
-      line_break() + ink.bad("Failed") + fmt::format(" (exit status {})\n", static_cast<int>(failure.exit));
+  std::string text = line_break() + ink.bad(report.failure ? "Failed" : "Refused") +
+                     fmt::format(" (exit status {})\n", static_cast<int>(failure.exit));
   text += wrapped("  ", where + failure.what, 4);
-  if (report.command == Command::compensate) text += "  No corrected program was written.\n";
+  if (report.failure && report.command == Command::compensate)
+    text += "  No corrected program was written.\n";
   return text;
 }
 
@@ -171,8 +179,13 @@ std::string more(std::size_t shown, std::size_t count) {
 std::string left_alone_text(const RunReport& report, const Ink& ink) {
   const Capped<LeftAlone>& list = report.blocks.left_alone;
   if (list.count == 0) return "";
-  std::string text =
-      line_break() + ink.warning(fmt::format("Not corrected: {}", counted(list.count, "block"))) + "\n";
+  const OtherMoves others = report.blocks.others.value_or(OtherMoves{});
+  const std::size_t moves = others.grouped + others.held + others.in_part + others.left;
+  const std::string heading =
+      moves > 0
+          ? fmt::format("Not corrected each on its own: {}, first lines and reasons", counted(moves, "move"))
+          : "Not corrected, or not wholly: first lines and reasons";
+  std::string text = line_break() + ink.warning(heading) + "\n";
   const std::size_t shown = std::min(shown_blocks, list.rows.size());
   for (std::size_t i = 0; i < shown; ++i)
     text += wrapped(line_prefix(list.rows[i].line), list.rows[i].why, 4);
@@ -200,14 +213,15 @@ std::string assumptions_text(const RunReport& report, const Ink& ink) {
 
 std::string summary_text(const RunReport& report, bool colour) {
   const Ink ink{colour};
-  std::string text = title(report, ink) + failure_text(report, ink);
+  std::string text = verdict_line(report, ink) + title(report, ink) + failure_text(report, ink);
   text += deviation_table(report, ink) + sources_text(report, ink) + worst_text(report, ink);
   text += program_text(report, ink) + force_text(report, ink) + loads_text(report, ink);
   return text + left_alone_text(report, ink) + warnings_text(report, ink) + assumptions_text(report, ink);
 }
 
 std::string one_line(const RunReport& report) {
-  std::string text = file_name(report, "program") + ": ";
+  std::string text = fmt::format("{}: {}, ", file_name(report, "program"),
+                                 verdict_text(report.verdict, report.verdict_reason));
   if (!report.before) return text + "not solved";
   text += mm4(report.before->max_mm) + " mm before";
   if (report.after) text += fmt::format(", {} mm after (model residual)", mm4(report.after->max_mm));

@@ -22,13 +22,13 @@ std::int32_t OperationNames::number_of(const Program& window, const Move& move) 
 RunTally::RunTally(double min_block_ms, std::optional<PathCurves> curves)
     : min_block_ms_(min_block_ms), curves_(std::move(curves)) {}
 
-void RunTally::add(const Waypoint& w, std::int32_t operation, const Vector3* segment_start) {
-  path_.add(w, operation, segment_start);
+void RunTally::add(const Waypoint& w, std::int32_t operation, const Vector3* segment_start, bool is_within) {
+  path_.add(w, operation, segment_start, is_within);
   if (curves_) curves_->add(w, operation, segment_start);
 }
 
 void RunTally::add_waypoints(const std::vector<Waypoint>& waypoints) {
-  for (const Waypoint& w : waypoints) add(w, PathTally::no_operation, nullptr);
+  for (const Waypoint& w : waypoints) add(w, PathTally::no_operation, nullptr, true);
 }
 
 void RunTally::add_waypoints(const std::vector<Waypoint>& waypoints, const Job& window) {
@@ -48,8 +48,21 @@ void RunTally::add_waypoints(const std::vector<Waypoint>& waypoints, const Job& 
         if (!unit_) unit_ = move.unit;
       }
     }
-    add(w, operation, start);
+    const double miss = position_miss(window, w);
+    feed_.add(w, miss, window);
+    add(w, operation, start, miss <= window.options.tolerance);
   }
+}
+
+void RunTally::add_window(const Job& window) {
+  feed_.add_window(window);
+  add_forces(window.forces);
+}
+
+FeedMoves RunTally::feed_moves() const {
+  FeedMoves moves = feed_.moves();
+  moves.within_mm += path_.measures().corrected_mm;
+  return moves;
 }
 
 void RunTally::add_forces(const PathForces& forces) {

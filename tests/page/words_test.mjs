@@ -73,3 +73,24 @@ test('how many moves the numbers leave out is said', () => {
   assert.equal(verdict({before: of(0.1)}, 2).kind, 'warn');
   assert.equal(verdict({before: of(0.1)}).kind, 'neutral');
 });
+
+test('the verdict of the run comes first, and decides the colour', () => {
+  const said = (report) => plain(words.verdict({...report_of({before: of(0.1), after: of(0.001)}), ...report}, units.create('um')));
+  assert.match(said({verdict: 'OK', verdict_reason: '', output: 'o.nc'}).text, /^OK\. Off by up to/);
+  assert.equal(said({verdict: 'OK', output: 'o.nc'}).kind, 'good');
+  const reason = '54 % of the cutting length, worst 0.0095 mm > 0.005';
+  const partly = said({verdict: 'PARTLY', verdict_reason: reason, output: null});
+  assert.ok(partly.text.startsWith(`PARTLY (${reason}). `), partly.text);
+  assert.match(partly.text, /No corrected program was written\.$/);
+  assert.equal(partly.kind, 'warn');
+  assert.doesNotMatch(said({verdict: 'PARTLY', verdict_reason: reason, output: 'o.nc'}).text, /No corrected program/);
+  assert.equal(said({verdict: 'NOTHING CORRECTED', verdict_reason: 'no feed move', output: null}).kind, 'bad');
+  const failure = {line: 3, what: 'too far'};
+  assert.deepEqual(said({verdict: 'FAILED', failure, output: null}),
+      {text: 'FAILED. Line 3: too far. No corrected program was written.', kind: 'bad'});
+});
+
+test('moves that are not corrected each on their own are counted as moves', () => {
+  assert.equal(words.otherMoves({grouped: 17, held: 0, corrected_in_part: 2, not_corrected: 4684, left_alone_count: 1}), 4703);
+  assert.equal(words.otherMoves({grouped: null, held: null, corrected_in_part: null, not_corrected: null}), 0);
+});

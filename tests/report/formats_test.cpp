@@ -46,6 +46,8 @@ TEST_CASE("the JSON of a compensation has every key, in this order") {
   "schema": "counterflex-report 1",
   "tool": "counterflex 0.1.0",
   "command": "compensate",
+  "verdict": "PARTLY",
+  "verdict_reason": "62 % of the cutting length, 2 feed moves of unknown deviation",
   "machine": "Mill",
   "inputs": {
     "program": {
@@ -176,6 +178,17 @@ TEST_CASE("the JSON of a compensation has every key, in this order") {
     },
     "corrected_percent": 100.0,
     "path_mm": 100.0
+  },
+  "feed_moves": {
+    "count": 3,
+    "within": 1,
+    "missed": 0,
+    "unknown": 2,
+    "unknown_length": 0,
+    "length_mm": 161.1803399,
+    "within_mm": 100.0,
+    "worst_mm": 0.0,
+    "worst_line": 4
   },
   "forces": {
     "largest_N": 50.0,
@@ -407,7 +420,9 @@ TEST_CASE("the summary shows before and after, and calls what is left a model re
       "  With the force 30 % higher (wear, override) the corrected program is off by up to 0.0800 "
       "mm, line\n  4; with it 30 % lower the corrected program is off by up to 0.0700 mm, line 4.\n"));
   CHECK(contains(text, "corrected program is off by up to\n  0.2500 mm, line 4.\n"));
-  CHECK(contains(text, "Not corrected: 1 block\n  line 5: exact stop: not split\n"));
+  CHECK(contains(
+      text,
+      "Not corrected each on its own: 2 moves, first lines and reasons\n  line 5: exact stop: not split\n"));
   CHECK(contains(text, "2 warnings\n  a general warning\n  line 6: a warning\n"));
   CHECK(contains(text, "Taken for granted\n  Program coordinates were taken as machine coordinates"));
 }
@@ -497,6 +512,7 @@ TEST_CASE("the summary of a failure says what failed and shows no numbers that a
   Compensation none;
   none.failure = Failure{Exit::limit, 4, "the correction is too large"};
   const std::string text = summary_text(compensated(run, none), false);
+  CHECK(text.starts_with("FAILED\n"));
   CHECK(contains(text,
                  "Failed (exit status 6)\n  line 4: the correction is too large\n  No corrected program was "
                  "written.\n"));
@@ -508,7 +524,7 @@ TEST_CASE("long lists are cut short in the summary, with their number") {
   MadeUpRun run;
   for (int line = 1; line <= 30; ++line) run.program.left_alone.push_back({line, "why"});
   const std::string text = summary_text(predicted(run, {}), false);
-  CHECK(contains(text, "Not corrected: 30 blocks\n  line 1: why\n"));
+  CHECK(contains(text, "Not corrected, or not wholly: first lines and reasons\n  line 1: why\n"));
   CHECK(contains(text, "  line 5: why\n  and 25 more\n"));
 }
 
@@ -546,6 +562,8 @@ TEST_CASE("colour adds escape sequences and nothing else") {
 TEST_CASE("a run in one line names the program, before and after") {
   const MadeUpRun run;
   CHECK(one_line(compensated(run, small_compensation())) ==
-        "made_up.ngc: 0.5000 mm before, 0.0050 mm after (model residual)");
-  CHECK(one_line(predicted(run, made_up_waypoints())) == "made_up.ngc: 0.5000 mm before");
+        "made_up.ngc: PARTLY (62 % of the cutting length, 2 feed moves of unknown deviation), 0.5000 mm "
+        "before, "
+        "0.0050 mm after (model residual)");
+  CHECK(one_line(predicted(run, made_up_waypoints())) == "made_up.ngc: OK, 0.5000 mm before");
 }

@@ -48,7 +48,7 @@ struct MadeUpRun {
   /// With the forces, and `waypoints` all at once.
   RunTally tally(const std::vector<Waypoint>& waypoints) const {
     RunTally result(facts.min_block_ms);
-    result.add_forces(forces);
+    result.add_window(job);
     result.add_waypoints(waypoints, job);
     return result;
   }

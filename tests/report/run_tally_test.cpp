@@ -264,7 +264,9 @@ TEST_CASE("operations are told apart by tool and comment, and their parts make u
     if (!segment.cutting) continue;
     path.push_back(cut(i, segment.line, length(segment.wanted) / mm, Vector3(0.1 * segment.line, 0, 0)));
   }
-  path.back().exempt = true;
+  run.model.mechanism.controlled = {Component::x};
+  run.job.options.tolerance = 0.1 * mm;
+  path.back().after.x() = 0.2 * mm;
   const Overview overview = overview_of(run.program);
   RunTally tally(2);
   tally.add_waypoints(path, run.job);
@@ -333,13 +335,13 @@ TEST_CASE("where one operation follows another without a rapid both know the pla
   CHECK(tally.path().measures().before.statistics().mean_mm == doctest::Approx((0.1 * 25 + 0.05 * 15) / 40));
 }
 
-TEST_CASE("a piece that may miss the tolerance somewhere is no part of what is corrected") {
+TEST_CASE("a piece that misses the tolerance somewhere is no part of what is corrected") {
   PathTally tally;
   Waypoint inside = cut(0, 3, 5, Vector3(0.1, 0, 0)), end = cut(0, 3, 5, Vector3(0.1, 0, 0)),
            good = cut(1, 4, 30, Vector3(0.1, 0, 0));
-  inside.between = inside.exempt = true;
+  inside.between = true;
   inside.place = false;
-  for (const Waypoint& w : {inside, end, good}) tally.add(w, 0);
+  for (const Waypoint& w : {inside, end, good}) tally.add(w, 0, nullptr, !w.between);
   CHECK(tally.measures().path_mm == doctest::Approx(40));
   CHECK(tally.measures().corrected_mm == doctest::Approx(30));
   CHECK(tally.operations().at(0).corrected_mm == doctest::Approx(30));

@@ -37,6 +37,7 @@ TEST_CASE("what is written of settings is read as the same settings") {
                                       flag("method", {"nested"}),
                                       flag("tolerance-mm", {"0.0050000000000000001"}),
                                       flag("max-correction-mm", {"5"}),
+                                      flag("accept-partial", {"true"}),
                                       flag("decimals", {"4"}),
                                       flag("threads", {"3"}),
                                       flag("min-block-ms", {"0.00001"}),

@@ -23,9 +23,11 @@ struct JobOutcome {
   std::string program;  ///< path of the original
   std::string output;   ///< path of the corrected program, which no other job of the batch has
   Exit exit = Exit::done;
-  std::string error;              ///< the first diagnostic of a job that failed
-  std::vector<FileHash> inputs;   ///< as they were read
-  std::vector<FileHash> outputs;  ///< as they were written, the corrected program first where there is one
+  std::string verdict = "FAILED";  ///< of the run's report; FAILED where it came to none
+  std::string verdict_reason;      ///< as in the report
+  std::string error;               ///< the first diagnostic of a job that failed
+  std::vector<FileHash> inputs;    ///< as they were read
+  std::vector<FileHash> outputs;   ///< as they were written, the corrected program first where there is one
   std::optional<double> before_mm,
       after_mm;  ///< largest deviation of feed moves; none where nothing was solved
   std::optional<double> corrected_percent;  ///< of the cutting length

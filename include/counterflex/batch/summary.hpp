@@ -11,15 +11,14 @@ namespace counterflex {
 /// Whether a job that ended so would fail again with the same inputs: it was understood and refused.
 bool fails_again(Exit exit);
 
-/// The outcomes, worst first: those that failed, those in which nothing moves, which is no program that
-/// anybody wanted, then by the deviation that is left, then by the one before,
-/// the largest first; equal ones by the path of the program.
+/// The outcomes, worst first: those that failed, those whose verdict PARTLY was accepted, then by the
+/// deviation that is left, then by the one before, the largest first; equal ones by the path of the program.
 std::vector<JobOutcome> worst_first(std::vector<JobOutcome> outcomes);
 
 /// "done", or what failed, in a few words: "not within tolerance".
 std::string_view status_text(Exit exit);
 
-/// The same; of a job that is done and had nothing to correct, that.
+/// The same; of a job whose verdict is PARTLY or NOTHING CORRECTED, that.
 std::string_view status_text(const JobOutcome& outcome);
 
 /// The status of a batch: 0 where all are done; 75 where one may succeed if it is tried again; else the
@@ -30,14 +29,14 @@ Exit exit_of(const std::vector<JobOutcome>& outcomes);
 /// diagnostics of these that failed. Lengths in mm.
 std::string summary_table(const std::vector<JobOutcome>& outcomes, std::size_t most_rows);
 
-/// {"schema": "counterflex-batch 1", "tool", "counts": {"jobs", "done", "failed"}, "exit_status", "jobs":
-/// [{"program", "output", "status", "exit_status", "error", "before_mm", "after_mm", "corrected_percent",
-/// "warnings", "moves", "inputs": [{"path", "sha256"}], "outputs": [...]}]}, worst first. `version` is the
-/// tool's.
+/// {"schema": "counterflex-batch 1", "tool", "counts": {"jobs", "done", "partly", "failed"},
+/// "exit_status", "jobs": [{"program", "output", "verdict", "verdict_reason", "status", "exit_status",
+/// "error", "before_mm", "after_mm", "corrected_percent", "warnings", "moves", "inputs": [{"path",
+/// "sha256"}], "outputs": [...]}]}, worst first. `version` is the tool's.
 std::string summary_json(const std::vector<JobOutcome>& outcomes, std::string_view version);
 
 /// The same jobs as rows: program, output, status, exit_status, before_mm, after_mm, corrected_percent,
-/// warnings, moves, error; fields quoted as RFC 4180 has it.
+/// warnings, moves, error, verdict, verdict_reason; fields quoted as RFC 4180 has it.
 std::string summary_csv(const std::vector<JobOutcome>& outcomes);
 
 }  // namespace counterflex

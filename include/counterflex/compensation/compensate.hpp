@@ -60,7 +60,10 @@ std::optional<Failure> decimals_failure(const Program& program, const Toolpath& 
 /// solves. Throws `InputError` (Exit::not_compensated) where a move has no counterpart.
 std::vector<Piece> match_programs(const Job& job, const Program& corrected);
 
-/// The first waypoint whose `after` misses the tolerance, said in words.
+/// The controlled part of a waypoint's `after`: what the tolerance applies to (m).
+double position_miss(const Job& job, const Waypoint& w);
+
+/// The first waypoint that misses the tolerance in a move that the plan corrects (not `exempt`), in words.
 std::optional<Failure> tolerance_failure(const Job& job, const std::vector<Waypoint>& waypoints);
 
 /// A line of the report: what is left of a tolerance when words are rounded to their digits, half the last

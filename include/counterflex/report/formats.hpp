@@ -32,7 +32,7 @@ std::string csv_rows(std::span<const Waypoint> waypoints, const CsvColumns& colu
 /// Deviations in mm with four decimals. `colour` adds ANSI sequences, nothing else.
 std::string summary_text(const RunReport& report, bool colour);
 
-/// "NAME: 2.0734 mm before, 0.0041 mm after (model residual)": a run in one line, without a newline.
+/// "NAME: OK, 2.0734 mm before, 0.0041 mm after (model residual)": a run in one line, without a newline.
 std::string one_line(const RunReport& report);
 
 }  // namespace counterflex

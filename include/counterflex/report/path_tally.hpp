@@ -25,7 +25,7 @@ struct Measures {
   Largest air, correction;
   double largest_N = 0, largest_Nm = 0;
   double path_mm = 0;
-  double corrected_mm = 0;           ///< of it, pieces that are held to the tolerance everywhere
+  double corrected_mm = 0;           ///< of it, pieces that are within the tolerance everywhere
   std::size_t segments_changed = 0;  ///< feed moves and rapids whose target is not the original one
 };
 
@@ -34,7 +34,7 @@ struct OperationTally {
   DeviationTally before, after;
   int first_line = 0, last_line = 0;
   std::size_t moves = 0;
-  double length_mm = 0, corrected_mm = 0;  ///< of feed moves, and of these whole pieces held to the tolerance
+  double length_mm = 0, corrected_mm = 0;  ///< of feed moves, and of these whole pieces within the tolerance
   std::optional<std::pair<std::size_t, int>> last_move;  ///< segment and line
 };
 
@@ -65,7 +65,9 @@ class PathTally {
   /// `segment_start`: where the wanted segment of a feed move starts (M, m), so that the end of a rapid there
   /// counts as its first place; without it a line's length tells.
   static constexpr std::int32_t no_operation = -1;
-  void add(const Waypoint& w, std::int32_t operation = no_operation, const Vector3* segment_start = nullptr);
+  /// `is_within`: the tolerance, what the tip's controlled position misses there.
+  void add(const Waypoint& w, std::int32_t operation = no_operation, const Vector3* segment_start = nullptr,
+           bool is_within = true);
 
   /// Of all waypoints so far, the last of which ends the path.
   Measures measures() const;
@@ -81,7 +83,7 @@ class PathTally {
   };
 
   void add_target(const Waypoint& w);
-  void add_cutting(const Waypoint& w, std::int32_t operation, const Vector3* segment_start);
+  void add_cutting(const Waypoint& w, std::int32_t operation, const Vector3* segment_start, bool is_within);
   void add_to_operation(const Waypoint& w, std::int32_t operation);
   void close_piece(const Waypoint& w, std::int32_t operation);
   void add_place(const Waypoint& w, std::int32_t operation, const Vector3* segment_start);
@@ -95,7 +97,7 @@ class PathTally {
   Measures m_;
   WorstLines lines_;
   std::optional<std::pair<std::size_t, int>> last_changed_;  ///< segment and line
-  bool piece_exempt_ = false;  ///< somewhere the piece under way may miss the tolerance
+  bool piece_missed_ = false;  ///< somewhere the piece under way misses the tolerance
   double piece_weight_ = 0;    ///< of the piece under way
   double place_weight_ = 0;  ///< of the way since the last place of the original path: all means but those of
                              ///< `after`, `higher` and `lower` are over these places

@@ -14,6 +14,7 @@
 #include "counterflex/program/overview.hpp"
 #include "counterflex/report/path_loads.hpp"
 #include "counterflex/report/statistics.hpp"
+#include "counterflex/report/verdict.hpp"
 #include "counterflex/report/without_force.hpp"
 
 namespace counterflex {
@@ -38,9 +39,10 @@ struct RunFacts {
   std::vector<InputFile> inputs;
   std::vector<OptionValue> options;
   std::vector<Remark>
-      warnings;             ///< besides the program's remarks and the forces' notes, which are added here
-  std::string output;       ///< path of the corrected program; empty: none was written
-  double min_block_ms = 2;  ///< what takes less time is a short block
+      warnings;                 ///< besides the program's remarks and the forces' notes, which are added here
+  std::string output;           ///< path of the corrected program, if one is written; empty: there is none
+  bool accept_partial = false;  ///< PARTLY is no failure
+  double min_block_ms = 2;      ///< what takes less time is a short block
   bool attribution =
       false;  ///< the waypoints' geometry, load, superposition, air, higher and lower were solved
 };
@@ -167,6 +169,10 @@ struct ShownUnits {
 
 struct RunReport {
   Command command = Command::compensate;
+  Verdict verdict = Verdict::failed;
+  std::string verdict_reason;  ///< what stands behind the word; empty for OK
+  Exit exit = Exit::internal;  ///< status with which the run ends; only with `done` is a program written
+  FeedMoves feed_moves;
   RunFacts facts;  ///< its `warnings` stay the caller's own; all are in `warnings` below
   std::string machine;
   Method method = Method::direct;
@@ -210,6 +216,9 @@ struct RunContext {
 
 /// Adds the loads along the run's path, and a warning for every limit of `machine` that they exceed.
 void add_loads(RunReport& report, LoadsAlong along, const Machine& machine);
+
+/// Why a run without a failure of its own ends with another status than `done`: the verdict, and what to do.
+std::optional<Failure> refusal_of(const RunReport& report);
 
 class RunTally;
 class FileReader;

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "counterflex/compensation/compensate.hpp"
+#include "counterflex/report/feed_tally.hpp"
 #include "counterflex/report/path_curves.hpp"
 #include "counterflex/report/path_tally.hpp"
 #include "counterflex/report/report.hpp"
@@ -43,6 +44,9 @@ class RunTally {
   /// The same for waypoints of a window, or some of them.
   void add_waypoints(const std::vector<Waypoint>& waypoints, const Job& window);
 
+  /// The next window's moves and forces, before its waypoints.
+  void add_window(const Job& window);
+
   /// The next window's: its ramps, jumps, moves without a force and notes are added to those before.
   void add_forces(const PathForces& forces);
 
@@ -56,6 +60,7 @@ class RunTally {
   void add_corrected(const Program& corrected_window);
 
   const PathTally& path() const { return path_; }
+  FeedMoves feed_moves() const;
   const std::optional<PathCurves>& curves() const { return curves_; }
   const std::vector<OperationNames::Name>& operation_names() const { return operation_names_.names(); }
   LengthUnit unit() const { return unit_.value_or(LengthUnit::millimetres); }  ///< of the first feed move
@@ -73,10 +78,11 @@ class RunTally {
   const std::optional<ShortBlocks>& short_blocks() const { return short_blocks_; }
 
  private:
-  void add(const Waypoint& w, std::int32_t operation, const Vector3* segment_start);
+  void add(const Waypoint& w, std::int32_t operation, const Vector3* segment_start, bool is_within);
 
   double min_block_ms_;
   PathTally path_;
+  FeedTally feed_;
   std::optional<PathCurves> curves_;
   OperationNames operation_names_;
   std::optional<LengthUnit> unit_;

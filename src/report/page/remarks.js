@@ -18,7 +18,9 @@
 
   function leftAlone(run, link) {
     const {left_alone: rows, left_alone_count: count} = run.report.blocks;
-    return list(run, `Not corrected, or not wholly: ${words.counted(count, 'block')}`, 'Why',
+    const moves = words.otherMoves(run.report.blocks);
+    const title = moves > 0 ? `Not corrected each on its own: ${words.counted(moves, 'move')}` : 'Not corrected, or not wholly';
+    return list(run, title, 'Why, from this line on',
         rows.map(({line, why}) => [link(line), why]), count);
   }
 

@@ -83,8 +83,9 @@
     const loads = exceeded(report);
     const list = [];
     const add = (text, target) => list.push({text, target});
-    if (report.blocks.left_alone_count > 0)
-      add(`${words.counted(report.blocks.left_alone_count, 'block')} not corrected, or not wholly`, 'remarks');
+    const others = words.otherMoves(report.blocks);
+    if (others > 0) add(`${words.counted(others, 'move')} not corrected each on its own`, 'remarks');
+    else if (report.blocks.left_alone_count > 0) add('blocks are not corrected, or not wholly', 'remarks');
     if (report.warning_count > 0) add(words.counted(report.warning_count, 'warning'), 'remarks');
     if (loads > 0) add(`${words.counted(loads, 'load')} above the limit of the machine file`, 'loads');
     if (report.forces.without_force.moves > 0 && report.forces.largest_N > 0)

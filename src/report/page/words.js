@@ -68,8 +68,30 @@
     return ` ${counted(count, 'move')} ${count === 1 ? 'is' : 'are'} not corrected, and left out of these numbers.`;
   }
 
-  /** The result of a run in a sentence, and whether it is a good one: 'good', 'warn', 'bad' or 'neutral'. */
+  const kinds = {OK: 'good', PARTLY: 'warn', 'NOTHING CORRECTED': 'bad', FAILED: 'bad'};
+
+  /** Moves that are not corrected each on its own; 0 where the run does not count them. */
+  const otherMoves = ({grouped, held, corrected_in_part: inPart, not_corrected: left}) =>
+    (grouped || 0) + (held || 0) + (inPart || 0) + (left || 0);
+
+  /** The verdict as the terminal shows it; '' for a report of an older version. */
+  function verdictLine({verdict, verdict_reason: reason}) {
+    if (!verdict) return '';
+    return verdict === 'PARTLY' && reason ? `PARTLY (${reason})` : verdict;
+  }
+
+  /** The result of a run: its verdict and a sentence, and the kind: 'good', 'warn', 'bad' or 'neutral'. */
   function verdict(report, units) {
+    const line = verdictLine(report);
+    const {text, kind} = sentence(report, units);
+    if (!line) return {text, kind};
+    if (report.failure) return {text: text.replace(/^Failed/, line), kind};
+    const unwritten = report.command === 'compensate' && report.verdict !== 'OK' && !report.output;
+    const end = unwritten ? ' No corrected program was written.' : '';
+    return {text: `${line}. ${text}${end}`, kind: report.verdict === 'OK' ? kind : kinds[report.verdict]};
+  }
+
+  function sentence(report, units) {
     const {before, after} = report.summary;
     if (report.failure) return {text: failed(report), kind: 'bad'};
     if (report.summary.path_mm === 0) return {text: `Nothing was solved: no feed move.${leftOut(report)}`, kind: 'warn'};
@@ -120,5 +142,5 @@
 
   const toolName = (tool) => (tool > 0 ? `T${tool}` : '\u2013');
 
-  counterflex.words = {counted, ofRun, inLine, factor, title, verdict, nothingSolved, parts, cause, causeInShort, toolName};
+  counterflex.words = {counted, ofRun, inLine, factor, title, verdict, otherMoves, nothingSolved, parts, cause, causeInShort, toolName};
 })();

@@ -1,0 +1,175 @@
+#include "counterflex/report/verdict.hpp"
+
+#include <doctest/doctest.h>
+
+#include "counterflex/files/utf8.hpp"
+#include "counterflex/geometry/units.hpp"
+#include "counterflex/program/read_program.hpp"
+#include "counterflex/report/feed_tally.hpp"
+
+using namespace counterflex;
+
+namespace {
+
+/// Ten moves of 100 mm in all.
+FeedMoves ten_moves() {
+  FeedMoves moves;
+  moves.count = moves.within = 10;
+  moves.length_mm = moves.within_mm = 100;
+  moves.worst_mm = 0.002;
+  moves.worst_line = 7;
+  return moves;
+}
+
+FeedMoves half_missed() {
+  FeedMoves moves = ten_moves();
+  moves.within = 5;
+  moves.missed = 5;
+  moves.within_mm = 54;
+  moves.worst_mm = 0.0095;
+  return moves;
+}
+
+FeedMoves some_unknown() {
+  FeedMoves moves = ten_moves();
+  moves.count = 22;
+  moves.unknown = moves.unknown_length = 12;
+  return moves;
+}
+
+/// A program of one window on a machine that controls x, y and z.
+struct Reading {
+  explicit Reading(const char* text) : program(read_program(text, "p.nc", {})) {
+    model.mechanism.controlled = {Component::x, Component::y, Component::z};
+    tally.add_window(job);
+  }
+  Program program;
+  Model model;
+  Toolpath path = build_toolpath(program, one_frame(program, {}));
+  ForceSource source;
+  PathForces forces{source, program, path, {Matrix3::Identity()}};
+  Job job{model, program, path, forces, {}, {}};
+  FeedTally tally;
+
+  /// A waypoint of `segment`, or of no segment, that misses by `miss_mm`.
+  void solve(std::size_t segment, int line, double miss_mm, bool cutting = true) {
+    Waypoint w;
+    w.segment = segment;
+    w.line = line;
+    w.cutting = cutting;
+    tally.add(w, miss_mm * mm, job);
+  }
+};
+
+}  // namespace
+
+TEST_CASE("a verdict is OK only if every feed move is known to be within the tolerance") {
+  CHECK(verdict_of(ten_moves()) == Verdict::ok);
+  CHECK(verdict_of(half_missed()) == Verdict::partly);
+  CHECK(verdict_of(some_unknown()) == Verdict::partly);
+}
+
+TEST_CASE("nothing is corrected where no feed move is known, or nothing moves") {
+  FeedMoves moves;
+  CHECK(verdict_of(moves) == Verdict::nothing_corrected);
+  moves.count = moves.unknown = moves.unknown_length = 4684;
+  CHECK(verdict_of(moves) == Verdict::nothing_corrected);
+  moves.rapid_ends = 3;
+  CHECK(verdict_of(moves) == Verdict::nothing_corrected);
+  moves.known_ends = 1;
+  CHECK(verdict_of(moves) == Verdict::partly);
+}
+
+TEST_CASE("a program of rapids alone is OK where their ends were corrected") {
+  FeedMoves moves;
+  moves.rapid_ends = 3;
+  CHECK(verdict_of(moves) == Verdict::ok);
+}
+
+TEST_CASE("the reason of PARTLY names share, worst deviation and unknown moves") {
+  CHECK(partly_reason(half_missed(), 0.005) == "54 % of the cutting length, worst 0.0095 mm > 0.005");
+  CHECK(partly_reason(some_unknown(), 0.005) ==
+        "100 % of the known cutting length, 12 feed moves of unknown length");
+  FeedMoves unsolved = ten_moves();
+  unsolved.count = 11;
+  unsolved.unknown = 1;
+  unsolved.length_mm = 200;
+  CHECK(partly_reason(unsolved, 0.005) == "50 % of the cutting length, 1 feed move of unknown deviation");
+  CHECK(verdict_text(Verdict::partly, "50 %") == "PARTLY (50 %)");
+  CHECK(verdict_text(Verdict::nothing_corrected, "no move") == "NOTHING CORRECTED");
+}
+
+TEST_CASE("a share and a deviation are never rounded to what would be good") {
+  FeedMoves moves = half_missed();
+  moves.within_mm = 99.999;
+  moves.worst_mm = 0.00500004;
+  CHECK(partly_reason(moves, 0.005) == "99.9 % of the cutting length, worst 0.0050000 mm > 0.005");
+  moves.within_mm = 0.001;
+  moves.worst_mm = 0.00501;
+  CHECK(partly_reason(moves, 0.005) == "0.1 % of the cutting length, worst 0.0050100 mm > 0.005");
+  moves.within_mm = 0;
+  CHECK(partly_reason(moves, 0.005).starts_with("0 % of the cutting length"));
+}
+
+TEST_CASE("feed moves to positions that are variables have no known length") {
+  Reading run("G21 G90 G54 G0 X0 Y0 Z0\nG1 X10 F100\nG1 X#1\nY#2\nG0 X#3\n");
+  run.solve(0, 2, 0.001);
+  const FeedMoves moves = run.tally.moves();
+  CHECK(moves.count == 3);
+  CHECK(moves.within == 1);
+  CHECK(moves.unknown == 2);
+  CHECK(moves.unknown_length == 2);
+  CHECK(moves.length_mm == doctest::Approx(10));
+}
+
+TEST_CASE("a move that misses the tolerance at one place counts once, and as missed") {
+  Reading run("G21 G90 G54 G0 X0 Y0 Z0\nG1 X10 F100\nX30\nX60\n");
+  for (const double miss_mm : {0.001, 0.006, 0.007}) run.solve(0, 2, miss_mm);
+  for (const double miss_mm : {0.009, 0.001}) run.solve(1, 3, miss_mm);
+  const FeedMoves moves = run.tally.moves();
+  CHECK(moves.missed == 2);
+  CHECK(moves.within == 0);
+  CHECK(moves.unknown == 1);
+  CHECK(moves.unknown_length == 0);
+  CHECK(moves.worst_mm == doctest::Approx(0.009));
+  CHECK(moves.worst_line == 3);
+  CHECK(moves.length_mm == doctest::Approx(60));
+}
+
+TEST_CASE("holes count as moves, and have no cutting length") {
+  Reading run("G21 G90 G54 G0 X0 Y0 Z5\nG99 G81 X10 Y0 Z-8 R2 F100\nX20\nG80\n");
+  run.solve(no_segment, 2, 0.001, false);
+  run.solve(no_segment, 3, 0.02, false);
+  const FeedMoves moves = run.tally.moves();
+  CHECK(moves.count == 2);
+  CHECK(moves.within == 1);
+  CHECK(moves.missed == 1);
+  CHECK(moves.unknown == 0);
+  CHECK(moves.length_mm == 0);
+  CHECK(verdict_of(moves) == Verdict::partly);
+  CHECK(partly_reason(moves, 0.005) ==
+        "1 of 2 feed moves, 1 feed move above the tolerance, worst 0.0200 mm > 0.005");
+}
+
+TEST_CASE("a call that is not expanded is a feed move of unknown length") {
+  Reading run("G21 G90 G54 G0 X0 Y0 Z5\nG1 Z0 F100\nM98 P100\n");
+  run.solve(1, 2, 0.001);
+  CHECK(run.tally.moves().count == 2);
+  CHECK(run.tally.moves().unknown_length == 1);
+}
+
+TEST_CASE("a feed move from an unknown position is unknown, but its end is corrected") {
+  Reading run("G21 G90 G54 G1 X0 Y0 Z5 F100\n");
+  run.solve(no_segment, 1, 0.001, false);
+  const FeedMoves moves = run.tally.moves();
+  CHECK(moves.known_ends == 1);
+  CHECK(moves.unknown_length == 1);
+  CHECK(verdict_of(moves) == Verdict::partly);
+}
+
+TEST_CASE("a feed move that goes nowhere does not count") {
+  Reading run("G21 G90 G54 G0 X0 Y0 Z5\nG1 X0 F100\nX10\n");
+  run.solve(0, 3, 0.001);
+  CHECK(run.tally.moves().count == 1);
+  CHECK(run.tally.moves().unknown == 0);
+}
