@@ -39,7 +39,7 @@ std::vector<fs::path> left_by(pid_t process, const std::string& output) {
   std::error_code error;
   const fs::path target = fs::canonical(output, error);
   const fs::path file = error ? fs::path(output) : target;
-  const std::string wanted = file.filename().string(), start = fmt::format("{}.{}-", wanted, process);
+  const std::string wanted = temporary_stem(file.filename().string()), start = fmt::format("{}.{}-", wanted, process);
   std::vector<fs::path> left;
   for (fs::directory_iterator entry(file.has_parent_path() ? file.parent_path() : ".", error), end;
        !error && entry != end; entry.increment(error)) {

@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "counterflex/batch/job_outcome.hpp"
+#include "counterflex/files/utf8.hpp"
 
 namespace counterflex {
 
@@ -16,11 +17,5 @@ struct LineTrouble {
 
 /// Takes only what `to_json_line` writes, byte for byte: whatever is read would be written as it was found.
 std::variant<JobOutcome, LineTrouble> read_job_line(std::string_view line);
-
-/// Any bytes as UTF-8: a byte that is none is written as % and two hexadecimal digits, % itself as %25.
-std::string utf8_of_bytes(std::string_view bytes);
-
-/// The bytes that `utf8_of_bytes` was given, for what it writes.
-std::string bytes_of_utf8(std::string_view text);
 
 }  // namespace counterflex

@@ -9,6 +9,8 @@
 #include <utility>
 
 #include "counterflex/files/numbers.hpp"
+#include "counterflex/files/shown_text.hpp"
+#include "counterflex/files/utf8.hpp"
 
 namespace counterflex {
 namespace {
@@ -46,8 +48,8 @@ Document files_of(const std::vector<FileHash>& files) {
 
 Document job_of(const JobOutcome& outcome) {
   Document job;
-  job["program"] = outcome.program;
-  job["output"] = outcome.output;
+  job["program"] = utf8_of_bytes(outcome.program);
+  job["output"] = utf8_of_bytes(outcome.output);
   job["verdict"] = outcome.verdict;
   job["verdict_reason"] = outcome.verdict_reason;
   job["status"] = status_text(outcome);
@@ -63,8 +65,11 @@ Document job_of(const JobOutcome& outcome) {
   return job;
 }
 
-/// What RFC 4180 wants in quotes.
-std::string csv_field(std::string_view text) {
+/// What RFC 4180 wants in quotes; a text that a spreadsheet would take for a formula begins with an apostrophe.
+std::string csv_field(std::string_view field) {
+  std::string text = without_controls(field);
+  if (!text.empty() && std::string_view("=+-@").find(text.front()) != std::string_view::npos)
+    text.insert(0, 1, '\'');
   if (text.find_first_of(",\"\r\n") == std::string_view::npos) return std::string(text);
   std::string quoted = "\"";
   for (const char c : text) quoted.append(c == '"' ? 2 : 1, c);
@@ -75,19 +80,12 @@ std::string fixed_or(const std::optional<double>& value, int decimals, std::stri
   return value ? format_fixed(*value, decimals) : std::string(none);
 }
 
-/// For a terminal: a name may hold anything.
-std::string without_controls(std::string text) {
-  std::replace_if(
-      text.begin(), text.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; }, '?');
-  return text;
-}
-
 std::string row_of(const JobOutcome& outcome) {
   const std::string percent =
       outcome.corrected_percent ? fixed_or(outcome.corrected_percent, 1, "") + " %" : "-";
   return fmt::format("{:<19}{:<22}{:>11}{:>11}{:>11}{:>10}  {}\n", outcome.verdict, status_text(outcome),
                      fixed_or(outcome.before_mm, 4, "-"), fixed_or(outcome.after_mm, 4, "-"), percent,
-                     outcome.warnings, outcome.program);
+                     outcome.warnings, without_controls(outcome.program));
 }
 
 std::string heading() {

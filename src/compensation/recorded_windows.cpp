@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 
 #include "counterflex/files/bytes.hpp"
 #include "record_file.hpp"
@@ -12,6 +13,15 @@ namespace {
 
 std::size_t index_in(const std::string& record) {
   return BytesIn(record).get<std::size_t>();
+}
+
+// Whether waypoints can be of that window: a record may have been changed together with its hash.
+bool can_be_of(const Job& job, const std::vector<Waypoint>& waypoints) {
+  return std::ranges::all_of(waypoints, [&](const Waypoint& w) {
+    const bool has_place = w.segment == no_segment || w.segment < job.path.segments.size();
+    return has_place && std::isfinite(w.weight) && std::isfinite(w.s) && w.before.allFinite() && w.after.allFinite() &&
+           w.correction.allFinite() && w.wrench.allFinite();
+  });
 }
 
 }  // namespace
@@ -105,7 +115,8 @@ class WindowTaker {
   void plan(const Job& job, Flight& flight) {
     flight.record = window_record_of(std::exchange(flight.bytes, {}));
     const bool fits = flight.record && flight.record->start == flight.start &&
-                      flight.record->bytes == job.program.text.size();
+                      flight.record->bytes == job.program.text.size() &&
+                      can_be_of(job, flight.record->result.waypoints);
     if (!fits) flight.record.reset();
     flight.is_planned = !fits || last_differed_;
     if (flight.is_planned) compensating_.plan(job, flight);

@@ -31,10 +31,16 @@ void fail_reading(const std::string& path) {
   throw InputError(exit, {path, 0, 0}, "cannot read the file: " + reason);
 }
 
+Exit exit_of_writing(int error) {
+  const bool lasting = is_of_path(error) || error == EROFS || error == EEXIST || error == ENXIO;  // no reader
+  return lasting ? Exit::usage : Exit::transient_io;
+}
+
 void fail_writing(const std::string& path) {
   const std::string reason = std::strerror(errno);
-  if (path == "-") throw InputError(Exit::transient_io, {}, "cannot write standard output: " + reason);
-  throw InputError(Exit::transient_io, {path, 0, 0}, "cannot write the file: " + reason);
+  const Exit exit = exit_of_writing(errno);
+  if (path == "-") throw InputError(exit, {}, "cannot write standard output: " + reason);
+  throw InputError(exit, {path, 0, 0}, "cannot write the file: " + reason);
 }
 
 bool write_all(int fd, std::string_view bytes) {

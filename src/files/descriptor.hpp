@@ -6,12 +6,17 @@
 #include <string_view>
 #include <utility>
 
+#include "counterflex/files/input_error.hpp"
+
 namespace counterflex {
 
-/// Throws `InputError` with the reason in errno: for reading `path` Exit::usage where it names nothing that
-/// can be read, else Exit::transient_io (a server that is away, a disk that fails), which writing always has.
+/// Throws `InputError` with the reason in errno: Exit::usage where `path` has to be changed, or what it names
+/// (no folder, a name too long, a file system for reading alone), else Exit::transient_io (a disk that fails).
 [[noreturn]] void fail_reading(const std::string& path);
 [[noreturn]] void fail_writing(const std::string& path);
+
+/// Of `errno` after a call that writes.
+Exit exit_of_writing(int error);
 
 /// Bytes that are read or written at once.
 inline constexpr std::size_t portion = 1 << 18;

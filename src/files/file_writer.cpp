@@ -1,6 +1,7 @@
 #include "counterflex/files/file_writer.hpp"
 
 #include <fcntl.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 
 #include <array>
@@ -14,6 +15,7 @@
 #include <vector>
 
 #include "counterflex/files/folders.hpp"
+#include "counterflex/files/input_error.hpp"
 #include "counterflex/files/sha256.hpp"
 #include "counterflex/files/temporaries.hpp"
 #include "files/descriptor.hpp"
@@ -59,6 +61,7 @@ std::pair<std::string, int> create_beside(const std::string& path) {
   for (;;) {
     std::string name = temporary_name(path, ::getpid(), counter++);
     const int fd = ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
+    if (fd >= 0) ::flock(fd, LOCK_EX | LOCK_NB);  // shows that its writer lives
     if (fd >= 0 || errno != EEXIST) return {std::move(name), fd};
   }
 }
@@ -108,6 +111,10 @@ FileWriter::FileWriter(const std::string& path) : state_(new State{.path = path}
     state_->file = nameless_file();
   } else {
     std::error_code ignored;
+    if (!exists && std::filesystem::is_symlink(std::filesystem::symlink_status(path, ignored)))
+      throw InputError(Exit::usage, {path},
+                       "is a symbolic link to a file that does not exist, or to itself; remove it, or give "
+                       "another name");
     state_->target = exists ? std::filesystem::canonical(path, ignored).string() : path;
     if (state_->target.empty()) state_->target = path;
     auto [name, fd] = create_beside(state_->target);

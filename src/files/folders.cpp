@@ -16,7 +16,7 @@ namespace counterflex {
 namespace {
 
 [[noreturn]] void fail_at_folder(const std::string& folder, const char* what) {
-  throw InputError(Exit::transient_io, {folder},
+  throw InputError(exit_of_writing(errno), {folder},
                    fmt::format("cannot {} the folder: {}", what, std::strerror(errno)));
 }
 

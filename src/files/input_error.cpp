@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "counterflex/files/shown_text.hpp"
+
 namespace counterflex {
 namespace {
 
@@ -15,6 +17,6 @@ std::string located(const Location& where, const std::string& message) {
 }  // namespace
 
 InputError::InputError(Exit exit, const Location& where, const std::string& message)
-    : std::runtime_error(located(where, message)), exit_(exit), where_(where) {}
+    : std::runtime_error(without_controls(located(where, message))), exit_(exit), where_(where) {}
 
 }  // namespace counterflex

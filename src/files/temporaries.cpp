@@ -1,10 +1,15 @@
 #include "counterflex/files/temporaries.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
 
 #include <filesystem>
 #include <map>
 #include <set>
+
+#include "counterflex/files/sha256.hpp"
+#include "files/descriptor.hpp"
 
 namespace counterflex {
 namespace {
@@ -24,7 +29,14 @@ std::filesystem::path written_path(const std::string& path) {
   return error ? std::filesystem::path(path) : target;
 }
 
-std::size_t sweep_folder(const std::filesystem::path& folder, const std::set<std::string>& names) {
+/// Whether no process writes the file: its writer would hold its lock.
+bool is_abandoned(const std::filesystem::path& file) {
+  const Descriptor descriptor(::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK));
+  return descriptor.get() >= 0 && ::flock(descriptor.get(), LOCK_EX | LOCK_NB) == 0;
+}
+
+std::size_t sweep_folder(const std::filesystem::path& folder, const std::set<std::string>& names,
+                         bool abandoned_alone) {
   std::error_code ignored;
   std::vector<std::filesystem::path> left;
   for (std::filesystem::directory_iterator entry(folder, ignored), end; entry != end;
@@ -36,14 +48,21 @@ std::size_t sweep_folder(const std::filesystem::path& folder, const std::set<std
   }
   std::size_t removed = 0;
   for (const std::filesystem::path& file : left)
-    if (std::filesystem::remove(file, ignored)) ++removed;
+    if ((!abandoned_alone || is_abandoned(file)) && std::filesystem::remove(file, ignored)) ++removed;
   return removed;
 }
 
 }  // namespace
 
+std::string temporary_stem(const std::string& name) {
+  constexpr std::size_t longest = 220, kept = 150, digits = 16;  // of the 255 bytes of a name
+  return name.size() <= longest ? name : name.substr(0, kept) + '~' + sha256(name).substr(0, digits);
+}
+
 std::string temporary_name(const std::string& path, long pid, unsigned counter) {
-  return fmt::format("{}.{}-{}{}", path, pid, counter, temporary_ending);
+  const std::size_t name = path.find_last_of('/') + 1;  // 0 without a slash
+  return fmt::format("{}{}.{}-{}{}", path.substr(0, name), temporary_stem(path.substr(name)), pid, counter,
+                     temporary_ending);
 }
 
 std::string_view wanted_name(std::string_view name) {
@@ -55,16 +74,28 @@ std::string_view wanted_name(std::string_view name) {
   return name.ends_with('.') ? name.substr(0, name.size() - 1) : "";
 }
 
-std::size_t sweep_temporaries(const std::vector<std::string>& paths) {
+namespace {
+
+std::size_t sweep(const std::vector<std::string>& paths, bool abandoned_alone) {
   std::map<std::filesystem::path, std::set<std::string>> names;
   for (const std::string& path : paths) {
     const std::filesystem::path file = written_path(path);
     if (!file.filename().empty())
-      names[file.has_parent_path() ? file.parent_path() : "."].insert(file.filename().string());
+      names[file.has_parent_path() ? file.parent_path() : "."].insert(temporary_stem(file.filename().string()));
   }
   std::size_t removed = 0;
-  for (const auto& [folder, files] : names) removed += sweep_folder(folder, files);
+  for (const auto& [folder, files] : names) removed += sweep_folder(folder, files, abandoned_alone);
   return removed;
+}
+
+}  // namespace
+
+std::size_t sweep_temporaries(const std::vector<std::string>& paths) {
+  return sweep(paths, false);
+}
+
+std::size_t sweep_abandoned(const std::vector<std::string>& paths) {
+  return sweep(paths, true);
 }
 
 }  // namespace counterflex

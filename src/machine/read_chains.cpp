@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "counterflex/files/shown_text.hpp"
 #include "read_elements.hpp"
 #include "read_transform.hpp"
 #include "toml/suggest.hpp"
@@ -78,7 +79,7 @@ Chain read_chain(const toml::table& table, Library& library, const Source& sourc
              {"name", "base", "use", "elements", "platform", "errors", "transforms", "values", "limits"},
              "a chain", source);
   Chain chain;
-  chain.name = as_text(required(table, "name", "a chain", table, source), "name", source);
+  chain.name = without_controls(as_text(required(table, "name", "a chain", table, source), "name", source));
   const toml::node& list = read_list(table, fmt::format("chain \"{}\"", chain.name), library, source);
   const toml::node& place = table.contains("use") ? *table.get("use") : list;
   Fillings fillings = read_fillings(table, chain.name, place, source);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "counterflex/files/files.hpp"
+#include "counterflex/files/shown_text.hpp"
 #include "read_chains.hpp"
 #include "read_load_limits.hpp"
 #include "read_settings.hpp"
@@ -57,7 +58,7 @@ Machine read_machine(std::string_view text, const std::string& file) {
               "tools", "work", "program", "limits", "springs", "branches", "templates", "chain"},
              "a machine file", source);
   Machine machine;
-  if (const toml::node* name = document.get("name")) machine.name = as_text(*name, "name", source);
+  if (const toml::node* name = document.get("name")) machine.name = without_controls(as_text(*name, "name", source));
   read_controlled(document, source, machine);
   read_home(document, source, machine);
   read_gravity(document, source, machine);

@@ -1,5 +1,6 @@
 #pragma once
 /// Puts the bodies of subprograms in the place of their calls, before a program is read.
+#include <algorithm>
 #include <string>
 
 #include "counterflex/program/program.hpp"
@@ -17,7 +18,10 @@ namespace counterflex {
 /// out.
 Expansion expand_subprograms(std::string& text, const std::string& file, const Dialect& dialect);
 
-constexpr std::size_t largest_expansion = 1'000'000'000;
+/// Bytes that a program of `bytes` may become: its moves need a hundred times as much memory.
+constexpr std::size_t largest_expansion(std::size_t bytes) {
+  return std::max(std::size_t{1'000'000}, 16 * bytes);
+}
 constexpr std::size_t most_expanded_calls = 1'000'000;
 
 /// Sets `block`'s line to the one of the file that the line of the text comes from.

@@ -243,10 +243,12 @@ class Expander {
 
   void count_call(const SubprogramCall& call, const Block& block) {
     if (expansion_.calls++ == 0) expansion_.first_call = block.line;
-    if (lines_.text.size() > largest_expansion || expansion_.calls > most_expanded_calls)
+    const std::size_t most = largest_expansion(text_.size());
+    if (lines_.text.size() > most || expansion_.calls > most_expanded_calls)
       refuse(file_, block, call.said.begin,
-             fmt::format("the expanded calls make more than {} bytes or are more than {}", largest_expansion,
-                         most_expanded_calls));
+             fmt::format("{}: the expanded calls make more than {} bytes, or are more than {}; repeat it less often, "
+                         "or leave out --expand-subprograms",
+                         part(text_, call.said), most, most_expanded_calls));
   }
 
   std::string_view text_;

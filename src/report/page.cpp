@@ -3,27 +3,15 @@
 #include <fmt/core.h>
 
 #include "counterflex/files/files.hpp"
+#include "counterflex/files/shown_text.hpp"
 #include "json_numbers.hpp"
 #include "page_assets.hpp"
+#include "svg.hpp"
 
 namespace counterflex {
 namespace {
 
 using Take = std::function<void(std::string_view)>;
-
-/// Text as an element's content.
-std::string escaped(std::string_view text) {
-  std::string result;
-  for (const char c : text) {
-    if (c == '&')
-      result += "&amp;";
-    else if (c == '<')
-      result += "&lt;";
-    else
-      result += c;
-  }
-  return result;
-}
 
 /// JSON in which no browser finds the end of its element: all `<` are in strings.
 void write_json(std::string_view json, const Take& take) {
@@ -89,7 +77,8 @@ void write_data(const std::vector<PageRun>& runs, const std::string& conclusion,
 std::string file_of(const RunReport& report, std::string_view role) {
   for (const InputFile& input : report.facts.inputs)
     if (input.name == role)
-      return input.path == "-" ? "standard input" : input.path.substr(input.path.find_last_of('/') + 1);
+      return input.path == "-" ? "standard input"
+                               : without_controls(input.path.substr(input.path.find_last_of('/') + 1));
   return "program";
 }
 
@@ -104,7 +93,7 @@ void write_page(const std::string& title, const std::vector<PageRun>& runs, cons
     if (line == "<!-- counterflex: csp -->\n")
       write_policy(take);
     else if (line == "<!-- counterflex: title -->\n")
-      take("<title>" + escaped(title) + "</title>\n");
+      take("<title>" + xml_escaped(title) + "</title>\n");
     else if (line == "<!-- counterflex: styles -->\n")
       write_elements("style", page_styles(), take);
     else if (line == "<!-- counterflex: data -->\n")

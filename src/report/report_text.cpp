@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "counterflex/files/numbers.hpp"
+#include "counterflex/files/shown_text.hpp"
 #include "counterflex/report/formats.hpp"
 #include "force_text.hpp"
 #include "loads_text.hpp"
@@ -19,7 +20,7 @@ constexpr std::size_t shown_worst = 5;
 
 std::string file_name(const RunReport& report, const std::string& role) {
   for (const InputFile& input : report.facts.inputs)
-    if (input.name == role) return input.path == "-" ? "standard input" : input.path;
+    if (input.name == role) return input.path == "-" ? "standard input" : without_controls(input.path);
   return "the program";
 }
 

@@ -3,12 +3,13 @@
 #include <algorithm>
 
 #include "control.hpp"
+#include "counterflex/files/shown_text.hpp"
 #include "counterflex/geometry/units.hpp"
 
 namespace counterflex {
 
 std::int32_t OperationNames::number_of(const Program& window, const Move& move) {
-  const std::string& operation = window.operations[move.operation];
+  const std::string operation = without_controls(window.operations[move.operation]);
   const auto is_it = [&](const Name& name) { return name.tool == move.tool && name.operation == operation; };
   if (last_ >= 0 && is_it(names_[static_cast<std::size_t>(last_)])) return last_;
   std::size_t i =

@@ -89,14 +89,14 @@ TEST_CASE("a new file has the permissions 0644 less the umask, an old one keeps 
   CHECK(mode() == 0604);
 }
 
-TEST_CASE("a failed write names the path, asks for the transient status and leaves nothing behind") {
+TEST_CASE("a write to a path that names no file is a usage error that names the path and leaves nothing behind") {
   const Folder folder;
   const auto no_folder = error_of([&] { write_file(folder.file("none/a"), "1"); });
-  CHECK(no_folder.exit() == Exit::transient_io);
+  CHECK(no_folder.exit() == Exit::usage);
   CHECK(mentions(no_folder, folder.file("none/a")));
   fs::create_directory(folder.path / "taken");
   const auto taken = error_of([&] { write_file(folder.file("taken"), "1"); });
-  CHECK(taken.exit() == Exit::transient_io);
+  CHECK(taken.exit() == Exit::usage);
   CHECK(mentions(taken, "Is a directory"));
   CHECK(folder.count() == 1);
 }
@@ -106,7 +106,7 @@ TEST_CASE("a folder without write permission is refused and the old file stays a
   const Folder folder;
   write_file(folder.file("a"), "old");
   fs::permissions(folder.path, fs::perms::owner_read | fs::perms::owner_exec);
-  CHECK(error_of([&] { write_file(folder.file("a"), "new"); }).exit() == Exit::transient_io);
+  CHECK(error_of([&] { write_file(folder.file("a"), "new"); }).exit() == Exit::usage);
   fs::permissions(folder.path, fs::perms::owner_all);
   CHECK(read_file(folder.file("a")) == "old");
   CHECK(folder.count() == 1);
@@ -153,6 +153,30 @@ TEST_CASE("writing through a symbolic link replaces what it names and keeps the 
   write_file(folder.file("link"), "new");
   CHECK(fs::is_symlink(folder.path / "link"));
   CHECK(read_file(folder.file("real")) == "new");
+}
+
+TEST_CASE("a symbolic link that leads nowhere is no output, and stays") {
+  const Folder folder;
+  fs::create_symlink("missing", folder.path / "link");
+  fs::create_symlink("loop", folder.path / "loop");
+  for (const char* name : {"link", "loop"}) {
+    const auto error = error_of([&] { write_file(folder.file(name), "new"); });
+    CHECK(error.exit() == Exit::usage);
+    CHECK(mentions(error, "symbolic link"));
+    CHECK(fs::is_symlink(folder.path / name));
+  }
+  CHECK(folder.count() == 2);
+}
+
+TEST_CASE("names of up to 255 bytes can be written, longer ones are a usage error") {
+  const Folder folder;
+  for (const std::size_t bytes : {200, 221, 244, 255}) {
+    const std::string path = folder.file(std::string(bytes, 'n'));
+    write_file(path, "new");
+    CHECK(read_file(path) == "new");
+  }
+  CHECK(error_of([&] { write_file(folder.file(std::string(256, 'n')), "new"); }).exit() == Exit::usage);
+  CHECK(folder.count() == 4);
 }
 
 TEST_CASE("SHA-256 gives the digests of the standard's examples") {

@@ -25,7 +25,7 @@ TEST_CASE("a folder that cannot be made is named") {
       make_folder(folder.file(path));
       FAIL("it was made");
     } catch (const InputError& error) {
-      CHECK(error.exit() == Exit::transient_io);
+      CHECK(error.exit() == Exit::usage);
       CHECK(error.where().file.starts_with(folder.file("file")));
     }
   }

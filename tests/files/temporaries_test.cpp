@@ -75,3 +75,15 @@ TEST_CASE(
   CHECK(folder.count() == 2);
   CHECK(read_file(folder.file("real/a.ngc")) == "old");
 }
+
+TEST_CASE("where others may write now, only what no living writer has locked is swept") {
+  const Folder folder;
+  const std::string long_name = folder.file(std::string(255, 'n'));
+  begin_and_die(folder.file("a.ngc"));
+  begin_and_die(long_name);
+  const FileWriter alive(folder.file("a.ngc"));
+  CHECK(folder.count() == 3);
+  CHECK(sweep_abandoned({folder.file("a.ngc"), long_name}) == 2);
+  CHECK(folder.count() == 1);
+  CHECK(sweep_temporaries({folder.file("a.ngc")}) == 1);
+}

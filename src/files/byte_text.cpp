@@ -2,7 +2,6 @@
 
 #include <charconv>
 
-#include "batch/job_line.hpp"
 #include "counterflex/files/utf8.hpp"
 
 namespace counterflex {
