@@ -54,7 +54,8 @@ std::vector<Setting> environment_of(const std::string& from) {
 std::string key_of(const Layers& layers, const BatchJob& job) {
   std::string all = fmt::format("counterflex {}\n{}\n{}\n", version, job.program, job.output);
   for (const Setting& setting : effective_settings(Command::compensate, layers)) {
-    if (setting.option == "threads" || setting.option == "output") continue;
+    if (setting.option == "threads" || setting.option == "output" || setting.option == "force-overwrite")
+      continue;
     all += setting.option + '\n';
     for (const std::string& value : setting.values) all += value + '\n';
   }
@@ -76,8 +77,8 @@ double work_of(const BatchJob& job) {
 /// Jobs as they are found, which have to be apart.
 class JobList {
  public:
-  JobList(const JobsFile& file, const std::vector<Setting>& environment)
-      : file_(file), environment_(environment) {}
+  JobList(const JobsFile& file, const std::vector<Setting>& environment, bool force_overwrite)
+      : file_(file), environment_(environment), force_overwrite_(force_overwrite) {}
 
   std::vector<BatchJob> take() {
     for (const JobEntry& entry : file_.jobs)
@@ -114,6 +115,7 @@ class JobList {
     BatchJob job;
     job.program = program;
     job.options = options_for(program, layers, entry);
+    job.options.force_overwrite = job.options.force_overwrite || force_overwrite_;
     job.output = *job.options.output;
     job.key = key_of(layers, job);
     job.work = work_of(job);
@@ -168,6 +170,7 @@ class JobList {
 
   const JobsFile& file_;
   const std::vector<Setting>& environment_;
+  const bool force_overwrite_;
   const std::vector<Setting> none_{};
   std::map<std::string, std::vector<Setting>> projects_;
   std::vector<FoundJob> found_;
@@ -189,7 +192,10 @@ Batch read_batch(const std::string& file, const std::string& from, const std::ve
   Options whole;
   whole.command = Command::batch;
   whole = with_settings(std::move(whole), {flags, environment, jobs_file.defaults});
-  return {jobs_file.output, JobList(jobs_file, environment).take(), whole.threads};
+  const bool force_overwrite = std::any_of(flags.begin(), flags.end(), [](const Setting& flag) {
+    return flag.option == "force-overwrite" && flag.values == std::vector<std::string>{"true"};
+  });
+  return {jobs_file.output, JobList(jobs_file, environment, force_overwrite).take(), whole.threads};
 }
 
 }  // namespace counterflex::cli

@@ -74,8 +74,8 @@ void add_run(CLI::App& app, Options& options) {
   add_setting(app, options, "blend-mm");
   add_reading(app, options);
   add_settings(app, options,
-               {"method", "tolerance-mm", "max-correction-mm", "accept-partial", "decimals", "threads",
-                "min-block-ms", "report", "plot"});
+               {"method", "tolerance-mm", "max-correction-mm", "accept-partial", "decimals", "threads", "min-block-ms",
+                "report", "plot", "force-overwrite"});
   add_config(app, options);
   add_output(app, options);
 }
@@ -91,7 +91,7 @@ void add_compensate(CLI::App& app, Options& options) {
   CLI::App& command = add_command(app, options, "compensate", Command::compensate,
                                   "Write the program whose execution follows the path of the original");
   add_file(command, "PROGRAM", options.program, "The machining program; - is standard input");
-  add_setting(command, options, "output");
+  add_settings(command, options, {"output", "number-pieces"});
   add_run(command, options);
 }
 
@@ -197,6 +197,7 @@ void add_batch(CLI::App& app, Options& options) {
                    "Say how long the jobs would take on one processor, by trying some of them");
   add_setting(command, options, "threads",
               "Processors to use; the result does not depend on it; all of them");
+  add_setting(command, options, "force-overwrite");
   add_output(command, options);
 }
 
@@ -212,6 +213,7 @@ void add_watch(CLI::App& app, Options& options) {
   command.add_flag("--once", options.once, "Do what is there and not yet done, and end");
   add_setting(command, options, "output",
               "The folder of the corrected programs, or a pattern; NAME.comp.EXT beside each program");
+  add_setting(command, options, "number-pieces");
   add_run(command, options);
 }
 

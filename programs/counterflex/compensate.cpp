@@ -6,6 +6,7 @@
 
 #include "commands.hpp"
 #include "counterflex/compensation/recorded_windows.hpp"
+#include "counterflex/files/shown_text.hpp"
 #include "part.hpp"
 
 namespace counterflex::cli {
@@ -26,11 +27,30 @@ void add(const Job& job, Compensation& window, const Run& run, RunTally& tally, 
   tally.add_corrected(window.corrected);
 }
 
+/// Pieces that --number-pieces could not number.
+struct Unnumbered {
+  std::size_t pieces = 0;
+  int first_line = 0;
+
+  void add(const Rewritten& counts) {
+    if (pieces == 0) first_line = counts.first_unnumbered_line;
+    pieces += counts.unnumbered_pieces;
+  }
+  void warn(const std::string& file, Console& console) const {
+    if (pieces > 0)
+      console.warning(file, first_line,
+                      fmt::format("{} pieces of split blocks have no N: after the N of their block too few numbers "
+                                  "are free (first here)",
+                                  pieces));
+  }
+};
+
 /// Window by window, to the first failure. Windows are read while others are solved.
 std::optional<Failure> compensate_all(Run& run, RunTally& tally, RunFiles& files, Console& console,
                                       RecordedWindows& recorded) {
   Windows windows(run, console);
   std::mutex speaking;
+  Unnumbered unnumbered;
   const auto read = [&](const Job& job) {
     const std::lock_guard alone(speaking);
     windows.check(job);
@@ -43,6 +63,7 @@ std::optional<Failure> compensate_all(Run& run, RunTally& tally, RunFiles& files
     std::unique_lock alone(speaking);
     for (const LeftAlone& block : window.left_alone)
       console.warning(run.program.file, block.line, "not corrected: " + block.why);
+    unnumbered.add(window.counts);
     alone.unlock();
     if (wants_loads(run)) run.load_places.add(job, window.waypoints);
     add(job, window, run, tally, files);
@@ -51,6 +72,7 @@ std::optional<Failure> compensate_all(Run& run, RunTally& tally, RunFiles& files
   const std::optional<Failure> failure =
       compensate_windows(windows.jobs(), run.options, TextReader(windows.reader()), run.facts.attribution,
                          {read, begun, done}, recorded);
+  unnumbered.warn(run.program.file, console);
   if (recorded.taken() > 0)
     console.detail(fmt::format("{} windows taken over from records, {} compensated", recorded.taken(),
                                recorded.compensated()));
@@ -61,14 +83,15 @@ std::optional<Failure> compensate_all(Run& run, RunTally& tally, RunFiles& files
 
 Exit compensate_program(const Options& options, Console& console, const TellEnd& tell) {
   const OutputPaths paths = output_paths(options);
+  refuse_foreign_outputs(paths, options);
   const auto run = prepare_run(options, console);
   refuse_what_cannot_be_compensated(*run);
-  run->options.write.header = header_of(options, *run);
+  prepare_writing(options, *run);
   RecordedWindows recorded(options.recorded, digest_of(*run));
   RunFiles files(paths, {.attribution = run->facts.attribution}, options.hash_outputs);
   RunTally tally = tally_for(options, *run);
   const std::optional<Failure> failure = compensate_all(*run, tally, files, console, recorded);
-  run->facts.output = paths.program;  // the report forgets it where none is written
+  run->facts.output = without_controls(paths.program);  // the report forgets it where none is written
   if (!failure || is_reported(*failure))
     return tell(*run,
                 finish_run(options, *run, report_compensation(run->context(), tally, failure), tally, files),

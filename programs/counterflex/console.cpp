@@ -7,6 +7,8 @@
 #include <cstdlib>
 #include <utility>
 
+#include "counterflex/files/shown_text.hpp"
+
 namespace counterflex::cli {
 namespace {
 
@@ -65,8 +67,8 @@ void Console::erase_progress() {
 void Console::warning(const std::string& file, int line, std::string_view what) {
   if (quiet_ || ++warnings_[file] > warnings_shown) return;
   erase_progress();
-  const std::string text = line > 0 ? fmt::format("{}:{}: warning: {}", file, line, what)
-                                    : fmt::format("{}: warning: {}", file, what);
+  const std::string text = without_controls(line > 0 ? fmt::format("{}:{}: warning: {}", file, line, what)
+                                                     : fmt::format("{}: warning: {}", file, what));
   say((colour_ ? painted(text, "warning", 35) : text) + "\n");
 }
 
@@ -78,7 +80,8 @@ void Console::finish_warnings() {
   erase_progress();
   for (const auto& [file, count] : warnings_)
     if (!quiet_ && count > warnings_shown)
-      say(fmt::format("{}: {} more warnings; a report lists them\n", file, count - warnings_shown));
+      say(fmt::format("{}: {} more warnings; a report lists them\n", without_controls(file),
+                      count - warnings_shown));
   warnings_.clear();
   if (unsaid_) unsaid_->send(last_words_ms);
 }
@@ -86,7 +89,7 @@ void Console::finish_warnings() {
 void Console::detail(std::string_view what) {
   if (!verbose_) return;
   erase_progress();
-  say(fmt::format("{}\n", what));
+  say(without_controls(what) + "\n");
 }
 
 void Console::note(std::string_view text) {
@@ -103,7 +106,7 @@ void Console::progress_line(std::string_view line) {
   if (unsaid_ && !unsaid_->is_clear()) return;
   if (quiet_ || !terminal_) return;
   erase_progress();
-  say(std::string(line));
+  say(without_controls(line));
   std::fflush(stderr);
   showing_progress_ = true;
 }
@@ -120,7 +123,8 @@ void Console::solved(std::size_t waypoints) const {
 void Console::error(std::string_view diagnostic) {
   if (listener_.error) return listener_.error(diagnostic);
   erase_progress();
-  say((colour_ ? painted(diagnostic, "error", 31) : std::string(diagnostic)) + "\n");
+  const std::string text = without_controls(diagnostic);
+  say((colour_ ? painted(text, "error", 31) : text) + "\n");
 }
 
 std::string located(const std::string& file, const Failure& failure) {
@@ -133,7 +137,7 @@ std::string with_file(const std::string& diagnostic, const std::string& file) {
 }
 
 std::string shown_name(const std::string& path) {
-  return path == "-" ? "<stdin>" : path;
+  return path == "-" ? "<stdin>" : without_controls(path);
 }
 
 }  // namespace counterflex::cli

@@ -1,5 +1,5 @@
 #pragma once
-/// What a report and a header say about a run's inputs and options.
+/// What a report says about a run's inputs and options.
 #include "run.hpp"
 
 namespace counterflex::cli {

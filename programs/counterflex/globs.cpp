@@ -17,7 +17,11 @@ namespace fs = std::filesystem;
 /// Goes through the folders that the parts of a pattern match, one part a level.
 class Walk {
  public:
-  explicit Walk(const fs::path& pattern) : parts_(pattern.begin(), pattern.end()) {}
+  /// "**" behind "**" adds nothing but time.
+  explicit Walk(const fs::path& pattern) {
+    for (const fs::path& part : pattern)
+      if (part != "**" || parts_.empty() || parts_.back() != "**") parts_.push_back(part);
+  }
 
   std::vector<std::string> run() {
     go({}, 0);

@@ -69,6 +69,7 @@ struct Options {
   std::optional<double> max_correction;  ///< m; none: the machine file's
   bool accept_partial = false;           ///< a program is written though the verdict is PARTLY
   int decimals = -1;                     ///< -1: each word's own
+  bool number_pieces = false;
   int threads = 1;
   double min_block_ms = 2;
 
@@ -77,6 +78,7 @@ struct Options {
   bool materials = false;             ///< forces alone
   std::optional<std::string> report;  ///< stem
   std::optional<std::string> plot;    ///< a file
+  bool force_overwrite = false;       ///< replace files that this program did not write
 
   std::string jobs;            ///< batch alone, as all that follows: the jobs file
   bool resume = false;         ///< what is proven done is not done again

@@ -6,14 +6,19 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
+#include <functional>
 
+#include "counterflex/files/file_reader.hpp"
 #include "counterflex/files/files.hpp"
 #include "counterflex/files/folders.hpp"
 #include "counterflex/files/input_error.hpp"
+#include "counterflex/files/shown_text.hpp"
+#include "counterflex/files/temporaries.hpp"
 #include "counterflex/report/plot.hpp"
 #include "counterflex/report/report_file.hpp"
 #include "output_names.hpp"
 #include "signals.hpp"
+#include "watched_folder.hpp"
 
 namespace counterflex::cli {
 namespace {
@@ -46,7 +51,7 @@ void check_place(const std::string& path, const std::vector<std::string>& made =
   const fs::path folder = fs::path(path).parent_path();
   const bool is_made = std::find(made.begin(), made.end(), folder.string()) != made.end();
   if (!folder.empty() && !is_made && !fs::is_directory(folder, ignored))
-    throw InputError(Exit::transient_io, {path}, "cannot write the file: its folder does not exist");
+    throw InputError(Exit::usage, {path}, "cannot write the file: its folder does not exist; make it");
 }
 
 void check_paths(const std::vector<std::string>& outputs, const std::vector<std::string>& inputs,
@@ -63,9 +68,33 @@ void check_paths(const std::vector<std::string>& outputs, const std::vector<std:
   }
 }
 
+/// Whether `mark` stands in the first bytes of a file.
+bool begins_with_mark(const std::string& path, std::string_view mark) {
+  constexpr std::size_t looked_at = 1 << 14;
+  std::string bytes;
+  FileReader(path).append(bytes, looked_at);
+  return bytes.find(mark) != std::string::npos;
+}
+
+void refuse_foreign(const std::string& path, const std::function<bool(const std::string&)>& is_own) {
+  std::error_code error;
+  if (path.empty() || path == "-" || !fs::is_regular_file(path, error)) return;
+  if (fs::file_size(path, error) == 0 || is_own(path)) return;
+  throw InputError(Exit::usage, {path},
+                   "the file exists, and counterflex did not write it; give another name, or --force-overwrite "
+                   "to replace it");
+}
+
 void make_folders(const std::vector<std::string>& folders) {
   for (const std::string& folder : folders)
     if (!folder.empty()) make_folder(folder);
+}
+
+/// What runs that were killed have left of these files.
+void sweep_left(const OutputPaths& paths) {
+  std::vector<std::string> files{paths.program, paths.report_json, paths.report_csv, paths.report_page, paths.plot};
+  std::erase_if(files, [](const std::string& path) { return path.empty() || path == "-"; });
+  sweep_abandoned(files);
 }
 
 std::string stem_of_report(const Options& options) {
@@ -105,6 +134,18 @@ OutputPaths output_paths(const Options& options) {
   return paths;
 }
 
+void refuse_foreign_outputs(const OutputPaths& paths, const Options& options) {
+  if (options.force_overwrite) return;
+  const auto marked = [](std::string_view mark) {
+    return [mark](const std::string& path) { return begins_with_mark(path, mark); };
+  };
+  refuse_foreign(paths.program, has_corrected_header);
+  refuse_foreign(paths.report_json, marked("counterflex"));
+  refuse_foreign(paths.report_csv, marked("index,line,cutting,s_mm"));
+  refuse_foreign(paths.report_page, marked("content=\"counterflex\""));
+  refuse_foreign(paths.plot, marked(plot_mark));
+}
+
 ComparisonPaths comparison_paths(const Options& options) {
   if (!options.report) return {};
   ComparisonPaths paths{stem_of_report(options) + ".json", stem_of_report(options) + ".html"};
@@ -131,6 +172,7 @@ void check_output(const Options& options) {
 RunFiles::RunFiles(const OutputPaths& paths, const CsvColumns& columns, bool hashed)
     : paths_(paths), columns_(columns) {
   make_folders(paths.folders);
+  sweep_left(paths);
   const auto open = [&](std::optional<FileWriter>& file, const std::string& path) {
     if (path.empty()) return;
     file.emplace(path);
@@ -192,6 +234,10 @@ void publish_together(std::vector<FileWriter*> files) {
 }
 
 void write_result(std::string_view text) {
+  write_file("-", lines_without_controls(text));
+}
+
+void write_painted_result(std::string_view text) {
   write_file("-", text);
 }
 

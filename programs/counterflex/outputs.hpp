@@ -29,6 +29,10 @@ struct OutputPaths {
 /// output; Exit::transient_io where its folder does not exist.
 OutputPaths output_paths(const Options& options);
 
+/// Throws `InputError` (Exit::usage) where one of these files exists, is not empty, and was not written by
+/// counterflex; not with --force-overwrite. A program is recognized by its header.
+void refuse_foreign_outputs(const OutputPaths& paths, const Options& options);
+
 /// What `compare` writes; empty paths without --report.
 struct ComparisonPaths {
   std::string json, page;
@@ -78,7 +82,11 @@ void publish_together(std::vector<FileWriter*> files);
 /// nullptr: there is none.
 FileWriter* if_any(std::optional<FileWriter>& file);
 
-/// Text on standard output. Throws `InputError` (Exit::transient_io).
+/// Lines of text, or JSON, on standard output, without control characters. Throws `InputError`
+/// (Exit::transient_io).
 void write_result(std::string_view text);
+
+/// The same for text with colours, whose names and texts from inputs are without control characters already.
+void write_painted_result(std::string_view text);
 
 }  // namespace counterflex::cli

@@ -56,7 +56,7 @@ std::string digest_of(const Run& run) {
 Exit record_part(const Options& options, Console& console, const std::function<void(const Run&)>& tell) {
   const auto run = prepare_run(options, console);
   refuse_what_cannot_be_compensated(*run);
-  run->options.write.header = header_of(options, *run);
+  prepare_writing(options, *run);
   RecordedPart part{bytes_of(*options.part, run->file.bytes.size())};
   part.last_words = last_words_before(part.bytes.begin, run->file.bytes, run->program.file, run->read);
   Windows windows(*run, console);

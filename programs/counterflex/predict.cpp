@@ -25,6 +25,7 @@ std::optional<Failure> predict_all(Run& run, RunTally& tally, RunFiles& files, C
 
 Exit run_predict(const Options& options, Console& console) {
   const OutputPaths paths = output_paths(options);
+  refuse_foreign_outputs(paths, options);
   const auto run = prepare_run(options, console);
   RunFiles files(paths, {.corrected = false});
   RunTally tally = tally_for(options, *run);

@@ -42,6 +42,7 @@ ProgramLook look_through(const Options& options, ProgramFile& file, const ReadOp
     for_each_window(
         reader, also ? options.threads : 1, first, also ? also : [](const Program&) {});
   } catch (const InputError& error) {
+    file.bytes.refuse_change();  // what is wrong may be half of another program
     blame_dialect(error, options, machine, name);
   }
   file.file.sha256 = sha256(file.bytes);

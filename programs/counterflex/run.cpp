@@ -9,6 +9,7 @@
 #include "counterflex/machine/tool.hpp"
 #include "counterflex/report/formats.hpp"
 #include "facts.hpp"
+#include "header.hpp"
 #include "reading.hpp"
 
 namespace counterflex::cli {
@@ -126,7 +127,10 @@ std::unique_ptr<Run> prepare_run(const Options& options, Console& console) {
   run->read = read_options(options, &on, run->tools);
   EarlyForces forces(options, on, run->force_input);
   ProgramLook look =
-      look_through(options, run->file, run->read, &on, [&](const Program& window) { forces.add(window); });
+      look_through(options, run->file, run->read, &on, [&](const Program& window) {
+                                    forces.add(window);
+                                    if (options.number_pieces) run->numbers.add(window.text);
+                                  });
   run->program = std::move(look.program);
   run->is_corrected = look.is_corrected;
   run->tool_models = prepare_tools(on, run->machine.model, run->program.tools);
@@ -155,6 +159,13 @@ void refuse_what_cannot_be_compensated(const Run& run) {
         Exit::program_text, {run.program.file, 1, 1},
         "the header says that this program is already corrected (COUNTERFLEX 1); nothing is compensated "
         "twice");
+}
+
+void prepare_writing(const Options& options, Run& run) {
+  run.options.write.header = header_of(options, run);
+  if (!options.number_pieces) return;
+  run.numbers.finish();
+  run.options.write.number_pieces = &run.numbers;
 }
 
 bool wants_loads(const Run& run) {
@@ -230,7 +241,7 @@ Exit tell_result(const Options& options, const Run& run, const RunEnd& end, cons
   else if (files.program_to_stdout())
     console.note(summary_text(end.report, console.colour_error()));
   else
-    write_result(summary_text(end.report, console.colour_out()));
+    write_painted_result(summary_text(end.report, console.colour_out()));
   return exit_of(run, end.report, console);
 }
 

@@ -18,6 +18,7 @@ struct Run {
   MachineInput machine;
   ProgramFile file;
   Overview program;
+  BlockNumbers numbers{};     ///< of the program, with --number-pieces
   bool is_corrected = false;  ///< the program carries the header of a corrected one
   ToolLengths tools;
   ForceInput force_input;
@@ -48,8 +49,8 @@ void refuse_what_cannot_be_compensated(const Run& run);
 /// Whether the loads along the path are asked for: with their causes, or by the limits of the machine.
 bool wants_loads(const Run& run);
 
-/// Texts of the comments that a corrected program starts with.
-std::vector<std::string> header_of(const Options& options, const Run& run);
+/// Sets how the corrected program is written: its header, and the numbers of its pieces.
+void prepare_writing(const Options& options, Run& run);
 
 /// The windows of a run's program, once from its beginning.
 class Windows {

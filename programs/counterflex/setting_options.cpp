@@ -122,6 +122,10 @@ const std::array option_table{
         false,
         [](Text name, Text text, Options& options) { options.decimals = integer_of(name, text, 0, 9); }},
     SettingOption{
+        "number-pieces", "--number-pieces", "",
+        "Give the pieces of a split block Nn the numbers Nn+1, Nn+2 ..., if they are free", "", false,
+        [](Text name, Text text, Options& options) { options.number_pieces = truth_of(name, text); }},
+    SettingOption{
         "threads", "--threads", "N", "Threads to use; the result does not depend on it; one a processor", "",
         false,
         [](Text name, Text text, Options& options) { options.threads = integer_of(name, text, 1, 1024); }},
@@ -132,6 +136,10 @@ const std::array option_table{
                   take_report},
     SettingOption{"plot", "--plot", "FILE.svg",
                   "Write the deviation along the path and its causes as a picture", "", false, take_plot},
+    SettingOption{
+        "force-overwrite", "--force-overwrite", "",
+        "Replace existing files that counterflex did not write", "", false,
+        [](Text name, Text text, Options& options) { options.force_overwrite = truth_of(name, text); }},
     SettingOption{"output", "-o,--output", "OUTPUT",
                   "The corrected program, a folder for it (DIR/) or a pattern ({name}_CF{ext}); "
                   "NAME.comp.EXT beside the input; - is standard output",

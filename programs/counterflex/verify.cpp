@@ -5,6 +5,7 @@ namespace counterflex::cli {
 
 Exit run_verify(const Options& options, Console& console) {
   const OutputPaths paths = output_paths(options);
+  refuse_foreign_outputs(paths, options);
   const auto run = prepare_run(options, console);
   refuse_what_cannot_be_compensated(*run);
   ProgramInput corrected =

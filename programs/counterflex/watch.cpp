@@ -16,6 +16,8 @@
 
 #include "commands.hpp"
 #include "counterflex/files/input_error.hpp"
+#include "counterflex/files/shown_text.hpp"
+#include "counterflex/files/utf8.hpp"
 #include "inputs.hpp"
 #include "outputs.hpp"
 #include "signals.hpp"
@@ -57,7 +59,7 @@ nlohmann::ordered_json or_null(const std::optional<double>& number) {
 }
 
 std::string json_line(const std::string& program, const std::string& output, const WatchResult& result) {
-  const nlohmann::ordered_json line{{"program", program},
+  const nlohmann::ordered_json line{{"program", utf8_of_bytes(program)},
                                     {"output", output},
                                     {"exit", static_cast<int>(result.exit)},
                                     {"verdict", result.verdict},
@@ -74,7 +76,7 @@ std::string mm_text(const std::optional<double>& value, int decimals) {
 
 std::string text_line(const std::string& program, const std::string& output, const WatchResult& result) {
   const std::string reason = result.verdict_reason.empty() ? "" : fmt::format(" ({})", result.verdict_reason);
-  return fmt::format("{}{}: {} -> {}: {} before, {} after\n", result.verdict, reason, program, output,
+  return fmt::format("{}{}: {} -> {}: {} before, {} after\n", result.verdict, reason, without_controls(program), without_controls(output),
                      mm_text(result.before_mm, 3), mm_text(result.after_mm, 4));
 }
 

@@ -71,12 +71,18 @@ bool has_loose_comments(std::string_view text) {
   return false;
 }
 
+/// The header of a corrected program names the machine, which tells nothing of the dialect.
+bool is_in_header(std::string_view text, std::size_t at) {
+  const std::size_t begin = text.find_last_of('\n', at) + 1;  // 0 in the first line
+  return text.substr(begin, at - begin).find("COUNTERFLEX 1 ") != std::string_view::npos;
+}
+
 bool names_grbl(std::string_view text) {
   constexpr std::string_view name = "GRBL";
   constexpr std::size_t looked_at = 4096;
   text = text.substr(0, looked_at);
   for (std::size_t at = 0; (at = find_either(text, 'G', 'g', at)) != std::string_view::npos; ++at)
-    if (is_word(text.substr(at, name.size()), name)) return true;
+    if (is_word(text.substr(at, name.size()), name) && !is_in_header(text, at)) return true;
   return false;
 }
 

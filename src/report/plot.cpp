@@ -54,11 +54,11 @@ std::string opening(const PlotPage& page, double height) {
       "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 800 {0:.0f}\" width=\"800\" "
       "height=\"{0:.0f}\" "
       "role=\"img\" aria-labelledby=\"title description\">\n"
-      "<title id=\"title\">Deviation along the path: {1}</title>\n<desc id=\"description\">{2}</desc>\n"
+      "<title id=\"title\">{3}: {1}</title>\n<desc id=\"description\">{2}</desc>\n"
       "<rect width=\"800\" height=\"{0:.0f}\" fill=\"#ffffff\"/>\n"
       "<g font-family=\"Helvetica, Arial, sans-serif\" font-size=\"12\" fill=\"#1a1a1a\" "
       "stroke-linecap=\"round\" stroke-linejoin=\"round\">\n",
-      height, xml_escaped(page_title(page.report)), xml_escaped(plot_description(page)));
+      height, xml_escaped(page_title(page.report)), xml_escaped(plot_description(page)), plot_mark);
 }
 
 }  // namespace

@@ -27,29 +27,19 @@ struct Key {
   Kind kind;
 };
 
-inline constexpr std::array keys{Key{"machine", Kind::path},
-                                 Key{"forces", Kind::paths},
-                                 Key{"force", Kind::forces},
-                                 Key{"load-scale", Kind::number},
-                                 Key{"air-above", Kind::number},
-                                 Key{"blend-mm", Kind::number},
-                                 Key{"dialect", Kind::text},
-                                 Key{"units", Kind::text},
-                                 Key{"integer-words", Kind::text},
-                                 Key{"expand-subprograms", Kind::truth},
-                                 Key{"tool-table", Kind::path},
-                                 Key{"method", Kind::text},
-                                 Key{"tolerance-mm", Kind::number},
-                                 Key{"max-correction-mm", Kind::number},
-                                 Key{"accept-partial", Kind::truth},
-                                 Key{"decimals", Kind::whole},
+inline constexpr std::array keys{Key{"machine", Kind::path},        Key{"forces", Kind::paths},
+                                 Key{"force", Kind::forces},        Key{"load-scale", Kind::number},
+                                 Key{"air-above", Kind::number},    Key{"blend-mm", Kind::number},
+                                 Key{"dialect", Kind::text},        Key{"units", Kind::text},
+                                 Key{"integer-words", Kind::text},  Key{"expand-subprograms", Kind::truth},
+                                 Key{"tool-table", Kind::path},     Key{"method", Kind::text},
+                                 Key{"tolerance-mm", Kind::number}, Key{"max-correction-mm", Kind::number},
+                                 Key{"accept-partial", Kind::truth}, Key{"decimals", Kind::whole},      Key{"number-pieces", Kind::truth},
                                  Key{"threads", Kind::whole},
-                                 Key{"min-block-ms", Kind::number},
-                                 Key{"output", Kind::output},
-                                 Key{"report", Kind::report},
-                                 Key{"plot", Kind::plot},
-                                 Key{"work", Kind::offsets},
-                                 Key{"tool-length", Kind::lengths}};
+                                 Key{"min-block-ms", Kind::number}, Key{"output", Kind::output},
+                                 Key{"report", Kind::report},       Key{"plot", Kind::plot},
+                                 Key{"force-overwrite", Kind::truth},
+                                 Key{"work", Kind::offsets},        Key{"tool-length", Kind::lengths}};
 
 /// Of `report = true` and `plot = true`: beside the output.
 inline constexpr std::string_view report_beside_output = "{output}", plot_beside_output = "{output}.svg";

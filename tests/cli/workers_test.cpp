@@ -1,7 +1,10 @@
 #include "workers.hpp"
 
 #include <doctest/doctest.h>
+#include <fcntl.h>
+#include <poll.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include <csignal>
 #include <stdexcept>
@@ -37,4 +40,26 @@ TEST_CASE("how a worker ended is known whatever the caller of the program ignore
   Workers workers;
   workers.start(0, [](const SendLine&) { ::raise(SIGKILL); });
   CHECK(ending_text(ending_of(workers, 0)) == "was killed by signal 9");
+}
+
+TEST_CASE("workers end when the process that started them is killed") {
+  int ends[2];
+  REQUIRE(::pipe2(ends, O_CLOEXEC) == 0);
+  const pid_t parent = ::fork();
+  if (parent == 0) {
+    Workers workers;
+    workers.start(0, [&](const SendLine&) {
+      if (::write(ends[1], "b", 1) == 1)
+        for (;;) ::pause();
+    });
+    for (;;) ::pause();
+  }
+  ::close(ends[1]);
+  char byte = 0;
+  CHECK(::read(ends[0], &byte, 1) == 1);
+  ::kill(parent, SIGKILL);
+  CHECK(::waitpid(parent, nullptr, 0) == parent);
+  pollfd end{ends[0], POLLIN, 0};
+  CHECK(::poll(&end, 1, 10'000) == 1);  // the end of the pipe, when the worker no longer holds it
+  ::close(ends[0]);
 }

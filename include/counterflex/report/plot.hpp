@@ -1,11 +1,15 @@
 #pragma once
 /// The deviation along the path and what it is made of, as a picture for papers and pages.
 #include <string>
+#include <string_view>
 
 #include "counterflex/report/path_curves.hpp"
 #include "counterflex/report/report.hpp"
 
 namespace counterflex {
+
+/// The title of every picture begins so.
+inline constexpr std::string_view plot_mark = "Deviation along the path";
 
 /// A plot of `curves`, those of the run of `report`: the components of the deviation before over cutting path
 /// length, each with its causes alone (geometry, load and, with masses, gravity), their superposition, and
