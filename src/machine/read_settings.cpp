@@ -111,7 +111,12 @@ void read_gravity(const toml::table& document, const Source& source, Machine& ma
 }
 
 void read_tool(const toml::table& document, const Source& source, Machine& machine) {
-  if (const toml::node* node = document.get("tool")) machine.X_PT = read_transform(*node, "[tool]", {source});
+  const toml::node* node = document.get("tool");
+  machine.tool_at = node != nullptr ? source.at(key_of(document, "tool").source()) : Location{source.file()};
+  if (node == nullptr) return;
+  machine.X_PT = read_transform(*node, "[tool]", {source}, {"allow_inverted"});
+  if (const toml::node* allowed = node->as_table()->get("allow_inverted"))
+    machine.allows_inverted_tool = as_truth(*allowed, "allow_inverted", source);
 }
 
 void read_spindle(const toml::table& document, const Source& source, Machine& machine) {

@@ -110,6 +110,8 @@ Mechanism compile(const Machine& machine) {
   Numbering numbering{0, mechanism.travel};
   for (const Chain& chain : machine.chains)
     mechanism.chains.push_back(compile_series(chain, weighs, false, numbering));
+  const std::vector<std::string> names = actuator_names(machine);
+  for (std::size_t i = 0; i < names.size(); ++i) mechanism.travel[i].name = names[i];
   return mechanism;
 }
 

@@ -102,6 +102,12 @@ std::string as_text(const toml::node& node, std::string_view name, const Source&
   return text->get();
 }
 
+bool as_truth(const toml::node& node, std::string_view name, const Source& source) {
+  const auto* truth = node.as_boolean();
+  if (truth == nullptr) source.fail(node, fmt::format("{} must be true or false, not {}", name, seen(node)));
+  return truth->get();
+}
+
 std::string as_choice(const toml::node& node, std::string_view name,
                       const std::vector<std::string_view>& allowed, const Source& source) {
   std::string text = as_text(node, name, source);

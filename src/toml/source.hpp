@@ -20,6 +20,7 @@ class Source {
   /// The document. Throws `InputError` at the place of a syntax error.
   toml::table parse() const;
 
+  const std::string& file() const { return file_; }
   Location at(const toml::source_region& region) const;
   [[noreturn]] void fail(const toml::node& node, const std::string& message) const;
   [[noreturn]] void fail(const toml::key& key, const std::string& message) const;

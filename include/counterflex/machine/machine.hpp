@@ -145,6 +145,8 @@ struct Machine {
   std::optional<Pose> home_X_MP;           ///< required for more than one chain
   Location home_at;                        ///< where the file says home: [home], or else the first chain
   Pose X_PT;                               ///< tool tip in the platform frame
+  Location tool_at;                        ///< [tool] in the file; without it the file alone
+  bool allows_inverted_tool = false;       ///< the tip's z may point into the work
   std::map<std::string, WorkOffset> work;  ///< by names that `work_offset_name` gives
   std::optional<Pose> X_PS;    ///< gauge line that tools' lengths count from, z from tip to spindle
   std::map<long, Tool> tools;  ///< by number
@@ -168,6 +170,12 @@ double total_mass(const Machine& machine);
 bool weighs(const Machine& machine);
 /// All actuators in their order.
 std::vector<Actuator> actuators(const Machine& machine);
+
+/// Names of the actuators for messages, in the same order. On a machine of one chain: "axis X" for the only
+/// linear axis along X at home, "axis A" for the only rotary one about X, "axis A1" to "axis A6" for the
+/// rotary axes of an arm. On a parallel machine: "chain NAME" for the only actuator of that chain. Else
+/// "actuator N", N its number from 1.
+std::vector<std::string> actuator_names(const Machine& machine);
 
 /// Whether an actuator turns: a robot's do, and those of a machine with rotary drives.
 bool turns_joints(const Machine& machine);

@@ -53,6 +53,7 @@ struct Series {
 struct Travel {
   double min, max;
   JointKind kind;
+  std::string name{};  ///< see `actuator_names`; numbers alone for a machine with a tool that yields
 };
 
 struct Mechanism {
