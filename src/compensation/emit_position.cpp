@@ -16,7 +16,7 @@ std::optional<Vector3> Emitter::solve_position(const Vector3& wanted, const Move
   const Model& model = model_with(job_.model, job_.tools, move.tool);
   const TargetSolution solution = solvers_.of(model, model.home).target(wanted, {});
   if (solution.status != Status::converged) {
-    out_.failure = status_failure(solution.status, move.line);
+    out_.failure = status_failure(job_, solution.status, model, move, solution.target, move.line);
     return std::nullopt;
   }
   const Vector3 correction = solution.target - wanted;

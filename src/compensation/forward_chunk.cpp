@@ -47,9 +47,17 @@ std::optional<Failure> ChunkForward::solve(std::span<const Piece> pieces,
   for (std::size_t i = first; i < out.size(); ++i) {
     if (out[i].status == Status::converged) continue;
     out.resize(i + 1);
-    return status_failure(out[i].status, out[i].line);
+    return failure_at(i - first, out[i]);
   }
   return std::nullopt;
+}
+
+Failure ChunkForward::failure_at(std::size_t k, const Waypoint& w) const {
+  const Task& task = tasks_[samples_[order_[k]].task];
+  const std::size_t frame = task.segment ? task.segment->frame : task.piece->frame;
+  const long tool = task.segment ? job_.program.moves[task.segment->move].tool : task.piece->tool;
+  return status_failure(job_, w.status,
+                        {solver_.model(), job_.path.frames[frame], tool, places_[k].emitted}, w.line);
 }
 
 void ChunkForward::clear() {

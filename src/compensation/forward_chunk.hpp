@@ -49,6 +49,7 @@ class ChunkForward {
   std::size_t add_inside(std::size_t t, double v);
   bool solve_added();
   const KnownPlace* known_place(const Sample& sample) const;
+  Failure failure_at(std::size_t k, const Waypoint& w) const;  ///< of the listed sample k
 
   void begin(std::span<const Piece> pieces, const std::optional<Vector3>& command);
   void add_samples(std::size_t t);

@@ -68,9 +68,10 @@ bool KnotPlanner::measure_gain(std::size_t index) {
     requests[static_cast<std::size_t>(k)] = {segment.wanted.end + aside, load_at(job_, index, 1), {}, {}};
   }
   solver_.actuals(requests, reached);
-  for (const ActualSolution& actual : reached)
-    if (actual.status != Status::converged) {
-      failure_ = status_failure(actual.status, segment.line);
+  for (std::size_t k = 0; k < reached.size(); ++k)
+    if (reached[k].status != Status::converged) {
+      failure_ = status_failure(job_, reached[k].status, solver_.model(), job_.program.moves[segment.move],
+                                requests[k].target, segment.line);
       return false;
     }
   Matrix3 gain;

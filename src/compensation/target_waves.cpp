@@ -96,7 +96,8 @@ bool TargetWaves::solve() {
 bool TargetWaves::check(Answer a) {
   const Segment& segment = job_.path.segments[segments_[a]];
   if (status(a) != Status::converged)
-    failure_ = status_failure(status(a), segment.line);
+    failure_ = status_failure(job_, status(a), solver_.model(), job_.program.moves[segment.move],
+                              solutions_[a].target, segment.line);
   else
     failure_ = limit_failure(job_, correction(a) + job_.path.frames[segment.frame].datum_shift, segment.line);
   return !failure_;

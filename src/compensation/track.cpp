@@ -16,11 +16,16 @@ constexpr std::size_t segments_between_starts = 32;
 
 }  // namespace
 
-Failure status_failure(Status status, int line) {
+Failure status_failure(const Job& job, Status status, const CommandedPlace& at, int line) {
   if (status == Status::outside_travel)
-    return {Exit::limit, line, "an actuator leaves its range (outside_travel)"};
+    return {Exit::limit, line, outside_travel_words(job.model.mechanism, at)};
   return {Exit::not_compensated, line,
           fmt::format("the machine's equilibrium is not solved here: {}", to_string(status))};
+}
+
+Failure status_failure(const Job& job, Status status, const Model& model, const Move& move,
+                       const Vector3& target, int line) {
+  return status_failure(job, status, {model, job.path.frames[move.offset], move.tool, target}, line);
 }
 
 std::optional<Failure> limit_failure(const Job& job, const Vector3& correction, int line) {
@@ -74,11 +79,12 @@ NominalTrack track(const Job& job, const NominalPlace& start) {
   NominalTrack result;
   ToolSolver solvers(job);
   PathSolver* solver = &solvers.of(*start.model, start.configuration);
-  const auto go = [&](const Vector3& p, int line) {
+  const auto go = [&](const Vector3& p, const Segment& segment) {
     Status status;
     solver->wanted(p, status);
     if (status == Status::converged) return true;
-    result.failure = status_failure(status, line);
+    result.failure =
+        status_failure(job, status, solver->model(), job.program.moves[segment.move], p, segment.line);
     return false;
   };
   for (std::size_t i = 0; i < job.path.segments.size(); ++i) {
@@ -87,9 +93,9 @@ NominalTrack track(const Job& job, const NominalPlace& start) {
     const bool changes = !solvers.is_of(model);
     if (changes) solver = &solvers.of(model, model.home);
     const bool joins = i > 0 && !changes && job.path.segments[i - 1].wanted.end == segment.wanted.start;
-    if (!joins && !go(segment.wanted.start, segment.line)) return result;
+    if (!joins && !go(segment.wanted.start, segment)) return result;
     if (changes || i % segments_between_starts == 0) result.starts.push_back({i, solver->nominal()});
-    if (!go(segment.wanted.end, segment.line)) return result;
+    if (!go(segment.wanted.end, segment)) return result;
   }
   result.end = {&solver->model(), solver->nominal()};
   return result;

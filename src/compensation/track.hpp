@@ -4,6 +4,7 @@
 #include <span>
 
 #include "chunks.hpp"
+#include "counterflex/compensation/travel_words.hpp"
 #include "counterflex/compensation/waypoint.hpp"
 #include "known_place.hpp"
 
@@ -35,8 +36,12 @@ ForwardRun solve_forward_from(const Job& job, const NominalTrack& nominal, std::
                               const Questions& questions, const std::optional<Vector3>& command,
                               std::span<const KnownSegment> known = {});
 
-/// The failure that a status at a line stands for: travel is a limit, all else is not compensated.
-Failure status_failure(Status status, int line);
+/// The failure that the status of a target stands for: travel is a limit, all else is not compensated.
+Failure status_failure(const Job& job, Status status, const CommandedPlace& at, int line);
+
+/// The same of a target (m, in M) of one of the job's moves, which `model` makes.
+Failure status_failure(const Job& job, Status status, const Model& model, const Move& move,
+                       const Vector3& target, int line);
 
 /// The failure of a correction (emitted minus commanded position, m) larger than the limit.
 std::optional<Failure> limit_failure(const Job& job, const Vector3& correction, int line);

@@ -9,6 +9,7 @@
 #include "counterflex/statics/linear.hpp"
 #include "counterflex/statics/nested.hpp"
 #include "counterflex/statics/tip_compliance.hpp"
+#include "counterflex/statics/travel.hpp"
 
 namespace counterflex {
 
@@ -197,6 +198,9 @@ PoseAnalysis analyze_pose(const Model& model, const Pose& X_MT, const Load& load
                             : solve_finite(model, nominal.configuration, result.X_MT, load, work);
   result.status = with_travel(model.mechanism, result.rho, solved.status);
   result.why = words(result.status, false);
+  if (result.status == Status::outside_travel)
+    if (const auto axis = tightest_axis(model.mechanism, result.rho))
+      result.why = outside_travel_words(model.mechanism.travel[axis->actuator], axis->value);
   if (has_values(result.status)) {
     describe(extras.machine ? *extras.machine : model.mechanism, model, solved, load, work, result);
     if (extras.full)

@@ -248,7 +248,7 @@ TEST_CASE("a held pose has the wrench that holds it, a curve its points, in text
 TEST_CASE("a pose outside the actuators' travel is analyzed and says so") {
   const PoseAnalysis pose = analyze_pose(orthoglide(), at_mm(-140, 0, 0), {}, Method::direct);
   CHECK(pose.status == Status::outside_travel);
-  CHECK(pose.why == "an actuator leaves its range");
+  CHECK(pose.why.find("is outside its travel (") != std::string::npos);
   CHECK(pose.deviation.norm() > 0);
   CHECK(pose.chains.size() == 3);
 }
