@@ -9,6 +9,7 @@
 #include "program/expand.hpp"
 #include "program/plain_lines.hpp"
 #include "program/remarks.hpp"
+#include "program/robot_language.hpp"
 
 namespace counterflex {
 namespace {
@@ -36,6 +37,11 @@ std::optional<std::string> unknown_dialect(const std::string& dialect) {
 }
 
 const Dialect& choose_dialect(std::string_view text, const std::string& file, const ReadOptions& options) {
+  if (const std::string_view language = robot_language(text); !language.empty())
+    throw InputError(Exit::program_text, {file, 1, 1},
+                     fmt::format("this is a program in {}, which is not read yet; G-code, Siemens and Heidenhain "
+                                 "programs are: post the job as one of them",
+                                 language));
   if (options.dialect == "auto") return detect_dialect(beginning(text));
   if (const auto problem = unknown_dialect(options.dialect)) throw UnknownDialect(Exit::usage, {file}, *problem);
   return *find_dialect(options.dialect);

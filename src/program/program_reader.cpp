@@ -56,9 +56,9 @@ struct Overall {
 /// What `auto` looks at.
 const Dialect& dialect_of(FileReader& bytes, const std::string& file, const ReadOptions& options) {
   std::string text;
-  if (options.dialect == "auto")
-    while (text.size() < looked_at && bytes.append(text, bytes_at_once) > 0) {
-    }
+  const std::size_t needed = options.dialect == "auto" ? looked_at : 1;  // a robot's language is seen at once
+  while (text.size() < needed && bytes.append(text, bytes_at_once) > 0) {
+  }
   return choose_dialect(text, file, options);
 }
 

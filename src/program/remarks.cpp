@@ -70,12 +70,16 @@ void remark_path_mode(const Block& block, Reading& reading) {
 void remark_tool_length(const Block& block, Reading& reading) {
   const FoundG* length = reading.sorted.find(Action::tool_length);
   if (length == nullptr) return;
-  const bool holds_some = !reading.options.tool_lengths_mm.empty();
-  add_remark(
-      reading.program, block.line,
-      fmt::format("G{}: {}", length->word->value,
-                  holds_some ? "no length is given for this tool; that of [tool] is used"
-                             : "programs do not hold the lengths of tools; that of [tool] is used for all"));
+  const Word* h = reading.sorted.word('H');
+  const long tool = h != nullptr && h->literal ? static_cast<long>(h->value) : reading.state.tool;
+  const std::string code = fmt::format("G{}", length->word->value);
+  if (tool <= 0)
+    return add_remark(reading.program, block.line,
+                      code + ": the tool and its length are not known; the tip of [tool] is used");
+  add_remark(reading.program, block.line,
+             fmt::format("{}: the length of T{} is not known; the tip of [tool] is used (give --tool-length "
+                         "T{}=MM, --tool-table, or length_mm in [tools.T{}])",
+                         code, tool, tool, tool));
 }
 
 void remark_machine_codes(const Block& block, Reading& reading) {

@@ -117,7 +117,8 @@ TEST_CASE("a tool length that changes without Z makes Z unknown; with Z the tip 
   CHECK_FALSE(known.moves[1].may_insert_words);
   REQUIRE(known.remarks.size() == 1);
   CHECK(known.remarks[0].what ==
-        "G43: programs do not hold the lengths of tools; that of [tool] is used for all");
+        "G43: the length of T1 is not known; the tip of [tool] is used (give --tool-length T1=MM, "
+        "--tool-table, or length_mm in [tools.T1])");
 }
 
 TEST_CASE("where lengths are given the remark is about the tool that has none") {
@@ -126,7 +127,7 @@ TEST_CASE("where lengths are given the remark is about the tool that has none") 
   const Program program = read_program("G21 G0 X1 Y2\nG43 Z15 H1\nG43 Z15 H7\n", "part.ngc", options);
   REQUIRE(program.remarks.size() == 1);
   CHECK(program.remarks[0].line == 3);
-  CHECK(program.remarks[0].what == "G43: no length is given for this tool; that of [tool] is used");
+  CHECK(program.remarks[0].what.starts_with("G43: the length of T7 is not known"));
 }
 
 TEST_CASE("after G80 fanuc and haas fall back to G0, linuxcnc and grbl need a motion") {

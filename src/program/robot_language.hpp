@@ -1,0 +1,11 @@
+#pragma once
+/// Robot programs, which are recognised so that the error names them.
+#include <string_view>
+
+namespace counterflex {
+
+/// "KUKA KRL", "ABB RAPID", "FANUC TP (LS)", "URScript", "Yaskawa INFORM (JBI)", "APT"; empty for any other
+/// text. The first line that is neither empty nor a comment decides.
+std::string_view robot_language(std::string_view text);
+
+}  // namespace counterflex

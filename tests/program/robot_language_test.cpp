@@ -1,0 +1,48 @@
+#include <doctest/doctest.h>
+
+#include "program/reading.hpp"
+
+using namespace counterflex;
+using namespace counterflex::test;
+
+namespace {
+
+/// The diagnostic of reading `text`; empty where it is read.
+std::string refusal(const std::string& text, const std::string& dialect = "auto") {
+  ReadOptions options;
+  options.dialect = dialect;
+  try {
+    read_program(text, "job", options);
+  } catch (const InputError& error) {
+    CHECK(error.exit() == Exit::program_text);
+    return error.what();
+  }
+  return "";
+}
+
+}  // namespace
+
+TEST_CASE("a robot's program is refused by the name of its language, whatever dialect is asked for") {
+  const std::pair<const char*, const char*> programs[] = {
+      {"&ACCESS RVO1\r\nDEF Test1 ( )\r\n", "KUKA KRL"},
+      {"\n;FOLD\nDEF Test1()\nPTP HOME\n", "KUKA KRL"},
+      {"MODULE MainModule\n  PROC main()\n", "ABB RAPID"},
+      {"%%%\n  VERSION:1\n%%%\nMODULE a\n", "ABB RAPID"},
+      {"/PROG cub\n/ATTR\n", "FANUC TP (LS)"},
+      {"# pick\ndef Program():\n  movej([0,0,0,0,0,0])\n", "URScript"},
+      {"/JOB\n//NAME A\n", "Yaskawa INFORM (JBI)"},
+  };
+  for (const auto& [text, language] : programs)
+    for (const char* dialect : {"auto", "heidenhain"}) {
+      CAPTURE(text);
+      CHECK(refusal(text, dialect)
+                .starts_with("job:1:1: error: this is a program in " + std::string(language)));
+    }
+}
+
+TEST_CASE("programs that begin like a robot's are read") {
+  CHECK(refusal("DEF REAL A1\nG1 X1 F100\n") == "");
+  CHECK(refusal("%\nO1001\nG0 X1\n%\n") == "");
+  CHECK(refusal("/G0 X1\n") == "");
+  CHECK(refusal("(MODULE A)\nG0 X1\n") == "");
+}
