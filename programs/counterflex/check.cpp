@@ -5,7 +5,9 @@
 #include <optional>
 
 #include "commands.hpp"
+#include "counterflex/report/formats.hpp"
 #include "outputs.hpp"
+#include "sanity.hpp"
 
 namespace counterflex::cli {
 namespace {
@@ -17,7 +19,7 @@ bool is_machine(const std::string& path) {
 Checked check_file(const std::string& path, const Options& options, const MachineInput* machine,
                    Console& console) {
   try {
-    return is_machine(path) ? check_machine(path, options) : check_program(path, options, machine, console);
+    return is_machine(path) ? check_machine(path, options, console) : check_program(path, options, machine, console);
   } catch (const InputError& error) {
     console.error(error.what());
     return {"", {{"file", path}, {"error", error.what()}}, error.exit()};
@@ -25,6 +27,17 @@ Checked check_file(const std::string& path, const Options& options, const Machin
 }
 
 }  // namespace
+
+void add_sanity(const SanityChecks& checks, const Machine& machine, Checked& checked, Console& console) {
+  checked.text += sanity_block(checks, console.colour_out(), console.marks_out(), true);
+  checked.json["sanity"] = nlohmann::ordered_json::parse(to_json(checks));
+  try {
+    refuse_wrong(checks, machine);
+  } catch (const InputError& error) {
+    console.error(error.what());
+    checked.exit = error.exit();
+  }
+}
 
 std::string row(std::string_view what, std::string_view said) {
   return fmt::format("{:<12} {}\n", what, said);

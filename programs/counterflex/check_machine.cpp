@@ -10,6 +10,7 @@
 #include "counterflex/machine/read_machine.hpp"
 #include "counterflex/machine/tool.hpp"
 #include "counterflex/statics/chain.hpp"
+#include "sanity.hpp"
 
 namespace counterflex::cli {
 namespace {
@@ -213,7 +214,7 @@ nlohmann::ordered_json gravity_json(const Machine& machine) {
 
 }  // namespace
 
-Checked check_machine(const std::string& path, const Options&) {
+Checked check_machine(const std::string& path, const Options&, Console& console) {
   const Machine machine = read_machine(read_input(path, Exit::machine_or_force), path);
   const Model model = prepare(machine);
   refuse_home(model, machine);
@@ -238,6 +239,7 @@ Checked check_machine(const std::string& path, const Options&) {
     checked.json["gravity"] = gravity_json(machine);
   if (!machine.tools.empty()) checked.json["tools"] = tools_json(machine);
   checked.json["notes"] = notes;
+  add_sanity(machine_sanity(machine, model), machine, checked, console);
   return checked;
 }
 

@@ -6,7 +6,10 @@
 
 #include "check.hpp"
 #include "check_plan.hpp"
+#include "counterflex/compensation/travel_words.hpp"
 #include "counterflex/geometry/units.hpp"
+#include "counterflex/sanity/path_checks.hpp"
+#include "sanity.hpp"
 #include "work.hpp"
 
 namespace counterflex::cli {
@@ -155,44 +158,53 @@ nlohmann::ordered_json json_of(const ProgramFacts& facts) {
   return json;
 }
 
-/// What stops the nominal machine from going to `p_MT` in a move of `line`.
-std::optional<Failure> go_to(NominalToolPath& nominal, const Model& model, const Vector3& p_MT, int line) {
-  const Status status = nominal.go_to(model, p_MT);
+/// What stops the nominal machine from going to a place in a move of `line`. `base`: the machine without a
+/// tool.
+std::optional<Failure> go_to(NominalToolPath& nominal, const Model& base, const CommandedPlace& at,
+                             int line) {
+  const Status status = nominal.go_to(at.model, at.target);
   if (status != Status::converged)
     return Failure{Exit::not_compensated, line,
                    fmt::format("the machine does not reach the end of this move: {}", to_string(status))};
-  if (!within_travel(model.mechanism, actuator_values(model.mechanism, nominal.configuration())))
-    return Failure{Exit::limit, line, "an actuator leaves its travel on the way to the end of this move"};
+  if (!within_travel(at.model.mechanism, actuator_values(at.model.mechanism, nominal.configuration())))
+    return Failure{Exit::limit, line, outside_travel_words(base.mechanism, at)};
   return std::nullopt;
 }
 
 /// The first place, end of a line or on an arc, that the nominal machine does not reach.
 std::optional<Failure> first_unreached(const Model& base, const ToolModels& tools,
-                                       const std::vector<WorkFrame>& frames, ProgramReader reader) {
+                                       const std::vector<WorkFrame>& frames, ProgramReader reader,
+                                       TravelTally& travel) {
   NominalToolPath nominal(home_of(base));
   while (reader.next())
     for (const Segment& segment : build_toolpath(reader.window(), frames).segments) {
-      const Model& model = model_with(base, &tools, reader.window().moves[segment.move].tool);
+      const long tool = reader.window().moves[segment.move].tool;
+      const Model& model = model_with(base, &tools, tool);
       const std::vector<Vector3> points = points_along(segment.wanted);
-      for (std::size_t i = 1; i < points.size(); ++i)
-        if (const auto failure = go_to(nominal, model, points[i], segment.line)) return failure;
+      for (std::size_t i = 1; i < points.size(); ++i) {
+        const CommandedPlace at{model, frames[segment.frame], tool, points[i]};
+        if (const auto failure = go_to(nominal, base, at, segment.line)) return failure;
+        travel.add(model, points[i], segment.line);
+      }
     }
   return std::nullopt;
 }
 
-void check_reach(const Overview& program, ProgramReader reader, const MachineInput& input, Checked& checked,
-                 Console& console) {
+void check_reach(const Overview& program, ProgramReader reader, const MachineInput& input,
+                 const ToolLengths& lengths, Checked& checked, Console& console) {
   const WorkPlace work = place_work(input.machine, input.model, shown_name(input.file.path), program);
   if (!work.assumption.empty()) console.warning(program.file, 0, work.assumption);
   const ToolModels tools = prepare_tools(input.machine, input.model, program.tools);
-  const auto failure = first_unreached(input.model, tools, work.frames, std::move(reader));
+  TravelTally travel;
+  const auto failure = first_unreached(input.model, tools, work.frames, std::move(reader), travel);
   checked.json["reached"] = !failure;
-  if (!failure) {
-    checked.text +=
-        row("reach", fmt::format("{} reaches the ends of all moves", shown_name(input.file.path)));
-    return;
-  }
-  checked.text += row("reach", fmt::format("line {}: {}", failure->line, failure->what));
+  checked.text +=
+      row("reach", failure ? fmt::format("line {}: {}", failure->line, failure->what)
+                           : fmt::format("{} reaches the ends of all moves", shown_name(input.file.path)));
+  SanityChecks sanity = program_sanity({input, tools, lengths, work, program});
+  if (!failure) sanity.push_back(check_travel(input.model.mechanism, travel));
+  add_sanity(sanity, input.machine, checked, console);
+  if (!failure) return;
   checked.exit = failure->exit;
   console.error(located(program.file, *failure));
 }
@@ -202,14 +214,15 @@ void check_reach(const Overview& program, ProgramReader reader, const MachineInp
 Checked check_program(const std::string& path, const Options& options, const MachineInput* machine,
                       Console& console) {
   const Machine* of = machine != nullptr ? &machine->machine : nullptr;
-  const ReadOptions read = read_options(options, of, read_tool_lengths(options, of));
+  const ToolLengths lengths = read_tool_lengths(options, of);
+  const ReadOptions read = read_options(options, of, lengths);
   const std::string name = shown_name(path);
   ProgramFile file = open_program("program", path);
   try {
     const ProgramFacts facts = facts_of(ProgramReader(file.bytes, name, read));
     Checked checked{text_of(facts), json_of(facts), Exit::done};
     if (machine != nullptr)
-      check_reach(facts.overview, ProgramReader(file.bytes, name, read), *machine, checked, console);
+      check_reach(facts.overview, ProgramReader(file.bytes, name, read), *machine, lengths, checked, console);
     return checked;
   } catch (const InputError& error) {
     blame_dialect(error, options, of, name);

@@ -22,6 +22,18 @@ bool colours_on(int descriptor) {
   return ::isatty(descriptor) == 1 && terminal != nullptr && std::string_view(terminal) != "dumb";
 }
 
+/// By the locale that the first of these variables names.
+bool shows_utf8(int descriptor) {
+  if (::isatty(descriptor) != 1) return false;
+  for (const char* name : {"LC_ALL", "LC_CTYPE", "LANG"}) {
+    const char* value = std::getenv(name);
+    if (value == nullptr || *value == '\0') continue;
+    const std::string_view locale(value);
+    return locale.find("UTF-8") != std::string_view::npos || locale.find("utf8") != std::string_view::npos;
+  }
+  return false;
+}
+
 /// `word` of a diagnostic in colour, where it first stands as ": word: ", or at the beginning.
 std::string painted(std::string_view diagnostic, std::string_view word, int colour) {
   std::string text(diagnostic);
@@ -40,7 +52,9 @@ Console::Console(const Options& options, ConsoleListener listener)
       verbose_(options.verbose && !options.quiet),
       terminal_(::isatty(STDERR_FILENO) == 1),
       colour_(colours_on(STDERR_FILENO)),
-      colour_out_(colours_on(STDOUT_FILENO)) {}
+      colour_out_(colours_on(STDOUT_FILENO)),
+      marks_out_(shows_utf8(STDOUT_FILENO)),
+      marks_error_(shows_utf8(STDERR_FILENO)) {}
 
 Console::~Console() {
   erase_progress();
@@ -67,6 +81,7 @@ void Console::erase_progress() {
 void Console::warning(const std::string& file, int line, std::string_view what) {
   if (quiet_ || ++warnings_[file] > warnings_shown) return;
   erase_progress();
+  if (terminal_ && ::isatty(STDOUT_FILENO) == 1) shown_.emplace(what);
   const std::string text = without_controls(line > 0 ? fmt::format("{}:{}: warning: {}", file, line, what)
                                                      : fmt::format("{}: warning: {}", file, what));
   say((colour_ ? painted(text, "warning", 35) : text) + "\n");

@@ -4,6 +4,7 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -34,6 +35,8 @@ class Console {
 
   /// "file:line: warning: what"; at most 20 of a file, `finish_warnings` counts the others. Line 0: none.
   void warning(const std::string& file, int line, std::string_view what);
+  /// Whether the person at the terminal, who sees standard output too, has read this warning already.
+  bool has_shown(std::string_view what) const { return shown_.count(what) > 0; }
   void more_warnings(const std::string& file, std::size_t count);  ///< that nobody needs to see
   void finish_warnings();  ///< the last word before a result: it clears the line of progress, too
 
@@ -61,15 +64,20 @@ class Console {
   /// And text on standard error.
   bool colour_error() const { return colour_; }
 
+  /// Whether standard output, or standard error, is a terminal that shows UTF-8.
+  bool marks_out() const { return marks_out_; }
+  bool marks_error() const { return marks_error_; }
+
  private:
   void say(const std::string& text);
   void erase_progress();
 
   ConsoleListener listener_;
-  bool quiet_, verbose_, terminal_, colour_, colour_out_;
+  bool quiet_, verbose_, terminal_, colour_, colour_out_, marks_out_, marks_error_;
   bool showing_progress_ = false;
   std::optional<Unsaid> unsaid_{};
   std::map<std::string, std::size_t> warnings_;
+  std::set<std::string, std::less<>> shown_;  ///< where both streams are terminals
 };
 
 /// "file:line:1: error: what"; without a line "file: error: what".

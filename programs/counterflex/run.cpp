@@ -11,6 +11,7 @@
 #include "facts.hpp"
 #include "header.hpp"
 #include "reading.hpp"
+#include "sanity.hpp"
 
 namespace counterflex::cli {
 namespace {
@@ -94,6 +95,13 @@ void warn_of_run(Run& run, Command command, Console& console) {
                              program.blocks, program.moves));
 }
 
+/// A terminal that shows both streams shows each warning once.
+RunReport without_shown_warnings(RunReport report, const Console& console) {
+  auto& [rows, count] = report.warnings;
+  count -= std::erase_if(rows, [&](const Remark& warning) { return console.has_shown(warning.what); });
+  return report;
+}
+
 }  // namespace
 
 RunInput Run::input() const {
@@ -140,6 +148,8 @@ std::unique_ptr<Run> prepare_run(const Options& options, Console& console) {
   forces.settle({run->file.bytes, run->program.file, run->read, run->work.frames, run->ignored});
   run->options = compensation_options(options, on);
   run->lanes.emplace(run->options.max_correction);
+  run->sanity = program_sanity({run->machine, run->tool_models, run->tools, run->work, run->program});
+  refuse_wrong(run->sanity, on);
   run->facts = facts_of(options, *run);
   warn_of_orientation(*run);
   warn_of_tools(*run);
@@ -224,6 +234,7 @@ RunEnd finish_run(const Options& options, Run& run, RunReport report, const RunT
                   RunFiles& files) {
   run.lanes.reset();  // nothing is solved in them any more; the report takes their memory
   const MachineInput& on = run.machine;
+  report.sanity = run_sanity(run, report, tally);
   add_loads(report, solve_loads(on.model, run.load_places.places(), run.options.threads), on.machine);
   if (options.report || options.json) add_texts(report, run.file.bytes);
   run.file.bytes.refuse_change();  // it was read more than once
@@ -239,9 +250,10 @@ Exit tell_result(const Options& options, const Run& run, const RunEnd& end, cons
   if (options.json)
     write_result(end.json);
   else if (files.program_to_stdout())
-    console.note(summary_text(end.report, console.colour_error()));
+    console.note(summary_text(end.report, console.colour_error(), console.marks_error()));
   else
-    write_painted_result(summary_text(end.report, console.colour_out()));
+    write_painted_result(
+        summary_text(without_shown_warnings(end.report, console), console.colour_out(), console.marks_out()));
   return exit_of(run, end.report, console);
 }
 

@@ -30,6 +30,7 @@ struct Run {
   ToolModels tool_models;  ///< of the program's tools
   std::optional<LaneMachines> lanes{};
   LoadPlaces load_places{};  ///< of the path, where loads are asked for
+  SanityChecks sanity{};     ///< known before it runs
 
   RunInput input() const;
   RunContext context() const;

@@ -155,13 +155,6 @@ void note_elasticity(const Machine& machine, Notes& notes) {
   }
 }
 
-void note_tools(const Machine& machine, Notes& notes) {
-  const auto has_length = [](const auto& entry) { return entry.second.length.has_value(); };
-  if (!machine.X_PS && std::any_of(machine.tools.begin(), machine.tools.end(), has_length))
-    notes.push_back(
-        "lengths of tools move coordinates alone: without [spindle] the tip of every tool is [tool]");
-}
-
 }  // namespace
 
 std::vector<std::string> structural_notes(const Machine& machine) {
@@ -173,7 +166,6 @@ std::vector<std::string> structural_notes(const Machine& machine) {
   note_masses(machine, notes);
   note_actuators(machine, notes);
   note_errors(machine, notes);
-  note_tools(machine, notes);
   note_load_limits(machine, notes);
   return notes;
 }

@@ -129,6 +129,18 @@ std::string tools_in_words(const std::vector<UsedTool>& tools, const std::vector
   return text + (others ? ". Moves with another tool, or none known, use [tool], rigid." : ".");
 }
 
+std::vector<std::string> not_modelled(const Machine& machine) {
+  const bool arm = turns_joints(machine);
+  return {arm ? "backlash and friction: the tip differs where a joint reverses, on arms by some tenths of a mm"
+              : "backlash and friction: the tip differs where an axis reverses",
+          "heat: growth of spindle and frame, from the first part of the day to the last",
+          "part and fixture: their bending and clamping",
+          "dynamics: following error, rounded corners, chatter",
+          arm ? "the control's own corrections: absolute accuracy, payload data"
+              : "the control's own corrections: pitch, straightness and volumetric tables; what they remove must "
+                "not be in the machine file"};
+}
+
 std::string gravity_in_words(const Machine& machine) {
   if (!weighs(machine)) return "";
   return fmt::format(

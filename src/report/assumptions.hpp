@@ -17,6 +17,9 @@ std::vector<UsedTool> used_tools(const Machine& machine, const std::vector<long>
 /// The stiffness of tools in use, and what was taken of moves with others; empty without any.
 std::string tools_in_words(const std::vector<UsedTool>& tools, const std::vector<long>& numbers);
 
+/// What moves the tip of a real machine besides what was solved, one phrase each; the largest first.
+std::vector<std::string> not_modelled(const Machine& machine);
+
 /// Which weights act, and when the controller's zero was set; empty where none act.
 std::string gravity_in_words(const Machine& machine);
 

@@ -83,7 +83,7 @@ std::vector<RunDifference> run_differences(const TwoReports& reports) {
   }
   add_inputs(reports, list);
   add_each(reports, "/options", "option: ", list);
-  add_each(reports, "/assumptions", "taken for granted: ", list);
+  add_each(reports, "/assumptions", "assumption: ", list);
   return list;
 }
 

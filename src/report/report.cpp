@@ -118,6 +118,7 @@ RunReport common(const RunContext& context, const RunTally& tally, const Measure
   report.tools = used_tools(context.machine, context.program.tools);
   report.tools_assumed = tools_in_words(report.tools, context.program.tools);
   report.gravity = gravity_in_words(context.machine);
+  report.not_modelled = not_modelled(context.machine);
   return report;
 }
 

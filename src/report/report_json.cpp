@@ -252,7 +252,15 @@ Json assumptions_json(const RunReport& report) {
   Json json = {{"work", report.work}, {"datum", report.datum}};
   if (!report.tools.empty()) json["tools"] = report.tools_assumed;
   if (!report.gravity.empty()) json["gravity"] = report.gravity;
+  json["not_modelled"] = report.not_modelled;
   return json;
+}
+
+Json sanity_json(const SanityChecks& checks) {
+  Json list = Json::array();
+  for (const SanityCheck& check : checks)
+    list.push_back({{"check", check.name}, {"state", to_string(check.state)}, {"text", check.text}});
+  return list;
 }
 
 Json tools_json(const std::vector<UsedTool>& tools) {
@@ -271,6 +279,10 @@ Json failure_json(const std::optional<Failure>& failure) {
 }
 
 }  // namespace
+
+std::string to_json(const SanityChecks& checks) {
+  return dump(sanity_json(checks));
+}
 
 std::string to_json(const RunReport& report) {
   const std::string& output = report.facts.output;
@@ -292,6 +304,7 @@ std::string to_json(const RunReport& report) {
                    {"text", text_json(report)},
                    {"control", control_json(report.control)},
                    {"assumptions", assumptions_json(report)},
+                   {"sanity", sanity_json(report.sanity)},
                    {"warning_count", report.warnings.count},
                    {"warnings", warnings_json(report.warnings.rows)},
                    {"worst", worst_json(report)},

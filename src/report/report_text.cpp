@@ -8,6 +8,7 @@
 #include "force_text.hpp"
 #include "loads_text.hpp"
 #include "names.hpp"
+#include "sanity_text.hpp"
 #include "text_layout.hpp"
 
 namespace counterflex {
@@ -203,21 +204,30 @@ std::string warnings_text(const RunReport& report, const Ink& ink) {
   return text + more(shown, list.count);
 }
 
+// The phrases without what follows their colon: the page has them whole.
+std::string not_modelled_text(const RunReport& report) {
+  std::string text;
+  for (const std::string& phrase : report.not_modelled)
+    text += (text.empty() ? "Not modelled: " : "; ") + phrase.substr(0, phrase.find(':'));
+  return text.empty() ? "" : wrapped("  ", text + ".", 2);
+}
+
 std::string assumptions_text(const RunReport& report, const Ink& ink) {
-  return line_break() + ink.bold("Taken for granted") + "\n" + wrapped("  ", report.work, 2) +
+  return line_break() + ink.bold("Assumptions") + "\n" + wrapped("  ", report.work, 2) +
          wrapped("  ", report.datum, 2) +
          (report.tools.empty() ? "" : wrapped("  ", report.tools_assumed, 2)) +
-         (report.gravity.empty() ? "" : wrapped("  ", report.gravity, 2));
+         (report.gravity.empty() ? "" : wrapped("  ", report.gravity, 2)) + not_modelled_text(report);
 }
 
 }  // namespace
 
-std::string summary_text(const RunReport& report, bool colour) {
-  const Ink ink{colour};
+std::string summary_text(const RunReport& report, bool colour, bool marks) {
+  const Ink ink{colour, marks};
   std::string text = verdict_line(report, ink) + title(report, ink) + failure_text(report, ink);
   text += deviation_table(report, ink) + sources_text(report, ink) + worst_text(report, ink);
   text += program_text(report, ink) + force_text(report, ink) + loads_text(report, ink);
-  return text + left_alone_text(report, ink) + warnings_text(report, ink) + assumptions_text(report, ink);
+  text += left_alone_text(report, ink) + warnings_text(report, ink);
+  return text + sanity_text(report.sanity, ink) + assumptions_text(report, ink);
 }
 
 std::string one_line(const RunReport& report) {

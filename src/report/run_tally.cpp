@@ -25,6 +25,7 @@ RunTally::RunTally(double min_block_ms, std::optional<PathCurves> curves)
 
 void RunTally::add(const Waypoint& w, std::int32_t operation, const Vector3* segment_start, bool is_within) {
   path_.add(w, operation, segment_start, is_within);
+  feed_force_.add(w);
   if (curves_) curves_->add(w, operation, segment_start);
 }
 
@@ -52,6 +53,7 @@ void RunTally::add_waypoints(const std::vector<Waypoint>& waypoints, const Job& 
     const double miss = position_miss(window, w);
     feed_.add(w, miss, window);
     add(w, operation, start, miss <= window.options.tolerance);
+    if (segment != no_segment) travel_.add(model_of(window, window.path.segments[segment]), w);
   }
 }
 

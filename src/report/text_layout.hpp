@@ -12,6 +12,7 @@ inline constexpr std::size_t text_width = 100;
 /// ANSI emphasis, or none.
 struct Ink {
   bool colour = false;
+  bool marks = false;  ///< the terminal shows UTF-8
   std::string bold(std::string_view text) const { return paint(text, "\033[1m"); }
   std::string good(std::string_view text) const { return paint(text, "\033[32m"); }
   std::string warning(std::string_view text) const { return paint(text, "\033[33m"); }

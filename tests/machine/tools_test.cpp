@@ -149,15 +149,3 @@ TEST_CASE("a description says where a tool's stiffness is from, of a default too
   CHECK(text.find("tool T4      stiffness from holder_N_per_um: 12.3 N/um at its tip\n") !=
         std::string::npos);
 }
-
-TEST_CASE("without [spindle] a note says that lengths of tools move coordinates alone") {
-  const auto noted = [](const std::string& text) {
-    const auto notes = structural_notes(machine_with(text));
-    return std::any_of(notes.begin(), notes.end(), [](const std::string& note) {
-      return note.starts_with("lengths of tools move coordinates alone");
-    });
-  };
-  CHECK(noted("[tools.T3]\nlength_mm = 50\n"));
-  CHECK_FALSE(noted("[spindle]\n[tools.T3]\nlength_mm = 50\n"));
-  CHECK_FALSE(noted("[tools.T3]\nholder_N_per_um = 50\n"));
-}

@@ -247,8 +247,10 @@ TEST_CASE("the JSON of a compensation has every key, in this order") {
   },
   "assumptions": {
     "work": "Program coordinates were taken as machine coordinates: the machine file has no work offsets.",
-    "datum": "The work frame was taken to be truly there, not found by touching the part off with this machine."
+    "datum": "The work frame was taken to be truly there, not found by touching the part off with this machine.",
+    "not_modelled": ["backlash and friction: the tip differs where an axis reverses", "heat: growth of spindle and frame, from the first part of the day to the last", "part and fixture: their bending and clamping", "dynamics: following error, rounded corners, chatter", "the control's own corrections: pitch, straightness and volumetric tables; what they remove must not be in the machine file"]
   },
+  "sanity": [],
   "warning_count": 0,
   "warnings": [],
   "worst": [
@@ -424,7 +426,7 @@ TEST_CASE("the summary shows before and after, and calls what is left a model re
       text,
       "Not corrected each on its own: 2 moves, first lines and reasons\n  line 5: exact stop: not split\n"));
   CHECK(contains(text, "2 warnings\n  a general warning\n  line 6: a warning\n"));
-  CHECK(contains(text, "Taken for granted\n  Program coordinates were taken as machine coordinates"));
+  CHECK(contains(text, "Assumptions\n  Program coordinates were taken as machine coordinates"));
 }
 
 TEST_CASE("the summary of a prediction shows no residual") {

@@ -14,6 +14,9 @@ namespace counterflex {
 /// 1e-7 mm, angles to 1e-7 deg. What was not computed is null (`summary.after` of a prediction).
 std::string to_json(const RunReport& report);
 
+/// The checks as a list of objects with check, state and text.
+std::string to_json(const SanityChecks& checks);
+
 /// Which columns of the CSV were computed; the others keep their place and are empty.
 struct CsvColumns {
   bool attribution = true;  ///< geometry_, load_, gravity_, superposition_; with `corrected` also air_
@@ -29,8 +32,13 @@ std::string csv_header();
 std::string csv_rows(std::span<const Waypoint> waypoints, const CsvColumns& columns, std::size_t& next_index);
 
 /// The summary that a person reads: lines of at most 100 characters (paths and other long words stay whole).
-/// Deviations in mm with four decimals. `colour` adds ANSI sequences, nothing else.
-std::string summary_text(const RunReport& report, bool colour);
+/// Deviations in mm with four decimals. `colour` adds ANSI sequences, nothing else; `marks`: the terminal
+/// shows UTF-8.
+std::string summary_text(const RunReport& report, bool colour, bool marks = false);
+
+/// The sanity block, empty without checks: in a run a line for all checks that are ok, and one for each
+/// other; with `all` one for each.
+std::string sanity_block(const SanityChecks& checks, bool colour, bool marks, bool all);
 
 /// "NAME: OK, 2.0734 mm before, 0.0041 mm after (model residual)": a run in one line, without a newline.
 std::string one_line(const RunReport& report);

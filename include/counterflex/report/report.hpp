@@ -16,6 +16,7 @@
 #include "counterflex/report/statistics.hpp"
 #include "counterflex/report/verdict.hpp"
 #include "counterflex/report/without_force.hpp"
+#include "counterflex/sanity/check.hpp"
 
 namespace counterflex {
 
@@ -202,6 +203,8 @@ struct RunReport {
   std::vector<UsedTool> tools;  ///< where a tool of the program makes the machine another one
   std::string tools_assumed;    ///< their stiffness in words; empty without any
   std::string gravity;          ///< which weights were taken to act, in words; empty without any
+  std::vector<std::string> not_modelled;  ///< what else moves the tip of a real machine, one phrase each
+  SanityChecks sanity{};                  ///< filled by the caller, who knows the machine's model
   std::optional<Failure> failure;
 };
 

@@ -8,6 +8,7 @@
 #include "counterflex/report/path_curves.hpp"
 #include "counterflex/report/path_tally.hpp"
 #include "counterflex/report/report.hpp"
+#include "counterflex/sanity/path_checks.hpp"
 
 namespace counterflex {
 
@@ -61,6 +62,8 @@ class RunTally {
 
   const PathTally& path() const { return path_; }
   FeedMoves feed_moves() const;
+  const TravelTally& travel() const { return travel_; }  ///< of waypoints that came with their window
+  const FeedForceTally& feed_force() const { return feed_force_; }
   const std::optional<PathCurves>& curves() const { return curves_; }
   const std::vector<OperationNames::Name>& operation_names() const { return operation_names_.names(); }
   LengthUnit unit() const { return unit_.value_or(LengthUnit::millimetres); }  ///< of the first feed move
@@ -83,6 +86,8 @@ class RunTally {
   double min_block_ms_;
   PathTally path_;
   FeedTally feed_;
+  TravelTally travel_;
+  FeedForceTally feed_force_;
   std::optional<PathCurves> curves_;
   OperationNames operation_names_;
   std::optional<LengthUnit> unit_;

@@ -46,9 +46,11 @@
   }
 
   function assumptions(run) {
-    const sentences = Object.values(run.report.assumptions).filter(Boolean);
-    return el('div', {class: 'stack'}, el('h3', null, words.ofRun(run, 'Taken for granted')),
-        el('ul', null, sentences.map((sentence) => el('li', null, sentence))));
+    const {not_modelled: notModelled = [], ...taken} = run.report.assumptions;
+    const list = (sentences) => el('ul', null, sentences.map((sentence) => el('li', null, sentence)));
+    return el('div', {class: 'stack'}, el('h3', null, words.ofRun(run, 'Assumptions')),
+        list(Object.values(taken).filter(Boolean)),
+        notModelled.length > 0 ? [el('p', null, 'Not modelled:'), list(notModelled)] : null);
   }
 
   /** Assumptions, inputs with their hashes, options and version. */

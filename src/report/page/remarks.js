@@ -10,6 +10,16 @@
       count > rows.length ? el('p', {class: 'note'}, `and ${count - rows.length} more`) : null];
   }
 
+  const marks = {ok: '\u2713', unknown: '?', doubtful: '\u2717', wrong: '\u2717'};
+
+  function sanity(run) {
+    const checks = run.report.sanity || [];
+    if (checks.length === 0) return null;
+    const rows = checks.map(({check, state, text}) =>
+      Object.assign([`${marks[state]} ${check}`, state, text], {mark: state === 'ok' ? '' : 'different'}));
+    return table(words.ofRun(run, 'Sanity'), [{title: 'Check'}, textColumn('State'), textColumn('Found')], rows);
+  }
+
   function warnings(run, link) {
     const {warnings: rows, warning_count: count} = run.report;
     const cells = rows.map(({line, what}) => [link(line), what]);
@@ -34,12 +44,12 @@
     return table(words.ofRun(run, caption), columns, rows);
   }
 
-  /** Warnings, blocks that are not corrected with their reasons, and moves without a force. */
+  /** The sanity block, warnings, blocks that are not corrected with their reasons, and moves without a force. */
   function render(context) {
     return el('div', {class: 'runs'}, context.runs.map((run, i) => {
       const quantity = run.report.summary.after ? 'after_mm' : 'before_mm';
       const link = (line) => counterflex.lines.link(context, i, line, {quantity});
-      const parts = [warnings(run, link), leftAlone(run, link), withoutForce(run, link, context.units)].filter(Boolean);
+      const parts = [sanity(run), warnings(run, link), leftAlone(run, link), withoutForce(run, link, context.units)].filter(Boolean);
       return el('div', {class: 'stack'}, parts.length > 0 ? parts : el('p', null, words.ofRun(run, 'Nothing to tell.')));
     }));
   }

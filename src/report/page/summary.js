@@ -86,6 +86,8 @@
     const others = words.otherMoves(report.blocks);
     if (others > 0) add(`${words.counted(others, 'move')} not corrected each on its own`, 'remarks');
     else if (report.blocks.left_alone_count > 0) add('blocks are not corrected, or not wholly', 'remarks');
+    for (const {check, state, text} of report.sanity || [])
+      if (state === 'doubtful') add(`${check}: ${text}`, 'remarks');
     if (report.warning_count > 0) add(words.counted(report.warning_count, 'warning'), 'remarks');
     if (loads > 0) add(`${words.counted(loads, 'load')} above the limit of the machine file`, 'loads');
     if (report.forces.without_force.moves > 0 && report.forces.largest_N > 0)

@@ -1,0 +1,52 @@
+#include "sanity_text.hpp"
+
+#include <algorithm>
+
+#include "counterflex/report/formats.hpp"
+
+namespace counterflex {
+namespace {
+
+std::string mark(SanityState state, const Ink& ink) {
+  switch (state) {
+    case SanityState::ok:
+      return ink.good(ink.marks ? "\u2713" : "[ok]");
+    case SanityState::unknown:
+      return ink.marks ? "?" : "[??]";
+    case SanityState::doubtful:
+      return ink.warning(ink.marks ? "\u2717" : "[!!]");
+    case SanityState::wrong:
+      return ink.bad(ink.marks ? "\u2717" : "[!!]");
+  }
+  return "";
+}
+
+// Bytes and ANSI sequences of the mark are not columns.
+std::string line(SanityState state, const std::string& text, const Ink& ink) {
+  const std::string plain = ink.marks ? "  x " : "  [xx] ";
+  const std::string wrapped_text = wrapped(plain, text, plain.size());
+  return "  " + mark(state, ink) + " " + wrapped_text.substr(plain.size());
+}
+
+std::string block(const SanityChecks& checks, const Ink& ink, bool all) {
+  if (checks.empty()) return "";
+  std::string text = line_break() + ink.bold("Sanity") + "\n", fine;
+  for (const SanityCheck& check : checks)
+    if (check.state == SanityState::ok && !all) fine += (fine.empty() ? "" : ", ") + check.name;
+  if (!fine.empty()) text += line(SanityState::ok, fine, ink);
+  for (const SanityCheck& check : checks)
+    if (all || check.state != SanityState::ok) text += line(check.state, check.name + ": " + check.text, ink);
+  return text;
+}
+
+}  // namespace
+
+std::string sanity_text(const SanityChecks& checks, const Ink& ink) {
+  return block(checks, ink, false);
+}
+
+std::string sanity_block(const SanityChecks& checks, bool colour, bool marks, bool all) {
+  return block(checks, {colour, marks}, all);
+}
+
+}  // namespace counterflex

@@ -1,0 +1,137 @@
+#include "counterflex/sanity/path_checks.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <random>
+
+#include "counterflex/geometry/units.hpp"
+#include "counterflex/machine/read_machine.hpp"
+#include "counterflex/statics/tool_models.hpp"
+#include "counterflex/statics/travel.hpp"
+
+using namespace counterflex;
+
+namespace {
+
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+/// A waypoint of a path along x under the force `F`.
+Waypoint cut(const Vector3& F, double length = 1e-3, const Vector3& direction = Vector3::UnitX()) {
+  Waypoint w;
+  w.cutting = true;
+  w.weight = length;
+  w.direction = direction;
+  w.wrench.head<3>() = F;
+  return w;
+}
+
+/// An elbow of two rotary axes.
+Model elbow() {
+  return prepare(read_machine(
+      "format = \"counterflex-machine 1\"\ncontrolled = [\"x\", \"y\", \"z\"]\n[[chain]]\nname = "
+      "\"arm\"\nelements = [\n"
+      "{ actuator = \"prismatic\", axis = \"z\", min_mm = -500, max_mm = 500 },\n"
+      "{ actuator = \"revolute\", axis = \"z\", min_deg = -170, max_deg = 170, home_deg = 20 },\n"
+      "{ rigid = { xyz_mm = [400, 0, 0] } },\n"
+      "{ actuator = \"revolute\", axis = \"z\", min_deg = -150, max_deg = 150, home_deg = 60 },\n"
+      "{ rigid = { xyz_mm = [400, 0, 0] } }]\n",
+      "elbow.toml"));
+}
+
+}  // namespace
+
+TEST_CASE("the least margin along a path is that of solving every place of it") {
+  const Model model = elbow();
+  const Vector3 home = tip(model.mechanism, model.home).p;
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> step(-1, 1);
+  TravelTally tally;
+  NominalToolPath path(home_of(model));
+  double least = 1;
+  int line = 0;
+  Vector3 p = home;
+  for (int i = 1; i <= 2000; ++i) {
+    const Vector3 next = p + Vector3(4 * step(random), 4 * step(random), 2 * step(random)) * mm;
+    if ((next - home).norm() > 150 * mm) continue;
+    p = next;
+    REQUIRE(path.go_to(model, p) == Status::converged);
+    const auto axis = tightest_axis(model.mechanism, actuator_values(model.mechanism, path.configuration()));
+    if (axis->share < least) least = axis->share, line = i;
+    tally.add(model, p, i);
+  }
+  const auto found = tally.least();
+  REQUIRE(found);
+  const Travel& travel = model.mechanism.travel[found->actuator];
+  CAPTURE(line);
+  CHECK(found->margin / (travel.max - travel.min) == doctest::Approx(least).epsilon(2e-3));
+}
+
+TEST_CASE("the least margin names axis, value, line and travel") {
+  const Model model = elbow();
+  const Vector3 home = tip(model.mechanism, model.home).p;
+  TravelTally tally;
+  CHECK(check_travel(model.mechanism, tally).state == SanityState::unknown);
+  tally.add(model, home, 3);
+  tally.add(model, home + Vector3(0, 0, 0.499), 4);
+  tally.add(model, home + Vector3(0, 0, 0.3), 5);
+  const SanityCheck check = check_travel(model.mechanism, tally);
+  CHECK(check.state == SanityState::ok);
+  CHECK(check.text == "least margin 1.0 mm on axis Z: 499.0 mm at line 4, travel -500 to 500 mm");
+}
+
+TEST_CASE("a force that pushes along the feed nearly everywhere is doubtful") {
+  FeedForceTally against, along;
+  for (int i = 0; i < 100; ++i) {
+    const Vector3 feed(std::cos(0.01 * i), std::sin(0.01 * i), 0);
+    against.add(cut(-230 * feed, 1e-3, feed));
+    along.add(cut(i < 94 ? Vector3(230 * feed) : Vector3(-feed), 1e-3, feed));
+  }
+  CHECK(check_feed_force(against).state == SanityState::ok);
+  const SanityCheck check = check_feed_force(along);
+  CHECK(check.state == SanityState::doubtful);
+  CHECK(contains(check.text, "along the feed on 94 % of the path (mean +230 N): is the sense right?"));
+  CHECK(check_feed_force(along, true).state == SanityState::ok);
+}
+
+TEST_CASE("climb milling on less than three quarters of the path is not doubtful") {
+  FeedForceTally tally;
+  for (int i = 0; i < 10; ++i) tally.add(cut({i < 7 ? 50.0 : -50.0, 100, 0}));
+  CHECK(check_feed_force(tally).state == SanityState::ok);
+}
+
+TEST_CASE("a force that keeps its direction around a closed contour is doubtful") {
+  FeedForceTally square, straight, axial;
+  for (const Vector3& side : {Vector3(1, 0, 0), Vector3(0, 1, 0), Vector3(-1, 0, 0), Vector3(0, -1, 0)}) {
+    square.add(cut({100, 30, -20}, 0.1, side));
+    axial.add(cut({0, 0, -80}, 0.1, side));
+    straight.add(cut({-100, 30, -20}, 0.1));
+  }
+  CHECK(check_feed_force(square).state == SanityState::doubtful);
+  CHECK(contains(check_feed_force(square).text, "keeps its direction"));
+  CHECK(check_feed_force(axial).state == SanityState::ok);
+  CHECK(check_feed_force(straight).state == SanityState::ok);
+}
+
+TEST_CASE("rapids, moves without a force and places that were not solved do not count") {
+  FeedForceTally tally;
+  Waypoint rapid = cut({100, 0, 0}), unsolved = rapid;
+  rapid.cutting = false;
+  unsolved.status = Status::singular;
+  for (const Waypoint& w : {rapid, unsolved, cut(Vector3::Zero())}) tally.add(w);
+  CHECK(tally.loaded == 0);
+  CHECK(check_feed_force(tally).text == "no force acts on a feed move");
+}
+
+TEST_CASE("forces in kN and coarse tolerances are doubtful") {
+  CHECK(check_force_size(0).empty());
+  CHECK(check_force_size(350).empty());
+  REQUIRE(check_force_size(0.35).size() == 1);
+  CHECK(contains(check_force_size(0.35)[0].text, "0.35 N"));
+  CHECK(check_force_size(3.5e5).size() == 1);
+  CHECK(check_tolerance(0.005).empty());
+  REQUIRE(check_tolerance(5).size() == 1);
+  CHECK(contains(check_tolerance(5)[0].text, "the tolerance is 5 mm"));
+}
