@@ -16,10 +16,15 @@ namespace {
 
 constexpr double largest_condition = 1e6;  // as for waypoints
 
+/// An offset that states no datum keeps that of the machine file.
 void override_work(const Options& options, Machine& machine) {
   for (const std::string& text : options.work) {
-    const auto [name, X_MW] = work_of(text);
-    machine.work[name] = WorkOffset{X_MW, {}};
+    const WorkText given = work_of(text);
+    machine.work_is_machine_frame = given.offset.empty();
+    if (machine.work_is_machine_frame) return machine.work.clear();
+    WorkOffset& offset = machine.work[given.offset];
+    offset.X_MW = given.place.X_MW;
+    if (given.place.datum.stated()) offset.datum = given.place.datum;
   }
 }
 

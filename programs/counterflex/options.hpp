@@ -55,7 +55,7 @@ struct Options {
   std::optional<LengthUnit> units;
   IntegerWords integer_words = IntegerWords::unsaid;
   bool expand_subprograms = false;
-  std::vector<std::string> work;           ///< "G54=X,Y,Z[,RX,RY,RZ]"
+  std::vector<std::string> work;           ///< "G54=X,Y,Z[,RX,RY,RZ][/DATUM]", or "machine"
   std::optional<std::string> tool_table;   ///< a file
   std::map<long, double> tool_lengths_mm;  ///< of --tool-length
   std::vector<std::string> at;             ///< "X,Y,Z[,R,P,Y]"

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "counterflex/files/numbers.hpp"
 #include "counterflex/geometry/units.hpp"
 #include "counterflex/machine/tool.hpp"
 #include "counterflex/report/formats.hpp"
@@ -86,6 +87,47 @@ void warn_of_tools(Run& run) {
   }
 }
 
+/// A datum that is not stated counts as "machine".
+void warn_of_datum(Run& run) {
+  for (const WorkFrame& frame : run.work.frames) {
+    if (!frame.common_shift || frame.common_shift->norm() <= run.options.tolerance) continue;
+    const Vector3 shift_mm = *frame.common_shift / mm;
+    const std::string assumed = frame.name.empty() ? "no datum is stated, and the machine frame counts"
+                                                   : fmt::format("no datum is stated for {}, and it counts", frame.name);
+    const std::string cure =
+        frame.name.empty()
+            ? "give the work offset with its datum, or --work machine"
+            : fmt::format("state datum = {{ touched_at_mm = [x, y, z] }} in [work.{0}], else datum = \"machine\"",
+                          frame.name);
+    run.facts.warnings.push_back(
+        {0, fmt::format("{} as set independently of this machine's errors. The unloaded machine is off by "
+                        "({}, {}, {}) mm on average along the path, and the correction removes this. If the "
+                        "part was touched off with this machine, the offset contains this shift already: {}",
+                        assumed, format_fixed(shift_mm.x(), 4), format_fixed(shift_mm.y(), 4),
+                        format_fixed(shift_mm.z(), 4), cure)});
+  }
+}
+
+/// The diameter of a tool is that of [tools], else that of the largest cutter whose forces may act on it.
+std::vector<ToolSize> tool_sizes(const Run& run) {
+  std::vector<ToolSize> sizes;
+  for (const long number : run.program.tools) {
+    ToolSize& size = sizes.emplace_back(ToolSize{number, {}, {}});
+    const auto found = run.machine.machine.tools.find(number);
+    if (found != run.machine.machine.tools.end()) {
+      size.diameter = found->second.diameter;
+      size.flute = found->second.flute;
+    }
+    if (size.diameter) continue;
+    for (const ForceRule& rule : run.force_input.source.rules) {
+      const auto* cut = std::get_if<CutResponse>(&rule.content);
+      if (cut == nullptr || rule.selector.tool.value_or(number) != number) continue;
+      size.diameter = std::max(size.diameter.value_or(0), cut->diameter);
+    }
+  }
+  return sizes;
+}
+
 void warn_of_run(Run& run, Command command, Console& console) {
   const Overview& program = run.program;
   warn_of(program, command, console);
@@ -134,16 +176,18 @@ std::unique_ptr<Run> prepare_run(const Options& options, Console& console) {
   const Machine& on = run->machine.machine;
   run->read = read_options(options, &on, run->tools);
   EarlyForces forces(options, on, run->force_input);
-  ProgramLook look =
-      look_through(options, run->file, run->read, &on, [&](const Program& window) {
-                                    forces.add(window);
-                                    if (options.number_pieces) run->numbers.add(window.text);
-                                  });
+  PathPlaces places;
+  ProgramLook look = look_through(options, run->file, run->read, &on, [&](const Program& window) {
+    forces.add(window);
+    places.add(window);
+    if (options.number_pieces) run->numbers.add(window.text);
+  });
   run->program = std::move(look.program);
   run->is_corrected = look.is_corrected;
   run->tool_models = prepare_tools(on, run->machine.model, run->program.tools);
   forces.refuse_unread();
   run->work = place_work(on, run->machine.model, shown_name(options.machine), run->program);
+  add_common_shifts(on, run->machine.model, run->tool_models, places, run->work.frames);
   run->ignored = uncontrolled_axes(on, run->work.frames);
   forces.settle({run->file.bytes, run->program.file, run->read, run->work.frames, run->ignored});
   run->options = compensation_options(options, on);
@@ -151,6 +195,7 @@ std::unique_ptr<Run> prepare_run(const Options& options, Console& console) {
   run->sanity = program_sanity({run->machine, run->tool_models, run->tools, run->work, run->program});
   refuse_wrong(run->sanity, on);
   run->facts = facts_of(options, *run);
+  warn_of_datum(*run);
   warn_of_orientation(*run);
   warn_of_tools(*run);
   if (auto cycles = remark_of_cycles(run->program, run->force_input.source, options.command))
@@ -227,7 +272,7 @@ RunTally tally_for(const Options& options, const Run& run) {
   std::optional<PathCurves> curves;
   if (options.report || options.plot)
     curves.emplace(options.command != Command::predict, weighs(run.machine.machine));
-  return RunTally(run.facts.min_block_ms, std::move(curves));
+  return RunTally(run.facts.min_block_ms, std::move(curves), tool_sizes(run));
 }
 
 RunEnd finish_run(const Options& options, Run& run, RunReport report, const RunTally& tally,

@@ -33,7 +33,13 @@ void take_method(const std::string& name, const std::string& text, Options& opti
 }
 
 void take_work(const std::string& name, const std::string& text, Options& options) {
-  work_of(text, name);
+  const bool machine = work_of(text, name).offset.empty();
+  for (const std::string& other : options.work)
+    if (machine != work_of(other).offset.empty())
+      throw InputError(Exit::usage, {},
+                       fmt::format("{} is '{}' and '{}': machine, which makes program coordinates machine "
+                                   "coordinates, goes with no offset",
+                                   name, other, text));
   options.work.push_back(text);
 }
 
@@ -94,8 +100,10 @@ const std::array option_table{
         "expand-subprograms", "--expand-subprograms", "",
         "Put the bodies of subprograms in the place of calls with plain numbers", "false", false,
         [](Text name, Text text, Options& options) { options.expand_subprograms = truth_of(name, text); }},
-    SettingOption{"work", "--work", "G54=X,Y,Z[,RX,RY,RZ]",
-                  "A work offset in the machine frame, mm and degrees; may be repeated", "", true, take_work},
+    SettingOption{"work", "--work", "G54=X,Y,Z[,RX,RY,RZ][/DATUM]",
+                  "A work offset in the machine frame, mm and degrees, and how it was found: DATUM is machine "
+                  "or touched=X,Y,Z; may be repeated. Or machine: program coordinates are machine coordinates",
+                  "", true, take_work},
     SettingOption{"tool-table", "--tool-table", "FILE", "Tool lengths as LinuxCNC keeps them, mm", "", false,
                   [](Text, Text text, Options& options) { options.tool_table = text; }},
     SettingOption{"tool-length", "--tool-length", "T1=LENGTH",

@@ -34,6 +34,20 @@ std::string offset_name(std::string_view text, std::string_view option) {
   return *name;
 }
 
+/// "machine", or "touched=X,Y,Z" in program coordinates, mm.
+Datum datum_of(std::string_view name, std::string_view text) {
+  constexpr std::string_view touched = "touched=";
+  if (text == "machine") return {.is_machine = true};
+  if (!text.starts_with(touched))
+    throw InputError(Exit::usage, {},
+                     fmt::format("{}: the datum is '{}', must be machine or touched=X,Y,Z", name, text));
+  const PoseText at = pose_of(fmt::format("{} touched", name), text.substr(touched.size()));
+  if (at.has_orientation)
+    throw InputError(Exit::usage, {},
+                     fmt::format("{}: '{}' has 6 numbers, must be three lengths in mm", name, text));
+  return {.touched_at = at.X.p};
+}
+
 }  // namespace
 
 double number_of(std::string_view name, std::string_view text, Range range) {
@@ -99,14 +113,21 @@ CurveText curve_of(std::string_view name, std::string_view text) {
   return curve;
 }
 
-std::pair<std::string, Pose> work_of(std::string_view text, std::string_view name) {
+WorkText work_of(std::string_view text, std::string_view name) {
+  if (text == "machine") return {};
   const std::size_t equals = text.find('=');
   if (equals == std::string_view::npos)
-    throw InputError(
-        Exit::usage, {},
-        fmt::format("{}: '{}' must be an offset and its pose, as G54=X,Y,Z[,RX,RY,RZ]", name, text));
+    throw InputError(Exit::usage, {},
+                     fmt::format("{}: '{}' must be an offset and its pose, as G54=X,Y,Z[,RX,RY,RZ], or "
+                                 "'machine'",
+                                 name, text));
   const std::string offset = offset_name(text.substr(0, equals), name);
-  return {offset, pose_of(fmt::format("{} {}", name, offset), text.substr(equals + 1)).X};
+  const std::string label = fmt::format("{} {}", name, offset);
+  const std::string_view place = text.substr(equals + 1);
+  const std::size_t slash = place.find('/');
+  WorkText work{offset, {pose_of(label, place.substr(0, slash)).X, {}}};
+  if (slash != std::string_view::npos) work.place.datum = datum_of(label, place.substr(slash + 1));
+  return work;
 }
 
 std::pair<long, double> tool_length_of(std::string_view name, std::string_view text) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "counterflex/geometry/pose.hpp"
+#include "counterflex/machine/machine.hpp"
 
 namespace counterflex::cli {
 
@@ -39,8 +40,13 @@ struct CurveText {
 };
 CurveText curve_of(std::string_view name, std::string_view text);
 
-/// "G54=X,Y,Z[,RX,RY,RZ]": the offset as programs name it, and its pose.
-std::pair<std::string, Pose> work_of(std::string_view text, std::string_view name = "--work");
+/// A value of --work: "G54=X,Y,Z[,RX,RY,RZ][/DATUM]", DATUM being "machine" or "touched=X,Y,Z", or "machine"
+/// alone.
+struct WorkText {
+  std::string offset;  ///< as programs name it; empty: program coordinates are machine coordinates
+  WorkOffset place;
+};
+WorkText work_of(std::string_view text, std::string_view name = "--work");
 
 /// "T1=50": the tool's number and its length in mm.
 std::pair<long, double> tool_length_of(std::string_view name, std::string_view text);

@@ -5,6 +5,7 @@
 
 #include <map>
 
+#include "counterflex/compensation/unloaded_deviation.hpp"
 #include "counterflex/files/input_error.hpp"
 #include "counterflex/geometry/units.hpp"
 #include "values.hpp"
@@ -32,13 +33,10 @@ Vector3 deviation_at(const Model& model, const Vector3& p_MT, const std::string&
             "machine does not reach: {}",
             offset, p_MT.x() / mm, p_MT.y() / mm, p_MT.z() / mm, to_string(status)));
   };
-  const Pose X_MT{tip(model.mechanism, model.home).R, p_MT};
-  const NominalResult nominal = follow(model, model.home, X_MT);
-  if (nominal.status != Status::converged) fail(nominal.status);
-  StaticsWork work(model.mechanism);
-  const Equilibrium actual = solve_forward(model, nominal.configuration, Load{}, Stage{}, work);
-  if (actual.status != Status::converged) fail(actual.status);
-  return tip(model.mechanism, actual.configuration).p - tip(model.mechanism, nominal.configuration).p;
+  NominalToolPath nominal(home_of(model));
+  const UnloadedDeviation touched = unloaded_deviation(model, nominal, p_MT);
+  if (touched.status != Status::converged) fail(touched.status);
+  return touched.d;
 }
 
 /// Offsets in use that nobody has given a place: they cannot all be the machine frame.
@@ -82,6 +80,7 @@ WorkFrame place_offset(const Machine& machine, const Model& model, const std::st
 WorkPlace place_work(const Machine& machine, const Model& model, const std::string& machine_file,
                      const Overview& program) {
   WorkPlace place{std::vector<WorkFrame>(program.work_offsets.size()), {}};
+  if (machine.work_is_machine_frame) return place;
   if (machine.work.empty()) {
     place.assumption = no_table_warning(program);
     return place;
@@ -96,10 +95,8 @@ WorkPlace place_work(const Machine& machine, const Model& model, const std::stri
 WorkPlace place_work(const std::vector<std::string>& given, const Overview& program) {
   WorkPlace place{std::vector<WorkFrame>(program.work_offsets.size()), {}};
   std::map<std::string, Pose> table;
-  for (const std::string& text : given) {
-    const auto [name, X_MW] = work_of(text);
-    table[name] = X_MW;
-  }
+  for (const std::string& text : given)
+    if (const WorkText work = work_of(text); !work.offset.empty()) table[work.offset] = work.place.X_MW;
   if (table.empty()) return place;
   for (std::size_t i = 0; i < program.offsets_used.size(); ++i) {
     if (!program.offsets_used[i]) continue;
@@ -115,6 +112,16 @@ WorkPlace place_work(const std::vector<std::string>& given, const Overview& prog
   }
   place.assumption = start_warning(program);
   return place;
+}
+
+void add_common_shifts(const Machine& machine, const Model& model, const ToolModels& tools,
+                       const PathPlaces& places, std::vector<WorkFrame>& frames) {
+  if (machine.work_is_machine_frame) return;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    const auto offset = machine.work.find(frames[i].name);
+    if (offset != machine.work.end() && offset->second.datum.stated()) continue;
+    frames[i].common_shift = common_shift(model, tools, frames[i].X_MW, places.of(i));
+  }
 }
 
 }  // namespace counterflex::cli

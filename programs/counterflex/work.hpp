@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "counterflex/compensation/unloaded_deviation.hpp"
 #include "counterflex/program/overview.hpp"
 #include "counterflex/statics/equilibrium.hpp"
 #include "counterflex/toolpath/toolpath.hpp"
@@ -25,5 +26,9 @@ WorkPlace place_work(const Machine& machine, const Model& model, const std::stri
 /// The same without a machine, by the texts of --work, which may be none: then all offsets are the machine
 /// frame. Throws `InputError` (Exit::usage) where they make no sense or do not give an offset in use.
 WorkPlace place_work(const std::vector<std::string>& given, const Overview& program);
+
+/// Fills the common shift of the frames in use whose datum is not stated. `places` are those of the program.
+void add_common_shifts(const Machine& machine, const Model& model, const ToolModels& tools,
+                       const PathPlaces& places, std::vector<WorkFrame>& frames);
 
 }  // namespace counterflex::cli

@@ -103,7 +103,7 @@ CutForce no_force(const char* why) {
 
 CutResponse respond(const CuttingModel& model) {
   const Response response = model.force_at == ForceAt::mean ? mean_over_revolution(model) : at_surface(model);
-  return {response.col(0), response.col(1), model.mill.flutes, model.spindle_rpm};
+  return {response.col(0), response.col(1), model.mill.flutes, model.spindle_rpm, model.mill.diameter};
 }
 
 CutForce cutting_force(const CutResponse& response, double feed_m_s, double spindle_rpm, double slope) {

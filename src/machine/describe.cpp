@@ -41,7 +41,7 @@ std::string spindle_phrase(const Pose& X_PS) {
 }
 
 bool is_length_alone(const Tool& tool) {
-  return tool.length && !tool.diameter && !tool.stickout && tool.yields.empty();
+  return tool.length && !tool.diameter && !tool.stickout && !tool.flute && tool.yields.empty();
 }
 
 /// Of the tools that are a length and nothing else.
@@ -61,6 +61,7 @@ std::string tool_phrase(const Tool& tool) {
   add(tool.length, "long");
   add(tool.diameter, "diameter");
   add(tool.stickout, "sticking out");
+  add(tool.flute, "of flutes");
   return text + stiffness_phrase(tool);
 }
 
@@ -88,6 +89,11 @@ std::string limits_phrase(const LoadLimits& limits) {
                           *limits[kind] / name.si, name.unit);
   }
   return text.empty() ? "none" : text;
+}
+
+std::string datum_phrase(const Datum& datum) {
+  if (datum.touched_at) return "touched off with this machine at " + phrase_mm(*datum.touched_at);
+  return datum.is_machine ? "datum \"machine\"" : "datum not stated";
 }
 
 /// One line where all chains have the same limits, else one a chain.
@@ -118,14 +124,13 @@ void describe_settings(const Machine& machine, std::string& text) {
                               tool_change_phrase(machine.control)));
   line("correction", fmt::format("at most {:.9g} mm", machine.max_correction / mm));
   describe_limits(machine, text);
-  if (machine.work.empty()) line("work", "no offsets: programs are in the machine frame");
-  for (const auto& [name, offset] : machine.work) {
-    const std::string datum = offset.datum.touched_at
-                                  ? "touched off with this machine at " + phrase_mm(*offset.datum.touched_at)
-                                  : "true datum";
-    line("work " + name,
-         fmt::format("{}; {}", is_identity(offset.X_MW) ? "the machine frame" : phrase(offset.X_MW), datum));
-  }
+  if (machine.work_is_machine_frame)
+    line("work", "program coordinates are machine coordinates");
+  else if (machine.work.empty())
+    line("work", "no offsets: programs are in the machine frame");
+  for (const auto& [name, offset] : machine.work)
+    line("work " + name, fmt::format("{}; {}", is_identity(offset.X_MW) ? "the machine frame" : phrase(offset.X_MW),
+                                     datum_phrase(offset.datum)));
 }
 
 void describe_chains(const Machine& machine, std::string& text) {

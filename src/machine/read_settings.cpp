@@ -21,15 +21,17 @@ const std::vector<std::string_view> dialects = {"auto",    "linuxcnc",   "grbl",
 
 constexpr double strongest_gravity = 100;  // m/s2: more is likely a wrong unit
 
+/// "true" is the former spelling of "machine".
 Datum read_datum(const toml::node& node, const Source& source) {
-  if (const auto* text = node.as_string(); text != nullptr && text->get() == "true") return {};
+  if (const auto* text = node.as_string(); text != nullptr && (*text == "machine" || *text == "true"))
+    return {.is_machine = true};
   if (!node.is_table())
-    source.fail(node,
-                fmt::format("datum must be \"true\" or {{ touched_at_mm = [x, y, z] }}, not {}", seen(node)));
+    source.fail(node, fmt::format("datum must be \"machine\" or {{ touched_at_mm = [x, y, z] }}, not {}",
+                                  seen(node)));
   const toml::table& table = *node.as_table();
   check_keys(table, {"touched_at_mm"}, "a datum", source);
   const toml::node& touched = required(table, "touched_at_mm", "a datum", node, source);
-  return {Vector3(as_vector3(touched, "touched_at_mm", {source}) * mm)};
+  return {.touched_at = Vector3(as_vector3(touched, "touched_at_mm", {source}) * mm)};
 }
 
 std::string read_offset_name(const toml::key& key, const Source& source) {
@@ -127,7 +129,13 @@ void read_spindle(const toml::table& document, const Source& source, Machine& ma
 void read_work(const toml::table& document, const Source& source, Machine& machine) {
   const toml::node* node = document.get("work");
   if (node == nullptr) return;
-  for (const auto& [key, entry] : as_table(*node, "work", source)) {
+  if (const auto* text = node->as_string(); text != nullptr && *text == "machine") {
+    machine.work_is_machine_frame = true;
+    return;
+  }
+  if (!node->is_table())
+    source.fail(*node, fmt::format("work must be \"machine\" or tables as [work.G54], not {}", seen(*node)));
+  for (const auto& [key, entry] : *node->as_table()) {
     const std::string name = read_offset_name(key, source);
     WorkOffset offset{read_transform(entry, fmt::format("[work.{}]", key.str()), {source}, {"datum"}), {}};
     if (const toml::node* datum = entry.as_table()->get("datum")) offset.datum = read_datum(*datum, source);

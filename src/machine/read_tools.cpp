@@ -12,8 +12,8 @@ namespace counterflex::toml_file {
 namespace {
 
 const std::vector<std::string_view> tool_keys = {"length_mm",       "diameter_mm",  "stickout_mm",
-                                                 "holder_N_per_um", "stiffness_si", "compliance_si",
-                                                 "material"};
+                                                 "flute_mm",        "holder_N_per_um", "stiffness_si",
+                                                 "compliance_si",   "material"};
 
 /// T3 or 3.
 long number_of(const toml::key& key, const Source& source) {
@@ -76,6 +76,11 @@ Tool read_one_tool(const toml::node& node, const std::string& name, const Source
     tool.length = as_number(*length, {"length_mm"}, {source}) * mm;
   tool.diameter = read_length(table, "diameter_mm", source);
   tool.stickout = read_length(table, "stickout_mm", source);
+  tool.flute = read_length(table, "flute_mm", source);
+  if (tool.flute && tool.stickout && *tool.flute > *tool.stickout)
+    source.fail(*table.get("flute_mm"),
+                fmt::format("flute_mm is {:.6g}, must be at most stickout_mm, {:.6g}", *tool.flute / mm,
+                            *tool.stickout / mm));
   if (const toml::node* material = table.get("material"))
     if (as_choice(*material, "material", {"carbide", "steel"}, source) == "steel")
       tool.material = ToolMaterial::steel;

@@ -49,6 +49,7 @@ std::string work_in_words(const Machine& machine, const std::vector<WorkFrame>& 
     text += fmt::format("{}{} puts the program's origin at {}.", text.empty() ? "" : " ", frame->name,
                         place(frame->X_MW));
   if (!text.empty()) return text;
+  if (machine.work_is_machine_frame) return "Program coordinates are machine coordinates, as stated.";
   const std::string reason =
       machine.work.empty() ? "the machine file has no work offsets" : "no work offset is in use";
   return fmt::format("Program coordinates were taken as machine coordinates: {}.", reason);
@@ -56,51 +57,53 @@ std::string work_in_words(const Machine& machine, const std::vector<WorkFrame>& 
 
 namespace {
 
-bool touched_off(const Machine& machine, const WorkFrame& frame) {
+Datum datum_of(const Machine& machine, const WorkFrame& frame) {
   const auto offset = machine.work.find(frame.name);
-  return offset != machine.work.end() && offset->second.datum.touched_at.has_value();
+  return offset != machine.work.end() ? offset->second.datum : Datum{};
 }
 
-std::string touched_in_words(const Machine& machine, const WorkFrame& frame) {
+std::string touched_in_words(const Datum& datum, const WorkFrame& frame) {
   return fmt::format(
-      "The part was touched off with this machine at {} mm in coordinates of {}: the machine's unloaded "
-      "deviation there, {} mm in the machine frame, is part of the work frame, and corrections are "
-      "relative to it.",
-      three(*machine.work.at(frame.name).datum.touched_at / mm, 4), frame.name,
-      three(frame.datum_shift / mm, 4));
+      "The part was touched off with this machine at {} mm in coordinates of {}. The unloaded machine is off "
+      "there by {} mm in the machine frame. Corrections are relative to this point.",
+      three(*datum.touched_at / mm, 4), frame.name, three(frame.datum_shift / mm, 4));
 }
 
-// One frame that is all there is needs no name.
-std::string true_in_words(const std::vector<const WorkFrame*>& frames, bool all) {
+// "G54", "G54 and G55", "G54, G55 and G56".
+std::string names_of(const std::vector<const WorkFrame*>& frames) {
   std::string names;
-  for (std::size_t i = 0; i < frames.size(); ++i) {
-    names += i == 0 ? " " : i + 1 < frames.size() ? ", " : " and ";
-    names += frames[i]->name;
-  }
-  if (frames.size() < 2)
-    return fmt::format(
-        "The work frame{} was taken to be truly there, not found by touching the part off with this "
-        "machine.",
-        all ? "" : names);
-  return fmt::format(
-      "The work frames{} were taken to be truly there, not found by touching the part off with this "
-      "machine.",
-      names);
+  for (std::size_t i = 0; i < frames.size(); ++i)
+    names += (i == 0 ? "" : i + 1 < frames.size() ? ", " : " and ") + frames[i]->name;
+  return names;
+}
+
+// Offsets that count as true places, `stated` or not.
+std::string true_in_words(const std::vector<const WorkFrame*>& frames, bool stated) {
+  if (frames.empty()) return "";
+  return fmt::format("{} {}{} independently of this machine's errors{}.", names_of(frames),
+                     frames.size() > 1 ? "were" : "was", stated ? " set" : " assumed to be set",
+                     stated ? "" : ": no datum is stated");
 }
 
 }  // namespace
 
 std::string datum_in_words(const Machine& machine, const std::vector<WorkFrame>& frames) {
   std::string text;
-  std::vector<const WorkFrame*> true_frames;
+  std::vector<const WorkFrame*> stated, assumed;
+  const auto add = [&](const std::string& sentence) {
+    if (!sentence.empty()) text.append(text.empty() ? "" : " ").append(sentence);
+  };
   for (const WorkFrame* frame : named_frames(frames)) {
-    if (touched_off(machine, *frame))
-      text.append(text.empty() ? "" : " ").append(touched_in_words(machine, *frame));
+    const Datum datum = datum_of(machine, *frame);
+    if (datum.touched_at)
+      add(touched_in_words(datum, *frame));
     else
-      true_frames.push_back(frame);
+      (datum.is_machine ? stated : assumed).push_back(frame);
   }
-  if (text.empty()) return true_in_words(true_frames, true);
-  return true_frames.empty() ? text : text + " " + true_in_words(true_frames, false);
+  add(true_in_words(stated, true));
+  add(true_in_words(assumed, false));
+  if (!text.empty() || machine.work_is_machine_frame) return text;
+  return "The machine frame was assumed to be set independently of this machine's errors: no datum is stated.";
 }
 
 std::vector<UsedTool> used_tools(const Machine& machine, const std::vector<long>& numbers) {

@@ -36,7 +36,7 @@ constexpr NumberRow statistics_rows[] = {
     {"/max_axis_mm/2", "", "largest in z"},
     {"/max_across_mm", "", "largest across the path"},
     {"/max_tool_axis_mm", "", "largest along the tool axis"},
-    {"/max_along_mm", "", "largest along the path (harmless)"},
+    {"/max_along_mm", "", "along the path (matters at ends)"},
     {"/max_rotation_deg", "", "largest rotation, in deg", "deg"},
 };
 

@@ -90,10 +90,11 @@ void WorstLines::keep_the_worst() {
   });
 }
 
-void PathTally::add(const Waypoint& w, std::int32_t operation, const Vector3* segment_start, bool is_within) {
+void PathTally::add(const Waypoint& w, std::int32_t operation, const Vector3* segment_start,
+                    const MoveFacts& facts, bool is_within) {
   if (w.status != Status::converged) return;
   if (!w.between) add_target(w);
-  if (w.cutting) return add_cutting(w, operation, segment_start, is_within);
+  if (w.cutting) return add_cutting(w, operation, segment_start, facts, is_within);
   finish_end();
   rapid_ = w;
 }
@@ -126,8 +127,9 @@ void PathTally::add_target(const Waypoint& w) {
 }
 
 void PathTally::add_cutting(const Waypoint& w, std::int32_t operation, const Vector3* segment_start,
-                            bool is_within) {
+                            const MoveFacts& facts, bool is_within) {
   m_.after.add(sample(w, w.after, w.weight));
+  tally_of(facts.tool).after.add(facts.tool, w.after, w.tool_axis, w.line);
   m_.path_mm += w.weight / mm;
   m_.largest_N = std::max(m_.largest_N, w.wrench.head<3>().norm());
   m_.largest_Nm = std::max(m_.largest_Nm, w.wrench.tail<3>().norm());
@@ -142,7 +144,7 @@ void PathTally::add_cutting(const Waypoint& w, std::int32_t operation, const Vec
   }
   if (!w.between) close_piece(w, operation);
   place_weight_ += w.weight;
-  if (w.place) add_place(w, operation, segment_start);
+  if (w.place) add_place(w, operation, segment_start, facts);
 }
 
 // A point that the text inserts is no place of the original path: of its causes only those of the emitted
@@ -155,6 +157,12 @@ void PathTally::close_piece(const Waypoint& w, std::int32_t operation) {
   if (w.place || !w.causes) return;
   m_.without_force.add(sample(w, w.causes->air, 0));
   keep(m_.air, w.causes->air.head<3>().norm(), w.line);
+}
+
+ToolTally& PathTally::tally_of(const ToolSize& tool) {
+  ToolTally& tally = m_.tools[tool.number];
+  tally.size = tool;
+  return tally;
 }
 
 OperationTally* PathTally::tally_of(std::int32_t operation) {
@@ -179,13 +187,14 @@ void PathTally::add_to_operation(const Waypoint& w, std::int32_t operation) {
 
 // Trapezoids: the way between two places weighs on both, or on the last one alone where the other is not
 // known.
-void PathTally::add_place(const Waypoint& w, std::int32_t operation, const Vector3* segment_start) {
-  if (rapid_) begin_at_rapid(w, operation, segment_start);
+void PathTally::add_place(const Waypoint& w, std::int32_t operation, const Vector3* segment_start,
+                          const MoveFacts& facts) {
+  if (rapid_) begin_at_rapid(w, operation, segment_start, facts);
   const double share = end_ ? place_weight_ / 2 : 0;
   if (end_) share_piece(w, operation, share);
   finish_end();
   const double rest = place_weight_ - share;
-  end_ = End{w, operation, rest, rest};
+  end_ = End{w, operation, rest, rest, facts};
   place_weight_ = 0;
 }
 
@@ -201,11 +210,12 @@ void PathTally::share_piece(const Waypoint& w, std::int32_t operation, double sh
 }
 
 // The end of a rapid is where the feed move after it starts; its force has not yet grown there.
-void PathTally::begin_at_rapid(const Waypoint& w, std::int32_t operation, const Vector3* segment_start) {
+void PathTally::begin_at_rapid(const Waypoint& w, std::int32_t operation, const Vector3* segment_start,
+                               const MoveFacts& facts) {
   const double gap = segment_start != nullptr ? (*segment_start - rapid_->p_MT).norm()
                                               : std::abs((w.p_MT - rapid_->p_MT).norm() - place_weight_);
   if (!end_ && gap < same_place) {
-    end_ = End{*rapid_, operation, 0, 0};
+    end_ = End{*rapid_, operation, 0, 0, facts};
     end_->at.line = w.line;
     end_->at.direction = w.direction;
   }
@@ -229,6 +239,10 @@ void PathTally::measure_causes(const Waypoint& w, const Causes& causes, double w
 void PathTally::measure_end(const End& end) {
   const Waypoint& w = end.at;
   m_.before.add(sample(w, w.before, end.weight));
+  Vector6 rest = w.before;
+  rest.head<3>() -= end.facts.common_shift;
+  m_.rest.add(sample(w, rest, end.weight));
+  tally_of(end.facts.tool).before.add(end.facts.tool, w.before, w.tool_axis, w.line);
   if (OperationTally* tally = tally_of(end.operation))
     tally->before.add(sample(w, w.before, end.weight_there));
   if (w.causes) measure_causes(w, *w.causes, end.weight);

@@ -10,6 +10,7 @@
 #include "control.hpp"
 #include "counterflex/geometry/units.hpp"
 #include "counterflex/report/run_tally.hpp"
+#include "tool_words.hpp"
 
 namespace counterflex {
 
@@ -26,6 +27,15 @@ void list_unsolved(const UnderOtherForce& other, const char* change, Capped<Rema
                                other.unsolved, places)});
 }
 
+// A tilted tool whose tip is within the tolerance, and its rim or flank is not.
+void list_tilted(const RunReport& report, Capped<Remark>& all) {
+  for (const ToolReport& tool : report.tools_off) {
+    if (!tool.after || tool.after->tip_mm > report.tolerance_mm) continue;
+    if (tool.after->largest_mm() <= report.tolerance_mm) continue;
+    list(all, Remark{tool.after->line, tilt_in_words(tool, report.tolerance_mm)});
+  }
+}
+
 Capped<Remark> all_warnings(const RunContext& context, const RunTally& tally, const RunReport& report) {
   Capped<Remark> all;
   for (const Remark& warning : context.facts.warnings) list(all, warning);
@@ -35,6 +45,7 @@ Capped<Remark> all_warnings(const RunContext& context, const RunTally& tally, co
     list_unsolved(report.sensitivity->higher, "higher", all);
     list_unsolved(report.sensitivity->lower, "lower", all);
   }
+  list_tilted(report, all);
   for (const Remark& warning : control_warnings(report.control, report.correction)) list(all, warning);
   return all;
 }
@@ -90,6 +101,28 @@ std::vector<OperationReport> operation_reports(const RunTally& tally, bool faile
   return rows;
 }
 
+std::optional<CommonShift> common_shift(const RunContext& context, const Measures& measures) {
+  CommonShift shift;
+  for (const WorkFrame& frame : context.frames)
+    if (frame.common_shift) shift.offsets.push_back({frame.name, *frame.common_shift / mm});
+  if (shift.offsets.empty() || measures.rest.samples() == 0) return std::nullopt;
+  shift.rest = measures.rest.statistics();
+  return shift;
+}
+
+std::vector<ToolReport> tools_off(const Measures& measures, bool corrected) {
+  std::vector<ToolReport> tools;
+  for (const auto& [number, tool] : measures.tools)
+    tools.push_back({tool.size, tool.before.largest(), corrected ? tool.after.largest() : std::nullopt});
+  const auto size = [](const ToolReport& tool) {
+    const auto& shown = tool.after ? tool.after : tool.before;
+    return shown ? std::round(shown->largest_mm() / indistinct_mm) : 0;
+  };
+  std::stable_sort(tools.begin(), tools.end(),
+                   [&](const ToolReport& a, const ToolReport& b) { return size(a) > size(b); });
+  return tools;
+}
+
 // What all commands report alike.
 RunReport common(const RunContext& context, const RunTally& tally, const Measures& measures,
                  const std::optional<Failure>& failure) {
@@ -103,6 +136,7 @@ RunReport common(const RunContext& context, const RunTally& tally, const Measure
   report.before = known(measures.before);
   if (context.facts.attribution && report.before) report.sources = sources(measures, weighs(context.machine));
   if (!failure) report.corrected_percent = percent_of(measures.corrected_mm, measures.path_mm);
+  report.common_shift = common_shift(context, measures);
   report.operations = operation_reports(tally, failure.has_value());
   report.units = {tally.unit(), turns_joints(context.machine)};
   report.blocks.total = context.program.blocks;
@@ -126,6 +160,7 @@ void add_residual(RunReport& report, const RunTally& tally, const Measures& meas
   report.after = known(measures.after);
   if (report.facts.attribution && report.after) report.air = known(measures.air);
   report.worst = tally.path().worst(&WorstRow::after_mm);
+  report.tools_off = tools_off(measures, true);
 }
 
 std::string reason_of(const RunReport& report) {
@@ -173,6 +208,12 @@ void add_verdict(RunReport& report, const RunTally& tally) {
 
 }  // namespace
 
+double CommonShift::largest_mm() const {
+  double largest = 0;
+  for (const OfOffset& offset : offsets) largest = std::max(largest, offset.shift_mm.norm());
+  return largest;
+}
+
 std::optional<Failure> refusal_of(const RunReport& report) {
   if (report.failure || report.exit == Exit::done) return std::nullopt;
   const std::string_view end =
@@ -186,8 +227,10 @@ std::optional<Failure> refusal_of(const RunReport& report) {
 
 RunReport report_prediction(const RunContext& context, const RunTally& tally,
                             const std::optional<Failure>& failure) {
-  RunReport report = common(context, tally, tally.path().measures(), failure);
+  const Measures measures = tally.path().measures();
+  RunReport report = common(context, tally, measures, failure);
   report.command = Command::predict;
+  report.tools_off = tools_off(measures, false);
   report.corrected_percent.reset();
   for (OperationReport& operation : report.operations) {
     operation.corrected_percent.reset();

@@ -1,5 +1,6 @@
 #include <fmt/core.h>
 
+#include "counterflex/geometry/units.hpp"
 #include "counterflex/report/formats.hpp"
 #include "json_numbers.hpp"
 #include "loads_json.hpp"
@@ -76,6 +77,40 @@ Json sensitivity_json(const std::optional<Sensitivity>& sensitivity) {
           {"without_force", statistics_json(sensitivity->without)}};
 }
 
+Json common_shift_json(const std::optional<CommonShift>& shift) {
+  if (!shift) return nullptr;
+  Json offsets = Json::array();
+  for (const CommonShift::OfOffset& offset : shift->offsets)
+    offsets.push_back({{"work", offset.work.empty() ? Json(nullptr) : Json(offset.work)},
+                       {"shift_mm", numbers(offset.shift_mm, digits)}});
+  return {{"max_mm", number(shift->largest_mm(), digits)},
+          {"offsets", std::move(offsets)},
+          {"rest", statistics_json(shift->rest)}};
+}
+
+Json tool_deviation_json(const std::optional<ToolDeviation>& off) {
+  if (!off) return nullptr;
+  return {{"tip_mm", number(off->tip_mm, digits)},
+          {"rim_mm", optional_number(off->rim_mm)},
+          {"flank_mm", optional_number(off->flank_mm)},
+          {"tilt_deg", number(off->tilt_deg, digits)},
+          {"line", off->line}};
+}
+
+Json tools_off_json(const std::vector<ToolReport>& tools) {
+  const auto in_mm = [](const std::optional<double>& length) {
+    return length ? number(*length / mm, digits) : Json(nullptr);
+  };
+  Json list = Json::array();
+  for (const ToolReport& tool : tools)
+    list.push_back({{"tool", tool.size.number},
+                    {"diameter_mm", in_mm(tool.size.diameter)},
+                    {"flute_mm", in_mm(tool.size.flute)},
+                    {"before", tool_deviation_json(tool.before)},
+                    {"after", tool_deviation_json(tool.after)}});
+  return list;
+}
+
 Json summary_json(const RunReport& report) {
   return {{"before", optional_statistics(report.before)},
           {"after", optional_statistics(report.after)},
@@ -84,7 +119,9 @@ Json summary_json(const RunReport& report) {
           {"air", largest_json(report.air)},
           {"correction", largest_json(report.correction)},
           {"corrected_percent", optional_number(report.corrected_percent)},
-          {"path_mm", number(report.path_mm, digits)}};
+          {"path_mm", number(report.path_mm, digits)},
+          {"common_shift", common_shift_json(report.common_shift)},
+          {"tool_deviations", tools_off_json(report.tools_off)}};
 }
 
 /// What is not known is not zero.

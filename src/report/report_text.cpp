@@ -10,6 +10,7 @@
 #include "names.hpp"
 #include "sanity_text.hpp"
 #include "text_layout.hpp"
+#include "tool_words.hpp"
 
 namespace counterflex {
 
@@ -61,19 +62,12 @@ std::string failure_text(const RunReport& report, const Ink& ink) {
   return text;
 }
 
-// One line of the table: a label, before, and after where it is known.
-std::string row(const std::string& label, const std::string& before, const std::string& after) {
-  std::string text = fmt::format("  {:<34}{:>12}{:>14}", label, before, after);
-  text.erase(text.find_last_not_of(' ') + 1);
-  return text + "\n";
-}
-
 std::string row(const std::string& label, const RunReport& report, double DeviationStatistics::*value) {
-  return row(label, mm4(*report.before.*value), report.after ? mm4(*report.after.*value) : "");
+  return before_after_row(label, mm4(*report.before.*value), report.after ? mm4(*report.after.*value) : "");
 }
 
 std::string axis_row(const char* label, const RunReport& report, int axis) {
-  return row(label, mm4(report.before->max_axis_mm[axis]),
+  return before_after_row(label, mm4(report.before->max_axis_mm[axis]),
              report.after ? mm4(report.after->max_axis_mm[axis]) : "");
 }
 
@@ -88,10 +82,14 @@ std::string deviation_table(const RunReport& report, const Ink& ink) {
   const bool corrected = report.after.has_value();
   std::string text = line_break() + ink.bold("Deviation of the tool tip") +
                      fmt::format(" on {} mm of feed moves, in mm\n", format_fixed(report.path_mm, 3));
-  text += row("", "before", corrected ? "after *" : "");
+  text += before_after_row("", "before", corrected ? "after *" : "");
   text += row("largest", report, &DeviationStatistics::max_mm);
-  text += row("  in program line", std::to_string(report.before->max_line),
+  text += before_after_row("  in program line", std::to_string(report.before->max_line),
               corrected ? std::to_string(report.after->max_line) : "");
+  if (const auto& shift = report.common_shift) {
+    text += before_after_row("common shift (datum not stated)", mm4(shift->largest_mm()), "");
+    text += before_after_row("largest without the common shift", mm4(shift->rest.max_mm), "");
+  }
   text += row("95 % of the length is below", report, &DeviationStatistics::p95_mm);
   text += row("root mean square", report, &DeviationStatistics::rms_mm);
   text += row("mean", report, &DeviationStatistics::mean_mm);
@@ -99,8 +97,9 @@ std::string deviation_table(const RunReport& report, const Ink& ink) {
           axis_row("largest in z", report, 2);
   text += row("largest across the path", report, &DeviationStatistics::max_across_mm);
   text += row("largest along the tool axis", report, &DeviationStatistics::max_tool_axis_mm);
-  text += row("largest along the path (harmless)", report, &DeviationStatistics::max_along_mm);
+  text += row("along the path (matters at ends)", report, &DeviationStatistics::max_along_mm);
   text += row("largest rotation, in deg", report, &DeviationStatistics::max_rotation_deg);
+  text += tool_rows(report);
   if (!corrected) return text;
   return text + "  * model residual: what the model leaves, not the accuracy of the part\n" + factor(report);
 }
@@ -129,10 +128,10 @@ std::string sources_text(const RunReport& report, const Ink& ink) {
 std::string worst_text(const RunReport& report, const Ink& ink) {
   if (report.worst.size() < 2) return "";
   std::string text = line_break() + ink.bold("Worst lines") + ", largest deviation in mm\n";
-  text += row("", "before", report.after ? "after *" : "");
+  text += before_after_row("", "before", report.after ? "after *" : "");
   for (std::size_t i = 0; i < std::min(shown_worst, report.worst.size()); ++i) {
     const WorstRow& worst = report.worst[i];
-    text += row(fmt::format("line {}", worst.line), mm4(worst.before_mm),
+    text += before_after_row(fmt::format("line {}", worst.line), mm4(worst.before_mm),
                 report.after ? mm4(worst.after_mm) : "");
   }
   return text;

@@ -20,23 +20,33 @@ std::int32_t OperationNames::number_of(const Program& window, const Move& move) 
   return last_ = static_cast<std::int32_t>(i);
 }
 
-RunTally::RunTally(double min_block_ms, std::optional<PathCurves> curves)
-    : min_block_ms_(min_block_ms), curves_(std::move(curves)) {}
+RunTally::RunTally(double min_block_ms, std::optional<PathCurves> curves, std::vector<ToolSize> tools)
+    : min_block_ms_(min_block_ms), tools_(std::move(tools)), curves_(std::move(curves)) {}
 
-void RunTally::add(const Waypoint& w, std::int32_t operation, const Vector3* segment_start, bool is_within) {
-  path_.add(w, operation, segment_start, is_within);
+MoveFacts RunTally::facts_of(const Job& window, const Segment& segment) const {
+  const long number = window.program.moves[segment.move].tool;
+  const auto known = std::find_if(tools_.begin(), tools_.end(),
+                                  [&](const ToolSize& tool) { return tool.number == number; });
+  return {window.path.frames[segment.frame].common_shift.value_or(Vector3::Zero()),
+          known != tools_.end() ? *known : ToolSize{number, {}, {}}};
+}
+
+void RunTally::add(const Waypoint& w, std::int32_t operation, const Vector3* segment_start,
+                   const MoveFacts& facts, bool is_within) {
+  path_.add(w, operation, segment_start, facts, is_within);
   feed_force_.add(w);
   if (curves_) curves_->add(w, operation, segment_start);
 }
 
 void RunTally::add_waypoints(const std::vector<Waypoint>& waypoints) {
-  for (const Waypoint& w : waypoints) add(w, PathTally::no_operation, nullptr, true);
+  for (const Waypoint& w : waypoints) add(w, PathTally::no_operation, nullptr, {}, true);
 }
 
 void RunTally::add_waypoints(const std::vector<Waypoint>& waypoints, const Job& window) {
   std::size_t segment = no_segment;
   std::int32_t operation = PathTally::no_operation;
   const Vector3* start = nullptr;
+  MoveFacts facts;
   for (const Waypoint& w : waypoints) {
     if (w.segment != segment) {
       segment = w.segment;
@@ -46,13 +56,14 @@ void RunTally::add_waypoints(const std::vector<Waypoint>& waypoints, const Job& 
         const Segment& wanted = window.path.segments[segment];
         const Move& move = window.program.moves[wanted.move];
         start = &wanted.wanted.start;
+        facts = facts_of(window, wanted);
         operation = operation_names_.number_of(window.program, move);
         if (!unit_) unit_ = move.unit;
       }
     }
     const double miss = position_miss(window, w);
     feed_.add(w, miss, window);
-    add(w, operation, start, miss <= window.options.tolerance);
+    add(w, operation, start, facts, miss <= window.options.tolerance);
     if (segment != no_segment) travel_.add(model_of(window, window.path.segments[segment]), w);
   }
 }

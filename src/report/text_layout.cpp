@@ -34,4 +34,10 @@ std::string wrapped(std::string_view first, std::string_view text, std::size_t i
   return result + "\n";
 }
 
+std::string before_after_row(const std::string& label, const std::string& before, const std::string& after) {
+  std::string text = fmt::format("  {:<34}{:>12}{:>14}", label, before, after);
+  text.erase(text.find_last_not_of(' ') + 1);
+  return text + "\n";
+}
+
 }  // namespace counterflex

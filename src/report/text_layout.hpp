@@ -36,6 +36,9 @@ inline std::string mm4(double value) {
   return format_fixed(value, 4);
 }
 
+/// A row of a table: a label, and what was before and after; blank where it is not known.
+std::string before_after_row(const std::string& label, const std::string& before, const std::string& after);
+
 /// "1 move", "2 moves".
 inline std::string counted(std::size_t count, const char* one) {
   return std::to_string(count) + " " + one + (count == 1 ? "" : "s");

@@ -121,6 +121,19 @@ void refuse_unquoted(const toml::key& key, const toml::table& table, const Sourc
   }
 }
 
+/// "true" is the former spelling of "machine".
+std::string datum_text(const toml::node& node, const Source& source) {
+  if (const auto* text = node.as_string(); text != nullptr && (*text == "machine" || *text == "true"))
+    return "machine";
+  if (!node.is_table())
+    source.fail(node, fmt::format("datum must be \"machine\" or {{ touched_at_mm = [x, y, z] }}, not {}",
+                                  toml_file::seen(node)));
+  const toml::table& table = *node.as_table();
+  toml_file::check_keys(table, {"touched_at_mm"}, "a datum", source);
+  toml_file::required(table, "touched_at_mm", "a datum", node, source);
+  return "touched=" + vector_text(table, "touched_at_mm", source);
+}
+
 void read_offset(const toml::key& key, const toml::node& node, const Source& source, Setting& setting) {
   const auto name = work_offset_name(key.str());
   if (!name)
@@ -128,10 +141,11 @@ void read_offset(const toml::key& key, const toml::node& node, const Source& sou
   const std::string owner = fmt::format("[work.{}]", key.str());
   const toml::table& table = toml_file::as_table(node, owner, source);
   refuse_unquoted(key, table, source);
-  toml_file::check_keys(table, {"xyz_mm", "rpy_deg"}, owner, source);
+  toml_file::check_keys(table, {"xyz_mm", "rpy_deg", "datum"}, owner, source);
   toml_file::required(table, "xyz_mm", owner, node, source);
   std::string value = vector_text(table, "xyz_mm", source);
   if (table.contains("rpy_deg")) value.append(",").append(vector_text(table, "rpy_deg", source));
+  if (const toml::node* datum = table.get("datum")) value.append("/").append(datum_text(*datum, source));
   add_named(key, *name, value, source, setting);
 }
 
@@ -151,6 +165,14 @@ template <typename Read>
 void read_tables(const toml::node& node, const ValueContext& context, Setting& setting, const Read& read) {
   for (const auto& [key, entry] : toml_file::as_table(node, context.name, context.source))
     read(key, entry, context.source, setting);
+}
+
+/// Tables of offsets, or "machine".
+void read_offsets(const toml::node& node, const ValueContext& context, Setting& setting) {
+  if (const auto* text = node.as_string(); text != nullptr && *text == "machine")
+    return add_value(setting, "machine", node.source(), context.source);
+  if (!node.is_table()) fail_kind(node, "\"machine\" or tables as [work.G54]", context);
+  read_tables(node, context, setting, read_offset);
 }
 
 }  // namespace
@@ -181,7 +203,7 @@ void read_value(const toml::node& node, Kind kind, const ValueContext& context, 
     case Kind::plot:
       return read_report_name(node, plot_beside_output, context, setting);
     case Kind::offsets:
-      return read_tables(node, context, setting, read_offset);
+      return read_offsets(node, context, setting);
     case Kind::lengths:
       return read_tables(node, context, setting, read_length_of);
   }

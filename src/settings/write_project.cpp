@@ -135,12 +135,19 @@ std::string toml_key(const std::string& name) {
   return bare && !name.empty() ? name : toml_text(name);
 }
 
+std::string datum_line(const std::string& datum) {
+  const std::size_t equals = datum.find('=');
+  if (equals == std::string::npos) return fmt::format("datum = {}\n", toml_text(datum));
+  return fmt::format("datum = {{ touched_at_mm = {} }}\n", three_numbers(at_commas(datum.substr(equals + 1)), 0));
+}
+
 std::string offset_table(const std::string& name, const std::string& value) {
   const std::string known = work_offset_name(name).value_or(name);
-  const auto numbers = at_commas(value);
+  const std::size_t slash = std::min(value.find('/'), value.size());
+  const auto numbers = at_commas(value.substr(0, slash));
   std::string text = fmt::format("[work.{}]\nxyz_mm = {}\n", toml_key(known), three_numbers(numbers, 0));
   if (numbers.size() > 3) text += fmt::format("rpy_deg = {}\n", three_numbers(numbers, 3));
-  return text;
+  return slash < value.size() ? text + datum_line(value.substr(slash + 1)) : text;
 }
 
 std::string length_table(const std::string& name, const std::string& value) {
@@ -178,7 +185,9 @@ std::string to_project_text(const std::vector<Setting>& settings) {
     const Setting* setting = setting_of(settings, key.option);
     if (setting == nullptr) continue;
     refuse_other_bytes(*setting);
-    if (key.kind == Kind::offsets || key.kind == Kind::lengths) {
+    const bool alone =
+        key.kind == Kind::offsets && !setting->values.empty() && setting->values.back() == "machine";
+    if (!alone && (key.kind == Kind::offsets || key.kind == Kind::lengths)) {
       tables += tables_text(*setting, key.kind);
       continue;
     }

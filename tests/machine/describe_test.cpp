@@ -73,8 +73,11 @@ errors of assembly
 TEST_CASE("work offsets are described with their datum") {
   const std::string text =
       describe(machine_with("[work.G54]\nxyz_mm = [100, 0, 0]\n[work.G55]\ndatum = { touched_at_mm = [1, 2, "
-                            "3] }\n[program]\ntool_change_moves = []\n"));
-  CHECK(text.find("work G54     xyz 100 0 0 mm; true datum\n") != std::string::npos);
+                            "3] }\n[work.G56]\ndatum = \"machine\"\n[program]\ntool_change_moves = []\n"));
+  CHECK(text.find("work G54     xyz 100 0 0 mm; datum not stated\n") != std::string::npos);
+  CHECK(text.find("work G56     the machine frame; datum \"machine\"\n") != std::string::npos);
+  CHECK(describe(machine_with("work = \"machine\"\n"))
+            .find("work         program coordinates are machine coordinates\n") != std::string::npos);
   CHECK(text.find("work G55     the machine frame; touched off with this machine at 1 2 3 mm\n") !=
         std::string::npos);
   CHECK(text.find("a tool change moves no axis") != std::string::npos);

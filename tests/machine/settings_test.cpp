@@ -41,11 +41,19 @@ TEST_CASE("home and tool are transforms") {
   CHECK(machine.X_PT.R(2, 2) == doctest::Approx(-1));
 }
 
-TEST_CASE("work offsets have a pose and a datum that is true unless the file says where it was touched off") {
+TEST_CASE("work offsets have a pose and a datum: the true pose, a touched point, or not stated") {
   const Machine machine = machine_with(
       "[work.G54]\nxyz_mm = [100, 0, 0]\ndatum = \"true\"\n[work.\"G59.1\"]\ndatum = { touched_at_mm = [1, "
-      "2, 3] }\n[work.G55]\n");
-  REQUIRE(machine.work.size() == 3);
+      "2, 3] }\n[work.G55]\n[work.G56]\ndatum = \"machine\"\n");
+  REQUIRE(machine.work.size() == 4);
+  CHECK(machine.work.at("G54").datum.is_machine);
+  CHECK(machine.work.at("G56").datum.is_machine);
+  CHECK_FALSE(machine.work.at("G55").datum.stated());
+  CHECK(machine.work.at("G59.1").datum.stated());
+  CHECK_FALSE(machine.work_is_machine_frame);
+  const Machine confirmed = machine_with("work = \"machine\"\n");
+  CHECK(confirmed.work.empty());
+  CHECK(confirmed.work_is_machine_frame);
   CHECK(machine.work.at("G54").X_MW.p[0] == doctest::Approx(0.1));
   CHECK_FALSE(machine.work.at("G54").datum.touched_at.has_value());
   CHECK_FALSE(machine.work.at("G55").datum.touched_at.has_value());

@@ -247,7 +247,7 @@ TEST_CASE("the JSON of a compensation has every key, in this order") {
   },
   "assumptions": {
     "work": "Program coordinates were taken as machine coordinates: the machine file has no work offsets.",
-    "datum": "The work frame was taken to be truly there, not found by touching the part off with this machine.",
+    "datum": "The machine frame was assumed to be set independently of this machine's errors: no datum is stated.",
     "not_modelled": ["backlash and friction: the tip differs where an axis reverses", "heat: growth of spindle and frame, from the first part of the day to the last", "part and fixture: their bending and clamping", "dynamics: following error, rounded corners, chatter", "the control's own corrections: pitch, straightness and volumetric tables; what they remove must not be in the machine file"]
   },
   "sanity": [],

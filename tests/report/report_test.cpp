@@ -186,6 +186,12 @@ TEST_CASE("the report says in words where the program's coordinates lie and what
   const auto report = [&] { return predicted(run, {}); };
   CHECK(report().work ==
         "Program coordinates were taken as machine coordinates: the machine file has no work offsets.");
+  CHECK(report().datum ==
+        "The machine frame was assumed to be set independently of this machine's errors: no datum is stated.");
+  run.machine.work_is_machine_frame = true;
+  CHECK(report().work == "Program coordinates are machine coordinates, as stated.");
+  CHECK(report().datum.empty());
+  run.machine.work_is_machine_frame = false;
   run.machine.work["G54"] = {};
   run.path.frames[0].name = "G54";
   run.path.frames[0].X_MW = {from_rpy(Vector3(0, 0, 90) * deg), Vector3(10, -20, 0.5) * mm};
@@ -194,7 +200,9 @@ TEST_CASE("the report says in words where the program's coordinates lie and what
         "roll, pitch, "
         "yaw (0.0000, 0.0000, 90.0000) deg.");
   CHECK(report().datum ==
-        "The work frame was taken to be truly there, not found by touching the part off with this machine.");
+        "G54 was assumed to be set independently of this machine's errors: no datum is stated.");
+  run.machine.work["G54"].datum.is_machine = true;
+  CHECK(report().datum == "G54 was set independently of this machine's errors.");
   run.machine.work["G54"].datum.touched_at = Vector3(1, 2, 3) * mm;
   run.path.frames[0].datum_shift = Vector3(0.1, 0, -0.2) * mm;
   CHECK(report().datum.find(
@@ -215,19 +223,15 @@ TEST_CASE("what is assumed is said of every offset that the program uses") {
         "(200.0000, "
         "0.0000, 0.0000) mm in the machine frame.");
   CHECK(report().datum ==
-        "The work frames G54, G55 and G56 were taken to be truly there, not found by touching the part off "
-        "with "
-        "this machine.");
+        "G54, G55 and G56 were assumed to be set independently of this machine's errors: no datum is stated.");
   run.machine.work["G55"].datum.touched_at = Vector3(1, 2, 3) * mm;
   const std::string mixed = report().datum;
   CHECK(mixed.find("in coordinates of G55") != std::string::npos);
-  CHECK(mixed.ends_with(
-      "The work frames G54 and G56 were taken to be truly there, not found by touching the part off "
-      "with this machine."));
+  CHECK(mixed.ends_with("G54 and G56 were assumed to be set independently of this machine's errors: no datum is "
+                        "stated."));
   run.machine.work["G56"].datum.touched_at = Vector3(1, 2, 3) * mm;
-  CHECK(report().datum.ends_with(
-      "The work frame G54 was taken to be truly there, not found by touching the part off "
-      "with this machine."));
+  run.machine.work["G54"].datum.is_machine = true;
+  CHECK(report().datum.ends_with(" G54 was set independently of this machine's errors."));
 }
 
 TEST_CASE("worst lines get the text of the program, line ends aside") {

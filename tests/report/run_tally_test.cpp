@@ -341,7 +341,7 @@ TEST_CASE("a piece that misses the tolerance somewhere is no part of what is cor
            good = cut(1, 4, 30, Vector3(0.1, 0, 0));
   inside.between = true;
   inside.place = false;
-  for (const Waypoint& w : {inside, end, good}) tally.add(w, 0, nullptr, !w.between);
+  for (const Waypoint& w : {inside, end, good}) tally.add(w, 0, nullptr, {}, !w.between);
   CHECK(tally.measures().path_mm == doctest::Approx(40));
   CHECK(tally.measures().corrected_mm == doctest::Approx(30));
   CHECK(tally.operations().at(0).corrected_mm == doctest::Approx(30));

@@ -72,6 +72,17 @@ TEST_CASE("work offsets and tool lengths are tables, as in a machine file") {
   CHECK(test::values(project, "tool-length") == std::vector<std::string>{"T12=62.25", "T1=50"});
 }
 
+TEST_CASE("a work offset may state its datum, and work = machine that there is no offset") {
+  const auto project = test::project_with(
+      "[work.G54]\nxyz_mm = [1, 2, 3]\ndatum = { touched_at_mm = [10, -0.5, 0] }\n"
+      "[work.G55]\nxyz_mm = [1, 2, 3]\nrpy_deg = [0, 0, 90]\ndatum = \"machine\"\n"
+      "[work.G56]\nxyz_mm = [0, 0, 0]\ndatum = \"true\"\n");
+  CHECK(test::values(project, "work") == std::vector<std::string>{"G54=1,2,3/touched=10,-0.5,0",
+                                                                  "G55=1,2,3,0,0,90/machine",
+                                                                  "G56=0,0,0/machine"});
+  CHECK(test::value(test::project_with("work = \"machine\"\n"), "work") == "machine");
+}
+
 TEST_CASE("a pattern of a name alone is left to the program's folder, one with a folder is of the file's") {
   const auto output = [](const std::string& text) {
     return test::value(test::project_with("output = \"" + text + "\"\n", "shop/counterflex.toml"), "output");

@@ -44,7 +44,8 @@ TEST_CASE("what is written of settings is read as the same settings") {
                                       flag("output", {"x/{name}_CF{ext}"}),
                                       flag("report", {"{output}"}),
                                       flag("plot", {}),
-                                      flag("work", {"G54=1,2.5,-3", "G54.1 P3=0,0,0,0,0,90"}),
+                                      flag("work", {"G54=1,2.5,-3/touched=0,0.5,-1", "G54.1 P3=0,0,0,0,0,90/machine",
+                                                    "G55=1,2,3"}),
                                       flag("tool-length", {"T1=50", "T12=62.25"})};
   const auto read = read_back(settings);
   REQUIRE(read.size() == settings.size());
@@ -66,6 +67,10 @@ TEST_CASE("numbers as the command line takes them become numbers as TOML takes t
   CHECK(test::value(read, "blend-mm") == "2");
   CHECK(test::value(read, "work") == "G59.1=1,2,0.5");
   CHECK(test::value(read, "tool-length") == "T1=5");
+}
+
+TEST_CASE("that program coordinates are machine coordinates is one line") {
+  CHECK(test::value(read_back({flag("work", {"machine"})}), "work") == "machine");
 }
 
 TEST_CASE("a number of any size is written as TOML reads it") {

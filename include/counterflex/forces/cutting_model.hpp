@@ -58,6 +58,7 @@ struct CutResponse {
   Vector6 F_e = Vector6::Zero();  ///< of the edge (N, N m)
   int flutes = 0;
   double spindle_rpm = 0;  ///< instead of the program's; 0: the program's
+  double diameter = 0;     ///< of the cutter (m)
 };
 
 /// The wrench on the tool at its tip, axes of the feed frame (N, N m), or why there is none.

@@ -106,6 +106,7 @@ struct Tool {
       length{};  ///< m: what G43 H adds to Z; from [spindle] to the tip, where that is given
   std::optional<double> diameter{};  ///< m
   std::optional<double> stickout{};  ///< m
+  std::optional<double> flute{};     ///< m: from the tip to the end of the cutting edges, along the axis
   ToolMaterial material = ToolMaterial::carbide;
   ToolStiffness from = ToolStiffness::rigid;
   std::vector<Element> yields{};  ///< from the rigid tool's tip to the tip, in the tip's axes; empty: rigid
@@ -115,9 +116,13 @@ struct Tool {
 /// Components of the tip pose, in the order of six-vectors.
 enum class Component : int { x, y, z, rx, ry, rz };
 
-/// How a work offset was found: its true pose, or by touching the part with the imperfect machine.
+/// How a work offset was found: its true pose, or by touching the part with the imperfect machine. A datum
+/// that is not stated counts as the true pose.
 struct Datum {
-  std::optional<Vector3> touched_at;  ///< program coordinates (m); none: the offset is the true pose
+  std::optional<Vector3> touched_at{};  ///< program coordinates (m)
+  bool is_machine = false;              ///< stated: the offset is the true pose
+
+  bool stated() const { return is_machine || touched_at.has_value(); }
 };
 
 struct WorkOffset {
@@ -148,6 +153,7 @@ struct Machine {
   Location tool_at;                        ///< [tool] in the file; without it the file alone
   bool allows_inverted_tool = false;       ///< the tip's z may point into the work
   std::map<std::string, WorkOffset> work;  ///< by names that `work_offset_name` gives
+  bool work_is_machine_frame = false;      ///< stated: program coordinates are M; `work` is empty
   std::optional<Pose> X_PS;    ///< gauge line that tools' lengths count from, z from tip to spindle
   std::map<long, Tool> tools;  ///< by number
   ControlSettings control;

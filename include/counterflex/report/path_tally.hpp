@@ -1,12 +1,14 @@
 #pragma once
 /// From waypoints to numbers, waypoint by waypoint, in memory that does not grow with their number.
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <utility>
 #include <vector>
 
 #include "counterflex/compensation/waypoint.hpp"
 #include "counterflex/report/report.hpp"
+#include "counterflex/report/tool_deviation.hpp"
 
 namespace counterflex {
 
@@ -18,8 +20,22 @@ struct OtherForceTally {
   Status status = Status::converged;
 };
 
+/// What is known of the feed move of a waypoint besides its path.
+struct MoveFacts {
+  Vector3 common_shift = Vector3::Zero();  ///< of its work offset where no datum is stated (m)
+  ToolSize tool;
+};
+
+/// The deviations of one tool.
+struct ToolTally {
+  ToolSize size;
+  ToolDeviationTally before, after;
+};
+
 struct Measures {
   DeviationTally before, after, geometry, load, gravity, superposition;
+  DeviationTally rest;              ///< before, without the common shift
+  std::map<long, ToolTally> tools;  ///< by number
   DeviationTally without_force;
   OtherForceTally higher, lower;
   Largest air, correction;
@@ -65,9 +81,9 @@ class PathTally {
   /// `segment_start`: where the wanted segment of a feed move starts (M, m), so that the end of a rapid there
   /// counts as its first place; without it a line's length tells.
   static constexpr std::int32_t no_operation = -1;
-  /// `is_within`: the tolerance, what the tip's controlled position misses there.
+  /// `facts`: of a feed move. `is_within`: the tolerance, what the tip's controlled position misses there.
   void add(const Waypoint& w, std::int32_t operation = no_operation, const Vector3* segment_start = nullptr,
-           bool is_within = true);
+           const MoveFacts& facts = {}, bool is_within = true);
 
   /// Of all waypoints so far, the last of which ends the path.
   Measures measures() const;
@@ -80,15 +96,19 @@ class PathTally {
     Waypoint at;
     std::int32_t operation = no_operation;
     double weight = 0, weight_there = 0;
+    MoveFacts facts{};
   };
 
   void add_target(const Waypoint& w);
-  void add_cutting(const Waypoint& w, std::int32_t operation, const Vector3* segment_start, bool is_within);
+  void add_cutting(const Waypoint& w, std::int32_t operation, const Vector3* segment_start, const MoveFacts& facts,
+                   bool is_within);
   void add_to_operation(const Waypoint& w, std::int32_t operation);
   void close_piece(const Waypoint& w, std::int32_t operation);
-  void add_place(const Waypoint& w, std::int32_t operation, const Vector3* segment_start);
+  void add_place(const Waypoint& w, std::int32_t operation, const Vector3* segment_start, const MoveFacts& facts);
   void share_piece(const Waypoint& w, std::int32_t operation, double share);
-  void begin_at_rapid(const Waypoint& w, std::int32_t operation, const Vector3* segment_start);
+  void begin_at_rapid(const Waypoint& w, std::int32_t operation, const Vector3* segment_start,
+                      const MoveFacts& facts);
+  ToolTally& tally_of(const ToolSize& tool);
   OperationTally* tally_of(std::int32_t operation);
   void finish_end();
   void measure_end(const End& end);

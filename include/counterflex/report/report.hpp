@@ -14,6 +14,7 @@
 #include "counterflex/program/overview.hpp"
 #include "counterflex/report/path_loads.hpp"
 #include "counterflex/report/statistics.hpp"
+#include "counterflex/report/tool_deviation.hpp"
 #include "counterflex/report/verdict.hpp"
 #include "counterflex/report/without_force.hpp"
 #include "counterflex/sanity/check.hpp"
@@ -101,6 +102,24 @@ struct Sensitivity {
   DeviationStatistics without;
 };
 
+/// The deviation before that touching off would remove, where no datum is stated.
+struct CommonShift {
+  struct OfOffset {
+    std::string work;  ///< name of the offset; empty: program coordinates are M
+    Vector3 shift_mm = Vector3::Zero();
+  };
+  std::vector<OfOffset> offsets;
+  DeviationStatistics rest;  ///< the deviation before without it
+
+  double largest_mm() const;
+};
+
+/// What a tool of the program does at its tip, rim and flank.
+struct ToolReport {
+  ToolSize size;
+  std::optional<ToolDeviation> before, after;
+};
+
 struct ForceSummary {
   double largest_N = 0;   ///< force acting on a feed move
   double largest_Nm = 0;  ///< and moment
@@ -185,6 +204,8 @@ struct RunReport {
   std::optional<Sensitivity> sensitivity;     ///< with attribution, where a force acts
   std::optional<Largest>
       air;  ///< largest deviation of a feed move of the corrected program without the force
+  std::optional<CommonShift> common_shift;  ///< none: all datums are stated, or nothing was solved
+  std::vector<ToolReport> tools_off;        ///< tools of feed moves, the largest deviation first
   std::optional<Largest> correction;        ///< largest change of a target
   std::optional<double> corrected_percent;  ///< of `path_mm`: what is corrected and held to the tolerance
   std::vector<OperationReport> operations;  ///< in the order in which they are met; of many the last one

@@ -36,8 +36,9 @@ class OperationNames {
 class RunTally {
  public:
   /// `min_block_ms`: feed moves that take less are short blocks (RunFacts).
-  /// `curves`: where the path is to be drawn, too.
-  explicit RunTally(double min_block_ms, std::optional<PathCurves> curves = {});
+  /// `curves`: where the path is to be drawn, too. `tools`: what is known of their sizes.
+  explicit RunTally(double min_block_ms, std::optional<PathCurves> curves = {},
+                    std::vector<ToolSize> tools = {});
 
   /// The next waypoints of the path, cut anywhere; of the operations of their moves nothing is known.
   void add_waypoints(const std::vector<Waypoint>& waypoints);
@@ -81,9 +82,12 @@ class RunTally {
   const std::optional<ShortBlocks>& short_blocks() const { return short_blocks_; }
 
  private:
-  void add(const Waypoint& w, std::int32_t operation, const Vector3* segment_start, bool is_within);
+  void add(const Waypoint& w, std::int32_t operation, const Vector3* segment_start, const MoveFacts& facts,
+           bool is_within);
+  MoveFacts facts_of(const Job& window, const Segment& segment) const;
 
   double min_block_ms_;
+  std::vector<ToolSize> tools_;
   PathTally path_;
   FeedTally feed_;
   TravelTally travel_;

@@ -20,6 +20,7 @@ namespace counterflex {
 ///
 ///     [work.G54]
 ///     xyz_mm = [120, 80, 35]
+///     datum = { touched_at_mm = [0, 0, 0] }   # or "machine"
 ///
 ///     [tools.T1]
 ///     length_mm = 50

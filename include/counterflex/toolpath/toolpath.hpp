@@ -2,6 +2,7 @@
 /// Lines and arcs of the tool tip in the machine frame M: what a program asks for, without its text.
 /// Lengths in m.
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,8 @@ struct WorkFrame {
   Pose X_MW;           ///< as the control has it: a target in M is written as X_MW^-1 of it
   Vector3 datum_shift =
       Vector3::Zero();  ///< wanted minus commanded position of the original program, axes of M (m)
+  std::optional<Vector3> common_shift{};  ///< where no datum is stated: the mean deviation of the unloaded
+                                          ///< machine along the feed moves, axes of M (m)
 };
 
 /// The same frame for all offsets of `program`.

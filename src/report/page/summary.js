@@ -41,9 +41,19 @@
     return card('correction', 'Largest correction', place.context.units.format(correction.max_mm), note);
   }
 
+  /** What the tilt of a tool leaves at its rim and flank: of the tool with the largest deviation. */
+  function toolCard(report, units) {
+    const tool = (report.summary.tool_deviations || []).find((t) => t.after && typeof t.after.rim_mm === 'number');
+    if (!tool) return null;
+    const largest = Math.max(tool.after.rim_mm, tool.after.flank_mm || 0);
+    const mark = largest > tolerance(report) ? 'warn' : '';
+    const note = `${words.toolName(tool.tool)}, ${units.length(tool.diameter_mm)}: the tool stays tilted`;
+    return card('tool', 'After, at rim and flank', units.format(largest), note, mark);
+  }
+
   /** What does harm of a deviation: the part across the path. */
   function acrossCard(s, units) {
-    return card('across', 'Across the path', units.format(s.max_across_mm), 'what is along the path does no harm');
+    return card('across', 'Across the path', units.format(s.max_across_mm), 'what is along the path matters at its ends');
   }
 
   /** Tolerance in mm; infinite where the run has none. */
@@ -69,6 +79,7 @@
     return [
       before && deviationCard('before', after ? 'Before' : 'Deviation, as programmed', before, place),
       after && deviationCard('after', 'After (model residual)', after, place),
+      after && toolCard(report, units),
       before && !after && acrossCard(before, units),
       times && card('factor', 'Factor', `${times} \u00d7`, 'smaller at its largest'),
       typeof share === 'number' && correctedCard(report),

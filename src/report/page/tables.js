@@ -13,7 +13,7 @@
     ['Mean', 'mean_mm'],
     ['Largest in x', 'max_axis_mm', 0], ['Largest in y', 'max_axis_mm', 1], ['Largest in z', 'max_axis_mm', 2],
     ['Largest across the path', 'max_across_mm'], ['Largest along the tool axis', 'max_tool_axis_mm'],
-    ['Largest along the path (harmless)', 'max_along_mm'], ['Largest rotation, in degrees', 'max_rotation_deg'],
+    ['Along the path (matters at ends)', 'max_along_mm'], ['Largest rotation, in degrees', 'max_rotation_deg'],
   ];
 
   const show = (key, x, units) => (!known(x) ? unknown : key.endsWith('_deg') ? x.toFixed(4) : units.number(x));
@@ -35,6 +35,33 @@
   const beforeAndAfter = (runs, corrected) =>
     [...acrossTitles(runs, 'Before'), ...(corrected ? acrossTitles(runs, 'After') : [])];
 
+  /** Of runs whose datum is not stated: what touching off would remove of the deviation before, and the rest. */
+  function shiftRows(runs, units, corrected) {
+    const shifts = runs.map((run) => run.report.summary.common_shift);
+    const blank = corrected ? acrossTitles(runs, '').map(() => '') : [];
+    const row = (what, get) => [what, ...across(shifts.map((s) => (s ? get(s) : null)), 'max_mm', units), ...blank];
+    return [row('Common shift (datum not stated)', (s) => s.max_mm),
+      row('Largest without the common shift', (s) => s.rest.max_mm)];
+  }
+
+  const toolParts = [['tip', 'tip_mm'], ['rim', 'rim_mm'], ['flank', 'flank_mm'], ['tilt, in degrees', 'tilt_deg']];
+
+  /** What the tilt of each tool does at its rim and flank. */
+  function toolDeviations(context, index) {
+    const {units} = context;
+    const run = context.runs[index];
+    const tools = run.report.summary.tool_deviations || [];
+    if (tools.length === 0) return null;
+    const corrected = tools.some((tool) => tool.after);
+    const columns = [textColumn('Tool'), {title: 'Where'}, numberColumn('Before'), ...(corrected ? [numberColumn('After')] : [])];
+    const rows = tools.flatMap((tool) => toolParts.filter(([, key]) => key !== 'flank_mm' || known(tool.flute_mm)).map(([part, key]) => {
+      const size = known(tool.diameter_mm) ? units.length(tool.diameter_mm) : 'diameter unknown';
+      return [`${words.toolName(tool.tool)}, ${size}`, part, show(key, value(tool.before, key), units),
+        ...(corrected ? [show(key, value(tool.after, key), units)] : [])];
+    }));
+    return table(words.ofRun(run, `Largest over the tool, in ${units.words}`), columns, rows);
+  }
+
   /** Statistics of the deviation before and after. */
   function numbers(context) {
     const {runs, units} = context;
@@ -49,8 +76,9 @@
     const link = (s, run, quantity) => counterflex.lines.link(context, run, s ? s.max_line : 0, {quantity});
     const line = (list, quantity) => [...list.map((s, run) => link(s, run, quantity)), ...(runs.length === 2 ? [''] : [])];
     rows.splice(1, 0, ['  in program line', ...line(before, 'before_mm'), ...(corrected ? line(after, 'after_mm') : [])]);
+    if (before.some((_, r) => runs[r].report.summary.common_shift)) rows.splice(2, 0, ...shiftRows(runs, units, corrected));
     const lengths = runs.map((run) => units.length(run.report.summary.path_mm)).join(' and ');
-    return [table('Deviation of the tool tip', columns, rows),
+    return [table('Deviation of the tool tip', columns, rows), runs.map((_, run) => toolDeviations(context, run)),
       el('p', {class: 'note'}, `Over ${lengths} of feed moves, weighted by length. `,
           corrected ? 'After: model residual, what the model leaves; it is not the accuracy of the part.' : '')];
   }

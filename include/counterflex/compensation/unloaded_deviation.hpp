@@ -1,0 +1,59 @@
+#pragma once
+/// What touching off with the machine finds: where the tip of the unloaded machine stands, relative to where
+/// it should. Lengths in m but for program coordinates, which are in mm.
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "counterflex/program/program.hpp"
+#include "counterflex/statics/equilibrium.hpp"
+#include "counterflex/statics/tool_models.hpp"
+
+namespace counterflex {
+
+/// A place on a feed move.
+struct PathPlace {
+  Vector3 p_mm = Vector3::Zero();  ///< program coordinates
+  long tool = 0;                   ///< in the spindle
+};
+
+/// Places on the feed moves of a program, for each work offset at equal distances along its moves: at most
+/// 64, and at least 32 on a path above a millimetre. Where the program is cut into windows changes nothing.
+class PathPlaces {
+ public:
+  static constexpr std::size_t most = 64;
+
+  /// The next window of the program. Moves whose start or end is not known are passed over.
+  void add(const Program& window);
+
+  /// Of an index into Program::work_offsets.
+  std::span<const PathPlace> of(std::size_t offset) const;
+
+ private:
+  struct OfOffset {
+    double spacing_mm = 1e-3, way_mm = 0;
+    std::vector<PathPlace> places;  ///< place k is at k times the spacing
+  };
+  void add(const Move& move, OfOffset& of);
+
+  std::vector<OfOffset> offsets_;
+};
+
+/// The position of the unloaded machine's tip relative to the nominal one, axes of M; errors and weights act.
+/// Meaningful where `status` is converged.
+struct UnloadedDeviation {
+  Status status = Status::not_converged;
+  Vector3 d = Vector3::Zero();
+};
+
+/// At `p_MT` (M), the nominal machine reached from where `nominal` is, which goes there.
+UnloadedDeviation unloaded_deviation(const Model& model, NominalToolPath& nominal, const Vector3& p_MT);
+
+/// The mean over `places`, which program coordinates in the frame `X_MW`: the common shift of a path that the
+/// errors and the weights of the machine cause. Places that the machine does not reach are left out; none: it
+/// reaches none of them.
+std::optional<Vector3> common_shift(const Model& model, const ToolModels& tools, const Pose& X_MW,
+                                    std::span<const PathPlace> places);
+
+}  // namespace counterflex
