@@ -137,16 +137,18 @@ void add_sources(WaypointSolver& solver, const ForwardBatch& batch) {
   ask(&ForwardPlace::original, false, {.load = 0, .gravity = 0}, &Causes::geometry);
   ask(&ForwardPlace::original, true, {.errors = 0, .gravity = 0}, &Causes::load);
   ask(&ForwardPlace::emitted, false, {.load = 0}, &Causes::air);
-  const Stage preloads{.errors = 0, .load = 0, .gravity = 0};
-  ask(&ForwardPlace::original, false, preloads, &Causes::superposition);
+  const Stage unloaded_perfect{.errors = 0, .load = 0, .gravity = 0};
+  ask(&ForwardPlace::original, false, unloaded_perfect, &Causes::superposition);
   const bool weighs = has_weight(solver.model().mechanism);
   if (weighs) ask(&ForwardPlace::original, false, {.errors = 0, .load = 0}, &Causes::gravity);
   for (Waypoint& w : batch.waypoints) {
     if (!knows_before(w)) continue;
     Causes& c = *w.causes;
-    const Vector6 unloaded_perfect = c.superposition;
-    c.superposition = c.geometry + c.load - unloaded_perfect;
-    if (weighs) c.superposition += c.gravity - unloaded_perfect;
+    const Vector6 preloads = c.superposition;  // act in each of the others, too
+    c.geometry -= preloads;
+    c.load -= preloads;
+    if (weighs) c.gravity -= preloads;
+    c.superposition = preloads + c.geometry + c.load + c.gravity;
   }
 }
 

@@ -45,6 +45,7 @@ constexpr NumberRow other_rows[] = {
     {"/summary/sources/geometry/max_mm", sources_heading, "geometry: errors of assembly alone"},
     {"/summary/sources/load/max_mm", sources_heading, "load: cutting forces alone"},
     {"/summary/sources/gravity/max_mm", sources_heading, "gravity: weights alone"},
+    {"/summary/sources/preloads/max_mm", sources_heading, "preloads alone"},
     {"/summary/sources/superposition/max_mm", sources_heading, "superposition: their sum"},
     {"/summary/sensitivity/force_plus_30/max_mm", other_force_heading, "force 30 % higher"},
     {"/summary/sensitivity/force_minus_30/max_mm", other_force_heading, "force 30 % lower"},

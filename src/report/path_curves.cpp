@@ -6,6 +6,7 @@
 
 #include "counterflex/geometry/units.hpp"
 #include "counterflex/report/statistics.hpp"
+#include "preloads.hpp"
 
 namespace counterflex {
 namespace {
@@ -43,6 +44,10 @@ constexpr std::array<std::string_view, quantity_count> quantity_names = {"before
                                                                          "gravity_y_mm",
                                                                          "gravity_z_mm",
                                                                          "gravity_mm",
+                                                                         "preloads_x_mm",
+                                                                         "preloads_y_mm",
+                                                                         "preloads_z_mm",
+                                                                         "preloads_mm",
                                                                          "superposition_x_mm",
                                                                          "superposition_y_mm",
                                                                          "superposition_z_mm",
@@ -90,6 +95,7 @@ void set_causes(Values& values, const Waypoint& w, const Causes& causes, PathCur
     set_position(values, Quantity::geometry_x, causes.geometry);
     set_position(values, Quantity::load_x, causes.load);
     if (known.weights) set_position(values, Quantity::gravity_x, causes.gravity);
+    if (!preloads_of(causes).isZero(0)) set_position(values, Quantity::preloads_x, preloads_of(causes));
     set_position(values, Quantity::superposition_x, causes.superposition);
     set_position(values, Quantity::discrepancy_x, w.before - causes.superposition);
   }

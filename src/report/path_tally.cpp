@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "counterflex/geometry/units.hpp"
+#include "preloads.hpp"
 
 namespace counterflex {
 namespace {
@@ -33,10 +34,23 @@ bool keep_worst(double& largest_mm, WorstPlace& place, const Waypoint& w, const 
   return true;
 }
 
+void keep_at_worst(const Waypoint& w, const Causes& causes, std::optional<SourcesAtWorst>& worst) {
+  const auto in_mm = [](const Vector6& deviation) { return Vector3(deviation.head<3>() / mm); };
+  if (worst && in_mm(w.before).norm() <= worst->before_mm.norm()) return;
+  worst = SourcesAtWorst{w.line,
+                         w.p_MT / mm,
+                         in_mm(causes.geometry),
+                         in_mm(causes.load),
+                         in_mm(causes.gravity),
+                         in_mm(preloads_of(causes)),
+                         in_mm(causes.superposition),
+                         in_mm(w.before)};
+}
+
 DeviationParts parts_of(const Waypoint& w, const Causes& causes) {
   const auto size_mm = [](const Vector6& deviation) { return deviation.head<3>().norm() / mm; };
   return {size_mm(causes.geometry), size_mm(causes.load), size_mm(causes.gravity),
-          size_mm(w.before - causes.superposition)};
+          size_mm(w.before - causes.superposition), size_mm(preloads_of(causes))};
 }
 
 bool before_line(const WorstRow& row, int line) {
@@ -231,7 +245,9 @@ void PathTally::measure_causes(const Waypoint& w, const Causes& causes, double w
   m_.geometry.add(sample(w, causes.geometry, weight));
   m_.load.add(sample(w, causes.load, weight));
   m_.gravity.add(sample(w, causes.gravity, weight));
+  m_.preloads.add(sample(w, preloads_of(causes), weight));
   m_.superposition.add(sample(w, causes.superposition, weight));
+  keep_at_worst(w, causes, m_.at_worst);
   m_.without_force.add(sample(w, causes.air, weight));
   keep(m_.air, causes.air.head<3>().norm(), w.line);
 }

@@ -21,12 +21,14 @@ constexpr PlotStyle superposition_style{"superposition", "#e69f00", 4.2, "5 6", 
 constexpr PlotStyle geometry_style{"geometry alone", "#0072b2", 1.8, "", Quantity::geometry_x};
 constexpr PlotStyle load_style{"load alone", "#d55e00", 1.8, "9 4", Quantity::load_x};
 constexpr PlotStyle gravity_style{"gravity alone", "#009e73", 1.8, "2 4", Quantity::gravity_x};
+constexpr PlotStyle preloads_style{"preloads alone", "#cc79a7", 1.8, "6 2 2 2", Quantity::preloads_x};
 constexpr PlotStyle together_style{"acting together", "#000000", 1.3, "", Quantity::before_x};
 
 std::vector<PlotStyle> styles_of(const RunReport& report) {
   if (!report.sources) return {together_style};
   std::vector<PlotStyle> styles{geometry_style, load_style};
   if (report.sources->gravity) styles.push_back(gravity_style);
+  if (report.sources->preloads) styles.push_back(preloads_style);
   styles.insert(styles.end(), {superposition_style, together_style});
   return styles;
 }

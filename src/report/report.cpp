@@ -71,6 +71,8 @@ Sources sources(const Measures& measures, bool weights) {
   Sources result{measures.geometry.statistics(), measures.load.statistics(), std::nullopt,
                  measures.superposition.statistics()};
   if (weights) result.gravity = measures.gravity.statistics();
+  if (const auto preloads = measures.preloads.statistics(); preloads.max_mm > 1e-9) result.preloads = preloads;
+  result.at_worst = measures.at_worst;
   return result;
 }
 

@@ -57,12 +57,27 @@ Json largest_json(const std::optional<Largest>& largest) {
   return {{"max_mm", number(largest->mm, digits)}, {"line", largest->line}};
 }
 
+Json at_worst_json(const Sources& sources) {
+  if (!sources.at_worst) return nullptr;
+  const SourcesAtWorst& at = *sources.at_worst;
+  return {{"line", at.line},
+          {"place_mm", numbers(at.place_mm, digits)},
+          {"geometry_mm", numbers(at.geometry_mm, digits)},
+          {"load_mm", numbers(at.load_mm, digits)},
+          {"gravity_mm", sources.gravity ? numbers(at.gravity_mm, digits) : Json(nullptr)},
+          {"preloads_mm", sources.preloads ? numbers(at.preloads_mm, digits) : Json(nullptr)},
+          {"superposition_mm", numbers(at.superposition_mm, digits)},
+          {"before_mm", numbers(at.before_mm, digits)}};
+}
+
 Json sources_json(const std::optional<Sources>& sources) {
   if (!sources) return nullptr;
   return {{"geometry", statistics_json(sources->geometry)},
           {"load", statistics_json(sources->load)},
           {"gravity", optional_statistics(sources->gravity)},
-          {"superposition", statistics_json(sources->superposition)}};
+          {"superposition", statistics_json(sources->superposition)},
+          {"preloads", optional_statistics(sources->preloads)},
+          {"at_worst", at_worst_json(*sources)}};
 }
 
 /// Of part of the path nothing is said: its largest value would look harmless.
@@ -246,25 +261,27 @@ Json operations_json(const std::vector<OperationReport>& operations) {
   return list;
 }
 
-Json parts_json(const std::optional<DeviationParts>& parts, bool weights) {
+Json parts_json(const std::optional<DeviationParts>& parts, bool weights, bool preloads) {
   if (!parts) return nullptr;
   return {{"geometry_mm", number(parts->geometry_mm, digits)},
           {"load_mm", number(parts->load_mm, digits)},
           {"gravity_mm", weights ? number(parts->gravity_mm, digits) : Json(nullptr)},
+          {"preloads_mm", preloads ? number(parts->preloads_mm, digits) : Json(nullptr)},
           {"discrepancy_mm", number(parts->discrepancy_mm, digits)}};
 }
 
 /// The place of a row is that of the deviation by which rows are ordered.
 Json worst_row_json(const RunReport& report, const WorstRow& row) {
   const WorstPlace& place = report.after ? row.at_after : row.at_before;
-  const bool weights = report.sources && report.sources->gravity;
+  const bool weights = report.sources && report.sources->gravity,
+             preloads = report.sources && report.sources->preloads;
   Json json = {{"line", row.line},
                {"before_mm", number(row.before_mm, digits)},
                {"after_mm", report.after ? number(row.after_mm, digits) : Json(nullptr)},
                {"s_mm", number(place.s_mm, digits)},
                {"place_mm", numbers(place.place_mm, digits)},
                {"force_N", number(place.force_N, 4)},
-               {"causes", parts_json(row.causes, weights)},
+               {"causes", parts_json(row.causes, weights, preloads)},
                {"text", row.text}};
   if (place.operation < 0) return json;
   const OperationReport& operation = report.operations[static_cast<std::size_t>(place.operation)];

@@ -109,20 +109,37 @@ std::string source_row(const char* label, const DeviationStatistics& s) {
                      mm4(s.max_axis_mm.y()), mm4(s.max_axis_mm.z()), mm4(s.max_mm));
 }
 
+std::string source_row(const char* label, const Vector3& d_mm) {
+  return fmt::format("  {:<34}{:>12}{:>12}{:>12}{:>12}\n", label, mm4(d_mm.x()), mm4(d_mm.y()),
+                     mm4(d_mm.z()), mm4(d_mm.norm()));
+}
+
+std::string at_worst_text(const Sources& sources, const char* together) {
+  if (!sources.at_worst) return "";
+  const SourcesAtWorst& at = *sources.at_worst;
+  std::string text = fmt::format("  where the deviation is largest, line {}:\n", at.line);
+  text += source_row("geometry", at.geometry_mm) + source_row("load", at.load_mm);
+  if (sources.gravity) text += source_row("gravity", at.gravity_mm);
+  if (sources.preloads) text += source_row("preloads", at.preloads_mm);
+  return text + source_row("sum of these", at.superposition_mm) + source_row(together, at.before_mm);
+}
+
 std::string sources_text(const RunReport& report, const Ink& ink) {
   if (report.before && !report.facts.attribution)
     return line_break() + "Its causes, and what more, less or no force does to it: with --report or --json\n";
   if (!report.sources) return "";
   const Sources& sources = *report.sources;
-  std::string text = line_break() + ink.bold("Where it comes from") + ", largest values in mm\n";
+  const bool two = !sources.gravity && !sources.preloads;
+  const char* const together = two ? "both acting together" : "all acting together";
+  std::string text =
+      line_break() + ink.bold("Where it comes from") + ", in mm; largest values, each at its own place\n";
   text += fmt::format("  {:<34}{:>12}{:>12}{:>12}{:>12}\n", "", "x", "y", "z", "in space");
   text += source_row("geometry: errors of assembly alone", sources.geometry);
   text += source_row("load: cutting forces alone", sources.load);
-  const bool weights = sources.gravity.has_value();
-  if (weights) text += source_row("gravity: weights alone", *sources.gravity);
-  text += source_row(weights ? "superposition: sum of the three" : "superposition: sum of the two",
-                     sources.superposition);
-  return text + source_row(weights ? "all acting together" : "both acting together", *report.before);
+  if (sources.gravity) text += source_row("gravity: weights alone", *sources.gravity);
+  if (sources.preloads) text += source_row("preloads alone", *sources.preloads);
+  text += source_row("superposition: sums at each place", sources.superposition);
+  return text + source_row(together, *report.before) + at_worst_text(sources, together);
 }
 
 std::string worst_text(const RunReport& report, const Ink& ink) {

@@ -95,6 +95,29 @@ TEST_CASE("weights are a source of their own, and the three add up to all acting
   CHECK(largest > 1e-9);
 }
 
+TEST_CASE("with preloads each source is what it adds to them, and the superposition is the sum of all") {
+  Order order{.machine = load_machine(orthoglide_b), .text = part, .force = constant_force(milling())};
+  for (Chain& chain : order.machine.chains)
+    for (Element& element : chain.elements)
+      if (auto* spring = std::get_if<Spring>(&element)) spring->theta_0.head<3>() = Vector3(2e-3, 0, 1e-3);
+  const Shop shop(order);
+  for (const Waypoint& w : compensated(shop, true).waypoints) {
+    if (w.between) continue;
+    const auto cold = [&](const Vector6& F, const Stage& stage) {
+      return cold_deviation(shop, w.p_MT, w.p_MT, F, stage);
+    };
+    const auto near = [](const Vector6& a, const Vector6& b) { return (a - b).head<3>().norm() < 1e-9; };
+    const Vector6 none = Vector6::Zero();
+    const Causes& causes = *w.causes;
+    const Vector6 preloads = cold(none, {0, 0, 1, 0});
+    CHECK(near(causes.geometry + preloads, cold(none, {1, 0, 1, 0})));
+    CHECK(near(causes.load + preloads, cold(w.wrench, {0, 1, 1, 0})));
+    CHECK(near(causes.superposition, causes.geometry + causes.load + preloads));
+    CHECK(preloads.head<3>().norm() > 0.5e-3);
+    if (w.wrench.isZero(0)) CHECK(causes.load.norm() < 1e-9);  // the preloads are not the cutting force's
+  }
+}
+
 TEST_CASE("gravity without masses, and masses without gravity, are no source") {
   Machine machine = load_machine(mill);
   machine.gravity.g = Vector3(0, 0, -9.81);

@@ -265,6 +265,7 @@ TEST_CASE("the JSON of a compensation has every key, in this order") {
         "geometry_mm": 0.125,
         "load_mm": 0.25,
         "gravity_mm": null,
+        "preloads_mm": null,
         "discrepancy_mm": 0.125
       },
       "text": "G1 X100 F600",
@@ -465,8 +466,9 @@ TEST_CASE("a machine with masses has a fifth row of sources") {
   CAPTURE(text);
   CHECK(contains(text,
                  "  gravity: weights alone                  0.0000      0.0000      0.0200      0.0200\n"
-                 "  superposition: sum of the three "));
+                 "  superposition: sums at each place "));
   CHECK(contains(text, "  all acting together "));
+  CHECK(contains(text, "  where the deviation is largest, line 4:\n"));
   CHECK(contains(to_json(report), "\"gravity\": {\n        \"max_mm\": 0.02,"));
 }
 

@@ -36,7 +36,9 @@ struct Measures {
   DeviationTally before, after, geometry, load, gravity, superposition;
   DeviationTally rest;              ///< before, without the common shift
   std::map<long, ToolTally> tools;  ///< by number
+  DeviationTally preloads;
   DeviationTally without_force;
+  std::optional<SourcesAtWorst> at_worst;  ///< where `before` is largest
   OtherForceTally higher, lower;
   Largest air, correction;
   double largest_N = 0, largest_Nm = 0;

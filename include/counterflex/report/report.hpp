@@ -62,6 +62,7 @@ struct WorstPlace {
 struct DeviationParts {
   double geometry_mm = 0, load_mm = 0, gravity_mm = 0;
   double discrepancy_mm = 0;  ///< of the deviation from the superposition of its causes
+  double preloads_mm = 0;
 };
 
 struct WorstRow {
@@ -80,10 +81,22 @@ struct Largest {
 };
 
 /// Where each part of the deviation before comes from.
+/// Where the deviation before is largest: what each source has in it there (axes of M).
+struct SourcesAtWorst {
+  int line = 0;
+  Vector3 place_mm = Vector3::Zero();  ///< wanted tip in M
+  Vector3 geometry_mm = Vector3::Zero(), load_mm = Vector3::Zero(), gravity_mm = Vector3::Zero(),
+          preloads_mm = Vector3::Zero();
+  Vector3 superposition_mm = Vector3::Zero();  ///< sum of these
+  Vector3 before_mm = Vector3::Zero();
+};
+
 struct Sources {
   DeviationStatistics geometry, load;
   std::optional<DeviationStatistics> gravity;  ///< none for a machine without masses
   DeviationStatistics superposition;
+  std::optional<DeviationStatistics> preloads{};  ///< none where preloads move nothing
+  std::optional<SourcesAtWorst> at_worst{};
 };
 
 /// The deviation under a force that is higher or lower by `force_change`. Places where the machine has no

@@ -154,6 +154,7 @@
     {name: quantityName('geometry', part), label: 'geometry', colour: '--geometry'},
     {name: quantityName('load', part), label: 'load', colour: '--load'},
     {name: quantityName('gravity', part), label: 'gravity', colour: '--gravity', dash: [10, 3, 2, 3]},
+    {name: quantityName('preloads', part), label: 'preloads', colour: '--preloads', dash: [6, 2, 2, 2]},
     {name: quantityName('superposition', part), label: 'their sum', colour: '--sum', dash: [8, 4]},
     {name: quantityName('discrepancy', part), label: 'discrepancy', colour: '--discrepancy', dash: [2, 3]},
   ];

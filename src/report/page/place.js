@@ -11,7 +11,7 @@
     return Number.isNaN(value) ? null : value;
   }
 
-  const partNames = ['geometry', 'load', 'gravity', 'discrepancy'];
+  const partNames = ['geometry', 'load', 'gravity', 'preloads', 'discrepancy'];
 
   /**
    * The stretch nearest to `i` along the same block that knows its deviation before and the parts of it, which between

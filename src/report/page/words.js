@@ -106,16 +106,18 @@
     geometry_mm: 'Errors of assembly',
     load_mm: 'Cutting force',
     gravity_mm: 'Weight of the parts',
+    preloads_mm: 'Preloads',
     discrepancy_mm: 'Discrepancy',
   };
   const partSentences = {
     geometry_mm: 'mostly errors of assembly',
     load_mm: 'mostly the cutting force bends the machine',
     gravity_mm: 'mostly the weight of its parts bends the machine',
+    preloads_mm: 'mostly preloaded joints and springs bend the machine',
     discrepancy_mm: 'mostly what assembly and force do together, more than each alone',
   };
 
-  const shortNames = {geometry_mm: 'assembly', load_mm: 'force', gravity_mm: 'weight', discrepancy_mm: 'both together'};
+  const shortNames = {geometry_mm: 'assembly', load_mm: 'force', gravity_mm: 'weight', preloads_mm: 'preloads', discrepancy_mm: 'both together'};
 
   /** The parts of a deviation that are known: [{key, name, mm}], as they are listed above. */
   function parts(causes) {
