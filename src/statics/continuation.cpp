@@ -3,18 +3,13 @@
 #include <algorithm>
 #include <optional>
 
-#include <Eigen/LU>
-
 namespace counterflex {
 namespace {
 
 constexpr double largest_condition = 1e10;
 constexpr double first_step = 0.25, smallest_step = 1.0 / 1024;
 
-Stage between(const Stage& a, const Stage& b, double s) {
-  return {a.errors + s * (b.errors - a.errors), a.load + s * (b.load - a.load), a.preload + s * (b.preload - a.preload),
-          a.gravity + s * (b.gravity - a.gravity)};
-}
+Stage part_of(const Stage& goal, double s) { return {s * goal.errors, s * goal.load, s * goal.preload, s * goal.gravity}; }
 
 // From `before` through `now`, `ratio` times as far again.
 void go_on(const SeriesState& before, double ratio, SeriesState& now) {
@@ -72,73 +67,18 @@ bool advances(const Model& model, const Problem& problem, const EquilibriumSolve
   return true;
 }
 
-// What is reported of a solution that Newton found: `converged` unless the system there is singular. Whether the proof did it:
-// then all chains are condensed.
-bool judge_condition(const Model& model, const Problem& problem, StaticsWork::Impl& work, Equilibrium& result) {
+// What is reported of a solution that Newton found: `converged` unless the system there is singular.
+void judge_condition(const Model& model, const Problem& problem, StaticsWork::Impl& work, Equilibrium& result) {
   const Units units{model.mechanism.length};
   const auto applied = applied_wrench(model.mechanism, result.configuration.X_MP, problem.load, problem.stage.load);
   result.status = Status::converged;
-  if (surely_well_conditioned(model.mechanism, work.chains, applied.tangent, units, largest_condition)) return true;
+  if (surely_well_conditioned(model.mechanism, work.chains, applied.tangent, units, largest_condition)) return;
   evaluate_all(model, result.configuration, problem.stage, work);
   const Condition whole = condition(whole_system(model, result.configuration, problem, work), units);
   result.indeterminate = whole.indeterminate;
-  if (whole.value <= largest_condition) return false;
+  if (whole.value <= largest_condition) return;
   result.status = Status::singular;
   result.weakest = whole.weakest;
-  return false;
-}
-
-// What a continuation leaves to judge its way by.
-struct Way {
-  double s = 0;  // of the first step that was taken
-  Pose X_MP;     // there
-  bool condensed = false;
-};
-
-Equilibrium follow_stages(const Model& model, const Configuration& start, const Stage& from, Problem problem,
-                          const EquilibriumSolver& solve, StaticsWork::Impl& work, Way& way) {
-  const Stage goal = problem.stage;
-  Equilibrium result;
-  std::optional<Followed> before;
-  Followed now{0, start, true};
-  double step = first_step;
-  while (now.s < 1) {
-    Followed next{std::min(1.0, now.s + step), {}};
-    problem.stage = between(from, goal, next.s);
-    if (!advances(model, problem, solve, before, now, work, next, result.iterations)) {
-      if ((step /= 2) >= smallest_step) continue;
-      result.configuration = std::move(now.configuration);
-      return result;
-    }
-    before = std::move(now);
-    now = std::move(next);
-    if (way.s == 0) way = {now.s, now.configuration.X_MP};
-    if (now.stable) continue;
-    result.configuration = std::move(now.configuration);
-    result.status = Status::unstable;
-    return result;
-  }
-  result.configuration = std::move(now.configuration);
-  way.condensed = judge_condition(model, problem, work, result);
-  return result;
-}
-
-// Whether the platform has gone nearly straight, and the load does not move it much further than it has gone.
-bool is_straight(const Model& model, const Configuration& nominal, const Problem& problem, const Equilibrium& end,
-                 const Way& way, const StaticsWork::Impl& work) {
-  constexpr double bend = 0.2, small_bend = 1e-4, cancelled = 2, small_response = 1e-3;
-  if (!way.condensed) return false;
-  const Units units{model.mechanism.length};
-  const Vector6 pose = units.of_pose();
-  const Vector6 whole = difference(end.configuration.X_MP, nominal.X_MP).cwiseQuotient(pose);
-  const Vector6 begun = difference(way.X_MP, nominal.X_MP).cwiseQuotient(pose) / way.s;
-  if ((begun - whole).norm() > std::max(bend * whole.norm(), small_bend)) return false;
-  const auto applied = applied_wrench(model.mechanism, end.configuration.X_MP, problem.load, problem.stage.load);
-  Matrix6 K = -applied.tangent;
-  for (const SeriesWork& chain : work.chains) K += chain.K;
-  const Matrix6 scaled = pose.asDiagonal() * K * pose.asDiagonal() / units.energy();
-  const Vector6 response = scaled.partialPivLu().solve(Vector6(applied.F.cwiseProduct(pose) / units.energy()));
-  return response.norm() <= std::max(cancelled * whole.norm(), small_response);
 }
 
 }  // namespace
@@ -162,32 +102,29 @@ void judge(const Model& model, const Problem& problem, StaticsWork::Impl& work, 
 
 Equilibrium continue_from(const Model& model, const Configuration& nominal, Problem problem, const EquilibriumSolver& solve,
                           StaticsWork::Impl& work) {
-  Way way;
-  return follow_stages(model, nominal, nominal_stage, problem, solve, work, way);
-}
-
-Equilibrium continue_under_load(const Model& model, const Configuration& nominal, const Problem& problem,
-                                const EquilibriumSolver& solve, StaticsWork::Impl& work) {
-  constexpr double same_place = 1e-6;  // units of l
-  Way way;
-  Equilibrium together = follow_stages(model, nominal, nominal_stage, problem, solve, work, way);
-  if (together.status != Status::converged || problem.load.F.isZero(0) || problem.stage.load == 0 ||
-      is_straight(model, nominal, problem, together, way, work))
-    return together;
-  Problem unloaded = problem;
-  unloaded.stage.load = 0;
-  const Equilibrium rest = follow_stages(model, nominal, nominal_stage, unloaded, solve, work, way);
-  together.iterations += rest.iterations;
-  if (rest.status != Status::converged) return together;
-  Equilibrium loaded = follow_stages(model, rest.configuration, unloaded.stage, problem, solve, work, way);
-  together.iterations += loaded.iterations;
-  const Vector6 apart = difference(loaded.configuration.X_MP, together.configuration.X_MP);
-  if (loaded.status == Status::converged &&
-      apart.cwiseQuotient(Units{model.mechanism.length}.of_pose()).norm() <= same_place)
-    return together;
-  together.status = Status::unstable;
-  together.configuration = std::move(loaded.configuration);
-  return together;
+  const Stage goal = problem.stage;
+  Equilibrium result;
+  std::optional<Followed> before;
+  Followed now{0, nominal, true};
+  double step = first_step;
+  while (now.s < 1) {
+    Followed next{std::min(1.0, now.s + step), {}};
+    problem.stage = part_of(goal, next.s);
+    if (!advances(model, problem, solve, before, now, work, next, result.iterations)) {
+      if ((step /= 2) >= smallest_step) continue;
+      result.configuration = std::move(now.configuration);
+      return result;
+    }
+    before = std::move(now);
+    now = std::move(next);
+    if (now.stable) continue;
+    result.configuration = std::move(now.configuration);
+    result.status = Status::unstable;
+    return result;
+  }
+  result.configuration = std::move(now.configuration);
+  judge_condition(model, problem, work, result);
+  return result;
 }
 
 EquilibriumSolver newton_solver(const Model& model) {

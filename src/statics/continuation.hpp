@@ -13,11 +13,6 @@ using EquilibriumSolver = std::function<NewtonResult(const Problem&, StaticsWork
 Equilibrium continue_from(const Model& model, const Configuration& nominal, Problem problem, const EquilibriumSolver& solve,
                           StaticsWork::Impl& work);
 
-/// The same for held actuators, and once more with the load after everything else where the first way is not nearly straight:
-/// `unstable` where the load alone leads elsewhere. EQUATIONS.md, section 8.
-Equilibrium continue_under_load(const Model& model, const Configuration& nominal, const Problem& problem,
-                                const EquilibriumSolver& solve, StaticsWork::Impl& work);
-
 /// One solve from a start of the caller's choice, judged like the end of a continuation.
 Equilibrium refine(const Model& model, const Configuration& start, const Problem& problem, const EquilibriumSolver& solve,
                    StaticsWork::Impl& work);

@@ -12,7 +12,7 @@ StaticsWork::StaticsWork(StaticsWork&&) noexcept = default;
 
 Equilibrium solve_forward(const Model& model, const Configuration& nominal, const Load& load, const Stage& goal,
                           StaticsWork& work) {
-  return continue_under_load(model, nominal, {load, goal, nullptr}, newton_solver(model), work.impl());
+  return continue_from(model, nominal, {load, goal, nullptr}, newton_solver(model), work.impl());
 }
 
 Equilibrium refine_forward(const Model& model, const Configuration& start, const Load& load, const Stage& goal,
