@@ -18,8 +18,10 @@ namespace {
 
 constexpr std::size_t longest_text = 1000;
 
-[[noreturn]] void fail_locking(const std::string& folder, const std::string& reason) {
-  throw InputError(Exit::transient_io, {folder}, "cannot lock the folder: " + reason);
+// A file system for reading alone stays one.
+[[noreturn]] void fail_locking(const std::string& folder, int error, const std::string& reason) {
+  throw InputError(error == EROFS ? Exit::usage : Exit::transient_io, {folder},
+                   "cannot lock the folder: " + reason);
 }
 
 bool file_system_has_no_locks(int error) {
@@ -62,7 +64,7 @@ FolderLock::FolderLock(const std::string& folder, LockKind kind, std::string_vie
   const std::string state = folder + "/.counterflex", path = state + "/lock";
   make_folder(state);
   fd_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
-  if (fd_ < 0) fail_locking(folder, fmt::format("{}: {}", path, std::strerror(errno)));
+  if (fd_ < 0) fail_locking(folder, errno, fmt::format("{}: {}", path, std::strerror(errno)));
   if (::flock(fd_, (kind == LockKind::exclusive ? LOCK_EX : LOCK_SH) | LOCK_NB) == 0) {
     const bool alone = kind == LockKind::exclusive;
     write_text(fd_, alone ? text_of_holder(command) : "");
@@ -76,7 +78,7 @@ FolderLock::FolderLock(const std::string& folder, LockKind kind, std::string_vie
   if (error == EWOULDBLOCK)
     throw InputError(Exit::transient_io, {folder},
                      fmt::format("another run is at work in this folder: {}", other));
-  if (why_not_.empty()) fail_locking(folder, std::strerror(error));
+  if (why_not_.empty()) fail_locking(folder, error, std::strerror(error));
 }
 
 FolderLock::~FolderLock() {

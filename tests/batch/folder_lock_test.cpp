@@ -15,12 +15,12 @@ using namespace counterflex::test;
 namespace {
 
 /// What trying to lock says; "locked" where it can.
-std::string attempt(const std::string& folder, LockKind kind = LockKind::exclusive) {
+std::string attempt(const std::string& folder, LockKind kind = LockKind::exclusive, Exit exit = Exit::transient_io) {
   try {
     const FolderLock lock(folder, kind, "counterflex batch other.toml");
     return lock.locked() ? "locked" : lock.why_not();
   } catch (const InputError& error) {
-    CHECK(error.exit() == Exit::transient_io);
+    CHECK(error.exit() == exit);
     return error.what();
   }
 }
@@ -148,10 +148,10 @@ TEST_CASE("a text that no lock has written is no reason to stop, nor to say what
   }
 }
 
-TEST_CASE("a lock whose file cannot be made is an error that a later try may not meet") {
+TEST_CASE("a folder that cannot be made is an error for good, a lock that cannot be made one that may pass") {
   const Folder place;
   write_file(place.file("file"), "");
-  CHECK(attempt(place.file("file")).find("file: error: cannot make the folder: ") != std::string::npos);
+  CHECK(attempt(place.file("file"), LockKind::exclusive, Exit::usage).find("file: error: cannot make the folder: ") != std::string::npos);
   std::filesystem::create_directories(place.file("out/.counterflex/lock"));
   CHECK(attempt(place.file("out")).find("out: error: cannot lock the folder: ") != std::string::npos);
 }
