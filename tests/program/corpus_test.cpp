@@ -1,5 +1,6 @@
 #include <doctest/doctest.h>
 
+#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 
@@ -12,7 +13,7 @@ using namespace counterflex::test;
 TEST_CASE("every program of a folder of real ones is refused at a place or comes back byte for byte") {
   const char* folder = std::getenv("COUNTERFLEX_CORPUS");
   if (folder == nullptr) {
-    MESSAGE("skipped: the environment variable COUNTERFLEX_CORPUS names no folder of programs");
+    std::puts("skipped: the environment variable COUNTERFLEX_CORPUS names no folder of programs");  // for ctest
     return;
   }
   int read_back = 0;
@@ -30,5 +31,5 @@ TEST_CASE("every program of a folder of real ones is refused at a place or comes
       CHECK(error.where().column > 0);
     }
   }
-  MESSAGE(read_back << " programs were read");
+  CHECK(read_back > 0);
 }
