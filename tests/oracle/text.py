@@ -25,6 +25,7 @@ class Line:
                 self.tokens.append((m.group(2), m.group(3).upper(), m.group(4), m.group(5)))
             else:
                 self.tokens.append(m.group(0))
+        self.number = self.take_number()
         self.words = [t for t in self.tokens if isinstance(t, tuple)]
         self.letters = {t[1] for t in self.words}
         self.inverse_time = False  # whether F says it; known where the lines before are
@@ -33,6 +34,18 @@ class Line:
         self.motion = [t for t in self.words if is_motion(t)]
         self.is_piece = bool(self.words) and all(isinstance(t, tuple) and (t[1] in INSERTED | {'F'} or is_motion(t)) or
                                                  t in ('/', ' ', '\t', '\r', 'L') for t in self.tokens)
+
+    def take_number(self):
+        """The N, with the blanks behind it: a split block gives it to its first piece."""
+        at = next((i for i, t in enumerate(self.tokens) if isinstance(t, tuple) and t[1] == 'N'), None)
+        if at is None or any(t not in ('/', ' ', '\t') for t in self.tokens[:at]):
+            return None
+        blanks, _, _, number = self.tokens.pop(at)
+        while at < len(self.tokens) and self.tokens[at] in (' ', '\t'):
+            self.tokens.pop(at)
+        if at < len(self.tokens) and isinstance(self.tokens[at], tuple):
+            self.tokens[at] = (blanks,) + self.tokens[at][1:]
+        return int(value(number))
 
 
 def is_motion(token):
@@ -140,4 +153,19 @@ def align(original, corrected):
     while trail:
         versions.append(trail[0])
         trail = trail[1]
+    check_numbers(original, corrected, versions[::-1])
     return versions[::-1]
+
+
+def check_numbers(original, corrected, versions):
+    """The numbers are those of the original, in its order; that of a split block is on its first piece."""
+    wanted = [(n, index) for index, n in enumerate(Line(text).number for text in original) if n is not None]
+    found = [(n, j) for j, n in enumerate(Line(text).number for text in corrected) if n is not None]
+    if [n for n, _ in wanted] != [n for n, _ in found]:
+        raise Mismatch('the numbers of blocks are not those of the original')
+    for (number, index), (_, j) in zip(wanted, found):
+        first = versions[index - 1] + 1 if index > 0 else 0
+        if not first <= j <= versions[index]:
+            raise Mismatch('N%d is not on a piece of its block' % number)
+        if j > first and Line(corrected[first]).is_piece and not Line(original[index - 1]).motion:
+            raise Mismatch('N%d is not on the first piece of its block' % number)
