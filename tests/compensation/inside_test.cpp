@@ -94,7 +94,7 @@ TEST_CASE("a hump of the force between the samples of a long block is found by c
   ForceSource force;
   force.rules = read_force_csv(
       "# frame = machine\n# sense = on_tool\n# interpolation = linear\ns_mm, fx_N, fy_N, fz_N\n"
-      "0,10,0,0\n9.75,10,0,0\n11.25,310,0,0\n12.75,10,0,0\n140,10,0,0\n",
+      "0,10,0,0\n9.75,10,0,0\n11.25,310,0,0\n12.75,10,0,0\n151,10,0,0\n",
       "forces.csv");
   force.blend = 2e-3;
   const Shop shop({.machine = yielding_gantry(), .text = blocks(1, 150), .force = force});

@@ -242,11 +242,11 @@ TEST_CASE("a subprogram that calls itself has no expansion, and repeats are limi
   const std::string nested = fanuc_go + "M98 P2 L9999\nM30\nO2\nM98 P3 L9000\nM99\nO3\nX1.\nM99\n";
   CHECK(diagnostic_of([&] {
           expanded(nested, "fanuc");
-        }).find("p.nc:7:1: error: the expanded calls make more than") == 0);
+        }).find("p.nc:7:1: error: M98: the expanded calls make more than") == 0);
   const std::string body(200'000, ' ');
   CHECK(diagnostic_of([&] {
           expanded(fanuc_go + "M98 P2 L9999\nM30\nO2\n(" + body + ")\nM99\n", "fanuc");
-        }).find("p.nc:4:1: error: the expanded calls make more than") == 0);
+        }).find("p.nc:4:1: error: M98: the expanded calls make more than") == 0);
 }
 
 TEST_CASE("nothing in a definition runs when all calls are expanded, but it stays in the text") {

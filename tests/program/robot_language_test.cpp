@@ -40,9 +40,9 @@ TEST_CASE("a robot's program is refused by the name of its language, whatever di
     }
 }
 
-TEST_CASE("programs that begin like a robot's are read") {
-  CHECK(refusal("DEF REAL A1\nG1 X1 F100\n") == "");
-  CHECK(refusal("%\nO1001\nG0 X1\n%\n") == "");
-  CHECK(refusal("/G0 X1\n") == "");
-  CHECK(refusal("(MODULE A)\nG0 X1\n") == "");
+TEST_CASE("programs that begin like a robot's are read as G-code") {
+  CHECK(refusal("G21\nDEF REAL A1\nG1 X1 F100\n").starts_with("job:2:1: error: D has no number"));
+  CHECK(refusal("%\nO1001\nG21\nG0 X1\n%\n") == "");
+  CHECK(refusal("/G21 G0 X1\n") == "");
+  CHECK(refusal("(MODULE A)\nG21 G0 X1\n") == "");
 }

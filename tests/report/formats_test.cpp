@@ -128,6 +128,17 @@ TEST_CASE("the JSON of a compensation has every key, in this order") {
         "max_along_mm": 0.0,
         "max_across_mm": 0.225,
         "max_tool_axis_mm": 0.3
+      },
+      "preloads": null,
+      "at_worst": {
+        "line": 4,
+        "place_mm": [1.0, 2.0, 3.0],
+        "geometry_mm": [0.0, 0.075, -0.1],
+        "load_mm": [0.0, 0.15, -0.2],
+        "gravity_mm": null,
+        "preloads_mm": null,
+        "superposition_mm": [0.0, 0.225, -0.3],
+        "before_mm": [0.0, 0.3, -0.4]
       }
     },
     "sensitivity": {
@@ -177,7 +188,29 @@ TEST_CASE("the JSON of a compensation has every key, in this order") {
       "line": 4
     },
     "corrected_percent": 100.0,
-    "path_mm": 100.0
+    "path_mm": 100.0,
+    "common_shift": null,
+    "tool_deviations": [
+      {
+        "tool": 0,
+        "diameter_mm": null,
+        "flute_mm": null,
+        "before": {
+          "tip_mm": 0.5,
+          "rim_mm": null,
+          "flank_mm": null,
+          "tilt_deg": 0.0,
+          "line": 4
+        },
+        "after": {
+          "tip_mm": 0.005,
+          "rim_mm": null,
+          "flank_mm": null,
+          "tilt_deg": 0.0,
+          "line": 4
+        }
+      }
+    ]
   },
   "feed_moves": {
     "count": 3,
@@ -461,6 +494,7 @@ TEST_CASE("a machine with masses has a fifth row of sources") {
   run.machine.gravity.g = {0, 0, -9.81};
   Compensation c = small_compensation();
   c.waypoints[0].causes->gravity.head<3>() = Vector3(0, 0, -0.02) * mm;
+  c.waypoints[0].causes->superposition.head<3>() += Vector3(0, 0, -0.02) * mm;
   const RunReport report = compensated(run, c);
   const std::string text = summary_text(report, false);
   CAPTURE(text);

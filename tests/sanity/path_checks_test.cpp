@@ -14,7 +14,7 @@ using namespace counterflex;
 
 namespace {
 
-bool contains(const std::string& text, const std::string& part) {
+bool shows(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
 
@@ -92,7 +92,7 @@ TEST_CASE("a force that pushes along the feed nearly everywhere is doubtful") {
   CHECK(check_feed_force(against).state == SanityState::ok);
   const SanityCheck check = check_feed_force(along);
   CHECK(check.state == SanityState::doubtful);
-  CHECK(contains(check.text, "along the feed on 94 % of the path (mean +230 N): is the sense right?"));
+  CHECK(shows(check.text, "along the feed on 94 % of the path (mean +230 N): is the sense right?"));
   CHECK(check_feed_force(along, true).state == SanityState::ok);
 }
 
@@ -110,7 +110,7 @@ TEST_CASE("a force that keeps its direction around a closed contour is doubtful"
     straight.add(cut({-100, 30, -20}, 0.1));
   }
   CHECK(check_feed_force(square).state == SanityState::doubtful);
-  CHECK(contains(check_feed_force(square).text, "keeps its direction"));
+  CHECK(shows(check_feed_force(square).text, "keeps its direction"));
   CHECK(check_feed_force(axial).state == SanityState::ok);
   CHECK(check_feed_force(straight).state == SanityState::ok);
 }
@@ -129,9 +129,9 @@ TEST_CASE("forces in kN and coarse tolerances are doubtful") {
   CHECK(check_force_size(0).empty());
   CHECK(check_force_size(350).empty());
   REQUIRE(check_force_size(0.35).size() == 1);
-  CHECK(contains(check_force_size(0.35)[0].text, "0.35 N"));
+  CHECK(shows(check_force_size(0.35)[0].text, "0.35 N"));
   CHECK(check_force_size(3.5e5).size() == 1);
   CHECK(check_tolerance(0.005).empty());
   REQUIRE(check_tolerance(5).size() == 1);
-  CHECK(contains(check_tolerance(5)[0].text, "the tolerance is 5 mm"));
+  CHECK(shows(check_tolerance(5)[0].text, "the tolerance is 5 mm"));
 }
