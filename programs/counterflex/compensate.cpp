@@ -16,14 +16,13 @@ bool is_reported(const Failure& failure) {
   return failure.exit == Exit::not_compensated || failure.exit == Exit::limit;
 }
 
-void add(const Job& job, Compensation& window, const Run& run, RunTally& tally, RunFiles& files) {
+void add(const Job& job, Compensation& window, RunTally& tally, RunFiles& files) {
   tally.add_window(job);
   tally.add_compensation(window);
   tally.add_waypoints(window.waypoints, job);
   files.add_waypoints(window.waypoints);
   files.add_program(window.text);
   if (window.text.empty()) return;
-  ignore_axes(window.corrected, run.ignored);
   tally.add_corrected(window.corrected);
 }
 
@@ -66,7 +65,7 @@ std::optional<Failure> compensate_all(Run& run, RunTally& tally, RunFiles& files
     unnumbered.add(window.counts);
     alone.unlock();
     if (wants_loads(run)) run.load_places.add(job, window.waypoints);
-    add(job, window, run, tally, files);
+    add(job, window, tally, files);
     console.solved(window.waypoints.size());
   };
   const std::optional<Failure> failure =

@@ -223,6 +223,18 @@ void prepare_writing(const Options& options, Run& run) {
   run.options.write.number_pieces = &run.numbers;
 }
 
+namespace {
+
+/// The corrected program is what is open in front of its reader.
+std::string located_in_corrected(const Run& run, Failure failure) {
+  if (failure.corrected_line == 0) return located(run.program.file, failure);
+  if (failure.line > 0) failure.what += fmt::format(" (line {} of the original)", failure.line);
+  failure.line = failure.corrected_line;
+  return located(run.corrected_name, failure);
+}
+
+}  // namespace
+
 bool wants_loads(const Run& run) {
   return run.facts.attribution || !run.machine.machine.load_limits.empty();
 }
@@ -308,7 +320,8 @@ Exit exit_of(const Run& run, const RunReport& report, Console& console) {
 
 Exit exit_of(const Run& run, const std::optional<Failure>& failure, Console& console) {
   if (!failure) return Exit::done;
-  console.error(located(run.program.file, *failure));
+  console.error(run.corrected_name.empty() ? located(run.program.file, *failure)
+                                           : located_in_corrected(run, *failure));
   return failure->exit;
 }
 

@@ -18,8 +18,9 @@ struct Run {
   MachineInput machine;
   ProgramFile file;
   Overview program;
-  BlockNumbers numbers{};     ///< of the program, with --number-pieces
-  bool is_corrected = false;  ///< the program carries the header of a corrected one
+  BlockNumbers numbers{};        ///< of the program, with --number-pieces
+  bool is_corrected = false;     ///< the program carries the header of a corrected one
+  std::string corrected_name{};  ///< verify: of the corrected program, in diagnostics
   ToolLengths tools;
   ForceInput force_input;
   WorkPlace work;

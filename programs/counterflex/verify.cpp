@@ -1,38 +1,86 @@
+#include "counterflex/compensation/verify_windows.hpp"
+
+#include <mutex>
+#include <utility>
+
 #include "commands.hpp"
+#include "counterflex/compensation/for_each_window.hpp"
+#include "header_hashes.hpp"
 #include "run.hpp"
 
 namespace counterflex::cli {
+namespace {
+
+/// What a corrected program holds besides its moves, which are matched later.
+struct CorrectedLook {
+  Overview program;
+  std::string beginning;  ///< text of the first window, which has the header
+};
+
+CorrectedLook look_through_corrected(const Options& options, const Run& run, ProgramFile& file,
+                                     RunTally& tally) {
+  const std::string name = shown_name(options.corrected);
+  CorrectedLook look;
+  try {
+    file.bytes.hash_along();
+    ProgramReader reader(file.bytes, name, run.read);
+    bool begun = false;
+    while (reader.next()) {
+      Program& window = reader.window();
+      if (!std::exchange(begun, true)) look.beginning = window.text;
+      ignore_axes(window, run.ignored);
+      add_window(look.program, window);
+      tally.add_corrected(window);
+    }
+  } catch (const InputError& error) {
+    blame_dialect(error, options, &run.machine.machine, name);
+  }
+  file.file.sha256 = sha256(file.bytes);
+  return look;
+}
+
+std::optional<Failure> verify_all(Run& run, ProgramReader& corrected, RunTally& tally, RunFiles& files,
+                                  Console& console) {
+  Windows windows(run, console);
+  std::mutex speaking;
+  const auto read = [&](const Job& job) {
+    const std::lock_guard alone(speaking);
+    windows.check(job);
+  };
+  const auto begun = [&](const Job& job) {
+    const std::lock_guard alone(speaking);
+    windows.warn(job);
+  };
+  const auto done = [&](const Job& job, Compensation& window) {
+    tally.add_window(job);
+    run.load_places.add(job, window.waypoints);
+    tally.add_waypoints(window.waypoints, job);
+    files.add_waypoints(window.waypoints);
+    console.solved(window.waypoints.size());
+  };
+  return verify_windows(windows.jobs(), run.options, corrected, run.facts.attribution, {read, begun, done});
+}
+
+}  // namespace
 
 Exit run_verify(const Options& options, Console& console) {
   const OutputPaths paths = output_paths(options);
   refuse_foreign_outputs(paths, options);
   const auto run = prepare_run(options, console);
   refuse_what_cannot_be_compensated(*run);
-  ProgramInput corrected =
-      read_program_input("corrected", options.corrected, options, &run->machine.machine, run->read);
-  ignore_axes(corrected.program, run->ignored);
-  run->facts.inputs.push_back(corrected.file);
-  // Both programs are compared as wholes.
-  Windows windows(*run, console, whole_program);
-  windows.next();
-  const Job job = windows.job();
-  const std::vector<Piece> pieces = match_programs(job, corrected.program);
-  RunFiles files(paths, {});
   RunTally tally = tally_for(options, *run);
-  tally.add_window(job);
-  tally.add_corrected(corrected.program);
-  std::optional<Failure> missed;
-  const auto unsolved =
-      solve_forward_in_portions(job, pieces, {.before = true, .attribution = true, .inside = true},
-                                [&](const std::vector<Waypoint>& waypoints) {
-                                  run->load_places.add(job, waypoints);
-                                  tally.add_waypoints(waypoints, job);
-                                  files.add_waypoints(waypoints);
-                                  if (!missed) missed = tolerance_failure(job, waypoints);
-                                });
-  const std::optional<Failure> failure = unsolved ? unsolved : missed;
-  return deliver(options, *run,
-                 report_verification(run->context(), tally, overview_of(corrected.program), failure), tally,
+  ProgramFile corrected = open_program("corrected", options.corrected);
+  const CorrectedLook look = look_through_corrected(options, *run, corrected, tally);
+  run->facts.inputs.push_back(corrected.file);
+  run->corrected_name = shown_name(options.corrected);
+  for (const std::string& warning : other_inputs_of_header(look.beginning, *run))
+    console.warning(run->corrected_name, 0, warning);
+  RunFiles files(paths, {});
+  corrected.bytes.rewind();
+  ProgramReader reader(corrected.bytes, run->corrected_name, run->read);
+  const std::optional<Failure> failure = verify_all(*run, reader, tally, files, console);
+  corrected.bytes.refuse_change();
+  return deliver(options, *run, report_verification(run->context(), tally, look.program, failure), tally,
                  files, console);
 }
 

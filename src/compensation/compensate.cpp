@@ -24,7 +24,8 @@ std::optional<Failure> tolerance_failure(const Job& job, const std::vector<Waypo
         Exit::not_compensated, w.line,
         fmt::format("verification failed: the tip misses the path by {:.4f} mm at {:.1f} % of this move, the "
                     "tolerance is {:.4f} mm",
-                    miss / mm, 100 * w.fraction, job.options.tolerance / mm)};
+                    miss / mm, 100 * w.fraction, job.options.tolerance / mm),
+        w.corrected_line};
   }
   return std::nullopt;
 }

@@ -77,7 +77,6 @@ void Emitter::emit_line(const Segment& segment, const PlannedSegment& planned, E
   const Move& move = job_.program.moves[segment.move];
   for (std::size_t k = 0; k + 1 < planned.knots.size(); ++k) {
     emitted.edit.inserted.push_back({in_words_mm(job_, move, planned.knots[k].target)});
-    emitted.fractions.push_back(planned.knots[k].u);
   }
 }
 

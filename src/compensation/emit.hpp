@@ -1,6 +1,5 @@
 #pragma once
-/// From a plan to the edits of a program's text, and from text that was read back to the pieces that it
-/// commands.
+/// From a plan to the edits of a program's text.
 #include "counterflex/compensation/compensate.hpp"
 #include "plan.hpp"
 
@@ -17,7 +16,6 @@ struct EmittedMove {
   MoveEdit edit;
   Kind kind = Kind::shifted;
   std::size_t segment = no_segment;
-  std::vector<double> fractions{};  ///< of its inserted points on its segment
   bool in_part = false;             ///< listed: held, or corrected without its force
   bool exempt = false;              ///< listed: its inside may miss the tolerance
   bool exempt_end = false;          ///< listed: its end may, too
@@ -48,12 +46,6 @@ struct EmitterState {
 /// groups one shift; what is held keeps the correction with which it is entered. Where one cannot be held the
 /// emission fails (Exit::program_text).
 Emission emit(const Job& job, const Plan& plan, EmitterState& state);
-
-/// The pieces that the emitted text commands. `edits` are those of the emission, `corrected` is that text,
-/// read anew.
-std::vector<Piece> emitted_pieces(const Job& job, const Emission& emission,
-                                  const std::vector<MoveEdit>& edits, const Rewritten& rewritten,
-                                  const Program& corrected);
 
 /// The end of a move as a target in M (m).
 Vector3 target_of(const Job& job, const Move& move);

@@ -24,7 +24,6 @@ void Emitter::emit_arc(const Segment& segment, const PlannedSegment& planned, Em
       const Via step{task.commanded(begin)};
       go_through(move, step, piece_held_);
       emitted.edit.inserted.push_back(step);
-      emitted.fractions.push_back(begin);
     }
     ArcPieces pieces = divide_arc(task, begin, end, piece_held_);
     if (pieces.lack_digits) {
@@ -32,11 +31,9 @@ void Emitter::emit_arc(const Segment& segment, const PlannedSegment& planned, Em
       return;
     }
     piece_held_ = pieces.held;
-    emitted.fractions.insert(emitted.fractions.end(), pieces.ends.begin(), pieces.ends.end());
     if (end == 1) {
       emitted.edit.centre_mm = pieces.vias.back().centre_mm;
       pieces.vias.pop_back();
-      emitted.fractions.pop_back();
     }
     emitted.edit.inserted.insert(emitted.edit.inserted.end(), pieces.vias.begin(), pieces.vias.end());
   }

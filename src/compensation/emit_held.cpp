@@ -72,7 +72,15 @@ void Emitter::emit_fixed(std::size_t m) {
     edits = edits || (move.words[axis] && along != 0);
   }
   if (!edits) return pass(move);
-  put({.edit = {.move = m, .end_mm = move.end_mm + held_shift_mm(move)}, .in_part = true});
+  put({.edit = shifted(m, shift), .in_part = true});
+}
+
+// An arc stays an arc: its centre goes along.
+MoveEdit Emitter::shifted(std::size_t m, const Vector3& shift) const {
+  const Move& move = job_.program.moves[m];
+  MoveEdit edit{.move = m, .end_mm = move.end_mm + shift};
+  if (move.arc) edit.centre_mm = move.arc->centre_mm + shift;
+  return edit;
 }
 
 // The correction that holds, as a shift of the block's words: nothing is inserted to split it.
@@ -82,8 +90,7 @@ void Emitter::emit_rigid(std::size_t m, Index s, Kind otherwise) {
   leave_pending_alone();
   if (!state_.correction_known) return leave_alone(move);
   const Vector3 shift = held_shift_mm(move);
-  EmittedMove emitted{.edit = {.move = m, .end_mm = move.end_mm + shift}, .kind = otherwise};
-  if (move.arc) emitted.edit.centre_mm = move.arc->centre_mm + shift;
+  EmittedMove emitted{.edit = shifted(m, shift), .kind = otherwise};
   if (move.cycle) {
     emitted.edit.bottom_mm = move.cycle->bottom_mm + shift.z();
     emitted.edit.retract_mm = move.cycle->retract_mm + shift.z();
@@ -104,7 +111,7 @@ void Emitter::emit_doubtful(std::size_t m) {
        "the "
        "correction that holds there");
   const Vector3 shift = held_shift_mm(move);
-  put({.edit = {.move = m, .end_mm = move.end_mm + shift}, .in_part = true});
+  put({.edit = shifted(m, shift), .in_part = true});
   set_shift(move, shift);
   for (std::size_t axis = 0; axis < 3; ++axis)
     state_.holds[axis] = state_.holds[axis] || move.known_end[axis];

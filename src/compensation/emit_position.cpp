@@ -35,7 +35,7 @@ void Emitter::give_to_pending(const Move& move) {
       state_.holds = holds;
       continue;
     }
-    put({.edit = {.move = p, .end_mm = earlier.end_mm + shift_mm(earlier, state_.correction)}});
+    put({.edit = shifted(p, shift_mm(earlier, state_.correction))});
   }
   pending_.clear();
 }
@@ -52,7 +52,7 @@ void Emitter::emit_first_known(std::size_t m) {
     list_held_words(move, *correction - kept);
   else if (move.motion == Motion::feed)
     list(move, "a feed move from a position that is not known: its end is corrected without cutting force");
-  put({.edit = {.move = m, .end_mm = move.end_mm + shift_mm(move, state_.correction)},
+  put({.edit = shifted(m, shift_mm(move, state_.correction)),
        .kind = Kind::first_known,
        .in_part = kept != *correction || move.motion == Motion::feed,
        .exempt_end = kept != *correction});

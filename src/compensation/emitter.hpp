@@ -39,6 +39,7 @@ class Emitter {
 
   // emit_held.cpp
   void emit_fixed(std::size_t m);
+  MoveEdit shifted(std::size_t m, const Vector3& shift) const;
   void emit_rigid(std::size_t m, Index s, Kind otherwise);
   void emit_doubtful(std::size_t m);
   void leave_pending_alone();

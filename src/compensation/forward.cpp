@@ -11,8 +11,6 @@
 namespace counterflex {
 namespace {
 
-constexpr std::size_t pieces_at_once = 8 * chunk_size;
-
 const Model& model_of(const Job& job, const Piece& piece) {
   if (job.tools == nullptr || job.tools->empty()) return job.model;
   return piece.segment == no_segment ? model_with(job.model, job.tools, piece.tool)
@@ -89,22 +87,6 @@ ForwardRun solve_forward_along(const Job& job, const std::vector<Piece>& pieces,
 ForwardRun solve_forward_along(const Job& job, const std::vector<Piece>& pieces, const Questions& questions) {
   ForwardState state;
   return solve_forward_along(job, pieces, questions, state);
-}
-
-std::optional<Failure> solve_forward_in_portions(const Job& job, const std::vector<Piece>& pieces,
-                                                 const Questions& questions, const TakeWaypoints& take) {
-  const NominalTrack nominal = track(job, home_of(job.model));
-  if (nominal.failure) return nominal.failure;
-  std::optional<Vector3> command;
-  const std::span<const Piece> all(pieces);
-  for (std::size_t begin = 0; begin < all.size(); begin += pieces_at_once) {
-    const auto portion = all.subspan(begin, std::min(pieces_at_once, all.size() - begin));
-    const ForwardRun run = solve_forward_from(job, nominal, portion, questions, command);
-    take(run.waypoints);
-    if (run.failure) return run.failure;
-    command = portion.back().commanded.end;
-  }
-  return std::nullopt;
 }
 
 namespace {

@@ -56,8 +56,10 @@ Failure ChunkForward::failure_at(std::size_t k, const Waypoint& w) const {
   const Task& task = tasks_[samples_[order_[k]].task];
   const std::size_t frame = task.segment ? task.segment->frame : task.piece->frame;
   const long tool = task.segment ? job_.program.moves[task.segment->move].tool : task.piece->tool;
-  return status_failure(job_, w.status,
-                        {solver_.model(), job_.path.frames[frame], tool, places_[k].emitted}, w.line);
+  Failure failure = status_failure(
+      job_, w.status, {solver_.model(), job_.path.frames[frame], tool, places_[k].emitted}, w.line);
+  failure.corrected_line = w.corrected_line;
+  return failure;
 }
 
 void ChunkForward::clear() {
@@ -277,6 +279,7 @@ void ChunkForward::write_waypoint(std::size_t s, double share, std::vector<Waypo
   w.segment = piece.segment;
   w.fraction = sample.u;
   w.line = piece.line;
+  w.corrected_line = piece.corrected_line;
   w.between = sample.between;
   w.place = sample.place;
   w.exempt = sample.between ? piece.exempt : piece.exempt_end;

@@ -1,6 +1,8 @@
 #include "match_pieces.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 #include "counterflex/compensation/compensate.hpp"
 #include "emit.hpp"
@@ -9,193 +11,190 @@ namespace counterflex {
 namespace {
 
 constexpr double inner_end = 1 - 1e-9;  // only the last piece ends a move
-constexpr double jump_length = 3;       // in allowances for rounding: shorter pieces are jumps
+constexpr double jump_length = 3;       // in allowances for rounding: shorter first pieces are jumps
+constexpr int most_refinements = 5;
+constexpr double refined_enough = 1e-10;  // m
 
-// Goes through the moves that command one segment.
-class SegmentReader {
- public:
-  SegmentReader(const Job& job, const Program& corrected, const MatchedMoves& found,
-                ExpectedTargets& expected)
-      : job_(job),
-        corrected_(corrected),
-        found_(found),
-        expected_(expected),
-        segment_(job.path.segments[found.segment]),
-        near_(job.options.tolerance) {}
+// The angle from the start of an arc to a point, in (-pi, pi].
+double angle_to(const Curve& arc, const Vector3& p) {
+  const Vector3 &n = arc.arc->normal, a = arc.start - arc.arc->centre, b = p - arc.arc->centre;
+  return std::atan2(n.dot(a.cross(b)), a.dot(b) - a.dot(n) * b.dot(n));
+}
 
-  void run(std::vector<Piece>& pieces) {
-    read_ways();
-    find_jump_at_start();
-    find_steps();
-    settle_fractions();
-    add(pieces);
-  }
+double fraction_on_line(const Curve& line, const Vector3& p) {
+  const Vector3 d = line.end - line.start;
+  return (p - line.start).dot(d) / d.squaredNorm();
+}
 
- private:
-  // A move of the corrected program, and the fraction at which it ends.
-  struct Step {
-    Curve way;
-    double u = -1;  // not yet known
-    bool jump = false;
-  };
+// The fraction of `p` on an arc, of all turns the one that is nearest to the angle `expected`.
+double fraction_on_arc(const Curve& arc, const Vector3& p, double expected) {
+  const double angle = angle_to(arc, p), turn = 2 * std::numbers::pi;
+  return (angle + turn * std::round((expected - angle) / turn)) / arc.arc->sweep;
+}
 
-  void read_ways() {
-    Vector3 from = segment_.wanted.start;
-    for (std::size_t j = found_.first; j <= found_.last; ++j) {
-      steps_.push_back({commanded_by(job_, corrected_, j, from)});
-      from = steps_.back().way.end;
-    }
-    steps_.back().u = 1;
-  }
+// How far a way turns about the axis of an arc.
+double angle_of(const Curve& arc, const Curve& way) {
+  if (way.arc) return way.arc->sweep;
+  return std::remainder(angle_to(arc, way.end) - angle_to(arc, way.start), 2 * std::numbers::pi);
+}
 
-  void find_jump_at_start() {
-    if (steps_.size() < 2) return;
-    const auto start = expected_.at(found_.segment, 0, Side::after);
-    if (!start || (steps_[0].way.end - *start).norm() > near_) return;
-    steps_[0].u = 0;
-    steps_[0].jump = true;
-  }
-
-  // Where the force steps, one move ends on this side of the step and the next one on the other.
-  void find_steps() {
-    if (job_.options.blend > 0 || !segment_.cutting) return;
-    std::size_t next = 0;
-    for (const double u : job_.forces.breaks(found_.segment)) {
-      if (next + 1 >= steps_.size()) return;
-      const auto before = expected_.at(found_.segment, u, Side::before),
-                 after = expected_.at(found_.segment, u, Side::after);
-      if (before && after) next = find_step(u, *before, *after, next);
-    }
-  }
-
-  std::size_t find_step(double u, const Vector3& before, const Vector3& after, std::size_t next) {
-    std::size_t best = steps_.size();
-    double best_miss = near_;
-    for (std::size_t j = next; j + 1 < steps_.size(); ++j) {
-      const double miss = (steps_[j].way.end - before).norm();
-      if (steps_[j].jump || miss >= best_miss) continue;
-      best = j;
-      best_miss = miss;
-    }
-    if (best == steps_.size()) return next;
-    steps_[best].u = u;
-    const Vector3 next_end = steps_[best + 1].way.end;
-    if ((next_end - after).norm() > near_) return best + 1;
-    // What is left of the way behind the jump may be less than the digits tell.
-    if (best + 2 == steps_.size()) steps_.push_back({{next_end, next_end, {}}, 1});
-    steps_[best + 1].u = u;
-    steps_[best + 1].jump = true;
-    return best + 2;
-  }
-
-  // Between places that are known by the length of the way.
-  void settle_fractions() {
-    double u0 = 0;
-    for (std::size_t begin = 0, end = 0; begin < steps_.size(); begin = end + 1) {
-      end = begin;
-      double whole = length(steps_[begin].way);
-      while (steps_[end].u < 0) whole += length(steps_[++end].way);
-      const double u1 = steps_[end].u;
-      double gone = 0;
-      for (std::size_t j = begin; j < end; ++j) {
-        gone += length(steps_[j].way);
-        steps_[j].u = std::min(whole > 0 ? u0 + (u1 - u0) * gone / whole : u1, inner_end);
-      }
-      u0 = u1;
-    }
-  }
-
-  void add(std::vector<Piece>& pieces) const {
-    const Move& original = job_.program.moves[segment_.move];
-    const bool own = original.handling == Handling::own;
-    double u0 = 0;
-    for (const Step& step : steps_) {
-      if (step.jump) continue;
-      if (step.u > u0)
-        pieces.push_back({.segment = found_.segment,
-                          .line = segment_.line,
-                          .u0 = u0,
-                          .u1 = step.u,
-                          .frame = segment_.frame,
-                          .commanded = step.way,
-                          .end_only = !segment_.cutting,
-                          .exempt = !own || !original.may_split,
-                          .exempt_end = !own || !original.may_insert_words});
-      u0 = step.u;
-    }
-  }
-
-  const Job& job_;
-  const Program& corrected_;
-  const MatchedMoves& found_;
-  ExpectedTargets& expected_;
-  const Segment& segment_;
-  double near_;  // to an expected target (m)
-  std::vector<Step> steps_;
-};
-
-// Whether the fraction of a piece's end is known: an end of a segment, or a step of the force.
-bool is_settled(const Job& job, const Piece& piece) {
-  if (piece.u1 >= 1 || piece.segment == no_segment) return true;
-  const std::vector<double> breaks = job.forces.breaks(piece.segment);
-  return job.options.blend == 0 && std::find(breaks.begin(), breaks.end(), piece.u1) != breaks.end();
+double length_of(const Job& job, const Piece& piece) {
+  return (piece.u1 - piece.u0) * length(job.path.segments[piece.segment].wanted);
 }
 
 }  // namespace
 
-std::optional<Vector3> ExpectedTargets::at(std::size_t segment, double u, Side side) {
+std::optional<Vector3> PieceMaker::expected(std::size_t segment, double u, Side side) {
   const Model& model = model_of(job_, job_.path.segments[segment]);
   const Load load{job_.forces.at(segment, u, side), job_.forces.at_platform()};
-  const TargetSolution found =
-      solvers_.of(model, model.home).target(point_at(job_.path.segments[segment].wanted, u), load);
+  const TargetSolution found = solvers_.of(model, track_.start_before(segment))
+                                   .target(point_at(job_.path.segments[segment].wanted, u), load);
   if (found.status != Status::converged) return std::nullopt;
   return found.target;
 }
 
-Curve commanded_by(const Job& job, const Program& corrected, std::size_t move, const Vector3& from) {
-  const Move& found = corrected.moves[move];
-  return all_known(found.known_start) ? command_of(job, found) : Curve{from, target_of(job, found), {}};
+void PieceMaker::read_ways(const MatchedMoves& matched) {
+  steps_.clear();
+  Vector3 from = job_.path.segments[*matched.segment].wanted.start;
+  for (const CorrectedMove& found : matched.found) {
+    const Move& move = *found.move;
+    Step& step = steps_.emplace_back();
+    step.way = all_known(move.known_start) ? command_of(job_, move) : Curve{from, target_of(job_, move), {}};
+    step.line = move.line;
+    from = step.way.end;
+  }
+  steps_.back().u = 1;
+  steps_.back().settled = true;
 }
 
-void add_pieces(const Job& job, const Program& corrected, const MatchedMoves& found,
-                ExpectedTargets& expected, std::vector<Piece>& pieces) {
-  SegmentReader(job, corrected, found, expected).run(pieces);
-}
-
-void refine_fractions(const Job& job, std::vector<Piece>& pieces) {
-  for (int iteration = 0; iteration < 3; ++iteration) {
-    const ForwardRun run =
-        solve_forward_along(job, pieces, {.before = false, .attribution = false, .inside = false});
-    if (run.failure) return;  // said again by whoever solves the pieces
-    for (std::size_t i = 0; i + 1 < pieces.size(); ++i) {
-      if (is_settled(job, pieces[i])) continue;
-      const Segment& segment = job.path.segments[pieces[i].segment];
-      const double length = counterflex::length(segment.wanted);
-      const double u =
-          pieces[i].u1 + run.waypoints[i].after.head<3>().dot(run.waypoints[i].direction) / length;
-      pieces[i].u1 = pieces[i + 1].u0 = std::clamp(u, pieces[i].u0, inner_end);
-    }
+// Without a blend, where the force steps, one move ends on this side of the step and the next one on the
+// other.
+void PieceMaker::find_steps(std::size_t segment) {
+  if (job_.options.blend > 0 || !job_.path.segments[segment].cutting) return;
+  std::size_t next = 0;
+  for (const double u : job_.forces.breaks(segment)) {
+    if (next + 1 >= steps_.size()) return;
+    const auto before = expected(segment, u, Side::before), after = expected(segment, u, Side::after);
+    if (before && after) next = find_step(u, *before, *after, next);
   }
 }
 
-void drop_jumps(const Job& job, std::vector<Piece>& pieces) {
-  std::vector<Piece> kept;
-  std::optional<double> u0;  // where the piece after a dropped one begins
-  for (Piece piece : pieces) {
+std::size_t PieceMaker::find_step(double u, const Vector3& before, const Vector3& after, std::size_t next) {
+  std::size_t best = steps_.size();
+  double best_miss = job_.options.tolerance;
+  for (std::size_t j = next; j + 1 < steps_.size(); ++j) {
+    const double miss = (steps_[j].way.end - before).norm();
+    if (steps_[j].jump || miss >= best_miss) continue;
+    best = j;
+    best_miss = miss;
+  }
+  if (best == steps_.size()) return next;
+  steps_[best].u = u;
+  steps_[best].settled = true;
+  const Vector3 next_end = steps_[best + 1].way.end;
+  if ((next_end - after).norm() > job_.options.tolerance) return best + 1;
+  // What is left of the way behind the jump may be less than the digits tell.
+  if (best + 2 == steps_.size()) steps_.push_back({{next_end, next_end, {}}, steps_.back().line, 1, true});
+  steps_[best + 1].u = u;
+  steps_[best + 1].settled = steps_[best + 1].jump = true;
+  return best + 2;
+}
+
+// The correction changes evenly enough from one end of the segment to the other for a first guess.
+void PieceMaker::project(const Curve& wanted) {
+  const Vector3 c0 = steps_.front().way.start - wanted.start, c1 = steps_.back().way.end - wanted.end;
+  double last = 0;  // fraction
+  for (Step& step : steps_) {
+    if (step.u < 0) {
+      const double expected = wanted.arc ? last * wanted.arc->sweep + angle_of(wanted, step.way) : 0;
+      double u = wanted.arc ? expected / wanted.arc->sweep : last;
+      for (int k = 0; k < 2; ++k) {
+        const Vector3 p = step.way.end - (1 - u) * c0 - u * c1;
+        u = wanted.arc ? fraction_on_arc(wanted, p, expected) : fraction_on_line(wanted, p);
+      }
+      step.u = std::clamp(u, last, inner_end);
+    }
+    last = step.u;
+  }
+}
+
+void PieceMaker::add(const MatchedMoves& matched, std::vector<DraftPiece>& pieces) {
+  const std::size_t s = *matched.segment;
+  const Segment& segment = job_.path.segments[s];
+  const Move& original = matched.original;
+  const bool own = original.handling == Handling::own;
+  read_ways(matched);
+  if (steps_.size() > 1) find_steps(s);
+  if (steps_.size() > 1) project(segment.wanted);
+  double u0 = 0;
+  for (const Step& step : steps_) {
+    if (!step.jump)
+      pieces.push_back({{.segment = s,
+                         .line = segment.line,
+                         .corrected_line = step.line,
+                         .u0 = u0,
+                         .u1 = step.u,
+                         .frame = segment.frame,
+                         .commanded = step.way,
+                         .end_only = !segment.cutting,
+                         .exempt = !own || !original.may_split,
+                         .exempt_end = !own || !original.may_insert_words},
+                        step.settled});
+    u0 = step.u;
+  }
+}
+
+namespace {
+
+// Moves the ends of the pieces in `open` to where they put the tip; whether none has moved far.
+bool refine(const Job& job, const NominalTrack& track, const std::vector<std::size_t>& open,
+            std::vector<DraftPiece>& drafts) {
+  std::vector<Piece> pieces;
+  pieces.reserve(open.size());
+  for (const std::size_t i : open) pieces.push_back(drafts[i].piece);
+  const ForwardRun run = solve_forward_from(
+      job, track, pieces, {.before = false, .attribution = false, .inside = false}, std::nullopt);
+  if (run.failure) return true;  // found again where the pieces are solved
+  double largest = 0;
+  for (std::size_t k = 0; k < open.size(); ++k) {
+    Piece &piece = drafts[open[k]].piece, &next = drafts[open[k] + 1].piece;
+    const double whole = length(job.path.segments[piece.segment].wanted);
+    const double step = run.waypoints[k].after.head<3>().dot(run.waypoints[k].direction);
+    const double u = std::clamp(piece.u1 + step / whole, 0.0, inner_end);
+    largest = std::max(largest, std::abs(u - piece.u1) * whole);
+    piece.u1 = next.u0 = u;
+  }
+  return largest < refined_enough;
+}
+
+bool is_jump(const Job& job, const Piece& piece) {
+  if (piece.u1 <= piece.u0) return true;
+  if (piece.u0 > 0 || piece.u1 == 1) return false;
+  const Move& move = job.program.moves[job.path.segments[piece.segment].move];
+  return length_of(job, piece) < jump_length * rounding_allowance(move, job.options.write);
+}
+
+}  // namespace
+
+std::vector<Piece> refined(const Job& job, const NominalTrack& track, std::vector<DraftPiece> drafts) {
+  std::vector<std::size_t> open;
+  for (std::size_t i = 0; i < drafts.size(); ++i)
+    if (!drafts[i].settled) open.push_back(i);
+  for (int k = 0; k < most_refinements && !open.empty(); ++k)
+    if (refine(job, track, open, drafts)) break;
+  std::vector<Piece> pieces;
+  pieces.reserve(drafts.size());
+  std::optional<double> u0;  // where the piece after a jump begins
+  for (DraftPiece& draft : drafts) {
+    Piece& piece = draft.piece;
     if (u0) piece.u0 = *u0;
     u0.reset();
-    if (piece.segment != no_segment && !piece.end_only && piece.u1 < 1) {
-      const Segment& segment = job.path.segments[piece.segment];
-      const double rounding = rounding_allowance(job.program.moves[segment.move], job.options.write);
-      const double length = (piece.u1 - piece.u0) * counterflex::length(segment.wanted);
-      if (length < jump_length * rounding) {
-        u0 = piece.u0;
-        continue;
-      }
-    }
-    kept.push_back(piece);
+    if (piece.segment != no_segment && !piece.end_only && is_jump(job, piece))
+      u0 = std::max(piece.u0, piece.u1);
+    else
+      pieces.push_back(std::move(piece));
   }
-  pieces = std::move(kept);
+  return pieces;
 }
 
 }  // namespace counterflex

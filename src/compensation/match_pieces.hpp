@@ -1,45 +1,52 @@
 #pragma once
 /// The pieces that corrected moves command along the segment of the move that they belong to.
-#include "counterflex/compensation/waypoint.hpp"
+#include "match_moves.hpp"
 #include "path_solver.hpp"
 
 namespace counterflex {
 
-/// Where compensation would have put the tip: what tells pieces and jumps from each other. Solved when asked
-/// for.
-class ExpectedTargets {
- public:
-  explicit ExpectedTargets(const Job& job) : job_(job), solvers_(job) {}
+/// A piece, and whether the fraction at its end is known: it is the segment's, or that of a step of the
+/// force.
+struct DraftPiece {
+  Piece piece;
+  bool settled = true;
+};
 
-  /// The target (M, m) at fraction `u` of a segment, with the force on that side of a step; nothing where
-  /// there is none.
-  std::optional<Vector3> at(std::size_t segment, double u, Side side);
+/// Makes pieces of matched moves. A point inside a segment gets the fraction to which it projects: on a line
+/// along it, on an arc by its angle about the centre, over all turns; no error of a fraction reaches the next
+/// one.
+class PieceMaker {
+ public:
+  PieceMaker(const Job& job, const NominalTrack& track) : job_(job), track_(track), solvers_(job) {}
+
+  /// Appends the pieces of moves that have a segment.
+  void add(const MatchedMoves& matched, std::vector<DraftPiece>& pieces);
 
  private:
+  // A move of the corrected program, and the fraction at which it ends.
+  struct Step {
+    Curve way;
+    int line = 0;
+    double u = -1;  // not yet known
+    bool settled = false;
+    bool jump = false;
+  };
+
+  void read_ways(const MatchedMoves& matched);
+  void find_steps(std::size_t segment);
+  std::size_t find_step(double u, const Vector3& before, const Vector3& after, std::size_t next);
+  void project(const Curve& wanted);
+  std::optional<Vector3> expected(std::size_t segment, double u, Side side);
+
   const Job& job_;
+  const NominalTrack& track_;
   ToolSolver solvers_;
+  std::vector<Step> steps_;  // of one move; the room is used again
 };
 
-/// The moves of the corrected program that belong to one of the original.
-struct MatchedMoves {
-  std::size_t segment;      ///< of the original
-  std::size_t first, last;  ///< indices into the corrected program's moves
-};
-
-/// Appends the pieces that `found` commands. Points on the way get fractions by the length of the way to
-/// them: `refine_fractions` finds the true ones. A jump of the correction gives no piece: what it passes
-/// through is judged by nobody, what follows begins where it ends.
-void add_pieces(const Job& job, const Program& corrected, const MatchedMoves& found,
-                ExpectedTargets& expected, std::vector<Piece>& pieces);
-
-/// An inserted point stands where it puts the tip: its fraction is that of the tip's place along the segment.
-void refine_fractions(const Job& job, std::vector<Piece>& pieces);
-
-/// Takes out pieces that are too short for a fraction of their own.
-void drop_jumps(const Job& job, std::vector<Piece>& pieces);
-
-/// The way of a move of the corrected program as targets in M (m); one whose start is unknown begins at
-/// `from`.
-Curve commanded_by(const Job& job, const Program& corrected, std::size_t move, const Vector3& from);
+/// An inserted point stands where it puts the tip: its fraction is that of the tip's place along the segment,
+/// found from the projected one by Newton's method. A jump of the correction at the start of a segment, and
+/// what goes backwards, gives no piece: what follows begins where it ends, and is judged from there on.
+std::vector<Piece> refined(const Job& job, const NominalTrack& track, std::vector<DraftPiece> drafts);
 
 }  // namespace counterflex

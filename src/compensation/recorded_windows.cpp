@@ -137,8 +137,7 @@ class WindowTaker {
     WindowRecord& record = *flight.record;
     flight.work.plan = {};
     Compensation& result = flight.work.result = std::move(record.result);
-    carried_.corrected.read(result.text);
-    carried_.corrected.take_window(result.corrected);
+    read_back(job, carried_, result);
     if (digest_of_commands(result.corrected) != record.commands) return compensate_what_was_read(job, flight);
     go_on(job.program, exit_of(job.program, state_of(carried_), record.exit), carried_);
   }

@@ -80,6 +80,27 @@ std::string without_motion(const std::string& text, const std::vector<std::strin
   return kept;
 }
 
+// Klartext: without the number of the block, which correction may move to another one.
+std::string without_klartext_number(const std::string& text) {
+  const std::size_t begin = !text.empty() && text[0] == '/' ? 1 : 0;
+  std::size_t end = begin;
+  while (end < text.size() && is_digit(text[end])) ++end;
+  return text.substr(0, begin) + text.substr(end);
+}
+
+// Klartext: without the words L, C, CR and CT at the beginning and the sense DR of an arc.
+std::string without_klartext_motion(std::string text) {
+  const std::size_t begin = !text.empty() && text[0] == '/' ? 1 : 0;
+  for (const std::string_view head : {"CR", "CT", "C", "L"})
+    if (std::string_view(text).substr(begin).starts_with(head)) {
+      text.erase(begin, head.size());
+      break;
+    }
+  const std::size_t comment = std::min(text.find(';'), text.size()), sense = text.find("DR");
+  if (sense < comment) text.erase(sense, std::min<std::size_t>(3, comment - sense));
+  return text;
+}
+
 }  // namespace
 
 std::string skeleton(const Program& program, const Move& move) {
@@ -97,7 +118,8 @@ std::string skeleton(const Program& program, const Move& move) {
   keep(move.block.end);
   std::vector<std::string_view> names{"N"};
   if (move.feed_mode == FeedMode::inverse_time) names.push_back("F");
-  if (move.arc && move.arc->turns > 0) names.insert(names.end(), {"P", "TURN="});
+  if (move.arc) names.insert(names.end(), {"P", "TURN="});
+  if (program.dialect == "heidenhain") return without_klartext_motion(without_klartext_number(text));
   return without_motion(text, names);
 }
 
@@ -105,7 +127,7 @@ bool is_plain(const std::string& skeleton) {
   for (std::size_t i = 0; i < skeleton.size() && skeleton[i] != ';'; ++i) {
     const char c = upper(skeleton[i]);
     if (c == '(') i = std::min(skeleton.find(')', i), skeleton.size() - 1);
-    if (c >= 'A' && c <= 'Z' && c != 'F' && c != 'N') return false;
+    if (c >= 'A' && c <= 'Z' && c != 'F') return false;
   }
   return true;
 }

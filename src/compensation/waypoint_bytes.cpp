@@ -8,7 +8,7 @@
 namespace counterflex {
 namespace {
 
-static_assert(sizeof(Waypoint) == 320 && sizeof(Causes) == 368,
+static_assert(sizeof(Waypoint) == 336 && sizeof(Causes) == 368,
               "what is added to a waypoint is to be kept, too");
 
 // The numbers of a waypoint, as many as there are bits in a mask: most are those of the one before it.
@@ -63,6 +63,7 @@ struct LastNumbers {
 void put_waypoint(const Waypoint& w, LastNumbers& last, std::string& bytes) {
   put(w.segment, bytes);
   put(w.line, bytes);
+  put(w.corrected_line, bytes);
   put(w.iterations, bytes);
   put(w.status, bytes);
   for (const bool flag : {w.cutting, w.between, w.place, w.exempt, w.causes.has_value()}) put(flag, bytes);
@@ -82,6 +83,7 @@ void put_waypoint(const Waypoint& w, LastNumbers& last, std::string& bytes) {
 void get_waypoint(BytesIn& bytes, LastNumbers& last, Waypoint& w) {
   w.segment = bytes.get<std::size_t>();
   w.line = bytes.get<int>();
+  w.corrected_line = bytes.get<int>();
   w.iterations = bytes.get<int>();
   w.status = bytes.get<Status>();
   for (bool* flag : {&w.cutting, &w.between, &w.place, &w.exempt}) *flag = bytes.get<bool>();
@@ -107,7 +109,7 @@ void put_waypoints(const std::vector<Waypoint>& waypoints, std::string& bytes) {
 }
 
 std::vector<Waypoint> get_waypoints(BytesIn& bytes) {
-  constexpr std::size_t least_bytes = 29;
+  constexpr std::size_t least_bytes = 33;
   std::vector<Waypoint> waypoints(bytes.get_count(least_bytes));
   LastNumbers last;
   for (Waypoint& w : waypoints) get_waypoint(bytes, last, w);

@@ -61,6 +61,14 @@ void count_moves(const Job& job, const Emission& emission, Compensation& result)
   others.left += job.program.moves.size() - emission.moves.size();
 }
 
+// Where the last move ends; nothing where it comes from an unknown position.
+std::optional<Vector3> last_command(const Job& job, const Program& corrected) {
+  if (corrected.moves.empty()) return std::nullopt;
+  const Move& last = corrected.moves.back();
+  if (last.cycle || !all_known(last.known_start) || !all_known(last.known_end)) return std::nullopt;
+  return target_of(job, last);
+}
+
 // `read` makes the program of the text.
 template <typename Read>
 void write_text(const Job& job, CarriedState& carried, WindowWork& work, const Read& read) {
@@ -68,6 +76,7 @@ void write_text(const Job& job, CarriedState& carried, WindowWork& work, const R
   Compensation& result = work.result;
   Emission emission = emit(job, work.plan, carried.emitter);
   work.known = std::move(work.plan.known);
+  work.ends = planned_ends(work.plan);
   work.plan = {};
   note_first_corrections(job, emission, result);
   result.left_alone = std::move(emission.left_alone);
@@ -78,9 +87,8 @@ void write_text(const Job& job, CarriedState& carried, WindowWork& work, const R
   result.counts = carried.rewriter.write(job.program, edits);
   result.text = std::move(result.counts.text);
   read(result);
-  work.pieces = emitted_pieces(job, emission, edits, result.counts, result.corrected);
   work.command = carried.command;
-  if (!work.pieces.empty()) carried.command = work.pieces.back().commanded.end;
+  carried.command = last_command(job, result.corrected);
 }
 
 }  // namespace
@@ -100,11 +108,14 @@ void plan_window(const Job& job, WindowWork& work) {
   if (!work.failed()) note_planned_corrections(job, work.plan, work.result);
 }
 
+void read_back(const Job& job, CarriedState& carried, Compensation& result) {
+  carried.corrected.read(result.text);
+  carried.corrected.take_window(result.corrected);
+  if (!job.program.moves.empty()) ignore_axes(result.corrected, job.program.moves.front().ignored);
+}
+
 void write_window(const Job& job, CarriedState& carried, WindowWork& work) {
-  write_text(job, carried, work, [&](Compensation& result) {
-    carried.corrected.read(result.text);
-    carried.corrected.take_window(result.corrected);
-  });
+  write_text(job, carried, work, [&](Compensation& result) { read_back(job, carried, result); });
 }
 
 void write_window(const Job& job, CarriedState& carried, WindowWork& work, const TextRead& read) {
@@ -117,12 +128,23 @@ void write_window(const Job& job, CarriedState& carried, WindowWork& work, const
 
 void verify_window(const Job& job, bool attribution, WindowWork& work) {
   if (work.failed()) return;
-  ForwardRun run =
-      solve_forward_from(job, work.track, work.pieces, {true, attribution, true}, work.command, work.known);
-  work.pieces = {};
+  CorrectedMoves found(work.result.corrected);
+  OtherLines lines;
+  Matching matching = match_window(job, work.track, work.ends, lines, found);
+  if (!matching.failure) matching.failure = match_end(lines, found);
+  solve_matched(job, attribution, matching, work);
+  if (!work.failed()) work.result.failure = tolerance_failure(job, work.result.waypoints);
+}
+
+void solve_matched(const Job& job, bool attribution, Matching& matching, WindowWork& work) {
+  work.result.failure = matching.failure;
+  work.ends = {};
+  if (work.failed()) return;
+  ForwardRun run = solve_forward_from(job, work.track, matching.pieces, {true, attribution, true},
+                                      work.command, work.known);
   work.known = {};
   work.result.waypoints = std::move(run.waypoints);
-  work.result.failure = run.failure ? run.failure : tolerance_failure(job, work.result.waypoints);
+  work.result.failure = run.failure;
 }
 
 }  // namespace counterflex

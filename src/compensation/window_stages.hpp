@@ -3,7 +3,7 @@
 /// where one before it has failed.
 #include "counterflex/compensation/compensate.hpp"
 #include "emit.hpp"
-#include "plan.hpp"
+#include "match.hpp"
 
 namespace counterflex {
 
@@ -13,7 +13,7 @@ struct CarriedState {
   TextReader corrected;
   EmitterState emitter{};
   std::optional<NominalPlace> nominal{};  ///< where the window before ended; none: home
-  std::optional<Vector3> command{};       ///< end of the last piece
+  std::optional<Vector3> command{};       ///< where the text has come, if that is known
 };
 
 /// A window on its way.
@@ -21,8 +21,8 @@ struct WindowWork {
   NominalTrack track{};
   Plan plan{};
   std::vector<KnownSegment> known{};  ///< by segment
-  std::vector<Piece> pieces{};
-  std::optional<Vector3> command{};  ///< end of the last piece of the window before
+  PlannedEnds ends{};
+  std::optional<Vector3> command{};  ///< where the window before ended, if that is known
   Compensation result{};
 
   bool failed() const { return result.failure.has_value(); }
@@ -40,13 +40,19 @@ struct TextRead {
   const Program& program;
 };
 
+/// Reads the text of the window's result back.
+void read_back(const Job& job, CarriedState& carried, Compensation& result);
+
 /// In the order of windows: writes the text and reads it back.
 void write_window(const Job& job, CarriedState& carried, WindowWork& work);
 
 /// The same where that very text has been written and read before.
 void write_window(const Job& job, CarriedState& carried, WindowWork& work, const TextRead& read);
 
-/// In any order: solves what was written forward.
+/// In any order: matches what was written with the window's moves, by its text, and solves it forward.
 void verify_window(const Job& job, bool attribution, WindowWork& work);
+
+/// Its second half, without the tolerance.
+void solve_matched(const Job& job, bool attribution, Matching& matching, WindowWork& work);
 
 }  // namespace counterflex

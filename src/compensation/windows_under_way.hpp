@@ -17,6 +17,7 @@ struct Flight {
   bool is_read = false;
   bool given_up = false;  ///< a window before it has failed
   std::exception_ptr error{};
+  Matching matching{};  ///< of a window that is verified
 
   // Where windows are recorded, or taken over from records.
   enum class Role { compensated, passed, before_part } role = Role::compensated;

@@ -30,7 +30,7 @@ bool keep_worst(double& largest_mm, WorstPlace& place, const Waypoint& w, const 
   const double here_mm = deviation.head<3>().norm() / mm;
   if (place.known && here_mm <= largest_mm) return false;
   largest_mm = here_mm;
-  place = {true, w.s / mm, w.p_MT / mm, operation, w.wrench.head<3>().norm()};
+  place = {true, w.s / mm, w.p_MT / mm, operation, w.wrench.head<3>().norm(), w.corrected_line};
   return true;
 }
 

@@ -283,6 +283,7 @@ Json worst_row_json(const RunReport& report, const WorstRow& row) {
                {"force_N", number(place.force_N, 4)},
                {"causes", parts_json(row.causes, weights, preloads)},
                {"text", row.text}};
+  if (report.command == Command::verify) json["corrected_line"] = place.corrected_line;
   if (place.operation < 0) return json;
   const OperationReport& operation = report.operations[static_cast<std::size_t>(place.operation)];
   json["tool"] = operation.tool;
@@ -327,9 +328,12 @@ Json tools_json(const std::vector<UsedTool>& tools) {
   return list;
 }
 
-Json failure_json(const std::optional<Failure>& failure) {
+Json failure_json(const RunReport& report) {
+  const std::optional<Failure>& failure = report.failure;
   if (!failure) return nullptr;
-  return {{"exit", static_cast<int>(failure->exit)}, {"line", failure->line}, {"what", failure->what}};
+  Json json{{"exit", static_cast<int>(failure->exit)}, {"line", failure->line}, {"what", failure->what}};
+  if (report.command == Command::verify) json["corrected_line"] = failure->corrected_line;
+  return json;
 }
 
 }  // namespace
@@ -349,7 +353,7 @@ std::string to_json(const RunReport& report) {
                    {"inputs", inputs_json(report.facts.inputs)},
                    {"output", output.empty() ? Json(nullptr) : Json(output)},
                    {"options", options_json(report.facts.options)},
-                   {"failure", failure_json(report.failure)},
+                   {"failure", failure_json(report)},
                    {"summary", summary_json(report)},
                    {"feed_moves", feed_moves_json(report)},
                    {"forces", forces_json(report)},

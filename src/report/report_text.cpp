@@ -53,7 +53,9 @@ std::string failure_text(const RunReport& report, const Ink& ink) {
   const std::optional<Failure> ended = report.failure ? report.failure : refusal_of(report);
   if (!ended) return "";
   const Failure& failure = *ended;
-  const std::string where = failure.line > 0 ? fmt::format("line {}: ", failure.line) : "";
+  std::string where = failure.line > 0 ? fmt::format("line {}: ", failure.line) : "";
+  if (report.command == Command::verify && failure.corrected_line > 0)
+    where += fmt::format("line {} of the corrected program: ", failure.corrected_line);
   std::string text = line_break() + ink.bad(report.failure ? "Failed" : "Refused") +
                      fmt::format(" (exit status {})\n", static_cast<int>(failure.exit));
   text += wrapped("  ", where + failure.what, 4);
@@ -148,8 +150,10 @@ std::string worst_text(const RunReport& report, const Ink& ink) {
   text += before_after_row("", "before", report.after ? "after *" : "");
   for (std::size_t i = 0; i < std::min(shown_worst, report.worst.size()); ++i) {
     const WorstRow& worst = report.worst[i];
-    text += before_after_row(fmt::format("line {}", worst.line), mm4(worst.before_mm),
-                report.after ? mm4(worst.after_mm) : "");
+    const int corrected = report.command == Command::verify ? worst.at_after.corrected_line : 0;
+    text += before_after_row(fmt::format("line {}", worst.line) +
+                                 (corrected > 0 ? fmt::format(" (corrected {})", corrected) : ""),
+                             mm4(worst.before_mm), report.after ? mm4(worst.after_mm) : "");
   }
   return text;
 }

@@ -31,7 +31,9 @@ struct WrittenRun {
   };
   Count count() const {
     Count result;
-    for (const Piece& piece : work.pieces) {
+    CorrectedMoves found(work.result.corrected);
+    OtherLines lines;
+    for (const Piece& piece : match_window(job, work.track, work.ends, lines, found).pieces) {
       if (piece.segment == no_segment || piece.u1 != 1) continue;
       const KnownTip& tip = work.known[piece.segment].end.after;
       ++result.ends;

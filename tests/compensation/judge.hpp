@@ -122,17 +122,15 @@ inline std::size_t pieces_on(const Compensation& result, int line) {
 }
 
 /// What `verify` finds of `text` as the corrected form of the shop's program.
-inline ForwardRun judged(const Shop& shop, const std::string& text) {
-  return solve_forward_along(shop.job(), match_programs(shop.job(), read_program(text, "corrected.ngc", {})),
-                             {});
+inline Compensation judged(const Shop& shop, const std::string& text) {
+  return verify(shop.job(), read_program(text, "corrected.ngc", {}), false);
 }
 
 /// The words with which `verify` refuses `text`; empty where it accepts it.
 inline std::string refusal_of(const Shop& shop, const std::string& text) {
   try {
-    const ForwardRun run = judged(shop, text);
-    const auto failure = run.failure ? run.failure : tolerance_failure(shop.job(), run.waypoints);
-    return failure ? failure->what : "";
+    const Compensation run = judged(shop, text);
+    return run.failure ? run.failure->what : "";
   } catch (const InputError& error) {
     return error.what();
   }

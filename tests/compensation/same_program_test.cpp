@@ -16,16 +16,10 @@ const std::string spindle_stop = "G21 G90 G54\nG0 X0 Y0 Z5\nG1 Z0 F100\nX10\nM5\
 /// The exit, line and words with which `changed` is refused as the corrected form of `spindle_stop`.
 std::string refusal(const std::string& changed) {
   const Shop shop({.machine = load_machine(orthoglide_perfect), .text = spindle_stop});
-  const Job job = shop.job();
-  try {
-    const Program program = read_program(changed, "changed.ngc", {});
-    const ForwardRun run = solve_forward_along(job, match_programs(job, program), {});
-    const auto failure = run.failure ? run.failure : tolerance_failure(job, run.waypoints);
-    return failure ? "deviation" : "";
-  } catch (const InputError& error) {
-    CHECK(error.exit() == Exit::not_compensated);
-    return error.what();
-  }
+  const auto failure = verify(shop.job(), read_program(changed, "changed.ngc", {}), false).failure;
+  if (!failure) return "";
+  CHECK(failure->exit == Exit::not_compensated);
+  return fmt::format("{}, original {}: {}", failure->corrected_line, failure->line, failure->what);
 }
 
 std::string replaced(const std::string& what, const std::string& by) {
@@ -47,22 +41,51 @@ TEST_CASE("moves that leave the path and come back are refused") {
 }
 
 TEST_CASE("a line that holds no move has to stay as it is") {
-  CHECK(
-      refusal(replaced("G54", "G55")) ==
-      "changed.ngc:1:1: error: differs from line 1 of the original, which is no move and must stay as it is");
-  CHECK(
-      refusal(replaced("M5\n", "")) ==
-      "changed.ngc:5:1: error: differs from line 5 of the original, which is no move and must stay as it is");
-  CHECK(refusal(replaced("M30\n", "M30\nM3\n")) == "changed.ngc:7:1: error: the original has no such line");
+  const std::string differs = "this line differs from that of the original; it is no move and must stay as it is";
+  CHECK(refusal(replaced("G54", "G55")) == "1, original 1: " + differs);
+  CHECK(refusal(replaced("M5\n", "")) == "5, original 5: " + differs);
+  CHECK(refusal(replaced("M30\n", "M30\nM3\n")) == "7, original 0: the original has no such line");
   CHECK(refusal(replaced("M30\n", "")) ==
-        "changed.ngc:5:1: error: line 6 of the original is missing after this line");
+        "0, original 6: this line of the original is missing at the end of the corrected program");
 }
 
 TEST_CASE("words of a move that correction never changes have to stay") {
-  CHECK(
-      refusal(replaced("F100", "F1000")) ==
-      "part.ngc:3:1: error: no move of the corrected program continues this one with the same words (motion, "
-      "F, S, M) (verify)");
+  CHECK(refusal(replaced("F100", "F1000")) ==
+        "3, original 3: the moves from here on do not end where that of the original does, with the same words "
+        "(motion, F, S, M)");
+}
+
+TEST_CASE("the N of a block belongs to its first piece") {
+  const auto program = [](const std::string& first, const std::string& second) {
+    return fmt::format("G21 G90 G54\nG0 X0 Y0 Z5\n{}\n{}\nG0 Z5\nM30\n", first, second);
+  };
+  const std::string down = "N30 G1 Z0 F100";
+  const std::string wrong =
+      "the N of a block belongs to its first piece, and other pieces of a block without N have none";
+  const auto refused = [&](const std::string& original, const std::string& changed) {
+    const Shop shop({.machine = load_machine(orthoglide_perfect), .text = original});
+    const auto failure = verify(shop.job(), read_program(changed, "changed.ngc", {}), false).failure;
+    return failure ? fmt::format("{}: {}", failure->corrected_line, failure->what) : "";
+  };
+  const std::string numbered = program(down, "N40 X10"), plain = program(down, "X10");
+  CHECK(refused(numbered, program(down, "N40 X5\nX10")).empty());
+  CHECK(refused(numbered, program(down, "N40 X5\nN41 X10")).empty());
+  CHECK(refused(numbered, program(down, "X5\nN40 X10")) == "4: " + wrong);
+  CHECK(refused(numbered, program(down, "X10")) == "4: " + wrong);
+  CHECK(refused(numbered, program("N31 G1 Z0 F100", "N40 X10")) == "3: " + wrong);
+  CHECK(refused(plain, program(down, "X5\nX10")).empty());
+  CHECK(refused(plain, program(down, "X5\nN41 X10")) == "5: " + wrong);
+}
+
+TEST_CASE("numbers of a split Klartext program are those of its own order") {
+  const Shop shop({.machine = load_machine(small_mill),
+                   .text = "0 BEGIN PGM A MM\n1 TOOL CALL 1 Z S1000\n2 L X+0 Y+0 Z+0 R0 FMAX\n3 L X+250 F500\n4 L "
+                           "Y+250\n5 L X+0\n6 END PGM A MM\n",
+                   .force = step_profile("0, 50, 0, 0\n60, 215, -10, -25\n340, 20, 100, -25\n", 2e-3)});
+  const Compensation result = compensated(shop);
+  REQUIRE(result.counts.inserted_blocks > 0);
+  const auto failure = verify(shop.job(), read_program(result.text, "c.h", {}), false).failure;
+  CHECK(!failure);
 }
 
 TEST_CASE("the surface of a Klartext cycle goes along with its holes, and nowhere else") {
@@ -74,13 +97,9 @@ TEST_CASE("the surface of a Klartext cycle goes along with its holes, and nowher
         z, surface);
   };
   const Shop shop({.machine = rigid_gantry("0, 0, 0.01"), .text = program("+10", "+0")});
-  const auto refused = [&](const std::string& changed) -> std::string {
-    try {
-      match_programs(shop.job(), read_program(changed, "changed.h", {}));
-      return "";
-    } catch (const InputError& error) {
-      return error.what();
-    }
+  const auto refused = [&](const std::string& changed) {
+    const auto failure = verify(shop.job(), read_program(changed, "changed.h", {}), false).failure;
+    return failure ? failure->what : "";
   };
   CHECK(refused(program("+9.990", "-0.010")).empty());
   CHECK(refused(program("+9.990", "-0.110")).find("surface of this hole's cycle") != std::string::npos);

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "counterflex/compensation/compensate.hpp"
+#include "counterflex/compensation/verify_windows.hpp"
 #include "counterflex/files/files.hpp"
 #include "counterflex/geometry/units.hpp"
 #include "counterflex/machine/read_machine.hpp"

@@ -56,10 +56,6 @@ Compensation compensate(const Job& job, bool attribution);
 std::optional<Failure> decimals_failure(const Program& program, const Toolpath& path,
                                         const CompensationOptions& options);
 
-/// Pairs the moves of a corrected program with the segments of the original path: the pieces that `verify`
-/// solves. Throws `InputError` (Exit::not_compensated) where a move has no counterpart.
-std::vector<Piece> match_programs(const Job& job, const Program& corrected);
-
 /// The controlled part of a waypoint's `after`: what the tolerance applies to (m).
 double position_miss(const Job& job, const Waypoint& w);
 

@@ -19,7 +19,8 @@ inline constexpr std::size_t no_segment = static_cast<std::size_t>(-1);
 struct Piece {
   std::size_t segment =
       0;         ///< index into Toolpath::segments; no_segment for a position reached from an unknown one
-  int line = 0;  ///< of the original program
+  int line = 0;            ///< of the original program
+  int corrected_line = 0;  ///< of the corrected one; 0: none
   double u0 = 0, u1 = 1;
   std::size_t frame = 0;  ///< index into Toolpath::frames
   Curve commanded;
@@ -71,6 +72,7 @@ struct Waypoint {
   Rare<Causes> causes;                   ///< where they were asked for
   Status status = Status::converged;
   int iterations = 0;
+  int corrected_line = 0;  ///< of the corrected program; 0: none
 };
 
 /// Whether `before` and all causes are known. At other samples only `after` and the causes `higher` and
@@ -118,13 +120,6 @@ struct ForwardState {
 /// The same for the pieces of one window; moves `state` on.
 ForwardRun solve_forward_along(const Job& job, const std::vector<Piece>& pieces, const Questions& questions,
                                ForwardState& state);
-
-using TakeWaypoints = std::function<void(const std::vector<Waypoint>&)>;
-
-/// The same where there are too many pieces for all waypoints to be held: `take` gets them in portions, in
-/// order.
-std::optional<Failure> solve_forward_in_portions(const Job& job, const std::vector<Piece>& pieces,
-                                                 const Questions& questions, const TakeWaypoints& take);
 
 /// The pieces of the original program itself, one for each place of its path.
 std::vector<Piece> original_pieces(const Job& job);

@@ -56,6 +56,7 @@ struct WorstPlace {
   Vector3 place_mm = Vector3::Zero();  ///< wanted tip in M
   std::int32_t operation = -1;         ///< index into RunReport::operations; -1: not known
   double force_N = 0;                  ///< acting there
+  int corrected_line = 0;              ///< of the corrected program; 0: none
 };
 
 /// The sizes of what a deviation is made of: norms, in mm.

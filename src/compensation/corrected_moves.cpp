@@ -1,0 +1,85 @@
+#include "corrected_moves.hpp"
+
+#include <algorithm>
+#include <string_view>
+#include <utility>
+
+namespace counterflex {
+namespace {
+
+// The line without its Klartext block number and without the surface of a drilling cycle, which goes along
+// with its holes. Nothing of a CC, which belongs to the arc behind it.
+std::string statement_of(const Program& program, std::string_view line) {
+  if (program.dialect != "heidenhain") return std::string(line);
+  line.remove_prefix(std::min(line.find_first_not_of(" \t0123456789"), line.size()));
+  if (line.starts_with("CC")) return {};
+  std::string statement(line);
+  const std::size_t surface = statement.find("Q203=");
+  if (surface != std::string::npos)
+    statement.erase(surface, std::min(statement.find(' ', surface), statement.size()) - surface);
+  return statement;
+}
+
+// A comment of the header and nothing else.
+bool is_header(std::string_view line) {
+  if (line.starts_with("; COUNTERFLEX 1") || line.starts_with(";COUNTERFLEX 1")) return true;
+  return line.starts_with("(COUNTERFLEX 1") && line.find(')') == line.size() - 1;
+}
+
+}  // namespace
+
+std::vector<std::size_t> OtherLines::add(const Program& window) {
+  std::vector<std::size_t> counts;
+  counts.reserve(window.moves.size());
+  const std::string_view text = window.text;
+  const bool klartext = window.dialect == "heidenhain";
+  for (std::size_t begin = 0; begin < text.size(); ++lines_before_) {
+    const std::size_t end = std::min(text.find('\n', begin), text.size());
+    std::string_view line = text.substr(begin, end - begin);
+    begin = end + 1;
+    bool moves = false;
+    for (; counts.size() < window.moves.size() && window.moves[counts.size()].block.begin <= end; moves = true)
+      counts.push_back(count_);
+    if (moves) continue;
+    if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
+    std::string statement = statement_of(window, line);
+    if (is_header(statement) || (klartext && statement.empty())) continue;
+    lines.push_back({line_of_file(window.expansion, lines_before_ + 1), std::move(statement)});
+    ++count_;
+  }
+  return counts;
+}
+
+const CorrectedMove* CorrectedMoves::at(std::size_t index) {
+  while (first_ + index >= moves_.size())
+    if (!read_on()) return nullptr;
+  return &moves_[first_ + index];
+}
+
+void CorrectedMoves::drop(std::size_t count) {
+  first_ += count;
+  while (!windows_.empty() && (first_ == moves_.size() || moves_[first_].program != &windows_.front()))
+    windows_.pop_front();
+}
+
+bool CorrectedMoves::read_on() {
+  if (!read_) return false;
+  Program window;
+  if (!read_(window)) {
+    read_ = nullptr;
+    return false;
+  }
+  moves_.erase(moves_.begin(), moves_.begin() + static_cast<std::ptrdiff_t>(first_));
+  first_ = 0;
+  add(windows_.emplace_back(std::move(window)));
+  drop(0);
+  return true;
+}
+
+void CorrectedMoves::add(const Program& window) {
+  const std::vector<std::size_t> before = other_lines_.add(window);
+  moves_.reserve(moves_.size() + before.size());
+  for (std::size_t m = 0; m < before.size(); ++m) moves_.push_back({&window, &window.moves[m], before[m]});
+}
+
+}  // namespace counterflex

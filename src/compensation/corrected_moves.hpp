@@ -1,0 +1,67 @@
+#pragma once
+/// The moves of a corrected program in order, read on as they are asked for.
+#include <deque>
+#include <functional>
+#include <vector>
+
+#include "counterflex/compensation/options.hpp"
+
+namespace counterflex {
+
+/// A line of a program that holds no move: it has to be the original's.
+struct OtherLine {
+  int line = 0;  ///< of the file
+  std::string text;
+};
+
+/// The lines without a move of a program that is read in windows, the header aside. An inserted block stands
+/// beside the block that it belongs to: both have the same number of such lines before them.
+class OtherLines {
+ public:
+  /// Takes in the next window; by move the number of lines without a move before it, from the program's
+  /// beginning on.
+  std::vector<std::size_t> add(const Program& window);
+
+  std::deque<OtherLine> lines{};  ///< that were not compared yet
+
+ private:
+  int lines_before_ = 0;    // of the text, before the window
+  std::size_t count_ = 0;  // without a move
+};
+
+/// A move with the text that holds it.
+struct CorrectedMove {
+  const Program* program;
+  const Move* move;
+  std::size_t others;  ///< lines without a move before it, from the program's beginning on
+};
+
+class CorrectedMoves {
+ public:
+  using ReadWindow = std::function<bool(Program&)>;  ///< the next window; false: there is none
+
+  explicit CorrectedMoves(ReadWindow read) : read_(std::move(read)) {}
+  explicit CorrectedMoves(const Program& whole) { add(whole); }
+  CorrectedMoves(const CorrectedMoves&) = delete;
+
+  /// The move `index` places on, until more is read; null behind the last one.
+  const CorrectedMove* at(std::size_t index);
+
+  /// Goes on: the first `count` moves are done with.
+  void drop(std::size_t count);
+
+  /// Of what has been read.
+  OtherLines& other_lines() { return other_lines_; }
+
+ private:
+  bool read_on();
+  void add(const Program& window);
+
+  ReadWindow read_;
+  std::deque<Program> windows_;  // that hold moves from `first_` on
+  std::vector<CorrectedMove> moves_;
+  std::size_t first_ = 0;
+  OtherLines other_lines_;
+};
+
+}  // namespace counterflex

@@ -1,0 +1,34 @@
+#pragma once
+/// Pairs the moves of a corrected program, as its text is read, with those of the original: what `verify`
+/// and the verification inside `compensate` solve. Nothing of how the text was written is known here.
+#include <optional>
+#include <vector>
+
+#include "corrected_moves.hpp"
+#include "counterflex/compensation/waypoint.hpp"
+#include "plan.hpp"
+#include "track.hpp"
+
+namespace counterflex {
+
+/// Where a plan ends each segment (M, m); nothing where it does not correct the segment by itself. They only
+/// tell the end of a move from points that were inserted before it.
+using PlannedEnds = std::vector<std::optional<Vector3>>;
+PlannedEnds planned_ends(const Plan& plan);
+
+/// What is paired with what is still to be written down.
+struct Matching {
+  std::vector<Piece> pieces;
+  std::optional<Failure> failure;  ///< names the lines of both programs
+};
+
+/// The pieces that the next moves of `found` command along the moves of a window; these are dropped from
+/// `found`. `lines`: of the original, up to this window. A failure is a move that has no counterpart, one of
+/// another kind, sense or number of turns, or another line that differs.
+Matching match_window(const Job& job, const NominalTrack& track, const PlannedEnds& ends, OtherLines& lines,
+                      CorrectedMoves& found);
+
+/// Behind the last window: the failure of what is left over in either program.
+std::optional<Failure> match_end(OtherLines& lines, CorrectedMoves& found);
+
+}  // namespace counterflex

@@ -1,0 +1,155 @@
+#include "match_kind.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "counterflex/compensation/compensate.hpp"
+#include "counterflex/geometry/units.hpp"
+
+namespace counterflex {
+namespace {
+
+constexpr double sweep_room = std::numbers::pi / 2;  // less than any difference of turns or of sense
+constexpr double roundings = 4;                      // of a start, an end and a centre, and of the original's
+
+const char* name_of(const Move& move) {
+  if (move.cycle) return "a hole of a cycle";
+  if (move.motion == Motion::rapid) return "a rapid";
+  return move.arc ? "an arc" : "a line";
+}
+
+const char* plane_of(const ArcMove& arc) {
+  return arc.normal == 2 ? "X Y" : arc.normal == 1 ? "Z X" : "Y Z";
+}
+
+double in_plane(const Vector3& v, int normal) {
+  return (v - v[normal] * Vector3::Unit(normal)).norm();
+}
+
+// Compares the moves that command one move of the original.
+class KindComparison {
+ public:
+  KindComparison(const Job& job, const MatchedMoves& matched)
+      : matched_(matched),
+        original_(matched.original),
+        rounding_mm_(rounding_allowance(original_, job.options.write) / mm),
+        tolerance_mm_(job.options.tolerance / mm),
+        most_shift_mm_((job.options.max_correction + job.path.frames[original_.offset].datum_shift.norm()) / mm) {}
+
+  std::optional<Failure> run() {
+    for (std::size_t i = 0; i < matched_.found.size() && !failure_; ++i) compare(i);
+    if (original_.arc && !failure_) compare_sweeps();
+    if (!matched_.segment && !failure_) compare_unjudged(*matched_.found.back().move);
+    return std::move(failure_);
+  }
+
+ private:
+  void fail(const Move& found, std::string what) {
+    failure_ = Failure{Exit::not_compensated, original_.line, std::move(what), found.line};
+  }
+
+  void compare(std::size_t i) {
+    const Move& found = *matched_.found[i].move;
+    const bool last = i + 1 == matched_.found.size();
+    const bool jump = i == 0 && !last && !found.arc && found.motion == Motion::feed;
+    const bool same_motion = found.motion == original_.motion && !found.cycle == !original_.cycle;
+    if (jump && (!same_motion || !original_.arc)) return;  // what follows it is judged from its end on
+    if (!same_motion || (found.arc && !original_.arc)) return fail_kind(found);
+    if (!original_.arc) return;
+    if (!found.arc) return compare_chord(found, jump);
+    const ArcMove &wanted = *original_.arc, &arc = *found.arc;
+    if (arc.normal != wanted.normal)
+      return fail(found, fmt::format("this arc lies in the plane {}, that of the original in {}", plane_of(arc),
+                                     plane_of(wanted)));
+    if (arc.clockwise != wanted.clockwise)
+      return fail(found, fmt::format("this arc goes {}, that of the original {}",
+                                     arc.clockwise ? "clockwise" : "counter-clockwise",
+                                     wanted.clockwise ? "clockwise" : "counter-clockwise"));
+    if (matched_.found.size() == 1) compare_one_arc(found);
+    sweep_ += curve_of(found).arc->sweep;
+  }
+
+  void fail_kind(const Move& found) {
+    fail(found, fmt::format("this block is {}, that of the original is {}", name_of(found), name_of(original_)));
+  }
+
+  double radius_mm() const { return in_plane(original_.end_mm - original_.arc->centre_mm, original_.arc->normal); }
+
+  // A chord may stand for a part of the arc from which it keeps within the tolerance.
+  void compare_chord(const Move& found, bool may_be_jump) {
+    const double radius = radius_mm(), chord = in_plane(found.end_mm - found.start_mm, original_.arc->normal);
+    const double half = std::asin(std::min(1.0, chord / 2 / radius)), sagitta = radius * (1 - std::cos(half));
+    const double room = tolerance_mm_ + roundings * rounding_mm_;
+    const bool known = all_known(found.known_start) && all_known(original_.known_start);
+    if (may_be_jump && chord <= 2 * most_shift_mm_ && sagitta <= room) return;
+    if (!known || (sagitta > room && matched_.found.size() == 1)) return fail_kind(found);
+    if (sagitta > room)
+      return fail(found, fmt::format("this chord leaves the arc of the original by {:.4f} mm, the tolerance is {:.4f} mm",
+                                     sagitta, tolerance_mm_));
+    sweep_ += 2 * half;
+  }
+
+  // What is shifted as it is keeps its centre, seen from its start, and its radius.
+  void compare_one_arc(const Move& found) {
+    const ArcMove &wanted = *original_.arc, &arc = *found.arc;
+    const double room = roundings * rounding_mm_ + 1e-6;
+    if (arc.turns != wanted.turns)
+      return fail(found, fmt::format("this arc makes {} full turns more than the way to its end, that of the "
+                                     "original {}",
+                                     arc.turns, wanted.turns));
+    const bool rigid = original_.handling != Handling::own || !all_known(original_.known_start);
+    if (!rigid) return;
+    const Vector3 from = wanted.absolute_centre ? original_.end_mm : original_.start_mm,
+                  found_from = arc.absolute_centre ? found.end_mm : found.start_mm;
+    const Vector3 off = (arc.centre_mm - found_from) - (wanted.centre_mm - from);
+    const bool by_radius = wanted.radius_word && arc.radius_word;
+    const double miss = by_radius ? std::abs(arc.radius_mm - wanted.radius_mm) : in_plane(off, wanted.normal);
+    if (miss > room)
+      fail(found, fmt::format("the {} of this arc is off by {:.4f} mm", by_radius ? "radius" : "centre", miss));
+  }
+
+  void compare_sweeps() {
+    const Move& found = *matched_.found.back().move;
+    if (!all_known(original_.known_start) || !all_known(found.known_start)) return;
+    const double wanted = curve_of(original_).arc->sweep, off = std::abs(sweep_ - wanted);
+    if (off <= sweep_room || off * radius_mm() <= roundings * tolerance_mm_) return;
+    fail(found, fmt::format("the arcs up to here turn by {:.1f} degrees, the arc of the original by {:.1f}",
+                            sweep_ / deg, wanted / deg));
+  }
+
+  // Moves that give no segment keep a correction: their words are shifted by no more than it may be, and what
+  // stays where it is does so in both programs.
+  void compare_unjudged(const Move& found) {
+    const bool known = all_known(original_.known_start) && all_known(original_.known_end);
+    if (known && !original_.cycle && all_known(found.known_start)) {
+      const double way = (found.end_mm - found.start_mm).norm();
+      if (way > tolerance_mm_ + roundings * rounding_mm_)
+        return fail(found, fmt::format("this move goes {:.4f} mm, that of the original stays where it is", way));
+    }
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const auto k = static_cast<Eigen::Index>(axis);
+      if (!original_.words[axis] || !found.words[axis] || original_.fixed[axis]) continue;
+      double shift = found.end_mm[k] - original_.end_mm[k];
+      if (original_.relative && found.relative) shift -= found.start_mm[k] - original_.start_mm[k];
+      if (std::abs(shift) <= most_shift_mm_ + roundings * rounding_mm_) continue;
+      return fail(found, fmt::format("{} is shifted by {:.4f} mm, the limit of a correction is {:.4f} mm",
+                                     "XYZ"[axis], shift, most_shift_mm_));
+    }
+  }
+
+  const MatchedMoves& matched_;
+  const Move& original_;
+  const double rounding_mm_, tolerance_mm_, most_shift_mm_;
+  double sweep_ = 0;  // of the arcs and chords so far
+  std::optional<Failure> failure_;
+};
+
+}  // namespace
+
+std::optional<Failure> kind_failure(const Job& job, const MatchedMoves& matched) {
+  return KindComparison(job, matched).run();
+}
+
+}  // namespace counterflex
