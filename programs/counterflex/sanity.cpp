@@ -97,7 +97,7 @@ SanityChecks program_sanity(const PlacedProgram& placed) {
                                       machine.allows_inverted_tool),
                       check_tip_stiffness(tip_stiffness(model, {}), "at home"),
                       check_tool_lengths(placed.lengths.mm, placed.program.tools, machine.X_PS.has_value()),
-                      check_work_offset(selected_offsets(placed.program), !machine.work.empty())};
+                      check_work_offset(selected_offsets(placed.program), !machine.work.empty() || machine.work_is_machine_frame)};
   append(checks, check_magnitudes(machine));
   return checks;
 }

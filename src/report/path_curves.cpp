@@ -216,6 +216,7 @@ bool PathCurves::begin_at_rapid(const Waypoint& w, std::int32_t operation, const
   if (gap > joined) return false;
   start.line = w.line;
   start.s = s_mm_ * mm;
+  start.place = true;
   start.direction = w.direction;
   Stretch stretch = stretch_of(start, known_);
   stretch.operation = operation;

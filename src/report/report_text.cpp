@@ -234,7 +234,7 @@ std::string not_modelled_text(const RunReport& report) {
 
 std::string assumptions_text(const RunReport& report, const Ink& ink) {
   return line_break() + ink.bold("Assumptions") + "\n" + wrapped("  ", report.work, 2) +
-         wrapped("  ", report.datum, 2) +
+         (report.datum.empty() ? "" : wrapped("  ", report.datum, 2)) +
          (report.tools.empty() ? "" : wrapped("  ", report.tools_assumed, 2)) +
          (report.gravity.empty() ? "" : wrapped("  ", report.gravity, 2)) + not_modelled_text(report);
 }
