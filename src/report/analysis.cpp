@@ -59,7 +59,10 @@ Solved solve_linear(const Model& model, const Configuration& nominal, const Load
 
 Solved solve_finite(const Model& model, const Configuration& nominal, const Pose& X_MT, const Load& load,
                     StaticsWork& work) {
-  const Equilibrium loaded = solve_forward(model, nominal, load, everything, work);
+  Equilibrium loaded = solve_forward(model, nominal, load, everything, work);
+  if (loaded.status == Status::converged && !load.F.isZero(0) &&
+      !is_reached_by_load_alone(model, nominal, load, everything, loaded, work))
+    loaded.status = Status::unstable;
   const Vector6 d = deviation(tip(model.mechanism, loaded.configuration), X_MT);
   return {loaded.status,       d, loaded.configuration, loaded.configuration, everything, loaded.weakest,
           loaded.indeterminate};

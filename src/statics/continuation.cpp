@@ -9,7 +9,11 @@ namespace {
 constexpr double largest_condition = 1e10;
 constexpr double first_step = 0.25, smallest_step = 1.0 / 1024;
 
-Stage part_of(const Stage& goal, double s) { return {s * goal.errors, s * goal.load, s * goal.preload, s * goal.gravity}; }
+Stage between(const Stage& from, const Stage& goal, double s) {
+  const auto at = [s](double a, double b) { return a + s * (b - a); };
+  return {at(from.errors, goal.errors), at(from.load, goal.load), at(from.preload, goal.preload),
+          at(from.gravity, goal.gravity)};
+}
 
 // From `before` through `now`, `ratio` times as far again.
 void go_on(const SeriesState& before, double ratio, SeriesState& now) {
@@ -100,16 +104,16 @@ void judge(const Model& model, const Problem& problem, StaticsWork::Impl& work, 
     result.status = Status::unstable;
 }
 
-Equilibrium continue_from(const Model& model, const Configuration& nominal, Problem problem, const EquilibriumSolver& solve,
-                          StaticsWork::Impl& work) {
+Equilibrium continue_from(const Model& model, const Configuration& start, const Stage& from, Problem problem,
+                          const EquilibriumSolver& solve, StaticsWork::Impl& work) {
   const Stage goal = problem.stage;
   Equilibrium result;
   std::optional<Followed> before;
-  Followed now{0, nominal, true};
+  Followed now{0, start, true};
   double step = first_step;
   while (now.s < 1) {
     Followed next{std::min(1.0, now.s + step), {}};
-    problem.stage = part_of(goal, next.s);
+    problem.stage = between(from, goal, next.s);
     if (!advances(model, problem, solve, before, now, work, next, result.iterations)) {
       if ((step /= 2) >= smallest_step) continue;
       result.configuration = std::move(now.configuration);

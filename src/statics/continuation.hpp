@@ -1,5 +1,5 @@
 #pragma once
-/// Following an equilibrium from the nominal configuration while errors, load and preloads grow.
+/// Following an equilibrium while errors, load, preloads and weights grow.
 #include <functional>
 
 #include "newton.hpp"
@@ -8,10 +8,10 @@ namespace counterflex {
 
 using EquilibriumSolver = std::function<NewtonResult(const Problem&, StaticsWork::Impl&, Configuration&)>;
 
-/// In at least four steps, smaller where one does not converge, stability watched at each. `solve` must leave the works
-/// evaluated at its solution.
-Equilibrium continue_from(const Model& model, const Configuration& nominal, Problem problem, const EquilibriumSolver& solve,
-                          StaticsWork::Impl& work);
+/// From the equilibrium `start` of stage `from` to the stage of `problem`, in at least four steps, smaller where one does not
+/// converge, stability watched at each. `solve` must leave the works evaluated at its solution.
+Equilibrium continue_from(const Model& model, const Configuration& start, const Stage& from, Problem problem,
+                          const EquilibriumSolver& solve, StaticsWork::Impl& work);
 
 /// One solve from a start of the caller's choice, judged like the end of a continuation.
 Equilibrium refine(const Model& model, const Configuration& start, const Problem& problem, const EquilibriumSolver& solve,

@@ -12,7 +12,7 @@ StaticsWork::StaticsWork(StaticsWork&&) noexcept = default;
 
 Equilibrium solve_forward(const Model& model, const Configuration& nominal, const Load& load, const Stage& goal,
                           StaticsWork& work) {
-  return continue_from(model, nominal, {load, goal, nullptr}, newton_solver(model), work.impl());
+  return continue_from(model, nominal, nominal_stage, {load, goal, nullptr}, newton_solver(model), work.impl());
 }
 
 Equilibrium refine_forward(const Model& model, const Configuration& start, const Load& load, const Stage& goal,
@@ -20,9 +20,23 @@ Equilibrium refine_forward(const Model& model, const Configuration& start, const
   return refine(model, start, {load, goal, nullptr}, newton_solver(model), work.impl());
 }
 
+bool is_reached_by_load_alone(const Model& model, const Configuration& nominal, const Load& load, const Stage& goal,
+                              const Equilibrium& loaded, StaticsWork& work) {
+  constexpr double same_place = 1e-6;  // units of length
+  Stage unloaded = goal;
+  unloaded.load = 0;
+  const Equilibrium rest = solve_forward(model, nominal, load, unloaded, work);
+  if (rest.status != Status::converged) return true;
+  const Equilibrium found =
+      continue_from(model, rest.configuration, unloaded, {load, goal, nullptr}, newton_solver(model), work.impl());
+  const Vector6 apart = difference(found.configuration.X_MP, loaded.configuration.X_MP);
+  return found.status == Status::converged &&
+         apart.cwiseQuotient(Units{model.mechanism.length}.of_pose()).norm() <= same_place;
+}
+
 Equilibrium solve_target(const Model& model, const Configuration& nominal, const Pose& X_MT, const Load& load,
                          const Stage& goal, StaticsWork& work) {
-  return continue_from(model, nominal, {load, goal, &X_MT}, newton_solver(model), work.impl());
+  return continue_from(model, nominal, nominal_stage, {load, goal, &X_MT}, newton_solver(model), work.impl());
 }
 
 Equilibrium refine_target(const Model& model, const Configuration& start, const Pose& X_MT, const Load& load,

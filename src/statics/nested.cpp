@@ -86,7 +86,7 @@ Equilibrium solve_target_nested(const Model& model, const Configuration& nominal
   const EquilibriumSolver by_chains = [&](const Problem& p, StaticsWork::Impl&, Configuration& c) {
     return equilibrium_by_chains(model, p, c, work);
   };
-  Equilibrium result = continue_from(model, nominal, problem, by_chains, work.impl());
+  Equilibrium result = continue_from(model, nominal, nominal_stage, problem, by_chains, work.impl());
   Configuration commanded = nominal;
   Pose X_t0F = tip(model.mechanism, nominal);
   double error = std::numeric_limits<double>::infinity(), alpha = 1;

@@ -382,3 +382,13 @@ TEST_CASE("an analysis says that the machine's own weight acts") {
   CHECK(to_text(analyze(model, {at_mm(0, 0, 0)}, cut, Method::direct, "0.1.0"))
             .find("and the machine's own weight\n") != std::string::npos);
 }
+
+TEST_CASE("an analysis calls a state unstable that the load alone does not lead to") {
+  const Model model = model_of("lifted_truss");
+  const auto status_under = [&](double N) {
+    const Load load{(Vector6() << 0, 0, -N, 0, 0, 0).finished(), false};
+    return analyze(model, {at_mm(0, 0, 5)}, load, Method::direct, "0.1.0").poses.front().status;
+  };
+  CHECK(status_under(30) == Status::converged);
+  CHECK(status_under(100) == Status::unstable);
+}

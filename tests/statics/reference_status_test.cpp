@@ -162,3 +162,24 @@ TEST_CASE("a truss pushed past its snap-through does not pass for converged on i
   CHECK(bench.tip(before.configuration).p.z() > 0.03);
   CHECK(after.status != Status::converged);
 }
+
+TEST_CASE("a state that the load alone does not lead to is told from one that it does") {
+  Bench bench(reference_machine("lifted_truss"));
+  REQUIRE(bench.model.home_status == Status::converged);
+  const auto pushed = [&](double N) {
+    return Load{(Vector6() << 0, 0, -N, 0, 0, 0).finished()};
+  };
+  const auto height = [&](const Load& load, bool& reached) {
+    const Equilibrium found = solve_forward(bench.model, bench.model.home, load, all, bench.work);
+    REQUIRE(found.status == Status::converged);
+    reached = is_reached_by_load_alone(bench.model, bench.model.home, load, all, found, bench.work);
+    return bench.tip(found.configuration).p.z();
+  };
+  for (const double N : {0.0, 10.0, 30.0, 100.0}) {
+    CAPTURE(N);
+    bool reached = false;
+    const double z = height(pushed(N), reached);
+    CHECK(reached == (z > 0));
+    CHECK(reached == (N < 50));
+  }
+}

@@ -40,7 +40,13 @@ class StaticsWork {
 Equilibrium solve_forward(const Model& model, const Configuration& nominal, const Load& load, const Stage& goal,
                           StaticsWork& work);
 
-/// The same from a start of the caller's choice (its x_nominal says what the springs' rest values are relative to),
+/// Whether the load leads to `loaded` also if it grows last, on the machine with its errors, preloads and weights. `loaded`
+/// is a converged result of `solve_forward`, where everything grows together. A machine that snaps through in one of the
+/// two orders gives false. True if the machine without the load has no stable equilibrium.
+bool is_reached_by_load_alone(const Model& model, const Configuration& nominal, const Load& load, const Stage& goal,
+                              const Equilibrium& loaded, StaticsWork& work);
+
+/// `solve_forward` from a start of the caller's choice (its x_nominal says what the springs' rest values are relative to),
 /// without the continuation: a warm start beside a solution, or a buckled one.
 Equilibrium refine_forward(const Model& model, const Configuration& start, const Load& load, const Stage& goal,
                            StaticsWork& work);
