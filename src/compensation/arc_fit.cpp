@@ -12,7 +12,7 @@ namespace counterflex {
 namespace {
 
 constexpr int least_fit_samples = 16;
-constexpr double fit_angle = std::numbers::pi / 8;  // samples are at most so far apart, on all turns
+constexpr double fit_angle = std::numbers::pi / 16;  // samples are at most so far apart, on all turns
 constexpr int fit_iterations = 4;
 constexpr double fit_step_mm = 1e-4;       // of numerical derivatives
 constexpr double pull_to_source = 4e-4;    // where the curve hardly tells the centre it stays where it was
@@ -26,18 +26,26 @@ struct Sample {
   Vector3 p_mm;  // commanded
 };
 
-std::vector<Sample> samples_of(const ArcTask& task, const ArcPiece& piece) {
+// The fraction that a written end of a piece stands for: rounding moves it along the curve. Where the
+// stretch begins or ends it stands for that.
+double fraction_at(const ArcTask& task, double u, const Vector3& written) {
+  if (u == task.begin || u == task.end) return u;
+  const double along_mm = (written - task.commanded(u)).dot(direction_at(task.source, u));
+  return u + along_mm / length(task.source);
+}
+
+// `u0` and `u1`: fractions at the ends of a piece.
+std::vector<Sample> samples_of(const ArcTask& task, double u0, double u1) {
   std::vector<Sample> all;
-  const double span = piece.u1 - piece.u0;
+  const double span = u1 - u0;
   const int by_angle = static_cast<int>(std::ceil(span * task.source.arc->sweep / fit_angle)),
             count = std::max(least_fit_samples, by_angle);
   for (int k = 1; k <= count; ++k) {
     const double v = static_cast<double>(k) / count;
-    all.push_back({v, task.commanded(k == count ? piece.u1 : piece.u0 + v * span)});
+    all.push_back({v, task.commanded(k == count ? u1 : u0 + v * span)});
   }
   for (double corner : task.corners)
-    if (corner > piece.u0 && corner < piece.u1)
-      all.push_back({(corner - piece.u0) / span, task.commanded(corner)});
+    if (corner > u0 && corner < u1) all.push_back({(corner - u0) / span, task.commanded(corner)});
   return all;
 }
 
@@ -93,16 +101,17 @@ double miss_of(const Curve& curve, const std::vector<Sample>& wanted) {
 class PieceFit {
  public:
   PieceFit(const ArcTask& task, const ArcPiece& piece)
-      : task_(task), piece_(piece), plane_(plane_of(task.move)), samples_(samples_of(task, piece)) {
+      : task_(task), piece_(piece), plane_(plane_of(task.move)), end_(task.commanded(piece.u1)) {
     for (Eigen::Index axis = 0; axis < 3; ++axis) start_[axis] = *piece.from[static_cast<std::size_t>(axis)];
-    end_ = task.commanded(piece.u1);
+    kept_ = start_ + task.source.arc->centre - point_at(task.source, piece.u0);
+    const Vector3 read_end = as_written(task.move, piece.from, {end_, kept_}, piece.is_end, task.options).end;
+    samples_ = samples_of(task, fraction_at(task, piece.u0, start_), fraction_at(task, piece.u1, read_end));
   }
 
   FittedArc run() const {
-    const Vector3 kept = start_ + task_.source.arc->centre - point_at(task_.source, piece_.u0);
-    FittedArc best = written(kept);
+    FittedArc best = written(kept_);
     if (best.sound && best.miss_mm <= centre_kept_share * task_.tolerance_mm) return best;
-    const Vector3 fitted = fitted_centre(kept, best.read.arc ? best.read.end : end_);
+    const Vector3 fitted = fitted_centre(best.read.arc ? best.read.end : end_);
     take_better(written(fitted), best);
     if (!best.sound || best.miss_mm > task_.tolerance_mm) try_neighbours(fitted, best);
     return best;
@@ -138,7 +147,7 @@ class PieceFit {
     Vector3 foot, across;
   };
 
-  std::optional<CentreLine> centre_line(const Vector3& end, const Vector3& kept) const {
+  std::optional<CentreLine> centre_line(const Vector3& end) const {
     const Arc& arc = *task_.source.arc;
     Vector3 chord = end - start_;
     chord -= chord.dot(arc.normal) * arc.normal;
@@ -147,7 +156,7 @@ class PieceFit {
     const double difference =
         (piece_.u1 - piece_.u0) * (radius(arc, task_.source.end) - radius(arc, task_.source.start));
     Vector3 foot = start_ + chord / 2 - difference * radius(arc, task_.source.start) / size * (chord / size);
-    foot += (kept - foot).dot(arc.normal) * arc.normal;
+    foot += (kept_ - foot).dot(arc.normal) * arc.normal;
     return CentreLine{foot, arc.normal.cross(chord / size)};
   }
 
@@ -161,10 +170,10 @@ class PieceFit {
   }
 
   // Gauss-Newton on the mean square of the misses, pulled a little to where the centre stood.
-  Vector3 fitted_centre(const Vector3& kept, const Vector3& end) const {
-    const std::optional<CentreLine> line = centre_line(end, kept);
-    if (!line) return kept;
-    const double h_kept = (kept - line->foot).dot(line->across);
+  Vector3 fitted_centre(const Vector3& end) const {
+    const std::optional<CentreLine> line = centre_line(end);
+    if (!line) return kept_;
+    const double h_kept = (kept_ - line->foot).dot(line->across);
     const double pull = pull_to_source * static_cast<double>(samples_.size());
     double h = h_kept;
     Eigen::VectorXd r, beside;
@@ -181,7 +190,8 @@ class PieceFit {
   const ArcPiece& piece_;
   std::array<Eigen::Index, 2> plane_;
   std::vector<Sample> samples_;
-  Vector3 start_ = Vector3::Zero(), end_ = Vector3::Zero();
+  Vector3 start_ = Vector3::Zero(), end_;
+  Vector3 kept_ = Vector3::Zero();  // the centre where it stood, seen from the start
 };
 
 }  // namespace

@@ -13,6 +13,7 @@ struct ArcTask {
   const WriteOptions& options;
   Curve source;        ///< the move's own way, program coordinates (mm)
   VectorAt commanded;  ///< wanted position and correction at a fraction of it, program coordinates (mm)
+  double begin = 0, end = 1;    ///< fractions between which `commanded` has no step
   std::vector<double> corners;  ///< fractions where the correction has corners
   double tolerance_mm = 0;      ///< of the commanded curve, at equal fractions
   double chord_room_mm = 0;     ///< what chords may leave of it between their ends; 0: rounding takes it all
@@ -30,7 +31,7 @@ struct FittedArc {
   Via via;
   Curve read;  ///< what a control reads
   double miss_mm =
-      0;  ///< from the commanded curve, at corners and 16 places or more, at most 22.5 degrees apart
+      0;  ///< from the commanded curve, at corners and 16 places or more, at most 11.25 degrees apart
   bool sound = false;  ///< radius rules of controls hold, and its sweep is the wanted one
 };
 

@@ -52,6 +52,8 @@ ArcTask Emitter::arc_task(const Segment& segment, const PlannedSegment& planned,
               [&segment, &stretch, X_WM](double u) {
                 return Vector3(X_WM * (point_at(segment.wanted, u) + stretch.at(u)) / mm);
               },
+          .begin = stretch.begin(),
+          .end = stretch.end(),
           .corners = job_.forces.breaks(s),
           .tolerance_mm = (1 - sampling_share) * job_.options.tolerance / planned.gain / mm,
           .chord_room_mm = room_between_points(job_, segment, planned.gain).value_or(0) / mm};
