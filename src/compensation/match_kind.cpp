@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "arc_angles.hpp"
 #include "counterflex/compensation/compensate.hpp"
 #include "counterflex/geometry/units.hpp"
 
@@ -68,7 +69,16 @@ class KindComparison {
                                      arc.clockwise ? "clockwise" : "counter-clockwise",
                                      wanted.clockwise ? "clockwise" : "counter-clockwise"));
     if (matched_.found.size() == 1) compare_one_arc(found);
-    sweep_ += curve_of(found).arc->sweep;
+    add_sweep(found);
+  }
+
+  // About the centre where the correction at the start puts it.
+  void add_sweep(const Move& found) {
+    const Move& first = *matched_.found.front().move;
+    if (!all_known(original_.known_start) || !all_known(first.known_start)) return;
+    Arc axis = *curve_of(original_).arc;
+    axis.centre += first.start_mm - original_.start_mm;
+    sweep_ += angle_about(axis, curve_of(found));
   }
 
   void fail_kind(const Move& found) {
@@ -85,10 +95,11 @@ class KindComparison {
     const bool known = all_known(found.known_start) && all_known(original_.known_start);
     if (may_be_jump && chord <= 2 * most_shift_mm_ && sagitta <= room) return;
     if (!known || (sagitta > room && matched_.found.size() == 1)) return fail_kind(found);
-    if (sagitta > room)
+    const bool judged = matched_.segment && original_.handling == Handling::own && original_.may_split;
+    if (sagitta > room && !judged)
       return fail(found, fmt::format("this chord leaves the arc of the original by {:.4f} mm, the tolerance is {:.4f} mm",
                                      sagitta, tolerance_mm_));
-    sweep_ += 2 * half;
+    add_sweep(found);
   }
 
   // What is shifted as it is keeps its centre, seen from its start, and its radius.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "arc_angles.hpp"
 #include "commands.hpp"
 #include "counterflex/compensation/compensate.hpp"
 #include "counterflex/geometry/units.hpp"
@@ -66,15 +67,24 @@ std::size_t MoveFinder::count(const Move& original, std::optional<std::size_t> s
   const Curve curve = curve_of(original);
   const double length_mm = length(curve), near_mm = digits_share * rounding_allowance(original, job_.options.write) / mm;
   double slack_mm = 2 * job_.options.max_correction / mm;
-  // Every turn of a circle ends at the same place.
-  if (curve.arc) slack_mm = std::min(slack_mm, length_mm / curve.arc->sweep * 3);
+  // Every turn of a circle ends at the same place. An angle tells them apart, also where corrections are larger than
+  // the radius.
+  std::optional<Arc> shifted = curve.arc;
+  if (shifted) {
+    slack_mm = std::min(slack_mm, length_mm / shifted->sweep * 3);
+    shifted->centre += shift_mm_.value_or(Vector3::Zero());
+  }
+  const auto way_mm = [&](const Move& move) {
+    const Curve way = curve_of(move);
+    return shifted ? angle_about(*shifted, way) * length_mm / shifted->sweep : length(way);
+  };
   std::size_t best = 0;
   double best_miss = std::numeric_limits<double>::infinity(), gone_mm = 0;
   for (std::size_t j = 0; j < most; ++j) {
     const CorrectedMove* found = found_.at(j);
     if (found == nullptr || found->others != others) break;
     if (j > 0 && next_number_ && found->move->block_number == next_number_) break;
-    gone_mm += length(curve_of(*found->move));
+    gone_mm += way_mm(*found->move);
     if (may_end(original, words, *found, j)) {
       const double off = (found->move->end_mm - end_mm).norm(), surplus = std::abs(gone_mm - length_mm);
       if (off <= near_mm && surplus <= slack_mm) return j + 1;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "arc_angles.hpp"
 #include "counterflex/compensation/compensate.hpp"
 #include "emit.hpp"
 
@@ -15,12 +16,6 @@ constexpr double jump_length = 3;       // in allowances for rounding: shorter f
 constexpr int most_refinements = 5;
 constexpr double refined_enough = 1e-10;  // m
 
-// The angle from the start of an arc to a point, in (-pi, pi].
-double angle_to(const Curve& arc, const Vector3& p) {
-  const Vector3 &n = arc.arc->normal, a = arc.start - arc.arc->centre, b = p - arc.arc->centre;
-  return std::atan2(n.dot(a.cross(b)), a.dot(b) - a.dot(n) * b.dot(n));
-}
-
 double fraction_on_line(const Curve& line, const Vector3& p) {
   const Vector3 d = line.end - line.start;
   return (p - line.start).dot(d) / d.squaredNorm();
@@ -28,14 +23,8 @@ double fraction_on_line(const Curve& line, const Vector3& p) {
 
 // The fraction of `p` on an arc, of all turns the one that is nearest to the angle `expected`.
 double fraction_on_arc(const Curve& arc, const Vector3& p, double expected) {
-  const double angle = angle_to(arc, p), turn = 2 * std::numbers::pi;
+  const double angle = angle_between(*arc.arc, arc.start, p), turn = 2 * std::numbers::pi;
   return (angle + turn * std::round((expected - angle) / turn)) / arc.arc->sweep;
-}
-
-// How far a way turns about the axis of an arc.
-double angle_of(const Curve& arc, const Curve& way) {
-  if (way.arc) return way.arc->sweep;
-  return std::remainder(angle_to(arc, way.end) - angle_to(arc, way.start), 2 * std::numbers::pi);
 }
 
 double length_of(const Job& job, const Piece& piece) {
@@ -106,7 +95,12 @@ void PieceMaker::project(const Curve& wanted) {
   double last = 0;  // fraction
   for (Step& step : steps_) {
     if (step.u < 0) {
-      const double expected = wanted.arc ? last * wanted.arc->sweep + angle_of(wanted, step.way) : 0;
+      double expected = 0;
+      if (wanted.arc) {
+        Arc shifted = *wanted.arc;
+        shifted.centre += (1 - last) * c0 + last * c1;
+        expected = last * wanted.arc->sweep + angle_about(shifted, step.way);
+      }
       double u = wanted.arc ? expected / wanted.arc->sweep : last;
       for (int k = 0; k < 2; ++k) {
         const Vector3 p = step.way.end - (1 - u) * c0 - u * c1;

@@ -139,3 +139,20 @@ TEST_CASE("an uncorrected program of short moves is matched with itself, move by
   for (const Waypoint& w : found.waypoints)
     if (!w.between) CHECK((w.after - w.before).norm() < 1e-12);
 }
+
+// Corrections of this machine are larger than the radius, and arcs end in chords where no arc fits.
+TEST_CASE("narrow helices of many turns are verified as they were written") {
+  const std::string rows = "0, 0, 0, 0\n0.2, -120, -90, -25\n20, -20, 100, 0\n30, -60, 20, -50\n";
+  ForceSource force;
+  force.rules = read_force_csv("# frame = feed\n# sense = on_tool\ns_mm, fx_N, fy_N, fz_N\n" + rows, "forces.csv");
+  for (const double blend : {0.0, 5e-4})
+    for (const char* const arc : {"G3 X0 Y0 Z-1.5 I0.081 J0.183 P33", "G2 X0 Y0 Z-1.5 I-0.188 J0.068 P100"}) {
+      CAPTURE(blend);
+      CAPTURE(arc);
+      force.blend = blend;
+      const Shop shop({.machine = load_machine(orthoglide_b),
+                       .text = std::string("G21 G90 G17\nG0 X0 Y0 Z5\nG1 Z-1 F300\n") + arc + "\nG1 X11.756\nM30\n",
+                       .force = force});
+      CHECK(refusal_of(shop, compensated(shop).text) == "");
+    }
+}
