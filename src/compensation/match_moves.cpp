@@ -69,14 +69,15 @@ std::size_t MoveFinder::count(const Move& original, std::optional<std::size_t> s
   double slack_mm = 2 * job_.options.max_correction / mm;
   // Every turn of a circle ends at the same place. An angle tells them apart, also where corrections are larger than
   // the radius.
-  std::optional<Arc> shifted = curve.arc;
-  if (shifted) {
-    slack_mm = std::min(slack_mm, length_mm / shifted->sweep * 3);
-    shifted->centre += shift_mm_.value_or(Vector3::Zero());
+  Arc axis;
+  if (curve.arc) {
+    axis = *curve.arc;
+    axis.centre += shift_mm_.value_or(Vector3::Zero());
+    slack_mm = std::min(slack_mm, length_mm / axis.sweep * 3);
   }
   const auto way_mm = [&](const Move& move) {
     const Curve way = curve_of(move);
-    return shifted ? angle_about(*shifted, way) * length_mm / shifted->sweep : length(way);
+    return curve.arc ? angle_about(axis, way) * length_mm / axis.sweep : length(way);
   };
   std::size_t best = 0;
   double best_miss = std::numeric_limits<double>::infinity(), gone_mm = 0;
