@@ -65,7 +65,7 @@ std::size_t MoveFinder::count(const Move& original, std::optional<std::size_t> s
   const std::string words = skeleton(job_.program, original);
   const Vector3 end_mm = expected_end_mm(original, planned_shift_mm(original, segment));
   const Curve curve = curve_of(original);
-  const double length_mm = length(curve), near_mm = digits_share * rounding_allowance(original, job_.options.write) / mm;
+  const double length_mm = length(curve);
   double slack_mm = 2 * job_.options.max_correction / mm;
   // Every turn of a circle ends at the same place. An angle tells them apart, also where corrections are larger than
   // the radius.
@@ -88,7 +88,7 @@ std::size_t MoveFinder::count(const Move& original, std::optional<std::size_t> s
     gone_mm += way_mm(*found->move);
     if (may_end(original, words, *found, j)) {
       const double off = (found->move->end_mm - end_mm).norm(), surplus = std::abs(gone_mm - length_mm);
-      if (off <= near_mm && surplus <= slack_mm) return j + 1;
+      if (off <= digits_share * rounding_as_read(*found->move) / mm && surplus <= slack_mm) return j + 1;
       const double miss = off + length_share * surplus;
       if (miss < best_miss - nearer_mm) best = j + 1, best_miss = miss;
     }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "counterflex/compensation/compensate.hpp"
 #include "counterflex/geometry/units.hpp"
@@ -34,6 +35,14 @@ double rounding_allowance(const Move& move, const WriteOptions& options) {
   const Decimals decimals = decimals_of(move, options);
   return rounding_of(move.unit,
                      std::min({decimals.end[0], decimals.end[1], decimals.end[2], decimals.inserted}));
+}
+
+double rounding_as_read(const Move& move) {
+  const Decimals decimals = decimals_of(move, {});
+  int least = std::numeric_limits<int>::max();
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    if (move.words[axis]) least = std::min(least, decimals.end[axis]);
+  return rounding_of(move.unit, std::min(least, 9));
 }
 
 Failure few_decimals_failure(const Move& move, const CompensationOptions& options) {

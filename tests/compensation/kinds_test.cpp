@@ -156,3 +156,15 @@ TEST_CASE("narrow helices of many turns are verified as they were written") {
       CHECK(refusal_of(shop, compensated(shop).text) == "");
     }
 }
+
+TEST_CASE("verify takes the digits of a corrected program from its words") {
+  ForceSource force = step_profile("0, 0, 0, 0\n0.2, 120, -90, -25\n6.5, 0, 100, 0\n20, -60, 20, -50\n", 0);
+  Order order{.machine = load_machine(small_mill),
+              .text = "G21 G90 G17\nG0 X0 Y0 Z5\nG1 Z-1 F300\nG3 X0 Y0 Z-1 I-0.063 J0.19 P1\nG1 X-17.569 Y-1.088\nM30\n",
+              .force = force,
+              .tolerance = 2e-6,
+              .decimals = 4};
+  const std::string text = compensated(Shop(order)).text;
+  order.decimals = -1;
+  CHECK(refusal_of(Shop(order), text) == "");
+}
