@@ -87,7 +87,7 @@ Coverage::Coverage(const ForceSource& source, const Program& window, const Toolp
   block_number = number;
 }
 
-const std::vector<Stretch>& Coverage::stretches(std::size_t i) {
+const std::vector<ForceStretch>& Coverage::stretches(std::size_t i) {
   const Segment& segment = path_.segments[i];
   const Move& move = window_.moves[segment.move];
   const ForceRule* rest = by_kind(move);

@@ -12,7 +12,7 @@
 namespace counterflex {
 
 /// A part of a segment between two fractions of its length. Neither rule nor comment: nothing covers it.
-struct Stretch {
+struct ForceStretch {
   double from = 0, to = 1;
   const ForceRule* rule = nullptr;
   bool comment = false;  ///< the program's FORCE comment acts
@@ -28,7 +28,7 @@ class Coverage {
 
   /// The stretches of segment i, in order and without gaps, until the next call. Throws `InputError` where
   /// two rules of equal rank cover it.
-  const std::vector<Stretch>& stretches(std::size_t i);
+  const std::vector<ForceStretch>& stretches(std::size_t i);
 
   /// The keys of a profile over segment i.
   const KeySpan& keys(const ForceRule& profile, std::size_t i) const;
@@ -65,7 +65,7 @@ class Coverage {
   std::vector<KeyCover> covers_;
   std::vector<Claim> claims_;
   std::vector<const ForceRule*> found_;
-  std::vector<Stretch> stretches_;
+  std::vector<ForceStretch> stretches_;
 };
 
 /// Whether the move lies wholly above the source's --air-above.

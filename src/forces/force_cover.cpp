@@ -95,8 +95,8 @@ struct ForceCover::State {
     if (!move.force)
       for (std::size_t k = 0; k < profiles.size(); ++k)
         profile_ends[k].add(coverage.keys(*profiles[k], i), segment);
-    const auto nothing = [](const Stretch& stretch) { return stretch.rule == nullptr && !stretch.comment; };
-    const std::vector<Stretch>& stretches = coverage.stretches(i);
+    const auto nothing = [](const ForceStretch& stretch) { return stretch.rule == nullptr && !stretch.comment; };
+    const std::vector<ForceStretch>& stretches = coverage.stretches(i);
     if (std::none_of(stretches.begin(), stretches.end(), nothing)) return;
     if (uncovered++ == 0) first_uncovered = segment.line;
   }

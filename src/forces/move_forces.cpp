@@ -31,9 +31,9 @@ bool has_models(const ForceSource& source) {
 }
 
 /// The model that acts in the middle of a move, or null.
-const CutResponse* model_of(const std::vector<Stretch>& stretches) {
+const CutResponse* model_of(const std::vector<ForceStretch>& stretches) {
   const auto at = std::find_if(stretches.begin(), stretches.end(),
-                               [](const Stretch& stretch) { return stretch.to > middle; });
+                               [](const ForceStretch& stretch) { return stretch.to > middle; });
   if (at == stretches.end() || at->rule == nullptr) return nullptr;
   return std::get_if<CutResponse>(&at->rule->content);
 }

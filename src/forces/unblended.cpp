@@ -159,7 +159,7 @@ void Unblended::append_to(std::size_t i, std::size_t first_piece, std::vector<Fo
     given_.why = "it is wholly above --air-above";
     take(axes_in(ForceFrame::machine), true);
   } else {
-    for (const Stretch& stretch : coverage_.stretches(i)) {
+    for (const ForceStretch& stretch : coverage_.stretches(i)) {
       const AxesAlong axes = axes_in(stretch.rule != nullptr ? frame_of(*stretch.rule) : ForceFrame::machine);
       give(stretch, i, axes);
       take(axes, stretch.from == 0);
@@ -184,7 +184,7 @@ void Unblended::give_same(double s0, double s1, const Vector6& F, ForceFrame fra
   given_.why.clear();
 }
 
-void Unblended::give(const Stretch& stretch, std::size_t i, const AxesAlong& axes) {
+void Unblended::give(const ForceStretch& stretch, std::size_t i, const AxesAlong& axes) {
   const Segment& segment = path_.segments[i];
   const double length = segment.s_end - segment.s_start;
   const double s0 = segment.s_start + stretch.from * length,

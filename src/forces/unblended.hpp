@@ -69,7 +69,7 @@ class Unblended {
     ForceFrame frame = ForceFrame::machine;
     std::string why{};  ///< empty: a force is given, though it may be zero
   };
-  void give(const Stretch& stretch, std::size_t i, const AxesAlong& axes);
+  void give(const ForceStretch& stretch, std::size_t i, const AxesAlong& axes);
   void give_same(double s0, double s1, const Vector6& F, ForceFrame frame);
   void give_cut(const CutResponse& response, double s0, double s1, std::size_t i, const AxesAlong& axes);
   bool is_zero(const Given& given) const;

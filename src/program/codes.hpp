@@ -56,7 +56,7 @@ enum class Action : std::uint8_t {
 };
 
 /// Codes of one group exclude each other in a block.
-enum class Group : std::uint8_t {
+enum class CodeGroup : std::uint8_t {
   none,
   motion,
   distance,
@@ -93,7 +93,7 @@ enum Displacement : std::uint16_t {
 struct GCode {
   int tenths = 0;  ///< G59.1 is 591
   Action action = Action::state;
-  Group group = Group::none;
+  CodeGroup group = CodeGroup::none;
   std::string_view what{};         ///< of a code that is not read or displaces: what it starts
   unsigned families = any_family;  ///< dialects that know it so
   std::uint16_t bit = 0;           ///< of a displacement

@@ -100,7 +100,7 @@ const FoundG* find_own_motion(const SortedBlock& sorted) {
   for (const FoundG& g : sorted.g) {
     const Action action = g.code->action;
     if (action == Action::own_way || action == Action::engrave || action == Action::pocket ||
-        action == Action::call || (action == Action::probe && g.code->group == Group::none))
+        action == Action::call || (action == Action::probe && g.code->group == CodeGroup::none))
       return &g;
   }
   return nullptr;

@@ -96,7 +96,7 @@ std::optional<MotionMode> motion_of(const FoundG& g) {
       return MotionMode::thread;
     case Action::probe:
       // G31 acts in its own block alone.
-      return g.code->group == Group::motion ? std::optional(MotionMode::probe) : std::nullopt;
+      return g.code->group == CodeGroup::motion ? std::optional(MotionMode::probe) : std::nullopt;
     default:
       return std::nullopt;
   }

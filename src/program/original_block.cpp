@@ -23,7 +23,7 @@ bool is_motion(const Word& word) {
 bool says_motion(const Word& word, const Dialect& dialect) {
   if (word.letter != 'G' || !word.literal) return false;
   const GCode* code = find_g_code(static_cast<int>(std::lround(word.value * 10)), dialect);
-  return is_motion(word) || (code != nullptr && code->group == Group::motion);
+  return is_motion(word) || (code != nullptr && code->group == CodeGroup::motion);
 }
 
 const Word* find_word(const Block& block, char upper) {

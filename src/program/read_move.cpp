@@ -62,7 +62,7 @@ void allow_changes(const Reading& r, Move& move) {
   const bool corner = r.corner || r.after_corner;
   move.may_split =
       feed && !corner && !rigid && !move.exact_stop && !tool_length && !acts_at_end && shares_time;
-  const bool only_motion = b.g.empty() || (b.g.size() == 1 && b.g[0].code->group == Group::motion);
+  const bool only_motion = b.g.empty() || (b.g.size() == 1 && b.g[0].code->group == CodeGroup::motion);
   move.may_jump = all_known(move.known_start) && !corner && !rigid && move.feed_mm_min > 0 &&
                   !move.exact_stop && !acts_at_end && !unit && (feed ? move.may_split : only_motion);
 }

@@ -63,11 +63,11 @@ void add_g(const Sorter& s, const Word& word) {
   const auto same = [&](const FoundG& other) {
     return other.code == code && other.word->value == word.value;
   };
-  if (s.dialect.macro_words && code->group != Group::none &&
+  if (s.dialect.macro_words && code->group != CodeGroup::none &&
       std::any_of(s.sorted.g.begin(), s.sorted.g.end(), same))
     return;  // said twice
   for (const FoundG& other : s.sorted.g)
-    if (code->group != Group::none && other.code->group == code->group)
+    if (code->group != CodeGroup::none && other.code->group == code->group)
       s.fail(word, fmt::format("G{} and G{} exclude each other in one block", other.word->value, word.value));
   s.sorted.g.push_back({code, &word});
   s.sorted.actions |= std::uint64_t{1} << static_cast<unsigned>(code->action);
