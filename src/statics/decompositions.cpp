@@ -15,8 +15,9 @@ Eigen::MatrixXd null_space(const Eigen::MatrixXd& C, double threshold) {
   qr.compute(C.transpose());
   const auto nullity = C.cols() - qr.rank();
   Eigen::MatrixXd Z = Eigen::MatrixXd::Zero(C.cols(), nullity);
+  if (nullity == 0) return Z;
   Z.bottomRows(nullity).setIdentity();
-  if (nullity > 0) Z.applyOnTheLeft(qr.householderQ().setLength(qr.rank()));
+  Z.applyOnTheLeft(qr.householderQ().setLength(qr.rank()));
   return Z;
 }
 
