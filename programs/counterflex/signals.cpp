@@ -15,13 +15,13 @@
 namespace counterflex::cli {
 namespace {
 
-constexpr int ending[] = {SIGINT, SIGTERM, SIGHUP, SIGQUIT};
+constexpr int ending_signals[] = {SIGINT, SIGTERM, SIGHUP, SIGQUIT};
 
 /// Without those that are ignored (nohup): a signal that waits is not.
 sigset_t ending_set() {
   sigset_t set;
   ::sigemptyset(&set);
-  for (const int signal : ending) {
+  for (const int signal : ending_signals) {
     struct sigaction action {};
     if (::sigaction(signal, nullptr, &action) == 0 && action.sa_handler != SIG_IGN) ::sigaddset(&set, signal);
   }
@@ -40,7 +40,7 @@ int status_of(int signal) {
 }
 
 void end_on_signals() {
-  for (const int signal : ending) {
+  for (const int signal : ending_signals) {
     struct sigaction old {};
     if (::sigaction(signal, nullptr, &old) != 0 || old.sa_handler == SIG_IGN) continue;
     struct sigaction action {};

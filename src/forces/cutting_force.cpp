@@ -89,7 +89,7 @@ Response at_surface(const CuttingModel& model) {
     case Wall::none:
       break;
   }
-  assert(!"a wall");
+  assert(false && "a wall");
   return Response::Zero();
 }
 

@@ -95,12 +95,12 @@ class Evaluation {
 }  // namespace
 
 std::optional<double> constant_value(std::string_view expression, const std::vector<double>& parameters) {
-  constexpr double largest = 1e9;
+  constexpr double beyond = 1e9;
   std::string dense;
   std::copy_if(expression.begin(), expression.end(), std::back_inserter(dense),
                [](char c) { return !is_blank(c); });
   const Value value = Evaluation(std::move(dense), parameters).run();
-  return value && std::abs(*value) < largest ? value : std::nullopt;
+  return value && std::abs(*value) < beyond ? value : std::nullopt;
 }
 
 std::string shortest_text(double value) {

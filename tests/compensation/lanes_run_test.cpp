@@ -49,7 +49,8 @@ const char* const long_line = "G21 G90\nG0 X-73.65 Y-73.65 Z-73.65\nG1 Y126.35 F
 TEST_CASE("long lines are compensated side by side as they are one by one, forces or none") {
   for (const auto& [machine, blend] :
        {std::pair{orthoglide_a, 0.0}, {orthoglide_b, 2e-3}, {orthoglide_perfect, 0.0}}) {
-    CAPTURE(machine);
+    const auto& shown = machine;
+    CAPTURE(shown);
     const Order order{
         .machine = load_machine(machine), .text = long_line, .force = constant_force(milling(), blend)};
     CHECK(!check_same_run(order).failure);

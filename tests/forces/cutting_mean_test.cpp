@@ -122,7 +122,8 @@ TEST_CASE("mean wrenches between any two angles equal the textbook's integrals, 
   for (const double helix_deg : {0.0, 12.0, 45.0, 60.0}) {
     for (const auto& [entry, exit] : {std::pair(0.0, 1.0), {0.0, 53.13}, {20.0, 160.0}, {126.9, 180.0}}) {
       CAPTURE(helix_deg);
-      CAPTURE(entry);
+      const auto& shown = entry;
+      CAPTURE(shown);
       const CuttingModel model = between(with_helix(sample_cut(), helix_deg), entry, exit);
       CHECK(agree(at_feed_per_tooth(model, c), closed_form(model), 1e-12));
     }
@@ -142,7 +143,8 @@ TEST_CASE("the mean is that of a revolution simulated in time, straight and heli
   for (const double helix_deg : {0.0, 38.0}) {
     for (const auto& [entry, exit] : {std::pair(0.0, 180.0), {0.0, 60.0}, {110.0, 180.0}}) {
       CAPTURE(helix_deg);
-      CAPTURE(exit);
+      const auto& shown = exit;
+      CAPTURE(shown);
       CuttingModel model = between(with_helix(sample_cut(), helix_deg), entry, exit);
       model.mill.flutes = 3;
       model.axial_depth = 12 * mm;

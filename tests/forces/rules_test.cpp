@@ -126,7 +126,8 @@ TEST_CASE("a row without numbers ends the cover until the next row, inside a mov
   const auto forces = forces_on(
       sample_program(), given({"s_mm," + columns + "0,4,0,0\n13,,,\n18,6,0,0\n30,,,\n40,9,0,0\n", "1,0,0"}));
   for (const auto& [fraction, fx] : {std::pair{0.2, 4}, {0.5, 1}, {0.9, 6}}) {
-    CAPTURE(fraction);
+    const auto& shown = fraction;
+    CAPTURE(shown);
     CHECK(forces.at(2, fraction) == wrench(fx, 0, 0));
   }
   CHECK(forces.at(4, 0.5) == wrench(6, 0, 0));

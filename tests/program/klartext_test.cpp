@@ -270,7 +270,8 @@ TEST_CASE("klartext: shifted, turned and tilted coordinates are fixed until they
                                 {"CYCL DEF 8.1 X", "CYCL DEF 8.1"},
                                 {"CYCL DEF 11.1 SCL 0.99", "CYCL DEF 11.1 SCL 1"},
                                 {"PLANE SPATIAL SPA+1 SPB+0 SPC+0 STAY", "PLANE RESET STAY"}}) {
-    CAPTURE(on);
+    const auto& shown = on;
+    CAPTURE(shown);
     const Program program = read(klartext({on, "L X+1 Y+1 Z+1 F100", off, "L X+1 Y+1 Z+1"}));
     const auto moving = [](const Move& move) { return move.words[0] || move.words[1]; };
     CHECK(std::count_if(program.moves.begin(), program.moves.end(), moving) == 1);

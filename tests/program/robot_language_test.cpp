@@ -34,7 +34,8 @@ TEST_CASE("a robot's program is refused by the name of its language, whatever di
   };
   for (const auto& [text, language] : programs)
     for (const char* dialect : {"auto", "heidenhain"}) {
-      CAPTURE(text);
+      const auto& shown = text;
+      CAPTURE(shown);
       CHECK(refusal(text, dialect)
                 .starts_with("job:1:1: error: this is a program in " + std::string(language)));
     }

@@ -180,7 +180,8 @@ TEST_CASE("a tool that bends counts in no load of a pose, and leaves every chain
     Pose X_MT;
   } cases[] = {{"mill3", at_mm(200, 100, -200)}, {"orthoglide-groove", at_mm(0, 0, 0)}};
   for (const auto& [sample, X_MT] : cases) {
-    CAPTURE(sample);
+    const auto& shown = sample;
+    CAPTURE(shown);
     const Machine machine =
         load_machine(std::string(COUNTERFLEX_SOURCE_DIR) + "/samples/" + sample + "/machine.toml");
     const Model base = prepare(machine);

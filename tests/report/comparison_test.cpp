@@ -206,7 +206,8 @@ TEST_CASE("a value of another kind than reports have it is an error that names i
         std::pair{R"({"machine": 5})", "b.json: error: /machine is 5; a text or null is allowed"},
         std::pair{R"({"inputs": []})", "b.json: error: /inputs is []; an object or null is allowed"},
         std::pair{R"({"operations": {}})", "b.json: error: /operations is {}; a list or null is allowed"}}) {
-    CAPTURE(json);
+    const auto& shown = json;
+    CAPTURE(shown);
     CHECK_THROWS_WITH_AS(compare(good, report_named("b", json), ""), message, InputError);
   }
 }

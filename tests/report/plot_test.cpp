@@ -61,7 +61,8 @@ TEST_CASE("ticks are multiples of 1, 2 or 5 times a power of ten, within the ran
                                        {0.0, 0.00499},
                                        {3.0, 1e6}})
     for (const int most : {2, 4, 5, 8}) {
-      CAPTURE(largest);
+      const auto& to = largest;
+      CAPTURE(to);
       CAPTURE(most);
       const PlotTicks ticks = ticks_within(least, largest, most);
       REQUIRE_FALSE(ticks.values.empty());
@@ -88,8 +89,10 @@ TEST_CASE("ticks around a range hold it between the first and the last, no more 
                                        {-1.0, 1.0},
                                        {0.9e-9, 1.1e-9}})
     for (const int most : {2, 4, 5}) {
-      CAPTURE(least);
-      CAPTURE(largest);
+      const auto& from = least;
+      CAPTURE(from);
+      const auto& to = largest;
+      CAPTURE(to);
       CAPTURE(most);
       const PlotTicks ticks = ticks_around(least, largest, most);
       REQUIRE(ticks.values.size() >= 2);

@@ -300,7 +300,8 @@ TEST_CASE("loads without the tool are those of the machine's own chains, whateve
   const Load load = pushing(100, -30, 20);
   for (const auto& [file, p_MT] :
        {std::pair{mill_file, Vector3(0.2, 0.1, -0.2)}, {orthoglide_file, Vector3(0.02, 0.01, -0.05)}}) {
-    CAPTURE(file);
+    const auto& shown = file;
+    CAPTURE(shown);
     const Machine machine = load_machine(file);
     const Pair soft(machine, radial(1e6));
     const auto base = loads(soft.base, loaded(soft.base, p_MT, load).configuration, {});
