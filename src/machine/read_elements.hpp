@@ -21,7 +21,7 @@ void count_coordinates(std::size_t count, const toml::node& node, Expansion& exp
 
 /// The elements listed by `node`, branches of groups included. Throws at unknown names, a branch inside
 /// itself or more than 32 deep, an error slot met twice, more than 10000 elements in a machine (branches that
-/// use branches multiply), more than 1000 coordinates in a machine.
+/// use branches multiply), more than 600 coordinates in a machine.
 std::vector<Element> read_elements(const toml::node& node, Expansion& expansion);
 
 }  // namespace counterflex::toml_file

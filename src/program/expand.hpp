@@ -18,9 +18,9 @@ namespace counterflex {
 /// out.
 Expansion expand_subprograms(std::string& text, const std::string& file, const Dialect& dialect);
 
-/// Bytes that a program of `bytes` may become: its moves need a hundred times as much memory.
+/// Bytes that a program of `bytes` may become: it is one window, whose moves need a thousand times as much memory.
 constexpr std::size_t largest_expansion(std::size_t bytes) {
-  return std::max(std::size_t{1'000'000}, 16 * bytes);
+  return std::max(std::size_t{250'000}, 4 * bytes);
 }
 constexpr std::size_t most_expanded_calls = 1'000'000;
 

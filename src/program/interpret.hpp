@@ -39,6 +39,7 @@ struct Reading {
   std::array<bool, 3> taken_away{};  ///< axes that the machine has moved by itself since the last move
   std::size_t run_begin = 0;         ///< the first move since the tool went to a place of the machine
   std::size_t program_numbers = 0;   ///< lines that begin with an O-number, so far
+  std::size_t turns = 0;             ///< of all arcs so far, one at least for each
   std::string last_reason{};         ///< for which a block was left alone
   bool corner = false;               ///< the block's end and the begin of the next make a corner
   bool after_corner = false;         ///< the last move did

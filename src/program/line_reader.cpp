@@ -108,9 +108,9 @@ void LineReader::read_all() {
   remark_rest(std::string_view(program_.text).substr(position()));
 }
 
-bool LineReader::may_end_before(const Move& last) const {
+bool LineReader::may_end_before(const Move& last, bool anywhere) const {
   const ModalState& state = reading_.state;
-  const bool across = last.words[0] || last.words[1];
+  const bool across = anywhere || last.words[0] || last.words[1] || last.arc;
   const bool alone = last.group == 0 && !last.cycle && last.handling == Handling::own && !last.block_delete;
   const bool clear = state.contour == Contour::none && state.doubts == 0 && state.displaced == 0 &&
                      !reading_.in_body() && !state.entering_data;

@@ -42,8 +42,9 @@ class LineReader {
   std::size_t position() const { return block_.line_end.end; }
   bool has_ended() const { return ended_; }
 
-  /// Whether a window may end before the line that was read last, which the one move `last` is of.
-  bool may_end_before(const Move& last) const;
+  /// Whether a window may end before the line that was read last, which the one move `last` is of. `anywhere`: also
+  /// before a line along Z.
+  bool may_end_before(const Move& last, bool anywhere) const;
 
   /// Says, once, what `text` behind the program's end means.
   void remark_rest(std::string_view text);

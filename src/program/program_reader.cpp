@@ -1,5 +1,7 @@
 #include "counterflex/program/program_reader.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "program/klartext_lex.hpp"
@@ -10,8 +12,21 @@ namespace {
 
 constexpr std::size_t bytes_at_once = 1 << 18;
 
-/// A full turn of an arc counts as so many moves, so that windows of many turns stay small.
-constexpr std::size_t moves_of_a_turn = 16;
+constexpr double way_of_a_place = 5;  // mm
+constexpr std::size_t places_of_a_line = 64, places_of_a_turn = 16;
+
+/// About as many as the places at which the move is solved: a window of long moves or of many turns is as large as
+/// one of many short moves.
+std::size_t size_of(const Move& move) {
+  if (move.arc) return places_of_a_turn * (static_cast<std::size_t>(move.arc->turns) + 1);
+  if (move.motion == Motion::rapid || !all_known(move.known_start) || !all_known(move.known_end)) return 1;
+  const double places = std::ceil((move.end_mm - move.start_mm).norm() / way_of_a_place);
+  return places < places_of_a_line ? std::max(static_cast<std::size_t>(places), std::size_t{1}) : places_of_a_line;
+}
+
+/// A window so many times as large as it must be may end before a move along Z: the memory of a program that never
+/// moves across is limited, too.
+constexpr std::size_t largest_along_z = 2;
 
 /// The whole lines at the beginning of `text`.
 std::string_view whole_lines(const std::string& text) {
@@ -96,20 +111,18 @@ struct ProgramReader::State {
   std::string behind;           ///< text behind the window
   std::size_t behind_read = 0;  ///< bytes of it that have been read: the line of `Program::after`
 
-  std::size_t counted = 0;  ///< moves of the window whose turns are in `turns`
-  std::size_t turns = 0;    ///< full turns of the window's arcs
+  std::size_t counted = 0;  ///< moves of the window that are in `size`
+  std::size_t size = 0;     ///< of these moves
 
   Program& program() { return lines.program(); }
 
-  /// The size of the window in moves, full turns of arcs included.
   std::size_t window_size() {
     const auto& moves = program().moves;
-    for (; counted < moves.size(); ++counted)
-      if (moves[counted].arc) turns += static_cast<std::size_t>(moves[counted].arc->turns);
-    return moves.size() + moves_of_a_turn * turns;
+    for (; counted < moves.size(); ++counted) size += size_of(moves[counted]);
+    return size;
   }
 
-  void restart_count() { counted = turns = 0; }
+  void restart_count() { counted = size = 0; }
 
   bool append() {
     std::string& text = program().text;
@@ -133,15 +146,25 @@ struct ProgramReader::State {
     return lines.read_line();
   }
 
-  /// Reads on until the window holds `moves` and may end.
-  void read_until_end(std::size_t moves) {
+  /// Reads plain lines until the window has `least` or the next line is not plain.
+  void read_plain(std::size_t least) {
+    for (std::size_t now = window_size(), before = 0; now < least; now = window_size()) {
+      before = program().moves.size();
+      lines.read_plain(before + (least - now) / places_of_a_line + 1);
+      if (program().moves.size() == before) return;
+    }
+  }
+
+  /// Reads on until the window is larger than `least` and may end.
+  void read_until_end(std::size_t least) {
     for (;;) {
-      lines.read_plain(moves);
+      read_plain(least);
       const std::size_t before = program().moves.size();
       if (lines.has_ended() || !read_line()) break;
       const std::size_t now = program().moves.size();
-      const bool one = now == before + 1 && window_size() > moves;
-      if (one && !lines.has_ended() && lines.may_end_before(program().moves.back())) return end_before_last();
+      const bool one = now == before + 1 && window_size() > least;
+      const bool is_large = window_size() / largest_along_z > least;
+      if (one && !lines.has_ended() && lines.may_end_before(program().moves.back(), is_large)) return end_before_last();
     }
     while (least_moves == whole_program && append()) {
     }
@@ -205,7 +228,7 @@ struct ProgramReader::State {
     p.after.reset();
     behind.clear();
     whole = all_read ? p.text.size() : whole_lines(p.text).size();
-    read_until_end(p.moves.size());
+    read_until_end(window_size());
     return true;
   }
 };

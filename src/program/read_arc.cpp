@@ -13,6 +13,7 @@ namespace {
 
 constexpr std::array<char, 3> letters_of_centre{'I', 'J', 'K'};
 constexpr double most_turns = 100;  // of one arc: each turn is sampled, and what is found is kept
+constexpr std::size_t more_turns_than_blocks = 10000;  // of a program: time is proportional to its turns
 
 /// Axes of the plane: from the first to the second is counter-clockwise about the normal.
 struct Plane {
@@ -145,6 +146,16 @@ void hold_arc(Reading& r, Move& move, const Plane& plane, bool start_known) {
     if (r.sorted.word(letters_of_axes[axis]) != nullptr) fix_axis(r, move, axis);
 }
 
+/// A short program must not turn for hours. Throws at P, without which the turns are fewer than the blocks.
+void count_turns(const Block& block, Reading& r, const ArcMove& arc) {
+  r.turns += static_cast<std::size_t>(arc.turns) + 1;
+  if (arc.turns == 0 || r.turns <= r.program.block_count + more_turns_than_blocks) return;
+  refuse_word(block, r, *r.sorted.word('P'),
+              fmt::format("the arcs to here make {} turns in {} blocks: at most {} turns more than blocks are allowed; "
+                          "write each turn as a block",
+                          r.turns, r.program.block_count, more_turns_than_blocks));
+}
+
 }  // namespace
 
 void read_arc(const Block& block, Reading& r) {
@@ -158,6 +169,7 @@ void read_arc(const Block& block, Reading& r) {
   const bool resolved =
       followed && start_known && end_known && words_are_plain(r.sorted) && !centre_is_mixed(r, plane);
   if (resolved) move.arc = arc_of(block, r, move);
+  if (move.arc) count_turns(block, r, *move.arc);
   if (!move.arc) {
     hold_arc(r, move, plane, start_known);
     if (followed)

@@ -128,8 +128,21 @@ TEST_CASE("a program read in windows is the program") {
 TEST_CASE("windows are as long as they must be, and no longer than they may") {
   const std::string text = pocket(1000) + "G0 Z5.\nM30\n%\n";
   check_windows(text, 100);
-  CHECK(in_windows(text, 100).count == 11);
+  CHECK(in_windows(text, 100).count == 12);  // each of the 25 ways back to the first column counts as 8 moves
   CHECK(in_windows(text, whole_program).count == 1);
+}
+
+TEST_CASE("windows of long moves, of turns and of moves along Z alone hold few moves") {
+  const std::string begin = "G21 G90 G17\nG0 X0 Y0 Z0\nG1 X1 F100\n";
+  const auto windows_of = [&](const std::string& block, int count) {
+    std::string text = begin;
+    for (int i = 0; i < count; ++i) text += fmt::format(fmt::runtime(block), i % 2 == 0 ? 0 : 99);
+    return in_windows(text + "M30\n", 100).count;
+  };
+  CHECK(windows_of("X{}\n", 100) >= 19);
+  CHECK(windows_of("G2 X1 I9 (of {})\n", 100) >= 14);
+  CHECK(windows_of("G2 I9 P4 (of {})\n", 100) >= 45);
+  CHECK(windows_of("Z{}\n", 100) >= 9);
 }
 
 TEST_CASE("a window that is extended goes to the next place where it may end") {
