@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "commands.hpp"
+#include "counterflex/files/shown_text.hpp"
 #include "counterflex/report/formats.hpp"
 #include "outputs.hpp"
 #include "sanity.hpp"
@@ -22,14 +23,14 @@ Checked check_file(const std::string& path, const Options& options, const Machin
     return is_machine(path) ? check_machine(path, options, console) : check_program(path, options, machine, console);
   } catch (const InputError& error) {
     console.error(error.what());
-    return {"", {{"file", path}, {"error", error.what()}}, error.exit()};
+    return {"", "", {{"file", path}, {"error", error.what()}}, error.exit()};
   }
 }
 
 }  // namespace
 
 void add_sanity(const SanityChecks& checks, const Machine& machine, Checked& checked, Console& console) {
-  checked.text += sanity_block(checks, console.colour_out(), console.marks_out(), true);
+  checked.sanity = sanity_block(checks, console.colour_out(), console.marks_out(), true);
   checked.json["sanity"] = nlohmann::ordered_json::parse(to_json(checks));
   try {
     refuse_wrong(checks, machine);
@@ -55,13 +56,15 @@ Exit run_check(const Options& options, Console& console) {
   for (const std::string& path : options.files) {
     Checked checked = check_file(path, options, machine ? &*machine : nullptr, console);
     if (exit == Exit::done) exit = checked.exit;
-    if (!checked.text.empty()) text += (text.empty() ? "" : "\n\n") + checked.text;
+    if (!checked.text.empty())
+      text += (text.empty() ? "" : "\n\n") + lines_without_controls(checked.text) + checked.sanity;
     files.push_back(std::move(checked.json));
   }
   console.finish_warnings();
   if (options.json)
-    text = nlohmann::ordered_json{{"schema", "counterflex-check 1"}, {"files", files}}.dump(2) + "\n";
-  write_result(text);
+    write_result(nlohmann::ordered_json{{"schema", "counterflex-check 1"}, {"files", files}}.dump(2) + "\n");
+  else
+    write_painted_result(text);
   return exit;
 }
 

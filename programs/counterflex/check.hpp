@@ -11,6 +11,7 @@ namespace counterflex::cli {
 
 struct Checked {
   std::string text;
+  std::string sanity;  ///< the block of its checks, with ANSI sequences where the terminal has colours
   nlohmann::ordered_json json;
   Exit exit = Exit::done;
 };

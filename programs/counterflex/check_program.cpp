@@ -220,11 +220,13 @@ Checked check_program(const std::string& path, const Options& options, const Mac
   ProgramFile file = open_program("program", path);
   try {
     const ProgramFacts facts = facts_of(ProgramReader(file.bytes, name, read));
-    Checked checked{text_of(facts), json_of(facts), Exit::done};
+    Checked checked{text_of(facts), "", json_of(facts), Exit::done};
     if (machine != nullptr)
       check_reach(facts.overview, ProgramReader(file.bytes, name, read), *machine, lengths, checked, console);
+    file.bytes.refuse_change();  // it was read more than once
     return checked;
   } catch (const InputError& error) {
+    file.bytes.refuse_change();  // what is wrong may be half of another program
     blame_dialect(error, options, of, name);
   }
 }

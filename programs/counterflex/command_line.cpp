@@ -9,6 +9,7 @@
 #include <filesystem>
 
 #include "command_options.hpp"
+#include "counterflex/files/shown_text.hpp"
 #include "counterflex/settings/environment.hpp"
 #include "layers.hpp"
 #include "outputs.hpp"
@@ -80,7 +81,7 @@ Exit leave(const CLI::App& app, const CLI::ParseError& error) {
   if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success))
     return static_cast<Exit>(app.exit(error));
   const auto chosen = app.get_subcommands();
-  fmt::print(stderr, "error: {}\nSee counterflex {}--help.\n", error.what(),
+  fmt::print(stderr, "error: {}\nSee counterflex {}--help.\n", without_controls(error.what()),
              chosen.empty() ? "" : chosen.front()->get_name() + " ");
   return Exit::usage;
 }

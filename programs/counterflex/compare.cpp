@@ -56,7 +56,10 @@ Exit run_compare(const Options& options, Console& console) {
   const std::string json = to_json(comparison);
   if (options.report) write_files(paths, json, comparison.conclusion, a, b);
   console.finish_warnings();
-  write_result(options.json ? json : to_text(comparison, console.colour_out()));
+  if (options.json)
+    write_result(json);
+  else
+    write_painted_result(to_text(comparison, console.colour_out()));
   return Exit::done;
 }
 

@@ -9,17 +9,18 @@
 namespace counterflex {
 namespace {
 
-/// Of a character of UTF-8 with two or three bytes, 0 for any other.
+/// Of a character of UTF-8 with one to three bytes, 0 for any other.
 unsigned code_of(std::string_view character) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(character[i]); };
+  if (character.size() == 1) return byte(0);
   if (character.size() == 2) return (byte(0) & 0x1FU) << 6 | (byte(1) & 0x3FU);
   if (character.size() == 3) return (byte(0) & 0x0FU) << 12 | (byte(1) & 0x3FU) << 6 | (byte(2) & 0x3FU);
   return 0;
 }
 
-/// Controls of C1, marks and overrides of direction, separators of lines and paragraphs.
+/// DEL, controls of C1, marks and overrides of direction, separators of lines and paragraphs.
 bool is_control(unsigned code) {
-  return (code >= 0x80 && code < 0xA0) || code == 0x061C || (code >= 0x200E && code <= 0x200F) ||
+  return (code >= 0x7F && code < 0xA0) || code == 0x061C || (code >= 0x200E && code <= 0x200F) ||
          (code >= 0x2028 && code <= 0x202E) || (code >= 0x2066 && code <= 0x2069);
 }
 
@@ -37,7 +38,7 @@ std::string without_controls(std::string_view text) {
     const auto byte = static_cast<unsigned char>(character.front());
     if (byte == '\t')
       shown += ' ';
-    else if (byte < 0x20 || byte == 0x7f)
+    else if (byte < 0x20)
       shown += fmt::format("\\x{:02X}", byte);
     else if (const unsigned code = code_of(character); is_control(code))
       shown += fmt::format("\\u{:04X}", code);

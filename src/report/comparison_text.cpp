@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "counterflex/files/shown_text.hpp"
 #include "counterflex/report/comparison.hpp"
 #include "text_layout.hpp"
 
@@ -33,11 +34,12 @@ std::string percent_text(const ComparedNumber& number) {
 std::string cells(const std::string& label, const std::string& a, const std::string& b, const std::string& c,
                   const std::string& d) {
   // Words may be longer than their column: then the numbers follow in the next line.
-  std::string text = "  " + label;
-  if (label.size() >= label_width)
+  const std::string shown = without_controls(label);
+  std::string text = "  " + shown;
+  if (shown.size() >= label_width)
     text += line_break() + std::string(2 + label_width, ' ');
   else
-    text.append(label_width - label.size(), ' ');
+    text.append(label_width - shown.size(), ' ');
   text += fmt::format("{:>12}{:>12}{:>12}{:>12}", a, b, c, d);
   text.erase(text.find_last_not_of(' ') + 1);
   return text + line_break();
@@ -57,7 +59,7 @@ std::string number_tables(const Comparison& comparison, const Ink& ink) {
     if (number.heading != heading) {
       heading = number.heading;
       const bool deviations = number.label == "largest" || number.key.find("/max_mm") != std::string::npos;
-      text += line_break() + ink.bold(heading) + (deviations ? ", in mm" : "") + line_break();
+      text += line_break() + ink.bold(without_controls(heading)) + (deviations ? ", in mm" : "") + line_break();
       text += cells("", "A", "B", "B - A", "");
     }
     text += number_cells(number);

@@ -1,6 +1,7 @@
 #include "sanity_text.hpp"
 
 #include <algorithm>
+#include <set>
 
 #include "counterflex/report/formats.hpp"
 
@@ -31,8 +32,10 @@ std::string line(SanityState state, const std::string& text, const Ink& ink) {
 std::string block(const SanityChecks& checks, const Ink& ink, bool all) {
   if (checks.empty()) return "";
   std::string text = line_break() + ink.bold("Sanity") + "\n", fine;
+  std::set<std::string> names;  // the tip is checked at more than one place
   for (const SanityCheck& check : checks)
-    if (check.state == SanityState::ok && !all) fine += (fine.empty() ? "" : ", ") + check.name;
+    if (check.state == SanityState::ok && !all && names.insert(check.name).second)
+      fine += (fine.empty() ? "" : ", ") + check.name;
   if (!fine.empty()) text += line(SanityState::ok, fine, ink);
   for (const SanityCheck& check : checks)
     if (all || check.state != SanityState::ok) text += line(check.state, check.name + ": " + check.text, ink);

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "counterflex/files/shown_text.hpp"
+
 namespace counterflex {
 
 std::string Ink::paint(std::string_view text, std::string_view code) const {
@@ -27,8 +29,9 @@ std::string wrapped(std::string_view first, std::string_view text, std::size_t i
       result += ' ';
       ++column;
     }
-    result += word;
-    column += word.size();
+    const std::string shown = without_controls(word);
+    result += shown;
+    column += shown.size();
     line_has_words = true;
   }
   return result + "\n";

@@ -24,7 +24,7 @@ struct Ink {
 
 /// `text` in lines of at most `text_width` bytes after `first`, which stands before the first line; the
 /// others are indented by `indent` blanks. Breaks at blanks; a word that is longer than a line stays whole.
-/// Ends with a newline.
+/// Ends with a newline. Control characters of `text` are shown as their numbers; `first` may have ANSI sequences.
 std::string wrapped(std::string_view first, std::string_view text, std::size_t indent);
 
 inline std::string line_break() {
