@@ -2,20 +2,24 @@
 // that writes. Counted are the calls of the program and of all it has forked, together. The environment says:
 //
 // - FAULTY_FOLDER: files in this folder and below, and the folder itself; an absolute path without links
-// - FAULTY_CALLS: which of write, fsync, rename, open (that makes a file), flock, close, mkdir; all of these
-//   unless given; or of calls that write nothing: read, lease (F_SETLEASE), thread (that is made)
+// - FAULTY_CALLS: which of write, fsync, rename, open (that makes a file), flock, close, mkdir, unlink, truncate (of
+//   the size of a file); all of these unless given; or of calls that write nothing: read, lease (F_SETLEASE), thread
+//   (that is made)
 // - FAULTY_AT: the number of the call that fails, from 1
 // - FAULTY_FROM: or the first of those that fail, as on a disk that is full and stays so
 // - FAULTY_ONE_IN: or each of them fails with one chance in so many, by FAULTY_SEED
 // - FAULTY_WITH: ENOSPC, EIO, EROFS, EINVAL ..., or kill: this process, or kill-group: its group, after
-//   half of what it writes
+//   half of what it writes; or empty: the call succeeds, and its file becomes empty before it
 // - FAULTY_LOG: a file that gets a line for each fault: the call and the path
+// - FAULTY_TRACE: a file that gets a line for each call that is counted: the call and the path, of a rename the old
+//   path and the new one. It needs no fault.
 #include <dlfcn.h>
 #include <fcntl.h>
 #include <pthread.h>
 #include <sys/file.h>
 #include <sys/mman.h>
 #include <sys/stat.h>
+#include <sys/uio.h>
 #include <unistd.h>
 
 #include <atomic>
@@ -30,10 +34,11 @@
 namespace {
 
 struct Plan {
-  std::string folder, calls, log;
+  std::string folder, calls, log, trace;
   unsigned long at = 0, from = 0, one_in = 0, seed = 0;
   int error = 0;
   int kills = 0;                                ///< 1: the process, 2: its group
+  bool empties = false;
   std::atomic<unsigned long>* count = nullptr;  ///< shared with what is forked
 };
 
@@ -59,13 +64,15 @@ int error_of(const std::string& name) {
 
 const Plan* made_plan() {
   static Plan plan{variable("FAULTY_FOLDER"), variable("FAULTY_CALLS"), variable("FAULTY_LOG"),
-                   number("FAULTY_AT"),       number("FAULTY_FROM"),    number("FAULTY_ONE_IN"),
-                   number("FAULTY_SEED")};
+                   variable("FAULTY_TRACE"),  number("FAULTY_AT"),      number("FAULTY_FROM"),
+                   number("FAULTY_ONE_IN"),   number("FAULTY_SEED")};
   if (plan.folder.empty()) return nullptr;
   const std::string with = variable("FAULTY_WITH");
   plan.kills = with == "kill" ? 1 : with == "kill-group" ? 2 : 0;
+  plan.empties = with == "empty";
   plan.error = error_of(with);
-  if (plan.kills == 0 && plan.error == 0) refuse_plan("FAULTY_WITH is no error");
+  const bool has_fault = plan.kills > 0 || plan.empties || plan.error != 0;
+  if (!has_fault && (plan.trace.empty() || !with.empty())) refuse_plan("FAULTY_WITH is no error");
   void* shared =
       ::mmap(nullptr, sizeof *plan.count, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
   if (shared == MAP_FAILED) refuse_plan("no memory to count in");
@@ -101,6 +108,12 @@ std::string path_of(const char* path) {
   return ::getcwd(folder, sizeof folder) == nullptr ? "" : std::string(folder) + '/' + path;
 }
 
+/// Of a call that takes its path from an open folder.
+std::string path_in(int folder, const char* path) {
+  if (path[0] == '/' || folder == AT_FDCWD) return path_of(path);
+  return path_of(folder).append("/").append(path);
+}
+
 bool is_within(const std::string& path, const std::string& folder) {
   return path == folder || path.compare(0, folder.size() + 1, folder + '/') == 0;
 }
@@ -121,31 +134,39 @@ unsigned long mixed(unsigned long x) {
   return x ^ (x >> 31);
 }
 
-bool is_due(const Plan& p, const std::string& path, const char* call) {
-  if (!is_listed(p.calls, call) || !is_within(path, p.folder)) return false;
+bool is_due(const Plan& p) {
   const unsigned long number = ++*p.count;
   return number == p.at || (p.from > 0 && number >= p.from) ||
          (p.one_in > 0 && mixed(mixed(p.seed) + number) % p.one_in == 0);
 }
 
-void remember(const Plan& p, const std::string& path, const char* call) {
-  if (p.log.empty()) return;
-  const std::string line = std::string(call) + ' ' + path + '\n';
-  const int fd = next<int(const char*, int, ...)>("open")(p.log.c_str(), O_WRONLY | O_CREAT | O_APPEND, 0644);
+void remember(const std::string& log, const std::string& path, const char* call) {
+  if (log.empty()) return;
+  std::string line(call);
+  line.append(" ").append(path).append("\n");
+  const int fd = next<int(const char*, int, ...)>("open")(log.c_str(), O_WRONLY | O_CREAT | O_APPEND, 0644);
   (void)!next<ssize_t(int, const void*, size_t)>("write")(fd, line.data(), line.size());
   next<int(int)>("close")(fd);
 }
 
-/// Whether the call is to fail; errno says with what.
+/// Whether the call is to fail; errno says with what. `from` is where a file is renamed from.
 template <typename Place>
-bool fails(const char* call, Place place) {
+bool fails(const char* call, Place place, const std::string& from = "") {
   const Plan* p = plan();
   if (p == nullptr) return false;
   const int before = errno;
   const std::string path = path_of(place);
   errno = before;
-  if (!is_due(*p, path, call)) return false;
-  remember(*p, path, call);
+  if (!is_listed(p->calls, call) || !is_within(path, p->folder)) return false;
+  remember(p->trace, from + path, call);
+  errno = before;
+  if (!is_due(*p)) return false;
+  remember(p->log, path, call);
+  if (p->empties) {
+    (void)!next<int(const char*, off_t)>("truncate")(path.c_str(), 0);
+    errno = before;
+    return false;
+  }
   if (p->kills > 0) ::kill(p->kills == 2 ? 0 : ::getpid(), SIGKILL);
   errno = p->error;
   return true;
@@ -174,6 +195,38 @@ ssize_t pwrite(int fd, const void* bytes, size_t size, off_t offset) {
   return fails("write", fd) ? -1 : real(fd, bytes, size, offset);
 }
 
+ssize_t pwrite64(int fd, const void* bytes, size_t size, off64_t offset) {
+  return pwrite(fd, bytes, size, offset);
+}
+
+ssize_t writev(int fd, const struct iovec* parts, int count) {
+  static auto* const real = next<ssize_t(int, const struct iovec*, int)>("writev");
+  return fails("write", fd) ? -1 : real(fd, parts, count);
+}
+
+int ftruncate(int fd, off_t size) noexcept {
+  static auto* const real = next<int(int, off_t)>("ftruncate");
+  return fails("truncate", fd) ? -1 : real(fd, size);
+}
+
+int ftruncate64(int fd, off64_t size) noexcept {
+  return ftruncate(fd, size);
+}
+
+int posix_fallocate(int fd, off_t begin, off_t size) {
+  static auto* const real = next<int(int, off_t, off_t)>("posix_fallocate");
+  return fails("truncate", fd) ? errno : real(fd, begin, size);
+}
+
+int posix_fallocate64(int fd, off64_t begin, off64_t size) {
+  return posix_fallocate(fd, begin, size);
+}
+
+int fdatasync(int fd) {
+  static auto* const real = next<int(int)>("fdatasync");
+  return fails("fsync", fd) ? -1 : real(fd);
+}
+
 int fsync(int fd) {
   static auto* const real = next<int(int)>("fsync");
   return fails("fsync", fd) ? -1 : real(fd);
@@ -181,7 +234,28 @@ int fsync(int fd) {
 
 int rename(const char* from, const char* to) noexcept {
   static auto* const real = next<int(const char*, const char*)>("rename");
-  return fails("rename", to) ? -1 : real(from, to);
+  return fails("rename", to, path_of(from).append(" ")) ? -1 : real(from, to);
+}
+
+int renameat(int from_folder, const char* from, int to_folder, const char* to) noexcept {
+  static auto* const real = next<int(int, const char*, int, const char*)>("renameat");
+  const bool failed = fails("rename", path_in(to_folder, to).c_str(), path_in(from_folder, from).append(" "));
+  return failed ? -1 : real(from_folder, from, to_folder, to);
+}
+
+int unlink(const char* path) noexcept {
+  static auto* const real = next<int(const char*)>("unlink");
+  return fails("unlink", path) ? -1 : real(path);
+}
+
+int remove(const char* path) noexcept {
+  static auto* const real = next<int(const char*)>("remove");
+  return fails("unlink", path) ? -1 : real(path);
+}
+
+int unlinkat(int folder, const char* path, int flags) noexcept {
+  static auto* const real = next<int(int, const char*, int)>("unlinkat");
+  return fails("unlink", path_in(folder, path).c_str()) ? -1 : real(folder, path, flags);
 }
 
 int open(const char* path, int flags, ...) {
