@@ -76,6 +76,9 @@ std::string mm_text(const std::optional<double>& value, int decimals) {
 
 std::string text_line(const std::string& program, const std::string& output, const WatchResult& result) {
   const std::string reason = result.verdict_reason.empty() ? "" : fmt::format(" ({})", result.verdict_reason);
+  if (result.exit != Exit::done)
+    return fmt::format("{}{}: {}: not written (exit status {})\n", result.verdict, reason, without_controls(program),
+                       static_cast<int>(result.exit));
   return fmt::format("{}{}: {} -> {}: {} before, {} after\n", result.verdict, reason, without_controls(program), without_controls(output),
                      mm_text(result.before_mm, 3), mm_text(result.after_mm, 4));
 }
@@ -239,7 +242,7 @@ void Watch::tell(const std::string& program, const std::string& output, const Wa
   if (!result.error.empty()) console_.error(result.error);
   if (options_.json)
     write_result(json_line(program, output, result));
-  else if (result.exit == Exit::done)
+  else
     write_result(text_line(program, output, result));
 }
 
