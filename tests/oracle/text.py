@@ -7,6 +7,7 @@ CORRECTED = set('XYZIJKR') | {'Q203'}  # letters whose numbers a correction may 
 INSERTED = set('XYZIJKR')   # words that it may insert; besides the motion G0 to G3, and F where it means time
 ARC = set('IJKRP')
 WEIGHT = dict.fromkeys('XYZ', 1.0) | dict.fromkeys('IJKR', 0.01)  # half arcs have other centres, the same end
+MOST_CORRECTED = 0.7        # mm, or 0.0276 inch: more than any correction of these programs
 BEAM = 60                   # alignments that are followed side by side
 
 
@@ -157,15 +158,34 @@ def align(original, corrected):
     return versions[::-1]
 
 
+def may_end(block, piece):
+    """Whether `piece` can be the last one of `block`, whose first piece is its version as it says more than where to go."""
+    ends = {t[1]: value(t[3]) for t in block.words if t[1] in 'XYZ'}
+    reached = {t[1]: value(t[3]) for t in piece.words if t[1] in 'XYZ'}
+    return all(abs(ends[letter] - reached[letter]) < MOST_CORRECTED for letter in ends.keys() & reached.keys())
+
+
+def first_pieces(original, corrected, versions, index):
+    """Where the pieces of a block can begin: behind the version of the block before it, or, where that is the first piece of
+    its own, behind its last one."""
+    if index == 0:
+        return [0]
+    first, block = versions[index - 1] + 1, Line(original[index - 1])
+    says_more = any(isinstance(t, tuple) and not is_inserted(t, True) for t in block.tokens)
+    if not says_more or not block.letters & set('XYZ'):
+        return [first]
+    return [j for j in range(first, versions[index] + 1) if may_end(block, Line(corrected[j - 1]))]
+
+
 def check_numbers(original, corrected, versions):
     """The numbers are those of the original, in its order; that of a split block is on its first piece."""
     wanted = [(n, index) for index, n in enumerate(Line(text).number for text in original) if n is not None]
     found = [(n, j) for j, n in enumerate(Line(text).number for text in corrected) if n is not None]
     if [n for n, _ in wanted] != [n for n, _ in found]:
         raise Mismatch('the numbers of blocks are not those of the original')
+    increments = any(re.search(r'G\s*91(?![\d.])', line, re.I) for line in original)
     for (number, index), (_, j) in zip(wanted, found):
-        first = versions[index - 1] + 1 if index > 0 else 0
-        if not first <= j <= versions[index]:
+        if not (versions[index - 1] if index > 0 else -1) < j <= versions[index]:
             raise Mismatch('N%d is not on a piece of its block' % number)
-        if j > first and Line(corrected[first]).is_piece and not Line(original[index - 1]).motion:
+        if not increments and j not in first_pieces(original, corrected, versions, index):
             raise Mismatch('N%d is not on the first piece of its block' % number)
