@@ -2,9 +2,11 @@
 #include "counterflex/compensation/recorded_windows.hpp"
 
 #include <doctest/doctest.h>
+#include <sys/resource.h>
 
 #include "compensation/busy_program.hpp"
 #include "compensation/parts.hpp"
+#include "counterflex/files/bytes.hpp"
 #include "record_file.hpp"
 #include "window_record.hpp"
 
@@ -53,6 +55,12 @@ std::string error_of(const std::function<void()>& work) {
     return error.what();
   }
   return "none";
+}
+
+long peak_memory_kb() {
+  rusage usage{};
+  ::getrusage(RUSAGE_SELF, &usage);
+  return usage.ru_maxrss;
 }
 
 }  // namespace
@@ -230,6 +238,32 @@ TEST_CASE("a damaged file of records is refused by name: cut off anywhere, or wi
   }
   CHECK(passed == 0);
   CHECK_FALSE(refused(bytes));
+}
+
+TEST_CASE("lengths and counts of gigabytes are refused, and no memory is taken for them") {
+  const Folder folder;
+  const std::string file = record(raster(30), 1, folder)[0], crafted = folder.file("crafted");
+  const std::string whole = read_file(file), bytes = *RecordReader(file, one_run).next();
+  const std::size_t begin = whole.find(bytes) - sizeof(std::size_t);
+  const long before = peak_memory_kb();
+  for (const std::size_t claim : {std::size_t{1} << 31, std::size_t{1} << 40, ~std::size_t{0} / 64, ~std::size_t{0}}) {
+    CAPTURE(claim);
+    std::string raw;
+    put(claim, raw);
+    std::string content = whole.substr(0, whole.size() - 64);
+    content.replace(begin, raw.size(), raw);
+    Sha256 hash;
+    hash.add(content);
+    write_file(crafted, content + hash.digits());
+    CHECK(error_of([&] { RecordedWindows({crafted}, one_run); }) ==
+          crafted + ": error: the recorded part of a program is damaged; compensate the part again");
+    for (std::size_t i = 0; i + raw.size() <= bytes.size(); ++i) {
+      std::string damaged = bytes;
+      damaged.replace(i, raw.size(), raw);
+      (void)window_record_of(damaged);
+    }
+  }
+  CHECK(peak_memory_kb() - before < 64 * 1024);
 }
 
 TEST_CASE("records of another run are refused by name") {
