@@ -109,8 +109,9 @@ TEST_CASE("the first piece of a split block has its N, so that a restart there r
   CHECK(split("N50 G1 X3. F9 M8\n", "mach3") == "N50 G1 X1. Y0.250 F9 M8\nG1 X3.000 Y0.000 F9\n");
   CHECK(with_last_move("G71 G0 X0. Y0. Z0.\nN50 NEXT: G1 X3. F9\n", edit, "siemens") ==
         "G71 G0 X0. Y0. Z0.\nN50 NEXT: G1 X1. Y0.250 F9\nG1 X3.000 Y0.000 F9\n");
-  CHECK(with_last_move(std::string(start) + "N50 Z5.\n", {.jump_mm = Vector3(0, 1, 0), .end_mm = {0, 1, 5}}) ==
-        std::string(start) + "N50 G1 Y1.000\nG0 Z5.\n");
+  const std::string fed = std::string(start) + "F9.\n";
+  CHECK(with_last_move(fed + "N50 Z5.\n", {.jump_mm = Vector3(0, 1, 0), .end_mm = {0, 1, 5}}) ==
+        fed + "N50 G1 Y1.000\nG0 Z5.\n");
 }
 
 TEST_CASE("the other pieces are numbered where the program leaves numbers free, and counted where not") {
