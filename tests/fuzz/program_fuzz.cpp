@@ -1,29 +1,15 @@
 /// Fuzz target for the reader and the rewriter: whatever bytes come, they are refused with a place or come
 /// back unchanged; a shift of every move is written or refused, and never breaks anything.
-#include <cstdint>
-#include <cstdlib>
 #include <string>
 
-#include "counterflex/files/input_error.hpp"
-#include "counterflex/program/read_program.hpp"
 #include "counterflex/program/rewrite.hpp"
+#include "dialects.hpp"
+#include "fuzz.hpp"
 
 namespace counterflex::fuzz {
 namespace {
 
 constexpr std::size_t longest = 1 << 14;  // bytes: the time of a run grows with its input
-
-/// The first byte says how the rest is read, so that all dialects are reached from one target.
-ReadOptions options_of(std::uint8_t first) {
-  static const char* const dialects[] = {"auto", "linuxcnc", "grbl",    "fanuc",
-                                         "haas", "mach3",    "siemens", "heidenhain"};
-  ReadOptions options;
-  options.dialect = dialects[first % 8];
-  options.unit = first & 0x20 ? LengthUnit::inches : LengthUnit::millimetres;
-  options.integer_words = static_cast<IntegerWords>((first >> 6) % 3);
-  if (first & 0x10) options.tool_change_moves.emplace();
-  return options;
-}
 
 /// Every move sent to where the program sends it, `shift_mm` further.
 std::vector<MoveEdit> edits_of(const Program& program, const Vector3& shift_mm) {
@@ -41,15 +27,6 @@ std::vector<MoveEdit> edits_of(const Program& program, const Vector3& shift_mm) 
   return edits;
 }
 
-/// Stops the fuzzer, which keeps the input.
-void demand(bool kept) {
-  if (!kept) std::abort();
-}
-
-void demand_place(const InputError& error) {
-  demand(error.where().line > 0 && error.where().column > 0);
-}
-
 void rewrite_shifted(const Program& program) {
   try {
     rewrite(program, edits_of(program, {0.125, -0.0625, 0.5}), {});
@@ -59,14 +36,13 @@ void rewrite_shifted(const Program& program) {
 }
 
 void read_and_rewrite(const std::string& text, const ReadOptions& options) {
-  try {
+  accept_or_refuse([&] {
     const Program program = read_program(text, "fuzz.nc", options);
-    demand(rewrite(program, {}, {}).text == text);
-    demand(rewrite(program, edits_of(program, Vector3::Zero()), {}).text == text);
+    demand(program.text == text || options.expand_subprograms);
+    demand(rewrite(program, {}, {}).text == program.text);
+    demand(rewrite(program, edits_of(program, Vector3::Zero()), {}).text == program.text);
     rewrite_shifted(program);
-  } catch (const InputError& error) {
-    demand_place(error);
-  }
+  });
 }
 
 }  // namespace
@@ -75,6 +51,6 @@ void read_and_rewrite(const std::string& text, const ReadOptions& options) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace counterflex::fuzz;
   if (size == 0 || size > longest) return 0;
-  read_and_rewrite(std::string(reinterpret_cast<const char*>(data) + 1, size - 1), options_of(data[0]));
+  read_and_rewrite(std::string(text_of(data + 1, size - 1)), options_of(data[0]));
   return 0;
 }
