@@ -153,15 +153,6 @@ void apply_axis_words(const Block& block, Reading& r) {
   read_modal_move(block, r);
 }
 
-/// A G or M that the control works out may do anything.
-void apply_unknown_code(const Block& block, Reading& r) {
-  r.state.doubts = all_doubts;
-  Move& move = start_move(block, r, Motion::rapid);
-  for (std::size_t axis = 0; axis < 3; ++axis) fix_axis(r, move, axis);
-  leave_alone(block, r, "the number of a code is a variable or an expression");
-  finish_move(r, move);
-}
-
 void end_doubtful_cutter(Reading& r) {
   if (r.sorted.has(Action::cutter) || r.sorted.has(Action::no_cutter))
     r.state.doubts &= static_cast<std::uint16_t>(~doubtful_cutter);
@@ -210,7 +201,10 @@ void apply_words(const Block& block, Reading& r) {
   }
   if (r.dialect.sinumerik_words) apply_tool_edge(r);
   const std::size_t moves = r.program.moves.size();
-  r.sorted.unknown_code ? apply_unknown_code(block, r) : apply_axis_words(block, r);
+  if (r.sorted.unknown_code)
+    read_anything(block, r, "the number of a code is a variable or an expression");
+  else
+    apply_axis_words(block, r);
   if (r.program.moves.size() > moves) join_contour(r);
   if (r.sorted.has(MAction::retract)) leave_retract(block, r);
 }
@@ -253,7 +247,11 @@ void interpret(const Block& block, Reading& r) {
   remark_length(block, r);
   if (!says_something(block)) return;
   if (!empty(block.flow_keyword)) {
-    if (block.words.empty() || block.words.front().letter == 'N') return read_flow(block, r);
+    if (block.words.empty() || block.words.front().letter == 'N') {
+      read_flow(block, r);
+      if (block.statement != Statement::none) end_statement(block, r);
+      return;
+    }
     refuse(r.program.file, block, block.flow_keyword.begin,
            "words stand before a condition, a loop or a call");
   }

@@ -282,7 +282,7 @@ void lex(std::string_view text, const std::string& file, const Dialect& dialect,
   block.comments.clear();
   block.block_delete = {};
   block.percent = block.part_name = block.corner = false;
-  block.assigns = false;
+  block.assigns = block.assigns_by_name = false;
   block.flow_keyword = block.flow_name = {};
   block.statement = Statement::none;
   block.statement_is_bare = block.has_sense = false;

@@ -27,6 +27,7 @@ enum class Statement : std::uint8_t {
   transformed,    ///< TRAORI ...
   transform_off,  ///< TRAFOOF
   curve,          ///< CIP, CT, splines: a motion that is not read
+  not_read,       ///< axis words or G codes stand in text that is passed over
   arc_not_read,   ///< an arc whose centre is given in a form that is not read
   smoothed,       ///< COMPCAD, CYCLE832
   data,           ///< assigns to a variable of the control
@@ -55,7 +56,8 @@ struct Block {
   bool percent = false;
   bool corner = false;     ///< ",R2." or ",C1.": the control rounds or breaks the corner with the next move
   bool part_name = false;  ///< the line is the name of a program
-  bool assigns = false;    ///< holds '#1='
+  bool assigns = false;    ///< holds '#1=', "R1="
+  bool assigns_by_name = false;  ///< "_DEPTH=5", "MEAS=1": a variable, or a word that is not known
   Statement statement = Statement::none;
   bool statement_is_bare = false;  ///< nothing follows its name
   bool has_sense = false;          ///< a word says what it counts from

@@ -10,7 +10,8 @@ namespace {
 
 constexpr std::array<std::string_view, 7> macro_keywords{"IF",  "GOTO",  "WHILE", "DO",
                                                          "END", "DPRNT", "BPRNT"};
-constexpr std::array<std::string_view, 4> bare_keywords{"POPEN", "PCLOS", "SETVN", "THEN"};
+constexpr std::string_view then = "THEN";
+constexpr std::array<std::string_view, 4> bare_keywords{"POPEN", "PCLOS", "SETVN", then};
 constexpr std::array<std::string_view, 15> o_keywords{"SUB",    "ENDSUB", "CALL",      "RETURN", "IF",
                                                       "ELSEIF", "ELSE",   "ENDIF",     "WHILE",  "ENDWHILE",
                                                       "DO",     "REPEAT", "ENDREPEAT", "BREAK",  "CONTINUE"};
@@ -55,11 +56,22 @@ void skip_variable(Scanner& s) {
   while (is_digit(s.peek())) ++s.at;
 }
 
-/// What stands up to a comment, or to the ';' that ends a block.
+/// A name, an operator, or a word: one letter before its value. THEN may stand right before a word.
+void skip_letters_of_rest(Scanner& s) {
+  std::string_view letters = letters_at(s, s.at);
+  if (letters.size() > then.size() && is_word(letters.substr(0, then.size()), then)) letters.remove_prefix(then.size());
+  s.skip_letters();
+  if (letters.size() == 1 && may_move(letters[0])) s.block.statement = Statement::not_read;
+}
+
+/// What stands up to a comment, or to the ';' that ends a block. Axis words or G codes in it make the block one that is
+/// not read.
 void skip_rest(Scanner& s) {
   while (s.at < s.end && s.text[s.at] != comment_open && s.text[s.at] != ';') {
     if (s.text[s.at] == '[') {
       skip_bracket(s);
+    } else if (is_letter(s.text[s.at])) {
+      skip_letters_of_rest(s);
     } else {
       ++s.at;
     }

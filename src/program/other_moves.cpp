@@ -99,4 +99,12 @@ void read_call(const Block& block, Reading& r) {
       "subprograms are taken to leave the unit, the work offset, the tool length and G40 to G42 as they are");
 }
 
+void read_anything(const Block& block, Reading& r, std::string_view why) {
+  r.state.doubts = all_doubts;
+  Move& move = start_move(block, r, Motion::rapid);
+  for (std::size_t axis = 0; axis < 3; ++axis) fix_axis(r, move, axis);
+  leave_alone(block, r, why);
+  finish_move(r, move);
+}
+
 }  // namespace counterflex

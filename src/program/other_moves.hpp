@@ -25,4 +25,7 @@ void read_pocket(const Block& block, Reading& reading);
 /// The call of a subprogram or macro: it may move anywhere and set any state.
 void read_call(const Block& block, Reading& reading);
 
+/// A block that may do anything: every state and the position are in doubt afterwards.
+void read_anything(const Block& block, Reading& reading, std::string_view why);
+
 }  // namespace counterflex

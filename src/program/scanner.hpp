@@ -63,6 +63,11 @@ void lex_word(Scanner& scanner);
 /// Refuses the character at the scanner.
 [[noreturn]] void refuse_character(const Scanner& scanner);
 
+/// Whether a word with this letter can say where the tool goes: axes, centres and radii, G codes.
+inline bool may_move(char letter) {
+  return std::string_view("ABCGIJKRUVWXYZ").find(upper(letter)) != std::string_view::npos;
+}
+
 /// Whether `text` is `upper_case` in any case.
 bool is_word(std::string_view text, std::string_view upper_case);
 

@@ -59,6 +59,8 @@ constexpr std::array harmless_names{
     "DISPLON",   "SAVE",     "SBLOF",     "SBLON",   "UPATH",   "SPATH",       "CFC",       "CFTCP",
     "CFIN",      "FIFOCTRL", "WALIMON",   "WALIMOF", "DYNNORM", "DYNPOS",      "DYNROUGH",  "DYNSEMIFIN",
     "DYNFINISH", "DYNPREC",  "ORISOF",    "ORISON",  "ORIWKS",  "ORIMKS",      "ORIAXES",   "ORIVECT",
+    "CTOL",      "OTOL",     "ATOL",      "OVR",     "OVRA",    "OVRRAP",      "FL",        "FA",
+    "FRC",       "FRCM",     "FB",        "FZ",      "SCC",     "SVC",
     "ADIS",      "ADISPOS",  "DISC",      "ACC",     "LIMS",    "VELOLIM",     "JERKLIM",   "RTLION",
     "RTLIOF",    "DEF",      "DEFINE",    "EXTERN",  "PROC",    "GROUP_BEGIN", "GROUP_END", "GOTO",
     "GOTOF",     "GOTOB",    "GOTOC",     "GOTOS",   "CASE",    "SPINDLE",     "SYNFCT",    "STOPREC",
@@ -105,6 +107,39 @@ void skip_value(Scanner& s) {
     if (c == ')' || c == ']') --depth;
     if (depth <= 0 && (is_blank(c) || c == ';')) break;
   }
+}
+
+constexpr std::array<std::string_view, 9> operators{"DIV",   "MOD",  "AND",   "OR", "XOR",
+                                                    "B_AND", "B_OR", "B_XOR", "NOT"};
+
+/// An operator at the scanner; false where there is none.
+bool skip_operator(Scanner& s) {
+  const std::size_t begin = s.at;
+  while (s.at < s.end && std::string_view("+-*/<>=").find(s.peek()) != std::string_view::npos) ++s.at;
+  if (s.at > begin) return true;
+  const std::string_view name = name_at(s);
+  const bool found = std::any_of(operators.begin(), operators.end(), [&](auto known) { return is_word(name, known); });
+  if (found) s.at += name.size();
+  return found;
+}
+
+/// What is assigned: values with operators between them.
+void skip_assigned(Scanner& s) {
+  for (bool more = true; more; more = skip_operator(s)) {
+    s.skip_blanks();
+    skip_value(s);
+    s.skip_blanks();
+  }
+}
+
+/// "[X]", "[R1, 2]".
+void skip_index(Scanner& s) {
+  int depth = 0;
+  do {
+    if (s.peek() == '[') ++depth;
+    if (s.peek() == ']') --depth;
+    ++s.at;
+  } while (depth > 0 && s.at < s.end);
 }
 
 int decimals_in_plain(std::string_view number) {
@@ -205,16 +240,34 @@ void skip_harmless(Scanner& s, std::string_view name) {
   skip_value(s);
 }
 
-/// Letters of words that carry a number of their own before '=': "R1=", "M3=", "S2=", "A3=".
+/// G74 and G75 go to positions of the machine, whose axes have other names: "G74 X1=0 Z1=0".
+bool goes_to_machine_position(const Block& block) {
+  return std::any_of(block.words.begin(), block.words.end(), [](const Word& word) {
+    return word.letter == 'G' && (word.value == 74 || word.value == 75);
+  });
+}
+
+/// Letters of words that carry a number of their own before '=': "R1=", "M3=", "S2=", and axes "X1=", "A3=".
 void skip_numbered_assignment(Scanner& s, std::string_view name) {
   const char letter = upper(name[0]);
-  if (letter == 'A' || letter == 'B' || letter == 'C') return state(s, Statement::call);
+  if (letter != 'R' && may_move(letter) && !goes_to_machine_position(s.block)) return state(s, Statement::call);
   s.block.assigns = true;
   s.at += name.size();
   while (s.peek() != '=') ++s.at;
   ++s.at;
+  skip_assigned(s);
+}
+
+/// "_DEPTH=5", "MEAS=1", "$AC_TIMER[1]=0": a variable or a word of the control. What the block does besides is not known.
+void skip_named_assignment(Scanner& s, std::string_view name) {
+  s.block.assigns = s.block.assigns_by_name = true;
+  s.at += name.size();
   s.skip_blanks();
-  skip_value(s);
+  if (s.peek() == '[') skip_index(s);
+  s.skip_blanks();
+  if (s.peek() != '=') return;
+  ++s.at;
+  skip_assigned(s);
 }
 
 bool equals_follows(const Scanner& s, std::size_t behind) {
@@ -258,13 +311,11 @@ void lex_name(Scanner& s, std::string_view name) {
     return skip_harmless(s, name);
   for (const std::string_view family : {"CYCLE", "POCKET", "HOLES", "SLOT", "LONGHOLE"})
     if (is_word(name.substr(0, family.size()), family)) return state(s, Statement::cycle);
-  if (name.starts_with('$')) return state(s, Statement::data);
-  if (equals_follows(s, name.size()) || s.text.substr(s.at + name.size(), 1) == "[") {
+  if (name.starts_with('$')) s.block.statement = Statement::data;
+  if (name.starts_with('$') || equals_follows(s, name.size()) || s.text.substr(s.at + name.size(), 1) == "[") {
     const bool position = std::any_of(position_names.begin(), position_names.end(),
                                       [&](auto known) { return is_word(name, known); });
-    if (position) return state(s, Statement::call);
-    s.block.assigns = true;
-    return skip_siemens_rest(s);
+    return position ? state(s, Statement::call) : skip_named_assignment(s, name);
   }
   state(s, Statement::call);
 }
@@ -325,6 +376,9 @@ void lex_siemens(Scanner& s) {
       refuse_character(s);
     }
   }
+  const auto moves = [](const Word& word) { return may_move(word.letter); };
+  if (s.block.assigns_by_name && std::any_of(s.block.words.begin(), s.block.words.end(), moves))
+    s.block.statement = Statement::not_read;
 }
 
 }  // namespace counterflex

@@ -56,6 +56,9 @@ void end_statement(const Block& block, Reading& r) {
     case Statement::call:
     case Statement::arc_not_read:
       return call_subprogram(block, r);
+    case Statement::not_read:
+      r.sorted = {};
+      return read_anything(block, r, "axis words or G codes stand in a part of the block that is not read");
     case Statement::cycle:
       return run_cycle(block, r);
     case Statement::modal_call:

@@ -121,3 +121,19 @@ TEST_CASE("a second program behind the end stays, and is remarked") {
   CHECK(program.remarks.at(0).what == "what stands behind the end of the program stays as it is");
   CHECK(read(origin_block + "M30\n%\n\n").remarks.empty());
 }
+
+TEST_CASE("a block with words behind an assignment or THEN may do anything") {
+  for (const char* const line : {"#1=5 G1 X20", "#1=#2 X20.", "IF[#1EQ1]THEN X20", "IF [#1 EQ 1] THENG1X20", "IF[#1EQ1]THEN #2=1 Y5"}) {
+    CAPTURE(line);
+    const Program program = read("O1\nG21 G90\nG0 X0 Y0 Z0\n" + std::string(line) + "\nY50.\n", "fanuc");
+    REQUIRE(program.moves.size() == 3);
+    CHECK(program.moves[1].fixed == std::array{true, true, true});
+    CHECK(program.moves[2].fixed[1]);
+  }
+  for (const char* const line : {"#1=#2+SIN[#3]*5", "#1=#2MOD5", "#1=ATAN[1]/[2] (X20)", "IF[#1EQ1]THEN #2=#3AND5", "#1=ROUND[#2]"}) {
+    CAPTURE(line);
+    CHECK(read("O1\nG21 G90\nG0 X0 Y0 Z0\n" + std::string(line) + "\nG1 Y50. F100\n", "fanuc").moves.size() == 2);
+  }
+  const Program linuxcnc = read("G21 G90\nG0 X0 Y0 Z0\n#1=5 G1 X20 F100\n", "linuxcnc");
+  CHECK(linuxcnc.moves.back().end_mm.x() == 20);
+}

@@ -206,3 +206,37 @@ TEST_CASE("siemens: what is no program is refused at its place") {
           siemens("G71\nG0 X=\n");
         }).starts_with("p.mpf:2:5: error: X= is followed by no value"));
 }
+
+TEST_CASE("siemens: a block with an unknown assignment beside words is not followed, nor is what it leaves") {
+  for (const char* const line :
+       {"MEAS=1 G1 X20", "G1 X20 MEAW=-1", "_VAR=5 G1 X20 Y50", "$AC_TIMER[1]=0 X20", "LIMIT[2]=4 X=R1", "_A=R1 + 5 X20"}) {
+    CAPTURE(line);
+    const Program program = siemens(std::string(siemens_start) + line + "\nY50\n");
+    REQUIRE(program.moves.size() == 3);
+    CHECK(program.moves[1].fixed == std::array{true, true, true});
+    CHECK(program.moves[2].fixed[1]);
+    REQUIRE(!program.left_alone.empty());
+    CHECK(program.left_alone.front().why.find("part of the block that is not read") != std::string::npos);
+  }
+}
+
+TEST_CASE("siemens: words behind a value that moves no axis are read") {
+  for (const char* const line : {"CTOL=0.01 G1 X20 F100", "FL[X]=1000 G1 X20 F100", "OVRA[X]=50 G1 X20 F100", "FRC=100 G1 X20 F100",
+                                 "R5=R1 + 5 G1 X20 F100", "R5=2 R6=R5*3 G1 X20 F100"}) {
+    CAPTURE(line);
+    const Program program = siemens(std::string(siemens_start) + line + "\n");
+    REQUIRE(program.moves.size() == 2);
+    CHECK(program.moves[1].end_mm.x() == 20);
+    CHECK(program.left_alone.empty());
+  }
+}
+
+TEST_CASE("siemens: assignments alone move nothing, and an axis with a number is not followed") {
+  for (const char* const line : {"_VAR=5", "_A=5 _B=R1 * (2 + R3) M8", "_S=\"X20 G1\"", "R1=SIN(30) DIV 2"}) {
+    CAPTURE(line);
+    const Program program = siemens(std::string(siemens_start) + line + "\nG1 X5 F100\n");
+    CHECK(program.moves.size() == 2);
+    CHECK(program.moves.back().known_end == std::array{true, true, true});
+  }
+  CHECK(siemens(std::string(siemens_start) + "G1 X1=20 F100\n").moves.back().fixed[0]);
+}
