@@ -118,7 +118,8 @@ TEST_CASE("the report has tip, rim and flank of each tool, before and after, and
 TEST_CASE("a tool whose diameter is not known has a tilt and no rim") {
   const MadeUpRun run;
   const RunTally tally = tally_with(run, {}, tilted(1e-3));
-  const ToolDeviation& after = *tally.path().measures().tools.at(0).after.largest();
+  const Measures measures = tally.path().measures();
+  const ToolDeviation& after = *measures.tools.at(0).after.largest();
   CHECK_FALSE(after.rim_mm);
   CHECK_FALSE(after.flank_mm);
   CHECK(after.tilt_deg == doctest::Approx(1e-3 / deg));
