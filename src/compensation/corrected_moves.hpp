@@ -38,7 +38,7 @@ struct CorrectedMove {
 
 class CorrectedMoves {
  public:
-  using ReadWindow = std::function<bool(Program&)>;  ///< the next window; false: there is none
+  using ReadWindow = std::function<bool(Program&)>;  ///< reads the next window; false at the end
 
   explicit CorrectedMoves(ReadWindow read) : read_(std::move(read)) {}
   explicit CorrectedMoves(const Program& whole) { add(whole); }
@@ -47,7 +47,7 @@ class CorrectedMoves {
   /// The move `index` places on, until more is read; null behind the last one.
   const CorrectedMove* at(std::size_t index);
 
-  /// Goes on: the first `count` moves are done with.
+  /// Removes the first `count` moves.
   void drop(std::size_t count);
 
   /// Of what has been read.

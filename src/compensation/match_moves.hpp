@@ -23,7 +23,7 @@ class MoveFinder {
   MoveFinder(const Job& job, const PlannedEnds& ends, CorrectedMoves& found)
       : job_(job), ends_(ends), found_(found) {}
 
-  /// Those of move `m`, with `others` lines without a move before it; empty where there are none. They begin
+  /// Those of move `m`, with `others` lines without a move before it; empty if no move matches. They begin
   /// at the first move that was not dropped.
   std::span<const CorrectedMove> find(std::size_t m, std::optional<std::size_t> segment, std::size_t others);
 

@@ -112,7 +112,7 @@ void skip_value(Scanner& s) {
 constexpr std::array<std::string_view, 9> operators{"DIV",   "MOD",  "AND",   "OR", "XOR",
                                                     "B_AND", "B_OR", "B_XOR", "NOT"};
 
-/// An operator at the scanner; false where there is none.
+/// Passes over an operator; false if none stands at the scanner.
 bool skip_operator(Scanner& s) {
   const std::size_t begin = s.at;
   while (s.at < s.end && std::string_view("+-*/<>=").find(s.peek()) != std::string_view::npos) ++s.at;

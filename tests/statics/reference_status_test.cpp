@@ -163,7 +163,7 @@ TEST_CASE("a truss pushed past its snap-through does not pass for converged on i
   CHECK(after.status != Status::converged);
 }
 
-TEST_CASE("a state that the load alone does not lead to is told from one that it does") {
+TEST_CASE("is_reached_by_load_alone is false beyond the snap-through of a lifted truss") {
   Bench bench(reference_machine("lifted_truss"));
   REQUIRE(bench.model.home_status == Status::converged);
   const auto pushed = [&](double N) {
