@@ -2,7 +2,7 @@
 
 _counterflex_words() {
   local forces='--forces --force --load-scale --air-above' config='--config --no-config --print-config'
-  local reading="--machine --dialect --units --integer-words --expand-subprograms --work --tool-table --tool-length $config"
+  local reading="--machine --dialect --units --integer-words --arc-centres --evaluate --expand-subprograms --work --tool-table --tool-length $config"
   local program="$reading --tolerance-mm --method --max-correction-mm --accept-partial --decimals --threads"
   case $1 in
     compensate) echo "$program $forces --blend-mm --output --number-pieces --plot --report --force-overwrite --min-block-ms --json --quiet --verbose --help" ;;
@@ -29,6 +29,7 @@ _counterflex() {
     --method) values='direct nested linear' ;;
     --dialect) values='auto linuxcnc grbl fanuc haas mach3 siemens heidenhain' ;;
     --integer-words) values='units increments' ;;
+    --arc-centres) values='incremental absolute' ;;
     --units) values='mm inch' ;;
     -m | --machine | --tool-table | --config | -f | --forces | -o | --output | --report | --plot) return ;;  # files: readline completes them
     *) if [[ $COMP_CWORD -eq 1 || $current == -* ]]; then

@@ -41,7 +41,7 @@ void add_move(const Program& program, const Move& move, MoveFacts& facts) {
     facts.least[i] = std::min(facts.least[i], extent.least[i]);
     facts.most[i] = std::max(facts.most[i], extent.most[i]);
   }
-  add_once(facts.offsets, program.work_offsets[move.offset]);
+  add_once(facts.offsets, program.frames[move.frame].work_offset);
   add_once(facts.units, move.unit);
   facts.with_force += move.force.has_value();
   if (move.motion != Motion::feed) return;
@@ -161,14 +161,15 @@ nlohmann::ordered_json json_of(const ProgramFacts& facts) {
 /// What stops the nominal machine from going to a place in a move of `line`. `base`: the machine without a
 /// tool.
 std::optional<Failure> go_to(NominalToolPath& nominal, const Model& base, const CommandedPlace& at,
-                             int line) {
+                             const Program& window, int line) {
   const Status status = nominal.go_to(at.model, at.target);
   if (status != Status::converged)
     return Failure{Exit::not_compensated, line,
                    fmt::format("the machine does not reach the end of this move: {}", to_string(status))};
-  if (!within_travel(at.model.mechanism, actuator_values(at.model.mechanism, nominal.configuration())))
-    return Failure{Exit::limit, line, outside_travel_words(base.mechanism, at)};
-  return std::nullopt;
+  if (within_travel(at.model.mechanism, actuator_values(at.model.mechanism, nominal.configuration())))
+    return std::nullopt;
+  if (const auto word = integer_word_in_doubt(window, line)) return Failure{Exit::program_text, word->line, word->what};
+  return Failure{Exit::limit, line, outside_travel_words(base.mechanism, at)};
 }
 
 /// The first place, end of a line or on an arc, that the nominal machine does not reach.
@@ -183,7 +184,7 @@ std::optional<Failure> first_unreached(const Model& base, const ToolModels& tool
       const std::vector<Vector3> points = points_along(segment.wanted);
       for (std::size_t i = 1; i < points.size(); ++i) {
         const CommandedPlace at{model, frames[segment.frame], tool, points[i]};
-        if (const auto failure = go_to(nominal, base, at, segment.line)) return failure;
+        if (const auto failure = go_to(nominal, base, at, reader.window(), segment.line)) return failure;
         travel.add(model, points[i], segment.line);
       }
     }

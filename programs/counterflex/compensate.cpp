@@ -16,11 +16,8 @@ bool is_reported(const Failure& failure) {
   return failure.exit == Exit::not_compensated || failure.exit == Exit::limit;
 }
 
-void add(const Job& job, Compensation& window, RunTally& tally, RunFiles& files) {
-  tally.add_window(job);
+void add(const Compensation& window, RunTally& tally, RunFiles& files) {
   tally.add_compensation(window);
-  tally.add_waypoints(window.waypoints, job);
-  files.add_waypoints(window.waypoints);
   files.add_program(window.text);
   if (window.text.empty()) return;
   tally.add_corrected(window.corrected);
@@ -57,20 +54,25 @@ std::optional<Failure> compensate_all(Run& run, RunTally& tally, RunFiles& files
   const auto begun = [&](const Job& job) {
     const std::lock_guard alone(speaking);
     windows.warn(job);
+    tally.add_window(job);
   };
-  const auto done = [&](const Job& job, Compensation& window) {
+  const auto solved = [&](const Job& job, const std::vector<Waypoint>& waypoints) {
+    if (wants_loads(run)) run.load_places.add(job, waypoints);
+    tally.add_waypoints(waypoints, job);
+    files.add_waypoints(waypoints);
+    console.solved(waypoints.size());
+  };
+  const auto done = [&](const Job&, const Compensation& window) {
     std::unique_lock alone(speaking);
     for (const LeftAlone& block : window.left_alone)
       console.warning(run.program.file, block.line, "not corrected: " + block.why);
     unnumbered.add(window.counts);
     alone.unlock();
-    if (wants_loads(run)) run.load_places.add(job, window.waypoints);
-    add(job, window, tally, files);
-    console.solved(window.waypoints.size());
+    add(window, tally, files);
   };
   const std::optional<Failure> failure =
       compensate_windows(windows.jobs(), run.options, TextReader(windows.reader()), run.facts.attribution,
-                         {read, begun, done}, recorded);
+                         {read, begun, solved, done}, recorded);
   unnumbered.warn(run.program.file, console);
   if (recorded.taken() > 0)
     console.detail(fmt::format("{} windows taken over from records, {} compensated", recorded.taken(),

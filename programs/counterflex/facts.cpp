@@ -26,6 +26,9 @@ std::vector<OptionValue> reading_options(const Options& options, const Run& run)
   if (options.integer_words != IntegerWords::unsaid)
     values.push_back({"integer-words",
                       std::string(options.integer_words == IntegerWords::units ? "units" : "increments")});
+  if (options.absolute_centres)
+    values.push_back({"arc-centres", std::string(*options.absolute_centres ? "absolute" : "incremental")});
+  if (options.evaluate) values.push_back({"evaluate", true});
   if (options.expand_subprograms) values.push_back({"expand-subprograms", true});
   for (const std::string& work : options.work) values.push_back({"work", work});
   for (const auto& [number, length_mm] : options.tool_lengths_mm)

@@ -113,6 +113,20 @@ void add_forces(const Options& options, const Run& run, std::vector<std::string>
     lines.push_back("WITH FORCES TIMES " + short_number(options.load_scale, 6));
 }
 
+/// What the text alone does not say of how it was read: verify needs the same.
+void add_reading(const Options& options, const Run& run, std::vector<std::string>& lines) {
+  std::string how;
+  const auto add = [&](bool given, std::string_view name) {
+    if (given) how += fmt::format("{}{}", how.empty() ? "" : ", ", name);
+  };
+  add(options.integer_words == IntegerWords::units, "INTEGER WORDS UNITS");
+  add(options.integer_words == IntegerWords::increments, "INTEGER WORDS INCREMENTS");
+  add(run.read.absolute_centres, "ARC CENTRES ABSOLUTE");
+  add(options.evaluate, "EVALUATE");
+  add(options.expand_subprograms, "EXPAND SUBPROGRAMS");
+  if (!how.empty()) lines.push_back("READ WITH " + how);
+}
+
 }  // namespace
 
 std::string force_rule_text(const ForceRule& rule) {
@@ -124,12 +138,12 @@ std::vector<std::string> header_of(const Options& options, const Run& run) {
   const std::string name = plain_name(run.machine.machine.name);
   std::vector<std::string> lines{
       fmt::format("VERSION {} METHOD {}", upper(version), upper(std::string(to_string(run.options.method)))),
-      "PROGRAM " + short_hash(run.file.file),
-      "MACHINE " + short_hash(run.machine.file),
+      "PROGRAM " + short_hash(run.file.file), "MACHINE " + short_hash(run.machine.file),
       "MADE FOR " + (name.empty() ? "A MACHINE WITHOUT A NAME" : name)};
   add_work(run, lines);
   add_tools(run, lines);
   add_forces(options, run, lines);
+  add_reading(options, run, lines);
   for (std::string& line : lines) line.insert(0, header_mark);
   return lines;
 }

@@ -155,6 +155,8 @@ ReadOptions read_options(const Options& options, const Machine* machine, const T
   if (options.dialect) read.dialect = *options.dialect;
   read.unit = unit_of(options, machine);
   read.integer_words = options.integer_words;
+  read.absolute_centres = options.absolute_centres.value_or(machine != nullptr && machine->control.absolute_centres);
+  read.evaluate = options.evaluate;
   read.expand_subprograms = options.expand_subprograms;
   read.tool_lengths_mm = tools.mm;
   if (machine != nullptr && machine->control.tool_change_moves) {

@@ -54,6 +54,8 @@ struct Options {
   std::optional<std::string> dialect;
   std::optional<LengthUnit> units;
   IntegerWords integer_words = IntegerWords::unsaid;
+  std::optional<bool> absolute_centres;  ///< of arcs; none: the machine file's, or incremental
+  bool evaluate = false;
   bool expand_subprograms = false;
   std::vector<std::string> work;           ///< "G54=X,Y,Z[,RX,RY,RZ][/DATUM]", or "machine"
   std::optional<std::string> tool_table;   ///< a file

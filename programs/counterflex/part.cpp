@@ -65,13 +65,13 @@ Exit record_part(const Options& options, Console& console, const std::function<v
     const std::lock_guard alone(speaking);
     windows.check(job);
   };
-  const auto done = [&](const Job&, const Compensation& window) {
+  const auto solved = [&](const Job&, const std::vector<Waypoint>& waypoints) {
     const std::lock_guard alone(speaking);
-    console.solved(window.waypoints.size());
+    console.solved(waypoints.size());
   };
   FileWriter file =
       record_windows(windows.jobs(), run->options, TextReader(windows.reader()), run->facts.attribution, part,
-                     digest_of(*run), options.part->file, {read, [](const Job&) {}, done});
+                     digest_of(*run), options.part->file, {read, [](const Job&) {}, solved, [](const Job&, const Compensation&) {}});
   run->file.bytes.refuse_change();  // it was read more than once
   publish_together({&file});
   tell(*run);

@@ -4,19 +4,24 @@
 namespace counterflex::cli {
 namespace {
 
+void add_waypoints(const Job& job, const std::vector<Waypoint>& waypoints, Run& run, RunTally& tally,
+                   RunFiles& files) {
+  run.load_places.add(job, waypoints);
+  tally.add_waypoints(waypoints, job);
+  files.add_waypoints(waypoints);
+}
+
 /// Window by window, to the first failure.
 std::optional<Failure> predict_all(Run& run, RunTally& tally, RunFiles& files, Console& console) {
   Windows windows(run, console);
   ForwardState state;
   while (windows.next()) {
     const Job job = windows.job();
-    const ForwardRun forward = solve_forward_along(
-        job, original_pieces(job), {.before = true, .attribution = true, .inside = false}, state);
     tally.add_window(job);
-    run.load_places.add(job, forward.waypoints);
-    tally.add_waypoints(forward.waypoints, job);
-    files.add_waypoints(forward.waypoints);
-    if (forward.failure) return forward.failure;
+    const auto failure = solve_original(
+        job, {.before = true, .attribution = true, .inside = false}, state,
+        [&](const std::vector<Waypoint>& waypoints) { add_waypoints(job, waypoints, run, tally, files); });
+    if (failure) return failure;
   }
   return std::nullopt;
 }

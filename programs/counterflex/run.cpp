@@ -187,7 +187,7 @@ std::unique_ptr<Run> prepare_run(const Options& options, Console& console) {
   run->tool_models = prepare_tools(on, run->machine.model, run->program.tools);
   forces.refuse_unread();
   run->work = place_work(on, run->machine.model, shown_name(options.machine), run->program);
-  add_common_shifts(on, run->machine.model, run->tool_models, places, run->work.frames);
+  add_common_shifts(on, run->machine.model, run->tool_models, places, run->program, run->work.frames);
   run->ignored = uncontrolled_axes(on, run->work.frames);
   forces.settle({run->file.bytes, run->program.file, run->read, run->work.frames, run->ignored});
   run->options = compensation_options(options, on);

@@ -18,7 +18,7 @@ void append(SanityChecks& checks, SanityChecks more) {
 /// The frames that moves of a program use, each once.
 std::vector<WorkFrame> frames_in_use(const PlacedProgram& placed) {
   std::vector<WorkFrame> frames;
-  const std::vector<bool>& used = placed.program.offsets_used;
+  const std::vector<bool>& used = placed.program.frames_used;
   for (std::size_t i = 0; i < used.size(); ++i) {
     if (!used[i]) continue;
     const WorkFrame& frame = placed.work.frames[i];
@@ -31,8 +31,8 @@ std::vector<WorkFrame> frames_in_use(const PlacedProgram& placed) {
 
 std::vector<std::string> selected_offsets(const Overview& program) {
   std::vector<std::string> names;
-  for (std::size_t i = 0; i < program.offsets_used.size(); ++i)
-    if (program.offsets_used[i]) names.push_back(program.work_offsets[i]);
+  for (std::size_t i = 0; i < program.frames_used.size(); ++i)
+    if (program.frames_used[i]) names.push_back(program.frames[i].work_offset);
   return names;
 }
 

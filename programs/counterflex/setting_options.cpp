@@ -27,6 +27,10 @@ void take_integer_words(const std::string& name, const std::string& text, Option
       choice_of(name, text, {"units", "increments"}) == 0 ? IntegerWords::units : IntegerWords::increments;
 }
 
+void take_arc_centres(const std::string& name, const std::string& text, Options& options) {
+  options.absolute_centres = choice_of(name, text, {"incremental", "absolute"}) == 1;
+}
+
 void take_method(const std::string& name, const std::string& text, Options& options) {
   constexpr std::array methods{Method::direct, Method::nested, Method::linear};
   options.method = methods[choice_of(name, text, {"direct", "nested", "linear"})];
@@ -96,6 +100,13 @@ const std::array option_table{
     SettingOption{"integer-words", "--integer-words", "units|increments",
                   "What length words without a point mean to a fanuc or haas control", "", false,
                   take_integer_words},
+    SettingOption{"arc-centres", "--arc-centres", "incremental|absolute",
+                  "What I, J and K of arcs are before the program says it: distances from the start, or coordinates; the "
+                  "machine file's, or incremental",
+                  "", false, take_arc_centres},
+    SettingOption{"evaluate", "--evaluate", "",
+                  "Work out variables that the program sets to constants, and expressions of them", "false", false,
+                  [](Text name, Text text, Options& options) { options.evaluate = truth_of(name, text); }},
     SettingOption{
         "expand-subprograms", "--expand-subprograms", "",
         "Put the bodies of subprograms in the place of calls with plain numbers", "false", false,
@@ -161,7 +172,7 @@ bool is_among(std::string_view option, std::initializer_list<std::string_view> l
 }
 
 bool is_of_reading(std::string_view option) {
-  return is_among(option, {"machine", "dialect", "units", "integer-words", "expand-subprograms", "work",
+  return is_among(option, {"machine", "dialect", "units", "integer-words", "arc-centres", "evaluate", "expand-subprograms", "work",
                            "tool-table", "tool-length"});
 }
 

@@ -50,15 +50,16 @@ std::optional<Failure> verify_all(Run& run, ProgramReader& corrected, RunTally& 
   const auto begun = [&](const Job& job) {
     const std::lock_guard alone(speaking);
     windows.warn(job);
-  };
-  const auto done = [&](const Job& job, Compensation& window) {
     tally.add_window(job);
-    run.load_places.add(job, window.waypoints);
-    tally.add_waypoints(window.waypoints, job);
-    files.add_waypoints(window.waypoints);
-    console.solved(window.waypoints.size());
   };
-  return verify_windows(windows.jobs(), run.options, corrected, run.facts.attribution, {read, begun, done});
+  const auto solved = [&](const Job& job, const std::vector<Waypoint>& waypoints) {
+    run.load_places.add(job, waypoints);
+    tally.add_waypoints(waypoints, job);
+    files.add_waypoints(waypoints);
+    console.solved(waypoints.size());
+  };
+  const auto done = [](const Job&, const Compensation&) {};
+  return verify_windows(windows.jobs(), run.options, corrected, run.facts.attribution, {read, begun, solved, done});
 }
 
 }  // namespace

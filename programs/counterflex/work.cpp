@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <map>
 
 #include "counterflex/compensation/unloaded_deviation.hpp"
@@ -41,11 +42,13 @@ Vector3 deviation_at(const Model& model, const Vector3& p_MT, const std::string&
 
 /// Offsets in use that nobody has given a place: they cannot all be the machine frame.
 std::string no_table_warning(const Overview& program) {
-  const std::vector<bool>& used = program.offsets_used;
   std::vector<std::string> in_use;
-  for (std::size_t i = 0; i < used.size(); ++i)
-    if (used[i])
-      in_use.push_back(program.work_offsets[i].empty() ? "none at first" : program.work_offsets[i]);
+  for (std::size_t i = 0; i < program.frames_used.size(); ++i) {
+    const std::string& offset = program.frames[i].work_offset;
+    const std::string name = offset.empty() ? "none at first" : offset;
+    const bool listed = std::find(in_use.begin(), in_use.end(), name) != in_use.end();
+    if (program.frames_used[i] && !listed) in_use.push_back(name);
+  }
   if (in_use.size() < 2) return "";
   return fmt::format(
       "the program uses the offsets {}, and no work offsets are given: all are taken as the machine frame "
@@ -56,10 +59,30 @@ std::string no_table_warning(const Overview& program) {
 }
 
 std::string start_warning(const Overview& program) {
-  if (program.offsets_used.empty() || !program.offsets_used[0]) return "";
+  if (program.frames_used.empty() || !program.frames_used[0]) return "";
   return "the program selects no work offset at first; G54, which controls start with, is assumed";
 }
 
+/// The place of `frame` in its offset, in m.
+Pose placed(const ProgramFrame& frame) {
+  Pose pose = in_offset(frame);
+  pose.p *= mm;
+  return pose;
+}
+
+/// The coordinates of `frame`, of an offset that stands at `offset` where the program has not set it.
+WorkFrame place_frame(WorkFrame offset, const ProgramFrame& frame) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (!frame.set_mm[axis]) continue;
+    const auto k = static_cast<Eigen::Index>(axis);
+    offset.X_MW.p[k] = *frame.set_mm[axis] * mm;
+    offset.datum_shift[k] = 0;
+  }
+  offset.X_MW = offset.X_MW * placed(frame);
+  return offset;
+}
+
+/// The offset itself; program coordinates may be shifted and turned in it.
 WorkFrame place_offset(const Machine& machine, const Model& model, const std::string& machine_file,
                        const std::string& selected) {
   const std::string name = selected.empty() ? power_on_offset : selected;
@@ -75,32 +98,44 @@ WorkFrame place_offset(const Machine& machine, const Model& model, const std::st
   return frame;
 }
 
+WorkPlace in_machine_frame(const Overview& program) {
+  WorkPlace place;
+  for (const ProgramFrame& frame : program.frames) place.frames.push_back(place_frame({}, frame));
+  return place;
+}
+
 }  // namespace
 
 WorkPlace place_work(const Machine& machine, const Model& model, const std::string& machine_file,
                      const Overview& program) {
-  WorkPlace place{std::vector<WorkFrame>(program.work_offsets.size()), {}};
+  WorkPlace place = in_machine_frame(program);
   if (machine.work_is_machine_frame) return place;
   if (machine.work.empty()) {
     place.assumption = no_table_warning(program);
     return place;
   }
-  const std::vector<bool>& used = program.offsets_used;
-  for (std::size_t i = 0; i < used.size(); ++i)
-    if (used[i]) place.frames[i] = place_offset(machine, model, machine_file, program.work_offsets[i]);
+  std::map<std::string, WorkFrame> offsets;  // solved once, however many frames a program makes of them
+  for (std::size_t i = 0; i < program.frames_used.size(); ++i) {
+    if (!program.frames_used[i]) continue;
+    const std::string& selected = program.frames[i].work_offset;
+    auto offset = offsets.find(selected);
+    if (offset == offsets.end())
+      offset = offsets.emplace(selected, place_offset(machine, model, machine_file, selected)).first;
+    place.frames[i] = place_frame(offset->second, program.frames[i]);
+  }
   place.assumption = start_warning(program);
   return place;
 }
 
 WorkPlace place_work(const std::vector<std::string>& given, const Overview& program) {
-  WorkPlace place{std::vector<WorkFrame>(program.work_offsets.size()), {}};
+  WorkPlace place = in_machine_frame(program);
   std::map<std::string, Pose> table;
   for (const std::string& text : given)
     if (const WorkText work = work_of(text); !work.offset.empty()) table[work.offset] = work.place.X_MW;
   if (table.empty()) return place;
-  for (std::size_t i = 0; i < program.offsets_used.size(); ++i) {
-    if (!program.offsets_used[i]) continue;
-    const std::string& selected = program.work_offsets[i];
+  for (std::size_t i = 0; i < program.frames_used.size(); ++i) {
+    if (!program.frames_used[i]) continue;
+    const std::string& selected = program.frames[i].work_offset;
     const std::string name = selected.empty() ? power_on_offset : selected;
     const auto found = table.find(name);
     if (found == table.end())
@@ -108,19 +143,26 @@ WorkPlace place_work(const std::vector<std::string>& given, const Overview& prog
           Exit::usage, {},
           fmt::format("--work does not give {}, which the program {}; it gives {}", name,
                       selected.empty() ? "starts with, selecting none" : "selects", names(table)));
-    place.frames[i] = WorkFrame{name, found->second};
+    place.frames[i] = place_frame({name, found->second}, program.frames[i]);
   }
   place.assumption = start_warning(program);
   return place;
 }
 
 void add_common_shifts(const Machine& machine, const Model& model, const ToolModels& tools,
-                       const PathPlaces& places, std::vector<WorkFrame>& frames) {
+                       const PathPlaces& places, const Overview& program, std::vector<WorkFrame>& frames) {
   if (machine.work_is_machine_frame) return;
+  std::map<std::string, std::optional<Vector3>>
+      shifts;  // by offset, however many frames a program makes of it
   for (std::size_t i = 0; i < frames.size(); ++i) {
     const auto offset = machine.work.find(frames[i].name);
-    if (offset != machine.work.end() && offset->second.datum.stated()) continue;
-    frames[i].common_shift = common_shift(model, tools, frames[i].X_MW, places.of(i));
+    if ((offset != machine.work.end() && offset->second.datum.stated()) || is_set(program.frames[i])) continue;
+    const std::string& selected = program.frames[i].work_offset;
+    const auto [known, is_new] = shifts.try_emplace(selected);
+    if (is_new)
+      known->second = common_shift(model, tools, frames[i].X_MW * inverse(placed(program.frames[i])),
+                                   places.of(selected));
+    frames[i].common_shift = known->second;
   }
 }
 

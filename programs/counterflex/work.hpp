@@ -12,7 +12,7 @@ namespace counterflex::cli {
 
 struct WorkPlace {
   std::vector<WorkFrame>
-      frames;  ///< by index into Program::work_offsets; nameless where the machine has no table of offsets
+      frames;  ///< by index into Program::frames; nameless where the machine has no table of offsets
   std::string assumption;  ///< worth a warning: moves before any offset is selected, several offsets without
                            ///< a table; empty: none
 };
@@ -29,6 +29,6 @@ WorkPlace place_work(const std::vector<std::string>& given, const Overview& prog
 
 /// Fills the common shift of the frames in use whose datum is not stated. `places` are those of the program.
 void add_common_shifts(const Machine& machine, const Model& model, const ToolModels& tools,
-                       const PathPlaces& places, std::vector<WorkFrame>& frames);
+                       const PathPlaces& places, const Overview& program, std::vector<WorkFrame>& frames);
 
 }  // namespace counterflex::cli

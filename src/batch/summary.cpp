@@ -68,7 +68,8 @@ Document job_of(const JobOutcome& outcome) {
 /// What RFC 4180 wants in quotes; a text that a spreadsheet would take for a formula begins with an apostrophe.
 std::string csv_field(std::string_view field) {
   std::string text = without_controls(field);
-  if (!text.empty() && std::string_view("=+-@").find(text.front()) != std::string_view::npos)
+  const std::size_t first = text.find_first_not_of(' ');
+  if (first != std::string::npos && std::string_view("=+-@").find(text[first]) != std::string_view::npos)
     text.insert(0, 1, '\'');
   if (text.find_first_of(",\"\r\n") == std::string_view::npos) return std::string(text);
   std::string quoted = "\"";
@@ -192,7 +193,7 @@ std::string summary_csv(const std::vector<JobOutcome>& outcomes) {
       "verdict_reason\n";
   for (const JobOutcome& outcome : worst_first(outcomes))
     text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{}\n", csv_field(outcome.program),
-                        csv_field(outcome.output), status_text(outcome), static_cast<int>(outcome.exit),
+                        csv_field(outcome.output), csv_field(status_text(outcome)), static_cast<int>(outcome.exit),
                         fixed_or(outcome.before_mm, shown_digits, ""),
                         fixed_or(outcome.after_mm, shown_digits, ""),
                         fixed_or(outcome.corrected_percent, 2, ""), outcome.warnings, outcome.moves,

@@ -13,6 +13,7 @@ namespace {
 
 constexpr int least_fit_samples = 16;
 constexpr double fit_angle = std::numbers::pi / 16;  // samples are at most so far apart, on all turns
+constexpr double flat_fit_angle = fit_angle / 4;     // the height that is missed bends as the arc does
 constexpr int fit_iterations = 4;
 constexpr double fit_step_mm = 1e-4;       // of numerical derivatives
 constexpr double pull_to_source = 4e-4;    // where the curve hardly tells the centre it stays where it was
@@ -38,9 +39,11 @@ double fraction_at(const ArcTask& task, double u, const Vector3& written) {
 std::vector<Sample> samples_of(const ArcTask& task, double u0, double u1) {
   std::vector<Sample> all;
   const double span = u1 - u0;
-  const int by_angle = static_cast<int>(std::ceil(span * task.source.arc->sweep / fit_angle)),
+  const double angle = task.move.arc->flat ? flat_fit_angle : fit_angle;
+  const int by_angle = static_cast<int>(std::ceil(span * task.source.arc->sweep / angle)),
             count = std::max(least_fit_samples, by_angle);
-  for (int k = 1; k <= count; ++k) {
+  // The height of a flat arc may be off from its start on.
+  for (int k = task.move.arc->flat ? 0 : 1; k <= count; ++k) {
     const double v = static_cast<double>(k) / count;
     all.push_back({v, task.commanded(k == count ? u1 : u0 + v * span)});
   }
@@ -87,7 +90,7 @@ bool is_sound(const ArcTask& task, const ArcPiece& piece, const Curve& read) {
 
 // The way of a piece about the centre without the full turns that the last one makes.
 double one_turn_of(const ArcTask& task, double u0, double u1) {
-  const int turns = u1 == 1 ? task.move.arc->turns : 0;
+  const int turns = u1 == 1 && !task.move.arc->flat ? task.move.arc->turns : 0;
   return (u1 - u0) * task.source.arc->sweep - 2 * std::numbers::pi * turns;
 }
 
@@ -103,6 +106,8 @@ class PieceFit {
   PieceFit(const ArcTask& task, const ArcPiece& piece)
       : task_(task), piece_(piece), plane_(plane_of(task.move)), end_(task.commanded(piece.u1)) {
     for (Eigen::Index axis = 0; axis < 3; ++axis) start_[axis] = *piece.from[static_cast<std::size_t>(axis)];
+    const int normal = task.move.arc->normal;
+    if (task.move.arc->flat) end_[normal] = start_[normal];
     kept_ = start_ + task.source.arc->centre - point_at(task.source, piece.u0);
     const Vector3 read_end = as_written(task.move, piece.from, {end_, kept_}, piece.is_end, task.options).end;
     samples_ = samples_of(task, fraction_at(task, piece.u0, start_), fraction_at(task, piece.u1, read_end));
@@ -117,9 +122,13 @@ class PieceFit {
     return best;
   }
 
+  FittedArc run_polar() const { return written(kept_, start_ + task_.source.end - task_.source.start); }
+
  private:
-  FittedArc written(const Vector3& centre) const {
-    FittedArc fit{.via = {end_, centre}, .read = {}};
+  FittedArc written(const Vector3& centre) const { return written(centre, end_); }
+
+  FittedArc written(const Vector3& centre, const Vector3& end) const {
+    FittedArc fit{.via = {end, centre}, .read = {}};
     fit.read = as_written(task_.move, piece_.from, fit.via, piece_.is_end, task_.options);
     fit.sound = is_sound(task_, piece_, fit.read);
     fit.miss_mm = fit.read.arc ? miss_of(fit.read, samples_) : std::numeric_limits<double>::infinity();
@@ -162,7 +171,7 @@ class PieceFit {
 
   void misses(const Vector3& centre, const Vector3& end, Eigen::VectorXd& r) const {
     const Vector3& normal = task_.source.arc->normal;
-    const int turns = piece_.is_end ? task_.move.arc->turns : 0;
+    const int turns = piece_.is_end && !task_.move.arc->flat ? task_.move.arc->turns : 0;
     const Curve curve{start_, end, Arc{centre, normal, sweep_between(start_, end, centre, normal, turns)}};
     r.resize(3 * static_cast<Eigen::Index>(samples_.size()));
     for (std::size_t k = 0; k < samples_.size(); ++k)
@@ -200,12 +209,16 @@ FittedArc fit_arc(const ArcTask& task, const ArcPiece& piece) {
   return PieceFit(task, piece).run();
 }
 
+FittedArc fit_polar_arc(const ArcTask& task, const HeldPosition& from) {
+  return PieceFit(task, {0, 1, true, from}).run_polar();
+}
+
 bool keeps_words(const ArcTask& task, const ArcPiece& piece, const FittedArc& fit) {
   if (!fit.read.arc) return false;
   const Move& move = task.move;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const auto k = static_cast<Eigen::Index>(axis);
-    const bool absolute = move.words[axis] && !move.relative;
+    const bool absolute = move.words[axis] && !is_relative(move, axis);
     const double stays = absolute
                              ? move.end_mm[k]
                              : *piece.from[axis] + (move.words[axis] ? move.end_mm[k] - move.start_mm[k] : 0);

@@ -26,8 +26,10 @@ struct ArcPiece {
   HeldPosition from;
 };
 
-/// An arc that could be written for a piece.
+/// An arc that could be written for a piece. Where the block takes no word along the normal of its plane the
+/// arc stays at the height of its start.
 struct FittedArc {
+  std::optional<Vector3> step_mm{};  ///< a line to this point, above or below the start, goes first
   Via via;
   Curve read;  ///< what a control reads
   double miss_mm =
@@ -39,6 +41,9 @@ struct FittedArc {
 /// else with a fitted one. The mismatch of its radii is at most the source's and one digit, else it is not
 /// sound.
 FittedArc fit_arc(const ArcTask& task, const ArcPiece& piece);
+
+/// The whole of an arc of polar coordinates, which keeps them: only its pole is shifted with its start.
+FittedArc fit_polar_arc(const ArcTask& task, const HeldPosition& from);
 
 /// Whether nothing in the block's words changes when it is written as `fit`.
 bool keeps_words(const ArcTask& task, const ArcPiece& piece, const FittedArc& fit);

@@ -8,6 +8,10 @@ namespace counterflex {
 namespace {
 
 constexpr int most_halvings = 3;
+constexpr int most_halvings_of_flat = 5;
+constexpr int height_samples = 16;
+constexpr double polar_kept_share =
+    0.1;  // of the tolerance: what is off by more takes a line to the next block
 // Corners nearer to the ends of a piece do not divide it.
 constexpr double sliver_share = 0.05;  // of a piece, and where it might be one
 constexpr double sliver_mm = 0.1;      // at most
@@ -40,19 +44,69 @@ class ArcDivider {
   void divide(double u0, double u1, int halvings) {
     if (const auto fit = fitting(u0, u1)) return put_arc(u0, u1, *fit);
     const Division division = division_of(u0, u1);
-    if (division.counts && ++halvings > most_halvings) return leave_to_chords(u0, u1);
+    if (division.counts && ++halvings > most_halvings && !is_worth_halving(u0, u1, halvings))
+      return leave_to_chords(u0, u1);
     divide(u0, division.u, halvings);
     divide(division.u, u1, halvings);
   }
 
+  // At the height where the text holds the tool, else, where the block takes no word for it, at the middle of
+  // the heights of the piece.
   std::optional<FittedArc> fitting(double u0, double u1) const {
+    if (task_.move.polar && u0 == 0 && u1 == 1)
+      if (auto fit = fitting_as_polar()) return fit;
     if (!can_be_one(task_, u0, u1)) return std::nullopt;
-    const ArcPiece piece{u0, u1, u1 == 1, held_};
+    if (auto fit = fitting_from(held_, u0, u1)) return fit;
+    if (!task_.move.arc->flat) return std::nullopt;
+    const Vector3 step_mm = middle_height(u0, u1);
+    HeldPosition raised = held_;
+    const Curve step = as_written(task_.move, held_, {step_mm}, false, task_.options);
+    const auto normal = task_.move.arc->normal;
+    raised[static_cast<std::size_t>(normal)] = step.end[normal];
+    auto fit = fitting_from(raised, u0, u1);
+    if (fit) fit->step_mm = step_mm;
+    return fit;
+  }
+
+  // What only polar words say is kept wherever it is good enough.
+  std::optional<FittedArc> fitting_as_polar() const {
+    const bool only_polar = task_.move.arc->turns > 0 || !stays_flat(task_.move);
+    const double room_mm = (only_polar ? 1 : polar_kept_share) * task_.tolerance_mm;
+    FittedArc fit = fit_polar_arc(task_, held_);
+    if (!fit.sound || fit.miss_mm > room_mm) return std::nullopt;
+    return fit;
+  }
+
+  // Above or below where the text holds the tool.
+  Vector3 middle_height(double u0, double u1) const {
+    const int normal = task_.move.arc->normal;
+    double low = HUGE_VAL, high = -HUGE_VAL;
+    for (int k = 0; k <= height_samples; ++k) {
+      const double height = task_.commanded(u0 + (u1 - u0) * k / height_samples)[normal];
+      low = std::min(low, height);
+      high = std::max(high, height);
+    }
+    Vector3 p{*held_[0], *held_[1], *held_[2]};
+    p[normal] = (low + high) / 2;
+    return p;
+  }
+
+  std::optional<FittedArc> fitting_from(const HeldPosition& from, double u0, double u1) const {
+    const ArcPiece piece{u0, u1, u1 == 1, from};
     FittedArc fit = fit_arc(task_, piece);
     if (!fit.sound || fit.miss_mm > task_.tolerance_mm) return std::nullopt;
     const bool stays = u0 == 0 && u1 == 1 && keeps_words(task_, piece, fit);
     if (!stays && must_halve(task_, u0, u1)) return std::nullopt;
     return fit;
+  }
+
+  // A flat arc and the line to its height are two blocks: fewer than the chords of half the piece.
+  bool is_worth_halving(double u0, double u1, int halvings) const {
+    if (!task_.move.arc->flat || halvings > most_halvings_of_flat) return false;
+    const Arc& arc = *task_.source.arc;
+    const double size = (task_.source.start - arc.centre).norm(),
+                 chord = std::sqrt(8 * task_.tolerance_mm / size);
+    return (u1 - u0) / 2 * arc.sweep > 2 * chord;
   }
 
   // At the corner that is nearest the middle, else there. Full turns are left to the last piece. An arc of
@@ -80,6 +134,7 @@ class ArcDivider {
       if (!refit) return leave_to_chords(u0, u1);
       fit = *refit;
     }
+    if (fit.step_mm) put({*fit.step_mm}, u0, end_of({*fit.step_mm}, u0));
     put(fit.via, u1, fit.read.end);
   }
 

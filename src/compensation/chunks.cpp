@@ -9,15 +9,14 @@
 
 namespace counterflex {
 
-void for_each_chunk(std::size_t items, int threads, const std::function<void(const Chunk&)>& work) {
-  const std::size_t count = chunk_count(items);
+void for_each_index(std::size_t count, int threads, const std::function<void(std::size_t)>& work) {
   std::atomic<std::size_t> next{0};
   std::exception_ptr failure;
   std::mutex failure_mutex;
   const auto run = [&] {
     for (std::size_t i = next++; i < count; i = next++) {
       try {
-        work({i, i * chunk_size, std::min(items, (i + 1) * chunk_size)});
+        work(i);
       } catch (...) {
         const std::lock_guard lock(failure_mutex);
         if (!failure) failure = std::current_exception();
@@ -30,6 +29,11 @@ void for_each_chunk(std::size_t items, int threads, const std::function<void(con
   run();
   others.clear();
   if (failure) std::rethrow_exception(failure);
+}
+
+void for_each_chunk(std::size_t items, int threads, const std::function<void(const Chunk&)>& work) {
+  for_each_index(chunk_count(items), threads,
+                 [&](std::size_t i) { work({i, i * chunk_size, std::min(items, (i + 1) * chunk_size)}); });
 }
 
 }  // namespace counterflex

@@ -12,10 +12,18 @@ WindowStages stages_of_compensation(JobWindows& windows, CarriedState& carried, 
       .begin = [&carried](const Job& job, Flight& flight) { begin_window(job, carried, flight.work); },
       .plan = [](const Job& job, Flight& flight) { plan_window(job, flight.work); },
       .write = [&carried](const Job& job, Flight& flight) { write_window(job, carried, flight.work); },
-      .verify = [attribution](const Job& job,
-                              Flight& flight) { verify_window(job, attribution, flight.work); },
+      .verify =
+          [attribution](const Job& job, Flight& flight) {
+            flight.matching = match_written(job, flight.work);
+            solve_or_wait(job, attribution, flight);
+          },
       .begun = events.begun,
-      .done = [&events](const Job& job, Flight& flight) { events.done(job, flight.work.result); },
+      .done =
+          [attribution, &events](const Job& job, Flight& flight) {
+            const auto missed = give_out(job, attribution, events, flight);
+            if (!flight.work.failed()) flight.work.result.failure = missed;
+            events.done(job, flight.work.result);
+          },
   };
 }
 

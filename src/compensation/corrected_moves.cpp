@@ -11,12 +11,18 @@ namespace {
 // with its holes. Nothing of a CC, which belongs to the arc behind it.
 std::string statement_of(const Program& program, std::string_view line) {
   if (program.dialect != "heidenhain") return std::string(line);
+  line.remove_prefix(std::min(line.find_first_not_of(" \t"), line.size()));
+  const std::size_t digits = line.starts_with('N') || line.starts_with('n') ? 1 : 0;
+  if (digits < line.size() && line[digits] >= '0' && line[digits] <= '9') line.remove_prefix(digits);
   line.remove_prefix(std::min(line.find_first_not_of(" \t0123456789"), line.size()));
   if (line.starts_with("CC")) return {};
   std::string statement(line);
-  const std::size_t surface = statement.find("Q203=");
-  if (surface != std::string::npos)
-    statement.erase(surface, std::min(statement.find(' ', surface), statement.size()) - surface);
+  const std::size_t surface = statement.find("Q203"),
+                    equals = statement.find_first_not_of(" \t", surface + 4);
+  if (surface == std::string::npos || equals == std::string::npos || statement[equals] != '=')
+    return statement;
+  const std::size_t number = std::min(statement.find_first_not_of(" \t", equals + 1), statement.size());
+  statement.erase(surface, std::min(statement.find_first_of(" \t;~", number), statement.size()) - surface);
   return statement;
 }
 

@@ -58,18 +58,38 @@ void Emitter::emit_segment(std::size_t s) {
   finish_segment(segment, planned, unsplit_miss, emitted);
 }
 
+namespace {
+
+Vector3 without_height(const WorkFrame& frame, int axis, const Vector3& step) {
+  const Vector3 normal = frame.X_MW.R.col(axis);
+  return step - step.dot(normal) * normal;
+}
+
+}  // namespace
+
 // Whether the correction steps at the start; a feed move performs the step where one may be inserted.
 bool Emitter::put_jump(const Segment& segment, const PlannedSegment& planned, EmittedMove& emitted,
                        double& jump) {
   const Move& move = job_.program.moves[segment.move];
   const Vector3 start = planned.start_target - segment.wanted.start;
-  jump = planned.starts_anywhere || !state_.correction_known ? 0 : (start - state_.correction).norm();
+  Vector3 step = start - state_.correction;
+  // The pieces of such an arc choose their heights themselves; where one has left the tool a rapid may begin.
+  const Move* last = move_before(job_.program, segment.move);
+  if (stays_flat(move))
+    step = without_height(frame(move), move.arc->normal, step);
+  else if (!segment.cutting && last != nullptr && stays_flat(*last))
+    step = without_height(frame(move), last->arc->normal, step);
+  jump = planned.starts_anywhere || !state_.correction_known ? 0 : step.norm();
   const bool jumps = jump > emitted_jump_share * job_.options.tolerance;
   if (jumps || segment.wanted.arc) piece_held_ = before(move);
   if (!jumps) return false;
-  if (!move.may_jump) return true;
-  emitted.edit.jump_mm = in_words_mm(job_, move, planned.start_target);
-  go_through(move, {*emitted.edit.jump_mm}, piece_held_);
+  if (!move.may_jump && !move.may_split) return true;
+  const Vector3 start_mm = in_words_mm(job_, move, planned.start_target);
+  if (move.may_jump)
+    emitted.edit.jump_mm = start_mm;
+  else
+    emitted.edit.inserted.push_back({start_mm});
+  go_through(move, {start_mm}, piece_held_);
   return true;
 }
 
@@ -84,8 +104,10 @@ void Emitter::finish_segment(const Segment& segment, const PlannedSegment& plann
                              EmittedMove& emitted) {
   const Move& move = job_.program.moves[segment.move];
   const Vector3 correction = (planned.end ? *planned.end : planned.knots.back().target) - segment.wanted.end;
-  const Vector3 kept = correction_that_can_be_written(move, correction);
+  Vector3 kept = correction_that_can_be_written(move, correction);
   emitted.exempt_end = emitted.in_part = kept != correction;
+  const bool ends_elsewhere = move.arc && (move.arc->flat || move.polar);
+  if (ends_elsewhere) kept = correction_where_held(move, kept);
   emitted.edit.end_mm = in_words_mm(job_, move, segment.wanted.end + kept);
   hold(kept, {true, true, true});
   emitted.exempt = unsplit_miss > 0 || emitted.exempt_end;
@@ -96,22 +118,48 @@ void Emitter::finish_segment(const Segment& segment, const PlannedSegment& plann
          fmt::format("not split, its end is corrected: between its ends the deviation may reach {:.4f} mm",
                      unsplit_miss / mm));
   take_in(emitted.edit);
+  if (ends_elsewhere && move.polar) {
+    for (std::size_t axis = 0; axis < 3; ++axis) state_.held[axis] = piece_held_[axis];
+  }
 }
 
-// Where no axis words may be inserted, absent axes keep the correction that they have.
+// Where no axis words may be inserted, absent axes keep the correction that they have; those that words before the first
+// known position have placed take that of the move.
 Vector3 Emitter::correction_that_can_be_written(const Move& move, const Vector3& correction) const {
-  if (move.may_insert_words || !state_.correction_known) return correction;
+  if (takes_all_words(move) || !state_.correction_known) return correction;
+  const auto is_pending = [&](std::size_t axis) {
+    return std::any_of(pending_.begin(), pending_.end(), [&](std::size_t p) {
+      const Move& earlier = job_.program.moves[p];
+      return earlier.words[axis] && !earlier.relative;
+    });
+  };
   const Matrix3& R_MW = frame(move).X_MW.R;
   Vector3 c_W = R_MW.transpose() * correction;
   const Vector3 held_W = R_MW.transpose() * state_.correction;
   const double rounding = rounding_allowance(move, job_.options.write);
   bool all_written = true;
   for (Eigen::Index axis = 0; axis < 3; ++axis) {
-    if (move.words[static_cast<std::size_t>(axis)] || std::abs(c_W[axis] - held_W[axis]) < rounding) continue;
+    const auto a = static_cast<std::size_t>(axis);
+    if (move.words[a] || may_insert_word(move, a) || is_pending(a) || std::abs(c_W[axis] - held_W[axis]) < rounding) continue;
     c_W[axis] = held_W[axis];
     all_written = false;
   }
   return all_written ? correction : Vector3(R_MW * c_W);
+}
+
+// The last piece of a flat arc ends at the height of its start, and polar words may lead beside the target.
+Vector3 Emitter::correction_where_held(const Move& move, const Vector3& correction) const {
+  Vector3 shift = shift_mm(move, correction);
+  bool differs = false;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto k = static_cast<Eigen::Index>(axis);
+    const double held = *piece_held_[axis] - move.end_mm[k];
+    if (rounds_to_nothing(move, axis, shift[k] - held)) continue;
+    shift[k] = held;
+    differs = true;
+  }
+  if (!differs) return correction;
+  return frame(move).X_MW.R * (shift * mm) - frame(move).datum_shift;
 }
 
 Vector3 target_of(const Job& job, const Move& move) {
@@ -125,11 +173,11 @@ Curve command_of(const Job& job, const Move& move) {
   curve.start *= mm;
   curve.end *= mm;
   curve.arc->centre *= mm;
-  return job.path.frames[move.offset].X_MW * curve;
+  return job.path.frames[move.frame].X_MW * curve;
 }
 
 Vector3 wanted_of(const Job& job, const Move& move) {
-  return wanted_frame(job.path.frames[move.offset]) * (move.end_mm * mm);
+  return wanted_frame(job.path.frames[move.frame]) * (move.end_mm * mm);
 }
 
 Vector3 bottom_of(const Move& move) {

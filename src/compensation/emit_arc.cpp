@@ -61,12 +61,18 @@ ArcTask Emitter::arc_task(const Segment& segment, const PlannedSegment& planned,
 
 // Under exact stop: the best single arc there is, and what it misses.
 void Emitter::put_one_arc(const ArcTask& task, EmittedMove& emitted, double& unsplit_miss) {
-  const FittedArc fit = fit_arc(task, {0, 1, true, piece_held_});
+  FittedArc fit = fit_arc(task, {0, 1, true, piece_held_});
+  if (task.move.polar) {
+    const FittedArc polar = fit_polar_arc(task, piece_held_);
+    if (polar.sound && (!fit.sound || polar.miss_mm < fit.miss_mm)) fit = polar;
+  }
   if (!fit.sound)
     refuse(
         task.move,
         "this arc must stay one block, and none within the control's radius rules follows the corrected one");
   emitted.edit.centre_mm = fit.via.centre_mm;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    piece_held_[axis] = fit.read.end[static_cast<Eigen::Index>(axis)];
   if (fit.miss_mm > task.tolerance_mm) unsplit_miss = std::max(unsplit_miss, fit.miss_mm * mm);
 }
 

@@ -43,7 +43,7 @@ bool Emitter::rounds_to_nothing(const Move& move, std::size_t axis, double shift
 void Emitter::forget_lost_axes(std::size_t m) {
   const Move& move = job_.program.moves[m];
   const Move* last = move_before(job_.program, m);
-  if (last == nullptr || last->block_delete || last->offset != move.offset) return;
+  if (last == nullptr || last->block_delete || last->frame != move.frame) return;
   for (std::size_t axis = 0; axis < 3; ++axis)
     if (last->known_end[axis] && !move.known_start[axis] && !move.stands[axis]) state_.holds[axis] = false;
 }
@@ -55,6 +55,14 @@ void Emitter::note_doubt(const Move& move) {
   state_.doubtful = lost || (state_.doubtful && !all_known(move.known_end));
 }
 
+// Why the block is not followed, as the reader has said at the first of a run of such blocks.
+std::string Emitter::why_fixed(const Move& move) const {
+  std::string why = "the block is not followed";
+  for (const LeftAlone& block : job_.program.left_alone)
+    if (line_in_text(block) <= line_in_text(move) && !block.machine_position) why = block.why;
+  return why;
+}
+
 // Axes that the block sets to a place of its own take no shift: there must be none. The others keep theirs.
 void Emitter::emit_fixed(std::size_t m) {
   const Move& move = job_.program.moves[m];
@@ -64,10 +72,11 @@ void Emitter::emit_fixed(std::size_t m) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const double along = shift[static_cast<Eigen::Index>(axis)];
     if (move.fixed[axis] && !rounds_to_nothing(move, axis, along))
-      return refuse(move,
-                    fmt::format("the block sets {} to a place of its own, and the correction of {:.4f} mm "
-                                "that holds there cannot be kept",
-                                "XYZ"[axis], along));
+      return refuse(
+          move,
+          fmt::format(
+              "{}; {} stays where it is, and the correction of {:.4f} mm that holds there cannot be kept",
+              why_fixed(move), "XYZ"[axis], along));
     if (move.fixed[axis]) state_.holds[axis] = false;
     edits = edits || (move.words[axis] && along != 0);
   }
@@ -83,6 +92,17 @@ MoveEdit Emitter::shifted(std::size_t m, const Vector3& shift) const {
   return edit;
 }
 
+// Words of axes that stand still say where the text holds them, to the last digit: G92 sets coordinates by
+// them.
+void Emitter::keep_standing_axes(const Move& move, MoveEdit& edit) {
+  come_to(move);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto k = static_cast<Eigen::Index>(axis);
+    if (move.known_start[axis] && move.end_mm[k] == move.start_mm[k] && state_.held[axis] && !move.arc)
+      edit.end_mm[k] = *state_.held[axis];
+  }
+}
+
 // The correction that holds, as a shift of the block's words: nothing is inserted to split it.
 void Emitter::emit_rigid(std::size_t m, Index s, Kind otherwise) {
   const Move& move = job_.program.moves[m];
@@ -91,6 +111,7 @@ void Emitter::emit_rigid(std::size_t m, Index s, Kind otherwise) {
   if (!state_.correction_known) return leave_alone(move);
   const Vector3 shift = held_shift_mm(move);
   EmittedMove emitted{.edit = shifted(m, shift), .kind = otherwise};
+  if (move.handling == Handling::held && !move.cycle) keep_standing_axes(move, emitted.edit);
   if (move.cycle) {
     emitted.edit.bottom_mm = move.cycle->bottom_mm + shift.z();
     emitted.edit.retract_mm = move.cycle->retract_mm + shift.z();
@@ -117,10 +138,20 @@ void Emitter::emit_doubtful(std::size_t m) {
     state_.holds[axis] = state_.holds[axis] || move.known_end[axis];
 }
 
+// Words of axes that carry a correction keep it, so that the tool does not step by it.
+bool Emitter::keeps_correction(const Move& move) const {
+  if (!state_.correction_known || move.relative) return false;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    if (move.words[axis] && state_.holds[axis]) return true;
+  return false;
+}
+
 void Emitter::leave_alone(const Move& move) {
+  if (keeps_correction(move))
+    return emit_doubtful(static_cast<std::size_t>(&move - job_.program.moves.data()));
   list(move, "an axis has no known position here, and none follows within 64 blocks");
   for (std::size_t axis = 0; axis < 3; ++axis)
-    if (move.words[axis] && !move.relative) state_.holds[axis] = false;
+    if (move.words[axis] && !is_relative(move, axis)) state_.holds[axis] = false;
   pass(move);
 }
 
@@ -130,9 +161,12 @@ void Emitter::leave_pending_alone() {
 }
 
 void Emitter::list_held_words(const Move& move, const Vector3& miss) {
-  list(move,
-       fmt::format("a block with G43, G44 or G49 takes no further axis words: its end stays off by {:.4f} mm",
-                   miss.norm() / mm));
+  const char* block = move.makes_hole ? "a hole keeps the height of its cycle's surface and"
+                      : job_.program.dialect == "heidenhain"
+                          ? "a block before or behind RND or CHF"
+                          : "a block with G43, G44 or G49, or beside a corner,";
+  list(move, fmt::format("{} takes no further axis words: its end stays off by {:.4f} mm", block,
+                         miss.norm() / mm));
 }
 
 void Emitter::refuse(const Move& move, std::string what) {
@@ -180,7 +214,7 @@ void Emitter::pass(const Move& move) {
   Vector3 end = move.end_mm;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const auto k = static_cast<Eigen::Index>(axis);
-    if (state_.held[axis] && move.relative && move.words[axis])
+    if (state_.held[axis] && is_relative(move, axis) && move.words[axis])
       end[k] = *state_.held[axis] + move.end_mm[k] - move.start_mm[k];
     if (state_.held[axis] && !move.words[axis] && !(move.cycle && axis == 2)) end[k] = *state_.held[axis];
   }

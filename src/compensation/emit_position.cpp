@@ -1,6 +1,8 @@
 // Positions that are solved by themselves: the first one that is known, and the bottoms of holes.
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "counterflex/geometry/units.hpp"
 #include "emitter.hpp"
 
@@ -25,18 +27,19 @@ std::optional<Vector3> Emitter::solve_position(const Vector3& wanted, const Move
   return correction;
 }
 
-// Words before the first known position take its correction, if they are near enough.
-void Emitter::give_to_pending(const Move& move) {
-  for (std::size_t p : pending_) {
-    const Move& earlier = job_.program.moves[p];
-    if (move.block_index - earlier.block_index > look_ahead) {
-      const std::array<bool, 3> holds = state_.holds;
-      leave_alone(earlier);
-      state_.holds = holds;
-      continue;
-    }
-    put({.edit = shifted(p, shift_mm(earlier, state_.correction))});
-  }
+// Those that are too far before `move` take no correction of its own: to be called before it has one.
+void Emitter::leave_far_pending_alone(const Move& move) {
+  const auto near = std::find_if(pending_.begin(), pending_.end(), [&](std::size_t p) {
+    return move.block_index - job_.program.moves[p].block_index <= look_ahead;
+  });
+  for (auto p = pending_.begin(); p != near; ++p) leave_alone(job_.program.moves[*p]);
+  pending_.erase(pending_.begin(), near);
+}
+
+// Words before the first known position take its correction.
+void Emitter::give_to_pending() {
+  for (std::size_t p : pending_)
+    put({.edit = shifted(p, shift_mm(job_.program.moves[p], state_.correction))});
   pending_.clear();
 }
 
@@ -45,9 +48,10 @@ void Emitter::emit_first_known(std::size_t m) {
   const Move& move = job_.program.moves[m];
   const std::optional<Vector3> correction = solve_position(wanted_of(job_, move), move);
   if (!correction) return;
+  leave_far_pending_alone(move);
   const Vector3 kept = correction_that_can_be_written(move, *correction);
   hold(kept, {true, true, true});
-  give_to_pending(move);
+  give_to_pending();
   if (kept != *correction)
     list_held_words(move, *correction - kept);
   else if (move.motion == Motion::feed)
@@ -80,9 +84,10 @@ void Emitter::emit_hole(std::size_t m) {
   emitted.edit.retract_mm = move.cycle->retract_mm + shift.z();
   emitted.edit.end_mm = move.end_mm + shift;
   const bool held_z = state_.holds[2];
+  leave_far_pending_alone(move);
   set_shift(move, shift);
   state_.holds = {true, true, true};
-  give_to_pending(move);
+  give_to_pending();
   put(std::move(emitted));
   // Where the cycle leaves the tool its text tells.
   if (state_.held[2]) shift.z() = *state_.held[2] - move.end_mm.z();

@@ -29,6 +29,7 @@ class Emitter {
                       EmittedMove& emitted);
   bool put_jump(const Segment& segment, const PlannedSegment& planned, EmittedMove& emitted, double& jump);
   Vector3 correction_that_can_be_written(const Move& move, const Vector3& correction) const;
+  Vector3 correction_where_held(const Move& move, const Vector3& correction) const;
 
   // emit_arc.cpp
   void emit_arc(const Segment& segment, const PlannedSegment& planned, EmittedMove& emitted,
@@ -39,8 +40,10 @@ class Emitter {
 
   // emit_held.cpp
   void emit_fixed(std::size_t m);
+  std::string why_fixed(const Move& move) const;
   MoveEdit shifted(std::size_t m, const Vector3& shift) const;
   void emit_rigid(std::size_t m, Index s, Kind otherwise);
+  void keep_standing_axes(const Move& move, MoveEdit& edit);
   void emit_doubtful(std::size_t m);
   void leave_pending_alone();
   void forget_lost_axes(std::size_t m);
@@ -49,17 +52,20 @@ class Emitter {
   // emit_group.cpp
   void emit_group(std::size_t m, Index s);
   bool begin_group(std::size_t m, Index s);
+  bool is_in_xy(std::size_t m) const;
   std::optional<Vector3> group_shift_mm(std::size_t m, std::size_t s);
+  std::optional<double> height_shift_mm(const Move& move, Index s) const;
   void check_step(const Move& move, const Vector3& before_mm);
 
   // emit_position.cpp
   void emit_first_known(std::size_t m);
   void emit_hole(std::size_t m);
   std::optional<Vector3> solve_position(const Vector3& wanted, const Move& move);
-  void give_to_pending(const Move& move);
+  void give_to_pending();
+  void leave_far_pending_alone(const Move& move);
 
   // Corrections as shifts of the text, program coordinates (mm).
-  const WorkFrame& frame(const Move& move) const { return job_.path.frames[move.offset]; }
+  const WorkFrame& frame(const Move& move) const { return job_.path.frames[move.frame]; }
   Vector3 shift_mm(const Move& move, const Vector3& correction) const;
   Vector3 held_shift_mm(const Move& move) const;  ///< zero on axes that hold none
   void set_shift(const Move& move, const Vector3& shift_mm);
@@ -77,6 +83,7 @@ class Emitter {
   void list(const Move& move, std::string why) { out_.left_alone.push_back({move.line, std::move(why)}); }
   void list_held_words(const Move& move, const Vector3& miss);
   void leave_alone(const Move& move);
+  bool keeps_correction(const Move& move) const;
   void refuse(const Move& move, std::string what);
 
   const Job& job_;
@@ -86,6 +93,7 @@ class Emitter {
   std::vector<std::size_t> pending_;  // moves before all axes are known
   EmitterState& state_;
   std::optional<std::size_t> held_for_;  // the move in whose coordinates the held position is
+  bool group_in_xy_ = false;             // the contour group that is being emitted
   HeldPosition piece_held_{};            // where the pieces of the move that is being fitted have come
   ToolSolver solvers_;
 };

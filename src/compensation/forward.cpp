@@ -40,53 +40,78 @@ void solve_run(const Job& job, const NominalTrack& nominal, std::span<const Piec
   if (out.failure && pieces.size() > 1) solve_in(1);
 }
 
+// A chunk of pieces by itself.
+ForwardRun solve_chunk(const Job& job, const NominalTrack& nominal, std::span<const Piece> pieces, const Chunk& chunk,
+                       const Questions& questions, const std::optional<Vector3>& command,
+                       std::span<const KnownSegment> known) {
+  ForwardRun run;
+  for (std::size_t i = chunk.begin, end = i; i < chunk.end && !run.failure; i = end) {
+    while (end < chunk.end && &model_of(job, pieces[end]) == &model_of(job, pieces[i])) ++end;
+    const std::optional<Vector3> last = i == 0 ? command : pieces[i - 1].commanded.end;
+    solve_run(job, nominal, pieces.subspan(i, end - i), questions, last, known, run);
+  }
+  return run;
+}
+
+// Where chunks of pieces begin, and their end: each has `chunk_size` pieces, or fewer with about 2048 places.
+std::vector<std::size_t> chunk_borders(const Job& job, std::span<const Piece> pieces, const Questions& questions) {
+  constexpr double most_places = 8 * chunk_size;
+  std::vector<std::size_t> borders{0};
+  double places = 0;
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    if (i - borders.back() == chunk_size || places >= most_places) {
+      borders.push_back(i);
+      places = 0;
+    }
+    const Piece& piece = pieces[i];
+    const bool inside = questions.inside && !piece.end_only && piece.segment != no_segment;
+    places += 1 + (inside ? (piece.u1 - piece.u0) * steps_along(job.path.segments[piece.segment]) : 0.0);
+  }
+  borders.push_back(pieces.size());
+  return borders;
+}
+
 }  // namespace
+
+std::optional<Failure> solve_forward_in_portions(const Job& job, const NominalTrack& nominal,
+                                                 std::span<const Piece> pieces, const Questions& questions,
+                                                 const std::optional<Vector3>& command,
+                                                 std::span<const KnownSegment> known, std::size_t together,
+                                                 const WaypointTaker& take) {
+  const std::vector<std::size_t> borders = chunk_borders(job, pieces, questions);
+  const std::size_t count = borders.size() - 1;
+  for (std::size_t first = 0; first < count; first += together) {
+    std::vector<ForwardRun> runs(std::min(together, count - first));
+    for_each_index(runs.size(), job.options.threads, [&](std::size_t i) {
+      const Chunk chunk{first + i, borders[first + i], borders[first + i + 1]};
+      runs[i] = solve_chunk(job, nominal, pieces, chunk, questions, command, known);
+    });
+    for (ForwardRun& run : runs) {
+      take(std::move(run.waypoints));
+      if (run.failure) return run.failure;
+    }
+  }
+  return std::nullopt;
+}
 
 ForwardRun solve_forward_from(const Job& job, const NominalTrack& nominal, std::span<const Piece> pieces,
                               const Questions& questions, const std::optional<Vector3>& command,
                               std::span<const KnownSegment> known) {
-  const auto solve = [&](const Chunk& chunk, ForwardRun& run) {
-    for (std::size_t i = chunk.begin, end = i; i < chunk.end && !run.failure; i = end) {
-      while (end < chunk.end && &model_of(job, pieces[end]) == &model_of(job, pieces[i])) ++end;
-      const std::optional<Vector3> last = i == 0 ? command : pieces[i - 1].commanded.end;
-      solve_run(job, nominal, pieces.subspan(i, end - i), questions, last, known, run);
-    }
-  };
   ForwardRun all;
-  if (job.options.threads == 1) {
-    all.waypoints.reserve(pieces.size() + pieces.size() / 2);
-    for_each_chunk(pieces.size(), 1, [&](const Chunk& chunk) { solve(chunk, all); });
-    return all;
-  }
-  std::vector<ForwardRun> runs(chunk_count(pieces.size()));
-  for_each_chunk(pieces.size(), job.options.threads,
-                 [&](const Chunk& chunk) { solve(chunk, runs[chunk.index]); });
-  std::size_t count = 0;
-  for (const ForwardRun& run : runs) count += run.waypoints.size();
-  all.waypoints.reserve(count);
-  for (ForwardRun& run : runs) {
-    all.waypoints.insert(all.waypoints.end(), std::make_move_iterator(run.waypoints.begin()),
-                         std::make_move_iterator(run.waypoints.end()));
-    if (!run.failure) continue;
-    all.failure = run.failure;
-    break;
-  }
+  all.waypoints.reserve(pieces.size() + pieces.size() / 2);
+  const std::size_t together = job.options.threads == 1 ? 1 : all_chunks;
+  all.failure = solve_forward_in_portions(
+      job, nominal, pieces, questions, command, known, together, [&](std::vector<Waypoint>&& some) {
+        all.waypoints.insert(all.waypoints.end(), std::make_move_iterator(some.begin()),
+                             std::make_move_iterator(some.end()));
+      });
   return all;
 }
 
-ForwardRun solve_forward_along(const Job& job, const std::vector<Piece>& pieces, const Questions& questions,
-                               ForwardState& state) {
-  const NominalTrack nominal = track(job, state.nominal.value_or(home_of(job.model)));
-  if (nominal.failure) return {{}, nominal.failure};
-  ForwardRun run = solve_forward_from(job, nominal, pieces, questions, state.command);
-  state.nominal = nominal.end;
-  if (!pieces.empty()) state.command = pieces.back().commanded.end;
-  return run;
-}
-
 ForwardRun solve_forward_along(const Job& job, const std::vector<Piece>& pieces, const Questions& questions) {
-  ForwardState state;
-  return solve_forward_along(job, pieces, questions, state);
+  const NominalTrack nominal = track(job, home_of(job.model));
+  if (nominal.failure) return {{}, nominal.failure};
+  return solve_forward_from(job, nominal, pieces, questions, {});
 }
 
 namespace {
@@ -98,31 +123,31 @@ bool is_known_hole(const Move& move) {
 
 // The bottom of a hole of the original program.
 Piece piece_of_hole(const Job& job, const Move& move) {
-  const WorkFrame& frame = job.path.frames[move.offset];
+  const WorkFrame& frame = job.path.frames[move.frame];
   const Vector3 commanded = frame.X_MW * (bottom_of(move) * mm);
   return {.segment = no_segment,
           .line = move.line,
-          .frame = move.offset,
+          .frame = move.frame,
           .commanded = {commanded, commanded, {}},
           .wanted = wanted_frame(frame) * (bottom_of(move) * mm),
           .end_only = true,
           .tool = move.tool};
 }
 
-}  // namespace
-
-std::vector<Piece> original_pieces(const Job& job) {
+// Of segments [begin, end) and the holes before them; behind the last segment all that are left.
+std::vector<Piece> original_pieces(const Job& job, std::size_t begin, std::size_t end) {
+  const std::vector<Segment>& segments = job.path.segments;
   std::vector<Piece> pieces;
   std::vector<double> places;
   ForceCursor cursor;
-  std::size_t next_move = 0;
-  const auto add_holes_before = [&](std::size_t end) {
-    for (; next_move < end; ++next_move)
+  std::size_t next_move = begin == 0 ? 0 : segments[begin - 1].move;
+  const auto add_holes_before = [&](std::size_t move) {
+    for (; next_move < move; ++next_move)
       if (is_known_hole(job.program.moves[next_move]))
         pieces.push_back(piece_of_hole(job, job.program.moves[next_move]));
   };
-  for (std::size_t s = 0; s < job.path.segments.size(); ++s) {
-    const Segment& segment = job.path.segments[s];
+  for (std::size_t s = begin; s < end; ++s) {
+    const Segment& segment = segments[s];
     add_holes_before(segment.move);
     const Pose back{Matrix3::Identity(), -job.path.frames[segment.frame].datum_shift};
     places_along(job, s, cursor, places);
@@ -138,8 +163,33 @@ std::vector<Piece> original_pieces(const Job& job) {
       u0 = u;
     }
   }
-  add_holes_before(job.program.moves.size());
+  if (end == segments.size()) add_holes_before(job.program.moves.size());
   return pieces;
+}
+
+}  // namespace
+
+std::vector<Piece> original_pieces(const Job& job) {
+  return original_pieces(job, 0, job.path.segments.size());
+}
+
+std::optional<Failure> solve_original(const Job& job, const Questions& questions, ForwardState& state,
+                                      const WaypointTaker& take) {
+  constexpr std::size_t at_once = 16 * chunk_size;  // segments: their pieces take some megabytes
+  const NominalTrack nominal = track(job, state.nominal.value_or(home_of(job.model)));
+  if (nominal.failure) return nominal.failure;
+  const std::size_t count = job.path.segments.size();
+  std::size_t begin = 0;
+  do {
+    const std::size_t end = std::min(begin + at_once, count);
+    const std::vector<Piece> pieces = original_pieces(job, begin, end);
+    if (auto failure = solve_forward_in_portions(job, nominal, pieces, questions, state.command, {}, few_chunks, take))
+      return failure;
+    if (!pieces.empty()) state.command = pieces.back().commanded.end;
+    begin = end;
+  } while (begin < count);
+  state.nominal = nominal.end;
+  return std::nullopt;
 }
 
 }  // namespace counterflex

@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <array>
+#include <cmath>
+
 #include "counterflex/compensation/compensate.hpp"
 #include "counterflex/geometry/units.hpp"
 #include "emit.hpp"
@@ -16,6 +19,11 @@ bool makes_doubtful(const Move& move) {
   for (std::size_t axis = 0; axis < 3; ++axis)
     lost = lost || move.fixed[axis] || (move.known_start[axis] && !move.known_end[axis]);
   return lost;
+}
+
+// Whether the move's height is a word of a block before it: Q203 of a cycle's definition.
+bool takes_surface(const Move& move) {
+  return move.words[2] && move.words[2]->number.begin < move.block.begin;
 }
 
 class WindowMatcher {
@@ -42,7 +50,10 @@ class WindowMatcher {
     if (next_segment_ < segments.size() && segments[next_segment_].move == m) segment = next_segment_++;
     const MatchedMoves matched{original, segment, finder_.find(m, segment, others)};
     if (matched.found.empty()) return not_found(original, others);
+    if (auto failure = frame_failure(matched)) return failure;
     if (auto failure = kind_failure(job_, matched)) return failure;
+    if (auto failure = surface_failure(matched)) return failure;
+    if (auto failure = shift_failure(matched, m)) return failure;
     if (auto failure = words_failure(job_, matched)) return failure;
     if (segment && !original.cycle) maker_.add(matched, drafts);
     add_hole(matched);
@@ -53,27 +64,100 @@ class WindowMatcher {
     return std::nullopt;
   }
 
+  // After a word of an axis has been shifted, none stands unshifted until the axis has gone to a position of
+  // the machine. Where the deviation is judged a correction may be nothing.
+  std::optional<Failure> shift_failure(const MatchedMoves& matched, std::size_t m) {
+    constexpr double unshifted_mm = 1e-9;
+    const Move &original = matched.original, &found = *matched.found.back().move;
+    forget_lost_axes(m);
+    const bool judged = all_known(original.known_end) && original.handling == Handling::own;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      if (!original.words[axis] || !found.words[axis] || original.relative || found.relative) continue;
+      const auto k = static_cast<Eigen::Index>(axis);
+      const double shift = found.end_mm[k] - original.end_mm[k], before = shifts_mm_[axis].value_or(0);
+      if (!judged && std::abs(shift) < unshifted_mm && std::abs(before) > job_.options.tolerance / mm)
+        return Failure{
+            Exit::not_compensated, original.line,
+            fmt::format("{} stands as in the original, though the moves before it are shifted by {:.4f} mm",
+                        "XYZ"[axis], before),
+            found.line};
+      shifts_mm_[axis] = shift;
+    }
+    return std::nullopt;
+  }
+
+  // The surface from which the held holes of a Klartext cycle count goes along with them: they keep the shift with which
+  // they are entered. The others are judged where they are.
+  std::optional<Failure> surface_failure(const MatchedMoves& matched) {
+    constexpr double rounding_mm = 1e-3 * (1 + 1e-9);  // of both, to three decimals
+    const Move &original = matched.original, &found = *matched.found.back().move;
+    const double shift = found.end_mm.z() - original.end_mm.z();
+    if (takes_surface(original) != takes_surface(found))
+      return Failure{Exit::not_compensated, original.line,
+                     "this hole takes the height of its surface from a cycle's definition in one of both programs only",
+                     found.line};
+    const bool held = original.handling == Handling::held;
+    if (takes_surface(original) && held && std::abs(shift - height_shift_mm_) > rounding_mm)
+      return Failure{Exit::not_compensated, original.line,
+                     fmt::format("the surface of this hole's cycle is shifted by {:.4f} mm, the hole by {:.4f} mm",
+                                 shift, height_shift_mm_),
+                     found.line};
+    if (!takes_surface(original) && original.known_end[2] && found.known_end[2]) height_shift_mm_ = shift;
+    return std::nullopt;
+  }
+
+  void forget_lost_axes(std::size_t m) {
+    const Move& move = job_.program.moves[m];
+    const Move* last = move_before(job_.program, m);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const bool lost = last != nullptr && !last->block_delete && last->known_end[axis] &&
+                        !move.known_start[axis] && !move.stands[axis];
+      if (lost || (last != nullptr && last->frame != move.frame) || move.fixed[axis])
+        shifts_mm_[axis].reset();
+    }
+  }
+
+  // Both programs must set the coordinates of their moves alike.
+  std::optional<Failure> frame_failure(const MatchedMoves& matched) const {
+    constexpr double rounding_mm = 1e-6, rounding_rad = 1e-9;
+    const CorrectedMove& last = matched.found.back();
+    const ProgramFrame &wanted = job_.program.frames[matched.original.frame],
+                       &found = last.program->frames[last.move->frame];
+    const double off = (found.origin_mm - wanted.origin_mm).norm();
+    const bool same = found.work_offset == wanted.work_offset && found.set_mm == wanted.set_mm && off <= rounding_mm &&
+                      std::abs(found.turn_rad - wanted.turn_rad) <= rounding_rad;
+    if (same) return std::nullopt;
+    return Failure{
+        Exit::not_compensated, matched.original.line,
+        fmt::format(
+            "the coordinates of this block are not those of the original: another offset, or {:.4f} mm "
+            "off",
+            off),
+        last.move->line};
+  }
+
   Failure not_found(const Move& original, std::size_t others) {
     const CorrectedMove* next = found_.at(0);
     if (next == nullptr || next->others != others)
       return {Exit::not_compensated, original.line, "no move follows here that belongs to the original's",
               next != nullptr ? next->move->line : last_line_};
-    return {Exit::not_compensated, original.line,
-            "the moves from here on do not end where that of the original does, with the same words (motion, F, "
-            "S, M)",
-            next->move->line};
+    return {
+        Exit::not_compensated, original.line,
+        "the moves from here on do not end where that of the original does, with the same words (motion, F, "
+        "S, M)",
+        next->move->line};
   }
 
   void add_hole(const MatchedMoves& matched) {
     const Move &original = matched.original, &found = *matched.found.back().move;
     if (!original.cycle || !original.known_end[0] || !original.known_end[1]) return;
-    const WorkFrame& frame = job_.path.frames[original.offset];
+    const WorkFrame& frame = job_.path.frames[original.frame];
     const Vector3 bottom = frame.X_MW * (bottom_of(found) * mm);
     const bool takes_z = original.cycle->bottom_word || original.cycle->may_insert_bottom;
     drafts.push_back({{.segment = no_segment,
                        .line = original.line,
                        .corrected_line = found.line,
-                       .frame = original.offset,
+                       .frame = original.frame,
                        .commanded = {bottom, bottom, {}},
                        .wanted = wanted_frame(frame) * (bottom_of(original) * mm),
                        .end_only = true,
@@ -90,11 +174,11 @@ class WindowMatcher {
     drafts.push_back({{.segment = no_segment,
                        .line = original.line,
                        .corrected_line = matched.found.back().move->line,
-                       .frame = original.offset,
+                       .frame = original.frame,
                        .commanded = {end, end, {}},
                        .wanted = wanted_of(job_, original),
                        .end_only = true,
-                       .exempt_end = original.handling != Handling::own || !original.may_insert_words ||
+                       .exempt_end = original.handling != Handling::own || !takes_all_words(original) ||
                                      (skipped_ && original.motion == Motion::feed),
                        .tool = original.tool}});
   }
@@ -104,7 +188,9 @@ class WindowMatcher {
   MoveFinder finder_;
   PieceMaker maker_;
   std::size_t next_segment_ = 0;
-  int last_line_ = 1;     // of the corrected program
+  int last_line_ = 1;                                 // of the corrected program
+  std::array<std::optional<double>, 3> shifts_mm_{};  // by axis, of the last word in these coordinates
+  double height_shift_mm_ = 0;                        // of the last height that is known
   bool skipped_ = false;  // a '/' block made the position unknown: feed moves behind it are held, not judged
 };
 
@@ -116,42 +202,6 @@ std::optional<Failure> lines_failure(OtherLines& wanted, OtherLines& found) {
                      "this line differs from that of the original; it is no move and must stay as it is",
                      found.lines.front().line};
   return std::nullopt;
-}
-
-// The surface from which the holes of a Klartext cycle count, where the first of them is met.
-struct Surface {
-  int line;
-  double z_mm, before_mm;  // itself, and the last Z before it that is known
-};
-
-std::vector<Surface> surfaces_of(const Program& program) {
-  std::vector<Surface> surfaces;
-  double before_mm = 0;
-  for (const Move& move : program.moves) {
-    if (move.words[2] && move.words[2]->number.begin < move.block.begin)
-      surfaces.push_back({move.line, move.end_mm.z(), before_mm});
-    else if (move.known_end[2])
-      before_mm = move.end_mm.z();
-  }
-  return surfaces;
-}
-
-// A surface goes along with the holes, which keep the shift with which they are entered.
-std::optional<Failure> surfaces_failure(const Program& original, const Program& corrected) {
-  constexpr double rounding_mm = 1e-3 * (1 + 1e-9);  // of both, to three decimals
-  const auto wanted = surfaces_of(original), found = surfaces_of(corrected);
-  for (std::size_t i = 0; i < std::min(found.size(), wanted.size()); ++i) {
-    const double shift = found[i].z_mm - wanted[i].z_mm, held = found[i].before_mm - wanted[i].before_mm;
-    if (std::abs(shift - held) > rounding_mm)
-      return Failure{Exit::not_compensated, wanted[i].line,
-                     fmt::format("the surface of this hole's cycle is shifted by {:.4f} mm, the hole by {:.4f} mm",
-                                 shift, held),
-                     found[i].line};
-  }
-  if (found.size() == wanted.size()) return std::nullopt;
-  return Failure{Exit::not_compensated, wanted.empty() ? 0 : wanted.back().line,
-                 fmt::format("{} surfaces of cycles are used, in the original {}", found.size(), wanted.size()),
-                 found.empty() ? 1 : found.back().line};
 }
 
 }  // namespace
@@ -172,11 +222,8 @@ Matching match_window(const Job& job, const NominalTrack& track, const PlannedEn
                       CorrectedMoves& found) {
   Matching result;
   const std::vector<std::size_t> others = lines.add(job.program);
-  // A Klartext program is one window: surfaces are those of all.
-  if (const CorrectedMove* first = found.at(0); first != nullptr && job.program.dialect == "heidenhain")
-    result.failure = surfaces_failure(job.program, *first->program);
   WindowMatcher matcher(job, track, ends, found);
-  if (!result.failure) result.failure = matcher.run(others);
+  result.failure = matcher.run(others);
   if (auto failure = lines_failure(lines, found.other_lines())) result.failure = failure;
   if (!result.failure) result.pieces = refined(job, track, std::move(matcher.drafts));
   return result;
@@ -184,7 +231,8 @@ Matching match_window(const Job& job, const NominalTrack& track, const PlannedEn
 
 std::optional<Failure> match_end(OtherLines& lines, CorrectedMoves& found) {
   if (const CorrectedMove* left = found.at(0))
-    return Failure{Exit::not_compensated, 0, "this move has no counterpart in the original", left->move->line};
+    return Failure{Exit::not_compensated, 0, "this move has no counterpart in the original",
+                   left->move->line};
   OtherLines& others = found.other_lines();
   if (auto failure = lines_failure(lines, others)) return failure;
   if (!others.lines.empty())

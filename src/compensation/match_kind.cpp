@@ -37,12 +37,15 @@ class KindComparison {
         original_(matched.original),
         rounding_mm_(rounding_allowance(original_, job.options.write) / mm),
         tolerance_mm_(job.options.tolerance / mm),
-        most_shift_mm_((job.options.max_correction + job.path.frames[original_.offset].datum_shift.norm()) / mm) {}
+        most_shift_mm_((job.options.max_correction + job.path.frames[original_.frame].datum_shift.norm()) / mm) {}
 
   std::optional<Failure> run() {
     for (std::size_t i = 0; i < matched_.found.size() && !failure_; ++i) compare(i);
     if (original_.arc && !failure_) compare_sweeps();
-    if (!matched_.segment && !failure_) compare_unjudged(*matched_.found.back().move);
+    const Move& last = *matched_.found.back().move;
+    if (!matched_.segment && !failure_) compare_unjudged(last);
+    if (!failure_) compare_shifts(last);
+    if (original_.cycle && last.cycle && !failure_) compare_cycle(last);
     return std::move(failure_);
   }
 
@@ -130,24 +133,46 @@ class KindComparison {
                             sweep_ / deg, wanted / deg));
   }
 
-  // Moves that give no segment keep a correction: their words are shifted by no more than it may be, and what
-  // stays where it is does so in both programs.
+  // Moves that give no segment keep a correction: what stays where it is does so in both programs.
   void compare_unjudged(const Move& found) {
     const bool known = all_known(original_.known_start) && all_known(original_.known_end);
-    if (known && !original_.cycle && all_known(found.known_start)) {
-      const double way = (found.end_mm - found.start_mm).norm();
-      if (way > tolerance_mm_ + roundings * rounding_mm_)
-        return fail(found, fmt::format("this move goes {:.4f} mm, that of the original stays where it is", way));
-    }
-    for (std::size_t axis = 0; axis < 3; ++axis) {
+    const bool steps = original_.handling == Handling::group;  // to the shift of its contour
+    if (!known || original_.cycle || steps || !all_known(found.known_start)) return;
+    const double way = (found.end_mm - found.start_mm).norm();
+    if (way > tolerance_mm_ + roundings * rounding_mm_)
+      fail(found, fmt::format("this move goes {:.4f} mm, that of the original stays where it is", way));
+  }
+
+  // Whatever is judged besides, no word is shifted by more than a correction may be.
+  void compare_shifts(const Move& found) {
+    const Vector3& start = matched_.found.front().move->start_mm;
+    for (std::size_t axis = 0; axis < 3 && !failure_; ++axis) {
       const auto k = static_cast<Eigen::Index>(axis);
       if (!original_.words[axis] || !found.words[axis] || original_.fixed[axis]) continue;
       double shift = found.end_mm[k] - original_.end_mm[k];
-      if (original_.relative && found.relative) shift -= found.start_mm[k] - original_.start_mm[k];
-      if (std::abs(shift) <= most_shift_mm_ + roundings * rounding_mm_) continue;
-      return fail(found, fmt::format("{} is shifted by {:.4f} mm, the limit of a correction is {:.4f} mm",
-                                     "XYZ"[axis], shift, most_shift_mm_));
+      if (is_relative(original_, axis) && is_relative(found, axis))
+        shift -= start[k] - original_.start_mm[k];
+      compare_shift(found, std::string(1, "XYZ"[axis]), shift);
     }
+  }
+
+  // Depth and retract plane, also where an earlier hole has said them. Words of one block are shifted alike.
+  void compare_cycle(const Move& found) {
+    const CycleMove &wanted = *original_.cycle, &cycle = *found.cycle;
+    const double bottom = cycle.bottom_mm - wanted.bottom_mm, retract = cycle.retract_mm - wanted.retract_mm;
+    if (wanted.retract_word && !cycle.retract_word) return fail(found, "the R of the original's hole is missing");
+    compare_shift(found, "the bottom of the hole", bottom);
+    if (!failure_) compare_shift(found, "the retract plane R", retract);
+    const bool both = wanted.retract_word && wanted.bottom_word && cycle.bottom_word;
+    if (!failure_ && both && std::abs(retract - bottom) > tolerance_mm_ + roundings * rounding_mm_)
+      fail(found, fmt::format("the retract plane R is shifted by {:.4f} mm, the bottom of the hole by {:.4f} mm",
+                              retract, bottom));
+  }
+
+  void compare_shift(const Move& found, const std::string& what, double shift) {
+    if (std::abs(shift) > most_shift_mm_ + roundings * rounding_mm_)
+      fail(found, fmt::format("{} is shifted by {:.4f} mm, the limit of a correction is {:.4f} mm", what, shift,
+                              most_shift_mm_));
   }
 
   const MatchedMoves& matched_;

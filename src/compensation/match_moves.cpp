@@ -88,7 +88,8 @@ std::size_t MoveFinder::count(const Move& original, std::optional<std::size_t> s
     gone_mm += way_mm(*found->move);
     if (may_end(original, words, *found, j)) {
       const double off = (found->move->end_mm - end_mm).norm(), surplus = std::abs(gone_mm - length_mm);
-      if (off <= digits_share * rounding_as_read(*found->move) / mm && surplus <= slack_mm) return j + 1;
+      const double rounding_mm = std::max(rounding_mm_, rounding_as_read(*found->move) / mm);
+      if (off <= digits_share * rounding_mm && surplus <= slack_mm) return j + 1;
       const double miss = off + length_share * surplus;
       if (miss < best_miss - nearer_mm) best = j + 1, best_miss = miss;
     }
@@ -105,7 +106,7 @@ std::span<const CorrectedMove> MoveFinder::find(std::size_t m, std::optional<std
   if (first == nullptr || first->others != others) return {};
   if (!shift_mm_ && all_known(original.known_start) && all_known(first->move->known_start))
     shift_mm_ = first->move->start_mm - original.start_mm;
-  if (offset_ != original.offset) planned_shift_mm_.reset();
+  if (frame_ != original.frame) planned_shift_mm_.reset(), shift_mm_.reset();
   next_number_.reset();
   if (m + 1 < job_.program.moves.size()) next_number_ = job_.program.moves[m + 1].block_number;
   if (next_number_ == original.block_number || job_.program.dialect == "heidenhain") next_number_.reset();
@@ -115,9 +116,10 @@ std::span<const CorrectedMove> MoveFinder::find(std::size_t m, std::optional<std
   for (std::size_t j = 0; j < count; ++j) matched_.push_back(*found_.at(j));
   if (count == 0) return {};
   planned_shift_mm_ = planned_shift_mm(original, segment);
-  offset_ = original.offset;
-  if (all_known(original.known_end))
-    shift_mm_ = matched_.back().move->end_mm - original.end_mm;
+  frame_ = original.frame;
+  const Move& last = *matched_.back().move;
+  if (all_known(original.known_end)) shift_mm_ = last.end_mm - original.end_mm;
+  rounding_mm_ = rounding_as_read(last) / mm;
   return matched_;
 }
 

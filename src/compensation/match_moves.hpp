@@ -42,8 +42,9 @@ class MoveFinder {
   CorrectedMoves& found_;
   std::vector<CorrectedMove> matched_;
   std::optional<Vector3> shift_mm_;          // of the move before
+  double rounding_mm_ = 0;                   // of that shift, as it was read
   std::optional<Vector3> planned_shift_mm_;  // the same, as it was planned
-  std::size_t offset_ = 0;                   // of the move before
+  std::size_t frame_ = 0;                    // of the move before
   std::optional<long> next_number_;          // N of the next original
 };
 

@@ -41,8 +41,8 @@ double rounding_as_read(const Move& move) {
   const Decimals decimals = decimals_of(move, {});
   int least = std::numeric_limits<int>::max();
   for (std::size_t axis = 0; axis < 3; ++axis)
-    if (move.words[axis]) least = std::min(least, decimals.end[axis]);
-  return rounding_of(move.unit, std::min(least, 9));
+    least = std::min(least, move.words[axis] ? decimals.end[axis] : decimals.inserted);
+  return rounding_of(move.unit, least);
 }
 
 Failure few_decimals_failure(const Move& move, const CompensationOptions& options) {

@@ -34,7 +34,7 @@ struct Plan {
   std::optional<Failure> failure;
 };
 
-/// By how much the words of a move as read may be rounded: half of the last digit times sqrt 3 (m).
+/// By how much the words of a move as read, and positions that it does not repeat, may be rounded: half of the last digit times sqrt 3 (m).
 double rounding_as_read(const Move& move);
 
 /// The failure of a move's words that are rounded too much for the tolerance.

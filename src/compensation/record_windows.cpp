@@ -107,6 +107,7 @@ class WindowRecorder {
     if (flight.role != Role::compensated) return;
     events_.begun(job);
     if (!flight.work.failed()) file_.add(flight.bytes);
+    events_.solved(job, flight.work.result.waypoints);
     events_.done(job, flight.work.result);
   }
 

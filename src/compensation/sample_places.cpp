@@ -14,20 +14,22 @@ constexpr int most_by_length = 64;  // a program of 100 kB may hold 20 000 moves
 constexpr double sampled_angle = std::numbers::pi / 8;
 constexpr double same_fraction = 1e-9;
 
-int steps_along(const Curve& wanted, double length) {
-  const double by_length = std::clamp(std::ceil(length / spacing), 1.0, double{most_by_length});
-  const double by_angle = wanted.arc ? std::ceil(wanted.arc->sweep / sampled_angle) : 1.0;
+}  // namespace
+
+int steps_along(const Segment& segment) {
+  if (!segment.cutting) return 1;
+  const double by_length =
+      std::clamp(std::ceil((segment.s_end - segment.s_start) / spacing), 1.0, double{most_by_length});
+  const double by_angle = segment.wanted.arc ? std::ceil(segment.wanted.arc->sweep / sampled_angle) : 1.0;
   return static_cast<int>(std::max(by_length, by_angle));
 }
-
-}  // namespace
 
 void places_along(const Job& job, std::size_t index, ForceCursor& cursor, std::vector<double>& fractions) {
   const Segment& segment = job.path.segments[index];
   fractions.clear();
   if (segment.cutting) {
     job.forces.breaks(index, cursor, fractions);
-    const int steps = steps_along(segment.wanted, segment.s_end - segment.s_start);
+    const int steps = steps_along(segment);
     for (int k = 1; k < steps; ++k) fractions.push_back(static_cast<double>(k) / steps);
     std::sort(fractions.begin(), fractions.end());
     const auto same = [](double a, double b) { return b - a < same_fraction; };

@@ -6,6 +6,9 @@
 
 namespace counterflex {
 
+/// Equal steps along a feed move; a rapid is one.
+int steps_along(const Segment& segment);
+
 /// Sets `fractions` to the places of a segment, increasing, the last one 1. A rapid has no other place. A
 /// feed move has places at the corners of the force, and in equal steps of at most 5 mm (a 64th of a longer
 /// move) and, around an arc, of at most 22.5 degrees: an arc of many turns has 16 places or more on each of

@@ -15,13 +15,21 @@ bool is_digit(char c) {
   return c >= '0' && c <= '9';
 }
 
+// Whether no polar word says it: they stand for two axes each.
+bool is_height(const Move& move, const PackedAxisWord& word) {
+  std::size_t axes = 0;
+  for (const auto& other : move.words) axes += word && other && other->number.begin == word->number.begin;
+  return axes == 1;
+}
+
 std::vector<Span> rewritten_numbers(const Move& move) {
   std::vector<Span> numbers;
   const auto add = [&](const PackedAxisWord& word) {
     // A block may also have words of one before it: the centre or the surface that it uses.
     if (word && word->number.begin >= move.block.begin) numbers.push_back(word->number);
   };
-  for (const auto& word : move.words) add(word);
+  for (const auto& word : move.words)
+    if (!move.polar || is_height(move, word)) add(word);
   if (move.arc) {
     for (const auto& word : move.arc->centre_words) add(word);
     add(move.arc->radius_word);
@@ -35,10 +43,11 @@ std::vector<Span> rewritten_numbers(const Move& move) {
 }
 
 // Takes the letter off with which a word begins, or its name and sign of equality.
-void drop_letter(std::string& text) {
+void drop_letter(std::string& text, bool klartext) {
   if (text.empty()) return;
   const bool named = text.back() == '=';
   text.pop_back();
+  if (klartext && !text.empty() && upper(text.back()) == 'I') text.pop_back();
   while (named && !text.empty() && std::isalpha(static_cast<unsigned char>(text.back())) != 0)
     text.pop_back();
 }
@@ -84,14 +93,28 @@ std::string without_motion(const std::string& text, const std::vector<std::strin
 std::string without_klartext_number(const std::string& text) {
   const std::size_t begin = !text.empty() && text[0] == '/' ? 1 : 0;
   std::size_t end = begin;
+  if (end + 1 < text.size() && upper(text[end]) == 'N' && is_digit(text[end + 1])) ++end;
   while (end < text.size() && is_digit(text[end])) ++end;
   return text.substr(0, begin) + text.substr(end);
 }
 
-// Klartext: without the words L, C, CR and CT at the beginning and the sense DR of an arc.
+// Takes the word that begins with `key` out of `text` before `end`.
+void drop_polar_word(std::string& text, std::string_view key, std::size_t end) {
+  std::size_t begin = text.find(key);
+  if (begin >= end) return;
+  const std::size_t behind =
+      std::min(text.find_first_not_of("+-0123456789.,", begin + key.size()), text.size());
+  if (begin > 0 && text[begin - 1] == 'I') --begin;
+  text.erase(begin, behind - begin);
+}
+
+// Klartext: without the words L, LP, C, CP, CR and CT at the beginning, the sense DR of an arc and what is
+// left of polar coordinates.
 std::string without_klartext_motion(std::string text) {
   const std::size_t begin = !text.empty() && text[0] == '/' ? 1 : 0;
-  for (const std::string_view head : {"CR", "CT", "C", "L"})
+  for (const std::string_view key : {"PA", "PR"})
+    drop_polar_word(text, key, std::min(text.find(';'), text.size()));
+  for (const std::string_view head : {"CR", "CT", "CP", "C", "LP", "L"})
     if (std::string_view(text).substr(begin).starts_with(head)) {
       text.erase(begin, head.size());
       break;
@@ -104,6 +127,7 @@ std::string without_klartext_motion(std::string text) {
 }  // namespace
 
 std::string skeleton(const Program& program, const Move& move) {
+  const bool klartext = program.dialect == "heidenhain";
   std::string text;
   std::size_t at = move.block.begin;
   const auto keep = [&](std::size_t end) {
@@ -112,14 +136,14 @@ std::string skeleton(const Program& program, const Move& move) {
   };
   for (const Span& number : rewritten_numbers(move)) {
     keep(number.begin);
-    drop_letter(text);
+    drop_letter(text, klartext);
     at = number.end;
   }
   keep(move.block.end);
   std::vector<std::string_view> names{"N"};
   if (move.feed_mode == FeedMode::inverse_time) names.push_back("F");
   if (move.arc) names.insert(names.end(), {"P", "TURN="});
-  if (program.dialect == "heidenhain") return without_klartext_motion(without_klartext_number(text));
+  if (klartext) return without_klartext_motion(without_klartext_number(text));
   return without_motion(text, names);
 }
 

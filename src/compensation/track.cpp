@@ -6,6 +6,7 @@
 #include <iterator>
 
 #include "counterflex/geometry/units.hpp"
+#include "counterflex/program/read_program.hpp"
 #include "path_solver.hpp"
 
 namespace counterflex {
@@ -17,15 +18,18 @@ constexpr std::size_t segments_between_starts = 32;
 }  // namespace
 
 Failure status_failure(const Job& job, Status status, const CommandedPlace& at, int line) {
-  if (status == Status::outside_travel)
+  if (status == Status::outside_travel) {
+    if (const auto word = integer_word_in_doubt(job.program, line))
+      return {Exit::program_text, word->line, word->what};
     return {Exit::limit, line, outside_travel_words(job.model.mechanism, at)};
+  }
   return {Exit::not_compensated, line,
           fmt::format("the machine's equilibrium is not solved here: {}", to_string(status))};
 }
 
 Failure status_failure(const Job& job, Status status, const Model& model, const Move& move,
                        const Vector3& target, int line) {
-  return status_failure(job, status, {model, job.path.frames[move.offset], move.tool, target}, line);
+  return status_failure(job, status, {model, job.path.frames[move.frame], move.tool, target}, line);
 }
 
 std::optional<Failure> limit_failure(const Job& job, const Vector3& correction, int line) {

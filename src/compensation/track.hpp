@@ -36,6 +36,17 @@ ForwardRun solve_forward_from(const Job& job, const NominalTrack& nominal, std::
                               const Questions& questions, const std::optional<Vector3>& command,
                               std::span<const KnownSegment> known = {});
 
+/// The same for waypoints that are given out in chunks, of which `together` are solved before the first of them is
+/// given out. Returns the failure of the last waypoint.
+std::optional<Failure> solve_forward_in_portions(const Job& job, const NominalTrack& nominal,
+                                                 std::span<const Piece> pieces, const Questions& questions,
+                                                 const std::optional<Vector3>& command,
+                                                 std::span<const KnownSegment> known, std::size_t together,
+                                                 const WaypointTaker& take);
+
+inline constexpr std::size_t few_chunks = 4;  ///< together; of long lines each has 30 MB of waypoints
+inline constexpr std::size_t all_chunks = static_cast<std::size_t>(-1);
+
 /// The failure that the status of a target stands for: travel is a limit, all else is not compensated.
 Failure status_failure(const Job& job, Status status, const CommandedPlace& at, int line);
 

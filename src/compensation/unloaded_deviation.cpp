@@ -9,13 +9,14 @@ namespace counterflex {
 void PathPlaces::add(const Program& window) {
   for (const Move& move : window.moves) {
     if (move.motion != Motion::feed || !all_known(move.known_start) || !all_known(move.known_end)) continue;
-    if (move.offset >= offsets_.size()) offsets_.resize(move.offset + 1);
-    add(move, offsets_[move.offset]);
+    const ProgramFrame& frame = window.frames[move.frame];
+    if (is_set(frame)) continue;
+    add(move, frame, offsets_[frame.work_offset]);
   }
 }
 
-void PathPlaces::add(const Move& move, OfOffset& of) {
-  const Curve curve = curve_of(move);
+void PathPlaces::add(const Move& move, const ProgramFrame& frame, OfOffset& of) {
+  const Curve curve = in_offset(frame) * curve_of(move);
   const double way = length(curve);
   if (!(way > 0)) return;
   for (double next = of.spacing_mm * static_cast<double>(of.places.size()); next <= of.way_mm + way;
@@ -31,8 +32,9 @@ void PathPlaces::add(const Move& move, OfOffset& of) {
   of.way_mm += way;
 }
 
-std::span<const PathPlace> PathPlaces::of(std::size_t offset) const {
-  return offset < offsets_.size() ? std::span(offsets_[offset].places) : std::span<const PathPlace>{};
+std::span<const PathPlace> PathPlaces::of(const std::string& offset) const {
+  const auto found = offsets_.find(offset);
+  return found == offsets_.end() ? std::span<const PathPlace>{} : std::span(found->second.places);
 }
 
 UnloadedDeviation unloaded_deviation(const Model& model, NominalToolPath& nominal, const Vector3& p_MT) {

@@ -59,13 +59,11 @@ class WindowVerifier {
     if (!flight.matching.pieces.empty()) command_ = flight.matching.pieces.back().commanded.end;
   }
 
-  void solve(const Job& job, Flight& flight) {
-    solve_matched(job, attribution_, flight.matching, flight.work);
-    flight.matching = {};
-  }
+  void solve(const Job& job, Flight& flight) { solve_or_wait(job, attribution_, flight); }
 
   void done(const Job& job, Flight& flight) {
-    if (!missed_) missed_ = tolerance_failure(job, flight.work.result.waypoints);
+    const auto missed = give_out(job, attribution_, events_, flight);
+    if (!missed_) missed_ = missed;
     events_.done(job, flight.work.result);
   }
 

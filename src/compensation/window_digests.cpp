@@ -37,7 +37,7 @@ std::string_view rounding() {
 // What a control reads of a move, as far as it is asked where it goes.
 void put_command(const Move& move, std::string& bytes) {
   put_vector(move.end_mm, bytes);
-  put(move.offset, bytes);
+  put(move.frame, bytes);
 }
 
 void put_way(const Move& move, std::string& bytes) {

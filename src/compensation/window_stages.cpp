@@ -126,25 +126,35 @@ void write_window(const Job& job, CarriedState& carried, WindowWork& work, const
   });
 }
 
-void verify_window(const Job& job, bool attribution, WindowWork& work) {
-  if (work.failed()) return;
+Matching match_written(const Job& job, const WindowWork& work) {
+  if (work.failed()) return {};
   CorrectedMoves found(work.result.corrected);
   OtherLines lines;
   Matching matching = match_window(job, work.track, work.ends, lines, found);
   if (!matching.failure) matching.failure = match_end(lines, found);
-  solve_matched(job, attribution, matching, work);
-  if (!work.failed()) work.result.failure = tolerance_failure(job, work.result.waypoints);
+  return matching;
 }
 
-void solve_matched(const Job& job, bool attribution, Matching& matching, WindowWork& work) {
-  work.result.failure = matching.failure;
-  work.ends = {};
+void solve_matched(const Job& job, bool attribution, const Matching& matching, WindowWork& work) {
+  if (!work.failed()) work.result.failure = matching.failure;
   if (work.failed()) return;
-  ForwardRun run = solve_forward_from(job, work.track, matching.pieces, {true, attribution, true},
-                                      work.command, work.known);
-  work.known = {};
+  ForwardRun run =
+      solve_forward_from(job, work.track, matching.pieces, {true, attribution, true}, work.command, work.known);
   work.result.waypoints = std::move(run.waypoints);
   work.result.failure = run.failure;
+}
+
+void solve_matched(const Job& job, bool attribution, const Matching& matching, WindowWork& work,
+                   const WaypointTaker& take) {
+  if (!work.failed()) work.result.failure = matching.failure;
+  if (work.failed()) return;
+  work.result.failure = solve_forward_in_portions(job, work.track, matching.pieces, {true, attribution, true},
+                                                  work.command, work.known, few_chunks, take);
+}
+
+void verify_window(const Job& job, bool attribution, WindowWork& work) {
+  solve_matched(job, attribution, match_written(job, work), work);
+  if (!work.failed()) work.result.failure = tolerance_failure(job, work.result.waypoints);
 }
 
 }  // namespace counterflex

@@ -49,10 +49,17 @@ void write_window(const Job& job, CarriedState& carried, WindowWork& work);
 /// The same where that very text has been written and read before.
 void write_window(const Job& job, CarriedState& carried, WindowWork& work, const TextRead& read);
 
-/// In any order: matches what was written with the window's moves, by its text, and solves it forward.
-void verify_window(const Job& job, bool attribution, WindowWork& work);
+/// In any order: matches what was written with the window's moves, by its text.
+Matching match_written(const Job& job, const WindowWork& work);
 
-/// Its second half, without the tolerance.
-void solve_matched(const Job& job, bool attribution, Matching& matching, WindowWork& work);
+/// Solves it forward.
+void solve_matched(const Job& job, bool attribution, const Matching& matching, WindowWork& work);
+
+/// The same for waypoints that are given out in portions.
+void solve_matched(const Job& job, bool attribution, const Matching& matching, WindowWork& work,
+                   const WaypointTaker& take);
+
+/// In any order: matches, solves, and judges by the tolerance.
+void verify_window(const Job& job, bool attribution, WindowWork& work);
 
 }  // namespace counterflex

@@ -9,7 +9,7 @@
 namespace counterflex {
 namespace {
 
-static_assert(sizeof(CarriedState) == 288 && sizeof(EmitterState) == 104 && sizeof(TextState) == 88,
+static_assert(sizeof(CarriedState) == 288 && sizeof(EmitterState) == 104 && sizeof(TextState) == 152,
               "what is carried from window to window besides is to be compared and restored, too");
 
 void put_held(const HeldPosition& held, std::string& bytes) {
@@ -22,6 +22,42 @@ HeldPosition get_held(BytesIn& bytes) {
   for (std::optional<double>& axis : held) axis = get_optional<double>(bytes);
   held.cycle_initial_mm = get_optional<double>(bytes);
   return held;
+}
+
+void put_point(const std::optional<Vector3>& point, std::string& bytes) {
+  put(point.has_value(), bytes);
+  if (point) put_vector(*point, bytes);
+}
+
+std::optional<Vector3> get_point(BytesIn& bytes) {
+  if (!bytes.get<bool>()) return std::nullopt;
+  return get_vector<3>(bytes);
+}
+
+void put_text(const TextState& state, std::string& bytes) {
+  put_held(state.held, bytes);
+  put(state.cycle.bottom_change_mm, bytes);
+  put(state.cycle.retract_change_mm, bytes);
+  put_optional(state.restate_motion, bytes);
+  put_point(state.pole.centre_mm, bytes);
+  put(state.pole.differs, bytes);
+  put_optional(state.numbers.last, bytes);
+  put(state.numbers.renumbers, bytes);
+  put(state.numbers.ended, bytes);
+}
+
+TextState get_text(BytesIn& bytes) {
+  TextState state;
+  state.held = get_held(bytes);
+  state.cycle.bottom_change_mm = bytes.get<double>();
+  state.cycle.retract_change_mm = bytes.get<double>();
+  state.restate_motion = get_optional<int>(bytes);
+  state.pole.centre_mm = get_point(bytes);
+  state.pole.differs = bytes.get<bool>();
+  state.numbers.last = get_optional<unsigned long>(bytes);
+  state.numbers.renumbers = bytes.get<bool>();
+  state.numbers.ended = bytes.get<bool>();
+  return state;
 }
 
 void put_emitter(const EmitterState& state, std::string& bytes) {
@@ -107,22 +143,15 @@ WindowState exit_of(const Program& window, const WindowState& entry, const Windo
 
 void put_window_state(const WindowState& state, std::string& bytes) {
   put_emitter(state.emitter, bytes);
-  put_held(state.text.held, bytes);
-  put(state.text.cycle.bottom_change_mm, bytes);
-  put(state.text.cycle.retract_change_mm, bytes);
-  put_optional(state.text.restate_motion, bytes);
-  put(state.command.has_value(), bytes);
-  if (state.command) put_vector(*state.command, bytes);
+  put_text(state.text, bytes);
+  put_point(state.command, bytes);
 }
 
 WindowState get_window_state(BytesIn& bytes) {
   WindowState state;
   state.emitter = get_emitter(bytes);
-  state.text.held = get_held(bytes);
-  state.text.cycle.bottom_change_mm = bytes.get<double>();
-  state.text.cycle.retract_change_mm = bytes.get<double>();
-  state.text.restate_motion = get_optional<int>(bytes);
-  if (bytes.get<bool>()) state.command = get_vector<3>(bytes);
+  state.text = get_text(bytes);
+  state.command = get_point(bytes);
   return state;
 }
 

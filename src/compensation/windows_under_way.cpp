@@ -41,7 +41,7 @@ class WindowsUnderWay {
     if (read_.is) return false;
     flight.work = {};
     flight.index = count_++;
-    flight.is_read = flight.given_up = false;
+    flight.is_read = flight.given_up = flight.waits = false;
     try {
       if (!stages_.next(flight)) return false;
       flight.is_read = true;
@@ -91,7 +91,31 @@ class WindowsUnderWay {
   std::optional<Failure> failure_;
 };
 
+// Of places that are solved.
+constexpr std::size_t large_window = 16 * window_moves;
+
 }  // namespace
+
+void solve_or_wait(const Job& job, bool attribution, Flight& flight) {
+  flight.waits = window_size(job.program) > large_window;
+  if (flight.waits) return;
+  solve_matched(job, attribution, flight.matching, flight.work);
+  flight.matching = {};
+}
+
+std::optional<Failure> give_out(const Job& job, bool attribution, const WindowEvents& events, Flight& flight) {
+  std::optional<Failure> missed;
+  const auto take = [&](const std::vector<Waypoint>& some) {
+    if (!missed) missed = tolerance_failure(job, some);
+    events.solved(job, some);
+  };
+  if (flight.waits && flight.goes_on())
+    solve_matched(job, attribution, flight.matching, flight.work, take);
+  else
+    take(flight.work.result.waypoints);
+  flight.matching = {};
+  return missed;
+}
 
 std::optional<Failure> run_windows(JobWindows& windows, int threads, const WindowStages& stages) {
   return WindowsUnderWay(windows, threads, stages).run();

@@ -18,6 +18,7 @@ struct Flight {
   bool given_up = false;  ///< a window before it has failed
   std::exception_ptr error{};
   Matching matching{};  ///< of a window that is verified
+  bool waits = false;   ///< its waypoints are so many that they are solved, portion by portion, when its turn comes
 
   // Where windows are recorded, or taken over from records.
   enum class Role { compensated, passed, before_part } role = Role::compensated;
@@ -44,6 +45,12 @@ struct WindowStages {
 /// is thrown on when its turn comes. A window is not looked at where one before it has failed in a stage
 /// that takes them in order.
 std::optional<Failure> run_windows(JobWindows& windows, int threads, const WindowStages& stages);
+
+/// Solves what has been matched, unless that waits.
+void solve_or_wait(const Job& job, bool attribution, Flight& flight);
+
+/// Gives out the waypoints of the window whose turn has come. Returns the first failure of the tolerance.
+std::optional<Failure> give_out(const Job& job, bool attribution, const WindowEvents& events, Flight& flight);
 
 /// The stages of a run that hears `events`.
 WindowStages stages_of_compensation(JobWindows& windows, CarriedState& carried, bool attribution,

@@ -13,6 +13,7 @@ struct Expansion {
   Fillings& fillings;
   std::set<std::string> slots;             ///< error slots met
   std::vector<std::string> open_branches;  ///< branches inside which the reader is, outermost first
+  std::size_t coordinates = 0;             ///< of the chain so far, see `read_elements`
 };
 
 /// Equations of the static system: 6 for each closure of a chain or branch. Throws at `node` where a machine has too many.
@@ -20,8 +21,8 @@ void count_coordinates(std::size_t count, const toml::node& node, Expansion& exp
 
 
 /// The elements listed by `node`, branches of groups included. Throws at unknown names, a branch inside
-/// itself or more than 32 deep, an error slot met twice, more than 10000 elements in a machine (branches that
-/// use branches multiply), more than 600 coordinates in a machine.
+/// itself or more than 8 deep, an error slot met twice, more than 10000 elements in a machine (branches that
+/// use branches multiply), more than 180 coordinates in a chain or 360 in a machine.
 std::vector<Element> read_elements(const toml::node& node, Expansion& expansion);
 
 }  // namespace counterflex::toml_file

@@ -148,13 +148,16 @@ void read_program(const toml::table& document, const Source& source, Machine& ma
   const toml::node* node = document.get("program");
   if (node == nullptr) return;
   const toml::table& table = as_table(*node, "program", source);
-  check_keys(table, {"dialect", "units", "tool_change_moves"}, "[program]", source);
+  check_keys(table, {"dialect", "units", "tool_change_moves", "arc_centres"}, "[program]", source);
   if (const toml::node* dialect = table.get("dialect"))
     machine.control.dialect = as_choice(*dialect, "dialect", dialects, source);
   if (const toml::node* units = table.get("units"))
     machine.control.units = as_choice(*units, "units", {"mm", "inch"}, source);
   if (const toml::node* moves = table.get("tool_change_moves"))
     machine.control.tool_change_moves = read_tool_change_moves(*moves, source);
+  if (const toml::node* centres = table.get("arc_centres"))
+    machine.control.absolute_centres =
+        std::string(as_choice(*centres, "arc_centres", {"incremental", "absolute"}, source)) == "absolute";
 }
 
 void read_limits(const toml::table& document, const Source& source, Machine& machine) {

@@ -7,10 +7,6 @@
 namespace counterflex {
 namespace {
 
-bool goes_across(const Move& move) {
-  return move.words[0] || move.words[1];
-}
-
 bool may_join(const Move& move) {
   return !move.cycle && !move.fixed[0] && !move.fixed[1] && !move.fixed[2] && move.handling != Handling::held;
 }
@@ -24,22 +20,42 @@ void put_into(Move& move, int group) {
 /// The plunge before the contour, and the move across that goes to where it begins.
 void take_moves_before(Reading& r) {
   std::vector<Move>& moves = r.program.moves;
-  for (std::size_t i = moves.size(); i-- > r.run_begin;) {
-    Move& move = moves[i];
+  const std::size_t first = first_before_contour(r.program, r.run_begin);
+  for (std::size_t i = moves.size(); i-- > first;) {
     // The moves that leave one contour may begin the next: both then have one shift.
-    if (move.group != 0) {
-      r.state.group = move.group;
+    if (moves[i].group != 0) {
+      r.state.group = moves[i].group;
       for (std::size_t k = i; k < moves.size(); ++k)
         if (may_join(moves[k]) || moves[k].group != 0) put_into(moves[k], r.state.group);
       return;
     }
-    if (!may_join(move)) return;
-    put_into(move, r.state.group);
-    if (goes_across(move)) return;
+    if (!may_join(moves[i])) return;
+    put_into(moves[i], r.state.group);
   }
 }
 
 }  // namespace
+
+bool goes_along_z(const Move& move) {
+  return !move.words[0] && !move.words[1] && !move.fixed[0] && !move.fixed[1] && !move.arc;
+}
+
+bool ends_along_z(const Program& window) {
+  const std::vector<Move>& moves = window.moves;
+  const auto last_across = std::find_if_not(moves.rbegin(), moves.rend(), goes_along_z);
+  const bool goes_back = last_across == moves.rend() && window.before;  // a window begins so only behind as many
+  return goes_back || last_across - moves.rbegin() > most_moves_before_contour;
+}
+
+std::size_t first_before_contour(const Program& program, std::size_t run_begin) {
+  const std::vector<Move>& moves = program.moves;
+  std::size_t first = moves.size();
+  while (first > run_begin && moves[first - 1].group == 0 && goes_along_z(moves[first - 1])) --first;
+  const bool goes_back = first == 0 && program.before;  // more of them are in the window before
+  if (goes_back || std::ssize(moves) - static_cast<std::ptrdiff_t>(first) > most_moves_before_contour)
+    return moves.size();
+  return first > run_begin ? first - 1 : first;
+}
 
 void apply_cutter(Reading& r) {
   ModalState& state = r.state;
@@ -62,7 +78,7 @@ void join_contour(Reading& r) {
   const bool outside = state.contour != Contour::inside;
   const bool takes_off = state.contour == Contour::taking_off &&
                          (r.sorted.has(Action::no_cutter) || move.motion == Motion::feed);
-  if (outside && (!may_join(move) || (goes_across(move) && !takes_off))) return end_contour(r);
+  if (outside && (!may_join(move) || (!goes_along_z(move) && !takes_off))) return end_contour(r);
   if (may_join(move)) put_into(move, state.group);
   if (outside) state.contour = Contour::leaving;
 }

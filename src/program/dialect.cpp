@@ -24,7 +24,9 @@ constexpr Dialect grbl{.name = "grbl",
                        .limit_counts_comments = false,
                        .g61_is_exact_stop = false,
                        .parentheses_nest = true,
-                       .comments_may_stay_open = true};
+                       .comments_may_stay_open = true,
+                       .radius_room = {0.005, 0.5},
+                       .radius_room_inch = {0.005, 0.5}};
 
 constexpr Dialect shop_control(std::string_view name, unsigned family) {
   return {.name = name,
@@ -66,12 +68,25 @@ constexpr Dialect siemens{.name = "siemens",
                           .dwell_takes_axis_words = true,
                           .reference_beside_motion = true,
                           .sinumerik_words = true,
-                          .radius_name = "CR="};
+                          .radius_name = "CR=",
+                          .radius_room = {0.01},
+                          .radius_room_inch = {0.01}};
 
 /// Spelt otherwise than G-code, and read on its own.
 constexpr Dialect heidenhain{.name = klartext_name, .tool_change_moves_axes = true};
 
 constexpr std::array dialects{&linuxcnc, &grbl, &fanuc, &haas, &mach3, &siemens, &heidenhain};
+
+/// Behind the comment that begins `line`, in which brackets may stand in pairs; nothing where it stays open.
+std::string_view behind_comment(std::string_view line) {
+  int depth = 0;
+  for (std::size_t at = 0; at < line.size(); ++at) {
+    if (line[at] == comment_open) ++depth;
+    if (line[at] == comment_close && --depth == 0) return line.substr(at + 1);
+  }
+  const std::size_t close = line.find(comment_close);
+  return close == std::string_view::npos ? std::string_view() : line.substr(close + 1);
+}
 
 /// `line` without leading blanks and comments.
 std::string_view first_words(std::string_view line) {
@@ -79,8 +94,7 @@ std::string_view first_words(std::string_view line) {
     if (is_blank(line.front()) || says_nothing(line.front())) {
       line.remove_prefix(1);
     } else if (line.front() == comment_open) {
-      const std::size_t close = line.find(comment_close);
-      line = close == std::string_view::npos ? std::string_view() : line.substr(close + 1);
+      line = behind_comment(line);
     } else {
       break;
     }
@@ -109,6 +123,12 @@ bool is_program_number(std::string_view line) {
 std::string_view without_percent(std::string_view line) {
   line = first_words(line);
   return line.empty() || line.front() != '%' ? line : line.substr(1);
+}
+
+/// "%123", "%PART".
+bool is_percent_name(std::string_view line) {
+  line = first_words(line);
+  return line.size() > 1 && line.front() == '%' && (is_letter(line[1]) || is_digit(line[1]));
 }
 
 /// "<PART-1>" or "O<PART-1>", the name of a program; LinuxCNC's "o<name> sub" is none.
@@ -158,10 +178,12 @@ const Dialect& detect_hobby_control(std::string_view text) {
 const Dialect& detect_dialect(std::string_view text) {
   text.remove_prefix(byte_order_mark(text));
   if (is_klartext(text)) return heidenhain;
+  if (text.starts_with("%MPF") || text.starts_with("%SPF")) return siemens;
   for (std::string_view rest = text; !rest.empty();) {
     const std::size_t end = rest.find('\n');
     const std::string_view line = rest.substr(0, end);
-    if (is_program_number(without_percent(line)) || is_part_name(line)) return detect_shop_control(text);
+    if (is_program_number(without_percent(line)) || is_part_name(line) || is_percent_name(line))
+      return detect_shop_control(text);
     if (!says_nothing(line)) break;
     if (end == std::string_view::npos) break;
     rest.remove_prefix(end + 1);

@@ -1,6 +1,7 @@
 #pragma once
 /// What differs between controls that read G-code, as data.
 #include <cstddef>
+#include <limits>
 #include <string>
 #include <string_view>
 
@@ -18,6 +19,12 @@ enum Family : unsigned {
   siemens_family = 32,
   shop_families = fanuc_family | haas_family,
   any_family = 31
+};
+
+/// By how much (mm) an arc's radii at its start and at its end may differ: by `always`, or by a thousandth of the
+/// radius, but by no more than `most`.
+struct RadiusRoom {
+  double always = 0, most = std::numeric_limits<double>::infinity();
 };
 
 struct Dialect {
@@ -45,6 +52,8 @@ struct Dialect {
   bool percent_names = false;            ///< "%O1" or "%PART" at the beginning, ":1" for "O1"
   bool sinumerik_words = false;          ///< X=IC(5), CR=4., R1=5, names, labels; ';' begins comments
   std::string_view radius_name = "R";    ///< of an arc
+  RadiusRoom radius_room{0.0283, 2.83};  ///< of a program in mm; LinuxCNC's, found by trying
+  RadiusRoom radius_room_inch{0.00283 * 25.4, 0.283 * 25.4};
 };
 
 inline constexpr char comment_open = '(';

@@ -20,15 +20,15 @@ const LineRun* run_of(const Expansion& expansion, int text_line) {
   return behind == runs.begin() ? nullptr : &*std::prev(behind);
 }
 
-bool has_calls(const Dialect& dialect) {
+}  // namespace
+
+bool may_expand(const Dialect& dialect) {
   return (dialect.family & (shop_families | mach3_family | linuxcnc_family)) != 0 &&
          dialect.name != klartext_name;
 }
 
-}  // namespace
-
 Expansion expand_subprograms(std::string& text, const std::string& file, const Dialect& dialect) {
-  if (!has_calls(dialect)) return {};
+  if (!may_expand(dialect)) return {};
   // Copies repeat block numbers: a jump to one of them would go to another place.
   std::string why_none = outline_of(text, dialect).jumps ? "the program jumps to block numbers" : "";
   ExpandedText expanded = expand_text(text, file, dialect, why_none);
@@ -73,7 +73,9 @@ void remark_expansion(Program& program) {
   const Expansion& expansion = program.expansion;
   if (expansion.calls == 0) {
     if (expansion.calls_left.empty())
-      add_remark(program, 1, "no call by M98 or an O-word stands in the program itself: nothing is expanded");
+      add_remark(
+          program, 1,
+          "no call by M98 or an O-word and no CALL LBL stands in the program itself: nothing is expanded");
     return;
   }
   add_remark(program, expansion.first_call,

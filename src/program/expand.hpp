@@ -18,6 +18,9 @@ namespace counterflex {
 /// out.
 Expansion expand_subprograms(std::string& text, const std::string& file, const Dialect& dialect);
 
+/// Whether calls of the dialect can be replaced.
+bool may_expand(const Dialect& dialect);
+
 /// Bytes that a program of `bytes` may become: it is one window, whose moves need a thousand times as much memory.
 constexpr std::size_t largest_expansion(std::size_t bytes) {
   return std::max(std::size_t{250'000}, 4 * bytes);

@@ -203,7 +203,7 @@ class Expander {
       repeats = call.other_repeats;
       places = definitions_.find(call.other_reading);
     }
-    if (places == definitions_.end()) return {nullptr, "the subprogram does not stand in this file"};
+    if (places == definitions_.end()) return {nullptr, "the subprogram does not stand in this file: put it behind the end of the program"};
     if (places->second.size() > 1) return {nullptr, "the subprogram stands in this file more than once"};
     auto known = read_.find(places->first);
     if (known == read_.end())

@@ -20,7 +20,7 @@ std::uint16_t differences(const ModalState& a, const ModalState& b) {
   if (a.relative != b.relative) found |= doubtful_distance;
   if (a.normal != b.normal) found |= doubtful_plane;
   if (a.unit != b.unit) found |= doubtful_unit;
-  if (a.work_offset != b.work_offset) found |= doubtful_offset;
+  if (a.frame != b.frame) found |= doubtful_offset;
   if (a.absolute_centres != b.absolute_centres) found |= doubtful_centres;
   if (a.returns_to_retract != b.returns_to_retract) found |= doubtful_level;
   if (a.contour != b.contour) found |= doubtful_cutter;

@@ -45,9 +45,16 @@ void settle_radius(const Move& move, const Vector3& centre_mm, Place place, cons
   const Vector3 &start = words.curve.start, &end = words.curve.end;
   const double unit = mm_per(move.unit);
   const double size_mm = 0.5 * (across(start - centre_mm, arc).norm() + across(end - centre_mm, arc).norm());
-  // Half a turn is as long one way as the other: the sign stays.
-  const double beyond_half = sweep_of(arc, start, end, centre_mm) - std::numbers::pi;
-  const bool longer = std::abs(beyond_half) < 1e-6 ? arc.radius_mm < 0 : beyond_half > 0;
+  // Half a turn is as long one way as the other: the sign stays, whatever the digits of its ends make of the sweep.
+  constexpr double digits_of_ends = 2;
+  const auto beyond_half_mm = [&](const Vector3& from, const Vector3& to, const Vector3& centre) {
+    return size_mm * (sweep_of(arc, from, to, centre) - std::numbers::pi);
+  };
+  const double room_mm = digits_of_ends * unit / power_of_ten(decimals_of(move, options).inserted);
+  const double beyond_mm = beyond_half_mm(start, end, centre_mm);
+  const bool stays_half = std::abs(beyond_mm) < room_mm &&
+                          std::abs(beyond_half_mm(move.start_mm, move.end_mm, arc.centre_mm)) < room_mm;
+  const bool longer = stays_half ? arc.radius_mm < 0 : beyond_mm > 0;
   const double wanted = (longer ? -size_mm : size_mm) / unit;
   // Of an R that hardly reaches from end to end controls take as much as it needs.
   const double reaches_mm =
@@ -85,6 +92,22 @@ bool is_turned_around(const Move& move, const Curve& piece, const Via& via, Plac
 
 }  // namespace
 
+Curve polar_arc(const Move& move, const Vector3& start, const Vector3& centre_mm) {
+  const ArcMove& arc = *move.arc;
+  const Vector3 normal = normal_of(arc), arm = across(start - centre_mm, arc),
+                end_arm = across(move.end_mm - arc.centre_mm, arc);
+  const double way = sweep_between(move.start_mm, move.end_mm, arc.centre_mm, normal, arc.turns);
+  Curve curve{start, start, Arc{centre_mm, normal, way}};
+  if (arc.polar == PolarEnd::in_direction) {
+    curve.end = centre_mm + arm.norm() * end_arm.normalized();
+    curve.arc->sweep = sweep_between(start, curve.end, centre_mm, normal);
+  } else {
+    curve.end = centre_mm + std::cos(way) * arm + std::sin(way) * normal.cross(arm);
+  }
+  curve.end[arc.normal] = start[arc.normal] + (move.end_mm - move.start_mm)[arc.normal];
+  return curve;
+}
+
 std::optional<ArcWords> settle_arc(const Move& move, const Vector3& start, const Vector3& end, const Via& via,
                                    Place place, const WriteOptions& options) {
   const ArcMove& arc = *move.arc;
@@ -99,7 +122,7 @@ std::optional<ArcWords> settle_arc(const Move& move, const Vector3& start, const
         settle_centre_word(move, axis, start, component(*via.centre_mm, axis), place, options, words);
   }
   words.curve.arc->sweep = sweep_of(arc, start, end, words.curve.arc->centre);
-  if (place == Place::end && arc.turns > 0)
+  if (place == Place::end && arc.turns > 0 && !arc.flat)
     words.curve.arc->sweep += 2 * std::numbers::pi * arc.turns;
   else if (is_turned_around(move, words.curve, via, place, decimals_of(move, options).inserted))
     return std::nullopt;

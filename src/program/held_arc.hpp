@@ -15,6 +15,9 @@ inline bool in_plane(const ArcMove& arc, std::size_t axis) {
   return axis != static_cast<std::size_t>(arc.normal);
 }
 
+/// What a control reads of the polar words of the arc `move` from `start` about a pole at `centre_mm`.
+Curve polar_arc(const Move& move, const Vector3& start, const Vector3& centre_mm);
+
 /// The words of a piece of the arc `move` from `start` to `end`, as the text holds them, towards `via`, which
 /// has a centre. Nothing where the digits leave no arc: start and end have become one point, or changed
 /// places, and a control would read a full turn.

@@ -40,7 +40,7 @@ void keep(const Move& move, std::size_t axis, const std::optional<double>& held_
   const AxisWord word = *move.words[axis];
   const double end_mm = component(move.end_mm, axis);
   c.number.decimals = decimals_of_kept(move, word.decimals);
-  if (!move.relative) {
+  if (!is_relative(move, axis)) {
     c.number.value = in_unit(end_mm, move.unit);
     c.held_mm = end_mm;
     return;
@@ -52,15 +52,16 @@ void keep(const Move& move, std::size_t axis, const std::optional<double>& held_
 
 /// A word written anew. Under G91 it says how far it is from where the text holds the axis, so that rounding
 /// never adds up.
-void write_anew(const Move& move, const std::optional<double>& held_mm, double wanted_mm, int decimals,
-                Coordinate& c) {
+void write_anew(const Move& move, std::size_t axis, const std::optional<double>& held_mm, double wanted_mm,
+                int decimals, Coordinate& c) {
+  const bool relative = is_relative(move, axis);
   const double unit = mm_per(move.unit);
-  const double wanted = move.relative ? (wanted_mm - *held_mm) / times(move) : wanted_mm;
+  const double wanted = relative ? (wanted_mm - *held_mm) / times(move) : wanted_mm;
   const double value = rounded(in_unit(wanted, move.unit), decimals);
   c.number.write = true;
   c.number.value = value;
   c.number.decimals = decimals;
-  c.held_mm = move.relative ? *held_mm + times(move) * (value * unit) : value * unit;
+  c.held_mm = relative ? *held_mm + times(move) * (value * unit) : value * unit;
 }
 
 /// Whether writing `wanted_mm` anew would be no more exact than `held_mm`.
@@ -72,10 +73,10 @@ void settle_absent(const Move& move, std::size_t axis, const std::optional<doubl
                    Place place, const WriteOptions& options, Coordinate& c) {
   if (!move.known_end[axis] && !move.ignored[axis]) return;
   assign(c.held_mm, held_mm);
-  if (move.ignored[axis] || (place != Place::inside && !move.may_insert_words)) return;
+  if (move.ignored[axis] || (place != Place::inside && !may_insert_word(move, axis))) return;
   const int decimals = decimals_of_word(move, no_decimals, place, options);
-  if (held_mm ? is_near(move, *held_mm, wanted_mm, decimals) : move.relative) return;
-  write_anew(move, held_mm, wanted_mm, decimals, c);
+  if (held_mm ? is_near(move, *held_mm, wanted_mm, decimals) : is_relative(move, axis)) return;
+  write_anew(move, axis, held_mm, wanted_mm, decimals, c);
 }
 
 void settle_present(const Move& move, std::size_t axis, const std::optional<double>& held_mm,
@@ -83,7 +84,7 @@ void settle_present(const Move& move, std::size_t axis, const std::optional<doub
   const int decimals = decimals_of_word(move, decimals_shown(move.words[axis]), place, options);
   keep(move, axis, held_mm, c);
   if (c.held_mm && !is_near(move, *c.held_mm, wanted_mm, decimals))
-    write_anew(move, held_mm, wanted_mm, decimals, c);
+    write_anew(move, axis, held_mm, wanted_mm, decimals, c);
   if (!move.known_end[axis]) c.held_mm.reset();
 }
 
@@ -170,7 +171,7 @@ namespace {
 
 /// Whether a word says where the axis goes, and nothing else does.
 bool is_said(const Move& move, std::size_t axis) {
-  return move.words[axis] && move.known_end[axis] && !move.relative && !move.fixed[axis] &&
+  return move.words[axis] && move.known_end[axis] && !is_relative(move, axis) && !move.fixed[axis] &&
          !(move.cycle && axis == 2);
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 /// Follows the modal state of a program block by block and finds its moves.
+#include <map>
 #include <string>
 #include <vector>
 
@@ -29,7 +30,7 @@ struct Reading {
   const ReadOptions& options;
   std::array<bool, 3> tool_change_axes{};
   Program& program;
-  Outline outline{};
+  const Outline& outline;
   ModalState state{};
   SortedBlock sorted{};
   std::optional<bool> block_relative{};  ///< X=IC(5), X=AC(5): for this block, whatever is modal
@@ -40,6 +41,8 @@ struct Reading {
   std::size_t run_begin = 0;         ///< the first move since the tool went to a place of the machine
   std::size_t program_numbers = 0;   ///< lines that begin with an O-number, so far
   std::size_t turns = 0;             ///< of all arcs so far, one at least for each
+  std::map<std::string, SetOffset> offsets{};  ///< by name
+  std::map<std::string, double, std::less<>> variables{};  ///< whose values are known, see `evaluate_words`
   std::string last_reason{};         ///< for which a block was left alone
   bool corner = false;               ///< the block's end and the begin of the next make a corner
   bool after_corner = false;         ///< the last move did

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <utility>
 
 #include "counterflex/files/numbers.hpp"
 #include "program/dialect.hpp"
@@ -23,7 +24,7 @@ struct KlartextWriter {
   const KlartextStyle& style;
   const Move& move;
   const WriteOptions& options;
-  KlartextHeld& held;
+  TextState& state;
   std::vector<KlartextChange>& changes;
   Rewritten& out;
   KlartextBlock block{};
@@ -38,6 +39,29 @@ void sort_changes(std::vector<KlartextChange>& changes) {
   std::stable_sort(changes.begin(), changes.end(), [](const KlartextChange& a, const KlartextChange& b) {
     return a.span.begin < b.span.begin;
   });
+}
+
+/// Whether polar words say the coordinate.
+bool is_polar_axis(const Move& move, std::size_t axis) {
+  if (!move.polar || !move.words[axis]) return false;
+  const std::size_t begin = move.words[axis]->number.begin;
+  std::size_t axes = 0;
+  for (const auto& word : move.words) axes += word && word->number.begin == begin;
+  return axes == 2;
+}
+
+/// Whether the arc may change the words of the CC before it.
+bool has_own_pole(const Move& move) {
+  return move.arc && move.arc->centre_words[move.arc->normal == 0 ? 1 : 0];
+}
+
+/// Where the CC of the arc puts its pole, with the tool at `held` before it.
+Vector3 own_pole_mm(const Move& move, const HeldPosition& held) {
+  Vector3 pole = move.arc->centre_mm;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    if (!move.arc->absolute_centre && held[axis])
+      pole[static_cast<Eigen::Index>(axis)] += *held[axis] - component(move.start_mm, axis);
+  return pole;
 }
 
 bool is_axis_word(const KlartextWord& word) {
@@ -60,7 +84,7 @@ std::string klartext_word(const KlartextWriter& w, std::size_t axis, const WordN
     refuse_klartext(w.program.text, w.program.file, w.block, w.block.span.begin,
                     fmt::format("the corrected {} would be {}; coordinates are at most 99999.9999",
                                 axis_names[axis], format_fixed(number.value, number.decimals)));
-  return fmt::format(" {}{}{}", w.move.relative ? "I" : "", axis_names[axis],
+  return fmt::format(" {}{}{}", is_relative(w.move, axis) ? "I" : "", axis_names[axis],
                      klartext_number(w.style, number.value, number.decimals));
 }
 
@@ -80,7 +104,7 @@ std::string changed_klartext(const KlartextWriter& w, const AxisWord& word, cons
 std::string inserted_line(const KlartextWriter& w, const std::string& statement) {
   std::string start;
   if (!empty(w.block.block_delete)) start += "/";
-  if (w.style.numbered) start += "0 ";
+  if (w.style.numbered) start += w.style.n_words ? "N0 " : "0 ";
   return start + statement;
 }
 
@@ -97,30 +121,36 @@ std::string sense_of(const Move& move) {
 
 /// CC for the centre of `arc`, where the text does not hold it already.
 void set_pole(KlartextWriter& w, const ArcWords& arc, std::vector<std::string>& statements) {
-  bool there = w.held.pole_mm.has_value();
+  bool there = w.state.pole.centre_mm.has_value();
   std::string text = "CC";
-  for (std::size_t axis = 0; axis < 2; ++axis) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (!in_plane(*w.move.arc, axis)) continue;
     const WordNumber& number = arc.centre[axis];
-    there = there && rounds_to(component(*w.held.pole_mm, axis) / w.unit(), number.value, number.decimals);
-    text += fmt::format(" {}{}", axis_names[axis], klartext_number(w.style, number.value, number.decimals));
+    const double centre = component(arc.curve.arc->centre, axis);
+    there =
+        there && rounds_to(component(*w.state.pole.centre_mm, axis) / w.unit(), centre / w.unit(), number.decimals);
+    text += fmt::format(" {}{}{}", w.move.arc->absolute_centre ? "" : "I", axis_names[axis],
+                        klartext_number(w.style, number.value, number.decimals));
   }
   if (there) return;
   statements.push_back(text);
-  w.held.pole_mm = arc.curve.arc->centre;
+  w.state.pole.centre_mm = arc.curve.arc->centre;
+  w.state.pole.differs = true;
 }
 
 /// The words of the CC before the block, changed in place.
 void change_pole(KlartextWriter& w, const ArcWords& arc) {
   std::vector<KlartextChange> changes;
-  for (std::size_t axis = 0; axis < 2; ++axis) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (!in_plane(*w.move.arc, axis) || !arc.centre[axis].write) continue;
     const AxisWord& word = *w.move.arc->centre_words[axis];
-    if (!arc.centre[axis].write) continue;
     changes.push_back({word.number, changed_klartext(w, word, arc.centre[axis])});
     ++w.out.changed_words;
   }
   sort_changes(changes);
   w.changes.insert(w.changes.end(), changes.begin(), changes.end());
-  w.held.pole_mm = arc.curve.arc->centre;
+  w.state.pole.differs = w.state.pole.differs || !changes.empty() || !w.move.arc->absolute_centre;
+  w.state.pole.centre_mm = arc.curve.arc->centre;
 }
 
 /// The statements of an inserted piece.
@@ -150,7 +180,7 @@ void change_coordinates(KlartextWriter& w, const Step& step) {
     if (is_axis_word(word)) behind = word.span.end;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const WordNumber& number = step.axes[axis].number;
-    if (!number.write) continue;
+    if (!number.write || is_polar_axis(w.move, axis)) continue;
     const std::string text = klartext_word(w, axis, number);
     if (const auto& word = w.move.words[axis]) {
       w.own.push_back({word->number, changed_klartext(w, *word, number)});
@@ -163,21 +193,56 @@ void change_coordinates(KlartextWriter& w, const Step& step) {
   if (!inserted.empty()) w.own.push_back({{behind, behind}, inserted});
 }
 
+void change_head(KlartextWriter& w, const char* head) {
+  const std::size_t begin = w.block.parts[0].begin;
+  w.own.push_back({{begin, begin + w.block.head.size()}, head});
+}
+
+/// Takes a word out with the blanks before it.
+void drop_word(KlartextWriter& w, const KlartextWord& word) {
+  std::size_t begin = word.span.begin;
+  while (begin > w.block.span.begin && w.program.text[begin - 1] == ' ') --begin;
+  w.own.push_back({{begin, word.span.end}, ""});
+}
+
 /// An arc that goes on as chords: its last piece is a line.
 void make_line(KlartextWriter& w) {
-  const std::size_t head = w.block.parts[0].begin;
-  w.own.push_back({{head, head + w.block.head.size()}, "L"});
+  change_head(w, "L");
+  for (const KlartextWord& word : w.words)
+    if (word.key == "DR" || (word.key == "R" && w.block.head == "CR")) drop_word(w, word);
+}
+
+/// Whether polar words stay: they need the pole that the original has, or one that moves with the arc.
+bool keeps_polar(const KlartextWriter& w, const Step& step) {
+  bool writes = false;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    writes = writes || (is_polar_axis(w.move, axis) && step.axes[axis].number.write);
+  return !writes && (step.arc || !w.state.pole.differs);
+}
+
+/// Cartesian words in the place of polar ones: these cannot hold a correction.
+void replace_polar(KlartextWriter& w, const Step& step, const Vector3& wanted_mm) {
+  if (step.arc || !w.move.arc) change_head(w, step.arc ? "C" : "L");
+  std::string coordinates;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (!is_polar_axis(w.move, axis)) continue;
+    WordNumber number = step.axes[axis].number;
+    if (!number.write) number.value = rounded(component(wanted_mm, axis) / w.unit(), number.decimals);
+    coordinates += klartext_word(w, axis, number);
+    ++w.out.changed_words;
+    w.state.held[axis] = number.value * w.unit();
+  }
   for (const KlartextWord& word : w.words) {
-    if (word.key != "DR" && word.key != "R") continue;
-    std::size_t begin = word.span.begin;
-    while (begin > head && w.program.text[begin - 1] == ' ') --begin;
-    w.own.push_back({{begin, word.span.end}, ""});
+    if (!word.key.ends_with("PA") && !word.key.ends_with("PR")) continue;
+    drop_word(w, word);
+    w.own.back().text = std::exchange(coordinates, {});
   }
 }
 
 /// The block's own coordinates, and centre or radius of an arc.
-void change_block(KlartextWriter& w, const Step& step, bool pole_is_own) {
+void change_block(KlartextWriter& w, const Step& step, const Vector3& wanted_mm, bool pole_is_own) {
   change_coordinates(w, step);
+  if (w.move.polar && !keeps_polar(w, step)) replace_polar(w, step, wanted_mm);
   if (!w.move.arc) return;
   if (step.motion == 1) return make_line(w);
   if (!step.arc) return;
@@ -220,23 +285,28 @@ void write_edit(KlartextWriter& w, const MoveEdit& edit) {
   const std::vector<KlartextStop> stops = stops_of(w.move, edit);
   const bool own_first = stops.size() > 1 && w.move.motion == Motion::feed && acts_itself(w);
   const std::size_t own = own_first ? 0 : stops.size() - 1;
-  const bool has_pole = w.move.arc && w.move.arc->centre_words[0];
-  if (has_pole) w.held.pole_mm = w.move.arc->centre_mm;
+  const bool has_pole = has_own_pole(w.move);
+  if (has_pole) w.state.pole.centre_mm = own_pole_mm(w.move, w.state.held);
   for (std::size_t i = 0; i < stops.size(); ++i) {
     const bool end = i + 1 == stops.size();
     const Place place = end ? Place::end : i == own ? Place::own_inside : Place::inside;
-    const Step step = settle_step(w.move, w.held.position, stops[i].via, stops[i].motion, place, w.options);
+    const Step step = settle_step(w.move, w.state.held, stops[i].via, stops[i].motion, place, w.options);
+    w.state.held = step.after;
     if (i == own)
-      change_block(w, step, has_pole && w.before.empty());
+      change_block(w, step, stops[i].via.end_mm, has_pole && w.before.empty());
     else if (!is_there(step))
       insert_step(w, step, i < own, i < own ? w.before : w.behind);
-    w.held.position = step.after;
   }
   emit(w);
 }
 
 bool has_words(const Move& move) {
   return move.words[0] || move.words[1] || move.words[2];
+}
+
+bool begins_with_n(std::string_view block) {
+  const std::size_t at = block.find_first_not_of(" \t/");
+  return at != std::string_view::npos && (block[at] == 'N' || block[at] == 'n');
 }
 
 }  // namespace
@@ -256,37 +326,41 @@ KlartextStyle klartext_style(const Program& program) {
   bool decided = false;
   for (const Move& move : program.moves) {
     style.numbered = style.numbered || move.block_number;
-    for (const auto& word : move.words) {
-      if (!word || decided) continue;
+    style.n_words = style.n_words || begins_with_n(part(program.text, move.block));
+    const auto look_at = [&](const PackedAxisWord& word) {
+      if (!word || decided) return;
       const std::string_view number = part(program.text, word->number);
       style.plus = style.plus || number.starts_with('+');
       style.comma = number.find(',') != std::string_view::npos;
       decided = number.find_first_of(".,") != std::string_view::npos;
-    }
+    };
+    for (const auto& word : move.words) look_at(word);
+    if (!move.arc) continue;
+    for (const auto& word : move.arc->centre_words) look_at(word);
   }
   return style;
 }
 
 void rewrite_klartext_block(const Program& program, const KlartextStyle& style, const MoveEdit& edit,
-                            const WriteOptions& options, KlartextHeld& held,
+                            const WriteOptions& options, TextState& state,
                             std::vector<KlartextChange>& changes, Rewritten& out) {
   const Move& move = program.moves[edit.move];
   assert(edit.inserted.empty() || move.may_split);
   if (!has_words(move)) {
-    held.position = held_after_original(move, held.position);
+    state.held = held_after_original(move, state.held);
     return;
   }
-  KlartextWriter w{program, style, move, options, held, changes, out};
+  KlartextWriter w{program, style, move, options, state, changes, out};
   w.block.line_end = {move.block.begin, move.block.begin};
   w.block.last_line = move.line - 1;
   next_klartext_block(program.text, w.block);
   // CYCL CALL and M99 alone have no coordinates: the word of theirs stands in the cycle's definition.
   const bool calls_cycle = w.block.head == "CYCL" || w.block.head.starts_with('M');
   if (!calls_cycle) lex_klartext_words(program.text, program.file, w.block, w.words);
-  held.position = held_at_start(move, held.position);
-  const HeldPosition before = held.position;
+  state.held = held_at_start(move, state.held);
+  const HeldPosition before = state.held;
   write_edit(w, edit);
-  doubt_skippable(move, before, held.position);
+  doubt_skippable(move, before, state.held);
 }
 
 }  // namespace counterflex

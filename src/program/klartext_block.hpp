@@ -12,6 +12,7 @@ struct KlartextStyle {
   bool comma = false;     ///< decimals stand behind a comma
   bool plus = false;      ///< "X+1"
   bool numbered = false;  ///< blocks begin with numbers
+  bool n_words = false;   ///< "N5" instead of "5"
   std::string line_end = "\n";
 };
 
@@ -20,22 +21,16 @@ KlartextStyle klartext_style(const Program& program);
 /// `value` as `style` writes it.
 std::string klartext_number(const KlartextStyle& style, double value, int decimals);
 
-/// What the text holds while it is being written.
-struct KlartextHeld {
-  HeldPosition position{};
-  std::optional<Vector3> pole_mm{};  ///< of the last CC
-};
-
 /// Characters put in place of a span of the program.
 struct KlartextChange {
   Span span;
   std::string text;
 };
 
-/// Appends to `changes` what `edit` asks for, in the order of the text, and counts in `out`. Inserted lines
-/// of a numbered program begin with the number 0.
+/// Appends to `changes` what `edit` asks for, in the order of the text, moves `state` on and counts in `out`. Inserted
+/// lines of a numbered program begin with the number 0.
 void rewrite_klartext_block(const Program& program, const KlartextStyle& style, const MoveEdit& edit,
-                            const WriteOptions& options, KlartextHeld& held,
+                            const WriteOptions& options, TextState& state,
                             std::vector<KlartextChange>& changes, Rewritten& out);
 
 }  // namespace counterflex

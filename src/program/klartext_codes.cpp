@@ -18,6 +18,7 @@ void read_code(int code, const KlartextBlock& block, KlartextReading& r, Klartex
                              111, 116, 117, 118, 120, 126, 127, 136, 137, 140, 141, 148, 149};
   codes.machine_position = codes.machine_position || code == 91 || code == 92;
   codes.cycle_call = codes.cycle_call || code == 89 || code == 99;
+  codes.calls_each = codes.calls_each || code == 89;
   codes.retracts = codes.retracts || code == 140;
   codes.ends = codes.ends || code == 2 || code == 30;
   codes.acts_after = codes.acts_after || std::find(after.begin(), after.end(), code) != after.end();
@@ -26,9 +27,11 @@ void read_code(int code, const KlartextBlock& block, KlartextReading& r, Klartex
     r.state.elsewhere[128] = fmt::format("M{} moves the linear axes with the rotary ones", code);
   if (code == 129 || code == 115 || code == 145) r.state.elsewhere.erase(128);
   if (code == 124)
-    add_remark(r.program, block.line, "M124: the control leaves out points that lie closer than it says");
+    add_remark(r.program, line_of_file(r.program.expansion, block.line),
+               "M124: the control leaves out points that lie closer than it says");
   else if (std::find(quiet.begin(), quiet.end(), code) == quiet.end())
-    add_remark(r.program, block.line, fmt::format("M{}: taken as moving no axis", code));
+    add_remark(r.program, line_of_file(r.program.expansion, block.line),
+               fmt::format("M{}: taken as moving no axis", code));
 }
 
 int code_of(const KlartextWord& word, const KlartextBlock& block, const KlartextReading& r) {

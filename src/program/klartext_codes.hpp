@@ -8,6 +8,7 @@ namespace counterflex {
 struct KlartextCodes {
   bool machine_position = false;  ///< M91, M92
   bool cycle_call = false;        ///< M99, M89
+  bool calls_each = false;        ///< M89
   bool acts_after = false;        ///< stops, spindle off, coolant off
   bool ends = false;              ///< M2, M30
   bool retracts = false;          ///< M140: off the part along the tool, at the end of the block

@@ -5,60 +5,19 @@
 #include <limits>
 #include <string>
 
-#include "program/klartext_lex.hpp"
-
 namespace counterflex {
 namespace {
 
-struct Label {
-  std::string name;
-  int line;
-};
-struct Reference {
-  std::string name;
-  int line;
-  bool subprogram;  ///< a call that returns
-};
-struct Labels {
-  std::vector<Label> set;
-  std::vector<Reference> used;
-};
+constexpr int everywhere = std::numeric_limits<int>::max();
 
-/// The name that `text` (squeezed) begins with: quoted, or digits; "Q..." stands for any.
-std::string label_name(std::string_view text) {
-  if (text.starts_with('"')) return std::string(text.substr(0, text.find('"', 1)));
-  std::size_t end = 0;
-  while (end < text.size() && text[end] >= '0' && text[end] <= '9') ++end;
-  return end > 0 ? std::string(text.substr(0, end)) : "Q";
+bool concerns_labels(const KlartextBlock& block) {
+  return block.head == "LBL" || block.head == "CALL" || block.head == "FN" || block.head == "IF";
 }
 
-Labels find_labels(std::string_view text) {
-  Labels labels;
-  KlartextBlock block;
-  while (next_klartext_block(text, block)) {
-    if (block.head != "LBL" && block.head != "CALL" && block.head != "FN" && block.head != "IF") continue;
-    const std::string rest = squeezed(after_head(text, block));
-    if (block.head == "LBL") {
-      labels.set.push_back({label_name(rest), block.line});
-    } else if (block.head == "CALL" && rest.starts_with("LBL")) {
-      labels.used.push_back({label_name(rest.substr(3)), block.line, rest.find("REP") == std::string::npos});
-    } else if (const std::size_t jump = rest.find("GOTOLBL"); jump != std::string::npos) {
-      labels.used.push_back({label_name(rest.substr(jump + 7)), block.line, false});
-    }
-  }
-  return labels;
-}
-
-int end_of_body(const Labels& labels, int first) {
-  for (const Label& label : labels.set)
-    if (label.line > first && label.name == "0") return label.line;
-  return std::numeric_limits<int>::max();
-}
-
-std::vector<LineStretch> merged(std::vector<LineStretch> stretches) {
+std::vector<PlaceStretch> merged(std::vector<PlaceStretch> stretches) {
   std::sort(stretches.begin(), stretches.end(), [](auto& a, auto& b) { return a.first < b.first; });
-  std::vector<LineStretch> result;
-  for (const LineStretch& stretch : stretches)
+  std::vector<PlaceStretch> result;
+  for (const PlaceStretch& stretch : stretches)
     if (!result.empty() && stretch.first <= result.back().last)
       result.back().last = std::max(result.back().last, stretch.last);
     else
@@ -66,53 +25,97 @@ std::vector<LineStretch> merged(std::vector<LineStretch> stretches) {
   return result;
 }
 
-/// Whether a block counts from the pole in another way than C and CP do.
-bool uses_pole(std::string_view text, const KlartextBlock& block) {
-  constexpr std::array<std::string_view, 7> polar{"LP", "CTP", "FPOL", "FL", "FC", "FLT", "FCT"};
-  const bool approach =
-      (block.head == "APPR" || block.head == "DEP") && squeezed(after_head(text, block)).starts_with("P");
-  return approach || std::find(polar.begin(), polar.end(), block.head) != polar.end();
-}
-
 }  // namespace
 
-std::vector<LineStretch> doubtful_stretches(std::string_view text) {
-  const Labels labels = find_labels(text);
-  std::vector<LineStretch> stretches;
-  for (const Reference& used : labels.used) {
-    if (used.name == "Q") return {{0, std::numeric_limits<int>::max()}};
-    for (const Label& label : labels.set) {
-      if (label.name != used.name) continue;
-      const int last = used.subprogram ? end_of_body(labels, label.line) : std::max(label.line, used.line);
-      stretches.push_back({used.subprogram ? label.line : std::min(label.line, used.line), last});
-    }
+std::string label_name(std::string_view text) {
+  if (text.starts_with('"')) return std::string(text.substr(0, text.find('"', 1)));
+  std::size_t end = 0;
+  while (end < text.size() && text[end] >= '0' && text[end] <= '9') ++end;
+  return end > 0 ? std::string(text.substr(0, end)) : "Q";
+}
+
+int next_place(int place, const KlartextBlock& block) {
+  const int between = place + place % 2;
+  return concerns_labels(block) ? between + 1 : between;
+}
+
+bool holds(const std::vector<PlaceStretch>& stretches, int place) {
+  const auto after = std::upper_bound(stretches.begin(), stretches.end(), place,
+                                      [](int wanted, const PlaceStretch& s) { return wanted < s.first; });
+  return after != stretches.begin() && (after - 1)->last >= place;
+}
+
+void KlartextScan::add(std::string_view blocks) {
+  block_.line_end = {};
+  while (next_klartext_block(blocks, block_)) {
+    place_ = next_place(place_, block_);
+    take_label(blocks);
+    take_pole(blocks);
+  }
+}
+
+void KlartextScan::take_label(std::string_view text) {
+  if (!concerns_labels(block_)) return;
+  const std::string rest = squeezed(after_head(text, block_));
+  if (block_.head == "LBL") {
+    labels_[label_name(rest)].set.push_back(place_);
+  } else if (block_.head == "CALL" && rest.starts_with("LBL")) {
+    Label& label = labels_[label_name(std::string_view(rest).substr(3))];
+    if (rest.find("REP") == std::string::npos)
+      label.called = true;
+    else
+      label.jumped_to.push_back(place_);
+  } else if (const std::size_t jump = rest.find("GOTOLBL"); jump != std::string::npos) {
+    labels_[label_name(std::string_view(rest).substr(jump + 7))].jumped_to.push_back(place_);
+  }
+}
+
+/// Notes where a block counts from the pole in a way that is not followed, or not in doubt.
+void KlartextScan::take_pole(std::string_view text) {
+  constexpr std::array<std::string_view, 6> unfollowed{"CTP", "FPOL", "FL", "FC", "FLT", "FCT"};
+  const std::string& head = block_.head;
+  if (head == "CC") pole_ = block_.line;
+  const bool polar = head == "LP" || head == "CP", approach = head == "APPR" || head == "DEP";
+  const bool other = std::find(unfollowed.begin(), unfollowed.end(), head) != unfollowed.end();
+  if (pole_ == 0 || (!polar && !approach && !other)) return;
+  const std::string rest = squeezed(after_head(text, block_));
+  if (approach && !rest.starts_with('P')) return;
+  const PoleUse use{pole_, place_, polar && rest.find('Q') == std::string::npos};
+  if (pole_uses_.empty() || pole_uses_.back() != use) pole_uses_.push_back(use);
+}
+
+/// From a label to the LBL 0 behind it.
+void KlartextScan::add_body(int first, std::vector<PlaceStretch>& stretches) const {
+  const auto ends = labels_.find("0");
+  int last = everywhere;
+  if (ends != labels_.end()) {
+    const auto end = std::upper_bound(ends->second.set.begin(), ends->second.set.end(), first);
+    if (end != ends->second.set.end()) last = *end;
+  }
+  stretches.push_back({first, last});
+}
+
+std::vector<PlaceStretch> KlartextScan::doubtful() const {
+  std::vector<PlaceStretch> stretches;
+  for (const auto& [name, label] : labels_) {
+    const std::vector<int>&set = label.set, &from = label.jumped_to;
+    if (name == "Q" && (label.called || !from.empty())) return {{0, everywhere}};
+    if (set.empty()) continue;
+    if (label.called)
+      for (const int place : set) add_body(place, stretches);
+    if (!from.empty())
+      stretches.push_back({std::min(set.front(), from.front()), std::max(set.back(), from.back())});
   }
   return merged(std::move(stretches));
 }
 
-bool holds(const std::vector<LineStretch>& stretches, int line) {
-  const auto after = std::upper_bound(stretches.begin(), stretches.end(), line,
-                                      [](int wanted, const LineStretch& s) { return wanted < s.first; });
-  return after != stretches.begin() && (after - 1)->last >= line;
-}
-
-std::vector<int> poles_used_otherwise(std::string_view text) {
-  std::vector<int> lines;
-  int pole = 0, arcs = 0, polar_arcs = 0, others = 0;
-  const auto end_pole = [&] {
-    const bool used_otherwise = others > 0 || polar_arcs > 1 || (polar_arcs == 1 && arcs > 0);
-    if (pole > 0 && used_otherwise) lines.push_back(pole);
-    arcs = polar_arcs = others = 0;
-  };
-  KlartextBlock block;
-  while (next_klartext_block(text, block)) {
-    if (block.head == "CC") end_pole(), pole = block.line;
-    arcs += block.head == "C";
-    polar_arcs += block.head == "CP";
-    others += uses_pole(text, block);
+KlartextOutline KlartextScan::finish() const {
+  KlartextOutline outline{doubtful(), {}};
+  for (const PoleUse& use : pole_uses_) {
+    const bool followed = use.plain && !holds(outline.doubtful, use.place);
+    if (!followed && (outline.poles.empty() || outline.poles.back() != use.line)) outline.poles.push_back(use.line);
   }
-  end_pole();
-  return lines;
+  return outline;
 }
 
 }  // namespace counterflex

@@ -8,6 +8,7 @@
 
 #include "counterflex/files/numbers.hpp"
 #include "program/lex.hpp"
+#include "program/scanner.hpp"
 
 namespace counterflex {
 namespace {
@@ -15,10 +16,10 @@ namespace {
 constexpr double largest_klartext_number = 99999.9999;
 
 // Longer keys before those that they begin with.
-constexpr std::array<std::string_view, 33> klartext_keys{
-    "IPA", "PA", "FMAX", "FAUTO", "DR", "RL", "RR", "IX", "IY", "IZ", "IA",
-    "IB",  "IC", "IU",   "IV",    "IW", "FU", "FZ", "FT", "X",  "Y",  "Z",
-    "A",   "B",  "C",    "U",     "V",  "W",  "R",  "F",  "MB", "M",  "S"};
+constexpr std::array<std::string_view, 37> klartext_keys{
+    "LEN", "CCA", "IPA", "IPR", "PA", "PR", "FMAX", "FAUTO", "DR", "RL", "RR", "IX", "IY",
+    "IZ",  "IA",  "IB",  "IC",  "IU", "IV", "IW",   "FU",    "FZ", "FT", "X",  "Y",  "Z",
+    "A",   "B",   "C",   "U",   "V",  "W",  "R",    "F",     "MB", "M",  "S"};
 
 char klartext_upper(char c) {
   return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
@@ -38,10 +39,16 @@ std::size_t skip_blanks(std::string_view text, std::size_t at, std::size_t end) 
   return at;
 }
 
-/// Where the comment of [begin, end) begins, or `end`. '*' makes a comment of a whole statement.
+/// "*", "( setup sheet", "-----": the whole line is a comment.
+bool is_comment_line(std::string_view line) {
+  return line.starts_with('*') || line.starts_with('(') ||
+         (line.starts_with("--") && line.find_first_not_of("- \t\r") == std::string_view::npos);
+}
+
+/// Where the comment of [begin, end) begins, or `end`.
 std::size_t comment_begin(std::string_view text, std::size_t begin, std::size_t end, bool first) {
   const std::size_t start = skip_blanks(text, begin, end);
-  if (first && start < end && text[start] == '*') return start;
+  if (first && is_comment_line(part(text, {start, end}))) return start;
   bool quoted = false;
   for (std::size_t at = begin; at < end; ++at) {
     if (text[at] == '"') quoted = !quoted;
@@ -50,10 +57,11 @@ std::size_t comment_begin(std::string_view text, std::size_t begin, std::size_t 
   return end;
 }
 
-/// '/' and the block's number, in either order; returns what follows.
+/// '/' and the block's number ("5", "N5"), in either order; returns what follows.
 std::size_t lex_start(std::string_view text, KlartextBlock& block, std::size_t at, std::size_t end) {
   for (int i = 0; i < 3; ++i) {
     at = skip_blanks(text, at, end);
+    if (at + 1 < end && klartext_upper(text[at]) == 'N' && klartext_digit(text[at + 1])) ++at;
     if (at < end && text[at] == '/' && empty(block.block_delete)) {
       block.block_delete = {at, at + 1};
       ++at;
@@ -176,6 +184,10 @@ bool take_max(WordScanner& s) {
 }
 
 bool take_word(WordScanner& s, std::vector<KlartextWord>& words) {
+  if (s.peek() == '(') {  // a comment
+    s.at = std::min(s.text.find(')', s.at), s.end - 1) + 1;
+    return true;
+  }
   const std::string_view key = key_at(s);
   if (key.empty()) return false;
   KlartextWord word;
@@ -187,9 +199,18 @@ bool take_word(WordScanner& s, std::vector<KlartextWord>& words) {
   if (word.key != "FMAX" && !(key == "MB" && take_max(s)) && key != "FAUTO" && key != "RL" && key != "RR")
     take_value(s, word);
   word.span.end = s.at;
-  if (word.key.ends_with("PA") && s.block.head != "CP") return false;
+  const bool polar = word.key.ends_with("PA") || word.key.ends_with("PR");
+  if (polar && s.block.head != "CP" && s.block.head != "LP") return false;
   words.push_back(std::move(word));
   return true;
+}
+
+/// The first block with a statement. If there is none, the block has no parts.
+KlartextBlock first_statement(std::string_view text) {
+  KlartextBlock block;
+  while (next_klartext_block(text, block))
+    if (!block.parts.empty()) break;
+  return block;
 }
 
 }  // namespace
@@ -202,19 +223,19 @@ std::string squeezed(std::string_view text) {
 }
 
 bool is_klartext(std::string_view text) {
-  KlartextBlock block;
-  while (next_klartext_block(text, block)) {
-    if (block.parts.empty() || block.head.empty()) {
-      if (block.parts.empty()) continue;
-      return false;
-    }
-    return block.head == "BEGIN" && squeezed(after_head(text, block)).starts_with("PGM");
-  }
-  return false;
+  const KlartextBlock first = first_statement(text);
+  return first.head == "BEGIN" && squeezed(after_head(text, first)).starts_with("PGM");
+}
+
+bool begins_like_klartext(std::string_view text) {
+  constexpr std::array<std::string_view, 12> heads{"BEGIN", "BLK",  "TOOL", "CYCL", "L",     "CC",
+                                                   "LBL",   "CALL", "FN",   "STOP", "PLANE", "Q"};
+  return std::find(heads.begin(), heads.end(), first_statement(text).head) != heads.end();
 }
 
 bool next_klartext_block(std::string_view text, KlartextBlock& block) {
   std::size_t begin = block.line_end.end;
+  if (begin == 0) begin = byte_order_mark(text);
   if (begin >= text.size()) return false;
   block.line = ++block.last_line;
   block.span.begin = begin;
@@ -242,6 +263,12 @@ bool next_klartext_block(std::string_view text, KlartextBlock& block) {
   return true;
 }
 
+bool goes_on_behind(std::string_view text, std::size_t newline) {
+  std::size_t end = newline;
+  while (end > 0 && text[end - 1] == '\r') --end;
+  return cut_continuation(text, 0, end);
+}
+
 std::string_view after_head(std::string_view text, const KlartextBlock& block) {
   if (block.parts.empty()) return {};
   return part(text, {block.parts[0].begin + block.head.size(), block.parts[0].end});
@@ -267,7 +294,7 @@ const KlartextWord* find_word(const std::vector<KlartextWord>& words, std::strin
 void refuse_klartext(std::string_view text, const std::string& file, const KlartextBlock& block,
                      std::size_t at, const std::string& message) {
   Block place;
-  place.line = block.line;
+  place.line = block.file_line > 0 ? block.file_line : block.line;
   place.span = block.span;
   for (std::size_t i = block.span.begin; i < at; ++i)
     if (text[i] == '\n') ++place.line, place.span.begin = i + 1;

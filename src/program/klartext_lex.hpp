@@ -27,21 +27,28 @@ struct KlartextWord {
 struct KlartextBlock {
   int line = 0;       ///< of its first line, from 1
   int last_line = 0;  ///< of its last
+  int file_line = 0;  ///< of the file, where calls were expanded; 0: `line`
   Span span;          ///< without the last line's end
   Span line_end;
   Span block_delete;           ///< '/'; empty where there is none
-  Span number;                 ///< the block's number; empty where there is none
+  Span number;                 ///< digits of the block's number; empty if it has none
   std::string head;            ///< the letters that the statement begins with, in upper case
   std::vector<Span> parts;     ///< the statement, line by line, without comments and '~'
-  std::vector<Span> comments;  ///< what stands behind ';' or '*'
+  std::vector<Span> comments;  ///< what stands behind ';' or '*', or in a line that begins with '(' or "--"
 };
 
-/// Whether `text` is Klartext: its first statement is BEGIN PGM.
+/// Whether `text` is Klartext: its first statement, behind comments, is BEGIN PGM.
 bool is_klartext(std::string_view text);
+
+/// Whether the first statement of `text` is one of Klartext; for files whose name ends in ".h".
+bool begins_like_klartext(std::string_view text);
 
 /// Advances `block` to the block after `block.line_end`; false at the end of `text`. A default block stands
 /// before the first. A blank line is a block without parts.
 bool next_klartext_block(std::string_view text, KlartextBlock& block);
+
+/// Whether the block whose line ends at `newline` continues in the next line.
+bool goes_on_behind(std::string_view text, std::size_t newline);
 
 /// The statement's text after its head: on the first line, or the whole of a later one.
 std::string_view after_head(std::string_view text, const KlartextBlock& block);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "program/arc_radius.hpp"
+#include "program/contour.hpp"
 #include "program/dialect.hpp"
 #include "program/klartext_codes.hpp"
 #include "program/klartext_read.hpp"
@@ -16,18 +17,6 @@ constexpr std::array<std::string_view, 3> klartext_axes{"X", "Y", "Z"};
 
 double mm_per_unit(const KlartextReading& r) {
   return r.state.unit ? mm_per(*r.state.unit) : 1.0;
-}
-
-/// F: mm/min, in inch programs tenths of an inch/min; expressions and feeds a tooth are not known.
-void read_feed(KlartextReading& r) {
-  KlartextState& state = r.state;
-  const double tenths = state.unit == LengthUnit::inches && !state.feed_per_turn ? 0.1 : 1.0;
-  for (const KlartextWord& word : r.words) {
-    if (word.key == "F") state.feed_mm_min = word.literal ? word.value * mm_per_unit(r) * tenths : 0;
-    if (word.key == "FAUTO") state.feed_mm_min = state.tool_feed_mm_min;
-    if (word.key == "FU") state.feed_mm_min = word.value * mm_per_unit(r) * state.spindle_rpm;
-    if (word.key == "FZ" || word.key == "FT") state.feed_mm_min = 0;
-  }
 }
 
 void watch_rotary_axes(KlartextReading& r) {
@@ -44,6 +33,10 @@ void check_unit(const KlartextBlock& block, const KlartextReading& r) {
         "a move before the unit is known: BEGIN PGM says MM or INCH, or give mm or inch as the unit");
 }
 
+bool is_polar(const KlartextBlock& block) {
+  return block.head == "LP" || block.head == "CP";
+}
+
 bool programs_axis(const KlartextReading& r) {
   return std::any_of(klartext_axes.begin(), klartext_axes.end(),
                      [&](auto axis) { return find_word(r.words, axis) != nullptr; });
@@ -56,15 +49,14 @@ bool all_incremental(const KlartextReading& r) {
   });
 }
 
-std::string why_elsewhere(const KlartextBlock& block, const KlartextReading& r) {
+std::string why_elsewhere(const KlartextReading& r) {
   if (!r.state.elsewhere.empty()) return r.state.elsewhere.begin()->second;
-  return holds(r.doubtful, block.line)
+  return in_doubt(r)
              ? "a jump, a repetition or a call may run the block often or not at all"
              : "";
 }
 
-/// One coordinate: a word that may be changed, or one that is not known. An incremental word beside absolute
-/// ones is carried along.
+/// One coordinate: a word that may be changed, or one that is not known.
 void place_coordinate(const KlartextWord& word, std::size_t axis, bool doubtful, KlartextReading& r,
                       Move& move) {
   KlartextState& state = r.state;
@@ -77,7 +69,7 @@ void place_coordinate(const KlartextWord& word, std::size_t axis, bool doubtful,
   }
   if (word.incremental) {
     state.position_mm[i] += word.value * mm_per_unit(r);
-    if (!move.relative) return;
+    if (!move.relative) move.incremental = (move.incremental | 1U << axis) & 7U;
   } else {
     state.position_mm[i] = word.value * mm_per_unit(r);
   }
@@ -86,8 +78,8 @@ void place_coordinate(const KlartextWord& word, std::size_t axis, bool doubtful,
 }
 
 void place_coordinates(const KlartextBlock& block, KlartextReading& r, Move& move) {
-  const std::string elsewhere = why_elsewhere(block, r);
-  move.relative = all_incremental(r);
+  const std::string elsewhere = why_elsewhere(r);
+  move.relative = !is_polar(block) && all_incremental(r);
   bool expression = false;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const KlartextWord* word = find_word(r.words, klartext_axes[axis]);
@@ -99,7 +91,8 @@ void place_coordinates(const KlartextBlock& block, KlartextReading& r, Move& mov
     r.state.known.fill(false);
     leave_alone(r, block.line, elsewhere);
   } else if (expression) {
-    leave_alone(r, block.line, "a Q parameter gives the position");
+    const char* cure = r.options.evaluate ? "" : " (--evaluate works out constants)";
+    leave_alone(r, block.line, fmt::format("a Q parameter gives the position{}", cure));
   }
 }
 
@@ -114,6 +107,7 @@ std::optional<Vector3> centre_of_radius(const Move& move, double radius, bool cl
 void set_arc(const KlartextBlock& block, KlartextReading& r, Move& move, bool clockwise) {
   ArcMove arc;
   arc.clockwise = clockwise;
+  arc.flat = true;
   if (block.head == "CR") {
     const KlartextWord* radius = find_word(r.words, "R");
     if (radius == nullptr || !radius->literal) return;
@@ -122,24 +116,30 @@ void set_arc(const KlartextBlock& block, KlartextReading& r, Move& move, bool cl
     const auto centre = centre_of_radius(move, arc.radius_mm, clockwise);
     if (!centre) return;
     arc.centre_mm = *centre;
+    arc.centre_mm.z() = move.start_mm.z();
   } else {
-    if (!r.state.pole) return;
-    arc.absolute_centre = true;
-    arc.centre_mm = r.state.pole->centre_mm;
-    if (r.state.pole->just_set)
-      arc.centre_words = {r.state.pole->words[0], r.state.pole->words[1], std::nullopt};
+    set_centre(arc, *r.state.pole, move, r);
   }
-  arc.centre_mm.z() = move.start_mm.z();
   move.arc = arc;
 }
 
-/// C and CR with plain absolute coordinates in the plane XY from a known start.
+/// Whether an arc across the axis `normal` has known ends and no word of that axis.
+bool has_known_ends(const KlartextReading& r, const Move& move, std::size_t normal) {
+  bool known = r.state.tool_along_z && find_word(r.words, klartext_axes[normal]) == nullptr;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    known = known && (axis == normal || (move.known_start[axis] && r.state.known[axis]));
+  return known;
+}
+
+/// C and CR with plain coordinates from a known start: C in the plane of its CC, CR in the plane XY.
 void read_arc(const KlartextBlock& block, KlartextReading& r, Move& move) {
   const KlartextWord* sense = find_word(r.words, "DR");
   const bool sense_known = sense != nullptr && !empty(sense->number);
-  const bool plane = r.state.tool_along_z && find_word(r.words, "Z") == nullptr && !move.relative;
-  const bool ends_known = move.known_start[0] && move.known_start[1] && r.state.known[0] && r.state.known[1];
-  if (sense_known && plane && ends_known) set_arc(block, r, move, r.program.text[sense->number.begin] == '-');
+  const bool centre_known = block.head == "CR" || r.state.pole;
+  const int normal = block.head == "C" && r.state.pole ? r.state.pole->normal : 2;
+  const bool ends_known = has_known_ends(r, move, static_cast<std::size_t>(normal));
+  if (sense_known && centre_known && ends_known)
+    set_arc(block, r, move, r.program.text[sense->number.begin] == '-');
   if (move.arc) return;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (!move.words[axis] && !move.fixed[axis]) continue;
@@ -147,46 +147,8 @@ void read_arc(const KlartextBlock& block, KlartextReading& r, Move& move) {
     move.words[axis].reset();
     r.state.known[axis] = false;
   }
-  leave_alone(r, block.line, "an arc whose start or centre is not known");
-}
-
-bool moves_in_plane(const Move& move) {
-  return move.words[0] || move.words[1] || move.fixed[0] || move.fixed[1];
-}
-
-void join_contour(Move& move, int group) {
-  move.handling = Handling::group;
-  move.group = group;
-  move.may_split = move.may_jump = false;
-}
-
-/// The moves before a contour that belong to it: those along Z, and the last one in the plane before them.
-/// Those that already end another contour go on with it.
-void begin_contour(KlartextReading& r) {
-  std::vector<Move>& moves = r.program.moves;
-  std::size_t first = moves.size();
-  bool entered = false;
-  while (first > r.state.run_begin && !entered && moves[first - 1].group == 0)
-    entered = moves_in_plane(moves[--first]);
-  const bool goes_on = !entered && first > r.state.run_begin;
-  if (!goes_on) ++r.state.groups;
-  for (; first < moves.size(); ++first) join_contour(moves[first], r.state.groups);
-}
-
-/// RL and RR begin a contour, R0 ends it with its move and those along Z after it.
-void follow_contour(const KlartextBlock& block, KlartextReading& r, Move& move) {
-  KlartextState& state = r.state;
-  const bool line = block.head == "L";
-  const KlartextWord* off = line ? find_word(r.words, "R") : nullptr;
-  const bool on = find_word(r.words, "RL") != nullptr || find_word(r.words, "RR") != nullptr;
-  if (state.after_contour && moves_in_plane(move)) state.after_contour = false;
-  if (on && !state.contour) begin_contour(r);
-  if (on) state.contour = true, state.after_contour = false;
-  if (state.contour || state.after_contour) join_contour(move, state.groups);
-  if (off != nullptr && state.contour) {
-    state.contour = false;
-    state.after_contour = true;
-  }
+  move.incremental = 0;
+  leave_alone(r, block.line, block.head + ": an arc whose start or centre is not known");
 }
 
 void allow_klartext_changes(const KlartextCodes& codes, bool tangent, KlartextReading& r, Move& move) {
@@ -197,10 +159,31 @@ void allow_klartext_changes(const KlartextCodes& codes, bool tangent, KlartextRe
   r.state.rounds_next = false;
 }
 
+/// Whether the block ends with the cycle; M89 calls it at the end of the blocks that follow, too, until M99.
+bool calls_cycle(const KlartextCodes& codes, KlartextReading& r) {
+  const bool calls = codes.cycle_call || r.state.calls_each;
+  if (codes.cycle_call) r.state.calls_each = codes.calls_each;
+  return calls;
+}
+
+/// A cycle of an older control goes along with the position where it is called.
+bool goes_along(const KlartextReading& r, const Move& move) {
+  return r.state.cycle_is_relative && !move.block_delete && move.group == 0 && !move.fixed[0] &&
+         !move.fixed[1] && !move.fixed[2];
+}
+
 void call_cycle_after(const KlartextBlock& block, KlartextReading& r, Move& move) {
-  r.state.known[2] = false;
-  if (why_elsewhere(block, r).empty() && r.state.cycle_acts_here && hold_hole(r, move))
+  if (why_elsewhere(r).empty() && goes_along(r, move)) {
+    move.makes_hole = true;
+    move.known_end = r.state.known;
+    if (!r.state.cycle_returns) r.state.known.fill(false);
     return leave_alone(r, block.line, "holes are held");
+  }
+  r.state.known[2] = false;
+  if (why_elsewhere(r).empty() && r.state.cycle_acts_here && take_hole(r, move)) {
+    if (move.handling == Handling::held) leave_alone(r, block.line, "holes are held");
+    return;
+  }
   r.state.surface.reset();
   move.fixed[2] = true;
   move.words[2].reset();
@@ -213,7 +196,7 @@ void leave_machine_position(const KlartextBlock& block, KlartextReading& r) {
     if (find_word(r.words, klartext_axes[axis]) != nullptr) take_away(r, axis);
   r.state.run_begin = r.program.moves.size();
   r.state.contour = r.state.after_contour = false;
-  r.program.left_alone.push_back({block.line, "M91 or M92: a position of the machine", true});
+  add_left_alone(r, {block.line, "M91 or M92: a position of the machine", true});
 }
 
 /// How far M140 goes depends on the machine: a word put into the next block would go back.
@@ -222,7 +205,7 @@ void leave_retract(const KlartextBlock& block, KlartextReading& r) {
     if (axis == 2 || !r.state.tool_along_z) take_away(r, axis);
   r.state.run_begin = r.program.moves.size();
   r.state.contour = r.state.after_contour = false;
-  r.program.left_alone.push_back({block.line, "M140 leaves the part along the tool", true});
+  add_left_alone(r, {block.line, "M140 leaves the part along the tool", true});
 }
 
 /// After a block that may be skipped its axes are in doubt.
@@ -235,7 +218,7 @@ void doubt_klartext_skippable(const KlartextBlock& block, KlartextReading& r, co
 /// The arc about a pole has the words of its CC, and those that follow it find the pole where it has left it.
 /// One that stays as it is, or may be skipped, leaves the CC to nobody.
 void use_pole(KlartextReading& r, const Move& move) {
-  const bool taken = move.arc && (move.words[0] || move.words[1]) && !move.block_delete;
+  const bool taken = move.arc && (move.words[0] || move.words[1] || move.words[2]) && !move.block_delete;
   if (!taken) return r.state.pole.reset();
   r.state.pole->just_set = false;
 }
@@ -246,33 +229,64 @@ void add_klartext_move(const KlartextBlock& block, const KlartextCodes& codes, K
   const bool rapid = find_word(r.words, "FMAX") != nullptr;
   move.motion = rapid ? Motion::rapid : Motion::feed;
   place_coordinates(block, r, move);
+  if (is_polar(block)) {
+    std::string why = why_elsewhere(r);
+    if (why.empty()) why = place_polar_end(block, r, move);
+    if (!why.empty()) return add_unfollowed_move(block, r, why);
+  } else if (r.state.pole && !goes_along_z(move)) {
+    r.state.pole->radius_mm.reset();
+    r.state.pole->angle.reset();
+  }
   move.end_mm = r.state.position_mm;
   if (block.head == "C" || block.head == "CR") read_arc(block, r, move);
   const bool tangent = block.head == "CT";
   if (tangent) move.handling = Handling::held;
+  const bool corner = r.state.rounds_next && !move.words[2];
   allow_klartext_changes(codes, tangent, r, move);
   follow_contour(block, r, move);
-  if (codes.cycle_call) call_cycle_after(block, r, move);
   move.known_end = r.state.known;
-  move.may_insert_words = move.words[0] || move.words[1] || move.words[2];
+  if (calls_cycle(codes, r)) {
+    call_cycle_after(block, r, move);
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      move.known_end[axis] = move.known_end[axis] && r.state.known[axis];
+  }
+  move.may_insert_words = !corner && (move.words[0] || move.words[1] || move.words[2]);
   doubt_klartext_skippable(block, r, move);
-  if (block.head == "C") use_pole(r, move);
-  r.program.moves.push_back(std::move(move));
+  if ((block.head == "C" || block.head == "CP") && r.state.pole) use_pole(r, move);
+  add_move(r, std::move(move));
 }
 
 }  // namespace
 
+double klartext_length_mm(const KlartextReading& r, const KlartextWord& word) {
+  return word.value * mm_per_unit(r);
+}
+
+/// F: mm/min, in inch programs tenths of an inch/min; expressions and feeds a tooth are not known.
+void read_klartext_feed(KlartextReading& r) {
+  KlartextState& state = r.state;
+  const double tenths = state.unit == LengthUnit::inches && !state.feed_per_turn ? 0.1 : 1.0;
+  for (const KlartextWord& word : r.words) {
+    if (word.key == "F") state.feed_mm_min = word.literal ? word.value * mm_per_unit(r) * tenths : 0;
+    if (word.key == "FAUTO") state.feed_mm_min = state.tool_feed_mm_min;
+    if (word.key == "FU") state.feed_mm_min = word.value * mm_per_unit(r) * state.spindle_rpm;
+    if (word.key == "FZ" || word.key == "FT") state.feed_mm_min = 0;
+  }
+}
+
 Move begin_klartext_move(const KlartextBlock& block, KlartextReading& r) {
   const KlartextState& state = r.state;
   Move move;
-  move.line = block.line;
+  move.line = line_of_file(r.program.expansion, block.line);
+  if (!r.program.expansion.lines.empty()) move.text_line = block.line;
   move.block_index = r.program.block_count - 1;
   move.block = block.span;
   move.unit = state.unit.value_or(LengthUnit::millimetres);
   move.known_start = state.known;
-  if (!why_elsewhere(block, r).empty())
+  move.frame = state.frame;
+  if (!why_elsewhere(r).empty())
     for (std::size_t axis = 0; axis < 3; ++axis)
-      move.stands[axis] = state.taken_away[axis] != r.program.moves.size() + 1;
+      move.stands[axis] = state.taken_away[axis] != r.moves_read + 1;
   move.start_mm = move.end_mm = state.position_mm;
   move.feed_mm_min = state.feed_mm_min * (state.feed_per_turn ? state.spindle_rpm : 1.0);
   move.spindle_rpm = state.spindle_rpm;
@@ -291,24 +305,25 @@ Move begin_klartext_move(const KlartextBlock& block, KlartextReading& r) {
 
 void take_away(KlartextReading& r, std::size_t axis) {
   r.state.known[axis] = false;
-  r.state.taken_away[axis] = r.program.moves.size() + 1;
+  r.state.taken_away[axis] = r.moves_read + 1;
 }
 
 void read_klartext_motion(const KlartextBlock& block, KlartextReading& r) {
-  if (!lex_klartext_words(r.program.text, r.program.file, block, r.words))
+  if (!read_words(block, r))
     return add_unfollowed_move(block, r, fmt::format("the block {} has words that are not read", block.head));
   const KlartextCodes codes = read_klartext_m(block, r);
-  read_feed(r);
+  read_klartext_feed(r);
   watch_rotary_axes(r);
-  if (block.head == "CP" && !codes.machine_position && !codes.cycle_call) {
-    add_polar_arc(block, r);
-  } else if (block.head == "CP") {
-    add_unfollowed_move(block, r, "a polar arc is not followed");
+  if (is_polar(block) && codes.machine_position) {
+    add_unfollowed_move(block, r, block.head + " with M91 or M92 is not followed");
+  } else if (is_polar(block)) {
+    add_klartext_move(block, codes, r);
   } else if (codes.machine_position && programs_axis(r)) {
     leave_machine_position(block, r);
   } else if (programs_axis(r)) {
     add_klartext_move(block, codes, r);
   } else if (codes.cycle_call) {
+    calls_cycle(codes, r);
     add_cycle_call(block, r);
   } else if (find_word(r.words, "R") != nullptr && r.state.contour) {
     r.state.contour = false;
@@ -318,30 +333,14 @@ void read_klartext_motion(const KlartextBlock& block, KlartextReading& r) {
   r.ended = r.ended || codes.ends;
 }
 
-void read_klartext_pole(const KlartextBlock& block, KlartextReading& r) {
-  r.state.pole.reset();
-  const bool moves = std::binary_search(r.polar.begin(), r.polar.end(), block.line);
-  if (!lex_klartext_words(r.program.text, r.program.file, block, r.words) || r.words.size() != 2 || moves)
-    return;
-  KlartextPole pole;
-  pole.just_set = true;
-  for (std::size_t axis = 0; axis < 2; ++axis) {
-    const KlartextWord* word = find_word(r.words, klartext_axes[axis]);
-    if (word == nullptr || word->incremental || !word->literal || !empty(block.block_delete)) return;
-    pole.words[axis] = {word->number, word->decimals};
-    pole.centre_mm[static_cast<Eigen::Index>(axis)] = word->value * mm_per_unit(r);
-  }
-  r.state.pole = pole;
-}
-
 void read_klartext_codes(const KlartextBlock& block, KlartextReading& r) {
   KlartextBlock codes = block;
   codes.head.clear();
-  if (!lex_klartext_words(r.program.text, r.program.file, codes, r.words))
+  if (!read_words(codes, r))
     return add_unfollowed_move(block, r, "the block M has words that are not read");
   const KlartextCodes found = read_klartext_m(block, r);
   if (programs_axis(r)) return add_unfollowed_move(block, r, "axes without L are not read");
-  if (found.cycle_call) add_cycle_call(block, r);
+  if (found.cycle_call) calls_cycle(found, r), add_cycle_call(block, r);
   if (found.retracts) leave_retract(block, r);
   r.ended = r.ended || found.ends;
 }

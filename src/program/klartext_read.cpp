@@ -7,6 +7,7 @@
 
 #include "counterflex/files/numbers.hpp"
 #include "program/dialect.hpp"
+#include "program/expand.hpp"
 #include "program/force_comment.hpp"
 
 namespace counterflex {
@@ -62,20 +63,24 @@ void read_tool_call(const KlartextBlock& block, KlartextReading& r) {
   if (const auto feed = number_behind(rest, 'F')) state.tool_feed_mm_min = state.feed_mm_min = *feed * unit;
 }
 
-/// A corner that RND or CHF makes of the end of one move and the beginning of the next: neither is divided.
+/// A corner that RND or CHF makes of the end of one move and the beginning of the next: neither is divided,
+/// and neither takes a word beside those that it has, since both must lie in the plane of the corner.
 void read_corner(const KlartextBlock&, KlartextReading& r) {
-  if (!r.program.moves.empty()) r.program.moves.back().may_split = r.program.moves.back().may_jump = false;
   r.state.rounds_next = true;
+  if (r.program.moves.empty()) return;
+  Move& last = r.program.moves.back();
+  last.may_split = last.may_jump = false;
+  if (!last.words[2]) last.may_insert_words = false;
 }
 
 void read_call(const KlartextBlock& block, KlartextReading& r) {
-  add_unfollowed_move(block, r, "a subprogram or a part of the program is called");
-}
-
-void read_approach(const KlartextBlock& block, KlartextReading& r) {
-  add_unfollowed_move(block, r, "APPR and DEP are not followed");
-  r.state.elsewhere.erase(0);
-  if (block.head == "APPR") r.state.elsewhere[0] = "a contour that APPR has entered is not corrected";
+  const std::string_view why_left = why_not_expanded(r.program.expansion, block.line);
+  std::string why = "a subprogram or a part of the program is called";
+  if (!why_left.empty())
+    why += fmt::format(" and cannot be put in the place of its call: {}", why_left);
+  else if (squeezed(after_head(r.program.text, block)).starts_with("LBL"))
+    why += " (--expand-subprograms puts its text in its place)";
+  add_unfollowed_move(block, r, why);
 }
 
 void read_plane(const KlartextBlock& block, KlartextReading& r) {
@@ -93,6 +98,8 @@ void read_nothing(const KlartextBlock&, KlartextReading&) {}
 
 /// The words of a cycle are parameters: one that is calculated is no longer what its definition says.
 void read_parameter(const KlartextBlock& block, KlartextReading& r) {
+  take_parameter(block, r);
+  if (block.head == "Q") return read_cycle_parameter(block, r);
   if (after_head(r.program.text, block).find("203") != std::string_view::npos) r.state.surface.reset();
 }
 
@@ -111,6 +118,7 @@ constexpr std::array statements{
     KnownStatement{"CR", read_klartext_motion},
     KnownStatement{"CT", read_klartext_motion},
     KnownStatement{"CP", read_klartext_motion},
+    KnownStatement{"LP", read_klartext_motion},
     KnownStatement{"CC", read_klartext_pole},
     KnownStatement{"M", read_klartext_codes},
     KnownStatement{"CYCL", read_klartext_cycle},
@@ -119,8 +127,8 @@ constexpr std::array statements{
     KnownStatement{"RND", read_corner},
     KnownStatement{"CHF", read_corner},
     KnownStatement{"CALL", read_call},
-    KnownStatement{"APPR", read_approach},
-    KnownStatement{"DEP", read_approach},
+    KnownStatement{"APPR", read_klartext_approach},
+    KnownStatement{"DEP", read_klartext_approach},
     KnownStatement{"PLANE", read_plane},
     KnownStatement{"BEGIN", read_begin},
     KnownStatement{"END", read_end},
@@ -158,6 +166,8 @@ void read_comments(const KlartextBlock& block, KlartextReading& r) {
   }
 }
 
+}  // namespace
+
 void read_statement(const KlartextBlock& block, KlartextReading& r) {
   read_comments(block, r);
   if (block.parts.empty()) return;
@@ -169,11 +179,24 @@ void read_statement(const KlartextBlock& block, KlartextReading& r) {
   add_unfollowed_move(block, r, fmt::format("{} is not read", block.head.empty() ? "the block" : block.head));
 }
 
-}  // namespace
+bool in_doubt(const KlartextReading& r) {
+  return holds(r.outline.doubtful, r.place);
+}
+
+void add_move(KlartextReading& r, Move move) {
+  r.program.moves.push_back(std::move(move));
+  ++r.moves_read;
+}
 
 void leave_alone(KlartextReading& r, int line, std::string why) {
-  std::vector<LeftAlone>& all = r.program.left_alone;
-  if (all.empty() || all.back().why != why) all.push_back({line, std::move(why)});
+  if (r.last_reason != why) add_left_alone(r, {.line = line, .why = std::move(why)});
+}
+
+void add_left_alone(KlartextReading& r, LeftAlone left) {
+  if (!r.program.expansion.lines.empty()) left.text_line = left.line;
+  left.line = line_of_file(r.program.expansion, left.line);
+  r.last_reason = left.why;
+  r.program.left_alone.push_back(std::move(left));
 }
 
 void add_unfollowed_move(const KlartextBlock& block, KlartextReading& r, std::string why) {
@@ -183,40 +206,29 @@ void add_unfollowed_move(const KlartextBlock& block, KlartextReading& r, std::st
   r.state.contour = r.state.after_contour = false;
   r.state.pole.reset();
   r.state.surface.reset();
-  r.program.moves.push_back(std::move(move));
+  r.variables.clear();  // whatever it is, it may set them
+  add_move(r, std::move(move));
   r.state.run_begin = r.program.moves.size();
   leave_alone(r, block.line, std::move(why));
 }
 
 void add_cycle_call(const KlartextBlock& block, KlartextReading& r) {
-  if (!r.state.cycle_acts_here || !r.state.elsewhere.empty() || holds(r.doubtful, block.line))
+  const bool followed =
+      r.state.elsewhere.empty() && !in_doubt(r) && empty(block.block_delete);
+  if (r.state.cycle_is_relative && followed) {
+    if (!r.program.moves.empty()) r.program.moves.back().makes_hole = true;
+    if (!r.state.cycle_returns) r.state.known.fill(false);
+    return leave_alone(r, block.line, "holes are held");
+  }
+  if (!r.state.cycle_acts_here || !r.state.elsewhere.empty() || in_doubt(r))
     return add_unfollowed_move(block, r, "cycles are left as they are");
   Move move = begin_klartext_move(block, r);
-  move.fixed[2] = !hold_hole(r, move);
+  r.state.known[2] = false;
+  move.fixed[2] = !take_hole(r, move);
   move.known_end = r.state.known;
-  r.state.known[2] = move.known_end[2] = false;
-  r.program.moves.push_back(move);
+  add_move(r, move);
   r.state.run_begin = r.program.moves.size();
   leave_alone(r, block.line, move.fixed[2] ? "cycles are left as they are" : "holes are held");
-}
-
-void read_klartext(Program& program, const ReadOptions& options,
-                   const std::array<bool, 3>& tool_change_axes) {
-  KlartextReading reading{program, options, tool_change_axes, doubtful_stretches(program.text),
-                          poles_used_otherwise(program.text)};
-  reading.state.unit = options.unit;
-  KlartextBlock block;
-  while (!reading.ended && next_klartext_block(program.text, block)) read_statement(block, reading);
-}
-
-bool is_corrected_klartext(std::string_view text) {
-  KlartextBlock block;
-  while (next_klartext_block(text, block)) {
-    for (const Span& comment : block.comments)
-      if (is_header_comment(part(text, comment))) return true;
-    if (!block.parts.empty() && block.head != "BEGIN") return false;
-  }
-  return false;
 }
 
 }  // namespace counterflex

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cassert>
 
+#include "program/dialect.hpp"
 #include "program/held_position.hpp"
 #include "program/klartext_block.hpp"
+#include "program/klartext_numbers.hpp"
 #include "program/lex.hpp"
 
 namespace counterflex {
@@ -36,28 +38,6 @@ std::string klartext_header(const KlartextStyle& style, const WriteOptions& opti
   return text;
 }
 
-/// `text` with the blocks of its first program numbered one after the other, from its first number on.
-std::string renumbered(const std::string& text) {
-  std::string result;
-  result.reserve(text.size() + text.size() / 64);
-  KlartextBlock block;
-  std::size_t copied = 0;
-  std::optional<unsigned long> next;
-  bool ended = false;
-  while (!ended && next_klartext_block(text, block)) {
-    ended = block.head == "END";
-    if (empty(block.number)) continue;
-    if (!next) {
-      next = 0;
-      for (const char c : part(text, block.number).substr(0, 9))
-        next = *next * 10 + static_cast<unsigned long>(c - '0');
-    }
-    result.append(text, copied, block.number.begin - copied).append(std::to_string((*next)++));
-    copied = block.number.end;
-  }
-  return result.append(text, copied);
-}
-
 std::string with_changes(const std::string& text, const std::vector<KlartextChange>& changes) {
   std::string result;
   result.reserve(text.size() + text.size() / 8);
@@ -70,31 +50,70 @@ std::string with_changes(const std::string& text, const std::vector<KlartextChan
   return result.append(text, copied);
 }
 
-/// Moves that are not edited keep their text; an arc among them needs the centre that it had.
-void pass_over(const Program& program, std::size_t move, KlartextHeld& held) {
-  held.position = held_after_original(program.moves[move], held.position);
-  if (program.moves[move].arc && program.moves[move].arc->absolute_centre)
-    held.pole_mm = program.moves[move].arc->centre_mm;
+/// A move that is not edited keeps its text; an arc needs the centre that it had.
+void pass_over(const Move& move, TextState& state) {
+  state.held = held_after_original(move, state.held);
+  if (move.arc && move.arc->absolute_centre) state.pole.centre_mm = move.arc->centre_mm;
 }
 
-bool has_lost_pole(const Move& move, const KlartextHeld& held) {
-  return move.arc && move.arc->absolute_centre && !move.arc->centre_words[0] && held.pole_mm &&
-         (*held.pole_mm - move.arc->centre_mm).head<2>().norm() > 1e-9;
+bool has_lost_pole(const Move& move, const HeldPole& pole) {
+  if (move.polar && !move.arc) return pole.differs;
+  if (!move.arc || !move.arc->absolute_centre || move.arc->centre_words[move.arc->normal == 0 ? 1 : 0])
+    return false;
+  if (!pole.centre_mm) return false;
+  Vector3 off = *pole.centre_mm - move.arc->centre_mm;
+  off[move.arc->normal] = 0;
+  return off.norm() > 1e-9;
 }
 
-/// A program being written, from move to move.
+/// The pole after a CC as it stands in the original.
+HeldPole pole_of(const Program& program, const KlartextBlock& block, LengthUnit unit) {
+  std::vector<KlartextWord> words;
+  if (!lex_klartext_words(program.text, program.file, block, words) || words.size() != 2) return {};
+  Vector3 pole = Vector3::Zero();
+  for (const KlartextWord& word : words) {
+    const std::size_t axis =
+        word.key.size() == 1 ? std::string_view("XYZ").find(word.key[0]) : std::string_view::npos;
+    if (axis == std::string_view::npos || word.incremental || !word.literal) return {};
+    pole[static_cast<Eigen::Index>(axis)] = word.value * mm_per(unit);
+  }
+  return {pole};
+}
+
+/// A window being written, from move to move.
 struct KlartextOutput {
   const Program& program;
-  const KlartextStyle style;
+  const KlartextStyle& style;
   const WriteOptions& options;
-  KlartextHeld held{};
-  std::size_t next = 0;  ///< move
+  TextState& state;
+  std::size_t next = 0;                  ///< move
+  std::optional<std::size_t> reached{};  ///< move, to which all between has been taken in
+  KlartextBlock looked_at{};             ///< the last block of it
   std::vector<KlartextChange> changes{};
   Rewritten out{};
 };
 
+/// The last CC before byte `end`.
+void look_until(KlartextOutput& o, std::size_t end, LengthUnit unit) {
+  while (o.looked_at.line_end.end < end && next_klartext_block(o.program.text, o.looked_at))
+    if (o.looked_at.head == "CC") o.state.pole = pole_of(o.program, o.looked_at, unit);
+}
+
+/// What lies between the move and the one before it: CC, and shifts of the coordinates.
+void come_to(KlartextOutput& o, std::size_t index) {
+  const Move& move = o.program.moves[index];
+  if (o.reached && *o.reached == index) return;
+  o.reached = index;
+  if (const Move* last = move_before(o.program, index)) {
+    o.state.held = held_between(*last, move, o.state.held);
+    if (last->frame != move.frame) o.state.pole.centre_mm.reset();
+  }
+  look_until(o, move.block.begin, move.unit);
+}
+
 void write_move(KlartextOutput& o, const MoveEdit& edit) {
-  rewrite_klartext_block(o.program, o.style, edit, o.options, o.held, o.changes, o.out);
+  come_to(o, edit.move);
+  rewrite_klartext_block(o.program, o.style, edit, o.options, o.state, o.changes, o.out);
   o.next = edit.move + 1;
 }
 
@@ -102,36 +121,45 @@ void write_move(KlartextOutput& o, const MoveEdit& edit) {
 void pass_until(KlartextOutput& o, std::size_t end) {
   while (o.next < end) {
     const Move& move = o.program.moves[o.next];
-    if (has_lost_pole(move, o.held))
-      write_move(o, {.move = o.next, .end_mm = move.end_mm, .centre_mm = move.arc->centre_mm});
+    come_to(o, o.next);
+    if (has_lost_pole(move, o.state.pole))
+      write_move(o, {.move = o.next,
+                     .end_mm = move.end_mm,
+                     .centre_mm = move.arc ? std::optional(move.arc->centre_mm) : std::nullopt});
     else
-      pass_over(o.program, o.next++, o.held);
+      pass_over(o.program.moves[o.next++], o.state);
   }
+}
+
+void add_header(KlartextOutput& o) {
+  const std::size_t position = klartext_header_position(o.program);
+  std::string header = klartext_header(o.style, o.options);
+  if (header.empty()) return;
+  if (position > 0 && o.program.text[position - 1] != '\n') header.insert(0, o.style.line_end);
+  o.changes.push_back({{position, position}, header});
 }
 
 }  // namespace
 
-Rewritten rewrite_klartext(const Program& program, const std::vector<MoveEdit>& edits,
-                           const WriteOptions& options) {
-  KlartextOutput o{program, klartext_style(program), options};
-  const std::size_t header = klartext_header_position(program);
-  std::string head = klartext_header(o.style, options);
-  if (!head.empty() && header > 0 && program.text[header - 1] != '\n') head.insert(0, o.style.line_end);
-  if (!head.empty()) o.changes.push_back({{header, header}, head});
-
+Rewritten rewrite_klartext(const Program& window, const std::vector<MoveEdit>& edits, const KlartextStyle& style,
+                           bool first, const WriteOptions& options, TextState& state) {
+  KlartextOutput o{window, style, options, state};
+  if (first) add_header(o);
   for (const MoveEdit& edit : edits) {
     pass_until(o, edit.move);
     const std::size_t inserted = o.out.inserted_blocks;
     write_move(o, edit);
     o.out.blocks_of_edit.push_back(o.out.inserted_blocks - inserted);
   }
-  pass_until(o, program.moves.size());
+  pass_until(o, window.moves.size());
+  if (!window.moves.empty()) look_until(o, window.text.size(), window.moves.back().unit);
   // The CC of an arc may stand before other moves.
   std::stable_sort(o.changes.begin(), o.changes.end(), [](const KlartextChange& a, const KlartextChange& b) {
     return a.span.begin < b.span.begin;
   });
-  o.out.text = with_changes(program.text, o.changes);
-  if (o.style.numbered && o.out.inserted_blocks > 0) o.out.text = renumbered(o.out.text);
+  o.out.text = with_changes(window.text, o.changes);
+  state.numbers.renumbers = style.numbered && (state.numbers.renumbers || o.out.inserted_blocks > 0);
+  if (style.numbered) o.out.text = renumbered_klartext(o.out.text, state.numbers);
   return std::move(o.out);
 }
 

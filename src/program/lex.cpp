@@ -245,8 +245,8 @@ void lex_percent(Scanner& s) {
   const std::string_view rest = s.text.substr(s.at, s.end - s.at);
   const bool ends = rest.find_first_not_of("; \t") == std::string_view::npos;
   // What Fagor's controls begin with: their cycles are others.
-  const bool name = s.dialect.percent_names && rest.find(',') == std::string_view::npos;
-  if (!ends && (!name || s.block.text_line > 1)) s.refuse_at(s.at, "a '%' stands alone on its line");
+  s.block.part_name = !ends && s.dialect.percent_names && rest.find(',') == std::string_view::npos;
+  if (!ends && !s.block.part_name) s.refuse_at(s.at, "a '%' stands alone on its line");
 }
 
 }  // namespace
@@ -279,6 +279,7 @@ bool next_line(std::string_view text, Block& block) {
 
 void lex(std::string_view text, const std::string& file, const Dialect& dialect, Block& block) {
   block.words.clear();
+  block.assignments.clear();
   block.comments.clear();
   block.block_delete = {};
   block.percent = block.part_name = block.corner = false;

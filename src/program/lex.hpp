@@ -21,8 +21,12 @@ enum class Statement : std::uint8_t {
   call,           ///< a subprogram, or words of a move that is not read
   cycle,          ///< a cycle of the control: it leaves the modal states as they are
   modal_call,     ///< MCALL: every move calls it; bare: no more
-  frame,          ///< TRANS, ROT ...: shifts or turns coordinates; bare: no more
-  added_frame,    ///< ATRANS, AROT ...
+  shift,          ///< TRANS: shifts coordinates by its words, and ends all frames before it
+  added_shift,    ///< ATRANS
+  turn,           ///< ROT: turns coordinates, and ends all frames before it
+  added_turn,     ///< AROT
+  frame,          ///< SCALE, MIRROR, ROTS, and what else stands behind TRANS or ROT; bare: no frame any more
+  added_frame,    ///< ASCALE ...
   tilt,           ///< CYCLE800; bare: no more
   transformed,    ///< TRAORI ...
   transform_off,  ///< TRAFOOF
@@ -45,6 +49,11 @@ struct Word {
   Sense sense = Sense::modal;
 };
 
+/// "#5=#1+2", "R1=5", "_DEPTH=-3".
+struct Assignment {
+  Span variable, value;
+};
+
 /// One line. Its vectors are reused from line to line.
 struct Block {
   int line = 0;         ///< of the file
@@ -64,6 +73,7 @@ struct Block {
   Span flow_name;                  ///< of an O-word: "100" or "<name>"
   Span flow_keyword;               ///< of a line of flow: "sub", "GOTO"; empty where it is none
   std::vector<Word> words;
+  std::vector<Assignment> assignments;  ///< to variables; of `assigns` and `assigns_by_name`
   std::vector<Span> comments;  ///< what stands inside the comment characters
 };
 

@@ -78,6 +78,19 @@ void skip_rest(Scanner& s) {
   }
 }
 
+/// Up to the next assignment, to a comment, or to the ';' that ends a block.
+void skip_macro_value(Scanner& s) {
+  const std::string_view line = s.text.substr(0, s.end);
+  std::size_t next = line.find('=', s.at);
+  if (next == std::string_view::npos) return skip_rest(s);
+  while (next > s.at && s.text[next] != '#') --next;
+  if (next == s.at) return skip_rest(s);
+  Scanner value = s;
+  value.end = next;
+  skip_rest(value);
+  s.at = value.at;
+}
+
 void skip_number(Scanner& s) {
   const std::size_t begin = s.at;
   if (s.peek() == '-' || s.peek() == '+') ++s.at;
@@ -164,15 +177,22 @@ void skip_expression(Scanner& s) {
 
 void skip_assignment(Scanner& s) {
   s.block.assigns = true;
+  const std::size_t begin = s.at;
   skip_variable(s);
+  const Span variable{begin, s.at};
   s.skip_blanks();
   if (s.peek() != '=') s.refuse_at(s.at, "a variable at the beginning of a block is not followed by '='");
   ++s.at;
   s.skip_blanks();
   if (s.at == s.end || s.peek() == comment_open) s.refuse_at(s.at - 1, "'=' is not followed by a value");
-  if (s.dialect.macro_words) return skip_rest(s);
-  if (at_expression(s)) return skip_expression(s);
-  skip_number(s);
+  const std::size_t value = s.at;
+  if (s.dialect.macro_words)
+    skip_macro_value(s);
+  else if (at_expression(s))
+    skip_expression(s);
+  else
+    skip_number(s);
+  s.block.assignments.push_back({variable, {value, s.at}});
 }
 
 bool lex_flow(Scanner& s) {

@@ -50,6 +50,20 @@ struct CycleState {
                                  ///< a Z that is put into a later hole replaces is not known
 };
 
+/// By how much plain numbers shift and turn the coordinates of a work offset.
+struct FrameShifts {
+  Vector3 set_mm = Vector3::Zero();          ///< by G92
+  Vector3 local_mm = Vector3::Zero();        ///< by G52
+  Vector3 turn_centre_mm = Vector3::Zero();  ///< of G68, in coordinates that are shifted
+  double turn_rad = 0;                       ///< about Z, counter-clockwise
+};
+
+/// What G10 has made of a work offset.
+struct SetOffset {
+  std::array<std::optional<double>, 3> set_mm{};  ///< its place in machine coordinates, by axis: L2
+  Vector3 moved_mm = Vector3::Zero();             ///< from its place: L20
+};
+
 /// Where the moves stand to a contour under G41 or G42.
 enum class Contour : std::uint8_t {
   none,
@@ -72,7 +86,8 @@ struct ModalState {
   bool absolute_centres = false;
   bool returns_to_retract = false;  ///< G99
   CycleState cycle;
-  std::size_t work_offset = 0;  ///< index into Program::work_offsets
+  std::size_t frame = 0;        ///< index into Program::frames
+  FrameShifts shifts{};         ///< of which it is made
   bool exact_stop = false;
   std::optional<double> tool_length;     ///< number of H; 0: off; none: not known
   std::optional<double> tool_length_mm;  ///< where it is known

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "program/contour.hpp"
+#include "program/frames.hpp"
 #include "program/read_move.hpp"
 #include "program/remarks.hpp"
 
@@ -13,12 +14,8 @@ namespace {
 
 constexpr std::uint16_t other_offsets = 1u << 15;
 
-std::size_t index_of_offset(Program& program, const std::string& name) {
-  std::vector<std::string>& names = program.work_offsets;
-  const auto found = std::find(names.begin(), names.end(), name);
-  if (found != names.end()) return static_cast<std::size_t>(found - names.begin());
-  names.push_back(name);
-  return names.size() - 1;
+const std::string& offset_that_acts(const Reading& r) {
+  return r.program.frames[r.state.frame].work_offset;
 }
 
 /// "G54", "G59.3", "G54.1 P3", which G154 P3 and G112 of Haas name too, and G54 P3 of Fanuc.
@@ -34,6 +31,13 @@ std::optional<std::string> offset_name(const Reading& r, const FoundG& offset) {
   return fmt::format("G54.1 P{}", p->value);
 }
 
+void add_displacement(const Block& block, Reading& r, std::uint16_t bit) {
+  r.state.displaced |= bit;
+  r.state.known.fill(false);
+  end_contour(r);
+  leave_alone(block, r, why_not_followed(r));
+}
+
 /// The bit of an offset in ModalState::offsets_set.
 std::uint16_t offset_bit(std::string_view name) {
   if (name.empty() || name == "G54") return 1;
@@ -44,7 +48,7 @@ std::uint16_t offset_bit(std::string_view name) {
 }
 
 void displace_by_data(Reading& r) {
-  const bool set = (r.state.offsets_set & offset_bit(r.program.work_offsets[r.state.work_offset])) != 0;
+  const bool set = (r.state.offsets_set & offset_bit(offset_that_acts(r))) != 0;
   const auto others = static_cast<std::uint16_t>(r.state.displaced & ~data);
   r.state.displaced = set ? static_cast<std::uint16_t>(others | data) : others;
 }
@@ -63,13 +67,6 @@ void find_length(const Reading& r, std::optional<double>& number, std::optional<
 
 bool is_zero_or_absent(const Word* word) {
   return word == nullptr || (word->literal && word->value == 0);
-}
-
-void add_displacement(const Block& block, Reading& r, std::uint16_t bit) {
-  r.state.displaced |= bit;
-  r.state.known.fill(false);
-  end_contour(r);
-  leave_alone(block, r, why_not_followed(r));
 }
 
 void end_displacements(Reading& r) {
@@ -103,9 +100,12 @@ void apply_work_offset(const Block& block, Reading& r) {
     r.state.known.fill(false);
     return leave_alone(block, r, why_not_followed(r));
   }
-  const std::size_t index = index_of_offset(r.program, *name);
-  if (index != r.state.work_offset) r.state.known.fill(false), end_contour(r);
-  r.state.work_offset = index;
+  if (*name != offset_that_acts(r)) {
+    end_contour(r);
+    // Whether a local shift acts in the other offset, too, differs between controls.
+    if (!r.state.shifts.local_mm.isZero(0) && !r.dialect.sinumerik_words) add_displacement(block, r, shifted);
+    enter_frame(r, *name);
+  }
   r.state.doubts &= static_cast<std::uint16_t>(~doubtful_offset);
   displace_by_data(r);
 }
@@ -142,11 +142,16 @@ void watch_other_axes(const Block& block, Reading& r) {
 
 void apply_displacements(const Block& block, Reading& r) {
   end_displacements(r);
+  bool followed = false;
   for (const FoundG& g : r.sorted.g) {
+    if (apply_frame_code(block, r, *g.code)) {
+      followed = true;
+      continue;
+    }
     if (g.code->action == Action::displace) add_displacement(block, r, g.code->bit);
     if (g.code->bit == unknown) r.state.displaced |= unknown, end_contour(r);
   }
-  if (r.sorted.has(Action::shift)) {
+  if (r.sorted.has(Action::shift) && !followed) {
     const bool zero = is_zero_or_absent(r.sorted.word('X')) && is_zero_or_absent(r.sorted.word('Y')) &&
                       is_zero_or_absent(r.sorted.word('Z'));
     const bool all_named = r.sorted.word('X') && r.sorted.word('Y') && r.sorted.word('Z');
@@ -166,6 +171,7 @@ void apply_set_data(const Block& block, Reading& r) {
   if (!r.sorted.has(Action::set_data)) return;
   const Word* l = r.sorted.word('L');
   r.state.entering_data = r.dialect.macro_words && l != nullptr && l->value >= 50;
+  if (sets_offset(l) && set_work_offset(block, r)) return;
   leave_alone(block, r, "G10 sets offsets or tools");
   if (sets_tools(l)) {
     r.state.tool_length.reset();
@@ -177,7 +183,7 @@ void apply_set_data(const Block& block, Reading& r) {
   const Word* p = r.sorted.word('P');
   const bool clear = p != nullptr && p->literal && l->value == 2 && p->value >= 1 && p->value <= 9;
   if (p != nullptr && p->literal && p->value == 0) {
-    r.state.offsets_set |= offset_bit(r.program.work_offsets[r.state.work_offset]);
+    r.state.offsets_set |= offset_bit(offset_that_acts(r));
   } else {
     r.state.offsets_set =
         clear ? static_cast<std::uint16_t>(r.state.offsets_set | 1u << (static_cast<int>(p->value) - 1))

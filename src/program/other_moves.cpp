@@ -85,12 +85,14 @@ void read_pocket(const Block& block, Reading& r) {
 }
 
 void read_call(const Block& block, Reading& r) {
+  r.variables.clear();
   Move& move = start_move(block, r, Motion::rapid);
   for (std::size_t axis = 0; axis < 3; ++axis) fix_axis(r, move, axis);
   move.relative = false;
-  const std::string_view why = why_not_expanded(r.program.expansion, block.text_line);
-  leave_alone(block, r,
-              fmt::format("a subprogram is called{}{}", why.empty() ? "" : ", not expanded: ", why));
+  std::string why(why_not_expanded(r.program.expansion, block.text_line));
+  if (!why.empty()) why = ", not expanded: " + why;
+  if (!r.options.expand_subprograms && may_expand(r.dialect)) why = " (--expand-subprograms puts its text in its place)";
+  leave_alone(block, r, "a subprogram is called" + why);
   finish_move(r, move);
   end_contour(r);
   r.state.doubts |= doubtful_motion | doubtful_distance | doubtful_plane | doubtful_centres | doubtful_level;
@@ -101,6 +103,7 @@ void read_call(const Block& block, Reading& r) {
 
 void read_anything(const Block& block, Reading& r, std::string_view why) {
   r.state.doubts = all_doubts;
+  r.variables.clear();
   Move& move = start_move(block, r, Motion::rapid);
   for (std::size_t axis = 0; axis < 3; ++axis) fix_axis(r, move, axis);
   leave_alone(block, r, why);

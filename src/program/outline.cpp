@@ -69,10 +69,18 @@ bool jumps_in(std::string_view lines) {
 }  // namespace
 
 bool OutlineScan::may_find() const {
-  return dialect_.sinumerik_words || (dialect_.family & (shop_families | mach3_family)) != 0;
+  return dialect_.sinumerik_words || dialect_.name == klartext_name ||
+         (dialect_.family & (shop_families | mach3_family)) != 0;
 }
 
-void OutlineScan::add(std::string_view lines) {
+void OutlineScan::add(std::string_view blocks) {
+  if (dialect_.name == klartext_name)
+    klartext_.add(blocks);
+  else
+    add_numbered(blocks);
+}
+
+void OutlineScan::add_numbered(std::string_view lines) {
   if (!begun_) lines.remove_prefix(byte_order_mark(lines));
   begun_ = true;
   if (dialect_.sinumerik_words) outline_.jumps = outline_.jumps || siemens_jumps(lines);
@@ -99,6 +107,7 @@ void OutlineScan::add(std::string_view lines) {
 Outline OutlineScan::finish() {
   // A single program that ends with M99 runs over and over: it is no subprogram.
   if (outline_.subprograms.size() < 2) outline_.subprograms.assign(outline_.subprograms.size(), false);
+  outline_.klartext = klartext_.finish();
   return std::move(outline_);
 }
 

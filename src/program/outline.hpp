@@ -1,32 +1,37 @@
 #pragma once
-/// What a program with numbered subprograms and jumps shows only when looked at as a whole.
+/// What a program shows only when looked at as a whole.
 #include <cstddef>
 #include <string_view>
 #include <vector>
 
 #include "program/dialect.hpp"
+#include "program/klartext_labels.hpp"
 
 namespace counterflex {
 
 struct Outline {
   bool jumps = false;             ///< GOTO stands in it
   std::vector<bool> subprograms;  ///< of each line that begins with an O-number: whether M99 ends it
+  KlartextOutline klartext{};
 };
 
-/// Looks through a text once, in portions of whole lines; finds nothing in dialects without numbered
+/// Looks through a text once, in portions of whole blocks; finds nothing in dialects of G-code without numbered
 /// programs.
 class OutlineScan {
  public:
   explicit OutlineScan(const Dialect& dialect) : dialect_(dialect) {}
   /// Whether programs in the dialect can show anything.
   bool may_find() const;
-  void add(std::string_view lines);
+  void add(std::string_view blocks);
   Outline finish();
 
  private:
+  void add_numbered(std::string_view lines);
+
   const Dialect& dialect_;
   bool begun_ = false;
   Outline outline_;
+  KlartextScan klartext_;
   std::size_t open_ = 0;  ///< numbers at the end of the list whose program has not ended yet
 };
 

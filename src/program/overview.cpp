@@ -20,8 +20,8 @@ void add_tool(std::vector<long>& tools, long tool) {
 void add_tools_and_offsets(Overview& overview, const std::vector<Move>& moves) {
   const Move* before = nullptr;
   for (const Move& move : moves) {
-    if (before == nullptr || move.tool != before->tool || move.offset != before->offset) {
-      overview.offsets_used[move.offset] = true;
+    if (before == nullptr || move.tool != before->tool || move.frame != before->frame) {
+      overview.frames_used[move.frame] = true;
       add_tool(overview.tools, move.tool);
     }
     before = &move;
@@ -53,8 +53,8 @@ void add_window(Overview& overview, const Program& window) {
   overview.file = window.file;
   overview.dialect = window.dialect;
   overview.blocks = window.block_count;
-  overview.work_offsets = window.work_offsets;
-  overview.offsets_used.resize(window.work_offsets.size());
+  overview.frames = window.frames;
+  overview.frames_used.resize(window.frames.size());
   overview.remarks = window.remarks;
   overview.path_tolerances = window.path_tolerances;
   add_text(overview, window.text);

@@ -4,8 +4,9 @@
 #include <cmath>
 #include <utility>
 
+#include "program/block_reader.hpp"
+#include "program/choose_dialect.hpp"
 #include "program/klartext_lex.hpp"
-#include "program/line_reader.hpp"
 
 namespace counterflex {
 namespace {
@@ -15,8 +16,7 @@ constexpr std::size_t bytes_at_once = 1 << 18;
 constexpr double way_of_a_place = 5;  // mm
 constexpr std::size_t places_of_a_line = 64, places_of_a_turn = 16;
 
-/// About as many as the places at which the move is solved: a window of long moves or of many turns is as large as
-/// one of many short moves.
+/// A window of long moves or of many turns is as large as one of many short moves.
 std::size_t size_of(const Move& move) {
   if (move.arc) return places_of_a_turn * (static_cast<std::size_t>(move.arc->turns) + 1);
   if (move.motion == Motion::rapid || !all_known(move.known_start) || !all_known(move.known_end)) return 1;
@@ -28,10 +28,15 @@ std::size_t size_of(const Move& move) {
 /// moves across is limited, too.
 constexpr std::size_t largest_along_z = 2;
 
-/// The whole lines at the beginning of `text`.
-std::string_view whole_lines(const std::string& text) {
-  const std::size_t newline = text.rfind('\n');
-  return std::string_view(text).substr(0, newline == std::string::npos ? 0 : newline + 1);
+/// Where the last whole block of `text` ends that ends behind byte `from`; 0 where none does.
+std::size_t end_of_blocks(std::string_view text, std::size_t from, const Dialect& dialect) {
+  for (std::size_t end = text.size(); end > from;) {
+    const std::size_t newline = text.rfind('\n', end - 1);
+    if (newline == std::string_view::npos || newline < from) return 0;
+    if (dialect.name != klartext_name || !goes_on_behind(text, newline)) return newline + 1;
+    end = newline;
+  }
+  return 0;
 }
 
 /// Moves the spans of `move` by so many bytes.
@@ -58,11 +63,6 @@ void shift_spans(Move& move, std::ptrdiff_t bytes) {
   }
 }
 
-/// Whether a program cannot be read in windows.
-bool is_read_whole(const LineReader& lines) {
-  return lines.program().dialect == klartext_name || lines.options().expand_subprograms;
-}
-
 struct Overall {
   const Dialect* dialect = nullptr;
   Outline outline{};
@@ -71,7 +71,7 @@ struct Overall {
 /// What `auto` looks at.
 const Dialect& dialect_of(FileReader& bytes, const std::string& file, const ReadOptions& options) {
   std::string text;
-  const std::size_t needed = options.dialect == "auto" ? looked_at : 1;  // a robot's language is seen at once
+  const std::size_t needed = options.dialect == "auto" ? bytes_of_dialect : 1;  // a robot's language is seen at once
   while (text.size() < needed && bytes.append(text, bytes_at_once) > 0) {
   }
   return choose_dialect(text, file, options);
@@ -86,7 +86,7 @@ Overall look_through(FileReader& bytes, const std::string& file, const ReadOptio
   if (!scan.may_find()) return {&dialect, {}};
   std::string text;
   while (bytes.append(text, bytes_at_once) > 0) {
-    const std::size_t whole = whole_lines(text).size();
+    const std::size_t whole = end_of_blocks(text, 0, dialect);
     scan.add(std::string_view(text).substr(0, whole));
     text.erase(0, whole);
   }
@@ -97,14 +97,22 @@ Overall look_through(FileReader& bytes, const std::string& file, const ReadOptio
 
 }  // namespace
 
+std::size_t window_size(const Program& window) {
+  std::size_t size = 0;
+  for (const Move& move : window.moves) size += size_of(move);
+  return size;
+}
+
 struct ProgramReader::State {
   State(FileReader& source, const std::string& file, const ReadOptions& options, std::size_t moves,
         Overall overall)
-      : bytes(source), least_moves(moves), lines(file, options, *overall.dialect, overall.outline) {}
+      : bytes(source),
+        least_moves(moves),
+        blocks(make_reader(file, options, *overall.dialect, std::move(overall.outline))) {}
 
   FileReader& bytes;
   std::size_t least_moves;
-  LineReader lines;
+  std::unique_ptr<BlockReader> blocks;
   bool begun = false;           ///< an empty program is one window, too
   bool all_read = false;        ///< the bytes have come to their end
   std::size_t whole = 0;        ///< bytes of the text that are whole lines
@@ -114,9 +122,9 @@ struct ProgramReader::State {
   std::size_t counted = 0;  ///< moves of the window that are in `size`
   std::size_t size = 0;     ///< of these moves
 
-  Program& program() { return lines.program(); }
+  Program& program() { return blocks->program(); }
 
-  std::size_t window_size() {
+  std::size_t size_so_far() {
     const auto& moves = program().moves;
     for (; counted < moves.size(); ++counted) size += size_of(moves[counted]);
     return size;
@@ -128,8 +136,7 @@ struct ProgramReader::State {
     std::string& text = program().text;
     const std::size_t begin = text.size();
     all_read = bytes.append(text, bytes_at_once) == 0;
-    const std::size_t newline = text.rfind('\n');
-    if (newline != std::string::npos && newline >= begin) whole = newline + 1;
+    if (const std::size_t end = end_of_blocks(text, begin, blocks->dialect())) whole = end;
     if (all_read) whole = text.size();
     return !all_read;
   }
@@ -138,19 +145,19 @@ struct ProgramReader::State {
     while (append()) {
     }
     Program& p = program();
-    p = read_program(std::move(p.text), p.file, lines.options());
+    p = read_program(std::move(p.text), p.file, blocks->options());
   }
 
-  bool read_line() {
-    while (!all_read && lines.position() >= whole) append();
-    return lines.read_line();
+  bool read_block() {
+    while (!all_read && blocks->position() >= whole) append();
+    return blocks->read_block();
   }
 
   /// Reads plain lines until the window has `least` or the next line is not plain.
   void read_plain(std::size_t least) {
-    for (std::size_t now = window_size(), before = 0; now < least; now = window_size()) {
+    for (std::size_t now = size_so_far(), before = 0; now < least; now = size_so_far()) {
       before = program().moves.size();
-      lines.read_plain(before + (least - now) / places_of_a_line + 1);
+      blocks->read_plain(before + (least - now) / places_of_a_line + 1);
       if (program().moves.size() == before) return;
     }
   }
@@ -160,15 +167,15 @@ struct ProgramReader::State {
     for (;;) {
       read_plain(least);
       const std::size_t before = program().moves.size();
-      if (lines.has_ended() || !read_line()) break;
+      if (blocks->has_ended() || !read_block()) break;
       const std::size_t now = program().moves.size();
-      const bool one = now == before + 1 && window_size() > least;
-      const bool is_large = window_size() / largest_along_z > least;
-      if (one && !lines.has_ended() && lines.may_end_before(program().moves.back(), is_large)) return end_before_last();
+      const bool one = now == before + 1 && size_so_far() > least;
+      const bool is_large = size_so_far() / largest_along_z > least;
+      if (one && !blocks->has_ended() && blocks->may_end_before(program().moves.back(), is_large)) return end_before_last();
     }
     while (least_moves == whole_program && append()) {
     }
-    if (lines.has_ended()) lines.remark_rest(std::string_view(program().text).substr(lines.position()));
+    if (blocks->has_ended()) blocks->remark_rest(std::string_view(program().text).substr(blocks->position()));
     end_here(whole);
   }
 
@@ -179,7 +186,7 @@ struct ProgramReader::State {
     p.after = std::move(p.moves.back());
     p.moves.pop_back();
     shift_spans(*p.after, -static_cast<std::ptrdiff_t>(end));
-    behind_read = lines.position() - end;
+    behind_read = blocks->position() - end;
     end_here(end);
   }
 
@@ -192,21 +199,21 @@ struct ProgramReader::State {
   bool read_rest() {
     append();
     whole = program().text.size();
-    lines.remark_rest(program().text);
+    blocks->remark_rest(program().text);
     return whole > 0;
   }
 
   bool next() {
     Program& p = program();
     restart_count();
-    lines.begin_window(behind_read, std::exchange(p.after, std::nullopt));
+    blocks->begin_window(behind_read, std::exchange(p.after, std::nullopt));
     p.text.swap(behind);
     behind.clear();
     behind_read = 0;
     const std::string& text = p.text;
-    whole = all_read ? text.size() : whole_lines(text).size();
-    if (lines.has_ended()) return read_rest();
-    if (is_read_whole(lines) && !all_read) {
+    whole = all_read ? text.size() : end_of_blocks(text, 0, blocks->dialect());
+    if (blocks->has_ended()) return read_rest();
+    if (blocks->is_read_whole() && !all_read) {
       begun = true;
       read_whole();
       return true;
@@ -227,8 +234,8 @@ struct ProgramReader::State {
     p.moves.push_back(std::move(*p.after));
     p.after.reset();
     behind.clear();
-    whole = all_read ? p.text.size() : whole_lines(p.text).size();
-    read_until_end(window_size());
+    whole = all_read ? p.text.size() : end_of_blocks(p.text, 0, blocks->dialect());
+    read_until_end(size_so_far());
     return true;
   }
 };
@@ -249,7 +256,7 @@ bool ProgramReader::extend() {
 }
 
 const Program& ProgramReader::window() const {
-  return state_->lines.program();
+  return state_->blocks->program();
 }
 
 Program& ProgramReader::window() {
@@ -257,42 +264,43 @@ Program& ProgramReader::window() {
 }
 
 void ProgramReader::take_window(Program& program) {
-  state_->lines.take_window(program);
+  state_->blocks->take_window(program);
 }
 
 struct TextReader::State {
-  LineReader lines;
+  std::unique_ptr<BlockReader> blocks;
 };
 
 TextReader::TextReader(const ProgramReader& original) {
-  const LineReader& lines = original.state_->lines;
-  state_.reset(new State{{lines.program().file, lines.options(), lines.dialect(), lines.outline()}});
+  const BlockReader& blocks = *original.state_->blocks;
+  state_.reset(
+      new State{make_reader(blocks.program().file, blocks.options(), blocks.dialect(), blocks.outline())});
 }
 
 TextReader::TextReader(const Program& original, const ReadOptions& options) {
   const Dialect& dialect = *find_dialect(original.dialect);
-  state_.reset(new State{{original.file, options, dialect, outline_of(original.text, dialect)}});
+  state_.reset(new State{make_reader(original.file, options, dialect, outline_of(original.text, dialect))});
 }
 
 TextReader::~TextReader() = default;
 TextReader::TextReader(TextReader&&) noexcept = default;
 
 const Program& TextReader::read(std::string text) {
-  LineReader& lines = state_->lines;
-  lines.begin_window(0, std::nullopt);
-  Program& program = lines.program();
-  if (is_read_whole(lines)) {
-    ReadOptions options = lines.options();
+  BlockReader& blocks = *state_->blocks;
+  blocks.begin_window(0, std::nullopt);
+  Program& program = blocks.program();
+  if (blocks.is_read_whole()) {
+    ReadOptions options = blocks.options();
     options.dialect = program.dialect;
     return program = read_program(std::move(text), program.file, options);
   }
   program.text = std::move(text);
-  lines.read_all();
+  blocks.read_all();
   return program;
 }
 
 void TextReader::take_window(Program& program) {
-  state_->lines.take_window(program);
+  state_->blocks->take_window(program);
 }
 
 }  // namespace counterflex

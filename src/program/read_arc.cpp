@@ -41,10 +41,16 @@ bool words_are_plain(const SortedBlock& sorted) {
 /// What no control would make an arc of.
 void check_words(const Block& block, const Reading& r) {
   const bool centre = r.sorted.has_any("IJK");
+  const Plane plane = plane_of(r.state.normal);
+  const char first = letters_of_centre[plane.first], second = letters_of_centre[plane.second];
   const Word* radius = r.sorted.word('R');
   if (centre && radius != nullptr) refuse_word(block, r, *radius, "an arc has either R or I, J and K");
   if (!centre && radius == nullptr)
     refuse_word(block, r, first_axis_word(block), "the arc has neither I, J, K nor R");
+  if (centre && !r.sorted.word(first) && !r.sorted.word(second))
+    refuse_word(block, r, block.words.front(),
+                fmt::format("the arc has neither {} nor {}, which give its centre in the plane that acts",
+                            std::min(first, second), std::max(first, second)));
   const Word* across = r.sorted.word(letters_of_centre[static_cast<std::size_t>(r.state.normal)]);
   // Some posts put half the rise of a helix there, and controls for hobbyists do not look at it.
   const bool ignored = (r.dialect.family & (grbl_family | mach3_family)) != 0;
@@ -89,13 +95,76 @@ void set_centre(const Block& block, const Reading& r, const Plane& plane, const 
   for (const std::size_t axis : {plane.first, plane.second}) {
     const Word* word = r.sorted.word(letters_of_centre[axis]);
     if (word == nullptr && arc.absolute_centre)
-      refuse_word(block, r, block.words.front(),
-                  fmt::format("under G90.1 an arc needs {} in this plane", letters_of_centre[axis]));
+      refuse_word(
+          block, r, block.words.front(),
+          fmt::format("an arc whose centre is absolute needs {} in this plane", letters_of_centre[axis]));
     const double value = word != nullptr ? length_mm(r, *word) : 0;
     const Vector3& start = move.start_mm;
     coordinate(arc.centre_mm, axis) =
         value + (arc.absolute_centre ? 0 : start[static_cast<Eigen::Index>(axis)]);
   }
+}
+
+/// Distances (mm) of an arc's start and end from a centre.
+struct Radii {
+  double start, end;
+};
+
+Radii radii_about(const Vector3& centre, const Plane& plane, const Vector3& start, const Vector3& end) {
+  const auto distance = [&](const Vector3& p) {
+    const auto a = static_cast<Eigen::Index>(plane.first), b = static_cast<Eigen::Index>(plane.second);
+    return std::hypot(p[a] - centre[a], p[b] - centre[b]);
+  };
+  return {distance(start), distance(end)};
+}
+
+bool agree(const Radii& radii, const Reading& r) {
+  constexpr double share = 1e-3, rounding = 1e-9;
+  const bool inch = r.state.unit == LengthUnit::inches;
+  const RadiusRoom& room = inch ? r.dialect.radius_room_inch : r.dialect.radius_room;
+  const double off = std::abs(radii.end - radii.start) - rounding;
+  return off <= room.always || (off <= room.most && off <= share * std::max(radii.start, radii.end));
+}
+
+/// The words of the centre in the plane, as they stand in the text: "I-24.273 J0.025".
+std::string centre_text(const Reading& r, const Plane& plane) {
+  std::string text;
+  for (const std::size_t axis : {std::min(plane.first, plane.second), std::max(plane.first, plane.second)})
+    if (const Word* word = r.sorted.word(letters_of_centre[axis]))
+      text += fmt::format("{}{}", text.empty() ? "" : " ", part(r.program.text, word->span));
+  return text;
+}
+
+/// What helps where the other reading of the centre's words fits.
+std::string cure_of_centres(const Reading& r, bool absolute) {
+  const std::string fits =
+      fmt::format("read as {} the words fit: ", absolute ? "distances from the start" : "coordinates");
+  if (absolute != r.options.absolute_centres)  // the option acts up to the code
+    return fits + (absolute ? "G90.1 acts, which may be wrong" : "G91.1 acts, which may be wrong");
+  return fits + fmt::format("give --arc-centres {}", absolute ? "incremental" : "absolute");
+}
+
+/// A centre that is not equally far from both ends makes no arc on any control.
+void check_radii(const Block& block, const Reading& r, const Plane& plane, const Move& move,
+                 const ArcMove& arc) {
+  const Vector3 &start = move.start_mm, &end = r.state.position_mm;
+  const Radii radii = radii_about(arc.centre_mm, plane, start, end);
+  if (agree(radii, r)) return;
+  const Word* word = r.sorted.word(letters_of_centre[plane.first]);
+  if (word == nullptr) word = r.sorted.word(letters_of_centre[plane.second]);
+  const Vector3 otherwise = arc.centre_mm + (arc.absolute_centre ? start : Vector3(-start));
+  const bool both =
+      r.sorted.word(letters_of_centre[plane.first]) && r.sorted.word(letters_of_centre[plane.second]);
+  const bool others_fit = (both || arc.absolute_centre) && word->sense == Sense::modal &&
+                          agree(radii_about(otherwise, plane, start, end), r);
+  const std::string cure =
+      others_fit ? cure_of_centres(r, arc.absolute_centre) : "correct the end or the centre of the arc";
+  refuse_word(
+      block, r, *word,
+      fmt::format(
+          "{}: the radius is {:.4f} mm at the arc's start and {:.4f} mm at its end, which differ by more "
+          "than a {} control accepts; {}",
+          centre_text(r, plane), radii.start, radii.end, r.dialect.name, cure));
 }
 
 /// Centre by R, as LinuxCNC finds it: the chord may be 0.05 mm longer than twice the radius. False where the
@@ -129,6 +198,7 @@ std::optional<ArcMove> arc_of(const Block& block, const Reading& r, const Move& 
   const Plane plane = plane_of(arc.normal);
   if (r.sorted.word('R') == nullptr) {
     set_centre(block, r, plane, move, arc);
+    check_radii(block, r, plane, move, arc);
   } else if (!set_centre_of_radius(block, r, plane, r.state.position_mm, move, arc)) {
     return std::nullopt;
   }
@@ -150,10 +220,12 @@ void hold_arc(Reading& r, Move& move, const Plane& plane, bool start_known) {
 void count_turns(const Block& block, Reading& r, const ArcMove& arc) {
   r.turns += static_cast<std::size_t>(arc.turns) + 1;
   if (arc.turns == 0 || r.turns <= r.program.block_count + more_turns_than_blocks) return;
-  refuse_word(block, r, *r.sorted.word('P'),
-              fmt::format("the arcs to here make {} turns in {} blocks: at most {} turns more than blocks are allowed; "
-                          "write each turn as a block",
-                          r.turns, r.program.block_count, more_turns_than_blocks));
+  refuse_word(
+      block, r, *r.sorted.word('P'),
+      fmt::format(
+          "the arcs to here make {} turns in {} blocks: at most {} turns more than blocks are allowed; "
+          "write each turn as a block",
+          r.turns, r.program.block_count, more_turns_than_blocks));
 }
 
 }  // namespace

@@ -57,9 +57,10 @@ void allow_changes(const Reading& r, Move& move) {
   const bool shares_time = move.feed_mode != FeedMode::inverse_time || move.feed_per_min > 0;
   // Words and blocks that are inserted count as the modal state has it.
   const bool counts_otherwise = r.relative() != r.state.relative;
-  move.may_insert_words = move.may_insert_words && !tool_length && !any(move.fixed) && !counts_otherwise;
-  // The control takes the size of a corner off both of the blocks that make it.
+  // The control takes the size of a corner off both of the blocks that make it, which lie in one plane.
   const bool corner = r.corner || r.after_corner;
+  move.takes_no_z = corner;
+  move.may_insert_words = move.may_insert_words && !tool_length && !any(move.fixed) && !counts_otherwise;
   move.may_split =
       feed && !corner && !rigid && !move.exact_stop && !tool_length && !acts_at_end && shares_time;
   const bool only_motion = b.g.empty() || (b.g.size() == 1 && b.g[0].code->group == CodeGroup::motion);
@@ -75,7 +76,7 @@ std::string_view displacement_text(std::uint16_t bits) {
   if ((bits & scaled) != 0) return "coordinates are scaled";
   if ((bits & mirrored) != 0) return "coordinates are mirrored";
   if ((bits & polar) != 0) return "coordinates are polar";
-  if ((bits & modal_macro) != 0) return "every move calls a macro";
+  if ((bits & modal_macro) != 0) return "every move calls a macro, whose heights are not corrected";
   if ((bits & framed) != 0) return "a frame shifts or turns coordinates";
   if ((bits & unknown) != 0) return "a code that is not known may act";
   if ((bits & tilted) != 0) return "coordinates are tilted";
@@ -91,14 +92,32 @@ std::string_view doubt_text(std::uint16_t doubts) {
   return "its motion is in doubt";
 }
 
+/// Whether all that is not followed is a macro that every move calls: the moves to its places are plain.
+bool only_calls_macro(const Reading& r) {
+  return r.state.displaced == modal_macro && !r.in_body() && r.state.doubts == 0;
+}
+
+/// A word whose place is not followed.
+void place_unknown(Reading& r, Move& move, std::size_t axis) {
+  const bool relative = r.relative() && (r.state.doubts & doubtful_distance) == 0;
+  move.fixed[axis] = !relative;
+  r.state.known[axis] = false;
+}
+
+/// The place of a hole in the plane goes along with the contours. Its heights are the macro's, and where that leaves the
+/// tool is not known.
+void place_macro_word(Reading& r, Move& move, std::size_t axis, const Word& word) {
+  place_unknown(r, move, axis);
+  if (!word.literal || axis == 2 || r.relative()) return;
+  move.fixed[axis] = false;
+  move.words[axis] = AxisWord{word.number, word.decimals};
+  coordinate(r.state.position_mm, axis) = length_mm(r, word);
+}
+
 void place_word(Reading& r, Move& move, std::size_t axis, const Word& word, bool followed) {
   ModalState& state = r.state;
   const bool relative = r.relative() && (state.doubts & doubtful_distance) == 0;
-  if (!word.literal || !followed) {
-    move.fixed[axis] = !relative;
-    state.known[axis] = false;
-    return;
-  }
+  if (!word.literal || !followed) return place_unknown(r, move, axis);
   if (relative && !state.known[axis]) return fix_axis(r, move, axis);
   move.words[axis] = AxisWord{word.number, word.decimals};
   const double value = length_mm(r, word);
@@ -153,7 +172,7 @@ Move& begin_move(const Block& block, Reading& r, Motion motion) {
   move.relative = r.relative();
   move.feed_mm_min = feed_mm_min(r.state);
   move.spindle_rpm = r.state.spindle_rpm;
-  move.offset = r.state.work_offset;
+  move.frame = r.state.frame;
   move.tool = tool_of(r);
   move.operation = r.operation.index_in(r.program);
   if (r.state.force) move.force = r.state.force;
@@ -167,8 +186,7 @@ Move& start_move(const Block& block, Reading& r, Motion motion) {
   if (!moves.empty() && moves.back().block.begin == block.span.begin) moves.pop_back();
   const std::array<bool, 3> taken_away = r.taken_away;
   Move& move = begin_move(block, r, motion);
-  // Cycles that are called at every position are left as they are, and so are the positions.
-  if (!why_not_followed(r).empty() && (r.state.displaced & modal_macro) == 0)
+  if (!why_not_followed(r).empty())
     for (std::size_t axis = 0; axis < 3; ++axis) move.stands[axis] = !taken_away[axis];
   move.block_delete = !empty(block.block_delete);
   if (r.sorted.has(Action::stop_once)) move.exact_stop = true;
@@ -195,15 +213,23 @@ void fix_axis(Reading& r, Move& move, std::size_t axis) {
 
 void place_words(const Block& block, Reading& r, Move& move) {
   const std::string_view why = why_not_followed(r);
+  const bool macro = only_calls_macro(r);
   bool all_plain = true;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const Word* word = r.sorted.word(letters_of_axes[axis]);
     if (word == nullptr) continue;
-    place_word(r, move, axis, *word, why.empty());
+    if (macro)
+      place_macro_word(r, move, axis, *word);
+    else
+      place_word(r, move, axis, *word, why.empty());
     all_plain = all_plain && word->literal;
   }
+  if (macro) place_unknown(r, move, 2), move.fixed[2] = true;
   if (!why.empty()) return leave_alone(block, r, why);
-  if (!all_plain) return leave_alone(block, r, "a position is a variable or an expression");
+  if (!all_plain)
+    return leave_alone(block, r,
+                       r.options.evaluate ? "a position is a variable or an expression whose value the text does not show"
+                                          : "a position is a variable or an expression (--evaluate works out constants)");
   if (any(move.fixed)) leave_alone(block, r, "a relative position counts from an unknown one");
 }
 

@@ -1,24 +1,24 @@
 #include "counterflex/program/read_program.hpp"
 
+#include "program/block_reader.hpp"
+#include "program/choose_dialect.hpp"
 #include "program/expand.hpp"
-#include "program/klartext_read.hpp"
-#include "program/line_reader.hpp"
+#include "program/klartext_expand.hpp"
+#include "program/klartext_reader.hpp"
 #include "program/operation.hpp"
 
 namespace counterflex {
+
 Program read_program(std::string text, const std::string& file, const ReadOptions& options) {
   const Dialect& dialect = choose_dialect(text, file, options);
-  const bool klartext = dialect.name == klartext_name;
   Expansion expansion;
-  if (options.expand_subprograms && !klartext) expansion = expand_subprograms(text, file, dialect);
-  LineReader lines(file, options, dialect, klartext ? Outline{} : outline_of(text, dialect));
-  Program& program = lines.program();
+  if (options.expand_subprograms)
+    expansion = dialect.name == klartext_name ? expand_klartext(text, file) : expand_subprograms(text, file, dialect);
+  const auto reader = make_reader(file, options, dialect, outline_of(text, dialect));
+  Program& program = reader->program();
   program.text = std::move(text);
   program.expansion = std::move(expansion);
-  if (klartext)
-    read_klartext(program, options, axes_of_tool_change(dialect, options));
-  else
-    lines.read_all();
+  reader->read_all();
   if (options.expand_subprograms) remark_expansion(program);
   return std::move(program);
 }

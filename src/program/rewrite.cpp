@@ -21,7 +21,7 @@ std::size_t header_position(const Program& program) {
   Block block;
   while (next_line(program.text, block)) {
     lex(program.text, program.file, dialect, block);
-    const bool number = begins_with_program_number(block) || block.part_name;
+    const bool number = begins_with_program_number(block) || (block.part_name && !block.percent);
     if (!program.moves.empty() && block.span.begin >= program.moves.front().block.begin) break;
     if ((block.percent && opened) || (!block.words.empty() && !number)) break;
     opened = opened || block.percent;
@@ -131,7 +131,18 @@ void begin(const WriteOptions& options, Writing& w) {
 struct Rewriter::State {
   WriteOptions options;
   std::optional<ProgramStyle> style{};  ///< none before the first window
+  std::optional<KlartextStyle> klartext{};
   TextState text{};
+
+  /// How the program of `window` writes, where it is the first.
+  bool begins(const Program& window) {
+    if (style || klartext) return false;
+    if (window.dialect == klartext_name)
+      klartext = klartext_style(window);
+    else
+      style = style_of(window);
+    return true;
+  }
 };
 
 Rewriter::Rewriter(const WriteOptions& options) : state_(new State{options}) {}
@@ -140,9 +151,9 @@ Rewriter::Rewriter(Rewriter&&) noexcept = default;
 
 Rewritten Rewriter::write(const Program& window, const std::vector<MoveEdit>& edits) {
   const WriteOptions& options = state_->options;
-  if (window.dialect == klartext_name) return rewrite_klartext(window, edits, options);
-  const bool first = !state_->style;
-  if (first) state_->style = style_of(window);
+  const bool first = state_->begins(window);
+  if (state_->klartext)
+    return rewrite_klartext(window, edits, *state_->klartext, first, options, state_->text);
   Writing w{window, *state_->style, state_->text, {window, options}};
   w.out.text.reserve(window.text.size() + window.text.size() / 8);
   w.out.blocks_of_edit.reserve(edits.size());
@@ -164,7 +175,7 @@ const TextState& Rewriter::state() const {
 }
 
 void Rewriter::pass(const Program& window, const TextState& state) {
-  if (!state_->style) state_->style = style_of(window);
+  state_->begins(window);
   state_->text = state;
 }
 

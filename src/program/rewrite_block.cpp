@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cassert>
 
+#include "program/integer_words.hpp"
 #include "program/rewrite_numbers.hpp"
 #include "program/rewrite_words.hpp"
 
@@ -68,19 +69,11 @@ bool is_length(const Word& word, const Move& move) {
   return is_axis(word) || ((move.arc || move.cycle) && is_centre(word));
 }
 
-bool may_doubt_integers(const Program& program, const Dialect& dialect) {
-  return dialect.integer_words_doubtful && program.integer_words == IntegerWords::unsaid;
-}
-
 void check_integer_words(const Original& o) {
   if (!may_doubt_integers(o.program, o.dialect)) return;
   for (const Word& word : o.block.words)
     if (is_length(word, o.move) && word.literal && !word.point && word.value != 0)
-      refuse(o.program.file, o.block, word.span.begin,
-             fmt::format(
-                 "{}{} has no point, and the block must be rewritten: it may mean units or increments; say "
-                 "which with --integer-words units|increments",
-                 word.letter, word.value));
+      refuse(o.program.file, o.block, word.span.begin, integer_question(fmt::format("{}{}", word.letter, word.value)));
 }
 
 /// The motion that is modal between the pieces of one block.

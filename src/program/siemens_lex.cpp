@@ -18,13 +18,13 @@ struct SiemensName {
 
 // Names that are not listed are taken for subprograms or cycles.
 constexpr std::array siemens_names{
-    SiemensName{"TRANS", Statement::frame},
-    SiemensName{"ROT", Statement::frame},
+    SiemensName{"TRANS", Statement::shift},
+    SiemensName{"ROT", Statement::turn},
     SiemensName{"ROTS", Statement::frame},
     SiemensName{"SCALE", Statement::frame},
     SiemensName{"MIRROR", Statement::frame},
-    SiemensName{"ATRANS", Statement::added_frame},
-    SiemensName{"AROT", Statement::added_frame},
+    SiemensName{"ATRANS", Statement::added_shift},
+    SiemensName{"AROT", Statement::added_turn},
     SiemensName{"AROTS", Statement::added_frame},
     SiemensName{"ASCALE", Statement::added_frame},
     SiemensName{"AMIRROR", Statement::added_frame},
@@ -142,6 +142,13 @@ void skip_index(Scanner& s) {
   } while (depth > 0 && s.at < s.end);
 }
 
+/// The value behind the '=' at the scanner is that of `variable`.
+void take_assigned(Scanner& s, Span variable) {
+  const std::size_t value = ++s.at;
+  skip_assigned(s);
+  s.block.assignments.push_back({variable, {value, s.at}});
+}
+
 int decimals_in_plain(std::string_view number) {
   const std::size_t point = number.find('.');
   return point == std::string_view::npos ? 0 : static_cast<int>(number.size() - point - 1);
@@ -186,12 +193,32 @@ void read_named_word(Scanner& s, char letter, std::size_t name_length) {
   if (letter == 'P') word.value += 1;
 }
 
+void lex_letter(Scanner& s);
+
 void state_machine_position(Scanner& s, std::string_view name) {
   Word& word = s.block.words.emplace_back();
   word.letter = 'G';
   word.value = 153;
   word.span = word.number = {s.at, s.at + name.size()};
   s.at = word.span.end;
+}
+
+/// The words of TRANS, ROT, ATRANS and AROT: X, Y, Z, and RPL as R.
+void lex_frame(Scanner& s) {
+  s.at += name_at(s).size();
+  for (s.skip_blanks(); s.at < s.end && s.peek() != ';'; s.skip_blanks()) {
+    const std::string_view name = is_letter(s.peek()) ? name_at(s) : std::string_view();
+    const char letter = name.empty() ? '\0' : upper(name[0]);
+    if (is_word(name, "RPL")) {
+      read_named_word(s, 'R', name.size());
+    } else if (letter >= 'X' && letter <= 'Z' && (name.size() == 1 || is_digit(name[1]))) {
+      lex_letter(s);
+    } else {
+      const bool added = s.block.statement == Statement::added_shift || s.block.statement == Statement::added_turn;
+      s.block.statement = added ? Statement::added_frame : Statement::frame;
+      return skip_siemens_rest(s);
+    }
+  }
 }
 
 void state(Scanner& s, Statement statement) {
@@ -206,6 +233,7 @@ void state(Scanner& s, Statement statement) {
     s.at += name_at(s).size();
     return;
   }
+  if (statement >= Statement::shift && statement <= Statement::added_turn) return lex_frame(s);
   skip_siemens_rest(s);
 }
 
@@ -252,22 +280,22 @@ void skip_numbered_assignment(Scanner& s, std::string_view name) {
   const char letter = upper(name[0]);
   if (letter != 'R' && may_move(letter) && !goes_to_machine_position(s.block)) return state(s, Statement::call);
   s.block.assigns = true;
+  const std::size_t begin = s.at;
   s.at += name.size();
   while (s.peek() != '=') ++s.at;
-  ++s.at;
-  skip_assigned(s);
+  take_assigned(s, {begin, begin + name.size()});
 }
 
 /// "_DEPTH=5", "MEAS=1", "$AC_TIMER[1]=0": a variable or a word of the control. What the block does besides is not known.
 void skip_named_assignment(Scanner& s, std::string_view name) {
   s.block.assigns = s.block.assigns_by_name = true;
+  const std::size_t begin = s.at;
   s.at += name.size();
   s.skip_blanks();
   if (s.peek() == '[') skip_index(s);
+  const Span variable{begin, s.at};
   s.skip_blanks();
-  if (s.peek() != '=') return;
-  ++s.at;
-  skip_assigned(s);
+  if (s.peek() == '=') take_assigned(s, variable);
 }
 
 bool equals_follows(const Scanner& s, std::size_t behind) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "program/contour.hpp"
+#include "program/frames.hpp"
 #include "program/other_moves.hpp"
 #include "program/read_move.hpp"
 #include "program/remarks.hpp"
@@ -48,6 +49,9 @@ void begin_statement(const Block& block, Reading& r) {
 
 bool has_words_of_its_own(const Block& block, const Reading&) {
   if (block.statement == Statement::curve || block.statement == Statement::smoothed) return true;
+  const bool is_frame = block.statement >= Statement::shift && block.statement <= Statement::added_turn;
+  const auto of_frame = [](const Word& word) { return std::string_view("NXYZR").find(word.letter) != std::string_view::npos; };
+  if (is_frame && std::all_of(block.words.begin(), block.words.end(), of_frame)) return false;
   return std::none_of(block.words.begin(), block.words.end(), is_length_word);
 }
 
@@ -63,6 +67,12 @@ void end_statement(const Block& block, Reading& r) {
       return run_cycle(block, r);
     case Statement::modal_call:
       return displace_by_statement(block, r, modal_macro, !block.statement_is_bare);
+    case Statement::shift:
+    case Statement::added_shift:
+    case Statement::turn:
+    case Statement::added_turn:
+      if (!apply_frame_statement(block, r)) displace_by_statement(block, r, framed, !block.statement_is_bare);
+      return;
     case Statement::frame:
       return displace_by_statement(block, r, framed, !block.statement_is_bare);
     case Statement::added_frame:

@@ -56,7 +56,7 @@ constexpr NumberRow other_rows[] = {
     {"/forces/largest_N", program_heading, "largest force, in N", "N", 1},
     {"/blocks/moves", program_heading, "moves", "", 0},
     {"/blocks/corrected", program_heading, "moves corrected", "", 0},
-    {"/blocks/left_alone_count", program_heading, "blocks not corrected", "", 0},
+    {"/blocks/not_corrected", program_heading, "moves not corrected", "", 0},
     {"/blocks/inserted", program_heading, "points added", "", 0},
     {"/text/blocks_after", program_heading, "blocks of the corrected program", "", 0},
     {"/control/short_blocks/count", program_heading, "short blocks", "", 0},

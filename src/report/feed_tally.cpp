@@ -24,6 +24,7 @@ bool may_cut(const Move& move, const Program& program) {
 }
 
 bool counts(const Move& move, const Program& program) {
+  if (move.makes_hole) return true;
   if (move.cycle) return move.cycle->repeats > 0;
   if (move.motion == Motion::rapid) return may_cut(move, program);
   return !rests(move);
@@ -40,12 +41,13 @@ void FeedTally::add_window(const Job& window) {
   for (const Move& move : window.program.moves) {
     if (!counts(move, window.program)) continue;
     ++moves_.count;
-    known_lengths_ += is_known_hole(move);
+    const bool first_known = move.makes_hole && !all_known(move.known_start) && all_known(move.known_end);
+    known_lengths_ += is_known_hole(move) || first_known;
   }
   for (const Segment& segment : window.path.segments) {
-    if (!segment.cutting) continue;
+    if (!segment.cutting && !window.program.moves[segment.move].makes_hole) continue;
     ++known_lengths_;
-    moves_.length_mm += length(segment.wanted) / mm;
+    if (segment.cutting) moves_.length_mm += length(segment.wanted) / mm;
   }
   segment_.reset();
   next_ = 0;
@@ -63,10 +65,12 @@ void FeedTally::add(const Waypoint& w, double miss, const Job& window) {
     move = move_without_segment(w, window.program);
   } else {
     next_ = window.path.segments[w.segment].move;
+    move = &window.program.moves[next_];
   }
-  const bool hole = move != nullptr && move->cycle;
+  const bool hole = move != nullptr && (w.segment == no_segment ? move->cycle || move->makes_hole
+                                                                 : move->makes_hole && !w.cutting);
   if (!w.cutting && !hole) {
-    const bool feed = move != nullptr && move->motion == Motion::feed;
+    const bool feed = w.segment == no_segment && move != nullptr && move->motion == Motion::feed;
     ++(feed ? moves_.known_ends : moves_.rapid_ends);
     return;
   }

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <optional>
+#include <tuple>
+
+#include "counterflex/toolpath/toolpath.hpp"
 
 namespace counterflex {
 namespace {
@@ -12,6 +15,22 @@ enum class Fate { corrected, held, grouped, left };
 
 bool any(const std::array<bool, 3>& axes) {
   return axes[0] || axes[1] || axes[2];
+}
+
+void add_length(const Move& move, CutLength& cut) {
+  if (move.motion != Motion::feed) return;
+  if (all_known(move.known_start) && all_known(move.known_end))
+    cut.known_mm += length(curve_of(move));
+  else
+    ++cut.unknown;
+}
+
+void put_costly_first(std::vector<PlanRow>& rows) {
+  const auto cost = [](const PlanRow& row) {
+    return std::make_tuple(row.cut.known_mm, row.cut.unknown, row.count);
+  };
+  std::stable_sort(rows.begin(), rows.end(),
+                   [&](const PlanRow& a, const PlanRow& b) { return cost(a) > cost(b); });
 }
 
 }  // namespace
@@ -58,7 +77,7 @@ class MotionPlanner::Window {
         continue;
       }
       plan_.not_corrected += block.machine_position;
-      add_to(block.machine_position ? plan_.left_rows : plan_.other_rows, block.why, block.line, false);
+      row_of(block.machine_position ? plan_.left_rows : plan_.other_rows, block.why, block.line, false);
     }
   }
 
@@ -84,18 +103,22 @@ class MotionPlanner::Window {
     switch (fate_of(m)) {
       case Fate::corrected:
         ++plan_.corrected;
+        add_length(move, plan_.corrected_cut);
         break;
       case Fate::held:
         ++plan_.held;
-        add_to(plan_.held_rows, why_held(move), move.line, false);
+        add_length(move, plan_.held_cut);
+        add_length(move, row_of(plan_.held_rows, why_held(move), move.line, false).cut);
         break;
       case Fate::grouped:
         ++plan_.grouped;
+        add_length(move, plan_.grouped_cut);
         add_to_group(move);
         break;
       case Fate::left:
         ++plan_.not_corrected;
-        add_to(plan_.left_rows, why_left(move), move.line, any(move.fixed));
+        add_length(move, plan_.left_cut);
+        add_length(move, row_of(plan_.left_rows, why_left(move), move.line, any(move.fixed)).cut);
         break;
     }
     count_kind(move);
@@ -120,12 +143,14 @@ class MotionPlanner::Window {
     return reason_->why;
   }
 
-  void add_to(std::vector<PlanRow>& rows, const std::string& why, int line, bool must_be_zero) const {
+  /// The row of the reason, in which the block is counted.
+  PlanRow& row_of(std::vector<PlanRow>& rows, const std::string& why, int line, bool must_be_zero) const {
     const auto same = [&](const PlanRow& row) { return row.why == why && row.must_be_zero == must_be_zero; };
     auto row = std::find_if(rows.begin(), rows.end(), same);
-    if (row == rows.end()) row = rows.insert(rows.end(), {why, 0, {}, must_be_zero});
+    if (row == rows.end()) row = rows.insert(rows.end(), {why, 0, {}, {}, must_be_zero});
     ++row->count;
     if (row->lines.size() < lines_of_row) row->lines.push_back(line);
+    return *row;
   }
 
   void add_to_group(const Move& move) {
@@ -153,6 +178,13 @@ class MotionPlanner::Window {
 
 void MotionPlanner::add(const Program& window) {
   Window(window, plan_, reason_).run();
+}
+
+MotionPlan MotionPlanner::plan() const {
+  MotionPlan plan = plan_;
+  put_costly_first(plan.held_rows);
+  put_costly_first(plan.left_rows);
+  return plan;
 }
 
 MotionPlan motion_plan(const Program& program) {

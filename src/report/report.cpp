@@ -165,6 +165,14 @@ void add_residual(RunReport& report, const RunTally& tally, const Measures& meas
   report.tools_off = tools_off(measures, true);
 }
 
+std::string nothing_reason(const BlockCounts& blocks) {
+  if (blocks.moves == 0) return "the program has no move that was read";
+  const auto& left = blocks.left_alone.rows;
+  const auto first = std::find_if(left.begin(), left.end(), [](const LeftAlone& block) { return !block.machine_position; });
+  const std::string cause = first == left.end() ? "" : fmt::format(" (line {}: {})", first->line, first->why);
+  return "no feed move has a position that is known" + cause;
+}
+
 std::string reason_of(const RunReport& report) {
   switch (report.verdict) {
     case Verdict::ok:
@@ -172,8 +180,7 @@ std::string reason_of(const RunReport& report) {
     case Verdict::partly:
       return partly_reason(report.feed_moves, report.tolerance_mm);
     case Verdict::nothing_corrected:
-      return report.blocks.moves == 0 ? "the program has no move that was read"
-                                      : "no feed move has a position that is known";
+      return nothing_reason(report.blocks);
     case Verdict::failed:
       break;
   }

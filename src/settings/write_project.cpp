@@ -156,8 +156,10 @@ std::string length_table(const std::string& name, const std::string& value) {
                      plain_number(value));
 }
 
-/// Of two values for one name the later one counts, as on the command line.
+/// Of two values for one name the later one counts, as on the command line. No value is an empty table.
 std::string tables_text(const Setting& setting, Kind kind) {
+  if (setting.values.empty())
+    return fmt::format("\n# {}\n[{}]\n", origin_text(setting), kind == Kind::offsets ? "work" : "tools");
   std::map<std::string, std::string> tables;
   for (std::size_t i = 0; i < setting.values.size(); ++i) {
     const std::string& value = setting.values[i];

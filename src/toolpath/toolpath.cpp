@@ -22,7 +22,7 @@ void fill_in(const Move& move, std::size_t index, const Pose& X_MW, Segment& seg
   segment.move = index;
   segment.line = move.line;
   segment.cutting = move.motion == Motion::feed;
-  segment.frame = move.offset;
+  segment.frame = move.frame;
   if (move.arc) {
     segment.wanted = X_MW * scaled(curve_of(move), mm);
     return;
@@ -70,7 +70,7 @@ void ignore_axis(Program& program, std::size_t axis) {
 }  // namespace
 
 std::vector<WorkFrame> one_frame(const Program& program, const WorkFrame& frame) {
-  return std::vector<WorkFrame>(program.work_offsets.size(), frame);
+  return std::vector<WorkFrame>(program.frames.size(), frame);
 }
 
 Pose wanted_frame(const WorkFrame& frame) {
@@ -134,7 +134,7 @@ Toolpath build_toolpath(const Program& program, const std::vector<WorkFrame>& fr
     const Move& move = program.moves[i];
     if (!gives_segment(move)) continue;
     Segment& segment = path.segments.emplace_back();
-    fill_in(move, i, wanted[move.offset], segment);
+    fill_in(move, i, wanted[move.frame], segment);
     advance(move, segment, path.end);
     path.end = {segment.s_end, segment.t_end};
   }

@@ -163,12 +163,15 @@ class Batch:
         fail("some process outlives the batch")
 
     def nothing_is_half_written(self, good, where, leftovers=True):
-        """A file is the good one, or not there, or has a temporary name; a manifest is whole."""
+        """A file is the good one, or not there, or has a temporary name; a manifest is whole. Without `leftovers` a
+        temporary file is there only if the disk refused to remove it."""
+        refused = [line.partition(" ")[2] for line in self.faults_met() if line.startswith("unlink ")]
         for name, found in contents(self.out).items():
             if name in (".counterflex", ".counterflex/lock") or name.startswith((".counterflex/shards", ".counterflex/merged")):
                 continue
             if TEMPORARY.fullmatch(name):
-                check(leftovers, f"{where}: {name} was left behind")
+                left = leftovers or os.path.join(self.out, name) in refused
+                check(left, f"{where}: {name} was left behind")
             elif name == ".counterflex/manifest.json":
                 check(found.endswith(b'"}\n'), f"{where}: the manifest is not whole")
             elif name in ("summary.json", "summary.csv"):  # of a run that has ended, with jobs that failed

@@ -26,7 +26,7 @@ TEST_CASE("an axis that an expression sets refuses a correction, and passes with
 TEST_CASE("what puts positions elsewhere refuses a correction that holds, and passes without one") {
   const std::string begin = "G21 G90\nG0 X0. Y0. Z5.\nG1 X5. F300\n", end = "X10.\nM30\n";
   for (const char* elsewhere :
-       {"A90.\n", "G52 X5.\n", "G92 X5.\n", "G10 L2 P1 X5\n", "M428\n", "o1 if [#1 GT 2]\nX7.\no1 endif\n"}) {
+       {"A90.\n", "G52 X#1\n", "G92 X#1\n", "G10 L2 P1 X#1\n", "M428\n", "o1 if [#1 GT 2]\nX7.\no1 endif\n"}) {
     CAPTURE(elsewhere);
     const std::string text = begin + elsewhere + end;
     CHECK(compensated(Shop({.machine = perfect_gantry(), .text = text})).text == text);

@@ -86,7 +86,7 @@ TEST_CASE("an arc of the other sense, another plane, radius or centre is refused
   CHECK_FALSE(refusal_of(shop, replaced(right, "I-30 J0", "I-30 J10")).empty());
   const Shop pended({.machine = rigid_gantry("0.5, -0.25, 0.125"), .text = pending});
   const std::string moved = compensated(pended).text;
-  CHECK(refusal_of(pended, replaced(moved, "I10", "I12")).find("the centre of this arc is off by 2.0000 mm") !=
+  CHECK(refusal_of(pended, replaced(moved, "I10 J0", "I10 J0.5")).find("the centre of this arc is off by 0.5000 mm") !=
         std::string::npos);
   CHECK(refusal_of(pended, replaced(moved, "G2 X", "G3 X")).find("this arc goes counter-clockwise") != std::string::npos);
 }
@@ -99,11 +99,11 @@ TEST_CASE("a rapid in the place of a feed move, and a feed move in the place of 
 }
 
 TEST_CASE("a held move that is shifted by more than a correction may be is refused") {
-  Order order{.machine = rigid_gantry("0.5, -0.25, 0.125"), .text = held};
+  Order order{.machine = rigid_gantry("0.5, -0.25, 0.125"), .text = pending};
   order.max_correction = 1e-3;
   const Shop shop(order);
   const std::string right = compensated(shop).text;
-  CHECK(refusal_of(shop, with_line(right, "G1 X29.5", "G1 X39.5 Y10.25 F200")).find("X is shifted by") !=
+  CHECK(refusal_of(shop, with_line(right, "G1 X59.5", "G1 X69.5")).find("X is shifted by") !=
         std::string::npos);
 }
 
@@ -145,16 +145,16 @@ TEST_CASE("narrow helices of many turns are verified as they were written") {
   const std::string rows = "0, 0, 0, 0\n0.2, -120, -90, -25\n20, -20, 100, 0\n30, -60, 20, -50\n";
   ForceSource force;
   force.rules = read_force_csv("# frame = feed\n# sense = on_tool\ns_mm, fx_N, fy_N, fz_N\n" + rows, "forces.csv");
-  for (const double blend : {0.0, 5e-4})
-    for (const char* const arc : {"G3 X0 Y0 Z-1.5 I0.081 J0.183 P33", "G2 X0 Y0 Z-1.5 I-0.188 J0.068 P100"}) {
-      CAPTURE(blend);
-      CAPTURE(arc);
-      force.blend = blend;
-      const Shop shop({.machine = load_machine(orthoglide_b),
-                       .text = std::string("G21 G90 G17\nG0 X0 Y0 Z5\nG1 Z-1 F300\n") + arc + "\nG1 X11.756\nM30\n",
-                       .force = force});
-      CHECK(refusal_of(shop, compensated(shop).text) == "");
-    }
+  const auto written_and_verified = [&](double blend, const std::string& arc) {
+    CAPTURE(arc);
+    force.blend = blend;
+    const Shop shop({.machine = load_machine(orthoglide_b),
+                     .text = "G21 G90 G17\nG0 X0 Y0 Z5\nG1 Z-1 F300\n" + arc + "\nG1 X11.756\nM30\n",
+                     .force = force});
+    CHECK(refusal_of(shop, compensated(shop).text) == "");
+  };
+  written_and_verified(5e-4, "G3 X0 Y0 Z-1.5 I0.081 J0.183 P33");
+  written_and_verified(0, "G2 X0 Y0 Z-1.5 I-0.188 J0.068 P100");
 }
 
 TEST_CASE("verify takes the digits of a corrected program from its words") {
@@ -167,4 +167,21 @@ TEST_CASE("verify takes the digits of a corrected program from its words") {
   const std::string text = compensated(Shop(order)).text;
   order.decimals = -1;
   CHECK(refusal_of(Shop(order), text) == "");
+}
+
+TEST_CASE("verify refuses a word that is shifted by more than a correction may be, whatever else is judged") {
+  const std::string begin = "G21 G90 G17\nG0 X20 Y20 Z5\nG41 D1\nG1 X70 F200\nG40\nG1 X90\n";
+  const Shop contour({.machine = rigid_gantry("0.5, -0.25, 0.125"), .text = begin + "G0 Z20\nM30\n"});
+  const std::string right = compensated(contour).text;
+  REQUIRE(refusal_of(contour, right) == "");
+  CHECK(refusal_of(contour, replaced(right, "Z19.875", "Z-20")).find("Z is shifted by -40.0000 mm") != std::string::npos);
+
+  const Shop hole({.machine = rigid_gantry("0.5, -0.25, 0.125"), .text = "G21 G90 G17\nG0 X20 Y20 Z5\nG81 X30 Y30 Z-5 R2 F100\nG80\nM30\n"});
+  const std::string drilled = compensated(hole).text;
+  REQUIRE(refusal_of(hole, drilled) == "");
+  for (const char* retract : {"R-4.99", "R-2", "R1.8"}) {
+    CAPTURE(retract);
+    CHECK(refusal_of(hole, replaced(drilled, "R1.875", retract)).find("the retract plane R is shifted") != std::string::npos);
+  }
+  CHECK(refusal_of(hole, replaced(drilled, "R1.875", "")).find("R of the original's hole is missing") != std::string::npos);
 }

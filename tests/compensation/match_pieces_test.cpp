@@ -13,9 +13,9 @@ const char* const rapid_and_plunge = "G21 G90 G17\nG0 X0 Y0 Z5\nG1 Z-1 F200\n";
 /// What follows a plunge to the origin.
 const char* const cut_lists[] = {
     "X20 F600\nG3 X30 Y10 I0 J10\nG1 Y30\nG2 X30 Y30 I10 J0\n",
-    "G1 X-12.2 Y6.8\nG3 X-0.7 Y44.9 I-8.66 J23.42 M8\nG1 X17.6 Y54.4\nG2 X3.7 Y41.4 Z-2.9 R13.5\n",
-    "G90.1 G2 X0 Y0 I17.2 J-7.6 M8\nG2 X0 Y0 I10.9 J-32.8\nG3 X-21.9 Y-17.6 I-5.5 J-23.5\n",
-    "G2 X0 Y0 I1.84 J6.39 M8\nG1 X0.14\nG1 X4.4 Y1.1 M8\nG2 X2.2 Y5.1 I-1.1 J2.02 M8\nG1 X7.9 Y3.7\n",
+    "G1 X-12.2 Y6.8\nG3 X-0.7 Y44.9 I-8.666 J23.401 M8\nG1 X17.6 Y54.4\nG2 X3.7 Y41.4 Z-2.9 R13.5\n",
+    "G90.1 G2 X0 Y0 I17.2 J-7.6 M8\nG2 X0 Y0 I10.9 J-32.8\nG3 X-28.209 Y-15.33 I-5.5 J-23.5\n",
+    "G2 X0 Y0 I1.84 J6.39 M8\nG1 X0.14\nG1 X4.4 Y1.1 M8\nG2 X2.2 Y5.1 I-1.1 J2 M8\nG1 X7.9 Y3.7\n",
     "G1 X0.02\nX0.05\nX0.05 Y0.03\nG3 X0.05 Y0.03 I-0.4 J0\nG1 X0.02 Y0.01\nX3\nX3.01\nX2.99\nX60\n",
     "G3 X0 Y20 Z-4 I0 J10 P3\nG1 X30\nG0 Z10 M9\nG0 X0\nG1 Z-1\nX44\n",
 };

@@ -10,10 +10,10 @@ TEST_CASE("two work offsets in one program are corrected in their own frames") {
       "J0.\nG0 "
       "Z20.\nM30\n";
   Shop shop({.machine = displaced_gantry(), .text = text});
-  std::vector<WorkFrame> frames(shop.program.work_offsets.size());
+  std::vector<WorkFrame> frames(shop.program.frames.size());
   const Pose turned{from_rpy(Vector3(0, 0, 90) * deg), Vector3(50, 20, 0) * mm};
   for (std::size_t i = 0; i < frames.size(); ++i) {
-    frames[i].name = shop.program.work_offsets[i];
+    frames[i].name = shop.program.frames[i].work_offset;
     if (frames[i].name == "G55") frames[i].X_MW = turned;
   }
   shop.path = build_toolpath(shop.program, frames);
@@ -26,7 +26,7 @@ TEST_CASE("two work offsets in one program are corrected in their own frames") {
     CAPTURE(move.line);
     while (a < after.size() && (after[a].end_mm - move.end_mm).norm() > 1) ++a;
     REQUIRE(a < after.size());
-    const bool second = shop.program.work_offsets[move.offset] == "G55";
+    const bool second = shop.program.frames[move.frame].work_offset == "G55";
     const Vector3 expected = second ? Vector3(turned.R.transpose() * shift_mm) : shift_mm;
     CHECK((after[a].end_mm - move.end_mm - expected).norm() < 1e-6);
     ++a;

@@ -89,12 +89,13 @@ TEST_CASE("numbers of a split Klartext program are those of its own order") {
 }
 
 TEST_CASE("the surface of a Klartext cycle goes along with its holes, and nowhere else") {
-  const auto program = [](const char* z, const char* surface) {
+  // Without Q204 the holes are held.
+  const auto program = [](const char* z, const char* surface, const char* clearance = "") {
     return fmt::format(
         "0 BEGIN PGM A MM\n1 TOOL CALL 1 Z S1000\n2 L X+0 Y+0 Z{} R0 FMAX\n3 CYCL DEF 200 Q200=2 Q201=-5 "
-        "Q203={} Q204=10\n"
+        "Q203={}{}\n"
         "4 L X+10 Y+5 FMAX M99\n5 L X+20 FMAX M99\n6 END PGM A MM\n",
-        z, surface);
+        z, surface, clearance);
   };
   const Shop shop({.machine = rigid_gantry("0, 0, 0.01"), .text = program("+10", "+0")});
   const auto refused = [&](const std::string& changed) {

@@ -22,7 +22,7 @@ const char* const square =
 
 TEST_CASE("places are at equal distances along the feed moves of an offset, at most 64") {
   const PathPlaces places = places_of(square);
-  const auto of_54 = places.of(1);
+  const auto of_54 = places.of("G54");
   REQUIRE(of_54.size() >= 32);
   REQUIRE(of_54.size() <= PathPlaces::most);
   const double spacing = of_54[1].p_mm.x();
@@ -35,9 +35,9 @@ TEST_CASE("places are at equal distances along the feed moves of an offset, at m
     CHECK((of_54[k].p_mm - wanted).norm() < 1e-9);
   }
   CHECK(spacing * static_cast<double>(of_54.size()) > 400);
-  CHECK(places.of(2).size() > 1);  // a short way has places, too
-  CHECK(places.of(0).empty());
-  CHECK(places.of(9).empty());
+  CHECK(places.of("G55").size() > 1);  // a short way has places, too
+  CHECK(places.of("").empty());
+  CHECK(places.of("G59").empty());
 }
 
 TEST_CASE("places do not depend on how the program is cut into windows") {
@@ -52,7 +52,7 @@ TEST_CASE("places do not depend on how the program is cut into windows") {
     window.moves.assign(first, first + static_cast<std::ptrdiff_t>(std::min<std::size_t>(37, whole.moves.size() - begin)));
     in_parts.add(window);
   }
-  const auto a = at_once.of(1), b = in_parts.of(1);
+  const auto a = at_once.of("G54"), b = in_parts.of("G54");
   REQUIRE(a.size() == b.size());
   for (std::size_t k = 0; k < a.size(); ++k) CHECK(a[k].p_mm == b[k].p_mm);
 }
@@ -62,14 +62,14 @@ TEST_CASE("the common shift is the mean deviation of the unloaded machine along 
   const std::string text = "G21 G90\nG0 X20. Y-40. Z10.\nG1 X60. F300\nG1 Y40.\nM30\n";
   const Shop shop({.machine = machine, .text = text});
   const PathPlaces places = places_of(text);
-  const auto shift = common_shift(shop.model, {}, Pose{}, places.of(0));
+  const auto shift = common_shift(shop.model, {}, Pose{}, places.of(""));
   REQUIRE(shift);
   Vector3 sum = Vector3::Zero();
-  for (const PathPlace& place : places.of(0)) {
+  for (const PathPlace& place : places.of("")) {
     const Vector3 p = place.p_mm * mm;
     sum += cold_tip(shop, p, Vector6::Zero()) - p;
   }
-  CHECK((*shift - sum / static_cast<double>(places.of(0).size())).norm() < 1e-9);
+  CHECK((*shift - sum / static_cast<double>(places.of("").size())).norm() < 1e-9);
   CHECK(shift->norm() > 0.1e-3);
 }
 
@@ -77,7 +77,7 @@ TEST_CASE("a datum that is touched off where the deviation is the common shift l
   const Machine machine = load_machine(orthoglide_b);
   const std::string text = "G21 G90\nG0 X-20. Y-40. Z10.\nG1 X20. F300\nM30\n";
   const Shop plain({.machine = machine, .text = text});
-  const Vector3 shift = *common_shift(plain.model, {}, Pose{}, places_of(text).of(0));
+  const Vector3 shift = *common_shift(plain.model, {}, Pose{}, places_of(text).of(""));
   const Vector3 middle = Vector3(0, -40, 10) * mm;
   const Shop touched({.machine = machine,
                       .text = text,
@@ -97,6 +97,6 @@ TEST_CASE("a datum that is touched off where the deviation is the common shift l
 TEST_CASE("a path that the machine does not reach has no common shift") {
   const Shop shop({.machine = load_machine(orthoglide_b), .text = "G21 G90\nM30\n"});
   const PathPlaces places = places_of("G21 G90\nG0 X9000. Y0. Z0.\nG1 X9100. F300\nM30\n");
-  REQUIRE_FALSE(places.of(0).empty());
-  CHECK_FALSE(common_shift(shop.model, {}, Pose{}, places.of(0)));
+  REQUIRE_FALSE(places.of("").empty());
+  CHECK_FALSE(common_shift(shop.model, {}, Pose{}, places.of("")));
 }

@@ -19,7 +19,6 @@ struct WindowRun {
 
 inline void add(const Compensation& done, WindowRun& run) {
   run.text += done.text;
-  run.waypoints.insert(run.waypoints.end(), done.waypoints.begin(), done.waypoints.end());
   run.left_alone.insert(run.left_alone.end(), done.left_alone.begin(), done.left_alone.end());
   run.inserted += done.counts.inserted_blocks;
   run.corrected += done.corrected_moves;
@@ -62,7 +61,10 @@ struct WindowShop {
 inline WindowEvents events_for(
     WindowRun& run, const std::function<void(const Job&)>& read = [](const Job&) {}) {
   return {read, [&run](const Job&) { ++run.begun; },
-          [&run](const Job&, Compensation& done) { add(done, run); }};
+          [&run](const Job&, const std::vector<Waypoint>& some) {
+            run.waypoints.insert(run.waypoints.end(), some.begin(), some.end());
+          },
+          [&run](const Job&, const Compensation& done) { add(done, run); }};
 }
 
 /// `run` has what was heard even where something is thrown; `read` hears of windows that were read.

@@ -85,7 +85,7 @@ std::string many_runs() {
   }
   text += "G0 X0 Y0\nG1 Z0\n";
   for (int arc = 0; arc < 6; ++arc)
-    text += fmt::format("G3 X{} Y0 I1 J0\nG1 X{}.5\n", 3 * arc + 2, 3 * arc + 2);
+    text += fmt::format("G3 X{} Y0 I1 J0\nG1 X{}\n", 3 * arc + 2, 3 * arc + 3);
   return text + "G0 Z5\n";
 }
 

@@ -1,6 +1,6 @@
 /// Fuzz target for whole runs of small programs: `verify` accepts what `compensate` writes. On a machine whose
-/// frame is displaced, where every position is known, all moves are the original ones, shifted. On a machine
-/// whose axes are not square the correction differs from place to place, and moves are split.
+/// frame is displaced, where every position is known, all moves are the original ones, shifted. On a machine that
+/// stands turned and whose axes are not square the correction differs from place to place, and moves are split.
 #include <string>
 #include <utility>
 
@@ -37,9 +37,10 @@ const Model& displaced() {
   return model;
 }
 
-// Bent by 1 um in a millimetre.
-const Model& not_square() {
-  static const Model model = gantry("errors.y_to_x = { rpy_deg = [0, 0, 0.0573] }\n");
+// By 1 um in a millimetre.
+const Model& turned() {
+  static const Model model = gantry("errors.mount = { xyz_mm = [0.5, -0.25, 0.125], rpy_deg = [0.02, -0.03, 0.05] }\n"
+                                    "errors.y_to_x = { rpy_deg = [0, 0, 0.02] }\n");
   return model;
 }
 
@@ -82,7 +83,7 @@ void compensate_and_verify(const Program& program, const ReadOptions& read, bool
   options.tolerance = 5e-5;
   options.max_correction = 1e-2;
   static const LaneMachines lanes(options.max_correction);
-  const Model& model = is_displaced ? displaced() : not_square();
+  const Model& model = is_displaced ? displaced() : turned();
   const Job job{model, program, path, forces, options, read, nullptr, &lanes};
   const Compensation result = compensate(job, false);
   if (!result.failure) verify_written(job, result.text, is_displaced);

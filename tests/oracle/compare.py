@@ -52,7 +52,8 @@ def give_back(pairs, facts):
     """Pieces that follow their block, because it says more than where to go, stand before the next: where a step there
     ends nearer to the block's end than the block does, it and those before it are the block's."""
     for pair, following in zip(pairs, pairs[1:]):
-        if not facts[pair.line]['goes_first'] or len(pair.steps) > 1:
+        rapid = pair.steps[0].kind == 'rapid'  # it is not divided
+        if not facts[pair.line]['goes_first'] or len(pair.steps) > 1 or rapid:
             continue
         ends = [distance(c.end, pair.steps[0].end) for c in [pair.corrected[-1]] + following.corrected[:-1]]
         count = ends.index(min(ends))

@@ -40,6 +40,15 @@ TEST_CASE("codes that one control alone knows show that one") {
   CHECK(dialect_of("G21 G90 (G71)\n#<g71>=1 ; G71\n" + end) == "linuxcnc");
 }
 
+TEST_CASE("a name behind '%' is that of a shop control's program, of a Sinumerik's where it says MPF or SPF") {
+  const std::string moves = "N10 G21 G90 G00 X1. Y2. Z3.\nM30\n";
+  CHECK(dialect_of("(SAMPLE)\n\n%123\n" + moves) == "fanuc");
+  CHECK(dialect_of("(A (B) C)\n%123\n" + moves) == "fanuc");
+  CHECK(dialect_of("%PM (PART)\n" + moves) == "fanuc");
+  CHECK(dialect_of("%MPF 90\nN10 G71 G90 G0 X1 Y2 Z3\nM30\n") == "siemens");
+  CHECK(read_program("(SAMPLE)\n\n%123\n" + moves, "p.nc", {.unit = LengthUnit::millimetres}).moves.size() == 1);
+}
+
 TEST_CASE("comments in comments, and comments without an end, are read where LinuxCNC does not read them") {
   const std::string text = "G21 G90 (tool (flat) 6 mm)\nG0 X1 Y2 Z3 (start\nG1 X5 F100\n";
   CHECK(dialect_of(text) == "mach3");

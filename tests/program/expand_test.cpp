@@ -153,7 +153,7 @@ TEST_CASE("a call that does not say all in plain numbers is left as it is, with 
            {"fanuc", "/M98 P2", plain, "'/' may skip it"},
            {"fanuc", "G4 M98 P2", plain, "G stands beside it"},
            {"fanuc", "M30 M98 P2", plain, "M stands beside it"},
-           {"fanuc", "M98 P3", plain, "the subprogram does not stand in this file"},
+           {"fanuc", "M98 P3", plain, "the subprogram does not stand in this file: put it behind the end of the program"},
            {"fanuc", "M98 P2", plain + plain, "the subprogram stands in this file more than once"},
            {"fanuc", "M98 P2", "O2\nX1.\nM30\n", "its body does not end with M99 or endsub"},
            {"fanuc", "M98 P2", "O2\nX1.\nO3\nM99\n", "its body does not end with M99 or endsub"},
@@ -171,7 +171,7 @@ TEST_CASE("a call that does not say all in plain numbers is left as it is, with 
            {"linuxcnc", "o<a> call 5", word, "its arguments do not stand in brackets"},
            {"linuxcnc", "o<a> call [1", word, ""},
            {"linuxcnc", "o#3 call [1]", word, "its name is a variable or an expression"},
-           {"linuxcnc", "o<b> call [1]", word, "the subprogram does not stand in this file"},
+           {"linuxcnc", "o<b> call [1]", word, "the subprogram does not stand in this file: put it behind the end of the program"},
            {"linuxcnc", "o<a> call [1] (and) o<a> call [2]", word, "a comment stands before it"},
            {"linuxcnc", "/o<a> call [1]", word, "'/' may skip it"},
            {"linuxcnc", "o<a> call [1]", "o<a> sub\n#1=2\nX#1\no<a> endsub\n", "its body sets variables"},
@@ -183,7 +183,7 @@ TEST_CASE("a call that does not say all in plain numbers is left as it is, with 
            {"linuxcnc", "o<a> call [1]", "o<a> sub\nM73\nX1\no<a> endsub\n",
             "M73 in its body brings states back"},
            {"linuxcnc", "o<a> call [1]", "o<a> sub\no<c> call\no<a> endsub\n",
-            "the subprogram does not stand in this file"}}) {
+            "the subprogram does not stand in this file: put it behind the end of the program"}}) {
     CAPTURE(l.call);
     CAPTURE(l.definition);
     const std::string text = (l.dialect == "fanuc" ? fanuc_go : go) + l.call + "\nM30\n" + l.definition;

@@ -18,6 +18,13 @@ std::string klartext(const std::vector<std::string>& blocks, const std::string& 
   return text + fmt::format("{} END PGM COVER {}\n", number, unit);
 }
 
+/// With calls replaced by what they call.
+Program expanded_klartext(const std::string& text) {
+  ReadOptions options;
+  options.expand_subprograms = true;
+  return read_program(text, "p.h", options);
+}
+
 const Vector3 klartext_shift(0.5, -0.25, 0.125);
 
 std::string klartext_shifted(const Program& program, const WriteOptions& options = {}) {
@@ -54,8 +61,8 @@ TEST_CASE("klartext: a reset of planes moves nothing, and what shifts coordinate
   const auto stands = [&](const std::string& blocks) {
     return read(begin + blocks + end, "heidenhain").moves.back().stands;
   };
-  CHECK(stands("CYCL DEF 7.0 DATUM SHIFT\nCYCL DEF 7.1 X+10\n") == std::array<bool, 3>{true, true, true});
-  CHECK(stands("L Z+0 FMAX M91\nCYCL DEF 7.0 DATUM SHIFT\nCYCL DEF 7.1 X+10\n") ==
+  CHECK(stands("CYCL DEF 8.0 MIRROR\nCYCL DEF 8.1 X\n") == std::array<bool, 3>{true, true, true});
+  CHECK(stands("L Z+0 FMAX M91\nCYCL DEF 8.0 MIRROR\nCYCL DEF 8.1 X\n") ==
         std::array<bool, 3>{true, true, false});
   CHECK(stands("") == std::array<bool, 3>{});
 }
@@ -64,6 +71,44 @@ TEST_CASE("klartext is known by its first statement") {
   CHECK(read("\r\n0 BEGIN PGM A MM\r\n1 END PGM A MM\r\n").dialect == "heidenhain");
   CHECK(read("G21\nG0 X1\n").dialect == "linuxcnc");
   CHECK(read("BEGIN PGM A INCH\nL X+1 FMAX\n").moves.at(0).end_mm.x() == doctest::Approx(25.4));
+}
+
+TEST_CASE("klartext is known by its first statement behind comments of any kind") {
+  for (const char* comments : {"( Sheet\n(   Machine: \"A\"\n(\n( End\n", "; one\n\n * two\n", "-----\r\n",
+                               "($Message(\"open\"))\n", "\xEF\xBB\xBF", "0 ; one\n"}) {
+    CAPTURE(comments);
+    const std::string text = std::string(comments) + "BEGIN PGM A MM\nL X+1 Y+0 Z+0 FMAX\nEND PGM A MM\n";
+    const Program program = read(text);
+    CHECK(program.dialect == "heidenhain");
+    REQUIRE(program.moves.size() == 1);
+    CHECK(program.left_alone.empty());
+    CHECK(klartext_shifted(program) ==
+          std::string(comments) + "BEGIN PGM A MM\nL X+1.5 Y-0.25 Z+0.125 FMAX\nEND PGM A MM\n");
+  }
+  CHECK(read("(BEGIN PGM A MM)\nG21\nG0 X1\n").dialect == "linuxcnc");
+}
+
+TEST_CASE("the ending of a file's name shows its dialect where the text does not") {
+  const auto dialect_of_file = [](const std::string& text, const std::string& file) {
+    ReadOptions options;
+    options.unit = LengthUnit::millimetres;
+    return read_program(text, file, options).dialect;
+  };
+  CHECK(dialect_of_file("TOOL CALL 1 Z S100\nL X+1 FMAX\n", "part.H") == "heidenhain");
+  CHECK(dialect_of_file("L X+1 FMAX\n", "part.h") == "heidenhain");
+  CHECK(dialect_of_file("G21\nG0 X1\n", "part.h") == "linuxcnc");
+  CHECK(dialect_of_file("G71 G90\nG0 X1\n", "part.MPF") == "siemens");
+  CHECK(dialect_of_file("G71 G90\nG0 X1\n", "part.spf") == "siemens");
+}
+
+TEST_CASE("klartext: blocks may have N words, and brackets behind words are comments") {
+  const Program program =
+      read("BEGIN PGM A MM\nN1 L X+0 Y+0 Z+0 FMAX (start (1)\nN2 L X+20 F200\nN3 L Y+20\nN4 END PGM A MM\n");
+  REQUIRE(program.moves.size() == 3);
+  CHECK(program.moves[1].block_number == 2);
+  CHECK(rewrite(program, {{.move = 1, .inserted = {{{10, 0.1, 0}}}, .end_mm = {20, 0, 0}}}, {}).text ==
+        "BEGIN PGM A MM\nN1 L X+0 Y+0 Z+0 FMAX (start (1)\nN2 L X+10.000 Y+0.100 F200\nN3 L X+20 Y+0.000 "
+        "F200\nN4 L Y+20\nN5 END PGM A MM\n");
 }
 
 TEST_CASE("klartext: L moves with modal feed, rapid for one block, points and commas") {
@@ -138,6 +183,24 @@ TEST_CASE("klartext: incremental words write differences of what the text holds"
   const auto out = rewrite(
       program, {{.move = 1, .end_mm = {15.0014, 10, 5}}, {.move = 2, .end_mm = {20.0028, 10.25, 5}}}, {});
   CHECK(out.text == klartext({"L X+10 Y+10 Z+5 R0 FMAX", "L IX+5.001 F200", "L IX+5.002 IY+0.250"}));
+}
+
+TEST_CASE("klartext: incremental words beside absolute ones are followed, and stay incremental") {
+  const std::vector<std::string> blocks{"L X+0 Y+0 Z+5 FMAX", "L Z-2 F200", "L X+20 IY+5", "L X+30 IZ+1"};
+  const Program program = read(klartext(blocks));
+  CHECK(program.moves[2].end_mm == Vector3(20, 5, -2));
+  CHECK(all_known(program.moves[2].known_end));
+  CHECK(program.moves[3].end_mm == Vector3(30, 5, -1));
+  CHECK(rewrite(program, edits_to_original(program), {}).text == program.text);
+  CHECK(klartext_shifted(program) ==
+        klartext({"L X+0.5 Y-0.25 Z+5.125 FMAX", "L Z-1.875 F200", "L X+20.5 IY+5", "L X+30.5 IZ+1"}));
+  // Turned a little: the difference of what the text holds, so that rounding never adds up.
+  const auto out = rewrite(program,
+                           {{.move = 0, .end_mm = {0, 0.0004, 5}},
+                            {.move = 2, .end_mm = {20, 5.0204, -2}},
+                            {.move = 3, .end_mm = {30, 5.0304, -1}}},
+                           {});
+  CHECK(out.text == klartext({"L X+0 Y+0 Z+5 FMAX", "L Z-2 F200", "L X+20 IY+5.02", "L X+30 IZ+1 Y+5.030"}));
 }
 
 TEST_CASE("klartext: blocks are numbered anew without gaps when lines are inserted, and only then") {
@@ -240,7 +303,7 @@ TEST_CASE("klartext: Q parameters fix their axis, machine positions make theirs 
 
 TEST_CASE("klartext: what is not followed is a move fixed on all axes, with its reason") {
   for (const std::string block :
-       {"CALL LBL 4", "CALL PGM B.H", "APPR LT X+1 Y+2 LEN10 RR F300", "LP PR+10 PA+20",
+       {"CALL LBL 4", "CALL PGM B.H", "APPR LT X+Q1 Y+2 LEN10 RR F300", "LP PR+10 PA+20",
         "PLANE SPATIAL SPA+10 SPB+0 SPC+0 STAY", "X+5 F100", "TCH PROBE 400", "FUNCTION TCPM F TCP"}) {
     CAPTURE(block);
     const Program program = read(klartext({"L X+0 Y+0 Z+0 FMAX", block, "L X+3"}));
@@ -265,8 +328,10 @@ TEST_CASE("klartext: blocks that a label repeats, calls or passes over are not c
 }
 
 TEST_CASE("klartext: shifted, turned and tilted coordinates are fixed until they are set back") {
-  for (const auto& [on, off] : {std::pair{"CYCL DEF 7.1 X+10", "CYCL DEF 7.1 X+0"},
-                                {"CYCL DEF 10.1 ROT+30", "CYCL DEF 10.1 ROT+0"},
+  for (const auto& [on, off] : {std::pair{"CYCL DEF 7.1 X+Q1", "CYCL DEF 7.1 X+0"},
+                                {"CYCL DEF 7.1 C+10", "CYCL DEF 7.1 C+0"},
+                                {"/CYCL DEF 7.1 X+10", "CYCL DEF 7.1 X+0"},
+                                {"CYCL DEF 10.1 ROT+Q3", "CYCL DEF 10.1 ROT+0"},
                                 {"CYCL DEF 8.1 X", "CYCL DEF 8.1"},
                                 {"CYCL DEF 11.1 SCL 0.99", "CYCL DEF 11.1 SCL 1"},
                                 {"PLANE SPATIAL SPA+1 SPB+0 SPC+0 STAY", "PLANE RESET STAY"}}) {
@@ -277,6 +342,45 @@ TEST_CASE("klartext: shifted, turned and tilted coordinates are fixed until they
     CHECK(std::count_if(program.moves.begin(), program.moves.end(), moving) == 1);
     CHECK(program.moves.back().fixed == std::array{false, false, false});
   }
+}
+
+TEST_CASE("klartext: a datum shift of plain numbers is a frame, and the words stay in it") {
+  const Program program = read(klartext(
+      {"L X+1 Y+2 Z+3 FMAX", "CYCL DEF 7.0 DATUM SHIFT", "CYCL DEF 7.1 X+10", "CYCL DEF 7.2 IY-5",
+       "L X+0 F100", "CYCL DEF 7.1 IX+1", "L Y+0", "CYCL DEF 7.1 X+0", "CYCL DEF 7.2 Y+0", "L Z+1"}));
+  REQUIRE(program.moves.size() == 4);
+  const auto in_base = [&](const Move& move, const Vector3& p) {
+    return Vector3(in_offset(program.frames.at(move.frame)) * p);
+  };
+  CHECK(program.moves[1].start_mm == Vector3(-9, 7, 3));
+  CHECK(program.moves[1].end_mm == Vector3(0, 7, 3));
+  CHECK(in_base(program.moves[1], program.moves[1].end_mm) == Vector3(10, 2, 3));
+  CHECK(in_base(program.moves[2], program.moves[2].end_mm) == Vector3(10, -5, 3));
+  CHECK(in_base(program.moves[3], program.moves[3].end_mm) == Vector3(10, -5, 1));
+  CHECK(program.moves[3].frame == 0);
+  CHECK(program.left_alone.empty());
+  CHECK(klartext_shifted(program).find("CYCL DEF 7.2 IY-5\n5 L X+0.5 F100\n") != std::string::npos);
+}
+
+TEST_CASE("klartext: a turn about Z is a frame about the shifted datum") {
+  const Program program = read(
+      klartext({"L X+1 Y+2 Z+3 FMAX", "CYCL DEF 7.1 X+10", "CYCL DEF 10.0 ROTATION", "CYCL DEF 10.1 ROT+90",
+                "L X+5 Y+1 F100", "CYCL DEF 10.1 IROT-90,0", "L X+3 Y+0", "CYCL DEF 7.1 X+0", "L Y+2"}));
+  REQUIRE(program.moves.size() == 4);
+  CHECK(program.moves[1].known_start == std::array<bool, 3>{false, false, true});
+  CHECK((in_offset(program.frames.at(program.moves[1].frame)) * program.moves[1].end_mm - Vector3(9, 5, 3))
+            .norm() < 1e-12);
+  CHECK((in_offset(program.frames.at(program.moves[2].frame)) * program.moves[2].end_mm - Vector3(13, 0, 3))
+            .norm() < 1e-12);
+  CHECK(program.moves[3].end_mm.isApprox(Vector3(13, 2, 3)));
+  const Program later =
+      read(klartext({"L X+1 Y+2 Z+3 FMAX", "CYCL DEF 10.1 ROT+90", "CYCL DEF 7.1 X+10", "L X+5 Y+1"}));
+  CHECK(later.moves.back().fixed[0]);
+  CHECK(later.left_alone.back().why ==
+        "CYCL DEF 7 shifts coordinates that CYCL DEF 10 has turned; shift them before");
+  const Program twice = read(klartext({"L X+1 Y+2 Z+3 FMAX", "CYCL DEF 10.1 ROT+90", "CYCL DEF 7.1 X+10",
+                                       "CYCL DEF 7.1 X+10", "L X+5 Y+1"}));
+  CHECK(twice.moves.back().fixed[0]);
 }
 
 TEST_CASE("klartext: a cycle called in place keeps its hole's position and leaves the height unknown") {
@@ -301,32 +405,123 @@ TEST_CASE("klartext: corners by RND and CHF leave their moves whole") {
   CHECK_FALSE(program.moves[1].may_split);
   CHECK_FALSE(program.moves[2].may_split);
   CHECK(program.moves[3].may_split);
+  // Both lie in the plane of the corner: neither takes a Z word.
+  std::vector<MoveEdit> edits = edits_to_original(program);
+  for (MoveEdit& edit : edits) edit.end_mm.z() = 0.01 * static_cast<double>(edit.move);
+  CHECK(rewrite(program, edits, {}).text ==
+        klartext({"L X+0 Y+0 Z+0 F100", "L X+10", "RND R2", "L Y+10", "L X+0 Z+0.030"}));
 }
 
-TEST_CASE("klartext: a helix about a pole of its own is held, and its pole is shifted") {
+TEST_CASE("klartext: a helix of turns is followed, and keeps its polar words when it is shifted") {
   const std::string text = klartext({"TOOL CALL 3 Z S2500", "L X+10 Y+0 Z+5 FMAX", "L Z+0 F100",
                                      "CC X+4,5 Y+0", "CP IPA+720 IZ-2 DR+", "L X+12 Y+1 Z-2"});
   const Program program = read(text);
   REQUIRE(program.moves.size() == 4);
-  CHECK(program.moves[2].handling == Handling::held);
-  CHECK(program.moves[2].known_end == std::array<bool, 3>{});
-  CHECK_FALSE(program.moves[2].may_split);
+  REQUIRE(program.moves[2].arc);
+  CHECK(program.moves[2].arc->turns == 1);
+  CHECK(program.moves[2].end_mm == Vector3(10, 0, -2));
+  CHECK(all_known(program.moves[2].known_end));
   CHECK(rewrite(program, edits_to_original(program), {}).text == text);
   CHECK(klartext_shifted(program) ==
         klartext({"TOOL CALL 3 Z S2500", "L X+10,5 Y-0,25 Z+5,125 FMAX", "L Z+0,125 F100", "CC X+5,0 Y-0,25",
                   "CP IPA+720 IZ-2 DR+", "L X+12,5 Y+0,75 Z-1,875"}));
 }
 
-TEST_CASE("klartext: a polar arc whose pole others use, or that a contour holds, is fixed") {
-  for (const char* other : {"C X+0 Y+4 DR+", "CP IPA+90 DR+", "LP PR+5 PA+10"}) {
-    CAPTURE(other);
-    const Program program =
-        read(klartext({"L X+10 Y+0 Z+5 FMAX", "L Z+0 F100", "CC X+4 Y+0", "CP IPA+720 DR+", other}));
-    CHECK(program.moves[2].fixed == std::array<bool, 3>{true, true, true});
+TEST_CASE("klartext: a helix becomes lines where no polar words follow its correction") {
+  const Program program =
+      read(klartext({"L X+10 Y+0 Z+0 F100", "CC X+4 Y+0", "CP IPA+360 IZ-2 DR+ F200 M8", "L X+12"}));
+  const MoveEdit edit{.move = 1, .inserted = {{{-2, 0.1, -1}}}, .end_mm = {10, 0.1, -2.1}};
+  CHECK(rewrite(program, {edit}, {}).text ==
+        klartext({"L X+10 Y+0 Z+0 F100", "CC X+4 Y+0", "L X-2.000 Y+0.100 IZ-1. F200 M8",
+                  "L X+10.000 IZ-1.100", "L X+12"}));
+}
+
+TEST_CASE("klartext: polar arcs end about their pole, in every plane") {
+  const Program program = read(klartext({"L X+10 Y+0 Z+0 F100", "CC X+0 Y+0", "CP IPA+90 DR+",
+                                         "CP PA+180 DR+", "CP IPA-270 DR-", "CP IPA+360 DR+", "L Y-20 Z-5",
+                                         "CC Y-10 Z-5", "CP IPA-90 DR-", "CC IY+5 IZ+0", "CP IPA+180 DR+"}));
+  const auto ends_at = [&](std::size_t move, const Vector3& end) {
+    CAPTURE(move);
+    CHECK((program.moves.at(move).end_mm - end).norm() < 1e-12);
+    CHECK(program.moves.at(move).arc.has_value());
+  };
+  ends_at(1, {0, 10, 0});
+  ends_at(2, {-10, 0, 0});
+  ends_at(3, {0, -10, 0});
+  ends_at(4, {0, -10, 0});
+  ends_at(6, {0, -10, 5});
+  CHECK(program.moves[6].arc->normal == 0);
+  ends_at(7, {0, 0, 5});
+  CHECK_FALSE(program.moves[7].arc->absolute_centre);
+  CHECK(rewrite(program, edits_to_original(program), {}).text == program.text);
+  CHECK(klartext_shifted(program) ==
+        klartext({"L X+10.5 Y-0.25 Z+0.125 F100", "CC X+0.5 Y-0.25", "CP IPA+90 DR+", "CP PA+180 DR+",
+                  "CP IPA-270 DR-", "CP IPA+360 DR+", "L Y-20.25 Z-4.875", "CC Y-10.25 Z-4.875",
+                  "CP IPA-90 DR-", "CC IY+5 IZ+0", "CP IPA+180 DR+"}));
+}
+
+TEST_CASE("klartext: a polar arc in the plane becomes C where its polar words do not hold the correction") {
+  const Program program =
+      read(klartext({"L X+10 Y+0 Z+0 F100", "CC X+0 Y+0", "CP  IPA+90 DR+ F50", "L X-1"}));
+  const MoveEdit edit{.move = 1, .end_mm = {0, 10.02, 0}, .centre_mm = Vector3(0, 0.01, 0)};
+  CHECK(rewrite(program, {edit}, {}).text ==
+        klartext({"L X+10 Y+0 Z+0 F100", "CC X+0 Y+0.01", "C X+0.000 Y+10.020 DR+ F50", "L X-1"}));
+}
+
+TEST_CASE("klartext: lines in polar coordinates are followed and become lines in X and Y") {
+  const Program program =
+      read(klartext({"CC X+50 Y+50", "LP PR+30 PA+0 FMAX", "L Z-2 F100", "LP PA+60", "LP IPA+30", "LP IPR-10",
+                     "LP PA+180 IZ+1", "CC X+50 Y+51", "C X+30 Y+52 DR+"}));
+  REQUIRE(program.moves.size() == 7);
+  const auto ends_at = [&](std::size_t move, const Vector3& end) {
+    CAPTURE(move);
+    CHECK((program.moves.at(move).end_mm - end).norm() < 1e-12);
+  };
+  ends_at(1, {80, 50, -2});
+  ends_at(2, {65, 50 + 15 * std::sqrt(3.0), -2});
+  ends_at(3, {50, 80, -2});
+  ends_at(4, {50, 70, -2});
+  ends_at(5, {30, 50, -1});
+  CHECK(rewrite(program, edits_to_original(program), {}).text == program.text);
+  CHECK(klartext_shifted(program) ==
+        klartext({"CC X+50 Y+50", "L X+80.500 Y+49.750 FMAX", "L Z-1.875 F100", "L X+65.500 Y+75.731",
+                  "L X+50.500 Y+79.750", "L X+50.500 Y+69.750", "L X+30.500 Y+49.750 IZ+1",
+                  "CC X+50.5 Y+50.75", "C X+30.5 Y+51.75 DR+"}));
+}
+
+TEST_CASE("klartext: a line in polar coordinates is rewritten if an arc has moved its pole") {
+  const std::string text = klartext({"L X+10 Y+0 Z+0 F100", "CC X+0 Y+0", "CP IPA+90 DR+", "LP PR+20 PA+90"});
+  const Program program = read(text);
+  const MoveEdit edit{.move = 1, .end_mm = {0, 10, 0}, .centre_mm = Vector3(0.01, 0.01, 0)};
+  CHECK(rewrite(program, {edit}, {}).text == klartext({"L X+10 Y+0 Z+0 F100", "CC X+0.01 Y+0.01",
+                                                       "C X+0.000 Y+10.000 DR+", "L X+0.000 Y+20.000"}));
+}
+
+TEST_CASE("klartext: polar coordinates that are not known are fixed, with the construct and its cure") {
+  for (const auto& [block, why] :
+       {std::pair{"LP PR+10 PA+Q5", "LP has no angle"},
+        {"LP IPA+10", "LP counts from the polar coordinates of the block before it"},
+        {"CP IPA+90 DR-", "IPA and DR of CP have different signs"},
+        {"CP IPA+90", "CP does not say DR+ or DR-"},
+        {"LP PR+10 PA+20 X+5", "LP with both polar and Cartesian"},
+        {"CTP PR+10 PA+20", "CTP is not read"}}) {
+    const std::string shown = block;
+    CAPTURE(shown);
+    const Program program = read(klartext({"L X+10 Y+0 Z+5 FMAX", "CC X+4 Y+0", shown}));
+    CHECK(program.moves.at(1).fixed == std::array<bool, 3>{true, true, true});
+    CHECK(program.left_alone.at(0).why.starts_with(why));
   }
-  const Program contour =
-      read(klartext({"L X+10 Y+0 Z+5 FMAX", "L X+9 RL F100", "CC X+4 Y+0", "CP IPA+90 DR+"}));
-  CHECK(contour.moves[2].fixed[0]);
+  const Program no_pole = read(klartext({"L X+10 Y+0 Z+5 FMAX", "CC X+Q4 Y+0", "CP IPA+90 DR+"}));
+  CHECK(no_pole.left_alone.at(0).why.starts_with("CP counts from a pole that is not known"));
+}
+
+TEST_CASE("klartext: a contour takes its polar arcs along") {
+  const Program program = read(
+      klartext({"L X+10 Y+0 Z+5 FMAX", "L X+9 RL F100", "CC X+4 Y+0", "CP IPA+90 DR+", "L X+3", "L Y-7 R0"}));
+  CHECK(program.moves[2].handling == Handling::group);
+  CHECK(klartext_shifted(program) ==
+        klartext({"L X+10.5 Y-0.25 Z+5.125 FMAX", "L X+9.5 RL F100", "CC X+4.5 Y-0.25", "CP IPA+90 DR+",
+                  "L X+3.5", "L Y-7.25 R0"}));
 }
 
 TEST_CASE("klartext: an arc takes its CC along also where other moves stand between them") {
@@ -348,7 +543,7 @@ TEST_CASE("klartext: behind an arc that stays as it is no other is followed abou
   }
 }
 
-TEST_CASE("klartext: the holes of a drilling cycle are held, and the first one takes the surface along") {
+TEST_CASE("klartext: each hole of a drilling cycle is corrected in X and Y, and the first one takes the surface along") {
   const std::string text =
       klartext({"L X+1 Y+0 Z+50 FMAX",
                 "CYCL DEF 200 DRILLING ~\n  Q200=2 ~\n  Q201=-10 ~\n  Q203=+1.5 ;SURFACE ~\n  Q204=50",
@@ -356,10 +551,13 @@ TEST_CASE("klartext: the holes of a drilling cycle are held, and the first one t
   const Program program = read(text);
   REQUIRE(program.moves.size() == 5);
   for (const std::size_t hole : {1U, 2U, 3U}) {
-    CHECK(program.moves[hole].handling == Handling::held);
-    CHECK(program.moves[hole].words[2].has_value() == (hole == 1));
-    CHECK_FALSE(program.moves[hole].known_end[2]);
-    CHECK_FALSE(program.moves[hole].fixed[2]);
+    const Move& move = program.moves[hole];
+    CHECK(move.handling == Handling::own);
+    CHECK(move.makes_hole);
+    CHECK(move.words[2].has_value() == (hole == 1));
+    CHECK_FALSE(may_insert_word(move, 2));
+    CHECK(all_known(move.known_end));
+    CHECK(move.end_mm.z() == (hole == 1 ? 1.5 : 51.5));
   }
   CHECK(rewrite(program, edits_to_original(program), {}).text == text);
   CHECK(klartext_shifted(program) ==
@@ -367,6 +565,19 @@ TEST_CASE("klartext: the holes of a drilling cycle are held, and the first one t
                   "CYCL DEF 200 DRILLING ~\n  Q200=2 ~\n  Q201=-10 ~\n  Q203=+1.625 ;SURFACE ~\n  Q204=50",
                   "L X+2.5 Y+2.75 FMAX M99", "L X+4.5 Y+2.75 FMAX M99", "CYCL CALL",
                   "L X+0.5 Y-0.25 Z+50.125 FMAX"}));
+}
+
+TEST_CASE("klartext: holes are held where the height at which a cycle leaves the tool is not known") {
+  for (const char* clearances : {"Q200=2", "Q204=50", "Q200=2 ~\n  Q204=Q9"}) {
+    CAPTURE(clearances);
+    const Program program = read(klartext({"L X+1 Y+0 Z+50 FMAX", fmt::format("CYCL DEF 200 ~\n  Q203=+1.5 ~\n  {}", clearances),
+                                           "L X+2 Y+3 FMAX M99", "L X+4 FMAX M99"}));
+    REQUIRE(program.moves.size() == 3);
+    for (const std::size_t hole : {1U, 2U}) {
+      CHECK(program.moves[hole].handling == Handling::held);
+      CHECK_FALSE(program.moves[hole].known_end[2]);
+    }
+  }
 }
 
 TEST_CASE("klartext: the first call of a cycle may be a block without coordinates") {
@@ -390,10 +601,173 @@ TEST_CASE("klartext: holes are fixed where their surface is not a plain number t
     const Program program = read(klartext({"L X+1 Y+0 Z+50 FMAX", surface, "L X+2 Y+3 FMAX M99"}));
     CHECK(program.moves[1].fixed[2]);
   }
-  for (const char* call : {"/L X+2 Y+3 FMAX M99", "L X+2 Z+5 FMAX M99", "L IX+2 FMAX M99", "Q203 = 5"}) {
+  for (const char* call : {"/L X+2 Y+3 FMAX M99", "L X+2 Z+5 FMAX M99", "Q203 = Q5", "FN 0: Q203 = 5"}) {
     CAPTURE(call);
     const Program program =
         read(klartext({"L X+1 Y+0 Z+50 FMAX", "CYCL DEF 200 Q203=+1", call, "L X+2 Y+3 FMAX M99"}));
     CHECK(program.moves.back().fixed[2]);
   }
+}
+
+TEST_CASE("klartext: arcs take no Z word, the lines around them do") {
+  const Program program = read(
+      klartext({"L X+0 Y+0 Z+0 FMAX", "CC X+10 Y+0", "C X+20 Y+0 DR- F300", "CR X+0 Y+0 R+10 DR-", "L X-5"}));
+  const std::vector<MoveEdit> edits{{.move = 0, .end_mm = {0, 0, 0}},
+                                    {.move = 1, .end_mm = {20, 0, 0.01}, .centre_mm = Vector3(10, 0, 0)},
+                                    {.move = 2, .end_mm = {0, 0, 0.01}, .centre_mm = Vector3(10, 0, 0)},
+                                    {.move = 3, .end_mm = {-5, 0, 0.01}}};
+  CHECK(rewrite(program, edits, {}).text ==
+        klartext({"L X+0 Y+0 Z+0 FMAX", "CC X+10 Y+0", "C X+20 Y+0 DR- F300", "CR X+0 Y+0 R+10 DR-",
+                  "L X-5 Z+0.010"}));
+  const MoveEdit chords{.move = 1, .inserted = {{{10, 10, 0.005}}}, .end_mm = {20, 0, 0.01}};
+  CHECK(rewrite(program, {chords}, {}).text ==
+        klartext({"L X+0 Y+0 Z+0 FMAX", "CC X+10 Y+0", "L X+10.000 Y+10.000 Z+0.005 F300",
+                  "L X+20 Y+0 Z+0.010 F300", "CR X+0 Y+0 R+10 DR-", "L X-5"}));
+}
+
+TEST_CASE("klartext: incremental holes and a surface in a line of its own are held") {
+  const std::string text =
+      klartext({"L X+1 Y+0 Z+50 FMAX", "CYCL DEF 200 DRILLING", "Q201 = -15 ;DEPTH", "Q203 = +1.5   ;SURFACE",
+                "L IX+2 FMAX M99", "L IY+5 M99", "L X+0 Y+0 Z+50 FMAX"});
+  const Program program = read(text);
+  CHECK(program.moves[1].handling == Handling::held);
+  CHECK(program.moves[2].handling == Handling::held);
+  CHECK(program.moves[2].known_end == std::array<bool, 3>{true, true, false});
+  CHECK(rewrite(program, edits_to_original(program), {}).text == text);
+  CHECK(klartext_shifted(program) ==
+        klartext({"L X+1.5 Y-0.25 Z+50.125 FMAX", "CYCL DEF 200 DRILLING", "Q201 = -15 ;DEPTH",
+                  "Q203 = +1.625   ;SURFACE", "L IX+2 FMAX M99", "L IY+5 M99",
+                  "L X+0.5 Y-0.25 Z+50.125 FMAX"}));
+}
+
+TEST_CASE("klartext: holes of the cycles that count from the tool go along with their positions") {
+  const Program program = read(
+      klartext({"L X+1 Y+0 Z+2 FMAX", "CYCL DEF 1.0 PECKING", "CYCL DEF 1.1 DIST 2", "CYCL DEF 1.2 DEPTH -10",
+                "L FMAX M99", "L X+5 FMAX M99", "CYCL CALL", "L IX+5 M89", "L Y+7", "L X+0 M99", "L Y+9"}));
+  REQUIRE(program.moves.size() == 6);
+  for (const Move& move : program.moves) {
+    CHECK(move.handling == Handling::own);
+    CHECK(move.fixed == std::array<bool, 3>{});
+  }
+  CHECK(all_known(program.moves.back().known_end));
+  const Program pocket =
+      read(klartext({"L X+1 Y+0 Z+2 FMAX", "CYCL DEF 4.0 POCKET", "L X+5 FMAX M99", "L Y+9"}));
+  CHECK(all_known(pocket.moves[1].known_start));
+  CHECK(pocket.moves[2].known_start == std::array<bool, 3>{});
+}
+
+TEST_CASE("klartext: M89 calls the cycle at the end of all moves up to M99") {
+  const Program program = read(klartext({"L X+1 Y+0 Z+50 FMAX", "CYCL DEF 200 DRILLING Q203=+0",
+                                         "L X+2 FMAX M89", "L X+3", "L X+4 M99", "L X+5"}));
+  std::vector<bool> held;
+  for (const Move& move : program.moves) held.push_back(move.handling == Handling::held);
+  CHECK(held == std::vector<bool>{false, true, true, true, false});
+}
+
+TEST_CASE("klartext: APPR and DEP go along with the contour between them") {
+  const std::string text =
+      klartext({"L X+120 Y+0 Z+1 R0 FMAX", "L Z-10 F100", "APPR LCT X+45 Y+0 R20 RL F220", "L X+45 Y-18",
+                "RND R4", "L X+18 Y-45", "DEP LCT X+120 Y+0 R20", "L Z+1 R0 FMAX", "L X+150 FMAX"});
+  const Program program = read(text);
+  REQUIRE(program.moves.size() == 8);
+  std::vector<int> groups;
+  for (const Move& move : program.moves) groups.push_back(move.group);
+  CHECK(groups == std::vector<int>{1, 1, 1, 1, 1, 1, 1, 0});
+  CHECK(program.moves[2].end_mm == Vector3(45, 0, -10));
+  CHECK(program.moves[2].feed_mm_min == 220);
+  CHECK_FALSE(all_known(program.moves[2].known_start));
+  CHECK(all_known(program.moves[3].known_start));
+  CHECK(program.moves[6].start_mm == Vector3(120, 0, -10));
+  CHECK(program.left_alone.at(0).why == "APPR goes along with its contour; its way is not measured");
+  CHECK(rewrite(program, edits_to_original(program), {}).text == text);
+  CHECK(klartext_shifted(program) ==
+        klartext({"L X+120.5 Y-0.25 Z+1.125 R0 FMAX", "L Z-9.875 F100", "APPR LCT X+45.5 Y-0.25 R20 RL F220",
+                  "L X+45.5 Y-18.25", "RND R4", "L X+18.5 Y-45.25", "DEP LCT X+120.5 Y-0.25 R20",
+                  "L Z+1.125 R0 FMAX", "L X+150.5 FMAX"}));
+}
+
+TEST_CASE("klartext: where DEP ends without a point is not known, the contour before it is") {
+  const Program program = read(klartext({"L X+20 Y+0 Z+1 FMAX", "APPR LT X+45 Y+0 Z-5 LEN10 RL F220",
+                                         "L X+60", "DEP LT LEN10", "L Z+1 FMAX", "L X+0 Y+0 FMAX"}));
+  REQUIRE(program.moves.size() == 6);
+  CHECK(program.moves[1].end_mm.z() == -5);
+  CHECK(program.moves[3].known_end == std::array<bool, 3>{false, false, true});
+  CHECK(program.moves[3].fixed == std::array<bool, 3>{});
+  CHECK(all_known(program.moves[5].known_end));
+}
+
+TEST_CASE("klartext: APPR and DEP that are not followed are named") {
+  for (const char* block :
+       {"APPR LT X+Q1 Y+2 LEN10 RR", "APPR PLT PR+5 PA+3 LEN10 RL", "APPR LT IX+1 Y+2 LEN10 RR",
+        "APPR LT X+1 Y+2 LEN10", "DEP LT LEN10", "APPR LN X+1 Y+2 LEN+2 RL M3"}) {
+    CAPTURE(block);
+    const Program program = read(klartext({"L X+20 Y+0 Z+1 FMAX", block, "L X+60 Y+0"}));
+    CHECK(program.moves[1].fixed[0]);
+    CHECK(program.left_alone.at(0).why.find("is followed with plain numbers of X and Y only") !=
+          std::string::npos);
+  }
+}
+
+TEST_CASE("klartext: repeated parts and subprograms stand in the place of their calls") {
+  const Program program = expanded_klartext(
+      klartext({"L X+0 Y+0 Z+5 FMAX", "LBL 5", "L IX+10 F100", "CALL LBL \"HOLE\"", "L IY+1",
+                "CALL LBL 5 REP 2/2", "L Z+9", "M30", "LBL \"HOLE\"", "L IZ-1 ~\nF50 ; down", "LBL 0"}));
+  CHECK(program.text ==
+        klartext({"L X+0 Y+0 Z+5 FMAX", "LBL 5", "L IX+10 F100", "L IZ-1 ~\nF50 ; down", "L IY+1",
+                  "L IX+10 F100", "L IZ-1 ~\nF50 ; down", "L IY+1", "L IX+10 F100", "L IZ-1 ~\nF50 ; down",
+                  "L IY+1", "L Z+9", "M30", "LBL \"HOLE\"", "L IZ-1 ~\nF50 ; down", "LBL 0"}));
+  CHECK(program.left_alone.empty());
+  CHECK(program.expansion.calls == 5);
+  std::vector<int> lines;
+  for (const Move& move : program.moves) lines.push_back(move.line);
+  CHECK(lines == std::vector<int>{2, 4, 11, 6, 4, 11, 6, 4, 11, 6, 8});
+  CHECK(program.moves.back().end_mm == Vector3(30, 3, 9));
+}
+
+TEST_CASE("klartext: calls that cannot be replaced stay, with the reason") {
+  for (const auto& [call, why] :
+       {std::pair{"CALL LBL 7", "line 3: LBL 7 is missing"},
+        {"CALL LBL 1", "line 6: LBL 1 calls itself"},
+        {"CALL LBL Q1", "line 3: the label is a Q parameter"},
+        {"/CALL LBL 2", "line 3: '/' may skip the call"},
+        {"CALL LBL 2 REP 3", "line 3: LBL 2 does not stand before its REP"},
+        {"CALL LBL 3", "line 12: a subprogram ends the program"},
+        {"CALL LBL 2\nFN 9: IF +Q1 EQU +1 GOTO LBL 2", "line 4: the program jumps to a label"}}) {
+    const std::string shown = call;
+    CAPTURE(shown);
+    const Program program = expanded_klartext(
+        "BEGIN PGM A MM\nL X+0 Y+0 Z+5 FMAX\n" + shown +
+        "\nM30\nLBL 1\nCALL LBL 1\nLBL 0\nLBL 2\nL IX+1\nLBL 0\nLBL 3\nL IX+1 M2\nLBL 0\nEND PGM A MM\n");
+    CHECK(program.expansion.calls == 0);
+    CHECK(program.moves.at(1).fixed[0]);
+    const std::string reason =
+        std::string(
+            "a subprogram or a part of the program is called and cannot be put in the place of its call: ") +
+        why;
+    CHECK(std::any_of(program.left_alone.begin(), program.left_alone.end(),
+                      [&](const LeftAlone& left) { return left.why == reason; }));
+  }
+  CHECK(diagnostic_of([&] {
+          expanded_klartext(klartext({"LBL 1", "L IX+1", "CALL LBL 1 REP 900000000"}));
+        }).find("the expanded calls make more than") != std::string::npos);
+}
+
+TEST_CASE("Q parameters that the program sets to constants are their values where that is asked for") {
+  const std::string begin = "BEGIN PGM A MM\nL X+0 Y+0 Z+5 FMAX\nFN 0: Q1 = +12,5\nQ2 = Q1 * 2 - 5\nFN 4: Q3 = +Q2 DIV +8\n";
+  ReadOptions options{.dialect = "heidenhain", .evaluate = true};
+  const auto last = [&](const std::string& statements) {
+    return read_program(begin + statements + "END PGM A MM\n", "p.h", options).moves.back();
+  };
+  const Move line = last("L X+Q1 IY-Q3 F200\n");
+  CHECK(all_known(line.known_end));
+  CHECK((line.end_mm - Vector3(12.5, -2.5, 5)).norm() < 1e-12);
+  CHECK(last("CC X+Q1 Y+0\nL X+0 Y+0\nC X+25 Y+0 DR-\n").arc);
+  for (const char* doubt : {"FN 18: SYSREAD Q1 = ID270 NR1 IDX3\n", "/ Q1 = 5\n", "CALL PGM OTHER\nL X+0 Y+0 Z+5\n", "Q1 = SIN Q9\n", "FN #0: Q1 = +5\n",
+                            "LBL 1\nQ1 = Q1 + 1\nCALL LBL 1 REP 3\nL X+0 Y+0 Z+5\n", "FN 5: Q1 = SQRT +4\n"}) {
+    CAPTURE(doubt);
+    CHECK_FALSE(last(std::string(doubt) + "L X+Q1 F200\n").known_end[0]);
+  }
+  CHECK_FALSE(last("L X+Q100 F200\n").known_end[0]);
+  options.evaluate = false;
+  CHECK_FALSE(last("L X+Q1 F200\n").known_end[0]);
 }

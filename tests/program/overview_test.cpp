@@ -44,8 +44,8 @@ void check_same(const Overview& a, const Overview& b) {
   CHECK(a.rapids == b.rapids);
   CHECK(a.lines == b.lines);
   CHECK(a.last_block_number == b.last_block_number);
-  CHECK(a.work_offsets == b.work_offsets);
-  CHECK(a.offsets_used == b.offsets_used);
+  CHECK(a.frames == b.frames);
+  CHECK(a.frames_used == b.frames_used);
   CHECK(a.remarks.size() == b.remarks.size());
   CHECK(a.path_tolerances.size() == b.path_tolerances.size());
   CHECK(a.left_alone.count == b.left_alone.count);
@@ -76,8 +76,8 @@ TEST_CASE("an overview says what the whole program holds") {
   CHECK(overview.plunges == 2);
   CHECK(overview.rapids == 4);  // holes are come to by rapids
   CHECK(overview.last_block_number == 50);
-  CHECK(overview.work_offsets == std::vector<std::string>{"", "G54", "G56"});
-  CHECK(overview.offsets_used == std::vector<bool>{false, true, true});
+  CHECK(overview.frames == std::vector<ProgramFrame>{{}, {.work_offset = "G54"}, {.work_offset = "G56"}});
+  CHECK(overview.frames_used == std::vector<bool>{false, true, true});
   CHECK(overview.remarks.size() == program.remarks.size());
   REQUIRE(overview.path_tolerances.size() == 2);
   CHECK(overview.path_tolerances[1].line == 9);
@@ -98,7 +98,7 @@ TEST_CASE("a program without forces, cycles or text has an overview that says so
   CHECK_FALSE(overview.first_force_line);
   CHECK_FALSE(overview.commented_force);
   CHECK_FALSE(overview.first_cycle_line);
-  CHECK(overview.offsets_used == std::vector<bool>{true});
+  CHECK(overview.frames_used == std::vector<bool>{true});
   CHECK(overview_of(read("")).lines == 0);
 }
 

@@ -132,7 +132,7 @@ std::string all_of(const Program& program, const Move& move) {
       "'{}'",
       move.line, move.text_line, move.group, move.block_index, move.block_number.value_or(-1),
       all_of(move.start_mm), all_of(move.end_mm), move.feed_mm_min, move.feed_per_min, move.spindle_rpm,
-      move.offset, move.tool, program.operations[move.operation]);
+      move.frame, move.tool, program.operations[move.operation]);
   for (const PackedAxisWord& word : move.words) text += " " + all_of(move, word);
   for (const auto& axes : {move.stands, move.known_start, move.known_end, move.ignored, move.fixed})
     text += " " + all_of(axes);

@@ -29,7 +29,7 @@ TEST_CASE("motion, units, feed, spindle, offset and block number are modal") {
   CHECK(plunge.unit == LengthUnit::inches);
   CHECK(plunge.feed_mm_min == doctest::Approx(254));
   CHECK(plunge.spindle_rpm == 800);
-  CHECK(program.work_offsets[plunge.offset] == "G54");
+  CHECK(program.frames[plunge.frame].work_offset == "G54");
   CHECK(plunge.start_mm.isApprox(Vector3(25.4, 50.8, 12.7)));
   CHECK(plunge.end_mm.isApprox(Vector3(25.4, 50.8, -6.35)));
   const Move& cut = program.moves[2];
@@ -103,7 +103,7 @@ TEST_CASE("a work offset that changes makes every axis unknown") {
   const Program program = read("G21 G54 G0 X1 Y2 Z3\nG54 X2\nG55 X3\n");
   CHECK(program.moves[1].known_start == Known{true, true, true});
   CHECK(program.moves[2].known_start == Known{false, false, false});
-  CHECK(program.work_offsets[program.moves[2].offset] == "G55");
+  CHECK(program.frames[program.moves[2].frame].work_offset == "G55");
 }
 
 TEST_CASE("a tool length that changes without Z makes Z unknown; with Z the tip is where the program says") {

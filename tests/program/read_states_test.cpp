@@ -21,19 +21,18 @@ TEST_CASE("under a state that puts positions elsewhere moves stay as they are, a
   struct State {
     const char *on, *off, *dialect, *why;
   };
-  for (const State& s : {State{"G52 X5.", "G52 X0. Y0. Z0.", "fanuc", "G52 shifts the coordinates"},
-                         State{"G92 X5.", "G92.1", "linuxcnc", "G92 has set the position"},
-                         State{"G68 X0. Y0. R45.", "G69", "haas", "coordinates are rotated"},
+  for (const State& s : {State{"G52 X#1", "G52 X0. Y0. Z0.", "fanuc", "G52 shifts the coordinates"},
+                         State{"G92 X#1", "G92.1", "linuxcnc", "G92 has set the position"},
+                         State{"G68 X0. Y0. R#1", "G69", "haas", "coordinates are rotated"},
                          State{"G51 X0. Y0. P2.", "G50", "fanuc", "coordinates are scaled"},
                          State{"G51.1 X0.", "G50.1 X0.", "fanuc", "coordinates are mirrored"},
                          State{"G16", "G15", "fanuc", "coordinates are polar"},
-                         State{"G66 P9001", "G67", "fanuc", "every move calls a macro"},
                          State{"G43.4 H1", "G49", "fanuc", "the control follows the tool's centre point"},
                          State{"M428", "", "linuxcnc", "the kinematics were switched"},
                          State{"A90.", "A0.", "linuxcnc", "an axis besides X, Y and Z has left zero"},
                          State{"U.5", "", "linuxcnc", "an axis besides X, Y and Z has left zero"},
-                         State{"G10 L2 P1 X5", "", "linuxcnc", "G10 has set the work offset"},
-                         State{"G10 L20 P0 X5", "", "grbl", "G10 has set the work offset"}}) {
+                         State{"G10 L2 P1 X#1", "", "linuxcnc", "G10 has set the work offset"},
+                         State{"G10 L20 P2 X5\nG55", "", "grbl", "G10 has set the work offset"}}) {
     CAPTURE(s.on);
     const std::string ends = s.off;
     const Program program =
@@ -46,6 +45,19 @@ TEST_CASE("under a state that puts positions elsewhere moves stay as they are, a
     CHECK(stays(program.moves[3]) == for_good);
     CHECK(program.moves[2].known_start == std::array<bool, 3>{false, false, false});
   }
+}
+
+TEST_CASE("the places of holes of a modal macro go along in the plane, its heights and what it leaves do not") {
+  const Program program = read(known_start_block + "G66 P9001 Z-5. R2.\nX1. Y2.\nX3.\nX#1\nG67\nG0 X4. Y5. Z6.\n", "fanuc");
+  REQUIRE(program.moves.size() == 5);
+  const Move &hole = program.moves[1], &next = program.moves[2], &variable = program.moves[3];
+  CHECK((hole.words[0] && hole.words[1] && hole.end_mm.head<2>() == Vector3(1, 2, 0).head<2>()));
+  CHECK(hole.fixed == std::array<bool, 3>{false, false, true});
+  CHECK(hole.known_end == std::array<bool, 3>{false, false, false});
+  CHECK((next.words[0] && !next.words[1] && next.fixed[2]));
+  CHECK((variable.fixed[0] && !variable.words[0]));
+  CHECK(all_known(program.moves[4].known_end));
+  CHECK(program.left_alone.at(0).why == "every move calls a macro, whose heights are not corrected");
 }
 
 TEST_CASE("what is not followed stands where it was, but not on axes that the machine has moved by itself") {
@@ -69,7 +81,7 @@ TEST_CASE("axes besides X, Y and Z that stay zero are ignored, a shift of nothin
 }
 
 TEST_CASE("G10 for another work offset acts when that is selected") {
-  const Program program = read(known_start_block + "G54 X1 Y1 Z1\nG10 L2 P2 X5\nX2\nG55 X3\nG54 X4\n");
+  const Program program = read(known_start_block + "G54 X1 Y1 Z1\nG10 L2 P2 X#1\nX2\nG55 X3\nG54 X4\n");
   CHECK_FALSE(stays(program.moves[2]));
   CHECK(program.moves[2].known_start[0]);
   CHECK(stays(program.moves[3]));
@@ -92,7 +104,7 @@ TEST_CASE("parameters between G10 L50 and G11 move nothing") {
 TEST_CASE("additional work offsets have one name in all their spellings") {
   const auto name = [](const std::string& code, const std::string& dialect) {
     const Program program = read("G21 " + code + "\nG0 X1.\n", dialect);
-    return program.work_offsets[program.moves[0].offset];
+    return program.frames[program.moves[0].frame].work_offset;
   };
   CHECK(name("G54.1 P3", "fanuc") == "G54.1 P3");
   CHECK(name("G54 P3", "fanuc") == "G54.1 P3");

@@ -8,6 +8,7 @@
 #include "counterflex/program/rewrite.hpp"
 #include "program/reading.hpp"
 #include "program/small_reader.hpp"
+#include "support/text.hpp"
 
 using namespace counterflex;
 using namespace counterflex::test;
@@ -121,6 +122,17 @@ TEST_CASE("half a turn keeps the sign of its radius") {
     CAPTURE(text);
     const Program program = read(text);
     CHECK(rewrite(program, edits_to_original(program), {}).text == text);
+  }
+}
+
+TEST_CASE("half a turn keeps the sign of its radius when its ends are rounded") {
+  const Vector3 shift{-0.4844, 0.2604, 0};
+  for (const char* radius : {"R10.", "R-10."}) {
+    CAPTURE(radius);
+    const Program program = read(fmt::format("G21 G90 G17\nG0 X-114. Y-10. Z0\nG1 F100 X-114.\nG2 X-114. Y10. {}\nM30\n", radius));
+    const std::string text = shifted_text(program, shift);
+    CAPTURE(text);
+    CHECK(contains(text, fmt::format("\nG2 X-114.484 Y10.26 {}\n", radius)));
   }
 }
 

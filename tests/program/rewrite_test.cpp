@@ -191,8 +191,7 @@ TEST_CASE("a doubtful integer word in a block that must be rewritten is refused"
   CHECK(diagnostic_of([&] {
           shift({0, 0, 0.5}, IntegerWords::unsaid);
         }) ==
-        "p.nc:2:8: error: X5 has no point, and the block must be rewritten: it may mean units or increments; "
-        "say "
+        "p.nc:2:8: error: X5 has no point: it may mean units or increments; say "
         "which with --integer-words units|increments");
   CHECK(shift({0.5, 0, 0}, IntegerWords::units) == "O1\nG21 G0 X5.5 Y0 Z1.\n");
   CHECK(shift({0.5, 0, 0}, IntegerWords::increments) == "O1\nG21 G0 X0.505 Y0 Z1.\n");

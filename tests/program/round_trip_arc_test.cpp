@@ -18,10 +18,12 @@ namespace {
 constexpr int arc_programs = 300;
 constexpr int arc_blocks = 60;
 
-/// A smooth correction of up to 0.2 mm.
-Vector3 arc_correction(const Vector3& p_mm) {
-  return {0.2 * std::sin(p_mm.y() / 30), 0.1 * std::cos(p_mm.x() / 20),
-          0.05 * std::sin(p_mm.x() / 7 + p_mm.z())};
+/// A smooth correction of about 0.2 mm, which changes so little along an arc that it stays one.
+constexpr double little = 0.02;
+Vector3 arc_correction(const Vector3& p_mm, double variation = little) {
+  return Vector3(0.2, -0.1, 0.05) + variation * Vector3(0.2 * std::sin(p_mm.y() / 30),
+                                                        0.1 * std::cos(p_mm.x() / 20),
+                                                        0.05 * std::sin(p_mm.x() / 7 + p_mm.z()));
 }
 
 /// Whether the block of `move` holds M or G90: such a block is itself the first piece.
@@ -35,23 +37,24 @@ bool acts_from_its_beginning(const Program& program, const Move& move) {
 /// act from its beginning (or `also_acting`); arcs about a centre that goes with them, but one of `chorded`
 /// without (0: none).
 std::vector<MoveEdit> arc_edits(const Program& program, int pieces, std::size_t chorded = 0,
-                                bool also_acting = false) {
+                                bool also_acting = false, double variation = little) {
   std::vector<MoveEdit> edits;
+  const auto correction = [&](const Vector3& p) { return arc_correction(p, variation); };
   for (std::size_t m = 0; m < program.moves.size(); ++m) {
     const Move& move = program.moves[m];
-    MoveEdit edit{.move = m, .end_mm = move.end_mm + arc_correction(move.end_mm)};
+    MoveEdit edit{.move = m, .end_mm = move.end_mm + correction(move.end_mm)};
     const Curve way = way_of(move);
     const bool known = move.known_start == std::array{true, true, true};
     const auto centre = [&](double u) -> std::optional<Vector3> {
       const bool chords = chorded > 0 && m % chorded == 0 && (way.end - way.start).norm() > 0.1;
       if (!move.arc || chords) return std::nullopt;
-      return move.arc->centre_mm + arc_correction(point_at(way, u));
+      return move.arc->centre_mm + correction(point_at(way, u));
     };
     const bool whole = !also_acting && acts_from_its_beginning(program, move);
     const int parts = known && move.may_split && !whole ? pieces : 1;
     for (int i = 1; i < parts; ++i) {
       const Vector3 p = point_at(way, static_cast<double>(i) / parts);
-      edit.inserted.push_back({p + arc_correction(p), centre(static_cast<double>(i) / parts)});
+      edit.inserted.push_back({p + correction(p), centre(static_cast<double>(i) / parts)});
     }
     edit.centre_mm = centre(1);
     edits.push_back(edit);
@@ -248,7 +251,7 @@ TEST_CASE("no piece of an arc of a few digits becomes a turn that was not there"
   for (int i = 0; i < arc_programs; ++i) {
     const Program program = read_small(source.text(arc_blocks));
     CAPTURE(program.text);
-    const std::vector<MoveEdit> edits = arc_edits(program, 1 + i % 4);
+    const std::vector<MoveEdit> edits = arc_edits(program, 1 + i % 4, 0, false, 1);
     const Rewritten out = rewrite(program, edits, {});
     const Program again = read_small(out.text);
     std::size_t next = 0;

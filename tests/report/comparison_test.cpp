@@ -80,7 +80,7 @@ TEST_CASE("every number of a comparison is the one in the report") {
   const Comparison comparison =
       compare(report_named("a", json), report_named("b", made_up_report(2, run)), "0.1.0");
   for (const char* key :
-       {"/blocks/moves", "/blocks/left_alone_count", "/summary/path_mm", "/forces/largest_N"})
+       {"/blocks/moves", "/blocks/not_corrected", "/summary/path_mm", "/forces/largest_N"})
     CHECK(number_at(comparison, key).values[0].has_value());
   CHECK(number_at(comparison, "/forces/largest_N").values[0] == 50);
 }

@@ -102,7 +102,7 @@ TEST_CASE("arcs are counted by plane, cycles, relative and G93 moves and tools b
   CHECK(plan.tools == std::map<long, std::size_t>{{0, 1}, {3, 2}});
 }
 
-TEST_CASE("blocks of copied bodies are listed with the lines of the bodies, in the order in which they run") {
+TEST_CASE("blocks of copied bodies are listed with the lines of the bodies") {
   Program program = three_moves();
   const int lines[] = {9, 9, 2};
   for (std::size_t m = 0; m < 3; ++m) {
@@ -115,9 +115,9 @@ TEST_CASE("blocks of copied bodies are listed with the lines of the bodies, in t
   CHECK(plan.corrected == 2);
   CHECK(plan.not_corrected == 2);
   REQUIRE(plan.left_rows.size() == 2);
-  CHECK(plan.left_rows[0].lines == std::vector<int>{8});
-  CHECK(plan.left_rows[1].why == "a variable");
-  CHECK(plan.left_rows[1].lines == std::vector<int>{9});
+  CHECK(plan.left_rows[1].lines == std::vector<int>{8});
+  CHECK(plan.left_rows[0].why == "a variable");
+  CHECK(plan.left_rows[0].lines == std::vector<int>{9});
 }
 
 TEST_CASE("of a long run only the first lines are listed") {
@@ -127,4 +127,22 @@ TEST_CASE("of a long run only the first lines are listed") {
   const MotionPlan plan = motion_plan(builder.program);
   CHECK(plan.left_rows[0].count == 9);
   CHECK(plan.left_rows[0].lines.size() == lines_of_row);
+}
+
+TEST_CASE("a plan has shares of the cutting length, and its rows the most costly first") {
+  Program program = ProgramBuilder({0, 0, 0}).feed({10, 0, 0}, 100).feed({10, 1, 0}, 100).feed({10, 1, 5}, 100).program;
+  program.moves[1].handling = program.moves[2].handling = Handling::held;
+  program.moves[1].line = 4;
+  program.moves[2].line = 6;
+  program.left_alone = {{4, "a short one"}, {6, "a long one"}};
+  const MotionPlan plan = motion_plan(program);
+  CHECK(plan.corrected_cut.known_mm == 10);
+  CHECK(plan.held_cut.known_mm == 6);
+  CHECK(plan.left_cut.unknown == 0);
+  REQUIRE(plan.held_rows.size() == 2);
+  CHECK(plan.held_rows[0].why == "a long one");
+  CHECK(plan.held_rows[0].cut.known_mm == 5);
+  CHECK(plan.held_rows[1].why == "a short one");
+  program.moves[2].known_end = {};
+  CHECK(motion_plan(program).held_cut.unknown == 1);
 }

@@ -64,7 +64,7 @@ void for_chains_at_random_ends(unsigned seed, int poses, const Check& check, dou
 
 }  // namespace
 
-TEST_CASE("a chain's wrench is the gradient of its energy with respect to its end pose") {
+TEST_CASE("a chain's wrench is the gradient of its energy with respect to its end pose" * doctest::test_suite("long")) {
   for_chains_at_random_ends(
       7, 3,
       [](const Model& model, std::size_t i, const Pose& X, const Configuration& nominal, StaticsWork& work) {
@@ -118,20 +118,22 @@ TEST_CASE("actuators stay where they are while a chain is solved") {
 TEST_CASE(
     "the paper's iteration and Newton's find the same equilibrium, Newton's in fewer steps at large "
     "deflections") {
-  int fewer = 0, all = 0;
+  int fewer = 0, found = 0, all = 0;
   for_chains_at_random_ends(
       10, 3,
       [&](const Model& model, std::size_t i, const Pose& X, const Configuration& nominal, StaticsWork& work) {
         const Solved newton = solve(model, i, X, nominal, ChainMethod::newton, work);
         const Solved paper = solve(model, i, X, nominal, ChainMethod::paper, work);
         REQUIRE(newton.status == Status::converged);
-        REQUIRE(paper.status == Status::converged);
+        ++all;
+        if (paper.status != Status::converged) return;  // it need not, so far away
         CHECK((paper.state.F - newton.state.F).norm() < 1e-8 * newton.state.F.norm() + 1e-6);
         CHECK((paper.state.x - newton.state.x).cwiseAbs().maxCoeff() < 1e-9);
         fewer += newton.iterations < paper.iterations;
-        ++all;
+        ++found;
       });
   CHECK(fewer > all / 2);
+  CHECK(found > all * 9 / 10);
 }
 
 TEST_CASE("a chain without load, error and preload stands in its nominal configuration, without energy") {

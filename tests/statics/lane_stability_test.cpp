@@ -79,7 +79,8 @@ void try_cluster(LaneBench& bench, const std::vector<LaneRequest>& requests, Tal
 }  // namespace
 
 TEST_CASE(
-    "whatever lanes call solved is so alone, up to ten times the working loads and beyond the workspace") {
+    "whatever lanes call solved is so alone, up to ten times the working loads and beyond the workspace" *
+    doctest::test_suite("long")) {
   Random random(31);
   for (const LaneTrial& lane_trial : lane_trials()) {
     CAPTURE(lane_trial.trial.name);
@@ -94,7 +95,8 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("beside a singularity, and where the machine does not reach, lanes say nothing that is not so") {
+TEST_CASE("beside a singularity, and where the machine does not reach, lanes say nothing that is not so" *
+          doctest::test_suite("long")) {
   Random random(37);
   for (const LaneTrial& lane_trial : {lane_trials()[1], lane_trials()[2], lane_trials()[4]}) {
     CAPTURE(lane_trial.trial.name);

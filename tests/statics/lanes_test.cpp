@@ -32,7 +32,8 @@ double check_clusters(const LaneTrial& lane_trial, bool errors, int clusters, un
 }  // namespace
 
 TEST_CASE(
-    "in lanes every machine stands where it stands when it is solved alone, and all waypoints are solved") {
+    "in lanes every machine stands where it stands when it is solved alone, and all waypoints are solved" *
+    doctest::test_suite("long")) {
   for (const LaneTrial& lane_trial : lane_trials()) {
     CAPTURE(lane_trial.trial.name);
     CAPTURE(lane_trial.at_platform);

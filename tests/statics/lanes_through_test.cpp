@@ -69,7 +69,7 @@ std::vector<LaneThrough> solve_apart(ThroughBench& bench, const std::vector<Lane
 
 }  // namespace
 
-TEST_CASE("three questions in one go are answered as each by itself, for every machine that lanes can do") {
+TEST_CASE("three questions in one go are answered as each by itself, for every machine that lanes can do" * doctest::test_suite("long")) {
   for (const LaneTrial& lane_trial : lane_trials()) {
     CAPTURE(lane_trial.trial.name);
     ThroughBench bench(lane_trial, 11);

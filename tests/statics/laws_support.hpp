@@ -59,7 +59,11 @@ struct Random {
   double number() {
     return 2.0 * static_cast<double>(engine()) / static_cast<double>(std::mt19937::max()) - 1.0;
   }
-  Vector3 vector(double size) { return size * Vector3(number(), number(), number()); }
+  // In this order for every compiler.
+  Vector3 vector(double size) {
+    const double x = number(), y = number(), z = number();
+    return size * Vector3(x, y, z);
+  }
   Vector6 six(double first, double last) {
     Vector6 v;
     v << vector(first), vector(last);

@@ -48,7 +48,7 @@ void for_random_targets(unsigned seed, int count, const Check& check) {
 
 }  // namespace
 
-TEST_CASE("direct and nested targets agree to 1e-9 m over random poses, loads and errors") {
+TEST_CASE("direct and nested targets agree to 1e-9 m over random poses, loads and errors" * doctest::test_suite("long")) {
   for_random_targets(51, 6, [](const Model& model, const Solved& s, StaticsWork& work) {
     const Equilibrium nested = solve_target_nested(model, s.nominal, s.X_MT, s.load, s.stage, work);
     REQUIRE(nested.status == Status::converged);

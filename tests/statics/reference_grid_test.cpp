@@ -78,15 +78,18 @@ const Grid mill_block{{1, 1, -438}, {399, 249, -142}, {8, 8, 8}, {0, 0, 0}, {0, 
 
 }  // namespace
 
-TEST_CASE("the Orthoglide of case A converges from a cold start in all of its workspace") {
+TEST_CASE("the Orthoglide of case A converges from a cold start in all of its workspace" *
+          doctest::test_suite("long")) {
   check_grid(reference_machine("orthoglide_case_a"), orthoglide_block, milling_wrench);
 }
 
-TEST_CASE("the Orthoglide of case B converges from a cold start in all of its workspace") {
+TEST_CASE("the Orthoglide of case B converges from a cold start in all of its workspace" *
+          doctest::test_suite("long")) {
   check_grid(reference_machine("orthoglide_case_b"), orthoglide_block, milling_wrench);
 }
 
-TEST_CASE("the Orthoglides of the samples converge from a cold start in all of their workspaces") {
+TEST_CASE("the Orthoglides of the samples converge from a cold start in all of their workspaces" *
+          doctest::test_suite("long")) {
   for (const char* name : {"orthoglide-assembly/case_a.toml", "orthoglide-assembly/case_b.toml",
                            "orthoglide-groove/machine.toml"})
     check_grid(sample_machine(name), orthoglide_block, milling_wrench);
@@ -100,18 +103,21 @@ TEST_CASE(
     check_grid(reference_machine(name), block, hard_cut);
 }
 
-TEST_CASE("the robot with a spindle converges from a cold start under its weight, leaning too") {
+TEST_CASE("the robot with a spindle converges from a cold start under its weight, leaning too" *
+          doctest::test_suite("long")) {
   const Grid block{{1300, -600, 300}, {1900, 600, 900}, {8, 9, 8}, {0, 0, 0}, {10, 20, 30}};
   check_grid(sample_machine("robot-spindle/machine.toml"), block, hard_cut);
 }
 
-TEST_CASE("the hexapod converges from a cold start in its workspace, leaning by up to 15 degrees") {
+TEST_CASE("the hexapod converges from a cold start in its workspace, leaning by up to 15 degrees" *
+          doctest::test_suite("long")) {
   const Grid block{{-200, -200, 750}, {200, 200, 1050}, {8, 8, 8}, {0, 0, 0}, {12, 15, 15}};
   for (const char* name : {"hexapod_free_joints", "hexapod_joint_springs"})
     check_grid(reference_machine(name), block, hard_cut);
 }
 
-TEST_CASE("the mill converges from a cold start in all of its travel, with a slender tool too") {
+TEST_CASE("the mill converges from a cold start in all of its travel, with a slender tool too" *
+          doctest::test_suite("long")) {
   const Machine with_slender_tool = sample_machine("mill3-slot/machine.toml");
   check_grid(sample_machine("mill3/machine.toml"), mill_block, hard_cut);
   check_grid(with_tool(with_slender_tool, with_slender_tool.tools.at(3)), mill_block, hard_cut);

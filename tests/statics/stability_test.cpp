@@ -89,7 +89,7 @@ TEST_CASE("a proof of stability is never wrong, and is found for most ordinary c
   CHECK(unstable > 20);
 }
 
-TEST_CASE("a bound on the condition is never below it, and is found for ordinary configurations") {
+TEST_CASE("a bound on the condition is never below it, and is found for ordinary configurations" * doctest::test_suite("long")) {
   int proved = 0, near = 0;
   for_any_configurations(
       72, [&](const Model& model, const Configuration& c, const Load& load, StaticsWork& work) {

@@ -14,7 +14,9 @@ struct WindowEvents {
   std::function<void(const Job&)> read;
   /// In the order of windows, as `done`, and before it: all before this window is compensated.
   std::function<void(const Job&)> begun;
-  /// The window is compensated, or has failed.
+  /// Waypoints of the window in order, in one portion or more.
+  std::function<void(const Job&, const std::vector<Waypoint>&)> solved;
+  /// The window is compensated, or has failed. Its waypoints have been given out.
   std::function<void(const Job&, Compensation&)> done;
 };
 

@@ -2,8 +2,10 @@
 /// What touching off with the machine finds: where the tip of the unloaded machine stands, relative to where
 /// it should. Lengths in m but for program coordinates, which are in mm.
 #include <cstddef>
+#include <map>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "counterflex/program/program.hpp"
@@ -14,7 +16,7 @@ namespace counterflex {
 
 /// A place on a feed move.
 struct PathPlace {
-  Vector3 p_mm = Vector3::Zero();  ///< program coordinates
+  Vector3 p_mm = Vector3::Zero();  ///< coordinates of the work offset
   long tool = 0;                   ///< in the spindle
 };
 
@@ -24,20 +26,21 @@ class PathPlaces {
  public:
   static constexpr std::size_t most = 64;
 
-  /// The next window of the program. Moves whose start or end is not known are passed over.
+  /// The next window of the program. Moves whose start or end is not known, or whose offset the program sets, are
+  /// passed over.
   void add(const Program& window);
 
-  /// Of an index into Program::work_offsets.
-  std::span<const PathPlace> of(std::size_t offset) const;
+  /// Of the work offset of that name.
+  std::span<const PathPlace> of(const std::string& offset) const;
 
  private:
   struct OfOffset {
     double spacing_mm = 1e-3, way_mm = 0;
     std::vector<PathPlace> places;  ///< place k is at k times the spacing
   };
-  void add(const Move& move, OfOffset& of);
+  static void add(const Move& move, const ProgramFrame& frame, OfOffset& of);
 
-  std::vector<OfOffset> offsets_;
+  std::map<std::string, OfOffset> offsets_;
 };
 
 /// The position of the unloaded machine's tip relative to the nominal one, axes of M; errors and weights act.
@@ -50,7 +53,7 @@ struct UnloadedDeviation {
 /// At `p_MT` (M), the nominal machine reached from where `nominal` is, which goes there.
 UnloadedDeviation unloaded_deviation(const Model& model, NominalToolPath& nominal, const Vector3& p_MT);
 
-/// The mean over `places`, which program coordinates in the frame `X_MW`: the common shift of a path that the
+/// The mean over `places` of the offset at `X_MW`: the common shift of a path that the
 /// errors and the weights of the machine cause. Places that the machine does not reach are left out; none: it
 /// reaches none of them.
 std::optional<Vector3> common_shift(const Model& model, const ToolModels& tools, const Pose& X_MW,

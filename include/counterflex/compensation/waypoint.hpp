@@ -117,11 +117,15 @@ struct ForwardState {
   std::optional<Vector3> command;       ///< end of the last piece
 };
 
-/// The same for the pieces of one window; moves `state` on.
-ForwardRun solve_forward_along(const Job& job, const std::vector<Piece>& pieces, const Questions& questions,
-                               ForwardState& state);
+/// Takes the waypoints of a window in order, in one portion or more.
+using WaypointTaker = std::function<void(std::vector<Waypoint>&&)>;
 
 /// The pieces of the original program itself, one for each place of its path.
 std::vector<Piece> original_pieces(const Job& job);
+
+/// Solves the original program of one window forward, which gives its waypoints out in portions; moves `state` on.
+/// Returns the failure of the last waypoint.
+std::optional<Failure> solve_original(const Job& job, const Questions& questions, ForwardState& state,
+                                      const WaypointTaker& take);
 
 }  // namespace counterflex

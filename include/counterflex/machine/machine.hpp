@@ -135,6 +135,7 @@ struct ControlSettings {
   std::string dialect = "auto";
   std::string units;                                          ///< "mm", "inch" or empty: not known
   std::optional<std::vector<std::string>> tool_change_moves;  ///< axes; none: all
+  bool absolute_centres = false;                              ///< of arcs, until a program says otherwise
 };
 
 /// What pulls at masses, and when the controller's zero was set.

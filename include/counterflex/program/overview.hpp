@@ -21,8 +21,8 @@ struct Overview {
   int text_lines = 0;          ///< line ends, and a last line that has none
   int lines = 0;               ///< `text_lines`, or the line of the last move where that is more
   long last_block_number = 0;  ///< the largest N of a move
-  std::vector<std::string> work_offsets{""};
-  std::vector<bool> offsets_used;  ///< by a move; by index into `work_offsets`
+  std::vector<ProgramFrame> frames{{}};
+  std::vector<bool> frames_used;  ///< by a move; by index into `frames`
   std::vector<long> tools;         ///< in the spindle for a move, each once, ascending; 0: none known
   std::vector<Remark> remarks;
   std::vector<PathTolerance> path_tolerances;
@@ -35,7 +35,7 @@ struct Overview {
 };
 
 /// Adds the next window of a program: whole lines, with line numbers of the file. What a window counts and
-/// lists from the program's start (`block_count`, `work_offsets`, `remarks`, `path_tolerances`) is taken as
+/// lists from the program's start (`block_count`, `frames`, `remarks`, `path_tolerances`) is taken as
 /// it is; `moves`, `text` and `left_alone` are the window's own.
 void add_window(Overview& overview, const Program& window);
 

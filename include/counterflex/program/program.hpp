@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "counterflex/geometry/pose.hpp"
 #include "counterflex/geometry/types.hpp"
 #include "counterflex/program/rare.hpp"
 
@@ -68,6 +69,9 @@ enum class Motion : std::uint8_t { rapid, feed };
 /// What F means: a length a minute (turns of the spindle are converted), or G93, moves a minute.
 enum class FeedMode : std::uint8_t { length, inverse_time };
 
+/// How a block of polar coordinates gives the end of its arc: CP IPA, CP PA of Klartext.
+enum class PolarEnd : std::uint8_t { none, by_angle, in_direction };
+
 /// The arc of a feed move under G2 or G3, in program coordinates, mm. Start and end are the move's.
 struct ArcMove {
   int normal = 2;                       ///< axis that the plane's normal is: 2 G17, 1 G18, 0 G19
@@ -75,6 +79,8 @@ struct ArcMove {
   Vector3 centre_mm = Vector3::Zero();  ///< at the height of the start
   int turns = 0;                        ///< full turns besides the way from start to end
   bool absolute_centre = false;         ///< G90.1: I J K are coordinates, else they count from the start
+  bool flat = false;  ///< the block takes no word of the axis `normal` (C and CR of Klartext)
+  PolarEnd polar = PolarEnd::none;
   std::array<PackedAxisWord, 3> centre_words;  ///< I, J, K where the block has them
   PackedAxisWord radius_word;                  ///< R or CR=: then there are no I J K
   double radius_mm = 0;                        ///< as written: negative for more than half a turn
@@ -133,7 +139,7 @@ struct Move {
   double feed_per_min = 0;           ///< F of a G93 move: 1/min
   double spindle_rpm = 0;            ///< modal S
   std::optional<long> block_number;  ///< N
-  std::size_t offset = 0;            ///< index into Program::work_offsets
+  std::size_t frame = 0;             ///< index into Program::frames
   std::int32_t tool = 0;             ///< T in the spindle, else H of G43; 0: none known
   std::uint32_t operation = 0;       ///< index into Program::operations
   Motion motion = Motion::rapid;
@@ -146,6 +152,10 @@ struct Move {
   std::array<bool, 3> fixed{};  ///< axes that the block sets to a place of its own which no edit can shift
                                 ///< (an expression, a subprogram): a correction that holds there must be zero
   bool relative = false;        ///< G91: words are differences from the start
+  std::uint8_t incremental : 3 = 0;  ///< bit of an axis: its word alone is a difference from the start
+  bool polar : 1 = false;            ///< LP, CP of Klartext: two of the words are one polar word
+  bool takes_no_z : 1 = false;       ///< no word of Z may be inserted: beside a corner, in the holes of a Klartext cycle
+  bool makes_hole : 1 = false;  ///< of Klartext: a cycle that goes along with the tool is called at its end
   bool block_delete = false;    ///< a '/' block: what it sets is unknown to the blocks after it
   bool exact_stop = false;      ///< the control stops at the end (G9, G61 of Fanuc, G61.1 of LinuxCNC)
   bool may_split =
@@ -154,6 +164,27 @@ struct Move {
   bool may_insert_words = true;  ///< axis words may be inserted; not into a block with G43, G44 or G49
 };
 static_assert(sizeof(Move) <= 240, "programs have millions of moves");
+
+/// Whether the block of an arc stays at the height of its start: neither has it a word of the axis across its
+/// plane nor does it take one.
+inline bool stays_flat(const Move& move) {
+  return move.arc && move.arc->flat && !move.words[static_cast<std::size_t>(move.arc->normal)];
+}
+
+/// Whether a word of `axis` says the way from the move's start.
+inline bool is_relative(const Move& move, std::size_t axis) {
+  return move.relative || (move.incremental >> axis & 1) != 0;
+}
+
+/// Whether a word of the axis may be inserted into the block of `move`.
+inline bool may_insert_word(const Move& move, std::size_t axis) {
+  return move.may_insert_words && !(move.takes_no_z && axis == 2);
+}
+
+/// Whether each axis has a word in the block of `move` or may get one.
+inline bool takes_all_words(const Move& move) {
+  return move.may_insert_words && (move.words[2] || !move.takes_no_z);
+}
 
 /// A block that is not corrected, and why.
 struct LeftAlone {
@@ -210,6 +241,26 @@ struct Expansion {
 /// The line of the file that line `text_line` of Program::text comes from.
 int line_of_file(const Expansion& expansion, int text_line);
 
+/// Coordinates in which moves are programmed: those of a work offset, shifted and turned about Z by plain numbers of the
+/// program (G10, G52, G92, G68, TRANS, ROT).
+struct ProgramFrame {
+  std::string work_offset{};              ///< "G54", "G54.1 P3", ...; empty: none selected yet
+  Vector3 origin_mm = Vector3::Zero();    ///< in the coordinates of the offset
+  double turn_rad = 0;                    ///< about Z, counter-clockwise
+  std::array<std::optional<double>, 3> set_mm{};  ///< by axis: the offset's place in machine coordinates, where the
+                                                  ///< program has set it (G10 L2)
+
+  bool operator==(const ProgramFrame&) const = default;
+};
+
+/// Whether the program itself sets the place of the frame's work offset (G10 L2).
+inline bool is_set(const ProgramFrame& frame) {
+  return frame.set_mm[0] || frame.set_mm[1] || frame.set_mm[2];
+}
+
+/// The place of `frame` in the coordinates of its work offset (mm).
+Pose in_offset(const ProgramFrame& frame);
+
 /// A program, or a window of one: then `text` holds some of its lines, `moves` and `left_alone` are those of
 /// these lines, and all else is what has been found from the program's first line on.
 struct Program {
@@ -221,13 +272,14 @@ struct Program {
   std::optional<Move>
       before{};                 ///< of a window: the last move of the one before it, and the first one of the
   std::optional<Move> after{};  ///< next; the spans of both lie in other texts
-  std::vector<std::string> work_offsets{""};  ///< "G54", "G54.1 P3", ...; the first: none selected yet
+  std::vector<ProgramFrame> frames{{}};        ///< in which moves are programmed; the first: no offset selected yet
   std::vector<std::string> operations{""};    ///< texts of comments that stand alone in their lines, of this
                                               ///< window; the first: the one that stood last before it
   std::vector<LeftAlone> left_alone;
   std::vector<Remark> remarks;
   std::vector<PathTolerance> path_tolerances;  ///< each different one once
   std::size_t block_count = 0;                 ///< lines with at least one word
+  std::size_t evaluated = 0;                   ///< words that were variables or expressions and are their values
   Expansion expansion{};
 };
 

@@ -8,17 +8,20 @@
 
 namespace counterflex {
 
-/// The least size after which a window ends. A rapid counts as 1, a line as 1 for each 5 mm that it begins (64 at
-/// most), an arc as 16 for each turn that it begins.
+/// The size of a window: a rapid counts as 1, a line as 1 for each 5 mm that it begins (64 at most), an arc as 16 for
+/// each turn that it begins. These are about as many as the places at which it is solved.
+std::size_t window_size(const Program& window);
+
+/// The least size after which a window ends.
 inline constexpr std::size_t window_moves = 4096;
 /// Windows without an end.
 inline constexpr std::size_t whole_program = static_cast<std::size_t>(-1);
 
 /// A program of a file, window by window. A window ends before a move along X or Y, or an arc, whose start is
 /// known in all axes, outside of contours, cycles, bodies and doubts, so that it can be corrected without
-/// looking back; it grows until there is such a place, or to twice its size until there is such a move along Z.
-/// Its moves and all that has been found are those of `read_program`. Klartext, and a program whose
-/// subprograms are expanded, is one window, whatever its size.
+/// looking back; it grows until there is such a place, or to twice its size until there is such a move along Z
+/// behind others. Its moves and all that has been found are those of `read_program`. A program whose subprograms
+/// are expanded, and Klartext whose polar blocks cannot all be followed, is one window, whatever its size.
 class ProgramReader {
  public:
   /// `bytes` is read from its beginning, where its dialect needs it once to see the program as a whole, then

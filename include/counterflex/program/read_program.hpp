@@ -21,9 +21,12 @@ struct ReadOptions {
       tool_change_moves;  ///< axes of "XYZ" unknown after a tool change; none: the
                           ///< dialect's, no axis for linuxcnc and grbl, else all
   IntegerWords integer_words = IntegerWords::unsaid;
+  bool absolute_centres = false;  ///< I, J, K of arcs are coordinates, until the program says otherwise (G91.1)
   std::map<long, double> tool_lengths_mm{};  ///< by H, or the active tool's number where G43 has no H: with
                                              ///< both lengths known Z stays known when they change
-  bool expand_subprograms = false;  ///< calls by M98 and O-words with plain numbers become the bodies' text
+  bool evaluate = false;  ///< variables that the program sets to constants, and expressions of them, are their values
+  bool expand_subprograms =
+      false;  ///< calls by M98, CALL LBL and O-words with plain numbers become the bodies' text
 };
 
 /// A dialect in which programs are not read (Exit::usage).
@@ -40,6 +43,10 @@ std::optional<std::string> unknown_dialect(const std::string& dialect);
 /// Exit::machine_or_force for a FORCE comment): nothing is passed over. A dialect that does not exist is
 /// `UnknownDialect`.
 Program read_program(std::string text, const std::string& file, const ReadOptions& options);
+
+/// The first word without a point in the moves up to `line` that may mean units or increments, and the question which;
+/// none where that is known.
+std::optional<Remark> integer_word_in_doubt(const Program& window, int line);
 
 /// Whether the header of a corrected program stands in `text` (a comment that begins "COUNTERFLEX 1").
 bool is_corrected(const Program& program);

@@ -97,12 +97,27 @@ struct HeldCycle {
   double bottom_change_mm = 0, retract_change_mm = 0;
 };
 
+/// The last CC of the written Klartext.
+struct HeldPole {
+  std::optional<Vector3> centre_mm{};  ///< none where it counts from a position
+  bool differs = false;                ///< it is not that of the original
+};
+
+/// The numbers of the blocks of the written Klartext.
+struct WrittenNumbers {
+  std::optional<unsigned long> last{};
+  bool renumbers = false;  ///< a block was inserted: those behind it count on from `last`
+  bool ended = false;      ///< END PGM: what follows is another program
+};
+
 /// What the text written so far leaves to the blocks that follow.
 struct TextState {
   HeldPosition held{};
   HeldCycle cycle{};
   std::optional<int> restate_motion{};  ///< what a block that relies on the modal motion must say: that of
                                         ///< the original, where inserted text may have left another
+  HeldPole pole{};
+  WrittenNumbers numbers{};
 };
 
 /// Writes a program window by window (ProgramReader).
@@ -112,7 +127,7 @@ class Rewriter {
   ~Rewriter();
   Rewriter(Rewriter&&) noexcept;
 
-  /// The text of the next window with `edits` of its moves, as `rewrite` has it. Klartext is one window.
+  /// The text of the next window with `edits` of its moves, as `rewrite` has it.
   Rewritten write(const Program& window, const std::vector<MoveEdit>& edits);
 
   const TextState& state() const;

@@ -11,10 +11,17 @@
 
 namespace counterflex {
 
+/// How much is cut.
+struct CutLength {
+  double known_mm = 0;      ///< of feed moves whose start and end are known
+  std::size_t unknown = 0;  ///< other feed moves
+};
+
 /// Blocks that share a fate and its reason.
 struct PlanRow {
   std::string why;
   std::size_t count = 0;
+  CutLength cut;
   std::vector<int> lines;     ///< of the first of them, at most `lines_of_row`
   bool must_be_zero = false;  ///< a correction that is not zero there is refused
 };
@@ -34,7 +41,8 @@ struct MotionPlan {
   std::size_t held = 0;           ///< keep the correction with which they are entered
   std::size_t grouped = 0;        ///< in contour groups
   std::size_t not_corrected = 0;  ///< machine positions, unknown places, blocks that are not followed
-  std::vector<PlanRow> held_rows, left_rows;  ///< in the order of their first lines
+  CutLength corrected_cut, held_cut, grouped_cut, left_cut;
+  std::vector<PlanRow> held_rows, left_rows;  ///< the most costly first: by length, by moves of unknown length, by blocks
   std::vector<PlanRow> other_rows;            ///< blocks without motion that are not followed
   std::vector<PlanGroup> groups;
   std::array<std::size_t, 3> arcs{};  ///< in the planes XY, XZ, YZ
@@ -47,7 +55,7 @@ struct MotionPlan {
 class MotionPlanner {
  public:
   void add(const Program& window);
-  const MotionPlan& plan() const { return plan_; }
+  MotionPlan plan() const;
 
  private:
   class Window;

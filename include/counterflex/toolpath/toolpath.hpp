@@ -50,7 +50,7 @@ struct PathEnd {
 
 /// The path: all moves whose start and end are known in every axis.
 struct Toolpath {
-  std::vector<WorkFrame> frames;  ///< by index into Program::work_offsets
+  std::vector<WorkFrame> frames;  ///< by index into Program::frames
   std::vector<Segment> segments;
   PathEnd end{};
 };

@@ -1,0 +1,85 @@
+#include "program/block_reader.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "counterflex/program/program_reader.hpp"
+#include "program/klartext_reader.hpp"
+#include "program/line_reader.hpp"
+#include "program/remarks.hpp"
+
+namespace counterflex {
+namespace {
+
+Program begun(const std::string& file, const ReadOptions& options, const Dialect& dialect) {
+  Program program;
+  program.file = file;
+  program.dialect = dialect.name;
+  program.integer_words = options.integer_words;
+  return program;
+}
+
+}  // namespace
+
+BlockReader::BlockReader(const std::string& file, const ReadOptions& options, const Dialect& dialect, Outline outline)
+    : options_(options), dialect_(dialect), outline_(std::move(outline)), program_(begun(file, options, dialect)) {}
+
+void BlockReader::read_plain(std::size_t) {}
+
+void BlockReader::read_all() {
+  // Growing step by step would copy every move several times; room that is used again is large enough.
+  if (program_.moves.capacity() == 0) {
+    const auto newlines = std::count(program_.text.begin(), program_.text.end(), '\n');
+    program_.moves.reserve(static_cast<std::size_t>(newlines) + 1);
+  }
+  do read_plain(whole_program);
+  while (read_block());
+  remark_rest(std::string_view(program_.text).substr(position()));
+}
+
+// A second program behind the end of the first is not corrected.
+void BlockReader::remark_rest(std::string_view text) {
+  if (end_line() > 0 && text.find_first_not_of("% \t\r\n") != std::string_view::npos)
+    add_remark(program_, end_line(), "what stands behind the end of the program stays as it is");
+}
+
+void BlockReader::begin_window(std::size_t read, std::optional<Move> first) {
+  if (!program_.moves.empty()) program_.before = std::move(program_.moves.back());
+  program_.moves.clear();  // the room is used again
+  if (first) {
+    first->operation = 0;  // what stood last before the window
+    program_.moves.push_back(std::move(*first));
+  }
+  program_.left_alone.clear();
+  program_.text.clear();
+  go_on_behind(read);
+}
+
+void BlockReader::take_window(Program& to) {
+  to.file = program_.file;
+  to.dialect = program_.dialect;
+  to.integer_words = program_.integer_words;
+  to.before = program_.before;
+  to.after = program_.after;
+  to.frames = program_.frames;
+  to.operations = program_.operations;
+  to.block_count = program_.block_count;
+  to.evaluated = program_.evaluated;
+  to.expansion = program_.expansion;
+  to.text.swap(program_.text);
+  to.moves.swap(program_.moves);
+  to.left_alone.swap(program_.left_alone);
+  program_.text.clear();
+  program_.moves.clear();
+  program_.left_alone.clear();
+  if (!to.moves.empty()) program_.before = to.moves.back();
+}
+
+std::unique_ptr<BlockReader> make_reader(const std::string& file, const ReadOptions& options, const Dialect& dialect,
+                                         Outline outline) {
+  if (dialect.name == klartext_name)
+    return std::make_unique<KlartextReader>(file, options, dialect, std::move(outline));
+  return std::make_unique<LineReader>(file, options, dialect, std::move(outline));
+}
+
+}  // namespace counterflex

@@ -1,0 +1,183 @@
+#include <doctest/doctest.h>
+
+#include "counterflex/geometry/units.hpp"
+#include "program/reading.hpp"
+
+using namespace counterflex;
+using namespace counterflex::test;
+
+namespace {
+
+const std::string start = "G21 G90 G17 G54 F100\nG0 X10. Y20. Z5.\n";
+
+const ProgramFrame& frame_of_last(const Program& program) {
+  return program.frames[program.moves.back().frame];
+}
+
+const std::string siemens_start = "G71 G90 G17 G54 F100\nG0 X10 Y20 Z5\n";
+
+/// Where the last move ends, in the coordinates of the work offset (mm).
+Vector3 end_in_offset(const Program& program) {
+  return in_offset(frame_of_last(program)) * program.moves.back().end_mm;
+}
+
+bool followed(const Program& program) {
+  const Move& last = program.moves.back();
+  return all_known(last.known_end) && !last.fixed[0] && !last.fixed[1] && !last.fixed[2];
+}
+
+}  // namespace
+
+TEST_CASE("G52 shifts the coordinates of the offset by plain numbers, axis by axis, and ends with zeros") {
+  for (const char* const dialect : {"fanuc", "haas", "linuxcnc", "mach3"}) {
+    CAPTURE(dialect);
+    const Program shifted = read(start + "G52 X5. Y1.\nG52 Y2.\nG1 X1.\n", dialect);
+    CHECK(followed(shifted));
+    CHECK(shifted.left_alone.empty());
+    CHECK((end_in_offset(shifted) - Vector3(6, 20, 5)).norm() < 1e-12);
+    CHECK((shifted.moves.back().start_mm - Vector3(5, 18, 5)).norm() < 1e-12);
+    CHECK(frame_of_last(shifted).work_offset == "G54");
+    const Program ended = read(start + "G52 X5. Y1.\nG1 X1.\nG52 X0. Y0. Z0.\nG1 X1.\n", dialect);
+    CHECK(followed(ended));
+    CHECK((end_in_offset(ended) - Vector3(1, 20, 5)).norm() < 1e-12);
+  }
+}
+
+TEST_CASE(
+    "G92 shifts the coordinates so that the tool stands where its words say; its words go along with "
+    "corrections") {
+  for (const char* const dialect : {"fanuc", "linuxcnc", "grbl"}) {
+    CAPTURE(dialect);
+    const Program program = read(start + "G1 X12.3456\nG92 X0. Y1.\nG1 X1.\n", dialect);
+    CHECK(followed(program));
+    CHECK((end_in_offset(program) - Vector3(13.3456, 20, 5)).norm() < 1e-12);
+    REQUIRE(program.moves.size() == 4);
+    const Move& set = program.moves[2];
+    CHECK(set.handling == Handling::held);
+    CHECK(set.start_mm == set.end_mm);
+    REQUIRE((set.words[0] && set.words[1]));
+    CHECK_FALSE(set.words[2]);
+    CHECK(set.words[0]->decimals == 4);
+    const Program ended = read(start + "G92 X0. Y1.\nG1 X1.\nG92.1\nG1 X1.\n", "linuxcnc");
+    CHECK(followed(ended));
+    CHECK((end_in_offset(ended) - Vector3(1, 20, 5)).norm() < 1e-12);
+  }
+}
+
+TEST_CASE("G92 before any move says where the operator has put the tool") {
+  const Program program = read("G21 G90\nG92 X5. Y8.\nG0 Z2.\nG1 X1. F100\n");
+  CHECK(program.moves.size() == 2);
+  CHECK(followed(program));
+  CHECK((program.moves[0].start_mm.head<2>() - Vector3(5, 8, 0).head<2>()).norm() == 0);
+  CHECK(frame_of_last(program).origin_mm.isZero(0));
+}
+
+TEST_CASE("in LinuxCNC and Mach3 G52 takes the place of G92, on other controls it adds to it") {
+  const std::string text = start + "G92 X0. Y0.\nG52 X3. Y4.\nG1 X1. Y1.\n";
+  for (const char* const dialect : {"linuxcnc", "mach3"})
+    CHECK((end_in_offset(read(text, dialect)) - Vector3(4, 5, 5)).norm() < 1e-12);
+  CHECK((end_in_offset(read(text, "fanuc")) - Vector3(14, 25, 5)).norm() < 1e-12);
+}
+
+TEST_CASE(
+    "G68 turns the coordinates about its centre; X and Y are unknown until they are programmed, G69 ends "
+    "it") {
+  const Program program = read(start + "G68 X10. Y0. R90.\nG1 X20. Y0.\nG1 X30.\n", "fanuc");
+  CHECK(followed(program));
+  CHECK((end_in_offset(program) - Vector3(10, 20, 5)).norm() < 1e-12);
+  CHECK(program.moves[1].known_start == std::array<bool, 3>{false, false, true});
+  CHECK(program.moves[2].known_start == std::array<bool, 3>{true, true, true});
+  const Program ended = read(start + "G68 X10. Y0. R90.\nG1 X20. Y0.\nG69\nG1 X1. Y2.\n", "haas");
+  CHECK(followed(ended));
+  CHECK((end_in_offset(ended) - Vector3(1, 2, 5)).norm() < 1e-12);
+}
+
+TEST_CASE(
+    "what cannot be worked out is no frame: conditions, variables, unknown positions, turns without a "
+    "centre") {
+  for (const char* const block :
+       {"G52 X[1]", "G92 X#1", "G68 R30.", "G68 X0. Y0. Z0. R30.", "G18 G68 X0. Y0. R30.", "G91 G52 X1.",
+        "G53 Z0.\nG92 Z0.", "G68 X0. Y0. R30.\nG52 X1.", "IF[#1EQ1]THEN #2=1\nG52 X1.\nG55",
+        "G16\nG52 X1."}) {
+    CAPTURE(block);
+    const Program program = read(start + block + "\nX1. Y1.\n", "fanuc");
+    CHECK_FALSE(followed(program));
+    CHECK_FALSE(program.left_alone.empty());
+  }
+  const Program in_body = read(start + "o1 if [#1 GT 2]\nG52 X1.\no1 endif\nX1. Y1. Z1.\n", "linuxcnc");
+  CHECK_FALSE(followed(in_body));
+}
+
+TEST_CASE(
+    "TRANS, ATRANS, ROT and AROT of a Sinumerik shift and turn about Z by plain numbers, and end each "
+    "other") {
+  const auto end_of = [](const std::string& blocks) {
+    const Program program = read(siemens_start + blocks, "siemens");
+    CAPTURE(blocks);
+    CHECK(followed(program));
+    CHECK(program.left_alone.empty());
+    return end_in_offset(program);
+  };
+  CHECK((end_of("TRANS X5 Y=1.5\nG1 X1\n") - Vector3(6, 20, 5)).norm() < 1e-12);
+  CHECK((end_of("TRANS X5\nATRANS X1 Z2\nG1 X1 Z0\n") - Vector3(7, 20, 2)).norm() < 1e-12);
+  CHECK((end_of("TRANS X5\nTRANS Y1\nG1 X1 Y1\n") - Vector3(1, 2, 5)).norm() < 1e-12);
+  CHECK((end_of("TRANS X5\nTRANS\nG1 X1\n") - Vector3(1, 20, 5)).norm() < 1e-12);
+  CHECK((end_of("TRANS X5\nAROT Z90\nG1 X1 Y0\n") - Vector3(5, 1, 5)).norm() < 1e-12);
+  CHECK((end_of("ROT RPL=90\nATRANS X5\nG1 X1 Y0\n") - Vector3(0, 6, 5)).norm() < 1e-12);
+  CHECK((end_of("TRANS X5\nROT RPL=90\nG1 X1 Y0\n") - Vector3(0, 1, 5)).norm() < 1e-12);
+  CHECK((end_of("TRANS X5\nAROT RPL=30\nROT\nG1 X1 Y0\n") - Vector3(1, 0, 5)).norm() < 1e-12);
+}
+
+TEST_CASE("a shift of turned coordinates leaves the tool where it stands") {
+  const Program program = read(siemens_start + "AROT Z30\nG1 X10 Y0\nATRANS X5 Y2\nG1 Z1\n", "siemens");
+  CHECK(followed(program));
+  const Move &before = program.moves[1], &last = program.moves.back();
+  CHECK((in_offset(frame_of_last(program)) * last.start_mm -
+         in_offset(program.frames[before.frame]) * before.end_mm)
+            .norm() < 1e-12);
+  CHECK((last.end_mm - Vector3(5, -2, 1)).norm() < 1e-12);
+}
+
+TEST_CASE("after a Sinumerik frame that is not followed, moves are unknown until the next TRANS") {
+  for (const std::string frame :
+       {"TRANS X=R1", "ROT X10", "MIRROR X0", "TRANS X5 MIRROR X0", "TRANS X=IC(5)"}) {
+    CAPTURE(frame);
+    CHECK_FALSE(followed(read(siemens_start + frame + "\nG1 X1 Y1 Z1\n", "siemens")));
+    CHECK_FALSE(followed(read(siemens_start + frame + "\nATRANS X1\nG1 X1 Y1 Z1\n", "siemens")));
+    CHECK(followed(read(siemens_start + frame + "\nTRANS X1\nG1 X1 Y1 Z1\n", "siemens")));
+  }
+}
+
+TEST_CASE("G10 L2 sets the place of an offset, axis by axis, and its positions are unknown until they are programmed") {
+  const Program program = read(start + "G10 L2 P1 X7. Z-3.\nG1 Y1.\nG0 X2. Z4.\n");
+  CHECK(followed(program));
+  CHECK(program.left_alone.empty());
+  const ProgramFrame& frame = frame_of_last(program);
+  CHECK(frame.work_offset == "G54");
+  CHECK(frame.set_mm == std::array<std::optional<double>, 3>{7.0, std::nullopt, -3.0});
+  CHECK(program.moves[1].known_start == std::array<bool, 3>{false, true, false});
+  CHECK(is_set(frame));
+  const Program other = read(start + "G10 L2 P2 X7.\nG1 X1.\nG55 G0 X2. Y0 Z4.\n");
+  CHECK_FALSE(is_set(other.frames[other.moves[1].frame]));
+  CHECK(is_set(frame_of_last(other)));
+}
+
+TEST_CASE("G10 L20 moves the zero of the offset that acts to where the tool stands, and goes along with it") {
+  const Program program = read(start + "G10 L20 P1 X0\nG1 X5.\n");
+  CHECK(followed(program));
+  CHECK((end_in_offset(program) - Vector3(15, 20, 5)).norm() < 1e-12);
+  REQUIRE(program.moves.size() == 3);
+  CHECK(program.moves[1].handling == Handling::held);
+  CHECK(program.moves[1].words[0]);
+  const Program first = read("G21 G90 G10 L20 P0 X0 Y0 Z5.\nG1 X5. F100\n");
+  CHECK(followed(first));
+  CHECK((end_in_offset(first) - Vector3(5, 0, 5)).norm() < 1e-12);
+}
+
+TEST_CASE("G10 that turns an offset, counts on from it, or sets another one by the tool's place is not followed") {
+  for (const char* block : {"G10 L2 P1 X1. R30.", "G91 G10 L2 P1 X1.", "G10 L20 P2 X0", "/G10 L2 P1 X1.", "G10 L2 P1 X#1"}) {
+    CAPTURE(block);
+    CHECK_FALSE(read(start + block + "\nG90 G55 G1 X1. Y1. Z1.\nG54 X1. Y1. Z1.\n").left_alone.empty());
+  }
+  CHECK_FALSE(read(start + "G10 L2 P0 X1.\nG1 X1. Y1. Z1.\n", "fanuc").left_alone.empty());
+}
