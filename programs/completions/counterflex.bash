@@ -8,9 +8,9 @@ _counterflex_words() {
     compensate) echo "$program $forces --blend-mm --output --number-pieces --plot --report --force-overwrite --min-block-ms --json --quiet --verbose --help" ;;
     predict | verify) echo "$program $forces --blend-mm --plot --report --force-overwrite --min-block-ms --json --quiet --verbose --help" ;;
     watch) echo "$program $forces --blend-mm --output --number-pieces --plot --report --force-overwrite --min-block-ms --once --pattern --json --quiet --verbose --help" ;;
-    compare) echo "--name --report --json --quiet --verbose --help" ;;
-    analyze) echo "--machine --at --tool --force --full --hold --curve --output --method $config --json --quiet --verbose --help" ;;
-    forces) echo "$reading $forces --output --materials --json --quiet --verbose --help" ;;
+    compare) echo "--name --report --force-overwrite --json --quiet --verbose --help" ;;
+    analyze) echo "--machine --at --tool --force --full --hold --curve --output --force-overwrite --method $config --json --quiet --verbose --help" ;;
+    forces) echo "$reading $forces --output --force-overwrite --materials --json --quiet --verbose --help" ;;
     check) echo "$reading --json --quiet --verbose --help" ;;
     batch) echo "--resume --shard --merge --estimate --threads --force-overwrite --json --quiet --verbose --help" ;;
     *) echo "compensate predict verify compare analyze forces check batch watch --version --help" ;;

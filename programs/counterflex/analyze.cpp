@@ -85,7 +85,7 @@ void check_values(const Options& options) {
   if (!options.output->ends_with(".csv"))
     throw InputError(Exit::usage, {},
                      fmt::format("--output of analyze writes a file that ends in .csv, not '{}'", *options.output));
-  check_output(options);
+  check_output(options, curve_mark);
 }
 
 AnalysisExtras extras_of(const Options& options, const Model& machine, const Model& model) {

@@ -60,6 +60,13 @@ std::vector<BatchTask> tasks_of(const std::vector<BatchUnit>& units) {
   return tasks;
 }
 
+/// Before anything is done: what somebody else wrote under the names of a batch stays.
+void refuse_foreign_summary(const Batch& batch) {
+  if (batch.force_overwrite) return;
+  refuse_foreign({marked_file(batch.folder + "/summary.json", "\"counterflex-batch 1\""),
+                  marked_file(batch.folder + "/summary.csv", summary_columns)});
+}
+
 void write_summary(const Batch& batch, const std::vector<JobOutcome>& outcomes, const std::string& json) {
   FileWriter json_file(batch.folder + "/summary.json"), csv_file(batch.folder + "/summary.csv");
   json_file.write(json);
@@ -184,6 +191,7 @@ Exit run_batch(const Options& options, Console& console) {
   Batch batch = read_batch(enter_folder_of(options.jobs, console), from, options.sources.flags);
   for (BatchJob& job : batch.jobs) job.options.quiet = !options.verbose;  // the table counts their warnings
   if (options.estimate) return say_estimate(batch);
+  refuse_foreign_summary(batch);
   if (options.shard) return run_shard(options, batch, console);
   return options.merge ? run_merge(options, batch, console) : run_all(options, batch, console);
 }

@@ -192,10 +192,8 @@ Batch read_batch(const std::string& file, const std::string& from, const std::ve
   Options whole;
   whole.command = Command::batch;
   whole = with_settings(std::move(whole), {flags, environment, jobs_file.defaults});
-  const bool force_overwrite = std::any_of(flags.begin(), flags.end(), [](const Setting& flag) {
-    return flag.option == "force-overwrite" && flag.values == std::vector<std::string>{"true"};
-  });
-  return {jobs_file.output, JobList(jobs_file, environment, force_overwrite).take(), whole.threads};
+  return {jobs_file.output, JobList(jobs_file, environment, whole.force_overwrite).take(), whole.threads,
+          whole.force_overwrite};
 }
 
 }  // namespace counterflex::cli

@@ -22,6 +22,7 @@ struct Batch {
   std::string folder;          ///< where summary and state are kept
   std::vector<BatchJob> jobs;  ///< in the order of the file, those of a glob by name; no two have one output
   int threads = 1;             ///< for all of them together
+  bool force_overwrite = false;  ///< of the summary, too
 };
 
 /// Reads `file`, finds the programs, and settles the options of each, in which jobs go before defaults, these

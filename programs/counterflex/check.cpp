@@ -30,7 +30,7 @@ Checked check_file(const std::string& path, const Options& options, const Machin
 }  // namespace
 
 void add_sanity(const SanityChecks& checks, const Machine& machine, Checked& checked, Console& console) {
-  checked.sanity = sanity_block(checks, console.colour_out(), console.marks_out(), true);
+  checked.sanity = sanity_block(checks, console.colour_out(), console.marks_out());
   checked.json["sanity"] = nlohmann::ordered_json::parse(to_json(checks));
   try {
     refuse_wrong(checks, machine);

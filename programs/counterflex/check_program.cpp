@@ -165,11 +165,11 @@ std::optional<Failure> go_to(NominalToolPath& nominal, const Model& base, const 
   const Status status = nominal.go_to(at.model, at.target);
   if (status != Status::converged)
     return Failure{Exit::not_compensated, line,
-                   fmt::format("the machine does not reach the end of this move: {}", to_string(status))};
+                   fmt::format("the machine does not reach the end of this move: {}", to_string(status)), 0, status};
   if (within_travel(at.model.mechanism, actuator_values(at.model.mechanism, nominal.configuration())))
     return std::nullopt;
   if (const auto word = integer_word_in_doubt(window, line)) return Failure{Exit::program_text, word->line, word->what};
-  return Failure{Exit::limit, line, outside_travel_words(base.mechanism, at)};
+  return Failure{Exit::limit, line, outside_travel_words(base.mechanism, at), 0, Status::outside_travel};
 }
 
 /// The first place, end of a line or on an arc, that the nominal machine does not reach.
@@ -203,7 +203,7 @@ void check_reach(const Overview& program, ProgramReader reader, const MachineInp
       row("reach", failure ? fmt::format("line {}: {}", failure->line, failure->what)
                            : fmt::format("{} reaches the ends of all moves", shown_name(input.file.path)));
   SanityChecks sanity = program_sanity({input, tools, lengths, work, program});
-  if (!failure) sanity.push_back(check_travel(input.model.mechanism, travel));
+  sanity.push_back(check_travel(input.model.mechanism, travel, failure));
   add_sanity(sanity, input.machine, checked, console);
   if (!failure) return;
   checked.exit = failure->exit;

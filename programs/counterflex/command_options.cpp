@@ -124,6 +124,7 @@ void add_compare(CLI::App& app, Options& options) {
       ->allow_extra_args(false);
   value_option(command, "--report", "STEM", "Write STEM.json and STEM.html, a page of both runs",
                [&](const std::string& text) { options.report = text; });
+  add_setting(command, options, "force-overwrite");
   add_output(command, options);
 }
 
@@ -153,6 +154,7 @@ void add_analyze(CLI::App& app, Options& options) {
                [&](const std::string& text) { options.curve = text; });
   value_option(command, "-o,--output", "OUTPUT", "A table (.csv) of the points of --curve to write",
                [&](const std::string& text) { options.output = text; });
+  add_setting(command, options, "force-overwrite");
   add_config(command, options);
   add_output(command, options);
 }
@@ -165,6 +167,7 @@ void add_show_forces(CLI::App& app, Options& options) {
               "The machine on which the program runs; the tool stands along z of the program without one");
   value_option(command, "-o,--output", "OUTPUT", "A force profile (.csv) to write; - takes the table's place",
                [&](const std::string& text) { options.output = text; });
+  add_setting(command, options, "force-overwrite");
   command.add_flag("--materials", options.materials,
                    "List the cutting coefficients that a cutting model can name, with their sources");
   add_forces(command, options);

@@ -187,7 +187,7 @@ Exit run_forces(const Options& options, Console& console) {
     return Exit::done;
   }
   if (options.program.empty()) throw InputError(Exit::usage, {}, "PROGRAM is required, or --materials");
-  check_output(options);
+  check_output(options, profile_mark);
   if (options.machine.empty()) {
     BareRun run = prepare_bare_run(options, console);
     Told told(options, run.look.program.file, acts_at_platform(run.force_input.source));

@@ -156,11 +156,11 @@ std::string json_foot(const ForceTotals& totals) {
 
 std::string profile_head(const std::string& program, bool at_platform) {
   return fmt::format(
-      "# Forces of {}, a row a feed move, and one where the force steps within it;\n"
+      "{}{}, a row a feed move, and one where the force steps within it;\n"
       "# zeros where none acts, nothing where a FORCE comment does.\n"
       "# frame = feed\n# sense = on_tool\n# at = {}\n# interpolation = step\n"
       "s_mm, fx_N, fy_N, fz_N, mx_Nm, my_Nm, mz_Nm\n",
-      program, at_platform ? "platform" : "tip");
+      profile_mark, program, at_platform ? "platform" : "tip");
 }
 
 std::string profile_rows(const std::string& program, const MoveForce& move) {

@@ -2,6 +2,7 @@
 /// The wrench of every feed move: as a table for people, a document for programs, and a force profile.
 #include <map>
 #include <string>
+#include <string_view>
 
 #include "counterflex/forces/move_forces.hpp"
 
@@ -31,6 +32,9 @@ std::string table_foot(const ForceTotals& totals);
 std::string json_head(const std::string& program);
 std::string json_row(const MoveForce& move, bool first);
 std::string json_foot(const ForceTotals& totals);
+
+/// How a profile begins that counterflex wrote.
+inline constexpr std::string_view profile_mark = "# Forces of ";
 
 /// A profile by path length in the feed frame: rows where a move begins and where its force steps, zeros for
 /// one without a force, none for one that a FORCE comment covers. `profile_rows` throws `InputError`

@@ -3,8 +3,11 @@
 
 #include "command_line.hpp"
 #include "commands.hpp"
+#include "counterflex/report/formats.hpp"
 #include "guarded.hpp"
+#include "outputs.hpp"
 #include "signals.hpp"
+#include "version.hpp"
 
 namespace counterflex::cli {
 namespace {
@@ -33,6 +36,39 @@ Exit run_command(const Options& options, Console& console) {
   return Exit::internal;
 }
 
+/// The command's name where a run of it has a verdict; else empty.
+std::string_view judged_command(Command command) {
+  switch (command) {
+    case Command::compensate:
+      return "compensate";
+    case Command::predict:
+      return "predict";
+    case Command::verify:
+      return "verify";
+    default:
+      return {};
+  }
+}
+
+/// Standard output has a verdict also where inputs could not be read; not where it takes the program.
+void tell_failed(const Options& options, const InputError& error) {
+  const std::string_view command = judged_command(options.command);
+  if (command.empty() || options.output == "-") return;
+  if (options.json)
+    write_result(failed_json(command, version, error));
+  else
+    write_result("FAILED\n");
+}
+
+Exit run_and_judge(const Options& options, Console& console) {
+  try {
+    return run_command(options, console);
+  } catch (const InputError& error) {
+    tell_failed(options, error);
+    throw;
+  }
+}
+
 Exit run(int argc, char** argv) {
   Console plain{Options{}};
   return guarded(plain, [&] {
@@ -43,7 +79,7 @@ Exit run(int argc, char** argv) {
     for (const SettingRemark& remark : options.remarks)
       console.warning(remark.where.file, remark.where.line, remark.what);
     if (!options.project_file.empty()) console.detail("project file " + options.project_file);
-    return guarded(console, [&] { return run_command(options, console); });
+    return guarded(console, [&] { return run_and_judge(options, console); });
   });
 }
 

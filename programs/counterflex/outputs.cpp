@@ -6,7 +6,6 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
-#include <functional>
 
 #include "counterflex/files/file_reader.hpp"
 #include "counterflex/files/files.hpp"
@@ -76,15 +75,6 @@ bool begins_with_mark(const std::string& path, std::string_view mark) {
   return bytes.find(mark) != std::string::npos;
 }
 
-void refuse_foreign(const std::string& path, const std::function<bool(const std::string&)>& is_own) {
-  std::error_code error;
-  if (path.empty() || path == "-" || !fs::is_regular_file(path, error)) return;
-  if (fs::file_size(path, error) == 0 || is_own(path)) return;
-  throw InputError(Exit::usage, {path},
-                   "the file exists, and counterflex did not write it; give another name, or --force-overwrite "
-                   "to replace it");
-}
-
 void make_folders(const std::vector<std::string>& folders) {
   for (const std::string& folder : folders)
     if (!folder.empty()) make_folder(folder);
@@ -134,16 +124,32 @@ OutputPaths output_paths(const Options& options) {
   return paths;
 }
 
+void refuse_foreign(const std::vector<OwnFile>& files) {
+  for (const OwnFile& file : files) {
+    std::error_code error;
+    if (file.path.empty() || file.path == "-" || !fs::is_regular_file(file.path, error)) continue;
+    if (fs::file_size(file.path, error) == 0 || file.is_own(file.path)) continue;
+    throw InputError(Exit::usage, {file.path},
+                     "the file exists, and counterflex did not write it; give another name, or --force-overwrite "
+                     "to replace it");
+  }
+}
+
+OwnFile marked_file(const std::string& path, std::string_view mark) {
+  return {path, [mark](const std::string& own) { return begins_with_mark(own, mark); }};
+}
+
+OwnFile page_file(const std::string& path) {
+  return marked_file(path, "content=\"counterflex\"");
+}
+
 void refuse_foreign_outputs(const OutputPaths& paths, const Options& options) {
   if (options.force_overwrite) return;
-  const auto marked = [](std::string_view mark) {
-    return [mark](const std::string& path) { return begins_with_mark(path, mark); };
-  };
-  refuse_foreign(paths.program, has_corrected_header);
-  refuse_foreign(paths.report_json, marked("counterflex"));
-  refuse_foreign(paths.report_csv, marked("index,line,cutting,s_mm"));
-  refuse_foreign(paths.report_page, marked("content=\"counterflex\""));
-  refuse_foreign(paths.plot, marked(plot_mark));
+  refuse_foreign({{paths.program, has_corrected_header},
+                  marked_file(paths.report_json, "\"counterflex"),
+                  marked_file(paths.report_csv, "index,line,cutting,s_mm"),
+                  page_file(paths.report_page),
+                  marked_file(paths.plot, plot_mark)});
 }
 
 ComparisonPaths comparison_paths(const Options& options) {
@@ -153,10 +159,12 @@ ComparisonPaths comparison_paths(const Options& options) {
   for (const std::string& report : options.reports)
     if (const std::string page = page_beside(report); !page.empty()) inputs.push_back(page);
   check_paths({paths.json, paths.page}, inputs);
+  if (!options.force_overwrite)
+    refuse_foreign({marked_file(paths.json, "\"counterflex-comparison"), page_file(paths.page)});
   return paths;
 }
 
-void check_output(const Options& options) {
+void check_output(const Options& options, std::string_view mark) {
   if (!options.output) return;
   if (*options.output == "-" && options.json)
     throw InputError(
@@ -166,7 +174,8 @@ void check_output(const Options& options) {
   const std::string extension = fs::path(*options.output).extension().string();
   if (*options.output != "-" && extension != ".csv")
     throw InputError(Exit::usage, {*options.output},
-                     fmt::format("a force profile is .csv, not '{}': -f would not read it", extension));
+                     fmt::format("a table is written to a .csv file, not to '{}'", extension));
+  if (!options.force_overwrite) refuse_foreign({marked_file(*options.output, mark)});
 }
 
 RunFiles::RunFiles(const OutputPaths& paths, const CsvColumns& columns, bool hashed)

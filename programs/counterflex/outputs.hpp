@@ -1,5 +1,6 @@
 #pragma once
 /// What a run writes, and where it may.
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -29,8 +30,19 @@ struct OutputPaths {
 /// output; Exit::transient_io where its folder does not exist.
 OutputPaths output_paths(const Options& options);
 
-/// Throws `InputError` (Exit::usage) where one of these files exists, is not empty, and was not written by
-/// counterflex; not with --force-overwrite. A program is recognized by its header.
+/// A file that a command writes, and whether what has its name now was written by counterflex.
+struct OwnFile {
+  std::string path;  ///< empty or "-": none
+  std::function<bool(const std::string& path)> is_own;
+};
+
+/// A file with this text in its first bytes. `mark` outlives it.
+OwnFile marked_file(const std::string& path, std::string_view mark);
+
+/// Throws `InputError` (Exit::usage) where one of these files exists, is not empty and is not counterflex's own.
+void refuse_foreign(const std::vector<OwnFile>& files);
+
+/// The same of what a run writes, unless --force-overwrite is given. A program is recognized by its header.
 void refuse_foreign_outputs(const OutputPaths& paths, const Options& options);
 
 /// What `compare` writes; empty paths without --report.
@@ -38,11 +50,12 @@ struct ComparisonPaths {
   std::string json, page;
 };
 
-/// Throws as `output_paths`. The pages beside the reports are inputs, too.
+/// Throws as `output_paths` and `refuse_foreign`. The pages beside the reports are inputs, too.
 ComparisonPaths comparison_paths(const Options& options);
 
-/// Throws as `output_paths` where --output of a command that writes no program cannot be written.
-void check_output(const Options& options);
+/// Throws as `output_paths` and `refuse_foreign` where --output of a command that writes a table cannot be
+/// written; tables begin with `mark`.
+void check_output(const Options& options, std::string_view mark);
 
 /// The files of a run, written as it goes; they get their names when it has ended, or never.
 class RunFiles {

@@ -115,7 +115,7 @@ SanityChecks run_sanity(const Run& run, const RunReport& report, const RunTally&
                                    [](const SanityCheck& check) { return check.name == "tip stiffness"; });
     checks.insert(home + 1, std::move(*stiffness));
   }
-  checks.push_back(check_travel(run.machine.model.mechanism, tally.travel()));
+  checks.push_back(check_travel(run.machine.model.mechanism, tally.travel(), report.failure));
   checks.push_back(check_feed_force(tally.feed_force(), are_computed(run)));
   append(checks, check_force_size(report.forces.largest_N));
   append(checks, check_tolerance(report.tolerance_mm));

@@ -90,7 +90,14 @@ const std::array option_table{
     SettingOption{
         "blend-mm", "--blend-mm", "LENGTH",
         "A step of the force acts as a ramp over this length [2]; 0: as a jump", "2", false,
-        [](Text name, Text text, Options& options) { options.blend = number_of(name, text, {0}) * mm; }},
+        [](Text name, Text text, Options& options) {
+          constexpr double least_mm = 0.01;  // words have hardly finer digits
+          const double blend_mm = number_of(name, text, {0});
+          if (blend_mm > 0 && blend_mm < least_mm)
+            throw InputError(Exit::usage, {},
+                             fmt::format("{} is '{}', must be 0 for jumps, or at least {}", name, text, least_mm));
+          options.blend = blend_mm * mm;
+        }},
     SettingOption{
         "dialect", "--dialect", "NAME",
         "auto, linuxcnc, grbl, fanuc, haas, mach3, siemens or heidenhain; the machine file's, or auto", "",
@@ -195,15 +202,15 @@ bool has_setting(Command command, std::string_view option) {
     case Command::watch:
       return true;
     case Command::analyze:
-      return is_among(option, {"machine", "method"});
+      return is_among(option, {"machine", "method", "force-overwrite"});
     case Command::forces:
-      return is_of_reading(option) || is_among(option, {"forces", "force", "load-scale", "air-above"});
+      return is_of_reading(option) || is_among(option, {"forces", "force", "load-scale", "air-above", "force-overwrite"});
     case Command::check:
       return is_of_reading(option);
     case Command::batch:
-      return option == "threads";
+      return is_among(option, {"threads", "force-overwrite"});
     case Command::compare:
-      break;
+      return option == "force-overwrite";
   }
   return false;
 }

@@ -69,6 +69,20 @@ std::string beginning_of(const std::string& path) {
   return bytes;
 }
 
+/// The digits of its program's hash in the header of a corrected program; empty where it has none.
+std::string program_digits(const std::string& path) {
+  constexpr std::size_t count = 16;
+  constexpr std::string_view mark = "COUNTERFLEX 1 PROGRAM ";
+  const std::string bytes = beginning_of(path);
+  const std::size_t at = bytes.find(mark);
+  if (at == std::string::npos) return {};
+  const std::string digits = bytes.substr(at + mark.size(), count);
+  const bool complete = digits.size() == count && std::all_of(digits.begin(), digits.end(), [](unsigned char c) {
+    return std::isxdigit(c) != 0;
+  });
+  return complete ? digits : std::string();
+}
+
 /// Where writers may be on other computers, of whom the system here does not know.
 bool is_on_server(int file) {
   constexpr std::uint32_t nfs = NFS_SUPER_MAGIC, smb = SMB_SUPER_MAGIC, smb2 = 0xFE534D42, cifs = 0xFF534D42,
@@ -187,18 +201,14 @@ bool is_being_written(const std::string& path) {
 }
 
 bool has_corrected_header(const std::string& path) {
-  const std::string bytes = beginning_of(path);
-  for (const char* mark : {"(COUNTERFLEX 1", ";COUNTERFLEX 1", "; COUNTERFLEX 1"})
-    if (bytes.find(mark) != std::string::npos) return true;
-  return false;
+  return !program_digits(path).empty();
 }
 
 bool is_corrected_from(const std::string& output, const std::string& program,
                        const std::function<bool()>& stop) {
-  constexpr std::size_t digits_in_header = 16, portion = 1 << 20;
-  const std::string bytes = beginning_of(output);
-  const std::size_t at = bytes.find("COUNTERFLEX 1 PROGRAM ");
-  if (at == std::string::npos) return false;
+  constexpr std::size_t portion = 1 << 20;
+  const std::string known = program_digits(output);
+  if (known.empty()) return false;
   Sha256 hash;
   try {
     FileReader reader(program);
@@ -209,9 +219,9 @@ bool is_corrected_from(const std::string& output, const std::string& program,
   } catch (const InputError&) {
     return false;
   }
-  std::string digits = hash.digits().substr(0, digits_in_header);
-  for (char& c : digits) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-  return bytes.compare(at + std::strlen("COUNTERFLEX 1 PROGRAM "), digits_in_header, digits) == 0;
+  return std::equal(known.begin(), known.end(), hash.digits().begin(), [](unsigned char known_digit, unsigned char digit) {
+    return std::tolower(known_digit) == std::tolower(digit);
+  });
 }
 
 }  // namespace counterflex::cli

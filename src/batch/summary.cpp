@@ -160,7 +160,7 @@ std::string summary_table(const std::vector<JobOutcome>& outcomes, std::size_t m
   std::string text = heading();
   for (std::size_t i = 0; i < shown; ++i) {
     text += row_of(rows[i]);
-    if (is_partly(rows[i])) text += fmt::format("  {}\n", rows[i].verdict_reason);
+    if (!rows[i].verdict_reason.empty()) text += fmt::format("  {}\n", rows[i].verdict_reason);
   }
   if (shown < rows.size()) text += fmt::format("and {} more, which are no worse\n", rows.size() - shown);
   const std::size_t partly = count_partly(rows), written = count_done(rows), failed = rows.size() - written;
@@ -188,9 +188,7 @@ std::string summary_json(const std::vector<JobOutcome>& outcomes, std::string_vi
 }
 
 std::string summary_csv(const std::vector<JobOutcome>& outcomes) {
-  std::string text =
-      "program,output,status,exit_status,before_mm,after_mm,corrected_percent,warnings,moves,error,verdict,"
-      "verdict_reason\n";
+  std::string text = std::string(summary_columns) + "\n";
   for (const JobOutcome& outcome : worst_first(outcomes))
     text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{}\n", csv_field(outcome.program),
                         csv_field(outcome.output), csv_field(status_text(outcome)), static_cast<int>(outcome.exit),

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "counterflex/files/numbers.hpp"
 #include "counterflex/geometry/units.hpp"
 #include "window_stages.hpp"
 
@@ -22,9 +23,10 @@ std::optional<Failure> tolerance_failure(const Job& job, const std::vector<Waypo
     if (miss <= job.options.tolerance || w.exempt) continue;
     return Failure{
         Exit::not_compensated, w.line,
-        fmt::format("verification failed: the tip misses the path by {:.4f} mm at {:.1f} % of this move, the "
+        fmt::format("verification failed: the tip misses the path by {} mm at {:.1f} % of this move, the "
                     "tolerance is {:.4f} mm",
-                    miss / mm, 100 * w.fraction, job.options.tolerance / mm),
+                    format_beside(miss / mm, job.options.tolerance / mm, 4), 100 * w.fraction,
+                    job.options.tolerance / mm),
         w.corrected_line};
   }
   return std::nullopt;

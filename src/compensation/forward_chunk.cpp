@@ -146,7 +146,8 @@ void ChunkForward::begin(std::span<const Piece> pieces, const std::optional<Vect
     const bool position = piece.segment == no_segment;
     tasks_.push_back({.piece = &piece,
                       .segment = position ? nullptr : &job_.path.segments[piece.segment],
-                      .begins_anew = last != piece.commanded.start});
+                      .begins_anew = last != piece.commanded.start,
+                      .begins_run = !position && piece.u0 == 0 && job_.forces.begins_run(piece.segment)});
     last = piece.commanded.end;
     add_samples(tasks_.size() - 1);
   }
@@ -160,6 +161,7 @@ void ChunkForward::add_samples(std::size_t t) {
   if (task.segment) read_places(piece);
   const Sample end{.task = t, .v = 1, .u = piece.u1, .place = task.segment && is_place(piece.u1)};
   if (!questions_.inside || piece.end_only) {
+    if (questions_.before && task.begins_run) add_start(t);
     add(end);
     return;
   }
@@ -182,10 +184,15 @@ void ChunkForward::add_samples(std::size_t t) {
 // Without a blend the force may begin with a step. No end of a piece before shows it either.
 std::size_t ChunkForward::add_start(std::size_t t) {
   const Task& task = tasks_[t];
-  const bool listed = task.begins_anew || job_.options.blend == 0;
+  const bool listed = task.begins_run || task.begins_anew || job_.options.blend == 0;
   if (!listed && is_where_the_last_ended(task)) return samples_.size() - 1;
-  return add(
-      {.task = t, .v = 0, .u = task.piece->u0, .between = true, .listed = listed, .side = Side::after});
+  return add({.task = t,
+              .v = 0,
+              .u = task.piece->u0,
+              .between = true,
+              .place = task.begins_run,
+              .listed = listed,
+              .side = Side::after});
 }
 
 // The other side of a step of the force; the same sample where there is none.

@@ -26,6 +26,7 @@ class ChunkForward {
     const Piece* piece = nullptr;
     const Segment* segment = nullptr;  // none: a position
     bool begins_anew = false;
+    bool begins_run = false;  // its start is a place of the original path
   };
   // A place on a piece: fraction `v` of the piece, `u` of the segment.
   struct Sample {

@@ -28,8 +28,8 @@ bool takes_surface(const Move& move) {
 
 class WindowMatcher {
  public:
-  WindowMatcher(const Job& job, const NominalTrack& track, const PlannedEnds& ends, CorrectedMoves& found)
-      : job_(job), found_(found), finder_(job, ends, found), maker_(job, track) {}
+  WindowMatcher(const Job& job, const PlannedWays& ways, CorrectedMoves& found)
+      : job_(job), found_(found), finder_(job, ways, found), maker_(job, ways) {}
 
   // The drafts of the window's pieces, up to a failure.
   std::optional<Failure> run(const std::vector<std::size_t>& others) {
@@ -194,6 +194,25 @@ class WindowMatcher {
   bool skipped_ = false;  // a '/' block made the position unknown: feed moves behind it are held, not judged
 };
 
+constexpr double step = 1e-9;  // m: of the correction
+
+// A segment that does not begin where the one before it ends is preceded by a jump.
+bool may_jump(const PlannedWays& ways, std::size_t s, const PlannedSegment& planned) {
+  if (planned.starts_anywhere || (planned.knots.empty() && !planned.end)) return false;
+  return s == 0 || !ways[s - 1].end || (*ways[s - 1].end - planned.start_target).norm() > step;
+}
+
+// Where the curves of the correction of an arc meet, by a step or without one.
+void add_borders(const Curve& arc, const PlannedSegment& planned, std::vector<Knot>& knots) {
+  for (std::size_t i = 1; i < planned.arc.size(); ++i) {
+    const CorrectionCurve &before = planned.arc[i - 1], &behind = planned.arc[i];
+    const double u = behind.begin();
+    const Vector3 p = point_at(arc, u), ends = before.intervals().back().nodes.back().c, begins = behind.at(u);
+    knots.push_back({u, p + ends});
+    if ((begins - ends).norm() > step) knots.push_back({u, p + begins});
+  }
+}
+
 // Compares as many lines without a move as both programs have given.
 std::optional<Failure> lines_failure(OtherLines& wanted, OtherLines& found) {
   for (; !wanted.lines.empty() && !found.lines.empty(); wanted.lines.pop_front(), found.lines.pop_front())
@@ -206,23 +225,25 @@ std::optional<Failure> lines_failure(OtherLines& wanted, OtherLines& found) {
 
 }  // namespace
 
-PlannedEnds planned_ends(const Plan& plan) {
-  PlannedEnds ends(plan.segments.size());
-  for (std::size_t s = 0; s < ends.size(); ++s) {
+PlannedWays planned_ways(const Job& job, const Plan& plan) {
+  PlannedWays ways(plan.segments.size());
+  for (std::size_t s = 0; s < ways.size(); ++s) {
     const PlannedSegment& planned = plan.segments[s];
-    if (planned.end)
-      ends[s] = planned.end;
-    else if (!planned.knots.empty())
-      ends[s] = planned.knots.back().target;
+    PlannedWay& way = ways[s];
+    way.end = planned.end;
+    if (!way.end && !planned.knots.empty()) way.end = planned.knots.back().target;
+    if (may_jump(ways, s, planned)) way.inner.push_back({0, planned.start_target});
+    if (planned.knots.size() > 1) way.inner.insert(way.inner.end(), planned.knots.begin(), planned.knots.end() - 1);
+    add_borders(job.path.segments[s].wanted, planned, way.inner);
   }
-  return ends;
+  return ways;
 }
 
-Matching match_window(const Job& job, const NominalTrack& track, const PlannedEnds& ends, OtherLines& lines,
+Matching match_window(const Job& job, const NominalTrack& track, const PlannedWays& ways, OtherLines& lines,
                       CorrectedMoves& found) {
   Matching result;
   const std::vector<std::size_t> others = lines.add(job.program);
-  WindowMatcher matcher(job, track, ends, found);
+  WindowMatcher matcher(job, ways, found);
   result.failure = matcher.run(others);
   if (auto failure = lines_failure(lines, found.other_lines())) result.failure = failure;
   if (!result.failure) result.pieces = refined(job, track, std::move(matcher.drafts));

@@ -11,10 +11,14 @@
 
 namespace counterflex {
 
-/// Where a plan ends each segment (M, m); nothing where it does not correct the segment by itself. They only
-/// tell the end of a move from points that were inserted before it.
-using PlannedEnds = std::vector<std::optional<Vector3>>;
-PlannedEnds planned_ends(const Plan& plan);
+/// How a plan leads a segment: they tell the end of a move from points that were inserted before it, and where along
+/// the segment such a point belongs.
+struct PlannedWay {
+  std::optional<Vector3> end;  ///< M (m); nothing where the plan does not correct the segment by itself
+  std::vector<Knot> inner;     ///< before the end, in order; a step is two knots at one fraction
+};
+using PlannedWays = std::vector<PlannedWay>;
+PlannedWays planned_ways(const Job& job, const Plan& plan);
 
 /// What is paired with what is still to be written down.
 struct Matching {
@@ -25,7 +29,7 @@ struct Matching {
 /// The pieces that the next moves of `found` command along the moves of a window; these are dropped from
 /// `found`. `lines`: of the original, up to this window. A failure is a move that has no counterpart, one of
 /// another kind, sense or number of turns, or another line that differs.
-Matching match_window(const Job& job, const NominalTrack& track, const PlannedEnds& ends, OtherLines& lines,
+Matching match_window(const Job& job, const NominalTrack& track, const PlannedWays& ways, OtherLines& lines,
                       CorrectedMoves& found);
 
 /// Behind the last window: the failure of what is left over in either program.

@@ -46,8 +46,8 @@ std::size_t most_moves(const Move& original, bool has_segment) {
 
 std::optional<Vector3> MoveFinder::planned_shift_mm(const Move& original,
                                                     std::optional<std::size_t> segment) const {
-  if (!segment || *segment >= ends_.size() || !ends_[*segment]) return std::nullopt;
-  return in_words_mm(job_, original, *ends_[*segment]) - original.end_mm;
+  if (!segment || *segment >= ways_.size() || !ways_[*segment].end) return std::nullopt;
+  return in_words_mm(job_, original, *ways_[*segment].end) - original.end_mm;
 }
 
 // The shift of the move before, changed as planned: right for what was written as planned, and nearly right

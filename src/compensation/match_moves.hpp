@@ -20,8 +20,8 @@ struct MatchedMoves {
 /// motion, axes and F.
 class MoveFinder {
  public:
-  MoveFinder(const Job& job, const PlannedEnds& ends, CorrectedMoves& found)
-      : job_(job), ends_(ends), found_(found) {}
+  MoveFinder(const Job& job, const PlannedWays& ways, CorrectedMoves& found)
+      : job_(job), ways_(ways), found_(found) {}
 
   /// Those of move `m`, with `others` lines without a move before it; empty if no move matches. They begin
   /// at the first move that was not dropped.
@@ -38,7 +38,7 @@ class MoveFinder {
   std::optional<Vector3> planned_shift_mm(const Move& original, std::optional<std::size_t> segment) const;
 
   const Job& job_;
-  const PlannedEnds& ends_;
+  const PlannedWays& ways_;
   CorrectedMoves& found_;
   std::vector<CorrectedMove> matched_;
   std::optional<Vector3> shift_mm_;          // of the move before

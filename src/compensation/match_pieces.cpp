@@ -33,15 +33,6 @@ double length_of(const Job& job, const Piece& piece) {
 
 }  // namespace
 
-std::optional<Vector3> PieceMaker::expected(std::size_t segment, double u, Side side) {
-  const Model& model = model_of(job_, job_.path.segments[segment]);
-  const Load load{job_.forces.at(segment, u, side), job_.forces.at_platform()};
-  const TargetSolution found = solvers_.of(model, track_.start_before(segment))
-                                   .target(point_at(job_.path.segments[segment].wanted, u), load);
-  if (found.status != Status::converged) return std::nullopt;
-  return found.target;
-}
-
 void PieceMaker::read_ways(const MatchedMoves& matched) {
   steps_.clear();
   Vector3 from = job_.path.segments[*matched.segment].wanted.start;
@@ -56,37 +47,46 @@ void PieceMaker::read_ways(const MatchedMoves& matched) {
   steps_.back().settled = true;
 }
 
-// Without a blend, where the force steps, one move ends on this side of the step and the next one on the
-// other.
-void PieceMaker::find_steps(std::size_t segment) {
-  if (job_.options.blend > 0 || !job_.path.segments[segment].cutting) return;
-  std::size_t next = 0;
-  for (const double u : job_.forces.breaks(segment)) {
+// Points that were inserted where the plan has a knot belong to its fraction. Where the force steps, one move ends on
+// this side of the step and the next one on the other.
+void PieceMaker::find_knots(std::span<const Knot> knots) {
+  std::size_t next = 0;  // step
+  const Knot* last = nullptr;
+  for (const Knot& knot : knots) {
     if (next + 1 >= steps_.size()) return;
-    const auto before = expected(segment, u, Side::before), after = expected(segment, u, Side::after);
-    if (before && after) next = find_step(u, *before, *after, next);
+    const bool behind = last != nullptr && last->u == knot.u;
+    if (behind ? find_jump(knot, next) : find_knot(knot, next))
+      last = &knot;
+    else
+      last = nullptr;
   }
 }
 
-std::size_t PieceMaker::find_step(double u, const Vector3& before, const Vector3& after, std::size_t next) {
+bool PieceMaker::find_knot(const Knot& knot, std::size_t& next) {
   std::size_t best = steps_.size();
   double best_miss = job_.options.tolerance;
   for (std::size_t j = next; j + 1 < steps_.size(); ++j) {
-    const double miss = (steps_[j].way.end - before).norm();
-    if (steps_[j].jump || miss >= best_miss) continue;
+    const double miss = (steps_[j].way.end - knot.target).norm();
+    if (miss >= best_miss) continue;
     best = j;
     best_miss = miss;
   }
-  if (best == steps_.size()) return next;
-  steps_[best].u = u;
+  if (best == steps_.size()) return false;
+  steps_[best].u = knot.u;
   steps_[best].settled = true;
-  const Vector3 next_end = steps_[best + 1].way.end;
-  if ((next_end - after).norm() > job_.options.tolerance) return best + 1;
+  next = best + 1;
+  return true;
+}
+
+bool PieceMaker::find_jump(const Knot& knot, std::size_t& next) {
+  const Vector3 end = steps_[next].way.end;
+  if ((end - knot.target).norm() > job_.options.tolerance) return false;
   // What is left of the way behind the jump may be less than the digits tell.
-  if (best + 2 == steps_.size()) steps_.push_back({{next_end, next_end, {}}, steps_.back().line, 1, true});
-  steps_[best + 1].u = u;
-  steps_[best + 1].settled = steps_[best + 1].jump = true;
-  return best + 2;
+  if (next + 1 == steps_.size()) steps_.push_back({{end, end, {}}, steps_.back().line, 1, true});
+  steps_[next].u = knot.u;
+  steps_[next].settled = steps_[next].jump = true;
+  ++next;
+  return true;
 }
 
 // The correction changes evenly enough from one end of the segment to the other for a first guess.
@@ -118,7 +118,7 @@ void PieceMaker::add(const MatchedMoves& matched, std::vector<DraftPiece>& piece
   const Move& original = matched.original;
   const bool own = original.handling == Handling::own;
   read_ways(matched);
-  if (steps_.size() > 1) find_steps(s);
+  if (s < ways_.size()) find_knots(ways_[s].inner);
   if (steps_.size() > 1) project(segment.wanted);
   double u0 = 0;
   for (const Step& step : steps_) {

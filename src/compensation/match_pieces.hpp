@@ -1,23 +1,22 @@
 #pragma once
 /// The pieces that corrected moves command along the segment of the move that they belong to.
 #include "match_moves.hpp"
-#include "path_solver.hpp"
 
 namespace counterflex {
 
-/// A piece, and whether the fraction at its end is known: it is the segment's, or that of a step of the
-/// force.
+/// A piece, and whether the fraction at its end is known: it is the segment's, or that of a knot of the plan.
 struct DraftPiece {
   Piece piece;
   bool settled = true;
 };
 
-/// Makes pieces of matched moves. A point inside a segment gets the fraction to which it projects: on a line
+/// Makes pieces of matched moves. A point inside a segment that stands within the tolerance of a knot of the plan has the
+/// knot's fraction. Any other gets the fraction to which it projects: on a line
 /// along it, on an arc by its angle about the centre, over all turns; no error of a fraction reaches the next
 /// one.
 class PieceMaker {
  public:
-  PieceMaker(const Job& job, const NominalTrack& track) : job_(job), track_(track), solvers_(job) {}
+  PieceMaker(const Job& job, const PlannedWays& ways) : job_(job), ways_(ways) {}
 
   /// Appends the pieces of moves that have a segment.
   void add(const MatchedMoves& matched, std::vector<DraftPiece>& pieces);
@@ -33,14 +32,14 @@ class PieceMaker {
   };
 
   void read_ways(const MatchedMoves& matched);
-  void find_steps(std::size_t segment);
-  std::size_t find_step(double u, const Vector3& before, const Vector3& after, std::size_t next);
+  void find_knots(std::span<const Knot> knots);
+  // Whether a step from `next` on stands there; `next` goes behind it.
+  bool find_knot(const Knot& knot, std::size_t& next);
+  bool find_jump(const Knot& knot, std::size_t& next);
   void project(const Curve& wanted);
-  std::optional<Vector3> expected(std::size_t segment, double u, Side side);
 
   const Job& job_;
-  const NominalTrack& track_;
-  ToolSolver solvers_;
+  const PlannedWays& ways_;
   std::vector<Step> steps_;  // of one move; the room is used again
 };
 

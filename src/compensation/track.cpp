@@ -21,10 +21,10 @@ Failure status_failure(const Job& job, Status status, const CommandedPlace& at, 
   if (status == Status::outside_travel) {
     if (const auto word = integer_word_in_doubt(job.program, line))
       return {Exit::program_text, word->line, word->what};
-    return {Exit::limit, line, outside_travel_words(job.model.mechanism, at)};
+    return {Exit::limit, line, outside_travel_words(job.model.mechanism, at), 0, status};
   }
   return {Exit::not_compensated, line,
-          fmt::format("the machine's equilibrium is not solved here: {}", to_string(status))};
+          fmt::format("the machine's equilibrium is not solved here: {}", to_string(status)), 0, status};
 }
 
 Failure status_failure(const Job& job, Status status, const Model& model, const Move& move,

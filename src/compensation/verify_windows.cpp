@@ -10,7 +10,7 @@ void plan_ends(const Job& job, WindowWork& work) {
   if (work.failed()) return;
   Plan found = plan(job, work.track);
   if (found.failure) return;
-  work.ends = planned_ends(found);
+  work.ways = planned_ways(job, found);
   work.known = std::move(found.known);
 }
 
@@ -54,7 +54,7 @@ class WindowVerifier {
 
   void match(const Job& job, Flight& flight) {
     if (!job.program.moves.empty()) ignored_ = job.program.moves.front().ignored;
-    flight.matching = match_window(job, flight.work.track, flight.work.ends, lines_, found_);
+    flight.matching = match_window(job, flight.work.track, flight.work.ways, lines_, found_);
     flight.work.command = command_;
     if (!flight.matching.pieces.empty()) command_ = flight.matching.pieces.back().commanded.end;
   }
@@ -96,7 +96,7 @@ Compensation verify(const Job& job, const Program& corrected, bool attribution) 
   if (work.failed()) return std::move(work.result);
   CorrectedMoves found(corrected);
   OtherLines lines;
-  Matching matching = match_window(job, work.track, work.ends, lines, found);
+  Matching matching = match_window(job, work.track, work.ways, lines, found);
   if (!matching.failure) matching.failure = match_end(lines, found);
   solve_matched(job, attribution, matching, work);
   if (!work.failed()) work.result.failure = tolerance_failure(job, work.result.waypoints);

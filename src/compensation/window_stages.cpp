@@ -76,7 +76,7 @@ void write_text(const Job& job, CarriedState& carried, WindowWork& work, const R
   Compensation& result = work.result;
   Emission emission = emit(job, work.plan, carried.emitter);
   work.known = std::move(work.plan.known);
-  work.ends = planned_ends(work.plan);
+  work.ways = planned_ways(job, work.plan);
   work.plan = {};
   note_first_corrections(job, emission, result);
   result.left_alone = std::move(emission.left_alone);
@@ -130,7 +130,7 @@ Matching match_written(const Job& job, const WindowWork& work) {
   if (work.failed()) return {};
   CorrectedMoves found(work.result.corrected);
   OtherLines lines;
-  Matching matching = match_window(job, work.track, work.ends, lines, found);
+  Matching matching = match_window(job, work.track, work.ways, lines, found);
   if (!matching.failure) matching.failure = match_end(lines, found);
   return matching;
 }

@@ -21,7 +21,7 @@ struct WindowWork {
   NominalTrack track{};
   Plan plan{};
   std::vector<KnownSegment> known{};  ///< by segment
-  PlannedEnds ends{};
+  PlannedWays ways{};
   std::optional<Vector3> command{};  ///< where the window before ended, if that is known
   Compensation result{};
 

@@ -37,6 +37,14 @@ std::string format_fixed(double value, int decimals) {
   return text;
 }
 
+std::string format_beside(double value, double limit, int decimals) {
+  constexpr int most = 9;
+  std::string text = format_fixed(value, decimals);
+  while (decimals < most && value != limit && text == format_fixed(limit, decimals))
+    text = format_fixed(value, ++decimals);
+  return text;
+}
+
 double rounded(double value, int decimals) {
   if (const std::optional<double> whole = whole_steps(value, decimals))
     return value_of_steps(*whole, decimals);

@@ -212,6 +212,12 @@ void PathForces::find_corners(FeedRun& run) {
   run.end_corner = corners_.size();
 }
 
+bool PathForces::begins_run(std::size_t segment) const {
+  const std::size_t run = places_[segment].run;
+  if (run == no_run) return false;
+  return segment == 0 ? taken_up_ == 0 : places_[segment - 1].run != run;
+}
+
 bool PathForces::follows(std::size_t segment) const {
   if (segment == 0 || places_[segment].run == no_run) return false;
   const Place &place = places_[segment], &before = places_[segment - 1];

@@ -59,7 +59,7 @@ std::string curves_text(const AnalysisReport& report) {
 }
 
 std::string to_csv(const AnalysisReport& report) {
-  std::string text = "pose,displacement_mm,force_N,stiffness_N_per_m,stable,x_mm,y_mm,z_mm\n";
+  std::string text = std::string(curve_mark) + ",stiffness_N_per_m,stable,x_mm,y_mm,z_mm\n";
   for (std::size_t i = 0; i < report.poses.size(); ++i) {
     if (!report.poses[i].curve) continue;
     for (const CurvePoint& point : report.poses[i].curve->points) {

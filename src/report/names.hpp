@@ -1,8 +1,13 @@
 #pragma once
 /// Words for enumerations, as reports and the command line have them.
+#include <string_view>
+
 #include "counterflex/report/report.hpp"
 
 namespace counterflex {
+
+/// Of the documents of runs.
+inline constexpr std::string_view report_schema = "counterflex-report 1";
 
 inline const char* name_of(Command command) {
   switch (command) {

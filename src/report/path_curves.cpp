@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "counterflex/geometry/units.hpp"
 #include "counterflex/report/statistics.hpp"
@@ -12,7 +13,6 @@ namespace counterflex {
 namespace {
 
 constexpr float unknown = std::numeric_limits<float>::quiet_NaN();
-constexpr double joined = 1e-9;  // m
 
 using Values = std::array<float, quantity_count>;
 
@@ -131,17 +131,6 @@ Stretch stretch_of(const Waypoint& w, PathCurves::Known known) {
   return stretch;
 }
 
-/// What is the rapid's own at a place where a feed move begins.
-void forget_after(Stretch& stretch) {
-  const auto forget = [&](Quantity first, Quantity last) {
-    for (auto i = static_cast<std::size_t>(first); i <= static_cast<std::size_t>(last); ++i)
-      stretch.least[i] = stretch.largest[i] = unknown;
-  };
-  forget(Quantity::after_x, Quantity::after_rotation);
-  forget(Quantity::correction_x, Quantity::correction);
-  stretch.after.fill(unknown);
-}
-
 /// The first where the other is unknown.
 float lesser(float a, float b) {
   return b < a || std::isnan(a) ? b : a;
@@ -191,39 +180,17 @@ void PathMarks::add(double s) {
 
 PathCurves::PathCurves(bool corrected, bool weighs) : known_{corrected, weighs} {}
 
-void PathCurves::add(const Waypoint& w, std::int32_t operation, const Vector3* segment_start) {
+void PathCurves::add(const Waypoint& w, std::int32_t operation) {
   if (w.status != Status::converged) return;
   if (!w.cutting) {
-    rapid_ = w;
+    after_rapid_ = true;
     return;
   }
-  bool after_rapid = rapid_.has_value();
-  if (after_rapid) {
-    rapids_.add(s_mm_);
-    if (begin_at_rapid(w, operation, segment_start)) after_rapid = false;
-  }
+  if (after_rapid_) rapids_.add(s_mm_);
   Stretch stretch = stretch_of(w, known_);
   stretch.operation = operation;
-  stretch.begins_after_rapid = after_rapid;
+  stretch.begins_after_rapid = std::exchange(after_rapid_, false);
   push(stretch);
-}
-
-// The end of a rapid is where the feed move after it starts, as the statistics have it (path_tally.hpp).
-bool PathCurves::begin_at_rapid(const Waypoint& w, std::int32_t operation, const Vector3* segment_start) {
-  Waypoint start = *std::exchange(rapid_, std::nullopt);
-  const double gap = segment_start != nullptr ? (*segment_start - start.p_MT).norm()
-                                              : std::abs((w.p_MT - start.p_MT).norm() - (w.s - s_mm_ * mm));
-  if (gap > joined) return false;
-  start.line = w.line;
-  start.s = s_mm_ * mm;
-  start.place = true;
-  start.direction = w.direction;
-  Stretch stretch = stretch_of(start, known_);
-  stretch.operation = operation;
-  stretch.begins_after_rapid = true;
-  forget_after(stretch);
-  push(stretch);
-  return true;
 }
 
 void PathCurves::push(const Stretch& stretch) {

@@ -10,7 +10,6 @@ namespace counterflex {
 namespace {
 
 constexpr double no_correction = 1e-12;  // m: rounding of coordinates that were moved to M and back
-constexpr double same_place = 1e-9;      // m
 constexpr std::size_t worst_rows = 10;
 constexpr std::size_t most_lines = 4096;
 
@@ -104,13 +103,11 @@ void WorstLines::keep_the_worst() {
   });
 }
 
-void PathTally::add(const Waypoint& w, std::int32_t operation, const Vector3* segment_start,
-                    const MoveFacts& facts, bool is_within) {
+void PathTally::add(const Waypoint& w, std::int32_t operation, const MoveFacts& facts, bool is_within) {
   if (w.status != Status::converged) return;
   if (!w.between) add_target(w);
-  if (w.cutting) return add_cutting(w, operation, segment_start, facts, is_within);
+  if (w.cutting) return add_cutting(w, operation, facts, is_within);
   finish_end();
-  rapid_ = w;
 }
 
 Measures PathTally::measures() const {
@@ -140,8 +137,7 @@ void PathTally::add_target(const Waypoint& w) {
   ++m_.segments_changed;
 }
 
-void PathTally::add_cutting(const Waypoint& w, std::int32_t operation, const Vector3* segment_start,
-                            const MoveFacts& facts, bool is_within) {
+void PathTally::add_cutting(const Waypoint& w, std::int32_t operation, const MoveFacts& facts, bool is_within) {
   m_.after.add(sample(w, w.after, w.weight));
   tally_of(facts.tool).after.add(facts.tool, w.after, w.tool_axis, w.line);
   m_.path_mm += w.weight / mm;
@@ -158,7 +154,7 @@ void PathTally::add_cutting(const Waypoint& w, std::int32_t operation, const Vec
   }
   if (!w.between) close_piece(w, operation);
   place_weight_ += w.weight;
-  if (w.place) add_place(w, operation, segment_start, facts);
+  if (w.place) add_place(w, operation, facts);
 }
 
 // A point that the text inserts is no place of the original path: of its causes only those of the emitted
@@ -201,9 +197,12 @@ void PathTally::add_to_operation(const Waypoint& w, std::int32_t operation) {
 
 // Trapezoids: the way between two places weighs on both, or on the last one alone where the other is not
 // known.
-void PathTally::add_place(const Waypoint& w, std::int32_t operation, const Vector3* segment_start,
-                          const MoveFacts& facts) {
-  if (rapid_) begin_at_rapid(w, operation, segment_start, facts);
+void PathTally::add_place(const Waypoint& w, std::int32_t operation, const MoveFacts& facts) {
+  if (begins_feed_run(w)) {
+    finish_end();
+    end_ = End{w, operation, 0, 0, facts};
+    return;  // what it weighs is part of the way to the next place
+  }
   const double share = end_ ? place_weight_ / 2 : 0;
   if (end_) share_piece(w, operation, share);
   finish_end();
@@ -221,19 +220,6 @@ void PathTally::share_piece(const Waypoint& w, std::int32_t operation, double sh
   start.line = w.line;
   start.direction = w.direction;
   tally->before.add(sample(start, start.before, share));
-}
-
-// The end of a rapid is where the feed move after it starts; its force has not yet grown there.
-void PathTally::begin_at_rapid(const Waypoint& w, std::int32_t operation, const Vector3* segment_start,
-                               const MoveFacts& facts) {
-  const double gap = segment_start != nullptr ? (*segment_start - rapid_->p_MT).norm()
-                                              : std::abs((w.p_MT - rapid_->p_MT).norm() - place_weight_);
-  if (!end_ && gap < same_place) {
-    end_ = End{*rapid_, operation, 0, 0, facts};
-    end_->at.line = w.line;
-    end_->at.direction = w.direction;
-  }
-  rapid_.reset();
 }
 
 void PathTally::finish_end() {

@@ -4,6 +4,7 @@
 #include "counterflex/geometry/units.hpp"
 #include "counterflex/report/formats.hpp"
 #include "fixed_digits.hpp"
+#include "preloads.hpp"
 
 namespace counterflex {
 
@@ -11,8 +12,8 @@ namespace {
 
 constexpr int length_digits = 7, angle_digits = 7, path_digits = 6, wrench_digits = 6;
 constexpr std::array deviation_names = {"dx_mm", "dy_mm", "dz_mm", "drx_deg", "dry_deg", "drz_deg"};
-constexpr std::array prefixes = {"before_",        "geometry_", "load_", "gravity_",
-                                 "superposition_", "after_",    "air_"};
+constexpr std::array prefixes = {"before_",        "geometry_",      "load_",  "gravity_",
+                                 "preloads_", "superposition_", "after_", "air_"};
 
 void add(std::string& row, double value, int digits) {
   row += ',';
@@ -42,6 +43,7 @@ void add_row(std::string& text, std::size_t index, const Waypoint& w, const CsvC
   add_deviation(text, causes.geometry, attributed);
   add_deviation(text, causes.load, attributed);
   add_deviation(text, causes.gravity, attributed);
+  add_deviation(text, preloads_of(causes), attributed);
   add_deviation(text, causes.superposition, attributed);
   add_deviation(text, w.after, solved && columns.corrected);
   add_deviation(text, causes.air, attributed && columns.corrected);

@@ -6,6 +6,7 @@
 
 #include "counterflex/files/files.hpp"
 #include "json_values.hpp"
+#include "names.hpp"
 
 namespace counterflex {
 
@@ -13,7 +14,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view report_schema = "counterflex-report 1";
 constexpr std::string_view page_schema = "counterflex-page 1";
 constexpr std::string_view data_begins = R"(<script type="application/json" id="counterflex-data">)";
 constexpr std::string_view data_ends = "</script>";

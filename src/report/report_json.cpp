@@ -1,5 +1,6 @@
 #include <fmt/core.h>
 
+#include "counterflex/files/utf8.hpp"
 #include "counterflex/geometry/units.hpp"
 #include "counterflex/report/formats.hpp"
 #include "json_numbers.hpp"
@@ -342,9 +343,23 @@ std::string to_json(const SanityChecks& checks) {
   return dump(sanity_json(checks));
 }
 
+std::string failed_json(std::string_view command, std::string_view version, const InputError& error) {
+  const Location& where = error.where();
+  return dump({{"schema", report_schema},
+               {"tool", fmt::format("counterflex {}", version)},
+               {"command", command},
+               {"verdict", to_string(Verdict::failed)},
+               {"verdict_reason", ""},
+               {"failure",
+                {{"exit", static_cast<int>(error.exit())},
+                 {"file", utf8_of_bytes(where.file)},
+                 {"line", where.line},
+                 {"what", utf8_of_bytes(error.what())}}}});
+}
+
 std::string to_json(const RunReport& report) {
   const std::string& output = report.facts.output;
-  Json document = {{"schema", "counterflex-report 1"},
+  Json document = {{"schema", report_schema},
                    {"tool", fmt::format("counterflex {}", report.facts.version)},
                    {"command", name_of(report.command)},
                    {"verdict", to_string(report.verdict)},

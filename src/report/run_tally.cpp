@@ -31,31 +31,27 @@ MoveFacts RunTally::facts_of(const Job& window, const Segment& segment) const {
           known != tools_.end() ? *known : ToolSize{number, {}, {}}};
 }
 
-void RunTally::add(const Waypoint& w, std::int32_t operation, const Vector3* segment_start,
-                   const MoveFacts& facts, bool is_within) {
-  path_.add(w, operation, segment_start, facts, is_within);
+void RunTally::add(const Waypoint& w, std::int32_t operation, const MoveFacts& facts, bool is_within) {
+  path_.add(w, operation, facts, is_within);
   feed_force_.add(w);
-  if (curves_) curves_->add(w, operation, segment_start);
+  if (curves_) curves_->add(w, operation);
 }
 
 void RunTally::add_waypoints(const std::vector<Waypoint>& waypoints) {
-  for (const Waypoint& w : waypoints) add(w, PathTally::no_operation, nullptr, {}, true);
+  for (const Waypoint& w : waypoints) add(w, PathTally::no_operation, {}, true);
 }
 
 void RunTally::add_waypoints(const std::vector<Waypoint>& waypoints, const Job& window) {
   std::size_t segment = no_segment;
   std::int32_t operation = PathTally::no_operation;
-  const Vector3* start = nullptr;
   MoveFacts facts;
   for (const Waypoint& w : waypoints) {
     if (w.segment != segment) {
       segment = w.segment;
       operation = PathTally::no_operation;
-      start = nullptr;
       if (segment != no_segment && w.cutting) {
         const Segment& wanted = window.path.segments[segment];
         const Move& move = window.program.moves[wanted.move];
-        start = &wanted.wanted.start;
         facts = facts_of(window, wanted);
         operation = operation_names_.number_of(window.program, move);
         if (!unit_) unit_ = move.unit;
@@ -63,7 +59,7 @@ void RunTally::add_waypoints(const std::vector<Waypoint>& waypoints, const Job& 
     }
     const double miss = position_miss(window, w);
     feed_.add(w, miss, window);
-    add(w, operation, start, facts, miss <= window.options.tolerance);
+    add(w, operation, facts, miss <= window.options.tolerance);
     if (segment != no_segment) travel_.add(model_of(window, window.path.segments[segment]), w);
   }
 }

@@ -1,7 +1,5 @@
 #include "sanity_text.hpp"
 
-#include <algorithm>
-#include <set>
 
 #include "counterflex/report/formats.hpp"
 
@@ -29,27 +27,17 @@ std::string line(SanityState state, const std::string& text, const Ink& ink) {
   return "  " + mark(state, ink) + " " + wrapped_text.substr(plain.size());
 }
 
-std::string block(const SanityChecks& checks, const Ink& ink, bool all) {
-  if (checks.empty()) return "";
-  std::string text = line_break() + ink.bold("Sanity") + "\n", fine;
-  std::set<std::string> names;  // the tip is checked at more than one place
-  for (const SanityCheck& check : checks)
-    if (check.state == SanityState::ok && !all && names.insert(check.name).second)
-      fine += (fine.empty() ? "" : ", ") + check.name;
-  if (!fine.empty()) text += line(SanityState::ok, fine, ink);
-  for (const SanityCheck& check : checks)
-    if (all || check.state != SanityState::ok) text += line(check.state, check.name + ": " + check.text, ink);
-  return text;
-}
-
 }  // namespace
 
 std::string sanity_text(const SanityChecks& checks, const Ink& ink) {
-  return block(checks, ink, false);
+  if (checks.empty()) return "";
+  std::string text = line_break() + ink.bold("Sanity") + "\n";
+  for (const SanityCheck& check : checks) text += line(check.state, check.name + ": " + check.text, ink);
+  return text;
 }
 
-std::string sanity_block(const SanityChecks& checks, bool colour, bool marks, bool all) {
-  return block(checks, {colour, marks}, all);
+std::string sanity_block(const SanityChecks& checks, bool colour, bool marks) {
+  return sanity_text(checks, {colour, marks});
 }
 
 }  // namespace counterflex

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "counterflex/files/numbers.hpp"
 #include "text_layout.hpp"
 
 namespace counterflex {
@@ -20,8 +21,7 @@ std::string percent_text(double part, double all) {
 /// Enough digits to differ from the tolerance.
 std::string above_text(double worst_mm, double tolerance_mm) {
   const std::string tolerance = fmt::format("{:.6g}", tolerance_mm);
-  const bool differs = worst_mm - tolerance_mm >= 5e-5;
-  return fmt::format("worst {} mm > {}", format_fixed(worst_mm, differs ? 4 : 7), tolerance);
+  return fmt::format("worst {} mm > {}", format_beside(worst_mm, tolerance_mm, 4), tolerance);
 }
 
 }  // namespace

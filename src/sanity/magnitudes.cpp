@@ -21,6 +21,7 @@ constexpr double shortest_travel = 5 * mm;
 constexpr double narrowest_turn = 7 * deg;  // 2 pi typed into a key in degrees is 6.28
 constexpr double shortest_tool = 10 * mm;   // from the gauge line of the spindle to the tip
 constexpr double shortest_reach = 10 * mm;  // the largest length of the whole file
+constexpr double largest_error_angle = 10 * deg, largest_error = 50 * mm;  // of assembly
 constexpr double thinnest_tool = 0.05 * mm, thickest_tool = 500 * mm;
 constexpr double same_angle_deg = 2e-3;  // 3.14 is as near to pi as this
 constexpr double weakest_force_N = 1, strongest_force_N = 1e5;
@@ -74,7 +75,16 @@ struct Seen {
     if (std::none_of(doubts.begin(), doubts.end(), same)) doubts.push_back(doubt(std::move(text)));
   }
   void operator()(const Rigid& e) { pose(e.X, fmt::format("a rigid element of {}", where)); }
-  void operator()(const AssemblyError& e) { pose(e.X, fmt::format("errors.{} of {}", e.name, where)); }
+  void operator()(const AssemblyError& e) {
+    const std::string key = fmt::format("errors.{} of {}", e.name, where);
+    pose(e.X, key);
+    if (const double angle = log_so3(e.X.R).norm(); angle > largest_error_angle)
+      add(fmt::format("{} turns by {} deg; errors of assembly have up to some degrees: is it the geometry itself?", key,
+                      number(angle / deg)));
+    if (const double length = e.X.p.norm(); length > largest_error)
+      add(fmt::format("{} is {} mm long; errors of assembly have up to some mm: is it the geometry itself?", key,
+                      number(length / mm)));
+  }
   void operator()(const Actuator& e) {
     limits(e.min, e.max, e.joint.kind, fmt::format("an actuator of {}", where));
   }

@@ -112,7 +112,13 @@ std::optional<LeastMargin> TravelTally::least() const {
   return LeastMargin{at.actuator, at.value, at.margin, tightest.line};
 }
 
-SanityCheck check_travel(const Mechanism& named, const TravelTally& tally) {
+SanityCheck check_travel(const Mechanism& named, const TravelTally& tally, const std::optional<Failure>& failure) {
+  if (failure && failure->status == Status::outside_travel)
+    return {"travel", SanityState::doubtful, fmt::format("line {}: {}", failure->line, failure->what)};
+  if (failure)
+    return {"travel", SanityState::unknown,
+            failure->line > 0 ? fmt::format("not known behind line {}, where the run ended", failure->line)
+                              : "not known, since the run ended"};
   const auto least = tally.least();
   if (!least)
     return {"travel", SanityState::unknown,

@@ -61,6 +61,11 @@ bool goes_on(const Model& model, const Problem& problem, const EquilibriumSolver
   return next.stable;
 }
 
+// Whether the state under half of a step is not about half of the way: then a limit point may lie between.
+bool bends(const Mechanism& mechanism, const Followed& now, const Configuration& half, const Followed& next) {
+  return ends_elsewhere(mechanism, now.configuration, extrapolated(now.configuration, next.configuration, -0.5), half);
+}
+
 bool advances(const Model& model, const Problem& problem, const EquilibriumSolver& solve,
               const std::optional<Followed>& before, const Followed& now, StaticsWork::Impl& work, Followed& next,
               int& iterations) {
@@ -105,7 +110,7 @@ void judge(const Model& model, const Problem& problem, StaticsWork::Impl& work, 
 }
 
 Equilibrium continue_from(const Model& model, const Configuration& start, const Stage& from, Problem problem,
-                          const EquilibriumSolver& solve, StaticsWork::Impl& work) {
+                          const EquilibriumSolver& solve, StaticsWork::Impl& work, Watch watch) {
   const Stage goal = problem.stage;
   Equilibrium result;
   std::optional<Followed> before;
@@ -113,8 +118,12 @@ Equilibrium continue_from(const Model& model, const Configuration& start, const 
   double step = first_step;
   while (now.s < 1) {
     Followed next{std::min(1.0, now.s + step), {}};
+    Configuration half = now.configuration;
+    problem.stage = between(from, goal, (now.s + next.s) / 2);
+    const bool begins = watch == Watch::equilibria || solves(problem, solve, work, half, result.iterations);
     problem.stage = between(from, goal, next.s);
-    if (!advances(model, problem, solve, before, now, work, next, result.iterations)) {
+    if (!begins || !advances(model, problem, solve, before, now, work, next, result.iterations) ||
+        (watch == Watch::ways && bends(model.mechanism, now, half, next))) {
       if ((step /= 2) >= smallest_step) continue;
       result.configuration = std::move(now.configuration);
       return result;

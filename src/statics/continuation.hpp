@@ -8,10 +8,14 @@ namespace counterflex {
 
 using EquilibriumSolver = std::function<NewtonResult(const Problem&, StaticsWork::Impl&, Configuration&)>;
 
+/// What must be right of a step: the equilibria that it joins; or also that half of it leads about half of the way, since a
+/// step that is long enough passes over a limit point to another stable branch.
+enum class Watch { equilibria, ways };
+
 /// From the equilibrium `start` of stage `from` to the stage of `problem`, in at least four steps, smaller where one does not
-/// converge, stability watched at each. `solve` must leave the works evaluated at its solution.
+/// converge. `solve` must leave the works evaluated at its solution.
 Equilibrium continue_from(const Model& model, const Configuration& start, const Stage& from, Problem problem,
-                          const EquilibriumSolver& solve, StaticsWork::Impl& work);
+                          const EquilibriumSolver& solve, StaticsWork::Impl& work, Watch watch = Watch::equilibria);
 
 /// One solve from a start of the caller's choice, judged like the end of a continuation.
 Equilibrium refine(const Model& model, const Configuration& start, const Problem& problem, const EquilibriumSolver& solve,

@@ -28,7 +28,7 @@ bool is_reached_by_load_alone(const Model& model, const Configuration& nominal, 
   const Equilibrium rest = solve_forward(model, nominal, load, unloaded, work);
   if (rest.status != Status::converged) return true;
   const Equilibrium found =
-      continue_from(model, rest.configuration, unloaded, {load, goal, nullptr}, newton_solver(model), work.impl());
+      continue_from(model, rest.configuration, unloaded, {load, goal, nullptr}, newton_solver(model), work.impl(), Watch::ways);
   const Vector6 apart = difference(found.configuration.X_MP, loaded.configuration.X_MP);
   return found.status == Status::converged &&
          apart.cwiseQuotient(Units{model.mechanism.length}.of_pose()).norm() <= same_place;

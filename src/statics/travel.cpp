@@ -36,7 +36,8 @@ std::optional<AxisPlace> tightest_axis(const Mechanism& mechanism, const Eigen::
 }
 
 std::string axis_value(const Travel& travel, double value) {
-  return fmt::format("{} {}", format_fixed(value / unit_of(travel), 1), unit_name(travel));
+  const double limit = (value < travel.min ? travel.min : travel.max) / unit_of(travel);
+  return fmt::format("{} {}", format_beside(value / unit_of(travel), limit, 1), unit_name(travel));
 }
 
 std::string travel_range(const Travel& travel) {

@@ -26,6 +26,12 @@ std::vector<MeasuredPlace> measured_places(const std::vector<Waypoint>& waypoint
 }
 
 void check_same_places(const std::vector<MeasuredPlace>& expected, const std::vector<MeasuredPlace>& found) {
+  for (std::size_t i = 0; i < std::min(found.size(), expected.size()); ++i) {
+    CAPTURE(expected[i].segment);
+    CAPTURE(expected[i].fraction);
+    REQUIRE(found[i].segment == expected[i].segment);
+    REQUIRE(found[i].fraction == expected[i].fraction);
+  }
   REQUIRE(found.size() == expected.size());
   for (std::size_t i = 0; i < found.size(); ++i) {
     CAPTURE(expected[i].segment);
@@ -44,6 +50,7 @@ void check_runs_agree_before(const Order& order) {
   const Compensation verified = judged(shop, order.text);
   const std::vector<MeasuredPlace> expected = measured_places(predicted.waypoints);
   CHECK(expected.size() > 100);
+  CHECK(expected.front().fraction == 0);  // the start of the first feed, whose place is known from then on
   check_same_places(expected, measured_places(verified.waypoints));
   check_same_places(expected, measured_places(compensated(shop).waypoints));
 }

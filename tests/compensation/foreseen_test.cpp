@@ -33,7 +33,7 @@ struct WrittenRun {
     Count result;
     CorrectedMoves found(work.result.corrected);
     OtherLines lines;
-    for (const Piece& piece : match_window(job, work.track, work.ends, lines, found).pieces) {
+    for (const Piece& piece : match_window(job, work.track, work.ways, lines, found).pieces) {
       if (piece.segment == no_segment || piece.u1 != 1) continue;
       const KnownTip& tip = work.known[piece.segment].end.after;
       ++result.ends;

@@ -86,6 +86,20 @@ TEST_CASE(
         }
 }
 
+TEST_CASE("verify accepts ramps so short that the tip runs ahead of its path in them") {
+  const std::string groove =
+      "G21 G90\nG0 X-73.65 Y-73.65 Z-63.65\nG1 Z-73.65 F300\nY126.35\nZ-63.65\nM30\n";
+  for (const double blend : {0.01e-3, 0.1e-3, 0.5e-3}) {
+    CAPTURE(blend);
+    const Shop shop({.machine = load_machine(orthoglide_b),
+                     .text = groove,
+                     .force = step_profile("0, 0, 0, 0\n10, 215, -10, -25\n210, 0, 0, 0\n", blend)});
+    const Compensation written = compensated(shop);
+    REQUIRE(!written.failure);
+    CHECK(refusal_of(shop, written.text) == "");
+  }
+}
+
 TEST_CASE("a chord in the place of an arc is refused where it misses the tolerance") {
   for (const double blend : {0.0, 2e-3})
     check_refused(circle_shop(small_mill, blend), [](const std::string& line) -> std::optional<std::string> {

@@ -1,8 +1,10 @@
 #include "counterflex/report/analysis.hpp"
 
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
 #include <Eigen/LU>
+#include <cmath>
 #include <sstream>
 
 #include "counterflex/geometry/units.hpp"
@@ -382,6 +384,49 @@ TEST_CASE("an analysis says that the machine's own weight acts") {
   const Load cut{(Vector6() << 10, 0, 0, 0, 0, 0).finished(), false};
   CHECK(to_text(analyze(model, {at_mm(0, 0, 0)}, cut, Method::direct, "0.1.0"))
             .find("and the machine's own weight\n") != std::string::npos);
+}
+
+namespace {
+
+/// Two bars of 2 N/um, pinned 600 mm apart, whose common end `h` mm above them is guided along z.
+Model shallow_truss(double h) {
+  const double angle = std::atan2(h, 300.0) / deg, length = std::hypot(h, 300.0);
+  const auto bar = [&](const char* name, double x, double turn) {
+    return fmt::format(
+        "[[chain]]\nname = \"{}\"\nelements = [\n{{ rigid = {{ xyz_mm = [{}, 0, 0], rpy_deg = [0, 0, {}] }} }},\n"
+        "{{ passive = \"revolute\", axis = \"y\", home_deg = {} }},\n{{ rigid = {{ xyz_mm = [{}, 0, 0] }} }},\n"
+        "{{ compliance = \"prismatic\", axis = \"x\", stiffness_N_per_m = 2e6 }},\n"
+        "{{ passive = \"revolute\", axis = \"y\", home_deg = {} }},\n{{ rigid = {{ rpy_deg = [0, 0, {}] }} }},\n]\n",
+        name, x, turn, -angle, length, angle, -turn);
+  };
+  return prepare(read_machine(
+      fmt::format("format = \"counterflex-machine 1\"\ncontrolled = []\n[home]\nxyz_mm = [0, 0, {}]\n", h) +
+          bar("left", -300, 0) + bar("right", 300, 180) +
+          fmt::format("[[chain]]\nname = \"guide\"\nelements = [\n{{ passive = \"prismatic\", axis = \"x\" }},\n"
+                      "{{ passive = \"prismatic\", axis = \"z\", home_mm = {} }},\n]\n",
+                      h),
+      "truss.toml"));
+}
+
+/// N: the load at which it snaps through. The closed form is that of samples/truss.
+double snapping_load(double h) {
+  const double b = 0.3, L0 = std::hypot(b, h * mm), L = std::cbrt(L0 * b * b);
+  return 2 * 2e6 * (L0 - L) * std::sqrt(L * L - b * b) / L;
+}
+
+}  // namespace
+
+TEST_CASE("an analysis finds no state beyond a limit point, however far beyond it the load is") {
+  for (const double h : {1.0, 3.0, 7.14, 20.0}) {
+    const Model model = shallow_truss(h);
+    for (const double share : {0.5, 0.95, 1.05, 2.0, 10.0, 64.0, 300.0, 20000.0}) {
+      CAPTURE(h);
+      CAPTURE(share);
+      const Load load{(Vector6() << 0, 0, -share * snapping_load(h), 0, 0, 0).finished(), false};
+      const Status status = analyze(model, {at_mm(0, 0, h)}, load, Method::direct, "0.1.0").poses.front().status;
+      CHECK((status == Status::converged) == (share < 1));
+    }
+  }
 }
 
 TEST_CASE("an analysis calls a state unstable that the load alone does not lead to") {

@@ -394,6 +394,7 @@ TEST_CASE("the CSV has the documented columns and a row for every waypoint that 
       "geometry_dx_mm,geometry_dy_mm,geometry_dz_mm,geometry_drx_deg,geometry_dry_deg,geometry_drz_deg,"
       "load_dx_mm,load_dy_mm,load_dz_mm,load_drx_deg,load_dry_deg,load_drz_deg,"
       "gravity_dx_mm,gravity_dy_mm,gravity_dz_mm,gravity_drx_deg,gravity_dry_deg,gravity_drz_deg,"
+      "preloads_dx_mm,preloads_dy_mm,preloads_dz_mm,preloads_drx_deg,preloads_dry_deg,preloads_drz_deg,"
       "superposition_dx_mm,superposition_dy_mm,superposition_dz_mm,"
       "superposition_drx_deg,superposition_dry_deg,superposition_drz_deg,"
       "after_dx_mm,after_dy_mm,after_dz_mm,after_drx_deg,after_dry_deg,after_drz_deg,"
@@ -406,7 +407,7 @@ TEST_CASE("the CSV has the documented columns and a row for every waypoint that 
       "0,4,1,100.000000,1.000000,2.000000,-3.000000,30.000000,-40.000000,0.000000,0.000000,0.000000,2.000000,"
       "0.1000000,-0.2000000,0.3000000,0.5000000,-0.2500000,0.0000000,"
       "0.0250000,-0.0500000,0.0750000" +
-          zeros + ",0.0500000,-0.1000000,0.1500000" + zeros + zeros + zeros +
+          zeros + ",0.0500000,-0.1000000,0.1500000" + zeros + zeros + zeros + zeros + zeros +
           ",0.0750000,-0.1500000,0.2250000" + zeros + ",0.0010000,-0.0020000,0.0030000" + zeros +
           ",-0.0500000,0.1000000,-0.1500000" + zeros + ",-0.1000000,0.2000000,-0.3000000" + zeros +
           ",converged,7");
@@ -431,9 +432,9 @@ TEST_CASE("columns that were not computed keep their place and are empty") {
   waypoints[1].status = Status::singular;
   const auto lines = lines_of(csv_of(waypoints, {true, false}));
   REQUIRE(lines.size() == 3);
-  for (const std::string& line : lines) CHECK(std::count(line.begin(), line.end(), ',') == 62);
+  for (const std::string& line : lines) CHECK(std::count(line.begin(), line.end(), ',') == 68);
   CHECK(contains(lines[1], std::string(19, ',') + "converged,7"));
-  CHECK(contains(lines[2], ",2.000000" + std::string(49, ',') + "singular,7"));
+  CHECK(contains(lines[2], ",2.000000" + std::string(55, ',') + "singular,7"));
 }
 
 TEST_CASE("the summary shows before and after, and calls what is left a model residual") {

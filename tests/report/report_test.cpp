@@ -41,18 +41,6 @@ TEST_CASE("the deviation before is that of feed moves at the ends of pieces, wei
   CHECK(report.path_mm == doctest::Approx(160));
 }
 
-TEST_CASE("a feed move starts with the deviation at the end of the rapid before it") {
-  const MadeUpRun run;
-  Waypoint rapid = cut(0, 3, 0, Vector3(0, 0.8, 0)), feed = cut(1, 4, 100, Vector3(0, 0.4, 0));
-  rapid.cutting = false;
-  feed.p_MT = Vector3(100, 0, 0) * mm;
-  const RunReport report = predicted(run, {rapid, feed}, {});
-  CHECK(report.before->max_mm == doctest::Approx(0.8));
-  CHECK(report.before->max_line == 4);
-  CHECK(report.before->mean_mm == doctest::Approx(0.6));
-  CHECK(report.path_mm == doctest::Approx(100));
-}
-
 TEST_CASE("the model residual counts the samples between the ends") {
   const MadeUpRun run;
   const RunReport report = compensated(run, made_up_compensation());

@@ -48,8 +48,15 @@ Waypoint random_waypoint(Thousandths& random, std::size_t segment, int line) {
   return w;
 }
 
-/// A path of rapids, and feed moves of up to four pieces with samples between: some not solved, some behind a
-/// rapid that ends where they start.
+/// A feed run that starts where `w` is.
+Waypoint start_of(Waypoint w) {
+  w.between = w.place = true;
+  w.fraction = 0;
+  return w;
+}
+
+/// A path of rapids, and feed moves of up to four pieces with samples between: some not solved, some behind the
+/// start of a feed run.
 std::vector<Waypoint> random_path(std::uint64_t seed, int moves) {
   Thousandths random(seed);
   std::vector<Waypoint> path;
@@ -64,8 +71,7 @@ std::vector<Waypoint> random_path(std::uint64_t seed, int moves) {
       w.between = samples > 1 && random.below(2) == 0;
       w.place = !w.between;
       if (random.below(20) == 0) w.status = Status::singular;
-      const bool joins = !path.empty() && !path.back().cutting && !w.between;
-      if (joins) w.p_MT = path.back().p_MT + Vector3(w.weight, 0, 0);
+      if (!path.empty() && !path.back().cutting && w.cutting) path.push_back(start_of(w));
       path.push_back(w);
     }
   }
@@ -107,19 +113,25 @@ TEST_CASE("waypoints fed in parts cut anywhere give the report of those fed at o
   }
 }
 
-TEST_CASE("a cut between a rapid and the feed move behind it loses neither the start nor its weight") {
-  Waypoint rapid = cut(0, 3, 0, Vector3(0, 0.8, 0)), between = cut(1, 4, 60, Vector3::Zero()),
+TEST_CASE("a cut behind the start of a feed run loses neither the start nor its weight") {
+  Waypoint start = start_of(cut(1, 4, 10, Vector3(0, 0.8, 0))), between = cut(1, 4, 50, Vector3::Zero()),
            feed = cut(1, 4, 40, Vector3(0, 0.4, 0));
-  rapid.cutting = false;
   between.between = true;
   between.place = false;
-  feed.p_MT = Vector3(100, 0, 0) * mm;
   RunTally tally(2);
-  for (const Waypoint& w : {rapid, between, feed}) tally.add_waypoints({w});
+  for (const Waypoint& w : {start, between, feed}) tally.add_waypoints({w});
   const DeviationStatistics before = tally.path().measures().before.statistics();
   CHECK(before.max_mm == doctest::Approx(0.8));
   CHECK(before.max_line == 4);
   CHECK(before.mean_mm == doctest::Approx(0.6));
+}
+
+TEST_CASE("a feed run does not weigh on the end of the one before it") {
+  RunTally tally(2);
+  for (const Waypoint& w : {start_of(cut(0, 3, 5, Vector3(0.2, 0, 0))), cut(0, 3, 5, Vector3(0.2, 0, 0)),
+                            start_of(cut(1, 4, 15, Vector3(0.6, 0, 0))), cut(1, 4, 15, Vector3(0.6, 0, 0))})
+    tally.add_waypoints({w});
+  CHECK(tally.path().measures().before.statistics().mean_mm == doctest::Approx((0.2 * 10 + 0.6 * 30) / 40));
 }
 
 TEST_CASE("asking a tally in the middle of a path changes nothing of what follows") {
@@ -290,35 +302,6 @@ TEST_CASE("operations are told apart by tool and comment, and their parts make u
   CHECK(*report.corrected_percent == doctest::Approx(100 * 150 / 160.0));
 }
 
-TEST_CASE("an arc begins at the end of the rapid before it, in the statistics and in the curves") {
-  MadeUpRun run;
-  run.program = read_program("G21 G90 G17 G0 X0 Y0 Z0\nG0 X10\nG2 X20 Y10 I10 J0 F600\nM30\n", "arc.ngc", {});
-  run.path = build_toolpath(run.program, one_frame(run.program, {}));
-  REQUIRE(run.path.segments.size() == 2);
-  const Segment& arc = run.path.segments[1];
-  Waypoint rapid = cut(0, 2, 0, Vector3(0, 0, 0.7)),
-           end = cut(1, 3, length(arc.wanted) / mm, Vector3(0, 0, 0.2));
-  rapid.cutting = false;
-  rapid.p_MT = arc.wanted.start;
-  end.p_MT = arc.wanted.end;
-  end.s = length(arc.wanted);
-  RunTally tally(2, PathCurves(true));
-  tally.add_waypoints({rapid, end}, run.job);
-  const auto before = static_cast<std::size_t>(Quantity::before),
-             after = static_cast<std::size_t>(Quantity::after);
-  CHECK(tally.path().measures().before.statistics().max_mm == doctest::Approx(0.7));
-  const auto& stretches = tally.curves()->stretches();
-  REQUIRE(stretches.size() == 2);
-  CHECK(stretches[0].largest[before] == doctest::Approx(0.7));
-  CHECK(std::isnan(stretches[0].largest[after]));  // the rapid's own
-  CHECK(stretches[1].largest[after] == doctest::Approx(tally.path().measures().after.statistics().max_mm));
-
-  rapid.p_MT += Vector3(0, 0, 1) * mm;
-  RunTally apart(2);
-  apart.add_waypoints({rapid, end}, run.job);
-  CHECK(apart.path().measures().before.statistics().max_mm == doctest::Approx(0.2));
-}
-
 TEST_CASE("where one operation follows another without a rapid both know the place between them") {
   MadeUpRun run;
   run.program = read_program("G21 G90 G0 X0 Y0 Z0\n(A)\nG1 X10 F600\n(B)\nY30\nM30\n", "two.ngc", {});
@@ -341,7 +324,7 @@ TEST_CASE("a piece that misses the tolerance somewhere is no part of what is cor
            good = cut(1, 4, 30, Vector3(0.1, 0, 0));
   inside.between = true;
   inside.place = false;
-  for (const Waypoint& w : {inside, end, good}) tally.add(w, 0, nullptr, {}, !w.between);
+  for (const Waypoint& w : {inside, end, good}) tally.add(w, 0, {}, !w.between);
   CHECK(tally.measures().path_mm == doctest::Approx(40));
   CHECK(tally.measures().corrected_mm == doctest::Approx(30));
   CHECK(tally.operations().at(0).corrected_mm == doctest::Approx(30));

@@ -50,6 +50,20 @@ bool is_usual(const Machine& machine) {
 
 }  // namespace
 
+TEST_CASE("an error of assembly that is larger than any machine's is doubted") {
+  const auto with_error = [](const std::string& error) {
+    return read_machine(
+        "format = \"counterflex-machine 1\"\ncontrolled = [\"x\"]\n[[chain]]\nname = \"c\"\nelements = [\n"
+        "{ actuator = \"prismatic\", axis = \"x\", min_mm = 0, max_mm = 500 },\n{ error = \"e\" },\n]\nerrors.e = { " +
+            error + " }\n",
+        "machine.toml");
+  };
+  CHECK(is_usual(with_error("rpy_deg = [0, 0, 1]")));
+  CHECK(doubts(with_error("rpy_deg = [0, 0, 40]"), "errors.e of chain c turns by 40 deg") == 1);
+  CHECK(is_usual(with_error("xyz_mm = [5, 0, 0]")));
+  CHECK(doubts(with_error("xyz_mm = [300, 0, 0]"), "errors.e of chain c is 300 mm long") == 1);
+}
+
 TEST_CASE("a tool that points into the work is wrong unless the machine file allows it") {
   CHECK(axis_of(mill()).state == SanityState::ok);
   CHECK(contains(axis_of(mill()).text, "machine z to the tool's z is 0.0 deg"));

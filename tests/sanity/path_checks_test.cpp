@@ -73,11 +73,11 @@ TEST_CASE("the least margin names axis, value, line and travel") {
   const Model model = elbow();
   const Vector3 home = tip(model.mechanism, model.home).p;
   TravelTally tally;
-  CHECK(check_travel(model.mechanism, tally).state == SanityState::unknown);
+  CHECK(check_travel(model.mechanism, tally, {}).state == SanityState::unknown);
   tally.add(model, home, 3);
   tally.add(model, home + Vector3(0, 0, 0.499), 4);
   tally.add(model, home + Vector3(0, 0, 0.3), 5);
-  const SanityCheck check = check_travel(model.mechanism, tally);
+  const SanityCheck check = check_travel(model.mechanism, tally, {});
   CHECK(check.state == SanityState::ok);
   CHECK(check.text == "least margin 1.0 mm on axis Z: 499.0 mm at line 4, travel -500 to 500 mm");
 }

@@ -35,8 +35,12 @@ std::string summary_table(const std::vector<JobOutcome>& outcomes, std::size_t m
 /// "sha256"}], "outputs": [...]}]}, worst first. `version` is the tool's.
 std::string summary_json(const std::vector<JobOutcome>& outcomes, std::string_view version);
 
-/// The same jobs as rows: program, output, status, exit_status, before_mm, after_mm, corrected_percent,
-/// warnings, moves, error, verdict, verdict_reason; fields quoted as RFC 4180 has it.
+/// The first row of the table of jobs.
+inline constexpr std::string_view summary_columns =
+    "program,output,status,exit_status,before_mm,after_mm,corrected_percent,warnings,moves,error,verdict,"
+    "verdict_reason";
+
+/// The same jobs as rows of `summary_columns`; fields quoted as RFC 4180 has it.
 std::string summary_csv(const std::vector<JobOutcome>& outcomes);
 
 }  // namespace counterflex

@@ -53,6 +53,7 @@ struct Failure {
   int line = 0;
   std::string what;
   int corrected_line = 0;
+  Status status = Status::converged;  ///< of the machine, where that is the reason
 };
 
 }  // namespace counterflex

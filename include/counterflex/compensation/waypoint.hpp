@@ -81,6 +81,11 @@ inline bool knows_before(const Waypoint& w) {
   return w.place || !w.between;
 }
 
+/// Whether it is the start of a feed run, under the force that acts there.
+inline bool begins_feed_run(const Waypoint& w) {
+  return w.place && w.between && w.fraction == 0;
+}
+
 /// What is solved besides `after`.
 struct Questions {
   bool before = true;
@@ -96,8 +101,8 @@ struct ForwardRun {
 /// Solves the machine forward along `pieces` (guarantee 2 of DESIGN): every end, and samples inside feed
 /// pieces.
 ///
-/// The places of the original path are the ends of its segments and, along feed moves, the corners of the
-/// force and equal steps of at most 5 mm (a 64th of a longer move) and 22.5 degrees of an arc, on all of its
+/// The places of the original path are the ends of its segments, the starts of feed runs (see PathForces) and,
+/// along feed moves, the corners of the force and equal steps of at most 5 mm (a 64th of a longer move) and 22.5 degrees of an arc, on all of its
 /// turns. They do not depend on the pieces. `before` and its causes count there: all runs over one program
 /// agree on them.
 ///

@@ -19,6 +19,9 @@ std::optional<long> read_tool_number(std::string_view text);
 /// `value` with exactly `decimals` digits after the point, rounded to nearest; no exponent, no "-0".
 std::string format_fixed(double value, int decimals);
 
+/// The same with more digits where these do not tell it from `limit`, nine at most.
+std::string format_beside(double value, double limit, int decimals);
+
 /// Powers of ten that are taken from a table.
 inline constexpr std::array<double, 10> small_powers_of_ten{1, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9};
 

@@ -195,6 +195,9 @@ class PathForces {
   Vector6 at(std::size_t segment, double fraction, Side side = Side::after) const;
   Vector6 at(std::size_t segment, double fraction, Side side, ForceCursor& cursor) const;
 
+  /// Whether a segment is the first of its feed run.
+  bool begins_run(std::size_t segment) const;
+
   /// Whether a segment's start is the end of the one before it, with the same wrench.
   bool follows(std::size_t segment) const;
 

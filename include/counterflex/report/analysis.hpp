@@ -3,6 +3,7 @@
 /// inside; mm and degrees in the JSON and the text.
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "counterflex/compensation/options.hpp"
@@ -102,6 +103,9 @@ std::string to_json(const AnalysisReport& report);
 /// Tables for people: deviations of all poses, loads by chain, actuators, corrected targets, stiffness.
 /// ASCII, at most 100 columns wide.
 std::string to_text(const AnalysisReport& report);
+
+/// How the table of force curves begins.
+inline constexpr std::string_view curve_mark = "pose,displacement_mm,force_N";
 
 /// The force curves of all poses: pose, displacement, force, tangent stiffness, stable, position of the tip.
 std::string to_csv(const AnalysisReport& report);

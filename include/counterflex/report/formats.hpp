@@ -3,6 +3,7 @@
 /// stamps, no locale, a fixed order of keys.
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "counterflex/compensation/waypoint.hpp"
@@ -14,12 +15,15 @@ namespace counterflex {
 /// 1e-7 mm, angles to 1e-7 deg. What was not computed is null (`summary.after` of a prediction).
 std::string to_json(const RunReport& report);
 
+/// The document of a run that ended before it had a report: with the verdict FAILED, and `failure`.
+std::string failed_json(std::string_view command, std::string_view version, const InputError& error);
+
 /// The checks as a list of objects with check, state and text.
 std::string to_json(const SanityChecks& checks);
 
 /// Which columns of the CSV were computed; the others keep their place and are empty.
 struct CsvColumns {
-  bool attribution = true;  ///< geometry_, load_, gravity_, superposition_; with `corrected` also air_
+  bool attribution = true;  ///< geometry_, load_, gravity_, preloads_, superposition_; with `corrected` also air_
   bool corrected = true;    ///< after_, correction_: not for a prediction
 };
 
@@ -36,9 +40,8 @@ std::string csv_rows(std::span<const Waypoint> waypoints, const CsvColumns& colu
 /// shows UTF-8.
 std::string summary_text(const RunReport& report, bool colour, bool marks = false);
 
-/// The sanity block, empty without checks: in a run a line for all checks that are ok, and one for each
-/// other; with `all` one for each.
-std::string sanity_block(const SanityChecks& checks, bool colour, bool marks, bool all);
+/// The sanity block, a line for each check; empty without checks.
+std::string sanity_block(const SanityChecks& checks, bool colour, bool marks);
 
 /// "NAME: OK, 2.0734 mm before, 0.0041 mm after (model residual)": a run in one line, without a newline.
 std::string one_line(const RunReport& report);

@@ -94,8 +94,7 @@ struct PathMarks {
   std::size_t stride_ = 1;
 };
 
-/// Gathers waypoints in the order of the path. Waypoints that were not solved are passed over; where a feed
-/// move starts at the end of a rapid, that is its first one. While there are at most `most_stretches` each
+/// Gathers waypoints in the order of the path. Waypoints that were not solved are passed over. While there are at most `most_stretches` each
 /// has a stretch of its own; where there are more, neighbours are merged two by two, again and again, so that
 /// memory stays bounded.
 class PathCurves {
@@ -106,10 +105,8 @@ class PathCurves {
   /// `weighs`: whether weights act, so that gravity does.
   explicit PathCurves(bool corrected, bool weighs = false);
 
-  /// The next waypoint; `operation` as the caller counts them, `segment_start` as for a PathTally. Of the
-  /// place where a feed move begins at a rapid's end nothing is said of after and correction: they are the
-  /// rapid's.
-  void add(const Waypoint& w, std::int32_t operation, const Vector3* segment_start = nullptr);
+  /// The next waypoint; `operation` as the caller counts them.
+  void add(const Waypoint& w, std::int32_t operation);
 
   /// A step of the force profile.
   void add_force_step(double s_mm);
@@ -131,8 +128,6 @@ class PathCurves {
   };
 
  private:
-  bool begin_at_rapid(const Waypoint& w, std::int32_t operation,
-                      const Vector3* segment_start);  ///< whether it could
   void push(const Stretch& stretch);
   void merge_neighbours();
   Quantity picture() const;  ///< whose largest value decides what a stretch shows in space
@@ -141,7 +136,7 @@ class PathCurves {
   std::vector<Stretch> stretches_;
   std::size_t per_stretch_ = 1, in_last_ = 0, waypoints_ = 0;
   double s_mm_ = 0;  ///< of the last waypoint
-  std::optional<Waypoint> rapid_;
+  bool after_rapid_ = false;
   PathMarks rapids_, force_steps_;
 };
 

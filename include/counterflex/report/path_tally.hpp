@@ -80,12 +80,10 @@ class WorstLines {
 class PathTally {
  public:
   /// `operation` counts from 0, as the caller does; `no_operation`: it is not known.
-  /// `segment_start`: where the wanted segment of a feed move starts (M, m), so that the end of a rapid there
-  /// counts as its first place; without it a line's length tells.
   static constexpr std::int32_t no_operation = -1;
   /// `facts`: of a feed move. `is_within`: the tolerance, what the tip's controlled position misses there.
-  void add(const Waypoint& w, std::int32_t operation = no_operation, const Vector3* segment_start = nullptr,
-           const MoveFacts& facts = {}, bool is_within = true);
+  void add(const Waypoint& w, std::int32_t operation = no_operation, const MoveFacts& facts = {},
+           bool is_within = true);
 
   /// Of all waypoints so far, the last of which ends the path.
   Measures measures() const;
@@ -102,14 +100,11 @@ class PathTally {
   };
 
   void add_target(const Waypoint& w);
-  void add_cutting(const Waypoint& w, std::int32_t operation, const Vector3* segment_start, const MoveFacts& facts,
-                   bool is_within);
+  void add_cutting(const Waypoint& w, std::int32_t operation, const MoveFacts& facts, bool is_within);
   void add_to_operation(const Waypoint& w, std::int32_t operation);
   void close_piece(const Waypoint& w, std::int32_t operation);
-  void add_place(const Waypoint& w, std::int32_t operation, const Vector3* segment_start, const MoveFacts& facts);
+  void add_place(const Waypoint& w, std::int32_t operation, const MoveFacts& facts);
   void share_piece(const Waypoint& w, std::int32_t operation, double share);
-  void begin_at_rapid(const Waypoint& w, std::int32_t operation, const Vector3* segment_start,
-                      const MoveFacts& facts);
   ToolTally& tally_of(const ToolSize& tool);
   OperationTally* tally_of(std::int32_t operation);
   void finish_end();
@@ -125,7 +120,6 @@ class PathTally {
                              ///< `after`, `higher` and `lower` are over these places
   std::optional<End> end_;  ///< the last one
   std::vector<OperationTally> operations_;
-  std::optional<Waypoint> rapid_;  ///< the last waypoint, where it ends a rapid
 };
 
 }  // namespace counterflex

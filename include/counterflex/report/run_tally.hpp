@@ -82,8 +82,7 @@ class RunTally {
   const std::optional<ShortBlocks>& short_blocks() const { return short_blocks_; }
 
  private:
-  void add(const Waypoint& w, std::int32_t operation, const Vector3* segment_start, const MoveFacts& facts,
-           bool is_within);
+  void add(const Waypoint& w, std::int32_t operation, const MoveFacts& facts, bool is_within);
   MoveFacts facts_of(const Job& window, const Segment& segment) const;
 
   double min_block_ms_;

@@ -40,8 +40,9 @@ class TravelTally {
   std::size_t places_ = 0;
 };
 
-/// `named`: the machine without a tool, whose actuators have names.
-SanityCheck check_travel(const Mechanism& named, const TravelTally& tally);
+/// `named`: the machine without a tool, whose actuators have names. `failure`: why the path was not followed to its
+/// end.
+SanityCheck check_travel(const Mechanism& named, const TravelTally& tally, const std::optional<Failure>& failure);
 
 /// The force on the tool beside the direction of its feed, over the cutting path where a force acts.
 struct FeedForceTally {
