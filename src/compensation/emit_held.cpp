@@ -84,11 +84,10 @@ void Emitter::emit_fixed(std::size_t m) {
   put({.edit = shifted(m, shift), .in_part = true});
 }
 
-// An arc stays an arc: its centre goes along.
 MoveEdit Emitter::shifted(std::size_t m, const Vector3& shift) const {
   const Move& move = job_.program.moves[m];
   MoveEdit edit{.move = m, .end_mm = move.end_mm + shift};
-  if (move.arc) edit.centre_mm = move.arc->centre_mm + shift;
+  if (move.arc) edit.centre_mm = shifted_centre(move, shift);
   return edit;
 }
 
@@ -165,8 +164,8 @@ void Emitter::list_held_words(const Move& move, const Vector3& miss) {
                       : job_.program.dialect == "heidenhain"
                           ? "a block before or behind RND or CHF"
                           : "a block with G43, G44 or G49, or beside a corner,";
-  list(move, fmt::format("{} takes no further axis words: its end stays off by {:.4f} mm", block,
-                         miss.norm() / mm));
+  list(move, fmt::format("{} takes no {}: its end stays off by {:.4f} mm", block,
+                         move.may_insert_words ? "word of Z" : "further axis words", miss.norm() / mm));
 }
 
 void Emitter::refuse(const Move& move, std::string what) {

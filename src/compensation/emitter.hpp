@@ -10,6 +10,13 @@ namespace counterflex {
 
 inline constexpr double emitted_jump_share = 0.1;  // of the tolerance
 
+/// The motion that a contour group makes in the plane: a turn about Z, and a shift (program coordinates, mm).
+struct GroupMotion {
+  Vector3 about = Vector3::Zero(), shift = Vector3::Zero();
+  double turn = 0;
+  Vector3 shift_at(const Vector3& p_mm) const;
+};
+
 class Emitter {
  public:
   Emitter(const Job& job, const Plan& plan, EmitterState& state)
@@ -53,7 +60,10 @@ class Emitter {
   void emit_group(std::size_t m, Index s);
   bool begin_group(std::size_t m, Index s);
   bool is_in_xy(std::size_t m) const;
-  std::optional<Vector3> group_shift_mm(std::size_t m, std::size_t s);
+  bool group_may_turn(std::size_t m) const;
+  bool find_group_motion(std::size_t m, std::size_t s);
+  Vector3 group_shift_mm(const Move& move, Index s, double height) const;
+  Vector3 shifted_centre(const Move& move, const Vector3& shift) const;
   std::optional<double> height_shift_mm(const Move& move, Index s) const;
   void check_step(const Move& move, const Vector3& before_mm);
 
@@ -94,6 +104,7 @@ class Emitter {
   EmitterState& state_;
   std::optional<std::size_t> held_for_;  // the move in whose coordinates the held position is
   bool group_in_xy_ = false;             // the contour group that is being emitted
+  std::optional<GroupMotion> group_motion_;  // none: it holds the correction with which it was entered
   HeldPosition piece_held_{};            // where the pieces of the move that is being fitted have come
   ToolSolver solvers_;
 };

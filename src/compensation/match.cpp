@@ -54,6 +54,7 @@ class WindowMatcher {
     if (auto failure = kind_failure(job_, matched)) return failure;
     if (auto failure = surface_failure(matched)) return failure;
     if (auto failure = shift_failure(matched, m)) return failure;
+    if (auto failure = contour_failure(matched, m)) return failure;
     if (auto failure = words_failure(job_, matched)) return failure;
     if (segment && !original.cycle) maker_.add(matched, drafts);
     add_hole(matched);
@@ -70,7 +71,8 @@ class WindowMatcher {
     constexpr double unshifted_mm = 1e-9;
     const Move &original = matched.original, &found = *matched.found.back().move;
     forget_lost_axes(m);
-    const bool judged = all_known(original.known_end) && original.handling == Handling::own;
+    const bool judged = all_known(original.known_end) &&
+                        (original.handling == Handling::own || original.handling == Handling::group);
     for (std::size_t axis = 0; axis < 3; ++axis) {
       if (!original.words[axis] || !found.words[axis] || original.relative || found.relative) continue;
       const auto k = static_cast<Eigen::Index>(axis);
@@ -84,6 +86,22 @@ class WindowMatcher {
       shifts_mm_[axis] = shift;
     }
     return std::nullopt;
+  }
+
+  // Contours are shifted and turned in the plane: each way inside keeps its length there.
+  std::optional<Failure> contour_failure(const MatchedMoves& matched, std::size_t m) {
+    const Move &original = matched.original, &found = *matched.found.back().move;
+    const bool inside = m > 0 && original.group != 0 && job_.program.moves[m - 1].group == original.group;
+    if (!inside || !all_known(original.known_start) || !all_known(original.known_end) || !all_known(found.known_start))
+      return std::nullopt;
+    const double rounding_mm = 4 * std::max(rounding_as_read(original), rounding_as_read(found)) / mm;
+    const double off = (found.end_mm - found.start_mm).head<2>().norm() - (original.end_mm - original.start_mm).head<2>().norm();
+    if (std::abs(off) <= rounding_mm + 1e-6) return std::nullopt;
+    return Failure{Exit::not_compensated, original.line,
+                   fmt::format("this move of a contour is {:.4f} mm {} in X and Y than that of the original; contours are "
+                               "shifted and turned as a whole",
+                               std::abs(off), off > 0 ? "longer" : "shorter"),
+                   found.line};
   }
 
   // The surface from which the held holes of a Klartext cycle count goes along with them: they keep the shift with which

@@ -117,9 +117,13 @@ class KindComparison {
     if (!rigid) return;
     const Vector3 from = wanted.absolute_centre ? original_.end_mm : original_.start_mm,
                   found_from = arc.absolute_centre ? found.end_mm : found.start_mm;
-    const Vector3 off = (arc.centre_mm - found_from) - (wanted.centre_mm - from);
+    const Vector3 centre = arc.centre_mm - found_from, wanted_centre = wanted.centre_mm - from;
     const bool by_radius = wanted.radius_word && arc.radius_word;
-    const double miss = by_radius ? std::abs(arc.radius_mm - wanted.radius_mm) : in_plane(off, wanted.normal);
+    double miss = in_plane(centre - wanted_centre, wanted.normal);
+    if (by_radius) miss = std::abs(arc.radius_mm - wanted.radius_mm);
+    // A contour may turn.
+    if (!by_radius && original_.handling == Handling::group)
+      miss = std::abs(in_plane(centre, wanted.normal) - in_plane(wanted_centre, wanted.normal));
     if (miss > room)
       fail(found, fmt::format("the {} of this arc is off by {:.4f} mm", by_radius ? "radius" : "centre", miss));
   }

@@ -22,7 +22,7 @@ struct PlannedSegment {
                                      ///< fraction
   std::vector<CorrectionCurve> arc;  ///< of an arc: its correction between steps of the force; its text is
                                      ///< fitted when it is known where the one before it ends
-  std::vector<Vector3> group;        ///< of a move of a contour group: corrections at places along it (M, m)
+  std::vector<CurveNode> group;      ///< of a move of a contour group: corrections at places along it
   double gain = 1;                   ///< of an arc: the tip moves by at most this for a change of target
   double unsplit_miss =
       0;  ///< m: largest deviation inside, where points would have been needed but must not be inserted

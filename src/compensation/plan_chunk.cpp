@@ -232,8 +232,10 @@ bool ChunkPlanner::finish(const Task& task, PlannedSegment& planned) {
   const Curve& wanted = segment(task).wanted;
   if (task.kind == Kind::held) return true;
   if (task.kind == Kind::group) {
-    for (std::size_t k = task.first; k < task.first + task.count; ++k)
-      planned.group.push_back(waves_.correction(answers_[k]));
+    for (std::size_t k = 0; k < task.count; ++k) {
+      const double u = task.count == 1 ? 1 : static_cast<double>(k) / static_cast<double>(task.count - 1);
+      planned.group.push_back({u, waves_.correction(answers_[task.first + k])});
+    }
     return true;
   }
   planned.starts_anywhere = task.start == no_answer;

@@ -24,7 +24,7 @@ void note_planned_corrections(const Job& job, const Plan& plan, Compensation& re
     const PlannedSegment& planned = plan.segments[s];
     if (planned.end) note(*planned.end - segment.wanted.end);
     for (const Knot& knot : planned.knots) note(knot.target - point_at(segment.wanted, knot.u));
-    for (const Vector3& c : planned.group) note(c);
+    for (const CurveNode& node : planned.group) note(node.c);
     for (const CorrectionCurve& curve : planned.arc)
       for (const CurveInterval& interval : curve.intervals())
         for (const CurveNode& node : interval.nodes) note(node.c);

@@ -250,7 +250,8 @@ void add_klartext_move(const KlartextBlock& block, const KlartextCodes& codes, K
     for (std::size_t axis = 0; axis < 3; ++axis)
       move.known_end[axis] = move.known_end[axis] && r.state.known[axis];
   }
-  move.may_insert_words = !corner && (move.words[0] || move.words[1] || move.words[2]);
+  move.takes_no_z = move.takes_no_z || corner;
+  move.may_insert_words = move.words[0] || move.words[1] || move.words[2];
   doubt_klartext_skippable(block, r, move);
   if ((block.head == "C" || block.head == "CP") && r.state.pole) use_pole(r, move);
   add_move(r, std::move(move));

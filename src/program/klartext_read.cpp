@@ -64,13 +64,13 @@ void read_tool_call(const KlartextBlock& block, KlartextReading& r) {
 }
 
 /// A corner that RND or CHF makes of the end of one move and the beginning of the next: neither is divided,
-/// and neither takes a word beside those that it has, since both must lie in the plane of the corner.
+/// and neither takes a Z beside the words that it has, since both must lie in the plane of the corner.
 void read_corner(const KlartextBlock&, KlartextReading& r) {
   r.state.rounds_next = true;
   if (r.program.moves.empty()) return;
   Move& last = r.program.moves.back();
   last.may_split = last.may_jump = false;
-  if (!last.words[2]) last.may_insert_words = false;
+  if (!last.words[2]) last.takes_no_z = true;
 }
 
 void read_call(const KlartextBlock& block, KlartextReading& r) {

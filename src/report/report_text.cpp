@@ -164,7 +164,7 @@ std::string others_text(const OtherMoves& moves) {
   const auto add = [&](std::size_t count, const char* fate) {
     if (count > 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, fate);
   };
-  add(moves.grouped, "with their contour as one shift");
+  add(moves.grouped, "with their contour as a whole");
   add(moves.in_part, "in part");
   add(moves.held, "holding the correction before them");
   add(moves.left, "not corrected");

@@ -6,9 +6,9 @@
 
 namespace counterflex::test {
 
-/// Three prismatic actuators X, Y, Z; the frame displaced (mm), Y turned against X about Z (rad), and Z
-/// against both about Y.
-inline Machine rigid_gantry(const std::string& displaced_mm, double square_error = 0, double lean = 0) {
+/// Three prismatic actuators X, Y, Z; the frame displaced (mm) and turned about Z, Y turned against X about Z, and Z
+/// against both about Y (rad).
+inline Machine rigid_gantry(const std::string& displaced_mm, double square_error = 0, double lean = 0, double turn = 0) {
   return read_machine(fmt::format(R"(format = "counterflex-machine 1"
 controlled = ["x", "y", "z"]
 [[chain]]
@@ -21,11 +21,11 @@ elements = [
   {{ error = "z_to_y" }},
   {{ actuator = "prismatic", axis = "z", min_mm = -1000, max_mm = 1000 }},
 ]
-errors.mount = {{ xyz_mm = [{}] }}
+errors.mount = {{ xyz_mm = [{}], rpy_deg = [0, 0, {}] }}
 errors.y_to_x = {{ rpy_deg = [0, 0, {}] }}
 errors.z_to_y = {{ rpy_deg = [0, {}, 0] }}
 )",
-                                  displaced_mm, square_error / deg, lean / deg),
+                                  displaced_mm, turn / deg, square_error / deg, lean / deg),
                       "gantry.toml");
 }
 

@@ -46,6 +46,42 @@ TEST_CASE("a constant shift moves a contour group as a whole, its arcs with the 
   CHECK(result.text.find("I10. J0.") != std::string::npos);
 }
 
+TEST_CASE("a contour group turns with a machine that is turned about Z, its arcs with their centres") {
+  const double turn = 2e-3;
+  const Shop shop({.machine = rigid_gantry("0.5, -0.25, 0.125", 0, 0, turn), .text = contour});
+  const Compensation result = compensated(shop);
+  const std::vector<Move> before = moves_in(contour), after = moves_in(result.text);
+  REQUIRE(before.size() == after.size());
+  const Matrix3 R = exp_so3(Vector3(0, 0, -turn));
+  const auto moved = [&](const Vector3& p) -> Vector3 { return R * (p + shift_mm); };
+  for (std::size_t m = 0; m < before.size(); ++m) {
+    CAPTURE(before[m].line);
+    CHECK((after[m].end_mm - moved(before[m].end_mm)).cwiseAbs().maxCoeff() <= 1.5e-3);
+    REQUIRE(after[m].arc.has_value() == before[m].arc.has_value());
+    if (before[m].arc) CHECK((after[m].arc->centre_mm - moved(before[m].arc->centre_mm)).cwiseAbs().maxCoeff() <= 2e-3);
+  }
+  CHECK(result.counts.inserted_blocks == 0);
+  CHECK(result.left_alone[0].why.find("one turn by -0.1146 deg") != std::string::npos);
+  CHECK(result.left_alone[0].why.find("is up to 0.0000 mm") != std::string::npos);
+  CHECK(refusal_of(shop, result.text) == "");
+}
+
+TEST_CASE("a contour with a word that cannot be written keeps one shift on a turned machine") {
+  const std::string fixed =
+      "G21 G90 G17\nG0 X-20. Y-20. Z10.\nG0 X-10. Y-12.\nZ2.\nG1 Z-3. F200\nG41 D1 X0. Y0.\nY80.\nG43 H1 X100.\n"
+      "Y0.\nX-5.\nG40 X-10. Y-12.\nG0 Z10.\nX120. Y50.\nM30\n";
+  const Compensation result = compensated(Shop({.machine = rigid_gantry("0, 0, 0", 0, 0, 2e-3), .text = fixed}));
+  CHECK(result.left_alone[0].why.find("turn") == std::string::npos);
+}
+
+TEST_CASE("an arc of a contour whose radius is changed is refused") {
+  const Shop shop({.machine = rigid_gantry("0, 0, 0", 0, 0, 2e-3), .text = contour});
+  std::string text = compensated(shop).text;
+  const std::size_t at = text.find("I10.");
+  REQUIRE(at != std::string::npos);
+  CHECK_FALSE(refusal_of(shop, text.replace(at, 4, "I10.2")).empty());
+}
+
 TEST_CASE("a perfect machine gives back contours byte for byte") {
   CHECK(compensated(Shop({.machine = perfect_gantry(), .text = contour})).text == contour);
 }

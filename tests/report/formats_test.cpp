@@ -450,7 +450,7 @@ TEST_CASE("the summary shows before and after, and calls what is left a model re
                  "  load: cutting forces alone              0.0000      0.1500      0.2000      0.2500\n"));
   CHECK(contains(
       text,
-      "  3 of 5 moves corrected each on its own, 2 points added\n  1 with their contour as one shift, 1 "
+      "  3 of 5 moves corrected each on its own, 2 points added\n  1 with their contour as a whole, 1 "
       "holding the correction before them\n"));
   CHECK(contains(
       text,

@@ -109,7 +109,7 @@ struct CycleMove {
 enum class Handling : std::uint8_t {
   own,    ///< by the correction of its own end
   held,   ///< it keeps the correction with which it is entered: a rigid shift of its absolute words
-  group,  ///< by the one shift of its contour group under G41 or G42
+  group,  ///< by the one motion of its contour group under G41 or G42
 };
 
 /// Whether a position is known on all three axes.

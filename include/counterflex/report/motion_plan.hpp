@@ -28,7 +28,7 @@ struct PlanRow {
 
 inline constexpr std::size_t lines_of_row = 5;
 
-/// A contour under G41 or G42, which has one shift.
+/// A contour under G41 or G42, which moves as a whole.
 struct PlanGroup {
   int number = 0;
   int first_line = 0, last_line = 0;

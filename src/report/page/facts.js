@@ -59,7 +59,7 @@
   }
 
   const blockRows = [['Blocks', 'total'], ['Moves', 'moves'], ['Corrected each on its own', 'corrected'],
-    ['Corrected in part', 'corrected_in_part'], ['With their contour as one shift', 'grouped'],
+    ['Corrected in part', 'corrected_in_part'], ['With their contour as a whole', 'grouped'],
     ['Holding the correction before them', 'held'], ['Not corrected', 'not_corrected'], ['Points added', 'inserted']];
 
   const countText = (n) => (known(n) ? String(n) : unknown);
