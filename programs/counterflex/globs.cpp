@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <set>
 #include <system_error>
+#include <utility>
 
 #include "counterflex/files/input_error.hpp"
 
@@ -30,6 +31,7 @@ class Walk {
 
  private:
   void go(const fs::path& at, std::size_t part) {
+    if (!visited_.emplace(at.native(), part).second) return;  // by another way, where "**" stands more than once
     if (part == parts_.size()) return take(at);
     const std::string& name = parts_[part].native();
     if (!is_glob(name)) return go(at / parts_[part], part + 1);
@@ -68,6 +70,7 @@ class Walk {
   }
 
   std::vector<fs::path> parts_;
+  std::set<std::pair<std::string, std::size_t>> visited_;
   std::set<std::string> found_;
 };
 

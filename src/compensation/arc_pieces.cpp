@@ -7,8 +7,7 @@
 namespace counterflex {
 namespace {
 
-constexpr int most_halvings = 3;
-constexpr int most_halvings_of_flat = 5;
+constexpr int first_halvings = 3, most_halvings = 6;
 constexpr int height_samples = 16;
 constexpr double polar_kept_share =
     0.1;  // of the tolerance: what is off by more takes a line to the next block
@@ -44,7 +43,7 @@ class ArcDivider {
   void divide(double u0, double u1, int halvings) {
     if (const auto fit = fitting(u0, u1)) return put_arc(u0, u1, *fit);
     const Division division = division_of(u0, u1);
-    if (division.counts && ++halvings > most_halvings && !is_worth_halving(u0, u1, halvings))
+    if (division.counts && ++halvings > first_halvings && !is_worth_halving(u0, u1, halvings))
       return leave_to_chords(u0, u1);
     divide(u0, division.u, halvings);
     divide(division.u, u1, halvings);
@@ -100,9 +99,9 @@ class ArcDivider {
     return fit;
   }
 
-  // A flat arc and the line to its height are two blocks: fewer than the chords of half the piece.
+  // An arc, and of a flat one the line to its height, are two blocks: fewer than the chords of half the piece.
   bool is_worth_halving(double u0, double u1, int halvings) const {
-    if (!task_.move.arc->flat || halvings > most_halvings_of_flat) return false;
+    if (halvings > most_halvings) return false;
     const Arc& arc = *task_.source.arc;
     const double size = (task_.source.start - arc.centre).norm(),
                  chord = std::sqrt(8 * task_.tolerance_mm / size);

@@ -110,9 +110,9 @@ TEST_CASE("a chord in the place of an arc is refused where it misses the toleran
     });
 }
 
-TEST_CASE("a polygon of chords from which a vertex is missing is refused") {
+TEST_CASE("an arc from which a piece is missing is refused") {
   check_refused(circle_shop(orthoglide_b, 2e-3), [](const std::string& line) -> std::optional<std::string> {
-    if (!line.starts_with("G1")) return std::nullopt;
+    if (!line.starts_with("G3")) return std::nullopt;
     return "";
   });
 }
