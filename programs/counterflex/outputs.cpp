@@ -53,6 +53,16 @@ void check_place(const std::string& path, const std::vector<std::string>& made =
     throw InputError(Exit::usage, {path}, "cannot write the file: its folder does not exist; make it");
 }
 
+/// A project file of somebody else is not to make names that write on a terminal. Those of programs stay.
+void refuse_control_characters(const std::vector<std::string>& outputs, const std::string& program) {
+  if (without_controls(program) != program) return;
+  for (const std::string& path : outputs)
+    if (without_controls(path) != path)
+      throw InputError(Exit::usage, {},
+                       fmt::format("the name of the output '{}' has control characters; give another name",
+                                   without_controls(path)));
+}
+
 void check_paths(const std::vector<std::string>& outputs, const std::vector<std::string>& inputs,
                  const std::vector<std::string>& made = {}) {
   for (std::size_t i = 0; i < outputs.size(); ++i) {
@@ -119,6 +129,7 @@ OutputPaths output_paths(const Options& options) {
     throw InputError(
         Exit::usage, {},
         "the program and the document of --json cannot both go to standard output; give -o a file");
+  refuse_control_characters(outputs, options.program);
   check_paths(outputs, inputs_of(options), options.folders);
   paths.folders = options.folders;
   return paths;

@@ -134,21 +134,39 @@ Piece piece_of_hole(const Job& job, const Move& move) {
           .tool = move.tool};
 }
 
-// Of segments [begin, end) and the holes before them; behind the last segment all that are left.
+bool is_first_known(const Move& move) {
+  return all_known(move.known_end) && !all_known(move.known_start) && !move.cycle;
+}
+
+// The end of a move from a position that is not known, of the original program.
+Piece piece_of_position(const Job& job, const Move& move) {
+  const Vector3 commanded = target_of(job, move);
+  return {.segment = no_segment,
+          .line = move.line,
+          .frame = move.frame,
+          .commanded = {commanded, commanded, {}},
+          .wanted = wanted_of(job, move),
+          .end_only = true,
+          .tool = move.tool};
+}
+
+// Of segments [begin, end) and the holes and first positions before them; behind the last segment all that are left.
 std::vector<Piece> original_pieces(const Job& job, std::size_t begin, std::size_t end) {
   const std::vector<Segment>& segments = job.path.segments;
   std::vector<Piece> pieces;
   std::vector<double> places;
   ForceCursor cursor;
   std::size_t next_move = begin == 0 ? 0 : segments[begin - 1].move;
-  const auto add_holes_before = [&](std::size_t move) {
-    for (; next_move < move; ++next_move)
-      if (is_known_hole(job.program.moves[next_move]))
-        pieces.push_back(piece_of_hole(job, job.program.moves[next_move]));
+  const auto add_ends_before = [&](std::size_t end_move) {
+    for (; next_move < end_move; ++next_move) {
+      const Move& move = job.program.moves[next_move];
+      if (is_known_hole(move)) pieces.push_back(piece_of_hole(job, move));
+      if (is_first_known(move)) pieces.push_back(piece_of_position(job, move));
+    }
   };
   for (std::size_t s = begin; s < end; ++s) {
     const Segment& segment = segments[s];
-    add_holes_before(segment.move);
+    add_ends_before(segment.move);
     const Pose back{Matrix3::Identity(), -job.path.frames[segment.frame].datum_shift};
     places_along(job, s, cursor, places);
     double u0 = 0;
@@ -163,7 +181,7 @@ std::vector<Piece> original_pieces(const Job& job, std::size_t begin, std::size_
       u0 = u;
     }
   }
-  if (end == segments.size()) add_holes_before(job.program.moves.size());
+  if (end == segments.size()) add_ends_before(job.program.moves.size());
   return pieces;
 }
 

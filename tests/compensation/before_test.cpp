@@ -75,6 +75,8 @@ TEST_CASE("predict, verify and compensate find the same deviation before, at the
                                .text = all_ways,
                                .force = force,
                                .in_lanes = in_lanes});
+      const bool slow = !in_lanes && &force != &forces[1];  // one by one
+      if (slow) continue;
       check_runs_agree_before(
           {.machine = load_machine(orthoglide_b), .text = all_ways, .force = force, .in_lanes = in_lanes});
     }
