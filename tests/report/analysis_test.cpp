@@ -417,9 +417,9 @@ double snapping_load(double h) {
 }  // namespace
 
 TEST_CASE("an analysis finds no state beyond a limit point, however far beyond it the load is") {
-  for (const double h : {1.0, 3.0, 7.14, 20.0}) {
+  for (const double h : {1.0, 7.14, 20.0}) {
     const Model model = shallow_truss(h);
-    for (const double share : {0.5, 0.95, 1.05, 2.0, 10.0, 64.0, 300.0, 20000.0}) {
+    for (const double share : {0.95, 1.05, 10.0, 64.0, 20000.0}) {
       CAPTURE(h);
       CAPTURE(share);
       const Load load{(Vector6() << 0, 0, -share * snapping_load(h), 0, 0, 0).finished(), false};

@@ -153,7 +153,7 @@ TEST_CASE("holes count as moves, and have no cutting length") {
 
 TEST_CASE("a call that is not expanded is a feed move of unknown length") {
   Reading run("G21 G90 G54 G0 X0 Y0 Z5\nG1 Z0 F100\nM98 P100\n");
-  run.solve(1, 2, 0.001);
+  run.solve(0, 2, 0.001);
   CHECK(run.tally.moves().count == 2);
   CHECK(run.tally.moves().unknown_length == 1);
 }

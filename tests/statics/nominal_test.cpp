@@ -177,7 +177,8 @@ TEST_CASE("a segment through a fold of the arm is singular, not a jump to anothe
   CHECK(follow(model, start.configuration, in_plane(0, 0.2)).status == Status::converged);
 }
 
-TEST_CASE("a segment close beside a fold keeps its branch, or is refused") {
+TEST_CASE("a segment close beside a fold keeps its branch, or is refused" *
+    doctest::test_suite("long")) {
   std::string text = two_links;
   text.replace(text.find("xyz_mm = [300"), 13, "xyz_mm = [200");
   const Model model = model_of_text(text);

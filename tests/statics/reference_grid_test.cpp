@@ -97,7 +97,8 @@ TEST_CASE("the Orthoglides of the samples converge from a cold start in all of t
 
 TEST_CASE(
     "the 6R robot converges from a cold start in a block before it, tool down and leaning by up to 20 "
-    "degrees") {
+    "degrees" *
+    doctest::test_suite("long")) {
   const Grid block{{1400, -600, 400}, {2100, 600, 1000}, {8, 9, 8}, {0, 90, 0}, {10, 20, 30}};
   for (const char* name : {"serial6r_joints", "serial6r_link6"})
     check_grid(reference_machine(name), block, hard_cut);

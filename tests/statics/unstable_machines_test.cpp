@@ -106,7 +106,8 @@ void compare(const Model& model, const Vector3& direction, Verdicts& verdicts) {
 
 }  // namespace
 
-TEST_CASE("200 random machines are stable and unstable where an independent judge says so") {
+TEST_CASE("200 random machines are stable and unstable where an independent judge says so" *
+    doctest::test_suite("long")) {
   Verdicts verdicts;
   for (unsigned seed = 0; seed < 200; ++seed) {
     CAPTURE(seed);

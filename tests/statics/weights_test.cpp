@@ -78,7 +78,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "the weights' tangent is the derivative of their forces by every coordinate, across the ends of groups") {
+    "the weights' tangent is the derivative of their forces by every coordinate, across the ends of groups" *
+    doctest::test_suite("long")) {
   for_heavy_states(202, [](const Model& model, const Configuration& c, StaticsWork& work) {
     const Eigen::MatrixXd A = weight_terms(model, c, work).A;
     const double size = A.cwiseAbs().maxCoeff();
