@@ -41,6 +41,7 @@ struct Reading {
   std::size_t run_begin = 0;         ///< the first move since the tool went to a place of the machine
   std::size_t program_numbers = 0;   ///< lines that begin with an O-number, so far
   std::size_t turns = 0;             ///< of all arcs so far, one at least for each
+  double turned_mm = 0;              ///< the way of their full turns
   std::map<std::string, SetOffset> offsets{};  ///< by name
   std::map<std::string, double, std::less<>> variables{};  ///< whose values are known, see `evaluate_words`
   std::string last_reason{};         ///< for which a block was left alone

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "program/arc_radius.hpp"
 #include "program/read_move.hpp"
@@ -14,6 +15,7 @@ namespace {
 constexpr std::array<char, 3> letters_of_centre{'I', 'J', 'K'};
 constexpr double most_turns = 100;  // of one arc: each turn is sampled, and what is found is kept
 constexpr std::size_t more_turns_than_blocks = 10000;  // of a program: time is proportional to its turns
+constexpr double most_turned_mm = 1e6;                 // of all full turns of a program, and to their way
 
 /// Axes of the plane: from the first to the second is counter-clockwise about the normal.
 struct Plane {
@@ -217,9 +219,18 @@ void hold_arc(Reading& r, Move& move, const Plane& plane, bool start_known) {
 }
 
 /// A short program must not turn for hours. Throws at P, without which the turns are fewer than the blocks.
-void count_turns(const Block& block, Reading& r, const ArcMove& arc) {
+void count_turns(const Block& block, Reading& r, const ArcMove& arc, const Vector3& start_mm) {
   r.turns += static_cast<std::size_t>(arc.turns) + 1;
-  if (arc.turns == 0 || r.turns <= r.program.block_count + more_turns_than_blocks) return;
+  if (arc.turns == 0) return;
+  Vector3 arm = start_mm - arc.centre_mm;
+  arm[arc.normal] = 0;
+  r.turned_mm += 2 * std::numbers::pi * arm.norm() * arc.turns;
+  if (r.turned_mm > most_turned_mm)
+    refuse_word(block, r, *r.sorted.word('P'),
+                fmt::format("the full turns of arcs to here go {:.0f} m: at most {:.0f} m are allowed; write each turn as "
+                            "a block",
+                            r.turned_mm / 1000, most_turned_mm / 1000));
+  if (r.turns <= r.program.block_count + more_turns_than_blocks) return;
   refuse_word(
       block, r, *r.sorted.word('P'),
       fmt::format(
@@ -241,7 +252,7 @@ void read_arc(const Block& block, Reading& r) {
   const bool resolved =
       followed && start_known && end_known && words_are_plain(r.sorted) && !centre_is_mixed(r, plane);
   if (resolved) move.arc = arc_of(block, r, move);
-  if (move.arc) count_turns(block, r, *move.arc);
+  if (move.arc) count_turns(block, r, *move.arc, move.start_mm);
   if (!move.arc) {
     hold_arc(r, move, plane, start_known);
     if (followed)
