@@ -12,14 +12,25 @@
 namespace counterflex::cli {
 namespace {
 
+/// A run with a verdict: standard output has one also where inputs could not be read, unless it takes the program.
+Exit judged(counterflex::Command command, Exit (*run)(const Options&, Console&), const Options& options, Console& console) {
+  try {
+    return run(options, console);
+  } catch (const InputError& error) {
+    if (options.output != "-") write_result(options.json ? failed_json(command, version, error) : "FAILED\n");
+    throw;
+  }
+}
+
 Exit run_command(const Options& options, Console& console) {
+  using Judged = counterflex::Command;
   switch (options.command) {
     case Command::compensate:
-      return run_compensate(options, console);
+      return judged(Judged::compensate, run_compensate, options, console);
     case Command::predict:
-      return run_predict(options, console);
+      return judged(Judged::predict, run_predict, options, console);
     case Command::verify:
-      return run_verify(options, console);
+      return judged(Judged::verify, run_verify, options, console);
     case Command::compare:
       return run_compare(options, console);
     case Command::analyze:
@@ -36,39 +47,6 @@ Exit run_command(const Options& options, Console& console) {
   return Exit::internal;
 }
 
-/// The command's name where a run of it has a verdict; else empty.
-std::string_view judged_command(Command command) {
-  switch (command) {
-    case Command::compensate:
-      return "compensate";
-    case Command::predict:
-      return "predict";
-    case Command::verify:
-      return "verify";
-    default:
-      return {};
-  }
-}
-
-/// Standard output has a verdict also where inputs could not be read; not where it takes the program.
-void tell_failed(const Options& options, const InputError& error) {
-  const std::string_view command = judged_command(options.command);
-  if (command.empty() || options.output == "-") return;
-  if (options.json)
-    write_result(failed_json(command, version, error));
-  else
-    write_result("FAILED\n");
-}
-
-Exit run_and_judge(const Options& options, Console& console) {
-  try {
-    return run_command(options, console);
-  } catch (const InputError& error) {
-    tell_failed(options, error);
-    throw;
-  }
-}
-
 Exit run(int argc, char** argv) {
   Console plain{Options{}};
   return guarded(plain, [&] {
@@ -79,7 +57,7 @@ Exit run(int argc, char** argv) {
     for (const SettingRemark& remark : options.remarks)
       console.warning(remark.where.file, remark.where.line, remark.what);
     if (!options.project_file.empty()) console.detail("project file " + options.project_file);
-    return guarded(console, [&] { return run_and_judge(options, console); });
+    return guarded(console, [&] { return run_command(options, console); });
   });
 }
 

@@ -343,11 +343,11 @@ std::string to_json(const SanityChecks& checks) {
   return dump(sanity_json(checks));
 }
 
-std::string failed_json(std::string_view command, std::string_view version, const InputError& error) {
+std::string failed_json(Command command, std::string_view version, const InputError& error) {
   const Location& where = error.where();
   return dump({{"schema", report_schema},
                {"tool", fmt::format("counterflex {}", version)},
-               {"command", command},
+               {"command", name_of(command)},
                {"verdict", to_string(Verdict::failed)},
                {"verdict_reason", ""},
                {"failure",

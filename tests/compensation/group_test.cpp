@@ -82,6 +82,20 @@ TEST_CASE("an arc of a contour whose radius is changed is refused") {
   CHECK_FALSE(refusal_of(shop, text.replace(at, 4, "I10.2")).empty());
 }
 
+TEST_CASE("a word of a contour that is not shifted with the others is refused, along its move and across") {
+  const Shop shop({.machine = displaced_gantry(), .text = contour});
+  const std::string text = compensated(shop).text;
+  const auto refusal_with = [&](const std::string& written, const std::string& left) {
+    const std::size_t at = text.find(written);
+    REQUIRE(at != std::string::npos);
+    std::string changed = text;
+    changed.replace(at, text.find_first_of(" \n", at) - at, left);
+    return refusal_of(shop, changed);
+  };
+  CHECK(refusal_with("X99.5", "X100.").find("contours are shifted and turned as a whole") != std::string::npos);
+  CHECK(refusal_with("Y80.25", "Y80.") != "");  // an arc follows, whose radius is no longer the same
+}
+
 TEST_CASE("a perfect machine gives back contours byte for byte") {
   CHECK(compensated(Shop({.machine = perfect_gantry(), .text = contour})).text == contour);
 }

@@ -16,7 +16,7 @@ namespace counterflex {
 std::string to_json(const RunReport& report);
 
 /// The document of a run that ended before it had a report: with the verdict FAILED, and `failure`.
-std::string failed_json(std::string_view command, std::string_view version, const InputError& error);
+std::string failed_json(Command command, std::string_view version, const InputError& error);
 
 /// The checks as a list of objects with check, state and text.
 std::string to_json(const SanityChecks& checks);
