@@ -1,6 +1,7 @@
 #include "lane_memory.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace counterflex {
 
@@ -24,6 +25,15 @@ std::array<bool, lanes::width> LaneMemory::stable(const lanes::Region& region, c
   std::array<bool, lanes::width> yes{};
   kernel_.judge(model_.program(), region, question, batch, memory_.get(), scratch_.get(), yes.data());
   return yes;
+}
+
+double LaneMemory::largest_wrench(int lane) const {
+  const lanes::Program& program = model_.program();
+  double largest = 0;
+  for (int s = 0; s < program.series_count; ++s)
+    for (int i = 0; i < 6; ++i)
+      largest = std::max(largest, std::abs(lanes::state_entry(kernel_, program, memory_.get(), program.series[s].wrench + i, lane)));
+  return largest;
 }
 
 std::vector<double> LaneMemory::state(int lane) const {

@@ -24,6 +24,9 @@ class LaneMemory {
   /// The state of a lane after that, without where it stands: it may be the start of others.
   std::vector<double> state(int lane) const;
 
+  /// The largest wrench at the end of a series in a lane (N, N m).
+  double largest_wrench(int lane) const;
+
   double rho(std::size_t actuator, int lane) const { return rho_[actuator * lanes::width + static_cast<std::size_t>(lane)]; }
 
   lanes::Batch batch{};

@@ -8,6 +8,7 @@
 #include <unordered_map>
 
 #include "lane_cell.hpp"
+#include "end_springs.hpp"
 
 namespace counterflex {
 
@@ -23,6 +24,7 @@ constexpr Grid bent_grid{1.0 / 24, 3}, straight_grid{1.0 / 8, 8};
 constexpr double reach_of_cells = 2;       // from their centres, in edges: so that batches are full
 constexpr std::size_t most_zones = 512, most_cells = 1024;
 constexpr double farthest_cell = 1e6;      // from the origin of M: nothing that is a machine
+constexpr double slack = 1e-11;  // m: at a spring of a rigid machine
 constexpr double same_branch = 1e-3;  // l or rad: another branch is further away
 
 Vector3 no_position() { return Vector3::Constant(std::numeric_limits<double>::quiet_NaN()); }
@@ -110,6 +112,7 @@ class Cache {
 using namespace lane_grid;
 
 struct LaneMachine::Impl {
+  const std::optional<Model> sprung;  // what is solved for a rigid machine
   const Model& model;
   LaneModel lane_model;
   const bool able;
@@ -119,9 +122,10 @@ struct LaneMachine::Impl {
   Cache<LaneCell> cells{most_cells};
 
   Impl(const Model& m, bool at_platform, double largest_correction)
-      : model(m),
-        lane_model(m, at_platform),
-        able(LaneModel::can_do(m.mechanism)),
+      : sprung(is_rigid(m.mechanism) ? std::optional<Model>(with_end_springs(m)) : std::nullopt),
+        model(sprung ? *sprung : m),
+        lane_model(model, at_platform),
+        able(LaneModel::can_do(model.mechanism)),
         grid(only_slides(m.mechanism) ? straight_grid : bent_grid),
         edge(grid.cell_share * m.mechanism.length),
         reach(largest_correction) {}
@@ -179,6 +183,7 @@ struct LaneSolver::Impl {
   LaneMemory memory;
   std::shared_ptr<const LaneCell> cell{};
   Index index{};
+  Configuration rigid_nominal{};  // of a rigid machine, what `nominal_near` has found
 
   explicit Impl(LaneMachine::Impl& m) : machine(m), work(m.model.mechanism), memory(m.lane_model) {}
 
@@ -210,8 +215,13 @@ struct LaneSolver::Impl {
   void load_wrenches(std::span<const LaneRequest> requests) {
     for (int lane = 0; lane < lanes::width; ++lane) {
       const LaneRequest& request = requests[std::min(static_cast<std::size_t>(lane), requests.size() - 1)];
-      for (int i = 0; i < 6; ++i) memory.batch.F[i][lane] = request.F[i];
+      for (int i = 0; i < 6; ++i) memory.batch.F[i][lane] = machine.sprung ? 0 : request.F[i];
     }
+  }
+
+  // Of a rigid machine: whether its closures hold without a spring's help.
+  bool stands_rigid(int lane) const {
+    return !machine.sprung || memory.largest_wrench(lane) <= slack * machine.model.mechanism.stiffest;
   }
 
   LaneAnswer answer(int lane) const {
@@ -221,11 +231,13 @@ struct LaneSolver::Impl {
     for (int i = 0; i < 9; ++i) result.X_MT.R(i / 3, i % 3) = batch.tip[i][lane];
     for (int i = 0; i < 3; ++i) result.X_MT.p[i] = batch.tip[9 + i][lane];
     result.iterations = static_cast<int>(batch.iterations[lane]);
-    result.solved = batch.converged[lane] && in_travel(lane) && cell->zone().holds(result.command);
+    result.solved =
+        batch.converged[lane] && in_travel(lane) && cell->zone().holds(result.command) && stands_rigid(lane);
     return result;
   }
 
   bool bears(std::span<const LaneRequest> requests, bool errors) {
+    if (machine.sprung) return true;  // loads do not move it
     double force = 0, moment = 0;
     for (const LaneRequest& request : requests) {
       force = std::max(force, request.F.head<3>().norm());
@@ -316,7 +328,9 @@ bool LaneSolver::nominal_tip(const Vector3& p, Pose& X_MT) {
 
 const Configuration* LaneSolver::nominal_near(const Vector3& p) {
   if (!impl_->machine.able || !impl_->go_to(p)) return nullptr;
-  return &impl_->cell->zone().nominal();
+  const Configuration& nominal = impl_->cell->zone().nominal();
+  if (!impl_->machine.sprung) return &nominal;
+  return &(impl_->rigid_nominal = without_end_springs(nominal));
 }
 
 // Neighbouring zones agree about a place between them; along a longer way the nominal machine is followed, from its very

@@ -1,8 +1,8 @@
 #pragma once
 /// Waypoints solved several at once, one a lane of a vector register: the same equilibria as those of `solve_forward` and
 /// `solve_target`, to the same residuals, where the machine is known to be stable and well conditioned. A yes is the
-/// promise that these would say `converged`; a no says nothing, they decide. For machines without weights whose tip is
-/// controlled in x, y and z; others get a no for everything. EQUATIONS.md, section 11, tells what is proven and what is sampled.
+/// promise that these would say `converged`; a no says nothing, they decide. For machines whose tip is controlled in x, y and
+/// z, without weights unless they are rigid; others get a no for everything. EQUATIONS.md, section 11, tells what is proven and what is sampled.
 #include <functional>
 #include <memory>
 #include <span>
