@@ -1,6 +1,7 @@
 // Contour groups under G41 or G42: one rigid motion, so that the setter's offsets of the tool still work.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "counterflex/geometry/rotation.hpp"
@@ -166,6 +167,64 @@ Vector3 Emitter::group_shift_mm(const Move& move, Index s, double height) const 
   Vector3 shift = group_motion_->shift_at(move.end_mm);
   shift.z() = height_shift_mm(move, s).value_or(height);
   return shift;
+}
+
+namespace {
+
+// The largest miss of straight lines between every `stride`th node.
+double miss_between(const std::vector<double>& heights, std::size_t stride) {
+  double miss = 0;
+  for (std::size_t k = 0; k < heights.size(); ++k) {
+    const std::size_t begin = std::min(k / stride * stride, heights.size() - 1 - stride);
+    const double share = static_cast<double>(k - begin) / static_cast<double>(stride);
+    miss = std::max(miss, std::abs(heights[k] - (1 - share) * heights[begin] - share * heights[begin + stride]));
+  }
+  return miss;
+}
+
+double middle_of(const std::vector<double>& heights, std::size_t first, std::size_t stride) {
+  const auto [low, high] = std::minmax_element(heights.begin() + static_cast<std::ptrdiff_t>(first),
+                                               heights.begin() + static_cast<std::ptrdiff_t>(first + stride) + 1);
+  return (*low + *high) / 2;
+}
+
+// The largest distance of the heights between every `stride`th node from their middle.
+double half_range(const std::vector<double>& heights, std::size_t stride) {
+  double range = 0;
+  for (std::size_t k = 0; k + stride < heights.size(); k += stride)
+    for (std::size_t i = k; i <= k + stride; ++i)
+      range = std::max(range, std::abs(heights[i] - middle_of(heights, k, stride)));
+  return range;
+}
+
+}  // namespace
+
+// The height of a contour's arc need not change in proportion to its angle, and a flat arc has one height: it is divided into
+// 2, 4 or 8 arcs then, which are one in the plane. Lines along Z lead to those that are flat.
+void Emitter::divide_by_height(const Move& move, std::size_t s, MoveEdit& edit) const {
+  constexpr double height_share = 0.5;  // of the tolerance
+  const std::vector<CurveNode>& nodes = plan_.segments[s].group;
+  if (!move.may_split || !group_in_xy_ || nodes.size() < 3 || move.arc->turns > 0) return;
+  const bool flat = stays_flat(move);
+  std::vector<double> heights;
+  for (const CurveNode& node : nodes) heights.push_back(shift_mm(move, node.c).z());
+  const double room_mm = height_share * job_.options.tolerance / mm;
+  std::size_t stride = nodes.size() - 1;
+  while (stride > 1 && (flat ? half_range(heights, stride) : miss_between(heights, stride)) > room_mm) stride /= 2;
+  const Curve curve = curve_of(move);
+  const auto place = [&](std::size_t k, double height) {
+    const Vector3 p = point_at(curve, nodes[k].u);
+    Vector3 shift = group_motion_->shift_at(p);
+    shift.z() = height;
+    return Vector3(p + shift);
+  };
+  const Vector3 centre = shifted_centre(move, group_motion_->shift_at(move.end_mm));
+  for (std::size_t k = 0; k + 1 < nodes.size(); k += stride) {
+    const double middle = flat ? middle_of(heights, k, stride) : heights[k + stride];
+    if (flat && stride + 1 < nodes.size()) edit.inserted.push_back({place(k, middle)});
+    if (k + stride + 1 < nodes.size()) edit.inserted.push_back({place(k + stride, middle), centre});
+    edit.end_mm.z() = place(k + stride, middle).z();
+  }
 }
 
 bool Emitter::begin_group(std::size_t m, Index s) {

@@ -118,6 +118,8 @@ void Emitter::emit_rigid(std::size_t m, Index s, Kind otherwise) {
   if (move.handling != Handling::own) {
     emitted.in_part = emitted.exempt = emitted.exempt_end = true;
     if (s && !move.cycle) emitted.kind = Kind::segment, emitted.segment = *s;
+    if (s && move.arc && move.handling == Handling::group && group_motion_)
+      divide_by_height(move, *s, emitted.edit);
   }
   put(std::move(emitted));
 }

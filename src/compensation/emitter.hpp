@@ -63,6 +63,7 @@ class Emitter {
   bool group_may_turn(std::size_t m) const;
   bool find_group_motion(std::size_t m, std::size_t s);
   Vector3 group_shift_mm(const Move& move, Index s, double height) const;
+  void divide_by_height(const Move& move, std::size_t s, MoveEdit& edit) const;
   Vector3 shifted_centre(const Move& move, const Vector3& shift) const;
   std::optional<double> height_shift_mm(const Move& move, Index s) const;
   void check_step(const Move& move, const Vector3& before_mm);

@@ -90,12 +90,12 @@ class WindowMatcher {
 
   // Contours are shifted and turned in the plane: each way inside keeps its length there.
   std::optional<Failure> contour_failure(const MatchedMoves& matched, std::size_t m) {
-    const Move &original = matched.original, &found = *matched.found.back().move;
+    const Move &original = matched.original, &first = *matched.found.front().move, &found = *matched.found.back().move;
     const bool inside = m > 0 && original.group != 0 && job_.program.moves[m - 1].group == original.group;
-    if (!inside || !all_known(original.known_start) || !all_known(original.known_end) || !all_known(found.known_start))
+    if (!inside || !all_known(original.known_start) || !all_known(original.known_end) || !all_known(first.known_start))
       return std::nullopt;
     const double rounding_mm = 4 * std::max(rounding_as_read(original), rounding_as_read(found)) / mm;
-    const double off = (found.end_mm - found.start_mm).head<2>().norm() - (original.end_mm - original.start_mm).head<2>().norm();
+    const double off = (found.end_mm - first.start_mm).head<2>().norm() - (original.end_mm - original.start_mm).head<2>().norm();
     if (std::abs(off) <= rounding_mm + 1e-6) return std::nullopt;
     return Failure{Exit::not_compensated, original.line,
                    fmt::format("this move of a contour is {:.4f} mm {} in X and Y than that of the original; contours are "

@@ -71,7 +71,10 @@ class KindComparison {
       return fail(found, fmt::format("this arc goes {}, that of the original {}",
                                      arc.clockwise ? "clockwise" : "counter-clockwise",
                                      wanted.clockwise ? "clockwise" : "counter-clockwise"));
-    if (matched_.found.size() == 1) compare_one_arc(found);
+    if (matched_.found.size() == 1)
+      compare_one_arc(found);
+    else if (original_.handling == Handling::group)
+      compare_contour_piece(found);
     add_sweep(found);
   }
 
@@ -90,12 +93,28 @@ class KindComparison {
 
   double radius_mm() const { return in_plane(original_.end_mm - original_.arc->centre_mm, original_.arc->normal); }
 
+  // A contour's arc that is divided by its height is one arc in the plane.
+  void compare_contour_piece(const Move& found) {
+    const ArcMove &wanted = *original_.arc, &arc = *found.arc;
+    if (!centre_mm_) centre_mm_ = arc.centre_mm;
+    const auto radius_at = [](const ArcMove& a, const Vector3& p) { return in_plane(p - a.centre_mm, a.normal); };
+    const double low = std::min(radius_at(wanted, original_.start_mm), radius_at(wanted, original_.end_mm)),
+                 high = std::max(radius_at(wanted, original_.start_mm), radius_at(wanted, original_.end_mm)),
+                 room = roundings * rounding_mm_ + 1e-6;
+    double miss = in_plane(arc.centre_mm - *centre_mm_, wanted.normal);
+    for (const double radius : {radius_at(arc, found.start_mm), radius_at(arc, found.end_mm)})
+      miss = std::max({miss, low - radius, radius - high});
+    if (miss > room)
+      fail(found, fmt::format("this piece of an arc of a contour leaves the circle of the original by {:.4f} mm", miss));
+  }
+
   // A chord may stand for a part of the arc from which it keeps within the tolerance.
   void compare_chord(const Move& found, bool may_be_jump) {
     const double radius = radius_mm(), chord = in_plane(found.end_mm - found.start_mm, original_.arc->normal);
     const double half = std::asin(std::min(1.0, chord / 2 / radius)), sagitta = radius * (1 - std::cos(half));
     const double room = tolerance_mm_ + roundings * rounding_mm_;
     const bool known = all_known(found.known_start) && all_known(original_.known_start);
+    if (original_.handling == Handling::group && known && chord > roundings * rounding_mm_ + 1e-6) return fail_kind(found);
     if (may_be_jump && chord <= 2 * most_shift_mm_ && sagitta <= room) return;
     if (!known || (sagitta > room && matched_.found.size() == 1)) return fail_kind(found);
     const bool judged = matched_.segment && original_.handling == Handling::own && original_.may_split;
@@ -182,6 +201,7 @@ class KindComparison {
   const MatchedMoves& matched_;
   const Move& original_;
   const double rounding_mm_, tolerance_mm_, most_shift_mm_;
+  std::optional<Vector3> centre_mm_{};  // of the first piece of a contour's arc
   double sweep_ = 0;  // of the arcs and chords so far
   std::optional<Failure> failure_;
 };

@@ -37,7 +37,7 @@ bool may_go_on(const Move& original, const std::string& words, const CorrectedMo
 }
 
 std::size_t most_moves(const Move& original, bool has_segment) {
-  if (!has_segment || original.handling != Handling::own || original.cycle) return 1;
+  if (!has_segment || original.handling == Handling::held || original.cycle) return 1;
   if (original.motion == Motion::feed && original.may_split) return std::numeric_limits<std::size_t>::max();
   return original.may_jump ? 2 : 1;
 }
@@ -75,8 +75,10 @@ std::size_t MoveFinder::count(const Move& original, std::optional<std::size_t> s
     axis.centre += shift_mm_.value_or(Vector3::Zero());
     slack_mm = std::min(slack_mm, length_mm / axis.sweep * 3);
   }
+  const bool turns_rigidly = curve.arc && original.handling == Handling::group;
   const auto way_mm = [&](const Move& move) {
     const Curve way = curve_of(move);
+    if (turns_rigidly) return way.arc ? way.arc->sweep * length_mm / axis.sweep : 0.0;
     return curve.arc ? angle_about(axis, way) * length_mm / axis.sweep : length(way);
   };
   std::size_t best = 0;
@@ -86,11 +88,12 @@ std::size_t MoveFinder::count(const Move& original, std::optional<std::size_t> s
     if (found == nullptr || found->others != others) break;
     if (j > 0 && next_number_ && found->move->block_number == next_number_) break;
     gone_mm += way_mm(*found->move);
-    if (may_end(original, words, *found, j)) {
+    if ((!turns_rigidly || found->move->arc) && may_end(original, words, *found, j)) {
       const double off = (found->move->end_mm - end_mm).norm(), surplus = std::abs(gone_mm - length_mm);
       const double rounding_mm = std::max(rounding_mm_, rounding_as_read(*found->move) / mm);
-      if (off <= digits_share * rounding_mm && surplus <= slack_mm) return j + 1;
-      const double miss = off + length_share * surplus;
+      if (!turns_rigidly && off <= digits_share * rounding_mm && surplus <= slack_mm) return j + 1;
+      // The end of a contour's piece is known up to its turn, its angle to the last digits.
+      const double miss = turns_rigidly ? surplus + length_share * off : off + length_share * surplus;
       if (miss < best_miss - nearer_mm) best = j + 1, best_miss = miss;
     }
     if (!may_go_on(original, words, *found, j) || gone_mm > length_mm + 2 * job_.options.max_correction / mm)

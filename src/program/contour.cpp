@@ -34,6 +34,12 @@ void take_moves_before(Reading& r) {
   }
 }
 
+/// Arcs to which the cutter has come before, and which no word of the block ends: points on them change nothing in the plane.
+bool may_divide(const Reading& r, const Move& move) {
+  return move.arc && move.may_split && r.state.contour == Contour::inside && r.state.beside_contour &&
+         r.sorted.word('D') == nullptr && r.sorted.word('H') == nullptr;
+}
+
 }  // namespace
 
 bool goes_along_z(const Move& move) {
@@ -60,6 +66,7 @@ std::size_t first_before_contour(const Program& program, std::size_t run_begin) 
 void apply_cutter(Reading& r) {
   ModalState& state = r.state;
   if (r.sorted.has(Action::cutter)) {
+    state.beside_contour = false;
     if (state.contour != Contour::inside) {
       state.group = r.groups + 1;
       if (why_not_followed(r).empty()) take_moves_before(r);
@@ -79,7 +86,12 @@ void join_contour(Reading& r) {
   const bool takes_off = state.contour == Contour::taking_off &&
                          (r.sorted.has(Action::no_cutter) || move.motion == Motion::feed);
   if (outside && (!may_join(move) || (!goes_along_z(move) && !takes_off))) return end_contour(r);
-  if (may_join(move)) put_into(move, state.group);
+  if (may_join(move)) {
+    const bool divides = may_divide(r, move);
+    put_into(move, state.group);
+    move.may_split = divides;
+  }
+  if (!goes_along_z(move)) state.beside_contour = state.contour == Contour::inside;
   if (outside) state.contour = Contour::leaving;
 }
 

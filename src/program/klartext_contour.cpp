@@ -81,7 +81,7 @@ void place_approach(const KlartextBlock& block, KlartextReading& r) {
   move.known_end = r.state.known;
   if (block.head == "APPR") begin_contour(r);
   join_contour(move, r.state.groups);
-  r.state.contour = block.head == "APPR";
+  r.state.contour = r.state.beside_contour = block.head == "APPR";
   r.state.after_contour = block.head == "DEP";
   r.state.rounds_next = false;
   r.state.pole.reset();
@@ -98,12 +98,15 @@ void follow_contour(const KlartextBlock& block, KlartextReading& r, Move& move) 
   const bool on = find_word(r.words, "RL") != nullptr || find_word(r.words, "RR") != nullptr;
   if (state.after_contour && !goes_along_z(move)) state.after_contour = false;
   if (on && !state.contour) begin_contour(r);
-  if (on) state.contour = true, state.after_contour = false;
+  if (on) state.contour = true, state.after_contour = state.beside_contour = false;
+  const bool divides = move.arc && move.may_split && state.contour && state.beside_contour;
   if (state.contour || state.after_contour) join_contour(move, state.groups);
+  if (divides) move.may_split = true;
   if (off != nullptr && state.contour) {
-    state.contour = false;
+    state.contour = state.beside_contour = false;
     state.after_contour = true;
   }
+  if (state.contour && !goes_along_z(move)) state.beside_contour = true;
 }
 
 void read_klartext_approach(const KlartextBlock& block, KlartextReading& r) {

@@ -57,6 +57,7 @@ struct KlartextState {
   std::optional<KlartextSurface> surface;  ///< of that cycle, where all of it goes along with its surface
   bool rounds_next = false;                ///< RND or CHF stands before the next move
   bool contour = false;                    ///< RL or RR acts
+  bool beside_contour = false;             ///< the tool has come to its side by a move across
   bool after_contour = false;              ///< only moves along Z since the R0 that ended it
   int groups = 0;
   std::size_t run_begin = 0;  ///< index of the first move of the window after the last that is not followed

@@ -100,6 +100,7 @@ struct ModalState {
   bool entering_data = false;     ///< between G10 L50 and G11 blocks hold parameters
   Contour contour = Contour::none;
   int group = 0;  ///< of the contour
+  bool beside_contour = false;  ///< inside, the cutter has come to its side by a move across
 };
 
 }  // namespace counterflex

@@ -96,6 +96,68 @@ TEST_CASE("a word of a contour that is not shifted with the others is refused, a
   CHECK(refusal_with("Y80.25", "Y80.") != "");  // an arc follows, whose radius is no longer the same
 }
 
+namespace {
+
+const char* const circle =
+    "G21 G90 G17\nG0 X-20. Y-20. Z10.\nG0 X-10. Y-12.\nZ2.\nG1 Z-3. F200\nG41 D1 X0. Y0.\nG1 X40.\nG3 I0. J40.\n"
+    "G1 X60.\nG40 X-10. Y-12.\nG0 Z10.\nM30\n";
+
+// Its X Y plane is turned about Y.
+Machine tilted_gantry() {
+  Machine machine = perfect_gantry();
+  std::get<AssemblyError>(machine.chains[0].elements[0]).X.R = exp_so3(Vector3(0, 4e-4, 0));
+  return machine;
+}
+
+}  // namespace
+
+TEST_CASE("an arc of a contour on a machine that is tilted follows its height in arcs about one centre") {
+  const Shop shop({.machine = tilted_gantry(), .text = circle});
+  const Compensation result = compensated(shop);
+  const std::vector<Move> arcs = arcs_in(result.text);
+  CHECK(arcs.size() == 8);
+  for (const Move& arc : arcs) {
+    CHECK((arc.arc->centre_mm - arcs[0].arc->centre_mm).head<2>().norm() <= 2e-3);
+    CHECK(std::abs((arc.end_mm - arc.arc->centre_mm).head<2>().norm() - 40) <= 2e-3);
+  }
+  CHECK(refusal_of(shop, result.text) == "");
+}
+
+TEST_CASE("a flat arc of a contour in Klartext is arcs of one centre with lines along Z between them") {
+  const std::string klartext =
+      "0 BEGIN PGM P MM\n1 TOOL CALL 1 Z S1000\n2 L X-20 Y-12 Z+10 R0 FMAX\n3 L Z-3 F200\n4 L X+0 Y+0 RL\n5 L X+40\n"
+      "6 CC X+40 Y+40\n7 C X+40 Y+80 DR+\n8 L X+20\n9 L X-20 R0\n10 L Z+10 FMAX\n11 END PGM P MM\n";
+  const Shop shop({.machine = tilted_gantry(), .text = klartext});
+  const Compensation result = compensated(shop);
+  CHECK(arcs_in(result.text).size() >= 4);
+  CHECK(refusal_of(shop, result.text) == "");
+}
+
+TEST_CASE("the arc with which a contour is entered, and one whose block has a word that acts at its end, are not divided") {
+  const auto pieces = [](const std::string& blocks) {
+    const std::string text = "G21 G90 G17\nG0 X-20. Y-20. Z10.\nG0 X-10. Y-12.\nG1 Z-3. F200\n" + blocks + "G0 Z10.\nM30\n";
+    return arcs_in(compensated(Shop({.machine = tilted_gantry(), .text = text})).text).size();
+  };
+  CHECK(pieces("G41 D1\nG3 X70. Y-12. I40. J0.\nG1 X80.\nG40 X90.\n") == 1);
+  CHECK(pieces("G41 D1 X0. Y0.\nG3 X80. Y0. I40. J0. M9\nG1 X90.\nG40 X95.\n") == 1);
+  CHECK(pieces("G41 D1 X0. Y0.\nG3 X80. Y0. I40. J0.\nG1 X90.\nG40 X95.\n") > 1);
+}
+
+TEST_CASE("a piece of a contour's arc about another centre, and a chord in its place, are refused") {
+  const Shop shop({.machine = tilted_gantry(), .text = circle});
+  const std::string text = compensated(shop).text;
+  const auto refusal_with = [&](auto change) {
+    std::string changed = text;
+    const std::size_t second = changed.find("\nG3", changed.find("\nG3") + 1) + 1;
+    REQUIRE(second != std::string::npos);
+    const std::size_t end = changed.find('\n', second);
+    changed.replace(second, end - second, change(changed.substr(second, end - second)));
+    return refusal_of(shop, changed);
+  };
+  CHECK(refusal_with([](std::string block) { return block.substr(0, block.find(" I")) + " I-39.97 J0.03"; }) != "");
+  CHECK(refusal_with([](std::string block) { return "G1" + block.substr(2, block.find(" I") - 2) + "\nG3"; }) != "");
+}
+
 TEST_CASE("a perfect machine gives back contours byte for byte") {
   CHECK(compensated(Shop({.machine = perfect_gantry(), .text = contour})).text == contour);
 }

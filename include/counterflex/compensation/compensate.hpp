@@ -10,7 +10,7 @@ namespace counterflex {
 
 /// Moves that are not corrected each on its own.
 struct OtherMoves {
-  std::size_t grouped = 0;  ///< with their contour, by one shift
+  std::size_t grouped = 0;  ///< with their contour, by one motion in its plane
   std::size_t held = 0;     ///< they keep the correction with which they are entered
   std::size_t in_part = 0;  ///< in some axes, or without their force
   std::size_t left = 0;     ///< they stay as they are
