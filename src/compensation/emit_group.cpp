@@ -202,7 +202,7 @@ double half_range(const std::vector<double>& heights, std::size_t stride) {
 // The height of a contour's arc need not change in proportion to its angle, and a flat arc has one height: it is divided into
 // 2, 4 or 8 arcs then, which are one in the plane. Lines along Z lead to those that are flat.
 void Emitter::divide_by_height(const Move& move, std::size_t s, MoveEdit& edit) const {
-  constexpr double height_share = 0.5;  // of the tolerance
+  constexpr double height_share = 0.3;  // of the tolerance
   const std::vector<CurveNode>& nodes = plan_.segments[s].group;
   if (!move.may_split || !group_in_xy_ || nodes.size() < 3 || move.arc->turns > 0) return;
   const bool flat = stays_flat(move);

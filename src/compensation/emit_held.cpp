@@ -120,6 +120,7 @@ void Emitter::emit_rigid(std::size_t m, Index s, Kind otherwise) {
     if (s && !move.cycle) emitted.kind = Kind::segment, emitted.segment = *s;
     if (s && move.arc && move.handling == Handling::group && group_motion_)
       divide_by_height(move, *s, emitted.edit);
+    if (s && move.handling == Handling::group) set_height_inside(*s, emitted.edit.end_mm, emitted.edit);
   }
   put(std::move(emitted));
 }

@@ -31,7 +31,14 @@ class Emitter {
   // emit.cpp
   void emit_move(std::size_t m, Index s);
   void emit_segment(std::size_t s);
-  void emit_line(const Segment& segment, const PlannedSegment& planned, EmittedMove& emitted);
+  void emit_line(const Segment& segment, const PlannedSegment& planned, EmittedMove& emitted,
+                 double& unsplit_miss);
+  double set_height_inside(std::size_t s, const Vector3& end_mm, MoveEdit& edit);
+  struct EndHeights {
+    double start_mm, end_mm;
+  };
+  std::optional<EndHeights> end_heights(std::size_t s) const;
+  double corner_height_mm(std::size_t s, const EndHeights& heights) const;
   void finish_segment(const Segment& segment, const PlannedSegment& planned, double unsplit_miss,
                       EmittedMove& emitted);
   bool put_jump(const Segment& segment, const PlannedSegment& planned, EmittedMove& emitted, double& jump);

@@ -55,6 +55,7 @@ class WindowMatcher {
     if (auto failure = surface_failure(matched)) return failure;
     if (auto failure = shift_failure(matched, m)) return failure;
     if (auto failure = contour_failure(matched, m)) return failure;
+    if (auto failure = corner_failure(matched)) return failure;
     if (auto failure = words_failure(job_, matched)) return failure;
     if (segment && !original.cycle) maker_.add(matched, drafts);
     add_hole(matched);
@@ -102,6 +103,23 @@ class WindowMatcher {
                                "shifted and turned as a whole",
                                std::abs(off), off > 0 ? "longer" : "shorter"),
                    found.line};
+  }
+
+  // What the control takes off a line for its corners is one piece, at one height.
+  std::optional<Failure> corner_failure(const MatchedMoves& matched) const {
+    const Move& original = matched.original;
+    if (!original.corners || matched.found.size() == 1) return std::nullopt;
+    const auto check = [&](const Move& found, double taken_mm) -> std::optional<Failure> {
+      const Vector3 way = found.end_mm - found.start_mm;
+      if (taken_mm == 0 || (way.z() == 0 && way.norm() > taken_mm)) return std::nullopt;
+      return Failure{Exit::not_compensated, original.line,
+                     fmt::format("the corner takes {:.4f} mm of this block, which is {:.4f} mm long and changes its height by "
+                                 "{:.4f} mm; corners lie in one plane",
+                                 taken_mm, way.norm(), way.z()),
+                     found.line};
+    };
+    if (auto failure = check(*matched.found.front().move, original.corners->begin_mm)) return failure;
+    return check(*matched.found.back().move, original.corners->end_mm);
   }
 
   // The surface from which the held holes of a Klartext cycle count goes along with them: they keep the shift with which

@@ -20,7 +20,7 @@ constexpr double digits_share = 1.5;  // of the rounding: an end that is as near
 
 // A feed block whose words act at its beginning is itself the first piece: the others follow it.
 bool acts_first(const Move& original, const std::string& words) {
-  return original.motion == Motion::feed && !is_plain(words);
+  return original.motion == Motion::feed && !changes_height_inside(original) && !is_plain(words);
 }
 
 bool may_end(const Move& original, const std::string& words, const CorrectedMove& found, std::size_t j) {
@@ -38,7 +38,7 @@ bool may_go_on(const Move& original, const std::string& words, const CorrectedMo
 
 std::size_t most_moves(const Move& original, bool has_segment) {
   if (!has_segment || original.handling == Handling::held || original.cycle) return 1;
-  if (original.motion == Motion::feed && original.may_split) return std::numeric_limits<std::size_t>::max();
+  if (original.motion == Motion::feed && (original.may_split || changes_height_inside(original))) return std::numeric_limits<std::size_t>::max();
   return original.may_jump ? 2 : 1;
 }
 

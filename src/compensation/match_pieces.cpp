@@ -132,7 +132,7 @@ void PieceMaker::add(const MatchedMoves& matched, std::vector<DraftPiece>& piece
                          .commanded = step.way,
                          .end_only = !segment.cutting,
                          .exempt = !own || !original.may_split,
-                         .exempt_end = !own || !takes_all_words(original)},
+                         .exempt_end = !own || !takes_all_words(original) || (original.corners && &step != &steps_.back())},
                         step.settled});
     u0 = step.u;
   }

@@ -45,8 +45,8 @@ struct Reading {
   std::map<std::string, SetOffset> offsets{};  ///< by name
   std::map<std::string, double, std::less<>> variables{};  ///< whose values are known, see `evaluate_words`
   std::string last_reason{};         ///< for which a block was left alone
-  bool corner = false;               ///< the block's end and the begin of the next make a corner
-  bool after_corner = false;         ///< the last move did
+  std::optional<CornerSize> corner{};        ///< that the block's end and the begin of the next make
+  std::optional<CornerSize> after_corner{};  ///< that the last move and the next one make
   bool lengths_set = false;          ///< G10 has changed tool lengths: those of the options no longer hold
   bool after_subprogram = false;     ///< M99 has ended one: another program may follow
   bool ended = false;                ///< M2 or M30 was read

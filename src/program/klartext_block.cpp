@@ -176,8 +176,8 @@ void insert_step(KlartextWriter& w, const Step& step, bool states_feed,
 void change_coordinates(KlartextWriter& w, const Step& step) {
   std::string inserted;
   std::size_t behind = w.block.parts[0].begin + w.block.head.size();
-  for (const KlartextWord& word : w.words)
-    if (is_axis_word(word)) behind = word.span.end;
+  for (const PackedAxisWord& word : w.move.words)
+    if (word && word->number.begin >= w.move.block.begin) behind = std::max(behind, word->number.end);
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const WordNumber& number = step.axes[axis].number;
     if (!number.write || is_polar_axis(w.move, axis)) continue;
@@ -239,6 +239,24 @@ void replace_polar(KlartextWriter& w, const Step& step, const Vector3& wanted_mm
   }
 }
 
+/// CT follows from what is before it: where that or its end changes, a C about the same centre says the arc. True where the
+/// block stays.
+bool keeps_tangent(const KlartextWriter& w, const Step& step) {
+  bool stays = true;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    stays = stays && !step.axes[axis].number.write && step.before[axis] == component(w.move.start_mm, axis);
+  return stays;
+}
+
+void make_arc_of_tangent(KlartextWriter& w, const ArcWords& arc) {
+  change_head(w, "C");
+  set_pole(w, arc, w.before);
+  std::size_t behind = 0;
+  for (const PackedAxisWord& word : w.move.words)
+    if (word) behind = std::max(behind, word->number.end);
+  w.own.push_back({{behind, behind}, sense_of(w.move)});
+}
+
 /// The block's own coordinates, and centre or radius of an arc.
 void change_block(KlartextWriter& w, const Step& step, const Vector3& wanted_mm, bool pole_is_own) {
   change_coordinates(w, step);
@@ -246,6 +264,10 @@ void change_block(KlartextWriter& w, const Step& step, const Vector3& wanted_mm,
   if (!w.move.arc) return;
   if (step.motion == 1) return make_line(w);
   if (!step.arc) return;
+  if (w.block.head == "CT") {
+    if (!keeps_tangent(w, step)) make_arc_of_tangent(w, *step.arc);
+    return;
+  }
   if (!w.move.arc->radius_word)
     return pole_is_own ? change_pole(w, *step.arc) : set_pole(w, *step.arc, w.before);
   if (!step.arc->radius.write) return;
@@ -345,7 +367,7 @@ void rewrite_klartext_block(const Program& program, const KlartextStyle& style, 
                             const WriteOptions& options, TextState& state,
                             std::vector<KlartextChange>& changes, Rewritten& out) {
   const Move& move = program.moves[edit.move];
-  assert(edit.inserted.empty() || move.may_split);
+  assert(edit.inserted.empty() || move.may_split || changes_height_inside(move));
   if (!has_words(move)) {
     state.held = held_after_original(move, state.held);
     return;

@@ -77,13 +77,14 @@ void place_approach(const KlartextBlock& block, KlartextReading& r) {
     r.state.known[axis] = word != nullptr || (axis == 2 ? r.state.known[2] : to_point);
   }
   move.stands.fill(true);
+  move.may_insert_words = block.head == "APPR";
   move.end_mm = r.state.position_mm;
   move.known_end = r.state.known;
   if (block.head == "APPR") begin_contour(r);
   join_contour(move, r.state.groups);
   r.state.contour = r.state.beside_contour = block.head == "APPR";
   r.state.after_contour = block.head == "DEP";
-  r.state.rounds_next = false;
+  r.state.corner.reset();
   r.state.pole.reset();
   add_move(r, std::move(move));
   leave_alone(r, block.line, block.head + " goes along with its contour; its way is not measured");

@@ -151,12 +151,41 @@ void read_arc(const KlartextBlock& block, KlartextReading& r, Move& move) {
   leave_alone(r, block.line, block.head + ": an arc whose start or centre is not known");
 }
 
-void allow_klartext_changes(const KlartextCodes& codes, bool tangent, KlartextReading& r, Move& move) {
-  const bool divided = !codes.acts_after && !r.state.rounds_next && !tangent;
+constexpr double straight = 1e-6;  // rad: an arc that turns by less is a line
+
+/// The way that a move goes at its end, across Z; zero where it is not known.
+Vector3 direction_at_end(const Move& move) {
+  if (!all_known(move.known_start) || !all_known(move.known_end) || move.motion == Motion::rapid) return Vector3::Zero();
+  Vector3 way = move.end_mm - move.start_mm;
+  if (move.arc) {
+    if (move.arc->normal != 2) return Vector3::Zero();
+    way = normal_of(*move.arc).cross(move.end_mm - move.arc->centre_mm);
+  }
+  way.z() = 0;
+  return way.isZero(0) ? way : Vector3(way.normalized());
+}
+
+/// CT between known ends: the arc that goes on as the move before it ends. False where it is not known, or is a line.
+bool read_tangent_arc(KlartextReading& r, Move& move) {
+  const auto& moves = r.program.moves;
+  if (moves.empty() || r.state.corner || !has_known_ends(r, move, 2) || !move.known_start[2]) return false;
+  const Vector3 way = direction_at_end(moves.back()), chord = move.end_mm - move.start_mm, side(-way.y(), way.x(), 0);
+  const double across = side.dot(chord);
+  if (std::abs(across) < straight * chord.norm() || moves.back().end_mm != move.start_mm) return false;
+  ArcMove arc;
+  arc.flat = arc.absolute_centre = true;
+  arc.clockwise = across < 0;
+  arc.centre_mm = move.start_mm + chord.squaredNorm() / (2 * across) * side;
+  move.arc = arc;
+  return true;
+}
+
+void allow_klartext_changes(const KlartextCodes& codes, bool held, KlartextReading& r, Move& move) {
+  const bool divided = !codes.acts_after && !r.state.corner && !held;
   const bool feed = move.motion == Motion::feed;
   move.may_split = feed && divided;
   move.may_jump = all_known(move.known_start) && move.feed_mm_min > 0 && divided;
-  r.state.rounds_next = false;
+  move.stays_whole = codes.acts_after || find_word(r.words, "M") != nullptr;
 }
 
 /// Whether the block ends with the cycle; M89 calls it at the end of the blocks that follow, too, until M99.
@@ -240,9 +269,9 @@ void add_klartext_move(const KlartextBlock& block, const KlartextCodes& codes, K
   move.end_mm = r.state.position_mm;
   if (block.head == "C" || block.head == "CR") read_arc(block, r, move);
   const bool tangent = block.head == "CT";
-  if (tangent) move.handling = Handling::held;
-  const bool corner = r.state.rounds_next && !move.words[2];
-  allow_klartext_changes(codes, tangent, r, move);
+  const bool held = tangent && !read_tangent_arc(r, move);
+  if (held) move.handling = Handling::held;
+  allow_klartext_changes(codes, held, r, move);
   follow_contour(block, r, move);
   move.known_end = r.state.known;
   if (calls_cycle(codes, r)) {
@@ -250,8 +279,12 @@ void add_klartext_move(const KlartextBlock& block, const KlartextCodes& codes, K
     for (std::size_t axis = 0; axis < 3; ++axis)
       move.known_end[axis] = move.known_end[axis] && r.state.known[axis];
   }
-  move.takes_no_z = move.takes_no_z || corner;
   move.may_insert_words = move.words[0] || move.words[1] || move.words[2];
+  if (r.state.corner) {
+    expect_corner_before(move);
+    if (!r.program.moves.empty()) place_corner(*r.state.corner, r.program.moves.back(), move);
+    r.state.corner.reset();
+  }
   doubt_klartext_skippable(block, r, move);
   if ((block.head == "C" || block.head == "CP") && r.state.pole) use_pole(r, move);
   add_move(r, std::move(move));
@@ -284,7 +317,7 @@ Move begin_klartext_move(const KlartextBlock& block, KlartextReading& r) {
   move.block = block.span;
   move.unit = state.unit.value_or(LengthUnit::millimetres);
   move.known_start = state.known;
-  move.frame = state.frame;
+  move.frame = static_cast<std::uint32_t>(state.frame);
   if (!why_elsewhere(r).empty())
     for (std::size_t axis = 0; axis < 3; ++axis)
       move.stands[axis] = state.taken_away[axis] != r.moves_read + 1;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 
 #include "counterflex/files/numbers.hpp"
 #include "program/dialect.hpp"
@@ -63,14 +64,17 @@ void read_tool_call(const KlartextBlock& block, KlartextReading& r) {
   if (const auto feed = number_behind(rest, 'F')) state.tool_feed_mm_min = state.feed_mm_min = *feed * unit;
 }
 
-/// A corner that RND or CHF makes of the end of one move and the beginning of the next: neither is divided,
-/// and neither takes a Z beside the words that it has, since both must lie in the plane of the corner.
-void read_corner(const KlartextBlock&, KlartextReading& r) {
-  r.state.rounds_next = true;
+/// A corner that RND or CHF makes of the end of one move and the beginning of the next, which lie in one plane.
+void read_corner(const KlartextBlock& block, KlartextReading& r) {
+  const std::string rest = squeezed(after_head(r.program.text, block));
+  const bool is_radius = block.head == "RND";
+  const std::optional<double> size = is_radius ? number_behind(rest, 'R') : number_behind('=' + rest, '=');
+  const double unit = r.state.unit == LengthUnit::inches ? 25.4 : 1.0;
+  r.state.corner = CornerSize{size.value_or(NAN) * unit, is_radius};
   if (r.program.moves.empty()) return;
   Move& last = r.program.moves.back();
   last.may_split = last.may_jump = false;
-  if (!last.words[2]) last.takes_no_z = true;
+  expect_corner_behind(last);
 }
 
 void read_call(const KlartextBlock& block, KlartextReading& r) {

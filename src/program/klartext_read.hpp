@@ -5,6 +5,7 @@
 #include <string>
 
 #include "counterflex/program/read_program.hpp"
+#include "program/corners.hpp"
 #include "program/klartext_labels.hpp"
 #include "program/operation.hpp"
 
@@ -55,7 +56,7 @@ struct KlartextState {
   bool calls_each = false;                 ///< M89: every move ends with the cycle, until M99
   std::optional<double> clearance_mm, second_clearance_mm;  ///< Q200 and Q204 of that cycle, above the surface
   std::optional<KlartextSurface> surface;  ///< of that cycle, where all of it goes along with its surface
-  bool rounds_next = false;                ///< RND or CHF stands before the next move
+  std::optional<CornerSize> corner;        ///< RND or CHF stands before the next move
   bool contour = false;                    ///< RL or RR acts
   bool beside_contour = false;             ///< the tool has come to its side by a move across
   bool after_contour = false;              ///< only moves along Z since the R0 that ended it

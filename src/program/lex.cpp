@@ -210,8 +210,9 @@ namespace {
 void lex_corner(Scanner& s) {
   ++s.at;
   lex_word(s);
+  const Word& word = s.block.words.back();
+  s.block.corner = CornerSize{word.literal ? word.value : NAN, word.letter == 'R'};
   s.block.words.pop_back();
-  s.block.corner = true;
 }
 
 /// ":1001" is the number of a program; before other words it numbers the block, as N does.
@@ -282,7 +283,8 @@ void lex(std::string_view text, const std::string& file, const Dialect& dialect,
   block.assignments.clear();
   block.comments.clear();
   block.block_delete = {};
-  block.percent = block.part_name = block.corner = false;
+  block.percent = block.part_name = false;
+  block.corner.reset();
   block.assigns = block.assigns_by_name = false;
   block.flow_keyword = block.flow_name = {};
   block.statement = Statement::none;

@@ -2,12 +2,14 @@
 /// Lines of G-code and the words in them, as spans of the text: letters, numbers, comments, and no meaning.
 /// Variables and expressions are found, not worked out.
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "counterflex/files/input_error.hpp"
 #include "counterflex/program/program.hpp"
+#include "program/corners.hpp"
 #include "program/dialect.hpp"
 
 namespace counterflex {
@@ -63,7 +65,7 @@ struct Block {
   Span line_end;        ///< empty at a last line without one
   Span block_delete;    ///< '/' and the switch number that may follow it; empty where there is none
   bool percent = false;
-  bool corner = false;     ///< ",R2." or ",C1.": the control rounds or breaks the corner with the next move
+  std::optional<CornerSize> corner;  ///< ",R2." or ",C1.", in the units of the program; NaN: an expression
   bool part_name = false;  ///< the line is the name of a program
   bool assigns = false;    ///< holds '#1=', "R1="
   bool assigns_by_name = false;  ///< "_DEPTH=5", "MEAS=1": a variable, or a word that is not known

@@ -59,11 +59,11 @@ void allow_changes(const Reading& r, Move& move) {
   const bool counts_otherwise = r.relative() != r.state.relative;
   // The control takes the size of a corner off both of the blocks that make it, which lie in one plane.
   const bool corner = r.corner || r.after_corner;
-  move.takes_no_z = corner;
   move.may_insert_words = move.may_insert_words && !tool_length && !any(move.fixed) && !counts_otherwise;
   move.may_split =
       feed && !corner && !rigid && !move.exact_stop && !tool_length && !acts_at_end && shares_time;
   const bool only_motion = b.g.empty() || (b.g.size() == 1 && b.g[0].code->group == CodeGroup::motion);
+  move.stays_whole = rigid || !shares_time || !only_motion || !b.m.empty() || b.has_any("ABCDHLPQSTUVW");
   move.may_jump = all_known(move.known_start) && !corner && !rigid && move.feed_mm_min > 0 &&
                   !move.exact_stop && !acts_at_end && !unit && (feed ? move.may_split : only_motion);
 }
@@ -172,7 +172,7 @@ Move& begin_move(const Block& block, Reading& r, Motion motion) {
   move.relative = r.relative();
   move.feed_mm_min = feed_mm_min(r.state);
   move.spindle_rpm = r.state.spindle_rpm;
-  move.frame = r.state.frame;
+  move.frame = static_cast<std::uint32_t>(r.state.frame);
   move.tool = tool_of(r);
   move.operation = r.operation.index_in(r.program);
   if (r.state.force) move.force = r.state.force;
@@ -238,6 +238,13 @@ void finish_move(Reading& r, Move& move) {
   move.end_mm = r.state.position_mm;
   if (r.state.feed_mode == FeedUnit::inverse_time && move.motion == Motion::feed) set_inverse_time(r, move);
   allow_changes(r, move);
+  if (r.corner) expect_corner_behind(move);
+  if (r.after_corner) {
+    expect_corner_before(move);
+    const double unit = mm_per(r.state.unit.value_or(LengthUnit::millimetres));
+    if (std::vector<Move>& moves = r.program.moves; moves.size() > 1)
+      place_corner({r.after_corner->mm * unit, r.after_corner->is_radius}, moves[moves.size() - 2], move);
+  }
   r.after_corner = r.corner;
 }
 

@@ -29,7 +29,7 @@ Plan plan(const Original& o, const MoveEdit& edit, int motion) {
   if (edit.jump_mm) plan.stops.push_back({{*edit.jump_mm}, 1});
   for (const Via& via : edit.inserted) plan.stops.push_back({via, motion});
   plan.stops.push_back({{edit.end_mm, edit.centre_mm}, motion});
-  const bool first = o.acts_itself && o.move.motion == Motion::feed;
+  const bool first = o.acts_itself && o.move.motion == Motion::feed && !o.block.corner;
   plan.own = first ? 0 : plan.stops.size() - 1;
   return plan;
 }
@@ -188,7 +188,7 @@ bool is_call(const Block& block) {
 void rewrite_block(const Program& program, const ProgramStyle& style, const MoveEdit& edit,
                    const WriteOptions& options, TextState& state, Rewritten& out) {
   const Move& move = program.moves[edit.move];
-  assert(edit.inserted.empty() || move.may_split);
+  assert(edit.inserted.empty() || move.may_split || changes_height_inside(move));
   assert(!edit.jump_mm || move.may_jump);
   const HeldPosition before = held_at_start(move, state.held);
   CycleWords cycle;

@@ -405,11 +405,52 @@ TEST_CASE("klartext: corners by RND and CHF leave their moves whole") {
   CHECK_FALSE(program.moves[1].may_split);
   CHECK_FALSE(program.moves[2].may_split);
   CHECK(program.moves[3].may_split);
-  // Both lie in the plane of the corner: neither takes a Z word.
-  std::vector<MoveEdit> edits = edits_to_original(program);
+  // Both lie in the plane of the corner. Behind what it takes their heights may change.
+  for (const std::size_t m : {1u, 2u}) CHECK(changes_height_inside(program.moves[m]));
+  CHECK(program.moves[1].corners->end_mm == doctest::Approx(2));
+  CHECK(program.moves[2].corners->begin_mm == doctest::Approx(2));
+  CHECK(program.moves[1].takes_no_z);
+  CHECK_FALSE(program.moves[2].takes_no_z);
+  const Program wide = read(klartext({"L X+0 Y+0 Z+0 F100", "L X+10", "RND R9.5", "L Y+10", "L X+0"}));
+  for (const std::size_t m : {1u, 2u}) CHECK_FALSE(changes_height_inside(wide.moves[m]));
+  std::vector<MoveEdit> edits = edits_to_original(wide);
   for (MoveEdit& edit : edits) edit.end_mm.z() = 0.01 * static_cast<double>(edit.move);
+  CHECK(rewrite(wide, edits, {}).text ==
+        klartext({"L X+0 Y+0 Z+0 F100", "L X+10", "RND R9.5", "L Y+10", "L X+0 Z+0.030"}));
+}
+
+TEST_CASE("klartext: CT is the arc that goes on as the move before it ends, and C where its words change") {
+  const std::string text = klartext({"L X+0 Y+0 Z+0 F100", "L X+10", "CT X+20 Y+10", "CT X+10 Y+20", "CT Y+30", "L X+0"});
+  const Program program = read(text);
+  const Move &quarter = program.moves[2], &next = program.moves[3], &half = program.moves[4];
+  REQUIRE(quarter.arc.has_value());
+  CHECK((quarter.arc->centre_mm - Vector3(10, 10, 0)).norm() < 1e-12);
+  CHECK_FALSE(quarter.arc->clockwise);
+  REQUIRE(next.arc.has_value());
+  CHECK((next.arc->centre_mm - Vector3(10, 10, 0)).norm() < 1e-12);
+  REQUIRE(half.arc.has_value());
+  CHECK((half.arc->centre_mm - Vector3(10, 25, 0)).norm() < 1e-12);
+  CHECK(half.arc->clockwise);
+  std::vector<MoveEdit> edits = edits_to_original(program);
+  CHECK(rewrite(program, edits, {}).text == text);
+  for (MoveEdit& edit : edits) {
+    edit.end_mm.x() += 0.5;
+    if (edit.centre_mm) edit.centre_mm->x() += 0.5;
+  }
   CHECK(rewrite(program, edits, {}).text ==
-        klartext({"L X+0 Y+0 Z+0 F100", "L X+10", "RND R2", "L Y+10", "L X+0 Z+0.030"}));
+        klartext({"L X+0.5 Y+0 Z+0 F100", "L X+10.5", "CC X+10.500 Y+10.000", "C X+20.5 Y+10 DR+", "C X+10.5 Y+20 DR+",
+                  "CC X+10.500 Y+25.000", "C Y+30 DR-", "L X+0.5"}));
+}
+
+TEST_CASE("klartext: CT with a height, behind an unknown move, or straight ahead is held") {
+  for (const std::string& block : {"CT X+20 Y+10 Z+5", "CT X+20"}) {
+    CAPTURE(block);
+    const Program program = read(klartext({"L X+0 Y+0 Z+0 F100", "L X+10", block, "L X+0"}));
+    CHECK(program.moves[2].handling == Handling::held);
+    CHECK_FALSE(program.moves[2].arc.has_value());
+  }
+  const Program program = read(klartext({"L X+0 Y+0 Z+0 FMAX", "CT X+20 Y+10 F100", "L X+0"}));
+  CHECK(program.moves[1].handling == Handling::held);
 }
 
 TEST_CASE("klartext: a helix of turns is followed, and keeps its polar words when it is shifted") {

@@ -12,7 +12,7 @@ std::vector<int> groups_of(const std::string& text) {
   const Program program = read("G21 G90 F100 G0 X0. Y0. Z10.\n" + text);
   for (const Move& move : program.moves) {
     CHECK((move.handling == Handling::group) == (move.group != 0));
-    CHECK((move.group == 0 || !move.may_split));
+    CHECK((move.group == 0 || !move.may_split || move.arc));
     groups.push_back(move.group);
   }
   return groups;

@@ -105,6 +105,12 @@ struct CycleMove {
   int repeats = 1;                  ///< L or K
 };
 
+/// What a control takes off a line for the corners that it rounds or breaks (mm along the line). These parts stay at one
+/// height: both sides of a corner lie in one plane.
+struct CornerEnds {
+  double begin_mm = 0, end_mm = 0;
+};
+
 /// How a move is corrected.
 enum class Handling : std::uint8_t {
   own,    ///< by the correction of its own end
@@ -133,13 +139,14 @@ struct Move {
   Vector3 end_mm = Vector3::Zero();
   Rare<ArcMove> arc;
   Rare<CycleMove> cycle;
+  Rare<CornerEnds> corners;          ///< of a line beside corners, where their sizes are known
   Rare<Vector6> force;               ///< modal (FORCE ...) comment, (N, N m) on the tool, machine frame; none
                                      ///< after (FORCE OFF); a comment acts from the block that holds it
   double feed_mm_min = 0;            ///< modal F; 0 where none has been programmed
   double feed_per_min = 0;           ///< F of a G93 move: 1/min
   double spindle_rpm = 0;            ///< modal S
   std::optional<long> block_number;  ///< N
-  std::size_t frame = 0;             ///< index into Program::frames
+  std::uint32_t frame = 0;           ///< index into Program::frames
   std::int32_t tool = 0;             ///< T in the spindle, else H of G43; 0: none known
   std::uint32_t operation = 0;       ///< index into Program::operations
   Motion motion = Motion::rapid;
@@ -156,12 +163,13 @@ struct Move {
   bool polar : 1 = false;            ///< LP, CP of Klartext: two of the words are one polar word
   bool takes_no_z : 1 = false;       ///< no word of Z may be inserted: beside a corner, in the holes of a Klartext cycle
   bool makes_hole : 1 = false;  ///< of Klartext: a cycle that goes along with the tool is called at its end
-  bool block_delete = false;    ///< a '/' block: what it sets is unknown to the blocks after it
-  bool exact_stop = false;      ///< the control stops at the end (G9, G61 of Fanuc, G61.1 of LinuxCNC)
-  bool may_split =
+  bool stays_whole : 1 = false;  ///< a word of the block acts at its begin or end: not even a line beside corners is divided
+  bool block_delete : 1 = false;  ///< a '/' block: what it sets is unknown to the blocks after it
+  bool exact_stop : 1 = false;  ///< the control stops at the end (G9, G61 of Fanuc, G61.1 of LinuxCNC)
+  bool may_split : 1 =
       false;  ///< points may be inserted: a feed move, no exact stop, no word that acts at its end
-  bool may_jump = false;  ///< a feed move may be inserted before it: start and feed are known, no exact stop
-  bool may_insert_words = true;  ///< axis words may be inserted; not into a block with G43, G44 or G49
+  bool may_jump : 1 = false;  ///< a feed move may be inserted before it: start and feed are known, no exact stop
+  bool may_insert_words : 1 = true;  ///< axis words may be inserted; not into a block with G43, G44 or G49
 };
 static_assert(sizeof(Move) <= 240, "programs have millions of moves");
 
@@ -169,6 +177,19 @@ static_assert(sizeof(Move) <= 240, "programs have millions of moves");
 /// plane nor does it take one.
 inline bool stays_flat(const Move& move) {
   return move.arc && move.arc->flat && !move.words[static_cast<std::size_t>(move.arc->normal)];
+}
+
+/// How much of a line stays flat beside a corner (mm).
+inline double flat_part_mm(double taken_mm) {
+  return taken_mm > 0 ? 1.02 * taken_mm + 0.02 : 0;
+}
+
+/// Whether the height of a line beside corners may change between their parts, by points that are inserted there.
+inline bool changes_height_inside(const Move& move) {
+  constexpr double most_flat = 0.9;  // of the line
+  if (!move.corners || move.arc || move.stays_whole || move.exact_stop || !move.may_insert_words) return false;
+  const double flat_mm = flat_part_mm(move.corners->begin_mm) + flat_part_mm(move.corners->end_mm);
+  return move.handling != Handling::held && flat_mm < most_flat * (move.end_mm - move.start_mm).norm();
 }
 
 /// Whether a word of `axis` says the way from the move's start.
@@ -183,7 +204,7 @@ inline bool may_insert_word(const Move& move, std::size_t axis) {
 
 /// Whether each axis has a word in the block of `move` or may get one.
 inline bool takes_all_words(const Move& move) {
-  return move.may_insert_words && (move.words[2] || !move.takes_no_z);
+  return move.may_insert_words && (move.words[2] || !move.takes_no_z || changes_height_inside(move));
 }
 
 /// A block that is not corrected, and why.
