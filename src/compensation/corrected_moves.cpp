@@ -9,7 +9,7 @@ namespace {
 
 // The line without its Klartext block number and without the surface of a drilling cycle, which goes along
 // with its holes. Nothing of a CC, which belongs to the arc behind it.
-std::string statement_of(const Program& program, std::string_view line) {
+std::string statement_of(const Program& program, std::string_view line, bool& sets_surface) {
   if (program.dialect != "heidenhain") return std::string(line);
   line.remove_prefix(std::min(line.find_first_not_of(" \t"), line.size()));
   const std::size_t digits = line.starts_with('N') || line.starts_with('n') ? 1 : 0;
@@ -22,6 +22,7 @@ std::string statement_of(const Program& program, std::string_view line) {
   if (surface == std::string::npos || equals == std::string::npos || statement[equals] != '=')
     return statement;
   const std::size_t number = std::min(statement.find_first_not_of(" \t", equals + 1), statement.size());
+  sets_surface = true;
   statement.erase(surface, std::min(statement.find_first_of(" \t;~", number), statement.size()) - surface);
   return statement;
 }
@@ -32,7 +33,25 @@ bool is_header(std::string_view line) {
   return line.starts_with("(COUNTERFLEX 1") && line.find(')') == line.size() - 1;
 }
 
+// A cycle's definition goes on behind '~'.
+bool goes_on(std::string_view line) {
+  const std::size_t last = line.find_last_not_of(" \t");
+  return last != std::string_view::npos && line[last] == '~';
+}
+
 }  // namespace
+
+void OtherLines::end_statement() {
+  std::vector<std::string> texts;
+  for (const OtherLine& line : statement_) texts.push_back(line.text);
+  if (!sets_surface_ || texts != last_surface_) {
+    count_ += statement_.size();
+    lines.insert(lines.end(), statement_.begin(), statement_.end());
+  }
+  if (sets_surface_) last_surface_ = std::move(texts);
+  sets_surface_ = false;
+  statement_.clear();
+}
 
 std::vector<std::size_t> OtherLines::add(const Program& window) {
   std::vector<std::size_t> counts;
@@ -46,13 +65,18 @@ std::vector<std::size_t> OtherLines::add(const Program& window) {
     bool moves = false;
     for (; counts.size() < window.moves.size() && window.moves[counts.size()].block.begin <= end; moves = true)
       counts.push_back(count_);
-    if (moves) continue;
+    if (moves) {
+      end_statement();
+      continue;
+    }
     if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
-    std::string statement = statement_of(window, line);
+    std::string statement = statement_of(window, line, sets_surface_);
     if (is_header(statement) || (klartext && statement.empty())) continue;
-    lines.push_back({line_of_file(window.expansion, lines_before_ + 1), std::move(statement)});
-    ++count_;
+    const bool ends = !klartext || !goes_on(statement);
+    statement_.push_back({line_of_file(window.expansion, lines_before_ + 1), std::move(statement)});
+    if (ends) end_statement();
   }
+  end_statement();
   return counts;
 }
 

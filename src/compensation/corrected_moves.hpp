@@ -14,7 +14,8 @@ struct OtherLine {
   std::string text;
 };
 
-/// The lines without a move of a program that is read in windows, the header aside. An inserted block stands
+/// The lines without a move of a program that is read in windows, the header aside. Of statements that set the surface of
+/// Klartext's drilling cycles, and differ in that alone, the first one counts: the others are judged by their holes. An inserted block stands
 /// beside the block that it belongs to: both have the same number of such lines before them.
 class OtherLines {
  public:
@@ -25,7 +26,12 @@ class OtherLines {
   std::deque<OtherLine> lines{};  ///< that were not compared yet
 
  private:
-  int lines_before_ = 0;    // of the text, before the window
+  void end_statement();
+
+  std::vector<OtherLine> statement_{};       // that is being read
+  bool sets_surface_ = false;                // it
+  std::vector<std::string> last_surface_{};  // the last one that has
+  int lines_before_ = 0;   // of the text, before the window
   std::size_t count_ = 0;  // without a move
 };
 

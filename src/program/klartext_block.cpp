@@ -173,6 +173,55 @@ void insert_step(KlartextWriter& w, const Step& step, bool states_feed,
   statements.push_back(head + coordinates + tail + (states_feed ? feed_of(w) : ""));
 }
 
+/// The lines of the statement that holds byte `at`: a cycle's definition goes on behind '~'. Without its number.
+Span statement_around(const KlartextWriter& w, std::size_t at) {
+  const std::string_view text = w.program.text;
+  const auto end_of_line = [&](std::size_t in) { return std::min(text.find('\n', in), text.size()); };
+  const auto goes_on = [&](std::size_t begin, std::size_t end) {
+    const std::string_view line = text.substr(begin, end - begin);
+    const std::size_t last = line.find_last_not_of(" \t\r");
+    return last != std::string_view::npos && line[last] == '~';
+  };
+  const auto begin_of_line = [&](std::size_t in) { return in == 0 ? 0 : text.rfind('\n', in - 1) + 1; };
+  Span lines{begin_of_line(at), end_of_line(at)};
+  while (lines.begin > 0 && goes_on(begin_of_line(lines.begin - 1), lines.begin - 1)) lines.begin = begin_of_line(lines.begin - 1);
+  for (std::size_t begin = begin_of_line(at); lines.end < text.size() && goes_on(begin, lines.end);) {
+    begin = lines.end + 1;
+    lines.end = end_of_line(begin);
+  }
+  if (lines.end > lines.begin && text[lines.end - 1] == '\r') --lines.end;
+  if (w.style.numbered) {
+    lines.begin = std::min(text.find_first_not_of("Nn \t", lines.begin), lines.end);
+    lines.begin = std::min(text.find_first_not_of("0123456789", lines.begin), lines.end);
+  }
+  lines.begin = std::min(text.find_first_not_of(" \t", lines.begin), lines.end);
+  return lines;
+}
+
+/// The height of the surface from which the hole counts: changed where the text says it, or said once more.
+void state_surface(KlartextWriter& w, const WordNumber& number) {
+  const AxisWord& word = *w.move.words[2];
+  const double wanted = number.write ? number.value : component(w.move.end_mm, 2) / w.unit();
+  const bool there = w.move.repeats_surface
+                         ? rounds_to(w.state.surface.value_or(component(w.move.end_mm, 2) / w.unit()), wanted, number.decimals)
+                         : !number.write;
+  w.state.surface = wanted;
+  if (there) return;
+  ++w.out.changed_words;
+  WordNumber stated = number;
+  stated.value = wanted;
+  const std::string changed = changed_klartext(w, word, stated);
+  if (!w.move.repeats_surface) return w.own.push_back({word.number, changed});
+  const Span lines = statement_around(w, word.number.begin);
+  w.before.push_back(std::string(part(w.program.text, {lines.begin, word.number.begin})) + changed +
+                     std::string(part(w.program.text, {word.number.end, lines.end})));
+}
+
+/// Whether the word of an axis stands before the block.
+bool is_of_surface(const KlartextWriter& w, std::size_t axis) {
+  return axis == 2 && w.move.words[2] && w.move.words[2]->number.begin < w.block.span.begin;
+}
+
 void change_coordinates(KlartextWriter& w, const Step& step) {
   std::string inserted;
   std::size_t behind = w.block.parts[0].begin + w.block.head.size();
@@ -180,6 +229,10 @@ void change_coordinates(KlartextWriter& w, const Step& step) {
     if (word && word->number.begin >= w.move.block.begin) behind = std::max(behind, word->number.end);
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const WordNumber& number = step.axes[axis].number;
+    if (is_of_surface(w, axis)) {
+      state_surface(w, number);
+      continue;
+    }
     if (!number.write || is_polar_axis(w.move, axis)) continue;
     const std::string text = klartext_word(w, axis, number);
     if (const auto& word = w.move.words[axis]) {

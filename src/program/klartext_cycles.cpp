@@ -169,6 +169,7 @@ void define_cycle(const KlartextBlock& block, KlartextReading& r) {
   const bool state_only = cycle == 7 || cycle == 8 || cycle == 9 || cycle == 10 || cycle == 11 ||
                           cycle == 13 || cycle == 19 || cycle == 26 || cycle == 32;
   if (state_only || number.line != 0) return;
+  r.state.calls_each = false;  // a new cycle ends M89
   r.state.cycle_acts_here = acts_where_called(cycle);
   r.state.surface.reset();
   const bool runs_once = empty(block.block_delete) && !in_doubt(r);
@@ -179,6 +180,7 @@ void define_cycle(const KlartextBlock& block, KlartextReading& r) {
   r.state.second_clearance_mm.reset();
   if (!r.state.takes_surface) return;
   r.state.surface = surface_of(block, r);
+  if (r.state.surface) r.state.surface->of_definition = true;
   read_clearances(block, r, true);
 }
 
@@ -196,13 +198,17 @@ bool take_hole(KlartextReading& r, Move& move) {
   const bool end_is_known = state.clearance_mm && state.second_clearance_mm;
   move.may_split = move.may_jump = false;
   move.makes_hole = move.takes_no_z = true;
+  move.motion = Motion::rapid;  // the way to a hole is no cut, as with the cycles of G-code
   if (!end_is_known) move.handling = Handling::held;
-  if (std::exchange(surface.just_set, false)) {
+  const bool first = std::exchange(surface.just_set, false);
+  // The whole definition can be repeated before a hole, but it would end M89.
+  if (first || !surface.of_definition || !state.calls_each) {
     // The word of the surface is absolute.
     for (std::size_t axis = 0; axis < 2; ++axis)
       if (move.relative && move.words[axis]) move.incremental = (move.incremental | 1U << axis) & 7U;
     move.relative = false;
     move.words[2] = surface.word;
+    move.repeats_surface = !first;
     move.end_mm.z() = surface.z_mm;
     move.known_end[2] = end_is_known;
   }

@@ -26,7 +26,8 @@ struct KlartextPole {
 struct KlartextSurface {
   double z_mm = 0;
   AxisWord word{};
-  bool just_set = false;  ///< no hole since: the first one has its word
+  bool just_set = false;  ///< no hole since
+  bool of_definition = false;  ///< CYCL DEF says it, no line of its own
 };
 
 /// What a control remembers from block to block.

@@ -54,6 +54,12 @@ std::string with_changes(const std::string& text, const std::vector<KlartextChan
 void pass_over(const Move& move, TextState& state) {
   state.held = held_after_original(move, state.held);
   if (move.arc && move.arc->absolute_centre) state.pole.centre_mm = move.arc->centre_mm;
+  if (move.makes_hole && move.words[2]) state.surface.reset();
+}
+
+/// Whether an earlier hole has left another surface than the original has here.
+bool has_lost_surface(const Move& move, const TextState& state) {
+  return move.repeats_surface && state.surface && *state.surface * mm_per(move.unit) != move.end_mm.z();
 }
 
 bool has_lost_pole(const Move& move, const HeldPole& pole) {
@@ -122,12 +128,12 @@ void pass_until(KlartextOutput& o, std::size_t end) {
   while (o.next < end) {
     const Move& move = o.program.moves[o.next];
     come_to(o, o.next);
-    if (has_lost_pole(move, o.state.pole))
+    if (has_lost_pole(move, o.state.pole) || has_lost_surface(move, o.state))
       write_move(o, {.move = o.next,
                      .end_mm = move.end_mm,
                      .centre_mm = move.arc ? std::optional(move.arc->centre_mm) : std::nullopt});
     else
-      pass_over(o.program.moves[o.next++], o.state);
+      pass_over(move, o.state), ++o.next;
   }
 }
 

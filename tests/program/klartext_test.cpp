@@ -595,10 +595,12 @@ TEST_CASE("klartext: each hole of a drilling cycle is corrected in X and Y, and 
     const Move& move = program.moves[hole];
     CHECK(move.handling == Handling::own);
     CHECK(move.makes_hole);
-    CHECK(move.words[2].has_value() == (hole == 1));
+    CHECK(move.words[2].has_value());
+    CHECK(move.repeats_surface == (hole > 1));
+    CHECK(move.motion == Motion::rapid);
     CHECK_FALSE(may_insert_word(move, 2));
     CHECK(all_known(move.known_end));
-    CHECK(move.end_mm.z() == (hole == 1 ? 1.5 : 51.5));
+    CHECK(move.end_mm.z() == 1.5);
   }
   CHECK(rewrite(program, edits_to_original(program), {}).text == text);
   CHECK(klartext_shifted(program) ==
@@ -606,6 +608,35 @@ TEST_CASE("klartext: each hole of a drilling cycle is corrected in X and Y, and 
                   "CYCL DEF 200 DRILLING ~\n  Q200=2 ~\n  Q201=-10 ~\n  Q203=+1.625 ;SURFACE ~\n  Q204=50",
                   "L X+2.5 Y+2.75 FMAX M99", "L X+4.5 Y+2.75 FMAX M99", "CYCL CALL",
                   "L X+0.5 Y-0.25 Z+50.125 FMAX"}));
+}
+
+TEST_CASE("klartext: a hole at another height states its cycle's surface once more, as the program has stated it") {
+  const std::string begin = "L X+1 Y+0 Z+50 FMAX", definition = "CYCL DEF 200 DRILLING ~\n  Q200=2 ~\n  Q203=";
+  const std::string rest = " ;SURFACE ~\n  Q204=50";
+  const auto with_heights = [](const Program& program, const std::vector<double>& z) {
+    std::vector<MoveEdit> edits = edits_to_original(program);
+    for (std::size_t k = 0; k < z.size(); ++k) edits.at(k + 1).end_mm.z() += z[k];
+    return rewrite(program, edits, {}).text;
+  };
+  const std::vector<std::string> holes{"L X+2 Y+3 FMAX M99", "L X+4 FMAX M99", "L X+6 FMAX M99", "CYCL CALL"};
+  const Program defined = read(klartext({begin, definition + "+1.5" + rest, holes[0], holes[1], holes[2], holes[3]}));
+  CHECK(with_heights(defined, {0, 0.02, 0.02, 0}) ==
+        klartext({begin, definition + "+1.5" + rest, holes[0], definition + "+1.52" + rest, holes[1], holes[2],
+                  definition + "+1.5" + rest, holes[3]}));
+  const std::string line = "Q203 = +1.5", definitions = "CYCL DEF 200 DRILLING", clearances = "Q200=2\nQ204=50";
+  const Program assigned = read("0 BEGIN PGM COVER MM\n" + begin + "\n" + definitions + "\n" + line + " ;SURFACE\n" + clearances + "\n" +
+                                holes[0] + "\n" + holes[1] + "\n");
+  CHECK(with_heights(assigned, {0.01, 0.03}).find(holes[0] + "\nQ203 = +1.53 ;SURFACE\n") != std::string::npos);
+}
+
+TEST_CASE("klartext: under M89 a definition is not repeated, since it would end it") {
+  const Program program =
+      read(klartext({"L X+1 Y+0 Z+50 FMAX", "CYCL DEF 200 ~\n  Q200=2 ~\n  Q203=+1.5 ~\n  Q204=50", "L X+2 Y+3 FMAX M89",
+                     "L X+4 FMAX", "L X+6 FMAX M99", "CYCL DEF 200 ~\n  Q200=2 ~\n  Q203=+1.5 ~\n  Q204=50", "L X+8 FMAX"}));
+  CHECK_FALSE(program.moves[2].words[2].has_value());
+  CHECK(program.moves[2].makes_hole);
+  CHECK(program.moves[3].makes_hole);
+  CHECK_FALSE(program.moves[4].makes_hole);
 }
 
 TEST_CASE("klartext: holes are held where the height at which a cycle leaves the tool is not known") {

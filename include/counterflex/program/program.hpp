@@ -163,6 +163,7 @@ struct Move {
   bool polar : 1 = false;            ///< LP, CP of Klartext: two of the words are one polar word
   bool takes_no_z : 1 = false;       ///< no word of Z may be inserted: beside a corner, in the holes of a Klartext cycle
   bool makes_hole : 1 = false;  ///< of Klartext: a cycle that goes along with the tool is called at its end
+  bool repeats_surface : 1 = false;  ///< its Z is the surface of a Klartext cycle, as an earlier hole has said it
   bool stays_whole : 1 = false;  ///< a word of the block acts at its begin or end: not even a line beside corners is divided
   bool block_delete : 1 = false;  ///< a '/' block: what it sets is unknown to the blocks after it
   bool exact_stop : 1 = false;  ///< the control stops at the end (G9, G61 of Fanuc, G61.1 of LinuxCNC)

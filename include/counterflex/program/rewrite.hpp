@@ -117,6 +117,7 @@ struct TextState {
   std::optional<int> restate_motion{};  ///< what a block that relies on the modal motion must say: that of
                                         ///< the original, where inserted text may have left another
   HeldPole pole{};
+  std::optional<double> surface{};  ///< of the Klartext cycle that acts, as the text says it; none: as the original does
   WrittenNumbers numbers{};
 };
 
