@@ -96,6 +96,12 @@ class KindComparison {
   // A contour's arc that is divided by its height is one arc in the plane.
   void compare_contour_piece(const Move& found) {
     const ArcMove &wanted = *original_.arc, &arc = *found.arc;
+    // A centre that follows from the ends and a radius is known less well than these; the angles are compared besides.
+    if (wanted.radius_word && arc.radius_word) {
+      const double miss = std::abs(std::abs(arc.radius_mm) - std::abs(wanted.radius_mm));
+      if (miss > roundings * rounding_mm_ + 1e-6) fail(found, fmt::format("the radius of this arc is off by {:.4f} mm", miss));
+      return;
+    }
     if (!centre_mm_) centre_mm_ = arc.centre_mm;
     const auto radius_at = [](const ArcMove& a, const Vector3& p) { return in_plane(p - a.centre_mm, a.normal); };
     const double low = std::min(radius_at(wanted, original_.start_mm), radius_at(wanted, original_.end_mm)),

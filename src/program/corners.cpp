@@ -37,7 +37,9 @@ void place_corner(const CornerSize& size, Move& before, Move& after) {
   const Vector3 a = before.end_mm - before.start_mm, b = after.end_mm - after.start_mm;
   const double turn = std::atan2(a.cross(b).norm(), a.dot(b));
   if (a.isZero(0) || b.isZero(0) || turn > sharpest) return;
-  const double taken = size.is_radius ? size.mm * std::tan(turn / 2) : size.mm;
+  double taken = size.mm;
+  if (size.kind == CornerKind::round) taken *= std::tan(turn / 2);
+  if (size.kind == CornerKind::chamfer) taken /= 2 * std::cos(turn / 2);
   ends_of(before).end_mm = ends_of(after).begin_mm = taken;
   // Behind its first part, which is flat, the block may say another height.
   if (after.corners->end_mm == 0) after.takes_no_z = !changes_height_inside(after);

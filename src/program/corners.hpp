@@ -1,12 +1,19 @@
 #pragma once
-/// Corners that a control rounds or breaks: RND and CHF of Klartext, ",R" and ",C" of shop controls.
+/// Corners that a control rounds or breaks: RND and CHF of Klartext, ",R" and ",C" of shop controls, RND=, CHR= and CHF= of
+/// Sinumerik.
 #include "counterflex/program/program.hpp"
 
 namespace counterflex {
 
+enum class CornerKind {
+  round,    ///< by its radius
+  side,     ///< a chamfer by what it takes off both sides
+  chamfer,  ///< a chamfer by its own length
+};
+
 struct CornerSize {
-  double mm = 0;
-  bool is_radius = false;  ///< else what is taken off both sides
+  double mm = 0;  ///< NaN: not a plain number
+  CornerKind kind = CornerKind::round;
 };
 
 /// A corner follows the move, one precedes it. How much they take off is not known yet.

@@ -67,10 +67,10 @@ void read_tool_call(const KlartextBlock& block, KlartextReading& r) {
 /// A corner that RND or CHF makes of the end of one move and the beginning of the next, which lie in one plane.
 void read_corner(const KlartextBlock& block, KlartextReading& r) {
   const std::string rest = squeezed(after_head(r.program.text, block));
-  const bool is_radius = block.head == "RND";
-  const std::optional<double> size = is_radius ? number_behind(rest, 'R') : number_behind('=' + rest, '=');
+  const CornerKind kind = block.head == "RND" ? CornerKind::round : CornerKind::side;
+  const std::optional<double> size = kind == CornerKind::round ? number_behind(rest, 'R') : number_behind('=' + rest, '=');
   const double unit = r.state.unit == LengthUnit::inches ? 25.4 : 1.0;
-  r.state.corner = CornerSize{size.value_or(NAN) * unit, is_radius};
+  r.state.corner = CornerSize{size.value_or(NAN) * unit, kind};
   if (r.program.moves.empty()) return;
   Move& last = r.program.moves.back();
   last.may_split = last.may_jump = false;

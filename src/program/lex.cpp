@@ -211,7 +211,7 @@ void lex_corner(Scanner& s) {
   ++s.at;
   lex_word(s);
   const Word& word = s.block.words.back();
-  s.block.corner = CornerSize{word.literal ? word.value : NAN, word.letter == 'R'};
+  s.block.corner = CornerSize{word.literal ? word.value : NAN, word.letter == 'R' ? CornerKind::round : CornerKind::side};
   s.block.words.pop_back();
 }
 

@@ -243,7 +243,7 @@ void finish_move(Reading& r, Move& move) {
     expect_corner_before(move);
     const double unit = mm_per(r.state.unit.value_or(LengthUnit::millimetres));
     if (std::vector<Move>& moves = r.program.moves; moves.size() > 1)
-      place_corner({r.after_corner->mm * unit, r.after_corner->is_radius}, moves[moves.size() - 2], move);
+      place_corner({r.after_corner->mm * unit, r.after_corner->kind}, moves[moves.size() - 2], move);
   }
   r.after_corner = r.corner;
 }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "counterflex/files/numbers.hpp"
 
@@ -71,7 +72,7 @@ constexpr std::array<std::string_view, 13> structures{"IF",    "ELSE",    "ENDIF
                                                       "UNTIL", "REPEATB", "PROC"};
 
 // Say where a move goes; other names before '=' are variables.
-constexpr std::array position_names{"AP",   "RP",  "AR",   "OFFN",  "CHF", "CHR",  "RND",
+constexpr std::array position_names{"AP",   "RP",  "AR",   "OFFN",
                                     "RNDM", "ANG", "DISR", "DISCL", "POS", "POSA", "FP"};
 
 bool is_name_character(char c) {
@@ -319,6 +320,23 @@ void lex_letter(Scanner& s) {
   if (letter >= 'I' && letter <= 'K' && !word.literal) s.block.statement = Statement::arc_not_read;
 }
 
+/// "RND=4", "CHR=2", "CHF=3": the corner with the next move. False for other names.
+bool lex_corner(Scanner& s, std::string_view name) {
+  struct Corner {
+    std::string_view name;
+    CornerKind kind;
+  };
+  constexpr std::array corners{Corner{"RND", CornerKind::round}, Corner{"CHR", CornerKind::side},
+                               Corner{"CHF", CornerKind::chamfer}};
+  const auto found = std::find_if(corners.begin(), corners.end(), [&](const Corner& c) { return is_word(name, c.name); });
+  if (found == corners.end() || !equals_follows(s, name.size())) return false;
+  read_named_word(s, 'R', name.size());
+  const Word word = s.block.words.back();
+  s.block.words.pop_back();
+  s.block.corner = CornerSize{word.literal ? word.value : NAN, found->kind};
+  return true;
+}
+
 bool lex_label(Scanner& s, std::string_view name) {
   const std::size_t behind = s.at + name.size();
   if (behind >= s.end || s.text[behind] != ':' || (behind + 1 < s.end && s.text[behind + 1] == '='))
@@ -330,6 +348,7 @@ bool lex_label(Scanner& s, std::string_view name) {
 void lex_name(Scanner& s, std::string_view name) {
   if (is_word(name, "CR") && equals_follows(s, 2)) return read_named_word(s, 'R', 2);
   if (is_word(name, "TURN") && equals_follows(s, 4)) return read_named_word(s, 'P', 4);
+  if (lex_corner(s, name)) return;
   if (is_word(name, "SUPA")) return state_machine_position(s, name);
   if (lex_structure(s, name)) return;
   for (const SiemensName& known : siemens_names)

@@ -40,7 +40,8 @@ TEST_CASE("a line between two corners is three: its ends are flat and as long as
   for (const Trial& trial :
        {Trial{klartext("L X+80 F500\nRND R4\nL Y+60\nRND R4\nL X+0\n"), 4},
         Trial{klartext("L X+80 F500\nCHF 6\nL Y+60\nCHF 6\nL X+0\n"), 6},
-        Trial{"%\nO1\nG21 G90 G17 G54\nG0 X0. Y0. Z5.\nG1 Z-2. F500\nX80. ,R4.\nY60. ,C4.\nX0.\nG0 Z5.\nM30\n%\n", 4}}) {
+        Trial{"%\nO1\nG21 G90 G17 G54\nG0 X0. Y0. Z5.\nG1 Z-2. F500\nX80. ,R4.\nY60. ,C4.\nX0.\nG0 Z5.\nM30\n%\n", 4},
+        Trial{"%_N_S_MPF\nG17 G90 G71 G54\nG0 X0 Y0 Z5\nG1 Z-2 F500\nX80 RND=4\nY60 CHR=4\nX0\nG0 Z50\nM30\n", 4}}) {
     CAPTURE(trial.text);
     const Shop shop = shop_of(trial.text);
     const Compensation result = compensated(shop);

@@ -1,6 +1,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "program/reading.hpp"
 
@@ -187,6 +188,25 @@ TEST_CASE("siemens: the header stands before the first move, whatever follows th
 
 TEST_CASE("siemens: a name that is a sign alone is no letter of a word") {
   CHECK(siemens("G71 G90\nG1 X1 F1 $=5\n$\n_\n").dialect == "siemens");
+}
+
+TEST_CASE("siemens: RND=, CHR= and CHF= take their parts of two lines") {
+  const Program program =
+      siemens(std::string(siemens_start) + "G1 Z0 F100\nX30 RND=4\nY30 CHR=5\nX0 CHF=4\nY15 RND=R1\nX10\n");
+  const auto ends = [&](std::size_t m) {
+    REQUIRE(program.moves.at(m).corners);
+    return *program.moves[m].corners;
+  };
+  CHECK(ends(2).end_mm == doctest::Approx(4));
+  CHECK(ends(3).begin_mm == doctest::Approx(4));
+  CHECK(ends(3).end_mm == doctest::Approx(5));
+  CHECK(ends(4).end_mm == doctest::Approx(4 / std::sqrt(2)));
+  CHECK(changes_height_inside(program.moves[4]));
+  CHECK(program.moves[2].takes_no_z);
+  // A radius that the control works out may take the whole line.
+  CHECK_FALSE(changes_height_inside(program.moves[5]));
+  CHECK_FALSE(program.moves[5].fixed[0]);
+  CHECK(siemens(std::string(siemens_start) + "G1 X5 RNDM=2 F100\n").moves.back().fixed[0]);
 }
 
 TEST_CASE("siemens: a call beside words is one move that is not followed") {
