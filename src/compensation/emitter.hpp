@@ -33,17 +33,19 @@ class Emitter {
   void emit_segment(std::size_t s);
   void emit_line(const Segment& segment, const PlannedSegment& planned, EmittedMove& emitted,
                  double& unsplit_miss);
-  double set_height_inside(std::size_t s, const Vector3& end_mm, MoveEdit& edit);
-  struct EndHeights {
-    double start_mm, end_mm;
-  };
-  std::optional<EndHeights> end_heights(std::size_t s) const;
-  double corner_height_mm(std::size_t s, const EndHeights& heights) const;
   void finish_segment(const Segment& segment, const PlannedSegment& planned, double unsplit_miss,
                       EmittedMove& emitted);
   bool put_jump(const Segment& segment, const PlannedSegment& planned, EmittedMove& emitted, double& jump);
   Vector3 correction_that_can_be_written(const Move& move, const Vector3& correction) const;
   Vector3 correction_where_held(const Move& move, const Vector3& correction) const;
+
+  // emit_corners.cpp
+  struct EndHeights {
+    double start_mm, end_mm;
+  };
+  double set_height_inside(std::size_t s, const Vector3& end_mm, MoveEdit& edit);
+  std::optional<EndHeights> end_heights(std::size_t s) const;
+  double corner_height_mm(std::size_t s, const EndHeights& heights) const;
 
   // emit_arc.cpp
   void emit_arc(const Segment& segment, const PlannedSegment& planned, EmittedMove& emitted,

@@ -108,14 +108,17 @@ class WindowMatcher {
   // What the control takes off a line for its corners is one piece, at one height.
   std::optional<Failure> corner_failure(const MatchedMoves& matched) const {
     const Move& original = matched.original;
-    if (!original.corners || matched.found.size() == 1) return std::nullopt;
+    if (!original.corners || original.words[2] || !all_known(original.known_start)) return std::nullopt;
+    const double length_mm = (original.end_mm - original.start_mm).norm();
     const auto check = [&](const Move& found, double taken_mm) -> std::optional<Failure> {
       const Vector3 way = found.end_mm - found.start_mm;
-      if (taken_mm == 0 || (way.z() == 0 && way.norm() > taken_mm)) return std::nullopt;
+      const bool whole = way.norm() > taken_mm || taken_mm >= length_mm;
+      if (taken_mm == 0 || !all_known(found.known_start) || (way.z() == 0 && whole)) return std::nullopt;
+      const std::string size = std::isfinite(taken_mm) ? fmt::format("{:.4f} mm", taken_mm) : "a part";
       return Failure{Exit::not_compensated, original.line,
-                     fmt::format("the corner takes {:.4f} mm of this block, which is {:.4f} mm long and changes its height by "
-                                 "{:.4f} mm; corners lie in one plane",
-                                 taken_mm, way.norm(), way.z()),
+                     fmt::format("the corner takes {} of this block, which is {:.4f} mm long and changes its height by {:.4f} "
+                                 "mm; corners lie in one plane",
+                                 size, way.norm(), way.z()),
                      found.line};
     };
     if (auto failure = check(*matched.found.front().move, original.corners->begin_mm)) return failure;

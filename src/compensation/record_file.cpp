@@ -1,5 +1,7 @@
 #include "record_file.hpp"
 
+#include <utility>
+
 #include "counterflex/files/bytes.hpp"
 #include "counterflex/files/input_error.hpp"
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <utility>
 
 #include "counterflex/files/bytes.hpp"
 #include "record_file.hpp"

@@ -7,11 +7,12 @@
 namespace counterflex {
 namespace {
 
-constexpr double sharpest = 170.0 / 180 * std::numbers::pi;  // rad: a round corner takes more than it is worth
+constexpr double sharpest =
+    170.0 / 180 * std::numbers::pi;  // rad: a round corner takes more than it is worth
 
 bool is_flat_line(const Move& move) {
-  return move.motion == Motion::feed && !move.arc && !move.cycle && !move.words[2] && all_known(move.known_start) &&
-         all_known(move.known_end) && (move.words[0] || move.words[1]);
+  return move.motion == Motion::feed && !move.arc && !move.cycle && !move.words[2] &&
+         all_known(move.known_start) && all_known(move.known_end) && (move.words[0] || move.words[1]);
 }
 
 CornerEnds& ends_of(Move& move) {

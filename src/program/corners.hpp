@@ -1,6 +1,6 @@
 #pragma once
-/// Corners that a control rounds or breaks: RND and CHF of Klartext, ",R" and ",C" of shop controls, RND=, CHR= and CHF= of
-/// Sinumerik.
+/// Corners that a control rounds or breaks: RND and CHF of Klartext, ",R" and ",C" of shop controls, RND=,
+/// CHR= and CHF= of Sinumerik.
 #include "counterflex/program/program.hpp"
 
 namespace counterflex {
@@ -20,8 +20,8 @@ struct CornerSize {
 void expect_corner_behind(Move& move);
 void expect_corner_before(Move& move);
 
-/// Says to two moves, one right after the other, what the corner between them takes off, where both are lines in a plane
-/// across Z and the size is a number.
+/// Says to two moves, one right after the other, what the corner between them takes off, where both are lines
+/// in a plane across Z and the size is a number.
 void place_corner(const CornerSize& size, Move& before, Move& after);
 
 }  // namespace counterflex

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "counterflex/geometry/units.hpp"
 #include "preloads.hpp"

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <string>
+#include <utility>
 
 #include "counterflex/files/file_reader.hpp"
 #include "counterflex/report/report.hpp"

@@ -25,7 +25,8 @@ bool is_rigid(const Mechanism& mechanism) {
   return mechanism.stiffest == 0 &&
          std::all_of(mechanism.chains.begin(), mechanism.chains.end(), [](const Series& chain) {
            return std::all_of(chain.parts.begin(), chain.parts.end(), [](const Part& part) {
-             return part.kind != PartKind::spring && part.kind != PartKind::compliance && part.kind != PartKind::group;
+             return part.kind != PartKind::spring && part.kind != PartKind::compliance &&
+                    part.kind != PartKind::group;
            });
          });
 }

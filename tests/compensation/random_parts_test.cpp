@@ -76,7 +76,7 @@ class RandomJob {
 
 TEST_CASE("whatever the program, its parts merged are the whole, and most of them are taken over") {
   std::size_t windows = 0, compensated = 0, failed = 0;
-  for (unsigned seed = 1; seed <= 24; ++seed) {
+  for (unsigned seed = 1; seed <= 12; ++seed) {
     CAPTURE(seed);
     Split split{on_mill(RandomJob(seed).text(60))};
     split.order.force = constant_force({15, -25, 10, 0, 0, 0}, seed % 4 == 0 ? 0 : 2e-3);
@@ -89,7 +89,7 @@ TEST_CASE("whatever the program, its parts merged are the whole, and most of the
     compensated += taken.compensated;
     failed += whole.run.failure.has_value();
   }
-  CHECK(windows > 400);
+  CHECK(windows > 200);
   CHECK(10 * compensated < windows);
-  CHECK(failed < 5);
+  CHECK(failed < 3);
 }

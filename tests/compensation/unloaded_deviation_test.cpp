@@ -96,7 +96,7 @@ TEST_CASE("a datum that is touched off where the deviation is the common shift l
 
 TEST_CASE("a path that the machine does not reach has no common shift") {
   const Shop shop({.machine = load_machine(orthoglide_b), .text = "G21 G90\nM30\n"});
-  const PathPlaces places = places_of("G21 G90\nG0 X9000. Y0. Z0.\nG1 X9100. F300\nM30\n");
+  const PathPlaces places = places_of("G21 G90\nG0 X9000. Y0. Z0.\nG1 X9001. F300\nM30\n");
   REQUIRE_FALSE(places.of("").empty());
   CHECK_FALSE(common_shift(shop.model, {}, Pose{}, places.of("")));
 }

@@ -46,7 +46,8 @@ Machine mill_beside_slides(const Pose& skew) {
 
 }  // namespace
 
-TEST_CASE("in lanes a rigid machine stands where it stands when it is solved alone, and every waypoint is solved") {
+TEST_CASE(
+    "in lanes a rigid machine stands where it stands when it is solved alone, and every waypoint is solved") {
   for (const RigidTrial& trial : rigid_trials()) {
     CAPTURE(trial.machine.name);
     LaneBench bench(trial.machine);
