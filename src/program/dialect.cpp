@@ -73,7 +73,11 @@ constexpr Dialect siemens{.name = "siemens",
                           .radius_room_inch = {0.01}};
 
 /// Spelt otherwise than G-code, and read on its own.
-constexpr Dialect heidenhain{.name = klartext_name, .tool_change_moves_axes = true};
+// Of the iTNC 530: "input tolerance up to 0.016 mm" of the start and end of an arc.
+constexpr Dialect heidenhain{.name = klartext_name,
+                             .tool_change_moves_axes = true,
+                             .radius_room = {0.016},
+                             .radius_room_inch = {0.016}};
 
 constexpr std::array dialects{&linuxcnc, &grbl, &fanuc, &haas, &mach3, &siemens, &heidenhain};
 

@@ -1,5 +1,7 @@
 #pragma once
 /// What differs between controls that read G-code, as data.
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <string>
@@ -26,6 +28,12 @@ enum Family : unsigned {
 struct RadiusRoom {
   double always = 0, most = std::numeric_limits<double>::infinity();
 };
+
+inline bool radii_agree(const RadiusRoom& room, double start_mm, double end_mm) {
+  constexpr double share = 1e-3, rounding = 1e-9;
+  const double off = std::abs(end_mm - start_mm) - rounding;
+  return off <= room.always || (off <= room.most && off <= share * std::max(start_mm, end_mm));
+}
 
 struct Dialect {
   std::string_view name;

@@ -131,6 +131,21 @@ bool has_known_ends(const KlartextReading& r, const Move& move, std::size_t norm
   return known;
 }
 
+/// A pole that is not equally far from both ends makes no arc.
+void check_radii(const KlartextBlock& block, const KlartextReading& r, const Move& move) {
+  const auto radius_at = [&](Vector3 p) {
+    p -= move.arc->centre_mm;
+    p[move.arc->normal] = 0;
+    return p.norm();
+  };
+  const double start = radius_at(move.start_mm), end = radius_at(move.end_mm);
+  if (radii_agree(find_dialect(klartext_name)->radius_room, start, end)) return;
+  refuse_klartext(r.program.text, r.program.file, block, r.words.front().span.begin,
+                  fmt::format("the radius about CC is {:.4f} mm at the arc's start and {:.4f} mm at its end, which differ by more "
+                              "than a heidenhain control accepts; correct the end of the arc or its CC",
+                              start, end));
+}
+
 /// C and CR with plain coordinates from a known start: C in the plane of its CC, CR in the plane XY.
 void read_arc(const KlartextBlock& block, KlartextReading& r, Move& move) {
   const KlartextWord* sense = find_word(r.words, "DR");
@@ -140,6 +155,7 @@ void read_arc(const KlartextBlock& block, KlartextReading& r, Move& move) {
   const bool ends_known = has_known_ends(r, move, static_cast<std::size_t>(normal));
   if (sense_known && centre_known && ends_known)
     set_arc(block, r, move, r.program.text[sense->number.begin] == '-');
+  if (move.arc && block.head == "C") check_radii(block, r, move);
   if (move.arc) return;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (!move.words[axis] && !move.fixed[axis]) continue;

@@ -194,7 +194,7 @@ void read_klartext_pole(const KlartextBlock& block, KlartextReading& r) {
   }
   if (axes != 2) return;
   const bool mixed = r.words[0].incremental != r.words[1].incremental;
-  if (mixed) pole.just_set = false;
+  if (mixed) pole.just_set = pole.incremental = false;  // known, but not a pole that moves with its words
   r.state.pole = pole;
 }
 

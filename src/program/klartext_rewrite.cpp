@@ -72,16 +72,17 @@ bool has_lost_pole(const Move& move, const HeldPole& pole) {
   return off.norm() > 1e-9;
 }
 
-/// The pole after a CC as it stands in the original.
-HeldPole pole_of(const Program& program, const KlartextBlock& block, LengthUnit unit) {
+/// The pole after a CC as it stands in the original; one of its words may count from where the text holds the tool.
+HeldPole pole_of(const Program& program, const KlartextBlock& block, LengthUnit unit, const HeldPosition& held) {
   std::vector<KlartextWord> words;
   if (!lex_klartext_words(program.text, program.file, block, words) || words.size() != 2) return {};
+  if (words[0].incremental && words[1].incremental) return {};
   Vector3 pole = Vector3::Zero();
   for (const KlartextWord& word : words) {
     const std::size_t axis =
         word.key.size() == 1 ? std::string_view("XYZ").find(word.key[0]) : std::string_view::npos;
-    if (axis == std::string_view::npos || word.incremental || !word.literal) return {};
-    pole[static_cast<Eigen::Index>(axis)] = word.value * mm_per(unit);
+    if (axis == std::string_view::npos || !word.literal || (word.incremental && !held[axis])) return {};
+    pole[static_cast<Eigen::Index>(axis)] = word.value * mm_per(unit) + (word.incremental ? *held[axis] : 0);
   }
   return {pole};
 }
@@ -102,7 +103,7 @@ struct KlartextOutput {
 /// The last CC before byte `end`.
 void look_until(KlartextOutput& o, std::size_t end, LengthUnit unit) {
   while (o.looked_at.line_end.end < end && next_klartext_block(o.program.text, o.looked_at))
-    if (o.looked_at.head == "CC") o.state.pole = pole_of(o.program, o.looked_at, unit);
+    if (o.looked_at.head == "CC") o.state.pole = pole_of(o.program, o.looked_at, unit, o.state.held);
 }
 
 /// What lies between the move and the one before it: CC, and shifts of the coordinates.

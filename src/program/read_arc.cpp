@@ -121,11 +121,8 @@ Radii radii_about(const Vector3& centre, const Plane& plane, const Vector3& star
 }
 
 bool agree(const Radii& radii, const Reading& r) {
-  constexpr double share = 1e-3, rounding = 1e-9;
   const bool inch = r.state.unit == LengthUnit::inches;
-  const RadiusRoom& room = inch ? r.dialect.radius_room_inch : r.dialect.radius_room;
-  const double off = std::abs(radii.end - radii.start) - rounding;
-  return off <= room.always || (off <= room.most && off <= share * std::max(radii.start, radii.end));
+  return radii_agree(inch ? r.dialect.radius_room_inch : r.dialect.radius_room, radii.start, radii.end);
 }
 
 /// The words of the centre in the plane, as they stand in the text: "I-24.273 J0.025".

@@ -453,6 +453,24 @@ TEST_CASE("klartext: CT with a height, behind an unknown move, or straight ahead
   CHECK(program.moves[1].handling == Handling::held);
 }
 
+TEST_CASE("klartext: an arc whose ends are not equally far from its CC is refused with both radii") {
+  const auto reads = [](const char* end) {
+    read(klartext({"L X+10 Y+0 Z+0 FMAX", "CC X+0 Y+0", fmt::format("C X{} Y+0 DR+ F100", end)}));
+  };
+  CHECK_NOTHROW(reads("-10.016"));
+  const std::string what = diagnostic_of([&] { reads("-10.017"); });
+  CHECK(what.find("10.0000 mm at the arc's start and 10.0170 mm at its end") != std::string::npos);
+}
+
+TEST_CASE("klartext: a CC of which one word counts from the tool comes back, and is said anew where that moves") {
+  const std::string text = klartext({"L X+10 Y-2.5 Z+0 FMAX", "CC X+0 IY+0", "C X-10 Y-2.5 DR+ F100", "L X+0"});
+  const Program program = read(text);
+  REQUIRE(program.moves[1].arc.has_value());
+  CHECK((program.moves[1].arc->centre_mm - Vector3(0, -2.5, 0)).norm() < 1e-12);
+  CHECK(rewrite(program, edits_to_original(program), {}).text == text);
+  CHECK(klartext_shifted(program).find("CC X+0 IY+0\n3 CC X+0.500 Y-2.750\n") != std::string::npos);
+}
+
 TEST_CASE("klartext: a helix of turns is followed, and keeps its polar words when it is shifted") {
   const std::string text = klartext({"TOOL CALL 3 Z S2500", "L X+10 Y+0 Z+5 FMAX", "L Z+0 F100",
                                      "CC X+4,5 Y+0", "CP IPA+720 IZ-2 DR+", "L X+12 Y+1 Z-2"});

@@ -249,7 +249,7 @@ TEST_CASE("windows of Klartext end outside of contours and bodies, and hold a CC
   };
   CHECK(count("L X+1\nL X+2\nL X+3\nL X+4\n") == 5);
   CHECK(count("L X+1 RL F9\nL X+2\nL X+3\nL X+4 R0\n") == 1);
-  CHECK(count("CC X+1 Y+0\nL X+1\nL X+2\nL X+2 Y+1\nC X+1 Y+2 DR+\nL X+4\n") == 2);
+  CHECK(count("CC X+1 Y+0\nL X+1\nL X+2\nL X+2 Y+1\nC X+0 Y+1 DR+\nL X+4\n") == 2);
   CHECK(count("LBL 1\nL X+1\nL X+2\nLBL 0\nCALL LBL 1\n") == 1);
   CHECK(count("CC X+1 Y+0\nCTP PA+30\nL X+1 Y+0\nL X+2\nL X+3\n") == 1);  // the text that uses the CC may be far behind
 }
