@@ -6,7 +6,7 @@
 namespace counterflex {
 namespace {
 
-constexpr int samples = 16;
+constexpr int samples_between = 16;
 
 // A vector to be interpolated linearly between knots, with the places where it has corners.
 struct Interpolated {
@@ -21,7 +21,7 @@ double miss_between(const Interpolated& curve, double u0, double u1) {
     const double w = (u - u0) / (u1 - u0);
     largest = std::max(largest, (curve.at(u) - (1 - w) * c0 - w * c1).norm());
   };
-  for (int k = 1; k < samples; ++k) look(u0 + (u1 - u0) * k / samples);
+  for (int k = 1; k < samples_between; ++k) look(u0 + (u1 - u0) * k / samples_between);
   for (double corner : curve.corners)
     if (corner > u0 && corner < u1) look(corner);
   return largest;

@@ -233,12 +233,12 @@ class WindowMatcher {
   bool skipped_ = false;  // a '/' block made the position unknown: feed moves behind it are held, not judged
 };
 
-constexpr double step = 1e-9;  // m: of the correction
+constexpr double least_jump = 1e-9;  // m: of the correction
 
 // A segment that does not begin where the one before it ends is preceded by a jump.
 bool may_jump(const PlannedWays& ways, std::size_t s, const PlannedSegment& planned) {
   if (planned.starts_anywhere || (planned.knots.empty() && !planned.end)) return false;
-  return s == 0 || !ways[s - 1].end || (*ways[s - 1].end - planned.start_target).norm() > step;
+  return s == 0 || !ways[s - 1].end || (*ways[s - 1].end - planned.start_target).norm() > least_jump;
 }
 
 // Where the curves of the correction of an arc meet, by a step or without one.
@@ -248,7 +248,7 @@ void add_borders(const Curve& arc, const PlannedSegment& planned, std::vector<Kn
     const double u = behind.begin();
     const Vector3 p = point_at(arc, u), ends = before.intervals().back().nodes.back().c, begins = behind.at(u);
     knots.push_back({u, p + ends});
-    if ((begins - ends).norm() > step) knots.push_back({u, p + begins});
+    if ((begins - ends).norm() > least_jump) knots.push_back({u, p + begins});
   }
 }
 

@@ -64,10 +64,6 @@ Vector3 own_pole_mm(const Move& move, const HeldPosition& held) {
   return pole;
 }
 
-bool is_axis_word(const KlartextWord& word) {
-  return word.key.size() == 1 && axis_names.find(word.key[0]) != std::string_view::npos;
-}
-
 /// Whether the block does something at its beginning that its pieces must not forestall.
 bool acts_itself(const KlartextWriter& w) {
   Block place;

@@ -63,7 +63,7 @@ TEST_CASE("a line between two corners is three: its ends are flat and as long as
 }
 
 TEST_CASE("lines beside corners that are too short, or beside an arc, keep the height of their begin") {
-  for (const std::string& moves :
+  for (const char* moves :
        {"L X+8 F500\nRND R9\nL Y+60\nRND R4\nL X+0\n", "L X+80 F500\nRND R4\nCR X+80 Y+60 R30 DR+\n"}) {
     CAPTURE(moves);
     const Shop shop = shop_of(klartext(moves));

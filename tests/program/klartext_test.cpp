@@ -443,7 +443,7 @@ TEST_CASE("klartext: CT is the arc that goes on as the move before it ends, and 
 }
 
 TEST_CASE("klartext: CT with a height, behind an unknown move, or straight ahead is held") {
-  for (const std::string& block : {"CT X+20 Y+10 Z+5", "CT X+20"}) {
+  for (const char* block : {"CT X+20 Y+10 Z+5", "CT X+20"}) {
     CAPTURE(block);
     const Program program = read(klartext({"L X+0 Y+0 Z+0 F100", "L X+10", block, "L X+0"}));
     CHECK(program.moves[2].handling == Handling::held);
