@@ -33,10 +33,17 @@ bool is_header(std::string_view line) {
   return line.starts_with("(COUNTERFLEX 1") && line.find(')') == line.size() - 1;
 }
 
-// A cycle's definition goes on behind '~'.
-bool goes_on(std::string_view line) {
+// A '~' at the end of a line continues the statement in the next.
+bool continues(std::string_view line) {
   const std::size_t last = line.find_last_not_of(" \t");
   return last != std::string_view::npos && line[last] == '~';
+}
+
+// A line without a move that leaves the parameters of cycles as they are: comments, corners, M functions, coordinates.
+bool keeps_parameters(std::string_view statement) {
+  for (const std::string_view head : {";", "(", "RND", "CHF", "CYCL", "M"})
+    if (statement.starts_with(head)) return true;
+  return false;
 }
 
 }  // namespace
@@ -48,6 +55,9 @@ void OtherLines::end_statement() {
     count_ += statement_.size();
     lines.insert(lines.end(), statement_.begin(), statement_.end());
   }
+  // To repeat a definition behind what may have changed its other parameters would set these back.
+  const bool defined = !last_surface_.empty() && last_surface_[0].starts_with("CYCL");
+  if (defined && !sets_surface_ && !texts.empty() && !keeps_parameters(texts[0])) last_surface_.clear();
   if (sets_surface_) last_surface_ = std::move(texts);
   sets_surface_ = false;
   statement_.clear();
@@ -72,7 +82,7 @@ std::vector<std::size_t> OtherLines::add(const Program& window) {
     if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
     std::string statement = statement_of(window, line, sets_surface_);
     if (is_header(statement) || (klartext && statement.empty())) continue;
-    const bool ends = !klartext || !goes_on(statement);
+    const bool ends = !klartext || !continues(statement);
     statement_.push_back({line_of_file(window.expansion, lines_before_ + 1), std::move(statement)});
     if (ends) end_statement();
   }

@@ -60,7 +60,7 @@ void Emitter::emit_segment(std::size_t s) {
 
 namespace {
 
-constexpr double flat_share = 0.7;  // of the tolerance: what the flat parts beside corners may miss, beside all else
+constexpr double flat_share = 0.7;  // of the tolerance: what the flat parts beside corners may miss; the rest is for other deviations
 
 Vector3 without_height(const WorkFrame& frame, int axis, const Vector3& step) {
   const Vector3 normal = frame.X_MW.R.col(axis);

@@ -169,32 +169,19 @@ void insert_step(KlartextWriter& w, const Step& step, bool states_feed,
   statements.push_back(head + coordinates + tail + (states_feed ? feed_of(w) : ""));
 }
 
-/// The lines of the statement that holds byte `at`: a cycle's definition goes on behind '~'. Without its number.
+/// The statement that holds byte `at`, with the lines that continue it and without its number.
 Span statement_around(const KlartextWriter& w, std::size_t at) {
   const std::string_view text = w.program.text;
-  const auto end_of_line = [&](std::size_t in) { return std::min(text.find('\n', in), text.size()); };
-  const auto goes_on = [&](std::size_t begin, std::size_t end) {
-    const std::string_view line = text.substr(begin, end - begin);
-    const std::size_t last = line.find_last_not_of(" \t\r");
-    return last != std::string_view::npos && line[last] == '~';
-  };
   const auto begin_of_line = [&](std::size_t in) { return in == 0 ? 0 : text.rfind('\n', in - 1) + 1; };
-  Span lines{begin_of_line(at), end_of_line(at)};
-  while (lines.begin > 0 && goes_on(begin_of_line(lines.begin - 1), lines.begin - 1)) lines.begin = begin_of_line(lines.begin - 1);
-  for (std::size_t begin = begin_of_line(at); lines.end < text.size() && goes_on(begin, lines.end);) {
-    begin = lines.end + 1;
-    lines.end = end_of_line(begin);
-  }
-  if (lines.end > lines.begin && text[lines.end - 1] == '\r') --lines.end;
-  if (w.style.numbered) {
-    lines.begin = std::min(text.find_first_not_of("Nn \t", lines.begin), lines.end);
-    lines.begin = std::min(text.find_first_not_of("0123456789", lines.begin), lines.end);
-  }
-  lines.begin = std::min(text.find_first_not_of(" \t", lines.begin), lines.end);
-  return lines;
+  std::size_t begin = begin_of_line(at);
+  while (begin > 0 && goes_on_behind(text, begin - 1)) begin = begin_of_line(begin - 1);
+  KlartextBlock statement;
+  statement.line_end = {begin, begin};
+  next_klartext_block(text, statement);
+  return {statement.parts[0].begin, statement.span.end};
 }
 
-/// The height of the surface from which the hole counts: changed where the text says it, or said once more.
+/// The height of the surface from which the hole counts: changed where the text says it, or written again before the block.
 void state_surface(KlartextWriter& w, const WordNumber& number) {
   const AxisWord& word = *w.move.words[2];
   const double wanted = number.write ? number.value : component(w.move.end_mm, 2) / w.unit();

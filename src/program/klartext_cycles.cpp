@@ -201,8 +201,8 @@ bool take_hole(KlartextReading& r, Move& move) {
   move.motion = Motion::rapid;  // the way to a hole is no cut, as with the cycles of G-code
   if (!end_is_known) move.handling = Handling::held;
   const bool first = std::exchange(surface.just_set, false);
-  // The whole definition can be repeated before a hole, but it would end M89.
-  if (first || !surface.of_definition || !state.calls_each) {
+  // The whole definition can be repeated before a hole, but it would end M89, and set its other parameters again.
+  if (first || !surface.of_definition || (surface.repeatable && !state.calls_each)) {
     // The word of the surface is absolute.
     for (std::size_t axis = 0; axis < 2; ++axis)
       if (move.relative && move.words[axis]) move.incremental = (move.incremental | 1U << axis) & 7U;

@@ -1,6 +1,6 @@
 #pragma once
 /// Blocks of Heidenhain Klartext and the words in them, as spans of the text. A block is a line with those
-/// that continue it: a line that ends in '~' goes on in the next.
+/// that continue it: a line that ends in '~' continues in the next.
 #include <string>
 #include <string_view>
 #include <vector>

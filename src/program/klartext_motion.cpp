@@ -181,7 +181,7 @@ Vector3 direction_at_end(const Move& move) {
   return way.isZero(0) ? way : Vector3(way.normalized());
 }
 
-/// CT between known ends: the arc that goes on as the move before it ends. False where it is not known, or is a line.
+/// CT between known ends: the arc tangent to the move before it. False where it is not known, or is a line.
 bool read_tangent_arc(KlartextReading& r, Move& move) {
   const auto& moves = r.program.moves;
   if (moves.empty() || r.state.corner || !has_known_ends(r, move, 2) || !move.known_start[2]) return false;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 
@@ -69,7 +70,7 @@ void read_corner(const KlartextBlock& block, KlartextReading& r) {
   const std::string rest = squeezed(after_head(r.program.text, block));
   const CornerKind kind = block.head == "RND" ? CornerKind::round : CornerKind::side;
   const std::optional<double> size = kind == CornerKind::round ? number_behind(rest, 'R') : number_behind('=' + rest, '=');
-  const double unit = r.state.unit == LengthUnit::inches ? 25.4 : 1.0;
+  const double unit = mm_per(r.state.unit.value_or(LengthUnit::millimetres));
   r.state.corner = CornerSize{size.value_or(NAN) * unit, kind};
   if (r.program.moves.empty()) return;
   Move& last = r.program.moves.back();
@@ -172,12 +173,20 @@ void read_comments(const KlartextBlock& block, KlartextReading& r) {
 
 }  // namespace
 
+/// Whatever is neither a move nor a cycle may set parameters of the cycle that is defined.
+void doubt_definition(const KlartextBlock& block, KlartextReading& r) {
+  constexpr std::array<std::string_view, 11> harmless{"L", "LP", "C", "CP", "CR", "CT", "CC", "RND", "CHF", "CYCL", "M"};
+  if (r.state.surface && std::find(harmless.begin(), harmless.end(), block.head) == harmless.end())
+    r.state.surface->repeatable = false;
+}
+
 void read_statement(const KlartextBlock& block, KlartextReading& r) {
   read_comments(block, r);
   if (block.parts.empty()) return;
   ++r.program.block_count;
   const auto known = std::find_if(statements.begin(), statements.end(),
                                   [&](const KnownStatement& s) { return s.head == block.head; });
+  doubt_definition(block, r);
   if (known != statements.end()) return known->read(block, r);
   refuse_conflict_marker(block, r);
   add_unfollowed_move(block, r, fmt::format("{} is not read", block.head.empty() ? "the block" : block.head));

@@ -28,6 +28,7 @@ struct KlartextSurface {
   AxisWord word{};
   bool just_set = false;  ///< no hole since
   bool of_definition = false;  ///< CYCL DEF says it, no line of its own
+  bool repeatable = true;      ///< to write that definition again sets nothing that the program has changed since
 };
 
 /// What a control remembers from block to block.

@@ -106,3 +106,18 @@ TEST_CASE("the surface of a Klartext cycle goes along with its holes, and nowher
   CHECK(refused(program("+9.990", "-0.110")).find("surface of this hole's cycle") != std::string::npos);
   CHECK(refused(program("+9.990", "+0")).find("surface of this hole's cycle") != std::string::npos);
 }
+
+TEST_CASE("a Klartext cycle that is defined again before a hole is accepted only where nothing else changes by it") {
+  const auto program = [](const char* between, const char* again) {
+    const std::string definition = "CYCL DEF 200 Q200=2 Q201=-5 Q203=+0 Q204=10\n";
+    return "BEGIN PGM A MM\nTOOL CALL 1 Z S1000\nL X+0 Y+0 Z+50 R0 FMAX\n" + definition + "L X+10 Y+5 FMAX M99\n" +
+           between + (*again ? definition : "") + "L X+20 FMAX M99\nEND PGM A MM\n";
+  };
+  const auto refused = [&](const char* between) {
+    const Shop shop({.machine = rigid_gantry("0, 0, 0"), .text = program(between, "")});
+    return verify(shop.job(), read_program(program(between, "again"), "changed.h", {}), false).failure.has_value();
+  };
+  CHECK_FALSE(refused(""));
+  CHECK_FALSE(refused("; the next\n"));
+  CHECK(refused("Q201 = -20\n"));
+}

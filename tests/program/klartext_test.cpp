@@ -419,7 +419,7 @@ TEST_CASE("klartext: corners by RND and CHF leave their moves whole") {
         klartext({"L X+0 Y+0 Z+0 F100", "L X+10", "RND R9.5", "L Y+10", "L X+0 Z+0.030"}));
 }
 
-TEST_CASE("klartext: CT is the arc that goes on as the move before it ends, and C where its words change") {
+TEST_CASE("klartext: CT is the arc tangent to the move before it, and C where its words change") {
   const std::string text = klartext({"L X+0 Y+0 Z+0 F100", "L X+10", "CT X+20 Y+10", "CT X+10 Y+20", "CT Y+30", "L X+0"});
   const Program program = read(text);
   const Move &quarter = program.moves[2], &next = program.moves[3], &half = program.moves[4];
@@ -462,7 +462,7 @@ TEST_CASE("klartext: an arc whose ends are not equally far from its CC is refuse
   CHECK(what.find("10.0000 mm at the arc's start and 10.0170 mm at its end") != std::string::npos);
 }
 
-TEST_CASE("klartext: a CC of which one word counts from the tool comes back, and is said anew where that moves") {
+TEST_CASE("klartext: a CC with one incremental word is kept, and written again where the tool's position changes") {
   const std::string text = klartext({"L X+10 Y-2.5 Z+0 FMAX", "CC X+0 IY+0", "C X-10 Y-2.5 DR+ F100", "L X+0"});
   const Program program = read(text);
   REQUIRE(program.moves[1].arc.has_value());
@@ -628,7 +628,7 @@ TEST_CASE("klartext: each hole of a drilling cycle is corrected in X and Y, and 
                   "L X+0.5 Y-0.25 Z+50.125 FMAX"}));
 }
 
-TEST_CASE("klartext: a hole at another height states its cycle's surface once more, as the program has stated it") {
+TEST_CASE("klartext: a hole at another height repeats the statement that has its cycle's surface") {
   const std::string begin = "L X+1 Y+0 Z+50 FMAX", definition = "CYCL DEF 200 DRILLING ~\n  Q200=2 ~\n  Q203=";
   const std::string rest = " ;SURFACE ~\n  Q204=50";
   const auto with_heights = [](const Program& program, const std::vector<double>& z) {
@@ -655,6 +655,15 @@ TEST_CASE("klartext: under M89 a definition is not repeated, since it would end 
   CHECK(program.moves[2].makes_hole);
   CHECK(program.moves[3].makes_hole);
   CHECK_FALSE(program.moves[4].makes_hole);
+}
+
+TEST_CASE("klartext: a definition is not repeated where the program may have changed its parameters since") {
+  const std::string definition = "CYCL DEF 200 ~\n  Q200=2 ~\n  Q201=-10 ~\n  Q203=+1.5 ~\n  Q204=50";
+  for (const char* between : {"Q201 = -20", "FN 0: Q201 = -20", "LBL 1", "STOP"}) {
+    CAPTURE(between);
+    const Program program = read(klartext({"L X+1 Y+0 Z+50 FMAX", definition, "L X+2 Y+3 FMAX M99", between, "L X+4 FMAX M99"}));
+    for (std::size_t hole = 2; hole < program.moves.size(); ++hole) CHECK_FALSE(program.moves[hole].words[2].has_value());
+  }
 }
 
 TEST_CASE("klartext: holes are held where the height at which a cycle leaves the tool is not known") {

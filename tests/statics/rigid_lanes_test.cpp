@@ -66,7 +66,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("the single solver goes on from what lanes know of a rigid machine") {
+TEST_CASE("the solver of single waypoints starts from the configuration that lanes give for a rigid machine") {
   LaneBench bench(made_rigid(sample_machine("mill3/machine")));
   const Vector3 p = bench.home().p + Vector3(0.2, 0.12, -0.1);
   const Configuration* near = bench.lanes.nominal_near(p);

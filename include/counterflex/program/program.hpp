@@ -139,7 +139,7 @@ struct Move {
   Vector3 end_mm = Vector3::Zero();
   Rare<ArcMove> arc;
   Rare<CycleMove> cycle;
-  Rare<CornerEnds> corners;          ///< of a line beside corners, where their sizes are known
+  Rare<CornerEnds> corners;          ///< of a move beside corners; infinite where a size is unknown
   Rare<Vector6> force;               ///< modal (FORCE ...) comment, (N, N m) on the tool, machine frame; none
                                      ///< after (FORCE OFF); a comment acts from the block that holds it
   double feed_mm_min = 0;            ///< modal F; 0 where none has been programmed
