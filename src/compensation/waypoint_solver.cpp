@@ -3,19 +3,6 @@
 #include <algorithm>
 
 namespace counterflex {
-namespace {
-
-bool is_whole(double part) {
-  return part == 0 || part == 1;
-}
-
-// What lanes can leave away or let act: errors and load, nothing in part.
-bool can_do(const Stage& stage) {
-  return is_whole(stage.errors) && is_whole(stage.load) && stage.preload == 1;
-}
-
-}  // namespace
-
 bool has_lanes_for_targets(const Job& job) {
   return job.lanes != nullptr && job.options.method == Method::direct;
 }
@@ -41,9 +28,9 @@ void WaypointSolver::begin_anew() {
   strayed_ = true;
 }
 
-void WaypointSolver::solve_in_lanes(LaneQuestion question, bool errors) {
+void WaypointSolver::solve_in_lanes(LaneQuestion question, const Stage& stage) {
   answers_.resize(requests_.size());
-  lanes_->solve(question, errors, requests_, answers_);
+  lanes_->solve(question, stage, requests_, answers_);
 }
 
 void WaypointSolver::wanted(std::span<const Vector3> p_MT, std::span<WantedPose> out) {
@@ -89,7 +76,7 @@ void WaypointSolver::targets_in_lanes(std::span<const TargetRequest> requests,
     else
       requests_.push_back({requests[i].p_MT, requests[i].load.F});
   }
-  solve_in_lanes(LaneQuestion::target, true);
+  solve_in_lanes(LaneQuestion::target, {});
   if (through.empty()) return;
   through_in_lanes(requests, through, foreseen, known);
   // Both in the order of requests again, from behind: nothing is overwritten before it is moved.
@@ -128,23 +115,21 @@ void WaypointSolver::through_in_lanes(std::span<const TargetRequest> requests,
 }
 
 void WaypointSolver::actuals(std::span<const ActualRequest> requests, std::span<ActualSolution> out) {
-  // In runs between which errors begin or cease to act.
+  // In runs of what has one stage.
   for (std::size_t begin = 0, end = 0; begin < requests.size(); begin = end) {
-    const double errors = requests[begin].stage.errors;
-    while (end < requests.size() && requests[end].stage.errors == errors) ++end;
+    while (end < requests.size() && requests[end].stage == requests[begin].stage) ++end;
     actuals_in_lanes(requests.subspan(begin, end - begin), out.subspan(begin, end - begin));
   }
 }
 
 void WaypointSolver::actuals_in_lanes(std::span<const ActualRequest> requests,
                                       std::span<ActualSolution> out) {
-  const bool in_lanes = lanes_ && can_do(requests.front().stage);
-  if (in_lanes) {
+  if (lanes_) {
     requests_.clear();
     for (const ActualRequest& request : requests)
       if (request.known == nullptr)
         requests_.push_back({request.target, request.stage.load * request.load.F});
-    solve_in_lanes(LaneQuestion::forward, requests.front().stage.errors == 1);
+    solve_in_lanes(LaneQuestion::forward, requests.front().stage);
   }
   std::size_t next = 0;  // in answers_
   for (std::size_t i = 0; i < requests.size(); ++i) {
@@ -154,8 +139,8 @@ void WaypointSolver::actuals_in_lanes(std::span<const ActualRequest> requests,
       strayed_ = true;
       continue;
     }
-    const LaneAnswer* answer = in_lanes ? &answers_[next++] : nullptr;
-    if (answer != nullptr && answer->solved && can_do(request.stage)) {
+    const LaneAnswer* answer = lanes_ ? &answers_[next++] : nullptr;
+    if (answer != nullptr && answer->solved) {
       out[i] = {Status::converged, answer->X_MT, answer->iterations, true};
       strayed_ = true;
       continue;

@@ -72,7 +72,7 @@ class WaypointSolver {
 
  private:
   PathSolver& one_by_one(const Vector3& p);
-  void solve_in_lanes(LaneQuestion question, bool errors);
+  void solve_in_lanes(LaneQuestion question, const Stage& stage);
   void targets_in_lanes(std::span<const TargetRequest> requests, std::span<const ThroughRequest> through,
                         const ForeseenCommand& foreseen, std::span<KnownPlace> known);
   void through_in_lanes(std::span<const TargetRequest> requests, std::span<const ThroughRequest> through,

@@ -26,7 +26,7 @@ lanes::Region LaneCell::flat() const {
 bool LaneCell::take_tangents(const Model& model, StaticsWork& work) {
   LaneMemory memory(lane_model_);
   for (int lane = 0; lane < lanes::width; ++lane) put_unloaded(centre_, lane, memory.batch);
-  memory.solve(zone_->flat(), {.target = false, .kinematics = false, .errors = true, .go_on = false});
+  memory.solve(zone_->flat(), {.target = false, .kinematics = false, .acting = lanes::everything, .go_on = false});
   if (!memory.batch.converged[0]) return false;
   start_ = LaneStart(memory.state(0));
   bend_ = zone_->bend_of_actuators(centre_);
@@ -42,7 +42,7 @@ std::unique_ptr<LaneCell> LaneCell::make(const Model& model, const LaneModel& la
 }
 
 // Fitted to what lanes find from the centre; empty where they do not.
-std::vector<double> LaneCell::displacement(bool errors) const {
+std::vector<double> LaneCell::displacement(lanes::Acting acting) const {
   const PolynomialFit& fit = polynomial_fit(displacement_degree);
   const auto count = static_cast<Eigen::Index>(fit.points.size());
   const Eigen::Index rows = lane_model_.program().rows + 6;
@@ -51,7 +51,7 @@ std::vector<double> LaneCell::displacement(bool errors) const {
   for (Eigen::Index first = 0; first < count; first += lanes::width) {
     for (int lane = 0; lane < lanes::width; ++lane)
       put_unloaded(centre_ + half_ * fit.points[static_cast<std::size_t>(std::min(first + lane, count - 1))], lane, memory.batch);
-    memory.solve(flat(), {.target = false, .kinematics = false, .errors = errors, .go_on = false});
+    memory.solve(flat(), {.target = false, .kinematics = false, .acting = acting, .go_on = false});
     for (int lane = 0; lane < lanes::width && first + lane < count; ++lane) {
       if (!memory.batch.converged[lane]) return {};
       const std::vector<double> step = lane_model_.step_between(start_.state(), memory.state(lane));
@@ -62,9 +62,9 @@ std::vector<double> LaneCell::displacement(bool errors) const {
   return {all.data(), all.data() + all.size()};
 }
 
-lanes::Region LaneCell::region(bool errors) const {
-  const auto which = static_cast<std::size_t>(errors);
-  std::call_once(asked_[which], [&] { displacements_[which] = displacement(errors); });
+lanes::Region LaneCell::region(lanes::Acting acting) const {
+  const auto which = 2 * static_cast<std::size_t>(acting.errors) + static_cast<std::size_t>(acting.weights);
+  std::call_once(asked_[which], [&] { displacements_[which] = displacement(acting); });
   lanes::Region region = flat();
   if (displacements_[which].empty()) return region;
   region.displacement = displacements_[which].data();

@@ -23,14 +23,14 @@ class LaneCell {
   /// Whether tangents and starts are made for a position.
   bool holds(const Vector3& p) const { return (p - centre_).cwiseAbs().maxCoeff() <= half_ && zone_->holds(p); }
 
-  /// What lanes share where `errors` act or not.
-  lanes::Region region(bool errors) const;
+  /// What lanes share.
+  lanes::Region region(lanes::Acting acting) const;
 
  private:
   LaneCell(const LaneModel& lane_model, std::shared_ptr<const LaneZone> zone, const Vector3& centre, double half)
       : lane_model_(lane_model), zone_(std::move(zone)), centre_(centre), half_(half) {}
   bool take_tangents(const Model& model, StaticsWork& work);
-  std::vector<double> displacement(bool errors) const;
+  std::vector<double> displacement(lanes::Acting acting) const;
   lanes::Region flat() const;
 
   const LaneModel& lane_model_;
@@ -40,8 +40,8 @@ class LaneCell {
   LaneStart start_;
   LaneTangents tangents_;       ///< at the centre
   std::vector<double> bend_;
-  mutable std::array<std::once_flag, 2> asked_;  ///< for the displacement without and with errors
-  mutable std::array<std::vector<double>, 2> displacements_;
+  mutable std::array<std::once_flag, 4> asked_;  ///< for the displacement without and with errors and weights
+  mutable std::array<std::vector<double>, 4> displacements_;
 };
 
 }  // namespace counterflex

@@ -1,5 +1,6 @@
 #pragma once
-/// The proof of stability of EQUATIONS.md, section 7, for the lanes that a kernel has just solved. It can only say yes.
+/// The proof of stability of EQUATIONS.md, section 7, for the lanes that a kernel has just solved. It can only say yes,
+/// and says nothing of machines with weights.
 #include "lane_kernel.hpp"
 
 namespace counterflex::lanes {
@@ -38,7 +39,7 @@ class LaneCertificate {
   M is_stable(const Batch& batch, int first) {
     ok_ = (V{} == V{});
     for (int s = 0; s < program_.series_count; ++s) {
-      if (program_.series[s].rows == 6) return ok_ & ~ok_;  // a rigid bar
+      if (program_.series[s].rows == 6 || program_.series[s].mass > 0) return ok_ & ~ok_;  // a rigid bar, weights
       take_least_energy(program_.series[s], least_ + 36L * s);
     }
     V K[36]{};
@@ -116,7 +117,7 @@ class LaneCertificate {
     const V none[3]{};
     for (int k = 0; k < series.part_count; ++k) {
       const Part& part = series.parts[k];
-      if (part.operation == Operation::fixed || part.row < 0) continue;
+      if (part.row < 0) continue;
       const auto& at = kernel_.frames_[k];
       const int c = part.row - 6;
       V r[3];
@@ -223,7 +224,7 @@ class LaneCertificate {
   void add_energy(const Series& series, int n) {
     for (int k = 0; k < series.part_count; ++k) {
       const Part& part = series.parts[k];
-      if (part.operation == Operation::fixed || part.row < 0) continue;
+      if (part.row < 0) continue;
       const int c = part.row - 6;
       if (part.operation == Operation::slide || part.operation == Operation::turn) A_[c * n + c] += part.k;
       if (part.operation != Operation::spring) continue;

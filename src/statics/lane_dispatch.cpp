@@ -30,9 +30,10 @@ Kernel best_kernel() {
 }
 
 long doubles_needed(const Program& program) {
-  constexpr int frame = 12;
+  constexpr int frame = 12, weights = 12;
   return static_cast<long>(width) *
-         (program.states + 2L * program.rows + 2L * program.actuators + frame * program.most_parts);
+         (program.states + 2L * program.rows + 2L * program.actuators + frame * program.most_parts +
+          weights * program.series_count);
 }
 
 long doubles_of_certificate(const Program& program) {

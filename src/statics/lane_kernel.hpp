@@ -14,6 +14,7 @@ class LaneKernel : LaneSeries<W> {
   using M = typename Base::M;
   using Frame = typename Base::Frame;
   using PartFrame = typename Base::PartFrame;
+  using SeriesWeights = typename Base::SeriesWeights;
   using Base::broadcast;
   using Base::select;
   using Base::larger;
@@ -28,6 +29,7 @@ class LaneKernel : LaneSeries<W> {
   using Base::root;
   using Base::place;
   using Base::evaluate;
+  using Base::turn_branches;
   using Base::difference;
   using Base::exponential;
   using Base::note_wrench;
@@ -39,6 +41,7 @@ class LaneKernel : LaneSeries<W> {
   using Base::state_;
   using Base::rhs_;
   using Base::frames_;
+  using Base::weights_;
   using Base::closure2_;
   using Base::force_;
   using Base::wrench2_;
@@ -67,6 +70,7 @@ class LaneKernel : LaneSeries<W> {
     rho_ = step_ + program.rows;
     drho_ = rho_ + program.actuators;
     frames_ = reinterpret_cast<PartFrame*>(drho_ + program.actuators);
+    weights_ = reinterpret_cast<SeriesWeights*>(frames_ + program.most_parts);
   }
 
   /// Eliminates the inside of every series, branches first: steps for a held end.
@@ -219,12 +223,11 @@ class LaneKernel : LaneSeries<W> {
       for (int i = 0; i < 6; ++i) state_[series.wrench + i] += kept(step[i]);
       for (int k = 0; k < series.part_count; ++k) {
         const Part& part = series.parts[k];
-        if (part.operation == Operation::fixed) continue;
+        if (part.row < 0) continue;
         if (part.operation == Operation::group) {
           move_pose(state_ + part.value, step + part.row);
           continue;
         }
-        if (part.row < 0) continue;
         const int count = part.operation == Operation::spring ? 6 : 1;
         for (int i = 0; i < count; ++i) state_[part.value + i] += kept(step[part.row + i]);
       }
@@ -361,7 +364,8 @@ class LaneKernel : LaneSeries<W> {
     take_first_step();
     for (int iteration = 0; iteration < (question_.kinematics ? 3 : 1) * most_iterations; ++iteration) {
       forget_residuals();
-      for (int s = 0; s < program_.series_count; ++s) evaluate(program_.series[s]);
+      turn_branches();
+      for (int s = 0; s < program_.series_count; ++s) evaluate(s);
       evaluate_platform();
       eliminate();
       solve_platform();

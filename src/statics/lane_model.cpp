@@ -111,7 +111,7 @@ bool LaneModel::can_do(const Mechanism& mechanism) {
   const auto controls = [&](Component c) {
     return std::count(mechanism.controlled.begin(), mechanism.controlled.end(), c) > 0;
   };
-  return !has_weight(mechanism) && controls(Component::x) && controls(Component::y) && controls(Component::z) &&
+  return controls(Component::x) && controls(Component::y) && controls(Component::z) &&
          mechanism.travel.size() <= lanes::most_actuators && series_count(mechanism.chains) <= lanes::most_series;
 }
 
@@ -165,6 +165,8 @@ void LaneModel::join_ends(const std::vector<SeriesView>& list) {
     if (list[i].is_chain) {
       series_[i].is_chain = true;
       series_[i].end = program_.platform;
+    } else if (series_[i].mass > 0) {
+      program_.branches_weigh = true;
     }
     for (lanes::Part& part : parts_[i]) {
       if (part.operation != lanes::Operation::group) continue;
@@ -186,6 +188,7 @@ void LaneModel::describe_machine() {
   program_.actuators = static_cast<int>(mechanism.travel.size());
   program_.length = mechanism.length;
   program_.floor_per_metre = 16 * std::numeric_limits<double>::epsilon() * mechanism.stiffest;
+  for (int i = 0; i < 3; ++i) program_.gravity[i] = mechanism.gravity[i];
   const Vector3 arm = at_platform_ ? mechanism.p_EP : mechanism.X_PT.p;
   for (int i = 0; i < 3; ++i) program_.arm[i] = arm[i];
   for (int i = 0; i < 3; ++i) program_.p_PT[i] = mechanism.X_PT.p[i];
@@ -202,7 +205,7 @@ void LaneModel::put_down(Standing& standing, std::vector<lanes::Part>& parts) {
   fixed_[0].push_back(flat_pose(standing.X[0]));
   fixed_[1].push_back(flat_pose(standing.X[1]));
   const int number = static_cast<int>(fixed_[0].size()) - 1;
-  parts.push_back({.operation = lanes::Operation::fixed, .fixed = number, .actuator = -1});
+  parts.push_back({.operation = lanes::Operation::fixed, .fixed = number, .row = -1, .actuator = -1});
   standing = {};
 }
 
@@ -214,6 +217,7 @@ void LaneModel::add_joint(const Part& part, int row, Standing& standing, std::ve
                     .actuator = part.actuator,
                     .k = part.k,
                     .rest = part.rest,
+                    .offset = part.offset,
                     .passive = part.kind == PartKind::passive};
   joint.axis = coordinate_axis(part.joint.axis, joint.sign);
   Matrix3 R_axis = Matrix3::Identity();
@@ -236,6 +240,13 @@ void LaneModel::add_spring(const Part& part, int row, std::vector<lanes::Part>& 
   program_.states += 6;
 }
 
+void LaneModel::add_mass(const Part& part, Standing& standing, std::vector<lanes::Part>& parts) {
+  put_down(standing, parts);
+  lanes::Part mass{.operation = lanes::Operation::mass, .row = -1, .actuator = -1, .mass = part.mass};
+  for (int i = 0; i < 3; ++i) mass.at[i] = part.X.p[i];
+  parts.push_back(mass);
+}
+
 // `fixed` says which group it is until `join_ends` knows its branches.
 void LaneModel::add_group(const Part& part, int row, std::vector<lanes::Part>& parts) {
   parts.push_back(
@@ -250,7 +261,7 @@ void LaneModel::flatten(const Series& series, lanes::Series& flat) {
     const int row = row_of(series, part);
     if (part.kind == PartKind::spring || part.kind == PartKind::group) put_down(standing, parts);
     switch (part.kind) {
-      case PartKind::mass: break;
+      case PartKind::mass: add_mass(part, standing, parts); break;
       case PartKind::fixed: standing.add(part.X); break;
       case PartKind::error: standing.X[1] = standing.X[1] * part.X; break;
       case PartKind::actuator:
@@ -265,6 +276,7 @@ void LaneModel::flatten(const Series& series, lanes::Series& flat) {
   flat.part_count = static_cast<int>(parts.size());
   program_.most_parts = std::max(program_.most_parts, flat.part_count);
   number_rows(series, flat);
+  flat.mass = series.mass;
 }
 
 void LaneModel::number_rows(const Series& series, lanes::Series& flat) {
@@ -288,7 +300,7 @@ void LaneModel::for_each_coordinate(const Series& series, const std::vector<lane
   auto flat = parts.begin();
   for (const Part& part : series.parts) {
     if (part.column < 0) continue;
-    while (flat->operation == lanes::Operation::fixed) ++flat;
+    while (flat->operation == lanes::Operation::fixed || flat->operation == lanes::Operation::mass) ++flat;
     visit(part, *flat++);
   }
 }
@@ -321,7 +333,7 @@ std::vector<double> LaneModel::step_between(const std::vector<double>& from, con
   for (std::size_t s = 0; s < series_.size(); ++s) {
     subtract(series_[s].step, series_[s].wrench, 6);
     for (const lanes::Part& part : parts_[s]) {
-      if (part.operation == lanes::Operation::fixed || part.row < 0) continue;
+      if (part.row < 0) continue;
       const int row = series_[s].step + part.row;
       if (part.operation == lanes::Operation::group)
         subtract_pose(row, part.value);

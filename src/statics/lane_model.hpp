@@ -28,7 +28,7 @@ class LaneModel {
   LaneModel(const Model& model, bool at_platform);
   LaneModel(const LaneModel&) = delete;
 
-  /// Whether the kernels can do with this machine: it controls x, y and z of the tip, has no weights, and no more actuators
+  /// Whether the kernels can do with this machine: it controls x, y and z of the tip, and has no more actuators
   /// and series than kernels have room for.
   static bool can_do(const Mechanism& mechanism);
 
@@ -53,6 +53,7 @@ class LaneModel {
   void number_rows(const Series& series, lanes::Series& flat);
   void add_joint(const Part& part, int row, Standing& standing, std::vector<lanes::Part>& parts);
   void add_spring(const Part& part, int row, std::vector<lanes::Part>& parts);
+  void add_mass(const Part& part, Standing& standing, std::vector<lanes::Part>& parts);
   void add_group(const Part& part, int row, std::vector<lanes::Part>& parts);
   void put_down(Standing& standing, std::vector<lanes::Part>& parts);
   void join_ends(const std::vector<SeriesView>& list);

@@ -9,7 +9,7 @@ inline constexpr int width = 8;  ///< waypoints that are solved at once
 inline constexpr int most_actuators = 9, most_series = 64;  ///< of a machine that kernels have room for
 inline constexpr int most_displacement_degree = 4, most_monomials = 35;
 
-enum class Operation { fixed, slide, turn, spring, group };
+enum class Operation { fixed, slide, turn, spring, group, mass };
 
 /// A fixed transform; R row-major.
 struct FixedPose {
@@ -24,12 +24,14 @@ struct Part {
   int axis;             ///< 0 x, 1 y, 2 z
   double sign;          ///< of the axis
   int value;            ///< index of its first coordinate in the state; of a group: of its pose (R row-major, p)
-  int row;              ///< of its first equation in the series; -1 for an actuator
+  int row;              ///< of its first equation in the series; -1 for one without
   int actuator;         ///< number; -1 for others
   double k, rest;       ///< joints: N/m or N m/rad, m or rad
+  double offset;        ///< actuators: added to the value while weights act (m or rad)
   bool passive;         ///< its spring is not felt by nominal kinematics
   const double* K;      ///< spring: 6x6 row-major, then theta_0 (6)
   int first_branch, branches;  ///< group: index into Program::series
+  double mass, at[3];   ///< mass: kg; where it is in the frame before it (m)
 };
 
 /// A series between two frames. Rows: six of the closure, then one by free coordinate.
@@ -44,6 +46,7 @@ struct Series {
   int first_actuator, actuators;  ///< into Program::actuator_numbers
   int inside, by_end, by_actuators;  ///< where its tangents begin among Region::tangents
   const bool* angular;  ///< by row, from the seventh on
+  double mass;          ///< kg that weigh, those of branches included
 };
 
 struct Program {
@@ -62,6 +65,8 @@ struct Program {
   int most_free;         ///< coordinates of a series
   double length;         ///< l
   double floor_per_metre;  ///< 16 eps k_max
+  double gravity[3];     ///< m/s2, axes of M
+  bool branches_weigh;   ///< whether a branch of a group has masses
   double p_PT[3], R_PT[9], arm[3];  ///< tip in P; where the load acts in P
   const int* controlled;  ///< components of the tip, as many as actuators
   double R_MT_home[9];    ///< orientation that nominal kinematics keeps where it is controlled
@@ -98,11 +103,17 @@ struct Batch {
   bool converged[width];
 };
 
+/// What acts on the machine beside the load.
+struct Acting {
+  bool errors, weights;
+};
+inline constexpr Acting everything{true, true};
+
 struct Question {
   bool target;   ///< else forward
   bool kinematics;  ///< actuators for the tip of the nominal machine: nothing yields to anything, forces are zero
-  bool errors;   ///< whether assembly errors act
-  bool go_on;    ///< lanes that the last call, with the same errors, has left at an equilibrium begin there, others at the
+  Acting acting;
+  bool go_on;    ///< lanes that the last call, with the same things acting, has left at an equilibrium begin there, others at the
                  ///< region's start
 };
 

@@ -16,12 +16,12 @@ struct Judge {
   const Model& model;
   const LaneModel& lane_model;
   const LaneZone& zone;
-  bool errors;
+  lanes::Acting acting;
   StaticsWork& work;
   LaneMemory memory{lane_model};
 
-  Stage stage() const { return {.errors = errors ? 1.0 : 0.0}; }
-  lanes::Question question() const { return {.target = false, .kinematics = false, .errors = errors, .go_on = false}; }
+  Stage stage() const { return {.errors = acting.errors ? 1.0 : 0.0, .gravity = acting.weights ? 1.0 : 0.0}; }
+  lanes::Question question() const { return {.target = false, .kinematics = false, .acting = acting, .go_on = false}; }
   Configuration found_in(int lane) const {
     return lane_model.configuration_of(memory.state(lane).data(), zone.reference());
   }
@@ -62,7 +62,7 @@ bool stands_elsewhere(const Judge& judge, const Configuration& unloaded, const C
 std::vector<Configuration> borne_at_centre(Judge& judge, const std::vector<Load>& loads) {
   const Vector3& centre = judge.zone.centre();
   std::vector<Configuration> list;
-  const std::optional<Configuration> unloaded = judge.errors ? judge.zone.reference() : followed(judge, centre, {});
+  const std::optional<Configuration> unloaded = judge.acting.errors && judge.acting.weights ? judge.zone.reference() : followed(judge, centre, {});
   if (!unloaded) return list;
   for (std::size_t first = 0; first < loads.size(); first += lanes::width) {
     const std::size_t count = std::min<std::size_t>(lanes::width, loads.size() - first);
@@ -136,8 +136,8 @@ std::vector<Load> corners_of_loads(double force, double moment, bool at_platform
 }
 
 bool bears_everywhere(const Model& model, const LaneModel& lane_model, const LaneZone& zone, const std::vector<Load>& loads,
-                      bool errors, StaticsWork& work) {
-  Judge judge{model, lane_model, zone, errors, work};
+                      lanes::Acting acting, StaticsWork& work) {
+  Judge judge{model, lane_model, zone, acting, work};
   const std::vector<Configuration> at_centre = borne_at_centre(judge, loads);
   if (at_centre.size() < loads.size()) return false;
   for (std::size_t i = 0; i < loads.size(); ++i)

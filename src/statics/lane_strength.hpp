@@ -14,6 +14,6 @@ std::vector<Load> corners_of_loads(double force, double moment, bool at_platform
 /// Whether the machine is stable under every one of `loads` at the zone's centre and the corners of its cube, and well
 /// conditioned at the centre and wherever a certificate does not prove it stable. Unloaded it is followed from the nominal configuration to the centre.
 bool bears_everywhere(const Model& model, const LaneModel& lane_model, const LaneZone& zone, const std::vector<Load>& loads,
-                      bool errors, StaticsWork& work);
+                      lanes::Acting acting, StaticsWork& work);
 
 }  // namespace counterflex

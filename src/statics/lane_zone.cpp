@@ -29,7 +29,7 @@ struct KinematicsOfZone {
       for (int lane = 0; lane < lanes::width; ++lane)
         put_in_lane(zone.place_of(points[static_cast<std::size_t>(std::min(first + lane, count - 1))]), Vector6::Zero(), lane,
                     memory.batch);
-      memory.solve(zone.flat(), {.target = false, .kinematics = true, .errors = false, .go_on = false});
+      memory.solve(zone.flat(), {.target = false, .kinematics = true, .acting = {false, false}, .go_on = false});
       for (int lane = 0; lane < lanes::width && first + lane < count; ++lane)
         if (!take(lane, values.row(first + lane))) return false;
     }
@@ -141,15 +141,15 @@ Matrix3 LaneZone::R_MT(const Vector3& p) const {
   return turns_ ? Matrix3(exp_so3(Vector3((powers_at(p) * orientation_).transpose())) * R_centre_) : R_centre_;
 }
 
-bool LaneZone::bears_octahedron(double force, double turning, bool errors, StaticsWork& work) const {
-  const std::array<double, 3> key{force, turning, errors ? 1.0 : 0.0};
+bool LaneZone::bears_octahedron(double force, double turning, lanes::Acting acting, StaticsWork& work) const {
+  const std::array<double, 4> key{force, turning, acting.errors ? 1.0 : 0.0, acting.weights ? 1.0 : 0.0};
   if (const auto found = borne_.find(key); found != borne_.end()) return found->second;
   const auto loads = corners_of_loads(force, turning * model_.mechanism.length, lane_model_.at_platform());
-  return borne_[key] = bears_everywhere(model_, lane_model_, *this, loads, errors, work);
+  return borne_[key] = bears_everywhere(model_, lane_model_, *this, loads, acting, work);
 }
 
 // Most loads are borne four times over: they are all one then.
-bool LaneZone::bears(double force, double moment, bool errors, StaticsWork& work) const {
+bool LaneZone::bears(double force, double moment, lanes::Acting acting, StaticsWork& work) const {
   const double turning = moment / model_.mechanism.length;
   if (!(force <= largest_load && turning <= largest_load)) return false;
   const std::lock_guard lock(mutex_);
@@ -157,7 +157,7 @@ bool LaneZone::bears(double force, double moment, bool errors, StaticsWork& work
     const auto rounded_up = [sizes](double size) {
       return std::exp2(std::ceil(sizes * std::log2(std::max(size, 1.0))) / sizes);
     };
-    if (bears_octahedron(rounded_up(force), moment > 0 ? rounded_up(turning) : 0, errors, work)) return true;
+    if (bears_octahedron(rounded_up(force), moment > 0 ? rounded_up(turning) : 0, acting, work)) return true;
   }
   return false;
 }

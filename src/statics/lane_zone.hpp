@@ -45,7 +45,7 @@ class LaneZone {
   /// Whether the machine is stable, and as far as that is judged well conditioned, under every force up to `force` (N) with every moment up to `moment`
   /// (N m; 0: none). To first order the loads that it bears in a place are a convex set, so the corners of an octahedron that
   /// holds them with a margin speak for all, at the centre and the corners of the cube. `lane_strength.hpp`.
-  bool bears(double force, double moment, bool errors, StaticsWork& work) const;
+  bool bears(double force, double moment, lanes::Acting acting, StaticsWork& work) const;
 
  private:
   LaneZone(const Model& model, const LaneModel& lane_model) : model_(model), lane_model_(lane_model) {}
@@ -54,7 +54,7 @@ class LaneZone {
   void take_polynomials(const Eigen::MatrixXd& coefficients, int degree);
   Eigen::RowVectorXd powers_at(const Vector3& p) const;
   Eigen::Map<const Eigen::MatrixXd> coefficients() const;  ///< actuators x powers
-  bool bears_octahedron(double force, double turning, bool errors, StaticsWork& work) const;
+  bool bears_octahedron(double force, double turning, lanes::Acting acting, StaticsWork& work) const;
 
   const Model& model_;
   const LaneModel& lane_model_;
@@ -68,7 +68,7 @@ class LaneZone {
   std::vector<double> polynomials_;
   Eigen::Matrix<double, Eigen::Dynamic, 3> orientation_;  ///< polynomials of its rotation vector against the centre's
   mutable std::mutex mutex_;
-  mutable std::map<std::array<double, 3>, bool> borne_;  ///< by force, moment / l and errors
+  mutable std::map<std::array<double, 4>, bool> borne_;  ///< by force, moment / l, errors and weights
 };
 
 }  // namespace counterflex

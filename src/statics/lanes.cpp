@@ -115,7 +115,7 @@ struct LaneMachine::Impl {
   const std::optional<Model> sprung;  // what is solved for a rigid machine
   const Model& model;
   LaneModel lane_model;
-  const bool able;
+  const bool able, weighs;
   const Grid grid;
   const double edge, reach;  // of a cell; largest correction
   Cache<LaneZone> zones{most_zones};
@@ -126,6 +126,7 @@ struct LaneMachine::Impl {
         model(sprung ? *sprung : m),
         lane_model(model, at_platform),
         able(LaneModel::can_do(model.mechanism)),
+        weighs(has_weight(model.mechanism)),
         grid(only_slides(m.mechanism) ? straight_grid : bent_grid),
         edge(grid.cell_share * m.mechanism.length),
         reach(largest_correction) {}
@@ -187,6 +188,15 @@ struct LaneSolver::Impl {
 
   explicit Impl(LaneMachine::Impl& m) : machine(m), work(m.model.mechanism), memory(m.lane_model) {}
 
+  /// What a stage lets act; none where a part of something acts.
+  std::optional<lanes::Acting> acting(const Stage& stage) const {
+    const auto is_whole = [](double part) { return part == 0 || part == 1; };
+    if (!is_whole(stage.errors) || stage.preload != 1) return std::nullopt;
+    if (!machine.weighs) return lanes::Acting{stage.errors == 1, true};
+    if (!is_whole(stage.gravity)) return std::nullopt;
+    return lanes::Acting{stage.errors == 1, stage.gravity == 1};
+  }
+
   /// To the cell that holds `p`; false where lanes cannot do with it.
   bool go_to(const Vector3& p) {
     const std::optional<Index> at = machine.index_of(p);
@@ -236,26 +246,26 @@ struct LaneSolver::Impl {
     return result;
   }
 
-  bool bears(std::span<const LaneRequest> requests, bool errors) {
+  bool bears(std::span<const LaneRequest> requests, lanes::Acting acting) {
     if (machine.sprung) return true;  // loads do not move it
     double force = 0, moment = 0;
     for (const LaneRequest& request : requests) {
       force = std::max(force, request.F.head<3>().norm());
       moment = std::max(moment, request.F.tail<3>().norm());
     }
-    return cell->zone().bears(force, moment, errors, work);
+    return cell->zone().bears(force, moment, acting, work);
   }
 
   // The largest loads of a batch may not be borne together; each with its own then.
-  bool bears_any(std::span<const LaneRequest> requests, bool errors) {
+  bool bears_any(std::span<const LaneRequest> requests, lanes::Acting acting) {
     for (std::size_t i = 0; i < requests.size(); ++i)
-      if (bears(requests.subspan(i, 1), errors)) return true;
+      if (bears(requests.subspan(i, 1), acting)) return true;
     return false;
   }
 
   template <class Take>  // void(std::size_t request, const LaneAnswer&)
   void solve_batch(const lanes::Question& question, std::size_t count, const Take& take) {
-    memory.solve(cell->region(question.errors), question);
+    memory.solve(cell->region(question.acting), question);
     for (std::size_t i = 0; i < count; ++i) take(i, answer(static_cast<int>(i)));
   }
 
@@ -264,32 +274,32 @@ struct LaneSolver::Impl {
     const std::size_t count = requests.size();
     load_wrenches(requests);
     load_positions(count, [&](std::size_t i) { return originals[i]; });
-    solve_batch({.target = false, .kinematics = false, .errors = true, .go_on = false}, count,
+    solve_batch({.target = false, .kinematics = false, .acting = lanes::everything, .go_on = false}, count,
                 [&](std::size_t i, const LaneAnswer& a) { answers[i].before = a; });
     load_positions(count, [&](std::size_t i) { return requests[i].p; });
-    solve_batch({.target = true, .kinematics = false, .errors = true, .go_on = true}, count,
+    solve_batch({.target = true, .kinematics = false, .acting = lanes::everything, .go_on = true}, count,
                 [&](std::size_t i, const LaneAnswer& a) { answers[i].target = a; });
     std::array<Vector3, lanes::width> commands;
     for (std::size_t i = 0; i < count; ++i)
       commands[i] = answers[i].target.solved ? written(i, answers[i].target.command) : no_position();
     load_positions(count, [&](std::size_t i) { return commands[i]; });
-    solve_batch({.target = false, .kinematics = false, .errors = true, .go_on = true}, count,
+    solve_batch({.target = false, .kinematics = false, .acting = lanes::everything, .go_on = true}, count,
                 [&](std::size_t i, const LaneAnswer& a) { answers[i].after = a; });
   }
 
   // Solves in batches of neighbours, those whose loads are borne. A waypoint whose load is not borne is withdrawn again.
   template <class Solve, class Withdraw>  // void(std::size_t first, std::size_t count), void(std::size_t request)
-  void in_batches(bool errors, std::span<const LaneRequest> requests, const Solve& solve, const Withdraw& withdraw) {
+  void in_batches(lanes::Acting acting, std::span<const LaneRequest> requests, const Solve& solve, const Withdraw& withdraw) {
     if (!machine.able) return;
     for (std::size_t first = 0, count = 1; first < requests.size(); first += count, count = 1) {
       if (!go_to(requests[first].p)) continue;
       while (count < lanes::width && first + count < requests.size() && cell->holds(requests[first + count].p)) ++count;
       const auto batch = requests.subspan(first, count);
-      const bool all_borne = bears(batch, errors);
-      if (!all_borne && !bears_any(batch, errors)) continue;
+      const bool all_borne = bears(batch, acting);
+      if (!all_borne && !bears_any(batch, acting)) continue;
       solve(first, count);
       for (std::size_t i = 0; !all_borne && i < count; ++i)
-        if (!bears(batch.subspan(i, 1), errors)) withdraw(first + i);
+        if (!bears(batch.subspan(i, 1), acting)) withdraw(first + i);
     }
   }
 };
@@ -298,15 +308,18 @@ LaneSolver::LaneSolver(const LaneMachine& machine) : impl_(std::make_unique<Impl
 LaneSolver::~LaneSolver() = default;
 LaneSolver::LaneSolver(LaneSolver&&) noexcept = default;
 
-void LaneSolver::solve(LaneQuestion question, bool errors, std::span<const LaneRequest> requests, std::span<LaneAnswer> answers) {
+void LaneSolver::solve(LaneQuestion question, const Stage& stage, std::span<const LaneRequest> requests,
+                       std::span<LaneAnswer> answers) {
   std::fill(answers.begin(), answers.end(), LaneAnswer{});
+  const std::optional<lanes::Acting> acting = impl_->acting(stage);
+  if (!acting) return;
   const auto solve_some = [&](std::size_t first, std::size_t count) {
     impl_->load_wrenches(requests.subspan(first, count));
     impl_->load_positions(count, [&](std::size_t i) { return requests[first + i].p; });
-    impl_->solve_batch({.target = question == LaneQuestion::target, .kinematics = false, .errors = errors, .go_on = false}, count,
+    impl_->solve_batch({.target = question == LaneQuestion::target, .kinematics = false, .acting = *acting, .go_on = false}, count,
                        [&](std::size_t i, const LaneAnswer& a) { answers[first + i] = a; });
   };
-  impl_->in_batches(errors, requests, solve_some, [&](std::size_t i) { answers[i].solved = false; });
+  impl_->in_batches(*acting, requests, solve_some, [&](std::size_t i) { answers[i].solved = false; });
 }
 
 void LaneSolver::solve_through(std::span<const LaneRequest> requests, std::span<const Vector3> originals,
@@ -317,12 +330,18 @@ void LaneSolver::solve_through(std::span<const LaneRequest> requests, std::span<
     impl_->solve_through(requests.subspan(first, count), originals.subspan(first, count), written_of,
                          answers.subspan(first, count));
   };
-  impl_->in_batches(true, requests, solve_some, [&](std::size_t i) { answers[i] = {}; });
+  impl_->in_batches(lanes::everything, requests, solve_some, [&](std::size_t i) { answers[i] = {}; });
 }
 
 bool LaneSolver::nominal_tip(const Vector3& p, Pose& X_MT) {
   if (!impl_->machine.able || !impl_->go_to(p)) return false;
   X_MT = {impl_->cell->zone().R_MT(p), p};
+  return true;
+}
+
+bool LaneSolver::nominal_actuators(const Vector3& p, Eigen::VectorXd& rho) {
+  if (!impl_->machine.able || !impl_->go_to(p)) return false;
+  rho = impl_->cell->zone().rho_at(p);
   return true;
 }
 

@@ -26,7 +26,7 @@ struct Certified {
     for (int lane = 0; lane < lanes::width; ++lane)
       put_in_lane(requests[static_cast<std::size_t>(lane)].p, requests[static_cast<std::size_t>(lane)].F,
                   lane, memory.batch);
-    const lanes::Question question{.target = false, .kinematics = false, .errors = errors, .go_on = false};
+    const lanes::Question question{.target = false, .kinematics = false, .acting = {errors, true}, .go_on = false};
     memory.solve(zone->flat(), question);
     return memory.stable(zone->flat(), question);
   }

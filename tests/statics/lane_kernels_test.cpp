@@ -39,7 +39,7 @@ struct KernelBench {
         for (int i = 0; i < 3; ++i) memory.batch.p[i][lane] = batch[lane].p[i];
         for (int i = 0; i < 6; ++i) memory.batch.F[i][lane] = batch[lane].F[i];
       }
-      memory.solve(zone->flat(), {.target = target, .kinematics = false, .errors = true, .go_on = go_on});
+      memory.solve(zone->flat(), {.target = target, .kinematics = false, .acting = lanes::everything, .go_on = go_on});
       go_on = true;
     }
     return memory;

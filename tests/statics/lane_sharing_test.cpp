@@ -42,19 +42,19 @@ TEST_CASE("answers do not depend on what was asked before") {
   const Machine machine = machine_of("orthoglide_case_b");
   LaneBench fresh(machine), used(machine);
   const auto path = some_path(fresh, 43);
-  const auto expected = fresh.solve(LaneQuestion::target, true, path);
+  const auto expected = fresh.solve(LaneQuestion::target, whole, path);
   CHECK(all_solved(expected));
-  used.solve(LaneQuestion::forward, false, some_path(used, 44));
-  used.solve(LaneQuestion::target, true, {path.rbegin(), path.rend()});
-  CHECK(same_answers(used.solve(LaneQuestion::target, true, path), expected));
-  CHECK(same_answers(used.solve(LaneQuestion::target, true, path), expected));
-  CHECK(same_answers(fresh.solve(LaneQuestion::target, true, path), expected));
+  used.solve(LaneQuestion::forward, without_errors, some_path(used, 44));
+  used.solve(LaneQuestion::target, whole, {path.rbegin(), path.rend()});
+  CHECK(same_answers(used.solve(LaneQuestion::target, whole, path), expected));
+  CHECK(same_answers(used.solve(LaneQuestion::target, whole, path), expected));
+  CHECK(same_answers(fresh.solve(LaneQuestion::target, whole, path), expected));
 }
 
 TEST_CASE("what was forgotten is found again the same") {
   LaneBench bench(machine_of("orthoglide_case_b"));
   const auto path = some_path(bench, 53);
-  const auto expected = bench.solve(LaneQuestion::target, true, path);
+  const auto expected = bench.solve(LaneQuestion::target, whole, path);
   CHECK(all_solved(expected));
   const double cell = bench.model.mechanism.length / 32;
   int known = 0;
@@ -62,20 +62,20 @@ TEST_CASE("what was forgotten is found again the same") {
     known += bench.lanes.nominal_near(bench.home().p +
                                       cell * Vector3(i % 12 - 4, i / 12 % 12 - 4, i / 144 - 4)) != nullptr;
   CHECK(known > 1500);
-  CHECK(same_answers(bench.solve(LaneQuestion::target, true, path), expected));
+  CHECK(same_answers(bench.solve(LaneQuestion::target, whole, path), expected));
 }
 
 TEST_CASE("threads that ask one machine at once get the answers of one thread") {
   const Machine machine = machine_of("orthoglide_case_b");
   LaneBench alone(machine), shared(machine);
   const auto path = some_path(alone, 47);
-  const auto expected = alone.solve(LaneQuestion::forward, true, path);
+  const auto expected = alone.solve(LaneQuestion::forward, whole, path);
   std::vector<std::vector<LaneAnswer>> got(2, std::vector<LaneAnswer>(path.size()));
   std::vector<std::thread> threads;
   for (auto& answers : got)
     threads.emplace_back([&] {
       LaneSolver lanes(shared.machine);
-      lanes.solve(LaneQuestion::forward, true, path, answers);
+      lanes.solve(LaneQuestion::forward, whole, path, answers);
     });
   for (std::thread& thread : threads) thread.join();
   for (const auto& answers : got) CHECK(same_answers(answers, expected));
@@ -105,7 +105,7 @@ TEST_CASE(
     for (const LaneRequest& request : bad) {
       CAPTURE(request.p);
       CAPTURE(request.F);
-      const auto answers = bench.solve(question, true, {{p, none}, request, {p, 10 * unit(1)}});
+      const auto answers = bench.solve(question, whole, {{p, none}, request, {p, 10 * unit(1)}});
       CHECK(answers[0].solved);
       CHECK(!answers[1].solved);
       CHECK(answers[2].solved);

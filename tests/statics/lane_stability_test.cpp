@@ -65,12 +65,12 @@ struct Tally {
 
 void try_cluster(LaneBench& bench, const std::vector<LaneRequest>& requests, Tally& tally) {
   for (const LaneQuestion question : {LaneQuestion::forward, LaneQuestion::target}) {
-    const auto answers = bench.solve(question, true, requests);
+    const auto answers = bench.solve(question, whole, requests);
     for (std::size_t k = 0; k < requests.size(); ++k) {
       if (answers[k].solved)
-        check_lane(bench, question, true, requests[k], answers[k], 1e-9);
+        check_lane(bench, question, whole, requests[k], answers[k], 1e-9);
       else if (question == LaneQuestion::forward)
-        tally.refused += bench.alone(requests[k].p, requests[k].F, true).status != Status::converged;
+        tally.refused += bench.alone(requests[k].p, requests[k].F, whole).status != Status::converged;
       tally.solved += answers[k].solved;
     }
   }
@@ -134,7 +134,7 @@ TEST_CASE(
 TEST_CASE("a telescope under loads from all sides is solved only where it is stable") {
   Random random(41);
   Tally tally;
-  LaneBench bench(telescope(0.1)), at_platform(with_tool(telescope(0.1), {0.3, 0.1, 0}), true);
+  LaneBench bench(telescope(0.1)), at_platform(with_tip_at(telescope(0.1), {0.3, 0.1, 0}), true);
   for (LaneBench* one : {&bench, &at_platform})
     for (const double strength : {0.1, 0.3, 1.0, 3.0, 9.0})
       try_cluster(*one, cluster(*one, {"telescope", 0.05, 0, 1500, 75}, random, 8, 0.02, strength), tally);

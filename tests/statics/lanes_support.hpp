@@ -5,6 +5,8 @@
 
 namespace counterflex::laws {
 
+inline constexpr Stage whole, without_errors{.errors = 0}, without_weights{.gravity = 0};
+
 /// A machine with its lanes. It stays where it is: lanes refer to the model.
 struct LaneBench {
   Model model;
@@ -19,23 +21,22 @@ struct LaneBench {
 
   Pose home() const { return tip(model.mechanism, model.home); }
 
-  std::vector<LaneAnswer> solve(LaneQuestion question, bool errors,
+  std::vector<LaneAnswer> solve(LaneQuestion question, const Stage& stage,
                                 const std::vector<LaneRequest>& requests) {
     std::vector<LaneAnswer> answers(requests.size());
-    lanes.solve(question, errors, requests, answers);
+    lanes.solve(question, stage, requests, answers);
     return answers;
   }
 
   /// The equilibrium at a commanded position, from home and from nothing.
-  Equilibrium alone(const Vector3& command, const Vector6& F, bool errors) {
+  Equilibrium alone(const Vector3& command, const Vector6& F, const Stage& stage) {
     const NominalResult nominal = follow(model, model.home, {home().R, command});
     Equilibrium none;
     none.status = nominal.status;
     if (nominal.status != Status::converged) return none;
     none.status = Status::outside_travel;
     if (!within_travel(model.mechanism, actuator_values(model.mechanism, nominal.configuration))) return none;
-    return solve_forward(model, nominal.configuration, {F, at_platform}, {.errors = errors ? 1.0 : 0.0},
-                         work);
+    return solve_forward(model, nominal.configuration, {F, at_platform}, stage, work);
   }
 };
 
@@ -46,7 +47,7 @@ struct LaneTrial {
   bool at_platform = false;
 };
 
-inline Machine with_tool(Machine machine, const Vector3& p_PT) {
+inline Machine with_tip_at(Machine machine, const Vector3& p_PT) {
   machine.X_PT.p += p_PT;
   return machine;
 }
@@ -66,9 +67,9 @@ inline std::vector<LaneTrial> lane_trials() {
   };
   const Trial orthoglide = list[1].trial, hexapod = list[2].trial;
   add(orthoglide, machine_of("orthoglide_perfect"));
-  add(orthoglide, with_tool(machine_of("orthoglide_case_b"), {0.01, -0.02, -0.1}));
-  add(orthoglide, with_tool(machine_of("orthoglide_case_b"), {0.01, -0.02, -0.1}), true);
-  add(hexapod, with_tool(machine_of("hexapod_free_joints"), {0.02, -0.03, 0.08}), true);
+  add(orthoglide, with_tip_at(machine_of("orthoglide_case_b"), {0.01, -0.02, -0.1}));
+  add(orthoglide, with_tip_at(machine_of("orthoglide_case_b"), {0.01, -0.02, -0.1}), true);
+  add(hexapod, with_tip_at(machine_of("hexapod_free_joints"), {0.02, -0.03, 0.08}), true);
   add({"cantilever", 0.05, 0, 20, 2}, machine_of("cantilever"));
   add({"parallel_bars_group", 0.05, 0, 200, 10}, machine_of("parallel_bars_group"));
   add({"mill3", 0.05, 0, 500, 30, {0.2, 0.12, -0.1}}, sample_machine("mill3/machine"));
@@ -89,14 +90,15 @@ inline std::vector<LaneRequest> cluster(const LaneBench& bench, const Trial& tri
 }
 
 /// What lanes say is solved is what the machine does, to `tolerance` (m, rad).
-inline void check_lane(LaneBench& bench, LaneQuestion question, bool errors, const LaneRequest& request,
+inline void check_lane(LaneBench& bench, LaneQuestion question, const Stage& stage, const LaneRequest& request,
                        const LaneAnswer& answer, double tolerance) {
   const bool target = question == LaneQuestion::target;
   CAPTURE(target);
-  CAPTURE(errors);
+  CAPTURE(stage.errors);
+  CAPTURE(stage.gravity);
   CAPTURE(request.p);
   CAPTURE(request.F);
-  const Equilibrium alone = bench.alone(answer.command, request.F, errors);
+  const Equilibrium alone = bench.alone(answer.command, request.F, stage);
   CAPTURE(to_string(alone.status));
   CHECK(alone.status == Status::converged);
   if (alone.status != Status::converged) return;

@@ -57,11 +57,11 @@ void check_same(const LaneAnswer& through, const LaneAnswer& single) {
 
 // The same three questions, each from the beginning; the last about what was written in one go.
 std::vector<LaneThrough> solve_apart(ThroughBench& bench, const std::vector<LaneThrough>& through) {
-  const auto before = bench.solve(LaneQuestion::forward, true, bench.at(bench.originals));
-  const auto targets = bench.solve(LaneQuestion::target, true, bench.requests);
+  const auto before = bench.solve(LaneQuestion::forward, whole, bench.at(bench.originals));
+  const auto targets = bench.solve(LaneQuestion::target, whole, bench.requests);
   std::vector<Vector3> commands;
   for (const LaneThrough& answer : through) commands.push_back(in_words(answer.target.command));
-  const auto after = bench.solve(LaneQuestion::forward, true, bench.at(commands));
+  const auto after = bench.solve(LaneQuestion::forward, whole, bench.at(commands));
   std::vector<LaneThrough> apart;
   for (std::size_t i = 0; i < through.size(); ++i) apart.push_back({before[i], targets[i], after[i]});
   return apart;
@@ -106,9 +106,9 @@ TEST_CASE("what is answered in one go is where the machine stands when it is sol
   for (std::size_t i = 0; i < through.size(); ++i) {
     const Vector6& F = bench.requests[i].F;
     REQUIRE(through[i].after.solved);
-    check_lane(bench, LaneQuestion::forward, true, {bench.originals[i], F}, through[i].before, 1e-10);
-    check_lane(bench, LaneQuestion::target, true, bench.requests[i], through[i].target, 1e-10);
-    check_lane(bench, LaneQuestion::forward, true, {in_words(through[i].target.command), F}, through[i].after,
+    check_lane(bench, LaneQuestion::forward, whole, {bench.originals[i], F}, through[i].before, 1e-10);
+    check_lane(bench, LaneQuestion::target, whole, bench.requests[i], through[i].target, 1e-10);
+    check_lane(bench, LaneQuestion::forward, whole, {in_words(through[i].target.command), F}, through[i].after,
                1e-10);
   }
 }
@@ -158,7 +158,7 @@ TEST_CASE("a question that has no answer keeps no other waypoint from its own") 
 }
 
 TEST_CASE("a machine that lanes cannot do is asked nothing in one go either") {
-  LaneBench bench(sample_machine("robot-spindle/machine"));
+  LaneBench bench(machine_of("two_chains_coupled"));
   const std::vector<LaneRequest> requests{{bench.home().p, Vector6::Zero()}};
   const std::vector<Vector3> originals{bench.home().p};
   std::vector<LaneThrough> answers(1);

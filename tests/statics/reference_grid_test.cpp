@@ -65,7 +65,7 @@ void check_grid(const Machine& machine, const Grid& grid, const Vector6& wrench)
   CHECK(solved >= fewest_poses);
 }
 
-Machine sample_machine(const std::string& name) {
+Machine sample_file(const std::string& name) {
   return load_machine(COUNTERFLEX_SOURCE_DIR "/samples/" + name);
 }
 
@@ -92,7 +92,7 @@ TEST_CASE("the Orthoglides of the samples converge from a cold start in all of t
           doctest::test_suite("long")) {
   for (const char* name : {"orthoglide-assembly/case_a.toml", "orthoglide-assembly/case_b.toml",
                            "orthoglide-groove/machine.toml"})
-    check_grid(sample_machine(name), orthoglide_block, milling_wrench);
+    check_grid(sample_file(name), orthoglide_block, milling_wrench);
 }
 
 TEST_CASE(
@@ -107,7 +107,7 @@ TEST_CASE(
 TEST_CASE("the robot with a spindle converges from a cold start under its weight, leaning too" *
           doctest::test_suite("long")) {
   const Grid block{{1300, -600, 300}, {1900, 600, 900}, {8, 9, 8}, {0, 0, 0}, {10, 20, 30}};
-  check_grid(sample_machine("robot-spindle/machine.toml"), block, hard_cut);
+  check_grid(sample_file("robot-spindle/machine.toml"), block, hard_cut);
 }
 
 TEST_CASE("the hexapod converges from a cold start in its workspace, leaning by up to 15 degrees" *
@@ -119,7 +119,7 @@ TEST_CASE("the hexapod converges from a cold start in its workspace, leaning by 
 
 TEST_CASE("the mill converges from a cold start in all of its travel, with a slender tool too" *
           doctest::test_suite("long")) {
-  const Machine with_slender_tool = sample_machine("mill3-slot/machine.toml");
-  check_grid(sample_machine("mill3/machine.toml"), mill_block, hard_cut);
+  const Machine with_slender_tool = sample_file("mill3-slot/machine.toml");
+  check_grid(sample_file("mill3/machine.toml"), mill_block, hard_cut);
   check_grid(with_tool(with_slender_tool, with_slender_tool.tools.at(3)), mill_block, hard_cut);
 }

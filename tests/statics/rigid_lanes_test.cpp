@@ -56,11 +56,11 @@ TEST_CASE(
     for (int i = 0; i < 5; ++i)
       requests.push_back({bench.home().p + trial.centre + random.vector(0.004), random.six(500, 30)});
     for (const LaneQuestion question : {LaneQuestion::forward, LaneQuestion::target})
-      for (const bool errors : {true, false}) {
-        const auto answers = bench.solve(question, errors, requests);
+      for (const Stage& stage : {whole, without_errors}) {
+        const auto answers = bench.solve(question, stage, requests);
         for (std::size_t k = 0; k < answers.size(); ++k) {
           REQUIRE(answers[k].solved);
-          check_lane(bench, question, errors, requests[k], answers[k], 1e-10);
+          check_lane(bench, question, stage, requests[k], answers[k], 1e-10);
         }
       }
   }
@@ -81,7 +81,7 @@ TEST_CASE("lanes do not solve a rigid machine whose errors no pose can meet") {
     LaneBench bench(mill_beside_slides(skew));
     REQUIRE(bench.model.home_status == Status::converged);
     const LaneRequest request{bench.home().p + Vector3(0.2, 0.12, -0.1), Vector6::Zero()};
-    return bench.solve(LaneQuestion::forward, true, {request})[0].solved;
+    return bench.solve(LaneQuestion::forward, whole, {request})[0].solved;
   };
   CHECK(is_solved({}));
   CHECK(!is_solved(rotation(exp_so3(Vector3(1e-6, 0, 0)))));

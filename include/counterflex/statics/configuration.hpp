@@ -40,11 +40,13 @@ struct Stage {
   double load = 1;     ///< the applied wrench
   double preload = 1;  ///< passive springs as k (q - q_nom) + s k (q_nom - q_rest), springs as K (theta - s theta_0)
   double gravity = 1;  ///< the weights of all masses, and what the controller's zero holds against them
+
+  bool operator==(const Stage&) const = default;
 };
 inline constexpr Stage nominal_stage{0, 0, 0, 0};
 
 inline bool everything_acts(const Stage& stage) {
-  return stage.errors == 1 && stage.load == 1 && stage.preload == 1 && stage.gravity == 1;
+  return stage == Stage{};
 }
 
 }  // namespace counterflex

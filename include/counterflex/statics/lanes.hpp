@@ -2,7 +2,7 @@
 /// Waypoints solved several at once, one a lane of a vector register: the same equilibria as those of `solve_forward` and
 /// `solve_target`, to the same residuals, where the machine is known to be stable and well conditioned. A yes is the
 /// promise that these would say `converged`; a no says nothing, they decide. For machines whose tip is controlled in x, y and
-/// z, without weights unless they are rigid; others get a no for everything. EQUATIONS.md, section 11, tells what is proven and what is sampled.
+/// z; others get a no for everything. EQUATIONS.md, section 11, tells what is proven and what is sampled.
 #include <functional>
 #include <memory>
 #include <span>
@@ -81,18 +81,22 @@ class LaneSolver {
   ~LaneSolver();
   LaneSolver(LaneSolver&&) noexcept;
 
-  /// `errors`: whether assembly errors act. `answers` is as long as `requests`; neighbours should stand beside each other,
-  /// they are solved together. A request that is no number is not solved.
-  void solve(LaneQuestion question, bool errors, std::span<const LaneRequest> requests, std::span<LaneAnswer> answers);
+  /// `stage`: nothing is solved where a part of errors or gravity acts, or not all of the preloads. Its load is not looked at:
+  /// F acts. `answers` is as long as `requests`; neighbours should stand beside each other, they are solved together. A
+  /// request that is no number is not solved.
+  void solve(LaneQuestion question, const Stage& stage, std::span<const LaneRequest> requests, std::span<LaneAnswer> answers);
 
   /// The tip is wanted at the positions of `requests`; `originals` are what the original program commands there (M, m), as
-  /// many. Errors act. Each answer is one to a question of its own, with the promises of `solve`; that one begins where the
+  /// many. Everything acts. Each answer is one to a question of its own, with the promises of `solve`; that one begins where the
   /// one before it has ended is what it saves. Without a target `after` is not solved.
   void solve_through(std::span<const LaneRequest> requests, std::span<const Vector3> originals, const LaneWritten& written,
                      std::span<LaneThrough> answers);
 
   /// Pose of the nominal tip at a position, on the branch of home; false where it is not known.
   bool nominal_tip(const Vector3& p, Pose& X_MT);
+
+  /// The actuator values of that (m, rad); false where they are not known.
+  bool nominal_actuators(const Vector3& p, Eigen::VectorXd& rho);
 
   /// A nominal configuration on the branch of home, not far from `p` (that of its zone's centre); null where none is known.
   /// It stands until the next call.
