@@ -185,7 +185,7 @@ std::optional<Failure> first_unreached(const Model& base, const ToolModels& tool
       for (std::size_t i = 1; i < points.size(); ++i) {
         const CommandedPlace at{model, frames[segment.frame], tool, points[i]};
         if (const auto failure = go_to(nominal, base, at, reader.window(), segment.line)) return failure;
-        travel.add(model, points[i], segment.line);
+        travel.add(model.mechanism, actuator_values(model.mechanism, nominal.configuration()), segment.line);
       }
     }
   return std::nullopt;

@@ -60,8 +60,17 @@ void RunTally::add_waypoints(const std::vector<Waypoint>& waypoints, const Job& 
     const double miss = position_miss(window, w);
     feed_.add(w, miss, window);
     add(w, operation, facts, miss <= window.options.tolerance);
-    if (segment != no_segment) travel_.add(model_of(window, window.path.segments[segment]), w);
+    if (segment != no_segment && w.status == Status::converged) add_to_travel(w, window);
   }
+}
+
+void RunTally::add_to_travel(const Waypoint& w, const Job& window) {
+  const Model& model = model_of(window, window.path.segments[w.segment]);
+  if (model.mechanism.controlled.empty()) return;
+  const LaneMachine* lanes =
+      window.lanes != nullptr ? &window.lanes->of(model, window.forces.at_platform()) : nullptr;
+  const auto rho = actuators_.at(model, lanes, w.p_MT + w.correction.head<3>());
+  if (rho) travel_.add(model.mechanism, *rho, w.line);
 }
 
 void RunTally::add_window(const Job& window) {

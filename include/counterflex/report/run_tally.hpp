@@ -9,6 +9,7 @@
 #include "counterflex/report/path_tally.hpp"
 #include "counterflex/report/report.hpp"
 #include "counterflex/sanity/path_checks.hpp"
+#include "counterflex/statics/nominal_actuators.hpp"
 
 namespace counterflex {
 
@@ -83,12 +84,14 @@ class RunTally {
 
  private:
   void add(const Waypoint& w, std::int32_t operation, const MoveFacts& facts, bool is_within);
+  void add_to_travel(const Waypoint& w, const Job& window);
   MoveFacts facts_of(const Job& window, const Segment& segment) const;
 
   double min_block_ms_;
   std::vector<ToolSize> tools_;
   PathTally path_;
   FeedTally feed_;
+  NominalActuators actuators_;
   TravelTally travel_;
   FeedForceTally feed_force_;
   std::optional<PathCurves> curves_;

@@ -1,12 +1,11 @@
 #pragma once
 /// Checks of a run along its path, gathered waypoint by waypoint in memory that does not grow with it. They
 /// depend on the order of the waypoints, not on where the path is cut into windows.
-#include <memory>
 #include <optional>
 
 #include "counterflex/compensation/waypoint.hpp"
 #include "counterflex/sanity/check.hpp"
-#include "counterflex/statics/nominal.hpp"
+#include "counterflex/statics/mechanism.hpp"
 
 namespace counterflex {
 
@@ -17,26 +16,19 @@ struct LeastMargin {
   int line = 0;
 };
 
-/// The least margin of the commanded targets. Actuator values are followed to first order from the last place
-/// that was solved, and are solved again where the target is far from it; those of the least margin are exact.
+/// The least margin of the commanded targets.
 class TravelTally {
  public:
-  TravelTally();
-  ~TravelTally();
-  TravelTally(TravelTally&&) noexcept;
-  TravelTally& operator=(TravelTally&&) noexcept;
-
-  /// `model` makes the move, and outlives the tally. Waypoints that were not solved are passed over.
-  void add(const Model& model, const Waypoint& w);
-  void add(const Model& model, const Vector3& target, int line);
+  /// Actuator values at a place (m, rad), and the line of its move.
+  void add(const Mechanism& mechanism, const Eigen::VectorXd& rho, int line);
 
   /// None: no actuator has a limit, or nothing was added.
-  std::optional<LeastMargin> least() const;
+  const std::optional<LeastMargin>& least() const { return tightest_; }
   std::size_t places() const { return places_; }
 
  private:
-  struct Follower;
-  std::unique_ptr<Follower> follower_;
+  std::optional<LeastMargin> tightest_;
+  double share_ = 0;  ///< of the travel, as `AxisPlace` has it
   std::size_t places_ = 0;
 };
 
