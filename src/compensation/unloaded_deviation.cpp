@@ -55,7 +55,7 @@ std::optional<Vector3> common_shift(const Model& model, const ToolModels& tools,
   for (const PathPlace& place : places) {
     const UnloadedDeviation here =
         unloaded_deviation(model_with(model, &tools, place.tool), nominal, X_MW * Vector3(place.p_mm * mm));
-    if (here.status != Status::converged) continue;
+    if (here.status != Status::converged) break;  // a run ends there, too; each further place would be tried for long
     sum += here.d;
     ++solved;
   }

@@ -228,7 +228,7 @@ Condition condition(const WholeSystem& system, const Units& units) {
   const auto columns = unknowns(system, false);
   Eigen::MatrixXd B = bordered(system, columns, columns);
   soften(system, columns, B);
-  const Eigen::BDCSVD<Eigen::MatrixXd> svd(B, Eigen::ComputeFullV);
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(B, Eigen::ComputeFullV);
   const auto& sigma = svd.singularValues();
   const auto n = sigma.size(), pose = static_cast<Eigen::Index>(columns.size()) - 6;
   Eigen::Index rank = n;

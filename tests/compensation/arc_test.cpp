@@ -128,7 +128,7 @@ TEST_CASE("an arc that eight pieces cannot follow is divided into more") {
   CHECK(dense_miss(shop, result, 20).size <= 1e-6);
 }
 
-TEST_CASE("arcs follow a force that steps, ramps and turns the correction along them") {
+TEST_CASE("arcs follow a force that steps, ramps and turns the correction along them" * doctest::test_suite("long")) {
   for (const double blend : {0.0, 2e-3}) {
     CAPTURE(blend);
     const Shop shop(

@@ -148,7 +148,7 @@ TEST_CASE("a correction that bends along a long block is found") {
   }
 }
 
-TEST_CASE("short blocks under a force of their own each are followed within the tolerance, inside too") {
+TEST_CASE("short blocks under a force of their own each are followed within the tolerance, inside too" * doctest::test_suite("long")) {
   std::string text = "G21 G90\nG0 X0 Y0 Z0\nG1 F600\n", rows = "# frame = machine\n# sense = on_tool\n";
   rows += "line,fx_N,fy_N,fz_N\n";
   for (int k = 1; k <= 300; ++k) {

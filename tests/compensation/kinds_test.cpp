@@ -107,7 +107,7 @@ TEST_CASE("a held move that is shifted by more than a correction may be is refus
         std::string::npos);
 }
 
-TEST_CASE("a helix of many turns is verified with the numbers of its compensation") {
+TEST_CASE("a helix of many turns is verified with the numbers of its compensation" * doctest::test_suite("long")) {
   for (const int turns : {1, 2, 8, 32, 99}) {
     CAPTURE(turns);
     for (const bool loaded : {false, true}) {

@@ -46,7 +46,7 @@ const char* const long_line = "G21 G90\nG0 X-73.65 Y-73.65 Z-73.65\nG1 Y126.35 F
 
 }  // namespace
 
-TEST_CASE("long lines are compensated side by side as they are one by one, forces or none") {
+TEST_CASE("long lines are compensated side by side as they are one by one, forces or none" * doctest::test_suite("long")) {
   for (const auto& [machine, blend] :
        {std::pair{orthoglide_a, 0.0}, {orthoglide_b, 2e-3}, {orthoglide_perfect, 0.0}}) {
     const auto& shown = machine;

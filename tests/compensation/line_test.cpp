@@ -63,7 +63,7 @@ TEST_CASE("the paper's line takes at most 1.3 times the segments of the optimal 
   CHECK(segments <= 1.3 * static_cast<double>(exact));
 }
 
-TEST_CASE("the tip stays within the tolerance between the points of the paper's line") {
+TEST_CASE("the tip stays within the tolerance between the points of the paper's line" * doctest::test_suite("long")) {
   for (const double blend : {0.0, 2e-3}) {
     CAPTURE(blend);
     const Shop shop(paper_line(blend));
@@ -74,7 +74,7 @@ TEST_CASE("the tip stays within the tolerance between the points of the paper's 
   }
 }
 
-TEST_CASE("tighter and looser tolerances are met with more and fewer points") {
+TEST_CASE("tighter and looser tolerances are met with more and fewer points" * doctest::test_suite("long")) {
   struct Asked {
     double tolerance;
     int decimals;
@@ -118,7 +118,7 @@ TEST_CASE("the sample is corrected, ramp and all, in every case of the machine's
   }
 }
 
-TEST_CASE("long moves in every direction are followed within the tolerance") {
+TEST_CASE("long moves in every direction are followed within the tolerance" * doctest::test_suite("long")) {
   const Shop shop({.machine = load_machine(orthoglide_b),
                    .text = "G21 G90\nG0 X-70 Y-70 Z-70\n"
                            "G1 X120 F600\nG1 Y120\nG1 Z120\nG1 X-70 Y-70 Z-70\nG1 X100 Y20 Z60\nM30\n",

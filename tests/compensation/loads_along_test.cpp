@@ -189,7 +189,7 @@ TEST_CASE("loads at a place are those of the machine that is told to go there, u
   }
 }
 
-TEST_CASE("loads are the same to the last bit for any number of threads") {
+TEST_CASE("loads are the same to the last bit for any number of threads" * doctest::test_suite("long")) {
   std::string text = "G21 G90\nG0 X0 Y0 Z0\nF600\n";
   for (int i = 1; i <= 700; ++i) text += fmt::format("G1 X{:.3f} Y{:.3f}\n", 0.03 * i, i % 2 ? 3.0 : 0.0);
   const Shop shop({.machine = read_machine(read_file(orthoglide_b), "orthoglide"),

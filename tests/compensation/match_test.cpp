@@ -62,7 +62,7 @@ TEST_CASE("blocks that act at their beginning are told from each other and from 
   }
 }
 
-TEST_CASE("one coordinate that is changed by some hundredths is found, with its line") {
+TEST_CASE("one coordinate that is changed by some hundredths is found, with its line" * doctest::test_suite("long")) {
   const Shop shop(
       {.machine = load_machine(orthoglide_b), .text = two_feeds, .force = constant_force(milling())});
   const Compensation result = compensated(shop);

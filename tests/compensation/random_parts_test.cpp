@@ -74,7 +74,7 @@ class RandomJob {
 
 }  // namespace
 
-TEST_CASE("whatever the program, its parts merged are the whole, and most of them are taken over") {
+TEST_CASE("whatever the program, its parts merged are the whole, and most of them are taken over" * doctest::test_suite("long")) {
   std::size_t windows = 0, compensated = 0, failed = 0;
   for (unsigned seed = 1; seed <= 12; ++seed) {
     CAPTURE(seed);

@@ -65,7 +65,7 @@ long peak_memory_kb() {
 
 }  // namespace
 
-TEST_CASE("a program compensated in parts is the same program, to the last bit of every waypoint") {
+TEST_CASE("a program compensated in parts is the same program, to the last bit of every waypoint" * doctest::test_suite("long")) {
   for (const bool attribution : {false, true}) {
     Split split = raster(400);
     split.attribution = attribution;

@@ -231,7 +231,7 @@ TEST_CASE("the shift of a datum that was touched off is in the geometry, not in 
   }
 }
 
-TEST_CASE("bytes and waypoints do not depend on the number of threads") {
+TEST_CASE("bytes and waypoints do not depend on the number of threads" * doctest::test_suite("long")) {
   const auto same_as_one = [](double blend, int threads, bool in_lanes, int cuts) {
     Order order{.machine = load_machine(orthoglide_b),
                 .text = many_cuts(cuts),

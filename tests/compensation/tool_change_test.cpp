@@ -106,7 +106,7 @@ TEST_CASE("verify accepts what was compensated for its tools, and refuses what w
   CHECK_FALSE(refusal_of(Shop(order), text).empty());
 }
 
-TEST_CASE("with several tools, too, the bytes do not depend on the number of threads") {
+TEST_CASE("with several tools, too, the bytes do not depend on the number of threads" * doctest::test_suite("long")) {
   Order order = on_the_mill(cut_with({1, 2, 1, 7, 2}, 40), 2e-3);
   const Compensation one = compensated(Shop(order), true);
   order.threads = 3;

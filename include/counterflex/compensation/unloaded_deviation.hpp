@@ -54,8 +54,8 @@ struct UnloadedDeviation {
 UnloadedDeviation unloaded_deviation(const Model& model, NominalToolPath& nominal, const Vector3& p_MT);
 
 /// The mean over `places` of the offset at `X_MW`: the common shift of a path that the
-/// errors and the weights of the machine cause. Places that the machine does not reach are left out; none: it
-/// reaches none of them.
+/// errors and the weights of the machine cause. Up to the first place that the machine does not reach; none:
+/// it does not reach the first one.
 std::optional<Vector3> common_shift(const Model& model, const ToolModels& tools, const Pose& X_MW,
                                     std::span<const PathPlace> places);
 
