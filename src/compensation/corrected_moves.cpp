@@ -4,12 +4,35 @@
 #include <string_view>
 #include <utility>
 
+#include "counterflex/program/called_cycle.hpp"
+
 namespace counterflex {
 namespace {
+
+// A Sinumerik's MCALL with a drilling cycle, without N and without the heights, which go along with its holes;
+// other lines as they are.
+std::string modal_call_of(std::string_view line, bool& sets_heights) {
+  std::string_view rest = line;
+  const auto skip = [&rest](std::string_view characters) {
+    rest.remove_prefix(std::min(rest.find_first_not_of(characters), rest.size()));
+  };
+  skip(" \t");
+  if (rest.starts_with('N') || rest.starts_with('n')) rest.remove_prefix(1), skip("0123456789"), skip(" \t");
+  const auto cycle = modal_drilling_cycle(rest);
+  if (!cycle) return std::string(line);
+  sets_heights = true;
+  std::string statement = cycle->modal;
+  for (std::size_t i = 0; i < statement.size(); ++i)
+    for (const PackedAxisWord& word : cycle->heights)
+      if (word && i >= word->number.begin && i < word->number.end) statement[i] = '\0';
+  std::erase(statement, '\0');
+  return statement;
+}
 
 // The line without its Klartext block number and without the surface of a drilling cycle, which goes along
 // with its holes. Nothing of a CC, which belongs to the arc behind it.
 std::string statement_of(const Program& program, std::string_view line, bool& sets_surface) {
+  if (program.dialect == "siemens") return modal_call_of(line, sets_surface);
   if (program.dialect != "heidenhain") return std::string(line);
   line.remove_prefix(std::min(line.find_first_not_of(" \t"), line.size()));
   const std::size_t digits = line.starts_with('N') || line.starts_with('n') ? 1 : 0;

@@ -102,6 +102,11 @@ void Emitter::emit_line(const Segment& segment, const PlannedSegment& planned, E
     emitted.edit.inserted.push_back({in_words_mm(job_, move, planned.knots[k].target)});
   }
   const Vector3& end = planned.end ? *planned.end : planned.knots.back().target;
+  if (move.may_position) {
+    Vector3 above = in_words_mm(job_, move, end);
+    above.z() = before(move)[2].value_or(move.start_mm.z());
+    emitted.edit.inserted.push_back({above});
+  }
   const double miss_mm = set_height_inside(emitted.segment, in_words_mm(job_, move, end), emitted.edit);
   if (miss_mm * mm > flat_share * job_.options.tolerance) unsplit_miss = std::max(unsplit_miss, miss_mm * mm);
 }
@@ -132,7 +137,7 @@ void Emitter::finish_segment(const Segment& segment, const PlannedSegment& plann
 // Where no axis words may be inserted, absent axes keep the correction that they have; those that words before the first
 // known position have placed take that of the move.
 Vector3 Emitter::correction_that_can_be_written(const Move& move, const Vector3& correction) const {
-  if (takes_all_words(move) || !state_.correction_known) return correction;
+  if (takes_all_words(move) || move.may_position || !state_.correction_known) return correction;
   const auto is_pending = [&](std::size_t axis) {
     return std::any_of(pending_.begin(), pending_.end(), [&](std::size_t p) {
       const Move& earlier = job_.program.moves[p];

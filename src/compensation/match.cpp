@@ -21,8 +21,9 @@ bool makes_doubtful(const Move& move) {
   return lost;
 }
 
-// Whether the move's height is a word of a block before it: Q203 of a cycle's definition.
+// Whether the move's height is a word of a block before it: Q203 of a cycle's definition, MCALL.
 bool takes_surface(const Move& move) {
+  if (move.called) return !move.called->modal.empty();
   return move.words[2] && move.words[2]->number.begin < move.block.begin;
 }
 
@@ -53,6 +54,7 @@ class WindowMatcher {
     if (auto failure = frame_failure(matched)) return failure;
     if (auto failure = kind_failure(job_, matched)) return failure;
     if (auto failure = surface_failure(matched)) return failure;
+    if (auto failure = call_failure(matched)) return failure;
     if (auto failure = shift_failure(matched, m)) return failure;
     if (auto failure = contour_failure(matched, m)) return failure;
     if (auto failure = corner_failure(matched)) return failure;
@@ -142,6 +144,26 @@ class WindowMatcher {
                                  shift, height_shift_mm_),
                      found.line};
     if (!takes_surface(original) && original.known_end[2] && found.known_end[2]) height_shift_mm_ = shift;
+    return std::nullopt;
+  }
+
+  // All heights of a called cycle go along with its reference plane, the first of them.
+  std::optional<Failure> call_failure(const MatchedMoves& matched) const {
+    constexpr double rounding_mm = 1e-3 * (1 + 1e-9);  // of both, to three decimals
+    const Move &original = matched.original, &found = *matched.found.back().move;
+    const auto fail = [&](std::string what) {
+      return Failure{Exit::not_compensated, original.line, std::move(what), found.line};
+    };
+    if (!original.called != !found.called) return fail("a drilling cycle is called here in one of both programs only");
+    if (!original.called) return std::nullopt;
+    const double shift = found.end_mm.z() - original.end_mm.z();
+    for (std::size_t i = 0; i < original.called->heights.size(); ++i) {
+      if (!original.called->heights[i] != !found.called->heights[i])
+        return fail("a height of the cycle is given in one of both programs only");
+      const double other = found.called->heights_mm[i] - original.called->heights_mm[i];
+      if (original.called->heights[i] && std::abs(other - shift) > rounding_mm)
+        return fail(fmt::format("a height of the cycle is shifted by {:.4f} mm, its reference plane by {:.4f} mm", other, shift));
+    }
     return std::nullopt;
   }
 

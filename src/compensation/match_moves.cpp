@@ -31,7 +31,7 @@ bool may_end(const Move& original, const std::string& words, const CorrectedMove
 
 // Whether another piece of the same move may follow.
 bool may_go_on(const Move& original, const std::string& words, const CorrectedMove& found, std::size_t j) {
-  if (found.move->motion != Motion::feed) return false;
+  if (found.move->motion != Motion::feed && !(original.may_position && j == 0)) return false;
   const std::string held = skeleton(*found.program, *found.move);
   return j == 0 && acts_first(original, words) ? held == words : is_plain(held);
 }
@@ -39,7 +39,7 @@ bool may_go_on(const Move& original, const std::string& words, const CorrectedMo
 std::size_t most_moves(const Move& original, bool has_segment) {
   if (!has_segment || original.handling == Handling::held || original.cycle) return 1;
   if (original.motion == Motion::feed && (original.may_split || changes_height_inside(original))) return std::numeric_limits<std::size_t>::max();
-  return original.may_jump ? 2 : 1;
+  return original.may_jump || original.may_position ? 2 : 1;
 }
 
 }  // namespace

@@ -28,8 +28,10 @@ std::vector<Span> rewritten_numbers(const Move& move) {
     // A block may also have words of one before it: the centre or the surface that it uses.
     if (word && word->number.begin >= move.block.begin) numbers.push_back(word->number);
   };
-  for (const auto& word : move.words)
-    if (!move.polar || is_height(move, word)) add(word);
+  for (std::size_t axis = 0; axis < (move.called ? 2 : 3); ++axis)
+    if (!move.polar || is_height(move, move.words[axis])) add(move.words[axis]);
+  if (move.called && move.called->modal.empty())
+    for (const auto& height : move.called->heights) add(height);
   if (move.arc) {
     for (const auto& word : move.arc->centre_words) add(word);
     add(move.arc->radius_word);

@@ -9,7 +9,7 @@
 namespace counterflex {
 namespace {
 
-static_assert(sizeof(CarriedState) == 288 && sizeof(EmitterState) == 104 && sizeof(TextState) == 168,
+static_assert(sizeof(CarriedState) == 288 && sizeof(EmitterState) == 104 && sizeof(TextState) == 184,
               "what is carried from window to window besides is to be compared and restored, too");
 
 void put_held(const HeldPosition& held, std::string& bytes) {
@@ -42,6 +42,8 @@ void put_text(const TextState& state, std::string& bytes) {
   put_point(state.pole.centre_mm, bytes);
   put(state.pole.differs, bytes);
   put_optional(state.surface, bytes);
+  put(state.call.line, bytes);
+  put(state.call.shift_mm, bytes);
   put_optional(state.numbers.last, bytes);
   put(state.numbers.renumbers, bytes);
   put(state.numbers.ended, bytes);
@@ -56,6 +58,8 @@ TextState get_text(BytesIn& bytes) {
   state.pole.centre_mm = get_point(bytes);
   state.pole.differs = bytes.get<bool>();
   state.surface = get_optional<double>(bytes);
+  state.call.line = bytes.get<int>();
+  state.call.shift_mm = bytes.get<double>();
   state.numbers.last = get_optional<unsigned long>(bytes);
   state.numbers.renumbers = bytes.get<bool>();
   state.numbers.ended = bytes.get<bool>();

@@ -14,6 +14,7 @@
 #include "program/read_cycle.hpp"
 #include "program/read_move.hpp"
 #include "program/remarks.hpp"
+#include "program/siemens_cycles.hpp"
 #include "program/siemens_statements.hpp"
 
 namespace counterflex {
@@ -57,14 +58,18 @@ void check_can_move(const Block& block, const Reading& r) {
 }
 
 void read_line(const Block& block, Reading& r, Motion motion) {
+  const bool hole = r.called && takes_modal_hole(block, r);
   Move& move = start_move(block, r, motion);
   place_words(block, r, move);
+  if (hole) place_modal_hole(r, move);
   finish_move(r, move);
+  if (hole) leave_called_hole(r);
 }
 
 /// The move of a block under the motion that acts.
 void read_modal_move(const Block& block, Reading& r) {
   check_can_move(block, r);
+  if (r.called && r.state.motion != MotionMode::rapid && r.state.motion != MotionMode::feed) takes_modal_hole(block, r);
   switch (r.state.motion) {
     case MotionMode::clockwise:
     case MotionMode::counter_clockwise:

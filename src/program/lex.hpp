@@ -71,6 +71,7 @@ struct Block {
   bool assigns_by_name = false;  ///< "_DEPTH=5", "MEAS=1": a variable, or a word that is not known
   Statement statement = Statement::none;
   bool statement_is_bare = false;  ///< nothing follows its name
+  Span statement_text;             ///< of a call, from its name to the comment
   bool has_sense = false;          ///< a word says what it counts from
   Span flow_name;                  ///< of an O-word: "100" or "<name>"
   Span flow_keyword;               ///< of a line of flow: "sub", "GOTO"; empty where it is none

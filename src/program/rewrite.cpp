@@ -99,7 +99,14 @@ const Move& come_to(std::size_t index, Writing& w) {
   return move;
 }
 
-void pass_over(const Move& move, Writing& w) {
+void pass_over(std::size_t index, const WriteOptions& options, Writing& w) {
+  const Move& move = come_to(index, w);
+  if (!holds_call(move, 0, w.state)) {
+    copy_until(move.block.begin, w);
+    rewrite_block(w.program, w.style, {.move = index, .end_mm = move.end_mm}, options, w.state, w.out);
+    w.copied = move.block.end;
+    return;
+  }
   if (w.state.restate_motion) copy_until(move.block.begin, w);
   if (!w.state.restate_motion) return pass_block(move, w.state);
   copy_block(w.program, w.style, move, w.state, w.out);
@@ -161,11 +168,11 @@ Rewritten Rewriter::write(const Program& window, const std::vector<MoveEdit>& ed
   std::size_t next = 0;
   for (const MoveEdit& edit : edits) {
     assert(edit.move >= next && edit.move < window.moves.size());
-    for (; next < edit.move; ++next) pass_over(come_to(next, w), w);
+    for (; next < edit.move; ++next) pass_over(next, options, w);
     apply(edit, options, w);
     ++next;
   }
-  for (; next < window.moves.size(); ++next) pass_over(come_to(next, w), w);
+  for (; next < window.moves.size(); ++next) pass_over(next, options, w);
   copy_until(window.text.size(), w);
   return std::move(w.out);
 }

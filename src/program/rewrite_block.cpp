@@ -133,13 +133,13 @@ class PieceNumbers {
 };
 
 std::string text_of(const Original& o, const std::vector<PlannedStep>& steps, const CycleWords& cycle,
-                    const WriteOptions& options, ModalMotion& modal, Rewritten& out) {
+                    double call_shift_mm, const WriteOptions& options, ModalMotion& modal, Rewritten& out) {
   const PieceNumbers numbers(o, steps.size(), options, out);
   std::string text;
   bool own_is_past = false;
   for (std::size_t i = 0; i < steps.size(); ++i) {
     const PlannedStep& piece = steps[i];
-    const BesidesPoint besides{must_state(piece.step.motion, modal), piece.feed_per_min, cycle,
+    const BesidesPoint besides{must_state(piece.step.motion, modal), piece.feed_per_min, cycle, call_shift_mm,
                                steps.size() > 1 ? std::optional(numbers.of(i)) : std::nullopt};
     if (piece.own) {
       text += own_block(o, piece.step, besides, out);
@@ -157,8 +157,8 @@ std::string text_of(const Original& o, const std::vector<PlannedStep>& steps, co
 bool is_written_alone(const Program& program, const MoveEdit& edit, const HeldPosition& before,
                       const CycleWords& cycle, const WriteOptions& options, TextState& state,
                       Rewritten& out) {
-  if (edit.jump_mm || !edit.inserted.empty() || state.restate_motion) return false;
   const Move& move = program.moves[edit.move];
+  if (edit.jump_mm || !edit.inserted.empty() || state.restate_motion || move.called) return false;
   const int motion = motion_of(move);
   const Step step = settle_step(move, before, {edit.end_mm, edit.centre_mm}, motion, Place::end, options);
   if (step.motion != motion) return false;
@@ -174,9 +174,14 @@ bool is_written_alone(const Program& program, const MoveEdit& edit, const HeldPo
   return true;
 }
 
+/// How far the heights of the cycle that is called at `move` are shifted, as they are written.
+double height_shift(const Move& move, const Step& step) {
+  return step.axes[2].held_mm.value_or(move.end_mm.z()) - move.end_mm.z();
+}
+
 /// A block that calls a subprogram or macro: its words are arguments.
 bool is_call(const Block& block) {
-  return !empty(block.flow_keyword) ||
+  return !empty(block.flow_keyword) || block.statement == Statement::cycle ||
          std::any_of(block.words.begin(), block.words.end(), [](const Word& word) {
            return word.letter == 'O' || (word.letter == 'M' && word.value >= 97 && word.value <= 99) ||
                   (word.letter == 'G' && word.value >= 65 && word.value < 68);
@@ -188,7 +193,7 @@ bool is_call(const Block& block) {
 void rewrite_block(const Program& program, const ProgramStyle& style, const MoveEdit& edit,
                    const WriteOptions& options, TextState& state, Rewritten& out) {
   const Move& move = program.moves[edit.move];
-  assert(edit.inserted.empty() || move.may_split || changes_height_inside(move));
+  assert(edit.inserted.empty() || move.may_split || move.may_position || changes_height_inside(move));
   assert(!edit.jump_mm || move.may_jump);
   const HeldPosition before = held_at_start(move, state.held);
   CycleWords cycle;
@@ -199,12 +204,23 @@ void rewrite_block(const Program& program, const ProgramStyle& style, const Move
   ModalMotion modal = modal_motion(o, state.restate_motion);
   std::vector<PlannedStep> steps = settle_steps(o, plan(o, edit, modal.own), before, options);
   share_time(move, steps);
-  const std::string text = text_of(o, steps, cycle, options, modal, out);
+  const double call_shift_mm = move.called ? height_shift(move, steps.back().step) : 0;
+  std::string text = text_of(o, steps, cycle, call_shift_mm, options, modal, out);
+  if (move.called && !holds_call(move, call_shift_mm, state)) {
+    text.insert(0, restated_call(move, call_shift_mm) + o.line_end);
+    ++out.changed_words;
+    state.call = {move.called->line, call_shift_mm};
+  }
   if (text != o.text(o.block.span)) check_integer_words(o);
   state.held = steps.back().step.after;
   doubt_skippable(move, before, state.held);
   state.restate_motion = restated_after(move, state.restate_motion, modal);
   out.text += text;
+}
+
+bool holds_call(const Move& move, double shift_mm, const TextState& state) {
+  if (!move.called || move.called->modal.empty()) return true;
+  return shift_mm == (state.call.line == move.called->line ? state.call.shift_mm : 0);
 }
 
 void pass_block(const Move& move, TextState& state) {

@@ -12,6 +12,9 @@ namespace counterflex {
 void rewrite_block(const Program& program, const ProgramStyle& style, const MoveEdit& edit,
                    const WriteOptions& options, TextState& state, Rewritten& out);
 
+/// Whether the text holds the modal cycle that is called at `move`, its heights shifted; true where none is called.
+bool holds_call(const Move& move, double shift_mm, const TextState& state);
+
 /// Moves `state` on over the block of `move`, which is not edited and stays as it is.
 void pass_block(const Move& move, TextState& state);
 

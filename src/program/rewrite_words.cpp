@@ -76,16 +76,27 @@ void drop_word(const Original& o, const Word& word, Changes& changes) {
   changes.list.push_back({span, {}});
 }
 
+/// A height of a called cycle, shifted by what was rounded to the digits of its first one.
+WordNumber shifted_height(const Move& move, std::size_t height, double shift_mm) {
+  const AxisWord word = *move.called->heights[height];
+  const int decimals = std::max(word.decimals, std::max((*move.called->heights[0]).decimals, resolution_decimals(move.unit)));
+  return {true, rounded((move.called->heights_mm[height] + shift_mm) / mm_per(move.unit), decimals), decimals};
+}
+
 void axis_changes(const Original& o, const Step& step, const BesidesPoint& besides, Changes& changes) {
   std::vector<std::string> inserted;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const WordNumber& number = step.axes[axis].number;
-    if (!number.write) continue;
+    if (!number.write || (o.move.called && axis == 2)) continue;
     if (const auto& word = o.move.words[axis])
       change_word(o, *word, number, changes);
     else
       inserted.push_back(word_text(o, axis_letters[axis], number));
   }
+  if (o.move.called && o.move.called->modal.empty() && besides.call_shift_mm != 0)
+    for (std::size_t i = 0; i < o.move.called->heights.size(); ++i)
+      if (const auto& word = o.move.called->heights[i])
+        change_word(o, *word, shifted_height(o.move, i, besides.call_shift_mm), changes);
   if (o.move.cycle) {
     const CycleMove& cycle = *o.move.cycle;
     if (besides.cycle.retract.write) change_word(o, *cycle.retract_word, besides.cycle.retract, changes);
@@ -226,6 +237,26 @@ std::string own_block(const Original& o, const Step& step, const BesidesPoint& b
   std::string line = applied(o, std::move(changes.list));
   check_length(o, line);
   return line;
+}
+
+std::string restated_call(const Move& move, double shift_mm) {
+  const CalledCycle& cycle = *move.called;
+  if (shift_mm == 0) return cycle.modal;
+  std::vector<std::size_t> order;
+  for (std::size_t i = 0; i < cycle.heights.size(); ++i)
+    if (cycle.heights[i]) order.push_back(i);
+  const auto begin_of = [&](std::size_t i) { return cycle.heights[i]->number.begin; };
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return begin_of(a) < begin_of(b); });
+  std::string line;
+  std::size_t at = 0;
+  for (const std::size_t i : order) {
+    const Span number = cycle.heights[i]->number;
+    const WordNumber shifted = shifted_height(move, i, shift_mm);
+    line.append(cycle.modal, at, number.begin - at)
+        .append(changed_number(part(cycle.modal, number), shifted.value, shifted.decimals));
+    at = number.end;
+  }
+  return line.append(cycle.modal, at);
 }
 
 std::string inserted_block(const Original& o, const Step& step, const BesidesPoint& besides) {

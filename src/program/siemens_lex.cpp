@@ -236,6 +236,7 @@ void state(Scanner& s, Statement statement) {
   }
   if (statement >= Statement::shift && statement <= Statement::added_turn) return lex_frame(s);
   skip_siemens_rest(s);
+  s.block.statement_text = {begin, s.at};
 }
 
 bool lex_structure(Scanner& s, std::string_view name) {

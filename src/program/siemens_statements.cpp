@@ -7,6 +7,7 @@
 #include "program/other_moves.hpp"
 #include "program/read_move.hpp"
 #include "program/remarks.hpp"
+#include "program/siemens_cycles.hpp"
 
 namespace counterflex {
 namespace {
@@ -33,10 +34,13 @@ void call_subprogram(const Block& block, Reading& r) {
 
 /// Cycles move as their arguments say, and restore what is modal.
 void run_cycle(const Block& block, Reading& r) {
+  const std::string_view why = why_not_followed(r);
   r.sorted = {};
   Move& move = start_move(block, r, Motion::feed);
   for (std::size_t axis = 0; axis < 3; ++axis) fix_axis(r, move, axis);
-  leave_alone(block, r, "a cycle of the control is called");
+  leave_alone(block, r, why.empty() ? "a cycle of the control is called; followed are CYCLE81 to CYCLE89 and CYCLE840 in G17, in mm, "
+                                      "with heights that are plain numbers"
+                                    : why);
   finish_move(r, move);
   r.run_begin = r.program.moves.size();
 }
@@ -64,9 +68,13 @@ void end_statement(const Block& block, Reading& r) {
       r.sorted = {};
       return read_anything(block, r, "axis words or G codes stand in a part of the block that is not read");
     case Statement::cycle:
+      r.sorted = {};
+      if (read_called_cycle(block, r)) return;
       return run_cycle(block, r);
     case Statement::modal_call:
-      return displace_by_statement(block, r, modal_macro, !block.statement_is_bare);
+      displace_by_statement(block, r, modal_macro, false);
+      if (begin_modal_cycle(block, r) || block.statement_is_bare) return;
+      return displace_by_statement(block, r, modal_macro, true);
     case Statement::shift:
     case Statement::added_shift:
     case Statement::turn:

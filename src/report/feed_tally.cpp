@@ -67,8 +67,9 @@ void FeedTally::add(const Waypoint& w, double miss, const Job& window) {
     next_ = window.path.segments[w.segment].move;
     move = &window.program.moves[next_];
   }
+  // Of the way to a hole the end counts, where the cycle is called.
   const bool hole = move != nullptr && (w.segment == no_segment ? move->cycle || move->makes_hole
-                                                                 : move->makes_hole && !w.cutting);
+                                                                 : move->makes_hole && !w.cutting && w.fraction == 1);
   if (!w.cutting && !hole) {
     const bool feed = w.segment == no_segment && move != nullptr && move->motion == Motion::feed;
     ++(feed ? moves_.known_ends : moves_.rapid_ends);

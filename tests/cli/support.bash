@@ -53,3 +53,28 @@ finish() {
   echo "$failures failed"
   exit 1
 }
+
+# turned.toml: a rigid machine whose frame is shifted, and turned about all axes.
+turned_machine() {
+  cat >turned.toml <<'TOML'
+format = "counterflex-machine 1"
+name = "turned"
+controlled = ["x", "y", "z"]
+[limits]
+max_correction_mm = 10
+[program]
+tool_change_moves = []
+[work.G54]
+xyz_mm = [0, 0, 0]
+datum = "machine"
+[[chain]]
+name = "axes"
+errors.frame = { xyz_mm = [0.5, -0.25, 0.125], rpy_deg = [0.02, -0.03, 0.1] }
+elements = [
+  { error = "frame" },
+  { actuator = "prismatic", axis = "x", min_mm = -5000, max_mm = 5000 },
+  { actuator = "prismatic", axis = "y", min_mm = -5000, max_mm = 5000 },
+  { actuator = "prismatic", axis = "z", min_mm = -5000, max_mm = 5000 },
+]
+TOML
+}

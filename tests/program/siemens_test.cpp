@@ -143,8 +143,8 @@ TEST_CASE("siemens: frames, cycles and subprograms are not corrected, with their
   };
   CHECK(fixed_after("MIRROR X0\nG1 X5 Y5 F100\n"));
   CHECK_FALSE(fixed_after("MIRROR X0\nTRANS\nG1 X5 Y5 F100\n"));
-  CHECK(fixed_after("MCALL CYCLE81(50,0,2,-10)\nX5 Y5\n"));
-  CHECK_FALSE(fixed_after("MCALL CYCLE81(50,0,2,-10)\nMCALL\nX5 Y5\n"));
+  CHECK(fixed_after("MCALL MY_HOLE(50,0,2,-10)\nX5 Y5\n"));
+  CHECK_FALSE(fixed_after("MCALL MY_HOLE(50,0,2,-10)\nMCALL\nX5 Y5\n"));
   CHECK(fixed_after("CYCLE800(1,\"TC1\",0,57,0,0,0,0,30)\nG1 X5 Y5 F100\n"));
   CHECK_FALSE(fixed_after("CYCLE800(1,\"TC1\",0,57,0,0,0,0,30)\nCYCLE800()\nG1 X5 Y5 F100\n"));
   CHECK(fixed_after("TRAORI\nG1 X5 A3=0 B3=0 C3=1 F100\n"));

@@ -105,6 +105,15 @@ struct CycleMove {
   int repeats = 1;                  ///< L or K
 };
 
+/// A drilling cycle of a Sinumerik, called in the block, or by every block with a position (MCALL). Its heights are
+/// absolute and go along with the hole.
+struct CalledCycle {
+  std::string modal;  ///< MCALL with its call, without N and comment; empty: the block itself calls
+  int line = 0;       ///< of the call or MCALL, in the file
+  std::array<PackedAxisWord, 4> heights;  ///< RFP, RTP, DP, FDEP where they are given; spans in Program::text, else in `modal`
+  std::array<double, 4> heights_mm{};
+};
+
 /// What a control takes off a line for the corners that it rounds or breaks (mm along the line). These parts stay at one
 /// height: both sides of a corner lie in one plane.
 struct CornerEnds {
@@ -139,6 +148,7 @@ struct Move {
   Vector3 end_mm = Vector3::Zero();
   Rare<ArcMove> arc;
   Rare<CycleMove> cycle;
+  Rare<CalledCycle> called;          ///< then the word of Z is its first height
   Rare<CornerEnds> corners;          ///< of a move beside corners; infinite where a size is unknown
   Rare<Vector6> force;               ///< modal (FORCE ...) comment, (N, N m) on the tool, machine frame; none
                                      ///< after (FORCE OFF); a comment acts from the block that holds it
@@ -162,8 +172,9 @@ struct Move {
   std::uint8_t incremental : 3 = 0;  ///< bit of an axis: its word alone is a difference from the start
   bool polar : 1 = false;            ///< LP, CP of Klartext: two of the words are one polar word
   bool takes_no_z : 1 = false;       ///< no word of Z may be inserted: beside a corner, in the holes of a Klartext cycle
-  bool makes_hole : 1 = false;  ///< of Klartext: a cycle that goes along with the tool is called at its end
+  bool makes_hole : 1 = false;  ///< of Klartext and Sinumerik: a cycle that goes along with the tool is called at its end
   bool repeats_surface : 1 = false;  ///< its Z is the surface of a Klartext cycle, as an earlier hole has said it
+  bool may_position : 1 = false;  ///< of a called cycle: a rapid to its place in X and Y may be inserted before it
   bool stays_whole : 1 = false;  ///< a word of the block acts at its begin or end: not even a line beside corners is divided
   bool block_delete : 1 = false;  ///< a '/' block: what it sets is unknown to the blocks after it
   bool exact_stop : 1 = false;  ///< the control stops at the end (G9, G61 of Fanuc, G61.1 of LinuxCNC)
@@ -172,7 +183,7 @@ struct Move {
   bool may_jump : 1 = false;  ///< a feed move may be inserted before it: start and feed are known, no exact stop
   bool may_insert_words : 1 = true;  ///< axis words may be inserted; not into a block with G43, G44 or G49
 };
-static_assert(sizeof(Move) <= 240, "programs have millions of moves");
+static_assert(sizeof(Move) <= 248, "programs have millions of moves");
 
 /// Whether the block of an arc stays at the height of its start: neither has it a word of the axis across its
 /// plane nor does it take one.

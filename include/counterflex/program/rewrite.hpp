@@ -103,6 +103,12 @@ struct HeldPole {
   bool differs = false;                ///< it is not that of the original
 };
 
+/// The modal cycle of a Sinumerik in the written text.
+struct HeldCall {
+  int line = 0;         ///< of its MCALL in the original; 0: none
+  double shift_mm = 0;  ///< of its heights
+};
+
 /// The numbers of the blocks of the written Klartext.
 struct WrittenNumbers {
   std::optional<unsigned long> last{};
@@ -118,6 +124,7 @@ struct TextState {
                                         ///< the original, where inserted text may have left another
   HeldPole pole{};
   std::optional<double> surface{};  ///< of the Klartext cycle that acts, as the text says it; none: as the original does
+  HeldCall call{};
   WrittenNumbers numbers{};
 };
 

@@ -1,0 +1,94 @@
+/// Drilling cycles of a Sinumerik: their heights go along with the holes.
+#include <doctest/doctest.h>
+
+#include "counterflex/program/called_cycle.hpp"
+#include "program/reading.hpp"
+
+using namespace counterflex;
+using namespace counterflex::test;
+
+namespace {
+
+constexpr std::string_view start = "G90 G17 G71 G54\nT1 D1 M6\nG0 X10 Y10 Z50 S1000 M3\n";
+
+Program drilled(const std::string& lines) {
+  ReadOptions options;
+  options.dialect = "siemens";
+  options.unit = LengthUnit::millimetres;
+  return read_program(std::string(start) + lines, "p.mpf", options);
+}
+
+std::string shifted_lines(const std::string& lines) {
+  const std::string text = shifted_text(drilled(lines), {0.5, -0.25, 0.125});
+  return text.substr(text.find('\n', text.find("G0 ")) + 1);
+}
+
+// Whether the last move goes to a place of its own.
+bool is_fixed(const std::string& lines) {
+  const Move move = drilled(lines).moves.back();
+  return move.fixed[0] || move.fixed[2];
+}
+
+}  // namespace
+
+TEST_CASE("siemens: all absolute heights of a called cycle are shifted, in their own digits") {
+  CHECK(shifted_lines("CYCLE81(50,0,2,-20)\n") == "CYCLE81(50.125,0.125,2,-19.875)\n");
+  CHECK(shifted_lines("N5 CYCLE82( 50.0, 0.0, 2 , -20.0 , , 0.5) ; hole\n") ==
+        "N5 CYCLE82( 50.125, 0.125, 2 , -19.875 , , 0.5) ; hole\n");
+  CHECK(shifted_lines("CYCLE83(50,0,2,-30,,-5,,2,0,0.5,1,0)\n") == "CYCLE83(50.125,0.125,2,-29.875,,-4.875,,2,0,0.5,1,0)\n");
+  CHECK(shifted_lines("CYCLE84(50,0,2,,15,0.5,5)\n") == "CYCLE84(50.125,0.125,2,,15,0.5,5)\n");
+  CHECK(shifted_lines("cycle86(50,0,2,-20,,0.5,3,.2,.2,,45)\n") == "cycle86(50.125,0.125,2,-19.875,,0.5,3,.2,.2,,45)\n");
+}
+
+TEST_CASE("siemens: a called cycle leaves the tool at its retract plane") {
+  const Program program = drilled("CYCLE81(30,0,2,-20)\nG0 X60\n");
+  REQUIRE(program.moves.size() == 3);
+  const Move& hole = program.moves[1];
+  CHECK(hole.makes_hole);
+  CHECK(hole.motion == Motion::rapid);
+  CHECK(hole.end_mm == Vector3(10, 10, 0));
+  CHECK(program.moves[2].start_mm == Vector3(10, 10, 30));
+  CHECK(all_known(program.moves[2].known_start));
+}
+
+TEST_CASE("siemens: MCALL is said anew where the heights of a hole are others than the text holds") {
+  CHECK(shifted_lines("MCALL CYCLE81(50,0,2,-20) ; all\nX20 Y10\nX30\nMCALL\nG0 Z99\n") ==
+        "MCALL CYCLE81(50,0,2,-20) ; all\nMCALL CYCLE81(50.125,0.125,2,-19.875)\nX20.5 Y9.75\nX30.5\nMCALL\nG0 Z99.125\n");
+  const Program program = drilled("N5 MCALL CYCLE81(50,0,2,-20)\nX20 Y10\nX30\nMCALL\n");
+  REQUIRE(program.moves.size() == 3);
+  const std::vector<MoveEdit> edits{{.move = 1, .end_mm = {20, 10, 0.2}}};
+  // The second hole is not edited: it gets the heights of the original back.
+  CHECK(rewrite(program, edits, {}).text.ends_with("N5 MCALL CYCLE81(50,0,2,-20)\nMCALL CYCLE81(50.2,0.2,2,-19.8)\nX20 Y10\n"
+                                                   "MCALL CYCLE81(50,0,2,-20)\nX30\nMCALL\n"));
+}
+
+TEST_CASE("siemens: holes of G91 count from the hole before, their heights do not") {
+  const Program program = drilled("MCALL CYCLE81(50,0,2,-20)\nX20 Y10\nG91 X5\nG90 MCALL\n");
+  REQUIRE(program.moves.size() == 3);
+  CHECK(program.moves[2].end_mm == Vector3(25, 10, 0));
+  CHECK(is_relative(program.moves[2], 0));
+  CHECK(is_relative(program.moves[2], 1));
+  CHECK_FALSE(is_relative(program.moves[2], 2));
+}
+
+TEST_CASE("siemens: cycles that are not followed are refused as before") {
+  for (const std::string lines :
+       {"CYCLE81(R1,0,2,-20)\n", "CYCLE81(50,,2,-20)\n", "CYCLE81(50,0,2,-20+1)\n", "/CYCLE81(50,0,2,-20)\n",
+        "CYCLE71(50,0,2,-20,0,0,100,50,0)\n", "G18\nCYCLE81(50,0,2,-20)\n", "G70\nCYCLE81(50,0,2,-20)\n",
+        "IF R1==1\nCYCLE81(50,0,2,-20)\nENDIF\n", "ROT Z30 X10\nCYCLE81(50,0,2,-20)\n",
+        "MCALL CYCLE81(R1,0,2,-20)\nX5\n", "MCALL CYCLE81(50,0,2,-20)\nX5 Z10\n", "MCALL CYCLE81(50,0,2,-20)\nG2 X20 Y10 CR=8\n",
+        "MCALL CYCLE81(50,0,2,-20)\nZ10\nX5\n", "/MCALL CYCLE81(50,0,2,-20)\nX5\n", "MCALL MY_HOLE(50,0,2,-20)\nX5\n"}) {
+    CAPTURE(lines);
+    CHECK(is_fixed(lines));
+  }
+}
+
+TEST_CASE("siemens: the modal call of a line is found without its number and comment") {
+  const auto found = modal_drilling_cycle("MCALL  CYCLE83(50, 0 ,2,-30,,-5) ; deep");
+  REQUIRE(found);
+  CHECK(found->modal == "MCALL  CYCLE83(50, 0 ,2,-30,,-5)");
+  CHECK(found->heights_mm == std::array{0.0, 50.0, -30.0, -5.0});
+  for (const std::string_view other : {"MCALL", "MCALL ", "MCALLCYCLE81(1,2,3,4)", "MCALL CYCLE81", "MCALL CYCLE81(1,2,3,4",
+                                       "CYCLE81(1,2,3,4)", "MCALL HOLES2(0,0,5,0,0,4)", ""})
+    CHECK(!modal_drilling_cycle(other));
+}
