@@ -113,21 +113,22 @@ void add_forces(const Options& options, const Run& run, std::vector<std::string>
     lines.push_back("WITH FORCES TIMES " + short_number(options.load_scale, 6));
 }
 
-/// What the text alone does not say of how it was read: verify needs the same.
-void add_reading(const Options& options, const Run& run, std::vector<std::string>& lines) {
+void add_reading(const Run& run, std::vector<std::string>& lines) {
   std::string how;
-  const auto add = [&](bool given, std::string_view name) {
-    if (given) how += fmt::format("{}{}", how.empty() ? "" : ", ", name);
-  };
-  add(options.integer_words == IntegerWords::units, "INTEGER WORDS UNITS");
-  add(options.integer_words == IntegerWords::increments, "INTEGER WORDS INCREMENTS");
-  add(run.read.absolute_centres, "ARC CENTRES ABSOLUTE");
-  add(options.evaluate, "EVALUATE");
-  add(options.expand_subprograms, "EXPAND SUBPROGRAMS");
+  for (const ReadingWord& word : reading_words(run.read))
+    if (word.acts) how += fmt::format("{}{}", how.empty() ? "" : ", ", word.in_header);
   if (!how.empty()) lines.push_back("READ WITH " + how);
 }
 
 }  // namespace
+
+std::vector<ReadingWord> reading_words(const ReadOptions& read) {
+  return {{read.integer_words == IntegerWords::units, "INTEGER WORDS UNITS", "--integer-words units"},
+          {read.integer_words == IntegerWords::increments, "INTEGER WORDS INCREMENTS", "--integer-words increments"},
+          {read.absolute_centres, "ARC CENTRES ABSOLUTE", "--arc-centres absolute"},
+          {read.evaluate, "EVALUATE", "--evaluate"},
+          {read.expand_subprograms, "EXPAND SUBPROGRAMS", "--expand-subprograms"}};
+}
 
 std::string force_rule_text(const ForceRule& rule) {
   const std::string tool = rule.selector.tool ? fmt::format("T{}=", *rule.selector.tool) : "";
@@ -143,7 +144,7 @@ std::vector<std::string> header_of(const Options& options, const Run& run) {
   add_work(run, lines);
   add_tools(run, lines);
   add_forces(options, run, lines);
-  add_reading(options, run, lines);
+  add_reading(run, lines);
   for (std::string& line : lines) line.insert(0, header_mark);
   return lines;
 }

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <sstream>
 
+#include "header.hpp"
+
 namespace counterflex::cli {
 namespace {
 
@@ -46,6 +48,24 @@ std::string given(const std::string& name, const InputFile& file) {
   return fmt::format("{} (SHA-256 {}...)", name, file.sha256.substr(0, 12));
 }
 
+/// How the header says that the original was read, where that is otherwise than now.
+std::string other_reading(const std::string& text, const ReadOptions& read) {
+  const std::string begin = "COUNTERFLEX 1 READ WITH ";
+  const std::size_t at = text.find(begin), end = text.find('\n', at);
+  const std::string said = at == std::string::npos ? "" : text.substr(at + begin.size(), end - at - begin.size());
+  std::string missing, more;
+  for (const ReadingWord& word : reading_words(read)) {
+    const bool was = said.find(word.in_header) != std::string::npos;
+    std::string& list = was ? missing : more;
+    if (was != word.acts) list += fmt::format("{}{}", list.empty() ? "" : " ", word.option);
+  }
+  if (missing.empty() && more.empty()) return {};
+  std::string words = "the original was read in another way when this program was made:";
+  if (!missing.empty()) words += fmt::format(" give {} here, too", missing);
+  if (!more.empty()) words += fmt::format("{} leave out {}", missing.empty() ? "" : ", and", more);
+  return words;
+}
+
 }  // namespace
 
 std::vector<std::string> other_inputs_of_header(const std::string& text, const Run& run) {
@@ -64,6 +84,9 @@ std::vector<std::string> other_inputs_of_header(const std::string& text, const R
       warnings.push_back(warning("another tool table", hash,
                                  run.tools.file ? given(run.tools.file->path, *run.tools.file)
                                                 : "this run, which has no tool table"));
+  const bool has_header = text.find("COUNTERFLEX 1 VERSION") != std::string::npos;
+  if (std::string reading = has_header ? other_reading(text, run.read) : ""; !reading.empty())
+    warnings.push_back(std::move(reading));
   return warnings;
 }
 

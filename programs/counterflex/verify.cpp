@@ -17,13 +17,13 @@ struct CorrectedLook {
   std::string beginning;  ///< text of the first window, which has the header
 };
 
-CorrectedLook look_through_corrected(const Options& options, const Run& run, ProgramFile& file,
-                                     RunTally& tally) {
+CorrectedLook look_through_corrected(const Options& options, const Run& run, const ReadOptions& read,
+                                     ProgramFile& file, RunTally& tally) {
   const std::string name = shown_name(options.corrected);
   CorrectedLook look;
   try {
     file.bytes.hash_along();
-    ProgramReader reader(file.bytes, name, run.read);
+    ProgramReader reader(file.bytes, name, read);
     bool begun = false;
     while (reader.next()) {
       Program& window = reader.window();
@@ -71,14 +71,16 @@ Exit run_verify(const Options& options, Console& console) {
   refuse_what_cannot_be_compensated(*run);
   RunTally tally = tally_for(options, *run);
   ProgramFile corrected = open_program("corrected", options.corrected);
-  const CorrectedLook look = look_through_corrected(options, *run, corrected, tally);
+  ReadOptions read = run->read;
+  read.dialect = run->program.dialect;  // the original's, whatever the name of the corrected file
+  const CorrectedLook look = look_through_corrected(options, *run, read, corrected, tally);
   run->facts.inputs.push_back(corrected.file);
   run->corrected_name = shown_name(options.corrected);
   for (const std::string& warning : other_inputs_of_header(look.beginning, *run))
     console.warning(run->corrected_name, 0, warning);
   RunFiles files(paths, {});
   corrected.bytes.rewind();
-  ProgramReader reader(corrected.bytes, run->corrected_name, run->read);
+  ProgramReader reader(corrected.bytes, run->corrected_name, read);
   const std::optional<Failure> failure = verify_all(*run, reader, tally, files, console);
   corrected.bytes.refuse_change();
   return deliver(options, *run, report_verification(run->context(), tally, look.program, failure), tally,

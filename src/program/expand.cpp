@@ -8,6 +8,7 @@
 #include "program/klartext_lex.hpp"
 #include "program/outline.hpp"
 #include "program/remarks.hpp"
+#include "program/siemens_expand.hpp"
 
 namespace counterflex {
 namespace {
@@ -28,6 +29,7 @@ bool may_expand(const Dialect& dialect) {
 }
 
 Expansion expand_subprograms(std::string& text, const std::string& file, const Dialect& dialect) {
+  if (dialect.sinumerik_words) return expand_siemens(text, file, dialect);
   if (!may_expand(dialect)) return {};
   // Copies repeat block numbers: a jump to one of them would go to another place.
   std::string why_none = outline_of(text, dialect).jumps ? "the program jumps to block numbers" : "";
@@ -69,7 +71,25 @@ std::string_view why_not_expanded(const Expansion& expansion, int text_line) {
                                                              : std::string_view();
 }
 
+namespace {
+
+void remark_execution(Program& program) {
+  const Expansion& expansion = program.expansion;
+  if (expansion.calls > 0)
+    return add_remark(program, expansion.first_call,
+                      fmt::format("loops, conditions and jumps are replaced by the blocks that they execute, {} of them; this "
+                                  "is the first",
+                                  expansion.calls));
+  if (expansion.calls_left.empty())
+    return add_remark(program, 1, "no loop, condition or jump stands in the program: nothing is expanded");
+  const CallLeft& left = expansion.calls_left.front();
+  add_remark(program, left.text_line, "loops, conditions and jumps are left as they are: " + left.why);
+}
+
+}  // namespace
+
 void remark_expansion(Program& program) {
+  if (find_dialect(program.dialect)->sinumerik_words) return remark_execution(program);
   const Expansion& expansion = program.expansion;
   if (expansion.calls == 0) {
     if (expansion.calls_left.empty())

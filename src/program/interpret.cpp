@@ -233,6 +233,7 @@ void read_with_senses(const Block& block, Reading& r) {
   if (!block.has_sense) return read_words(block, r);
   read_words(with_senses(block, r), r);
   r.block_relative.reset();
+  r.relative_axes = 0;
 }
 
 /// A line of a Sinumerik that says more than words.

@@ -34,6 +34,7 @@ struct Reading {
   ModalState state{};
   SortedBlock sorted{};
   std::optional<bool> block_relative{};  ///< X=IC(5), X=AC(5): for this block, whatever is modal
+  std::uint8_t relative_axes = 0;        ///< X=IC(5) beside Y5: a bit for each axis whose word alone counts from the start
   Body body{};
   CurrentOperation operation{};
   int groups = 0;                    ///< contours begun

@@ -116,7 +116,8 @@ void place_macro_word(Reading& r, Move& move, std::size_t axis, const Word& word
 
 void place_word(Reading& r, Move& move, std::size_t axis, const Word& word, bool followed) {
   ModalState& state = r.state;
-  const bool relative = r.relative() && (state.doubts & doubtful_distance) == 0;
+  const bool alone = (r.relative_axes >> axis & 1) != 0;
+  const bool relative = alone || (r.relative() && (state.doubts & doubtful_distance) == 0);
   if (!word.literal || !followed) return place_unknown(r, move, axis);
   if (relative && !state.known[axis]) return fix_axis(r, move, axis);
   move.words[axis] = AxisWord{word.number, word.decimals};
@@ -147,8 +148,14 @@ bool has_axis_word(const SortedBlock& sorted) {
 }
 
 std::string_view why_not_followed(const Reading& r) {
-  if (r.body.jumps) return "the program jumps: any block may run never or often";
-  if (r.in_body()) return "it stands in a condition, a loop or a subprogram";
+  const bool may_execute = r.dialect.sinumerik_words && !r.options.expand_subprograms;
+  if (r.body.jumps)
+    return may_execute ? "the program jumps: any block may run never or often (--expand-subprograms executes jumps whose "
+                         "conditions are known)"
+                       : "the program jumps: any block may run never or often";
+  if (r.in_body())
+    return may_execute ? "it stands in a condition or a loop (--expand-subprograms executes those whose conditions are known)"
+                       : "it stands in a condition, a loop or a subprogram";
   if (r.state.displaced != 0) return displacement_text(r.state.displaced);
   std::uint16_t doubts = r.state.doubts;
   // Planes and centres matter to arcs and cycles alone, levels to cycles.
@@ -170,6 +177,7 @@ Move& begin_move(const Block& block, Reading& r, Motion motion) {
   move.start_mm = r.state.position_mm;
   r.taken_away.fill(false);
   move.relative = r.relative();
+  move.incremental = move.relative ? 0 : r.relative_axes & 7U;
   move.feed_mm_min = feed_mm_min(r.state);
   move.spindle_rpm = r.state.spindle_rpm;
   move.frame = static_cast<std::uint32_t>(r.state.frame);

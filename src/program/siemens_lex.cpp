@@ -256,9 +256,37 @@ bool lex_structure(Scanner& s, std::string_view name) {
   return true;
 }
 
+/// "DEF REAL DEPTH=-2.5, WIDTH": each sets its variable; without a value it is zero.
+void lex_declaration(Scanner& s) {
+  s.at += name_at(s).size();
+  s.skip_blanks();
+  s.at += name_at(s).size();
+  for (s.skip_blanks(); s.at < s.end && s.peek() != ';'; s.skip_blanks()) {
+    const std::size_t begin = s.at;
+    s.at += name_at(s).size();
+    if (s.peek() == '[') skip_index(s);
+    const Span variable{begin, s.at};
+    s.skip_blanks();
+    Span value{s.at, s.at};
+    if (s.peek() == '=') {
+      value.begin = ++s.at;
+      int depth = 0;
+      for (; s.at < s.end && s.peek() != ';' && (depth > 0 || s.peek() != ','); ++s.at) {
+        depth += s.peek() == '(' || s.peek() == '[';
+        depth -= s.peek() == ')' || s.peek() == ']';
+      }
+      value.end = s.at;
+    }
+    s.block.assignments.push_back({variable, value});
+    if (s.peek() != ',') return skip_siemens_rest(s);
+    ++s.at;
+  }
+}
+
 /// A name with its value or arguments: "SPOS=0", "ACC[X]=80", "MSG(\"TEXT\")", "FFWON".
 void skip_harmless(Scanner& s, std::string_view name) {
-  if (is_word(name, "DEF") || is_word(name, "DEFINE") || is_word(name, "EXTERN") || is_word(name, "PROC") ||
+  if (is_word(name, "DEF")) return lex_declaration(s);
+  if (is_word(name, "DEFINE") || is_word(name, "EXTERN") || is_word(name, "PROC") ||
       is_word(name.substr(0, 4), "GOTO") || is_word(name, "CASE"))
     return skip_siemens_rest(s);
   s.at += name.size();

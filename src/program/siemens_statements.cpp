@@ -122,10 +122,17 @@ Block with_senses(const Block& block, Reading& r) {
     all_relative = all_relative && relative(word);
     all_absolute = all_absolute && !relative(word);
   }
-  if (!all_relative && !all_absolute)
-    for (Word& word : result.words)
-      if (is_length_word(word) && relative(word)) word.literal = false;
   if (all_relative != modal) r.block_relative = all_relative;
+  if (all_relative || all_absolute) return result;
+  // Each axis of a line counts for itself; of an arc this is not followed.
+  const bool arc = std::any_of(block.words.begin(), block.words.end(), [](const Word& word) {
+    return std::string_view("IJKRP").find(word.letter) != std::string_view::npos;
+  });
+  for (Word& word : result.words)
+    if (is_length_word(word) && relative(word)) {
+      if (arc) word.literal = false;
+      r.relative_axes = (r.relative_axes | 1U << (word.letter - 'X')) & 7U;
+    }
   return result;
 }
 

@@ -13,8 +13,8 @@ bool has_words_of_its_own(const Block& block, const Reading& reading);
 /// What the statement does after them.
 void end_statement(const Block& block, Reading& reading);
 
-/// The block with words that count from elsewhere than the rest marked as not known; sets
-/// `reading.block_relative` where all count alike, but not as the modal state has it.
+/// The block, whose words count otherwise than the modal state has it: sets `reading.block_relative`, and
+/// `reading.relative_axes` where some count from the start and some do not. Of an arc those are marked as not known.
 Block with_senses(const Block& block, Reading& reading);
 
 /// D: the tool's edge, whose length shifts Z; a tool change selects the first.

@@ -84,7 +84,7 @@ TEST_CASE("siemens: values behind '=' are read and changed in place") {
         "G1 X=13.0 Y=AC(6.75) F500\nZ=-2.125\n");
 }
 
-TEST_CASE("siemens: a block of incremental words is relative, a mixed one leaves them alone") {
+TEST_CASE("siemens: a block of incremental words is relative, in a mixed one each axis counts for itself") {
   const Program program =
       siemens(std::string(siemens_start) + "G1 X=IC(5) Y=IC(-1) F500\nX10 Y=IC(2)\nG91\nX=AC(3) Y=AC(4)\n");
   REQUIRE(program.moves.size() == 4);
@@ -92,7 +92,9 @@ TEST_CASE("siemens: a block of incremental words is relative, a mixed one leaves
   CHECK(program.moves[1].end_mm.x() == 5);
   CHECK_FALSE(program.moves[1].may_insert_words);
   CHECK_FALSE(program.moves[2].relative);
-  CHECK(program.moves[2].fixed == std::array{false, true, false});
+  CHECK_FALSE(is_relative(program.moves[2], 0));
+  CHECK(is_relative(program.moves[2], 1));
+  CHECK(program.moves[2].end_mm == Vector3(10, 1, 50));
   CHECK_FALSE(program.moves[3].relative);
   CHECK(program.moves[3].end_mm.y() == 4);
   CHECK(program.moves[3].known_end[1]);
