@@ -9,30 +9,19 @@
 namespace counterflex {
 namespace {
 
-// A Sinumerik's MCALL with a drilling cycle, without N and without the heights, which go along with its holes;
-// other lines as they are.
-std::string modal_call_of(std::string_view line, bool& sets_heights) {
-  std::string_view rest = line;
-  const auto skip = [&rest](std::string_view characters) {
-    rest.remove_prefix(std::min(rest.find_first_not_of(characters), rest.size()));
+// A Sinumerik's MCALL with a drilling cycle. It is said anew before holes, which compare it.
+bool calls_modal_cycle(std::string_view line) {
+  const auto skip = [&line](std::string_view characters) {
+    line.remove_prefix(std::min(line.find_first_not_of(characters), line.size()));
   };
   skip(" \t");
-  if (rest.starts_with('N') || rest.starts_with('n')) rest.remove_prefix(1), skip("0123456789"), skip(" \t");
-  const auto cycle = modal_drilling_cycle(rest);
-  if (!cycle) return std::string(line);
-  sets_heights = true;
-  std::string statement = cycle->modal;
-  for (std::size_t i = 0; i < statement.size(); ++i)
-    for (const PackedAxisWord& word : cycle->heights)
-      if (word && i >= word->number.begin && i < word->number.end) statement[i] = '\0';
-  std::erase(statement, '\0');
-  return statement;
+  if (line.starts_with('N') || line.starts_with('n')) line.remove_prefix(1), skip("0123456789"), skip(" \t");
+  return modal_drilling_cycle(line).has_value();
 }
 
 // The line without its Klartext block number and without the surface of a drilling cycle, which goes along
 // with its holes. Nothing of a CC, which belongs to the arc behind it.
 std::string statement_of(const Program& program, std::string_view line, bool& sets_surface) {
-  if (program.dialect == "siemens") return modal_call_of(line, sets_surface);
   if (program.dialect != "heidenhain") return std::string(line);
   line.remove_prefix(std::min(line.find_first_not_of(" \t"), line.size()));
   const std::size_t digits = line.starts_with('N') || line.starts_with('n') ? 1 : 0;
@@ -90,7 +79,7 @@ std::vector<std::size_t> OtherLines::add(const Program& window) {
   std::vector<std::size_t> counts;
   counts.reserve(window.moves.size());
   const std::string_view text = window.text;
-  const bool klartext = window.dialect == "heidenhain";
+  const bool klartext = window.dialect == "heidenhain", siemens = window.dialect == "siemens";
   for (std::size_t begin = 0; begin < text.size(); ++lines_before_) {
     const std::size_t end = std::min(text.find('\n', begin), text.size());
     std::string_view line = text.substr(begin, end - begin);
@@ -103,6 +92,7 @@ std::vector<std::size_t> OtherLines::add(const Program& window) {
       continue;
     }
     if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
+    if (siemens && calls_modal_cycle(line)) continue;
     std::string statement = statement_of(window, line, sets_surface_);
     if (is_header(statement) || (klartext && statement.empty())) continue;
     const bool ends = !klartext || !continues(statement);

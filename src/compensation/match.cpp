@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -25,6 +26,18 @@ bool makes_doubtful(const Move& move) {
 bool takes_surface(const Move& move) {
   if (move.called) return !move.called->modal.empty();
   return move.words[2] && move.words[2]->number.begin < move.block.begin;
+}
+
+// MCALL with its cycle, without blanks and without the heights.
+std::string without_heights(const CalledCycle& cycle) {
+  std::string text;
+  for (std::size_t i = 0; i < cycle.modal.size(); ++i) {
+    const bool height = std::any_of(cycle.heights.begin(), cycle.heights.end(), [i](const PackedAxisWord& word) {
+      return word && i >= word->number.begin && i < word->number.end;
+    });
+    if (!height && cycle.modal[i] != ' ' && cycle.modal[i] != '\t') text += cycle.modal[i];
+  }
+  return text;
 }
 
 class WindowMatcher {
@@ -156,6 +169,8 @@ class WindowMatcher {
     };
     if (!original.called != !found.called) return fail("a drilling cycle is called here in one of both programs only");
     if (!original.called) return std::nullopt;
+    if (without_heights(*original.called) != without_heights(*found.called))
+      return fail("the cycle that MCALL calls here is not that of the original");
     const double shift = found.end_mm.z() - original.end_mm.z();
     for (std::size_t i = 0; i < original.called->heights.size(); ++i) {
       if (!original.called->heights[i] != !found.called->heights[i])

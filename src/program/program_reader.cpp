@@ -57,6 +57,8 @@ void shift_spans(Move& move, std::ptrdiff_t bytes) {
     for (auto& word : move.arc->centre_words) shift_word(word);
     shift_word(move.arc->radius_word);
   }
+  if (move.called && move.called->modal.empty())
+    for (auto& height : move.called->heights) shift_word(height);
   if (move.cycle) {
     shift_word(move.cycle->bottom_word);
     shift_word(move.cycle->retract_word);

@@ -22,7 +22,7 @@ struct Grid {
 };
 constexpr Grid bent_grid{1.0 / 24, 3}, straight_grid{1.0 / 8, 8};
 constexpr double reach_of_cells = 2;       // from their centres, in edges: so that batches are full
-constexpr std::size_t most_zones = 512, most_cells = 1024;
+constexpr std::size_t most_zones = 512, least_cells = 64, most_cells = 1024, bytes_of_cells = 12'000'000;
 constexpr double farthest_cell = 1e6;      // from the origin of M: nothing that is a machine
 constexpr double slack = 1e-11;  // m: at a spring of a rigid machine
 constexpr double same_branch = 1e-3;  // l or rad: another branch is further away
@@ -60,6 +60,12 @@ bool only_slides(const Mechanism& mechanism) {
       return !turns && part.kind != PartKind::passive && part.kind != PartKind::group;
     });
   });
+}
+
+/// How many cells are kept: a raster needs those of two of its lines, whatever the machine.
+std::size_t kept_cells(const lanes::Program& program) {
+  const auto numbers = static_cast<std::size_t>(program.tangents + (program.rows + 6) * 2 * lanes::most_monomials + 3 * program.states);
+  return std::clamp(bytes_of_cells / (sizeof(double) * numbers), least_cells, most_cells);
 }
 
 /// The things made last, up to a number; null ones, for places where nothing can be made, too. What is made depends on the
@@ -119,7 +125,7 @@ struct LaneMachine::Impl {
   const Grid grid;
   const double edge, reach;  // of a cell; largest correction
   Cache<LaneZone> zones{most_zones};
-  Cache<LaneCell> cells{most_cells};
+  Cache<LaneCell> cells{kept_cells(lane_model.program())};
 
   Impl(const Model& m, bool at_platform, double largest_correction)
       : sprung(is_rigid(m.mechanism) ? std::optional<Model>(with_end_springs(m)) : std::nullopt),
