@@ -12,7 +12,7 @@
 namespace counterflex {
 namespace {
 
-constexpr std::size_t most_lines = 1'000'000, most_bytes = 64'000'000;
+constexpr std::size_t most_lines = 150'000, most_bytes = 16'000'000;
 
 std::string upper_case(std::string_view text) {
   std::string result(text);
