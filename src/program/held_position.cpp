@@ -7,6 +7,7 @@
 #include "program/dialect.hpp"
 #include "program/held_cycle.hpp"
 #include "program/number_style.hpp"
+#include "program/rewrite_step.hpp"
 
 namespace counterflex {
 namespace {
@@ -189,6 +190,11 @@ HeldPosition held_after(const Move& move, const HeldPosition& before, const Vect
                         const WriteOptions& options) {
   const HeldPosition start = held_at_start(move, before);
   HeldPosition held;
+  if (move.angle_axis != 0) {
+    held = settle_step(move, start, {end_mm}, motion_of(move), Place::end, options).after;
+    doubt_skippable(move, start, held);
+    return held;
+  }
   held.cycle_initial_mm = cycle_initial_after(move, start);
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const double wanted_mm = component(end_mm, axis);

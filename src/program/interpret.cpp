@@ -195,6 +195,7 @@ Context context_of(const Reading& r) {
 
 void apply_words(const Block& block, Reading& r) {
   r.corner = block.corner;
+  r.angle = block.angle;
   sort_words(r.program.file, r.dialect, block, context_of(r), r.sorted);
   read_program_number(block, r);
   if (has_other_codes(r.sorted)) {
@@ -208,6 +209,8 @@ void apply_words(const Block& block, Reading& r) {
   const std::size_t moves = r.program.moves.size();
   if (r.sorted.unknown_code)
     read_anything(block, r, "the number of a code is a variable or an expression");
+  else if (r.angle && !has_axis_word(r.sorted))
+    read_anything(block, r, "ANG= is followed beside one of X and Y alone, in a line of G17");
   else
     apply_axis_words(block, r);
   if (r.program.moves.size() > moves) join_contour(r);

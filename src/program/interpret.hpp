@@ -45,6 +45,7 @@ struct Reading {
   double turned_mm = 0;              ///< the way of their full turns
   std::map<std::string, SetOffset> offsets{};  ///< by name
   std::map<std::string, double, std::less<>> variables{};  ///< whose values are known, see `evaluate_words`
+  std::optional<Word> angle{};               ///< of the block's line, which says one of two coordinates
   std::optional<CalledCycle> called{};  ///< by MCALL, at every position
   std::string last_reason{};         ///< for which a block was left alone
   std::optional<CornerSize> corner{};        ///< that the block's end and the begin of the next make

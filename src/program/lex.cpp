@@ -285,6 +285,7 @@ void lex(std::string_view text, const std::string& file, const Dialect& dialect,
   block.block_delete = {};
   block.percent = block.part_name = false;
   block.corner.reset();
+  block.angle.reset();
   block.assigns = block.assigns_by_name = false;
   block.flow_keyword = block.flow_name = {};
   block.statement = Statement::none;

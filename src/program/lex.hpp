@@ -75,6 +75,7 @@ struct Block {
   bool has_sense = false;          ///< a word says what it counts from
   Span flow_name;                  ///< of an O-word: "100" or "<name>"
   Span flow_keyword;               ///< of a line of flow: "sub", "GOTO"; empty where it is none
+  std::optional<Word> angle;  ///< of a Sinumerik: ANG=, the direction of a line whose end is half said
   std::vector<Word> words;
   std::vector<Assignment> assignments;  ///< to variables; of `assigns` and `assigns_by_name`
   std::vector<Span> comments;  ///< what stands inside the comment characters

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 #include "counterflex/geometry/curve.hpp"
 
@@ -135,6 +137,25 @@ std::int32_t tool_of(const Reading& r) {
                                                         : 0;
 }
 
+/// ANG= beside one word of X and Y says the other: the line has this direction. False where it is not followed.
+bool place_by_angle(Reading& r, Move& move) {
+  constexpr double along = 1e-6;  // of a direction: nearly along the axis that is not said
+  const Word& angle = *r.angle;
+  const std::size_t said = move.words[0] ? 0 : 1, other = 1 - said;
+  const bool line = r.state.motion == MotionMode::rapid || r.state.motion == MotionMode::feed;
+  if (!line || r.state.normal != 2 || !angle.literal || !move.words[said] || move.words[other] || !r.state.known[0] ||
+      !r.state.known[1])
+    return false;
+  const double radians = angle.value * std::numbers::pi / 180;
+  const double direction[2] = {std::cos(radians), std::sin(radians)};
+  if (std::abs(direction[said]) < along) return false;
+  const double way = coordinate(r.state.position_mm, said) - move.start_mm[static_cast<Eigen::Index>(said)];
+  coordinate(r.state.position_mm, other) += way * direction[other] / direction[said];
+  move.words[other] = AxisWord{angle.number, 0};
+  move.angle_axis = static_cast<std::uint8_t>(other + 1);
+  return true;
+}
+
 }  // namespace
 
 const Word& first_axis_word(const Block& block) {
@@ -238,7 +259,10 @@ void place_words(const Block& block, Reading& r, Move& move) {
     return leave_alone(block, r,
                        r.options.evaluate ? "a position is a variable or an expression whose value the text does not show"
                                           : "a position is a variable or an expression (--evaluate works out constants)");
-  if (any(move.fixed)) leave_alone(block, r, "a relative position counts from an unknown one");
+  if (any(move.fixed)) return leave_alone(block, r, "a relative position counts from an unknown one");
+  if (!r.angle || place_by_angle(r, move)) return;
+  for (std::size_t axis = 0; axis < 2; ++axis) fix_axis(r, move, axis);
+  leave_alone(block, r, "ANG= is followed beside one of X and Y alone, in a line of G17");
 }
 
 void finish_move(Reading& r, Move& move) {

@@ -158,7 +158,7 @@ bool is_written_alone(const Program& program, const MoveEdit& edit, const HeldPo
                       const CycleWords& cycle, const WriteOptions& options, TextState& state,
                       Rewritten& out) {
   const Move& move = program.moves[edit.move];
-  if (edit.jump_mm || !edit.inserted.empty() || state.restate_motion || move.called) return false;
+  if (edit.jump_mm || !edit.inserted.empty() || state.restate_motion || move.called || move.angle_axis != 0) return false;
   const int motion = motion_of(move);
   const Step step = settle_step(move, before, {edit.end_mm, edit.centre_mm}, motion, Place::end, options);
   if (step.motion != motion) return false;

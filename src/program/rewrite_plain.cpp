@@ -27,7 +27,7 @@ struct PlainEdit {
 
 /// Whether nothing but the coordinates of the words decides where the move goes.
 bool is_plain_move(const Move& move) {
-  return !move.arc && !move.cycle && !move.called && !move.relative && move.incremental == 0 && !move.block_delete && !move.fixed[0] &&
+  return !move.arc && !move.cycle && !move.called && move.angle_axis == 0 && !move.relative && move.incremental == 0 && !move.block_delete && !move.fixed[0] &&
          !move.fixed[1] && !move.fixed[2] && all_known(move.known_end);
 }
 

@@ -55,6 +55,23 @@ int motion_of(const Move& move) {
   return move.motion == Motion::rapid ? 0 : 1;
 }
 
+namespace {
+
+/// The direction of a line stays while neither its start nor the coordinate beside it changes; else the coordinate that it
+/// says is written.
+void settle_angle(const Move& move, const Via& via, const WriteOptions& options, Step& step) {
+  const std::size_t axis = move.angle_axis - 1U, other = 1 - axis;
+  Coordinate& c = step.axes[axis];
+  const auto starts_elsewhere = [&](std::size_t i) { return step.before[i] != component(move.start_mm, i); };
+  if (c.number.write || (!step.axes[other].number.write && !starts_elsewhere(0) && !starts_elsewhere(1))) return;
+  Move without = move;
+  without.words[axis].reset();
+  const Coordinate anew = settle_axis(without, axis, is_relative(move, axis) ? step.before : HeldPosition{}, component(via.end_mm, axis), step.place, options);
+  if (anew.number.write) c = anew;
+}
+
+}  // namespace
+
 Step settle_step(const Move& move, const HeldPosition& before, const Via& via, int motion, Place place,
                  const WriteOptions& options) {
   const bool has_height = place == Place::end && move.arc && !stays_flat(move);
@@ -68,6 +85,7 @@ Step settle_step(const Move& move, const HeldPosition& before, const Via& via, i
     return settle_axis(move, axis, before, component(via.end_mm, axis), place, options);
   };
   Step step(place, motion, before, settled);
+  if (move.angle_axis != 0 && place != Place::inside) settle_angle(move, via, options, step);
   for (std::size_t axis = 0; axis < 3; ++axis) assign(step.after[axis], step.axes[axis].held_mm);
   step.after.cycle_initial_mm = cycle_initial_after(move, before);
   if (motion < 2 || !move.arc) return step;

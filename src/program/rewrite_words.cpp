@@ -88,7 +88,9 @@ void axis_changes(const Original& o, const Step& step, const BesidesPoint& besid
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const WordNumber& number = step.axes[axis].number;
     if (!number.write || (o.move.called && axis == 2)) continue;
-    if (const auto& word = o.move.words[axis])
+    if (axis + 1 == o.move.angle_axis)  // the coordinate in the place of the direction
+      changes.list.push_back({o.block.angle->span, word_text(o, axis_letters[axis], number)}), ++changes.changed;
+    else if (const auto& word = o.move.words[axis])
       change_word(o, *word, number, changes);
     else
       inserted.push_back(word_text(o, axis_letters[axis], number));

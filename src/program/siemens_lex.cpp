@@ -73,7 +73,7 @@ constexpr std::array<std::string_view, 13> structures{"IF",    "ELSE",    "ENDIF
 
 // Say where a move goes; other names before '=' are variables.
 constexpr std::array position_names{"AP",   "RP",  "AR",   "OFFN",
-                                    "RNDM", "ANG", "DISR", "DISCL", "POS", "POSA", "FP"};
+                                    "RNDM", "DISR", "DISCL", "POS", "POSA", "FP"};
 
 bool is_name_character(char c) {
   return is_letter(c) || is_digit(c) || c == '_' || c == '$';
@@ -366,6 +366,13 @@ bool lex_corner(Scanner& s, std::string_view name) {
   return true;
 }
 
+/// "ANG=30": the direction of a line in the plane, from its first axis.
+void lex_angle(Scanner& s) {
+  read_named_word(s, 'R', 3);
+  s.block.angle = s.block.words.back();
+  s.block.words.pop_back();
+}
+
 bool lex_label(Scanner& s, std::string_view name) {
   const std::size_t behind = s.at + name.size();
   if (behind >= s.end || s.text[behind] != ':' || (behind + 1 < s.end && s.text[behind + 1] == '='))
@@ -377,6 +384,7 @@ bool lex_label(Scanner& s, std::string_view name) {
 void lex_name(Scanner& s, std::string_view name) {
   if (is_word(name, "CR") && equals_follows(s, 2)) return read_named_word(s, 'R', 2);
   if (is_word(name, "TURN") && equals_follows(s, 4)) return read_named_word(s, 'P', 4);
+  if (is_word(name, "ANG") && equals_follows(s, 3)) return lex_angle(s);
   if (lex_corner(s, name)) return;
   if (is_word(name, "SUPA")) return state_machine_position(s, name);
   if (lex_structure(s, name)) return;

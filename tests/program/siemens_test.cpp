@@ -159,6 +159,25 @@ TEST_CASE("siemens: frames, cycles and subprograms are not corrected, with their
   CHECK(siemens(std::string(siemens_start) + "L100\n").left_alone.at(0).why == "a subprogram is called");
 }
 
+TEST_CASE("siemens: ANG= says the coordinate that a line has no word for") {
+  const std::string text = std::string(siemens_start) + "G1 X40 ANG=45 F100\nY0 ANG=90\nY-20 ANG=-135\n";
+  const Program program = siemens(text);
+  REQUIRE(program.moves.size() == 4);
+  CHECK((program.moves[1].end_mm - Vector3(40, 40, 50)).norm() < 1e-9);
+  CHECK((program.moves[2].end_mm - Vector3(40, 0, 50)).norm() < 1e-9);
+  CHECK((program.moves[3].end_mm - Vector3(20, -20, 50)).norm() < 1e-9);
+  CHECK(rewrite(program, edits_to_original(program), {}).text == text);
+  // The direction stays where the whole line is shifted by nothing; else the coordinate is written.
+  CHECK(siemens_shifted(text).ends_with("G1 X40.5 Y39.750 F100\nY-0.25 X40.500\nY-20.25 X20.500\n"));
+  for (const std::string lines : {"G1 ANG=45 F100\n", "G1 X5 Y5 ANG=45 F100\n", "G1 X5 ANG=90 F100\n", "G1 X5 ANG=R1 F100\n",
+                                  "G18\nG1 X5 ANG=30 F100\n"}) {
+    CAPTURE(lines);
+    const Program left = siemens(std::string(siemens_start) + lines);
+    CHECK((left.moves.back().fixed[0] || left.moves.size() == 1));
+    CHECK(!left.left_alone.empty());
+  }
+}
+
 TEST_CASE("siemens: G60 is an exact stop and G64 ends it") {
   const Program program = siemens(std::string(siemens_start) + "G60 G1 X5 F100\nX6\nG64 X7\n");
   REQUIRE(program.moves.size() == 4);

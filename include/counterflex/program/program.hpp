@@ -175,6 +175,7 @@ struct Move {
   bool makes_hole : 1 = false;  ///< of Klartext and Sinumerik: a cycle that goes along with the tool is called at its end
   bool repeats_surface : 1 = false;  ///< its Z is the surface of a Klartext cycle, as an earlier hole has said it
   bool may_position : 1 = false;  ///< of a called cycle: a rapid to its place in X and Y may be inserted before it
+  std::uint8_t angle_axis : 2 = 0;  ///< 1 X, 2 Y: its word is ANG=, the direction of the line; the other axis has one
   bool stays_whole : 1 = false;  ///< a word of the block acts at its begin or end: not even a line beside corners is divided
   bool block_delete : 1 = false;  ///< a '/' block: what it sets is unknown to the blocks after it
   bool exact_stop : 1 = false;  ///< the control stops at the end (G9, G61 of Fanuc, G61.1 of LinuxCNC)
