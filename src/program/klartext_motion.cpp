@@ -181,13 +181,13 @@ Vector3 direction_at_end(const Move& move) {
   return way.isZero(0) ? way : Vector3(way.normalized());
 }
 
-/// CT between known ends: the arc tangent to the move before it. False where it is not known, or is a line.
+/// CT between known ends: the arc tangent to the move before it. False where it is not known, is a line, or goes nowhere.
 bool read_tangent_arc(KlartextReading& r, Move& move) {
   const auto& moves = r.program.moves;
   if (moves.empty() || r.state.corner || !has_known_ends(r, move, 2) || !move.known_start[2]) return false;
   const Vector3 way = direction_at_end(moves.back()), chord = move.end_mm - move.start_mm, side(-way.y(), way.x(), 0);
   const double across = side.dot(chord);
-  if (std::abs(across) < straight * chord.norm() || moves.back().end_mm != move.start_mm) return false;
+  if (std::abs(across) <= straight * chord.norm() || moves.back().end_mm != move.start_mm) return false;
   ArcMove arc;
   arc.flat = arc.absolute_centre = true;
   arc.clockwise = across < 0;

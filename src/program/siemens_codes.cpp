@@ -7,7 +7,7 @@ namespace counterflex {
 namespace {
 
 constexpr std::string_view iso = "the control's ISO language is not read here: choose that dialect";
-constexpr std::string_view cycle = "a cycle";
+constexpr std::string_view a_cycle = "a cycle";
 
 // In the order of their numbers.
 constexpr std::array siemens_codes{
@@ -44,15 +44,15 @@ constexpr std::array siemens_codes{
     GCode{740, Action::reference_move},
     GCode{750, Action::reference_move},
     GCode{800, Action::end_displace, CodeGroup::motion, {}, any_family, modal_macro},
-    GCode{810, Action::displace, CodeGroup::motion, cycle, any_family, modal_macro},
-    GCode{820, Action::displace, CodeGroup::motion, cycle, any_family, modal_macro},
-    GCode{830, Action::displace, CodeGroup::motion, cycle, any_family, modal_macro},
-    GCode{840, Action::displace, CodeGroup::motion, cycle, any_family, modal_macro},
-    GCode{850, Action::displace, CodeGroup::motion, cycle, any_family, modal_macro},
-    GCode{860, Action::displace, CodeGroup::motion, cycle, any_family, modal_macro},
-    GCode{870, Action::displace, CodeGroup::motion, cycle, any_family, modal_macro},
-    GCode{880, Action::displace, CodeGroup::motion, cycle, any_family, modal_macro},
-    GCode{890, Action::displace, CodeGroup::motion, cycle, any_family, modal_macro},
+    GCode{810, Action::displace, CodeGroup::motion, a_cycle, any_family, modal_macro},
+    GCode{820, Action::displace, CodeGroup::motion, a_cycle, any_family, modal_macro},
+    GCode{830, Action::displace, CodeGroup::motion, a_cycle, any_family, modal_macro},
+    GCode{840, Action::displace, CodeGroup::motion, a_cycle, any_family, modal_macro},
+    GCode{850, Action::displace, CodeGroup::motion, a_cycle, any_family, modal_macro},
+    GCode{860, Action::displace, CodeGroup::motion, a_cycle, any_family, modal_macro},
+    GCode{870, Action::displace, CodeGroup::motion, a_cycle, any_family, modal_macro},
+    GCode{880, Action::displace, CodeGroup::motion, a_cycle, any_family, modal_macro},
+    GCode{890, Action::displace, CodeGroup::motion, a_cycle, any_family, modal_macro},
     GCode{900, Action::absolute, CodeGroup::distance},
     GCode{910, Action::relative, CodeGroup::distance},
     GCode{930, Action::inverse_time, CodeGroup::feed_mode},

@@ -16,7 +16,7 @@ constexpr std::array<std::string_view, 10> drilling_cycles{"CYCLE81", "CYCLE82",
 constexpr std::size_t retract_plane = 0, reference_plane = 1, final_depth = 3, first_depth = 5;
 
 /// The name of a call and the spans of its arguments, without blanks.
-struct Call {
+struct ArgumentList {
   std::string_view name;
   std::vector<Span> arguments;
 };
@@ -28,11 +28,11 @@ Span trimmed(std::string_view text, Span span) {
 }
 
 /// "CYCLE81(50, 0, 2, -20)" from `at` on; none where the brackets are not those of one plain list.
-std::optional<Call> call_at(std::string_view text, std::size_t at, std::size_t end) {
+std::optional<ArgumentList> call_at(std::string_view text, std::size_t at, std::size_t end) {
   const std::size_t open = text.find('(', at), close = text.find(')', at);
   if (open >= end || close >= end) return std::nullopt;
   const Span name = trimmed(text, {at, open});
-  Call call{part(text, name), {}};
+  ArgumentList call{part(text, name), {}};
   if (call.name.empty() || text.substr(open + 1, close - open - 1).find_first_of("(\"") != std::string_view::npos)
     return std::nullopt;
   if (!empty(trimmed(text, {close + 1, end}))) return std::nullopt;
@@ -50,7 +50,7 @@ bool is_plain(std::string_view number) {
 }
 
 /// Fills `cycle` from the arguments; false where a height is no plain number.
-bool take_heights(std::string_view text, const Call& call, CalledCycle& cycle) {
+bool take_heights(std::string_view text, const ArgumentList& call, CalledCycle& cycle) {
   const bool pecks = is_word(call.name, "CYCLE83");
   std::size_t i = 0;
   for (const std::size_t place : {reference_plane, retract_plane, final_depth, first_depth}) {

@@ -442,8 +442,8 @@ TEST_CASE("klartext: CT is the arc tangent to the move before it, and C where it
                   "CC X+10.500 Y+25.000", "C Y+30 DR-", "L X+0.5"}));
 }
 
-TEST_CASE("klartext: CT with a height, behind an unknown move, or straight ahead is held") {
-  for (const char* block : {"CT X+20 Y+10 Z+5", "CT X+20"}) {
+TEST_CASE("klartext: CT with a height, behind an unknown move, straight ahead or to its own start is held") {
+  for (const char* block : {"CT X+20 Y+10 Z+5", "CT X+20", "CT X+10 Y+0"}) {
     CAPTURE(block);
     const Program program = read(klartext({"L X+0 Y+0 Z+0 F100", "L X+10", block, "L X+0"}));
     CHECK(program.moves[2].handling == Handling::held);
