@@ -9,8 +9,9 @@
 namespace counterflex {
 namespace {
 
-constexpr std::array<std::string_view, 10> drilling_cycles{"CYCLE81", "CYCLE82", "CYCLE83", "CYCLE84", "CYCLE85",
-                                                           "CYCLE86", "CYCLE87", "CYCLE88", "CYCLE89", "CYCLE840"};
+constexpr std::array<std::string_view, 10> drilling_cycles{"CYCLE81", "CYCLE82", "CYCLE83", "CYCLE84",
+                                                           "CYCLE85", "CYCLE86", "CYCLE87", "CYCLE88",
+                                                           "CYCLE89", "CYCLE840"};
 
 // Places in the list of arguments.
 constexpr std::size_t retract_plane = 0, reference_plane = 1, final_depth = 3, first_depth = 5;
@@ -33,7 +34,8 @@ std::optional<ArgumentList> call_at(std::string_view text, std::size_t at, std::
   if (open >= end || close >= end) return std::nullopt;
   const Span name = trimmed(text, {at, open});
   ArgumentList call{part(text, name), {}};
-  if (call.name.empty() || text.substr(open + 1, close - open - 1).find_first_of("(\"") != std::string_view::npos)
+  if (call.name.empty() ||
+      text.substr(open + 1, close - open - 1).find_first_of("(\"") != std::string_view::npos)
     return std::nullopt;
   if (!empty(trimmed(text, {close + 1, end}))) return std::nullopt;
   for (std::size_t begin = open + 1; begin <= close;) {
@@ -71,7 +73,8 @@ bool take_heights(std::string_view text, const ArgumentList& call, CalledCycle& 
 }
 
 bool is_drilling(std::string_view name) {
-  return std::any_of(drilling_cycles.begin(), drilling_cycles.end(), [&](auto known) { return is_word(name, known); });
+  return std::any_of(drilling_cycles.begin(), drilling_cycles.end(),
+                     [&](auto known) { return is_word(name, known); });
 }
 
 std::optional<CalledCycle> called_at(std::string_view text, Span span) {
@@ -123,7 +126,9 @@ std::optional<CalledCycle> drilling_cycle(const Block& block, const Reading& r) 
 std::optional<CalledCycle> modal_drilling_cycle(std::string_view statement) {
   constexpr std::string_view name = "MCALL";
   const std::string_view line = statement.substr(0, statement.find(';'));
-  if (line.size() <= name.size() || !is_word(line.substr(0, name.size()), name) || !is_blank(line[name.size()])) return std::nullopt;
+  if (line.size() <= name.size() || !is_word(line.substr(0, name.size()), name) ||
+      !is_blank(line[name.size()]))
+    return std::nullopt;
   const Span call = trimmed(line, {name.size(), line.size()});
   auto cycle = called_at(line, call);
   if (cycle) cycle->modal = std::string(line.substr(0, call.end));

@@ -43,16 +43,16 @@ std::size_t jump_in(const std::string& line) {
 
 /// A line in the parts that say where the program goes on.
 struct Line {
-  Span span;               ///< with its end
-  int number = 0;          ///< of the file
-  Span label;              ///< with ':'
-  std::string keyword;     ///< IF, FOR, ... GOTO; empty: a block that is executed
-  std::string condition;   ///< of IF, WHILE, UNTIL; "R1=1 TO 5" of FOR
-  std::string target;      ///< label of a jump
-  std::size_t partner = 0; ///< line of the keyword that ends or begins the structure
-  std::size_t other = 0;   ///< of IF: the line of ELSE, or of ENDIF
-  bool ends = false;       ///< M2, M30, M17, RET
-  bool counted = false;    ///< it has been executed
+  Span span;                ///< with its end
+  int number = 0;           ///< of the file
+  Span label;               ///< with ':'
+  std::string keyword;      ///< IF, FOR, ... GOTO; empty: a block that is executed
+  std::string condition;    ///< of IF, WHILE, UNTIL; "R1=1 TO 5" of FOR
+  std::string target;       ///< label of a jump
+  std::size_t partner = 0;  ///< line of the keyword that ends or begins the structure
+  std::size_t other = 0;    ///< of IF: the line of ELSE, or of ENDIF
+  bool ends = false;        ///< M2, M30, M17, RET
+  bool counted = false;     ///< it has been executed
 };
 
 /// What a run cannot go on from.
@@ -119,7 +119,8 @@ class Run {
       rest = trimmed(ahead.substr(1));
     }
     read_keyword(rest, line);
-    if (skipped && !line.keyword.empty()) throw Unknown{line.number, "a jump or a loop stands in a block that '/' may skip"};
+    if (skipped && !line.keyword.empty())
+      throw Unknown{line.number, "a jump or a loop stands in a block that '/' may skip"};
     line.ends = ends_program(block);
     lines_.push_back(std::move(line));
   }
@@ -152,8 +153,8 @@ class Run {
     } else if (name == "REPEAT" && !after.empty()) {
       line.keyword = "REPEATB";
     } else {
-      for (const std::string_view known : {"IF", "ELSE", "ENDIF", "FOR", "ENDFOR", "WHILE", "ENDWHILE", "LOOP", "ENDLOOP",
-                                           "REPEAT", "UNTIL", "REPEATB", "CASE"})
+      for (const std::string_view known : {"IF", "ELSE", "ENDIF", "FOR", "ENDFOR", "WHILE", "ENDWHILE",
+                                           "LOOP", "ENDLOOP", "REPEAT", "UNTIL", "REPEATB", "CASE"})
         if (name == known) line.keyword = name, line.condition = std::string(after);
       return;
     }
@@ -174,7 +175,9 @@ class Run {
     };
     for (std::size_t at = 0; at < lines_.size(); ++at) {
       const std::string& keyword = lines_[at].keyword;
-      if (keyword == "IF" || keyword == "FOR" || keyword == "WHILE" || keyword == "LOOP" || keyword == "REPEAT") open.push_back(at);
+      if (keyword == "IF" || keyword == "FOR" || keyword == "WHILE" || keyword == "LOOP" ||
+          keyword == "REPEAT")
+        open.push_back(at);
       if (keyword == "ELSE" && !open.empty()) lines_[open.back()].other = at;
       if (keyword == "ENDIF") {
         close(at, "IF");
@@ -187,7 +190,8 @@ class Run {
       if (keyword == "ENDLOOP") close(at, "LOOP");
       if (keyword == "UNTIL") close(at, "REPEAT");
     }
-    if (!open.empty()) throw Unknown{lines_[open.back()].number, fmt::format("{} has no end", lines_[open.back()].keyword)};
+    if (!open.empty())
+      throw Unknown{lines_[open.back()].number, fmt::format("{} has no end", lines_[open.back()].keyword)};
   }
 
   /// Executes a line; the one that follows it.
@@ -204,7 +208,8 @@ class Run {
     if (keyword == "UNTIL") return holds(line) ? at + 1 : line.partner + 1;
     if (keyword == "FOR") return begin_count(at);
     if (keyword == "ENDFOR") return go_on_counting(line);
-    if (keyword == "REPEATB" || keyword == "CASE") throw Unknown{line.number, fmt::format("{} is not followed", keyword)};
+    if (keyword == "REPEATB" || keyword == "CASE")
+      throw Unknown{line.number, fmt::format("{} is not followed", keyword)};
     return at + 1;  // LOOP, REPEAT, ENDIF
   }
 
@@ -220,8 +225,8 @@ class Run {
     block.line_end = {line.span.begin, line.span.begin};
     next_line(text_, block);
     lex(text_, file_, dialect_, block);
-    const std::string text =
-        empty(line.label) ? std::string(part(text_, line.span)) : line_without(text_, dialect_, block, {line.label});
+    const std::string text = empty(line.label) ? std::string(part(text_, line.span))
+                                               : line_without(text_, dialect_, block, {line.label});
     if (!text.empty()) out_.append(text, line.number, line.counted ? jumped_from_ : 0);
     line.counted = true;
     assign(block);
@@ -265,7 +270,9 @@ class Run {
       if (text[at] == '(' || text[at] == '[') ++depth;
       if (text[at] == ')' || text[at] == ']') --depth;
       if (depth > 0 || text.substr(at, word.size()) != word) continue;
-      const auto is_edge = [&](std::size_t i) { return i >= text.size() || (!is_letter(text[i]) && !is_digit(text[i]) && text[i] != '_'); };
+      const auto is_edge = [&](std::size_t i) {
+        return i >= text.size() || (!is_letter(text[i]) && !is_digit(text[i]) && text[i] != '_');
+      };
       if (!letters || ((at == 0 || is_edge(at - 1)) && is_edge(at + word.size()))) return at;
     }
     return std::string_view::npos;
@@ -275,7 +282,8 @@ class Run {
     condition = trimmed(condition);
     for (const std::string_view word : {"OR", "AND"})
       if (const std::size_t at = find_outside(condition, word); at != std::string_view::npos) {
-        const auto left = truth_of(condition.substr(0, at)), right = truth_of(condition.substr(at + word.size()));
+        const auto left = truth_of(condition.substr(0, at)),
+                   right = truth_of(condition.substr(at + word.size()));
         if (!left || !right) return std::nullopt;
         return word == "OR" ? *left || *right : *left && *right;
       }
@@ -285,12 +293,15 @@ class Run {
     }
     for (const std::string_view sign : {"==", "<>", "<=", ">=", "<", ">"})
       if (const std::size_t at = find_outside(condition, sign); at != std::string_view::npos)
-        return compared(value_of(condition.substr(0, at)), sign, value_of(condition.substr(at + sign.size())));
-    if (condition.starts_with('(') && condition.ends_with(')')) return truth_of(condition.substr(1, condition.size() - 2));
+        return compared(value_of(condition.substr(0, at)), sign,
+                        value_of(condition.substr(at + sign.size())));
+    if (condition.starts_with('(') && condition.ends_with(')'))
+      return truth_of(condition.substr(1, condition.size() - 2));
     return std::nullopt;
   }
 
-  static std::optional<bool> compared(std::optional<double> a, std::string_view sign, std::optional<double> b) {
+  static std::optional<bool> compared(std::optional<double> a, std::string_view sign,
+                                      std::optional<double> b) {
     if (!a || !b) return std::nullopt;
     if (sign == "==") return *a == *b;
     if (sign == "<>") return *a != *b;
@@ -304,7 +315,8 @@ class Run {
     std::string_view words = line.target;
     const std::string direction = take_name(words);
     const auto found = labels_.find(std::string(words));
-    if (found == labels_.end()) throw Unknown{line.number, fmt::format("the label {} of the jump is not found", words)};
+    if (found == labels_.end())
+      throw Unknown{line.number, fmt::format("the label {} of the jump is not found", words)};
     const std::vector<std::size_t>& places = found->second;
     const auto behind = std::upper_bound(places.begin(), places.end(), from);
     const bool forward = behind != places.end(), backward = behind != places.begin();
@@ -320,13 +332,16 @@ class Run {
     if (equals == std::string::npos || to == std::string_view::npos || to < equals)
       throw Unknown{line.number, "FOR is written otherwise than FOR variable = begin TO end"};
     const auto first = value_of(std::string_view(line.condition).substr(equals + 1, to - equals - 1));
-    if (!first) throw Unknown{line.number, fmt::format("the begin of FOR {} is not known from the text", line.condition)};
+    if (!first)
+      throw Unknown{line.number,
+                    fmt::format("the begin of FOR {} is not known from the text", line.condition)};
     return count(at, *first);
   }
 
   std::size_t go_on_counting(const Line& end) {
     const Line& line = lines_[end.partner];
-    const auto now = variables_.find(normal(std::string_view(line.condition).substr(0, line.condition.find('='))));
+    const auto now =
+        variables_.find(normal(std::string_view(line.condition).substr(0, line.condition.find('='))));
     if (now == variables_.end()) throw Unknown{end.number, "the variable of FOR is not known here"};
     return count(end.partner, now->second + 1);
   }
@@ -334,8 +349,10 @@ class Run {
   std::size_t count(std::size_t at, double value) {
     const Line& line = lines_[at];
     const std::string name(trimmed(std::string_view(line.condition).substr(0, line.condition.find('='))));
-    const auto last = value_of(std::string_view(line.condition).substr(find_outside(line.condition, "TO") + 2));
-    if (!last) throw Unknown{line.number, fmt::format("the end of FOR {} is not known from the text", line.condition)};
+    const auto last =
+        value_of(std::string_view(line.condition).substr(find_outside(line.condition, "TO") + 2));
+    if (!last)
+      throw Unknown{line.number, fmt::format("the end of FOR {} is not known from the text", line.condition)};
     variables_[normal(name)] = value;
     out_.append(fmt::format("{}={}{}", name, shortest_text(value), out_.line_end), line.number, line.number);
     return (value > *last ? line.partner : at) + 1;

@@ -2,7 +2,8 @@
 
 namespace counterflex {
 
-std::optional<Eigen::VectorXd> NominalActuators::at(const Model& model, const LaneMachine* lanes, const Vector3& p_MT) {
+std::optional<Eigen::VectorXd> NominalActuators::at(const Model& model, const LaneMachine* lanes,
+                                                    const Vector3& p_MT) {
   if (lanes != machine_) {
     machine_ = lanes;
     lanes_.reset();

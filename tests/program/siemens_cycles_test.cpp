@@ -35,9 +35,11 @@ TEST_CASE("siemens: all absolute heights of a called cycle are shifted, in their
   CHECK(shifted_lines("CYCLE81(50,0,2,-20)\n") == "CYCLE81(50.125,0.125,2,-19.875)\n");
   CHECK(shifted_lines("N5 CYCLE82( 50.0, 0.0, 2 , -20.0 , , 0.5) ; hole\n") ==
         "N5 CYCLE82( 50.125, 0.125, 2 , -19.875 , , 0.5) ; hole\n");
-  CHECK(shifted_lines("CYCLE83(50,0,2,-30,,-5,,2,0,0.5,1,0)\n") == "CYCLE83(50.125,0.125,2,-29.875,,-4.875,,2,0,0.5,1,0)\n");
+  CHECK(shifted_lines("CYCLE83(50,0,2,-30,,-5,,2,0,0.5,1,0)\n") ==
+        "CYCLE83(50.125,0.125,2,-29.875,,-4.875,,2,0,0.5,1,0)\n");
   CHECK(shifted_lines("CYCLE84(50,0,2,,15,0.5,5)\n") == "CYCLE84(50.125,0.125,2,,15,0.5,5)\n");
-  CHECK(shifted_lines("cycle86(50,0,2,-20,,0.5,3,.2,.2,,45)\n") == "cycle86(50.125,0.125,2,-19.875,,0.5,3,.2,.2,,45)\n");
+  CHECK(shifted_lines("cycle86(50,0,2,-20,,0.5,3,.2,.2,,45)\n") ==
+        "cycle86(50.125,0.125,2,-19.875,,0.5,3,.2,.2,,45)\n");
 }
 
 TEST_CASE("siemens: a called cycle leaves the tool at its retract plane") {
@@ -53,13 +55,15 @@ TEST_CASE("siemens: a called cycle leaves the tool at its retract plane") {
 
 TEST_CASE("siemens: MCALL is said anew where the heights of a hole are others than the text holds") {
   CHECK(shifted_lines("MCALL CYCLE81(50,0,2,-20) ; all\nX20 Y10\nX30\nMCALL\nG0 Z99\n") ==
-        "MCALL CYCLE81(50,0,2,-20) ; all\nMCALL CYCLE81(50.125,0.125,2,-19.875)\nX20.5 Y9.75\nX30.5\nMCALL\nG0 Z99.125\n");
+        "MCALL CYCLE81(50,0,2,-20) ; all\nMCALL CYCLE81(50.125,0.125,2,-19.875)\nX20.5 "
+        "Y9.75\nX30.5\nMCALL\nG0 Z99.125\n");
   const Program program = drilled("N5 MCALL CYCLE81(50,0,2,-20)\nX20 Y10\nX30\nMCALL\n");
   REQUIRE(program.moves.size() == 3);
   const std::vector<MoveEdit> edits{{.move = 1, .end_mm = {20, 10, 0.2}}};
   // The second hole is not edited: it gets the heights of the original back.
-  CHECK(rewrite(program, edits, {}).text.ends_with("N5 MCALL CYCLE81(50,0,2,-20)\nMCALL CYCLE81(50.2,0.2,2,-19.8)\nX20 Y10\n"
-                                                   "MCALL CYCLE81(50,0,2,-20)\nX30\nMCALL\n"));
+  CHECK(rewrite(program, edits, {})
+            .text.ends_with("N5 MCALL CYCLE81(50,0,2,-20)\nMCALL CYCLE81(50.2,0.2,2,-19.8)\nX20 Y10\n"
+                            "MCALL CYCLE81(50,0,2,-20)\nX30\nMCALL\n"));
 }
 
 TEST_CASE("siemens: holes of G91 count from the hole before, their heights do not") {
@@ -76,8 +80,9 @@ TEST_CASE("siemens: cycles that are not followed are refused as before") {
        {"CYCLE81(R1,0,2,-20)\n", "CYCLE81(50,,2,-20)\n", "CYCLE81(50,0,2,-20+1)\n", "/CYCLE81(50,0,2,-20)\n",
         "CYCLE71(50,0,2,-20,0,0,100,50,0)\n", "G18\nCYCLE81(50,0,2,-20)\n", "G70\nCYCLE81(50,0,2,-20)\n",
         "IF R1==1\nCYCLE81(50,0,2,-20)\nENDIF\n", "ROT Z30 X10\nCYCLE81(50,0,2,-20)\n",
-        "MCALL CYCLE81(R1,0,2,-20)\nX5\n", "MCALL CYCLE81(50,0,2,-20)\nX5 Z10\n", "MCALL CYCLE81(50,0,2,-20)\nG2 X20 Y10 CR=8\n",
-        "MCALL CYCLE81(50,0,2,-20)\nZ10\nX5\n", "/MCALL CYCLE81(50,0,2,-20)\nX5\n", "MCALL MY_HOLE(50,0,2,-20)\nX5\n"}) {
+        "MCALL CYCLE81(R1,0,2,-20)\nX5\n", "MCALL CYCLE81(50,0,2,-20)\nX5 Z10\n",
+        "MCALL CYCLE81(50,0,2,-20)\nG2 X20 Y10 CR=8\n", "MCALL CYCLE81(50,0,2,-20)\nZ10\nX5\n",
+        "/MCALL CYCLE81(50,0,2,-20)\nX5\n", "MCALL MY_HOLE(50,0,2,-20)\nX5\n"}) {
     CAPTURE(lines);
     CHECK(is_fixed(lines));
   }
@@ -88,7 +93,8 @@ TEST_CASE("siemens: the modal call of a line is found without its number and com
   REQUIRE(found);
   CHECK(found->modal == "MCALL  CYCLE83(50, 0 ,2,-30,,-5)");
   CHECK(found->heights_mm == std::array{0.0, 50.0, -30.0, -5.0});
-  for (const std::string_view other : {"MCALL", "MCALL ", "MCALLCYCLE81(1,2,3,4)", "MCALL CYCLE81", "MCALL CYCLE81(1,2,3,4",
-                                       "CYCLE81(1,2,3,4)", "MCALL HOLES2(0,0,5,0,0,4)", ""})
+  for (const std::string_view other :
+       {"MCALL", "MCALL ", "MCALLCYCLE81(1,2,3,4)", "MCALL CYCLE81", "MCALL CYCLE81(1,2,3,4",
+        "CYCLE81(1,2,3,4)", "MCALL HOLES2(0,0,5,0,0,4)", ""})
     CHECK(!modal_drilling_cycle(other));
 }

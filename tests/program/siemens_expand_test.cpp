@@ -47,13 +47,16 @@ TEST_CASE("siemens: FOR sets its variable before each time") {
 }
 
 TEST_CASE("siemens: WHILE, REPEAT, LOOP, IF and jumps to labels are followed") {
-  check_executed("R1=0\nWHILE R1<2\nR1=R1+1 ; count\nENDWHILE\nM30\n", "R1=0\nR1=R1+1 ; count\nR1=R1+1 ; count\nM30\n");
+  check_executed("R1=0\nWHILE R1<2\nR1=R1+1 ; count\nENDWHILE\nM30\n",
+                 "R1=0\nR1=R1+1 ; count\nR1=R1+1 ; count\nM30\n");
   check_executed("R1=0\nREPEAT\nR1=R1+1\nUNTIL R1>=2\nM30\n", "R1=0\nR1=R1+1\nR1=R1+1\nM30\n");
   check_executed("R1=0\nN1 LOOP\nN2 R1=R1+1\nN3 IF R1==2 GOTOF OUT\nN4 ENDLOOP\nN5 OUT: X1\nM30\n",
                  "R1=0\nN2 R1=R1+1\nN2 R1=R1+1\nN5 X1\nM30\n");
-  check_executed("R1=1\nIF R1==1\nX1\nELSE\nX2\nENDIF\nIF R1>1\nX3\nELSE\nX4\nENDIF\nIF R1<>1\nX5\nENDIF\nM30\n",
-                 "R1=1\nX1\nX4\nM30\n");
-  check_executed("R1=0\nA:\nR1=R1+1\nIF (R1<2) OR (R1<3 AND NOT R1==9) GOTOB A\nM30\n", "R1=0\nR1=R1+1\nR1=R1+1\nR1=R1+1\nM30\n");
+  check_executed(
+      "R1=1\nIF R1==1\nX1\nELSE\nX2\nENDIF\nIF R1>1\nX3\nELSE\nX4\nENDIF\nIF R1<>1\nX5\nENDIF\nM30\n",
+      "R1=1\nX1\nX4\nM30\n");
+  check_executed("R1=0\nA:\nR1=R1+1\nIF (R1<2) OR (R1<3 AND NOT R1==9) GOTOB A\nM30\n",
+                 "R1=0\nR1=R1+1\nR1=R1+1\nR1=R1+1\nM30\n");
   check_executed("GOTO B\nX1\nB: X2\nGOTOF B\nX3\nb: X4\nM30\n", "X2\nX4\nM30\n");
 }
 
@@ -69,15 +72,18 @@ TEST_CASE("siemens: copies of a line say from where they come, and what stands b
 
 TEST_CASE("siemens: what is not known from the text leaves the program as it is") {
   check_left("IF R1==1 GOTOF A\nX1\nA: M30\n", 1, "the condition R1==1 is not known from the text");
-  check_left("WHILE $AC_TIMER[1]<5\nX1\nENDWHILE\nM30\n", 1, "the condition $AC_TIMER[1]<5 is not known from the text");
+  check_left("WHILE $AC_TIMER[1]<5\nX1\nENDWHILE\nM30\n", 1,
+             "the condition $AC_TIMER[1]<5 is not known from the text");
   check_left("A: X1\nGOTOB A\nM30\n", 2, "more than 150000 lines would be executed");
-  check_left("R1=1\nIF R1==1 GOTOB A\nX1\nA: M30\n", 2, "the label A of the jump is not found in its direction");
+  check_left("R1=1\nIF R1==1 GOTOB A\nX1\nA: M30\n", 2,
+             "the label A of the jump is not found in its direction");
   check_left("GOTOF NOWHERE\nM30\n", 1, "the label NOWHERE of the jump is not found");
   check_left("FOR R1=1 TO R2\nX1\nENDFOR\nM30\n", 1, "the end of FOR R1=1 TO R2 is not known from the text");
   check_left("A: X1\nREPEATB A P=3\nM30\n", 2, "REPEATB is not followed");
   check_left("X1\nENDIF\nM30\n", 2, "ENDIF ends nothing");
   check_left("X1\nLOOP\nM30\n", 2, "LOOP has no end");
-  check_left("R1=1\n/IF R1==1 GOTOF A\nX1\nA: M30\n", 2, "a jump or a loop stands in a block that '/' may skip");
+  check_left("R1=1\n/IF R1==1 GOTOF A\nX1\nA: M30\n", 2,
+             "a jump or a loop stands in a block that '/' may skip");
 }
 
 TEST_CASE("siemens: a program without loops and jumps stays as it is") {

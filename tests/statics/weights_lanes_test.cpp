@@ -1,6 +1,6 @@
 /// Machines with weights in lanes.
-#include "laws_weights.hpp"
 #include "lanes_support.hpp"
+#include "laws_weights.hpp"
 
 using namespace counterflex;
 using namespace counterflex::laws;
@@ -27,7 +27,8 @@ int solved_around(LaneBench& bench, const std::vector<LaneRequest>& requests, co
 
 }  // namespace
 
-TEST_CASE("in lanes a machine with masses everywhere, in branches of groups too, stands where it stands alone") {
+TEST_CASE(
+    "in lanes a machine with masses everywhere, in branches of groups too, stands where it stands alone") {
   for (const LaneTrial& lane_trial : lane_trials()) {
     if (lane_trial.machine.chains.empty() || lane_trial.at_platform) continue;
     CAPTURE(lane_trial.trial.name);
@@ -47,7 +48,8 @@ TEST_CASE("in lanes the zero that was set under the machine's weight is the zero
     machine.gravity.true_at_home = true;
     LaneBench bench(machine);
     REQUIRE(!zero_offsets(bench.model.mechanism).isZero(0));
-    const auto answers = bench.solve(LaneQuestion::forward, without_errors, {{bench.home().p, Vector6::Zero()}});
+    const auto answers =
+        bench.solve(LaneQuestion::forward, without_errors, {{bench.home().p, Vector6::Zero()}});
     REQUIRE(answers[0].solved);
     CHECK((answers[0].X_MT.p - bench.home().p).norm() < 1e-10);
     Random random(6);
