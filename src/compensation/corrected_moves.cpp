@@ -9,7 +9,7 @@
 namespace counterflex {
 namespace {
 
-// A Sinumerik's MCALL with a drilling cycle. It is said anew before holes, which compare it.
+// A Sinumerik's MCALL with a drilling cycle. It is written again before holes, which compare it.
 bool calls_modal_cycle(std::string_view line) {
   const auto skip = [&line](std::string_view characters) {
     line.remove_prefix(std::min(line.find_first_not_of(characters), line.size()));

@@ -38,19 +38,17 @@ bool counts_from_position(const Block& block, const Reading& r) {
   return relative;
 }
 
-/// "#5", "#<depth>", "r1"; empty where the name is worked out, or belongs to the control.
-std::string variable_name(const Reading& r, Span span) {
-  std::string name = normal(part(r.program.text, span));
+}  // namespace
+
+std::string variable_name(const Dialect& dialect, std::string_view spelt) {
+  std::string name = normal(spelt);
   const std::size_t digits = name.find_first_of("0123456789");
   const bool numbered = name.size() > 1 && (name[0] == '#' || name[0] == 'r') && digits == 1;
   if (numbered && name.find_first_not_of("0123456789", 1) == std::string::npos)
     return name.size() <= 4 && std::stoul(name.substr(1)) <= highest_variable && name[1] != '0' ? name : "";
-  const bool named =
-      name.starts_with("#<") || (r.dialect.sinumerik_words && name.find('[') == std::string::npos);
+  const bool named = name.starts_with("#<") || (dialect.sinumerik_words && name.find('[') == std::string::npos);
   return named ? name : "";
 }
-
-}  // namespace
 
 bool has_too_many_digits(double value) {
   constexpr double digits = 1e4, rounding = 1e-6;
@@ -83,7 +81,7 @@ void take_assignments(const Block& block, Reading& r) {
   const bool flow = !empty(block.flow_keyword) && line.find('=') != std::string_view::npos;
   if (flow) return r.variables.clear();
   for (const Assignment& assignment : block.assignments) {
-    const std::string name = variable_name(r, assignment.variable);
+    const std::string name = variable_name(r.dialect, part(r.program.text, assignment.variable));
     if (name.empty()) {
       r.variables.clear();  // any may have been set
       continue;

@@ -66,8 +66,8 @@ void settle_angle(const Move& move, const Via& via, const WriteOptions& options,
   if (c.number.write || (!step.axes[other].number.write && !starts_elsewhere(0) && !starts_elsewhere(1))) return;
   Move without = move;
   without.words[axis].reset();
-  const Coordinate anew = settle_axis(without, axis, is_relative(move, axis) ? step.before : HeldPosition{}, component(via.end_mm, axis), step.place, options);
-  if (anew.number.write) c = anew;
+  const Coordinate written = settle_axis(without, axis, is_relative(move, axis) ? step.before : HeldPosition{}, component(via.end_mm, axis), step.place, options);
+  if (written.number.write) c = written;
 }
 
 }  // namespace

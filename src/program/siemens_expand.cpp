@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <map>
 
+#include "counterflex/program/called_cycle.hpp"
 #include "program/constant_expression.hpp"
+#include "program/evaluate.hpp"
 #include "program/expand_lines.hpp"
 #include "program/scanner.hpp"
 
@@ -41,12 +43,12 @@ std::size_t jump_in(const std::string& line) {
   return std::string::npos;
 }
 
-/// A line in the parts that say where the program goes on.
+/// A line, and what it says of the line that is executed next.
 struct Line {
   Span span;                ///< with its end
   int number = 0;           ///< of the file
   Span label;               ///< with ':'
-  std::string keyword;      ///< IF, FOR, ... GOTO; empty: a block that is executed
+  std::string keyword;      ///< IF, FOR, ... GOTO; empty: any other block
   std::string condition;    ///< of IF, WHILE, UNTIL; "R1=1 TO 5" of FOR
   std::string target;       ///< label of a jump
   std::size_t partner = 0;  ///< line of the keyword that ends or begins the structure
@@ -66,7 +68,7 @@ class Run {
   Run(std::string_view text, const std::string& file, const Dialect& dialect)
       : text_(text), file_(file), dialect_(dialect), out_{{}, line_end_of(text)} {}
 
-  /// Whether any line says where the program goes on.
+  /// Whether any line is a loop, a condition or a jump.
   bool read() {
     Block block;
     while (next_line(text_, block)) {
@@ -150,6 +152,8 @@ class Run {
       line.condition = trimmed(std::string_view(statement).substr(2, jump - 2));
     } else if (jump == 0) {
       line.keyword = "GOTO";
+    } else if (jump != std::string::npos) {
+      line.keyword = "GOTO behind other words";
     } else if (name == "REPEAT" && !after.empty()) {
       line.keyword = "REPEATB";
     } else {
@@ -208,7 +212,7 @@ class Run {
     if (keyword == "UNTIL") return holds(line) ? at + 1 : line.partner + 1;
     if (keyword == "FOR") return begin_count(at);
     if (keyword == "ENDFOR") return go_on_counting(line);
-    if (keyword == "REPEATB" || keyword == "CASE")
+    if (keyword == "REPEATB" || keyword == "CASE" || keyword == "GOTO behind other words")
       throw Unknown{line.number, fmt::format("{} is not followed", keyword)};
     return at + 1;  // LOOP, REPEAT, ENDIF
   }
@@ -232,22 +236,20 @@ class Run {
     assign(block);
   }
 
+  /// Subprograms may set any variable, and so may a macro that every position calls.
   void assign(const Block& block) {
+    if (block.statement == Statement::modal_call)
+      calls_macro_ = !block.statement_is_bare && !modal_drilling_cycle(trimmed(part(text_, block.statement_text)));
+    if (calls_macro_ || block.statement == Statement::call) variables_.clear();
     for (const Assignment& assignment : block.assignments) {
-      const std::string name = normal(part(text_, assignment.variable));
+      const std::string name = variable_name(dialect_, part(text_, assignment.variable));
+      if (name.empty()) variables_.clear();
       const auto value = empty(block.block_delete) ? value_of(part(text_, assignment.value)) : std::nullopt;
-      if (value)
+      if (value && !name.empty())
         variables_[name] = *value;
       else
         variables_.erase(name);
     }
-  }
-
-  static std::string normal(std::string_view name) {
-    std::string text;
-    for (const char c : name)
-      if (!is_blank(c)) text += c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-    return text;
   }
 
   std::optional<double> value_of(std::string_view expression) const {
@@ -325,7 +327,7 @@ class Run {
     throw Unknown{line.number, fmt::format("the label {} of the jump is not found in its direction", words)};
   }
 
-  /// FOR R1=1 TO 5: the variable is set anew before each time, and the loop ends behind the last value.
+  /// FOR R1=1 TO 5: the variable is set before each time, and the loop ends behind the last value.
   std::size_t begin_count(std::size_t at) {
     const Line& line = lines_[at];
     const std::size_t equals = line.condition.find('='), to = find_outside(line.condition, "TO");
@@ -341,9 +343,15 @@ class Run {
   std::size_t go_on_counting(const Line& end) {
     const Line& line = lines_[end.partner];
     const auto now =
-        variables_.find(normal(std::string_view(line.condition).substr(0, line.condition.find('='))));
+        variables_.find(counter_of(line));
     if (now == variables_.end()) throw Unknown{end.number, "the variable of FOR is not known here"};
     return count(end.partner, now->second + 1);
+  }
+
+  std::string counter_of(const Line& line) const {
+    const std::string name = variable_name(dialect_, std::string_view(line.condition).substr(0, line.condition.find('=')));
+    if (name.empty()) throw Unknown{line.number, "the variable of FOR is worked out, or the control's own"};
+    return name;
   }
 
   std::size_t count(std::size_t at, double value) {
@@ -353,7 +361,7 @@ class Run {
         value_of(std::string_view(line.condition).substr(find_outside(line.condition, "TO") + 2));
     if (!last)
       throw Unknown{line.number, fmt::format("the end of FOR {} is not known from the text", line.condition)};
-    variables_[normal(name)] = value;
+    variables_[counter_of(line)] = value;
     out_.append(fmt::format("{}={}{}", name, shortest_text(value), out_.line_end), line.number, line.number);
     return (value > *last ? line.partner : at) + 1;
   }
@@ -367,6 +375,7 @@ class Run {
   std::map<std::string, double> variables_;
   std::size_t jumps_ = 0;
   int first_jump_ = 0, jumped_from_ = 0;
+  bool calls_macro_ = false;
 };
 
 }  // namespace

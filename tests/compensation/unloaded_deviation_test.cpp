@@ -100,3 +100,13 @@ TEST_CASE("a path that the machine does not reach has no common shift") {
   REQUIRE_FALSE(places.of("").empty());
   CHECK_FALSE(common_shift(shop.model, {}, Pose{}, places.of("")));
 }
+
+TEST_CASE("the common shift is that of the places before the first one out of reach") {
+  const Shop shop({.machine = load_machine(orthoglide_b), .text = "G21 G90\nM30\n"});
+  const std::vector<PathPlace> places{{{10, 0, 0}, 0}, {{0, 20, 0}, 0}, {{9000, 0, 0}, 0}, {{0, 0, 30}, 0}};
+  const auto reached = common_shift(shop.model, {}, Pose{}, std::span(places).first(2));
+  const auto all = common_shift(shop.model, {}, Pose{}, places);
+  REQUIRE(reached);
+  REQUIRE(all);
+  CHECK(*all == *reached);
+}

@@ -53,7 +53,7 @@ TEST_CASE("siemens: a called cycle leaves the tool at its retract plane") {
   CHECK(all_known(program.moves[2].known_start));
 }
 
-TEST_CASE("siemens: MCALL is said anew where the heights of a hole are others than the text holds") {
+TEST_CASE("siemens: MCALL is written again where the heights of a hole are others than the text holds") {
   CHECK(shifted_lines("MCALL CYCLE81(50,0,2,-20) ; all\nX20 Y10\nX30\nMCALL\nG0 Z99\n") ==
         "MCALL CYCLE81(50,0,2,-20) ; all\nMCALL CYCLE81(50.125,0.125,2,-19.875)\nX20.5 "
         "Y9.75\nX30.5\nMCALL\nG0 Z99.125\n");

@@ -20,7 +20,7 @@ Executed executed(std::string text) {
   return {std::move(text), std::move(expansion)};
 }
 
-// The lines that run, and why none is executed.
+// The lines that run.
 void check_executed(const std::string& text, const std::string& lines) {
   CAPTURE(text);
   const Executed e = executed(text);
@@ -79,6 +79,11 @@ TEST_CASE("siemens: what is not known from the text leaves the program as it is"
              "the label A of the jump is not found in its direction");
   check_left("GOTOF NOWHERE\nM30\n", 1, "the label NOWHERE of the jump is not found");
   check_left("FOR R1=1 TO R2\nX1\nENDFOR\nM30\n", 1, "the end of FOR R1=1 TO R2 is not known from the text");
+  check_left("R1=1\nL100\nIF R1==1 GOTOF A\nX1\nA: M30\n", 3, "the condition R1==1 is not known from the text");
+  check_left("R1=1\nMCALL MY_HOLE(1)\nX1\nIF R1==1 GOTOF A\nX2\nA: M30\n", 4,
+             "the condition R1==1 is not known from the text");
+  check_left("R1=1 R2=1\n_A[R2]=5\nIF R1==1 GOTOF A\nX1\nA: M30\n", 3, "the condition R1==1 is not known from the text");
+  check_left("X1 GOTOF A\nX2\nA: M30\n", 1, "GOTO behind other words is not followed");
   check_left("A: X1\nREPEATB A P=3\nM30\n", 2, "REPEATB is not followed");
   check_left("X1\nENDIF\nM30\n", 2, "ENDIF ends nothing");
   check_left("X1\nLOOP\nM30\n", 2, "LOOP has no end");

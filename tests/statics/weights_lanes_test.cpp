@@ -57,3 +57,11 @@ TEST_CASE("in lanes the zero that was set under the machine's weight is the zero
     CHECK(solved_around(bench, requests, whole) == 2 * static_cast<int>(requests.size()));
   }
 }
+
+TEST_CASE("lanes solve nothing where a part of errors, weights or preloads acts") {
+  LaneBench bench(heavy(machine_of("orthoglide_case_b"), 0.5));
+  const LaneRequest at_home{bench.home().p, Vector6::Zero()};
+  CHECK(bench.solve(LaneQuestion::forward, whole, {at_home})[0].solved);
+  for (const Stage& stage : {Stage{.errors = 0.5}, Stage{.preload = 0}, Stage{.gravity = 0.5}})
+    CHECK(!bench.solve(LaneQuestion::forward, stage, {at_home})[0].solved);
+}
