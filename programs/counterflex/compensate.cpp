@@ -12,10 +12,6 @@
 namespace counterflex::cli {
 namespace {
 
-bool is_reported(const Failure& failure) {
-  return failure.exit == Exit::not_compensated || failure.exit == Exit::limit;
-}
-
 void add(const Compensation& window, RunTally& tally, RunFiles& files) {
   tally.add_compensation(window);
   files.add_program(window.text);
@@ -93,11 +89,10 @@ Exit compensate_program(const Options& options, Console& console, const TellEnd&
   RunTally tally = tally_for(options, *run);
   const std::optional<Failure> failure = compensate_all(*run, tally, files, console, recorded);
   run->facts.output = without_controls(paths.program);  // the report forgets it where none is written
-  if (!failure || is_reported(*failure))
-    return tell(*run,
-                finish_run(options, *run, report_compensation(run->context(), tally, failure), tally, files),
-                files);
-  return exit_of(*run, failure, console);
+  if (failure && failure->exit == Exit::usage) return exit_of(*run, failure, console);  // no result: an option is wrong
+  return tell(*run,
+              finish_run(options, *run, report_compensation(run->context(), tally, failure), tally, files),
+              files);
 }
 
 Exit run_compensate(const Options& options, Console& console) {
