@@ -219,10 +219,8 @@ bool goes_along(const KlartextReading& r, const Move& move) {
 
 void call_cycle_after(const KlartextBlock& block, KlartextReading& r, Move& move) {
   if (why_elsewhere(r).empty() && goes_along(r, move)) {
-    move.makes_hole = true;
     move.known_end = r.state.known;
-    if (!r.state.cycle_returns) r.state.known.fill(false);
-    return leave_alone(r, block.line, "holes are held");
+    return call_relative_cycle(block, r, move);
   }
   r.state.known[2] = false;
   if (why_elsewhere(r).empty() && r.state.cycle_acts_here && take_hole(r, move)) {

@@ -11,6 +11,7 @@
 #include "program/dialect.hpp"
 #include "program/expand.hpp"
 #include "program/force_comment.hpp"
+#include "program/remarks.hpp"
 
 namespace counterflex {
 namespace {
@@ -225,13 +226,22 @@ void add_unfollowed_move(const KlartextBlock& block, KlartextReading& r, std::st
   leave_alone(r, block.line, std::move(why));
 }
 
+void call_relative_cycle(const KlartextBlock& block, KlartextReading& r, Move& move) {
+  if (r.state.cycle_returns) {
+    move.makes_hole = true;
+    return leave_alone(r, block.line, "holes are held");
+  }
+  move.mills_at_end = true;
+  r.state.known.fill(false);
+  leave_alone(r, block.line, std::string(milled_as_a_whole));
+}
+
 void add_cycle_call(const KlartextBlock& block, KlartextReading& r) {
   const bool followed =
       r.state.elsewhere.empty() && !in_doubt(r) && empty(block.block_delete);
   if (r.state.cycle_is_relative && followed) {
-    if (!r.program.moves.empty()) r.program.moves.back().makes_hole = true;
-    if (!r.state.cycle_returns) r.state.known.fill(false);
-    return leave_alone(r, block.line, "holes are held");
+    if (!r.program.moves.empty()) call_relative_cycle(block, r, r.program.moves.back());
+    return;
   }
   if (!r.state.cycle_acts_here || !r.state.elsewhere.empty() || in_doubt(r))
     return add_unfollowed_move(block, r, "cycles are left as they are");

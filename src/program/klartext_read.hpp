@@ -153,6 +153,9 @@ void take_away(KlartextReading& reading, std::size_t axis);
 /// Q203, Q200 and Q204 = plain numbers, where the cycle defined takes them.
 void read_cycle_parameter(const KlartextBlock& block, KlartextReading& reading);
 
+/// Calls the cycle of an older control at the end of `move`, with which it goes along.
+void call_relative_cycle(const KlartextBlock& block, KlartextReading& reading, Move& move);
+
 /// What a cycle called in place leaves unknown: the height.
 void add_cycle_call(const KlartextBlock& block, KlartextReading& reading);
 

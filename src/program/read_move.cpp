@@ -152,7 +152,7 @@ bool place_by_angle(Reading& r, Move& move) {
   const double way = coordinate(r.state.position_mm, said) - move.start_mm[static_cast<Eigen::Index>(said)];
   coordinate(r.state.position_mm, other) += way * direction[other] / direction[said];
   move.words[other] = AxisWord{angle.number, 0};
-  move.angle_axis = static_cast<std::uint8_t>(other + 1);
+  move.angle_axis = other == 0 ? 1 : 2;
   return true;
 }
 

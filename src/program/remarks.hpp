@@ -1,10 +1,15 @@
 #pragma once
 /// Remarks for the report: what in a program may undo small corrections or needs an assumption.
 #include <string>
+#include <string_view>
 
 #include "program/interpret.hpp"
 
 namespace counterflex {
+
+/// Of pockets and slots about one point (Move::mills_at_end): why they are not wholly corrected.
+constexpr std::string_view milled_as_a_whole =
+    "what the cycle mills goes along with its centre as a whole; turn and tilt across it are not corrected";
 
 /// Adds a remark, once for each text.
 void add_remark(Program& program, int line, std::string what);

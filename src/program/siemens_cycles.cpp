@@ -4,6 +4,7 @@
 
 #include "counterflex/files/numbers.hpp"
 #include "program/read_move.hpp"
+#include "program/remarks.hpp"
 #include "program/scanner.hpp"
 
 namespace counterflex {
@@ -12,6 +13,23 @@ namespace {
 constexpr std::array<std::string_view, 10> drilling_cycles{"CYCLE81", "CYCLE82", "CYCLE83", "CYCLE84",
                                                            "CYCLE85", "CYCLE86", "CYCLE87", "CYCLE88",
                                                            "CYCLE89", "CYCLE840"};
+
+/// A cycle that mills about a place of its own: where its centre stands in the list, and how many arguments it
+/// has. Longer lists are those of newer versions, whose last arguments may say that the depth is a difference.
+struct MillingCycle {
+  std::string_view name;
+  std::size_t centre, arguments;
+};
+constexpr std::array<MillingCycle, 10> milling_cycles{{{"POCKET1", 8, 20},
+                                                       {"POCKET2", 6, 17},
+                                                       {"POCKET3", 7, 23},
+                                                       {"POCKET4", 5, 19},
+                                                       {"SLOT1", 8, 25},
+                                                       {"SLOT2", 8, 23},
+                                                       {"LONGHOLE", 7, 15},
+                                                       {"CYCLE71", 4, 16},
+                                                       {"CYCLE76", 8, 20},
+                                                       {"CYCLE77", 6, 16}}};
 
 // Places in the list of arguments.
 constexpr std::size_t retract_plane = 0, reference_plane = 1, final_depth = 3, first_depth = 5;
@@ -51,6 +69,21 @@ bool is_plain(std::string_view number) {
          read_number(number).has_value();
 }
 
+struct Argument {
+  AxisWord word;
+  double value;
+};
+
+/// The argument at `place`; none where it is no plain number.
+std::optional<Argument> number_at(std::string_view text, const ArgumentList& call, std::size_t place) {
+  const Span span = call.arguments[place];
+  const std::string_view number = part(text, span);
+  if (!is_plain(number)) return std::nullopt;
+  const std::size_t point = number.find('.');
+  const int decimals = point == std::string_view::npos ? 0 : static_cast<int>(number.size() - point - 1);
+  return Argument{{span, decimals}, *read_number(number)};
+}
+
 /// Fills `cycle` from the arguments; false where a height is no plain number.
 bool take_heights(std::string_view text, const ArgumentList& call, CalledCycle& cycle) {
   const bool pecks = is_word(call.name, "CYCLE83");
@@ -61,13 +94,10 @@ bool take_heights(std::string_view text, const ArgumentList& call, CalledCycle& 
     const bool given = place < call.arguments.size() && !empty(call.arguments[place]);
     if (!given && (place == reference_plane || place == retract_plane)) return false;
     if (!given) continue;
-    const Span span = call.arguments[place];
-    const std::string_view number = part(text, span);
-    if (!is_plain(number)) return false;
-    const std::size_t point = number.find('.');
-    const int decimals = point == std::string_view::npos ? 0 : static_cast<int>(number.size() - point - 1);
-    cycle.heights[height] = AxisWord{span, decimals};
-    cycle.heights_mm[height] = *read_number(number);
+    const auto argument = number_at(text, call, place);
+    if (!argument) return false;
+    cycle.heights[height] = argument->word;
+    cycle.heights_mm[height] = argument->value;
   }
   return true;
 }
@@ -77,7 +107,7 @@ bool is_drilling(std::string_view name) {
                      [&](auto known) { return is_word(name, known); });
 }
 
-std::optional<CalledCycle> called_at(std::string_view text, Span span) {
+std::optional<CalledCycle> drilling_at(std::string_view text, Span span) {
   const auto call = call_at(text, span.begin, span.end);
   CalledCycle cycle;
   if (!call || !is_drilling(call->name) || !take_heights(text, *call, cycle)) return std::nullopt;
@@ -109,6 +139,60 @@ void make_hole(const CalledCycle& cycle, Reading& r, Move& move) {
   r.state.known[2] = true;
 }
 
+Move& start_call(const CalledCycle& cycle, const Block& block, Reading& r) {
+  Move& move = start_move(block, r, Motion::rapid);
+  for (const Word& word : block.words)
+    if (word.letter == 'N') move.block_number = count_of(word);
+  make_hole(cycle, r, move);
+  return move;
+}
+
+void end_call(const CalledCycle& cycle, Reading& r, Move& move) {
+  finish_move(r, move);
+  move.may_insert_words = move.may_jump = move.may_split = false;
+  r.state.position_mm.z() = cycle.heights_mm[1];
+}
+
+struct MillingCall {
+  CalledCycle cycle;
+  std::array<Argument, 2> centre;
+};
+
+/// The call of a milling cycle whose centre and heights are plain numbers.
+std::optional<MillingCall> milling_call(const Block& block, const Reading& r) {
+  const std::string_view text = r.program.text;
+  const auto call = call_at(text, block.statement_text.begin, block.statement_text.end);
+  if (!call) return std::nullopt;
+  const auto known = std::find_if(milling_cycles.begin(), milling_cycles.end(),
+                                  [&](const MillingCycle& cycle) { return is_word(call->name, cycle.name); });
+  if (known == milling_cycles.end()) return std::nullopt;
+  const std::size_t given = call->arguments.size();
+  if (given > known->arguments || given < known->centre + 2) return std::nullopt;
+  MillingCall milling;
+  const auto x = number_at(text, *call, known->centre), y = number_at(text, *call, known->centre + 1);
+  if (!x || !y || !take_heights(text, *call, milling.cycle)) return std::nullopt;
+  milling.cycle.line = block.line;
+  milling.centre = {*x, *y};
+  return milling;
+}
+
+/// Makes the call a move to the cycle's centre. What it mills about the centre is not corrected each on its own,
+/// and where it ends in X and Y is not followed.
+void mill(const MillingCall& milling, const Block& block, Reading& r) {
+  Move& move = start_call(milling.cycle, block, r);
+  move.makes_hole = false;
+  move.mills_at_end = true;
+  move.incremental = 0;
+  for (const std::size_t axis : {std::size_t{0}, std::size_t{1}}) {
+    move.words[axis] = milling.centre[axis].word;
+    r.state.position_mm[static_cast<Eigen::Index>(axis)] = milling.centre[axis].value;
+    r.state.known[axis] = true;
+  }
+  end_call(milling.cycle, r, move);
+  r.state.known[0] = r.state.known[1] = false;
+  leave_alone(block, r, milled_as_a_whole);
+}
+
 }  // namespace
 
 std::optional<CalledCycle> drilling_cycle(const Block& block, const Reading& r) {
@@ -118,7 +202,7 @@ std::optional<CalledCycle> drilling_cycle(const Block& block, const Reading& r) 
   if (block.statement == Statement::modal_call)
     cycle = modal_drilling_cycle(part(text, statement));
   else
-    cycle = called_at(text, statement);
+    cycle = drilling_at(text, statement);
   if (cycle) cycle->line = block.line;
   return cycle;
 }
@@ -130,24 +214,23 @@ std::optional<CalledCycle> modal_drilling_cycle(std::string_view statement) {
       !is_blank(line[name.size()]))
     return std::nullopt;
   const Span call = trimmed(line, {name.size(), line.size()});
-  auto cycle = called_at(line, call);
+  auto cycle = drilling_at(line, call);
   if (cycle) cycle->modal = std::string(line.substr(0, call.end));
   return cycle;
 }
 
 bool read_called_cycle(const Block& block, Reading& r) {
-  if (r.called || !drills_along_z(block, r) || !r.state.known[0] || !r.state.known[1]) return false;
-  const auto cycle = drilling_cycle(block, r);
-  if (!cycle) return false;
-  Move& move = start_move(block, r, Motion::rapid);
-  for (const Word& word : block.words)
-    if (word.letter == 'N') move.block_number = count_of(word);
-  make_hole(*cycle, r, move);
-  finish_move(r, move);
-  move.may_insert_words = move.may_jump = move.may_split = false;
-  move.may_position = r.state.motion == MotionMode::rapid && !r.state.relative;
-  r.state.position_mm.z() = cycle->heights_mm[1];
-  return true;
+  if (r.called || !drills_along_z(block, r)) return false;
+  const bool stands = r.state.known[0] && r.state.known[1];
+  if (const auto cycle = drilling_cycle(block, r); cycle && stands) {
+    Move& move = start_call(*cycle, block, r);
+    move.may_position = r.state.motion == MotionMode::rapid && !r.state.relative;
+    end_call(*cycle, r, move);
+    return true;
+  }
+  const auto milling = milling_call(block, r);
+  if (milling) mill(*milling, block, r);
+  return milling.has_value();
 }
 
 bool begin_modal_cycle(const Block& block, Reading& r) {

@@ -1,5 +1,6 @@
 #pragma once
-/// Drilling cycles of a Sinumerik whose heights are plain numbers: CYCLE81 to CYCLE89 and CYCLE840.
+/// Cycles of a Sinumerik whose heights are plain numbers: CYCLE81 to CYCLE89 and CYCLE840 drill where the tool
+/// stands; pockets, slots, spigots and CYCLE71 mill about a centre that is in their list.
 #include "counterflex/program/called_cycle.hpp"
 #include "program/interpret.hpp"
 
@@ -9,7 +10,8 @@ namespace counterflex {
 /// one of them is no plain number, or the cycle is another one.
 std::optional<CalledCycle> drilling_cycle(const Block& block, const Reading& reading);
 
-/// Reads the call of a drilling cycle as a hole where the tool stands. False where it is not followed.
+/// Reads the call of a drilling cycle as a hole where the tool stands, that of a milling cycle as a move to its
+/// centre. False where it is not followed.
 bool read_called_cycle(const Block& block, Reading& reading);
 
 /// MCALL with a drilling cycle: each block with a position is a hole. False where it is not followed.

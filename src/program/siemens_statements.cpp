@@ -38,8 +38,9 @@ void run_cycle(const Block& block, Reading& r) {
   r.sorted = {};
   Move& move = start_move(block, r, Motion::feed);
   for (std::size_t axis = 0; axis < 3; ++axis) fix_axis(r, move, axis);
-  leave_alone(block, r, why.empty() ? "a cycle of the control is called; followed are CYCLE81 to CYCLE89 and CYCLE840 in G17, in mm, "
-                                      "with heights that are plain numbers"
+  leave_alone(block, r, why.empty() ? "a cycle of the control is called; followed in G17 and mm are CYCLE81 to CYCLE89, CYCLE840, "
+                                      "POCKET1 to POCKET4, SLOT1, SLOT2, LONGHOLE, CYCLE71, CYCLE76 and CYCLE77, "
+                                      "with plain numbers for heights and centre"
                                     : why);
   finish_move(r, move);
   r.run_begin = r.program.moves.size();

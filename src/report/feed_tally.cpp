@@ -23,8 +23,13 @@ bool may_cut(const Move& move, const Program& program) {
   return move.fixed[0] && move.fixed[1] && move.fixed[2];
 }
 
+// A cycle is called at its end, which is judged.
+bool cuts_at_end(const Move& move) {
+  return move.makes_hole || move.mills_at_end;
+}
+
 bool counts(const Move& move, const Program& program) {
-  if (move.makes_hole) return true;
+  if (cuts_at_end(move)) return true;
   if (move.cycle) return move.cycle->repeats > 0;
   if (move.motion == Motion::rapid) return may_cut(move, program);
   return !rests(move);
@@ -39,13 +44,14 @@ bool is_known_hole(const Move& move) {
 
 void FeedTally::add_window(const Job& window) {
   for (const Move& move : window.program.moves) {
+    if (move.mills_at_end) ++moves_.count;  // what is milled about the end, which nobody measures
     if (!counts(move, window.program)) continue;
     ++moves_.count;
-    const bool first_known = move.makes_hole && !all_known(move.known_start) && all_known(move.known_end);
+    const bool first_known = cuts_at_end(move) && !all_known(move.known_start) && all_known(move.known_end);
     known_lengths_ += is_known_hole(move) || first_known;
   }
   for (const Segment& segment : window.path.segments) {
-    if (!segment.cutting && !window.program.moves[segment.move].makes_hole) continue;
+    if (!segment.cutting && !cuts_at_end(window.program.moves[segment.move])) continue;
     ++known_lengths_;
     if (segment.cutting) moves_.length_mm += length(segment.wanted) / mm;
   }
@@ -68,8 +74,8 @@ void FeedTally::add(const Waypoint& w, double miss, const Job& window) {
     move = &window.program.moves[next_];
   }
   // Of the way to a hole the end counts, where the cycle is called.
-  const bool hole = move != nullptr && (w.segment == no_segment ? move->cycle || move->makes_hole
-                                                                 : move->makes_hole && !w.cutting && w.fraction == 1);
+  const bool hole = move != nullptr && (w.segment == no_segment ? move->cycle || cuts_at_end(*move)
+                                                                 : cuts_at_end(*move) && !w.cutting && w.fraction == 1);
   if (!w.cutting && !hole) {
     const bool feed = w.segment == no_segment && move != nullptr && move->motion == Motion::feed;
     ++(feed ? moves_.known_ends : moves_.rapid_ends);

@@ -230,8 +230,9 @@ std::optional<Failure> refusal_of(const RunReport& report) {
   if (report.verdict == Verdict::nothing_corrected)
     return Failure{report.exit, 0, fmt::format("NOTHING CORRECTED: {}{}", report.verdict_reason, end)};
   return Failure{report.exit, report.feed_moves.missed > 0 ? report.feed_moves.worst_line : 0,
-                 fmt::format("{}{}; give --accept-partial to accept this, or a larger --tolerance-mm",
-                             verdict_text(report.verdict, report.verdict_reason), end)};
+                 fmt::format("{}{}; give --accept-partial to accept this{}",
+                             verdict_text(report.verdict, report.verdict_reason), end,
+                             report.feed_moves.missed > 0 ? ", or a larger --tolerance-mm" : "")};
 }
 
 RunReport report_prediction(const RunContext& context, const RunTally& tally,

@@ -752,6 +752,9 @@ TEST_CASE("klartext: holes of the cycles that count from the tool go along with 
   const Program pocket =
       read(klartext({"L X+1 Y+0 Z+2 FMAX", "CYCL DEF 4.0 POCKET", "L X+5 FMAX M99", "L Y+9"}));
   CHECK(all_known(pocket.moves[1].known_start));
+  CHECK(pocket.moves[1].mills_at_end);
+  REQUIRE(pocket.left_alone.size() == 1);
+  CHECK(pocket.left_alone[0].why.starts_with("what the cycle mills"));
   CHECK(pocket.moves[2].known_start == std::array<bool, 3>{});
 }
 

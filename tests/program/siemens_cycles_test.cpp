@@ -75,10 +75,33 @@ TEST_CASE("siemens: holes of G91 count from the hole before, their heights do no
   CHECK_FALSE(is_relative(program.moves[2], 2));
 }
 
+TEST_CASE("siemens: a milling cycle is shifted with its centre and its absolute heights") {
+  CHECK(shifted_lines("POCKET3(50,0,2,-10,60,20,5,50,40.0,0,4,0.1,0.1,500,200,0,11,5)\n") ==
+        "POCKET3(50.125,0.125,2,-9.875,60,20,5,50.5,39.75,0,4,0.1,0.1,500,200,0,11,5)\n");
+  CHECK(shifted_lines("N7 POCKET4(50, 0, 2, -10, 25, 60, 40, 4) ; round\n") ==
+        "N7 POCKET4(50.125, 0.125, 2, -9.875, 25, 60.5, 39.75, 4) ; round\n");
+  CHECK(shifted_lines("LONGHOLE(50,0,2,-10,,4,30,40,45,20,45,90,100,320,6)\n") ==
+        "LONGHOLE(50.125,0.125,2,-9.875,,4,30,40.5,44.75,20,45,90,100,320,6)\n");
+  CHECK(shifted_lines("CYCLE71(10,0,2,-11,100,100,60,40,10,6,10,5,0,4000,31,2)\n") ==
+        "CYCLE71(10.125,0.125,2,-10.875,100.5,99.75,60,40,10,6,10,5,0,4000,31,2)\n");
+}
+
+TEST_CASE("siemens: a milling cycle leaves X and Y unknown, and says that it is not corrected wholly") {
+  const Program program = drilled("POCKET4(50,0,2,-10,25,60,40,4)\nG0 X60\n");
+  REQUIRE(program.moves.size() == 3);
+  CHECK(program.moves[1].end_mm == Vector3(60, 40, 0));
+  CHECK(program.moves[2].known_start == std::array{false, false, true});
+  CHECK(program.moves[2].start_mm.z() == 50);
+  CHECK(program.moves[1].mills_at_end);
+  REQUIRE(program.left_alone.size() == 1);
+  CHECK(program.left_alone[0].line == 4);
+}
+
 TEST_CASE("siemens: cycles that are not followed are refused as before") {
   for (const std::string lines :
-       {"CYCLE81(R1,0,2,-20)\n", "CYCLE81(50,,2,-20)\n", "CYCLE81(50,0,2,-20+1)\n", "/CYCLE81(50,0,2,-20)\n",
-        "CYCLE71(50,0,2,-20,0,0,100,50,0)\n", "G18\nCYCLE81(50,0,2,-20)\n", "G70\nCYCLE81(50,0,2,-20)\n",
+       {"CYCLE81(R1,0,2,-20)\n", "CYCLE81(50,,2,-20)\n", "POCKET4(50,0,2,-10,25,R1,40)\n", "POCKET4(50,0,2,-10,25,60)\n", "SLOT3(50,0,2,-20,0,0,100,50,0)\n",
+        "POCKET4(50,0,2,-10,25,60,40,4,0,0,500,200,0,11,5,9,8,5,3,0,1,2,1100,111,111)\n", "CYCLE81(50,0,2,-20+1)\n", "/CYCLE81(50,0,2,-20)\n",
+        "CYCLE72(50,0,2,-20,0,0,100,50,0)\n", "G18\nCYCLE81(50,0,2,-20)\n", "G70\nCYCLE81(50,0,2,-20)\n",
         "IF R1==1\nCYCLE81(50,0,2,-20)\nENDIF\n", "ROT Z30 X10\nCYCLE81(50,0,2,-20)\n",
         "MCALL CYCLE81(R1,0,2,-20)\nX5\n", "MCALL CYCLE81(50,0,2,-20)\nX5 Z10\n",
         "MCALL CYCLE81(50,0,2,-20)\nG2 X20 Y10 CR=8\n", "MCALL CYCLE81(50,0,2,-20)\nZ10\nX5\n",

@@ -173,6 +173,8 @@ struct Move {
   bool polar : 1 = false;            ///< LP, CP of Klartext: two of the words are one polar word
   bool takes_no_z : 1 = false;       ///< no word of Z may be inserted: beside a corner, in the holes of a Klartext cycle
   bool makes_hole : 1 = false;  ///< of Klartext and Sinumerik: a cycle that goes along with the tool is called at its end
+  bool mills_at_end : 1 = false;  ///< a cycle mills about its end, and goes along with that point as a whole: what it cuts is
+                                  ///< not corrected each on its own
   bool repeats_surface : 1 = false;  ///< its Z is the surface of a Klartext cycle, as an earlier hole has said it
   bool may_position : 1 = false;  ///< of a called cycle: a rapid to its place in X and Y may be inserted before it
   std::uint8_t angle_axis : 2 = 0;  ///< 1 X, 2 Y: its word is ANG=, the direction of the line; the other axis has one
