@@ -13,7 +13,7 @@ namespace counterflex {
 std::size_t window_size(const Program& window);
 
 /// The least size after which a window ends.
-inline constexpr std::size_t window_moves = 4096;
+inline constexpr std::size_t window_moves = 2048;
 /// Windows without an end.
 inline constexpr std::size_t whole_program = static_cast<std::size_t>(-1);
 
