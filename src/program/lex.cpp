@@ -201,7 +201,11 @@ void refuse_character(const Scanner& s) {
     s.refuse_at(s.at, "'*' begins a checksum, which a corrected block would break: write without checksums");
   if (c == '\r')
     s.refuse_at(s.at, "byte 0x0D is not allowed here: lines end with LF or CR LF, not with CR alone");
-  s.refuse_at(s.at, fmt::format("{} is not allowed here", shown(c)));
+  if (c == '{' || c == '}')
+    s.refuse_at(s.at, fmt::format("{} is not allowed here: text in braces is for a preprocessor; run it first, and "
+                                  "correct the program that it writes",
+                                  shown(c)));
+  s.refuse_at(s.at, fmt::format("{} is not allowed here: a block has letters with one number each, and comments", shown(c)));
 }
 
 namespace {

@@ -71,7 +71,7 @@ void allow_changes(const Reading& r, Move& move) {
 }
 
 std::string_view displacement_text(std::uint16_t bits) {
-  if ((bits & rotary) != 0) return "an axis besides X, Y and Z has left zero";
+  if ((bits & rotary) != 0) return "a word of A, B, C, U, V or W is not zero: further axes are not followed, and corners are written ,C and ,R";
   if ((bits & tool_point) != 0) return "the control follows the tool's centre point";
   if ((bits & kinematics) != 0) return "the kinematics were switched";
   if ((bits & rotated) != 0) return "coordinates are rotated";

@@ -29,8 +29,8 @@ TEST_CASE("under a state that puts positions elsewhere moves stay as they are, a
                          State{"G16", "G15", "fanuc", "coordinates are polar"},
                          State{"G43.4 H1", "G49", "fanuc", "the control follows the tool's centre point"},
                          State{"M428", "", "linuxcnc", "the kinematics were switched"},
-                         State{"A90.", "A0.", "linuxcnc", "an axis besides X, Y and Z has left zero"},
-                         State{"U.5", "", "linuxcnc", "an axis besides X, Y and Z has left zero"},
+                         State{"A90.", "A0.", "linuxcnc", "a word of A, B, C, U, V or W is not zero: further axes are not followed, and corners are written ,C and ,R"},
+                         State{"U.5", "", "linuxcnc", "a word of A, B, C, U, V or W is not zero: further axes are not followed, and corners are written ,C and ,R"},
                          State{"G10 L2 P1 X#1", "", "linuxcnc", "G10 has set the work offset"},
                          State{"G10 L20 P2 X5\nG55", "", "grbl", "G10 has set the work offset"}}) {
     CAPTURE(s.on);
