@@ -1,0 +1,44 @@
+#pragma once
+/// From a Model to the flat machine of the kernel, and between their states.
+#include <string>
+#include <vector>
+
+#include "counterflex/statics/nominal.hpp"
+#include "flat_machine.hpp"
+
+namespace counterflex::kernel {
+
+/// A rigid transform as a product of fixed poses and of assembly errors, of which a share acts.
+struct TransformFactor {
+  Pose X;
+  Vector3 log_R = Vector3::Zero();  ///< of an error
+  bool error = false, inverted = false;
+};
+using TransformProduct = std::vector<TransformFactor>;
+
+/// A flat machine, and what of the model its parts are.
+struct Flat {
+  FlatMachine machine;
+  std::string why_not;  ///< the kernel cannot solve this machine; then `machine` means nothing
+  std::vector<TransformProduct> transforms;
+
+  /// Where a number of the state stands in a Configuration: a column, or the frame before a part of a series.
+  struct Place {
+    int series = 0, index = 0;
+  };
+  std::vector<Place> joints, nodes;
+  std::vector<int> group_of_element;  ///< its number in its series
+};
+
+/// The machine of `model`, its load at the tip or at the reference point.
+Flat flatten(const Model& model, bool load_at_platform);
+
+/// The table of transforms with a share of the errors: s p, Exp(s Log R) of each.
+std::vector<Transform> transforms_at(const Flat& flat, double errors);
+
+/// FlatMachine::state_size numbers: joints, then R row by row and p (m, in M) of each node and of the
+/// platform.
+std::vector<double> state_of(const Model& model, const Flat& flat, const Configuration& configuration,
+                             double errors);
+
+}  // namespace counterflex::kernel

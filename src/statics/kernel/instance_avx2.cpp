@@ -1,0 +1,10 @@
+#if defined(__x86_64__)
+#include "batch.hpp"
+
+namespace counterflex::kernel {
+
+extern const Instance instance_of_4;
+const Instance instance_of_4{solve_batch<Lanes4>, 4};
+
+}  // namespace counterflex::kernel
+#endif

@@ -1,0 +1,10 @@
+#if defined(__x86_64__)
+#include "batch.hpp"
+
+namespace counterflex::kernel {
+
+extern const Instance instance_of_8;
+const Instance instance_of_8{solve_batch<Lanes8>, 8};
+
+}  // namespace counterflex::kernel
+#endif

@@ -1,0 +1,7 @@
+#include "batch.hpp"
+
+namespace counterflex::kernel {
+
+const Instance scalar_instance{solve_batch<double>, 1};
+
+}  // namespace counterflex::kernel

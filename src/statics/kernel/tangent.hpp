@@ -1,0 +1,367 @@
+#pragma once
+/// The second derivative of energy, eliminated block by block: joints, nodes, platform. EQUATIONS.md,
+/// section 12.
+#include "residual.hpp"
+
+namespace counterflex::kernel {
+
+/// [p] A
+template <class T>
+COUNTERFLEX_INLINE Mat3<T> skew_times(const Vec3<T>& p, const Mat3<T>& A) {
+  Mat3<T> B;
+  COUNTERFLEX_UNROLL
+  for (int j = 0; j < 3; ++j) {
+    B(0, j) = p[1] * A(2, j) - p[2] * A(1, j);
+    B(1, j) = p[2] * A(0, j) - p[0] * A(2, j);
+    B(2, j) = p[0] * A(1, j) - p[1] * A(0, j);
+  }
+  return B;
+}
+
+/// A [p]
+template <class T>
+COUNTERFLEX_INLINE Mat3<T> times_skew(const Mat3<T>& A, const Vec3<T>& p) {
+  Mat3<T> B;
+  COUNTERFLEX_UNROLL
+  for (int i = 0; i < 3; ++i) {
+    B(i, 0) = A(i, 1) * p[2] - A(i, 2) * p[1];
+    B(i, 1) = A(i, 2) * p[0] - A(i, 0) * p[2];
+    B(i, 2) = A(i, 0) * p[1] - A(i, 1) * p[0];
+  }
+  return B;
+}
+
+/// A times the 3 x 3 block of a spring's K that begins at (row, column).
+template <class T>
+COUNTERFLEX_INLINE Mat3<T> times_block(const Mat3<T>& A, const Spring& spring, int row, int column) {
+  const auto K = [&](int i, int j) { return spring.K[static_cast<std::size_t>(6 * (row + i) + column + j)]; };
+  Mat3<T> B;
+  const bool plain = spring.shape != SpringShape::full;
+  COUNTERFLEX_UNROLL
+  for (int i = 0; i < 3; ++i) {
+    COUNTERFLEX_UNROLL
+    for (int j = 0; j < 3; ++j) {
+      const int k = (j + 1) % 3, l = (j + 2) % 3;
+      if (plain && row == column)
+        B(i, j) = A(i, j) * K(j, j);
+      else if (plain)
+        B(i, j) = A(i, k) * K(k, j) + A(i, l) * K(l, j);
+      else
+        B(i, j) = A(i, 0) * K(0, j) + A(i, 1) * K(1, j) + A(i, 2) * K(2, j);
+    }
+  }
+  return B;
+}
+
+/// The tangent of a spring in the twist of its end less that of its start: T' K T + G(f, p).
+template <class T>
+COUNTERFLEX_INLINE Sym6<T> spring_tangent(const Spring& spring, const ElementTerms<T>& terms) {
+  const Vec3<T>&p = terms.p, &f = terms.stress.v, &phi = terms.turn;
+  const T y = dot(phi, phi), c = jacobian_coefficient(y);
+  Mat3<T> N;  // J_l^-T = 1 + [phi] / 2 + c [phi]^2
+  COUNTERFLEX_UNROLL
+  for (int i = 0; i < 3; ++i) {
+    COUNTERFLEX_UNROLL
+    for (int j = 0; j < 3; ++j) N(i, j) = c * phi[i] * phi[j] + (i == j ? 1 - c * y : T{});
+  }
+  N(0, 1) -= 0.5 * phi[2], N(0, 2) += 0.5 * phi[1], N(1, 0) += 0.5 * phi[2];
+  N(1, 2) -= 0.5 * phi[0], N(2, 0) -= 0.5 * phi[1], N(2, 1) += 0.5 * phi[0];
+  const Mat3<T> Q = terms.R * N;
+  Mat3<T> vv{}, vw{}, ww;
+  if (spring.shape == SpringShape::isotropic) {
+    ww = times_transposed(Q, Q);
+    COUNTERFLEX_UNROLL
+    for (int i = 0; i < 9; ++i) ww.c[i] = ww.c[i] * spring.K[21];
+    COUNTERFLEX_UNROLL
+    for (int i = 0; i < 3; ++i) vv(i, i) = all<T>(spring.K[0]);
+  } else {
+    vv = times_transposed(times_block(terms.R, spring, 0, 0), terms.R);
+    ww = times_transposed(times_block(Q, spring, 3, 3), Q);
+    if (spring.shape != SpringShape::diagonal) vw = times_transposed(times_block(terms.R, spring, 0, 3), Q);
+  }
+  // Strains of the position are R'(v - [p] w).
+  Mat3<T> shifted = times_skew(vv, p);
+  COUNTERFLEX_UNROLL
+  for (int i = 0; i < 9; ++i) shifted.c[i] = vw.c[i] - shifted.c[i];
+  const Mat3<T> first = skew_times(p, shifted), second = skew_times(p, vw);
+  Sym6<T> K;
+  COUNTERFLEX_UNROLL
+  for (int i = 0; i < 3; ++i) {
+    COUNTERFLEX_UNROLL
+    for (int j = 0; j <= i; ++j) {
+      K(i, j) = vv(i, j);
+      K(3 + i, 3 + j) = ww(i, j) + first(i, j) + second(j, i);
+    }
+    COUNTERFLEX_UNROLL
+    for (int j = 0; j < 3; ++j) K(3 + i, j) = shifted(j, i);
+  }
+  add_force_hessian(f, p, K);
+  return K;
+}
+
+template <class T>
+struct Columns {
+  Vec6<T> c[most_actuators_of_series];  ///< by slot of the series
+};
+
+/// Eliminates a joint beside an element whose tangent is K. `side`: -1 before the element, +1 behind it.
+template <class T>
+COUNTERFLEX_INLINE void eliminate_joint(const FrameStep& step, double side, const Element& element,
+                                        Work<T>& work, const Vec6<T>& stress, int& eliminated, Sym6<T>& K,
+                                        Columns<T>& columns) {
+  const Vec6<T>& s = at(work.equations.joints, step.joint).s;
+  Vec6<T> u = K * s;
+  if (work.stressed) u = u + bracket_form(stress, s) * (0.5 * side);
+  const int* slots = work.machine.slots.data() + element.slots;
+  if (step.actuator >= 0) {
+    columns.c[slots[eliminated++]] = u * -1.0;
+    return;
+  }
+  constexpr double least_pivot = 1e-9;  // N/m or N m: a strut may turn about itself
+  const T pivot = dot(s, u) + (step.passive && work.question.nominal ? 0.0 : step.k);
+  work.factors.negative_pivots += select<T>(pivot < -least_pivot, all<T>(1), T{});
+  JointFactor<T>& factor = at(work.factors.joints, step.joint);
+  factor.inverse = select<T>(magnitude(pivot) > least_pivot, 1.0 / pivot, T{});
+  factor.u = u * factor.inverse;
+  COUNTERFLEX_UNROLL
+  for (int i = 0; i < 6; ++i) {
+    COUNTERFLEX_UNROLL
+    for (int j = 0; j <= i; ++j) K(i, j) -= factor.u[i] * u[j];
+  }
+  for (int i = 0; i < eliminated; ++i) {
+    Vec6<T>& column = columns.c[slots[i]];
+    const T x = dot(s, column);
+    at(work.factors.couplings, step.coupling + i) = x * factor.inverse;
+    column = column - factor.u * x;
+  }
+}
+
+template <class T>
+void factor_series(int s, Work<T>& work, Sym6<T>& K, Columns<T>& columns);
+
+/// The tangent of an element with its joints, in the twist of its end frame less that of its start frame.
+template <class T>
+void factor_element(int id, Work<T>& work, Sym6<T>& K, Columns<T>& columns) {
+  const FlatMachine& machine = work.machine;
+  const Element& element = at(machine.elements, id);
+  const ElementTerms<T>& terms = at(work.equations.elements, id);
+  int eliminated = 0;
+  if (element.kind == ElementKind::group) {
+    K = {};
+    for (int branch = 0; branch < element.branches; ++branch) {
+      Sym6<T> of_branch;
+      Columns<T> columns_of_branch;
+      factor_series(element.series + branch, work, of_branch, columns_of_branch);
+      K = K + of_branch;
+      for (int i = 0; i < at(machine.series, element.series + branch).actuator_count; ++i)
+        columns.c[at(machine.slots, element.slots + eliminated++)] = columns_of_branch.c[i];
+    }
+  } else {
+    K = spring_tangent(at(machine.springs, element.spring), terms);
+  }
+  for (int i = element.front + element.fronts - 1; i >= element.front; --i)
+    if (const FrameStep& step = at(machine.steps, i); step.is_joint())
+      eliminate_joint(step, -1, element, work, terms.stress, eliminated, K, columns);
+  for (int i = element.after + element.afters - 1; i >= element.after; --i)
+    if (const FrameStep& step = at(machine.steps, i); step.is_joint())
+      eliminate_joint(step, 1, element, work, terms.stress, eliminated, K, columns);
+}
+
+/// Adds half of Lambda, Lambda xi = h(xi), to a matrix of 36 numbers.
+template <class T>
+COUNTERFLEX_INLINE void add_half_bracket(const Vec6<T>& phi, T* Z) {
+  const Vec3<T>&f = phi.v, &m = phi.w;
+  const auto add_minus_half_skew = [&](int row, int column, const Vec3<T>& a) {
+    T* B = Z + 6 * row + column;
+    B[1] += 0.5 * a[2], B[2] -= 0.5 * a[1], B[6] -= 0.5 * a[2];
+    B[8] += 0.5 * a[0], B[12] += 0.5 * a[1], B[13] -= 0.5 * a[0];
+  };
+  add_minus_half_skew(0, 3, f);
+  add_minus_half_skew(3, 0, f);
+  add_minus_half_skew(3, 3, m);
+}
+
+template <class T>
+COUNTERFLEX_INLINE void add_weight_hessians(const Weights& weights, const Frame<T>& X, const Work<T>& work,
+                                            Sym6<T>& K) {
+  for (int i = weights.first; i < weights.first + weights.count; ++i) {
+    const WeightTerms<T> terms = weight_terms(at(work.machine.weights, i), X, work);
+    add_force_hessian(terms.f, terms.p, K);
+  }
+}
+
+/// Eliminates the node between what is before it (tangent K) and an element (tangent Ke): K becomes that of
+/// both.
+template <class T>
+COUNTERFLEX_INLINE void eliminate_node(int node, const Sym6<T>& Ke, const Vec6<T>& stress, Work<T>& work,
+                                       Sym6<T>& K) {
+  NodeFactor<T>& factor = at(work.factors.nodes, node);
+  factor.L = K + Ke;
+  if (work.stressed)
+    add_weight_hessians(at(work.machine.weights_of_node, node), at(work.state.nodes, node), work, factor.L);
+  factor_in_place(factor.L, work.factors.negative_pivots);
+  T* Z = factor.W;
+  COUNTERFLEX_UNROLL
+  for (int i = 0; i < 6; ++i) {
+    COUNTERFLEX_UNROLL
+    for (int j = 0; j < 6; ++j) Z[6 * i + j] = Ke(i, j);
+  }
+  if (work.stressed) add_half_bracket(stress, Z);
+  COUNTERFLEX_UNROLL
+  for (int j = 0; j < 6; ++j) {
+    Vec6<T> z;
+    COUNTERFLEX_UNROLL
+    for (int i = 0; i < 6; ++i) z[i] = Z[6 * i + j];
+    solve_lower(factor.L, z);
+    COUNTERFLEX_UNROLL
+    for (int i = 0; i < 6; ++i) Z[6 * i + j] = z[i];
+  }
+  K = Ke;
+  COUNTERFLEX_UNROLL
+  for (int k = 0; k < 6; ++k) {
+    T scaled[6];
+    COUNTERFLEX_UNROLL
+    for (int i = 0; i < 6; ++i) scaled[i] = Z[6 * k + i] * factor.L(k, k);
+    COUNTERFLEX_UNROLL
+    for (int i = 0; i < 6; ++i) {
+      COUNTERFLEX_UNROLL
+      for (int j = 0; j <= i; ++j) K(i, j) -= scaled[i] * Z[6 * k + j];
+    }
+    COUNTERFLEX_UNROLL
+    for (int i = 0; i < 6; ++i) Z[6 * k + i] = scaled[i];
+  }
+  COUNTERFLEX_UNROLL
+  for (int j = 0; j < 6; ++j) {
+    Vec6<T> z;
+    COUNTERFLEX_UNROLL
+    for (int i = 0; i < 6; ++i) z[i] = Z[6 * i + j];
+    solve_upper(factor.L, z);
+    COUNTERFLEX_UNROLL
+    for (int i = 0; i < 6; ++i) Z[6 * i + j] = z[i];
+  }
+}
+
+/// W' x
+template <class T>
+COUNTERFLEX_INLINE Vec6<T> back_through(const NodeFactor<T>& factor, const Vec6<T>& x) {
+  Vec6<T> y;
+  COUNTERFLEX_UNROLL
+  for (int i = 0; i < 6; ++i) {
+    T sum = factor.W[i] * x[0];
+    COUNTERFLEX_UNROLL
+    for (int j = 1; j < 6; ++j) sum += factor.W[6 * j + i] * x[j];
+    y[i] = sum;
+  }
+  return y;
+}
+/// W x
+template <class T>
+COUNTERFLEX_INLINE Vec6<T> forth_through(const NodeFactor<T>& factor, const Vec6<T>& x) {
+  Vec6<T> y;
+  COUNTERFLEX_UNROLL
+  for (int i = 0; i < 6; ++i) {
+    T sum = factor.W[6 * i] * x[0];
+    COUNTERFLEX_UNROLL
+    for (int j = 1; j < 6; ++j) sum += factor.W[6 * i + j] * x[j];
+    y[i] = sum;
+  }
+  return y;
+}
+
+template <class T>
+void factor_series(int s, Work<T>& work, Sym6<T>& K, Columns<T>& columns) {
+  const FlatMachine& machine = work.machine;
+  const Series& series = at(machine.series, s);
+  for (int a = 0; a < series.actuator_count; ++a) columns.c[a] = {};
+  for (int k = 0; k < series.count; ++k) {
+    const int id = series.first + k;
+    Sym6<T> Ke;
+    Columns<T> of_element;
+    for (int a = 0; a < series.actuator_count; ++a) of_element.c[a] = {};
+    factor_element(id, work, Ke, of_element);
+    if (k == 0) {
+      K = Ke;
+      for (int a = 0; a < series.actuator_count; ++a) columns.c[a] = of_element.c[a];
+      continue;
+    }
+    const int node = at(machine.elements, id - 1).node;
+    eliminate_node(node, Ke, at(work.equations.elements, id).stress, work, K);
+    const NodeFactor<T>& factor = at(work.factors.nodes, node);
+    for (int a = 0; a < series.actuator_count; ++a) {
+      Vec6<T>& y = at(work.factors.node_columns, node * machine.most_actuators + a);
+      y = columns.c[a] - of_element.c[a];
+      columns.c[a] = of_element.c[a] + back_through(factor, y);
+      solve_factored(factor.L, y);
+    }
+  }
+}
+
+/// LU with exchange of rows, lane by lane, of the platform's matrix; columns of controlled components are the
+/// actuators'.
+template <class T>
+void factor_target(Work<T>& work) {
+  Factors<T>& factors = work.factors;
+  T(&A)[36] = factors.lu;
+  int a = 0;
+  for (int j = 0; j < 6; ++j) {
+    const bool controlled = work.machine.controlled[static_cast<std::size_t>(j)];
+    COUNTERFLEX_UNROLL
+    for (int i = 0; i < 6; ++i)
+      A[6 * i + j] = (controlled ? at(factors.actuators, a)[i] : factors.K(i, j)) *
+                     (i < 3 ? 1 : 1 / work.machine.length);
+    a += controlled;
+  }
+  int s = 0;
+  COUNTERFLEX_UNROLL
+  for (int k = 0; k < 6; ++k) {
+    COUNTERFLEX_UNROLL
+    for (int i = k + 1; i < 6; ++i) {
+      const Mask<T> swap = magnitude(A[6 * i + k]) > magnitude(A[7 * k]);
+      factors.swaps[s++] = swap;
+      COUNTERFLEX_UNROLL
+      for (int j = 0; j < 6; ++j) {
+        const T x = A[6 * k + j], y = A[6 * i + j];
+        A[6 * k + j] = select<T>(swap, y, x);
+        A[6 * i + j] = select<T>(swap, x, y);
+      }
+    }
+    const T inverse = 1.0 / A[7 * k];
+    A[7 * k] = inverse;
+    COUNTERFLEX_UNROLL
+    for (int i = k + 1; i < 6; ++i) {
+      const T l = A[6 * i + k] * inverse;
+      A[6 * i + k] = l;
+      COUNTERFLEX_UNROLL
+      for (int j = k + 1; j < 6; ++j) A[6 * i + j] -= l * A[6 * k + j];
+    }
+  }
+}
+
+/// Factors the tangent at the state that was evaluated last, with the stress that the elements have.
+template <class T>
+void factor(Work<T>& work) {
+  const FlatMachine& machine = work.machine;
+  Factors<T>& factors = work.factors;
+  factors.negative_pivots = T{};
+  factors.K = {};
+  if (work.stressed) {
+    const Vec3<T> f = work.load.v * -work.question.load;
+    add_force_hessian(f, arm_of_load(work), factors.K);
+    for (int s = 0; s < machine.chains; ++s)
+      add_weight_hessians(at(machine.series, s).at_end, work.state.platform, work, factors.K);
+  }
+  for (int s = 0; s < machine.chains; ++s) {
+    Sym6<T> K;
+    Columns<T> columns;
+    factor_series(s, work, K, columns);
+    factors.K = factors.K + K;
+    const Series& series = at(machine.series, s);
+    for (int a = 0; a < series.actuator_count; ++a)
+      at(factors.actuators, at(machine.actuators, series.actuators + a)) = columns.c[a];
+  }
+  factors.L = factors.K;
+  factor_in_place(factors.L, factors.negative_pivots);
+  if (work.question.target) factor_target(work);
+}
+
+}  // namespace counterflex::kernel

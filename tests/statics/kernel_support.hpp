@@ -1,0 +1,90 @@
+#pragma once
+/// Waypoints solved by the kernel, and each of them by the solver of single waypoints, to compare.
+#include "kernel/batch.hpp"
+#include "kernel/flatten.hpp"
+#include "laws_weights.hpp"
+
+namespace counterflex::laws {
+
+/// What the kernel is asked at one waypoint, and its answer.
+struct KernelWaypoint {
+  Configuration nominal;  ///< the start
+  Pose X_MT;              ///< wanted tip
+  Vector6 F = Vector6::Zero();
+  std::vector<double> start{};
+};
+
+struct KernelAnswers {
+  std::vector<unsigned char> accepted;
+  std::vector<int> iterations;
+  std::vector<double> actuators, tips, states, negative_pivots;
+
+  Eigen::VectorXd rho(std::size_t w) const {
+    const std::size_t n = actuators.size() / accepted.size();
+    return Eigen::Map<const Eigen::VectorXd>(actuators.data() + w * n, static_cast<Eigen::Index>(n));
+  }
+  Pose tip(std::size_t w) const {
+    Pose X;
+    for (int i = 0; i < 9; ++i) X.R(i / 3, i % 3) = tips[12 * w + static_cast<std::size_t>(i)];
+    for (int i = 0; i < 3; ++i) X.p[i] = tips[12 * w + 9 + static_cast<std::size_t>(i)];
+    return X;
+  }
+};
+
+/// A machine with its flat form.
+struct FlatBench {
+  Model model;
+  kernel::Flat flat;
+  std::vector<kernel::Transform> perfect, real;
+  StaticsWork work{model.mechanism};
+
+  explicit FlatBench(Model m) : model(std::move(m)), flat(kernel::flatten(model, false)) {
+    perfect = kernel::transforms_at(flat, 0);
+    real = kernel::transforms_at(flat, 1);
+  }
+  FlatBench(const FlatBench&) = delete;
+
+  kernel::Question question(bool target, const Stage& stage = {}) const {
+    kernel::Question q;
+    q.transforms = stage.errors == 0 ? &perfect : &real;
+    q.target = target;
+    q.load = stage.load, q.preload = stage.preload, q.gravity = stage.gravity;
+    return q;
+  }
+
+  KernelWaypoint waypoint(const NominalResult& nominal, const Vector6& F) const {
+    return {nominal.configuration, tip(model.mechanism, nominal.configuration), F,
+            kernel::state_of(model, flat, nominal.configuration, 0)};
+  }
+
+  KernelAnswers solve(const kernel::Question& question, const std::vector<KernelWaypoint>& waypoints,
+                      const kernel::Instance& instance = kernel::scalar_instance,
+                      const kernel::Schedule& schedule = {}) const {
+    const std::size_t n = waypoints.size(), actuators = model.mechanism.travel.size();
+    const auto states = static_cast<std::size_t>(flat.machine.state_size());
+    std::vector<double> p, R, F, rho, start;
+    for (const KernelWaypoint& w : waypoints) {
+      for (int i = 0; i < 3; ++i) p.push_back(w.X_MT.p[i]);
+      for (int i = 0; i < 9; ++i) R.push_back(w.X_MT.R(i / 3, i % 3));
+      for (int i = 0; i < 6; ++i) F.push_back(w.F[i]);
+      const Eigen::VectorXd commanded = actuator_values(model.mechanism, w.nominal);
+      rho.insert(rho.end(), commanded.begin(), commanded.end());
+      start.insert(start.end(), w.start.begin(), w.start.end());
+    }
+    KernelAnswers a{std::vector<unsigned char>(n),      std::vector<int>(n),
+                    std::vector<double>(n * actuators), std::vector<double>(12 * n),
+                    std::vector<double>(n * states),    std::vector<double>(n)};
+    kernel::Batch batch;
+    batch.count = static_cast<int>(n);
+    batch.p = p.data(), batch.R = R.data(), batch.F = F.data(), batch.rho = rho.data();
+    batch.start = start.data(), batch.start_stride = static_cast<long>(states);
+    batch.accepted = a.accepted.data(), batch.iterations = a.iterations.data(),
+    batch.actuators = a.actuators.data();
+    batch.tip = a.tips.data(), batch.state = a.states.data(),
+    batch.negative_pivots = a.negative_pivots.data();
+    instance.solve(flat.machine, question, schedule, batch);
+    return a;
+  }
+};
+
+}  // namespace counterflex::laws

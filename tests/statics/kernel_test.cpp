@@ -1,0 +1,186 @@
+/// The kernel beside the solver of single waypoints.
+#include <filesystem>
+
+#include "kernel_support.hpp"
+
+using namespace counterflex;
+using namespace counterflex::laws;
+
+namespace {
+
+struct KernelTrial {
+  Trial trial;
+  Model model;
+};
+
+std::vector<KernelTrial> kernel_trials() {
+  std::vector<KernelTrial> list;
+  for (const Trial& trial : controlled_machines()) list.push_back({trial, model_of(trial.name)});
+  for (const Trial& trial : controlled_machines()) {
+    list.push_back({trial, prepare(heavy(machine_of(trial.name), 0.5))});
+    list.back().trial.name += ", with masses everywhere";
+  }
+  return list;
+}
+
+std::vector<KernelWaypoint> waypoints_of(const FlatBench& bench, const Trial& trial, int count,
+                                         unsigned seed) {
+  Random random(seed);
+  std::vector<KernelWaypoint> list;
+  for (int i = 0; i < count; ++i) {
+    const NominalResult nominal = somewhere(bench.model, trial, random);
+    list.push_back(bench.waypoint(nominal, random.six(trial.force, trial.moment)));
+  }
+  return list;
+}
+
+}  // namespace
+
+TEST_CASE("kernel: nominal kinematics from home has the actuators of single waypoints") {
+  for (KernelTrial& of : kernel_trials()) {
+    CAPTURE(of.trial.name);
+    FlatBench bench(of.model);
+    REQUIRE(bench.flat.why_not == "");
+    const kernel::Question question = kernel::nominal_question(bench.perfect, true);
+    auto waypoints = waypoints_of(bench, of.trial, 8, 3);
+    const auto home = kernel::state_of(bench.model, bench.flat, bench.model.home, 0);
+    for (KernelWaypoint& w : waypoints) w.start = home;
+    const KernelAnswers answers = bench.solve(question, waypoints);
+    for (std::size_t w = 0; w < waypoints.size(); ++w) {
+      CAPTURE(answers.iterations[w]);
+      CHECK(answers.accepted[w] == 1);
+      const auto rho = actuator_values(bench.model.mechanism, waypoints[w].nominal);
+      CHECK((answers.rho(w) - rho).cwiseAbs().maxCoeff() < 1e-10);
+    }
+  }
+}
+
+TEST_CASE("kernel: targets and forward solutions are those of single waypoints") {
+  for (KernelTrial& of : kernel_trials()) {
+    CAPTURE(of.trial.name);
+    FlatBench bench(of.model);
+    const auto waypoints = waypoints_of(bench, of.trial, 8, 4);
+    const KernelAnswers targets = bench.solve(bench.question(true), waypoints);
+    const KernelAnswers forward = bench.solve(bench.question(false), waypoints);
+    for (std::size_t w = 0; w < waypoints.size(); ++w) {
+      CAPTURE(w);
+      CAPTURE(targets.iterations[w]);
+      CAPTURE(forward.iterations[w]);
+      const Load load{waypoints[w].F, false};
+      const Equilibrium target =
+          solve_target(bench.model, waypoints[w].nominal, waypoints[w].X_MT, load, {}, bench.work);
+      const Equilibrium alone = solve_forward(bench.model, waypoints[w].nominal, load, {}, bench.work);
+      REQUIRE(target.status == Status::converged);
+      REQUIRE(alone.status == Status::converged);
+      CHECK(targets.accepted[w] == 1);
+      CHECK(forward.accepted[w] == 1);
+      CHECK(targets.negative_pivots[w] == 0);
+      CHECK(forward.negative_pivots[w] == 0);
+      CHECK((targets.rho(w) - actuator_values(bench.model.mechanism, target.configuration))
+                .cwiseAbs()
+                .maxCoeff() < 1e-10);
+      CHECK(
+          deviation(targets.tip(w), tip(bench.model.mechanism, target.configuration)).cwiseAbs().maxCoeff() <
+          1e-10);
+      CHECK(deviation(forward.tip(w), tip(bench.model.mechanism, alone.configuration)).cwiseAbs().maxCoeff() <
+            1e-10);
+    }
+  }
+}
+
+TEST_CASE("kernel: an answer has the same bits in every instance, beside any neighbours") {
+  for (KernelTrial& of : kernel_trials()) {
+    CAPTURE(of.trial.name);
+    FlatBench bench(of.model);
+    const auto waypoints = waypoints_of(bench, of.trial, 11, 5);
+    std::vector<KernelWaypoint> turned(waypoints.rbegin(), waypoints.rend());
+    turned.resize(7);
+    for (const bool target : {true, false}) {
+      const KernelAnswers scalar = bench.solve(bench.question(target), waypoints);
+      for (const kernel::Instance& instance : kernel::all_instances()) {
+        CAPTURE(instance.lanes);
+        const KernelAnswers answers = bench.solve(bench.question(target), waypoints, instance);
+        CHECK(answers.tips == scalar.tips);
+        CHECK(answers.actuators == scalar.actuators);
+        CHECK(answers.states == scalar.states);
+        CHECK(answers.accepted == scalar.accepted);
+        CHECK(answers.negative_pivots == scalar.negative_pivots);
+        const KernelAnswers others = bench.solve(bench.question(target), turned, instance);
+        for (std::size_t w = 0; w < turned.size(); ++w)
+          for (std::size_t i = 0; i < 12; ++i)
+            CHECK(others.tips[12 * w + i] == scalar.tips[12 * (10 - w) + i]);
+      }
+    }
+  }
+}
+
+TEST_CASE(
+    "kernel: negative pivots at an equilibrium are there where the least eigenvalue of single waypoints is "
+    "negative") {
+  int unstable = 0, judged = 0;
+  for (KernelTrial& of : kernel_trials()) {
+    CAPTURE(of.trial.name);
+    FlatBench bench(of.model);
+    if (bench.flat.machine.has_hanging_weights) continue;
+    Random random(6);
+    for (const double strength : {1., 30., 300., 3000.}) {
+      for (int i = 0; i < 6; ++i) {
+        const NominalResult nominal = somewhere(bench.model, of.trial, random);
+        const Load load{random.six(strength * of.trial.force, strength * of.trial.moment), false};
+        const Equilibrium e = refine_forward(bench.model, nominal.configuration, load, {}, bench.work);
+        if (e.status != Status::converged && e.status != Status::unstable) continue;
+        KernelWaypoint waypoint = bench.waypoint(nominal, load.F);
+        waypoint.start = kernel::state_of(bench.model, bench.flat, e.configuration, 1);
+        const KernelAnswers answer = bench.solve(bench.question(false), {waypoint}, kernel::scalar_instance,
+                                                 {.first = kernel::FirstStress::of_elements});
+        if (!answer.accepted[0] ||
+            deviation(answer.tip(0), tip(bench.model.mechanism, e.configuration)).norm() > 1e-9)
+          continue;
+        const double least = stability(bench.model, e.configuration, load, {}, bench.work);
+        CAPTURE(strength);
+        CAPTURE(least);
+        CHECK((answer.negative_pivots[0] > 0) == (least < 0));
+        unstable += least < 0;
+        ++judged;
+      }
+    }
+  }
+  CHECK(judged > 60);
+  CHECK(unstable > 5);
+  MESSAGE("judged " << judged << ", unstable " << unstable);
+}
+
+TEST_CASE("kernel: what it accepts at home of any machine is the equilibrium of single waypoints") {
+  int accepted = 0;
+  for (const auto& file : std::filesystem::directory_iterator(COUNTERFLEX_SOURCE_DIR "/tests/statics/data")) {
+    if (file.path().extension() != ".toml") continue;
+    const std::string name = file.path().stem().string();
+    CAPTURE(name);
+    FlatBench bench(model_of(name));
+    if (!bench.flat.why_not.empty()) {
+      MESSAGE(name << ": " << bench.flat.why_not);
+      continue;
+    }
+    Random random(7);
+    for (int i = 0; i < 4; ++i) {
+      const NominalResult home{Status::converged, bench.model.home};
+      const Load load{random.six(20, 2), false};
+      const Equilibrium alone = solve_forward(bench.model, bench.model.home, load, {}, bench.work);
+      const KernelAnswers answer = bench.solve(bench.question(false), {bench.waypoint(home, load.F)});
+      if (!answer.accepted[0]) {
+        MESSAGE(name << " not accepted, " << to_string(alone.status));
+        continue;
+      }
+      ++accepted;
+      if (alone.status == Status::unstable) {
+        CHECK(answer.negative_pivots[0] > 0);
+        continue;
+      }
+      CHECK(alone.status == Status::converged);
+      CHECK(deviation(answer.tip(0), tip(bench.model.mechanism, alone.configuration)).cwiseAbs().maxCoeff() <
+            1e-10);
+      if (!bench.flat.machine.has_hanging_weights) CHECK(answer.negative_pivots[0] == 0);
+    }
+  }
+  MESSAGE("accepted " << accepted);
+}
