@@ -2,6 +2,7 @@
 /// Waypoints solved by the kernel, and each of them by the solver of single waypoints, to compare.
 #include "kernel/batch.hpp"
 #include "kernel/flatten.hpp"
+#include "kernel/start_cell.hpp"
 #include "laws_weights.hpp"
 
 namespace counterflex::laws {
@@ -12,6 +13,7 @@ struct KernelWaypoint {
   Pose X_MT;              ///< wanted tip
   Vector6 F = Vector6::Zero();
   std::vector<double> start{};
+  const kernel::StartCell* cell = nullptr;  ///< instead of `start`
 };
 
 struct KernelAnswers {
@@ -78,6 +80,9 @@ struct FlatBench {
     batch.count = static_cast<int>(n);
     batch.p = p.data(), batch.R = R.data(), batch.F = F.data(), batch.rho = rho.data();
     batch.start = start.data(), batch.start_stride = static_cast<long>(states);
+    std::vector<const kernel::StartCell*> cells;
+    for (const KernelWaypoint& w : waypoints) cells.push_back(w.cell);
+    if (!cells.empty() && cells[0] != nullptr) batch.cells = cells.data();
     batch.accepted = a.accepted.data(), batch.iterations = a.iterations.data(),
     batch.actuators = a.actuators.data();
     batch.tip = a.tips.data(), batch.state = a.states.data(),

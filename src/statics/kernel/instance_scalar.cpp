@@ -1,4 +1,4 @@
-#include "batch.hpp"
+#include "solve_batch.hpp"
 
 namespace counterflex::kernel {
 
