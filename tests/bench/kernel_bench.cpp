@@ -19,15 +19,18 @@ constexpr double cells_of_a_length = 24;      // edge of a cell: l / 24
 /// Waypoints along the line of a case, and the cells that hold them.
 struct KernelCase {
   kernel::Flat flat;
-  std::vector<kernel::Transform> perfect, real;
+  std::vector<kernel::Transform> real;
+  kernel::Question question;
   std::map<std::array<long, 3>, kernel::StartCell> cells;
   std::vector<double> p, R, F;
   std::vector<const kernel::StartCell*> cell_of;
   std::string failure;
 
+  KernelCase(const KernelCase&) = delete;
   explicit KernelCase(const Case& c) : flat(kernel::flatten(c.model, false)), failure(c.failure) {
-    perfect = kernel::transforms_at(flat, 0);
     real = kernel::transforms_at(flat, 1);
+    question.transforms = &real;
+    question.target = true;
     const Vector3 begin = c.wanted.front().p, along = (c.wanted.back().p - begin).normalized();
     for (std::size_t i = 0; i < batch_size && failure.empty(); ++i)
       add(c, begin + between_waypoints * static_cast<double>(i) * along, i);
@@ -40,9 +43,9 @@ struct KernelCase {
     if (!cells.contains(index)) {
       const Vector3 centre = edge * Vector3(static_cast<double>(index[0]), static_cast<double>(index[1]),
                                             static_cast<double>(index[2]));
-      auto cell = kernel::make_start_cell(c.model, flat, perfect, centre, edge / 2);
+      auto cell = kernel::make_start_cell(c.model, flat, question, centre, edge / 2);
       if (!cell) {
-        failure = "a cell has no nominal kinematics";
+        failure = "a cell is not solved";
         return;
       }
       cells.emplace(index, std::move(*cell));
@@ -70,14 +73,11 @@ void targets(benchmark::State& state, CaseOf case_of, const kernel::Instance& in
   batch.p = c.p.data(), batch.R = c.R.data(), batch.F = c.F.data(), batch.cells = c.cell_of.data();
   batch.accepted = accepted.data(), batch.iterations = iterations.data();
   batch.actuators = rho.data(), batch.tip = tips.data(), batch.negative_pivots = pivots.data();
-  kernel::Question question;
-  question.transforms = &c.real;
-  question.target = true;
-  const kernel::Schedule schedule{.tangents =
-                                      7U | ~0U << 6};  // the first three steps have their own, and late ones
+  // The first step has a tangent of its own, with the stress of the cell, and late ones.
+  const kernel::Schedule schedule{.tangents = 1U | ~0U << 6, .first = kernel::FirstStress::of_cells};
   double steps = 0;
   for (auto _ : state) {
-    instance.solve(c.flat.machine, question, schedule, batch);
+    instance.solve(c.flat.machine, c.question, schedule, batch);
     for (std::size_t i = 0; i < batch_size; ++i) {
       steps += iterations[i];
       if (accepted[i] != 0 && pivots[i] == 0) continue;

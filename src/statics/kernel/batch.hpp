@@ -4,15 +4,21 @@
 
 namespace counterflex::kernel {
 
-/// Nominal kinematics about a place: the state at the centre, and how it changes with the position of the
-/// tip, up to second order. A pure function of machine, centre and step.
+/// The solutions of a question about a place: the state at the centre without a load, and how it changes with
+/// the position of the tip, up to second order, and with the load. A pure function of machine, question,
+/// centre and step.
 struct StartCell {
-  static constexpr int terms = 9;    ///< x y z xx yy zz xy xz yz
-  std::array<double, 3> centre{};    ///< position of the tip (m)
-  std::vector<double> state;         ///< as `state_of`
-  std::vector<double> cosine, sine;  ///< by joint
+  static constexpr int place_terms = 9;              ///< x y z xx yy zz xy xz yz (m, m2)
+  static constexpr int all_terms = place_terms + 6;  ///< and the load (N, N m), where it acts
+  static constexpr int stress_terms = 1 + 6;         ///< one, and the load
+  std::array<double, 3> centre{};                    ///< position of the tip (m)
+  std::vector<double> state;                         ///< as `state_of`
+  std::vector<double> cosine, sine;                  ///< by joint
+  int terms = place_terms;
   std::vector<double>
-      taylor;  ///< by unknown (joints, then the twists of nodes and platform): `terms` coefficients
+      changes;  ///< by unknown (joints, then the twists of nodes and platform): `terms` coefficients
+  std::vector<double>
+      stress;  ///< by element, six numbers: `stress_terms` coefficients; empty where no load acts
 };
 
 /// Numbers of waypoint after waypoint; what is not asked for may be null.
@@ -28,15 +34,17 @@ struct Batch {
 
   unsigned char* accepted = nullptr;
   int* iterations = nullptr;
-  double* actuators = nullptr;        ///< commanded values that belong to the solution
-  double* tip = nullptr;              ///< 12 each: R row by row, p
-  double* state = nullptr;            ///< state_size each
+  double* actuators = nullptr;  ///< commanded values that belong to the solution
+  double* tip = nullptr;        ///< 12 each: R row by row, p
+  double* state = nullptr;      ///< state_size each
+  double* stress =
+      nullptr;  ///< by element: force and moment about its end (N, N m), axes of M; of groups zero
   double* negative_pivots = nullptr;  ///< 0: stable with actuators held
 };
 
 /// Which stress the first tangent has. Later ones have what the last linear step foresaw: with the stress of
 /// an iterate that misses the errors of assembly, Newton diverges (EQUATIONS.md, section 12).
-enum class FirstStress { none, of_elements };
+enum class FirstStress { none, of_elements, of_cells };
 
 struct Schedule {
   unsigned tangents = ~0U;  ///< bit k: iteration k factors its own tangent; the others take the last one

@@ -38,6 +38,29 @@ COUNTERFLEX_INLINE bool has_tangent(const Schedule& schedule, int iteration) {
   return iteration > 31 || (schedule.tangents >> iteration & 1U) != 0;
 }
 
+/// The stress of the first tangent, at the state that was evaluated. Branches stand before their group.
+template <class T>
+void set_first_stress(FirstStress first, Work<T>& work) {
+  for (int i = 0; i < static_cast<int>(work.machine.elements.size()); ++i) {
+    ElementTerms<T>& terms = at(work.equations.elements, i);
+    if (first == FirstStress::of_elements) {
+      terms.stress = terms.phi;
+      continue;
+    }
+    terms.stress = {};
+    if (first == FirstStress::none) continue;
+    const Element& element = at(work.machine.elements, i);
+    if (element.kind == ElementKind::spring) {
+      const Vec6<T>& stress = at(work.start_stress, i);
+      terms.stress = {stress.v, stress.w + cross(terms.p, stress.v)};
+    }
+    for (int b = 0; b < element.branches; ++b) {
+      const Series& branch = at(work.machine.series, element.series + b);
+      terms.stress = terms.stress + at(work.equations.elements, branch.first + branch.count - 1).stress;
+    }
+  }
+}
+
 /// Whether the residual at the state that was evaluated is small, and the state one that the equations hold
 /// for.
 template <class T>
@@ -54,24 +77,25 @@ template <class T>
 Solved<T> iterate(const Schedule& schedule, Mask<T> active, Work<T>& work) {
   Solved<T> solved{static_cast<Mask<T>>(opposite<T>(active) & active), {}};
   Mask<T> is_small = solved.accepted;
-  T last = all<T>(work.machine.length);
+  // Nothing is known of the contraction of a first step, but of Newton's on kinematics.
+  T last = all<T>(work.question.nominal ? work.machine.length : 0);
   for (int k = 0;; ++k) {
     evaluate(work);
     solved.accepted = solved.accepted | (active & is_small & is_balanced(work));
     active = active & opposite<T>(solved.accepted);
     if (k == schedule.most || !any<T>(active)) return solved;
     if (has_tangent<T>(schedule, k)) {
-      work.stressed = !work.question.nominal && (k > 0 || schedule.first == FirstStress::of_elements);
-      if (k == 0 && !work.stressed)
-        for (ElementTerms<T>& terms : work.equations.elements) terms.stress = {};
+      if (k == 0) set_first_stress(schedule.first, work);
+      work.stressed = !work.question.nominal && (k > 0 || schedule.first != FirstStress::none);
       factor(work);
     }
     work.foresees = !work.question.nominal && has_tangent<T>(schedule, k + 1);
     find_step(work);
-    // By the contraction that was seen, of a first step by that of Newton's steps, the step behind this one
-    // is small.
     const T size = work.step.size;
-    is_small = (size <= step_tolerance) | (size * size <= foreseen_tolerance * last);
+    is_small = size <= step_tolerance;
+    // Behind a tangent of its own: by the contraction that was seen the next step is small. Chords contract
+    // unevenly.
+    if (has_tangent<T>(schedule, k)) is_small = is_small | (size * size <= foreseen_tolerance * last);
     last = size;
     take_step<T>(active, work);
     solved.iterations += select<T>(active, all<T>(1), T{});

@@ -31,6 +31,19 @@ void get_state(int l, const Work<T>& work, double* numbers) {
   get(work.state.platform);
 }
 
+template <class T>
+void get_stress(int l, const Work<T>& work, double* numbers) {
+  for (std::size_t i = 0; i < work.machine.elements.size(); ++i, numbers += 6) {
+    const ElementTerms<T>& terms = work.equations.elements[i];
+    const Vec3<T> own = terms.phi.w - cross(terms.p, terms.phi.v);
+    const bool spring = work.machine.elements[i].kind == ElementKind::spring;
+    for (int k = 0; k < 3; ++k) {
+      numbers[k] = spring ? lane(terms.phi.v[k], l) : 0;
+      numbers[3 + k] = spring ? lane(own[k], l) : 0;
+    }
+  }
+}
+
 /// The states that the cells have for the waypoints from `first` on.
 template <class T>
 void put_from_cells(const Batch& batch, int first, Work<T>& work) {
@@ -44,15 +57,17 @@ void put_from_cells(const Batch& batch, int first, Work<T>& work) {
   const auto number = [&](auto of, int i) {
     return shared ? all<T>(at(only.*of, i)) : gather<T>([&](int l) { return at(cell_of(l)->*of, i); });
   };
-  T x[StartCell::terms];
+  T x[StartCell::all_terms];
   for (int i = 0; i < 3; ++i)
     x[i] = gather<T>([&](int l) { return lane(work.origin[i], l) - at(cell_of(l)->centre, i); });
   x[3] = x[0] * x[0], x[4] = x[1] * x[1], x[5] = x[2] * x[2];
   x[6] = x[0] * x[1], x[7] = x[0] * x[2], x[8] = x[1] * x[2];
+  T* const load = x + StartCell::place_terms;
+  COUNTERFLEX_UNROLL
+  for (int i = 0; i < 6; ++i) load[i] = work.load[i] * work.question.load;
   const auto change = [&](int unknown) {
     T sum{};
-    for (int k = 0; k < StartCell::terms; ++k)
-      sum += number(&StartCell::taylor, StartCell::terms * unknown + k) * x[k];
+    for (int k = 0; k < only.terms; ++k) sum += number(&StartCell::changes, only.terms * unknown + k) * x[k];
     return sum;
   };
   for (int j = 0; j < machine.joints; ++j) {
@@ -72,6 +87,17 @@ void put_from_cells(const Batch& batch, int first, Work<T>& work) {
       w[k] = change(row + 3 + k);
     }
     X.R = exp_so3(w) * R;
+  }
+  if (only.stress.empty()) return;
+  for (int i = 0; i < static_cast<int>(machine.elements.size()); ++i) {
+    T of_element[6];
+    for (int k = 0; k < 6; ++k) {
+      const int row = StartCell::stress_terms * (6 * i + k);
+      of_element[k] = number(&StartCell::stress, row);
+      for (int j = 0; j < 6; ++j) of_element[k] += number(&StartCell::stress, row + 1 + j) * load[j];
+    }
+    at(work.start_stress, i) = {{{of_element[0], of_element[1], of_element[2]}},
+                                {{of_element[3], of_element[4], of_element[5]}}};
   }
 }
 
@@ -128,6 +154,8 @@ void solve_batch(const FlatMachine& machine, const Question& question, const Sch
       }
       if (batch.state != nullptr)
         get_state(l, work, batch.state + static_cast<long>(machine.state_size()) * w);
+      if (batch.stress != nullptr)
+        get_stress(l, work, batch.stress + 6 * static_cast<long>(machine.elements.size()) * w);
       if (batch.negative_pivots != nullptr) batch.negative_pivots[w] = lane(pivots, l);
     }
   }

@@ -7,11 +7,11 @@
 
 namespace counterflex::kernel {
 
-/// The cell about a position, the tip's controlled orientations those of home. The nominal machine is
-/// followed straight from home to its centre; `step` (m) is the distance of the differences. None where the
-/// nominal machine does not get there, or is not solved at one of the places about it.
-std::optional<StartCell> make_start_cell(const Model& model, const Flat& flat,
-                                         const std::vector<Transform>& perfect, const Vector3& centre,
-                                         double step);
+/// The cell of a target question about a position, the tip's controlled orientations those of home. The
+/// nominal machine is followed straight from home to its centre; `step` (m) is the distance of the
+/// differences. None where the nominal machine does not get there, or the question is not solved at one of
+/// the places about it.
+std::optional<StartCell> make_start_cell(const Model& model, const Flat& flat, const Question& question,
+                                         const Vector3& centre, double step);
 
 }  // namespace counterflex::kernel

@@ -111,14 +111,16 @@ struct Work {
   Question question{};
   Vec3<T> origin{};  ///< the common point in M
   Mat3<T> wanted_R{};
-  Vec6<T> load{};         ///< wrench at the machine's arm, axes of M
-  bool stressed = false;  ///< the tangent has the stress of its elements
-  bool foresees = false;  ///< the next tangent takes the stress that this step foresees
+  Vec6<T> load{};                       ///< wrench at the machine's arm, axes of M
+  std::vector<Vec6<T>> start_stress{};  ///< by element, as in StartCell
+  bool stressed = false;                ///< the tangent has the stress of its elements
+  bool foresees = false;                ///< the next tangent takes the stress that this step foresees
 
   explicit Work(const FlatMachine& m) : machine(m) {
     const auto joints = static_cast<std::size_t>(m.joints), nodes = static_cast<std::size_t>(m.nodes);
     const auto actuators = m.actuator_joint.size();
     state.q.resize(joints), state.cosine.resize(joints), state.sine.resize(joints), state.nodes.resize(nodes);
+    start_stress.resize(m.elements.size());
     equations.joints.resize(joints), equations.elements.resize(m.elements.size()),
         equations.nodes.resize(nodes);
     equations.hanging.resize(m.weights.size());
