@@ -236,3 +236,11 @@ TEST_CASE("kernel: there is no cell where the nominal machine does not get") {
   const kernel::Question question = kernel::nominal_question(bench.perfect, true);
   CHECK_FALSE(kernel::make_start_cell(bench.model, bench.flat, question, far, 0.005));
 }
+
+TEST_CASE("kernel: a chain with more actuators than it has room for is refused") {
+  std::string chain = "[[chain]]\nname = \"axes\"\nelements = [\n";
+  for (int i = 0; i < 13; ++i)
+    chain += "  { actuator = \"prismatic\", axis = \"x\", min_mm = -1, max_mm = 1 },\n";
+  const Model model = model_of_text(chain + "]\n");
+  CHECK(kernel::flatten(model, false).why_not == "one of its chains has too many actuators");
+}

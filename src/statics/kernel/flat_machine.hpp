@@ -102,7 +102,6 @@ struct FlatMachine {
   bool has_hanging_weights = false;  ///< in branches, or before an element: tangents leave out how these turn
   int rigid_closures = 0;            ///< pairs of springs K and -K: each has six negative pivots
   std::array<bool, 6> controlled{};
-  int controls = 0;
   Transform X_PT;                   ///< the tip in the platform's frame
   std::array<double, 3> p_arm{};    ///< where the load acts, in the platform's frame (m)
   std::array<double, 3> gravity{};  ///< m/s2, axes of M

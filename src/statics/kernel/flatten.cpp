@@ -449,13 +449,10 @@ Flat flatten(const Model& model, bool load_at_platform) {
   machine.stiffest = mechanism.stiffest > 0 ? mechanism.stiffest : rigid_machine;
   machine.actuator_joint.resize(mechanism.travel.size(), -1);
   machine.actuator_offset.resize(mechanism.travel.size(), 0);
-  for (const Component c : mechanism.controlled)
-    machine.controlled[static_cast<std::size_t>(c)] = true, ++machine.controls;
+  for (const Component c : mechanism.controlled) machine.controlled[static_cast<std::size_t>(c)] = true;
   machine.X_PT = transform_of(mechanism.X_PT);
   const Vector3 arm = load_at_platform ? mechanism.p_EP : mechanism.X_PT.p;
   for (int i = 0; i < 3; ++i) at(machine.p_arm, i) = arm[i], at(machine.gravity, i) = mechanism.gravity[i];
-  if (machine.controls != static_cast<int>(mechanism.travel.size()))
-    parts.refuse("its actuators are not as many as its controlled components");
   for (int s = 0; s < machine.chains; ++s) SeriesFlattener(at(mechanism.chains, s), s, true, parts).run();
   for (int node = 0; node < machine.nodes; ++node)
     machine.weights_of_node.push_back(parts.place_weights(Frames::nodes, node));

@@ -13,9 +13,10 @@ inline constexpr int most_actuators_of_series = 12;
 /// What acts on the machine, and what is asked.
 struct Question {
   const std::vector<Transform>* transforms =
-      nullptr;           ///< rigid transforms, with as much of the errors as acts
-  bool target = false;   ///< the controlled components of the tip are given, else the actuators
-  bool nominal = false;  ///< kinematics: passive springs do not act, nor anything below
+      nullptr;  ///< rigid transforms, with as much of the errors as acts
+  bool target =
+      false;  ///< the controlled components of the tip are given (as many as actuators), else the actuators
+  bool nominal = false;                       ///< kinematics: passive springs do not act, nor anything below
   double load = 1, preload = 1, gravity = 1;  ///< how much of them acts
 };
 
