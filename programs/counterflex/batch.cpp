@@ -10,13 +10,15 @@
 #include "batch_jobs.hpp"
 #include "batch_manifest.hpp"
 #include "batch_merge.hpp"
-#include "batch_units.hpp"
+#include "batch_run.hpp"
+#include "batch_shards.hpp"
 #include "commands.hpp"
 #include "counterflex/batch/summary.hpp"
 #include "counterflex/files/file_writer.hpp"
 #include "counterflex/files/files.hpp"
 #include "counterflex/settings/project_file.hpp"
 #include "outputs.hpp"
+#include "signals.hpp"
 #include "version.hpp"
 
 namespace counterflex::cli {
@@ -46,18 +48,6 @@ void check_flags(const Options& options) {
   if (asked > 1) throw InputError(Exit::usage, {}, "--shard, --merge and --estimate exclude each other");
   if (options.resume && (options.merge || options.estimate))
     throw InputError(Exit::usage, {}, "--resume goes with a run or a --shard of it");
-}
-
-std::vector<KeptUnit> kept(const std::vector<BatchUnit>& units) {
-  std::vector<KeptUnit> kept;
-  for (const BatchUnit& unit : units) kept.push_back(unit.kept);
-  return kept;
-}
-
-std::vector<BatchTask> tasks_of(const std::vector<BatchUnit>& units) {
-  std::vector<BatchTask> tasks;
-  for (const BatchUnit& unit : units) tasks.push_back(task_of(unit));
-  return tasks;
 }
 
 /// Before anything is done: what somebody else wrote under the names of a batch stays.
@@ -117,19 +107,12 @@ Exit say_estimate(const Batch& batch) {
   return Exit::done;
 }
 
-std::string counted_units(const std::vector<BatchUnit>& units) {
-  const auto parts =
-      std::count_if(units.begin(), units.end(), [](const BatchUnit& unit) { return unit.is_part(); });
-  return fmt::format("{} jobs and {} parts of jobs", static_cast<std::ptrdiff_t>(units.size()) - parts,
-                     parts);
-}
-
 /// What need not be done again.
-void take_proven(const Options& options, std::size_t units, const BatchFolder& folder,
-                 BatchManifest& manifest, Console& console) {
+void take_proven(const Options& options, const BatchFolder& folder, BatchManifest& manifest,
+                 Console& console) {
   if (!options.resume) return;
   manifest.take_proven(folder.manifests());
-  console.detail(fmt::format("{} of {} are proven done", manifest.ended().size(), units));
+  console.detail(fmt::format("{} of {} are proven done", manifest.ended().size(), manifest.jobs().size()));
 }
 
 /// Of a run that was stopped: what it has done is kept.
@@ -142,27 +125,25 @@ Exit run_shard(const Options& options, const Batch& batch, Console& console) {
   const auto [index, count] = *options.shard;
   const BatchFolder folder(batch, BatchFolder::Use::shared, console);
   folder.make_state("shards");
-  const auto by_shard = units_by_shard(batch, count, folder);
-  const auto& units = by_shard[static_cast<std::size_t>(index - 1)];
-  BatchManifest manifest(shard_manifest(folder, index, count), plan_of(by_shard), kept(units));
-  take_proven(options, units.size(), folder, manifest, console);
-  const auto stopped = do_missing(tasks_of(units), batch.threads, manifest, console);
+  const std::vector<BatchJobs> by_shard = jobs_by_shard(batch, count);
+  const BatchJobs& jobs = by_shard[static_cast<std::size_t>(index - 1)];
+  BatchManifest manifest(shard_manifest(folder, index, count), plan_of(by_shard), jobs);
+  take_proven(options, folder, manifest, console);
+  const auto stopped = do_missing(manifest, batch.threads, console);
   if (stopped) return saved(manifest, *stopped);
   manifest.save();
   const std::vector<JobOutcome> outcomes = manifest.ended();
   const auto failed = std::count_if(outcomes.begin(), outcomes.end(),
                                     [](const JobOutcome& o) { return o.exit != Exit::done; });
-  write_result(fmt::format("shard {} of {}: {}, {} failed\n", index, count, counted_units(units), failed));
+  write_result(fmt::format("shard {} of {}: {} jobs, {} failed\n", index, count, jobs.size(), failed));
   return exit_of(outcomes);
 }
 
 Exit run_merge(const Options& options, const Batch& batch, Console& console) {
   const BatchFolder folder(batch, BatchFolder::Use::alone, console);
-  BatchManifest manifest(folder.state("manifest.json"), plan_of(batch), kept(whole_jobs(batch)));
+  BatchManifest manifest(folder.state("manifest.json"), plan_of({all_jobs(batch)}), all_jobs(batch));
   if (has_shards(folder)) remove_summary(batch);
-  const auto stopped = merge_shards(batch, folder, batch.threads, manifest, console);
-  folder.sweep();
-  if (stopped) return static_cast<Exit>(status_of(*stopped));
+  merge_shards(batch, folder, manifest);
   const Exit exit = conclude(options, batch, manifest, console);
   if (exit == Exit::done || fails_again(exit)) remove_shards(folder);  // else another try would want them
   return exit;
@@ -170,11 +151,10 @@ Exit run_merge(const Options& options, const Batch& batch, Console& console) {
 
 Exit run_all(const Options& options, const Batch& batch, Console& console) {
   const BatchFolder folder(batch, BatchFolder::Use::alone, console);
-  const std::vector<BatchUnit> units = whole_jobs(batch);
-  BatchManifest manifest(folder.state("manifest.json"), plan_of(batch), kept(units));
-  take_proven(options, units.size(), folder, manifest, console);
+  BatchManifest manifest(folder.state("manifest.json"), plan_of({all_jobs(batch)}), all_jobs(batch));
+  take_proven(options, folder, manifest, console);
   remove_summary(batch);
-  const auto stopped = do_missing(tasks_of(units), batch.threads, manifest, console);
+  const auto stopped = do_missing(manifest, batch.threads, console);
   folder.sweep();
   if (stopped) return saved(manifest, *stopped);
   const Exit exit = conclude(options, batch, manifest, console);

@@ -30,20 +30,20 @@ std::multimap<std::string, JobOutcome> outcomes_in(const std::vector<std::string
 
 }  // namespace
 
-BatchManifest::BatchManifest(std::string path, std::string plan, std::vector<KeptUnit> units)
-    : path_(std::move(path)), plan_(std::move(plan)), units_(std::move(units)), outcomes_(units_.size()) {}
+BatchManifest::BatchManifest(std::string path, std::string plan, BatchJobs jobs)
+    : path_(std::move(path)), plan_(std::move(plan)), jobs_(std::move(jobs)), outcomes_(jobs_.size()) {}
 
 std::vector<std::optional<JobOutcome>> BatchManifest::recorded(const std::vector<std::string>& files,
                                                                bool failed_too) const {
   const std::multimap<std::string, JobOutcome> by_output = outcomes_in(files);
-  std::vector<std::optional<JobOutcome>> outcomes(units_.size());
+  std::vector<std::optional<JobOutcome>> outcomes(jobs_.size());
   FileHashes on_disk;
-  for (std::size_t i = 0; i < units_.size(); ++i) {
-    const auto [begin, end] = by_output.equal_range(units_[i].output);
+  for (std::size_t i = 0; i < jobs_.size(); ++i) {
+    const auto [begin, end] = by_output.equal_range(jobs_[i]->output);
     for (auto known = begin; known != end && !outcomes[i]; ++known) {
       const JobOutcome& outcome = known->second;
-      const bool failed = failed_too && fails_again(outcome.exit) && outcome.key == units_[i].key;
-      if (failed || is_proven(outcome, units_[i].key, on_disk)) outcomes[i] = outcome;
+      const bool failed = failed_too && fails_again(outcome.exit) && outcome.key == jobs_[i]->key;
+      if (failed || is_proven(outcome, jobs_[i]->key, on_disk)) outcomes[i] = outcome;
     }
   }
   return outcomes;
@@ -61,8 +61,8 @@ bool BatchManifest::take_all_ended() {
   return all;
 }
 
-void BatchManifest::set(std::size_t unit, JobOutcome outcome) {
-  outcomes_[unit] = std::move(outcome);
+void BatchManifest::set(std::size_t job, JobOutcome outcome) {
+  outcomes_[job] = std::move(outcome);
   changed_ = true;
 }
 

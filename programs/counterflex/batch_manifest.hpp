@@ -6,36 +6,31 @@
 #include <string>
 #include <vector>
 
+#include "batch_shards.hpp"
 #include "counterflex/batch/manifest.hpp"
 
 namespace counterflex::cli {
 
-/// What is to be done by this run: a job or a part of one, known by its output.
-struct KeptUnit {
-  std::string key;
-  std::string output;
-};
-
 class BatchManifest {
  public:
   /// `path` of the file, and what it is the manifest of (`Manifest::plan`).
-  BatchManifest(std::string path, std::string plan, std::vector<KeptUnit> units);
+  BatchManifest(std::string path, std::string plan, BatchJobs jobs);
 
   /// Takes what is proven done by any of `files`, manifests of this batch, whoever wrote them. A file that is
   /// missing proves nothing. Throws `InputError` (Exit::machine_or_force) where one cannot be trusted;
   /// nothing has been changed then.
   void take_proven(const std::vector<std::string>& files);
 
-  /// Takes all units from its own file, those that would fail again, too, where it has all of them: whether
-  /// it has.
-  /// Throws as `take_proven`.
+  /// If its own file has all jobs, proven done or failed so that they would fail again, takes them and
+  /// returns true. Throws as `take_proven`.
   bool take_all_ended();
 
-  /// A unit has ended.
-  void set(std::size_t unit, JobOutcome outcome);
+  /// A job has ended.
+  void set(std::size_t job, JobOutcome outcome);
 
-  const std::optional<JobOutcome>& outcome(std::size_t unit) const { return outcomes_[unit]; }
-  std::vector<JobOutcome> ended() const;  ///< in the order of units
+  const BatchJobs& jobs() const { return jobs_; }
+  const std::optional<JobOutcome>& outcome(std::size_t job) const { return outcomes_[job]; }
+  std::vector<JobOutcome> ended() const;  ///< in the order of jobs
 
   /// Writes the file if something has changed and it has not been written for a while. What cannot be
   /// written then may be later.
@@ -49,7 +44,7 @@ class BatchManifest {
                                                   bool failed_too) const;
 
   std::string path_, plan_;
-  std::vector<KeptUnit> units_;
+  BatchJobs jobs_;
   std::vector<std::optional<JobOutcome>> outcomes_;
   bool changed_ = true;
   std::chrono::steady_clock::time_point saved_{};

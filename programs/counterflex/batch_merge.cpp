@@ -8,7 +8,7 @@
 #include <set>
 #include <utility>
 
-#include "batch_units.hpp"
+#include "batch_shards.hpp"
 #include "counterflex/files/input_error.hpp"
 #include "globs.hpp"
 #include "inputs.hpp"
@@ -38,20 +38,21 @@ std::set<int> counts_of_shards(const BatchFolder& folder) {
                    fmt::format("{}; run --shard {}/{} --resume and merge again", why, index, count));
 }
 
-/// What the shards have done, by unit's output.
+/// The outcomes of all jobs, by output, of `count` shards. Throws `InputError` where one is missing or no
+/// longer as its shard left it.
 class ShardResults {
  public:
-  ShardResults(const Batch& batch, const BatchFolder& folder, int count)
-      : folder_(folder), count_(count), units_(units_by_shard(batch, count_, folder)) {
-    const std::string plan = plan_of(units_);
-    for (int index = 1; index <= count_; ++index) read(index, plan);
+  ShardResults(const Batch& batch, const BatchFolder& folder, int count) : folder_(folder), count_(count) {
+    const std::vector<BatchJobs> by_shard = jobs_by_shard(batch, count_);
+    const std::string plan = plan_of(by_shard);
+    for (int index = 1; index <= count_; ++index)
+      read(index, plan, by_shard[static_cast<std::size_t>(index - 1)]);
   }
 
-  const std::vector<std::vector<BatchUnit>>& units() const { return units_; }
-  const JobOutcome& outcome(const BatchUnit& unit) const { return outcomes_.at(unit.kept.output); }
+  const JobOutcome& outcome(const BatchJob& job) const { return outcomes_.at(job.output); }
 
  private:
-  void read(int index, const std::string& plan) {
+  void read(int index, const std::string& plan, const BatchJobs& jobs) {
     const std::string path = shard_manifest(folder_, index, count_);
     std::error_code ignored;
     if (!fs::exists(path, ignored)) refuse_shard(path, index, count_, "this shard is missing");
@@ -60,21 +61,20 @@ class ShardResults {
       refuse_shard(path, index, count_,
                    "this shard was done for other jobs, or for programs of another size");
     for (JobOutcome& outcome : manifest.jobs) outcomes_[outcome.output] = std::move(outcome);
-    for (const BatchUnit& unit : units_[static_cast<std::size_t>(index - 1)]) check(unit, path, index);
+    for (const BatchJob* job : jobs) check(*job, path, index);
   }
 
-  void check(const BatchUnit& unit, const std::string& path, int index) {
-    const auto found = outcomes_.find(unit.kept.output);
-    if (found == outcomes_.end() || found->second.key != unit.kept.key)
-      refuse_shard(path, index, count_, fmt::format("this shard has not come to {} yet", unit.job->program));
-    if (found->second.exit == Exit::done && !is_proven(found->second, unit.kept.key, on_disk_))
+  void check(const BatchJob& job, const std::string& path, int index) {
+    const auto found = outcomes_.find(job.output);
+    if (found == outcomes_.end() || found->second.key != job.key)
+      refuse_shard(path, index, count_, fmt::format("this shard has not come to {} yet", job.program));
+    if (found->second.exit == Exit::done && !is_proven(found->second, job.key, on_disk_))
       refuse_shard(path, index, count_,
-                   fmt::format("an input or an output of {} has been changed since", unit.job->program));
+                   fmt::format("an input or an output of {} has been changed since", job.program));
   }
 
   const BatchFolder& folder_;
   int count_;
-  std::vector<std::vector<BatchUnit>> units_;
   std::map<std::string, JobOutcome> outcomes_;
   FileHashes on_disk_;
 };
@@ -92,48 +92,17 @@ ShardResults complete_results(const Batch& batch, const BatchFolder& folder) {
                    "no shard has been done here; run them with --shard");
 }
 
-/// A program that was split: the files of its parts, or the outcome of a part that failed.
-struct SplitJob {
-  std::vector<std::string> records{};
-  std::optional<JobOutcome> failed{};
-};
-
-std::map<std::size_t, SplitJob> split_jobs(const ShardResults& results) {
-  std::map<std::size_t, SplitJob> split;
-  for (const auto& units : results.units())
-    for (const BatchUnit& unit : units) {
-      if (!unit.is_part()) continue;
-      const JobOutcome& outcome = results.outcome(unit);
-      SplitJob& job = split[unit.which.job];
-      job.records.push_back(unit.kept.output);
-      if (outcome.exit != Exit::done) job.failed = outcome;
-    }
-  return split;
-}
-
 }  // namespace
 
 bool has_shards(const BatchFolder& folder) {
   return !counts_of_shards(folder).empty();
 }
 
-std::optional<int> merge_shards(const Batch& batch, const BatchFolder& folder, int threads,
-                                BatchManifest& manifest, Console& console) {
-  if (!has_shards(folder) && manifest.take_all_ended()) return std::nullopt;
+void merge_shards(const Batch& batch, const BatchFolder& folder, BatchManifest& manifest) {
+  if (!has_shards(folder) && manifest.take_all_ended()) return;
   const ShardResults results = complete_results(batch, folder);
-  for (const auto& units : results.units())
-    for (const BatchUnit& unit : units)
-      if (!unit.is_part()) manifest.set(unit.which.job, results.outcome(unit));
-  std::vector<BatchTask> tasks(batch.jobs.size());
-  for (auto& [index, split] : split_jobs(results)) {
-    const BatchJob& job = batch.jobs[index];
-    tasks[index] = merging_task(job, std::move(split.records));
-    if (!split.failed) continue;
-    split.failed->key = job.key;
-    split.failed->output = job.output;
-    manifest.set(index, std::move(*split.failed));
-  }
-  return do_missing(tasks, threads, manifest, console);
+  for (std::size_t job = 0; job < batch.jobs.size(); ++job)
+    manifest.set(job, results.outcome(batch.jobs[job]));
 }
 
 /// First all of it gets another name: half of the shards must never look like all.

@@ -4,8 +4,7 @@
 
 #include <cmath>
 #include <numeric>
-
-#include "batch_run.hpp"
+#include <utility>
 
 namespace counterflex::cli {
 namespace {
@@ -14,18 +13,17 @@ constexpr double settled = 2;  // s: before that nobody knows how long it will t
 
 }  // namespace
 
-BatchProgress::BatchProgress(const std::vector<BatchTask>& tasks) : done_(tasks.size()) {
-  for (const BatchTask& task : tasks) work_.push_back(task.work);
+BatchProgress::BatchProgress(std::vector<double> work) : work_(std::move(work)), done_(work_.size()) {
   all_work_ = std::accumulate(work_.begin(), work_.end(), 0.0);
 }
 
-void BatchProgress::add(std::size_t task, std::optional<double> share, std::size_t waypoints) {
-  if (share) done_[task] = *share * work_[task];
+void BatchProgress::add(std::size_t job, std::optional<double> share, std::size_t waypoints) {
+  if (share) done_[job] = *share * work_[job];
   waypoints_ += waypoints;
 }
 
-void BatchProgress::end(std::size_t task, bool done) {
-  done_[task] = work_[task];
+void BatchProgress::end(std::size_t job, bool done) {
+  done_[job] = work_[job];
   ++ended_;
   if (!done) ++failed_;
 }

@@ -8,17 +8,18 @@
 
 namespace counterflex::cli {
 
-struct BatchTask;
-
 class BatchProgress {
  public:
-  explicit BatchProgress(const std::vector<BatchTask>& tasks);
+  BatchProgress() = default;
 
-  /// A task has come to this share of its work, and has solved more waypoints.
-  void add(std::size_t task, std::optional<double> share, std::size_t waypoints);
+  /// `work` of the jobs, in any unit.
+  explicit BatchProgress(std::vector<double> work);
 
-  /// A task has ended.
-  void end(std::size_t task, bool done);
+  /// A job has come to this share of its work, and has solved more waypoints.
+  void add(std::size_t job, std::optional<double> share, std::size_t waypoints);
+
+  /// A job has ended.
+  void end(std::size_t job, bool done);
 
   /// "12 of 200 jobs, 1 failed, 34000 waypoints/s, 2 min left".
   std::string text() const;
@@ -26,7 +27,7 @@ class BatchProgress {
  private:
   double time_left(double elapsed) const;
 
-  std::vector<double> work_, done_;  // by task
+  std::vector<double> work_, done_;  // by job
   double all_work_ = 0;
   std::size_t ended_ = 0, failed_ = 0, waypoints_ = 0;
   std::chrono::steady_clock::time_point begun_ = std::chrono::steady_clock::now();

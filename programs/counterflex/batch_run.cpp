@@ -5,11 +5,16 @@
 #include <algorithm>
 #include <chrono>
 #include <cstddef>
+#include <functional>
 #include <numeric>
+#include <utility>
+#include <vector>
 
 #include "batch_progress.hpp"
 #include "counterflex/files/input_error.hpp"
 #include "job_process.hpp"
+#include "signals.hpp"
+#include "workers.hpp"
 
 namespace counterflex::cli {
 namespace {
@@ -22,27 +27,34 @@ constexpr double large_share = 0.25;  // of what one processor has to do in all
 using Clock = std::chrono::steady_clock;
 constexpr std::chrono::milliseconds between_progress(250);
 
-class TaskRun {
+/// Indices of jobs that have no outcome yet, the largest first.
+std::vector<std::size_t> missing_jobs(const BatchManifest& manifest) {
+  std::vector<std::size_t> missing;
+  for (std::size_t job = 0; job < manifest.jobs().size(); ++job)
+    if (!manifest.outcome(job)) missing.push_back(job);
+  std::ranges::stable_sort(missing, std::greater<>(),
+                           [&](std::size_t job) { return manifest.jobs()[job]->work; });
+  return missing;
+}
+
+/// A task of the workers is a place in `missing_`.
+class JobsRun {
  public:
-  TaskRun(const std::vector<BatchTask>& tasks, int threads, const AwaitedSignals& signals,
-          const BatchListener& listener, Console& console)
-      : tasks_(tasks),
+  JobsRun(BatchManifest& manifest, int threads, Console& console)
+      : manifest_(manifest),
+        missing_(missing_jobs(manifest)),
         threads_(threads),
-        signals_(signals),
-        listener_(listener),
         console_(console),
-        progress_(tasks),
-        outcomes_(tasks.size()),
-        order_(tasks.size()) {
+        outcomes_(missing_.size()) {
     console_.never_wait();
-    std::iota(order_.begin(), order_.end(), std::size_t{0});
-    std::stable_sort(order_.begin(), order_.end(),
-                     [&](std::size_t a, std::size_t b) { return tasks_[a].work > tasks_[b].work; });
-    for (const BatchTask& task : tasks_) large_ += large_share * task.work / threads_;
+    std::vector<double> work;
+    for (std::size_t task = 0; task < missing_.size(); ++task) work.push_back(job(task).work);
+    large_ = large_share * std::accumulate(work.begin(), work.end(), 0.0) / threads_;
+    progress_ = BatchProgress(std::move(work));
   }
 
   std::optional<int> run() {
-    while (next_ < order_.size() || workers_.running() > 0) {
+    while (next_ < missing_.size() || workers_.running() > 0) {
       start_some();
       for (const WorkerEvent& event : workers_.wait(signals_.descriptor(), tick_ms)) {
         hear(event);
@@ -53,7 +65,7 @@ class TaskRun {
         workers_.end_all(patience_ms);
         return stopped_;
       }
-      listener_.now_and_then();
+      manifest_.save_sometimes();
       show_progress();
     }
     return std::nullopt;
@@ -68,14 +80,14 @@ class TaskRun {
     console_.progress_line(progress_.text());
   }
 
-  bool is_large(std::size_t task) const { return threads_ > 1 && tasks_[task].work > large_; }
+  const BatchJob& job(std::size_t task) const { return *manifest_.jobs()[missing_[task]]; }
+  bool is_large(std::size_t task) const { return threads_ > 1 && job(task).work > large_; }
 
   void start_some() {
-    while (next_ < order_.size() && static_cast<int>(workers_.running()) < threads_ && !alone_) {
-      const std::size_t task = order_[next_];
-      alone_ = is_large(task);
+    while (next_ < missing_.size() && static_cast<int>(workers_.running()) < threads_ && !alone_) {
+      alone_ = is_large(next_);
       if (alone_ && workers_.running() > 0) break;
-      if (!start(task, alone_ ? threads_ : 1)) break;
+      if (!start(next_, alone_ ? threads_ : 1)) break;
       ++next_;
     }
   }
@@ -83,7 +95,7 @@ class TaskRun {
   /// A system that has no more processes may have some when one of these has ended: false.
   bool start(std::size_t task, int threads) {
     try {
-      workers_.start(task, [&](const SendLine& send) { tasks_[task].run(threads, send); });
+      workers_.start(task, [&](const SendLine& send) { do_job(job(task), threads, send); });
       return true;
     } catch (const InputError&) {
       if (workers_.running() == 0) throw;
@@ -102,34 +114,32 @@ class TaskRun {
   void end(const WorkerEvent& event) {
     std::optional<JobOutcome>& outcome = outcomes_[event.task];
     if (!outcome && (stopped_ = signals_.take(hesitation_ms))) return;
-    if (!outcome) outcome = tasks_[event.task].lost(event.status);
+    if (!outcome) outcome = lost_outcome(job(event.task), event.status);
     if (workers_.running() == 0) alone_ = false;
     progress_.end(event.task, outcome->exit == Exit::done);
     if (outcome->exit != Exit::done) console_.error(outcome->error);
-    listener_.ended(event.task, std::move(*outcome));
+    manifest_.set(missing_[event.task], std::move(*outcome));
   }
 
-  const std::vector<BatchTask>& tasks_;
+  BatchManifest& manifest_;
+  const std::vector<std::size_t> missing_;
   const int threads_;
-  const AwaitedSignals& signals_;
-  const BatchListener& listener_;
   Console& console_;
-  BatchProgress progress_;
+  const AwaitedSignals signals_;
   Workers workers_;
+  BatchProgress progress_;
   std::vector<std::optional<JobOutcome>> outcomes_;  // of those that have sent one
-  std::vector<std::size_t> order_;                   // the largest first
-  std::size_t next_ = 0;                             // in that order
+  std::size_t next_ = 0;                             // task
   double large_ = 0;
-  bool alone_ = false;  // a large task runs, or waits for the others to end
+  bool alone_ = false;  // a large job runs, or waits for the others to end
   std::optional<int> stopped_;
   std::optional<Clock::time_point> shown_;  // progress
 };
 
 }  // namespace
 
-std::optional<int> run_tasks(const std::vector<BatchTask>& tasks, int threads, const AwaitedSignals& signals,
-                             const BatchListener& listener, Console& console) {
-  return TaskRun(tasks, threads, signals, listener, console).run();
+std::optional<int> do_missing(BatchManifest& manifest, int threads, Console& console) {
+  return JobsRun(manifest, threads, console).run();
 }
 
 }  // namespace counterflex::cli

@@ -77,6 +77,19 @@ void add_missing_command(std::vector<std::string>& words, const CLI::App& app) {
   words.insert(words.begin(), "compensate");
 }
 
+/// Throws `InputError` (Exit::usage) for --shard with a command that has none.
+void refuse_shard_of_program(const std::vector<std::string>& words) {
+  const auto is_shard = [](const std::string& word) {
+    return word == "--shard" || word.starts_with("--shard=");
+  };
+  const auto end = std::ranges::find(words, "--");
+  if (words.empty() || words[0] == "batch" || std::none_of(words.begin(), end, is_shard)) return;
+  throw InputError(
+      Exit::usage, {},
+      "--shard divides the jobs of a batch: one program is always done by one process. Leave out --shard, "
+      "or list several programs in a jobs file and use counterflex batch JOBS.toml --shard I/N");
+}
+
 Exit leave(const CLI::App& app, const CLI::ParseError& error) {
   if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success))
     return static_cast<Exit>(app.exit(error));
@@ -122,6 +135,7 @@ std::variant<Options, Exit> read_command_line(int argc, const char* const* argv)
   try {
     auto words = joined(argc, argv);
     add_missing_command(words, app);
+    refuse_shard_of_program(words);
     std::reverse(words.begin(), words.end());
     app.parse(std::move(words));
   } catch (const CLI::ParseError& error) {

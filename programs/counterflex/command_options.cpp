@@ -193,9 +193,10 @@ void add_batch(CLI::App& app, Options& options) {
                   "Compensate all programs of a list of jobs, and sum up what became of them");
   add_file(command, "JOBS", options.jobs, "The jobs file (.toml)");
   command.add_flag("--resume", options.resume, "Do only what is not proven done by the last run");
-  value_option(command, "--shard", "I/N", "Do part I of N, of which other processes or computers do the rest",
+  value_option(command, "--shard", "I/N",
+               "Do the jobs of shard I of N; other processes or computers do the others",
                [&](const std::string& text) { options.shard = read_shard(text); });
-  command.add_flag("--merge", options.merge, "Put together what all shards have done");
+  command.add_flag("--merge", options.merge, "Sum up the results of all shards");
   command.add_flag("--estimate", options.estimate,
                    "Say how long the jobs would take on one processor, by trying some of them");
   add_setting(command, options, "threads",

@@ -5,9 +5,8 @@
 #include <mutex>
 
 #include "commands.hpp"
-#include "counterflex/compensation/recorded_windows.hpp"
+#include "counterflex/compensation/compensate_windows.hpp"
 #include "counterflex/files/shown_text.hpp"
-#include "part.hpp"
 
 namespace counterflex::cli {
 namespace {
@@ -38,8 +37,7 @@ struct Unnumbered {
 };
 
 /// Window by window, to the first failure. Windows are read while others are solved.
-std::optional<Failure> compensate_all(Run& run, RunTally& tally, RunFiles& files, Console& console,
-                                      RecordedWindows& recorded) {
+std::optional<Failure> compensate_all(Run& run, RunTally& tally, RunFiles& files, Console& console) {
   Windows windows(run, console);
   std::mutex speaking;
   Unnumbered unnumbered;
@@ -68,11 +66,8 @@ std::optional<Failure> compensate_all(Run& run, RunTally& tally, RunFiles& files
   };
   const std::optional<Failure> failure =
       compensate_windows(windows.jobs(), run.options, TextReader(windows.reader()), run.facts.attribution,
-                         {read, begun, solved, done}, recorded);
+                         {read, begun, solved, done});
   unnumbered.warn(run.program.file, console);
-  if (recorded.taken() > 0)
-    console.detail(fmt::format("{} windows taken over from records, {} compensated", recorded.taken(),
-                               recorded.compensated()));
   return failure;
 }
 
@@ -84,10 +79,9 @@ Exit compensate_program(const Options& options, Console& console, const TellEnd&
   const auto run = prepare_run(options, console);
   refuse_what_cannot_be_compensated(*run);
   prepare_writing(options, *run);
-  RecordedWindows recorded(options.recorded, digest_of(*run));
   RunFiles files(paths, {.attribution = run->facts.attribution}, options.hash_outputs);
   RunTally tally = tally_for(options, *run);
-  const std::optional<Failure> failure = compensate_all(*run, tally, files, console, recorded);
+  const std::optional<Failure> failure = compensate_all(*run, tally, files, console);
   run->facts.output = without_controls(paths.program);  // the report forgets it where none is written
   if (failure && failure->exit == Exit::usage) return exit_of(*run, failure, console);  // no result: an option is wrong
   return tell(*run,

@@ -7,23 +7,17 @@
 #include <charconv>
 
 #include "compensate.hpp"
-#include "counterflex/batch/manifest.hpp"
 #include "counterflex/files/input_error.hpp"
 #include "guarded.hpp"
-#include "part.hpp"
 
 namespace counterflex::cli {
 namespace {
 
 constexpr std::string_view line_word = "line ", solved_word = "solved ", outcome_word = "outcome ";
 
-void note_inputs(const Run& run, JobOutcome& outcome) {
-  for (const InputFile& input : run.facts.inputs) outcome.inputs.push_back({input.path, input.sha256});
-}
-
 void note_report(const Run& run, const RunEnd& end, const RunFiles& files, JobOutcome& outcome) {
   const RunReport& report = end.report;
-  note_inputs(run, outcome);
+  for (const InputFile& input : run.facts.inputs) outcome.inputs.push_back({input.path, input.sha256});
   outcome.outputs = files.published();
   if (report.before) outcome.before_mm = report.before->max_mm;
   if (report.after) outcome.after_mm = report.after->max_mm;
@@ -38,11 +32,6 @@ std::size_t count_of(std::string_view text) {
   std::size_t value = 0;
   std::from_chars(text.data(), text.data() + text.size(), value);
   return value;
-}
-
-void note_record(const Run& run, const std::string& file, JobOutcome& outcome) {
-  note_inputs(run, outcome);
-  outcome.outputs = {{file, FileHashes().of(file).value_or("")}};
 }
 
 /// "12 of 200" lines.
@@ -69,9 +58,6 @@ void do_job(const BatchJob& job, int threads, const SendLine& send) {
                 .solved = [&](std::size_t waypoints) { send(fmt::format("{}{}", solved_word, waypoints)); }});
   console.never_wait();
   outcome.exit = guarded(console, [&] {
-    if (options.part)
-      return record_part(options, console,
-                         [&](const Run& run) { note_record(run, options.part->file, outcome); });
     return compensate_program(options, console,
                               [&](const Run& run, const RunEnd& end, const RunFiles& files) {
                                 note_report(run, end, files, outcome);

@@ -21,13 +21,6 @@ struct SettingSources {
   bool no_config = false;             ///< no project file is looked for
 };
 
-/// One of several equally long parts of a program that processes compensate side by side.
-struct PartOfProgram {
-  int part = 0;  ///< from 0
-  int parts = 1;
-  std::string file;  ///< where it is recorded
-};
-
 /// A warning about a setting.
 struct SettingRemark {
   Location where;
@@ -84,7 +77,7 @@ struct Options {
 
   std::string jobs;            ///< batch alone, as all that follows: the jobs file
   bool resume = false;         ///< what is proven done is not done again
-  std::optional<Shard> shard;  ///< this part alone
+  std::optional<Shard> shard;  ///< only its jobs
   bool merge = false;          ///< what the shards have done
   bool estimate = false;       ///< say how long it would take
 
@@ -92,9 +85,7 @@ struct Options {
   std::vector<std::string> patterns;  ///< what names of programs match; none: any
   bool once = false;                  ///< what is there, and no more
 
-  bool hash_outputs = false;          ///< compensate alone, of a batch, as what follows: for its manifest
-  std::optional<PartOfProgram> part;  ///< this part, and nothing but its record
-  std::vector<std::string> recorded;  ///< records of parts, to be taken over
+  bool hash_outputs = false;  ///< compensate alone, of a batch: for its manifest
 
   bool json = false;
   bool quiet = false;

@@ -4,12 +4,10 @@
 
 #include <algorithm>
 #include <charconv>
-#include <cmath>
 #include <functional>
 #include <numeric>
 #include <optional>
 #include <queue>
-#include <tuple>
 #include <utility>
 
 #include "counterflex/files/input_error.hpp"
@@ -22,22 +20,6 @@ std::optional<int> whole_number(std::string_view text) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
   return value;
-}
-
-struct SizedUnit {
-  ShardUnit unit;
-  double work = 0;
-};
-
-std::vector<SizedUnit> units_of(const std::vector<double>& work, double share, int shards,
-                                double least_part) {
-  std::vector<SizedUnit> units;
-  for (std::size_t job = 0; job < work.size(); ++job) {
-    const double wanted = std::min(std::ceil(work[job] / share), std::floor(work[job] / least_part));
-    const int parts = static_cast<int>(std::clamp(wanted, 1.0, static_cast<double>(shards)));
-    for (int part = 0; part < parts; ++part) units.push_back({{job, part, parts}, work[job] / parts});
-  }
-  return units;
 }
 
 }  // namespace
@@ -53,26 +35,21 @@ Shard read_shard(std::string_view text) {
   return {*index, *count};
 }
 
-std::vector<std::vector<ShardUnit>> plan_shards(const std::vector<double>& work, int shards,
-                                                double least_part) {
-  const double share = std::accumulate(work.begin(), work.end(), 0.0) / shards;
-  std::vector<SizedUnit> units = units_of(work, share, shards, least_part);
-  std::stable_sort(units.begin(), units.end(),
-                   [](const SizedUnit& a, const SizedUnit& b) { return a.work > b.work; });
+std::vector<std::vector<std::size_t>> plan_shards(const std::vector<double>& work, int shards) {
+  std::vector<std::size_t> largest_first(work.size());
+  std::iota(largest_first.begin(), largest_first.end(), std::size_t{0});
+  std::ranges::stable_sort(largest_first, std::greater<>(), [&](std::size_t job) { return work[job]; });
   using Load = std::pair<double, int>;  // and the shard that has it
   std::priority_queue<Load, std::vector<Load>, std::greater<>> loads;
   for (int shard = 0; shard < shards; ++shard) loads.push({0, shard});
-  std::vector<std::vector<ShardUnit>> plan(static_cast<std::size_t>(shards));
-  for (const SizedUnit& sized : units) {
-    auto [load, shard] = loads.top();
+  std::vector<std::vector<std::size_t>> plan(static_cast<std::size_t>(shards));
+  for (const std::size_t job : largest_first) {
+    const auto [load, shard] = loads.top();
     loads.pop();
-    plan[static_cast<std::size_t>(shard)].push_back(sized.unit);
-    loads.push({load + sized.work, shard});
+    plan[static_cast<std::size_t>(shard)].push_back(job);
+    loads.push({load + work[job], shard});
   }
-  for (auto& of_shard : plan)
-    std::sort(of_shard.begin(), of_shard.end(), [](const ShardUnit& a, const ShardUnit& b) {
-      return std::tie(a.job, a.part) < std::tie(b.job, b.part);
-    });
+  for (auto& jobs : plan) std::ranges::sort(jobs);
   return plan;
 }
 

@@ -3,29 +3,34 @@
 #include "windows_under_way.hpp"
 
 namespace counterflex {
+namespace {
 
 WindowStages stages_of_compensation(JobWindows& windows, CarriedState& carried, bool attribution,
                                     const WindowEvents& events) {
   return {
-      .next = [&windows](Flight& flight) { return windows.next(flight.window); },
+      .next = [&windows](WindowInProgress& window) { return windows.next(window.input); },
       .read = events.read,
-      .begin = [&carried](const Job& job, Flight& flight) { begin_window(job, carried, flight.work); },
-      .plan = [](const Job& job, Flight& flight) { plan_window(job, flight.work); },
-      .write = [&carried](const Job& job, Flight& flight) { write_window(job, carried, flight.work); },
+      .begin = [&carried](const Job& job,
+                          WindowInProgress& window) { begin_window(job, carried, window.work); },
+      .plan = [](const Job& job, WindowInProgress& window) { plan_window(job, window.work); },
+      .write = [&carried](const Job& job,
+                          WindowInProgress& window) { write_window(job, carried, window.work); },
       .verify =
-          [attribution](const Job& job, Flight& flight) {
-            flight.matching = match_written(job, flight.work);
-            solve_or_wait(job, attribution, flight);
+          [attribution](const Job& job, WindowInProgress& window) {
+            window.matching = match_written(job, window.work);
+            solve_or_wait(job, attribution, window);
           },
       .begun = events.begun,
       .done =
-          [attribution, &events](const Job& job, Flight& flight) {
-            const auto missed = give_out(job, attribution, events, flight);
-            if (!flight.work.failed()) flight.work.result.failure = missed;
-            events.done(job, flight.work.result);
+          [attribution, &events](const Job& job, WindowInProgress& window) {
+            const auto missed = give_out(job, attribution, events, window);
+            if (!window.work.failed()) window.work.result.failure = missed;
+            events.done(job, window.work.result);
           },
   };
 }
+
+}  // namespace
 
 std::optional<Failure> compensate_windows(JobWindows& windows, const CompensationOptions& options,
                                           TextReader corrected, bool attribution,

@@ -25,14 +25,14 @@ class WindowVerifier {
         }) {}
 
   WindowStages stages() {
-    using Member = void (WindowVerifier::*)(const Job&, Flight&);
+    using Member = void (WindowVerifier::*)(const Job&, WindowInProgress&);
     const auto stage = [this](Member work) {
-      return [this, work](const Job& job, Flight& flight) { (this->*work)(job, flight); };
+      return [this, work](const Job& job, WindowInProgress& window) { (this->*work)(job, window); };
     };
-    return {.next = [this](Flight& flight) { return windows_.next(flight.window); },
+    return {.next = [this](WindowInProgress& window) { return windows_.next(window.input); },
             .read = events_.read,
             .begin = stage(&WindowVerifier::begin),
-            .plan = [](const Job& job, Flight& flight) { plan_ends(job, flight.work); },
+            .plan = [](const Job& job, WindowInProgress& window) { plan_ends(job, window.work); },
             .write = stage(&WindowVerifier::match),
             .verify = stage(&WindowVerifier::solve),
             .begun = events_.begun,
@@ -46,25 +46,25 @@ class WindowVerifier {
   }
 
  private:
-  void begin(const Job& job, Flight& flight) {
-    flight.work.track = track(job, nominal_.value_or(home_of(job.model)));
-    flight.work.result.failure = flight.work.track.failure;
-    nominal_ = flight.work.track.end;
+  void begin(const Job& job, WindowInProgress& window) {
+    window.work.track = track(job, nominal_.value_or(home_of(job.model)));
+    window.work.result.failure = window.work.track.failure;
+    nominal_ = window.work.track.end;
   }
 
-  void match(const Job& job, Flight& flight) {
+  void match(const Job& job, WindowInProgress& window) {
     if (!job.program.moves.empty()) ignored_ = job.program.moves.front().ignored;
-    flight.matching = match_window(job, flight.work.track, flight.work.ways, lines_, found_);
-    flight.work.command = command_;
-    if (!flight.matching.pieces.empty()) command_ = flight.matching.pieces.back().commanded.end;
+    window.matching = match_window(job, window.work.track, window.work.ways, lines_, found_);
+    window.work.command = command_;
+    if (!window.matching.pieces.empty()) command_ = window.matching.pieces.back().commanded.end;
   }
 
-  void solve(const Job& job, Flight& flight) { solve_or_wait(job, attribution_, flight); }
+  void solve(const Job& job, WindowInProgress& window) { solve_or_wait(job, attribution_, window); }
 
-  void done(const Job& job, Flight& flight) {
-    const auto missed = give_out(job, attribution_, events_, flight);
+  void done(const Job& job, WindowInProgress& window) {
+    const auto missed = give_out(job, attribution_, events_, window);
     if (!missed_) missed_ = missed;
-    events_.done(job, flight.work.result);
+    events_.done(job, window.work.result);
   }
 
   JobWindows& windows_;

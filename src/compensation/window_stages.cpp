@@ -1,7 +1,5 @@
 #include "window_stages.hpp"
 
-#include <stdexcept>
-
 #include "counterflex/geometry/units.hpp"
 
 namespace counterflex {
@@ -69,26 +67,10 @@ std::optional<Vector3> last_command(const Job& job, const Program& corrected) {
   return target_of(job, last);
 }
 
-// `read` makes the program of the text.
-template <typename Read>
-void write_text(const Job& job, CarriedState& carried, WindowWork& work, const Read& read) {
-  if (work.failed()) return;
-  Compensation& result = work.result;
-  Emission emission = emit(job, work.plan, carried.emitter);
-  work.known = std::move(work.plan.known);
-  work.ways = planned_ways(job, work.plan);
-  work.plan = {};
-  note_first_corrections(job, emission, result);
-  result.left_alone = std::move(emission.left_alone);
-  result.failure = emission.failure;
-  if (work.failed()) return;
-  count_moves(job, emission, result);
-  const std::vector<MoveEdit> edits = take_edits(emission);
-  result.counts = carried.rewriter.write(job.program, edits);
-  result.text = std::move(result.counts.text);
-  read(result);
-  work.command = carried.command;
-  carried.command = last_command(job, result.corrected);
+void read_back(const Job& job, CarriedState& carried, Compensation& result) {
+  carried.corrected.read(result.text);
+  carried.corrected.take_window(result.corrected);
+  if (!job.program.moves.empty()) ignore_axes(result.corrected, job.program.moves.front().ignored);
 }
 
 }  // namespace
@@ -108,22 +90,24 @@ void plan_window(const Job& job, WindowWork& work) {
   if (!work.failed()) note_planned_corrections(job, work.plan, work.result);
 }
 
-void read_back(const Job& job, CarriedState& carried, Compensation& result) {
-  carried.corrected.read(result.text);
-  carried.corrected.take_window(result.corrected);
-  if (!job.program.moves.empty()) ignore_axes(result.corrected, job.program.moves.front().ignored);
-}
-
 void write_window(const Job& job, CarriedState& carried, WindowWork& work) {
-  write_text(job, carried, work, [&](Compensation& result) { read_back(job, carried, result); });
-}
-
-void write_window(const Job& job, CarriedState& carried, WindowWork& work, const TextRead& read) {
-  write_text(job, carried, work, [&](Compensation& result) {
-    if (result.text != read.text)
-      throw std::logic_error("a text that was written before comes out otherwise");
-    result.corrected = read.program;
-  });
+  if (work.failed()) return;
+  Compensation& result = work.result;
+  Emission emission = emit(job, work.plan, carried.emitter);
+  work.known = std::move(work.plan.known);
+  work.ways = planned_ways(job, work.plan);
+  work.plan = {};
+  note_first_corrections(job, emission, result);
+  result.left_alone = std::move(emission.left_alone);
+  result.failure = emission.failure;
+  if (work.failed()) return;
+  count_moves(job, emission, result);
+  const std::vector<MoveEdit> edits = take_edits(emission);
+  result.counts = carried.rewriter.write(job.program, edits);
+  result.text = std::move(result.counts.text);
+  read_back(job, carried, result);
+  work.command = carried.command;
+  carried.command = last_command(job, result.corrected);
 }
 
 Matching match_written(const Job& job, const WindowWork& work) {

@@ -34,20 +34,8 @@ void begin_window(const Job& job, CarriedState& carried, WindowWork& work);
 /// In any order.
 void plan_window(const Job& job, WindowWork& work);
 
-/// Text that has been written and read back.
-struct TextRead {
-  const std::string& text;
-  const Program& program;
-};
-
-/// Reads the text of the window's result back.
-void read_back(const Job& job, CarriedState& carried, Compensation& result);
-
 /// In the order of windows: writes the text and reads it back.
 void write_window(const Job& job, CarriedState& carried, WindowWork& work);
-
-/// The same where that very text has been written and read before.
-void write_window(const Job& job, CarriedState& carried, WindowWork& work, const TextRead& read);
 
 /// In any order: matches what was written with the window's moves, by its text.
 Matching match_written(const Job& job, const WindowWork& work);

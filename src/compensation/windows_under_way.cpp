@@ -17,17 +17,17 @@ class WindowsUnderWay {
       : windows_(windows),
         threads_(threads),
         stages_(stages),
-        flights_(static_cast<std::size_t>(std::clamp(threads_, 1, most_windows))) {}
+        slots_(static_cast<std::size_t>(std::clamp(threads_, 1, most_windows))) {}
 
   std::optional<Failure> run() {
     const auto in_any_order = [this](const WindowStages::Stage& stage) {
       return PipelineStage{
-          false, [this, &stage](std::size_t slot, int threads) { step(flights_[slot], threads, stage); }};
+          false, [this, &stage](std::size_t slot, int threads) { step(slots_[slot], threads, stage); }};
     };
-    run_pipeline([this](std::size_t slot) { return read(flights_[slot]); },
+    run_pipeline([this](std::size_t slot) { return read(slots_[slot]); },
                  {in_turn(begun_, stages_.begin), in_any_order(stages_.plan),
                   in_turn(written_, stages_.write), in_any_order(stages_.verify)},
-                 [this](std::size_t slot) { return deliver(flights_[slot]); }, flights_.size(), threads_);
+                 [this](std::size_t slot) { return deliver(slots_[slot]); }, slots_.size(), threads_);
     return failure_;
   }
 
@@ -37,48 +37,47 @@ class WindowsUnderWay {
     bool is = false;
   };
 
-  bool read(Flight& flight) {
+  bool read(WindowInProgress& window) {
     if (read_.is) return false;
-    flight.work = {};
-    flight.index = count_++;
-    flight.is_read = flight.given_up = flight.waits = false;
+    window.work = {};
+    window.is_read = window.given_up = window.waits = false;
     try {
-      if (!stages_.next(flight)) return false;
-      flight.is_read = true;
-      stages_.read(windows_.job(flight.window));
+      if (!stages_.next(window)) return false;
+      window.is_read = true;
+      stages_.read(windows_.job(window.input));
     } catch (...) {
-      flight.error = std::current_exception();
+      window.error = std::current_exception();
       read_.is = true;
     }
     return true;
   }
 
-  void step(Flight& flight, int threads, const WindowStages::Stage& stage) {
-    if (!flight.goes_on()) return;
+  void step(WindowInProgress& window, int threads, const WindowStages::Stage& stage) {
+    if (!window.goes_on()) return;
     try {
-      Job job = windows_.job(flight.window);
+      Job job = windows_.job(window.input);
       job.options.threads = threads;
-      stage(job, flight);
+      stage(job, window);
     } catch (...) {
-      flight.error = std::current_exception();
+      window.error = std::current_exception();
     }
   }
 
   // What is carried from window to window ends where one has failed.
   PipelineStage in_turn(Broken& broken, const WindowStages::Stage& stage) {
     return {true, [this, &broken, &stage](std::size_t slot, int threads) {
-              Flight& flight = flights_[slot];
-              flight.given_up = flight.given_up || broken.is;
-              step(flight, threads, stage);
-              broken.is = !flight.goes_on();
+              WindowInProgress& window = slots_[slot];
+              window.given_up = window.given_up || broken.is;
+              step(window, threads, stage);
+              broken.is = !window.goes_on();
             }};
   }
 
-  bool deliver(Flight& flight) {
-    if (flight.is_read) stages_.begun(windows_.job(flight.window));
-    if (flight.error) std::rethrow_exception(flight.error);
-    stages_.done(windows_.job(flight.window), flight);
-    failure_ = flight.work.result.failure;
+  bool deliver(WindowInProgress& window) {
+    if (window.is_read) stages_.begun(windows_.job(window.input));
+    if (window.error) std::rethrow_exception(window.error);
+    stages_.done(windows_.job(window.input), window);
+    failure_ = window.work.result.failure;
     return !failure_;
   }
 
@@ -86,8 +85,7 @@ class WindowsUnderWay {
   const int threads_;
   const WindowStages& stages_;
   Broken read_, begun_, written_;
-  std::size_t count_ = 0;
-  std::vector<Flight> flights_;
+  std::vector<WindowInProgress> slots_;
   std::optional<Failure> failure_;
 };
 
@@ -96,24 +94,25 @@ constexpr std::size_t large_window = 16 * window_moves;
 
 }  // namespace
 
-void solve_or_wait(const Job& job, bool attribution, Flight& flight) {
-  flight.waits = window_size(job.program) > large_window;
-  if (flight.waits) return;
-  solve_matched(job, attribution, flight.matching, flight.work);
-  flight.matching = {};
+void solve_or_wait(const Job& job, bool attribution, WindowInProgress& window) {
+  window.waits = window_size(job.program) > large_window;
+  if (window.waits) return;
+  solve_matched(job, attribution, window.matching, window.work);
+  window.matching = {};
 }
 
-std::optional<Failure> give_out(const Job& job, bool attribution, const WindowEvents& events, Flight& flight) {
+std::optional<Failure> give_out(const Job& job, bool attribution, const WindowEvents& events,
+                                WindowInProgress& window) {
   std::optional<Failure> missed;
   const auto take = [&](const std::vector<Waypoint>& some) {
     if (!missed) missed = tolerance_failure(job, some);
     events.solved(job, some);
   };
-  if (flight.waits && flight.goes_on())
-    solve_matched(job, attribution, flight.matching, flight.work, take);
+  if (window.waits && window.goes_on())
+    solve_matched(job, attribution, window.matching, window.work, take);
   else
-    take(flight.work.result.waypoints);
-  flight.matching = {};
+    take(window.work.result.waypoints);
+  window.matching = {};
   return missed;
 }
 

@@ -108,13 +108,6 @@ void FileReader::rewind() {
   if (::lseek(state_->file.get(), state_->start, SEEK_SET) < 0) fail_reading(state_->path);
 }
 
-std::size_t FileReader::size() const {
-  if (state_->held) return state_->held->size();
-  struct stat facts {};
-  if (::fstat(state_->file.get(), &facts) != 0) fail_reading(state_->path);
-  return static_cast<std::size_t>(facts.st_size - state_->start);
-}
-
 void FileReader::refuse_change() const {
   if (!state_->opened) return;
   struct stat now {};

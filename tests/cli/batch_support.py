@@ -67,16 +67,10 @@ def memory_disk():
     return "/dev/shm" if os.access("/dev/shm", os.W_OK) and shutil.disk_usage("/dev/shm").free > 1 << 28 else None
 
 
-def long_program():
-    """More bytes than shards like to do at once, and several windows of moves; most of it is said, not milled."""
-    moves = [f"G1 X{10 + index % 7} Y{10 + index % 5} F600 ({'SAID OF THIS MOVE ' * 4})" for index in range(14000)]
-    return "\n".join(["G21 G90 G54", "G0 X0 Y0 Z0", *moves, "M30", ""])
-
-
 class Batch:
-    """Jobs in a folder of their own, the last few of them with reports, the first with a long program if it is wanted."""
+    """Jobs in a folder of their own, the last few of them with reports."""
 
-    def __init__(self, programs, jobs, reports=0, seed=1, is_long=False):
+    def __init__(self, programs, jobs, reports=0, seed=1):
         self.counterflex, self.faulty_io = (os.path.realpath(path) for path in (programs[0], programs[2]))
         self.folder = os.path.realpath(tempfile.mkdtemp(dir=memory_disk()))
         self.out = os.path.join(self.folder, "out")
@@ -85,7 +79,7 @@ class Batch:
         shutil.copy(os.path.join(DATA, "mill.toml"), self.folder)
         numbers = random.Random(seed)
         for job in range(jobs):
-            self.write(self.program(job), long_program() if is_long and job == 0 else program(numbers))
+            self.write(self.program(job), program(numbers))
         lists = ['format = "counterflex-jobs 1"\noutput = "out"\nmachine = "mill.toml"\nforce = [300, -150, -80]\n']
         for first, last, more in ((0, jobs - reports, ""), (jobs - reports, jobs, "report = true\n")):
             names = ", ".join(f'"{self.program(job)}"' for job in range(first, last))

@@ -10,6 +10,7 @@
 #include <filesystem>
 
 #include "counterflex/files/input_error.hpp"
+#include "counterflex/files/sha256.hpp"
 #include "files/folder.hpp"
 
 using namespace counterflex;
@@ -184,6 +185,14 @@ TEST_CASE("SHA-256 gives the digests of the standard's examples") {
   CHECK(sha256("abc") == "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
   CHECK(sha256(std::string(1000000, 'a')) ==
         "cdc76e5c9914fb9281a1c7e284d73e67f1809a48a497200e046d39ccc7112cd0");
+}
+
+TEST_CASE("SHA-256 of portions is that of the whole") {
+  Sha256 hash;
+  hash.add("ab");
+  hash.add("");
+  hash.add("c");
+  CHECK(hash.digits() == sha256("abc"));
 }
 
 // RFC 4648, section 10; the digest is that of FIPS 180-2, appendix B.1.

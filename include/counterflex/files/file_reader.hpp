@@ -20,9 +20,6 @@ class FileReader {
   std::size_t append(std::string& bytes, std::size_t most);
   void rewind();
 
-  /// Bytes from its beginning to its end.
-  std::size_t size() const;
-
   /// From now on, bytes that are read for the first time are hashed on the way: `sha256` then need not read
   /// what has been read.
   void hash_along();
