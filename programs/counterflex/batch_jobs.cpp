@@ -8,6 +8,7 @@
 #include <map>
 #include <set>
 
+#include "corrected_header.hpp"
 #include "counterflex/files/files.hpp"
 #include "counterflex/settings/environment.hpp"
 #include "counterflex/settings/jobs_file.hpp"
@@ -17,19 +18,11 @@
 #include "layers.hpp"
 #include "outputs.hpp"
 #include "version.hpp"
-#include "watched_folder.hpp"
 
 namespace counterflex::cli {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// A file by whatever name, so that two names of one can be compared.
-std::string one_name(const std::string& path) {
-  std::error_code ignored;
-  const fs::path canonical = fs::weakly_canonical(fs::absolute(path, ignored), ignored);
-  return canonical.empty() ? path : canonical.native();
-}
 
 std::vector<std::string> files_read(const Options& options) {
   std::vector<std::string> files = options.forces;
@@ -149,12 +142,12 @@ class JobList {
   void refuse_shared_files() const {
     std::set<std::string> inputs, outputs, summaries;
     for (const char* name : {"/summary.json", "/summary.csv"})
-      summaries.insert(one_name(file_.output + name));
+      summaries.insert(canonical_name(file_.output + name));
     for (const FoundJob& found : found_)
-      for (const std::string& path : files_read(found.job.options)) inputs.insert(one_name(path));
+      for (const std::string& path : files_read(found.job.options)) inputs.insert(canonical_name(path));
     for (const FoundJob& found : found_)
       for (const std::string& path : files_written(found.job)) {
-        const std::string name = one_name(path);
+        const std::string name = canonical_name(path);
         if (inputs.count(name) > 0)
           refuse(found, path, "an input of this batch, and inputs are never overwritten");
         if (summaries.count(name) > 0) refuse(found, path, "the summary of the batch");

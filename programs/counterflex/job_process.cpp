@@ -64,6 +64,7 @@ void do_job(const BatchJob& job, int threads, const SendLine& send) {
                                 return exit_of(run, end.report, console);
                               });
   });
+  console.finish_warnings();
   send(fmt::format("{}{}", outcome_word, to_json_line(outcome)));
 }
 

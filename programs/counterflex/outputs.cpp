@@ -7,6 +7,7 @@
 #include <cstring>
 #include <filesystem>
 
+#include "corrected_header.hpp"
 #include "counterflex/files/file_reader.hpp"
 #include "counterflex/files/files.hpp"
 #include "counterflex/files/folders.hpp"
@@ -17,7 +18,6 @@
 #include "counterflex/report/report_file.hpp"
 #include "output_names.hpp"
 #include "signals.hpp"
-#include "watched_folder.hpp"
 
 namespace counterflex::cli {
 namespace {
@@ -110,6 +110,12 @@ std::string path_of_plot(const std::string& path) {
 }
 
 }  // namespace
+
+std::string canonical_name(const std::string& path) {
+  std::error_code ignored;
+  const fs::path canonical = fs::weakly_canonical(fs::absolute(path, ignored), ignored);
+  return canonical.empty() ? path : canonical.native();
+}
 
 OutputPaths output_paths(const Options& options) {
   OutputPaths paths;

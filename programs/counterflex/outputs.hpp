@@ -30,6 +30,9 @@ struct OutputPaths {
 /// output; Exit::transient_io where its folder does not exist.
 OutputPaths output_paths(const Options& options);
 
+/// One name for all paths of a file, which need not exist.
+std::string canonical_name(const std::string& path);
+
 /// A file that a command writes, and whether what has its name now was written by counterflex.
 struct OwnFile {
   std::string path;  ///< empty or "-": none

@@ -93,13 +93,4 @@ HeldSignals::~HeldSignals() {
   ::pthread_sigmask(SIG_SETMASK, &before_, nullptr);
 }
 
-HeardSignals::HeardSignals() {
-  const sigset_t heard = ending_set();
-  ::pthread_sigmask(SIG_UNBLOCK, &heard, &before_);
-}
-
-HeardSignals::~HeardSignals() {
-  ::pthread_sigmask(SIG_SETMASK, &before_, nullptr);
-}
-
 }  // namespace counterflex::cli

@@ -49,17 +49,4 @@ class HeldSignals {
   sigset_t before_;
 };
 
-/// While it lives, signals that are awaited end the program as ever: for what may take any time, such as
-/// writing to a terminal that was stopped.
-class HeardSignals {
- public:
-  HeardSignals();
-  ~HeardSignals();
-  HeardSignals(const HeardSignals&) = delete;
-  HeardSignals& operator=(const HeardSignals&) = delete;
-
- private:
-  sigset_t before_;
-};
-
 }  // namespace counterflex::cli

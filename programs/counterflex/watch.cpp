@@ -1,327 +1,79 @@
 #include <fmt/format.h>
-#include <sys/epoll.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <chrono>
-#include <csignal>
-#include <cstring>
-#include <deque>
 #include <filesystem>
-#include <initializer_list>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <thread>
 #include <utility>
 
+#include "batch_jobs.hpp"
 #include "commands.hpp"
+#include "console.hpp"
+#include "corrected_header.hpp"
+#include "counterflex/batch/folder_lock.hpp"
 #include "counterflex/files/input_error.hpp"
 #include "counterflex/files/shown_text.hpp"
+#include "counterflex/files/temporaries.hpp"
 #include "counterflex/files/utf8.hpp"
 #include "inputs.hpp"
+#include "job_process.hpp"
+#include "layers.hpp"
+#include "output_names.hpp"
 #include "outputs.hpp"
 #include "signals.hpp"
-#include "watch_claims.hpp"
-#include "watch_failures.hpp"
-#include "watch_job.hpp"
-#include "watched_folder.hpp"
+#include "watched_files.hpp"
 
 namespace counterflex::cli {
 namespace {
 
 namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
 
-constexpr std::chrono::seconds pause_after_failure{30};
+constexpr std::chrono::seconds between_polls{1};
+constexpr std::chrono::seconds retry_after{30};  // of input or output that failed
+constexpr int patience_ms = 700;                 // for a job that is asked to end
 
-/// Several descriptors to wait for as one: it can be read where one of them can.
-class AnyOf {
- public:
-  AnyOf(std::initializer_list<int> descriptors) : descriptor_(::epoll_create1(EPOLL_CLOEXEC)) {
-    for (const int descriptor : descriptors) {
-      epoll_event event{};
-      event.events = EPOLLIN;
-      if (::epoll_ctl(descriptor_, EPOLL_CTL_ADD, descriptor, &event) == 0) continue;
-      throw InputError(Exit::transient_io, {},
-                       fmt::format("cannot wait for files: {}", std::strerror(errno)));
-    }
-  }
-  ~AnyOf() { ::close(descriptor_); }
-  AnyOf(const AnyOf&) = delete;
-  AnyOf& operator=(const AnyOf&) = delete;
-  int descriptor() const { return descriptor_; }
-
- private:
-  int descriptor_;
-};
-
-nlohmann::ordered_json or_null(const std::optional<double>& number) {
-  return number ? nlohmann::ordered_json(*number) : nlohmann::ordered_json();
+/// What `compensate` does for `program`. Throws `InputError` for settings that are wrong.
+BatchJob job_for(const Options& watch, const std::string& program) {
+  BatchJob job;
+  job.program = program;
+  job.options = options_of(Command::compensate, layers_of(watch.sources, program).layers, program);
+  job.options.quiet = watch.quiet;
+  job.options.verbose = watch.verbose;
+  job.output = job.options.output.value_or(default_output(program));
+  return job;
 }
 
-std::string json_line(const std::string& program, const std::string& output, const WatchResult& result) {
-  const nlohmann::ordered_json line{{"program", utf8_of_bytes(program)},
-                                    {"output", output},
-                                    {"exit", static_cast<int>(result.exit)},
-                                    {"verdict", result.verdict},
-                                    {"verdict_reason", result.verdict_reason},
-                                    {"error", result.error},
-                                    {"before_mm", or_null(result.before_mm)},
-                                    {"after_mm", or_null(result.after_mm)}};
-  return line.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+[[noreturn]] void refuse_shared(const char* option, const std::string& path) {
+  throw InputError(
+      Exit::usage, {},
+      fmt::format("{} of every program would be {}; name a folder, which ends in /, or a pattern, "
+                  "as {{name}}_CF{{ext}}",
+                  option, path));
 }
 
-std::string mm_text(const std::optional<double>& value, int decimals) {
-  return value ? fmt::format("{:.{}f} mm", *value, decimals) : "-";
+/// Outputs of different programs must not be one file, nor the program itself.
+void refuse_shared_outputs(const Options& watch) {
+  const BatchJob one = job_for(watch, (fs::path(watch.folder) / "one.nc").string());
+  const BatchJob other = job_for(watch, (fs::path(watch.folder) / "other.nc").string());
+  if (one.output == other.output) refuse_shared("--output", one.output);
+  if (one.options.report && one.options.report == other.options.report)
+    refuse_shared("--report", *one.options.report);
+  if (one.options.plot && one.options.plot == other.options.plot) refuse_shared("--plot", *one.options.plot);
+  if (canonical_name(one.output) == canonical_name(one.program))
+    throw InputError(Exit::usage, {watch.folder},
+                     "corrected programs would replace their originals: name another folder with --output");
 }
 
-std::string text_line(const std::string& program, const std::string& output, const WatchResult& result) {
-  const std::string reason = result.verdict_reason.empty() ? "" : fmt::format(" ({})", result.verdict_reason);
-  if (result.exit != Exit::done)
-    return fmt::format("{}{}: {}: not written (exit status {})\n", result.verdict, reason, without_controls(program),
-                       static_cast<int>(result.exit));
-  return fmt::format("{}{}: {} -> {}: {} before, {} after\n", result.verdict, reason, without_controls(program), without_controls(output),
-                     mm_text(result.before_mm, 3), mm_text(result.after_mm, 4));
-}
-
-/// Of all files of the folder one at a time, in the order in which they came.
-class Watch {
- public:
-  Watch(const Options& options, Console& console)
-      : options_(options), console_(console), folder_(options.folder) {}
-
-  Exit run();
-
- private:
-  void add_what_is_there();
-  void add(const std::string& name);
-  void hear();
-  void begin_next();
-  void begin(const std::string& name);
-  void refuse_taken(const Options& job);
-  void fail(const std::string& path, const WatchResult& result);
-  void end_job(const WatchResult& result);
-  void tell(const std::string& program, const std::string& output, const WatchResult& result);
-  void warn_of_older(const WatchResult& result);
-  void add_failed_again();
-  bool is_own(const std::string& path) const;
-  bool is_done(const std::string& path);
-  bool is_idle() const { return !job_ && due_.empty(); }
-  int patience_ms() const;
-  void wait();
-  bool is_interrupted();
-  void give_up();
-  Exit run_on();
-
-  const Options& options_;
-  Console& console_;
-  AwaitedSignals signals_;
-  WatchedFolder folder_;
-  AnyOf awaited_{signals_.descriptor(), folder_.descriptor()};
-  std::deque<std::string> due_;      ///< names, each once
-  std::optional<Options> job_;       ///< that is being done
-  std::optional<std::string> sent_;  ///< its result
-  pid_t process_ = 0;                ///< that does it; 0 until it says so
-  std::optional<int> interrupt_;
-  Workers workers_;
-  OutputClaims claims_;
-  WatchFailures failures_;
-  FileStamps seen_;  ///< of the files that the job reads besides its program, before it did
-  Exit first_failure_ = Exit::done;
-};
-
-/// What the watch itself writes into the folder. A corrected program is known by its header; by the name that
-/// it has without -o, too.
-bool Watch::is_own(const std::string& path) const {
-  const bool named_so = !options_.output && fs::path(path).stem().extension() == ".comp";
-  return named_so || has_corrected_header(path);
-}
-
-/// Whether there is a corrected program, of these bytes: its name is taken. What is wrong with the settings
-/// is said when the program is begun.
-bool Watch::is_done(const std::string& path) {
-  try {
-    const Options job = watch_job(options_, path);
-    return is_corrected_from(watch_output(job), path, [this] { return is_interrupted(); }) &&
-           !claims_.claim(job);
-  } catch (const InputError&) {
-    return false;
-  }
-}
-
-/// All programs that are not done. To know that can take minutes, which an interrupt is not to wait for.
-void Watch::add_what_is_there() {
-  for (const std::string& name : folder_.names()) {
-    if (is_interrupted()) return;
-    const std::string path = folder_.path_of(name);
-    if (!may_be_program(name, options_.patterns) || is_own(path)) continue;
-    if (!is_done(path)) add(name);
-  }
-}
-
-void Watch::add(const std::string& name) {
-  if (may_be_program(name, options_.patterns) && std::find(due_.begin(), due_.end(), name) == due_.end())
-    due_.push_back(name);
-}
-
-void Watch::hear() {
-  const WatchedFolder::News news = folder_.read();
-  if (options_.once) return;
-  for (const std::string& name : news.names) add(name);
-  if (news.lost) add_what_is_there();
-}
-
-/// Begins with the first file that is complete; those that are still being written keep their turn.
-void Watch::begin_next() {
-  for (std::size_t i = 0; !job_ && i < due_.size();) {
-    const std::string name = due_[i], path = folder_.path_of(name);
-    const bool busy = is_being_written(path);
-    if (busy && options_.once) console_.note(path + ": it is being written; left for the next time\n");
-    if (busy && !options_.once) {
-      ++i;
-      continue;
-    }
-    hear();  // that it was closed just now: no second time
-    std::erase(due_, name);
-    if (!busy) begin(name);
-  }
-}
-
-/// Nothing where there is no program: it was taken away, it is still empty, or it is corrected already. What
-/// is linked may come later.
-void Watch::begin(const std::string& name) {
-  const std::string path = folder_.path_of(name);
-  failures_.erase(path);
-  std::error_code error;
-  if (fs::is_symlink(path, error) && !fs::exists(path, error)) failures_.add(path, stamps_of({path}), {});
-  if (!fs::is_regular_file(path, error) || fs::file_size(path, error) == 0 || error) return;
-  if (is_own(path)) return console_.detail(path + ": a corrected program");
-  seen_ = stamps_of(files_with_settings(options_, path));
-  try {
-    const Options job = watch_job(options_, path);
-    seen_.merge(stamps_of(files_beside_program(job)));
-    refuse_taken(job);
-    job_ = job;
-  } catch (const InputError& wrong) {
-    return fail(path, {wrong.exit(), wrong.what(), {}, {}});
-  }
-  process_ = 0;
-  workers_.start(0, [this](const SendLine& send) { do_watch_job(*job_, send); });
-}
-
-void Watch::refuse_taken(const Options& job) {
-  const auto taken = claims_.claim(job);
-  if (!taken) return;
-  seen_.merge(stamps_of({taken->owner}));
-  throw InputError(Exit::usage, {job.program},
-                   fmt::format("its output would be {}, as that of {} is: give one of them another name, or "
-                               "name outputs with {{name}}{{ext}}",
-                               taken->path, taken->owner));
-}
-
-void Watch::fail(const std::string& path, const WatchResult& result) {
-  const bool unreadable = ::access(path.c_str(), R_OK) != 0;
-  if (unreadable) seen_.merge(stamps_of({path}));
-  const bool may_pass = unreadable || result.exit == Exit::transient_io;
-  failures_.add(path, std::exchange(seen_, {}), may_pass ? std::optional(pause_after_failure) : std::nullopt);
-  tell(path, job_ ? watch_output(*job_) : "", result);
-}
-
-void Watch::end_job(const WatchResult& result) {
-  if (result.exit == Exit::done)
-    tell(job_->program, watch_output(*job_), result);
-  else
-    fail(job_->program, result);
-  warn_of_older(result);
-  job_.reset();
-  sent_.reset();
-}
-
-void Watch::tell(const std::string& program, const std::string& output, const WatchResult& result) {
-  const HeardSignals heard;  // nothing is under way
-  if (first_failure_ == Exit::done) first_failure_ = result.exit;
-  if (!result.error.empty()) console_.error(result.error);
-  if (options_.json)
-    write_result(json_line(program, output, result));
-  else
-    write_result(text_line(program, output, result));
-}
-
-/// A corrected program of an older text, under the name that this one's would have, is no correction of it.
-void Watch::warn_of_older(const WatchResult& result) {
-  std::error_code ignored;
-  const std::string output = watch_output(*job_);
-  if (result.exit == Exit::done || !fs::is_regular_file(output, ignored)) return;
-  console_.warning(output, 0, fmt::format("is of an earlier run: {} failed now", job_->program));
-  console_.finish_warnings();  // none is too many in a watch that goes on for weeks
-}
-
-/// A full disk, or a server that was away, need not be there for ever, and what is wrong is mended.
-void Watch::add_failed_again() {
-  if (failures_.empty() || options_.once) return;
-  for (const std::string& program : failures_.take_due()) add(fs::path(program).filename().string());
-}
-
-/// For how long nothing can happen of which no event tells.
-int Watch::patience_ms() const {
-  constexpr int look_again_ms = 100;
-  constexpr int folder_ms = 100 * look_again_ms;  // of which no event need tell that it has gone
-  if (job_) return folder_ms;
-  if (!due_.empty()) return look_again_ms;  // they are being written
-  return failures_.empty() ? folder_ms : 10 * look_again_ms;
-}
-
-void Watch::wait() {
-  for (WorkerEvent& event : workers_.wait(awaited_.descriptor(), patience_ms()))
-    if (event.ended) {
-      if (!sent_) sweep_after(process_, *job_);
-      end_job(watch_result(sent_, *job_, event.status));
-    } else if (const pid_t process = process_of_watch_job(event.line)) {
-      process_ = process;
-    } else {
-      sent_ = std::move(event.line);
-    }
-}
-
-bool Watch::is_interrupted() {
-  if (!interrupt_) interrupt_ = signals_.take();
-  return interrupt_.has_value();
-}
-
-/// The job ends itself, or else it is ended: either way nothing stays of what it was writing.
-void Watch::give_up() {
-  constexpr int patience_at_end_ms = 700;
-  workers_.end_all(patience_at_end_ms);
-  if (job_ && process_ != 0) sweep_after(process_, *job_);
-}
-
-Exit Watch::run_on() {
-  add_what_is_there();
-  while (!is_interrupted()) {
-    hear();
-    add_failed_again();
-    if (!job_) begin_next();
-    if (options_.once && is_idle()) return first_failure_;
-    wait();
-  }
-  give_up();
-  return static_cast<Exit>(status_of(*interrupt_));
-}
-
-Exit Watch::run() {
-  try {
-    return run_on();
-  } catch (const InputError&) {
-    give_up();
-    throw;
-  }
-}
-
-/// What would be wrong with every program is said before the first one comes.
+/// Reports what is wrong for every program before the first one comes.
 void check_watch(const Options& options) {
   std::vector<std::string> read = options.forces;
   read.push_back(options.machine);
   if (options.tool_table) read.push_back(*options.tool_table);
-  if (std::find(read.begin(), read.end(), "-") != read.end())
+  if (std::ranges::find(read, "-") != read.end())
     throw InputError(Exit::usage, {},
                      "standard input (-) can be read once, not for every program of a folder");
   refuse_shared_outputs(options);
@@ -330,11 +82,174 @@ void check_watch(const Options& options) {
   read_force_input(options);
 }
 
+nlohmann::ordered_json or_null(const std::optional<double>& number) {
+  return number ? nlohmann::ordered_json(*number) : nlohmann::ordered_json();
+}
+
+std::string json_line(const JobOutcome& outcome) {
+  const nlohmann::ordered_json line{
+      {"program", utf8_of_bytes(outcome.program)}, {"output", outcome.output},
+      {"exit", static_cast<int>(outcome.exit)},    {"verdict", outcome.verdict},
+      {"verdict_reason", outcome.verdict_reason},  {"error", outcome.error},
+      {"before_mm", or_null(outcome.before_mm)},   {"after_mm", or_null(outcome.after_mm)}};
+  return line.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+}
+
+std::string mm_text(const std::optional<double>& value, int decimals) {
+  return value ? fmt::format("{:.{}f} mm", *value, decimals) : "-";
+}
+
+std::string text_line(const JobOutcome& outcome) {
+  const std::string reason =
+      outcome.verdict_reason.empty() ? "" : fmt::format(" ({})", outcome.verdict_reason);
+  const std::string begin =
+      fmt::format("{}{}: {}", outcome.verdict, reason, without_controls(outcome.program));
+  if (outcome.exit != Exit::done)
+    return fmt::format("{}: not written (exit status {})\n", begin, static_cast<int>(outcome.exit));
+  return fmt::format("{} -> {}: {} before, {} after\n", begin, without_controls(outcome.output),
+                     mm_text(outcome.before_mm, 3), mm_text(outcome.after_mm, 4));
+}
+
+/// Does the job in a process of its own. A signal ends that process, and then this one.
+JobOutcome outcome_of_process(const BatchJob& job) {
+  const AwaitedSignals signals;
+  Workers workers;
+  workers.start(0, [&](const SendLine& send) { do_job(job, job.options.threads, send); });
+  std::optional<JobOutcome> outcome;
+  while (workers.running() > 0) {
+    for (const WorkerEvent& event : workers.wait(signals.descriptor(), -1)) {
+      if (auto sent = news_of(event.line).outcome) outcome = std::move(sent);
+      if (event.ended && !outcome) outcome = lost_outcome(job, event.status);
+    }
+    const auto signal = signals.take();
+    if (!signal) continue;
+    workers.end_all(patience_ms);
+    sweep_abandoned(files_written(job));
+    end_by(*signal);
+  }
+  sweep_abandoned(files_written(job));
+  return *outcome;
+}
+
+/// One program at a time. Outside of jobs a signal ends the process as ever.
+class Watch {
+ public:
+  Watch(const Options& options, Console& console)
+      : options_(options),
+        console_(console),
+        files_(options.folder, options.patterns),
+        lock_(options.folder, LockKind::exclusive, "counterflex watch") {
+    if (!lock_.locked())
+      console.warning(
+          options.folder, 0,
+          fmt::format("its file system has no locks ({}): a second watch is not refused", lock_.why_not()));
+  }
+
+  Exit run() {
+    files_.poll();
+    do {
+      std::this_thread::sleep_for(between_polls);
+      files_.poll();
+      for (const std::string& path : due()) compensate(path);
+    } while (!options_.once);
+    for (const std::string& path : files_.changing())
+      console_.note(path + ": it is being written; left for the next time\n");
+    return first_failure_;
+  }
+
+ private:
+  /// Complete programs that are not done, and those whose failure may have passed.
+  std::vector<std::string> due() {
+    std::vector<std::string> due;
+    for (const std::string& path : files_.complete()) {
+      retries_.erase(path);
+      if (is_own(path) || is_done(path))
+        files_.set_done(path);
+      else
+        due.push_back(path);
+    }
+    for (const auto& [path, time] : retries_)
+      if (files_.contains(path) && Clock::now() >= time) due.push_back(path);
+    return due;
+  }
+
+  /// Whether the watch wrote it: a corrected program is known by its header, without -o also by its name.
+  bool is_own(const std::string& path) const {
+    const bool named_so = !options_.output && fs::path(path).stem().extension() == ".comp";
+    return named_so || has_corrected_header(path);
+  }
+
+  /// Whether an earlier watch did it. Settings that are wrong are reported when the program is begun.
+  bool is_done(const std::string& path) {
+    if (!files_.is_from_start(path)) return false;
+    try {
+      const BatchJob job = job_for(options_, path);
+      if (!is_corrected_from(job.output, path)) return false;
+      claim_outputs(job);
+      return true;
+    } catch (const InputError&) {
+      return false;
+    }
+  }
+
+  /// Throws `InputError` (Exit::usage) where another program of the folder has one of the outputs.
+  void claim_outputs(const BatchJob& job) {
+    for (const std::string& file : files_written(job)) {
+      const auto owner = owners_.find(canonical_name(file));
+      if (owner == owners_.end() || owner->second == job.program || !files_.contains(owner->second)) continue;
+      throw InputError(
+          Exit::usage, {job.program},
+          fmt::format("its output would be {}, as that of {} is: give one of them another name, or "
+                      "name outputs with {{name}}{{ext}}",
+                      file, owner->second));
+    }
+    for (const std::string& file : files_written(job)) owners_[canonical_name(file)] = job.program;
+  }
+
+  void compensate(const std::string& path) {
+    files_.set_done(path);
+    JobOutcome outcome;
+    outcome.program = path;
+    try {
+      const BatchJob job = job_for(options_, path);
+      claim_outputs(job);
+      outcome = outcome_of_process(job);
+    } catch (const InputError& wrong) {
+      outcome.exit = wrong.exit();
+      outcome.error = wrong.what();
+    }
+    const bool may_pass = outcome.exit == Exit::transient_io;
+    const bool is_reported = may_pass && retries_.contains(path);
+    retries_.erase(path);
+    if (may_pass) retries_[path] = Clock::now() + retry_after;
+    if (!is_reported) report(outcome);
+  }
+
+  void report(const JobOutcome& outcome) {
+    if (first_failure_ == Exit::done) first_failure_ = outcome.exit;
+    if (!outcome.error.empty()) console_.error(outcome.error);
+    write_result(options_.json ? json_line(outcome) : text_line(outcome));
+    std::error_code ignored;
+    if (outcome.exit != Exit::done && fs::is_regular_file(outcome.output, ignored))
+      console_.warning(outcome.output, 0,
+                       fmt::format("is of an earlier run: {} failed now", outcome.program));
+    console_.finish_warnings();
+  }
+
+  const Options& options_;
+  Console& console_;
+  WatchedFiles files_;
+  FolderLock lock_;
+  std::map<std::string, std::string> owners_;  ///< program by output
+  std::map<std::string, Clock::time_point>
+      retries_;  ///< programs whose failure may pass, and when to try again
+  Exit first_failure_ = Exit::done;
+};
+
 }  // namespace
 
 Exit run_watch(const Options& options, Console& console) {
   check_watch(options);
-  std::signal(SIGIO, SIG_IGN);  // that somebody opens a file which is just being looked at
   Watch watch(options, console);
   if (!options.once) console.detail(fmt::format("watching {}", options.folder));
   return watch.run();

@@ -2,8 +2,9 @@
 // that writes. Counted are the calls of the program and of all it has forked, together. The environment says:
 //
 // - FAULTY_FOLDER: files in this folder and below, and the folder itself; an absolute path without links
-// - FAULTY_CALLS: which of write, fsync, rename, open (that makes a file), flock, close, mkdir, unlink, truncate (of
-//   the size of a file); all of these unless given; or of calls that write nothing: read, lease (F_SETLEASE), thread
+// - FAULTY_CALLS: which of write, fsync, rename, open (that makes a file), flock, close, mkdir, unlink,
+// truncate (of
+//   the size of a file); all of these unless given; or of calls that write nothing: read, thread
 //   (that is made)
 // - FAULTY_AT: the number of the call that fails, from 1
 // - FAULTY_FROM: or the first of those that fail, as on a disk that is full and stays so
@@ -11,7 +12,8 @@
 // - FAULTY_WITH: ENOSPC, EIO, EROFS, EINVAL ..., or kill: this process, or kill-group: its group, after
 //   half of what it writes; or empty: the call succeeds, and its file becomes empty before it
 // - FAULTY_LOG: a file that gets a line for each fault: the call and the path
-// - FAULTY_TRACE: a file that gets a line for each call that is counted: the call and the path, of a rename the old
+// - FAULTY_TRACE: a file that gets a line for each call that is counted: the call and the path, of a rename
+// the old
 //   path and the new one. It needs no fault.
 #include <dlfcn.h>
 #include <fcntl.h>
@@ -119,7 +121,7 @@ bool is_within(const std::string& path, const std::string& folder) {
 }
 
 bool writes_nothing(const std::string& call) {
-  return call == "read" || call == "lease" || call == "thread";
+  return call == "read" || call == "thread";
 }
 
 bool is_listed(const std::string& calls, const std::string& call) {
@@ -271,23 +273,6 @@ int open(const char* path, int flags, ...) {
 ssize_t read(int fd, void* bytes, size_t size) {
   static auto* const real = next<ssize_t(int, void*, size_t)>("read");
   return fails("read", fd) ? -1 : real(fd, bytes, size);
-}
-
-int fcntl64(int fd, int command, ...) {
-  static auto* const real = next<int(int, int, ...)>("fcntl64");
-  va_list rest;
-  va_start(rest, command);
-  void* const argument = va_arg(rest, void*);
-  va_end(rest);
-  return command == F_SETLEASE && fails("lease", fd) ? -1 : real(fd, command, argument);
-}
-
-int fcntl(int fd, int command, ...) {
-  va_list rest;
-  va_start(rest, command);
-  void* const argument = va_arg(rest, void*);
-  va_end(rest);
-  return fcntl64(fd, command, argument);
 }
 
 int pthread_create(pthread_t* thread, const pthread_attr_t* facts, void* (*work)(void*), void* of) noexcept {

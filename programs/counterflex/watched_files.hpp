@@ -1,0 +1,53 @@
+#pragma once
+/// The programs of a folder, found by polling.
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace counterflex::cli {
+
+/// Different for each version of a file.
+struct FileVersion {
+  std::uint64_t device = 0, inode = 0, size = 0;
+  std::int64_t written_ns = 0, changed_ns = 0;  ///< of the bytes; of bytes, name, owner or mode
+  bool operator==(const FileVersion&) const = default;
+};
+
+/// Leaves out hidden, temporary and empty files, and files that counterflex reads or writes beside programs.
+/// `patterns` as in a shell: if there are any, a name must match one of them; a pattern may ask for .csv,
+/// .toml, .json, .html and .svg.
+class WatchedFiles {
+ public:
+  /// Throws `InputError` (Exit::usage) where `folder` is no folder.
+  WatchedFiles(std::string folder, std::vector<std::string> patterns);
+
+  /// Throws `InputError` (Exit::transient_io) where the folder cannot be read any more.
+  void poll();
+
+  /// Paths, sorted, of files that `set_done` has not been called for since they changed: those that were the
+  /// same at the last two polls, and those that were not.
+  std::vector<std::string> complete() const { return undone(true); }
+  std::vector<std::string> changing() const { return undone(false); }
+
+  /// Whether the file has not changed since the first poll.
+  bool is_from_start(const std::string& path) const { return files_.at(path).is_from_start; }
+  bool contains(const std::string& path) const { return files_.contains(path); }
+  void set_done(const std::string& path) { files_.at(path).is_done = true; }
+
+ private:
+  struct File {
+    FileVersion version;
+    bool is_from_start = false, is_complete = false, is_done = false;
+  };
+
+  std::vector<std::string> undone(bool complete) const;
+
+  std::string folder_;
+  std::vector<std::string> patterns_;
+  std::map<std::string, File> files_;  ///< by path
+  bool is_first_poll_ = true;
+};
+
+}  // namespace counterflex::cli
