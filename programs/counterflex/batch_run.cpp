@@ -46,7 +46,6 @@ class JobsRun {
         threads_(threads),
         console_(console),
         outcomes_(missing_.size()) {
-    console_.never_wait();
     std::vector<double> work;
     for (std::size_t task = 0; task < missing_.size(); ++task) work.push_back(job(task).work);
     large_ = large_share * std::accumulate(work.begin(), work.end(), 0.0) / threads_;

@@ -1,6 +1,7 @@
 #include "console.hpp"
 
 #include <fmt/format.h>
+#include <poll.h>
 #include <unistd.h>
 
 #include <cstdio>
@@ -13,7 +14,6 @@ namespace counterflex::cli {
 namespace {
 
 constexpr std::size_t warnings_shown = 20;
-constexpr int last_words_ms = 200;  // for what a terminal has not taken yet
 
 bool colours_on(int descriptor) {
   const char* no_colour = std::getenv("NO_COLOR");
@@ -32,6 +32,17 @@ bool shows_utf8(int descriptor) {
     return locale.find("UTF-8") != std::string_view::npos || locale.find("utf8") != std::string_view::npos;
   }
   return false;
+}
+
+/// Whether standard error takes text now. A terminal that is stopped does not.
+bool is_ready() {
+  pollfd stream{STDERR_FILENO, POLLOUT, 0};
+  return ::poll(&stream, 1, 0) > 0 && (stream.revents & POLLOUT) != 0;
+}
+
+/// What cannot be written to standard error cannot be reported at all: no reason to fail.
+void say(const std::string& text) {
+  std::fputs(text.c_str(), stderr);
 }
 
 /// `word` of a diagnostic in colour, where it first stands as ": word: ", or at the beginning.
@@ -58,23 +69,10 @@ Console::Console(const Options& options, ConsoleListener listener)
 
 Console::~Console() {
   erase_progress();
-  if (unsaid_) unsaid_->send(last_words_ms);
-}
-
-void Console::never_wait() {
-  if (!unsaid_) unsaid_.emplace(STDERR_FILENO);
-}
-
-/// What cannot be said on standard error cannot be said at all: no reason to fail.
-void Console::say(const std::string& text) {
-  if (unsaid_)
-    unsaid_->add(text);
-  else
-    std::fputs(text.c_str(), stderr);
 }
 
 void Console::erase_progress() {
-  if (showing_progress_) say("\r\033[K");
+  if (showing_progress_ && is_ready()) say("\r\033[K");
   showing_progress_ = false;
 }
 
@@ -98,7 +96,6 @@ void Console::finish_warnings() {
       say(fmt::format("{}: {} more warnings; a report lists them\n", without_controls(file),
                       count - warnings_shown));
   warnings_.clear();
-  if (unsaid_) unsaid_->send(last_words_ms);
 }
 
 void Console::detail(std::string_view what) {
@@ -118,11 +115,9 @@ void Console::progress(std::string_view what) {
 }
 
 void Console::progress_line(std::string_view line) {
-  if (unsaid_ && !unsaid_->is_clear()) return;
-  if (quiet_ || !terminal_) return;
+  if (quiet_ || !terminal_ || !is_ready()) return;
   erase_progress();
   say(without_controls(line));
-  std::fflush(stderr);
   showing_progress_ = true;
 }
 

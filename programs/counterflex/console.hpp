@@ -3,7 +3,6 @@
 #include <cstddef>
 #include <functional>
 #include <map>
-#include <optional>
 #include <set>
 #include <string>
 #include <string_view>
@@ -11,7 +10,6 @@
 
 #include "counterflex/compensation/options.hpp"
 #include "options.hpp"
-#include "unsaid.hpp"
 
 namespace counterflex::cli {
 
@@ -29,10 +27,6 @@ class Console {
   Console(const Console&) = delete;
   Console& operator=(const Console&) = delete;
 
-  /// From here on a stream that takes nothing, such as a terminal that was stopped, makes nobody wait: what
-  /// it does not take is said later, or never. For who has to hear signals, or to keep others at work.
-  void never_wait();
-
   /// "file:line: warning: what"; at most 20 of a file, `finish_warnings` counts the others. Line 0: none.
   void warning(const std::string& file, int line, std::string_view what);
   /// Whether the person at the terminal, who sees standard output too, has read this warning already.
@@ -46,8 +40,9 @@ class Console {
   /// A text of several lines, unless --quiet.
   void note(std::string_view text);
 
-  /// What is going on at the moment, on one line that the next output replaces; only where standard error is
-  /// a terminal.
+  /// What the run does at the moment, on one line that the next output replaces. Only on a terminal; while
+  /// the terminal does not take text, as when it is stopped, the line is dropped: progress never blocks a
+  /// run.
   void progress(std::string_view what);
   void progress_line(std::string_view line);  ///< the same, as it is
 
@@ -69,13 +64,11 @@ class Console {
   bool marks_error() const { return marks_error_; }
 
  private:
-  void say(const std::string& text);
   void erase_progress();
 
   ConsoleListener listener_;
   bool quiet_, verbose_, terminal_, colour_, colour_out_, marks_out_, marks_error_;
   bool showing_progress_ = false;
-  std::optional<Unsaid> unsaid_{};
   std::map<std::string, std::size_t> warnings_;
   std::set<std::string, std::less<>> shown_;  ///< where both streams are terminals
 };

@@ -56,7 +56,6 @@ void do_job(const BatchJob& job, int threads, const SendLine& send) {
                     },
                 .solving = [&](int line, int lines) { send(fmt::format("{}{} {}", line_word, line, lines)); },
                 .solved = [&](std::size_t waypoints) { send(fmt::format("{}{}", solved_word, waypoints)); }});
-  console.never_wait();
   outcome.exit = guarded(console, [&] {
     return compensate_program(options, console,
                               [&](const Run& run, const RunEnd& end, const RunFiles& files) {

@@ -1,4 +1,4 @@
-"""Batches on a terminal that is stopped, as by Ctrl-S or a connection that hangs. Arguments: what to try, and counterflex."""
+"""Runs on a terminal that is stopped, as by Ctrl-S or a connection that hangs. Arguments: what to try, and counterflex."""
 import glob
 import os
 import pty
@@ -17,12 +17,12 @@ def fail(message):
     sys.exit(1)
 
 
-def start(*arguments):
+def start(*arguments, command=("batch", "jobs.toml")):
     """The process, and the other end of the terminal that it is on."""
     process, terminal = pty.fork()
     if process == 0:
         signal.signal(signal.SIGINT, signal.SIG_DFL)
-        os.execv(sys.argv[2], ["counterflex", "batch", "jobs.toml", *arguments])
+        os.execv(sys.argv[2], ["counterflex", *command, *arguments])
     return process, terminal
 
 
@@ -112,4 +112,14 @@ def many():
         fail(f"status {status}, {lines} lines of progress in {time.monotonic() - begin:.1f} s")
 
 
-{"stopped": stopped, "goes_on": goes_on, "many": many}[sys.argv[1]]()
+def single():
+    process, terminal = start(command=("compensate", "long.ngc", "-m", "mill.toml", "-o", "single.ngc"))
+    os.write(terminal, STOP)
+    until(lambda: os.path.exists("single.ngc"), "the program is written")
+    os.write(terminal, GO_ON)
+    text, status = said(terminal, process)
+    if status != 0 or "before" not in text:
+        fail(f"status {status}: {text[:2000]!r}")
+
+
+{"stopped": stopped, "goes_on": goes_on, "many": many, "single": single}[sys.argv[1]]()
