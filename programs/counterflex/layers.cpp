@@ -36,13 +36,6 @@ const Setting* strongest(const Layers& layers, std::string_view option) {
   return nullptr;
 }
 
-std::vector<Setting> outputs_of(const Layers& layers) {
-  std::vector<Setting> outputs;
-  for (const std::vector<Setting>& layer : layers)
-    if (const Setting* output = said_in(layer, "output")) outputs.push_back(*output);
-  return outputs;
-}
-
 }  // namespace
 
 std::vector<Setting> effective_settings(Command command, const Layers& layers) {
@@ -50,7 +43,7 @@ std::vector<Setting> effective_settings(Command command, const Layers& layers) {
   for (const SettingOption& option : setting_options()) {
     const Setting* setting = strongest(layers, option.option);
     if (setting == nullptr || !has_setting(command, option.option)) continue;
-    settings.push_back(option.option == "output" ? merged_output(outputs_of(layers)) : *setting);
+    settings.push_back(option.option == "output" ? with_folder_marked(*setting) : *setting);
   }
   return settings;
 }

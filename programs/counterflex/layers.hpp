@@ -14,7 +14,7 @@ using Layers = std::vector<std::vector<Setting>>;
 /// What `command` has of `layers`, the strongest first, in the order of the table of options. An option is
 /// taken wholly from the strongest layer that has it: lists do not add up. Forces of files and constant ones
 /// are one thing in this, and so are tool tables and lengths: `--force` hides the `forces` of a project
-/// file. Of outputs the strongest folder goes with the strongest name.
+/// file.
 std::vector<Setting> effective_settings(Command command, const Layers& layers);
 
 /// Flags, environment and project file of one program; the project file's path where there is one.

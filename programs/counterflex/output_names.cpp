@@ -11,25 +11,6 @@
 namespace counterflex::cli {
 namespace {
 
-/// An output as it is said: in parts, where it is not a path.
-struct OutputParts {
-  std::string folder;   ///< ends in a slash; empty: none is said
-  std::string pattern;  ///< of the name; empty: none is said
-  bool whole = false;   ///< a path, which nothing completes
-};
-
-bool names_a_folder(const std::string& text) {
-  std::error_code ignored;
-  return text.ends_with('/') || (!is_pattern(text) && std::filesystem::is_directory(fill(text, {}), ignored));
-}
-
-OutputParts parts_of(const std::string& text) {
-  if (names_a_folder(text)) return {text.ends_with('/') ? text : text + "/", "", false};
-  const std::size_t name = text.find_last_of('/') + 1;  // 0 without a slash
-  if (!is_pattern(text)) return {text.substr(0, name), text.substr(name), true};
-  return {text.substr(0, name), text.substr(name), false};
-}
-
 NameParts known_parts(const std::string& program) {
   if (program == "-" || program.empty()) return {};
   const std::filesystem::path path(program);
@@ -106,20 +87,13 @@ std::optional<std::string> output_stem(const Options& options, const std::option
 
 }  // namespace
 
-Setting merged_output(const std::vector<Setting>& outputs) {
-  for (const Setting& output : outputs) judge_setting(output);
-  Setting merged = outputs.front();
-  if (merged.values.empty() || merged.values[0] == "-") return merged;
-  OutputParts parts = parts_of(merged.values[0]);
-  for (std::size_t i = 1; i < outputs.size() && !parts.whole; ++i) {
-    if (outputs[i].values.empty()) break;
-    const OutputParts weaker = parts_of(outputs[i].values[0]);
-    if (weaker.whole) continue;
-    if (parts.folder.empty()) parts.folder = weaker.folder;
-    if (parts.pattern.empty()) parts.pattern = weaker.pattern;
+Setting with_folder_marked(Setting output) {
+  for (std::string& text : output.values) {
+    std::error_code ignored;
+    const bool is_path = text != "-" && !text.ends_with('/') && !is_pattern(text);
+    if (is_path && std::filesystem::is_directory(fill(text, {}), ignored)) text += '/';
   }
-  merged.values[0] = parts.folder + parts.pattern;
-  return merged;
+  return output;
 }
 
 void check_pattern(const std::string& name, const std::string& text) {

@@ -8,10 +8,8 @@
 
 namespace counterflex::cli {
 
-/// The strongest folder with the strongest name: `-o DIR/` goes with the project file's {name}_CF{ext}. The
-/// first of `outputs`, the strongest, wins where the others do not complete it. Not empty. Throws
-/// `InputError` at the place of a pattern that is none.
-Setting merged_output(const std::vector<Setting>& outputs);
+/// An output that is a folder which exists, with the slash of a folder.
+Setting with_folder_marked(Setting output);
 
 /// Throws `InputError` (Exit::usage) for a word in braces that nothing stands for; `name` is the option's.
 void check_pattern(const std::string& name, const std::string& text);

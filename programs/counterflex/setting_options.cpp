@@ -225,11 +225,6 @@ void blame_setting(const Setting& setting, std::size_t i, const std::string& mes
                    place_of(setting, i), message);
 }
 
-void judge_setting(const Setting& setting) {
-  Options ignored;
-  apply_setting(setting, ignored);
-}
-
 void apply_setting(const Setting& setting, Options& options) {
   const SettingOption& option = setting_option(setting.option);
   for (std::size_t i = 0; i < setting.values.size(); ++i) {

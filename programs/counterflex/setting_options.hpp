@@ -33,9 +33,6 @@ bool has_setting(Command command, std::string_view option);
 /// and the environment, Exit::machine_or_force for files.
 void apply_setting(const Setting& setting, Options& options);
 
-/// Throws as `apply_setting` does, and changes nothing.
-void judge_setting(const Setting& setting);
-
 /// Throws `message` as `apply_setting` does for value `i`.
 [[noreturn]] void blame_setting(const Setting& setting, std::size_t i, const std::string& message);
 

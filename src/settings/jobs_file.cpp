@@ -41,13 +41,22 @@ void take_as_folder(std::vector<Setting>& settings, const toml::table& table, co
   }
 }
 
-JobEntry read_job(const toml::node& node, const std::string& folder, const Source& source) {
+/// A name without a folder stands in the folder of the batch.
+void put_in_folder(std::vector<Setting>& settings, const std::string& folder_of_batch) {
+  for (Setting& setting : settings)
+    if (setting.option == "output" && setting.values.at(0).find('/') == std::string::npos)
+      setting.values[0] = as_pattern(folder_of_batch) + '/' + setting.values[0];
+}
+
+JobEntry read_job(const toml::node& node, const std::string& folder, const std::string& folder_of_batch,
+                  const Source& source) {
   const toml::table& table = toml_file::as_table(node, "a job", source);
   JobEntry job;
   job.where = source.at(node.source());
   job.settings = setting_file::read_settings(table, "a job", folder, {"program"}, source);
   job.programs = read_programs(toml_file::required(table, "program", "a job", node, source), folder, source);
   take_as_folder(job.settings, table, source);
+  put_in_folder(job.settings, folder_of_batch);
   return job;
 }
 
@@ -84,7 +93,8 @@ JobsFile read_jobs(std::string_view text, const std::string& file) {
   if (!list->is_array() || list->as_array()->empty())
     source.fail(*list,
                 fmt::format("job must be written [[job]], once or more, not {}", toml_file::seen(*list)));
-  for (const toml::node& node : *list->as_array()) jobs.jobs.push_back(read_job(node, folder, source));
+  for (const toml::node& node : *list->as_array())
+    jobs.jobs.push_back(read_job(node, folder, jobs.output, source));
   return jobs;
 }
 

@@ -32,7 +32,9 @@ TEST_CASE("a jobs file has defaults for all jobs, and jobs with programs and set
   CHECK(test::value(jobs.jobs[1].settings, "forces") == "night/f.csv");
 }
 
-TEST_CASE("an output of a jobs file without a pattern is a folder, there or not") {
+TEST_CASE(
+    "an output of a jobs file without a pattern is a folder, and a name without a folder is in that of the "
+    "batch") {
   const JobsFile jobs = jobs_with(
       "output = \"out/{name}_CF{ext}\"\n[[job]]\nprogram = \"a\"\noutput = \"left\"\n"
       "[[job]]\nprogram = \"b\"\noutput = \"right/\"\n[[job]]\nprogram = \"c\"\noutput = \"{name}2{ext}\"\n");
@@ -40,7 +42,7 @@ TEST_CASE("an output of a jobs file without a pattern is a folder, there or not"
   CHECK(test::value(jobs.defaults, "output") == "out/{name}_CF{ext}");
   CHECK(test::value(jobs.jobs[0].settings, "output") == "left/");
   CHECK(test::value(jobs.jobs[1].settings, "output") == "right/");
-  CHECK(test::value(jobs.jobs[2].settings, "output") == "{name}2{ext}");
+  CHECK(test::value(jobs.jobs[2].settings, "output") == "out/{name}2{ext}");
 }
 
 TEST_CASE("a folder of results that is absolute stays so") {
