@@ -35,6 +35,7 @@ using Clock = std::chrono::steady_clock;
 constexpr std::chrono::seconds between_polls{1};
 constexpr std::chrono::seconds retry_after{30};  // of input or output that failed
 constexpr int patience_ms = 700;                 // for a job that is asked to end
+constexpr int hesitation_ms = 100;               // for a signal that ended a job first to arrive here, too
 
 /// What `compensate` does for `program`. Throws `InputError` for settings that are wrong.
 BatchJob job_for(const Options& watch, const std::string& program) {
@@ -121,7 +122,8 @@ JobOutcome outcome_of_process(const BatchJob& job) {
       if (auto sent = news_of(event.line).outcome) outcome = std::move(sent);
       if (event.ended && !outcome) outcome = lost_outcome(job, event.status);
     }
-    const auto signal = signals.take();
+    const bool is_lost = workers.running() == 0 && outcome->exit != Exit::done;
+    const auto signal = signals.take(is_lost ? hesitation_ms : 0);
     if (!signal) continue;
     workers.end_all(patience_ms);
     sweep_abandoned(files_written(job));
