@@ -177,15 +177,6 @@ Rewritten Rewriter::write(const Program& window, const std::vector<MoveEdit>& ed
   return std::move(w.out);
 }
 
-const TextState& Rewriter::state() const {
-  return state_->text;
-}
-
-void Rewriter::pass(const Program& window, const TextState& state) {
-  state_->begins(window);
-  state_->text = state;
-}
-
 Rewritten rewrite(const Program& program, const std::vector<MoveEdit>& edits, const WriteOptions& options) {
   return Rewriter(options).write(program, edits);
 }

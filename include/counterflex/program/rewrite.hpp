@@ -138,11 +138,6 @@ class Rewriter {
   /// The text of the next window with `edits` of its moves, as `rewrite` has it.
   Rewritten write(const Program& window, const std::vector<MoveEdit>& edits);
 
-  const TextState& state() const;
-
-  /// Goes on behind `window`, whose text is written already: by another rewriter, which it has left `state`.
-  void pass(const Program& window, const TextState& state);
-
  private:
   struct State;
   std::unique_ptr<State> state_;
