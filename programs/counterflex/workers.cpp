@@ -123,11 +123,10 @@ std::vector<WorkerEvent> Workers::wait(int other, int timeout_ms) {
 }
 
 void Workers::end_all(int patience_ms) {
-  using Clock = std::chrono::steady_clock;
-  const auto last = Clock::now() + std::chrono::milliseconds(patience_ms);
+  const auto deadline = std::chrono::steady_clock::now() + std::chrono::milliseconds(patience_ms);
   if (patience_ms > 0)
     for (const Worker& worker : workers_) ::kill(worker.process, SIGTERM);
-  while (!workers_.empty() && Clock::now() < last) wait(-1, 10);
+  while (!workers_.empty() && std::chrono::steady_clock::now() < deadline) wait(-1, 10);
   for (const Worker& worker : workers_) {
     ::kill(worker.process, SIGKILL);
     ::close(worker.pipe);
