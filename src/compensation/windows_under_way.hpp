@@ -25,7 +25,7 @@ struct WindowInProgress {
 /// `verify`, which look at any number of them at once.
 struct WindowStages {
   using Stage = std::function<void(const Job&, WindowInProgress&)>;
-  std::function<bool(WindowInProgress&)> next;  ///< reads it; false: there is none
+  std::function<bool(WindowInProgress&)> next;  ///< reads it; false at the end
   std::function<void(const Job&)> read;
   Stage begin, plan, write, verify;
   std::function<void(const Job&)> begun;          ///< all before this window is done

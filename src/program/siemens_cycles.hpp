@@ -17,8 +17,8 @@ bool read_called_cycle(const Block& block, Reading& reading);
 /// MCALL with a drilling cycle: each block with a position is a hole. False where it is not followed.
 bool begin_modal_cycle(const Block& block, Reading& reading);
 
-/// Whether the block is a hole of the modal cycle. Where it moves otherwise, the cycle is none that is
-/// followed from here on.
+/// Whether the block is a hole of the modal cycle. Where it moves otherwise, the cycle is not followed from
+/// here on.
 bool takes_modal_hole(const Block& block, Reading& reading);
 
 /// Makes the move, whose words are placed, a hole of the modal cycle.

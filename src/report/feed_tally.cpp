@@ -44,7 +44,7 @@ bool is_known_hole(const Move& move) {
 
 void FeedTally::add_window(const Job& window) {
   for (const Move& move : window.program.moves) {
-    if (move.mills_at_end) ++moves_.count;  // what is milled about the end, which nobody measures
+    if (move.mills_at_end) ++moves_.count;  // what is milled about the end is not measured
     if (!counts(move, window.program)) continue;
     ++moves_.count;
     const bool first_known = cuts_at_end(move) && !all_known(move.known_start) && all_known(move.known_end);

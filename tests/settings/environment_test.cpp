@@ -31,7 +31,6 @@ TEST_CASE("a variable that is nearly a setting is noticed, others are not") {
                               "COUNTERFLEX_MACHIN=m",
                               "COUNTERFLEX_MACHINE=m",
                               "COUNTERFLEX_PROGRAMS=p",
-                              "COUNTERFLEX_CORPUS=c",
                               "COUNTERFLEX_BROWSER=b",
                               "COUNTERFLEX_MAX_CORRECTION",
                               "COUNTERFLEX_",

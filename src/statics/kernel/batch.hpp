@@ -42,8 +42,8 @@ struct Batch {
   double* negative_pivots = nullptr;  ///< 0: stable with actuators held
 };
 
-/// Which stress the first tangent has. Later ones have what the last linear step foresaw: with the stress of
-/// an iterate that misses the errors of assembly, Newton diverges (EQUATIONS.md, section 12).
+/// Which stress the first tangent has. Later ones have what the last linear step predicted: with the stress
+/// of an iterate that misses the errors of assembly, Newton diverges (EQUATIONS.md, section 12).
 enum class FirstStress { none, of_elements, of_cells };
 
 struct Schedule {

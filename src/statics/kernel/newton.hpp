@@ -8,8 +8,8 @@
 namespace counterflex::kernel {
 
 inline constexpr double step_tolerance = 1e-11;  ///< largest component of the last step (m; angles times l)
-inline constexpr double foreseen_tolerance = 1e-12;  ///< of a step that need not be taken
-inline constexpr double force_tolerance = 1e-9;      ///< of the residual forces, against those that act
+inline constexpr double predicted_tolerance = 1e-12;  ///< of a step that need not be taken
+inline constexpr double force_tolerance = 1e-9;       ///< of the residual forces, against those that act
 inline constexpr double deflection_tolerance =
     1e-12;  ///< and what the stiffest spring has at this deflection (m)
 
@@ -89,13 +89,13 @@ Solved<T> iterate(const Schedule& schedule, Mask<T> active, Work<T>& work) {
       work.stressed = !work.question.nominal && (k > 0 || schedule.first != FirstStress::none);
       factor(work);
     }
-    work.foresees = !work.question.nominal && has_tangent<T>(schedule, k + 1);
+    work.predicts_stress = !work.question.nominal && has_tangent<T>(schedule, k + 1);
     find_step(work);
     const T size = work.step.size;
     is_small = size <= step_tolerance;
     // Behind a tangent of its own: by the contraction that was seen the next step is small. Chords contract
     // unevenly.
-    if (has_tangent<T>(schedule, k)) is_small = is_small | (size * size <= foreseen_tolerance * last);
+    if (has_tangent<T>(schedule, k)) is_small = is_small | (size * size <= predicted_tolerance * last);
     last = size;
     take_step<T>(active, work);
     solved.iterations += select<T>(active, all<T>(1), T{});
@@ -103,7 +103,7 @@ Solved<T> iterate(const Schedule& schedule, Mask<T> active, Work<T>& work) {
 }
 
 /// How many pivots of the whole system are negative at the state, actuators held, those of rigid closures not
-/// counted: the equilibrium is stable where there is none.
+/// counted: the equilibrium is stable if the count is zero.
 template <class T>
 T count_negative_pivots(Work<T>& work) {
   for (ElementTerms<T>& terms : work.equations.elements) terms.stress = terms.phi;

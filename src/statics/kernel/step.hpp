@@ -79,7 +79,7 @@ COUNTERFLEX_INLINE void step_joint(const FrameStep& step, const Element& element
 /// The wrench that a spring has behind the linear step: the stress of the next tangent, free of what a finite
 /// turn does to stiff directions.
 template <class T>
-COUNTERFLEX_INLINE void foresee_stress(const Spring& spring, const Vec6<T>& z, ElementTerms<T>& terms) {
+COUNTERFLEX_INLINE void predict_stress(const Spring& spring, const Vec6<T>& z, ElementTerms<T>& terms) {
   const Vec6<T> F = stiff(
       spring, Vec6<T>{transposed_times(terms.R, z.v + cross(z.w, terms.p)), transposed_times(terms.R, z.w)});
   const Vec3<T> f = terms.R * F.v;
@@ -122,9 +122,9 @@ void step_series(int s, const Vec6<T>& zeta, const Vec6<T>& xi_A, Work<T>& work)
         const Series& of_branch = at(machine.series, element.series + branch);
         stress = stress + at(work.equations.elements, of_branch.first + of_branch.count - 1).stress;
       }
-      if (work.foresees) terms.stress = stress;
-    } else if (work.foresees) {
-      foresee_stress(at(machine.springs, element.spring), z, terms);
+      if (work.predicts_stress) terms.stress = stress;
+    } else if (work.predicts_stress) {
+      predict_stress(at(machine.springs, element.spring), z, terms);
     }
     if (node >= 0) {
       at(work.step.nodes, node) = xi_A + before;

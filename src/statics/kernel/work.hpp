@@ -115,7 +115,7 @@ struct Work {
   Vec6<T> load{};                       ///< wrench at the machine's arm, axes of M
   std::vector<Vec6<T>> start_stress{};  ///< by element, as in StartCell
   bool stressed = false;                ///< the tangent has the stress of its elements
-  bool foresees = false;                ///< the next tangent takes the stress that this step foresees
+  bool predicts_stress = false;         ///< the next tangent takes the stress that this step predicts_stress
 
   explicit Work(const FlatMachine& m) : machine(m) {
     const auto joints = static_cast<std::size_t>(m.joints), nodes = static_cast<std::size_t>(m.nodes);
