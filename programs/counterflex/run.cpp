@@ -148,7 +148,7 @@ RunReport without_shown_warnings(RunReport report, const Console& console) {
 
 RunInput Run::input() const {
   return {machine.model, work.frames, ignored,      force_input.source,
-          options,       read,        &tool_models, lanes ? &*lanes : nullptr};
+          options,       read,        &tool_models, starts ? &*starts : nullptr};
 }
 
 RunContext Run::context() const {
@@ -191,7 +191,7 @@ std::unique_ptr<Run> prepare_run(const Options& options, Console& console) {
   run->ignored = uncontrolled_axes(on, run->work.frames);
   forces.settle({run->file.bytes, run->program.file, run->read, run->work.frames, run->ignored});
   run->options = compensation_options(options, on);
-  run->lanes.emplace(run->options.max_correction);
+  run->starts.emplace();
   run->sanity = program_sanity({run->machine, run->tool_models, run->tools, run->work, run->program});
   refuse_wrong(run->sanity, on);
   run->facts = facts_of(options, *run);
@@ -289,7 +289,7 @@ RunTally tally_for(const Options& options, const Run& run) {
 
 RunEnd finish_run(const Options& options, Run& run, RunReport report, const RunTally& tally,
                   RunFiles& files) {
-  run.lanes.reset();  // nothing is solved in them any more; the report takes their memory
+  run.starts.reset();  // nothing is solved any more; the report takes their memory
   const MachineInput& on = run.machine;
   report.sanity = run_sanity(run, report, tally);
   add_loads(report, solve_loads(on.model, run.load_places.places(), run.options.threads), on.machine);

@@ -29,7 +29,7 @@ struct Run {
   ReadOptions read;  ///< with which the program is read
   RunFacts facts;
   ToolModels tool_models;  ///< of the program's tools
-  std::optional<LaneMachines> lanes{};
+  std::optional<StartTables> starts{};
   LoadPlaces load_places{};  ///< of the path, where loads are asked for
   SanityChecks sanity{};     ///< known before it runs
 

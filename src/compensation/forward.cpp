@@ -21,12 +21,12 @@ const Model& model_of(const Job& job, const Piece& piece) {
 // and the first failure is known.
 void solve_run(const Job& job, const NominalTrack& nominal, std::span<const Piece> pieces,
                const Questions& questions, const std::optional<Vector3>& command,
-               std::span<const KnownSegment> known, ForwardRun& out) {
+               ForwardRun& out) {
   const Model& model = model_of(job, pieces.front());
   const std::size_t segment = pieces.front().segment, solved = out.waypoints.size();
   const auto solve_in = [&](std::size_t together) {
     WaypointSolver solver(job, model, segment == no_segment ? model.home : nominal.start_before(segment));
-    ChunkForward chunk(job, questions, known, solver);
+    ChunkForward chunk(job, questions, solver);
     std::optional<Vector3> last = command;
     out.failure.reset();
     out.waypoints.resize(solved);
@@ -42,13 +42,12 @@ void solve_run(const Job& job, const NominalTrack& nominal, std::span<const Piec
 
 // A chunk of pieces by itself.
 ForwardRun solve_chunk(const Job& job, const NominalTrack& nominal, std::span<const Piece> pieces, const Chunk& chunk,
-                       const Questions& questions, const std::optional<Vector3>& command,
-                       std::span<const KnownSegment> known) {
+                       const Questions& questions, const std::optional<Vector3>& command) {
   ForwardRun run;
   for (std::size_t i = chunk.begin, end = i; i < chunk.end && !run.failure; i = end) {
     while (end < chunk.end && &model_of(job, pieces[end]) == &model_of(job, pieces[i])) ++end;
     const std::optional<Vector3> last = i == 0 ? command : pieces[i - 1].commanded.end;
-    solve_run(job, nominal, pieces.subspan(i, end - i), questions, last, known, run);
+    solve_run(job, nominal, pieces.subspan(i, end - i), questions, last, run);
   }
   return run;
 }
@@ -75,8 +74,7 @@ std::vector<std::size_t> chunk_borders(const Job& job, std::span<const Piece> pi
 
 std::optional<Failure> solve_forward_in_portions(const Job& job, const NominalTrack& nominal,
                                                  std::span<const Piece> pieces, const Questions& questions,
-                                                 const std::optional<Vector3>& command,
-                                                 std::span<const KnownSegment> known, std::size_t together,
+                                                 const std::optional<Vector3>& command, std::size_t together,
                                                  const WaypointTaker& take) {
   const std::vector<std::size_t> borders = chunk_borders(job, pieces, questions);
   const std::size_t count = borders.size() - 1;
@@ -84,7 +82,7 @@ std::optional<Failure> solve_forward_in_portions(const Job& job, const NominalTr
     std::vector<ForwardRun> runs(std::min(together, count - first));
     for_each_index(runs.size(), job.options.threads, [&](std::size_t i) {
       const Chunk chunk{first + i, borders[first + i], borders[first + i + 1]};
-      runs[i] = solve_chunk(job, nominal, pieces, chunk, questions, command, known);
+      runs[i] = solve_chunk(job, nominal, pieces, chunk, questions, command);
     });
     for (ForwardRun& run : runs) {
       take(std::move(run.waypoints));
@@ -95,13 +93,12 @@ std::optional<Failure> solve_forward_in_portions(const Job& job, const NominalTr
 }
 
 ForwardRun solve_forward_from(const Job& job, const NominalTrack& nominal, std::span<const Piece> pieces,
-                              const Questions& questions, const std::optional<Vector3>& command,
-                              std::span<const KnownSegment> known) {
+                              const Questions& questions, const std::optional<Vector3>& command) {
   ForwardRun all;
   all.waypoints.reserve(pieces.size() + pieces.size() / 2);
   const std::size_t together = job.options.threads == 1 ? 1 : all_chunks;
   all.failure = solve_forward_in_portions(
-      job, nominal, pieces, questions, command, known, together, [&](std::vector<Waypoint>&& some) {
+      job, nominal, pieces, questions, command, together, [&](std::vector<Waypoint>&& some) {
         all.waypoints.insert(all.waypoints.end(), std::make_move_iterator(some.begin()),
                              std::make_move_iterator(some.end()));
       });
@@ -201,7 +198,7 @@ std::optional<Failure> solve_original(const Job& job, const Questions& questions
   do {
     const std::size_t end = std::min(begin + at_once, count);
     const std::vector<Piece> pieces = original_pieces(job, begin, end);
-    if (auto failure = solve_forward_in_portions(job, nominal, pieces, questions, state.command, {}, few_chunks, take))
+    if (auto failure = solve_forward_in_portions(job, nominal, pieces, questions, state.command, few_chunks, take))
       return failure;
     if (!pieces.empty()) state.command = pieces.back().commanded.end;
     begin = end;

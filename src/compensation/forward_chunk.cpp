@@ -19,9 +19,8 @@ double odd_sixteenth(int k) {
 
 }  // namespace
 
-ChunkForward::ChunkForward(const Job& job, const Questions& questions, std::span<const KnownSegment> known,
-                           WaypointSolver& solver)
-    : job_(job), questions_(questions), segments_(known), solver_(solver) {
+ChunkForward::ChunkForward(const Job& job, const Questions& questions, WaypointSolver& solver)
+    : job_(job), questions_(questions), solver_(solver) {
   for (const Component c : solver.model().mechanism.controlled)
     if (c <= Component::z) judged_[static_cast<int>(c)] = 1;
 }
@@ -87,7 +86,7 @@ Vector3 ChunkForward::wanted_at(const Task& task, double u) const {
   return task.segment ? point_at(task.segment->wanted, u) : task.piece->wanted;
 }
 
-// What is written is proven from the nominal configuration on, or known; samples between its ends begin at
+// What is written is proven from the nominal configuration on; samples between its ends begin at
 // their neighbour.
 std::size_t ChunkForward::add(const Sample& sample) {
   const Task& task = tasks_[sample.task];
@@ -100,21 +99,12 @@ std::size_t ChunkForward::add(const Sample& sample) {
   ActualRequest& request = requests_.emplace_back();
   request = {
       point_at(piece.commanded, sample.v), load, {}, sample.between ? Start::neighbour : Start::nominal};
-  if (const KnownPlace* place = known_place(sample)) request.known = place->answer(request.target, load);
   return samples_.size() - 1;
 }
 
 std::size_t ChunkForward::add_inside(std::size_t t, double v) {
   const Piece& piece = *tasks_[t].piece;
   return add({.task = t, .v = v, .u = piece.u0 + v * (piece.u1 - piece.u0), .between = true});
-}
-
-const KnownPlace* ChunkForward::known_place(const Sample& sample) const {
-  const Piece& piece = *tasks_[sample.task].piece;
-  if (piece.segment >= segments_.size()) return nullptr;
-  const KnownSegment& segment = segments_[piece.segment];
-  if (sample.between) return segment.inside ? &*segment.inside : nullptr;
-  return sample.v == 1 && piece.u1 == 1 ? &segment.end : nullptr;
 }
 
 bool ChunkForward::solve_added() {
@@ -131,7 +121,8 @@ bool ChunkForward::solve_added() {
 Status ChunkForward::status(std::size_t sample) const {
   if (wanted_[sample].status != Status::converged) return wanted_[sample].status;
   if (actuals_[sample].status != Status::converged) return actuals_[sample].status;
-  return actuals_[sample].in_travel ? Status::converged : Status::outside_travel;
+  return within_travel(solver_.model().mechanism, actuals_[sample].rho) ? Status::converged
+                                                                        : Status::outside_travel;
 }
 
 // Position error of the tip in the axes in which it is judged (m).
@@ -302,12 +293,13 @@ void ChunkForward::write_waypoint(std::size_t s, double share, std::vector<Waypo
   }
   w.status = status(s);
   w.iterations = actuals_[s].iterations;
+  w.rho = actuals_[s].rho;
   if (w.status == Status::converged) w.after = deviation(actuals_[s].X_MT, wanted_[s].X_MT);
   const std::size_t frame = task.segment ? task.segment->frame : piece.frame;
   const Vector3 original = original_command(job_, frame, w.p_MT), emitted = requests_[s].target;
   w.correction.head<3>() = emitted - original;
   places_.push_back(
-      {original, emitted, requests_[s].load, wanted_[s].X_MT, actuals_[s].X_MT, known_place(sample)});
+      {original, emitted, requests_[s].load, wanted_[s].X_MT, actuals_[s].X_MT});
 }
 
 }  // namespace counterflex

@@ -11,9 +11,7 @@ namespace counterflex {
 /// The waypoints of pieces that need the same model. `solve_forward_along` describes the samples.
 class ChunkForward {
  public:
-  /// `known`: what is known already, by segment; it may be empty.
-  ChunkForward(const Job& job, const Questions& questions, std::span<const KnownSegment> known,
-               WaypointSolver& solver);
+  ChunkForward(const Job& job, const Questions& questions, WaypointSolver& solver);
 
   /// Solves `pieces`, all of the solver's model; `command` is where the piece before them ended. Appends
   /// their waypoints. Where one fails the last waypoint is the first of those that do; it need not be the
@@ -49,7 +47,6 @@ class ChunkForward {
   std::size_t add(const Sample& sample);
   std::size_t add_inside(std::size_t t, double v);
   bool solve_added();
-  const KnownPlace* known_place(const Sample& sample) const;
   Failure failure_at(std::size_t k, const Waypoint& w) const;  ///< of the listed sample k
 
   void begin(std::span<const Piece> pieces, const std::optional<Vector3>& command);
@@ -73,7 +70,6 @@ class ChunkForward {
 
   const Job& job_;
   const Questions& questions_;
-  const std::span<const KnownSegment> segments_;
   WaypointSolver& solver_;
   Vector3 judged_ = Vector3::Zero();  // 1 for axes of M in which the tip is judged, else 0
   ForceCursor cursor_;

@@ -34,9 +34,7 @@ class SourceBatch {
     for (std::size_t i = 0; i < batch_.waypoints.size(); ++i) {
       const ForwardPlace& place = batch_.places[i];
       if (!knows_before(batch_.waypoints[i])) continue;
-      ActualRequest request{place.*command, loaded ? place.load : Load{}, stage, start};
-      request.known = known_answer(place, request);
-      ask(i, request);
+      ask(i, {place.*command, loaded ? place.load : Load{}, stage, start});
     }
     answer([&](std::size_t i, const ActualSolution& actual) {
       take(i, actual, reference(batch_.places[i], stage), result);
@@ -47,11 +45,6 @@ class SourceBatch {
   // The perfect machine is compared with the command: the shift of a datum is a deviation of the real one.
   static Pose reference(const ForwardPlace& place, const Stage& stage) {
     return stage.errors == 0 ? Pose{place.wanted.R, place.original} : place.wanted;
-  }
-
-  static const KnownTip* known_answer(const ForwardPlace& place, const ActualRequest& request) {
-    if (place.known == nullptr || !everything_acts(request.stage)) return nullptr;
-    return place.known->answer(request.target, request.load);
   }
 
   template <class Result>

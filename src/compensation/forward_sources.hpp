@@ -12,7 +12,6 @@ struct ForwardPlace {
   Vector3 original = Vector3::Zero(), emitted = Vector3::Zero();  ///< targets, M (m)
   Load load;
   Pose wanted, actual;                ///< X_MT
-  const KnownPlace* known = nullptr;  ///< what is known already
 };
 
 /// The pieces of a batch of waypoints; `judged` is 1 for axes of M in which the tip is judged, else 0.

@@ -39,7 +39,7 @@ struct JobWindows::State {
   }
 
   Job job(const Program& program, const Toolpath& of_window, const PathForces& on_window) const {
-    return {input.model, program, of_window, on_window, input.options, input.read, input.tools, input.lanes};
+    return {input.model, program, of_window, on_window, input.options, input.read, input.tools, input.starts};
   }
 
   NominalPlace end_of_window{};

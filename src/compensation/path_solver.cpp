@@ -98,6 +98,7 @@ ActualSolution PathSolver::actual(const Vector3& target, const Load& load, const
   result.status = solved.status;
   result.iterations = solved.iterations;
   result.X_MT = tip(model_.mechanism, solved.configuration);
+  result.rho = actuator_values(model_.mechanism, nominal());
   return result;
 }
 
@@ -154,10 +155,6 @@ TargetSolution PathSolver::by_linear_theory(const Vector3& p_MT, const Load& loa
   result.status = go_to(result.target);
   if (result.status == Status::converged) result.status = travel_status();
   return result;
-}
-
-bool PathSolver::in_travel() const {
-  return within_travel(model_.mechanism, actuator_values(model_.mechanism, nominal()));
 }
 
 TargetSolution PathSolver::target(const Vector3& p_MT, const Load& load) {

@@ -19,7 +19,7 @@ struct ActualSolution {
   Status status = Status::not_converged;
   Pose X_MT;
   int iterations = 0;
-  bool in_travel = true;  ///< whether the actuators of the command are in their ranges
+  Eigen::VectorXd rho;  ///< actuators of the command (m, rad)
 };
 
 /// Where a forward solve begins: at the neighbour's solution, or at the nominal configuration, from where
@@ -41,9 +41,6 @@ class PathSolver {
   TargetSolution target(const Vector3& p_MT, const Load& load);
   ActualSolution actual(const Vector3& target, const Load& load, const Stage& stage,
                         Start start = Start::neighbour);
-
-  /// Whether the actuators of the last command are in their ranges.
-  bool in_travel() const;
 
   const Model& model() const { return model_; }
   const Configuration& nominal() const { return nominal_.configuration(); }

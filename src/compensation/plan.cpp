@@ -94,7 +94,6 @@ std::optional<Failure> plan_chunk(const Job& job, const NominalTrack& track, con
 Plan plan(const Job& job, const NominalTrack& track) {
   Plan result;
   result.segments.resize(job.path.segments.size());
-  if (has_lanes_for_targets(job)) result.known.resize(job.path.segments.size());
   std::vector<std::optional<Failure>> failures(chunk_count(result.segments.size()));
   for_each_chunk(result.segments.size(), job.options.threads,
                  [&](const Chunk& chunk) { failures[chunk.index] = plan_chunk(job, track, chunk, result); });

@@ -1,7 +1,6 @@
 #pragma once
 /// What should be commanded along every segment: targets at knots, before they are rounded and written.
 #include "curve.hpp"
-#include "known_place.hpp"
 #include "track.hpp"
 
 namespace counterflex {
@@ -30,7 +29,6 @@ struct PlannedSegment {
 
 struct Plan {
   std::vector<PlannedSegment> segments;
-  std::vector<KnownSegment> known;  ///< by segment, what was found with its targets; or empty
   std::optional<Failure> failure;
 };
 

@@ -39,7 +39,6 @@ std::optional<Failure> ChunkPlanner::plan(std::size_t begin, std::size_t end, Pl
   for (const Task& task : tasks_) {
     plan.segments[task.segment] = {};
     if (!finish(task, plan.segments[task.segment])) return knots_.failure();
-    if (!plan.known.empty()) tell_known(task, plan.known[task.segment]);
   }
   return std::nullopt;
 }
@@ -244,12 +243,6 @@ bool ChunkPlanner::finish(const Task& task, PlannedSegment& planned) {
   if (task.kind == Kind::cut && !task.as_line) return finish_sampled(task, planned);
   planned.end = wanted.end + waves_.correction(task.end);
   return true;
-}
-
-void ChunkPlanner::tell_known(const Task& task, KnownSegment& known) const {
-  known.end = task.end == no_answer ? KnownPlace{} : waves_.known(task.end);
-  known.inside.reset();
-  if (task.look != no_answer) known.inside = waves_.known(task.look);
 }
 
 // Continuous stretches between steps of the force, each with its own knots.

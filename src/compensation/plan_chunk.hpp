@@ -61,7 +61,6 @@ class ChunkPlanner {
   bool is_as_expected(const Look& look) const;
   void judge_rows();
 
-  void tell_known(const Task& task, KnownSegment& known) const;
   bool finish(const Task& task, PlannedSegment& planned);
   bool finish_sampled(const Task& task, PlannedSegment& planned);
 

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double spacing = 5 * mm;
 constexpr int most_by_length = 64;  // a program of 100 kB may hold 20 000 moves across the whole machine
-constexpr double sampled_angle = std::numbers::pi / 8;
+constexpr double angle_between_places = std::numbers::pi / 8;
 constexpr double same_fraction = 1e-9;
 
 }  // namespace
@@ -20,7 +20,7 @@ int steps_along(const Segment& segment) {
   if (!segment.cutting) return 1;
   const double by_length =
       std::clamp(std::ceil((segment.s_end - segment.s_start) / spacing), 1.0, double{most_by_length});
-  const double by_angle = segment.wanted.arc ? std::ceil(segment.wanted.arc->sweep / sampled_angle) : 1.0;
+  const double by_angle = segment.wanted.arc ? std::ceil(segment.wanted.arc->sweep / angle_between_places) : 1.0;
   return static_cast<int>(std::max(by_length, by_angle));
 }
 

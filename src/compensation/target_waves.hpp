@@ -3,7 +3,6 @@
 #include <vector>
 
 #include "curve.hpp"
-#include "foresight.hpp"
 #include "waypoint_solver.hpp"
 
 namespace counterflex {
@@ -14,7 +13,7 @@ inline constexpr Answer no_answer = static_cast<Answer>(-1);
 
 class TargetWaves {
  public:
-  TargetWaves(const Job& job, WaypointSolver& solver) : job_(job), solver_(solver), foresight_(job) {}
+  TargetWaves(const Job& job, WaypointSolver& solver) : job_(job), solver_(solver) {}
 
   /// Forgets everything that was asked; about so many requests will come.
   void clear(std::size_t requests);
@@ -23,11 +22,10 @@ class TargetWaves {
   /// with the same force, as the end of the segment that this one joins, is not asked again.
   Answer ask(std::size_t segment, double u, Side side = Side::after);
 
-  /// Asks for the correction at the end of a segment under the force there, and where the tip stands there
-  /// before and after it, if targets are solved in lanes.
+  /// Asks for the correction at the end of a segment under the force there.
   Answer ask_end(std::size_t segment, const Vector6& F);
 
-  /// The same inside a line of which the end has just been asked for.
+  /// Asks for the correction inside a line.
   Answer ask_inside(std::size_t segment, double u);
 
   /// Asks for the correction at the end of a segment under a force that need not act. It may fail.
@@ -41,8 +39,6 @@ class TargetWaves {
   Vector3 correction(Answer a) const { return solutions_[a].target - requests_[a].p_MT; }  ///< M (m)
   Vector3 target(Answer a) const { return solutions_[a].target; }                          ///< M (m)
   const Vector6& force(Answer a) const { return requests_[a].load.F; }
-  /// What else has been found at the end or inside of a segment.
-  const KnownPlace& known(Answer a) const;
   CurveNode node(double u, Answer a) const { return {u, correction(a)}; }
 
   /// The force at a fraction of a segment.
@@ -57,10 +53,7 @@ class TargetWaves {
   WaypointSolver& solver() { return solver_; }
 
  private:
-  static constexpr std::size_t none_through = static_cast<std::size_t>(-1);
-
   Answer add(std::size_t segment, const Vector3& p_MT, const Vector6& F);
-  void ask_through(Answer a, double u);
   bool check(Answer a);
 
   const Job& job_;
@@ -70,12 +63,6 @@ class TargetWaves {
   std::vector<TargetSolution> solutions_;
   std::vector<std::size_t> segments_;        // of the requests; no_segment for what may fail
   Answer last_ = no_answer;                  // of what was asked in the order of the path
-  std::vector<std::size_t> number_through_;  // by request: its number in through_, or none
-  std::vector<ThroughRequest> through_;      // in the order of requests
-  std::vector<double> fractions_;            // of their segments
-  std::vector<KnownPlace> known_;            // of those that are solved
-  std::vector<ThroughRequest> wave_;
-  Foresight foresight_;
   std::optional<Failure> failure_;
 };
 

@@ -49,15 +49,15 @@ const Configuration& NominalTrack::start_before(std::size_t segment) const {
 
 namespace {
 
-// Where lanes know the whole path nothing has to be followed; nothing where they do not.
-std::optional<NominalTrack> lane_track(const Job& job, const NominalPlace& start) {
-  if (job.lanes == nullptr || job.path.segments.empty()) return std::nullopt;
+// Where cells hold the whole path nothing has to be followed; nothing where they do not.
+std::optional<NominalTrack> track_by_cells(const Job& job, const NominalPlace& start) {
+  if (job.starts == nullptr || job.path.segments.empty()) return std::nullopt;
   NominalTrack result;
-  std::optional<LaneSolver> lanes;
+  std::optional<BatchSolver> solver;
   const Model* model = start.model;
   std::optional<Vector3> at;
   const auto go = [&](const Vector3& p) {
-    const bool known = at ? lanes->joins(*at, p) : lanes->nominal_near(p) != nullptr;
+    const bool known = at ? solver->joins(*at, p) : solver->nominal_near(p) != nullptr;
     at = p;
     return known;
   };
@@ -66,20 +66,20 @@ std::optional<NominalTrack> lane_track(const Job& job, const NominalPlace& start
     const bool changes = &model_of(job, segment) != model;
     model = &model_of(job, segment);
     if (changes) at.reset();
-    if (changes || !lanes) lanes.emplace(job.lanes->of(*model, job.forces.at_platform()));
+    if (changes || !solver) solver.emplace(job.starts->of(*model, job.forces.at_platform()));
     if (at != segment.wanted.start && !go(segment.wanted.start)) return std::nullopt;
-    if (changes || i % chunk_size == 0) result.starts.push_back({i, *lanes->nominal_near(segment.wanted.start)});
+    if (changes || i % chunk_size == 0) result.starts.push_back({i, *solver->nominal_near(segment.wanted.start)});
     if (segment.wanted.arc && !std::ranges::all_of(points_along(segment.wanted), go)) return std::nullopt;
     if (!go(segment.wanted.end)) return std::nullopt;
   }
-  result.end = {model, *lanes->nominal_near(*at)};
+  result.end = {model, *solver->nominal_near(*at)};
   return result;
 }
 
 }  // namespace
 
 NominalTrack track(const Job& job, const NominalPlace& start) {
-  if (auto known = lane_track(job, start)) return std::move(*known);
+  if (auto known = track_by_cells(job, start)) return std::move(*known);
   NominalTrack result;
   ToolSolver solvers(job);
   PathSolver* solver = &solvers.of(*start.model, start.configuration);

@@ -6,7 +6,7 @@
 #include "chunks.hpp"
 #include "counterflex/compensation/travel_words.hpp"
 #include "counterflex/compensation/waypoint.hpp"
-#include "known_place.hpp"
+#include "path_solver.hpp"
 
 namespace counterflex {
 
@@ -31,17 +31,14 @@ struct NominalTrack {
 NominalTrack track(const Job& job, const NominalPlace& start);
 
 /// Solves forward along pieces whose nominal track is known; `command` is where the piece before them ended.
-/// `known`: what is known, by segment; it may be empty.
 ForwardRun solve_forward_from(const Job& job, const NominalTrack& nominal, std::span<const Piece> pieces,
-                              const Questions& questions, const std::optional<Vector3>& command,
-                              std::span<const KnownSegment> known = {});
+                              const Questions& questions, const std::optional<Vector3>& command);
 
 /// The same for waypoints that are given out in chunks, of which `together` are solved before the first of them is
 /// given out. Returns the failure of the last waypoint.
 std::optional<Failure> solve_forward_in_portions(const Job& job, const NominalTrack& nominal,
                                                  std::span<const Piece> pieces, const Questions& questions,
-                                                 const std::optional<Vector3>& command,
-                                                 std::span<const KnownSegment> known, std::size_t together,
+                                                 const std::optional<Vector3>& command, std::size_t together,
                                                  const WaypointTaker& take);
 
 inline constexpr std::size_t few_chunks = 4;  ///< together; of long lines each has 30 MB of waypoints

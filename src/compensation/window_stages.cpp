@@ -94,7 +94,6 @@ void write_window(const Job& job, CarriedState& carried, WindowWork& work) {
   if (work.failed()) return;
   Compensation& result = work.result;
   Emission emission = emit(job, work.plan, carried.emitter);
-  work.known = std::move(work.plan.known);
   work.ways = planned_ways(job, work.plan);
   work.plan = {};
   note_first_corrections(job, emission, result);
@@ -123,7 +122,7 @@ void solve_matched(const Job& job, bool attribution, const Matching& matching, W
   if (!work.failed()) work.result.failure = matching.failure;
   if (work.failed()) return;
   ForwardRun run =
-      solve_forward_from(job, work.track, matching.pieces, {true, attribution, true}, work.command, work.known);
+      solve_forward_from(job, work.track, matching.pieces, {true, attribution, true}, work.command);
   work.result.waypoints = std::move(run.waypoints);
   work.result.failure = run.failure;
 }
@@ -133,7 +132,7 @@ void solve_matched(const Job& job, bool attribution, const Matching& matching, W
   if (!work.failed()) work.result.failure = matching.failure;
   if (work.failed()) return;
   work.result.failure = solve_forward_in_portions(job, work.track, matching.pieces, {true, attribution, true},
-                                                  work.command, work.known, few_chunks, take);
+                                                  work.command, few_chunks, take);
 }
 
 void verify_window(const Job& job, bool attribution, WindowWork& work) {

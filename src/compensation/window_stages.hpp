@@ -20,7 +20,6 @@ struct CarriedState {
 struct WindowWork {
   NominalTrack track{};
   Plan plan{};
-  std::vector<KnownSegment> known{};  ///< by segment
   PlannedWays ways{};
   std::optional<Vector3> command{};  ///< where the window before ended, if that is known
   Compensation result{};

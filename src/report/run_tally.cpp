@@ -67,10 +67,7 @@ void RunTally::add_waypoints(const std::vector<Waypoint>& waypoints, const Job& 
 void RunTally::add_to_travel(const Waypoint& w, const Job& window) {
   const Model& model = model_of(window, window.path.segments[w.segment]);
   if (model.mechanism.controlled.empty()) return;
-  const LaneMachine* lanes =
-      window.lanes != nullptr ? &window.lanes->of(model, window.forces.at_platform()) : nullptr;
-  const auto rho = actuators_.at(model, lanes, w.p_MT + w.correction.head<3>());
-  if (rho) travel_.add(model.mechanism, *rho, w.line);
+  travel_.add(model.mechanism, w.rho, w.line);
 }
 
 void RunTally::add_window(const Job& window) {

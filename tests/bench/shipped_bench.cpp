@@ -33,24 +33,24 @@ std::array<std::vector<TargetRequest>, 2> there_and_back(const Case& c) {
   return ways;
 }
 
-constexpr double largest_correction = 5e-3;  // m
-
-void shipped(benchmark::State& state, CaseOf case_of) {
+/// `together`: waypoints of a question. One at a time is solved by the scalar instance of the kernel.
+void shipped(benchmark::State& state, CaseOf case_of, std::size_t together) {
   const Case& c = case_of();
   if (!c.failure.empty()) return state.SkipWithError(("no nominal configuration: " + c.failure).c_str());
   const Program program = read_program("G21 G90\nG0 X0 Y0 Z0\nG1 X1 F600\nM30\n", "made.ngc", {});
   const Toolpath path = build_toolpath(program, one_frame(program, {}));
   const PathForces forces({}, program, path, {tip(c.model.mechanism, c.model.home).R});
-  const LaneMachines lanes(largest_correction);
-  const Job job{.model = c.model, .program = program, .path = path, .forces = forces, .lanes = &lanes};
+  const StartTables starts;
+  const Job job{.model = c.model, .program = program, .path = path, .forces = forces, .starts = &starts};
   WaypointSolver solver(job, c.model, c.nominal.front());
   const auto ways = there_and_back(c);
   std::vector<TargetSolution> solved(batch);
   std::size_t way = 0;
   double iterations = 0;
-  for (const auto& there : ways) solver.targets(there, solved);  // what lanes find of a place once is not timed
+  for (const auto& there : ways) solver.targets(there, solved);  // what a table finds of a place once is not timed
   for (auto _ : state) {
-    solver.targets(ways[way], solved);
+    for (std::size_t i = 0; i < batch; i += together)
+      solver.targets(std::span(ways[way]).subspan(i, together), std::span(solved).subspan(i, together));
     way = 1 - way;
     for (const TargetSolution& solution : solved) {
       iterations += solution.iterations;
@@ -59,19 +59,21 @@ void shipped(benchmark::State& state, CaseOf case_of) {
       return;
     }
   }
-  state.SetLabel(lane_instructions());
+  state.SetLabel(together == 1 ? "scalar" : kernel_instructions());
   state.counters["items"] = batch;
   state.counters["steps"] = benchmark::Counter(iterations / batch, benchmark::Counter::kAvgIterations);
 }
 
 [[maybe_unused]] const int registered_shipped = [] {
   const auto add = [](const char* name, CaseOf case_of) {
-    benchmark::RegisterBenchmark(name, shipped, case_of)->Unit(benchmark::kMicrosecond);
+    const std::string machine = name;
+    benchmark::RegisterBenchmark((machine + "/shipped").c_str(), shipped, case_of, batch)->Unit(benchmark::kMicrosecond);
+    benchmark::RegisterBenchmark((machine + "/alone").c_str(), shipped, case_of, std::size_t{1})->Unit(benchmark::kMicrosecond);
   };
-  add("orthoglide/shipped", orthoglide);
-  add("hexapod/shipped", hexapod);
-  add("robot_6r/shipped", robot_6r);
-  add("mill/shipped", mill);
+  add("orthoglide", orthoglide);
+  add("hexapod", hexapod);
+  add("robot_6r", robot_6r);
+  add("mill", mill);
   return 0;
 }();
 

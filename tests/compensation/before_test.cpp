@@ -69,16 +69,16 @@ TEST_CASE("predict, verify and compensate find the same deviation before, at the
                                 constant_force(milling(), 0),
                                 step_profile("0, 50, 0, 0\n60, 215, -10, -25\n140, 20, 100, -25\n", 2e-3)};
   for (const ForceSource& force : forces)
-    for (const bool in_lanes : {false, true}) {
-      CAPTURE(in_lanes);
+    for (const bool in_batches : {false, true}) {
+      CAPTURE(in_batches);
       check_runs_agree_before({.machine = rigid_gantry("0, 0, 0", 0.05 * deg),
                                .text = all_ways,
                                .force = force,
-                               .in_lanes = in_lanes});
-      const bool slow = !in_lanes && &force != &forces[1];  // one by one
+                               .in_batches = in_batches});
+      const bool slow = !in_batches && &force != &forces[1];  // one by one
       if (slow) continue;
       check_runs_agree_before(
-          {.machine = load_machine(orthoglide_b), .text = all_ways, .force = force, .in_lanes = in_lanes});
+          {.machine = load_machine(orthoglide_b), .text = all_ways, .force = force, .in_batches = in_batches});
     }
 }
 

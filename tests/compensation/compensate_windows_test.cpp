@@ -59,7 +59,7 @@ TEST_CASE("windows whose waypoints are solved side by side give the same bytes o
     CAPTURE(machine);
     Order order = cuts(600);
     order.machine = load_machine(machine);
-    order.in_lanes = true;
+    order.in_batches = true;
     const WindowRun one = in_windows(order, 280);
     CHECK_FALSE(one.failure);
     CHECK(one.windows >= 2);

@@ -159,7 +159,7 @@ TEST_CASE("short blocks under a force of their own each are followed within the 
   }
   ForceSource force;
   force.rules = read_force_csv(rows, "forces.csv");
-  const Shop shop({.machine = load_machine(orthoglide_b), .text = text + "M30\n", .force = force, .in_lanes = true});
+  const Shop shop({.machine = load_machine(orthoglide_b), .text = text + "M30\n", .force = force, .in_batches = true});
   const Compensation result = compensated(shop);
   const Miss miss = dense_miss(shop, result, 7);
   CAPTURE(miss.line);

@@ -11,12 +11,6 @@ const char* const held = "G21 G90 G17\nG0 X0 Y0 Z5\n/G0 Z7\nG1 X30 Y10 F200\nG2 
 const char* const pending = "G21 G90 G17\nG0 X30 Y10\nG2 X50 I10 J0 F200\nG1 X60\nG0 Z5\nG1 X20\nM30\n";
 const char* const whole = "G21 G90 G17\nG0 X30 Y0 Z0\nG3 X-30 Y0 I-30 J0 F600\nG2 X-20 Y0 I5 J0\nG1 X0\nM30\n";
 
-std::string replaced(std::string text, const std::string& what, const std::string& by) {
-  const std::size_t at = text.find(what);
-  REQUIRE(at != std::string::npos);
-  return text.replace(at, what.size(), by);
-}
-
 /// The line of `text` that begins with `start`, with that text in its place.
 std::string with_line(const std::string& text, const std::string& start, const std::string& by) {
   std::string changed;
@@ -151,7 +145,7 @@ TEST_CASE("narrow helices of many turns are verified as they were written") {
     const Shop shop({.machine = load_machine(orthoglide_b),
                      .text = "G21 G90 G17\nG0 X0 Y0 Z5\nG1 Z-1 F300\n" + arc + "\nG1 X11.756\nM30\n",
                      .force = force,
-                     .in_lanes = true});
+                     .in_batches = true});
     CHECK(refusal_of(shop, compensated(shop).text) == "");
   };
   written_and_verified(5e-4, "G3 X0 Y0 Z-1.5 I0.081 J0.183 P33");

@@ -17,12 +17,6 @@ double largest_after(const std::vector<Waypoint>& waypoints, int line) {
   return largest;
 }
 
-std::string replaced(std::string text, const std::string& what, const std::string& by) {
-  const std::size_t at = text.find(what);
-  REQUIRE(at != std::string::npos);
-  return text.replace(at, what.size(), by);
-}
-
 }  // namespace
 
 TEST_CASE("a corrected program read anew deviates as its compensation says") {

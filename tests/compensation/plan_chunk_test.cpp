@@ -15,7 +15,7 @@ TEST_CASE("the first target of a path is found from its start, whatever was prob
   const Shop shop(
       {.machine = load_machine(orthoglide_b), .text = text + "M30\n", .force = step_profile(rows, 2e-3)});
   const Job job = shop.job();
-  REQUIRE(job.lanes == nullptr);
+  REQUIRE(job.starts == nullptr);
   WaypointSolver solver(job, shop.model, shop.model.home);
   Plan plan;
   plan.segments.resize(job.path.segments.size());

@@ -32,6 +32,12 @@ inline Vector6 milling() {
   return (Vector6() << 215, -10, -25, 1, 21.5, 0).finished();
 }
 
+inline std::string replaced(std::string text, const std::string& what, const std::string& by) {
+  const std::size_t at = text.find(what);
+  REQUIRE(at != std::string::npos);
+  return text.replace(at, what.size(), by);
+}
+
 /// What a test asks for; everything else is a run's default. Lengths in m.
 struct Order {
   Machine machine;
@@ -46,7 +52,7 @@ struct Order {
   Vector3 datum_shift = Vector3::Zero();
   std::array<bool, 3> ignored{};  ///< program axes that the machine does not control
   ReadOptions read{};
-  bool in_lanes = false;  ///< waypoints side by side
+  bool in_batches = false;  ///< waypoints side by side
 };
 
 /// Keeps alive what a job borrows.
@@ -68,11 +74,11 @@ struct Shop {
     options.threads = order.threads;
     options.write.decimals = order.decimals;
     datum_shift = order.datum_shift;
-    if (order.in_lanes) lanes.emplace(order.max_correction);
+    if (order.in_batches) starts.emplace();
   }
 
   Job job() const {
-    return {model, program, path, *forces, options, read, &tools, lanes ? &*lanes : nullptr};
+    return {model, program, path, *forces, options, read, &tools, starts ? &*starts : nullptr};
   }
   Compensation run(bool attribution = false) const { return compensate(job(), attribution); }
 
@@ -85,7 +91,7 @@ struct Shop {
   std::optional<PathForces> forces;
   CompensationOptions options;
   Vector3 datum_shift;
-  std::optional<LaneMachines> lanes;
+  std::optional<StartTables> starts;
 };
 
 inline ForceSource constant_force(const Vector6& F, double blend = 2e-3) {

@@ -232,11 +232,11 @@ TEST_CASE("the shift of a datum that was touched off is in the geometry, not in 
 }
 
 TEST_CASE("bytes and waypoints do not depend on the number of threads" * doctest::test_suite("long")) {
-  const auto same_as_one = [](double blend, int threads, bool in_lanes, int cuts) {
+  const auto same_as_one = [](double blend, int threads, bool in_batches, int cuts) {
     Order order{.machine = load_machine(orthoglide_b),
                 .text = many_cuts(cuts),
                 .force = constant_force(milling(), blend),
-                .in_lanes = in_lanes};
+                .in_batches = in_batches};
     const Compensation one = compensated(Shop(order), true);
     order.threads = threads;
     const Compensation other = compensated(Shop(order), true);

@@ -41,9 +41,9 @@ struct WindowShop {
     options.write = write;
     if (!of.machine.tools.empty())
       tools = prepare_tools(of.machine, model, overview_of(read_program(of.text, "part.ngc", of.read)).tools);
-    if (of.in_lanes) lanes.emplace(of.max_correction);
+    if (of.in_batches) starts.emplace();
     windows.emplace(RunInput{model, frames, order.ignored, order.force, options, order.read, &tools,
-                             lanes ? &*lanes : nullptr},
+                             starts ? &*starts : nullptr},
                     reader);
   }
 
@@ -54,7 +54,7 @@ struct WindowShop {
   std::vector<WorkFrame> frames;
   CompensationOptions options;
   ToolModels tools;
-  std::optional<LaneMachines> lanes;
+  std::optional<StartTables> starts;
   std::optional<JobWindows> windows;
 };
 

@@ -82,9 +82,9 @@ void compensate_and_verify(const Program& program, const ReadOptions& read, bool
   CompensationOptions options;
   options.tolerance = 5e-5;
   options.max_correction = 1e-2;
-  static const LaneMachines lanes(options.max_correction);
+  static const StartTables starts;
   const Model& model = is_displaced ? displaced() : turned();
-  const Job job{model, program, path, forces, options, read, nullptr, &lanes};
+  const Job job{model, program, path, forces, options, read, nullptr, &starts};
   const Compensation result = compensate(job, false);
   if (!result.failure) verify_written(job, result.text, is_displaced);
 }

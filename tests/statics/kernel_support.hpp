@@ -19,11 +19,18 @@ struct KernelWaypoint {
 struct KernelAnswers {
   std::vector<unsigned char> accepted;
   std::vector<int> iterations;
-  std::vector<double> actuators, tips, states, negative_pivots;
+  std::vector<double> actuators, tips, states, pivots;
+  int rigid_closures = 0;
 
   Eigen::VectorXd rho(std::size_t w) const {
     const std::size_t n = actuators.size() / accepted.size();
     return Eigen::Map<const Eigen::VectorXd>(actuators.data() + w * n, static_cast<Eigen::Index>(n));
+  }
+  /// Of unstable directions, actuators held.
+  long negative_pivots(std::size_t w) const {
+    const auto n = static_cast<std::ptrdiff_t>(pivots.size() / accepted.size()), first = n * static_cast<std::ptrdiff_t>(w);
+    return std::count_if(pivots.begin() + first, pivots.begin() + first + n, [](double x) { return x < 0; }) -
+           6 * rigid_closures;
   }
   Pose tip(std::size_t w) const {
     Pose X;
@@ -75,7 +82,9 @@ struct FlatBench {
     }
     KernelAnswers a{std::vector<unsigned char>(n),      std::vector<int>(n),
                     std::vector<double>(n * actuators), std::vector<double>(12 * n),
-                    std::vector<double>(n * states),    std::vector<double>(n)};
+                    std::vector<double>(n * states),
+                    std::vector<double>(n * static_cast<std::size_t>(flat.machine.pivots())),
+                    flat.machine.rigid_closures};
     kernel::Batch batch;
     batch.count = static_cast<int>(n);
     batch.p = p.data(), batch.R = R.data(), batch.F = F.data(), batch.rho = rho.data();
@@ -86,7 +95,7 @@ struct FlatBench {
     batch.accepted = a.accepted.data(), batch.iterations = a.iterations.data(),
     batch.actuators = a.actuators.data();
     batch.tip = a.tips.data(), batch.state = a.states.data(),
-    batch.negative_pivots = a.negative_pivots.data();
+    batch.pivots = a.pivots.data();
     instance.solve(flat.machine, question, schedule, batch);
     return a;
   }

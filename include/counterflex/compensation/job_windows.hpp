@@ -17,7 +17,7 @@ struct RunInput {
   const CompensationOptions& options;
   const ReadOptions& read;
   const ToolModels* tools = nullptr;    ///< as for a job
-  const LaneMachines* lanes = nullptr;  ///< as for a job
+  const StartTables* starts = nullptr;  ///< as for a job
 };
 
 /// A window with its path and forces; it stands on its own.

@@ -7,7 +7,7 @@
 #include "counterflex/forces/forces.hpp"
 #include "counterflex/program/read_program.hpp"
 #include "counterflex/program/rewrite.hpp"
-#include "counterflex/statics/lanes.hpp"
+#include "counterflex/statics/batch_solver.hpp"
 #include "counterflex/statics/tool_models.hpp"
 #include "counterflex/toolpath/toolpath.hpp"
 
@@ -34,7 +34,7 @@ struct Job {
   CompensationOptions options;
   ReadOptions read;  ///< with which the program was read: its corrected text is read anew in the same way
   const ToolModels* tools = nullptr;  ///< of tools that make the machine another one; none: `model` is all
-  const LaneMachines* lanes = nullptr;  ///< to solve waypoints side by side; none: one by one
+  const StartTables* starts = nullptr;  ///< of the kernel; none: waypoints are solved one by one
 };
 
 /// The machine with tool number `tool` in its spindle.

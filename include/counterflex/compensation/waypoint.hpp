@@ -69,6 +69,7 @@ struct Waypoint {
   Vector6 before = Vector6::Zero();      ///< the original program's target, solved forward
   Vector6 after = Vector6::Zero();       ///< the emitted target, solved forward
   Vector6 correction = Vector6::Zero();  ///< emitted target minus the original program's
+  Eigen::VectorXd rho;                   ///< actuators of the emitted target (m, rad)
   Rare<Causes> causes;                   ///< where they were asked for
   Status status = Status::converged;
   int iterations = 0;

@@ -9,7 +9,6 @@
 #include "counterflex/report/path_tally.hpp"
 #include "counterflex/report/report.hpp"
 #include "counterflex/sanity/path_checks.hpp"
-#include "counterflex/statics/nominal_actuators.hpp"
 
 namespace counterflex {
 
@@ -91,7 +90,6 @@ class RunTally {
   std::vector<ToolSize> tools_;
   PathTally path_;
   FeedTally feed_;
-  NominalActuators actuators_;
   TravelTally travel_;
   FeedForceTally feed_force_;
   std::optional<PathCurves> curves_;

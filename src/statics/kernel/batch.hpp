@@ -19,12 +19,20 @@ struct StartCell {
       changes;  ///< by unknown (joints, then the twists of nodes and platform): `terms` coefficients
   std::vector<double>
       stress;  ///< by element, six numbers: `stress_terms` coefficients; empty where no load acts
+  std::vector<double> pivots;            ///< of a target's cell: at its centre without a load, actuators held
+  std::array<double, 3> offset{};        ///< of a target's cell: from the wanted tip to the command (m)
+  std::vector<double> offset_changes;    ///< and `terms` coefficients of each component
 };
+
+/// A machine whose pivots keep at least this share of their unloaded values is stable and as well conditioned
+/// as without the load, up to this factor.
+inline constexpr double least_stiffness = 0.5;
 
 /// Numbers of waypoint after waypoint; what is not asked for may be null.
 struct Batch {
   int count = 0;
   const double* p = nullptr;      ///< 3 each: wanted tip, or a place near it (m)
+  const double* place = nullptr;  ///< 3 each: where cells are evaluated; null: at p
   const double* R = nullptr;      ///< 9 each: wanted orientation, row by row; where it is controlled
   const double* F = nullptr;      ///< 6 each: wrench on the machine (N, N m), axes of M
   const double* rho = nullptr;    ///< commanded actuator values; where no target is asked
@@ -39,11 +47,12 @@ struct Batch {
   double* state = nullptr;      ///< state_size each
   double* stress =
       nullptr;  ///< by element: force and moment about its end (N, N m), axes of M; of groups zero
-  double* negative_pivots = nullptr;  ///< 0: stable with actuators held
+  double* pivots = nullptr;         ///< FlatMachine::pivots each, actuators held; zero: a free joint
+  unsigned char* is_stiff = nullptr;  ///< every pivot keeps `least_stiffness` of its cell's
 };
 
 /// Which stress the first tangent has. Later ones have what the last linear step predicted: with the stress
-/// of an iterate that misses the errors of assembly, Newton diverges (EQUATIONS.md, section 12).
+/// of an iterate that misses the errors of assembly, Newton diverges (EQUATIONS.md, section 11).
 enum class FirstStress { none, of_elements, of_cells };
 
 struct Schedule {

@@ -1,6 +1,6 @@
 #pragma once
 /// A machine as flat arrays: what the kernel reads. Compiled from a Model by `flatten`. EQUATIONS.md,
-/// section 12.
+/// section 11.
 ///
 /// A series is a row of six-elements: springs, and groups of branches. Between two six-elements stands a
 /// node, whose pose is an unknown; the last element of a chain ends at the platform. Joints between a node
@@ -109,9 +109,9 @@ struct FlatMachine {
   double stiffest = 0;              ///< k_max (N/m)
 
   int unknowns() const { return joints + 6 * nodes + 6; }
-  int state_size() const {
-    return joints + 12 * nodes + 12;
-  }  ///< joints; R row by row and p of each node, of the platform
+  int pivots() const { return unknowns(); }  ///< of the whole system, in this order; of actuators zero
+  /// Joints; R row by row and p of each node, of the platform.
+  int state_size() const { return joints + 12 * nodes + 12; }
 };
 
 }  // namespace counterflex::kernel

@@ -253,7 +253,7 @@ class SeriesFlattener {
 
   /// Joints without a six-element behind them: a spring K and a spring -K in series hold their end rigidly to
   /// `node`. The second one is stiffer by a little: where the joints before it do not yield in all directions
-  /// the node's pivots were zero else. What yields by that is less than rounding (EQUATIONS.md, section 12).
+  /// the node's pivots were zero else. What yields by that is less than rounding (EQUATIONS.md, section 11).
   void close_rigidly(std::size_t part, int node) {
     constexpr double surplus = 1e-8;
     const double k = machine_.stiffest, l = machine_.length;

@@ -102,16 +102,25 @@ Solved<T> iterate(const Schedule& schedule, Mask<T> active, Work<T>& work) {
   }
 }
 
-/// How many pivots of the whole system are negative at the state, actuators held, those of rigid closures not
-/// counted: the equilibrium is stable if the count is zero.
+/// Factors the tangent at the state, with its stress, actuators held.
 template <class T>
-T count_negative_pivots(Work<T>& work) {
+void factor_at_solution(Work<T>& work) {
   for (ElementTerms<T>& terms : work.equations.elements) terms.stress = terms.phi;
   work.stressed = true;
   const bool target = std::exchange(work.question.target, false);
   factor(work);
   work.question.target = target;
-  return work.factors.negative_pivots - 6.0 * work.machine.rigid_closures;
+}
+
+/// Calls `visit(i, x)` with the inverse x of every pivot of the last factors, in the order of unknowns. It is
+/// zero of actuators, and of joints that turn freely about themselves.
+template <class T, class Visit>
+COUNTERFLEX_INLINE void visit_pivots(const Work<T>& work, const Visit& visit) {
+  int i = 0;
+  for (const JointFactor<T>& joint : work.factors.joints) visit(i++, joint.inverse);
+  for (const NodeFactor<T>& node : work.factors.nodes)
+    for (int k = 0; k < 6; ++k) visit(i++, node.L(k, k));
+  for (int k = 0; k < 6; ++k) visit(i++, work.factors.L(k, k));
 }
 
 }  // namespace counterflex::kernel

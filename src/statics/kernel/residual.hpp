@@ -1,5 +1,5 @@
 #pragma once
-/// The gradient of energy at a state. EQUATIONS.md, section 12.
+/// The gradient of energy at a state. EQUATIONS.md, section 11.
 #include "work.hpp"
 
 namespace counterflex::kernel {

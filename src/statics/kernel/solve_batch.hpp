@@ -59,7 +59,10 @@ void put_from_cells(const Batch& batch, int first, Work<T>& work) {
   };
   T x[StartCell::all_terms];
   for (int i = 0; i < 3; ++i)
-    x[i] = gather<T>([&](int l) { return lane(work.origin[i], l) - at(cell_of(l)->centre, i); });
+    x[i] = gather<T>([&](int l) {
+      const int w = first + l < batch.count ? first + l : batch.count - 1;
+      return (batch.place != nullptr ? batch.place : batch.p)[3 * w + i] - at(cell_of(l)->centre, i);
+    });
   x[3] = x[0] * x[0], x[4] = x[1] * x[1], x[5] = x[2] * x[2];
   x[6] = x[0] * x[1], x[7] = x[0] * x[2], x[8] = x[1] * x[2];
   T* const load = x + StartCell::place_terms;
@@ -129,6 +132,34 @@ void put_waypoints(const Batch& batch, int first, Work<T>& work) {
 }
 
 template <class T>
+void get_pivots(const Batch& batch, int first, const Work<T>& work) {
+  const long count = work.machine.pivots();
+  visit_pivots(work, [&](int i, const T& inverse) {
+    for (int l = 0; l < lane_count<T> && first + l < batch.count; ++l)
+      batch.pivots[count * (first + l) + i] = lane(inverse, l) == 0 ? 0 : 1 / lane(inverse, l);
+  });
+}
+
+/// Whether pivots have the sign of their cell's, and enough of its size. Joints that turn freely in the cell do
+/// not count.
+template <class T>
+void compare_pivots(const Batch& batch, int first, const Work<T>& work) {
+  const auto cell_of = [&](int l) -> const StartCell& {
+    return *batch.cells[first + l < batch.count ? first + l : batch.count - 1];
+  };
+  T least = all<T>(1), most{};
+  visit_pivots(work, [&](int i, const T& inverse) {
+    const T unloaded = gather<T>([&](int l) { return at(cell_of(l).pivots, i); });
+    const T softening = select<T>(unloaded == 0.0, all<T>(1), inverse * unloaded);
+    least = smaller(least, softening);
+    most = larger(most, softening);
+  });
+  const Mask<T> is_stiff = (least > 0.0) & (most * least_stiffness <= 1.0);
+  for (int l = 0; l < lane_count<T> && first + l < batch.count; ++l)
+    batch.is_stiff[first + l] = lane_of_mask<T>(is_stiff, l);
+}
+
+template <class T>
 void solve_batch(const FlatMachine& machine, const Question& question, const Schedule& schedule,
                  Batch& batch) {
   Work<T> work(machine);
@@ -137,8 +168,9 @@ void solve_batch(const FlatMachine& machine, const Question& question, const Sch
   for (int first = 0; first < batch.count; first += lane_count<T>) {
     put_waypoints(batch, first, work);
     const Solved<T> solved = iterate<T>(schedule, work.origin[0] == work.origin[0], work);
-    T pivots{};
-    if (batch.negative_pivots != nullptr) pivots = count_negative_pivots(work);
+    if (batch.pivots != nullptr || batch.is_stiff != nullptr) factor_at_solution(work);
+    if (batch.pivots != nullptr) get_pivots(batch, first, work);
+    if (batch.is_stiff != nullptr) compare_pivots(batch, first, work);
     for (int l = 0; l < lane_count<T> && first + l < batch.count; ++l) {
       const int w = first + l;
       batch.accepted[w] = lane_of_mask<T>(solved.accepted, l);
@@ -156,7 +188,6 @@ void solve_batch(const FlatMachine& machine, const Question& question, const Sch
         get_state(l, work, batch.state + static_cast<long>(machine.state_size()) * w);
       if (batch.stress != nullptr)
         get_stress(l, work, batch.stress + 6 * static_cast<long>(machine.elements.size()) * w);
-      if (batch.negative_pivots != nullptr) batch.negative_pivots[w] = lane(pivots, l);
     }
   }
 }

@@ -228,14 +228,12 @@ COUNTERFLEX_INLINE void add_force_hessian(const Vec3<T>& f, const Vec3<T>& p, Sy
   K(4, 2) += 0.5 * f[0];
 }
 
-/// L D L' in the place of A, the inverses of D on its diagonal. Adds the number of negative pivots.
+/// L D L' in the place of A, the inverses of D on its diagonal.
 template <class T>
-COUNTERFLEX_INLINE void factor_in_place(Sym6<T>& A, T& negative_pivots) {
+COUNTERFLEX_INLINE void factor_in_place(Sym6<T>& A) {
   COUNTERFLEX_UNROLL
   for (int k = 0; k < 6; ++k) {
-    const T pivot = A(k, k);
-    negative_pivots += select<T>(pivot < 0.0, all<T>(1), T{});
-    const T inverse = 1.0 / pivot;
+    const T inverse = 1.0 / A(k, k);
     A(k, k) = inverse;
     T l[6];
     COUNTERFLEX_UNROLL

@@ -1,5 +1,8 @@
 #include "start_cell.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include "counterflex/geometry/rotation.hpp"
 
 namespace counterflex::kernel {
@@ -51,37 +54,53 @@ Eigen::VectorXd between(const FlatMachine& machine, const double* from, const do
   return d;
 }
 
-/// Solutions of the samples; none where one of them is not accepted.
+/// Solutions of the samples.
 struct Solutions {
-  std::vector<double> states, stress;
+  std::vector<double> states, stress, actuators, pivots;
 };
+
+/// Inputs of a batch that has the samples.
+struct SampleBatch {
+  std::vector<double> p, R, F;
+  std::vector<unsigned char> accepted;
+  Batch batch;
+
+  SampleBatch(const std::vector<Sample>& samples, const Matrix3& orientation) : accepted(samples.size()) {
+    for (const Sample& sample : samples) {
+      p.insert(p.end(), sample.p.begin(), sample.p.end());
+      F.insert(F.end(), sample.F.begin(), sample.F.end());
+      for (int i = 0; i < 9; ++i) R.push_back(orientation(i / 3, i % 3));
+    }
+    batch.count = static_cast<int>(samples.size());
+    batch.p = p.data(), batch.R = R.data(), batch.F = F.data(), batch.accepted = accepted.data();
+  }
+  SampleBatch(const SampleBatch&) = delete;
+
+  bool solve(const FlatMachine& machine, const Question& question) {
+    scalar_instance.solve(machine, question, {}, batch);
+    return std::all_of(accepted.begin(), accepted.end(), [](unsigned char a) { return a != 0; });
+  }
+};
+
 std::optional<Solutions> solve_samples(const FlatMachine& machine, const Question& question, const Matrix3& R,
                                        const std::vector<Sample>& samples, const std::vector<double>& start) {
-  std::vector<double> p, rotations, F;
-  for (const Sample& sample : samples) {
-    p.insert(p.end(), sample.p.begin(), sample.p.end());
-    F.insert(F.end(), sample.F.begin(), sample.F.end());
-    for (int i = 0; i < 9; ++i) rotations.push_back(R(i / 3, i % 3));
-  }
+  SampleBatch of_samples(samples, R);
   Solutions solutions;
   solutions.states.resize(static_cast<std::size_t>(machine.state_size()) * samples.size());
   solutions.stress.resize(6 * machine.elements.size() * samples.size());
-  std::vector<unsigned char> accepted(samples.size());
-  Batch batch;
-  batch.count = static_cast<int>(samples.size());
-  batch.p = p.data(), batch.R = rotations.data(), batch.F = F.data(), batch.start = start.data();
-  batch.accepted = accepted.data(), batch.state = solutions.states.data(),
-  batch.stress = solutions.stress.data();
-  scalar_instance.solve(machine, question, {}, batch);
-  for (const unsigned char is_accepted : accepted)
-    if (is_accepted == 0) return std::nullopt;
+  solutions.actuators.resize(machine.actuator_joint.size() * samples.size());
+  solutions.pivots.resize(static_cast<std::size_t>(machine.pivots()) * samples.size());
+  Batch& batch = of_samples.batch;
+  batch.start = start.data(), batch.state = solutions.states.data(), batch.stress = solutions.stress.data();
+  batch.actuators = solutions.actuators.data(), batch.pivots = solutions.pivots.data();
+  if (!of_samples.solve(machine, question)) return std::nullopt;
   return solutions;
 }
 
+/// Coefficients of `rows` values, `terms` each, from their differences to the centre's at the samples.
 template <class Way>  // Eigen::VectorXd(int sample), from the centre
-void add_changes(const FlatMachine& machine, const Way& way_to, double step, StartCell& cell) {
-  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> changes(machine.unknowns(),
-                                                                                 cell.terms);
+std::vector<double> changes_of(Eigen::Index rows, const Way& way_to, double step, double length, int terms) {
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> changes(rows, terms);
   for (int i = 0; i < 3; ++i) {
     const Eigen::VectorXd forth = way_to(first_on_axes + 2 * i), back = way_to(first_on_axes + 1 + 2 * i);
     changes.col(i) = (forth - back) / (2 * step);
@@ -92,11 +111,10 @@ void add_changes(const FlatMachine& machine, const Way& way_to, double step, Sta
     changes.col(6 + k) =
         (way_to(first) - way_to(first + 1) - way_to(first + 2) + way_to(first + 3)) / (4 * step * step);
   }
-  for (int k = 0; StartCell::place_terms + k < cell.terms; ++k)
+  for (int k = 0; StartCell::place_terms + k < terms; ++k)
     changes.col(StartCell::place_terms + k) =
-        (way_to(first_loaded + 2 * k) - way_to(first_loaded + 1 + 2 * k)) /
-        (2 * unit_load(k, machine.length)[k]);
-  cell.changes.assign(changes.data(), changes.data() + changes.size());
+        (way_to(first_loaded + 2 * k) - way_to(first_loaded + 1 + 2 * k)) / (2 * unit_load(k, length)[k]);
+  return {changes.data(), changes.data() + changes.size()};
 }
 
 void add_stress(const FlatMachine& machine, const std::vector<double>& stress, StartCell& cell) {
@@ -111,34 +129,77 @@ void add_stress(const FlatMachine& machine, const std::vector<double>& stress, S
   }
 }
 
-}  // namespace
-
-std::optional<StartCell> make_start_cell(const Model& model, const Flat& flat, const Question& question,
-                                         const Vector3& centre, double step) {
-  const FlatMachine& machine = flat.machine;
-  const Matrix3 R = tip(model.mechanism, model.home).R;
-  const NominalResult nominal = follow(model, model.home, {R, centre});
-  if (nominal.status != Status::converged) return std::nullopt;
-  const std::vector<double> start = state_of(model, flat, nominal.configuration, 0);
-  const bool loaded = question.load != 0;
-  const auto solutions =
-      solve_samples(machine, question, R, samples_about(centre, step, loaded, machine.length), start);
-  if (!solutions) return std::nullopt;
-
+/// State and changes of a cell at its centre.
+StartCell cell_of(const FlatMachine& machine, const CellPlace& place, const Solutions& solutions, int terms) {
   StartCell cell;
   const auto size = static_cast<std::ptrdiff_t>(machine.state_size());
-  for (int i = 0; i < 3; ++i) at(cell.centre, i) = centre[i];
-  cell.state.assign(solutions->states.begin(), solutions->states.begin() + size);
+  for (int i = 0; i < 3; ++i) at(cell.centre, i) = place.centre[i];
+  cell.state.assign(solutions.states.begin(), solutions.states.begin() + size);
   for (int j = 0; j < machine.joints; ++j) {
     cell.cosine.push_back(std::cos(at(cell.state, j)));
     cell.sine.push_back(std::sin(at(cell.state, j)));
   }
-  cell.terms = loaded ? StartCell::all_terms : StartCell::place_terms;
-  const double* const states = solutions->states.data();
-  add_changes(
-      machine, [&](int sample) { return between(machine, states, states + sample * size); }, step, cell);
-  if (loaded) add_stress(machine, solutions->stress, cell);
+  cell.terms = terms;
+  const double* const states = solutions.states.data();
+  const auto way_to = [&](int sample) { return between(machine, states, states + sample * size); };
+  cell.changes = changes_of(machine.unknowns(), way_to, place.step, machine.length, terms);
   return cell;
+}
+
+/// The command that belongs to the solution of each sample, from the wanted tip.
+bool add_offsets(const FlatMachine& machine, const std::vector<Transform>& perfect, const CellPlace& place,
+                 const std::vector<Sample>& samples, const Solutions& solutions, const StartCell& kinematics,
+                 StartCell& cell) {
+  SampleBatch of_samples(samples, place.R);
+  std::vector<const StartCell*> cells(samples.size(), &kinematics);
+  std::vector<double> tips(12 * samples.size());
+  Batch& batch = of_samples.batch;
+  batch.rho = solutions.actuators.data(), batch.cells = cells.data(), batch.tip = tips.data();
+  if (!of_samples.solve(machine, nominal_question(perfect, false))) return false;
+  const auto offset = [&](int sample) -> Eigen::VectorXd {
+    const auto s = static_cast<std::size_t>(sample);
+    return pose_at(tips.data() + 12 * s).p - samples[s].p;
+  };
+  const Eigen::VectorXd at_centre = offset(0);
+  for (int i = 0; i < 3; ++i) at(cell.offset, i) = at_centre[i];
+  const auto way_to = [&](int sample) -> Eigen::VectorXd { return offset(sample) - at_centre; };
+  cell.offset_changes = changes_of(3, way_to, place.step, machine.length, StartCell::all_terms);
+  return true;
+}
+
+}  // namespace
+
+std::optional<StartCell> make_kinematics_cell(const FlatMachine& machine,
+                                              const std::vector<Transform>& perfect, const CellPlace& place,
+                                              const std::vector<double>& start) {
+  const auto samples = samples_about(place.centre, place.step, false, machine.length);
+  const auto solutions = solve_samples(machine, nominal_question(perfect, true), place.R, samples, start);
+  if (!solutions) return std::nullopt;
+  return cell_of(machine, place, *solutions, StartCell::place_terms);
+}
+
+std::optional<StartCell> make_target_cell(const FlatMachine& machine, const Question& question,
+                                          const std::vector<Transform>& perfect, const CellPlace& place,
+                                          const StartCell& kinematics) {
+  const auto samples = samples_about(place.centre, place.step, true, machine.length);
+  const auto solutions = solve_samples(machine, question, place.R, samples, kinematics.state);
+  if (!solutions) return std::nullopt;
+  StartCell cell = cell_of(machine, place, *solutions, StartCell::all_terms);
+  add_stress(machine, solutions->stress, cell);
+  cell.pivots.assign(solutions->pivots.begin(), solutions->pivots.begin() + machine.pivots());
+  if (!add_offsets(machine, perfect, place, samples, *solutions, kinematics, cell)) return std::nullopt;
+  return cell;
+}
+
+Vector3 command_offset(const StartCell& cell, const Vector3& p, const Vector6& F) {
+  Eigen::Matrix<double, StartCell::all_terms, 1> x;
+  const Vector3 d = p - Vector3(cell.centre[0], cell.centre[1], cell.centre[2]);
+  x << d, d.cwiseProduct(d), d[0] * d[1], d[0] * d[2], d[1] * d[2], F;
+  Vector3 offset(cell.offset[0], cell.offset[1], cell.offset[2]);
+  for (int i = 0; i < 3; ++i)
+    offset[i] += x.dot(Eigen::Map<const Eigen::Matrix<double, StartCell::all_terms, 1>>(
+        cell.offset_changes.data() + StartCell::all_terms * i));
+  return offset;
 }
 
 }  // namespace counterflex::kernel

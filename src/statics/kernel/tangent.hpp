@@ -1,6 +1,6 @@
 #pragma once
 /// The second derivative of energy, eliminated block by block: joints, nodes, platform. EQUATIONS.md,
-/// section 12.
+/// section 11.
 #include "residual.hpp"
 
 namespace counterflex::kernel {
@@ -119,7 +119,6 @@ COUNTERFLEX_INLINE void eliminate_joint(const FrameStep& step, double side, cons
   }
   constexpr double least_pivot = 1e-9;  // N/m or N m: a strut may turn about itself
   const T pivot = dot(s, u) + (step.passive && work.question.nominal ? 0.0 : step.k);
-  work.factors.negative_pivots += select<T>(pivot < -least_pivot, all<T>(1), T{});
   JointFactor<T>& factor = at(work.factors.joints, step.joint);
   factor.inverse = select<T>(magnitude(pivot) > least_pivot, 1.0 / pivot, T{});
   factor.u = u * factor.inverse;
@@ -199,7 +198,7 @@ COUNTERFLEX_INLINE void eliminate_node(int node, const Sym6<T>& Ke, const Vec6<T
   factor.L = K + Ke;
   if (work.stressed)
     add_weight_hessians(at(work.machine.weights_of_node, node), at(work.state.nodes, node), work, factor.L);
-  factor_in_place(factor.L, work.factors.negative_pivots);
+  factor_in_place(factor.L);
   T* Z = factor.W;
   COUNTERFLEX_UNROLL
   for (int i = 0; i < 6; ++i) {
@@ -342,7 +341,6 @@ template <class T>
 void factor(Work<T>& work) {
   const FlatMachine& machine = work.machine;
   Factors<T>& factors = work.factors;
-  factors.negative_pivots = T{};
   factors.K = {};
   if (work.stressed) {
     const Vec3<T> f = work.load.v * -work.question.load;
@@ -360,7 +358,7 @@ void factor(Work<T>& work) {
       at(factors.actuators, at(machine.actuators, series.actuators + a)) = columns.c[a];
   }
   factors.L = factors.K;
-  factor_in_place(factors.L, factors.negative_pivots);
+  factor_in_place(factors.L);
   if (work.question.target) factor_target(work);
 }
 

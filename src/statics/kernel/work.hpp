@@ -90,7 +90,6 @@ struct Factors {
   Sym6<T> L;                          ///< K, factored
   T lu[36];  ///< the platform's matrix with actuators in the place of controlled components
   Mask<T> swaps[15];
-  T negative_pivots;  ///< with actuators held
 };
 
 template <class T>

@@ -25,10 +25,10 @@ void check_same_waypoints(const Compensation& a, const Compensation& b) {
 // The result of lanes, for more to check.
 Compensation check_same_run(const Order& order, bool attribution = false) {
   const Shop shop(order);
-  const LaneMachines lanes(order.max_correction);
+  const StartTables starts;
   Job job = shop.job();
   const Compensation alone = compensate(job, attribution);
-  job.lanes = &lanes;
+  job.starts = &starts;
   Compensation together = compensate(job, attribution);
   REQUIRE(alone.failure.has_value() == together.failure.has_value());
   if (alone.failure) {
@@ -63,10 +63,10 @@ TEST_CASE("causes are told apart side by side as they are one by one") {
                     .text = "G21 G90\nG0 X0. Y0. Z0.\nG1 X10. F600\nG1 Y10.\nM30\n",
                     .force = constant_force(milling())};
   const Shop shop(order);
-  const LaneMachines lanes(order.max_correction);
+  const StartTables starts;
   Job job = shop.job();
   const Compensation alone = compensate(job, true);
-  job.lanes = &lanes;
+  job.starts = &starts;
   const Compensation together = compensate(job, true);
   check_same_waypoints(alone, together);
   int told = 0;

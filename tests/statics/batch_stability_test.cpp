@@ -1,8 +1,7 @@
-/// Never a wrong yes: what single waypoints show to be unstable, singular or out of reach is not solved in
-/// lanes.
+/// Waypoints that are unstable, singular or out of reach are not solved in batches.
 #include <fmt/format.h>
 
-#include "lanes_support.hpp"
+#include "batch_support.hpp"
 
 using namespace counterflex;
 using namespace counterflex::laws;
@@ -63,13 +62,13 @@ struct Tally {
   int solved = 0, refused = 0;
 };
 
-void try_cluster(LaneBench& bench, const std::vector<LaneRequest>& requests, Tally& tally) {
-  for (const LaneQuestion question : {LaneQuestion::forward, LaneQuestion::target}) {
+void try_cluster(BatchBench& bench, const std::vector<BatchRequest>& requests, Tally& tally) {
+  for (const BatchQuestion question : {BatchQuestion::forward, BatchQuestion::target}) {
     const auto answers = bench.solve(question, whole, requests);
     for (std::size_t k = 0; k < requests.size(); ++k) {
       if (answers[k].solved)
-        check_lane(bench, question, whole, requests[k], answers[k], 1e-9);
-      else if (question == LaneQuestion::forward)
+        check_answer(bench, question, whole, requests[k], answers[k], 1e-9);
+      else if (question == BatchQuestion::forward)
         tally.refused += bench.alone(requests[k].p, requests[k].F, whole).status != Status::converged;
       tally.solved += answers[k].solved;
     }
@@ -79,15 +78,15 @@ void try_cluster(LaneBench& bench, const std::vector<LaneRequest>& requests, Tal
 }  // namespace
 
 TEST_CASE(
-    "whatever lanes call solved is so alone, up to ten times the working loads and beyond the workspace" *
+    "batches: what is solved converges alone, up to ten times the working loads and beyond the workspace" *
     doctest::test_suite("long")) {
   Random random(31);
-  for (const LaneTrial& lane_trial : lane_trials()) {
-    CAPTURE(lane_trial.trial.name);
+  for (const BatchTrial& batch_trial : batch_trials()) {
+    CAPTURE(batch_trial.trial.name);
     Tally tally;
-    LaneBench bench(lane_trial.machine, lane_trial.at_platform);
+    BatchBench bench(batch_trial.machine, batch_trial.at_platform);
     for (const double strength : {1.0, 10.0}) {
-      Trial wide = lane_trial.trial;
+      Trial wide = batch_trial.trial;
       wide.reach *= 1.5;
       try_cluster(bench, cluster(bench, wide, random, 4, 0.01, strength), tally);
     }
@@ -95,16 +94,16 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("beside a singularity, and where the machine does not reach, lanes say nothing that is not so" *
+TEST_CASE("batches: what is solved converges alone, beside a singularity and out of reach" *
           doctest::test_suite("long")) {
   Random random(37);
-  for (const LaneTrial& lane_trial : {lane_trials()[1], lane_trials()[2], lane_trials()[4]}) {
-    CAPTURE(lane_trial.trial.name);
+  for (const BatchTrial& batch_trial : {batch_trials()[1], batch_trials()[2], batch_trials()[4]}) {
+    CAPTURE(batch_trial.trial.name);
     Tally tally;
-    LaneBench bench(lane_trial.machine);
+    BatchBench bench(batch_trial.machine);
     const Vector3 way = random.vector(1).normalized();
     for (double far = 0.2; far < 4; far *= 1.6) {
-      std::vector<LaneRequest> requests;
+      std::vector<BatchRequest> requests;
       for (int i = 0; i < 3; ++i)
         requests.push_back({bench.home().p + far * way + random.vector(0.005), random.six(100, 5)});
       try_cluster(bench, requests, tally);
@@ -114,10 +113,10 @@ TEST_CASE("beside a singularity, and where the machine does not reach, lanes say
 }
 
 TEST_CASE(
-    "a telescope is solved in lanes where its strut is short and the load small, and never above its "
+    "batches: a telescope is solved where its strut is short and the load small, and never above its "
     "critical load") {
   constexpr double at_home = 0.05;
-  LaneBench bench(telescope(at_home));
+  BatchBench bench(telescope(at_home));
   Tally tally;
   for (double rho = -0.03; rho <= 0.25; rho += 0.004)
     for (const double part : {0.3, 0.6, 0.95, 0.995, 1.005, 1.05, 1.3, 2.0}) {
@@ -131,11 +130,11 @@ TEST_CASE(
   CHECK(tally.refused > 200);
 }
 
-TEST_CASE("a telescope under loads from all sides is solved only where it is stable") {
+TEST_CASE("batches: a telescope under loads from all sides is solved only where it is stable") {
   Random random(41);
   Tally tally;
-  LaneBench bench(telescope(0.1)), at_platform(with_tip_at(telescope(0.1), {0.3, 0.1, 0}), true);
-  for (LaneBench* one : {&bench, &at_platform})
+  BatchBench bench(telescope(0.1)), at_platform(with_tip_at(telescope(0.1), {0.3, 0.1, 0}), true);
+  for (BatchBench* one : {&bench, &at_platform})
     for (const double strength : {0.1, 0.3, 1.0, 3.0, 9.0})
       try_cluster(*one, cluster(*one, {"telescope", 0.05, 0, 1500, 75}, random, 8, 0.02, strength), tally);
   CHECK(tally.solved > 0);

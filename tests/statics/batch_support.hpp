@@ -1,30 +1,30 @@
 #pragma once
-/// Waypoints solved in lanes, and each of them alone and cold, to compare.
-#include "counterflex/statics/lanes.hpp"
+/// Waypoints solved in batches, and each of them alone and cold, to compare.
+#include "counterflex/statics/batch_solver.hpp"
 #include "laws_support.hpp"
 
 namespace counterflex::laws {
 
 inline constexpr Stage whole, without_errors{.errors = 0}, without_weights{.gravity = 0};
 
-/// A machine with its lanes. It stays where it is: lanes refer to the model.
-struct LaneBench {
+/// A machine with its solver. It must not move: the table refers to the model.
+struct BatchBench {
   Model model;
   bool at_platform;
-  LaneMachine machine;
-  LaneSolver lanes{machine};
+  StartTable table;
+  BatchSolver solver{table};
   StaticsWork work{model.mechanism};
 
-  explicit LaneBench(const Machine& m, bool platform = false, double reach = 5 * mm)
-      : model(prepare(m)), at_platform(platform), machine(model, platform, reach) {}
-  LaneBench(const LaneBench&) = delete;
+  explicit BatchBench(const Machine& m, bool platform = false)
+      : model(prepare(m)), at_platform(platform), table(model, platform) {}
+  BatchBench(const BatchBench&) = delete;
 
   Pose home() const { return tip(model.mechanism, model.home); }
 
-  std::vector<LaneAnswer> solve(LaneQuestion question, const Stage& stage,
-                                const std::vector<LaneRequest>& requests) {
-    std::vector<LaneAnswer> answers(requests.size());
-    lanes.solve(question, stage, requests, answers);
+  std::vector<BatchAnswer> solve(BatchQuestion question, const Stage& stage,
+                                const std::vector<BatchRequest>& requests) {
+    std::vector<BatchAnswer> answers(requests.size());
+    solver.solve(question, stage, requests, answers);
     return answers;
   }
 
@@ -40,8 +40,8 @@ struct LaneBench {
   }
 };
 
-/// A machine for lanes, and how far from home and how hard it is tried.
-struct LaneTrial {
+/// A machine, and how far from home and how hard it is tried.
+struct BatchTrial {
   Trial trial;
   Machine machine;
   bool at_platform = false;
@@ -56,12 +56,10 @@ inline Machine sample_machine(const std::string& name) {
   return load_machine(COUNTERFLEX_SOURCE_DIR "/samples/" + name + ".toml");
 }
 
-/// Every reference and sample machine that lanes can do. The kinematics of "laws_mixed" are no polynomials in
-/// zones of their size: lanes leave it alone.
-inline std::vector<LaneTrial> lane_trials() {
-  std::vector<LaneTrial> list;
-  for (const Trial& trial : controlled_machines())
-    if (trial.name != "laws_mixed") list.push_back({trial, machine_of(trial.name)});
+/// Every reference and sample machine whose tip is controlled in x, y and z.
+inline std::vector<BatchTrial> batch_trials() {
+  std::vector<BatchTrial> list;
+  for (const Trial& trial : controlled_machines()) list.push_back({trial, machine_of(trial.name)});
   const auto add = [&](const Trial& trial, const Machine& machine, bool at_platform = false) {
     list.push_back({trial, machine, at_platform});
   };
@@ -79,20 +77,20 @@ inline std::vector<LaneTrial> lane_trials() {
 }
 
 /// Waypoints beside each other about a random place, loads up to `strength` times the trial's.
-inline std::vector<LaneRequest> cluster(const LaneBench& bench, const Trial& trial, Random& random, int count,
+inline std::vector<BatchRequest> cluster(const BatchBench& bench, const Trial& trial, Random& random, int count,
                                         double extent, double strength = 1) {
   const Vector3 centre = bench.home().p + trial.centre + random.vector(trial.reach);
-  std::vector<LaneRequest> requests;
+  std::vector<BatchRequest> requests;
   for (int i = 0; i < count; ++i)
     requests.push_back(
         {centre + random.vector(extent), random.six(strength * trial.force, strength * trial.moment)});
   return requests;
 }
 
-/// What lanes say is solved is what the machine does, to `tolerance` (m, rad).
-inline void check_lane(LaneBench& bench, LaneQuestion question, const Stage& stage, const LaneRequest& request,
-                       const LaneAnswer& answer, double tolerance) {
-  const bool target = question == LaneQuestion::target;
+/// A solved answer is the equilibrium of the solver of single waypoints, to `tolerance` (m, rad).
+inline void check_answer(BatchBench& bench, BatchQuestion question, const Stage& stage, const BatchRequest& request,
+                       const BatchAnswer& answer, double tolerance) {
+  const bool target = question == BatchQuestion::target;
   CAPTURE(target);
   CAPTURE(stage.errors);
   CAPTURE(stage.gravity);

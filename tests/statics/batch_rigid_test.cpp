@@ -1,5 +1,5 @@
-/// Rigid machines in lanes.
-#include "lanes_support.hpp"
+/// Rigid machines in batches.
+#include "batch_support.hpp"
 
 using namespace counterflex;
 using namespace counterflex::laws;
@@ -47,41 +47,41 @@ Machine mill_beside_slides(const Pose& skew) {
 }  // namespace
 
 TEST_CASE(
-    "in lanes a rigid machine stands where it stands when it is solved alone, and every waypoint is solved") {
+    "batches: every waypoint of a rigid machine is solved, as the solver of single waypoints does") {
   for (const RigidTrial& trial : rigid_trials()) {
     CAPTURE(trial.machine.name);
-    LaneBench bench(trial.machine);
+    BatchBench bench(trial.machine);
     Random random(21);
-    std::vector<LaneRequest> requests;
+    std::vector<BatchRequest> requests;
     for (int i = 0; i < 5; ++i)
       requests.push_back({bench.home().p + trial.centre + random.vector(0.004), random.six(500, 30)});
-    for (const LaneQuestion question : {LaneQuestion::forward, LaneQuestion::target})
+    for (const BatchQuestion question : {BatchQuestion::forward, BatchQuestion::target})
       for (const Stage& stage : {whole, without_errors}) {
         const auto answers = bench.solve(question, stage, requests);
         for (std::size_t k = 0; k < answers.size(); ++k) {
           REQUIRE(answers[k].solved);
-          check_lane(bench, question, stage, requests[k], answers[k], 1e-10);
+          check_answer(bench, question, stage, requests[k], answers[k], 1e-10);
         }
       }
   }
 }
 
-TEST_CASE("the solver of single waypoints starts from the configuration that lanes give for a rigid machine") {
-  LaneBench bench(made_rigid(sample_machine("mill3/machine")));
+TEST_CASE("batches: the solver of single waypoints starts from the nominal configuration of a rigid machine's cell") {
+  BatchBench bench(made_rigid(sample_machine("mill3/machine")));
   const Vector3 p = bench.home().p + Vector3(0.2, 0.12, -0.1);
-  const Configuration* near = bench.lanes.nominal_near(p);
+  const Configuration* near = bench.solver.nominal_near(p);
   REQUIRE(near != nullptr);
   const NominalResult nominal = follow(bench.model, *near, {bench.home().R, p});
   REQUIRE(nominal.status == Status::converged);
   CHECK(solve_forward(bench.model, nominal.configuration, {}, {}, bench.work).status == Status::converged);
 }
 
-TEST_CASE("lanes do not solve a rigid machine whose errors no pose can meet") {
+TEST_CASE("batches: a rigid machine whose errors no pose can meet is not solved") {
   const auto is_solved = [](const Pose& skew) {
-    LaneBench bench(mill_beside_slides(skew));
+    BatchBench bench(mill_beside_slides(skew));
     REQUIRE(bench.model.home_status == Status::converged);
-    const LaneRequest request{bench.home().p + Vector3(0.2, 0.12, -0.1), Vector6::Zero()};
-    return bench.solve(LaneQuestion::forward, whole, {request})[0].solved;
+    const BatchRequest request{bench.home().p + Vector3(0.2, 0.12, -0.1), Vector6::Zero()};
+    return bench.solve(BatchQuestion::forward, whole, {request})[0].solved;
   };
   CHECK(is_solved({}));
   CHECK(!is_solved(rotation(exp_so3(Vector3(1e-6, 0, 0)))));

@@ -1,0 +1,98 @@
+#pragma once
+/// Waypoints solved by the kernel, many at once. Each answer depends on the model and its own request alone: not on other
+/// requests, their order, the thread or the number of lanes. EQUATIONS.md, section 11.
+#include <memory>
+#include <span>
+
+#include "counterflex/statics/equilibrium.hpp"
+
+namespace counterflex {
+
+/// A position of the tip (M, m), and the wrench there (N, N m; axes of M).
+struct BatchRequest {
+  Vector3 p = Vector3::Zero();
+  Vector6 F = Vector6::Zero();
+};
+
+/// Forward: where the tip stands when `p` is commanded. Target: what has to be commanded for the tip to be at `p`. Orientations
+/// that the machine controls are commanded as at home.
+enum class BatchQuestion { forward, target };
+
+/// If `solved` is true, `solve_forward` and `solve_target` would converge to the same equilibrium, and the actuators are in
+/// their ranges. If it is false, ask them: the rest means nothing.
+struct BatchAnswer {
+  bool solved = false;
+  Vector3 command = Vector3::Zero();  ///< commanded position of the nominal tip, M (m)
+  Pose X_MT;                          ///< of the real tip
+  Eigen::VectorXd rho;                ///< forward: actuators of the command (m, rad)
+  int iterations = 0;                 ///< Newton steps
+};
+
+/// Nominal kinematics at a position of the tip.
+struct NominalAnswer {
+  bool solved = false;
+  Pose X_MT;            ///< of the nominal tip
+  Eigen::VectorXd rho;  ///< actuators (m, rad)
+};
+
+/// The cells of a model in which the kernel starts. Each is made when it is first needed, from its place alone. Threads may
+/// share a table. The model must outlive it.
+class StartTable {
+ public:
+  /// `at_platform`: where loads act, as in `Load`.
+  StartTable(const Model& model, bool at_platform);
+  ~StartTable();
+
+  struct Impl;
+  Impl& impl() const { return *impl_; }
+
+ private:
+  std::unique_ptr<Impl> impl_;
+};
+
+/// The tables of a run, one for each model and place of loads. The models must outlive it. Threads may share it.
+class StartTables {
+ public:
+  StartTables();
+  ~StartTables();
+  StartTables(StartTables&&) noexcept;
+
+  const StartTable& of(const Model& model, bool at_platform) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// The vector instructions that the kernel uses on this computer.
+const char* kernel_instructions();
+
+/// Solves requests for one thread.
+class BatchSolver {
+ public:
+  explicit BatchSolver(const StartTable& table);
+  ~BatchSolver();
+  BatchSolver(BatchSolver&&) noexcept;
+
+  /// `answers` is as long as `requests`. `stage.load` is ignored: F acts. Not solved are machines that do not control x, y
+  /// and z, and stages with a part of errors, weights or preloads.
+  void solve(BatchQuestion question, const Stage& stage, std::span<const BatchRequest> requests,
+             std::span<BatchAnswer> answers);
+
+  /// `answers` is as long as `p` (M, m).
+  void solve_nominal(std::span<const Vector3> p, std::span<NominalAnswer> answers);
+
+  /// The nominal configuration at the centre of the cell that holds `p` (M, m); null where there is none. It is valid until
+  /// the next call.
+  const Configuration* nominal_near(const Vector3& p);
+
+  /// Whether the straight way between two positions (M, m) stays on one branch of the nominal kinematics. False also where one
+  /// of them has no cell.
+  bool joins(const Vector3& from, const Vector3& to);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace counterflex

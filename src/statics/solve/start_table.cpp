@@ -1,0 +1,126 @@
+#include "start_table.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace counterflex {
+namespace {
+
+/// Edge of a cell, in units of l. One chain that only slides has nominal kinematics without bends.
+constexpr double bent_edge = 1.0 / 24, straight_edge = 1.0 / 8;
+constexpr double farthest_cell = 1e6;               // from the origin of M, in edges
+constexpr std::size_t bytes_of_cells = 12'000'000;  // of each kind
+constexpr std::size_t least_cells = 64, most_cells = 4096;
+constexpr double largest_kinematic_condition = 1e4;  // of the nominal Jacobian: far from a singularity
+constexpr double same_solution = 1e-8;               // l or rad: another branch is further away
+constexpr double least_pivot = 1e-9;                 // of the largest one: smaller ones are rounding errors
+
+bool controls(const Mechanism& mechanism, Component c) {
+  return std::count(mechanism.controlled.begin(), mechanism.controlled.end(), c) > 0;
+}
+
+bool only_slides(const Mechanism& mechanism) {
+  return mechanism.chains.size() == 1 && std::all_of(mechanism.chains.begin(), mechanism.chains.end(), [](const Series& chain) {
+    return std::all_of(chain.parts.begin(), chain.parts.end(), [](const Part& part) {
+      const bool turns = part.kind == PartKind::actuator && part.joint.kind == JointKind::revolute;
+      return !turns && part.kind != PartKind::passive && part.kind != PartKind::group;
+    });
+  });
+}
+
+/// How many cells of a target fit into `bytes_of_cells`.
+std::size_t kept_cells(const kernel::FlatMachine& machine) {
+  const auto unknowns = static_cast<std::size_t>(machine.unknowns());
+  const std::size_t numbers = unknowns * (kernel::StartCell::all_terms + 4) +
+                              6 * machine.elements.size() * kernel::StartCell::stress_terms;
+  return std::clamp(bytes_of_cells / (sizeof(double) * numbers), least_cells, most_cells);
+}
+
+}  // namespace
+
+std::optional<Acting> acting_in(const Stage& stage, bool has_weight) {
+  const auto is_whole = [](double part) { return part == 0 || part == 1; };
+  if (!is_whole(stage.errors) || stage.preload != 1) return std::nullopt;
+  if (!has_weight) return Acting{stage.errors == 1, true};
+  if (!is_whole(stage.gravity)) return std::nullopt;
+  return Acting{stage.errors == 1, stage.gravity == 1};
+}
+
+StartTable::Impl::Impl(const Model& m, bool platform)
+    : model(m),
+      at_platform(platform),
+      flat(kernel::flatten(m, platform)),
+      perfect(kernel::transforms_at(flat, 0)),
+      real(kernel::transforms_at(flat, 1)),
+      R_home(tip(m.mechanism, m.home).R),
+      is_able(flat.why_not.empty() && controls(m.mechanism, Component::x) && controls(m.mechanism, Component::y) &&
+              controls(m.mechanism, Component::z)),
+      controls_positions(m.mechanism.controlled.size() == 3),
+      has_weights(has_weight(m.mechanism)),
+      edge((only_slides(m.mechanism) ? straight_edge : bent_edge) * m.mechanism.length),
+      most_cells(kept_cells(flat.machine)) {}
+
+std::optional<CellIndex> StartTable::Impl::index_of(const Vector3& p) const {
+  const Vector3 n = (p / edge).array().floor();
+  if (!(n.array().abs() <= farthest_cell).all()) return std::nullopt;
+  return CellIndex{static_cast<long>(n[0]), static_cast<long>(n[1]), static_cast<long>(n[2])};
+}
+
+kernel::CellPlace StartTable::Impl::place_of(const CellIndex& index) const {
+  const Vector3 corner(static_cast<double>(index.x), static_cast<double>(index.y), static_cast<double>(index.z));
+  return {R_home, edge * (corner.array() + 0.5), edge / 2};
+}
+
+kernel::Question StartTable::Impl::question(Acting acting, bool target) const {
+  kernel::Question question;
+  question.transforms = acting.errors ? &real : &perfect;
+  question.target = target;
+  question.gravity = acting.gravity ? 1 : 0;
+  return question;
+}
+
+std::shared_ptr<const KinematicsCell> StartTable::Impl::kinematics(const CellIndex& index) {
+  return kinematics_.get(index, most_cells, [&] { return make_kinematics(index); });
+}
+
+std::shared_ptr<const kernel::StartCell> StartTable::Impl::target(const CellIndex& index, Acting acting,
+                                                                   StaticsWork& work) {
+  CellCache<kernel::StartCell>& cells = targets_[(acting.errors ? 1U : 0U) + (acting.gravity ? 2U : 0U)];
+  return cells.get(index, most_cells, [&] { return make_target(index, acting, work); });
+}
+
+std::shared_ptr<const KinematicsCell> StartTable::Impl::make_kinematics(const CellIndex& index) const {
+  const kernel::CellPlace place = place_of(index);
+  NominalResult nominal = follow(model, model.home, {R_home, place.centre});
+  if (nominal.status != Status::converged) return nullptr;
+  if (!(actuator_jacobian(model, nominal.configuration).condition < largest_kinematic_condition)) return nullptr;
+  auto start = make_kinematics_cell(flat.machine, perfect, place, state_of(model, flat, nominal.configuration, 0));
+  if (!start) return nullptr;
+  return std::make_shared<const KinematicsCell>(KinematicsCell{std::move(nominal.configuration), std::move(*start)});
+}
+
+// The solver of single waypoints judges the machine at the centre without a load. In the cell the kernel then compares
+// pivots with those of the centre.
+std::shared_ptr<const kernel::StartCell> StartTable::Impl::make_target(const CellIndex& index, Acting acting,
+                                                                        StaticsWork& work) {
+  const auto nominal = kinematics(index);
+  if (!nominal) return nullptr;
+  const kernel::CellPlace place = place_of(index);
+  auto cell = make_target_cell(flat.machine, question(acting, true), perfect, place, nominal->start);
+  if (!cell) return nullptr;
+  Stage stage;
+  stage.errors = acting.errors ? 1 : 0;
+  stage.gravity = acting.gravity ? 1 : 0;
+  const Pose X_MT{R_home, place.centre};
+  const Equilibrium alone = solve_target(model, nominal->nominal, X_MT, {Vector6::Zero(), at_platform}, stage, work);
+  if (alone.status != Status::converged) return nullptr;
+  const Eigen::VectorXd rho = actuator_values(model.mechanism, alone.configuration);
+  for (Eigen::Index a = 0; a < rho.size(); ++a) {
+    const double found = cell->state[static_cast<std::size_t>(flat.machine.actuator_joint[static_cast<std::size_t>(a)])];
+    const double offset = (acting.gravity ? 1 : 0) * flat.machine.actuator_offset[static_cast<std::size_t>(a)];
+    if (!(std::abs(found - offset - rho[a]) < same_solution)) return nullptr;
+  }
+  return std::make_shared<const kernel::StartCell>(std::move(*cell));
+}
+
+}  // namespace counterflex

@@ -1,0 +1,113 @@
+#pragma once
+/// The cells in which the kernel starts, on a lattice of tip positions.
+#include <array>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <unordered_map>
+#include <vector>
+
+#include "counterflex/statics/batch_solver.hpp"
+#include "statics/kernel/start_cell.hpp"
+
+namespace counterflex {
+
+/// What acts in a stage besides the load.
+struct Acting {
+  bool errors = true, gravity = true;
+};
+std::optional<Acting> acting_in(const Stage& stage, bool has_weight);
+
+/// Nominal kinematics around the centre of a cell.
+struct KinematicsCell {
+  Configuration nominal;  ///< at the centre, reached straight from home
+  kernel::StartCell start;
+};
+
+/// A cell by its place on the lattice.
+struct CellIndex {
+  long x = 0, y = 0, z = 0;
+  bool operator==(const CellIndex&) const = default;
+};
+
+/// The things made last, up to a number; null where nothing can be made. What is made depends on the index alone: if two
+/// threads make the same thing at once, either may be kept.
+template <class Thing>
+class CellCache {
+ public:
+  using Pointer = std::shared_ptr<const Thing>;
+
+  template <class Make>
+  Pointer get(const CellIndex& index, std::size_t most, const Make& make) {
+    {
+      const std::lock_guard lock(mutex_);
+      if (const auto found = things_.find(index); found != things_.end()) return use(found->second);
+    }
+    Pointer made = make();
+    const std::lock_guard lock(mutex_);
+    if (things_.size() >= most) forget_older_half();
+    return use(things_.try_emplace(index, Entry{std::move(made), 0}).first->second);
+  }
+
+ private:
+  struct Entry {
+    Pointer thing;
+    unsigned long used;
+  };
+  struct Hash {
+    std::size_t operator()(const CellIndex& i) const {
+      return static_cast<std::size_t>(i.x * 73856093L ^ i.y * 19349663L ^ i.z * 83492791L);
+    }
+  };
+
+  Pointer use(Entry& entry) {
+    entry.used = ++clock_;
+    return entry.thing;
+  }
+
+  void forget_older_half() {
+    std::vector<unsigned long> times;
+    for (const auto& [index, entry] : things_) times.push_back(entry.used);
+    const auto middle = times.begin() + static_cast<long>(times.size() / 2);
+    std::nth_element(times.begin(), middle, times.end());
+    std::erase_if(things_, [limit = *middle](const auto& item) { return item.second.used < limit; });
+  }
+
+  std::mutex mutex_;
+  std::unordered_map<CellIndex, Entry, Hash> things_;
+  unsigned long clock_ = 0;
+};
+
+struct StartTable::Impl {
+  const Model& model;
+  const bool at_platform;
+  const kernel::Flat flat;
+  const std::vector<kernel::Transform> perfect, real;
+  const Matrix3 R_home;
+  const bool is_able;              ///< the kernel solves the machine, which controls x, y and z
+  const bool controls_positions;   ///< and no orientation
+  const bool has_weights;
+  const double edge;               ///< of a cell (m)
+  const std::size_t most_cells;    ///< that are kept
+
+  Impl(const Model& m, bool platform);
+
+  /// The cell that holds `p`; none where that is absurdly far or no number.
+  std::optional<CellIndex> index_of(const Vector3& p) const;
+
+  std::shared_ptr<const KinematicsCell> kinematics(const CellIndex& index);
+  std::shared_ptr<const kernel::StartCell> target(const CellIndex& index, Acting acting, StaticsWork& work);
+
+  kernel::Question question(Acting acting, bool target) const;
+
+ private:
+  std::shared_ptr<const KinematicsCell> make_kinematics(const CellIndex& index) const;
+  std::shared_ptr<const kernel::StartCell> make_target(const CellIndex& index, Acting acting, StaticsWork& work);
+  kernel::CellPlace place_of(const CellIndex& index) const;
+
+  CellCache<KinematicsCell> kinematics_;
+  std::array<CellCache<kernel::StartCell>, 4> targets_;
+};
+
+}  // namespace counterflex
