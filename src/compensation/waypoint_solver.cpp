@@ -32,7 +32,7 @@ void WaypointSolver::solve_in_batch(BatchQuestion question, const Stage& stage) 
 
 void WaypointSolver::wanted(std::span<const Vector3> p_MT, std::span<WantedPose> out) {
   nominals_.assign(p_MT.size(), {});
-  if (batch_) batch_->solve_nominal(p_MT, nominals_);
+  if (batch_) batch_->nominal_tips(p_MT, nominals_);
   for (std::size_t i = 0; i < p_MT.size(); ++i) {
     if (nominals_[i].solved)
       out[i] = {Status::converged, nominals_[i].X_MT};

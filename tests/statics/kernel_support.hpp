@@ -13,13 +13,14 @@ struct KernelWaypoint {
   Pose X_MT;              ///< wanted tip
   Vector6 F = Vector6::Zero();
   std::vector<double> start{};
-  const kernel::StartCell* cell = nullptr;  ///< instead of `start`
+  Eigen::VectorXd rho{};  ///< actuators, where they are held
+  const kernel::StartCell *cell = nullptr, *nominal_cell = nullptr;  ///< instead of `start`
 };
 
 struct KernelAnswers {
   std::vector<unsigned char> accepted;
   std::vector<int> iterations;
-  std::vector<double> actuators, tips, states, pivots;
+  std::vector<double> actuators, tips, nominal_tips, states, pivots;
   int rigid_closures = 0;
 
   Eigen::VectorXd rho(std::size_t w) const {
@@ -32,10 +33,14 @@ struct KernelAnswers {
     return std::count_if(pivots.begin() + first, pivots.begin() + first + n, [](double x) { return x < 0; }) -
            6 * rigid_closures;
   }
-  Pose tip(std::size_t w) const {
+  Pose tip(std::size_t w) const { return pose_of(tips, w); }
+  Pose nominal_tip(std::size_t w) const { return pose_of(nominal_tips, w); }
+
+ private:
+  static Pose pose_of(const std::vector<double>& numbers, std::size_t w) {
     Pose X;
-    for (int i = 0; i < 9; ++i) X.R(i / 3, i % 3) = tips[12 * w + static_cast<std::size_t>(i)];
-    for (int i = 0; i < 3; ++i) X.p[i] = tips[12 * w + 9 + static_cast<std::size_t>(i)];
+    for (int i = 0; i < 9; ++i) X.R(i / 3, i % 3) = numbers[12 * w + static_cast<std::size_t>(i)];
+    for (int i = 0; i < 3; ++i) X.p[i] = numbers[12 * w + 9 + static_cast<std::size_t>(i)];
     return X;
   }
 };
@@ -53,20 +58,26 @@ struct FlatBench {
   }
   FlatBench(const FlatBench&) = delete;
 
-  kernel::Question question(bool target, const Stage& stage = {}) const {
+  kernel::Question question(const Stage& stage = {}) const {
     kernel::Question q;
     q.transforms = stage.errors == 0 ? &perfect : &real;
-    q.target = target;
     q.load = stage.load, q.preload = stage.preload, q.gravity = stage.gravity;
     return q;
+  }
+  kernel::Problem kinematics() const { return {.real = {}, .nominal = kernel::nominal_question(perfect)}; }
+  kernel::Problem held(const Stage& stage = {}) const { return {.real = question(stage), .nominal = {}}; }
+  /// All controlled components are wanted of the real tip.
+  kernel::Problem target(const Stage& stage = {}) const {
+    return {.real = question(stage), .nominal = kernel::nominal_question(perfect)};
   }
 
   KernelWaypoint waypoint(const NominalResult& nominal, const Vector6& F) const {
     return {nominal.configuration, tip(model.mechanism, nominal.configuration), F,
-            kernel::state_of(model, flat, nominal.configuration, 0)};
+            kernel::state_of(model, flat, nominal.configuration, 0),
+            actuator_values(model.mechanism, nominal.configuration)};
   }
 
-  KernelAnswers solve(const kernel::Question& question, const std::vector<KernelWaypoint>& waypoints,
+  KernelAnswers solve(const kernel::Problem& problem, const std::vector<KernelWaypoint>& waypoints,
                       const kernel::Instance& instance = kernel::scalar_instance,
                       const kernel::Schedule& schedule = {}) const {
     const std::size_t n = waypoints.size(), actuators = model.mechanism.travel.size();
@@ -76,27 +87,31 @@ struct FlatBench {
       for (int i = 0; i < 3; ++i) p.push_back(w.X_MT.p[i]);
       for (int i = 0; i < 9; ++i) R.push_back(w.X_MT.R(i / 3, i % 3));
       for (int i = 0; i < 6; ++i) F.push_back(w.F[i]);
-      const Eigen::VectorXd commanded = actuator_values(model.mechanism, w.nominal);
-      rho.insert(rho.end(), commanded.begin(), commanded.end());
+      rho.insert(rho.end(), w.rho.begin(), w.rho.end());
       start.insert(start.end(), w.start.begin(), w.start.end());
     }
-    KernelAnswers a{std::vector<unsigned char>(n),      std::vector<int>(n),
-                    std::vector<double>(n * actuators), std::vector<double>(12 * n),
-                    std::vector<double>(n * states),
-                    std::vector<double>(n * static_cast<std::size_t>(flat.machine.pivots())),
-                    flat.machine.rigid_closures};
+    KernelAnswers a;
+    a.accepted.resize(n), a.iterations.resize(n), a.actuators.resize(n * actuators);
+    a.tips.resize(12 * n), a.nominal_tips.resize(12 * n), a.states.resize(n * states);
+    a.pivots.resize(n * static_cast<std::size_t>(flat.machine.pivots()));
+    a.rigid_closures = flat.machine.rigid_closures;
     kernel::Batch batch;
     batch.count = static_cast<int>(n);
     batch.p = p.data(), batch.R = R.data(), batch.F = F.data(), batch.rho = rho.data();
     batch.start = start.data(), batch.start_stride = static_cast<long>(states);
-    std::vector<const kernel::StartCell*> cells;
+    std::vector<const kernel::StartCell*> cells, nominal_cells;
     for (const KernelWaypoint& w : waypoints) cells.push_back(w.cell);
-    if (!cells.empty() && cells[0] != nullptr) batch.cells = cells.data();
+    if (!cells.empty() && cells[0] != nullptr) {
+      batch.start = nullptr;
+      batch.cells = cells.data();
+      for (const KernelWaypoint& w : waypoints) nominal_cells.push_back(w.nominal_cell);
+      batch.nominal_cells = nominal_cells.data();
+    }
     batch.accepted = a.accepted.data(), batch.iterations = a.iterations.data(),
     batch.actuators = a.actuators.data();
-    batch.tip = a.tips.data(), batch.state = a.states.data(),
+    batch.tip = a.tips.data(), batch.nominal_tip = a.nominal_tips.data(), batch.state = a.states.data(),
     batch.pivots = a.pivots.data();
-    instance.solve(flat.machine, question, schedule, batch);
+    instance.solve(flat.machine, problem, schedule, batch);
     return a;
   }
 };

@@ -28,11 +28,10 @@ struct BatchAnswer {
   int iterations = 0;                 ///< Newton steps
 };
 
-/// Nominal kinematics at a position of the tip.
+/// The pose of the nominal tip at a position.
 struct NominalAnswer {
   bool solved = false;
-  Pose X_MT;            ///< of the nominal tip
-  Eigen::VectorXd rho;  ///< actuators (m, rad)
+  Pose X_MT;
 };
 
 /// The cells of a model in which the kernel starts. Each is made when it is first needed, from its place alone. Threads may
@@ -80,7 +79,7 @@ class BatchSolver {
              std::span<BatchAnswer> answers);
 
   /// `answers` is as long as `p` (M, m).
-  void solve_nominal(std::span<const Vector3> p, std::span<NominalAnswer> answers);
+  void nominal_tips(std::span<const Vector3> p, std::span<NominalAnswer> answers);
 
   /// The nominal configuration at the centre of the cell that holds `p` (M, m); null where there is none. It is valid until
   /// the next call.

@@ -1,54 +1,74 @@
 #pragma once
 /// Waypoints that are solved at once, each from a start of its own.
+#include <optional>
+
 #include "work.hpp"
 
 namespace counterflex::kernel {
 
 /// The solutions of a question about a place: the state at the centre without a load, and how it changes with
-/// the position of the tip, up to second order, and with the load. A pure function of machine, question,
-/// centre and step.
+/// the position of the tip, up to second order, and, to first order, with its orientation and with the load. A
+/// pure function of machine, question, centre and step.
 struct StartCell {
-  static constexpr int place_terms = 9;              ///< x y z xx yy zz xy xz yz (m, m2)
-  static constexpr int all_terms = place_terms + 6;  ///< and the load (N, N m), where it acts
-  static constexpr int stress_terms = 1 + 6;         ///< one, and the load
-  std::array<double, 3> centre{};                    ///< position of the tip (m)
-  std::vector<double> state;                         ///< as `state_of`
-  std::vector<double> cosine, sine;                  ///< by joint
-  int terms = place_terms;
-  std::vector<double>
-      changes;  ///< by unknown (joints, then the twists of nodes and platform): `terms` coefficients
-  std::vector<double>
-      stress;  ///< by element, six numbers: `stress_terms` coefficients; empty where no load acts
-  std::vector<double> pivots;            ///< of a target's cell: at its centre without a load, actuators held
-  std::array<double, 3> offset{};        ///< of a target's cell: from the wanted tip to the command (m)
-  std::vector<double> offset_changes;    ///< and `terms` coefficients of each component
+  static constexpr int position_terms = 9;   ///< x y z xx yy zz xy xz yz (m, m2)
+  static constexpr int turn_terms = 3;       ///< rotation vector against home (rad)
+  static constexpr int load_terms = 6;       ///< N, N m, where it acts
+  static constexpr int most_terms = position_terms + turn_terms + load_terms;
+  static constexpr int stress_terms = 1 + load_terms;  ///< one, and the load
+  bool turns = false;  ///< it has the terms of the orientation: the machine controls one
+  bool loads = false;  ///< it has those of the load: of a target
+  std::array<double, 3> centre{};  ///< position of the tip (m)
+  std::vector<double> state;       ///< as `state_of`
+  std::vector<double> cosine, sine;  ///< by joint
+  std::vector<double> changes;  ///< by unknown (joints, then the twists of nodes and platform): `terms` coefficients
+
+  // Of a target's cell:
+  std::vector<double> stress;          ///< by element, six numbers: `stress_terms` coefficients
+  std::vector<double> pivots;          ///< at the centre without a load, actuators held
+  std::array<double, 6> offset{};      ///< from the tip to the command: position (m), rotation vector (rad)
+  std::vector<double> offset_changes;  ///< `terms` coefficients of each component
+
+  int terms() const { return position_terms + (turns ? turn_terms : 0) + (loads ? load_terms : 0); }
 };
 
 /// A machine whose pivots keep at least this share of their unloaded values is stable and as well conditioned
 /// as without the load, up to this factor.
 inline constexpr double least_stiffness = 0.5;
 
+/// What is solved. Of the controlled components of a tip, those `of_command` are wanted of the nominal machine:
+/// they are commanded. The others are wanted of the real one.
+struct Problem {
+  std::optional<Question> real;     ///< none: nominal kinematics alone
+  std::optional<Question> nominal;  ///< none: actuators are held
+  std::array<bool, 6> of_command{};
+};
+
 /// Numbers of waypoint after waypoint; what is not asked for may be null.
 struct Batch {
   int count = 0;
   const double* p = nullptr;      ///< 3 each: wanted tip, or a place near it (m)
-  const double* place = nullptr;  ///< 3 each: where cells are evaluated; null: at p
   const double* R = nullptr;      ///< 9 each: wanted orientation, row by row; where it is controlled
   const double* F = nullptr;      ///< 6 each: wrench on the machine (N, N m), axes of M
-  const double* rho = nullptr;    ///< commanded actuator values; where no target is asked
-  const double* start = nullptr;  ///< states
+  const double* rho = nullptr;    ///< commanded actuator values; where they are held
+  const double* start = nullptr;  ///< states, of both machines
   long start_stride = 0;          ///< numbers from start to start; 0: all have the same
-  const StartCell* const* cells = nullptr;  ///< else: a cell for each waypoint, which gives its start
+  // Instead of `start`: a cell of each waypoint for each machine, and where it is evaluated: 6 each, the place of
+  // the tip (m) and its rotation vector against home. Null: at p.
+  const StartCell *const *cells = nullptr, *const *nominal_cells = nullptr;
+  const double *place = nullptr, *nominal_place = nullptr;
 
   unsigned char* accepted = nullptr;
   int* iterations = nullptr;
-  double* actuators = nullptr;  ///< commanded values that belong to the solution
-  double* tip = nullptr;        ///< 12 each: R row by row, p
-  double* state = nullptr;      ///< state_size each
-  double* stress =
-      nullptr;  ///< by element: force and moment about its end (N, N m), axes of M; of groups zero
-  double* pivots = nullptr;         ///< FlatMachine::pivots each, actuators held; zero: a free joint
-  unsigned char* is_stiff = nullptr;  ///< every pivot keeps `least_stiffness` of its cell's
+  double* actuators = nullptr;    ///< commanded values that belong to the solution
+  double* tip = nullptr;          ///< of the real machine, 12 each: R row by row, p
+  double* nominal_tip = nullptr;  ///< 12 each
+  // Of the real machine, or of the nominal one where it is alone:
+  double* state = nullptr;   ///< state_size each
+  double* stress = nullptr;  ///< by element: force and moment about its end (N, N m), axes of M; of groups zero
+  double* pivots = nullptr;  ///< FlatMachine::pivots each, actuators held; zero: a free joint
+  /// Every pivot of the last tangent, which has the stress that the cell or the step before predicts, keeps
+  /// `least_stiffness` of the cell's.
+  unsigned char* is_stiff = nullptr;
 };
 
 /// Which stress the first tangent has. Later ones have what the last linear step predicted: with the stress
@@ -63,12 +83,15 @@ struct Schedule {
 
 /// The kernel for one kind of numbers.
 struct Instance {
-  void (*solve)(const FlatMachine&, const Question&, const Schedule&, Batch&);
+  void (*solve)(const FlatMachine&, const Problem&, const Schedule&, Batch&);
   int lanes;
 };
 
-/// The scalar instance, and those of the vectors that the computer has.
+/// The scalar instance, and those of the vectors that the computer has. All give the same bits.
 extern const Instance scalar_instance;
 std::vector<Instance> all_instances();
+
+/// The fastest instance for so many waypoints.
+const Instance& instance_for(std::size_t waypoints);
 
 }  // namespace counterflex::kernel

@@ -16,4 +16,9 @@ std::vector<Instance> all_instances() {
   return instances;
 }
 
+const Instance& instance_for(std::size_t waypoints) {
+  static const Instance widest = all_instances().back();
+  return waypoints == 1 ? scalar_instance : widest;
+}
+
 }  // namespace counterflex::kernel

@@ -1,14 +1,13 @@
 #pragma once
 /// Newton's iteration with a fixed schedule of tangents: no lane depends on another one.
-#include <utility>
-
-#include "batch.hpp"
-#include "step.hpp"
+#include "coupled.hpp"
 
 namespace counterflex::kernel {
 
 inline constexpr double step_tolerance = 1e-11;  ///< largest component of the last step (m; angles times l)
 inline constexpr double predicted_tolerance = 1e-12;  ///< of a step that need not be taken
+/// Chords contract unevenly: what is asked of two of them in a row.
+inline constexpr double predicted_chord = 1e-13, small_chord = 1e-10;
 inline constexpr double force_tolerance = 1e-9;       ///< of the residual forces, against those that act
 inline constexpr double deflection_tolerance =
     1e-12;  ///< and what the stiffest spring has at this deflection (m)
@@ -71,45 +70,51 @@ Mask<T> is_balanced(const Work<T>& work) {
          (e.largest_turn_squared <= largest_spring_turn * largest_spring_turn) & is_finite(work.state);
 }
 
-/// Solves the question of `work` from its state, in the lanes that are `active`. The equations are evaluated
-/// at the solution at last.
-template <class T>
-Solved<T> iterate(const Schedule& schedule, Mask<T> active, Work<T>& work) {
+/// Solves the problem from the states of both machines, in the lanes that are `active`. The equations are
+/// evaluated at the solution at last. Calls `judge(active)` behind each factorisation of a tangent.
+template <class T, class Judge>
+Solved<T> iterate(const Schedule& schedule, Mask<T> active, Coupled<T>& coupled, const Judge& judge) {
   Solved<T> solved{static_cast<Mask<T>>(opposite<T>(active) & active), {}};
   Mask<T> is_small = solved.accepted;
+  Work<T>& first = coupled.first();
   // Nothing is known of the contraction of a first step, but of Newton's on kinematics.
-  T last = all<T>(work.question.nominal ? work.machine.length : 0);
+  T last = all<T>(coupled.problem.real ? 0 : first.machine.length);
   for (int k = 0;; ++k) {
-    evaluate(work);
-    solved.accepted = solved.accepted | (active & is_small & is_balanced(work));
+    Mask<T> is_solved = active & is_small;
+    coupled.for_each([&](Work<T>& work) {
+      evaluate(work);
+      is_solved = is_solved & is_balanced(work);
+    });
+    solved.accepted = solved.accepted | is_solved;
     active = active & opposite<T>(solved.accepted);
     if (k == schedule.most || !any<T>(active)) return solved;
     if (has_tangent<T>(schedule, k)) {
-      if (k == 0) set_first_stress(schedule.first, work);
-      work.stressed = !work.question.nominal && (k > 0 || schedule.first != FirstStress::none);
-      factor(work);
+      if (k == 0) set_first_stress(schedule.first, coupled.real);
+      coupled.real.stressed = k > 0 || schedule.first != FirstStress::none;
+      factor(coupled);
+      judge(active);
     }
-    work.predicts_stress = !work.question.nominal && has_tangent<T>(schedule, k + 1);
-    find_step(work);
-    const T size = work.step.size;
+    coupled.real.predicts_stress = has_tangent<T>(schedule, k + 1);
+    find_step(coupled);
+    const T size = first.step.size;
     is_small = size <= step_tolerance;
-    // Behind a tangent of its own: by the contraction that was seen the next step is small. Chords contract
-    // unevenly.
-    if (has_tangent<T>(schedule, k)) is_small = is_small | (size * size <= predicted_tolerance * last);
+    // By the contraction that was seen the next step is small.
+    if (has_tangent<T>(schedule, k))
+      is_small = is_small | (size * size <= predicted_tolerance * last);
+    else
+      is_small = is_small | ((size * size <= predicted_chord * last) & (size <= small_chord));
     last = size;
-    take_step<T>(active, work);
+    coupled.for_each([&](Work<T>& work) { take_step<T>(active, work); });
     solved.iterations += select<T>(active, all<T>(1), T{});
   }
 }
 
-/// Factors the tangent at the state, with its stress, actuators held.
+/// Factors the tangent at the state, with its stress.
 template <class T>
 void factor_at_solution(Work<T>& work) {
   for (ElementTerms<T>& terms : work.equations.elements) terms.stress = terms.phi;
   work.stressed = true;
-  const bool target = std::exchange(work.question.target, false);
   factor(work);
-  work.question.target = target;
 }
 
 /// Calls `visit(i, x)` with the inverse x of every pivot of the last factors, in the order of unknowns. It is

@@ -222,7 +222,7 @@ COUNTERFLEX_INLINE void evaluate_tip(Work<T>& work) {
   Equations<T>& equations = work.equations;
   equations.tip = work.state.platform;
   pass_transform(work.machine.X_PT, equations.tip);
-  if (!work.question.target) return;
+  if (!work.moves_actuators) return;
   equations.tip_error = {equations.tip.p * -1.0, {}};
   const auto& controlled = work.machine.controlled;
   if (controlled[3] || controlled[4] || controlled[5])

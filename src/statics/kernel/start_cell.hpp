@@ -7,12 +7,12 @@
 
 namespace counterflex::kernel {
 
-/// Where a cell is made: the tip's orientation `R` where it is controlled, the cell's centre (m), and the
-/// distance of the differences (m).
+/// Where a cell is made.
 struct CellPlace {
-  Matrix3 R;
-  Vector3 centre;
-  double step;
+  Matrix3 R_home;      ///< orientation of the tip, where it is controlled
+  bool turns = false;  ///< whether it is
+  Vector3 centre;      ///< position of the tip (m)
+  double step = 0;     ///< distance of the differences (m)
 };
 
 /// The cell of nominal kinematics. `perfect`: transforms without errors; `start`: a state of the nominal
@@ -21,14 +21,15 @@ std::optional<StartCell> make_kinematics_cell(const FlatMachine& machine,
                                               const std::vector<Transform>& perfect, const CellPlace& place,
                                               const std::vector<double>& start);
 
-/// The cell of a target question, with what it has to do with loads, pivots and the command. `kinematics`: the
-/// cell of nominal kinematics there. None where a place about the centre is not solved.
-std::optional<StartCell> make_target_cell(const FlatMachine& machine, const Question& question,
+/// The cell of a real machine whose tip is wanted at a place, with its loads, pivots and offsets to the command.
+/// `kinematics`: the cell of nominal kinematics there. None where a place about the centre is not solved.
+std::optional<StartCell> make_target_cell(const FlatMachine& machine, const Question& real,
                                           const std::vector<Transform>& perfect, const CellPlace& place,
                                           const StartCell& kinematics);
 
-/// From the wanted tip at `p` (m) under the load `F` (N, N m) to the command, by the expansion of a target's
-/// cell (m).
-Vector3 command_offset(const StartCell& cell, const Vector3& p, const Vector6& F);
+/// From a tip at `p` (m), turned against home by the rotation vector `turn` (rad), under the load `F` (N, N m) to
+/// the command, by the expansion of a target's cell: position (m), and the rotation vector of
+/// R_command R_tip'.
+Vector6 command_offset(const StartCell& cell, const Vector3& p, const Vector3& turn, const Vector6& F);
 
 }  // namespace counterflex::kernel

@@ -65,7 +65,7 @@ COUNTERFLEX_INLINE void step_joint(const FrameStep& step, const Element& element
     dq = at(work.step.actuators, step.actuator);
   } else {
     dq = dot(at(work.factors.joints, step.joint).u, z) - joint.y;
-    if (work.question.target)
+    if (work.moves_actuators)
       for (int i = 0; i < step.actuators_before; ++i)
         dq += at(work.factors.couplings, step.coupling + i) * way_of(at(machine.slots, element.slots + i));
   }
@@ -100,7 +100,7 @@ void step_series(int s, const Vec6<T>& zeta, const Vec6<T>& xi_A, Work<T>& work)
     const int node = k == 0 ? -1 : at(machine.elements, id - 1).node;
     if (node >= 0) {
       before = forth_through(at(work.factors.nodes, node), end) - at(work.step.nodes, node);
-      if (work.question.target)
+      if (work.moves_actuators)
         for (int a = 0; a < series.actuator_count; ++a)
           before = before - at(work.factors.node_columns, node * machine.most_actuators + a) *
                                 at(work.step.actuators, at(machine.actuators, series.actuators + a));
@@ -133,61 +133,21 @@ void step_series(int s, const Vec6<T>& zeta, const Vec6<T>& xi_A, Work<T>& work)
   }
 }
 
-/// The platform's matrix of a target: x from b, by the factors of `factor_target`.
+/// The platform's step if the actuators do not move.
 template <class T>
-COUNTERFLEX_INLINE Vec6<T> solve_target_system(const Factors<T>& factors, double length, const Vec6<T>& b) {
-  Vec6<T> x;
-  int s = 0;
-  COUNTERFLEX_UNROLL
-  for (int i = 0; i < 6; ++i) x[i] = b[i] * (i < 3 ? 1 : 1 / length);
-  COUNTERFLEX_UNROLL
-  for (int k = 0; k < 6; ++k) {
-    COUNTERFLEX_UNROLL
-    for (int i = k + 1; i < 6; ++i) {
-      const Mask<T> swap = factors.swaps[s++];
-      const T u = x[k], v = x[i];
-      x[k] = select<T>(swap, v, u);
-      x[i] = select<T>(swap, u, v);
-    }
-  }
-  COUNTERFLEX_UNROLL
-  for (int i = 1; i < 6; ++i) {
-    COUNTERFLEX_UNROLL
-    for (int j = 0; j < i; ++j) x[i] -= factors.lu[6 * i + j] * x[j];
-  }
-  COUNTERFLEX_UNROLL
-  for (int i = 5; i >= 0; --i) {
-    COUNTERFLEX_UNROLL
-    for (int j = i + 1; j < 6; ++j) x[i] -= factors.lu[6 * i + j] * x[j];
-    x[i] = x[i] * factors.lu[7 * i];
-  }
-  return x;
+void find_held_step(Work<T>& work) {
+  Vec6<T> b = work.equations.platform * -1.0;
+  for (int s = 0; s < work.machine.chains; ++s) b = b - condense_series(s, work);
+  solve_factored(work.factors.L, b);
+  work.step.platform = b;
+  for (T& way : work.step.actuators) way = T{};
 }
 
-/// Fills `work.step` from the equations and the factors.
+/// The steps of everything, those of the platform and of the actuators being known.
 template <class T>
-void find_step(Work<T>& work) {
+void find_inner_steps(Work<T>& work) {
   const FlatMachine& machine = work.machine;
   Step<T>& step = work.step;
-  Vec6<T> b = work.equations.platform * -1.0;
-  for (int s = 0; s < machine.chains; ++s) b = b - condense_series(s, work);
-  for (T& way : step.actuators) way = T{};
-  if (work.question.target) {
-    const Vec6<T>& error = work.equations.tip_error;
-    for (int j = 0; j < 6; ++j)
-      if (at(machine.controlled, j)) COUNTERFLEX_UNROLL
-    for (int i = 0; i < 6; ++i) b[i] -= work.factors.K(i, j) * error[j];
-    const Vec6<T> x = solve_target_system(work.factors, machine.length, b);
-    int a = 0;
-    for (int j = 0; j < 6; ++j) {
-      const bool controlled = at(machine.controlled, j);
-      step.platform[j] = controlled ? error[j] : x[j];
-      if (controlled) at(step.actuators, a++) = x[j];
-    }
-  } else {
-    step.platform = b;
-    solve_factored(work.factors.L, step.platform);
-  }
   step.size = step.turn = T{};
   for (int i = 0; i < 6; ++i) {
     note_step(step.platform[i] * (i < 3 ? 1.0 : machine.length), step.size);

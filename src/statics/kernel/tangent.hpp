@@ -295,47 +295,6 @@ void factor_series(int s, Work<T>& work, Sym6<T>& K, Columns<T>& columns) {
   }
 }
 
-/// LU with exchange of rows, lane by lane, of the platform's matrix; columns of controlled components are the
-/// actuators'.
-template <class T>
-void factor_target(Work<T>& work) {
-  Factors<T>& factors = work.factors;
-  T(&A)[36] = factors.lu;
-  int a = 0;
-  for (int j = 0; j < 6; ++j) {
-    const bool controlled = work.machine.controlled[static_cast<std::size_t>(j)];
-    COUNTERFLEX_UNROLL
-    for (int i = 0; i < 6; ++i)
-      A[6 * i + j] = (controlled ? at(factors.actuators, a)[i] : factors.K(i, j)) *
-                     (i < 3 ? 1 : 1 / work.machine.length);
-    a += controlled;
-  }
-  int s = 0;
-  COUNTERFLEX_UNROLL
-  for (int k = 0; k < 6; ++k) {
-    COUNTERFLEX_UNROLL
-    for (int i = k + 1; i < 6; ++i) {
-      const Mask<T> swap = magnitude(A[6 * i + k]) > magnitude(A[7 * k]);
-      factors.swaps[s++] = swap;
-      COUNTERFLEX_UNROLL
-      for (int j = 0; j < 6; ++j) {
-        const T x = A[6 * k + j], y = A[6 * i + j];
-        A[6 * k + j] = select<T>(swap, y, x);
-        A[6 * i + j] = select<T>(swap, x, y);
-      }
-    }
-    const T inverse = 1.0 / A[7 * k];
-    A[7 * k] = inverse;
-    COUNTERFLEX_UNROLL
-    for (int i = k + 1; i < 6; ++i) {
-      const T l = A[6 * i + k] * inverse;
-      A[6 * i + k] = l;
-      COUNTERFLEX_UNROLL
-      for (int j = k + 1; j < 6; ++j) A[6 * i + j] -= l * A[6 * k + j];
-    }
-  }
-}
-
 /// Factors the tangent at the state that was evaluated last, with the stress that the elements have.
 template <class T>
 void factor(Work<T>& work) {
@@ -359,7 +318,11 @@ void factor(Work<T>& work) {
   }
   factors.L = factors.K;
   factor_in_place(factors.L);
-  if (work.question.target) factor_target(work);
+  if (!work.moves_actuators) return;
+  for (std::size_t a = 0; a < factors.actuators.size(); ++a) {
+    factors.responses[a] = factors.actuators[a];
+    solve_factored(factors.L, factors.responses[a]);
+  }
 }
 
 }  // namespace counterflex::kernel

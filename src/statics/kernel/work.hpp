@@ -10,20 +10,17 @@ namespace counterflex::kernel {
 
 inline constexpr int most_actuators_of_series = 12;
 
-/// What acts on the machine, and what is asked.
+/// What acts on a machine.
 struct Question {
   const std::vector<Transform>* transforms =
-      nullptr;  ///< rigid transforms, with as much of the errors as acts
-  bool target =
-      false;  ///< the controlled components of the tip are given (as many as actuators), else the actuators
-  bool nominal = false;                       ///< kinematics: passive springs do not act, nor anything below
+      nullptr;           ///< rigid transforms, with as much of the errors as acts
+  bool nominal = false;  ///< kinematics: passive springs do not act, nor anything below
   double load = 1, preload = 1, gravity = 1;  ///< how much of them acts
 };
 
 /// The kinematics of the perfect machine, of which `transforms` are.
-inline Question nominal_question(const std::vector<Transform>& transforms, bool target) {
-  return {
-      .transforms = &transforms, .target = target, .nominal = true, .load = 0, .preload = 0, .gravity = 0};
+inline Question nominal_question(const std::vector<Transform>& transforms) {
+  return {.transforms = &transforms, .nominal = true, .load = 0, .preload = 0, .gravity = 0};
 }
 
 /// Unknowns. Positions are from the common point, the wanted tip.
@@ -60,7 +57,7 @@ struct Equations {
   std::vector<Vec6<T>> hanging;  ///< by weight: gradients of those that are steps
   Vec6<T> platform;              ///< residual
   Frame<T> tip;
-  Vec6<T> tip_error;       ///< wanted less actual, where a target is asked
+  Vec6<T> tip_error;       ///< wanted less actual, in controlled components
   T largest_force;         ///< of the residuals (N; moments divided by l)
   T largest_wrench;        ///< of what acts on the platform (N; moments divided by l)
   T largest_turn_squared;  ///< of the springs (rad^2)
@@ -88,8 +85,7 @@ struct Factors {
   std::vector<Vec6<T>> actuators;     ///< by actuator: its column on the platform
   Sym6<T> K;                          ///< of the platform
   Sym6<T> L;                          ///< K, factored
-  T lu[36];  ///< the platform's matrix with actuators in the place of controlled components
-  Mask<T> swaps[15];
+  std::vector<Vec6<T>> responses;     ///< by actuator: K^-1 times its column
 };
 
 template <class T>
@@ -114,6 +110,7 @@ struct Work {
   Vec6<T> load{};                       ///< wrench at the machine's arm, axes of M
   std::vector<Vec6<T>> start_stress{};  ///< by element, as in StartCell
   bool stressed = false;                ///< the tangent has the stress of its elements
+  bool moves_actuators = false;         ///< they are unknowns
   bool predicts_stress = false;         ///< the next tangent takes the stress that this step predicts_stress
 
   explicit Work(const FlatMachine& m) : machine(m) {
@@ -127,7 +124,8 @@ struct Work {
     factors.joints.resize(joints), factors.nodes.resize(nodes);
     factors.couplings.resize(static_cast<std::size_t>(m.couplings));
     factors.node_columns.resize(nodes * static_cast<std::size_t>(m.most_actuators));
-    factors.actuators.resize(actuators), step.nodes.resize(nodes), step.actuators.resize(actuators);
+    factors.actuators.resize(actuators), factors.responses.resize(actuators);
+    step.nodes.resize(nodes), step.actuators.resize(actuators);
   }
 };
 

@@ -11,16 +11,12 @@ namespace {
 /// One tangent, with the stress of the cell, does for the steps behind it; late steps have their own. What needs more
 /// steps is left to the continuation of single waypoints.
 constexpr kernel::Schedule schedule{.tangents = 1U | ~0U << 5, .most = 12, .first = kernel::FirstStress::of_cells};
-constexpr double command_tolerance = 1e-12;  // m: of a command whose orientation is home's
-constexpr int most_command_rounds = 6;
 constexpr double same_branch = 1e-3;  // l or rad: another branch is further away
 
-const kernel::Instance& instance_for(std::size_t count) {
-  static const kernel::Instance widest = kernel::all_instances().back();
-  return count == 1 ? kernel::scalar_instance : widest;
+template <int n>
+void append(const Eigen::Matrix<double, n, 1>& v, std::vector<double>& numbers) {
+  numbers.insert(numbers.end(), v.begin(), v.end());
 }
-
-void append(const Vector3& p, std::vector<double>& numbers) { numbers.insert(numbers.end(), p.begin(), p.end()); }
 
 Pose pose_of(const double* numbers) {
   Pose X;
@@ -31,38 +27,43 @@ Pose pose_of(const double* numbers) {
 
 }  // namespace
 
-/// Waypoints of one question of the kernel, and its answers.
+/// Waypoints of one problem of the kernel, and its answers.
 struct KernelBatch {
-  std::vector<double> p, place, R, F, rho;
-  std::vector<const kernel::StartCell*> cells;
+  std::vector<double> p, R, F, place, nominal_place;
+  std::vector<const kernel::StartCell*> cells, nominal_cells;
   std::vector<unsigned char> accepted, is_stiff;
   std::vector<int> iterations;
-  std::vector<double> tips;
+  std::vector<double> rho, tips, nominal_tips;
 
-  void solve(const kernel::FlatMachine& machine, const Matrix3& orientation, const kernel::Question& question) {
-    const std::size_t count = cells.size(), actuators = machine.actuator_joint.size();
+  void clear() { p.clear(), R.clear(), F.clear(), place.clear(), nominal_place.clear(), cells.clear(), nominal_cells.clear(); }
+
+  void add(const Vector3& wanted_p, const Matrix3& wanted_R, const kernel::StartCell& nominal_cell) {
+    append(wanted_p, p);
+    for (int i = 0; i < 9; ++i) R.push_back(wanted_R(i / 3, i % 3));
+    nominal_cells.push_back(&nominal_cell);
+  }
+
+  void solve(const kernel::FlatMachine& machine, const kernel::Problem& problem) {
+    const std::size_t count = nominal_cells.size();
     if (count == 0) return;
-    while (R.size() < 9 * count) R.push_back(orientation(static_cast<Eigen::Index>(R.size() % 9 / 3), static_cast<Eigen::Index>(R.size() % 3)));
-    F.resize(6 * count);
-    rho.resize(actuators * count), tips.resize(12 * count);
+    rho.resize(machine.actuator_joint.size() * count), tips.resize(12 * count), nominal_tips.resize(12 * count);
     accepted.resize(count), is_stiff.resize(count), iterations.resize(count);
     kernel::Batch batch;
     batch.count = static_cast<int>(count);
-    batch.p = p.data(), batch.R = R.data(), batch.F = F.data(), batch.cells = cells.data();
-    batch.place = place.empty() ? nullptr : place.data();
-    batch.rho = batch.actuators = rho.data();
-    batch.accepted = accepted.data(), batch.iterations = iterations.data(), batch.tip = tips.data();
-    if (!question.nominal) batch.is_stiff = is_stiff.data();
-    instance_for(count).solve(machine, question, schedule, batch);
+    batch.p = p.data(), batch.R = R.data(), batch.actuators = rho.data();
+    batch.nominal_cells = nominal_cells.data(), batch.nominal_tip = nominal_tips.data();
+    batch.nominal_place = nominal_place.empty() ? nullptr : nominal_place.data();
+    batch.accepted = accepted.data(), batch.iterations = iterations.data();
+    if (problem.real) {
+      batch.F = F.data(), batch.cells = cells.data(), batch.place = place.data();
+      batch.tip = tips.data(), batch.is_stiff = is_stiff.data();
+    }
+    kernel::instance_for(count).solve(machine, problem, schedule, batch);
   }
 
   Eigen::VectorXd rho_of(std::size_t i) const {
-    const std::size_t actuators = rho.size() / cells.size();
+    const std::size_t actuators = rho.size() / nominal_cells.size();
     return Eigen::Map<const Eigen::VectorXd>(&rho[actuators * i], static_cast<Eigen::Index>(actuators));
-  }
-
-  void clear() {
-    p.clear(), place.clear(), F.clear(), rho.clear(), cells.clear();
   }
 };
 
@@ -104,15 +105,19 @@ struct BatchSolver::Impl {
 
   StartTable::Impl& table;
   StaticsWork work;
-  KernelBatch nominal, real;
+  KernelBatch batch;
   std::vector<Waypoint> waypoints;
   std::shared_ptr<const KinematicsCell> near;
+  std::optional<CellIndex> last_index;  ///< of the cell that was looked for last
+  std::shared_ptr<const KinematicsCell> last_kinematics;
 
   explicit Impl(StartTable::Impl& t) : table(t), work(t.model.mechanism) {}
 
   std::shared_ptr<const KinematicsCell> kinematics_at(const Vector3& p) {
     const auto index = table.is_able ? table.index_of(p) : std::nullopt;
-    return index ? table.kinematics(*index) : nullptr;
+    if (index != last_index) last_kinematics = index ? table.kinematics(*index) : nullptr;
+    last_index = index;
+    return last_kinematics;
   }
 
   void collect(std::span<const BatchRequest> requests, Acting acting) {
@@ -133,90 +138,53 @@ struct BatchSolver::Impl {
     }
   }
 
-  bool in_travel(const std::vector<double>& rho, std::size_t waypoint) const {
+  bool in_travel(std::size_t waypoint) const {
     const auto& travel = table.model.mechanism.travel;
     for (std::size_t a = 0; a < travel.size(); ++a)
-      if (const double x = rho[travel.size() * waypoint + a]; !(x >= travel[a].min && x <= travel[a].max)) return false;
+      if (const double x = batch.rho[travel.size() * waypoint + a]; !(x >= travel[a].min && x <= travel[a].max))
+        return false;
     return true;
   }
 
-  /// Solves the waypoints for commands: nominal inverse kinematics, then the real machine.
-  void solve_commands(std::span<const Vector3> commands, Acting acting) {
-    nominal.clear(), real.clear();
+  /// The orientation in which the tip stands if home's is commanded, by the cell: a rotation vector against home.
+  static Vector3 foreseen_turn(const Waypoint& w) {
+    Vector3 turn = Vector3::Zero();
+    if (!w.target->turns) return turn;
+    for (int i = 0; i < 2; ++i) turn = -command_offset(*w.target, w.p, turn, w.F).tail<3>();
+    return turn;
+  }
+
+  /// Adds a waypoint. The places are where the tip and the command are by its cell.
+  void add(const Waypoint& w, bool is_target) {
+    const Vector3 turn = foreseen_turn(w), offset = command_offset(*w.target, w.p, turn, w.F).head<3>();
+    batch.add(w.p, table.R_home, w.kinematics->start);
+    append(w.F, batch.F);
+    batch.cells.push_back(w.target.get());
+    append(is_target ? w.p : Vector3(w.p - offset), batch.place);
+    append(turn, batch.place);
+    append(is_target ? Vector3(w.p + offset) : w.p, batch.nominal_place);
+    append(Vector3(Vector3::Zero()), batch.nominal_place);
+  }
+
+  void solve_kinematics() {
+    batch.solve(table.flat.machine, {.real = {}, .nominal = kernel::nominal_question(table.perfect)});
+  }
+
+  void solve(BatchQuestion question, Acting acting, std::span<BatchAnswer> answers) {
+    const bool is_target = question == BatchQuestion::target;
+    batch.clear();
+    for (const Waypoint& w : waypoints) add(w, is_target);
+    kernel::Problem problem{.real = table.question(acting), .nominal = kernel::nominal_question(table.perfect)};
+    for (std::size_t j = 0; j < 6; ++j) problem.of_command[j] = !is_target || j >= 3;
+    batch.solve(table.flat.machine, problem);
     for (std::size_t i = 0; i < waypoints.size(); ++i) {
       const Waypoint& w = waypoints[i];
-      append(commands[i], nominal.p);
-      nominal.cells.push_back(&w.kinematics->start);
-      append(commands[i] - command_offset(*w.target, commands[i], w.F), real.place);
-      real.F.insert(real.F.end(), w.F.begin(), w.F.end());
-      real.cells.push_back(w.target.get());
-    }
-    nominal.solve(table.flat.machine, table.R_home, nominal_question(table.perfect, true));
-    real.p = nominal.p, real.rho = nominal.rho;
-    real.solve(table.flat.machine, table.R_home, table.question(acting, false));
-  }
-
-  bool is_solved(std::size_t i) const {
-    return nominal.accepted[i] != 0 && real.accepted[i] != 0 && real.is_stiff[i] != 0 && in_travel(nominal.rho, i);
-  }
-
-  void solve_forward(Acting acting, std::span<BatchAnswer> answers) {
-    std::vector<Vector3> commands;
-    for (const Waypoint& w : waypoints) commands.push_back(w.p);
-    solve_commands(commands, acting);
-    for (std::size_t i = 0; i < waypoints.size(); ++i)
-      answers[waypoints[i].request] = {is_solved(i), commands[i], pose_of(&real.tips[12 * i]), nominal.rho_of(i),
-                                       nominal.iterations[i] + real.iterations[i]};
-  }
-
-  /// Of machines that control positions only: actuators that bring the tip there, then the command that they are.
-  void solve_positions(Acting acting, std::span<BatchAnswer> answers) {
-    nominal.clear(), real.clear();
-    for (const Waypoint& w : waypoints) {
-      append(w.p, real.p);
-      real.F.insert(real.F.end(), w.F.begin(), w.F.end());
-      real.cells.push_back(w.target.get());
-      append(w.p + command_offset(*w.target, w.p, w.F), nominal.place);
-      nominal.cells.push_back(&w.kinematics->start);
-    }
-    real.solve(table.flat.machine, table.R_home, table.question(acting, true));
-    nominal.p = real.p, nominal.rho = real.rho;
-    nominal.solve(table.flat.machine, table.R_home, nominal_question(table.perfect, false));
-    for (std::size_t i = 0; i < waypoints.size(); ++i)
-      answers[waypoints[i].request] = {is_solved(i), pose_of(&nominal.tips[12 * i]).p, pose_of(&real.tips[12 * i]), {},
-                                       nominal.iterations[i] + real.iterations[i]};
-  }
-
-  /// Of machines that control orientations, which are commanded as at home: the command is moved until the tip is
-  /// there. The expansion of the cell says how a command changes with the place that it reaches.
-  void solve_outer(Acting acting, std::span<BatchAnswer> answers) {
-    std::vector<Vector3> commands;
-    for (const Waypoint& w : waypoints) commands.push_back(w.p + command_offset(*w.target, w.p, w.F));
-    std::vector<double> last_miss(waypoints.size(), 0);
-    for (int round = 0; round < most_command_rounds && !waypoints.empty(); ++round) {
-      solve_commands(commands, acting);
-      std::size_t kept = 0;
-      for (std::size_t i = 0; i < waypoints.size(); ++i) {
-        Waypoint& w = waypoints[i];
-        BatchAnswer& answer = answers[w.request];
-        answer.iterations += nominal.iterations[i] + real.iterations[i];
-        if (!is_solved(i)) continue;
-        answer.X_MT = pose_of(&real.tips[12 * i]);
-        const Vector3 miss = answer.X_MT.p - w.p;
-        const Vector3 next = commands[i] - miss + command_offset(*w.target, w.p, w.F) -
-                             command_offset(*w.target, answer.X_MT.p, w.F);
-        const double size = miss.norm();
-        if (size <= command_tolerance || (round > 0 && size * size <= command_tolerance * last_miss[i])) {
-          answer.solved = true;
-          answer.command = next;
-          answer.X_MT.p = w.p;
-          continue;
-        }
-        last_miss[kept] = size;
-        commands[kept] = next;
-        waypoints[kept++] = w;
-      }
-      waypoints.resize(kept), commands.resize(kept);
+      BatchAnswer& answer = answers[w.request];
+      answer.solved = batch.accepted[i] != 0 && batch.is_stiff[i] != 0 && in_travel(i);
+      answer.command = is_target ? pose_of(&batch.nominal_tips[12 * i]).p : w.p;
+      answer.X_MT = pose_of(&batch.tips[12 * i]);
+      answer.iterations = batch.iterations[i];
+      if (!is_target) answer.rho = batch.rho_of(i);
     }
   }
 };
@@ -231,36 +199,26 @@ void BatchSolver::solve(BatchQuestion question, const Stage& stage, std::span<co
   const auto acting = acting_in(stage, impl_->table.has_weights);
   if (!acting || !impl_->table.is_able) return;
   impl_->collect(requests, *acting);
-  if (question == BatchQuestion::forward)
-    impl_->solve_forward(*acting, answers);
-  else if (impl_->table.controls_positions)
-    impl_->solve_positions(*acting, answers);
-  else
-    impl_->solve_outer(*acting, answers);
+  impl_->solve(question, *acting, answers);
 }
 
-void BatchSolver::solve_nominal(std::span<const Vector3> p, std::span<NominalAnswer> answers) {
-  KernelBatch& batch = impl_->nominal;
+void BatchSolver::nominal_tips(std::span<const Vector3> p, std::span<NominalAnswer> answers) {
+  KernelBatch& batch = impl_->batch;
   batch.clear();
   std::vector<std::shared_ptr<const KinematicsCell>> cells;
   std::vector<std::size_t> asked;
   for (std::size_t i = 0; i < p.size(); ++i) {
-    answers[i].solved = false;
-    auto cell = impl_->kinematics_at(p[i]);
-    if (!cell) continue;
+    const auto cell = impl_->kinematics_at(p[i]);
+    answers[i].solved = cell && cell->R_MT;
+    if (answers[i].solved) answers[i].X_MT = {*cell->R_MT, p[i]};
+    if (!cell || cell->R_MT) continue;
     asked.push_back(i);
-    append(p[i], batch.p);
-    batch.cells.push_back(&cell->start);
-    cells.push_back(std::move(cell));
+    batch.add(p[i], impl_->table.R_home, cell->start);
+    cells.push_back(cell);
   }
-  const StartTable::Impl& table = impl_->table;
-  batch.solve(table.flat.machine, table.R_home, nominal_question(table.perfect, true));
-  for (std::size_t k = 0; k < asked.size(); ++k) {
-    NominalAnswer& answer = answers[asked[k]];
-    answer.solved = batch.accepted[k] != 0;
-    answer.X_MT = pose_of(&batch.tips[12 * k]);
-    answer.rho = batch.rho_of(k);
-  }
+  impl_->solve_kinematics();
+  for (std::size_t k = 0; k < asked.size(); ++k)
+    answers[asked[k]] = {batch.accepted[k] != 0, pose_of(&batch.nominal_tips[12 * k])};
 }
 
 const Configuration* BatchSolver::nominal_near(const Vector3& p) {
@@ -268,20 +226,26 @@ const Configuration* BatchSolver::nominal_near(const Vector3& p) {
   return impl_->near ? &impl_->near->nominal : nullptr;
 }
 
-// Neighbouring cells agree about a place between them. Along a longer way the nominal machine is followed.
+// Neighbouring cells have the same actuators at a place between them. Along a longer way the nominal machine is followed.
 bool BatchSolver::joins(const Vector3& from, const Vector3& to) {
   const auto begin = impl_->kinematics_at(from), end = impl_->kinematics_at(to);
   if (!begin || !end) return false;
   if (begin == end) return true;
-  const Model& model = impl_->table.model;
-  const NominalResult start = follow(model, begin->nominal, {impl_->table.R_home, from});
+  const StartTable::Impl& table = impl_->table;
+  KernelBatch& batch = impl_->batch;
+  batch.clear();
+  for (const auto& cell : {end, begin}) batch.add(to, table.R_home, cell->start);
+  impl_->solve_kinematics();
+  const double limit = same_branch * table.model.mechanism.length;
+  const bool are_neighbours = (from - to).cwiseAbs().maxCoeff() <= table.edge;
+  if (are_neighbours && batch.accepted[0] != 0 && batch.accepted[1] != 0 &&
+      (batch.rho_of(0) - batch.rho_of(1)).norm() < limit)
+    return true;
+  const NominalResult start = follow(table.model, begin->nominal, {table.R_home, from});
   if (start.status != Status::converged) return false;
-  const NominalResult followed = follow(model, start.configuration, {impl_->table.R_home, to});
-  NominalAnswer there;
-  solve_nominal({&to, 1}, {&there, 1});
-  return followed.status == Status::converged && there.solved &&
-         (actuator_values(model.mechanism, followed.configuration) - there.rho).norm() <
-             same_branch * model.mechanism.length;
+  const NominalResult followed = follow(table.model, start.configuration, {table.R_home, to});
+  return followed.status == Status::converged && batch.accepted[0] != 0 &&
+         (actuator_values(table.model.mechanism, followed.configuration) - batch.rho_of(0)).norm() < limit;
 }
 
 }  // namespace counterflex

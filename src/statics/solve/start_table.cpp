@@ -31,9 +31,21 @@ bool only_slides(const Mechanism& mechanism) {
 /// How many cells of a target fit into `bytes_of_cells`.
 std::size_t kept_cells(const kernel::FlatMachine& machine) {
   const auto unknowns = static_cast<std::size_t>(machine.unknowns());
-  const std::size_t numbers = unknowns * (kernel::StartCell::all_terms + 4) +
+  const std::size_t numbers = unknowns * (kernel::StartCell::most_terms + 4) +
                               6 * machine.elements.size() * kernel::StartCell::stress_terms;
   return std::clamp(bytes_of_cells / (sizeof(double) * numbers), least_cells, most_cells);
+}
+
+/// Whether the platform does not turn with the position, to 1e-11 rad in a cell of 1 cm.
+bool only_translates(const kernel::StartCell& cell) {
+  constexpr double least_slope = 1e-9, least_bend = 1e-7;  // rad/m, rad/m2
+  const auto terms = static_cast<std::size_t>(cell.terms());
+  const std::size_t unknowns = cell.changes.size() / terms;
+  bool turns = false;
+  for (std::size_t row = unknowns - 3; row < unknowns; ++row)
+    for (std::size_t k = 0; k < kernel::StartCell::position_terms; ++k)
+      turns = turns || std::abs(cell.changes[terms * row + k]) > (k < 3 ? least_slope : least_bend);
+  return !turns;
 }
 
 }  // namespace
@@ -53,7 +65,8 @@ StartTable::Impl::Impl(const Model& m, bool platform)
       perfect(kernel::transforms_at(flat, 0)),
       real(kernel::transforms_at(flat, 1)),
       R_home(tip(m.mechanism, m.home).R),
-      is_able(flat.why_not.empty() && controls(m.mechanism, Component::x) && controls(m.mechanism, Component::y) &&
+      is_able(flat.why_not.empty() && m.mechanism.controlled.size() == m.mechanism.travel.size() &&
+              controls(m.mechanism, Component::x) && controls(m.mechanism, Component::y) &&
               controls(m.mechanism, Component::z)),
       controls_positions(m.mechanism.controlled.size() == 3),
       has_weights(has_weight(m.mechanism)),
@@ -68,13 +81,12 @@ std::optional<CellIndex> StartTable::Impl::index_of(const Vector3& p) const {
 
 kernel::CellPlace StartTable::Impl::place_of(const CellIndex& index) const {
   const Vector3 corner(static_cast<double>(index.x), static_cast<double>(index.y), static_cast<double>(index.z));
-  return {R_home, edge * (corner.array() + 0.5), edge / 2};
+  return {R_home, !controls_positions, edge * (corner.array() + 0.5), edge / 2};
 }
 
-kernel::Question StartTable::Impl::question(Acting acting, bool target) const {
+kernel::Question StartTable::Impl::question(Acting acting) const {
   kernel::Question question;
   question.transforms = acting.errors ? &real : &perfect;
-  question.target = target;
   question.gravity = acting.gravity ? 1 : 0;
   return question;
 }
@@ -96,7 +108,10 @@ std::shared_ptr<const KinematicsCell> StartTable::Impl::make_kinematics(const Ce
   if (!(actuator_jacobian(model, nominal.configuration).condition < largest_kinematic_condition)) return nullptr;
   auto start = make_kinematics_cell(flat.machine, perfect, place, state_of(model, flat, nominal.configuration, 0));
   if (!start) return nullptr;
-  return std::make_shared<const KinematicsCell>(KinematicsCell{std::move(nominal.configuration), std::move(*start)});
+  std::optional<Matrix3> R_MT;
+  if (only_translates(*start)) R_MT = tip(model.mechanism, nominal.configuration).R;
+  return std::make_shared<const KinematicsCell>(
+      KinematicsCell{std::move(nominal.configuration), std::move(*start), R_MT});
 }
 
 // The solver of single waypoints judges the machine at the centre without a load. In the cell the kernel then compares
@@ -106,7 +121,7 @@ std::shared_ptr<const kernel::StartCell> StartTable::Impl::make_target(const Cel
   const auto nominal = kinematics(index);
   if (!nominal) return nullptr;
   const kernel::CellPlace place = place_of(index);
-  auto cell = make_target_cell(flat.machine, question(acting, true), perfect, place, nominal->start);
+  auto cell = make_target_cell(flat.machine, question(acting), perfect, place, nominal->start);
   if (!cell) return nullptr;
   Stage stage;
   stage.errors = acting.errors ? 1 : 0;

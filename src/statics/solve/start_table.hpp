@@ -23,6 +23,7 @@ std::optional<Acting> acting_in(const Stage& stage, bool has_weight);
 struct KinematicsCell {
   Configuration nominal;  ///< at the centre, reached straight from home
   kernel::StartCell start;
+  std::optional<Matrix3> R_MT;  ///< of the nominal tip, where it does not depend on the position
 };
 
 /// A cell by its place on the lattice.
@@ -99,7 +100,8 @@ struct StartTable::Impl {
   std::shared_ptr<const KinematicsCell> kinematics(const CellIndex& index);
   std::shared_ptr<const kernel::StartCell> target(const CellIndex& index, Acting acting, StaticsWork& work);
 
-  kernel::Question question(Acting acting, bool target) const;
+  /// What acts on the real machine.
+  kernel::Question question(Acting acting) const;
 
  private:
   std::shared_ptr<const KinematicsCell> make_kinematics(const CellIndex& index) const;
