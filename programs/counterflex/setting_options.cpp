@@ -116,7 +116,8 @@ const std::array option_table{
                   [](Text name, Text text, Options& options) { options.evaluate = truth_of(name, text); }},
     SettingOption{
         "expand-subprograms", "--expand-subprograms", "",
-        "Put the bodies of subprograms in the place of calls with plain numbers, and execute the loops and jumps of a Sinumerik",
+        "Put the bodies of subprograms in the place of calls with plain numbers, and execute loops, conditions and jumps of "
+        "constants",
         "false", false,
         [](Text name, Text text, Options& options) { options.expand_subprograms = truth_of(name, text); }},
     SettingOption{"work", "--work", "G54=X,Y,Z[,RX,RY,RZ][/DATUM]",

@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <iterator>
+#include <initializer_list>
 
 #include "counterflex/files/numbers.hpp"
 #include "counterflex/geometry/units.hpp"
+#include "program/constant_operators.hpp"
 #include "program/scanner.hpp"
 
 namespace counterflex {
@@ -14,41 +15,49 @@ namespace {
 
 using Value = std::optional<double>;
 
-/// A function of one argument; none where it has no value there, or where controls differ: below zero some
-/// round and turn otherwise.
-Value value_of_function(std::string_view name, double x) {
-  const bool differs = name == "round" || name == "fix" || name == "fup" || name == "asin" || name == "atan";
-  if (differs && x < 0) return std::nullopt;
-  if (name == "sin") return std::sin(x * deg);
-  if (name == "cos") return std::cos(x * deg);
-  if (name == "tan") return std::tan(x * deg);
-  if (name == "asin") return std::asin(x) / deg;
-  if (name == "acos") return std::acos(x) / deg;
-  if (name == "atan") return std::atan(x) / deg;
-  if (name == "sqrt") return std::sqrt(x);
-  if (name == "abs") return std::abs(x);
-  if (name == "exp") return std::exp(x);
-  if (name == "ln") return std::log(x);
-  if (name == "round") return std::round(x);
-  if (name == "fix") return std::floor(x);
-  if (name == "fup") return std::ceil(x);
-  if (name == "trunc") return std::trunc(x);
-  if (name == "pot") return x * x;
-  return std::nullopt;
+struct ComparisonName {
+  std::string_view name;
+  Relation comparison;
+};
+constexpr std::array word_comparisons{
+    ComparisonName{"eq", Relation::equal},        ComparisonName{"ne", Relation::unequal},
+    ComparisonName{"lt", Relation::less},         ComparisonName{"le", Relation::less_equal},
+    ComparisonName{"gt", Relation::greater},      ComparisonName{"ge", Relation::greater_equal}};
+constexpr std::array sign_comparisons{
+    ComparisonName{"==", Relation::equal},        ComparisonName{"<>", Relation::unequal},
+    ComparisonName{"<=", Relation::less_equal},   ComparisonName{">=", Relation::greater_equal},
+    ComparisonName{"<", Relation::less},          ComparisonName{">", Relation::greater}};
+
+/// Lower case without blanks. On a Sinumerik one blank stays between two names.
+std::string dense_text(std::string_view expression, ExpressionSyntax syntax) {
+  std::string dense;
+  bool blank = false;
+  for (const char c : expression) {
+    if (is_blank(c)) {
+      blank = true;
+      continue;
+    }
+    const bool parts = blank && syntax == ExpressionSyntax::parentheses && !dense.empty();
+    if (parts && is_identifier_character(dense.back()) && is_identifier_character(c)) dense += ' ';
+    blank = false;
+    dense += c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  }
+  return dense;
 }
 
-/// Reads sums of products of powers of factors, as LinuxCNC does, from text without blanks in lower case.
+/// Reads conditions of sums of products of powers of factors from dense text.
 class Evaluation {
  public:
   Evaluation(std::string text, ExpressionSyntax syntax, const ValueOf& value_of)
       : text_(std::move(text)),
-        open_(syntax == ExpressionSyntax::brackets ? '[' : '('),
-        close_(syntax == ExpressionSyntax::brackets ? ']' : ')'),
+        syntax_(syntax),
+        open_(syntax == ExpressionSyntax::parentheses ? '(' : '['),
+        close_(syntax == ExpressionSyntax::parentheses ? ')' : ']'),
         value_of_(value_of) {}
 
-  Value run() {
-    const Value value = sum();
-    return at_ == text_.size() ? value : std::nullopt;
+  ConstantValue run() {
+    const Value value = condition();
+    return {at_ == text_.size() ? value : std::nullopt, depends_on_rounding_};
   }
 
  private:
@@ -62,12 +71,87 @@ class Evaluation {
     return true;
   }
 
+  /// An operator that is a word; on a Sinumerik no letter or digit may follow it.
+  bool take_word(std::string_view word) {
+    const std::size_t begin = at_;
+    take(" ");
+    const bool taken = take(word) && (has_brackets() || !is_identifier_character(peek()));
+    if (!taken) at_ = begin;
+    if (taken) take(" ");
+    return taken;
+  }
+
+  std::string_view take_one_of(std::initializer_list<std::string_view> words) {
+    const auto found = std::find_if(words.begin(), words.end(), [&](std::string_view word) { return take_word(word); });
+    return found == words.end() ? std::string_view() : *found;
+  }
+
+  /// The operators that bind loosest.
+  Value condition() {
+    switch (syntax_) {
+      case ExpressionSyntax::linuxcnc: return logic({"and", "or", "xor"}, &Evaluation::comparison);
+      case ExpressionSyntax::macro: return comparison();
+      case ExpressionSyntax::parentheses: return logic({"or"}, &Evaluation::exclusive);
+      default: return sum();
+    }
+  }
+  Value exclusive() { return logic({"xor"}, &Evaluation::conjunction); }
+  Value conjunction() { return logic({"and"}, &Evaluation::negation); }
+
+  Value logic(std::initializer_list<std::string_view> names, Value (Evaluation::*operand)()) {
+    Value value = (this->*operand)();
+    while (value) {
+      const std::string_view name = take_one_of(names);
+      if (name.empty()) break;
+      value = logic_of(*value, name, (this->*operand)());
+    }
+    return value;
+  }
+
+  /// Only LinuxCNC takes other values than 0 and 1 for truth values; Fanuc works with their bits.
+  Value logic_of(double a, std::string_view name, Value b) const {
+    const auto is_truth = [&](double x) { return syntax_ == ExpressionSyntax::linuxcnc || x == 0 || x == 1; };
+    if (!b || !is_truth(a) || !is_truth(*b)) return std::nullopt;
+    return joined(a != 0, name, *b != 0);
+  }
+
+  Value negation() {
+    if (!take_word("not")) return comparison();
+    if (++depth_ > deepest) return std::nullopt;
+    const Value value = negation();
+    --depth_;
+    return value ? logic_of(*value, "xor", 1) : std::nullopt;
+  }
+
+  Value comparison() {
+    Value value = sum();
+    while (value) {
+      const auto comparison = has_brackets() ? take_comparison(word_comparisons) : take_comparison(sign_comparisons);
+      if (!comparison) break;
+      const Value other = sum();
+      if (!other) return std::nullopt;
+      value = compared(*value, *comparison, *other, syntax_ == ExpressionSyntax::linuxcnc);
+      if (!value) depends_on_rounding_ = true;
+    }
+    return value;
+  }
+
+  template <typename Names>
+  std::optional<Relation> take_comparison(const Names& names) {
+    const auto found = std::find_if(names.begin(), names.end(), [&](auto& known) { return take(known.name); });
+    return found == names.end() ? std::nullopt : std::optional(found->comparison);
+  }
+
   Value sum() {
     Value value = product();
-    while (value && (peek() == '+' || peek() == '-')) {
-      const bool plus = text_[at_++] == '+';
+    while (value) {
+      const bool plus = take("+"), minus = !plus && take("-");
+      const bool macro = !plus && !minus && syntax_ == ExpressionSyntax::macro;
+      const std::string_view name = macro ? take_one_of({"or", "xor"}) : std::string_view();
+      if (!plus && !minus && name.empty()) break;
       const Value other = product();
-      value = other ? Value(plus ? *value + *other : *value - *other) : std::nullopt;
+      if (!other) return std::nullopt;
+      value = plus ? *value + *other : minus ? Value(*value - *other) : logic_of(*value, name, other);
     }
     return value;
   }
@@ -75,9 +159,13 @@ class Evaluation {
   Value product() {
     Value value = power();
     while (value) {
-      const bool times = peek() == '*', over = peek() == '/', divides = !has_brackets() && take("div");
-      const bool modulo = !times && !over && !divides && take("mod");
-      if (!times && !over && !divides && !modulo) return value;
+      const bool times = peek() == '*', over = peek() == '/', divides = !has_brackets() && take_word("div");
+      const bool modulo = !times && !over && !divides && take_word("mod");
+      if (!times && !over && !divides && !modulo) {
+        if (syntax_ != ExpressionSyntax::macro || !take_word("and")) return value;
+        value = logic_of(*value, "and", power());
+        continue;
+      }
       if (times || over) ++at_;
       const Value other = power();
       if (!other || (!times && *other == 0)) return std::nullopt;
@@ -114,11 +202,11 @@ class Evaluation {
 
   Value bracket() { return up_to(close_); }
 
-  /// The sum behind the bracket that stands here, which `close` ends.
+  /// The condition behind the bracket that stands here, which `close` ends.
   Value up_to(char close) {
     ++at_;
     if (++depth_ > deepest) return std::nullopt;
-    const Value value = sum();
+    const Value value = condition();
     --depth_;
     return take(std::string_view(&close, 1)) ? value : std::nullopt;
   }
@@ -176,34 +264,29 @@ class Evaluation {
   }
 
   const std::string text_;
+  const ExpressionSyntax syntax_;
   const char open_, close_;
   const ValueOf& value_of_;
   std::size_t at_ = 0;
   int depth_ = 0;
+  bool depends_on_rounding_ = false;
 };
 
 }  // namespace
 
-std::optional<double> constant_value(std::string_view expression, ExpressionSyntax syntax,
-                                     const ValueOf& value_of) {
+ConstantValue evaluate_expression(std::string_view expression, ExpressionSyntax syntax, const ValueOf& value_of) {
   constexpr double beyond = 1e9;
-  std::string dense;
-  for (const char c : expression)
-    if (!is_blank(c)) dense += c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  const Value value = Evaluation(std::move(dense), syntax, value_of).run();
-  return value && std::abs(*value) < beyond ? value : std::nullopt;
+  ConstantValue result = Evaluation(dense_text(expression, syntax), syntax, value_of).run();
+  if (result.value && !(std::abs(*result.value) < beyond)) result.value.reset();
+  return result;
 }
 
-std::optional<double> constant_value(std::string_view expression, const std::vector<double>& parameters) {
-  return constant_value(expression, ExpressionSyntax::brackets, [&](const std::string& name) -> Value {
-    const Value index = read_number(std::string_view(name).substr(1));
-    if (!index || *index < 1 || *index > static_cast<double>(parameters.size())) return std::nullopt;
-    return parameters[static_cast<std::size_t>(*index) - 1];
-  });
+std::optional<double> constant_value(std::string_view expression, ExpressionSyntax syntax, const ValueOf& value_of) {
+  return evaluate_expression(expression, syntax, value_of).value;
 }
 
-std::string shortest_text(double value) {
-  std::string text = format_fixed(value, 6);
+std::string shortest_text(double value, int decimals) {
+  std::string text = format_fixed(value, decimals);
   text.erase(text.find_last_not_of('0') + 1);
   if (text.back() == '.') text.pop_back();
   return text;

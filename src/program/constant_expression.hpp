@@ -4,7 +4,6 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <vector>
 
 namespace counterflex {
 
@@ -12,21 +11,30 @@ namespace counterflex {
 /// not known.
 using ValueOf = std::function<std::optional<double>(const std::string& name)>;
 
-/// How expressions are spelt.
+/// How expressions are spelt, and how the operators of conditions bind.
 enum class ExpressionSyntax {
-  brackets,    ///< G-code: [#1 + 2], SIN[30], #<name>, #[#1 + 1], 2 ** 3, 7 MOD 2, ATAN[1]/[2]
-  parentheses  ///< Sinumerik: R1 + 2 * (R2 - 1), SIN(30), R[3], 7 MOD 2, ATAN2(1, 2)
+  brackets,    ///< G-code: [#1 + 2], SIN[30], #<name>, #[#1 + 1], 2 ** 3, 7 MOD 2, ATAN[1]/[2]; no conditions
+  linuxcnc,    ///< brackets; EQ NE GT GE LT LE bind looser than +, and tighter than AND OR XOR
+  macro,       ///< brackets, as Fanuc has them; AND binds as *, OR and XOR as +, comparisons last
+  parentheses  ///< Sinumerik: R1 + 2 * (R2 - 1), SIN(30), R[3], 7 MOD 2, ATAN2(1, 2), == <> < > <= >= AND OR XOR NOT
 };
 
-/// The value of an expression of numbers, variables, signs, + - * / ** MOD DIV and functions (angles in degrees); nothing
-/// for variables that `value_of` does not know, for other operators and functions, for division by zero and for what
-/// cannot be held.
+/// A value, or why there is none.
+struct ConstantValue {
+  std::optional<double> value{};
+  bool depends_on_rounding = false;  ///< a comparison has a result that depends on how the control rounds
+};
+
+/// The value of an expression of numbers, variables, signs, + - * / ** MOD DIV, functions (angles in degrees),
+/// comparisons and logic, whose values are 1 and 0. There is none for variables that `value_of` does not know, for other
+/// operators and functions, for division by zero and for what cannot be held. Comparisons of
+/// nearly equal values have none where controls differ: see `compared`.
+ConstantValue evaluate_expression(std::string_view expression, ExpressionSyntax syntax, const ValueOf& value_of);
+
+/// The same, without the reason.
 std::optional<double> constant_value(std::string_view expression, ExpressionSyntax syntax, const ValueOf& value_of);
 
-/// In brackets, with #1, #2 ... those of `parameters`.
-std::optional<double> constant_value(std::string_view expression, const std::vector<double>& parameters);
-
-/// The text of such a value: with as many decimals as it needs, at most six.
-std::string shortest_text(double value);
+/// The text of such a value: with as many decimals as it needs, at most `decimals`.
+std::string shortest_text(double value, int decimals = 6);
 
 }  // namespace counterflex

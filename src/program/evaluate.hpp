@@ -4,10 +4,6 @@
 
 namespace counterflex {
 
-/// The key of the variable that `name` spells: "#5", "#<depth>", "r1". Empty where the name is worked out, or
-/// belongs to the control: then any variable may be meant.
-std::string variable_name(const Dialect& dialect, std::string_view name);
-
 /// Makes words of `block` literal whose values are known: `#5`, `[#1+2]`, `R1*2`. Their spans stay, so that a new number
 /// takes the place of the expression.
 void evaluate_words(Block& block, Reading& reading);

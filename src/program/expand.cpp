@@ -6,9 +6,7 @@
 
 #include "program/expand_text.hpp"
 #include "program/klartext_lex.hpp"
-#include "program/outline.hpp"
 #include "program/remarks.hpp"
-#include "program/siemens_expand.hpp"
 
 namespace counterflex {
 namespace {
@@ -28,19 +26,21 @@ bool may_expand(const Dialect& dialect) {
          dialect.name != klartext_name;
 }
 
+bool may_execute(const Dialect& dialect) {
+  return dialect.sinumerik_words || dialect.o_words || dialect.macro_words;
+}
+
 Expansion expand_subprograms(std::string& text, const std::string& file, const Dialect& dialect) {
-  if (dialect.sinumerik_words) return expand_siemens(text, file, dialect);
-  if (!may_expand(dialect)) return {};
-  // Copies repeat block numbers: a jump to one of them would go to another place.
-  std::string why_none = outline_of(text, dialect).jumps ? "the program jumps to block numbers" : "";
-  ExpandedText expanded = expand_text(text, file, dialect, why_none);
-  if (why_none.empty() && expanded.seeks_numbers && expanded.expansion.calls > 0)
+  if (!may_execute(dialect) && !may_expand(dialect)) return {};
+  ExpandedText expanded = expand_text(text, file, dialect, "");
+  const auto replaced = [&] { return expanded.expansion.calls > 0 || expanded.expansion.executed > 0; };
+  if (expanded.seeks_numbers && replaced())
     expanded = expand_text(text, file, dialect,
                            "M97 or M99 with P looks for a block number, which copies would repeat");
-  if (expanded.expansion.calls == 0)
-    expanded.expansion.lines.clear();
-  else
+  if (replaced())
     text = std::move(expanded.text);
+  else
+    expanded.expansion.lines.clear();
   return std::move(expanded.expansion);
 }
 
@@ -73,34 +73,36 @@ std::string_view why_not_expanded(const Expansion& expansion, int text_line) {
 
 namespace {
 
-void remark_execution(Program& program) {
+/// Says what was executed, or why not. False where nothing was to be executed.
+bool remark_execution(Program& program) {
   const Expansion& expansion = program.expansion;
-  if (expansion.calls > 0)
-    return add_remark(program, expansion.first_call,
-                      fmt::format("loops, conditions and jumps are replaced by the blocks that they execute, {} of them; this "
-                                  "is the first",
-                                  expansion.calls));
-  if (expansion.calls_left.empty())
-    return add_remark(program, 1, "no loop, condition or jump stands in the program: nothing is expanded");
-  const CallLeft& left = expansion.calls_left.front();
-  add_remark(program, left.text_line, "loops, conditions and jumps are left as they are: " + left.why);
+  if (expansion.executed > 0)
+    add_remark(program, expansion.first_executed,
+               fmt::format("loops, conditions and jumps are replaced by the blocks that they execute, {} of them; this "
+                           "is the first",
+                           expansion.executed));
+  const auto& left = expansion.calls_left;
+  const auto flow = std::find_if(left.begin(), left.end(), [](const CallLeft& one) { return one.is_flow; });
+  if (flow != left.end())
+    add_remark(program, line_of_file(expansion, flow->text_line),
+               "loops, conditions and jumps are left as they are: " + flow->why);
+  return expansion.executed > 0 || flow != left.end();
 }
 
 }  // namespace
 
 void remark_expansion(Program& program) {
-  if (find_dialect(program.dialect)->sinumerik_words) return remark_execution(program);
+  const bool sinumerik = find_dialect(program.dialect)->sinumerik_words;
+  const bool flow = remark_execution(program);
   const Expansion& expansion = program.expansion;
-  if (expansion.calls == 0) {
-    if (expansion.calls_left.empty())
-      add_remark(
-          program, 1,
-          "no call by M98 or an O-word and no CALL LBL stands in the program itself: nothing is expanded");
-    return;
-  }
-  add_remark(program, expansion.first_call,
-             fmt::format("{} of subprograms replaced by the bodies; this is the first",
-                         expansion.calls == 1 ? "one call" : fmt::format("{} calls", expansion.calls)));
+  if (expansion.calls > 0)
+    return add_remark(program, expansion.first_call,
+                      fmt::format("{} of subprograms replaced by the bodies; this is the first",
+                                  expansion.calls == 1 ? "one call" : fmt::format("{} calls", expansion.calls)));
+  if (flow || !expansion.calls_left.empty()) return;
+  add_remark(program, 1,
+             sinumerik ? "no loop, condition or jump stands in the program: nothing is expanded"
+                       : "no call by M98 or an O-word and no CALL LBL stands in the program itself: nothing is expanded");
 }
 
 }  // namespace counterflex

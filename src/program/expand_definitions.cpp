@@ -25,16 +25,6 @@ char first_letter(std::string_view line) {
   return at < line.size() ? upper(line[at]) : '\0';
 }
 
-/// What stands behind the end of a program need not be G-code.
-bool lexes(std::string_view text, const std::string& file, const Dialect& dialect, Block& block) {
-  try {
-    lex(text, file, dialect, block);
-    return true;
-  } catch (const InputError&) {
-    return false;
-  }
-}
-
 std::string number_text(const Word& word) {
   return word.literal ? fmt::format("{}", count_of(word)) : std::string();
 }
@@ -106,7 +96,7 @@ bool is_m(const Word& word, int code) {
 
 /// What in a block of the body keeps it from being copied.
 void look_at_words(const Block& block, bool by_word, const Dialect& dialect, Definition& d) {
-  if (block.assigns && dialect.o_words) forbid(d, "its body sets variables");
+  if (block.assigns && dialect.o_words && !by_word) forbid(d, "its body sets variables");
   for (const Word& word : block.words) {
     if (is_m(word, 73)) forbid(d, "M73 in its body brings states back");
     if (word.literal) continue;
@@ -140,11 +130,62 @@ bool ends_sub(std::string_view text, const Block& block, const SubprogramName& n
       forbid(d, "its endsub gives a value back");
     return true;
   }
-  if (!is_word(keyword, "CALL")) forbid(d, "its body holds a condition, a loop, a jump or a return");
+  if (is_word(keyword, "SUB") || is_word(keyword, "ENDSUB")) forbid(d, "another subprogram is defined in its body");
   return false;
 }
 
+void add_to_flow(std::string_view text, const Block& block, const Dialect& dialect, const SubprogramName& name,
+                 Definition& d) {
+  try {
+    add_flow(text, dialect, block, true, d.flow);
+  } catch (const UnknownFlow& unknown) {
+    forbid(d, unknown.why);
+  }
+  // The variables of such a body are not followed.
+  if (dialect.o_words && name.kind != NameKind::word && !d.flow.lines.empty())
+    forbid(d, "its body holds a condition, a loop, a jump or a return");
+}
+
+void join_flow(Definition& d) {
+  try {
+    join_structures(d.flow);
+  } catch (const UnknownFlow& unknown) {
+    forbid(d, unknown.why);
+  }
+}
+
+/// Reads the lines of the body, up to the line that ends it. Behind jumps that is the last M99.
+void read_body(std::string_view text, const std::string& file, const Dialect& dialect, const SubprogramName& name,
+               Definition& d) {
+  const bool by_word = name.kind == NameKind::word;
+  Block block = before(d.body);
+  while (next_line(text, block)) {
+    if (!d.ends)
+      lex(text, file, dialect, block);
+    else if (!lexes(text, file, dialect, block))
+      return;
+    const bool other = block.percent || find_letter(block, 'O') != nullptr;
+    if (other || (ends_program(block) && empty(block.block_delete))) return;
+    if (!empty(block.flow_keyword) && ends_sub(text, block, name, d)) return end_at(block, d);
+    add_to_flow(text, block, dialect, name, d);
+    if (!empty(block.flow_keyword)) continue;
+    look_at_words(block, by_word, dialect, d);
+    if (by_word || !comes_back(block, d)) continue;
+    end_at(block, d);
+    if (!has_jumps(d.flow)) return;
+  }
+}
+
 }  // namespace
+
+bool lexes(std::string_view text, const std::string& file, const Dialect& dialect, Block& block) {
+  try {
+    lex(text, file, dialect, block);
+    return true;
+  } catch (const InputError&) {
+    return false;
+  }
+}
 
 Block before(LinePlace place) {
   Block block;
@@ -187,8 +228,8 @@ Definition read_definition(std::string_view text, const std::string& file, const
                            const SubprogramName& name, LinePlace begin) {
   Definition d;
   d.begin = d.body = begin;
-  Block block = before(begin);
   if (name.kind != NameKind::block) {
+    Block block = before(begin);
     next_line(text, block);
     lex(text, file, dialect, block);
     const auto names = [](const Word& word) { return word.letter == 'O' || word.letter == 'N'; };
@@ -196,20 +237,8 @@ Definition read_definition(std::string_view text, const std::string& file, const
     if (!empty(block.block_delete)) forbid(d, "'/' may skip its O");
     d.body = {block.line_end.end, block.line + 1};
   }
-  while (next_line(text, block)) {
-    lex(text, file, dialect, block);
-    const bool other = block.percent || find_letter(block, 'O') != nullptr;
-    if (other || (ends_program(block) && empty(block.block_delete))) return d;
-    if (!empty(block.flow_keyword)) {
-      if (!ends_sub(text, block, name, d)) continue;
-      end_at(block, d);
-      return d;
-    }
-    look_at_words(block, name.kind == NameKind::word, dialect, d);
-    if (name.kind == NameKind::word || !comes_back(block, d)) continue;
-    end_at(block, d);
-    return d;
-  }
+  read_body(text, file, dialect, name, d);
+  join_flow(d);
   return d;
 }
 

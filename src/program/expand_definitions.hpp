@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "program/control_flow.hpp"
 #include "program/lex.hpp"
 
 namespace counterflex {
@@ -18,18 +19,13 @@ struct SubprogramName {
   auto operator<=>(const SubprogramName&) const = default;
 };
 
-/// The beginning of a line.
-struct LinePlace {
-  std::size_t at = 0;
-  int line = 1;
-};
-
 struct Definition {
   LinePlace begin;             ///< its O line
   LinePlace body;              ///< the line behind; of a block number the same line
   bool ends = false;           ///< by M99 or endsub, before the program does
   LinePlace end;               ///< then this line
   LinePlace after;             ///< and the one behind
+  ControlFlow flow;            ///< of its body
   std::string why_not;         ///< its body cannot be copied
   bool seeks_numbers = false;  ///< M99 with P
 };
@@ -40,6 +36,9 @@ using Definitions = std::map<SubprogramName, std::vector<LinePlace>>;
 /// Lines that define a subprogram or may, up to the '%' that ends the file. Numbers of programs that stand
 /// before the end of a LinuxCNC's program are the program's own.
 Definitions find_definitions(std::string_view text, const std::string& file, const Dialect& dialect);
+
+/// Whether the line is G-code: what stands behind the end of a program need not be.
+bool lexes(std::string_view text, const std::string& file, const Dialect& dialect, Block& block);
 
 /// Reads the body that begins at `begin`. Throws `InputError` for what is no G-code.
 Definition read_definition(std::string_view text, const std::string& file, const Dialect& dialect,
@@ -52,7 +51,7 @@ Block before(LinePlace place);
 const Word* find_m(const Block& block, int code);
 const Word* find_letter(const Block& block, char letter);
 
-/// Whether it ends the program: M2, M30.
+/// Whether M2 or M30 stands in it.
 bool ends_program(const Block& block);
 
 /// "100" of "0100", "<pocket>" of "< Pocket >"; empty where it is an expression.

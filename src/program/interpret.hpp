@@ -11,6 +11,7 @@
 #include "program/operation.hpp"
 #include "program/outline.hpp"
 #include "program/sorted_block.hpp"
+#include "program/variables.hpp"
 
 namespace counterflex {
 
@@ -44,7 +45,7 @@ struct Reading {
   std::size_t turns = 0;             ///< of all arcs so far, one at least for each
   double turned_mm = 0;              ///< the way of their full turns
   std::map<std::string, SetOffset> offsets{};  ///< by name
-  std::map<std::string, double, std::less<>> variables{};  ///< whose values are known, see `evaluate_words`
+  Variables variables{};  ///< whose values are known, see `evaluate_words`
   std::optional<Word> angle{};               ///< of the block's line, which says one of two coordinates
   std::optional<CalledCycle> called{};  ///< by MCALL, at every position
   std::string last_reason{};         ///< for which a block was left alone

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "counterflex/geometry/curve.hpp"
+#include "program/expand.hpp"
 
 namespace counterflex {
 namespace {
@@ -169,14 +170,15 @@ bool has_axis_word(const SortedBlock& sorted) {
 }
 
 std::string_view why_not_followed(const Reading& r) {
-  const bool may_execute = r.dialect.sinumerik_words && !r.options.expand_subprograms;
+  const bool hint = may_execute(r.dialect) && !r.options.expand_subprograms;
   if (r.body.jumps)
-    return may_execute ? "the program jumps: any block may run never or often (--expand-subprograms executes jumps whose "
-                         "conditions are known)"
-                       : "the program jumps: any block may run never or often";
+    return hint ? "the program jumps: any block may run never or often (--expand-subprograms executes jumps whose "
+                  "conditions are known)"
+                : "the program jumps: any block may run never or often";
   if (r.in_body())
-    return may_execute ? "it stands in a condition or a loop (--expand-subprograms executes those whose conditions are known)"
-                       : "it stands in a condition, a loop or a subprogram";
+    return hint && !r.body.subprogram
+               ? "it stands in a condition or a loop (--expand-subprograms executes those whose conditions are known)"
+               : "it stands in a condition, a loop or a subprogram";
   if (r.state.displaced != 0) return displacement_text(r.state.displaced);
   std::uint16_t doubts = r.state.doubts;
   // Planes and centres matter to arcs and cycles alone, levels to cycles.

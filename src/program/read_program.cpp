@@ -14,7 +14,10 @@ Program read_program(std::string text, const std::string& file, const ReadOption
   Expansion expansion;
   if (options.expand_subprograms)
     expansion = dialect.name == klartext_name ? expand_klartext(text, file) : expand_subprograms(text, file, dialect);
-  const auto reader = make_reader(file, options, dialect, outline_of(text, dialect));
+  Outline outline = outline_of(text, dialect);
+  // What is left of jumps stands where no block of the program itself runs.
+  if (expansion.in_order) outline.jumps = false;
+  const auto reader = make_reader(file, options, dialect, std::move(outline));
   Program& program = reader->program();
   program.text = std::move(text);
   program.expansion = std::move(expansion);

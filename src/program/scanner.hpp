@@ -26,6 +26,9 @@ inline bool is_digit(char c) {
 inline bool is_letter(char c) {
   return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z');
 }
+inline bool is_identifier_character(char c) {
+  return is_letter(c) || is_digit(c) || c == '_';
+}
 /// Where the first of two characters stands from `at` on, or npos.
 inline std::size_t find_either(std::string_view text, char a, char b, std::size_t at) {
   while (at < text.size() && text[at] != a && text[at] != b) ++at;

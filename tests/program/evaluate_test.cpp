@@ -11,8 +11,8 @@ using namespace counterflex::test;
 
 namespace {
 
-std::optional<double> bracketed(const std::string& text) {
-  return constant_value(text, ExpressionSyntax::brackets,
+std::optional<double> bracketed(const std::string& text, ExpressionSyntax syntax = ExpressionSyntax::linuxcnc) {
+  return constant_value(text, syntax,
                         [](const std::string& name) -> std::optional<double> {
                           if (name == "#1") return 2;
                           if (name == "#2") return 1;
@@ -85,9 +85,35 @@ TEST_CASE("expressions of a Sinumerik are in round brackets, with its functions"
   CHECK(std::abs(*sinumerik("ATAN2(1, 1)") - 45) < 1e-12);
 }
 
+TEST_CASE("comparisons and logic are 1 or 0, and bind as the control has it") {
+  CHECK(bracketed("[#1 GT 1]") == 1);
+  CHECK(bracketed("[[1 + 1] GT 1 AND 3 LT 2 + 2]") == 1);
+  CHECK(bracketed("[1 OR 0 AND 0]") == 0);
+  CHECK(bracketed("[2 AND 4]") == 1);
+  CHECK(bracketed("[3 XOR 2]") == 0);
+  CHECK(bracketed("[0.1 + 0.2 EQ 0.3]") == 1);
+  CHECK(bracketed("[1 EQ 1.0002]") == 0);
+  CHECK_FALSE(bracketed("[1 EQ 1.00001]").has_value());  // versions of LinuxCNC differ
+  CHECK(bracketed("[1 NE 2]") == 1);
+  CHECK(bracketed("[2 LE 2 + 1 GE 1]") == 1);
+  const auto macro = ExpressionSyntax::macro;
+  CHECK(bracketed("[[#1 EQ 2] AND [#2 LT 3]]", macro) == 1);
+  CHECK(bracketed("[1 OR 0 AND 0]", macro) == 1);
+  CHECK(bracketed("[#1 NE 2]", macro) == 0);
+  for (const char* const text : {"[2 AND 4]", "[#1 EQ 2 AND #2 LT 3]", "[0.1 + 0.2 EQ 0.3]", "[0.1 + 0.2 GT 0.3]"})
+    CHECK_FALSE(bracketed(text, macro).has_value());
+  CHECK(evaluate_expression("[0.1 + 0.2 LE 0.3]", macro, nullptr).depends_on_rounding);
+  CHECK_FALSE(bracketed("[1 GT 0]", ExpressionSyntax::brackets).has_value());
+  CHECK(sinumerik("R1 == 2 AND NOT R1 <> 2") == 1);
+  CHECK(sinumerik("R1 >= 3 OR (R1 < 3 AND _DEPTH <= -3)") == 1);
+  CHECK(sinumerik("7 MOD R1") == 1);
+  CHECK_FALSE(sinumerik("R1 AND 1").has_value());
+  CHECK_FALSE(sinumerik("R1 ANDY 1").has_value());
+}
+
 TEST_CASE("what controls work out differently, or the text does not show, has no value") {
   for (const char* const text :
-       {"#3", "[1 / 0]", "FIX[-2.8]", "ROUND[-0.5]", "ATAN[-1]/[1]", "[-7 MOD 4]", "[1 GT 0]", "SQRT[-1]",
+       {"#3", "[1 / 0]", "FIX[-2.8]", "ROUND[-0.5]", "ATAN[-1]/[1]", "[-7 MOD 4]", "SQRT[-1]",
         "ASIN[2]", "#<other>", "FOO[1]", "[1 + ", "#[1.5]", "[1 2]2"})
     CHECK_FALSE(bracketed(text).has_value());
   for (const char* const text : {"R2", "R1 +", "MINVAL(1,2)", "$P_EP[X]", "(1"})
@@ -99,6 +125,7 @@ TEST_CASE("constants and expressions of them are positions that are known, with 
   CHECK(end_of("#<depth>=-2.5 (down)\n#1=[#<depth> * 2]\nG1 Z#<depth> X#1\n") == Vector3(-5, 0, -2.5));
   CHECK(end_of("#1=5\n#1=[#1+1]\nG1 X#1\n") == Vector3(6, 0, 5));
   CHECK(end_of("#1=5\n#1=7 G1 X#1\n") == Vector3(5, 0, 5));  // set behind the block
+  CHECK(end_of("#2=3\n#2=5 #3=#2 G1 X#2\nG1 Y#3\n") == Vector3(3, 3, 5));  // all values are read first
   CHECK(end_of("#100=5 (A)\nG1 X#100 Y-#100\n", "fanuc") == Vector3(5, -5, 5));
   CHECK(end_of("#101=1#102=2\nG1 X#102 Y#101\n", "fanuc") == Vector3(2, 1, 5));
   CHECK(end_of("R1=5 R2=R1*2\nG1 X=R2+1 Y=-R1\n", "siemens") == Vector3(11, -5, 5));
@@ -117,6 +144,7 @@ TEST_CASE("variables that the text does not show are not known") {
   CHECK_FALSE(last_is_known("#1=5\n#[#2]=6\nG1 X#1\n"));
   CHECK_FALSE(last_is_known("#100=5\nIF[#2EQ1]THEN#100=6\nG1 X#100\n", "fanuc"));
   CHECK_FALSE(last_is_known("#100=5\nM98 P1000\nG90 G1 X0. Y0. Z5.\nX#100\n", "fanuc"));
+  CHECK_FALSE(last_is_known("#100=5\n#100=6#101=#100\nG1 X#101\n", "fanuc"));
   CHECK_FALSE(last_is_known("#5221=5\nG1 X#5221\n"));
   CHECK_FALSE(last_is_known("#1=[1/3]\nG91 G1 X#1\n"));
 }

@@ -25,7 +25,7 @@ void check_executed(const std::string& text, const std::string& lines) {
   CAPTURE(text);
   const Executed e = executed(text);
   CHECK(e.text == lines);
-  CHECK(e.expansion.calls > 0);
+  CHECK(e.expansion.executed > 0);
 }
 
 void check_left(const std::string& text, int line, std::string_view why) {
@@ -67,13 +67,14 @@ TEST_CASE("siemens: copies of a line say from where they come, and what stands b
   CHECK(line_of_file(e.expansion, 6) == 5);
   REQUIRE(e.expansion.lines.size() >= 2);
   CHECK(e.expansion.lines[1].called_from == 4);
-  CHECK(e.expansion.calls == 2);
+  CHECK(e.expansion.executed == 2);
 }
 
 TEST_CASE("siemens: what is not known from the text leaves the program as it is") {
   check_left("IF R1==1 GOTOF A\nX1\nA: M30\n", 1, "the condition R1==1 is not known from the text");
   check_left("WHILE $AC_TIMER[1]<5\nX1\nENDWHILE\nM30\n", 1,
              "the condition $AC_TIMER[1]<5 is not known from the text");
+  check_left("R1=0.1+0.2\nIF R1==0.3 GOTOF A\nX1\nA: M30\n", 2, "the condition R1==0.3 depends on how the control rounds");
   check_left("A: X1\nGOTOB A\nM30\n", 2, "more than 150000 lines would be executed");
   check_left("R1=1\nIF R1==1 GOTOB A\nX1\nA: M30\n", 2,
              "the label A of the jump is not found in its direction");

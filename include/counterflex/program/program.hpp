@@ -258,19 +258,23 @@ struct LineRun {
   int called_from = 0;  ///< line of the file that calls what these lines are copied from; 0: no copies
 };
 
-/// A call that was not expanded.
+/// A call that was not expanded, or a loop, a condition or a jump that was not executed.
 struct CallLeft {
   int text_line = 0;
   std::string why;
+  bool is_flow = false;  ///< no call
 };
 
-/// What became of the calls of subprograms where they were to be expanded.
+/// What became of calls of subprograms, loops, conditions and jumps where they were to be expanded.
 struct Expansion {
   std::vector<LineRun> lines;  ///< none: the text is the file's
   int file_lines = 0;
   std::size_t calls = 0;  ///< replaced, each repeat and each call in a copy too
   int first_call = 0;     ///< line of the file
-  std::vector<CallLeft> calls_left;
+  std::size_t executed = 0;  ///< loops, conditions and jumps, each pass
+  int first_executed = 0;    ///< line of the file
+  bool in_order = false;     ///< the text holds the blocks of the program itself in the order in which they run
+  std::vector<CallLeft> calls_left;  ///< by lines
   std::vector<Span> unused;  ///< definitions in the text that nothing calls any more: nothing in them runs
 };
 
