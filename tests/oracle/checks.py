@@ -4,6 +4,7 @@ import re
 
 import compare
 import facts
+import helix
 import limits
 import linear
 import path
@@ -24,7 +25,7 @@ class Shop:
 
     def __init__(self, runs, interpreter, folder, known):
         self.runs, self.interpreter, self.folder, self.known = runs, interpreter, folder, known
-        self.notes = []
+        self.notes, self.refused = [], set()
 
     def about(self, program):
         return self.known.get(os.path.splitext(os.path.basename(program))[0], {})
@@ -55,7 +56,8 @@ def refusal(shop, program, run):
     if not run.refused_with_place(os.path.basename(program)):
         return 'exit %d: %s' % (run.status, run.said[-300:])
     if shop.about(program).get('may_be_refused'):
-        shop.notes.append('%s: refused: %s' % (os.path.basename(program), run.said[-200:]))
+        shop.notes.append('%s: refused: %s' % (os.path.basename(program), run.said.splitlines()[-1]))
+        shop.refused.add(program)
         return ''
     return run.said[-300:]
 
@@ -116,7 +118,8 @@ class Corrected:
 def judged_text(shop, program, findings):
     if findings:
         return findings.text()
-    shop.notes.append('%s: %d of %d ends judged' % (os.path.basename(program), findings.judged, findings.total))
+    left = ', contours leave %.4f mm' % findings.contours_leave if findings.contours_leave is not None else ''
+    shop.notes.append('%s: %d of %d ends judged%s' % (os.path.basename(program), findings.judged, findings.total, left))
     return ''
 
 
@@ -157,8 +160,8 @@ def shift_offsets(shop, program):
     return shift_with(shop, program, OFFSETS, LENGTHS)
 
 
-def field(shop, program, sign):
-    gantry = shop.gantry(program, squareness=(sign * SQUARE, -sign * SQUARE, sign * SQUARE), offsets=OFFSETS)
+def field(shop, program, **errors):
+    gantry = shop.gantry(program, **errors, offsets=OFFSETS)
 
     def check_of(both):
         return linear.FieldCheck(gantry, both.facts, both.left_alone, TOLERANCE + 2e-4)
@@ -166,11 +169,16 @@ def field(shop, program, sign):
 
 
 def field_positive(shop, program):
-    return field(shop, program, 1)
+    return field(shop, program, squareness=(SQUARE, -SQUARE, SQUARE))
 
 
 def field_negative(shop, program):
-    return field(shop, program, -1)
+    return field(shop, program, squareness=(-SQUARE, SQUARE, -SQUARE))
+
+
+def field_turned(shop, program):
+    """A machine that is turned and leans turns its contours, and changes their heights."""
+    return field(shop, program, turned=(SQUARE, -0.5 * SQUARE, 0.3 * SQUARE))
 
 
 def calls(shop, program):
@@ -194,14 +202,21 @@ def calls(shop, program):
 
 
 def masking(shop, program):
-    """With numbers masked and what was inserted removed the corrected program is the original, byte for byte."""
+    """With numbers masked and what was inserted removed the corrected program is the original, byte for byte. Helices of
+    Klartext may have become lines."""
     for gantry in (shop.gantry(program, shift=product.FRAME_SHIFT, offsets=AT_ORIGIN),
                    shop.gantry(program, squareness=(SQUARE, -SQUARE, SQUARE), offsets=AT_ORIGIN)):
         run = shop.runs.compensate(program, gantry, options=shop.options(program))
         if run.status != 0:
-            return refusal(shop, program, run)
+            wrong = refusal(shop, program, run)
+            if wrong:
+                return wrong
+            continue
         try:
-            text.align(body_of(program, open(program, 'rb').read()), body_of(program, run.text))
+            original, corrected = body_of(program, open(program, 'rb').read()), body_of(program, run.text)
+            if is_klartext(program):
+                corrected = helix.with_helices(original, corrected, gantry.reached, TOLERANCE + 2e-4)
+            text.align(original, corrected)
         except text.Mismatch as error:
             return str(error)
     return ''
@@ -263,6 +278,6 @@ def plan_of(report):
 
 
 ALL = {'identity': identity, 'shift': shift, 'shift_skipped': shift_skipped, 'shift_offsets': shift_offsets,
-       'field_positive': field_positive, 'field_negative': field_negative, 'masking': masking, 'limits': control_limits, 'shares': shares,
-       'calls': calls}
-G_CODE_ONLY = {'shift', 'shift_skipped', 'shift_offsets', 'field_positive', 'field_negative', 'limits', 'calls'}
+       'field_positive': field_positive, 'field_negative': field_negative, 'field_turned': field_turned,
+       'masking': masking, 'limits': control_limits, 'shares': shares, 'calls': calls}
+G_CODE_ONLY = {'shift', 'shift_skipped', 'shift_offsets', 'field_positive', 'field_negative', 'field_turned', 'limits', 'calls'}

@@ -23,6 +23,7 @@ class Findings:
 
     def __init__(self):
         self.rows, self.judged, self.total = [], 0, 0
+        self.contours_leave = None  # mm, of the corrections of contours, which move as a whole
 
     def add(self, pair, what):
         self.rows.append('line %d: %s' % (pair.line, what))

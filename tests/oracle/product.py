@@ -23,20 +23,22 @@ class Run:
 
 @dataclass
 class Gantry:
-    """Three axes, X carrying Y carrying Z. `shift` displaces its frame (mm); `squareness` turns Y about Z, Z about X and
-    Z about Y (rad). Lengths of tools are known to it only by the table."""
+    """Three axes, X carrying Y carrying Z. `shift` displaces its frame (mm), `turned` turns it about Z, X and Y (rad);
+    `squareness` turns Y about Z, Z about X and Z about Y (rad). Lengths of tools are known to it only by the table."""
     shift: tuple = (0.0, 0.0, 0.0)
+    turned: tuple = (0.0, 0.0, 0.0)
     squareness: tuple = (0.0, 0.0, 0.0)
     offsets: dict = field(default_factory=dict)
     program: str = ''  # lines of the table [program]
 
     def toml(self):
         yaw, roll, pitch = (math.degrees(a) for a in self.squareness)
+        z, x, y = (math.degrees(a) for a in self.turned)
         work = ''.join('[work."%s"]\nxyz_mm = [%r, %r, %r]\n' % (offset_name(n), *xyz) for n, xyz in self.offsets.items())
         return ('format = "counterflex-machine 1"\nname = "gantry"\ncontrolled = ["x", "y", "z"]\n' +
                 '[program]\n' + self.program + '\n' + work +
                 '[[chain]]\nname = "serial"\n'
-                'errors.frame = { xyz_mm = [%r, %r, %r] }\n' % self.shift +
+                'errors.frame = { xyz_mm = [%r, %r, %r], rpy_deg = [%r, %r, %r] }\n' % (*self.shift, x, y, z) +
                 'errors.second = { rpy_deg = [0, 0, %r] }\nerrors.third = { rpy_deg = [%r, %r, 0] }\n' % (yaw, roll, pitch) +
                 'elements = [\n  { error = "frame" },\n' + axis('x') + '  { error = "second" },\n' + axis('y') +
                 '  { error = "third" },\n' + axis('z') + ']\n')
@@ -48,15 +50,20 @@ class Gantry:
         third = product(second, product(turn(1, pitch), turn(0, roll)))
         return [1.0, 0.0, 0.0], [row[1] for row in second], [row[2] for row in third]
 
+    def frame(self):
+        z, x, y = self.turned
+        return product(turn(2, z), product(turn(1, y), turn(0, x)))
+
     def reached(self, q):
         """Where the tool stands when `q` is commanded (mm, machine frame)."""
-        columns = self.columns()
-        return [self.shift[a] + sum(columns[k][a] * q[k] for k in range(3)) for a in range(3)]
+        columns, R = self.columns(), self.frame()
+        p = [sum(columns[k][a] * q[k] for k in range(3)) for a in range(3)]
+        return [self.shift[a] + sum(R[a][b] * p[b] for b in range(3)) for a in range(3)]
 
     def commanded(self, p):
         """What must be commanded so that the tool stands at `p` (mm, machine frame)."""
-        x, y, z = self.columns()
-        q = [a - b for a, b in zip(p, self.shift)]
+        (x, y, z), R = self.columns(), self.frame()
+        q = [sum(R[b][a] * (p[b] - self.shift[b]) for b in range(3)) for a in range(3)]
         qz = [0.0] * 3
         qz[2] = (q[2] * y[1] - q[1] * y[2]) / (z[2] * y[1] - z[1] * y[2])
         qz[1] = (q[1] - z[1] * qz[2]) / y[1]

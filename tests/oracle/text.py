@@ -105,6 +105,7 @@ def advance(states, o, corrected, parsed, last):
     """The states (lines of the corrected program used up: cost, what they were) after one line more of the original,
     which is `corrected[last]` at the latest."""
     after, carried, j = {}, None, min(states)
+    piece = 1e-3 if o.letters & INSERTED else 1.0  # a block that moves nothing has pieces only behind one that goes first
     gone = [0.0, 0.0, 0.0]  # by the pieces that are carried, where numbers are differences
     while j <= last:
         here = states.get(j)
@@ -121,7 +122,7 @@ def advance(states, o, corrected, parsed, last):
             step = sum(abs(a - b) for a, b in zip(reached, o.step))
         if step is not None:
             after[j + 1] = (carried[0] + step, (j, carried[1]))
-        carried, gone = (carried[0] + 1e-3, carried[1]) if parsed[j].is_piece else None, reached
+        carried, gone = (carried[0] + piece, carried[1]) if parsed[j].is_piece else None, reached
         j += 1
     return after
 
