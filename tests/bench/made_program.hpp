@@ -18,7 +18,7 @@ inline std::string mould_program(std::size_t bytes) {
     if (i % 2000 == 0)
       fmt::format_to(out, "G0 Z5.\nX0. Y{:.3f}\nG1 Z0. F300\n", y);
     else if (i % 40 == 0)
-      fmt::format_to(out, "G3 X{:.3f} Y{:.3f} I-0.5 J0. F800\nG1 X{:.3f} F1200\n", x - 1, y, x);
+      fmt::format_to(out, "G3 X{:.3f} Y{:.3f} I-0.5 J0. F800\nG1 X{:.3f} F1200\n", x - 1.05, y, x);
     else if (i % 3 == 0)
       fmt::format_to(out, "X{:.3f} Y{:.3f} Z{:.4f}\n", x, y, z);
     else
