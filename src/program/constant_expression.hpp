@@ -19,14 +19,14 @@ enum class ExpressionSyntax {
   parentheses  ///< Sinumerik: R1 + 2 * (R2 - 1), SIN(30), R[3], 7 MOD 2, ATAN2(1, 2), == <> < > <= >= AND OR XOR NOT
 };
 
-/// A value, or why there is none.
+/// A value, or why it is unknown.
 struct ConstantValue {
   std::optional<double> value{};
   bool depends_on_rounding = false;  ///< a comparison has a result that depends on how the control rounds
 };
 
 /// The value of an expression of numbers, variables, signs, + - * / ** MOD DIV, functions (angles in degrees),
-/// comparisons and logic, whose values are 1 and 0. There is none for variables that `value_of` does not know, for other
+/// comparisons and logic, whose values are 1 and 0. It is unknown for variables that `value_of` does not know, for other
 /// operators and functions, for division by zero and for what cannot be held. Comparisons of
 /// nearly equal values have none where controls differ: see `compared`.
 ConstantValue evaluate_expression(std::string_view expression, ExpressionSyntax syntax, const ValueOf& value_of);

@@ -16,7 +16,7 @@ struct ProgramText {
   std::ptrdiff_t numbered_programs = 0;
 };
 
-/// The definition that begins with `block`. A single program that ends with M99 runs over and over: it is none.
+/// The definition that begins with `block`. A single program that ends with M99 repeats itself and is not a definition.
 std::optional<Definition> definition_at(const ProgramText& program, const Block& block);
 
 struct MainFlow {

@@ -19,7 +19,7 @@ std::string take_name(std::string_view& text) {
   return name;
 }
 
-/// "IF R1<3 GOTOB BEGIN": the place of the word GOTO, GOTOB, GOTOF or GOTOC; npos where there is none.
+/// "IF R1<3 GOTOB BEGIN": the place of the word GOTO, GOTOB, GOTOF or GOTOC; npos if the line has no such word.
 std::size_t jump_in(const std::string& line) {
   for (std::size_t at = line.find("GOTO"); at != std::string::npos; at = line.find("GOTO", at + 1))
     if (at == 0 || is_blank(line[at - 1]) || line[at - 1] == ')') return at;

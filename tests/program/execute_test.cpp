@@ -3,24 +3,13 @@
 
 #include <algorithm>
 
-#include "program/dialect.hpp"
-#include "program/expand.hpp"
+#include "program/executed.hpp"
 #include "program/reading.hpp"
 
 using namespace counterflex;
 using namespace counterflex::test;
 
 namespace {
-
-struct Executed {
-  std::string text;
-  Expansion expansion;
-};
-
-Executed executed(std::string text, const std::string& dialect) {
-  Expansion expansion = expand_subprograms(text, "p.nc", *find_dialect(dialect));
-  return {std::move(text), std::move(expansion)};
-}
 
 // The lines that run.
 void check_executed(const std::string& dialect, const std::string& text, const std::string& lines) {

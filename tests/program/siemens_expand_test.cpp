@@ -1,8 +1,7 @@
 /// Loops, conditions and jumps of a Sinumerik, executed as their constants say.
 #include <doctest/doctest.h>
 
-#include "program/dialect.hpp"
-#include "program/expand.hpp"
+#include "program/executed.hpp"
 #include "program/reading.hpp"
 
 using namespace counterflex;
@@ -10,27 +9,17 @@ using namespace counterflex::test;
 
 namespace {
 
-struct Executed {
-  std::string text;
-  Expansion expansion;
-};
-
-Executed executed(std::string text) {
-  Expansion expansion = expand_subprograms(text, "p.mpf", *find_dialect("siemens"));
-  return {std::move(text), std::move(expansion)};
-}
-
 // The lines that run.
 void check_executed(const std::string& text, const std::string& lines) {
   CAPTURE(text);
-  const Executed e = executed(text);
+  const Executed e = executed(text, "siemens");
   CHECK(e.text == lines);
   CHECK(e.expansion.executed > 0);
 }
 
 void check_left(const std::string& text, int line, std::string_view why) {
   CAPTURE(text);
-  const Executed e = executed(text);
+  const Executed e = executed(text, "siemens");
   CHECK(e.text == text);
   REQUIRE(e.expansion.calls_left.size() == 1);
   CHECK(e.expansion.calls_left[0].text_line == line);
@@ -61,7 +50,7 @@ TEST_CASE("siemens: WHILE, REPEAT, LOOP, IF and jumps to labels are followed") {
 }
 
 TEST_CASE("siemens: copies of a line say from where they come, and what stands behind the end stays") {
-  const Executed e = executed("R1=0\nA: X1\nR1=R1+1\nIF R1<2 GOTOB A\nM30\nIF R9==1 GOTOF A\n");
+  const Executed e = executed("R1=0\nA: X1\nR1=R1+1\nIF R1<2 GOTOB A\nM30\nIF R9==1 GOTOF A\n", "siemens");
   CHECK(e.text == "R1=0\nX1\nR1=R1+1\nX1\nR1=R1+1\nM30\nIF R9==1 GOTOF A\n");
   CHECK(line_of_file(e.expansion, 4) == 2);
   CHECK(line_of_file(e.expansion, 6) == 5);
@@ -93,7 +82,7 @@ TEST_CASE("siemens: what is not known from the text leaves the program as it is"
 }
 
 TEST_CASE("siemens: a program without loops and jumps stays as it is") {
-  const Executed e = executed("G0 X1\nMSG(\"IF THEN\") ; GOTOB A\nM30\n");
+  const Executed e = executed("G0 X1\nMSG(\"IF THEN\") ; GOTOB A\nM30\n", "siemens");
   CHECK(e.expansion.lines.empty());
   CHECK(e.expansion.calls_left.empty());
 }

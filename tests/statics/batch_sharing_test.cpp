@@ -62,7 +62,7 @@ TEST_CASE("batches: a cell that was forgotten is made again with the same bits")
   const auto path = some_path(bench, 53);
   const auto expected = bench.solve(BatchQuestion::target, whole, path);
   CHECK(all_solved(expected));
-  const double cell = bench.model.mechanism.length / 32;
+  const double cell = bench.model.mechanism.length / 24;  // one place in each
   int known = 0;
   for (int i = 0; i < 1728; ++i)  // more cells than are kept
     known += bench.solver.nominal_near(bench.home().p +

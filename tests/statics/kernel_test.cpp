@@ -275,7 +275,7 @@ TEST_CASE("kernel: cells give starts, and no answer depends on the cell") {
   }
 }
 
-TEST_CASE("kernel: a cell foresees the command of a tip that is moved, turned and loaded a little") {
+TEST_CASE("kernel: a cell predicts the command of a tip that is moved, turned and loaded a little") {
   for (KernelTrial& of : kernel_trials()) {
     CAPTURE(of.trial.name);
     FlatBench bench(of.model);

@@ -81,7 +81,7 @@ class BatchSolver {
   /// `answers` is as long as `p` (M, m).
   void nominal_tips(std::span<const Vector3> p, std::span<NominalAnswer> answers);
 
-  /// The nominal configuration at the centre of the cell that holds `p` (M, m); null where there is none. It is valid until
+  /// The nominal configuration at the centre of the cell that holds `p` (M, m); null if no cell can be made. It is valid until
   /// the next call.
   const Configuration* nominal_near(const Vector3& p);
 
