@@ -34,6 +34,21 @@ struct NominalAnswer {
   Pose X_MT;
 };
 
+/// A short straight way, and the load along it: between `F0` and `F1` it changes evenly, but for the differences `dF` that
+/// it has at some places.
+struct BatchLine {
+  Vector3 p0 = Vector3::Zero(), p1 = Vector3::Zero();  ///< M (m)
+  Vector6 F0 = Vector6::Zero(), F1 = Vector6::Zero();  ///< at the ends (N, N m)
+  std::span<const Vector6> dF{};
+};
+
+/// Bounds of what happens between the ends of a line. Infinite where they are not known: solve inside.
+struct LineBend {
+  double command;  ///< m: from the command to its chord, if the tip goes straight from p0 to p1
+  double gain;     ///< m/m: of the tip for a change of the command; gain times command: from the tip to its chord, if the
+                   ///< command goes straight
+};
+
 /// The cells of a model in which the kernel starts. Each is made when it is first needed, from its place alone. Threads may
 /// share a table. The model must outlive it.
 class StartTable {
@@ -80,6 +95,10 @@ class BatchSolver {
 
   /// `answers` is as long as `p` (M, m).
   void nominal_tips(std::span<const Vector3> p, std::span<NominalAnswer> answers);
+
+  /// Bounds from the second-order expansion of the cell in the middle of the line, and its measured remainder. EQUATIONS.md,
+  /// section 11.
+  LineBend bend_along(const BatchLine& line);
 
   /// The nominal configuration at the centre of the cell that holds `p` (M, m); null if no cell can be made. It is valid until
   /// the next call.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "start_table.hpp"
 
@@ -219,6 +220,10 @@ void BatchSolver::nominal_tips(std::span<const Vector3> p, std::span<NominalAnsw
   impl_->solve_kinematics();
   for (std::size_t k = 0; k < asked.size(); ++k)
     answers[asked[k]] = {batch.accepted[k] != 0, pose_of(&batch.nominal_tips[12 * k])};
+}
+
+LineBend BatchSolver::bend_along(const BatchLine&) {
+  return {std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
 }
 
 const Configuration* BatchSolver::nominal_near(const Vector3& p) {
