@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "bench_cases.hpp"
-#include "compensation/waypoint_solver.hpp"
+#include "counterflex/statics/batch_solver.hpp"
 
 namespace counterflex::bench {
 namespace {
@@ -22,13 +22,13 @@ Load little_by_little(std::size_t i) {
 }
 
 /// There and back along the line of the case, so that every batch begins beside the end of the last.
-std::array<std::vector<TargetRequest>, 2> there_and_back(const Case& c) {
+std::array<std::vector<BatchRequest>, 2> there_and_back(const Case& c) {
   const Vector3 begin = c.wanted.front().p, along = (c.wanted.back().p - begin).normalized();
-  std::array<std::vector<TargetRequest>, 2> ways;
+  std::array<std::vector<BatchRequest>, 2> ways;
   for (std::size_t i = 0; i < batch; ++i) {
     const double s = spacing * static_cast<double>(i);
-    ways[0].push_back({begin + s * along, little_by_little(i)});
-    ways[1].push_back({begin + (spacing * batch - s) * along, little_by_little(batch + i)});
+    ways[0].push_back({begin + s * along, little_by_little(i).F});
+    ways[1].push_back({begin + (spacing * batch - s) * along, little_by_little(batch + i).F});
   }
   return ways;
 }
@@ -37,25 +37,25 @@ std::array<std::vector<TargetRequest>, 2> there_and_back(const Case& c) {
 void shipped(benchmark::State& state, CaseOf case_of, std::size_t together) {
   const Case& c = case_of();
   if (!c.failure.empty()) return state.SkipWithError(("no nominal configuration: " + c.failure).c_str());
-  const Program program = read_program("G21 G90\nG0 X0 Y0 Z0\nG1 X1 F600\nM30\n", "made.ngc", {});
-  const Toolpath path = build_toolpath(program, one_frame(program, {}));
-  const PathForces forces({}, program, path, {tip(c.model.mechanism, c.model.home).R});
-  const StartTables starts;
-  const Job job{.model = c.model, .program = program, .path = path, .forces = forces, .starts = &starts};
-  WaypointSolver solver(job, c.model, c.nominal.front());
+  const StartTable table(c.model, false);
+  BatchSolver solver(table);
   const auto ways = there_and_back(c);
-  std::vector<TargetSolution> solved(batch);
   std::size_t way = 0;
+  std::vector<BatchAnswer> solved(batch);
+  const auto solve = [&](std::size_t begin, std::size_t count) {
+    solver.solve(BatchQuestion::target, {}, std::span(ways[way]).subspan(begin, count),
+                 std::span(solved).subspan(begin, count));
+  };
   double iterations = 0;
-  for (const auto& there : ways) solver.targets(there, solved);  // what a table finds of a place once is not timed
+  for (way = 0; way < 2; ++way) solve(0, batch);  // cells are made once: that is not timed
+  way = 0;
   for (auto _ : state) {
-    for (std::size_t i = 0; i < batch; i += together)
-      solver.targets(std::span(ways[way]).subspan(i, together), std::span(solved).subspan(i, together));
+    for (std::size_t i = 0; i < batch; i += together) solve(i, together);
     way = 1 - way;
-    for (const TargetSolution& solution : solved) {
+    for (const BatchAnswer& solution : solved) {
       iterations += solution.iterations;
-      if (solution.status == Status::converged) continue;
-      state.SkipWithError(("a waypoint is " + std::string(to_string(solution.status))).c_str());
+      if (solution.solved) continue;
+      state.SkipWithError("a waypoint is not solved");
       return;
     }
   }
@@ -67,8 +67,10 @@ void shipped(benchmark::State& state, CaseOf case_of, std::size_t together) {
 [[maybe_unused]] const int registered_shipped = [] {
   const auto add = [](const char* name, CaseOf case_of) {
     const std::string machine = name;
-    benchmark::RegisterBenchmark((machine + "/shipped").c_str(), shipped, case_of, batch)->Unit(benchmark::kMicrosecond);
-    benchmark::RegisterBenchmark((machine + "/alone").c_str(), shipped, case_of, std::size_t{1})->Unit(benchmark::kMicrosecond);
+    benchmark::RegisterBenchmark((machine + "/shipped").c_str(), shipped, case_of, batch)
+        ->Unit(benchmark::kMicrosecond);
+    benchmark::RegisterBenchmark((machine + "/alone").c_str(), shipped, case_of, std::size_t{1})
+        ->Unit(benchmark::kMicrosecond);
   };
   add("orthoglide", orthoglide);
   add("hexapod", hexapod);

@@ -285,7 +285,7 @@ TEST_CASE("kernel: a cell predicts the command of a tip that is moved, turned an
     Random random(10);
     for (int i = 0; i < 4; ++i) {
       const Vector3 p = home.p + of.trial.centre + random.vector(0.1 * step);
-      const Vector3 turn = cells.target.turns ? random.vector(1e-3) : Vector3(Vector3::Zero());
+      const Vector3 turn = cells.target.variables.turns ? random.vector(1e-3) : Vector3(Vector3::Zero());
       const Vector6 F = random.six(0.1 * of.trial.force, 0.1 * of.trial.moment);
       const Pose X_MT{exp_so3(turn) * home.R, p};
       const NominalResult nominal = follow(bench.model, bench.model.home, X_MT);
@@ -297,7 +297,7 @@ TEST_CASE("kernel: a cell predicts the command of a tip that is moved, turned an
       Vector6 found;
       found << answers.nominal_tip(0).p - answers.tip(0).p,
           log_so3(Matrix3(answers.nominal_tip(0).R * answers.tip(0).R.transpose()));
-      if (!cells.target.turns) found.tail<3>() = offset.tail<3>();
+      if (!cells.target.variables.turns) found.tail<3>() = offset.tail<3>();
       CHECK((found - offset).norm() < 0.02 * (found - at_centre).norm() + 1e-9);
     }
   }

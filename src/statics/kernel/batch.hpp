@@ -2,33 +2,38 @@
 /// Waypoints that are solved at once, each from a start of its own.
 #include <optional>
 
+#include "expansion.hpp"
 #include "work.hpp"
 
 namespace counterflex::kernel {
 
-/// The solutions of a question about a place: the state at the centre without a load, and how it changes with
-/// the position of the tip, up to second order, and, to first order, with its orientation and with the load. A
+/// Bounds of the offset from tip to command in a cell, for the chords of short lines. Twists are (m, rad), loads N and N m / l.
+struct OffsetBounds {
+  /// Of the position (row 0) and of the rotation vector (row 1): first derivatives by position, rotation vector and load;
+  /// second derivatives by pairs of them; what the polynomial misses.
+  std::array<std::array<double, 3>, 2> first{};
+  std::array<std::array<std::array<double, 3>, 3>, 2> second{};
+  std::array<double, 2> remainder{};
+  double reach = 0;  ///< from the centre along each axis (m): the remainder is measured up to there
+  double load = 0;   ///< N: and with loads of this size in all components
+};
+
+/// The solutions of a question about a place: the state at the centre without a load, and how it changes with the variables. A
 /// pure function of machine, question, centre and step.
 struct StartCell {
-  static constexpr int position_terms = 9;   ///< x y z xx yy zz xy xz yz (m, m2)
-  static constexpr int turn_terms = 3;       ///< rotation vector against home (rad)
-  static constexpr int load_terms = 6;       ///< N, N m, where it acts
-  static constexpr int most_terms = position_terms + turn_terms + load_terms;
-  static constexpr int stress_terms = 1 + load_terms;  ///< one, and the load
-  bool turns = false;  ///< it has the terms of the orientation: the machine controls one
-  bool loads = false;  ///< it has those of the load: of a target
-  std::array<double, 3> centre{};  ///< position of the tip (m)
-  std::vector<double> state;       ///< as `state_of`
+  Variables variables;
+  std::array<double, 3> centre{};    ///< position of the tip (m)
+  std::vector<double> state;         ///< as `state_of`
   std::vector<double> cosine, sine;  ///< by joint
-  std::vector<double> changes;  ///< by unknown (joints, then the twists of nodes and platform): `terms` coefficients
+  std::vector<double> changes;       ///< blocks: of the joints, filled up with zeros, then of the twists of nodes and platform
 
   // Of a target's cell:
-  std::vector<double> stress;          ///< by element, six numbers: `stress_terms` coefficients
+  std::vector<double> stress;          ///< by element, six numbers: at the centre
+  std::vector<double> stress_changes;  ///< by element a block: first-order terms alone
   std::vector<double> pivots;          ///< at the centre without a load, actuators held
   std::array<double, 6> offset{};      ///< from the tip to the command: position (m), rotation vector (rad)
-  std::vector<double> offset_changes;  ///< `terms` coefficients of each component
-
-  int terms() const { return position_terms + (turns ? turn_terms : 0) + (loads ? load_terms : 0); }
+  std::vector<double> offset_changes;  ///< a block
+  OffsetBounds bounds{};
 };
 
 /// A machine whose pivots keep at least this share of their unloaded values is stable and as well conditioned
@@ -52,10 +57,8 @@ struct Batch {
   const double* rho = nullptr;    ///< commanded actuator values; where they are held
   const double* start = nullptr;  ///< states, of both machines
   long start_stride = 0;          ///< numbers from start to start; 0: all have the same
-  // Instead of `start`: a cell of each waypoint for each machine, and where it is evaluated: 6 each, the place of
-  // the tip (m) and its rotation vector against home. Null: at p.
+  // Instead of `start`: a cell of each waypoint for each machine. Orientations are wanted as at home.
   const StartCell *const *cells = nullptr, *const *nominal_cells = nullptr;
-  const double *place = nullptr, *nominal_place = nullptr;
 
   unsigned char* accepted = nullptr;
   int* iterations = nullptr;
@@ -66,6 +69,10 @@ struct Batch {
   double* state = nullptr;   ///< state_size each
   double* stress = nullptr;  ///< by element: force and moment about its end (N, N m), axes of M; of groups zero
   double* pivots = nullptr;  ///< FlatMachine::pivots each, actuators held; zero: a free joint
+  /// First derivatives of the solution by the variables `response_to`: for each of them the step of the unknowns (joints,
+  /// then twists about the wanted tip), and of the nominal platform (a twist), if there is a real machine.
+  double* responses = nullptr;
+  Variables response_to{};
   /// Every pivot of the last tangent, which has the stress that the cell or the step before predicts, keeps
   /// `least_stiffness` of the cell's.
   unsigned char* is_stiff = nullptr;

@@ -44,67 +44,136 @@ void get_stress(int l, const Work<T>& work, double* numbers) {
   }
 }
 
-/// The states that the cells have for the waypoints from `first` on.
-template <class T>
-void put_from_cells(const Batch& batch, int first, Work<T>& work) {
-  const FlatMachine& machine = work.machine;
-  const StartCell* const* const cells = work.question.nominal ? batch.nominal_cells : batch.cells;
-  const double* const places = work.question.nominal ? batch.nominal_place : batch.place;
-  const auto cell_of = [&](int l) { return cells[first + l < batch.count ? first + l : batch.count - 1]; };
-  const StartCell& only = *cell_of(0);
+/// The cells of the waypoints from `first` on, and their numbers in the lanes. `shared`: all lanes have the same cell.
+template <class T, bool shared>
+struct CellLanes {
+  const StartCell* cells[lane_count<T>];
+
+  const StartCell& only() const { return *cells[0]; }
+  COUNTERFLEX_INLINE T number(std::vector<double> StartCell::*of, int i) const {
+    if constexpr (shared)
+      return all<T>(at(only().*of, i));
+    else
+      return gather<T>([&](int l) { return at(cells[l]->*of, i); });
+  }
+  COUNTERFLEX_INLINE Block<T> sum(std::vector<double> StartCell::*of, int number_of_block, int terms, const T* x) const {
+    const int first = block * terms * number_of_block;
+    return sum_terms<T>(terms, x, [&](int i) { return number(of, first + i); });
+  }
+};
+
+/// Calls `visit` with the lanes of `cells`.
+template <class T, class Visit>
+COUNTERFLEX_INLINE void with_cells(const Batch& batch, int first, const StartCell* const* cells, const Visit& visit) {
+  CellLanes<T, true> same{};
   bool shared = true;
-  for (int l = 1; l < lane_count<T>; ++l) shared = shared && cell_of(l) == &only;
-  const auto number = [&](auto of, int i) {
-    return shared ? all<T>(at(only.*of, i)) : gather<T>([&](int l) { return at(cell_of(l)->*of, i); });
-  };
-  const auto place = [&](int l, int i) {
-    const int w = first + l < batch.count ? first + l : batch.count - 1;
-    return places != nullptr ? places[6 * w + i] : i < 3 ? batch.p[3 * w + i] : 0;
-  };
-  T x[StartCell::most_terms];
-  for (int i = 0; i < 3; ++i) x[i] = gather<T>([&](int l) { return place(l, i) - at(cell_of(l)->centre, i); });
-  x[3] = x[0] * x[0], x[4] = x[1] * x[1], x[5] = x[2] * x[2];
-  x[6] = x[0] * x[1], x[7] = x[0] * x[2], x[8] = x[1] * x[2];
-  int terms = StartCell::position_terms;
-  for (int i = 3; i < 6 && only.turns; ++i) x[terms++] = gather<T>([&](int l) { return place(l, i); });
-  T load[6];
-  COUNTERFLEX_UNROLL
-  for (int i = 0; i < 6; ++i) load[i] = work.load[i] * work.question.load;
-  for (int i = 0; i < 6 && only.loads; ++i) x[terms++] = load[i];
-  const auto change = [&](int unknown) {
-    T sum{};
-    for (int k = 0; k < terms; ++k) sum += number(&StartCell::changes, terms * unknown + k) * x[k];
-    return sum;
-  };
-  for (int j = 0; j < machine.joints; ++j) {
-    at(work.state.q, j) = number(&StartCell::state, j);
-    at(work.state.cosine, j) = number(&StartCell::cosine, j);
-    at(work.state.sine, j) = number(&StartCell::sine, j);
-    move_joint(change(j), at(machine.joint_turns, j) != 0, j, work.state);
+  for (int l = 0; l < lane_count<T>; ++l) {
+    same.cells[l] = cells[first + l < batch.count ? first + l : batch.count - 1];
+    shared = shared && same.cells[l] == same.cells[0];
   }
-  for (int i = 0; i <= machine.nodes; ++i) {
+  if (shared) return visit(same);
+  CellLanes<T, false> different{};
+  for (int l = 0; l < lane_count<T>; ++l) different.cells[l] = same.cells[l];
+  visit(different);
+}
+
+/// The state that cells have for the variables x.
+template <class T, bool shared>
+void put_state_of_cells(const CellLanes<T, shared>& cells, const T* x, Work<T>& work) {
+  const FlatMachine& machine = work.machine;
+  const Variables& variables = cells.only().variables;
+  const int terms = variables.terms();
+  T of_terms[most_terms];
+  fill_terms(variables.count(), x, of_terms);
+  int number_of_block = 0;
+  for (int begin = 0; begin < machine.joints; begin += block, ++number_of_block) {
+    const Block<T> dq = cells.sum(&StartCell::changes, number_of_block, terms, of_terms);
+    for (int i = 0; i < block && begin + i < machine.joints; ++i) {
+      const int j = begin + i;
+      at(work.state.q, j) = cells.number(&StartCell::state, j);
+      at(work.state.cosine, j) = cells.number(&StartCell::cosine, j);
+      at(work.state.sine, j) = cells.number(&StartCell::sine, j);
+      move_joint(dq.value[i], at(machine.joint_turns, j) != 0, j, work.state);
+    }
+  }
+  for (int i = 0; i <= machine.nodes; ++i, ++number_of_block) {
     Frame<T>& X = i < machine.nodes ? at(work.state.nodes, i) : work.state.platform;
-    const int frame = machine.joints + 12 * i, row = machine.joints + 6 * i;
-    Vec3<T> w;
+    const int frame = machine.joints + 12 * i;
+    const Block<T> way = cells.sum(&StartCell::changes, number_of_block, terms, of_terms);
     Mat3<T> R;
-    for (int k = 0; k < 9; ++k) R.c[k] = number(&StartCell::state, frame + k);
-    for (int k = 0; k < 3; ++k) {
-      X.p[k] = number(&StartCell::state, frame + 9 + k) - work.origin[k] + change(row + k);
-      w[k] = change(row + 3 + k);
-    }
-    X.R = exp_so3(w) * R;
+    for (int k = 0; k < 9; ++k) R.c[k] = cells.number(&StartCell::state, frame + k);
+    for (int k = 0; k < 3; ++k)
+      X.p[k] = cells.number(&StartCell::state, frame + 9 + k) - work.origin[k] + way.value[k];
+    X.R = exp_so3(Vec3<T>{{way.value[3], way.value[4], way.value[5]}}) * R;
   }
-  if (only.stress.empty()) return;
+  if (cells.only().stress.empty()) return;
   for (int i = 0; i < static_cast<int>(machine.elements.size()); ++i) {
-    T of_element[6];
-    for (int k = 0; k < 6; ++k) {
-      const int row = StartCell::stress_terms * (6 * i + k);
-      of_element[k] = number(&StartCell::stress, row);
-      for (int j = 0; j < 6; ++j) of_element[k] += number(&StartCell::stress, row + 1 + j) * load[j];
+    const Block<T> change = cells.sum(&StartCell::stress_changes, i, variables.count(), x);
+    Vec6<T>& stress = at(work.start_stress, i);
+    for (int k = 0; k < 3; ++k) {
+      stress.v[k] = cells.number(&StartCell::stress, block * i + k) + change.value[k];
+      stress.w[k] = cells.number(&StartCell::stress, block * i + 3 + k) + change.value[3 + k];
     }
-    at(work.start_stress, i) = {{{of_element[0], of_element[1], of_element[2]}},
-                                {{of_element[3], of_element[4], of_element[5]}}};
   }
+}
+
+/// From the wanted tip to the variables of the cells of one machine, without loads.
+template <class T, bool shared>
+COUNTERFLEX_INLINE void find_place(const CellLanes<T, shared>& cells, const Work<T>& work, T* x) {
+  for (int i = 0; i < 3; ++i)
+    x[i] = work.origin[i] - gather<T>([&](int l) { return at(cells.cells[l]->centre, i); });
+  for (int i = 3; i < most_variables; ++i) x[i] = T{};
+}
+
+/// The offset from the tip to the command that cells have for the variables x.
+template <class T, bool shared>
+Block<T> command_offset(const CellLanes<T, shared>& cells, const T* x) {
+  const Variables& variables = cells.only().variables;
+  T terms[most_terms];
+  fill_terms(variables.count(), x, terms);
+  Block<T> offset = cells.sum(&StartCell::offset_changes, 0, variables.terms(), terms);
+  for (int i = 0; i < block; ++i) offset.value[i] += gather<T>([&](int l) { return at(cells.cells[l]->offset, i); });
+  return offset;
+}
+
+/// Begins both machines at the states that the cells have for the waypoints from `first` on. Where a component is commanded,
+/// the tip is found from the command: the offset changes by some hundredths of its own way.
+template <class T>
+void put_from_cells(const Batch& batch, int first, Coupled<T>& coupled) {
+  constexpr int rounds = 4;
+  const Problem& problem = coupled.problem;
+  T nominal_way[3]{};  // from the wanted place to that of the nominal tip
+  if (problem.real)
+    with_cells<T>(batch, first, batch.cells, [&](const auto& cells) {
+      Work<T>& work = coupled.real;
+      const Variables& variables = cells.only().variables;
+      T x[most_variables], place[most_variables];
+      find_place(cells, work, place);
+      for (int i = 0; i < 3 && variables.loads; ++i) {
+        place[variables.first_load() + i] = work.load.v[i] * work.question.load;
+        place[variables.first_load() + 3 + i] = work.load.w[i] * work.question.load;
+      }
+      for (int i = 0; i < most_variables; ++i) x[i] = place[i];
+      bool is_commanded = false;
+      const int components = variables.first_load();
+      for (int j = 0; j < components; ++j) is_commanded = is_commanded || at(problem.of_command, j);
+      for (int k = 0; k < (is_commanded ? rounds : 1); ++k) {
+        const Block<T> offset = command_offset(cells, x);
+        for (int j = 0; j < components; ++j)
+          if (at(problem.of_command, j))
+            x[j] = place[j] - offset.value[j];
+          else if (j < 3)
+            nominal_way[j] = offset.value[j];
+      }
+      put_state_of_cells(cells, x, work);
+    });
+  if (problem.nominal)
+    with_cells<T>(batch, first, batch.nominal_cells, [&](const auto& cells) {
+      T x[most_variables];
+      find_place(cells, coupled.nominal, x);
+      for (int i = 0; i < 3; ++i) x[i] += nominal_way[i];
+      put_state_of_cells(cells, x, coupled.nominal);
+    });
 }
 
 /// Fills the lanes of a machine with waypoints from `first` on; the last waypoint stands in for those that are
@@ -119,7 +188,6 @@ void put_waypoints(const Batch& batch, int first, Work<T>& work) {
       for (int i = 0; i < 9; ++i) lane(work.wanted_R.c[i], l) = batch.R[9 * w + i];
     if (batch.start != nullptr) put_state(work.machine, l, batch.start + batch.start_stride * w, work);
   }
-  if (batch.start == nullptr) put_from_cells(batch, first, work);
 }
 
 template <class T>
@@ -183,6 +251,46 @@ Mask<T> keeps_pivots(const Batch& batch, int first, const Work<T>& work) {
   return (least > 0.0) & (most * least_stiffness <= 1.0);
 }
 
+/// First derivatives at the solution: steps of the linearised equations, whose residuals are those of a unit change.
+template <class T>
+void get_responses(const Batch& batch, int first, Coupled<T>& coupled) {
+  const FlatMachine& machine = coupled.real.machine;
+  const long size = machine.unknowns() + (coupled.problem.real ? 6 : 0);
+  const int variables = batch.response_to.count();
+  coupled.for_each([](Work<T>& work) {
+    Equations<T>& equations = work.equations;
+    for (JointTerms<T>& joint : equations.joints) joint.r = T{};
+    for (Vec6<T>& node : equations.nodes) node = {};
+    equations.platform = equations.tip_error = {};
+    work.predicts_stress = false;
+  });
+  for (int k = 0; k < variables; ++k) {
+    const int load = k - batch.response_to.first_load();
+    Equations<T>& changed = load < 0 ? coupled.owner(k).equations : coupled.real.equations;
+    Vec6<T> change{};
+    const int component = load < 0 ? k : load;
+    (component < 3 ? change.v[component] : change.w[component - 3]) = all<T>(1);
+    if (load < 0)
+      changed.tip_error = change;
+    else
+      changed.platform = Vec6<T>{change.v, change.w + cross(arm_of_load(coupled.real), change.v)} * -1.0;
+    find_step(coupled);
+    changed.tip_error = changed.platform = {};
+    const Work<T>& work = coupled.first();
+    for (int l = 0; l < lane_count<T> && first + l < batch.count; ++l) {
+      double* numbers = batch.responses + size * (static_cast<long>(variables) * (first + l) + k);
+      const auto put = [&](const Vec6<T>& twist) {
+        for (int i = 0; i < 3; ++i) *numbers++ = lane(twist.v[i], l);
+        for (int i = 0; i < 3; ++i) *numbers++ = lane(twist.w[i], l);
+      };
+      for (const JointTerms<T>& joint : work.equations.joints) *numbers++ = lane(joint.y, l);
+      for (const Vec6<T>& node : work.step.nodes) put(node);
+      put(work.step.platform);
+      if (coupled.problem.real) put(coupled.nominal.step.platform);
+    }
+  }
+}
+
 template <class T>
 void solve_batch(const FlatMachine& machine, const Problem& problem, const Schedule& schedule, Batch& batch) {
   Coupled<T> coupled(machine, problem);
@@ -190,6 +298,7 @@ void solve_batch(const FlatMachine& machine, const Problem& problem, const Sched
   const int actuators = static_cast<int>(machine.actuator_joint.size());
   for (int first = 0; first < batch.count; first += lane_count<T>) {
     coupled.for_each([&](Work<T>& work) { put_waypoints(batch, first, work); });
+    if (batch.start == nullptr) put_from_cells(batch, first, coupled);
     put_actuators(batch, first, coupled);
     const Mask<T> all_lanes = first_work.origin[0] == first_work.origin[0];
     Mask<T> is_stiff = all_lanes;
@@ -212,9 +321,10 @@ void solve_batch(const FlatMachine& machine, const Problem& problem, const Sched
       if (batch.stress != nullptr)
         get_stress(l, first_work, batch.stress + 6 * static_cast<long>(machine.elements.size()) * w);
     }
-    if (!problem.real || batch.pivots == nullptr) continue;
-    factor_at_solution(coupled.real);
-    get_pivots(batch, first, coupled.real);
+    if (batch.pivots == nullptr && batch.responses == nullptr) continue;
+    factor_at_solution(coupled);
+    if (batch.pivots != nullptr) get_pivots(batch, first, coupled.first());
+    if (batch.responses != nullptr) get_responses(batch, first, coupled);
   }
 }
 

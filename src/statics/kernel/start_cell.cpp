@@ -2,12 +2,22 @@
 
 #include <algorithm>
 #include <cmath>
-#include <span>
+#include <limits>
 
 #include "counterflex/geometry/rotation.hpp"
+#include "offset_bounds.hpp"
 
 namespace counterflex::kernel {
 namespace {
+
+using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic>;
+
+constexpr double turn_step = 0.01;  // rad
+constexpr double force_step = 100;  // N: under it machines yield by micrometres to millimetres
+/// Ends of a line lie so far beyond the cell that holds its middle, in half edges.
+constexpr double reach_of_lines = 1.25;
+constexpr double load_of_lines = 250;   // N
+constexpr double remainder_margin = 2;  // for loads in other directions (tests/statics/batch_lines_test.cpp)
 
 /// A place at which a cell's question is solved.
 struct Sample {
@@ -16,47 +26,47 @@ struct Sample {
   Vector6 F = Vector6::Zero();
 };
 
-/// Two samples on either side of the centre, and the size of what changes between each of them and the centre.
-struct Difference {
-  int forth, back;
-  double size;
-};
-
-/// The centre, places on the axes and in the planes of two of them, then, at the centre, turned tips and
-/// loads.
+/// The centre, then a pair of samples on either side of it for each variable.
 struct Samples {
   std::vector<Sample> all;
-  std::vector<Difference> single;  ///< terms of the orientation and of the load
-  double step;
+  std::vector<double> steps;  ///< by variable
 };
 
-constexpr int first_on_axes = 1, first_in_planes = 7;
-constexpr double turn_step = 1e-3;  // rad
-
-/// A load of the size under which machines yield by some micrometres.
-Vector6 unit_load(int component, double length) {
-  constexpr double force = 100;  // N
-  return (component < 3 ? force : force * length) * Vector6::Unit(component);
+Vector6 unit_loads(double length) {
+  Vector6 F;
+  F << Vector3::Constant(force_step), Vector3::Constant(force_step * length);
+  return F;
 }
 
-Samples samples_about(const CellPlace& place, bool loaded, double length) {
-  Samples samples{{{place.centre}}, {}, place.step};
-  const auto add = [&](const Vector3& way) { samples.all.push_back({place.centre + place.step * way}); };
-  for (int i = 0; i < 3; ++i)
-    for (const double sign : {1.0, -1.0}) add(sign * Vector3::Unit(i));
-  for (const auto& [i, j] : {std::pair(0, 1), std::pair(0, 2), std::pair(1, 2)})
-    for (const double a : {1.0, -1.0})
-      for (const double b : {1.0, -1.0}) add(a * Vector3::Unit(i) + b * Vector3::Unit(j));
-  const auto add_pair = [&](const Vector3& turn, const Vector6& F, double size) {
-    const int forth = static_cast<int>(samples.all.size());
-    samples.single.push_back({forth, forth + 1, size});
-    samples.all.push_back({place.centre, turn, F});
-    samples.all.push_back({place.centre, -turn, -F});
-  };
-  for (int i = 0; i < 3 && place.turns; ++i) add_pair(turn_step * Vector3::Unit(i), Vector6::Zero(), turn_step);
-  for (int i = 0; i < 6 && loaded; ++i)
-    add_pair(Vector3::Zero(), unit_load(i, length), unit_load(i, length)[i]);
+Samples samples_about(const CellPlace& place, const Variables& variables, double length) {
+  Samples samples{{{place.centre}}, {}};
+  for (int k = 0; k < variables.count(); ++k) {
+    const int load = k - variables.first_load();
+    const double step = load >= 0 ? unit_loads(length)[load] : k < 3 ? place.step : turn_step;
+    samples.steps.push_back(step);
+    for (const double way : {step, -step}) {
+      Sample sample{place.centre};
+      (load >= 0 ? sample.F[load] : k < 3 ? sample.p[k] : sample.turn[k - 3]) += way;
+      samples.all.push_back(sample);
+    }
+  }
   return samples;
+}
+
+/// Corners of the reach of a cell, each with another load of one size: along one component, or in all of
+/// them.
+std::vector<Sample> corners_about(const CellPlace& place, double length) {
+  std::vector<Sample> corners;
+  for (int k = 0; k < 8; ++k) {
+    const Vector3 signs(k & 1 ? 1 : -1, k & 2 ? 1 : -1, k & 4 ? 1 : -1);
+    Vector6 F = Vector6::Constant(std::sqrt(1.0 / 6));
+    if (k < 6) F = Vector6::Unit(k);
+    F.head<3>() = F.head<3>().cwiseProduct(signs);
+    F.tail<3>() *= k % 2 == 0 ? length : -length;
+    corners.push_back(
+        {place.centre + reach_of_lines * place.step * signs, Vector3::Zero(), load_of_lines * F});
+  }
+  return corners;
 }
 
 Pose pose_at(const double* numbers) {
@@ -66,128 +76,196 @@ Pose pose_at(const double* numbers) {
   return X;
 }
 
-/// What leads from one state to another: joints, then for each frame its way and its rotation vector.
-Eigen::VectorXd between(const FlatMachine& machine, const double* from, const double* to) {
-  Eigen::VectorXd d(machine.unknowns());
-  for (int j = 0; j < machine.joints; ++j) d[j] = to[j] - from[j];
-  for (int i = 0; i <= machine.nodes; ++i) {
-    const int frame = machine.joints + 12 * i;
-    d.segment<6>(machine.joints + 6 * i) = difference(pose_at(to + frame), pose_at(from + frame));
-  }
-  return d;
-}
-
-/// Solutions of the samples.
+/// Solutions of samples.
 struct Solutions {
-  std::vector<double> states, stress, pivots, commands;
+  std::vector<double> states, stress, pivots, commands, responses;
 };
 
-/// Inputs of a batch that has the samples.
-struct SampleBatch {
+std::optional<Solutions> solve_samples(const FlatMachine& machine, const Problem& problem,
+                                       const CellPlace& place, const std::vector<Sample>& samples,
+                                       const std::vector<double>& start,
+                                       std::optional<Variables> response_to) {
   std::vector<double> p, R, F;
-  std::vector<unsigned char> accepted;
-  Batch batch;
-
-  SampleBatch(const std::vector<Sample>& samples, const Matrix3& R_home) : accepted(samples.size()) {
-    for (const Sample& sample : samples) {
-      p.insert(p.end(), sample.p.begin(), sample.p.end());
-      F.insert(F.end(), sample.F.begin(), sample.F.end());
-      const Matrix3 turned = counterflex::exp_so3(sample.turn) * R_home;
-      for (int i = 0; i < 9; ++i) R.push_back(turned(i / 3, i % 3));
-    }
-    batch.count = static_cast<int>(samples.size());
-    batch.p = p.data(), batch.R = R.data(), batch.F = F.data(), batch.accepted = accepted.data();
+  for (const Sample& sample : samples) {
+    p.insert(p.end(), sample.p.begin(), sample.p.end());
+    F.insert(F.end(), sample.F.begin(), sample.F.end());
+    const Matrix3 turned = counterflex::exp_so3(sample.turn) * place.R_home;
+    for (int i = 0; i < 9; ++i) R.push_back(turned(i / 3, i % 3));
   }
-  SampleBatch(const SampleBatch&) = delete;
-
-};
-
-std::optional<Solutions> solve_samples(const FlatMachine& machine, const Problem& problem, const Matrix3& R_home,
-                                       const std::vector<Sample>& samples, const std::vector<double>& start) {
-  SampleBatch of_samples(samples, R_home);
+  const auto unknowns = static_cast<std::size_t>(machine.unknowns());
+  std::vector<unsigned char> accepted(samples.size());
   Solutions solutions;
   solutions.states.resize(static_cast<std::size_t>(machine.state_size()) * samples.size());
   solutions.stress.resize(6 * machine.elements.size() * samples.size());
-  solutions.pivots.resize(static_cast<std::size_t>(machine.pivots()) * samples.size());
   solutions.commands.resize(12 * samples.size());
-  Batch& batch = of_samples.batch;
+  Batch batch;
+  batch.count = static_cast<int>(samples.size());
+  batch.p = p.data(), batch.R = R.data(), batch.F = F.data(), batch.accepted = accepted.data();
   batch.start = start.data(), batch.state = solutions.states.data(), batch.stress = solutions.stress.data();
   batch.nominal_tip = solutions.commands.data();
-  if (problem.real) batch.pivots = solutions.pivots.data();
+  if (response_to) {
+    solutions.pivots.resize(unknowns * samples.size());
+    solutions.responses.resize((unknowns + 6) * static_cast<std::size_t>(response_to->count()) *
+                               samples.size());
+    batch.pivots = solutions.pivots.data();
+    batch.responses = solutions.responses.data(), batch.response_to = *response_to;
+  }
   instance_for(samples.size()).solve(machine, problem, {}, batch);
-  for (const unsigned char accepted : of_samples.accepted)
-    if (accepted == 0) return std::nullopt;
+  for (const unsigned char is_accepted : accepted)
+    if (is_accepted == 0) return std::nullopt;
   return solutions;
 }
 
-/// Coefficients of `rows` values, from their differences to the centre's at the samples.
-template <class Way>  // Eigen::VectorXd(int sample), from the centre
-std::vector<double> changes_of(Eigen::Index rows, const Samples& samples, const Way& way_to) {
-  const auto singles = static_cast<int>(samples.single.size());
-  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> changes(
-      rows, StartCell::position_terms + singles);
-  const double step = samples.step;
-  for (int i = 0; i < 3; ++i) {
-    const Eigen::VectorXd forth = way_to(first_on_axes + 2 * i), back = way_to(first_on_axes + 1 + 2 * i);
-    changes.col(i) = (forth - back) / (2 * step);
-    changes.col(3 + i) = (forth + back) / (2 * step * step);
-  }
-  for (int k = 0; k < 3; ++k) {
-    const int first = first_in_planes + 4 * k;
-    changes.col(6 + k) =
-        (way_to(first) - way_to(first + 1) - way_to(first + 2) + way_to(first + 3)) / (4 * step * step);
-  }
-  for (int k = 0; k < singles; ++k) {
-    const Difference& d = at(samples.single, k);
-    changes.col(StartCell::position_terms + k) = (way_to(d.forth) - way_to(d.back)) / (2 * d.size);
-  }
-  return {changes.data(), changes.data() + changes.size()};
+/// From twists about the point `c` to changes of a frame's position and of its rotation vector against
+/// `centre`.
+void to_changes(const Pose& X, const Matrix3& R_centre, const Vector3& c, Eigen::Ref<Rows> twists) {
+  const Vector3 turn = counterflex::log_so3(Matrix3(X.R * R_centre.transpose()));
+  twists.topRows<3>() -= skew(X.p - c) * twists.bottomRows<3>();
+  twists.bottomRows<3>() = (left_jacobian_inverse(turn) * twists.bottomRows<3>()).eval();
 }
 
-void add_stress(const FlatMachine& machine, const Samples& samples, const std::vector<double>& stress,
-                StartCell& cell) {
-  const std::size_t size = 6 * machine.elements.size();
-  const auto loads = std::span(samples.single).last(StartCell::load_terms);
-  for (std::size_t i = 0; i < size; ++i) {
-    cell.stress.push_back(stress[i]);
-    for (const Difference& d : loads) {
-      const double forth = stress[static_cast<std::size_t>(d.forth) * size + i];
-      cell.stress.push_back((forth - stress[static_cast<std::size_t>(d.back) * size + i]) / (2 * d.size));
-    }
-  }
+/// Twists by a rotation of the wanted tip, by its rotation vector.
+void by_rotation_vector(const Variables& variables, const Vector3& turn, Rows& twists) {
+  if (variables.turns) twists.middleCols<3>(3) = (twists.middleCols<3>(3) * left_jacobian(turn)).eval();
 }
+
+/// From the tip of a sample to its command.
+Vector6 offset_of(const CellPlace& place, const Sample& sample, const double* command) {
+  const Pose X = pose_at(command);
+  Vector6 way;
+  way << X.p - sample.p,
+      counterflex::log_so3(Matrix3(X.R * (counterflex::exp_so3(sample.turn) * place.R_home).transpose()));
+  return way;
+}
+
+class CellSamples {
+ public:
+  CellSamples(const FlatMachine& machine, const CellPlace& place, const Variables& variables,
+              const Samples& samples, const Solutions& solutions)
+      : machine_(machine), place_(place), variables_(variables), samples_(samples), solutions_(solutions) {}
+
+  const double* state(int sample) const { return solutions_.states.data() + machine_.state_size() * sample; }
+
+  Rows state_jacobian(int sample) const {
+    Rows J = responses(sample).topRows(machine_.unknowns());
+    by_rotation_vector(variables_, at(samples_.all, sample).turn, J);
+    for (int i = 0; i <= machine_.nodes; ++i) {
+      const int frame = machine_.joints + 12 * i;
+      to_changes(pose_at(state(sample) + frame), pose_at(state(0) + frame).R, at(samples_.all, sample).p,
+                 J.middleRows(machine_.joints + 6 * i, 6));
+    }
+    return J;
+  }
+
+  Rows offset_jacobian(int sample) const {
+    const Sample& of = at(samples_.all, sample);
+    const Pose X = pose_at(solutions_.commands.data() + 12 * sample);
+    const Matrix3 R_tip = counterflex::exp_so3(of.turn) * place_.R_home, E = X.R * R_tip.transpose();
+    Rows J = responses(sample).bottomRows(6);
+    J.topRows<3>() -= skew(X.p - of.p) * J.bottomRows<3>();
+    J.topLeftCorner<3, 3>() -= Matrix3::Identity();
+    if (variables_.turns) J.block<3, 3>(3, 3) -= E;
+    J.bottomRows<3>() = (left_jacobian_inverse(counterflex::log_so3(E)) * J.bottomRows<3>()).eval();
+    by_rotation_vector(variables_, of.turn, J);
+    return J;
+  }
+
+  /// First-order terms of the stress, by element a block.
+  std::vector<double> stress_changes() const {
+    const std::size_t size = 6 * machine_.elements.size();
+    std::vector<double> changes;
+    for (std::size_t element = 0; element < machine_.elements.size(); ++element)
+      for (int k = 0; k < variables_.count(); ++k)
+        for (std::size_t i = 6 * element; i < 6 * element + 6; ++i) {
+          const double forth = solutions_.stress[size * static_cast<std::size_t>(1 + 2 * k) + i];
+          const double back = solutions_.stress[size * static_cast<std::size_t>(2 + 2 * k) + i];
+          changes.push_back((forth - back) / (2 * at(samples_.steps, k)));
+        }
+    return changes;
+  }
+
+  /// Coefficients in blocks of the rows whose first derivatives at a sample are `jacobian(sample)`. The first
+  /// rows are filled up with zeros to whole blocks.
+  template <class Jacobian>
+  std::vector<double> expanded(const Jacobian& jacobian, Eigen::Index first_rows) const {
+    const int n = variables_.count(), terms = variables_.terms();
+    std::vector<Rows> J;
+    for (int sample = 0; sample < 1 + 2 * n; ++sample) J.push_back(jacobian(sample));
+    const Eigen::Index rows = J[0].rows(), filled = (first_rows + block - 1) / block * block - first_rows;
+    Rows coefficients = Rows::Zero(rows + filled, terms);
+    const auto set = [&](int term, const Eigen::VectorXd& values) {
+      coefficients.col(term).head(first_rows) = values.head(first_rows);
+      coefficients.col(term).tail(rows - first_rows) = values.tail(rows - first_rows);
+    };
+    int term = 0;
+    for (int i = 0; i < n; ++i) set(term++, J[0].col(i));
+    const auto second = [&](int i, int j) -> Eigen::VectorXd {  // of derivative i by variable j
+      return (at(J, 1 + 2 * j).col(i) - at(J, 2 + 2 * j).col(i)) / (2 * at(samples_.steps, j));
+    };
+    for (int i = 0; i < n; ++i)
+      for (int j = i; j < n; ++j)
+        set(term++,
+            i == j ? Eigen::VectorXd(second(i, i) / 2) : Eigen::VectorXd((second(i, j) + second(j, i)) / 2));
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < n; ++j) {
+        const double h = at(samples_.steps, i);
+        const Eigen::VectorXd third =
+            (at(J, 1 + 2 * i).col(j) + at(J, 2 + 2 * i).col(j) - 2 * J[0].col(j)) / (h * h);
+        set(term++, third / (i == j ? 6 : 2));
+      }
+    std::vector<double> blocks;
+    blocks.reserve(static_cast<std::size_t>(coefficients.size()));
+    for (Eigen::Index first = 0; first < coefficients.rows(); first += block)
+      for (int k = 0; k < terms; ++k)
+        for (int i = 0; i < block; ++i) blocks.push_back(coefficients(first + i, k));
+    return blocks;
+  }
+
+ private:
+  Rows responses(int sample) const {
+    const Eigen::Index size = machine_.unknowns() + (variables_.loads ? 6 : 0);
+    const Eigen::Index n = variables_.count();
+    return Eigen::Map<const Rows>(solutions_.responses.data() + size * n * sample, size, n);
+  }
+
+  const FlatMachine& machine_;
+  const CellPlace& place_;
+  const Variables variables_;
+  const Samples& samples_;
+  const Solutions& solutions_;
+};
 
 /// State and changes of a cell at its centre.
-StartCell cell_of(const FlatMachine& machine, const CellPlace& place, const Samples& samples,
-                  const Solutions& solutions) {
+StartCell cell_of(const FlatMachine& machine, const CellPlace& place, const Variables& variables,
+                  const CellSamples& samples) {
   StartCell cell;
-  const auto size = static_cast<std::ptrdiff_t>(machine.state_size());
-  cell.turns = place.turns;
+  cell.variables = variables;
   for (int i = 0; i < 3; ++i) at(cell.centre, i) = place.centre[i];
-  cell.state.assign(solutions.states.begin(), solutions.states.begin() + size);
+  cell.state.assign(samples.state(0), samples.state(0) + machine.state_size());
   for (int j = 0; j < machine.joints; ++j) {
     cell.cosine.push_back(std::cos(at(cell.state, j)));
     cell.sine.push_back(std::sin(at(cell.state, j)));
   }
-  const double* const states = solutions.states.data();
-  const auto way_to = [&](int sample) { return between(machine, states, states + sample * size); };
-  cell.changes = changes_of(machine.unknowns(), samples, way_to);
+  cell.changes = samples.expanded([&](int sample) { return samples.state_jacobian(sample); }, machine.joints);
   return cell;
 }
 
-void add_offsets(const CellPlace& place, const Samples& samples, const Solutions& solutions, StartCell& cell) {
-  const auto offset = [&](int i) -> Eigen::VectorXd {
-    const Sample& sample = at(samples.all, i);
-    const Pose command = pose_at(solutions.commands.data() + 12 * i);
-    const Matrix3 R_tip = counterflex::exp_so3(sample.turn) * place.R_home;
-    Vector6 way;
-    way << command.p - sample.p, counterflex::log_so3(Matrix3(command.R * R_tip.transpose()));
-    return way;
-  };
-  const Eigen::VectorXd at_centre = offset(0);
-  for (int i = 0; i < 6; ++i) at(cell.offset, i) = at_centre[i];
-  cell.offset_changes =
-      changes_of(6, samples, [&](int sample) -> Eigen::VectorXd { return offset(sample) - at_centre; });
+/// Measures at corners what the expansion of the offset misses. No line is bounded if one of them is not
+/// solved.
+void find_bounds(const FlatMachine& machine, const Problem& target, const CellPlace& place,
+                 const std::vector<double>& start, StartCell& cell) {
+  cell.bounds = offset_bounds(cell, reach_of_lines * place.step, load_of_lines, machine.length);
+  const std::vector<Sample> corners = corners_about(place, machine.length);
+  const auto solved = solve_samples(machine, target, place, corners, start, {});
+  for (std::size_t k = 0; k < corners.size(); ++k) {
+    const Vector6 found = solved ? offset_of(place, corners[k], solved->commands.data() + 12 * k)
+                                 : Vector6::Constant(std::numeric_limits<double>::infinity());
+    const Vector6 missed =
+        remainder_margin * (found - command_offset(cell, corners[k].p, corners[k].turn, corners[k].F));
+    cell.bounds.remainder[0] = std::max(cell.bounds.remainder[0], missed.head<3>().norm());
+    cell.bounds.remainder[1] =
+        std::max(cell.bounds.remainder[1], cell.variables.turns ? missed.tail<3>().norm() : 0.0);
+  }
 }
 
 }  // namespace
@@ -195,36 +273,46 @@ void add_offsets(const CellPlace& place, const Samples& samples, const Solutions
 std::optional<StartCell> make_kinematics_cell(const FlatMachine& machine,
                                               const std::vector<Transform>& perfect, const CellPlace& place,
                                               const std::vector<double>& start) {
-  const Samples samples = samples_about(place, false, machine.length);
+  const Variables variables{place.turns, false};
+  const Samples samples = samples_about(place, variables, machine.length);
   const Problem kinematics{.real = {}, .nominal = nominal_question(perfect)};
-  const auto solutions = solve_samples(machine, kinematics, place.R_home, samples.all, start);
+  const auto solutions = solve_samples(machine, kinematics, place, samples.all, start, variables);
   if (!solutions) return std::nullopt;
-  return cell_of(machine, place, samples, *solutions);
+  return cell_of(machine, place, variables, {machine, place, variables, samples, *solutions});
 }
 
 std::optional<StartCell> make_target_cell(const FlatMachine& machine, const Question& real,
                                           const std::vector<Transform>& perfect, const CellPlace& place,
                                           const StartCell& kinematics) {
-  const Samples samples = samples_about(place, true, machine.length);
+  const Variables variables{place.turns, true};
+  const Samples samples = samples_about(place, variables, machine.length);
   const Problem target{.real = real, .nominal = nominal_question(perfect)};
-  const auto solutions = solve_samples(machine, target, place.R_home, samples.all, kinematics.state);
+  const auto solutions = solve_samples(machine, target, place, samples.all, kinematics.state, variables);
   if (!solutions) return std::nullopt;
-  StartCell cell = cell_of(machine, place, samples, *solutions);
-  cell.loads = true;
-  add_stress(machine, samples, solutions->stress, cell);
+  const CellSamples of(machine, place, variables, samples, *solutions);
+  StartCell cell = cell_of(machine, place, variables, of);
+  cell.stress.assign(solutions->stress.begin(),
+                     solutions->stress.begin() + 6 * static_cast<std::ptrdiff_t>(machine.elements.size()));
+  cell.stress_changes = of.stress_changes();
   cell.pivots.assign(solutions->pivots.begin(), solutions->pivots.begin() + machine.pivots());
-  add_offsets(place, samples, *solutions, cell);
+  const Vector6 offset = offset_of(place, samples.all[0], solutions->commands.data());
+  for (int i = 0; i < 6; ++i) at(cell.offset, i) = offset[i];
+  cell.offset_changes = of.expanded([&](int sample) { return of.offset_jacobian(sample); }, 6);
+  find_bounds(machine, target, place, solutions->states, cell);
   return cell;
 }
 
 Vector6 command_offset(const StartCell& cell, const Vector3& p, const Vector3& turn, const Vector6& F) {
-  Eigen::Matrix<double, Eigen::Dynamic, 1, 0, StartCell::most_terms, 1> x(cell.terms());
-  const Vector3 d = p - Vector3(cell.centre[0], cell.centre[1], cell.centre[2]);
-  x.head<StartCell::position_terms>() << d, d.cwiseProduct(d), d[0] * d[1], d[0] * d[2], d[1] * d[2];
-  if (cell.turns) x.segment<3>(StartCell::position_terms) = turn;
-  x.tail<6>() = F;
-  using Changes = Eigen::Matrix<double, 6, Eigen::Dynamic, Eigen::RowMajor>;
-  return Vector6(cell.offset.data()) + Eigen::Map<const Changes>(cell.offset_changes.data(), 6, cell.terms()) * x;
+  double x[most_variables], terms[most_terms];
+  for (int i = 0; i < 3; ++i) x[i] = p[i] - at(cell.centre, i);
+  for (int i = 0; i < 3 && cell.variables.turns; ++i) x[3 + i] = turn[i];
+  for (int i = 0; i < 6 && cell.variables.loads; ++i) x[cell.variables.first_load() + i] = F[i];
+  fill_terms(cell.variables.count(), x, terms);
+  const Block<double> way =
+      sum_terms<double>(cell.variables.terms(), terms, [&](int i) { return at(cell.offset_changes, i); });
+  Vector6 offset;
+  for (int i = 0; i < 6; ++i) offset[i] = at(cell.offset, i) + way.value[i];
+  return offset;
 }
 
 }  // namespace counterflex::kernel

@@ -12,24 +12,24 @@ struct CellPlace {
   Matrix3 R_home;      ///< orientation of the tip, where it is controlled
   bool turns = false;  ///< whether it is
   Vector3 centre;      ///< position of the tip (m)
-  double step = 0;     ///< distance of the differences (m)
+  double step = 0;     ///< half of the cell's edge: distance of the samples (m)
 };
 
 /// The cell of nominal kinematics. `perfect`: transforms without errors; `start`: a state of the nominal
-/// machine at the centre. None where a place about the centre is not solved.
+/// machine at the centre. None where a sample is not solved.
 std::optional<StartCell> make_kinematics_cell(const FlatMachine& machine,
                                               const std::vector<Transform>& perfect, const CellPlace& place,
                                               const std::vector<double>& start);
 
-/// The cell of a real machine whose tip is wanted at a place, with its loads, pivots and offsets to the command.
-/// `kinematics`: the cell of nominal kinematics there. None where a place about the centre is not solved.
+/// The cell of a real machine whose tip is wanted at a place, with its loads, pivots and offsets to the
+/// command. `kinematics`: the cell of nominal kinematics there. None where a sample is not solved.
 std::optional<StartCell> make_target_cell(const FlatMachine& machine, const Question& real,
                                           const std::vector<Transform>& perfect, const CellPlace& place,
                                           const StartCell& kinematics);
 
-/// From a tip at `p` (m), turned against home by the rotation vector `turn` (rad), under the load `F` (N, N m) to
-/// the command, by the expansion of a target's cell: position (m), and the rotation vector of
-/// R_command R_tip'.
+/// From a tip at `p` (m), turned against home by the rotation vector `turn` (rad), under the load `F` (N, N
+/// m) to the command, by the expansion of a target's cell: position (m), and the rotation vector of R_command
+/// R_tip'.
 Vector6 command_offset(const StartCell& cell, const Vector3& p, const Vector3& turn, const Vector6& F);
 
 }  // namespace counterflex::kernel

@@ -138,7 +138,7 @@ template <class T>
 void find_held_step(Work<T>& work) {
   Vec6<T> b = work.equations.platform * -1.0;
   for (int s = 0; s < work.machine.chains; ++s) b = b - condense_series(s, work);
-  solve_factored(work.factors.L, b);
+  solve_platform(work, b);
   work.step.platform = b;
   for (T& way : work.step.actuators) way = T{};
 }

@@ -295,6 +295,16 @@ void factor_series(int s, Work<T>& work, Sym6<T>& K, Columns<T>& columns) {
   }
 }
 
+/// Solves the platform's equations. The moment of the load keeps its direction, so it has no potential: the second derivative
+/// of energy lacks half of its bracket, K xi + (0, w x m) / 2. It is small beside K: one correction does for it.
+template <class T>
+COUNTERFLEX_INLINE void solve_platform(const Work<T>& work, Vec6<T>& x) {
+  solve_factored(work.factors.L, x);
+  Vec6<T> correction{{}, cross(x.w, work.load.w) * (0.5 * work.question.load)};
+  solve_factored(work.factors.L, correction);
+  x = x - correction;
+}
+
 /// Factors the tangent at the state that was evaluated last, with the stress that the elements have.
 template <class T>
 void factor(Work<T>& work) {
@@ -321,7 +331,7 @@ void factor(Work<T>& work) {
   if (!work.moves_actuators) return;
   for (std::size_t a = 0; a < factors.actuators.size(); ++a) {
     factors.responses[a] = factors.actuators[a];
-    solve_factored(factors.L, factors.responses[a]);
+    solve_platform(work, factors.responses[a]);
   }
 }
 

@@ -5,13 +5,15 @@
 #include <limits>
 
 #include "start_table.hpp"
+#include "statics/kernel/offset_bounds.hpp"
 
 namespace counterflex {
 namespace {
 
-/// One tangent, with the stress of the cell, does for the steps behind it; late steps have their own. What needs more
-/// steps is left to the continuation of single waypoints.
-constexpr kernel::Schedule schedule{.tangents = 1U | ~0U << 5, .most = 12, .first = kernel::FirstStress::of_cells};
+/// One tangent, with the stress of the cell, does for the steps behind it; late steps have their own. What
+/// needs more steps is left to the continuation of single waypoints.
+constexpr kernel::Schedule schedule{
+    .tangents = 1U | ~0U << 5, .most = 12, .first = kernel::FirstStress::of_cells};
 constexpr double same_branch = 1e-3;  // l or rad: another branch is further away
 
 template <int n>
@@ -30,13 +32,13 @@ Pose pose_of(const double* numbers) {
 
 /// Waypoints of one problem of the kernel, and its answers.
 struct KernelBatch {
-  std::vector<double> p, R, F, place, nominal_place;
+  std::vector<double> p, R, F;
   std::vector<const kernel::StartCell*> cells, nominal_cells;
   std::vector<unsigned char> accepted, is_stiff;
   std::vector<int> iterations;
   std::vector<double> rho, tips, nominal_tips;
 
-  void clear() { p.clear(), R.clear(), F.clear(), place.clear(), nominal_place.clear(), cells.clear(), nominal_cells.clear(); }
+  void clear() { p.clear(), R.clear(), F.clear(), cells.clear(), nominal_cells.clear(); }
 
   void add(const Vector3& wanted_p, const Matrix3& wanted_R, const kernel::StartCell& nominal_cell) {
     append(wanted_p, p);
@@ -47,16 +49,16 @@ struct KernelBatch {
   void solve(const kernel::FlatMachine& machine, const kernel::Problem& problem) {
     const std::size_t count = nominal_cells.size();
     if (count == 0) return;
-    rho.resize(machine.actuator_joint.size() * count), tips.resize(12 * count), nominal_tips.resize(12 * count);
+    rho.resize(machine.actuator_joint.size() * count), tips.resize(12 * count),
+        nominal_tips.resize(12 * count);
     accepted.resize(count), is_stiff.resize(count), iterations.resize(count);
     kernel::Batch batch;
     batch.count = static_cast<int>(count);
     batch.p = p.data(), batch.R = R.data(), batch.actuators = rho.data();
     batch.nominal_cells = nominal_cells.data(), batch.nominal_tip = nominal_tips.data();
-    batch.nominal_place = nominal_place.empty() ? nullptr : nominal_place.data();
     batch.accepted = accepted.data(), batch.iterations = iterations.data();
     if (problem.real) {
-      batch.F = F.data(), batch.cells = cells.data(), batch.place = place.data();
+      batch.F = F.data(), batch.cells = cells.data();
       batch.tip = tips.data(), batch.is_stiff = is_stiff.data();
     }
     kernel::instance_for(count).solve(machine, problem, schedule, batch);
@@ -73,7 +75,8 @@ const char* kernel_instructions() {
   return lanes == 8 ? "AVX-512" : lanes == 4 ? "AVX2" : "scalar";
 }
 
-StartTable::StartTable(const Model& model, bool at_platform) : impl_(std::make_unique<Impl>(model, at_platform)) {}
+StartTable::StartTable(const Model& model, bool at_platform)
+    : impl_(std::make_unique<Impl>(model, at_platform)) {}
 StartTable::~StartTable() = default;
 
 struct StartTables::Impl {
@@ -90,7 +93,8 @@ const StartTable& StartTables::of(const Model& model, bool at_platform) const {
   const auto key = std::make_pair(&model, at_platform);
   if (const auto found = impl_->tables.find(key); found != impl_->tables.end()) return found->second;
   return impl_->tables
-      .emplace(std::piecewise_construct, std::forward_as_tuple(key), std::forward_as_tuple(model, at_platform))
+      .emplace(std::piecewise_construct, std::forward_as_tuple(key),
+               std::forward_as_tuple(model, at_platform))
       .first->second;
 }
 
@@ -111,6 +115,8 @@ struct BatchSolver::Impl {
   std::shared_ptr<const KinematicsCell> near;
   std::optional<CellIndex> last_index;  ///< of the cell that was looked for last
   std::shared_ptr<const KinematicsCell> last_kinematics;
+  std::optional<CellIndex> line_index;  ///< of the cell that bounded a line last
+  std::shared_ptr<const kernel::StartCell> line_cell;
 
   explicit Impl(StartTable::Impl& t) : table(t), work(t.model.mechanism) {}
 
@@ -119,6 +125,14 @@ struct BatchSolver::Impl {
     if (index != last_index) last_kinematics = index ? table.kinematics(*index) : nullptr;
     last_index = index;
     return last_kinematics;
+  }
+
+  /// The cell of the whole machine; null if there is none.
+  const kernel::StartCell* target_at(const Vector3& p) {
+    const auto index = table.is_able ? table.index_of(p) : std::nullopt;
+    if (index != line_index) line_cell = index ? table.target(*index, {}, work) : nullptr;
+    line_index = index;
+    return line_cell.get();
   }
 
   void collect(std::span<const BatchRequest> requests, Acting acting) {
@@ -142,29 +156,16 @@ struct BatchSolver::Impl {
   bool in_travel(std::size_t waypoint) const {
     const auto& travel = table.model.mechanism.travel;
     for (std::size_t a = 0; a < travel.size(); ++a)
-      if (const double x = batch.rho[travel.size() * waypoint + a]; !(x >= travel[a].min && x <= travel[a].max))
+      if (const double x = batch.rho[travel.size() * waypoint + a];
+          !(x >= travel[a].min && x <= travel[a].max))
         return false;
     return true;
   }
 
-  /// The orientation in which the tip stands if home's is commanded, by the cell: a rotation vector against home.
-  static Vector3 foreseen_turn(const Waypoint& w) {
-    Vector3 turn = Vector3::Zero();
-    if (!w.target->turns) return turn;
-    for (int i = 0; i < 2; ++i) turn = -command_offset(*w.target, w.p, turn, w.F).tail<3>();
-    return turn;
-  }
-
-  /// Adds a waypoint. The places are where the tip and the command are by its cell.
-  void add(const Waypoint& w, bool is_target) {
-    const Vector3 turn = foreseen_turn(w), offset = command_offset(*w.target, w.p, turn, w.F).head<3>();
+  void add(const Waypoint& w) {
     batch.add(w.p, table.R_home, w.kinematics->start);
     append(w.F, batch.F);
     batch.cells.push_back(w.target.get());
-    append(is_target ? w.p : Vector3(w.p - offset), batch.place);
-    append(turn, batch.place);
-    append(is_target ? Vector3(w.p + offset) : w.p, batch.nominal_place);
-    append(Vector3(Vector3::Zero()), batch.nominal_place);
   }
 
   void solve_kinematics() {
@@ -174,8 +175,9 @@ struct BatchSolver::Impl {
   void solve(BatchQuestion question, Acting acting, std::span<BatchAnswer> answers) {
     const bool is_target = question == BatchQuestion::target;
     batch.clear();
-    for (const Waypoint& w : waypoints) add(w, is_target);
-    kernel::Problem problem{.real = table.question(acting), .nominal = kernel::nominal_question(table.perfect)};
+    for (const Waypoint& w : waypoints) add(w);
+    kernel::Problem problem{.real = table.question(acting),
+                            .nominal = kernel::nominal_question(table.perfect)};
     for (std::size_t j = 0; j < 6; ++j) problem.of_command[j] = !is_target || j >= 3;
     batch.solve(table.flat.machine, problem);
     for (std::size_t i = 0; i < waypoints.size(); ++i) {
@@ -222,8 +224,22 @@ void BatchSolver::nominal_tips(std::span<const Vector3> p, std::span<NominalAnsw
     answers[asked[k]] = {batch.accepted[k] != 0, pose_of(&batch.nominal_tips[12 * k])};
 }
 
-LineBend BatchSolver::bend_along(const BatchLine&) {
-  return {std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+LineBend BatchSolver::bend_along(const BatchLine& line) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  const kernel::StartCell* cell = impl_->target_at((line.p0 + line.p1) / 2);
+  if (cell == nullptr) return {infinity, infinity};
+  const Vector3 centre(cell->centre[0], cell->centre[1], cell->centre[2]);
+  for (const Vector3& p : {line.p0, line.p1})
+    if (!((p - centre).cwiseAbs().maxCoeff() <= cell->bounds.reach)) return {infinity, infinity};
+  const double length = impl_->table.flat.machine.length;
+  const auto size = [length](const Vector6& F) {
+    return std::sqrt(F.head<3>().squaredNorm() + F.tail<3>().squaredNorm() / (length * length));
+  };
+  kernel::LineSizes sizes{.way = (line.p1 - line.p0).norm(), .load_change = size(line.F1 - line.F0)};
+  for (const Vector6& dF : line.dF) sizes.kink = std::max(sizes.kink, size(dF));
+  sizes.load = std::max(size(line.F0), size(line.F1)) + sizes.kink;
+  const kernel::ChordBounds bounds = chord_bounds(cell->bounds, sizes);
+  return {bounds.command, bounds.gain};
 }
 
 const Configuration* BatchSolver::nominal_near(const Vector3& p) {
@@ -231,7 +247,8 @@ const Configuration* BatchSolver::nominal_near(const Vector3& p) {
   return impl_->near ? &impl_->near->nominal : nullptr;
 }
 
-// Neighbouring cells have the same actuators at a place between them. Along a longer way the nominal machine is followed.
+// Neighbouring cells have the same actuators at a place between them. Along a longer way the nominal machine
+// is followed.
 bool BatchSolver::joins(const Vector3& from, const Vector3& to) {
   const auto begin = impl_->kinematics_at(from), end = impl_->kinematics_at(to);
   if (!begin || !end) return false;

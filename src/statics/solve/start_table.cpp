@@ -20,31 +20,41 @@ bool controls(const Mechanism& mechanism, Component c) {
 }
 
 bool only_slides(const Mechanism& mechanism) {
-  return mechanism.chains.size() == 1 && std::all_of(mechanism.chains.begin(), mechanism.chains.end(), [](const Series& chain) {
-    return std::all_of(chain.parts.begin(), chain.parts.end(), [](const Part& part) {
-      const bool turns = part.kind == PartKind::actuator && part.joint.kind == JointKind::revolute;
-      return !turns && part.kind != PartKind::passive && part.kind != PartKind::group;
-    });
-  });
+  return mechanism.chains.size() == 1 &&
+         std::all_of(mechanism.chains.begin(), mechanism.chains.end(), [](const Series& chain) {
+           return std::all_of(chain.parts.begin(), chain.parts.end(), [](const Part& part) {
+             const bool turns = part.kind == PartKind::actuator && part.joint.kind == JointKind::revolute;
+             return !turns && part.kind != PartKind::passive && part.kind != PartKind::group;
+           });
+         });
 }
 
 /// How many cells of a target fit into `bytes_of_cells`.
-std::size_t kept_cells(const kernel::FlatMachine& machine) {
+std::size_t kept_cells(const kernel::FlatMachine& machine, bool turns) {
   const auto unknowns = static_cast<std::size_t>(machine.unknowns());
-  const std::size_t numbers = unknowns * (kernel::StartCell::most_terms + 4) +
-                              6 * machine.elements.size() * kernel::StartCell::stress_terms;
+  const kernel::Variables variables{turns, true};
+  const std::size_t numbers = unknowns * static_cast<std::size_t>(variables.terms() + 4) +
+                              6 * machine.elements.size() * static_cast<std::size_t>(1 + variables.count());
   return std::clamp(bytes_of_cells / (sizeof(double) * numbers), least_cells, most_cells);
 }
 
 /// Whether the platform does not turn with the position, to 1e-11 rad in a cell of 1 cm.
 bool only_translates(const kernel::StartCell& cell) {
-  constexpr double least_slope = 1e-9, least_bend = 1e-7;  // rad/m, rad/m2
-  const auto terms = static_cast<std::size_t>(cell.terms());
-  const std::size_t unknowns = cell.changes.size() / terms;
+  constexpr std::array<double, 3> least{1e-9, 1e-7, 1e-5};  // rad/m, rad/m2, rad/m3
+  const int n = cell.variables.count(), terms = cell.variables.terms();
+  const std::size_t last_block = cell.changes.size() - static_cast<std::size_t>(kernel::block * terms);
+  const auto turns_by = [&](int term, double limit) {
+    const auto first = last_block + static_cast<std::size_t>(kernel::block * term);
+    return std::any_of(&cell.changes[first + 3], &cell.changes[first + 3] + 3,
+                       [=](double x) { return std::abs(x) > limit; });
+  };
+  int term = 0;
   bool turns = false;
-  for (std::size_t row = unknowns - 3; row < unknowns; ++row)
-    for (std::size_t k = 0; k < kernel::StartCell::position_terms; ++k)
-      turns = turns || std::abs(cell.changes[terms * row + k]) > (k < 3 ? least_slope : least_bend);
+  for (int i = 0; i < n; ++i, ++term) turns = turns || (i < 3 && turns_by(term, least[0]));
+  for (int i = 0; i < n; ++i)
+    for (int j = i; j < n; ++j, ++term) turns = turns || (j < 3 && turns_by(term, least[1]));
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < n; ++j, ++term) turns = turns || (j < 3 && turns_by(term, least[2]));
   return !turns;
 }
 
@@ -71,7 +81,7 @@ StartTable::Impl::Impl(const Model& m, bool platform)
       controls_positions(m.mechanism.controlled.size() == 3),
       has_weights(has_weight(m.mechanism)),
       edge((only_slides(m.mechanism) ? straight_edge : bent_edge) * m.mechanism.length),
-      most_cells(kept_cells(flat.machine)) {}
+      most_cells(kept_cells(flat.machine, !controls_positions)) {}
 
 std::optional<CellIndex> StartTable::Impl::index_of(const Vector3& p) const {
   const Vector3 n = (p / edge).array().floor();
@@ -80,7 +90,8 @@ std::optional<CellIndex> StartTable::Impl::index_of(const Vector3& p) const {
 }
 
 kernel::CellPlace StartTable::Impl::place_of(const CellIndex& index) const {
-  const Vector3 corner(static_cast<double>(index.x), static_cast<double>(index.y), static_cast<double>(index.z));
+  const Vector3 corner(static_cast<double>(index.x), static_cast<double>(index.y),
+                       static_cast<double>(index.z));
   return {R_home, !controls_positions, edge * (corner.array() + 0.5), edge / 2};
 }
 
@@ -96,7 +107,7 @@ std::shared_ptr<const KinematicsCell> StartTable::Impl::kinematics(const CellInd
 }
 
 std::shared_ptr<const kernel::StartCell> StartTable::Impl::target(const CellIndex& index, Acting acting,
-                                                                   StaticsWork& work) {
+                                                                  StaticsWork& work) {
   CellCache<kernel::StartCell>& cells = targets_[(acting.errors ? 1U : 0U) + (acting.gravity ? 2U : 0U)];
   return cells.get(index, most_cells, [&] { return make_target(index, acting, work); });
 }
@@ -105,8 +116,10 @@ std::shared_ptr<const KinematicsCell> StartTable::Impl::make_kinematics(const Ce
   const kernel::CellPlace place = place_of(index);
   NominalResult nominal = follow(model, model.home, {R_home, place.centre});
   if (nominal.status != Status::converged) return nullptr;
-  if (!(actuator_jacobian(model, nominal.configuration).condition < largest_kinematic_condition)) return nullptr;
-  auto start = make_kinematics_cell(flat.machine, perfect, place, state_of(model, flat, nominal.configuration, 0));
+  if (!(actuator_jacobian(model, nominal.configuration).condition < largest_kinematic_condition))
+    return nullptr;
+  auto start =
+      make_kinematics_cell(flat.machine, perfect, place, state_of(model, flat, nominal.configuration, 0));
   if (!start) return nullptr;
   std::optional<Matrix3> R_MT;
   if (only_translates(*start)) R_MT = tip(model.mechanism, nominal.configuration).R;
@@ -114,10 +127,10 @@ std::shared_ptr<const KinematicsCell> StartTable::Impl::make_kinematics(const Ce
       KinematicsCell{std::move(nominal.configuration), std::move(*start), R_MT});
 }
 
-// The solver of single waypoints judges the machine at the centre without a load. In the cell the kernel then compares
-// pivots with those of the centre.
+// The solver of single waypoints judges the machine at the centre without a load. In the cell the kernel then
+// compares pivots with those of the centre.
 std::shared_ptr<const kernel::StartCell> StartTable::Impl::make_target(const CellIndex& index, Acting acting,
-                                                                        StaticsWork& work) {
+                                                                       StaticsWork& work) {
   const auto nominal = kinematics(index);
   if (!nominal) return nullptr;
   const kernel::CellPlace place = place_of(index);
@@ -127,12 +140,15 @@ std::shared_ptr<const kernel::StartCell> StartTable::Impl::make_target(const Cel
   stage.errors = acting.errors ? 1 : 0;
   stage.gravity = acting.gravity ? 1 : 0;
   const Pose X_MT{R_home, place.centre};
-  const Equilibrium alone = solve_target(model, nominal->nominal, X_MT, {Vector6::Zero(), at_platform}, stage, work);
+  const Equilibrium alone =
+      solve_target(model, nominal->nominal, X_MT, {Vector6::Zero(), at_platform}, stage, work);
   if (alone.status != Status::converged) return nullptr;
   const Eigen::VectorXd rho = actuator_values(model.mechanism, alone.configuration);
   for (Eigen::Index a = 0; a < rho.size(); ++a) {
-    const double found = cell->state[static_cast<std::size_t>(flat.machine.actuator_joint[static_cast<std::size_t>(a)])];
-    const double offset = (acting.gravity ? 1 : 0) * flat.machine.actuator_offset[static_cast<std::size_t>(a)];
+    const double found =
+        cell->state[static_cast<std::size_t>(flat.machine.actuator_joint[static_cast<std::size_t>(a)])];
+    const double offset =
+        (acting.gravity ? 1 : 0) * flat.machine.actuator_offset[static_cast<std::size_t>(a)];
     if (!(std::abs(found - offset - rho[a]) < same_solution)) return nullptr;
   }
   return std::make_shared<const kernel::StartCell>(std::move(*cell));
