@@ -24,11 +24,14 @@ void keep(Largest& largest, double length, int line) {
   largest.mm = std::max(largest.mm, length / mm);
 }
 
-/// Whether `deviation` is the largest of its line so far; then it is kept, with its place.
+/// Whether `deviation` is the largest of its line so far; then it is kept, with its place: the first but for rounding.
 bool keep_worst(double& largest_mm, WorstPlace& place, const Waypoint& w, const Vector6& deviation,
                 std::int32_t operation) {
   const double here_mm = deviation.head<3>().norm() / mm;
-  if (place.known && here_mm <= largest_mm) return false;
+  if (place.known && here_mm <= largest_mm + indistinct_mm) {
+    largest_mm = std::max(largest_mm, here_mm);
+    return false;
+  }
   largest_mm = here_mm;
   place = {true, w.s / mm, w.p_MT / mm, operation, w.wrench.head<3>().norm(), w.corrected_line};
   return true;
@@ -36,7 +39,7 @@ bool keep_worst(double& largest_mm, WorstPlace& place, const Waypoint& w, const 
 
 void keep_at_worst(const Waypoint& w, const Causes& causes, std::optional<SourcesAtWorst>& worst) {
   const auto in_mm = [](const Vector6& deviation) { return Vector3(deviation.head<3>() / mm); };
-  if (worst && in_mm(w.before).norm() <= worst->before_mm.norm()) return;
+  if (worst && in_mm(w.before).norm() <= worst->before_mm.norm() + indistinct_mm) return;
   worst = SourcesAtWorst{w.line,
                          w.p_MT / mm,
                          in_mm(causes.geometry),
