@@ -5,12 +5,33 @@
 
 namespace counterflex::kernel {
 
+/// What is solved at once: one of the machines or both, with actuators that are unknowns or held.
+struct Phase {
+  bool real = false, nominal = false, moves_actuators = false;
+};
+
+/// A problem in phases. Where all components are commanded, or none, one machine has the actuators, and the other one follows.
+inline std::vector<Phase> phases_of(const FlatMachine& machine, const Problem& problem) {
+  if (!problem.nominal) return {{.real = true}};
+  constexpr Phase kinematics{.nominal = true, .moves_actuators = true};
+  if (!problem.real) return {kinematics};
+  int controlled = 0, commanded = 0;
+  for (int j = 0; j < 6; ++j) {
+    controlled += at(machine.controlled, j);
+    commanded += at(machine.controlled, j) && at(problem.of_command, j);
+  }
+  if (commanded == controlled) return {kinematics, {.real = true}};
+  if (commanded == 0) return {{.real = true, .moves_actuators = true}, {.nominal = true}};
+  return {{true, true, true}};
+}
+
 /// What one solve of a problem works on. Without the nominal machine actuators are held; without the real one
 /// the problem is one of kinematics.
 template <class T>
 struct Coupled {
   const Problem& problem;
   Work<T> real, nominal;
+  Phase phase{};
   // Each controlled component of the real or of the nominal tip, as actuators move it: an LU decomposition with
   // exchange of rows, lane by lane.
   std::vector<T> lu{};
@@ -22,23 +43,31 @@ struct Coupled {
   Coupled(const FlatMachine& machine, const Problem& p) : problem(p), real(machine), nominal(machine) {
     if (problem.real) real.question = *problem.real;
     if (problem.nominal) nominal.question = *problem.nominal;
-    real.moves_actuators = nominal.moves_actuators = problem.nominal.has_value();
     const std::size_t n = machine.actuator_joint.size();
     lu.resize(n * n), swaps.resize(n * n);
+    begin({problem.real.has_value(), problem.nominal.has_value(), problem.nominal.has_value()});
   }
   Coupled(const Coupled&) = delete;
 
+  void begin(const Phase& next) {
+    phase = next;
+    real.moves_actuators = nominal.moves_actuators = phase.moves_actuators;
+  }
+
   /// The machine whose results are given out.
-  Work<T>& first() { return problem.real ? real : nominal; }
+  Work<T>& first() { return phase.real ? real : nominal; }
 
   template <class Visit>
   COUNTERFLEX_INLINE void for_each(const Visit& visit) {
-    if (problem.real) visit(real);
-    if (problem.nominal) visit(nominal);
+    if (phase.real) visit(real);
+    if (phase.nominal) visit(nominal);
   }
 
   /// The machine whose tip has component `j`.
-  Work<T>& owner(int j) { return at(problem.of_command, j) || !problem.real ? nominal : real; }
+  Work<T>& owner(int j) {
+    if (phase.real != phase.nominal) return first();
+    return at(problem.of_command, j) ? nominal : real;
+  }
 };
 
 /// Calls `visit(row, j)` for every controlled component j.
@@ -101,14 +130,14 @@ void solve_actuators(const Coupled<T>& coupled, T* x) {
 template <class T>
 void factor(Coupled<T>& coupled) {
   coupled.for_each([](Work<T>& work) { factor(work); });
-  if (coupled.problem.nominal) factor_actuators(coupled);
+  if (coupled.phase.moves_actuators) factor_actuators(coupled);
 }
 
 /// The step of both machines that makes the linearised equations zero; its largest component and angle.
 template <class T>
 void find_step(Coupled<T>& coupled) {
   coupled.for_each([](Work<T>& work) { find_held_step(work); });
-  if (coupled.problem.nominal) {
+  if (coupled.phase.moves_actuators) {
     const FlatMachine& machine = coupled.real.machine;
     std::vector<T>& ways = coupled.first().step.actuators;
     for_each_controlled(machine, [&](int row, int j) {
@@ -127,7 +156,7 @@ void find_step(Coupled<T>& coupled) {
     });
   }
   coupled.for_each([](Work<T>& work) { find_inner_steps(work); });
-  if (!coupled.problem.real || !coupled.problem.nominal) return;
+  if (!coupled.phase.real || !coupled.phase.nominal) return;
   Step<T>&real = coupled.real.step, &nominal = coupled.nominal.step;
   real.size = larger(real.size, nominal.size);
   real.turn = nominal.turn = larger(real.turn, nominal.turn);

@@ -12,23 +12,30 @@ struct Variables {
 
   constexpr int count() const { return 3 + (turns ? 3 : 0) + (loads ? 6 : 0); }
   constexpr int first_load() const { return turns ? 6 : 3; }
-  /// The variables, their products in pairs, and the products of a squared position with each variable.
-  constexpr int terms() const { return count() * (count() + 1) / 2 + 4 * count(); }
+  /// The variables, and their products in pairs: of a start.
+  constexpr int start_terms() const { return count() + count() * (count() + 1) / 2; }
+  /// And the products of a squared position with each variable.
+  constexpr int terms() const { return start_terms() + 3 * count(); }
 };
 
 inline constexpr int most_variables = Variables{true, true}.count();
 inline constexpr int most_terms = Variables{true, true}.terms();
+inline constexpr int most_start_terms = Variables{true, true}.start_terms();
 
-/// The terms of a polynomial at x: x_i; x_i x_j, j >= i; x_i^2 x_j, i a position.
+/// The terms of a start at x: x_i; x_i x_j, j >= i. Returns the end.
 template <class T>
-COUNTERFLEX_INLINE void fill_terms(int variables, const T* x, T* terms) {
+COUNTERFLEX_INLINE T* fill_start_terms(int variables, const T* x, T* terms) {
   for (int i = 0; i < variables; ++i) *terms++ = x[i];
   for (int i = 0; i < variables; ++i)
     for (int j = i; j < variables; ++j) *terms++ = x[i] * x[j];
-  for (int i = 0; i < 3; ++i) {
-    const T square = x[i] * x[i];
-    for (int j = 0; j < variables; ++j) *terms++ = square * x[j];
-  }
+  return terms;
+}
+
+/// All terms at x: those of a start; x_i^2 x_j, i a position.
+inline void fill_terms(int variables, const double* x, double* terms) {
+  terms = fill_start_terms(variables, x, terms);
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < variables; ++j) *terms++ = x[i] * x[i] * x[j];
 }
 
 /// Values are computed six at a time. The coefficients of six values: by term, six numbers.

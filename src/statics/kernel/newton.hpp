@@ -71,7 +71,7 @@ Mask<T> is_balanced(const Work<T>& work) {
          (e.largest_turn_squared <= largest_spring_turn * largest_spring_turn) & is_finite(work.state);
 }
 
-/// Solves the problem from the states of both machines, in the lanes that are `active`. The equations are
+/// Solves the phase of the problem from the states of its machines, in the lanes that are `active`. The equations are
 /// evaluated at the solution at last. Calls `judge(active)` behind each factorisation of a tangent.
 template <class T, class Judge>
 Solved<T> iterate(const Schedule& schedule, Mask<T> active, Coupled<T>& coupled, const Judge& judge) {
@@ -79,7 +79,8 @@ Solved<T> iterate(const Schedule& schedule, Mask<T> active, Coupled<T>& coupled,
   Mask<T> is_small = solved.accepted;
   Work<T>& first = coupled.first();
   // Nothing is known of the contraction of a first step, but of Newton's on kinematics.
-  T last = all<T>(coupled.problem.real ? 0 : first.machine.length);
+  T last = all<T>(coupled.phase.real ? 0 : first.machine.length);
+  const bool is_exact = !coupled.phase.real || !first.machine.has_hanging_weights;  // tangents: else steps contract slowly
   for (int k = 0;; ++k) {
     Mask<T> is_solved = active & is_small;
     coupled.for_each([&](Work<T>& work) {
@@ -103,7 +104,7 @@ Solved<T> iterate(const Schedule& schedule, Mask<T> active, Coupled<T>& coupled,
     const Mask<T> predicted = size * size <= predicted_tolerance * last;
     if (has_tangent<T>(schedule, k))
       is_small = is_small | predicted;
-    else if (!first.machine.has_hanging_weights)
+    else if (is_exact)
       is_small = is_small | (predicted & (size <= small_chord));
     last = size;
     coupled.for_each([&](Work<T>& work) { take_step<T>(active, work); });

@@ -82,9 +82,9 @@ template <class T, bool shared>
 void put_state_of_cells(const CellLanes<T, shared>& cells, const T* x, Work<T>& work) {
   const FlatMachine& machine = work.machine;
   const Variables& variables = cells.only().variables;
-  const int terms = variables.terms();
-  T of_terms[most_terms];
-  fill_terms(variables.count(), x, of_terms);
+  const int terms = variables.start_terms();
+  T of_terms[most_start_terms];
+  fill_start_terms(variables.count(), x, of_terms);
   int number_of_block = 0;
   for (int begin = 0; begin < machine.joints; begin += block, ++number_of_block) {
     const Block<T> dq = cells.sum(&StartCell::changes, number_of_block, terms, of_terms);
@@ -129,20 +129,20 @@ COUNTERFLEX_INLINE void find_place(const CellLanes<T, shared>& cells, const Work
 template <class T, bool shared>
 Block<T> command_offset(const CellLanes<T, shared>& cells, const T* x) {
   const Variables& variables = cells.only().variables;
-  T terms[most_terms];
-  fill_terms(variables.count(), x, terms);
-  Block<T> offset = cells.sum(&StartCell::offset_changes, 0, variables.terms(), terms);
+  T terms[most_start_terms];
+  fill_start_terms(variables.count(), x, terms);
+  Block<T> offset = cells.sum(&StartCell::offset_changes, 0, variables.start_terms(), terms);
   for (int i = 0; i < block; ++i) offset.value[i] += gather<T>([&](int l) { return at(cells.cells[l]->offset, i); });
   return offset;
 }
 
 /// Begins both machines at the states that the cells have for the waypoints from `first` on. Where a component is commanded,
-/// the tip is found from the command: the offset changes by some hundredths of its own way.
+/// the tip is found from the command: each round leaves some hundredths of the error.
 template <class T>
 void put_from_cells(const Batch& batch, int first, Coupled<T>& coupled) {
-  constexpr int rounds = 4;
+  constexpr int rounds = 3;
   const Problem& problem = coupled.problem;
-  T nominal_way[3]{};  // from the wanted place to that of the nominal tip
+  T nominal_way[6]{};  // from the wanted tip to the nominal one
   if (problem.real)
     with_cells<T>(batch, first, batch.cells, [&](const auto& cells) {
       Work<T>& work = coupled.real;
@@ -162,7 +162,7 @@ void put_from_cells(const Batch& batch, int first, Coupled<T>& coupled) {
         for (int j = 0; j < components; ++j)
           if (at(problem.of_command, j))
             x[j] = place[j] - offset.value[j];
-          else if (j < 3)
+          else
             nominal_way[j] = offset.value[j];
       }
       put_state_of_cells(cells, x, work);
@@ -171,7 +171,7 @@ void put_from_cells(const Batch& batch, int first, Coupled<T>& coupled) {
     with_cells<T>(batch, first, batch.nominal_cells, [&](const auto& cells) {
       T x[most_variables];
       find_place(cells, coupled.nominal, x);
-      for (int i = 0; i < 3; ++i) x[i] += nominal_way[i];
+      for (int i = 0; i < 6; ++i) x[i] += nominal_way[i];
       put_state_of_cells(cells, x, coupled.nominal);
     });
 }
@@ -205,17 +205,27 @@ double get_actuator(int a, int l, const Work<T>& work) {
          work.question.gravity * at(work.machine.actuator_offset, a);
 }
 
-/// Both machines have the actuators of the batch where these are held, else those with which the nominal one
-/// begins.
+/// The machine has the actuators of the other one.
 template <class T>
-void put_actuators(const Batch& batch, int first, Coupled<T>& coupled) {
-  const int actuators = static_cast<int>(coupled.real.machine.actuator_joint.size());
-  if (!coupled.problem.real) return;
+void copy_actuators(const Work<T>& from, Work<T>& to) {
+  const FlatMachine& machine = to.machine;
+  for (int a = 0; a < static_cast<int>(machine.actuator_joint.size()); ++a) {
+    const int j = at(machine.actuator_joint, a);
+    at(to.state.q, j) = at(from.state.q, j);
+    at(to.state.cosine, j) = at(from.state.cosine, j);
+    at(to.state.sine, j) = at(from.state.sine, j);
+    if (at(machine.actuator_offset, a) == 0 || from.question.gravity == to.question.gravity) continue;
+    for (int l = 0; l < lane_count<T>; ++l) put_actuator(a, l, get_actuator(a, l, from), to);
+  }
+}
+
+/// The real machine has the actuators of the batch where these are held.
+template <class T>
+void put_held_actuators(const Batch& batch, int first, Work<T>& real) {
+  const int actuators = static_cast<int>(real.machine.actuator_joint.size());
   for (int l = 0; l < lane_count<T>; ++l) {
     const int w = first + l < batch.count ? first + l : batch.count - 1;
-    for (int a = 0; a < actuators; ++a)
-      put_actuator(a, l, coupled.problem.nominal ? get_actuator(a, l, coupled.nominal) : batch.rho[actuators * w + a],
-                   coupled.real);
+    for (int a = 0; a < actuators; ++a) put_actuator(a, l, batch.rho[actuators * w + a], real);
   }
 }
 
@@ -291,22 +301,44 @@ void get_responses(const Batch& batch, int first, Coupled<T>& coupled) {
   }
 }
 
+/// Solves the phases of the problem one after the other; the lanes that are accepted in all of them.
 template <class T>
-void solve_batch(const FlatMachine& machine, const Problem& problem, const Schedule& schedule, Batch& batch) {
-  Coupled<T> coupled(machine, problem);
-  const Work<T>& first_work = coupled.first();
-  const int actuators = static_cast<int>(machine.actuator_joint.size());
-  for (int first = 0; first < batch.count; first += lane_count<T>) {
-    coupled.for_each([&](Work<T>& work) { put_waypoints(batch, first, work); });
-    if (batch.start == nullptr) put_from_cells(batch, first, coupled);
-    put_actuators(batch, first, coupled);
-    const Mask<T> all_lanes = first_work.origin[0] == first_work.origin[0];
-    Mask<T> is_stiff = all_lanes;
-    const Solved<T> solved = iterate<T>(schedule, all_lanes, coupled, [&](const Mask<T>& active) {
-      if (batch.is_stiff == nullptr) return;
+Solved<T> solve_phases(const std::vector<Phase>& phases, const Schedule& schedule, const Batch& batch, int first,
+                       Coupled<T>& coupled, Mask<T>& is_stiff) {
+  Solved<T> solved{is_stiff, {}};
+  for (std::size_t k = 0; k < phases.size(); ++k) {
+    coupled.begin(phases[k]);
+    if (k > 0 && phases[k].real) copy_actuators(coupled.nominal, coupled.real);
+    if (k > 0 && phases[k].nominal) copy_actuators(coupled.real, coupled.nominal);
+    const Solved<T> here = iterate<T>(schedule, solved.accepted, coupled, [&](const Mask<T>& active) {
+      if (batch.is_stiff == nullptr || !phases[k].real) return;
       const Mask<T> keeps = keeps_pivots(batch, first, coupled.real), done = opposite<T>(active);
       is_stiff = (is_stiff & done) | (keeps & active);
     });
+    solved.accepted = here.accepted;
+    solved.iterations = larger(solved.iterations, here.iterations);
+  }
+  return solved;
+}
+
+template <class T>
+void solve_batch(const FlatMachine& machine, const Problem& problem, const Schedule& schedule, Batch& batch) {
+  Coupled<T> coupled(machine, problem);
+  const Phase whole = coupled.phase;
+  const std::vector<Phase> phases = phases_of(machine, problem);
+  const int actuators = static_cast<int>(machine.actuator_joint.size());
+  for (int first = 0; first < batch.count; first += lane_count<T>) {
+    coupled.begin(whole);
+    const Work<T>& first_work = coupled.first();
+    coupled.for_each([&](Work<T>& work) { put_waypoints(batch, first, work); });
+    if (batch.start == nullptr) put_from_cells(batch, first, coupled);
+    if (!problem.nominal)
+      put_held_actuators(batch, first, coupled.real);
+    else if (phases.front().real && phases.front().nominal)
+      copy_actuators(coupled.nominal, coupled.real);
+    Mask<T> is_stiff = first_work.origin[0] == first_work.origin[0];
+    const Solved<T> solved = solve_phases(phases, schedule, batch, first, coupled, is_stiff);
+    coupled.begin(whole);
     for (int l = 0; l < lane_count<T> && first + l < batch.count; ++l) {
       const int w = first + l;
       batch.accepted[w] = lane_of_mask<T>(solved.accepted, l);

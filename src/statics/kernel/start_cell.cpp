@@ -187,8 +187,8 @@ class CellSamples {
   /// Coefficients in blocks of the rows whose first derivatives at a sample are `jacobian(sample)`. The first
   /// rows are filled up with zeros to whole blocks.
   template <class Jacobian>
-  std::vector<double> expanded(const Jacobian& jacobian, Eigen::Index first_rows) const {
-    const int n = variables_.count(), terms = variables_.terms();
+  std::vector<double> expanded(const Jacobian& jacobian, Eigen::Index first_rows, int terms) const {
+    const int n = variables_.count();
     std::vector<Rows> J;
     for (int sample = 0; sample < 1 + 2 * n; ++sample) J.push_back(jacobian(sample));
     const Eigen::Index rows = J[0].rows(), filled = (first_rows + block - 1) / block * block - first_rows;
@@ -206,7 +206,7 @@ class CellSamples {
       for (int j = i; j < n; ++j)
         set(term++,
             i == j ? Eigen::VectorXd(second(i, i) / 2) : Eigen::VectorXd((second(i, j) + second(j, i)) / 2));
-    for (int i = 0; i < 3; ++i)
+    for (int i = 0; i < 3 && terms == variables_.terms(); ++i)
       for (int j = 0; j < n; ++j) {
         const double h = at(samples_.steps, i);
         const Eigen::VectorXd third =
@@ -246,7 +246,8 @@ StartCell cell_of(const FlatMachine& machine, const CellPlace& place, const Vari
     cell.cosine.push_back(std::cos(at(cell.state, j)));
     cell.sine.push_back(std::sin(at(cell.state, j)));
   }
-  cell.changes = samples.expanded([&](int sample) { return samples.state_jacobian(sample); }, machine.joints);
+  cell.changes = samples.expanded([&](int sample) { return samples.state_jacobian(sample); }, machine.joints,
+                                  variables.start_terms());
   return cell;
 }
 
@@ -297,7 +298,8 @@ std::optional<StartCell> make_target_cell(const FlatMachine& machine, const Ques
   cell.pivots.assign(solutions->pivots.begin(), solutions->pivots.begin() + machine.pivots());
   const Vector6 offset = offset_of(place, samples.all[0], solutions->commands.data());
   for (int i = 0; i < 6; ++i) at(cell.offset, i) = offset[i];
-  cell.offset_changes = of.expanded([&](int sample) { return of.offset_jacobian(sample); }, 6);
+  cell.offset_changes =
+      of.expanded([&](int sample) { return of.offset_jacobian(sample); }, 6, variables.terms());
   find_bounds(machine, target, place, solutions->states, cell);
   return cell;
 }

@@ -33,15 +33,15 @@ bool only_slides(const Mechanism& mechanism) {
 std::size_t kept_cells(const kernel::FlatMachine& machine, bool turns) {
   const auto unknowns = static_cast<std::size_t>(machine.unknowns());
   const kernel::Variables variables{turns, true};
-  const std::size_t numbers = unknowns * static_cast<std::size_t>(variables.terms() + 4) +
+  const std::size_t numbers = unknowns * static_cast<std::size_t>(variables.start_terms() + 4) +
                               6 * machine.elements.size() * static_cast<std::size_t>(1 + variables.count());
   return std::clamp(bytes_of_cells / (sizeof(double) * numbers), least_cells, most_cells);
 }
 
 /// Whether the platform does not turn with the position, to 1e-11 rad in a cell of 1 cm.
 bool only_translates(const kernel::StartCell& cell) {
-  constexpr std::array<double, 3> least{1e-9, 1e-7, 1e-5};  // rad/m, rad/m2, rad/m3
-  const int n = cell.variables.count(), terms = cell.variables.terms();
+  constexpr double least_slope = 1e-9, least_bend = 1e-7;  // rad/m, rad/m2
+  const int n = cell.variables.count(), terms = cell.variables.start_terms();
   const std::size_t last_block = cell.changes.size() - static_cast<std::size_t>(kernel::block * terms);
   const auto turns_by = [&](int term, double limit) {
     const auto first = last_block + static_cast<std::size_t>(kernel::block * term);
@@ -50,11 +50,9 @@ bool only_translates(const kernel::StartCell& cell) {
   };
   int term = 0;
   bool turns = false;
-  for (int i = 0; i < n; ++i, ++term) turns = turns || (i < 3 && turns_by(term, least[0]));
+  for (int i = 0; i < n; ++i, ++term) turns = turns || (i < 3 && turns_by(term, least_slope));
   for (int i = 0; i < n; ++i)
-    for (int j = i; j < n; ++j, ++term) turns = turns || (j < 3 && turns_by(term, least[1]));
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < n; ++j, ++term) turns = turns || (j < 3 && turns_by(term, least[2]));
+    for (int j = i; j < n; ++j, ++term) turns = turns || (j < 3 && turns_by(term, least_bend));
   return !turns;
 }
 
