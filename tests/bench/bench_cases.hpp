@@ -63,6 +63,11 @@ inline const Case& robot_6r() {
       line_case("tests/statics/data/serial6r_joints.toml", Vector3(0, -100, 0), Vector3(0, 100, 0));
   return c;
 }
+/// Its links weigh 1.1 t.
+inline const Case& robot_masses() {
+  static const Case c = line_case("samples/robot-spindle/machine.toml", Vector3(0, -100, 0), Vector3(0, 100, 0));
+  return c;
+}
 inline const Case& mill() {
   static const Case c =
       line_case("samples/mill3/machine.toml", Vector3(150, 100, -40), Vector3(210, 140, -46));

@@ -21,25 +21,30 @@ Load little_by_little(std::size_t i) {
   return load;
 }
 
-/// There and back along the line of the case, so that every batch begins beside the end of the last.
-std::array<std::vector<BatchRequest>, 2> there_and_back(const Case& c) {
+/// There and back along the line of the case, so that every batch begins beside the end of the last. `turn`
+/// (rad): by how much the orientation varies.
+std::array<std::vector<BatchRequest>, 2> there_and_back(const Case& c, double turn) {
   const Vector3 begin = c.wanted.front().p, along = (c.wanted.back().p - begin).normalized();
   std::array<std::vector<BatchRequest>, 2> ways;
+  const auto turn_at = [turn](double s) -> Vector3 {
+    return turn * Vector3(std::sin(60 * s), std::cos(40 * s), std::sin(50 * s));
+  };
   for (std::size_t i = 0; i < batch; ++i) {
     const double s = spacing * static_cast<double>(i);
-    ways[0].push_back({begin + s * along, little_by_little(i).F});
-    ways[1].push_back({begin + (spacing * batch - s) * along, little_by_little(batch + i).F});
+    ways[0].push_back({begin + s * along, little_by_little(i).F, turn_at(s)});
+    ways[1].push_back(
+        {begin + (spacing * batch - s) * along, little_by_little(batch + i).F, turn_at(spacing * batch - s)});
   }
   return ways;
 }
 
 /// `together`: waypoints of a question. One at a time is solved by the scalar instance of the kernel.
-void shipped(benchmark::State& state, CaseOf case_of, std::size_t together) {
+void shipped(benchmark::State& state, CaseOf case_of, std::size_t together, double turn) {
   const Case& c = case_of();
   if (!c.failure.empty()) return state.SkipWithError(("no nominal configuration: " + c.failure).c_str());
   const StartTable table(c.model, false);
   BatchSolver solver(table);
-  const auto ways = there_and_back(c);
+  const auto ways = there_and_back(c, turn);
   std::size_t way = 0;
   std::vector<BatchAnswer> solved(batch);
   const auto solve = [&](std::size_t begin, std::size_t count) {
@@ -65,16 +70,18 @@ void shipped(benchmark::State& state, CaseOf case_of, std::size_t together) {
 }
 
 [[maybe_unused]] const int registered_shipped = [] {
-  const auto add = [](const char* name, CaseOf case_of) {
+  const auto add = [](const char* name, CaseOf case_of, double turn = 0) {
     const std::string machine = name;
-    benchmark::RegisterBenchmark((machine + "/shipped").c_str(), shipped, case_of, batch)
+    benchmark::RegisterBenchmark((machine + "/shipped").c_str(), shipped, case_of, batch, turn)
         ->Unit(benchmark::kMicrosecond);
-    benchmark::RegisterBenchmark((machine + "/alone").c_str(), shipped, case_of, std::size_t{1})
+    benchmark::RegisterBenchmark((machine + "/alone").c_str(), shipped, case_of, std::size_t{1}, turn)
         ->Unit(benchmark::kMicrosecond);
   };
   add("orthoglide", orthoglide);
   add("hexapod", hexapod);
   add("robot_6r", robot_6r);
+  add("robot_turning", robot_6r, 0.1);
+  add("robot_masses", robot_masses);
   add("mill", mill);
   return 0;
 }();

@@ -1,5 +1,6 @@
 /// Batches against the solver of single waypoints.
 #include "batch_support.hpp"
+#include "counterflex/geometry/rotation.hpp"
 
 using namespace counterflex;
 using namespace counterflex::laws;
@@ -29,9 +30,8 @@ double check_clusters(const BatchTrial& batch_trial, const Stage& stage, int clu
 
 }  // namespace
 
-TEST_CASE(
-    "batches: every waypoint is solved, to the equilibrium of the solver of single waypoints" *
-    doctest::test_suite("long")) {
+TEST_CASE("batches: every waypoint is solved, to the equilibrium of the solver of single waypoints" *
+          doctest::test_suite("long")) {
   for (const BatchTrial& batch_trial : batch_trials()) {
     CAPTURE(batch_trial.trial.name);
     CAPTURE(batch_trial.at_platform);
@@ -50,7 +50,8 @@ TEST_CASE("batches: machines without their assembly errors are solved as single 
   }
 }
 
-TEST_CASE("batches: a command is the nominal position of the actuators that bring the tip to the wanted place") {
+TEST_CASE(
+    "batches: a command is the nominal position of the actuators that bring the tip to the wanted place") {
   BatchBench bench(machine_of("orthoglide_case_b"));
   Random random(7);
   const auto requests = cluster(bench, batch_trials()[1].trial, random, 8, 0.005);
@@ -69,6 +70,40 @@ TEST_CASE("batches: a command is the nominal position of the actuators that brin
   }
 }
 
+TEST_CASE(
+    "batches: orientations that are commanded are those of the nominal tip, on any machine that controls "
+    "them") {
+  int solved = 0;
+  for (const std::string name : {"hexapod_joint_springs", "serial6r_link6", "serial6r_joints"}) {
+    CAPTURE(name);
+    BatchBench bench(machine_of(name));
+    Random random(17);
+    const Vector3 centre = bench.home().p;
+    std::vector<BatchRequest> requests;
+    for (int i = 0; i < 6; ++i)
+      requests.push_back({centre + random.vector(0.02), random.six(50, 2), random.vector(0.1)});
+    for (const BatchQuestion question : {BatchQuestion::target, BatchQuestion::forward}) {
+      const auto answers = bench.solve(question, whole, requests);
+      for (std::size_t k = 0; k < requests.size(); ++k) {
+        if (!answers[k].solved) continue;
+        ++solved;
+        const Pose command{exp_so3(requests[k].turn) * bench.home().R, answers[k].command};
+        const NominalResult nominal = follow(bench.model, bench.model.home, command);
+        REQUIRE(nominal.status == Status::converged);
+        const Equilibrium alone =
+            solve_forward(bench.model, nominal.configuration, {requests[k].F}, {}, bench.work);
+        REQUIRE(alone.status == Status::converged);
+        CHECK(deviation(answers[k].X_MT, tip(bench.model.mechanism, alone.configuration))
+                  .cwiseAbs()
+                  .maxCoeff() <= answer_tolerance);
+        if (question == BatchQuestion::target)
+          CHECK((answers[k].X_MT.p - requests[k].p).norm() <= answer_tolerance);
+      }
+    }
+  }
+  CHECK(solved >= 34);  // of 36
+}
+
 TEST_CASE("batches: nominal tips are those of followed kinematics") {
   for (const BatchTrial& batch_trial : batch_trials()) {
     CAPTURE(batch_trial.trial.name);
@@ -80,13 +115,15 @@ TEST_CASE("batches: nominal tips are those of followed kinematics") {
       REQUIRE(answer.solved);
       const NominalResult nominal = follow(bench.model, bench.model.home, {bench.home().R, request.p});
       REQUIRE(nominal.status == Status::converged);
-      CHECK(deviation(answer.X_MT, tip(bench.model.mechanism, nominal.configuration)).norm() <= answer_tolerance);
+      CHECK(deviation(answer.X_MT, tip(bench.model.mechanism, nominal.configuration)).norm() <=
+            answer_tolerance);
     }
   }
 }
 
 TEST_CASE("batches: a machine that does not control x, y and z is not solved") {
-  for (const Machine& machine : {machine_of("bar_buckling"), machine_of("two_chains_coupled"), machine_of("arm")}) {
+  for (const Machine& machine :
+       {machine_of("bar_buckling"), machine_of("two_chains_coupled"), machine_of("arm")}) {
     CAPTURE(machine.name);
     BatchBench bench(machine);
     const BatchRequest at_home{bench.home().p, Vector6::Zero()};

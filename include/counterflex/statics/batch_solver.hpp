@@ -8,14 +8,16 @@
 
 namespace counterflex {
 
-/// A position of the tip (M, m), and the wrench there (N, N m; axes of M).
+/// A position of the tip (M, m), the wrench there (N, N m; axes of M), and the rotation vector of the commanded orientation against
+/// home's (rad, axes of M). Machines that control no orientation ignore the last one.
 struct BatchRequest {
   Vector3 p = Vector3::Zero();
   Vector6 F = Vector6::Zero();
+  Vector3 turn = Vector3::Zero();
 };
 
 /// Forward: where the tip stands when `p` is commanded. Target: what has to be commanded for the tip to be at `p`. Orientations
-/// that the machine controls are commanded as at home.
+/// that the machine controls are commanded.
 enum class BatchQuestion { forward, target };
 
 /// If `solved` is true, `solve_forward` and `solve_target` would converge to the same equilibrium, and the actuators are in

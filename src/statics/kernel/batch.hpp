@@ -23,6 +23,7 @@ struct OffsetBounds {
 struct StartCell {
   Variables variables;
   std::array<double, 3> centre{};    ///< position of the tip (m)
+  std::array<double, 9> R{};         ///< its orientation, row by row
   std::vector<double> state;         ///< as `state_of`
   std::vector<double> cosine, sine;  ///< by joint
   std::vector<double> changes;       ///< blocks: of the joints, filled up with zeros, then of the twists of nodes and platform
@@ -57,7 +58,7 @@ struct Batch {
   const double* rho = nullptr;    ///< commanded actuator values; where they are held
   const double* start = nullptr;  ///< states, of both machines
   long start_stride = 0;          ///< numbers from start to start; 0: all have the same
-  // Instead of `start`: a cell of each waypoint for each machine. Orientations are wanted as at home.
+  // Instead of `start`: a cell of each waypoint for each machine.
   const StartCell *const *cells = nullptr, *const *nominal_cells = nullptr;
 
   unsigned char* accepted = nullptr;

@@ -4,7 +4,7 @@
 
 namespace counterflex::kernel {
 
-/// What a solution is a function of: the position of the tip (m), its rotation vector against home (rad) and
+/// What a solution is a function of: the position of the tip (m), its rotation vector against the centre (rad) and
 /// the load (N, N m).
 struct Variables {
   bool turns = false;  ///< the rotation vector is a variable: the machine controls an orientation

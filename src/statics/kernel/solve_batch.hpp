@@ -123,6 +123,11 @@ COUNTERFLEX_INLINE void find_place(const CellLanes<T, shared>& cells, const Work
   for (int i = 0; i < 3; ++i)
     x[i] = work.origin[i] - gather<T>([&](int l) { return at(cells.cells[l]->centre, i); });
   for (int i = 3; i < most_variables; ++i) x[i] = T{};
+  if (!cells.only().variables.turns) return;
+  Mat3<T> R;
+  for (int i = 0; i < 9; ++i) R.c[i] = gather<T>([&](int l) { return at(cells.cells[l]->R, i); });
+  const Vec3<T> turn = log_so3(times_transposed(work.wanted_R, R));
+  for (int i = 0; i < 3; ++i) x[3 + i] = turn[i];
 }
 
 /// The offset from the tip to the command that cells have for the variables x.

@@ -89,7 +89,7 @@ std::optional<Solutions> solve_samples(const FlatMachine& machine, const Problem
   for (const Sample& sample : samples) {
     p.insert(p.end(), sample.p.begin(), sample.p.end());
     F.insert(F.end(), sample.F.begin(), sample.F.end());
-    const Matrix3 turned = counterflex::exp_so3(sample.turn) * place.R_home;
+    const Matrix3 turned = counterflex::exp_so3(sample.turn) * place.R;
     for (int i = 0; i < 9; ++i) R.push_back(turned(i / 3, i % 3));
   }
   const auto unknowns = static_cast<std::size_t>(machine.unknowns());
@@ -134,7 +134,7 @@ Vector6 offset_of(const CellPlace& place, const Sample& sample, const double* co
   const Pose X = pose_at(command);
   Vector6 way;
   way << X.p - sample.p,
-      counterflex::log_so3(Matrix3(X.R * (counterflex::exp_so3(sample.turn) * place.R_home).transpose()));
+      counterflex::log_so3(Matrix3(X.R * (counterflex::exp_so3(sample.turn) * place.R).transpose()));
   return way;
 }
 
@@ -160,7 +160,7 @@ class CellSamples {
   Rows offset_jacobian(int sample) const {
     const Sample& of = at(samples_.all, sample);
     const Pose X = pose_at(solutions_.commands.data() + 12 * sample);
-    const Matrix3 R_tip = counterflex::exp_so3(of.turn) * place_.R_home, E = X.R * R_tip.transpose();
+    const Matrix3 R_tip = counterflex::exp_so3(of.turn) * place_.R, E = X.R * R_tip.transpose();
     Rows J = responses(sample).bottomRows(6);
     J.topRows<3>() -= skew(X.p - of.p) * J.bottomRows<3>();
     J.topLeftCorner<3, 3>() -= Matrix3::Identity();
@@ -241,6 +241,7 @@ StartCell cell_of(const FlatMachine& machine, const CellPlace& place, const Vari
   StartCell cell;
   cell.variables = variables;
   for (int i = 0; i < 3; ++i) at(cell.centre, i) = place.centre[i];
+  for (int i = 0; i < 9; ++i) at(cell.R, i) = place.R(i / 3, i % 3);
   cell.state.assign(samples.state(0), samples.state(0) + machine.state_size());
   for (int j = 0; j < machine.joints; ++j) {
     cell.cosine.push_back(std::cos(at(cell.state, j)));

@@ -9,7 +9,7 @@ namespace counterflex::kernel {
 
 /// Where a cell is made.
 struct CellPlace {
-  Matrix3 R_home;      ///< orientation of the tip, where it is controlled
+  Matrix3 R;           ///< orientation of the tip, where it is controlled
   bool turns = false;  ///< whether it is
   Vector3 centre;      ///< position of the tip (m)
   double step = 0;     ///< half of the cell's edge: distance of the samples (m)
@@ -27,7 +27,7 @@ std::optional<StartCell> make_target_cell(const FlatMachine& machine, const Ques
                                           const std::vector<Transform>& perfect, const CellPlace& place,
                                           const StartCell& kinematics);
 
-/// From a tip at `p` (m), turned against home by the rotation vector `turn` (rad), under the load `F` (N, N
+/// From a tip at `p` (m), turned against the cell's centre by the rotation vector `turn` (rad), under the load `F` (N, N
 /// m) to the command, by the expansion of a target's cell: position (m), and the rotation vector of R_command
 /// R_tip'.
 Vector6 command_offset(const StartCell& cell, const Vector3& p, const Vector3& turn, const Vector6& F);

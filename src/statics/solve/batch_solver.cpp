@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "counterflex/geometry/rotation.hpp"
 #include "start_table.hpp"
 #include "statics/kernel/offset_bounds.hpp"
 
@@ -104,6 +105,7 @@ struct BatchSolver::Impl {
     std::size_t request;
     Vector3 p;
     Vector6 F;
+    Matrix3 R;
     std::shared_ptr<const KinematicsCell> kinematics;
     std::shared_ptr<const kernel::StartCell> target;
   };
@@ -140,7 +142,7 @@ struct BatchSolver::Impl {
     std::optional<CellIndex> last;
     Waypoint waypoint{};
     for (std::size_t i = 0; i < requests.size(); ++i) {
-      const auto index = table.index_of(requests[i].p);
+      const auto index = table.index_of(requests[i].p, requests[i].turn);
       if (!index || !requests[i].F.allFinite()) continue;
       if (index != last) {
         waypoint.kinematics = table.kinematics(*index);
@@ -149,6 +151,8 @@ struct BatchSolver::Impl {
       }
       if (!waypoint.target) continue;
       waypoint.request = i, waypoint.p = requests[i].p, waypoint.F = requests[i].F;
+      waypoint.R =
+          requests[i].turn.isZero(0) ? table.R_home : Matrix3(exp_so3(requests[i].turn) * table.R_home);
       waypoints.push_back(waypoint);
     }
   }
@@ -163,7 +167,7 @@ struct BatchSolver::Impl {
   }
 
   void add(const Waypoint& w) {
-    batch.add(w.p, table.R_home, w.kinematics->start);
+    batch.add(w.p, w.R, w.kinematics->start);
     append(w.F, batch.F);
     batch.cells.push_back(w.target.get());
   }

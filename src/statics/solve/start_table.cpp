@@ -3,11 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "counterflex/geometry/rotation.hpp"
+
 namespace counterflex {
 namespace {
 
 /// Edge of a cell, in units of l. One chain that only slides has nominal kinematics without bends.
 constexpr double bent_edge = 1.0 / 24, straight_edge = 1.0 / 8;
+constexpr double turn_edge = 0.05;                  // rad: a start misses by some micrometres at half of it
 constexpr double farthest_cell = 1e6;               // from the origin of M, in edges
 constexpr std::size_t bytes_of_cells = 12'000'000;  // of each kind
 constexpr std::size_t least_cells = 64, most_cells = 4096;
@@ -81,16 +84,27 @@ StartTable::Impl::Impl(const Model& m, bool platform)
       edge((only_slides(m.mechanism) ? straight_edge : bent_edge) * m.mechanism.length),
       most_cells(kept_cells(flat.machine, !controls_positions)) {}
 
-std::optional<CellIndex> StartTable::Impl::index_of(const Vector3& p) const {
+std::optional<CellIndex> StartTable::Impl::index_of(const Vector3& p, const Vector3& turn) const {
   const Vector3 n = (p / edge).array().floor();
-  if (!(n.array().abs() <= farthest_cell).all()) return std::nullopt;
-  return CellIndex{static_cast<long>(n[0]), static_cast<long>(n[1]), static_cast<long>(n[2])};
+  Vector3 m = Vector3::Zero();
+  if (!controls_positions) m = (turn / turn_edge).array().round();
+  if (!(n.array().abs() <= farthest_cell).all() || !(m.array().abs() <= farthest_cell).all())
+    return std::nullopt;
+  CellIndex index;
+  for (std::size_t i = 0; i < 3; ++i) {
+    index.position[i] = static_cast<long>(n[static_cast<Eigen::Index>(i)]);
+    index.turn[i] = static_cast<long>(m[static_cast<Eigen::Index>(i)]);
+  }
+  return index;
 }
 
 kernel::CellPlace StartTable::Impl::place_of(const CellIndex& index) const {
-  const Vector3 corner(static_cast<double>(index.x), static_cast<double>(index.y),
-                       static_cast<double>(index.z));
-  return {R_home, !controls_positions, edge * (corner.array() + 0.5), edge / 2};
+  Vector3 corner, turn;
+  for (std::size_t i = 0; i < 3; ++i) {
+    corner[static_cast<Eigen::Index>(i)] = static_cast<double>(index.position[i]);
+    turn[static_cast<Eigen::Index>(i)] = static_cast<double>(index.turn[i]);
+  }
+  return {exp_so3(turn_edge * turn) * R_home, !controls_positions, edge * (corner.array() + 0.5), edge / 2};
 }
 
 kernel::Question StartTable::Impl::question(Acting acting) const {
@@ -112,7 +126,7 @@ std::shared_ptr<const kernel::StartCell> StartTable::Impl::target(const CellInde
 
 std::shared_ptr<const KinematicsCell> StartTable::Impl::make_kinematics(const CellIndex& index) const {
   const kernel::CellPlace place = place_of(index);
-  NominalResult nominal = follow(model, model.home, {R_home, place.centre});
+  NominalResult nominal = follow(model, model.home, {place.R, place.centre});
   if (nominal.status != Status::converged) return nullptr;
   if (!(actuator_jacobian(model, nominal.configuration).condition < largest_kinematic_condition))
     return nullptr;
@@ -137,7 +151,7 @@ std::shared_ptr<const kernel::StartCell> StartTable::Impl::make_target(const Cel
   Stage stage;
   stage.errors = acting.errors ? 1 : 0;
   stage.gravity = acting.gravity ? 1 : 0;
-  const Pose X_MT{R_home, place.centre};
+  const Pose X_MT{place.R, place.centre};
   const Equilibrium alone =
       solve_target(model, nominal->nominal, X_MT, {Vector6::Zero(), at_platform}, stage, work);
   if (alone.status != Status::converged) return nullptr;

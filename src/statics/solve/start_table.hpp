@@ -26,14 +26,15 @@ struct KinematicsCell {
   std::optional<Matrix3> R_MT;  ///< of the nominal tip, where it does not depend on the position
 };
 
-/// A cell by its place on the lattice.
+/// A cell by its place on the lattices of positions and, where the machine controls an orientation, of
+/// rotation vectors against home.
 struct CellIndex {
-  long x = 0, y = 0, z = 0;
+  std::array<long, 3> position{}, turn{};
   bool operator==(const CellIndex&) const = default;
 };
 
-/// The things made last, up to a number; null where nothing can be made. What is made depends on the index alone: if two
-/// threads make the same thing at once, either may be kept.
+/// The things made last, up to a number; null where nothing can be made. What is made depends on the index
+/// alone: if two threads make the same thing at once, either may be kept.
 template <class Thing>
 class CellCache {
  public:
@@ -58,7 +59,10 @@ class CellCache {
   };
   struct Hash {
     std::size_t operator()(const CellIndex& i) const {
-      return static_cast<std::size_t>(i.x * 73856093L ^ i.y * 19349663L ^ i.z * 83492791L);
+      constexpr std::array<long, 3> primes{73856093L, 19349663L, 83492791L};
+      long hash = 0;
+      for (std::size_t k = 0; k < 3; ++k) hash ^= (i.position[k] + 7919L * i.turn[k]) * primes[k];
+      return static_cast<std::size_t>(hash);
     }
   };
 
@@ -86,16 +90,16 @@ struct StartTable::Impl {
   const kernel::Flat flat;
   const std::vector<kernel::Transform> perfect, real;
   const Matrix3 R_home;
-  const bool is_able;              ///< the kernel solves the machine, which controls x, y and z
-  const bool controls_positions;   ///< and no orientation
+  const bool is_able;             ///< the kernel solves the machine, which controls x, y and z
+  const bool controls_positions;  ///< and no orientation
   const bool has_weights;
-  const double edge;               ///< of a cell (m)
-  const std::size_t most_cells;    ///< that are kept
+  const double edge;             ///< of a cell (m)
+  const std::size_t most_cells;  ///< that are kept
 
   Impl(const Model& m, bool platform);
 
-  /// The cell that holds `p`; none where that is absurdly far or no number.
-  std::optional<CellIndex> index_of(const Vector3& p) const;
+  /// The cell that holds `p` and the rotation vector `turn`; none where that is absurdly far or no number.
+  std::optional<CellIndex> index_of(const Vector3& p, const Vector3& turn = Vector3::Zero()) const;
 
   std::shared_ptr<const KinematicsCell> kinematics(const CellIndex& index);
   std::shared_ptr<const kernel::StartCell> target(const CellIndex& index, Acting acting, StaticsWork& work);
@@ -105,7 +109,8 @@ struct StartTable::Impl {
 
  private:
   std::shared_ptr<const KinematicsCell> make_kinematics(const CellIndex& index) const;
-  std::shared_ptr<const kernel::StartCell> make_target(const CellIndex& index, Acting acting, StaticsWork& work);
+  std::shared_ptr<const kernel::StartCell> make_target(const CellIndex& index, Acting acting,
+                                                       StaticsWork& work);
   kernel::CellPlace place_of(const CellIndex& index) const;
 
   CellCache<KinematicsCell> kinematics_;
