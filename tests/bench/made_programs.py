@@ -39,6 +39,13 @@ def place(i, middle):
     return middle[0] + x, middle[1] + y, middle[2] + z
 
 
+def fine_place(i, middle):
+    """End of feed i, mm: steps of some hundredths of a millimetre in all axes."""
+    t = 0.001 * i
+    return (middle[0] + 40 * math.cos(t) * (1 + 0.3 * math.sin(0.013 * t)), middle[1] + 40 * math.sin(t),
+            middle[2] + 20 * math.sin(0.05 * t))
+
+
 def force(i):
     """On the tool, machine axes, N: smooth, and a little different on every block."""
     return (120 + 60 * math.sin(i / 50) + 5 * math.sin(1.7 * i),
@@ -46,12 +53,12 @@ def force(i):
             -25 + 10 * math.sin(i / 11))
 
 
-def write_program(machine, blocks, file):
-    x, y, z = place(0, machine.middle)
+def write_program(machine, blocks, file, place_of=place):
+    x, y, z = place_of(0, machine.middle)
     with open(file, 'w', encoding='ascii', newline='\n') as out:
         out.write('%%\nG21 G90 G94 G17\nG54 S12000 M3\nG0 X%.4f Y%.4f Z%.4f\n' % (x - STEP_MM, y, z + 5))
         for i in range(blocks):
-            out.write('G1 X%.4f Y%.4f Z%.4f%s\n' % (*place(i, machine.middle), ' F1200' if i == 0 else ''))
+            out.write('G1 X%.4f Y%.4f Z%.4f%s\n' % (*place_of(i, machine.middle), ' F1200' if i == 0 else ''))
         out.write('G0 Z%.4f\nM30\n%%\n' % (machine.middle[2] + 20))
 
 

@@ -11,21 +11,23 @@ HEAD = '%-10s %-8s %8s %8s %8s %11s %9s %6s %8s %7s %7s %7s' % (
 
 
 class Work:
-    """One kind of run: `forces` is `csv` (another force on every block), `constant` or `reports` (csv, with reports)."""
+    """One kind of run: `forces` is `csv` (another force on every block), `constant`, `fine` (constant, along a finer path in all
+    axes) or `reports` (csv, with reports)."""
 
     def __init__(self, machine, forces, blocks, folder):
         self.machine, self.forces, self.blocks, self.folder = machine, forces, blocks, folder
-        self.program = '%s/%s-%d.ngc' % (folder, machine.name, blocks)
+        self.program = '%s/%s-%s-%d.ngc' % (folder, machine.name, 'fine' if forces == 'fine' else 'raster', blocks)
         self.csv = '%s/forces-%d.csv' % (folder, blocks)
         if not os.path.exists(self.program):
-            made_programs.write_program(machine, blocks, self.program)
+            place_of = made_programs.fine_place if forces == 'fine' else made_programs.place
+            made_programs.write_program(machine, blocks, self.program, place_of)
         if not os.path.exists(self.csv):
             made_programs.write_forces(blocks, self.csv)
 
     def arguments(self, counterflex, threads):
         arguments = [counterflex, 'compensate', self.program, '-m', self.machine.file, '-o', self.folder + '/out.ngc',
                      '--max-correction-mm', '5', '--quiet', '--threads', str(threads)]
-        if self.forces == 'constant':
+        if self.forces in ('constant', 'fine'):
             return arguments + ['--force=' + made_programs.CONSTANT_FORCE]
         arguments += ['-f', self.csv]
         return arguments + (['--report', self.folder + '/report'] if self.forces == 'reports' else [])
@@ -44,7 +46,7 @@ def waypoints(text):
 
 def kinds(blocks, folder):
     orthoglide, mill, hexapod = made_programs.MACHINES
-    for machine, forces in ((orthoglide, 'csv'), (orthoglide, 'constant'), (orthoglide, 'reports'), (mill, 'csv'),
+    for machine, forces in ((orthoglide, 'csv'), (orthoglide, 'constant'), (orthoglide, 'fine'), (orthoglide, 'reports'), (mill, 'csv'),
                             (mill, 'constant'), (hexapod, 'csv'), (hexapod, 'constant')):
         yield Work(machine, forces, blocks, folder)
 
