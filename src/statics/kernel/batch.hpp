@@ -32,6 +32,7 @@ struct StartCell {
   std::vector<double> stress;          ///< by element, six numbers: at the centre
   std::vector<double> stress_changes;  ///< by element a block: first-order terms alone
   std::vector<double> pivots;          ///< at the centre without a load, actuators held
+  double contraction = 1;              ///< bound of the second step over the first one, with the tangent of this start
   std::array<double, 6> offset{};      ///< from the tip to the command: position (m), rotation vector (rad)
   std::vector<double> offset_changes;  ///< a block
   OffsetBounds bounds{};
@@ -63,6 +64,7 @@ struct Batch {
 
   unsigned char* accepted = nullptr;
   int* iterations = nullptr;
+  double* contraction = nullptr;  ///< of the real machine's first step, or of both: the second step over the first; 0: none
   double* actuators = nullptr;    ///< commanded values that belong to the solution
   double* tip = nullptr;          ///< of the real machine, 12 each: R row by row, p
   double* nominal_tip = nullptr;  ///< 12 each

@@ -9,6 +9,7 @@ inline constexpr double predicted_tolerance = 1e-12;  ///< of a step that need n
 /// Chords contract less evenly: they have to be small, too, and tangents complete. With both, answers from different starts
 /// agree to 1e-11 (tests/statics/kernel_test.cpp); where tangents leave out hanging weights, 9e-11 were seen.
 inline constexpr double small_chord = 1e-9;
+inline constexpr double predicted_first_step = 4e-12;  ///< of a step behind the first one, by a bound of the contraction
 inline constexpr double force_tolerance = 1e-9;       ///< of the residual forces, against those that act
 inline constexpr double deflection_tolerance =
     1e-12;  ///< and what the stiffest spring has at this deflection (m)
@@ -17,6 +18,7 @@ template <class T>
 struct Solved {
   Mask<T> accepted;  ///< the last step is small, and so is the residual at the solution
   T iterations;
+  T contraction;     ///< the second step over the first one; 0: there was none
 };
 
 /// Whether every unknown is a number.
@@ -72,10 +74,11 @@ Mask<T> is_balanced(const Work<T>& work) {
 }
 
 /// Solves the phase of the problem from the states of its machines, in the lanes that are `active`. The equations are
-/// evaluated at the solution at last. Calls `judge(active)` behind each factorisation of a tangent.
+/// evaluated at the solution at last. `contraction`: a bound for the first step, where one is known; else infinite. Calls
+/// `judge(active)` behind each factorisation of a tangent.
 template <class T, class Judge>
-Solved<T> iterate(const Schedule& schedule, Mask<T> active, Coupled<T>& coupled, const Judge& judge) {
-  Solved<T> solved{static_cast<Mask<T>>(opposite<T>(active) & active), {}};
+Solved<T> iterate(const Schedule& schedule, Mask<T> active, const T& contraction, Coupled<T>& coupled, const Judge& judge) {
+  Solved<T> solved{static_cast<Mask<T>>(opposite<T>(active) & active), {}, {}};
   Mask<T> is_small = solved.accepted;
   Work<T>& first = coupled.first();
   // Nothing is known of the contraction of a first step, but of Newton's on kinematics.
@@ -106,6 +109,8 @@ Solved<T> iterate(const Schedule& schedule, Mask<T> active, Coupled<T>& coupled,
       is_small = is_small | predicted;
     else if (is_exact)
       is_small = is_small | (predicted & (size <= small_chord));
+    if (k == 0) is_small = is_small | (contraction * size <= predicted_first_step);
+    if (k == 1) solved.contraction = select<T>(active, size / larger(last, all<T>(1e-300)), T{});
     last = size;
     coupled.for_each([&](Work<T>& work) { take_step<T>(active, work); });
     solved.iterations += select<T>(active, all<T>(1), T{});

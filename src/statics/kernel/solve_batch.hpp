@@ -3,6 +3,8 @@
 #include "batch.hpp"
 #include "newton.hpp"
 
+#include <limits>
+
 namespace counterflex::kernel {
 
 template <class T>
@@ -145,7 +147,6 @@ Block<T> command_offset(const CellLanes<T, shared>& cells, const T* x) {
 /// the tip is found from the command: each round leaves some hundredths of the error.
 template <class T>
 void put_from_cells(const Batch& batch, int first, Coupled<T>& coupled) {
-  constexpr int rounds = 3;
   const Problem& problem = coupled.problem;
   T nominal_way[6]{};  // from the wanted tip to the nominal one
   if (problem.real)
@@ -162,7 +163,8 @@ void put_from_cells(const Batch& batch, int first, Coupled<T>& coupled) {
       bool is_commanded = false;
       const int components = variables.first_load();
       for (int j = 0; j < components; ++j) is_commanded = is_commanded || at(problem.of_command, j);
-      for (int k = 0; k < (is_commanded ? rounds : 1); ++k) {
+      const int rounds = !is_commanded ? 1 : at(problem.of_command, 0) ? 3 : 2;  // an orientation changes the offset less
+      for (int k = 0; k < rounds; ++k) {
         const Block<T> offset = command_offset(cells, x);
         for (int j = 0; j < components; ++j)
           if (at(problem.of_command, j))
@@ -306,22 +308,31 @@ void get_responses(const Batch& batch, int first, Coupled<T>& coupled) {
   }
 }
 
+/// Bounds for first steps that begin in cells.
+template <class T>
+T contraction_of_cells(const Batch& batch, int first) {
+  return gather<T>([&](int l) { return batch.cells[first + l < batch.count ? first + l : batch.count - 1]->contraction; });
+}
+
 /// Solves the phases of the problem one after the other; the lanes that are accepted in all of them.
 template <class T>
 Solved<T> solve_phases(const std::vector<Phase>& phases, const Schedule& schedule, const Batch& batch, int first,
                        Coupled<T>& coupled, Mask<T>& is_stiff) {
-  Solved<T> solved{is_stiff, {}};
+  Solved<T> solved{is_stiff, {}, {}};
   for (std::size_t k = 0; k < phases.size(); ++k) {
     coupled.begin(phases[k]);
     if (k > 0 && phases[k].real) copy_actuators(coupled.nominal, coupled.real);
     if (k > 0 && phases[k].nominal) copy_actuators(coupled.real, coupled.nominal);
-    const Solved<T> here = iterate<T>(schedule, solved.accepted, coupled, [&](const Mask<T>& active) {
+    const T contraction = phases[k].real && batch.cells != nullptr ? contraction_of_cells<T>(batch, first)
+                                                                    : all<T>(std::numeric_limits<double>::infinity());
+    const Solved<T> here = iterate<T>(schedule, solved.accepted, contraction, coupled, [&](const Mask<T>& active) {
       if (batch.is_stiff == nullptr || !phases[k].real) return;
       const Mask<T> keeps = keeps_pivots(batch, first, coupled.real), done = opposite<T>(active);
       is_stiff = (is_stiff & done) | (keeps & active);
     });
     solved.accepted = here.accepted;
     solved.iterations = larger(solved.iterations, here.iterations);
+    if (phases[k].real) solved.contraction = here.contraction;
   }
   return solved;
 }
@@ -348,6 +359,7 @@ void solve_batch(const FlatMachine& machine, const Problem& problem, const Sched
       const int w = first + l;
       batch.accepted[w] = lane_of_mask<T>(solved.accepted, l);
       if (batch.is_stiff != nullptr) batch.is_stiff[w] = lane_of_mask<T>(is_stiff, l);
+      if (batch.contraction != nullptr) batch.contraction[w] = lane(solved.contraction, l);
       if (batch.iterations != nullptr) batch.iterations[w] = static_cast<int>(lane(solved.iterations, l));
       for (int a = 0; a < actuators && batch.actuators != nullptr; ++a)
         batch.actuators[actuators * w + a] = get_actuator(a, l, first_work);

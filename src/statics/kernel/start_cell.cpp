@@ -16,7 +16,9 @@ constexpr double turn_step = 0.01;  // rad
 constexpr double force_step = 100;  // N: under it machines yield by micrometres to millimetres
 /// Ends of a line lie so far beyond the cell that holds its middle, in half edges.
 constexpr double reach_of_lines = 1.25;
-constexpr double load_of_lines = 250;   // N
+constexpr double load_of_lines = 250;  // N
+constexpr double least_contraction = 1e-6;
+constexpr double contraction_margin = 4;  // corners are where starts miss most, but for larger loads
 constexpr double remainder_margin = 2;  // for loads in other directions (tests/statics/batch_lines_test.cpp)
 
 /// A place at which a cell's question is solved.
@@ -78,13 +80,18 @@ Pose pose_at(const double* numbers) {
 
 /// Solutions of samples.
 struct Solutions {
-  std::vector<double> states, stress, pivots, commands, responses;
+  std::vector<double> states, stress, pivots, commands, responses, contractions;
+};
+
+/// Where samples begin: a state of all of them, or cells.
+struct SampleStart {
+  const double* state = nullptr;
+  const StartCell *cell = nullptr, *kinematics = nullptr;
 };
 
 std::optional<Solutions> solve_samples(const FlatMachine& machine, const Problem& problem,
                                        const CellPlace& place, const std::vector<Sample>& samples,
-                                       const std::vector<double>& start,
-                                       std::optional<Variables> response_to) {
+                                       const SampleStart& start, std::optional<Variables> response_to) {
   std::vector<double> p, R, F;
   for (const Sample& sample : samples) {
     p.insert(p.end(), sample.p.begin(), sample.p.end());
@@ -94,15 +101,20 @@ std::optional<Solutions> solve_samples(const FlatMachine& machine, const Problem
   }
   const auto unknowns = static_cast<std::size_t>(machine.unknowns());
   std::vector<unsigned char> accepted(samples.size());
+  const std::vector<const StartCell*> cells(samples.size(), start.cell),
+      kinematics(samples.size(), start.kinematics);
   Solutions solutions;
   solutions.states.resize(static_cast<std::size_t>(machine.state_size()) * samples.size());
   solutions.stress.resize(6 * machine.elements.size() * samples.size());
   solutions.commands.resize(12 * samples.size());
+  solutions.contractions.resize(samples.size());
   Batch batch;
   batch.count = static_cast<int>(samples.size());
   batch.p = p.data(), batch.R = R.data(), batch.F = F.data(), batch.accepted = accepted.data();
-  batch.start = start.data(), batch.state = solutions.states.data(), batch.stress = solutions.stress.data();
-  batch.nominal_tip = solutions.commands.data();
+  batch.start = start.state;
+  if (start.state == nullptr) batch.cells = cells.data(), batch.nominal_cells = kinematics.data();
+  batch.state = solutions.states.data(), batch.stress = solutions.stress.data();
+  batch.nominal_tip = solutions.commands.data(), batch.contraction = solutions.contractions.data();
   if (response_to) {
     solutions.pivots.resize(unknowns * samples.size());
     solutions.responses.resize((unknowns + 6) * static_cast<std::size_t>(response_to->count()) *
@@ -110,7 +122,8 @@ std::optional<Solutions> solve_samples(const FlatMachine& machine, const Problem
     batch.pivots = solutions.pivots.data();
     batch.responses = solutions.responses.data(), batch.response_to = *response_to;
   }
-  instance_for(samples.size()).solve(machine, problem, {}, batch);
+  instance_for(samples.size())
+      .solve(machine, problem, start.state == nullptr ? cell_schedule : Schedule{}, batch);
   for (const unsigned char is_accepted : accepted)
     if (is_accepted == 0) return std::nullopt;
   return solutions;
@@ -252,22 +265,28 @@ StartCell cell_of(const FlatMachine& machine, const CellPlace& place, const Vari
   return cell;
 }
 
-/// Measures at corners what the expansion of the offset misses. No line is bounded if one of them is not
-/// solved.
-void find_bounds(const FlatMachine& machine, const Problem& target, const CellPlace& place,
-                 const std::vector<double>& start, StartCell& cell) {
+/// Measures at corners what the expansion of the offset misses, and how steps from the cell contract. No line
+/// is bounded if one of them is not solved.
+void measure_at_corners(const FlatMachine& machine, const Problem& target, const CellPlace& place,
+                        const StartCell& kinematics, StartCell& cell) {
   cell.bounds = offset_bounds(cell, reach_of_lines * place.step, load_of_lines, machine.length);
   const std::vector<Sample> corners = corners_about(place, machine.length);
-  const auto solved = solve_samples(machine, target, place, corners, start, {});
+  const auto solved = solve_samples(machine, target, place, corners, {nullptr, &cell, &kinematics}, {});
+  if (!solved) {
+    cell.bounds.remainder.fill(std::numeric_limits<double>::infinity());
+    return;
+  }
+  double contraction = 0;
   for (std::size_t k = 0; k < corners.size(); ++k) {
-    const Vector6 found = solved ? offset_of(place, corners[k], solved->commands.data() + 12 * k)
-                                 : Vector6::Constant(std::numeric_limits<double>::infinity());
+    const Vector6 found = offset_of(place, corners[k], solved->commands.data() + 12 * k);
     const Vector6 missed =
         remainder_margin * (found - command_offset(cell, corners[k].p, corners[k].turn, corners[k].F));
     cell.bounds.remainder[0] = std::max(cell.bounds.remainder[0], missed.head<3>().norm());
-    cell.bounds.remainder[1] =
-        std::max(cell.bounds.remainder[1], cell.variables.turns ? missed.tail<3>().norm() : 0.0);
+    if (cell.variables.turns)
+      cell.bounds.remainder[1] = std::max(cell.bounds.remainder[1], missed.tail<3>().norm());
+    contraction = std::max(contraction, solved->contractions[k]);
   }
+  if (contraction > 0) cell.contraction = contraction_margin * std::max(contraction, least_contraction);
 }
 
 }  // namespace
@@ -278,7 +297,7 @@ std::optional<StartCell> make_kinematics_cell(const FlatMachine& machine,
   const Variables variables{place.turns, false};
   const Samples samples = samples_about(place, variables, machine.length);
   const Problem kinematics{.real = {}, .nominal = nominal_question(perfect)};
-  const auto solutions = solve_samples(machine, kinematics, place, samples.all, start, variables);
+  const auto solutions = solve_samples(machine, kinematics, place, samples.all, {start.data()}, variables);
   if (!solutions) return std::nullopt;
   return cell_of(machine, place, variables, {machine, place, variables, samples, *solutions});
 }
@@ -289,7 +308,8 @@ std::optional<StartCell> make_target_cell(const FlatMachine& machine, const Ques
   const Variables variables{place.turns, true};
   const Samples samples = samples_about(place, variables, machine.length);
   const Problem target{.real = real, .nominal = nominal_question(perfect)};
-  const auto solutions = solve_samples(machine, target, place, samples.all, kinematics.state, variables);
+  const auto solutions =
+      solve_samples(machine, target, place, samples.all, {kinematics.state.data()}, variables);
   if (!solutions) return std::nullopt;
   const CellSamples of(machine, place, variables, samples, *solutions);
   StartCell cell = cell_of(machine, place, variables, of);
@@ -301,7 +321,7 @@ std::optional<StartCell> make_target_cell(const FlatMachine& machine, const Ques
   for (int i = 0; i < 6; ++i) at(cell.offset, i) = offset[i];
   cell.offset_changes =
       of.expanded([&](int sample) { return of.offset_jacobian(sample); }, 6, variables.terms());
-  find_bounds(machine, target, place, solutions->states, cell);
+  measure_at_corners(machine, target, place, kinematics, cell);
   return cell;
 }
 

@@ -7,6 +7,11 @@
 
 namespace counterflex::kernel {
 
+/// For waypoints that begin in cells: one tangent, with the stress of the cell, does for the steps behind it;
+/// late steps have their own. What needs more steps is left to the continuation of single waypoints.
+inline constexpr Schedule cell_schedule{
+    .tangents = 1U | ~0U << 5, .most = 12, .first = FirstStress::of_cells};
+
 /// Where a cell is made.
 struct CellPlace {
   Matrix3 R;           ///< orientation of the tip, where it is controlled
@@ -27,9 +32,9 @@ std::optional<StartCell> make_target_cell(const FlatMachine& machine, const Ques
                                           const std::vector<Transform>& perfect, const CellPlace& place,
                                           const StartCell& kinematics);
 
-/// From a tip at `p` (m), turned against the cell's centre by the rotation vector `turn` (rad), under the load `F` (N, N
-/// m) to the command, by the expansion of a target's cell: position (m), and the rotation vector of R_command
-/// R_tip'.
+/// From a tip at `p` (m), turned against the cell's centre by the rotation vector `turn` (rad), under the
+/// load `F` (N, N m) to the command, by the expansion of a target's cell: position (m), and the rotation
+/// vector of R_command R_tip'.
 Vector6 command_offset(const StartCell& cell, const Vector3& p, const Vector3& turn, const Vector6& F);
 
 }  // namespace counterflex::kernel

@@ -11,10 +11,6 @@
 namespace counterflex {
 namespace {
 
-/// One tangent, with the stress of the cell, does for the steps behind it; late steps have their own. What
-/// needs more steps is left to the continuation of single waypoints.
-constexpr kernel::Schedule schedule{
-    .tangents = 1U | ~0U << 5, .most = 12, .first = kernel::FirstStress::of_cells};
 constexpr double same_branch = 1e-3;  // l or rad: another branch is further away
 
 template <int n>
@@ -62,7 +58,7 @@ struct KernelBatch {
       batch.F = F.data(), batch.cells = cells.data();
       batch.tip = tips.data(), batch.is_stiff = is_stiff.data();
     }
-    kernel::instance_for(count).solve(machine, problem, schedule, batch);
+    kernel::instance_for(count).solve(machine, problem, kernel::cell_schedule, batch);
   }
 
   Eigen::VectorXd rho_of(std::size_t i) const {
