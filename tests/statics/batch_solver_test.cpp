@@ -39,6 +39,25 @@ TEST_CASE("batches: every waypoint is solved, to the equilibrium of the solver o
   }
 }
 
+TEST_CASE("batches: 500 places in the work space of each machine are solved, each in a cell of its own" *
+          doctest::test_suite("long")) {
+  for (const BatchTrial& batch_trial : batch_trials()) {
+    CAPTURE(batch_trial.trial.name);
+    BatchBench bench(batch_trial.machine, batch_trial.at_platform);
+    Random random(23);
+    std::vector<BatchRequest> requests;
+    for (int i = 0; i < 500; ++i)
+      for (const BatchRequest& request : cluster(bench, batch_trial.trial, random, 1, 0))
+        requests.push_back(request);
+    const auto answers = bench.solve(BatchQuestion::target, whole, requests);
+    const auto solved = std::count_if(answers.begin(), answers.end(),
+                                      [](const BatchAnswer& answer) { return answer.solved; });
+    CHECK(solved == 500);
+    for (std::size_t k = 0; k < answers.size(); k += 50)
+      check_answer(bench, BatchQuestion::target, whole, requests[k], answers[k], answer_tolerance);
+  }
+}
+
 TEST_CASE("batches: machines without their assembly errors are solved as single waypoints are") {
   for (const std::string name : {"orthoglide_case_b", "hexapod_joint_springs", "serial6r_link6"}) {
     CAPTURE(name);
