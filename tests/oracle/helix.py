@@ -7,7 +7,8 @@ from text import Mismatch
 NUMBER = r'[-+]?\d*\.?\d+\.?'
 CENTRE = re.compile(r'CC X(%s) Y(%s)\s*$' % (NUMBER, NUMBER))
 HELIX = re.compile(r'CP IPA(%s) IZ(%s) DR([-+])(.*)$' % (NUMBER, NUMBER), re.S)
-PIECE = re.compile(r'L X(%s) Y(%s) IZ(%s)((?: F%s)?[ \t\r]*)$' % (NUMBER, NUMBER, NUMBER, NUMBER))
+# A coordinate that stays where it is may be left out.
+PIECE = re.compile(r'L(?: X(%s))?(?: Y(%s))? IZ(%s)((?: F%s)?[ \t\r]*)$' % (NUMBER, NUMBER, NUMBER, NUMBER))
 
 
 def helices_of(lines):
@@ -82,8 +83,8 @@ def with_helices(original, corrected, reached, tolerance):
             raise Mismatch('line %d, %r, became %r' % (i + 1, original[i], corrected[j]))
         helix, points, end = Helix(original, i), [position_before(corrected, j)], j + 1
         while end < len(corrected) and (piece := PIECE.match(corrected[end])) and piece.group(4) == helix.rest:
-            x, y, dz = (float(v) for v in piece.groups()[:3])
-            points.append([x, y, points[-1][2] + dz])
+            x, y, z = points[-1]
+            points.append([float(piece.group(1) or x), float(piece.group(2) or y), z + float(piece.group(3))])
             end += 1
         try:
             helix.check(points, reached, tolerance)
