@@ -5,7 +5,7 @@
 #include <mutex>
 
 #include "commands.hpp"
-#include "counterflex/compensation/compensate_windows.hpp"
+#include "counterflex/compensation/windows.hpp"
 #include "counterflex/files/shown_text.hpp"
 
 namespace counterflex::cli {

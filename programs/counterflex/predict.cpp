@@ -1,29 +1,31 @@
+#include <mutex>
+
 #include "commands.hpp"
 #include "run.hpp"
 
 namespace counterflex::cli {
 namespace {
 
-void add_waypoints(const Job& job, const std::vector<Waypoint>& waypoints, Run& run, RunTally& tally,
-                   RunFiles& files) {
-  run.load_places.add(job, waypoints);
-  tally.add_waypoints(waypoints, job);
-  files.add_waypoints(waypoints);
-}
-
 /// Window by window, to the first failure.
 std::optional<Failure> predict_all(Run& run, RunTally& tally, RunFiles& files, Console& console) {
   Windows windows(run, console);
-  ForwardState state;
-  while (windows.next()) {
-    const Job job = windows.job();
+  std::mutex speaking;
+  const auto read = [&](const Job& job) {
+    const std::lock_guard alone(speaking);
+    windows.check(job);
+  };
+  const auto begun = [&](const Job& job) {
+    const std::lock_guard alone(speaking);
+    windows.warn(job);
     tally.add_window(job);
-    const auto failure = solve_original(
-        job, {.before = true, .attribution = true, .inside = false}, state,
-        [&](const std::vector<Waypoint>& waypoints) { add_waypoints(job, waypoints, run, tally, files); });
-    if (failure) return failure;
-  }
-  return std::nullopt;
+  };
+  const auto solved = [&](const Job& job, const std::vector<Waypoint>& waypoints) {
+    run.load_places.add(job, waypoints);
+    tally.add_waypoints(waypoints, job);
+    files.add_waypoints(waypoints);
+  };
+  const auto done = [](const Job&, const Compensation&) {};
+  return predict_windows(windows.jobs(), run.options.threads, {read, begun, solved, done});
 }
 
 }  // namespace

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "counterflex/compensation/for_each_window.hpp"
+#include "counterflex/compensation/windows.hpp"
 
 namespace counterflex::cli {
 namespace {

@@ -245,13 +245,6 @@ Windows::Windows(Run& run, Console& console, std::size_t least_moves)
       reader_(run.file.bytes, run.program.file, run.read, least_moves),
       jobs_(run.input(), reader_) {}
 
-bool Windows::next() {
-  if (!jobs_.next()) return false;
-  check(job());
-  warn(job());
-  return true;
-}
-
 void Windows::check(const Job& window) {
   console_.solving(window.path.segments.empty() ? 0 : window.path.segments.front().line, run_.program.lines);
   refuse_uncontrolled_moves(window);
@@ -289,10 +282,11 @@ RunTally tally_for(const Options& options, const Run& run) {
 
 RunEnd finish_run(const Options& options, Run& run, RunReport report, const RunTally& tally,
                   RunFiles& files) {
-  run.starts.reset();  // nothing is solved any more; the report takes their memory
   const MachineInput& on = run.machine;
+  const LoadsAlong loads = solve_loads(on.model, run.load_places.places(), run.options.threads, &*run.starts);
+  run.starts.reset();  // nothing else is solved; the report takes their memory
   report.sanity = run_sanity(run, report, tally);
-  add_loads(report, solve_loads(on.model, run.load_places.places(), run.options.threads), on.machine);
+  add_loads(report, loads, on.machine);
   if (options.report || options.json) add_texts(report, run.file.bytes);
   run.file.bytes.refuse_change();  // it was read more than once
   std::string json = to_json(report);

@@ -4,8 +4,8 @@
 #include <optional>
 
 #include "console.hpp"
-#include "counterflex/compensation/job_windows.hpp"
 #include "counterflex/compensation/loads_along.hpp"
+#include "counterflex/compensation/windows.hpp"
 #include "counterflex/report/run_tally.hpp"
 #include "inputs.hpp"
 #include "options.hpp"
@@ -59,17 +59,13 @@ class Windows {
  public:
   Windows(Run& run, Console& console, std::size_t least_moves = window_moves);
 
-  /// Goes to the next window and warns of what is noted of its forces; false at the end. Throws `InputError`
-  /// (Exit::program_text) for a move along what the machine does not control.
-  bool next();
-
-  Job job() const { return jobs_.job(); }
   const ProgramReader& reader() const { return reader_; }
-
-  /// The parts of `next`, where windows are read in another way: shows progress and throws as `next` does;
-  /// warns.
   JobWindows& jobs() { return jobs_; }
+
+  /// Of a window that has been read: shows progress. Throws `InputError` (Exit::program_text) for a move along what the
+  /// machine does not control.
   void check(const Job& window);
+  /// Warns of what is noted of its forces.
   void warn(const Job& window);
 
  private:

@@ -1,10 +1,8 @@
-#include "counterflex/compensation/verify_windows.hpp"
-
 #include <mutex>
 #include <utility>
 
 #include "commands.hpp"
-#include "counterflex/compensation/for_each_window.hpp"
+#include "counterflex/compensation/windows.hpp"
 #include "header_hashes.hpp"
 #include "run.hpp"
 
@@ -59,7 +57,7 @@ std::optional<Failure> verify_all(Run& run, ProgramReader& corrected, RunTally& 
     console.solved(waypoints.size());
   };
   const auto done = [](const Job&, const Compensation&) {};
-  return verify_windows(windows.jobs(), run.options, corrected, run.facts.attribution, {read, begun, solved, done});
+  return verify_windows(windows.jobs(), run.options.threads, corrected, run.facts.attribution, {read, begun, solved, done});
 }
 
 }  // namespace

@@ -14,8 +14,8 @@ inline double angle_between(const Arc& axis, const Vector3& a, const Vector3& b)
   return std::atan2(n.dot(from.cross(to)), from.dot(to) - from.dot(n) * to.dot(n));
 }
 
-/// How far `way` turns about `axis` (rad): the angle between its ends, with the full turns that its own sweep makes. The
-/// errors of a way's own radius and centre do not add up along many ways.
+/// How far `way` turns about `axis` (rad): the angle between its ends, with the full turns that its own sweep
+/// makes. The errors of a way's own radius and centre do not add up along many ways.
 inline double angle_about(const Arc& axis, const Curve& way) {
   constexpr double turn = 2 * std::numbers::pi;
   const double between = angle_between(axis, way.start, way.end);

@@ -99,7 +99,8 @@ class ArcDivider {
     return fit;
   }
 
-  // An arc, and of a flat one the line to its height, are two blocks: fewer than the chords of half the piece.
+  // An arc, and of a flat one the line to its height, are two blocks: fewer than the chords of half the
+  // piece.
   bool is_worth_halving(double u0, double u1, int halvings) const {
     if (halvings > most_halvings) return false;
     const Arc& arc = *task_.source.arc;

@@ -14,8 +14,8 @@ struct ArcPieces {
 
 /// What an arc is divided into between fractions `u0` and `u1` without a step of the correction: one arc if
 /// that is good enough, else several, divided at corners first, then in halves, and what is half a turn at
-/// most into eight, and more where that saves chords; chords of the commanded curve only where none of them fits. `from`: where the text
-/// holds the tool.
+/// most into eight, and more where that saves chords; chords of the commanded curve only where none of them
+/// fits. `from`: where the text holds the tool.
 ArcPieces divide_arc(const ArcTask& task, double u0, double u1, const HeldPosition& from);
 
 }  // namespace counterflex

@@ -14,4 +14,16 @@ Vector3 position_of_words(const Job& job, const Move& move, const Vector3& words
 /// Toolpath::frames.
 Vector3 original_command(const Job& job, std::size_t frame, const Vector3& p_MT);
 
+/// The end of a move as a target in M (m).
+Vector3 target_of(const Job& job, const Move& move);
+
+/// The way of a move whose start is known, as targets in M (m).
+Curve command_of(const Job& job, const Move& move);
+
+/// The end of a move of the original as a wanted position in M (m).
+Vector3 wanted_of(const Job& job, const Move& move);
+
+/// The bottom of a cycle's hole in program coordinates (mm).
+Vector3 bottom_of(const Move& move);
+
 }  // namespace counterflex

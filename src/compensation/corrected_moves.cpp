@@ -51,7 +51,8 @@ bool continues(std::string_view line) {
   return last != std::string_view::npos && line[last] == '~';
 }
 
-// A line without a move that leaves the parameters of cycles as they are: comments, corners, M functions, coordinates.
+// A line without a move that leaves the parameters of cycles as they are: comments, corners, M functions,
+// coordinates.
 bool keeps_parameters(std::string_view statement) {
   for (const std::string_view head : {";", "(", "RND", "CHF", "CYCL", "M"})
     if (statement.starts_with(head)) return true;
@@ -85,7 +86,8 @@ std::vector<std::size_t> OtherLines::add(const Program& window) {
     std::string_view line = text.substr(begin, end - begin);
     begin = end + 1;
     bool moves = false;
-    for (; counts.size() < window.moves.size() && window.moves[counts.size()].block.begin <= end; moves = true)
+    for (; counts.size() < window.moves.size() && window.moves[counts.size()].block.begin <= end;
+         moves = true)
       counts.push_back(count_);
     if (moves) {
       end_statement();

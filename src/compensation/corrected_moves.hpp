@@ -14,9 +14,10 @@ struct OtherLine {
   std::string text;
 };
 
-/// The lines without a move of a program that is read in windows, the header and modal drilling cycles of a Sinumerik aside. Of statements that set the surface of
-/// Klartext's drilling cycles, and differ in that alone, the first one counts: the others are judged by their holes. An inserted block stands
-/// beside the block that it belongs to: both have the same number of such lines before them.
+/// The lines without a move of a program that is read in windows, the header and modal drilling cycles of a
+/// Sinumerik aside. Of statements that set the surface of Klartext's drilling cycles, and differ in that
+/// alone, the first one counts: the others are judged by their holes. An inserted block stands beside the
+/// block that it belongs to: both have the same number of such lines before them.
 class OtherLines {
  public:
   /// Takes in the next window; by move the number of lines without a move before it, from the program's
@@ -31,8 +32,8 @@ class OtherLines {
   std::vector<OtherLine> statement_{};       // that is being read
   bool sets_surface_ = false;                // it
   std::vector<std::string> last_surface_{};  // the last one that has
-  int lines_before_ = 0;   // of the text, before the window
-  std::size_t count_ = 0;  // without a move
+  int lines_before_ = 0;                     // of the text, before the window
+  std::size_t count_ = 0;                    // without a move
 };
 
 /// A move with the text that holds it.

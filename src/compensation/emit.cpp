@@ -60,7 +60,8 @@ void Emitter::emit_segment(std::size_t s) {
 
 namespace {
 
-constexpr double flat_share = 0.7;  // of the tolerance: what the flat parts beside corners may miss; the rest is for other deviations
+constexpr double flat_share =
+    0.7;  // of the tolerance: what the flat parts beside corners may miss; the rest is for other deviations
 
 Vector3 without_height(const WorkFrame& frame, int axis, const Vector3& step) {
   const Vector3 normal = frame.X_MW.R.col(axis);
@@ -134,8 +135,8 @@ void Emitter::finish_segment(const Segment& segment, const PlannedSegment& plann
   }
 }
 
-// Where no axis words may be inserted, absent axes keep the correction that they have; those that words before the first
-// known position have placed take that of the move.
+// Where no axis words may be inserted, absent axes keep the correction that they have; those that words
+// before the first known position have placed take that of the move.
 Vector3 Emitter::correction_that_can_be_written(const Move& move, const Vector3& correction) const {
   if (takes_all_words(move) || move.may_position || !state_.correction_known) return correction;
   const auto is_pending = [&](std::size_t axis) {
@@ -151,7 +152,9 @@ Vector3 Emitter::correction_that_can_be_written(const Move& move, const Vector3&
   bool all_written = true;
   for (Eigen::Index axis = 0; axis < 3; ++axis) {
     const auto a = static_cast<std::size_t>(axis);
-    if (move.words[a] || may_insert_word(move, a) || is_pending(a) || std::abs(c_W[axis] - held_W[axis]) < rounding) continue;
+    if (move.words[a] || may_insert_word(move, a) || is_pending(a) ||
+        std::abs(c_W[axis] - held_W[axis]) < rounding)
+      continue;
     c_W[axis] = held_W[axis];
     all_written = false;
   }
@@ -171,28 +174,6 @@ Vector3 Emitter::correction_where_held(const Move& move, const Vector3& correcti
   }
   if (!differs) return correction;
   return frame(move).X_MW.R * (shift * mm) - frame(move).datum_shift;
-}
-
-Vector3 target_of(const Job& job, const Move& move) {
-  return position_of_words(job, move, move.end_mm);
-}
-
-Curve command_of(const Job& job, const Move& move) {
-  if (!move.arc)
-    return {position_of_words(job, move, move.start_mm), position_of_words(job, move, move.end_mm), {}};
-  Curve curve = curve_of(move);
-  curve.start *= mm;
-  curve.end *= mm;
-  curve.arc->centre *= mm;
-  return job.path.frames[move.frame].X_MW * curve;
-}
-
-Vector3 wanted_of(const Job& job, const Move& move) {
-  return wanted_frame(job.path.frames[move.frame]) * (move.end_mm * mm);
-}
-
-Vector3 bottom_of(const Move& move) {
-  return {move.end_mm.x(), move.end_mm.y(), move.cycle->bottom_mm};
 }
 
 Emission emit(const Job& job, const Plan& plan, EmitterState& state) {

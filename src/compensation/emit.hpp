@@ -16,9 +16,9 @@ struct EmittedMove {
   MoveEdit edit;
   Kind kind = Kind::shifted;
   std::size_t segment = no_segment;
-  bool in_part = false;             ///< listed: held, or corrected without its force
-  bool exempt = false;              ///< listed: its inside may miss the tolerance
-  bool exempt_end = false;          ///< listed: its end may, too
+  bool in_part = false;     ///< listed: held, or corrected without its force
+  bool exempt = false;      ///< listed: its inside may miss the tolerance
+  bool exempt_end = false;  ///< listed: its end may, too
 };
 
 struct Emission {
@@ -43,20 +43,8 @@ struct EmitterState {
 /// Edits for all moves: segments as planned; moves that go nowhere keep the correction that holds there;
 /// moves made before all axes are known take that of the first position that is (look-ahead of 64 blocks).
 /// Arcs are fitted to what the text holds before them; holes get the correction at their bottom, contour
-/// groups one rigid motion; what is held keeps the correction with which it is entered. Where one cannot be held the
-/// emission fails (Exit::program_text).
+/// groups one rigid motion; what is held keeps the correction with which it is entered. Where one cannot be
+/// held the emission fails (Exit::program_text).
 Emission emit(const Job& job, const Plan& plan, EmitterState& state);
-
-/// The end of a move as a target in M (m).
-Vector3 target_of(const Job& job, const Move& move);
-
-/// The way of a move whose start is known, as targets in M (m).
-Curve command_of(const Job& job, const Move& move);
-
-/// The end of a move of the original as a wanted position in M (m).
-Vector3 wanted_of(const Job& job, const Move& move);
-
-/// The bottom of a cycle's hole in program coordinates (mm).
-Vector3 bottom_of(const Move& move);
 
 }  // namespace counterflex

@@ -45,8 +45,8 @@ double Emitter::corner_height_mm(std::size_t s, const EndHeights& heights) const
   return heights.end_mm + std::clamp(middle, -most, most);
 }
 
-// A line beside corners keeps its height beside the first, changes it, and ends at the height of its end. Returns by
-// how much its flat parts miss their places (mm).
+// A line beside corners keeps its height beside the first, changes it, and ends at the height of its end.
+// Returns by how much its flat parts miss their places (mm).
 double Emitter::set_height_inside(std::size_t s, const Vector3& end_mm, MoveEdit& edit) {
   const Move& move = job_.program.moves[job_.path.segments[s].move];
   if (!changes_height_inside(move) || !edit.inserted.empty()) return 0;

@@ -27,8 +27,8 @@ bool Emitter::is_in_xy(std::size_t m) const {
   return true;
 }
 
-// A turned contour is the same contour for the control: it keeps its distance to it. Every end in the plane must be known
-// and written, in words of X and Y.
+// A turned contour is the same contour for the control: it keeps its distance to it. Every end in the plane
+// must be known and written, in words of X and Y.
 bool Emitter::group_may_turn(std::size_t m) const {
   const auto& moves = job_.program.moves;
   for (const int group = moves[m].group; m < moves.size() && moves[m].group == group; ++m) {
@@ -53,7 +53,8 @@ Vector3 turned(double turn, const Vector3& v) {
   return turn == 0 ? Vector3::Zero() : Vector3(exp_so3(turn * Vector3::UnitZ()) * v - v);
 }
 
-// Sets the shift: per axis the midpoint of the extremes of what the turn leaves. Returns half of the way between these.
+// Sets the shift: per axis the midpoint of the extremes of what the turn leaves. Returns half of the way
+// between these.
 Vector3 choose_shift(const std::vector<GroupSample>& samples, GroupMotion& motion) {
   Vector3 low = Vector3::Constant(HUGE_VAL), high = -low;
   for (const GroupSample& sample : samples) {
@@ -89,11 +90,12 @@ Vector3 GroupMotion::shift_at(const Vector3& p_mm) const {
 // An arc stays an arc: its centre goes along.
 Vector3 Emitter::shifted_centre(const Move& move, const Vector3& shift) const {
   const bool turns = move.group != 0 && move.group == state_.group && group_motion_;
-  return move.arc->centre_mm + shift + turned(turns ? group_motion_->turn : 0, move.arc->centre_mm - move.end_mm);
+  return move.arc->centre_mm + shift +
+         turned(turns ? group_motion_->turn : 0, move.arc->centre_mm - move.end_mm);
 }
 
-// One shift, and one turn about Z where that leaves less than half as much; nothing where no move of the group has a known
-// start and end. What it leaves is listed.
+// One shift, and one turn about Z where that leaves less than half as much; nothing where no move of the
+// group has a known start and end. What it leaves is listed.
 bool Emitter::find_group_motion(std::size_t m, std::size_t s) {
   constexpr double worth_a_turn = 0.1;  // of the tolerance: what the shift leaves
   const Move& first = job_.program.moves[m];
@@ -106,8 +108,9 @@ bool Emitter::find_group_motion(std::size_t m, std::size_t s) {
     last_line = move.line;
     std::vector<GroupSample>& samples = segment.cutting && is_in_plane(move) ? cuts : others;
     for (const CurveNode& node : plan_.segments[s].group)
-      samples.push_back({in_words_mm(job_, move, original_command(job_, segment.frame, point_at(segment.wanted, node.u))),
-                         shift_mm(move, node.c)});
+      samples.push_back(
+          {in_words_mm(job_, move, original_command(job_, segment.frame, point_at(segment.wanted, node.u))),
+           shift_mm(move, node.c)});
   }
   group_motion_.reset();
   const std::vector<GroupSample>& samples = cuts.empty() ? others : cuts;
@@ -122,11 +125,12 @@ bool Emitter::find_group_motion(std::size_t m, std::size_t s) {
   group_motion_ = motion;
   const Vector3& shift = motion.shift;
   if (group_in_xy_) residual.z() = 0;
-  std::string said = group_in_xy_ ? fmt::format("({:.4f}, {:.4f}) mm in X and Y", shift.x(), shift.y())
-                                  : fmt::format("({:.4f}, {:.4f}, {:.4f}) mm", shift.x(), shift.y(), shift.z());
+  std::string said = group_in_xy_
+                         ? fmt::format("({:.4f}, {:.4f}) mm in X and Y", shift.x(), shift.y())
+                         : fmt::format("({:.4f}, {:.4f}, {:.4f}) mm", shift.x(), shift.y(), shift.z());
   if (motion.turn != 0)
-    said += fmt::format(" and one turn by {:.4f} deg about X{:.3f} Y{:.3f}", motion.turn / deg, motion.about.x(),
-                        motion.about.y());
+    said += fmt::format(" and one turn by {:.4f} deg about X{:.3f} Y{:.3f}", motion.turn / deg,
+                        motion.about.x(), motion.about.y());
   said += group_in_xy_ ? " for all, Z block by block" : " for all";
   list(first, fmt::format("contour group of lines {} to {}: one shift of {}; what remains of its corrections "
                           "is up to {:.4f} mm",
@@ -151,8 +155,8 @@ void Emitter::check_step(const Move& move, const Vector3& before_mm) {
   }
 }
 
-// The shift of Z at the end of a move of the group, of one that stays or comes from an unknown position where the next
-// begins; nothing where Z goes with the group.
+// The shift of Z at the end of a move of the group, of one that stays or comes from an unknown position where
+// the next begins; nothing where Z goes with the group.
 std::optional<double> Emitter::height_shift_mm(const Move& move, Index s) const {
   const std::size_t next = s.value_or(next_segment_);
   const bool known = next < plan_.segments.size() && !plan_.segments[next].group.empty() &&
@@ -177,14 +181,16 @@ double miss_between(const std::vector<double>& heights, std::size_t stride) {
   for (std::size_t k = 0; k < heights.size(); ++k) {
     const std::size_t begin = std::min(k / stride * stride, heights.size() - 1 - stride);
     const double share = static_cast<double>(k - begin) / static_cast<double>(stride);
-    miss = std::max(miss, std::abs(heights[k] - (1 - share) * heights[begin] - share * heights[begin + stride]));
+    miss =
+        std::max(miss, std::abs(heights[k] - (1 - share) * heights[begin] - share * heights[begin + stride]));
   }
   return miss;
 }
 
 double middle_of(const std::vector<double>& heights, std::size_t first, std::size_t stride) {
-  const auto [low, high] = std::minmax_element(heights.begin() + static_cast<std::ptrdiff_t>(first),
-                                               heights.begin() + static_cast<std::ptrdiff_t>(first + stride) + 1);
+  const auto [low, high] =
+      std::minmax_element(heights.begin() + static_cast<std::ptrdiff_t>(first),
+                          heights.begin() + static_cast<std::ptrdiff_t>(first + stride) + 1);
   return (*low + *high) / 2;
 }
 
@@ -199,8 +205,8 @@ double half_range(const std::vector<double>& heights, std::size_t stride) {
 
 }  // namespace
 
-// The height of a contour's arc need not change in proportion to its angle, and a flat arc has one height: it is divided into
-// 2, 4 or 8 arcs then, which are one in the plane. Lines along Z lead to those that are flat.
+// The height of a contour's arc need not change in proportion to its angle, and a flat arc has one height: it
+// is divided into 2, 4 or 8 arcs then, which are one in the plane. Lines along Z lead to those that are flat.
 void Emitter::divide_by_height(const Move& move, std::size_t s, MoveEdit& edit) const {
   constexpr double height_share = 0.3;  // of the tolerance
   const std::vector<CurveNode>& nodes = plan_.segments[s].group;
@@ -210,7 +216,8 @@ void Emitter::divide_by_height(const Move& move, std::size_t s, MoveEdit& edit) 
   for (const CurveNode& node : nodes) heights.push_back(shift_mm(move, node.c).z());
   const double room_mm = height_share * job_.options.tolerance / mm;
   std::size_t stride = nodes.size() - 1;
-  while (stride > 1 && (flat ? half_range(heights, stride) : miss_between(heights, stride)) > room_mm) stride /= 2;
+  while (stride > 1 && (flat ? half_range(heights, stride) : miss_between(heights, stride)) > room_mm)
+    stride /= 2;
   const Curve curve = curve_of(move);
   const auto place = [&](std::size_t k, double height) {
     const Vector3 p = point_at(curve, nodes[k].u);

@@ -5,6 +5,7 @@
 
 #include "counterflex/geometry/units.hpp"
 #include "emitter.hpp"
+#include "failures.hpp"
 
 namespace counterflex {
 namespace {
@@ -16,12 +17,15 @@ constexpr std::size_t look_ahead = 64;  // blocks
 // The correction at a wanted position without cutting force; the emission fails where there is none.
 std::optional<Vector3> Emitter::solve_position(const Vector3& wanted, const Move& move) {
   const Model& model = model_with(job_.model, job_.tools, move.tool);
-  const TargetSolution solution = solvers_.of(model, model.home).target(wanted, {});
-  if (solution.status != Status::converged) {
-    out_.failure = status_failure(job_, solution.status, model, move, solution.target, move.line);
+  const TargetRequest request{&model, wanted};
+  TargetAnswer answer;
+  solver_.targets({&request, 1}, {&answer, 1});
+  if (answer.status != Status::converged) {
+    out_.failure =
+        status_failure(job_, answer.status, {model, frame(move), move.tool, answer.target}, move.line);
     return std::nullopt;
   }
-  const Vector3 correction = solution.target - wanted;
+  const Vector3 correction = answer.target - wanted;
   out_.failure = limit_failure(job_, correction + frame(move).datum_shift, move.line);
   if (out_.failure) return std::nullopt;
   return correction;

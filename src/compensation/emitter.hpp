@@ -4,7 +4,7 @@
 #include "arc_fit.hpp"
 #include "commands.hpp"
 #include "emit.hpp"
-#include "path_solver.hpp"
+#include "solver.hpp"
 
 namespace counterflex {
 
@@ -20,7 +20,7 @@ struct GroupMotion {
 class Emitter {
  public:
   Emitter(const Job& job, const Plan& plan, EmitterState& state)
-      : job_(job), plan_(plan), state_(state), solvers_(job) {}
+      : job_(job), plan_(plan), state_(state), solver_(job) {}
 
   Emission run();
 
@@ -112,11 +112,11 @@ class Emitter {
   std::size_t next_segment_ = 0;
   std::vector<std::size_t> pending_;  // moves before all axes are known
   EmitterState& state_;
-  std::optional<std::size_t> held_for_;  // the move in whose coordinates the held position is
-  bool group_in_xy_ = false;             // the contour group that is being emitted
+  std::optional<std::size_t> held_for_;      // the move in whose coordinates the held position is
+  bool group_in_xy_ = false;                 // the contour group that is being emitted
   std::optional<GroupMotion> group_motion_;  // none: it holds the correction with which it was entered
-  HeldPosition piece_held_{};            // where the pieces of the move that is being fitted have come
-  ToolSolver solvers_;
+  HeldPosition piece_held_{};                // where the pieces of the move that is being fitted have come
+  PlaceSolver solver_;
 };
 
 }  // namespace counterflex

@@ -2,8 +2,9 @@
 
 #include <algorithm>
 
-#include "chunks.hpp"
 #include "commands.hpp"
+#include "parallel.hpp"
+#include "solver.hpp"
 
 namespace counterflex {
 namespace {
@@ -19,24 +20,6 @@ double force_of(const LoadPlace& place) {
 
 bool is_larger(double value, double than) {
   return value > than * (1 + indistinct_share);
-}
-
-// Where the perfect machine stands for the commands, each place from the one before; none where it is not
-// reached, from home either.
-std::vector<std::optional<Configuration>> nominal_configurations(const Model& base,
-                                                                 const std::vector<LoadPlace>& places) {
-  std::vector<std::optional<Configuration>> all(places.size());
-  NominalToolPath path(home_of(base));
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    const Model& model = *places[i].model;
-    Status status = path.go_to(model, places[i].target);
-    if (status != Status::converged) {
-      path = NominalToolPath(home_of(model));
-      status = path.go_to(model, places[i].target);
-    }
-    if (status == Status::converged) all[i] = path.configuration();
-  }
-  return all;
 }
 
 }  // namespace
@@ -97,21 +80,21 @@ std::vector<LoadPlace> LoadPlaces::places() const {
   return all;
 }
 
-LoadsAlong solve_loads(const Model& base, const std::vector<LoadPlace>& places, int threads) {
-  const auto nominal = nominal_configurations(base, places);
+LoadsAlong solve_loads(const Model& base, const std::vector<LoadPlace>& places, int threads,
+                       const StartTables* starts) {
   std::vector<LoadsAtPlace> solved(places.size());
-  for_each_chunk(places.size(), threads, [&](const Chunk& chunk) {
-    const Model* model = nullptr;
-    std::optional<StaticsWork> work;
-    for (std::size_t i = chunk.begin; i < chunk.end; ++i) {
-      if (!nominal[i]) continue;
+  for_each_index(slice_count(places.size()), threads, [&](std::size_t slice) {
+    const std::size_t end = std::min(places.size(), (slice + 1) * slice_size);
+    for (std::size_t i = slice * slice_size; i < end; ++i) {
       const LoadPlace& place = places[i];
-      if (place.model != model) work.emplace(place.model->mechanism);
-      model = place.model;
-      const Equilibrium loaded = solve_forward(*model, *nominal[i], place.load, {}, *work);
+      PlaceSolver solver(starts, place.load.at_platform);
+      const NominalResult commanded = solver.nominal(*place.model, place.target);
+      if (commanded.status != Status::converged) continue;
+      StaticsWork work(place.model->mechanism);
+      const Equilibrium loaded = solve_forward(*place.model, commanded.configuration, place.load, {}, work);
       if (loaded.status == Status::converged)
         solved[i] = {place.s, place.line,
-                     loads_without_tool(base.mechanism, *model, loaded.configuration, {})};
+                     loads_without_tool(base.mechanism, *place.model, loaded.configuration, {})};
     }
   });
   LoadsAlong along;

@@ -6,9 +6,9 @@
 #include <array>
 #include <cmath>
 
+#include "commands.hpp"
 #include "counterflex/compensation/compensate.hpp"
 #include "counterflex/geometry/units.hpp"
-#include "emit.hpp"
 #include "match_kind.hpp"
 #include "match_pieces.hpp"
 
@@ -32,9 +32,9 @@ bool takes_surface(const Move& move) {
 std::string without_heights(const CalledCycle& cycle) {
   std::string text;
   for (std::size_t i = 0; i < cycle.modal.size(); ++i) {
-    const bool height = std::any_of(cycle.heights.begin(), cycle.heights.end(), [i](const PackedAxisWord& word) {
-      return word && i >= word->number.begin && i < word->number.end;
-    });
+    const bool height = std::any_of(
+        cycle.heights.begin(), cycle.heights.end(),
+        [i](const PackedAxisWord& word) { return word && i >= word->number.begin && i < word->number.end; });
     if (!height && cycle.modal[i] != ' ' && cycle.modal[i] != '\t') text += cycle.modal[i];
   }
   return text;
@@ -106,18 +106,23 @@ class WindowMatcher {
 
   // Contours are shifted and turned in the plane: each way inside keeps its length there.
   std::optional<Failure> contour_failure(const MatchedMoves& matched, std::size_t m) {
-    const Move &original = matched.original, &first = *matched.found.front().move, &found = *matched.found.back().move;
+    const Move &original = matched.original, &first = *matched.found.front().move,
+               &found = *matched.found.back().move;
     const bool inside = m > 0 && original.group != 0 && job_.program.moves[m - 1].group == original.group;
-    if (!inside || !all_known(original.known_start) || !all_known(original.known_end) || !all_known(first.known_start))
+    if (!inside || !all_known(original.known_start) || !all_known(original.known_end) ||
+        !all_known(first.known_start))
       return std::nullopt;
     const double rounding_mm = 4 * std::max(rounding_as_read(original), rounding_as_read(found)) / mm;
-    const double off = (found.end_mm - first.start_mm).head<2>().norm() - (original.end_mm - original.start_mm).head<2>().norm();
+    const double off = (found.end_mm - first.start_mm).head<2>().norm() -
+                       (original.end_mm - original.start_mm).head<2>().norm();
     if (std::abs(off) <= rounding_mm + 1e-6) return std::nullopt;
-    return Failure{Exit::not_compensated, original.line,
-                   fmt::format("this move of a contour is {:.4f} mm {} in X and Y than that of the original; contours are "
-                               "shifted and turned as a whole",
-                               std::abs(off), off > 0 ? "longer" : "shorter"),
-                   found.line};
+    return Failure{
+        Exit::not_compensated, original.line,
+        fmt::format(
+            "this move of a contour is {:.4f} mm {} in X and Y than that of the original; contours are "
+            "shifted and turned as a whole",
+            std::abs(off), off > 0 ? "longer" : "shorter"),
+        found.line};
   }
 
   // What the control takes off a line for its corners is one piece, at one height.
@@ -130,32 +135,36 @@ class WindowMatcher {
       const bool whole = way.norm() > taken_mm || taken_mm >= length_mm;
       if (taken_mm == 0 || !all_known(found.known_start) || (way.z() == 0 && whole)) return std::nullopt;
       const std::string size = std::isfinite(taken_mm) ? fmt::format("{:.4f} mm", taken_mm) : "a part";
-      return Failure{Exit::not_compensated, original.line,
-                     fmt::format("the corner takes {} of this block, which is {:.4f} mm long and changes its height by {:.4f} "
-                                 "mm; corners lie in one plane",
-                                 size, way.norm(), way.z()),
-                     found.line};
+      return Failure{
+          Exit::not_compensated, original.line,
+          fmt::format(
+              "the corner takes {} of this block, which is {:.4f} mm long and changes its height by {:.4f} "
+              "mm; corners lie in one plane",
+              size, way.norm(), way.z()),
+          found.line};
     };
     if (auto failure = check(*matched.found.front().move, original.corners->begin_mm)) return failure;
     return check(*matched.found.back().move, original.corners->end_mm);
   }
 
-  // The surface from which the held holes of a Klartext cycle count goes along with them: they keep the shift with which
-  // they are entered. The others are judged where they are.
+  // The surface from which the held holes of a Klartext cycle count goes along with them: they keep the shift
+  // with which they are entered. The others are judged where they are.
   std::optional<Failure> surface_failure(const MatchedMoves& matched) {
     constexpr double rounding_mm = 1e-3 * (1 + 1e-9);  // of both, to three decimals
     const Move &original = matched.original, &found = *matched.found.back().move;
     const double shift = found.end_mm.z() - original.end_mm.z();
     if (takes_surface(original) != takes_surface(found))
-      return Failure{Exit::not_compensated, original.line,
-                     "this hole takes the height of its surface from a cycle's definition in one of both programs only",
-                     found.line};
+      return Failure{
+          Exit::not_compensated, original.line,
+          "this hole takes the height of its surface from a cycle's definition in one of both programs only",
+          found.line};
     const bool held = original.handling == Handling::held;
     if (takes_surface(original) && held && std::abs(shift - height_shift_mm_) > rounding_mm)
-      return Failure{Exit::not_compensated, original.line,
-                     fmt::format("the surface of this hole's cycle is shifted by {:.4f} mm, the hole by {:.4f} mm",
-                                 shift, height_shift_mm_),
-                     found.line};
+      return Failure{
+          Exit::not_compensated, original.line,
+          fmt::format("the surface of this hole's cycle is shifted by {:.4f} mm, the hole by {:.4f} mm",
+                      shift, height_shift_mm_),
+          found.line};
     if (!takes_surface(original) && original.known_end[2] && found.known_end[2]) height_shift_mm_ = shift;
     return std::nullopt;
   }
@@ -167,7 +176,8 @@ class WindowMatcher {
     const auto fail = [&](std::string what) {
       return Failure{Exit::not_compensated, original.line, std::move(what), found.line};
     };
-    if (!original.called != !found.called) return fail("a drilling cycle is called here in one of both programs only");
+    if (!original.called != !found.called)
+      return fail("a drilling cycle is called here in one of both programs only");
     if (!original.called) return std::nullopt;
     if (without_heights(*original.called) != without_heights(*found.called))
       return fail("the cycle that MCALL calls here is not that of the original");
@@ -177,7 +187,8 @@ class WindowMatcher {
         return fail("a height of the cycle is given in one of both programs only");
       const double other = found.called->heights_mm[i] - original.called->heights_mm[i];
       if (original.called->heights[i] && std::abs(other - shift) > rounding_mm)
-        return fail(fmt::format("a height of the cycle is shifted by {:.4f} mm, its reference plane by {:.4f} mm", other, shift));
+        return fail(fmt::format(
+            "a height of the cycle is shifted by {:.4f} mm, its reference plane by {:.4f} mm", other, shift));
     }
     return std::nullopt;
   }
@@ -200,8 +211,8 @@ class WindowMatcher {
     const ProgramFrame &wanted = job_.program.frames[matched.original.frame],
                        &found = last.program->frames[last.move->frame];
     const double off = (found.origin_mm - wanted.origin_mm).norm();
-    const bool same = found.work_offset == wanted.work_offset && found.set_mm == wanted.set_mm && off <= rounding_mm &&
-                      std::abs(found.turn_rad - wanted.turn_rad) <= rounding_rad;
+    const bool same = found.work_offset == wanted.work_offset && found.set_mm == wanted.set_mm &&
+                      off <= rounding_mm && std::abs(found.turn_rad - wanted.turn_rad) <= rounding_rad;
     if (same) return std::nullopt;
     return Failure{
         Exit::not_compensated, matched.original.line,
@@ -283,7 +294,8 @@ void add_borders(const Curve& arc, const PlannedSegment& planned, std::vector<Kn
   for (std::size_t i = 1; i < planned.arc.size(); ++i) {
     const CorrectionCurve &before = planned.arc[i - 1], &behind = planned.arc[i];
     const double u = behind.begin();
-    const Vector3 p = point_at(arc, u), ends = before.intervals().back().nodes.back().c, begins = behind.at(u);
+    const Vector3 p = point_at(arc, u), ends = before.intervals().back().nodes.back().c,
+                  begins = behind.at(u);
     knots.push_back({u, p + ends});
     if ((begins - ends).norm() > least_jump) knots.push_back({u, p + begins});
   }
@@ -309,20 +321,20 @@ PlannedWays planned_ways(const Job& job, const Plan& plan) {
     way.end = planned.end;
     if (!way.end && !planned.knots.empty()) way.end = planned.knots.back().target;
     if (may_jump(ways, s, planned)) way.inner.push_back({0, planned.start_target});
-    if (planned.knots.size() > 1) way.inner.insert(way.inner.end(), planned.knots.begin(), planned.knots.end() - 1);
+    if (planned.knots.size() > 1)
+      way.inner.insert(way.inner.end(), planned.knots.begin(), planned.knots.end() - 1);
     add_borders(job.path.segments[s].wanted, planned, way.inner);
   }
   return ways;
 }
 
-Matching match_window(const Job& job, const NominalTrack& track, const PlannedWays& ways, OtherLines& lines,
-                      CorrectedMoves& found) {
+Matching match_window(const Job& job, const PlannedWays& ways, OtherLines& lines, CorrectedMoves& found) {
   Matching result;
   const std::vector<std::size_t> others = lines.add(job.program);
   WindowMatcher matcher(job, ways, found);
   result.failure = matcher.run(others);
   if (auto failure = lines_failure(lines, found.other_lines())) result.failure = failure;
-  if (!result.failure) result.pieces = refined(job, track, std::move(matcher.drafts));
+  if (!result.failure) result.pieces = refined(job, std::move(matcher.drafts));
   return result;
 }
 

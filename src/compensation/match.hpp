@@ -7,12 +7,11 @@
 #include "corrected_moves.hpp"
 #include "counterflex/compensation/waypoint.hpp"
 #include "plan.hpp"
-#include "track.hpp"
 
 namespace counterflex {
 
-/// How a plan leads a segment: they tell the end of a move from points that were inserted before it, and where along
-/// the segment such a point belongs.
+/// How a plan leads a segment: they tell the end of a move from points that were inserted before it, and
+/// where along the segment such a point belongs.
 struct PlannedWay {
   std::optional<Vector3> end;  ///< M (m); nothing where the plan does not correct the segment by itself
   std::vector<Knot> inner;     ///< before the end, in order; a step is two knots at one fraction
@@ -29,8 +28,7 @@ struct Matching {
 /// The pieces that the next moves of `found` command along the moves of a window; these are dropped from
 /// `found`. `lines`: of the original, up to this window. A failure is a move that has no counterpart, one of
 /// another kind, sense or number of turns, or another line that differs.
-Matching match_window(const Job& job, const NominalTrack& track, const PlannedWays& ways, OtherLines& lines,
-                      CorrectedMoves& found);
+Matching match_window(const Job& job, const PlannedWays& ways, OtherLines& lines, CorrectedMoves& found);
 
 /// Behind the last window: the failure of what is left over in either program.
 std::optional<Failure> match_end(OtherLines& lines, CorrectedMoves& found);

@@ -37,7 +37,8 @@ class KindComparison {
         original_(matched.original),
         rounding_mm_(rounding_allowance(original_, job.options.write) / mm),
         tolerance_mm_(job.options.tolerance / mm),
-        most_shift_mm_((job.options.max_correction + job.path.frames[original_.frame].datum_shift.norm()) / mm) {}
+        most_shift_mm_((job.options.max_correction + job.path.frames[original_.frame].datum_shift.norm()) /
+                       mm) {}
 
   std::optional<Failure> run() {
     for (std::size_t i = 0; i < matched_.found.size() && !failure_; ++i) compare(i);
@@ -65,8 +66,8 @@ class KindComparison {
     if (!found.arc) return compare_chord(found, jump);
     const ArcMove &wanted = *original_.arc, &arc = *found.arc;
     if (arc.normal != wanted.normal)
-      return fail(found, fmt::format("this arc lies in the plane {}, that of the original in {}", plane_of(arc),
-                                     plane_of(wanted)));
+      return fail(found, fmt::format("this arc lies in the plane {}, that of the original in {}",
+                                     plane_of(arc), plane_of(wanted)));
     if (arc.clockwise != wanted.clockwise)
       return fail(found, fmt::format("this arc goes {}, that of the original {}",
                                      arc.clockwise ? "clockwise" : "counter-clockwise",
@@ -88,22 +89,29 @@ class KindComparison {
   }
 
   void fail_kind(const Move& found) {
-    fail(found, fmt::format("this block is {}, that of the original is {}", name_of(found), name_of(original_)));
+    fail(found,
+         fmt::format("this block is {}, that of the original is {}", name_of(found), name_of(original_)));
   }
 
-  double radius_mm() const { return in_plane(original_.end_mm - original_.arc->centre_mm, original_.arc->normal); }
+  double radius_mm() const {
+    return in_plane(original_.end_mm - original_.arc->centre_mm, original_.arc->normal);
+  }
 
   // A contour's arc that is divided by its height is one arc in the plane.
   void compare_contour_piece(const Move& found) {
     const ArcMove &wanted = *original_.arc, &arc = *found.arc;
-    // A centre that follows from the ends and a radius is known less well than these; the angles are compared besides.
+    // A centre that follows from the ends and a radius is known less well than these; the angles are compared
+    // besides.
     if (wanted.radius_word && arc.radius_word) {
       const double miss = std::abs(std::abs(arc.radius_mm) - std::abs(wanted.radius_mm));
-      if (miss > roundings * rounding_mm_ + 1e-6) fail(found, fmt::format("the radius of this arc is off by {:.4f} mm", miss));
+      if (miss > roundings * rounding_mm_ + 1e-6)
+        fail(found, fmt::format("the radius of this arc is off by {:.4f} mm", miss));
       return;
     }
     if (!centre_mm_) centre_mm_ = arc.centre_mm;
-    const auto radius_at = [](const ArcMove& a, const Vector3& p) { return in_plane(p - a.centre_mm, a.normal); };
+    const auto radius_at = [](const ArcMove& a, const Vector3& p) {
+      return in_plane(p - a.centre_mm, a.normal);
+    };
     const double low = std::min(radius_at(wanted, original_.start_mm), radius_at(wanted, original_.end_mm)),
                  high = std::max(radius_at(wanted, original_.start_mm), radius_at(wanted, original_.end_mm)),
                  room = roundings * rounding_mm_ + 1e-6;
@@ -111,7 +119,9 @@ class KindComparison {
     for (const double radius : {radius_at(arc, found.start_mm), radius_at(arc, found.end_mm)})
       miss = std::max({miss, low - radius, radius - high});
     if (miss > room)
-      fail(found, fmt::format("this piece of an arc of a contour leaves the circle of the original by {:.4f} mm", miss));
+      fail(found,
+           fmt::format("this piece of an arc of a contour leaves the circle of the original by {:.4f} mm",
+                       miss));
   }
 
   // A chord may stand for a part of the arc from which it keeps within the tolerance.
@@ -120,13 +130,16 @@ class KindComparison {
     const double half = std::asin(std::min(1.0, chord / 2 / radius)), sagitta = radius * (1 - std::cos(half));
     const double room = tolerance_mm_ + roundings * rounding_mm_;
     const bool known = all_known(found.known_start) && all_known(original_.known_start);
-    if (original_.handling == Handling::group && known && chord > roundings * rounding_mm_ + 1e-6) return fail_kind(found);
+    if (original_.handling == Handling::group && known && chord > roundings * rounding_mm_ + 1e-6)
+      return fail_kind(found);
     if (may_be_jump && chord <= 2 * most_shift_mm_ && sagitta <= room) return;
     if (!known || (sagitta > room && matched_.found.size() == 1)) return fail_kind(found);
     const bool judged = matched_.segment && original_.handling == Handling::own && original_.may_split;
     if (sagitta > room && !judged)
-      return fail(found, fmt::format("this chord leaves the arc of the original by {:.4f} mm, the tolerance is {:.4f} mm",
-                                     sagitta, tolerance_mm_));
+      return fail(
+          found,
+          fmt::format("this chord leaves the arc of the original by {:.4f} mm, the tolerance is {:.4f} mm",
+                      sagitta, tolerance_mm_));
     add_sweep(found);
   }
 
@@ -150,7 +163,8 @@ class KindComparison {
     if (!by_radius && original_.handling == Handling::group)
       miss = std::abs(in_plane(centre, wanted.normal) - in_plane(wanted_centre, wanted.normal));
     if (miss > room)
-      fail(found, fmt::format("the {} of this arc is off by {:.4f} mm", by_radius ? "radius" : "centre", miss));
+      fail(found,
+           fmt::format("the {} of this arc is off by {:.4f} mm", by_radius ? "radius" : "centre", miss));
   }
 
   void compare_sweeps() {
@@ -179,8 +193,7 @@ class KindComparison {
       const auto k = static_cast<Eigen::Index>(axis);
       if (!original_.words[axis] || !found.words[axis] || original_.fixed[axis]) continue;
       double shift = found.end_mm[k] - original_.end_mm[k];
-      if (is_relative(original_, axis) && is_relative(found, axis))
-        shift -= start[k] - original_.start_mm[k];
+      if (is_relative(original_, axis) && is_relative(found, axis)) shift -= start[k] - original_.start_mm[k];
       compare_shift(found, std::string(1, "XYZ"[axis]), shift);
     }
   }
@@ -189,26 +202,28 @@ class KindComparison {
   void compare_cycle(const Move& found) {
     const CycleMove &wanted = *original_.cycle, &cycle = *found.cycle;
     const double bottom = cycle.bottom_mm - wanted.bottom_mm, retract = cycle.retract_mm - wanted.retract_mm;
-    if (wanted.retract_word && !cycle.retract_word) return fail(found, "the R of the original's hole is missing");
+    if (wanted.retract_word && !cycle.retract_word)
+      return fail(found, "the R of the original's hole is missing");
     compare_shift(found, "the bottom of the hole", bottom);
     if (!failure_) compare_shift(found, "the retract plane R", retract);
     const bool both = wanted.retract_word && wanted.bottom_word && cycle.bottom_word;
     if (!failure_ && both && std::abs(retract - bottom) > tolerance_mm_ + roundings * rounding_mm_)
-      fail(found, fmt::format("the retract plane R is shifted by {:.4f} mm, the bottom of the hole by {:.4f} mm",
-                              retract, bottom));
+      fail(found,
+           fmt::format("the retract plane R is shifted by {:.4f} mm, the bottom of the hole by {:.4f} mm",
+                       retract, bottom));
   }
 
   void compare_shift(const Move& found, const std::string& what, double shift) {
     if (std::abs(shift) > most_shift_mm_ + roundings * rounding_mm_)
-      fail(found, fmt::format("{} is shifted by {:.4f} mm, the limit of a correction is {:.4f} mm", what, shift,
-                              most_shift_mm_));
+      fail(found, fmt::format("{} is shifted by {:.4f} mm, the limit of a correction is {:.4f} mm", what,
+                              shift, most_shift_mm_));
   }
 
   const MatchedMoves& matched_;
   const Move& original_;
   const double rounding_mm_, tolerance_mm_, most_shift_mm_;
   std::optional<Vector3> centre_mm_{};  // of the first piece of a contour's arc
-  double sweep_ = 0;  // of the arcs and chords so far
+  double sweep_ = 0;                    // of the arcs and chords so far
   std::optional<Failure> failure_;
 };
 

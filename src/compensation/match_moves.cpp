@@ -38,7 +38,8 @@ bool may_go_on(const Move& original, const std::string& words, const CorrectedMo
 
 std::size_t most_moves(const Move& original, bool has_segment) {
   if (!has_segment || original.handling == Handling::held || original.cycle) return 1;
-  if (original.motion == Motion::feed && (original.may_split || changes_height_inside(original))) return std::numeric_limits<std::size_t>::max();
+  if (original.motion == Motion::feed && (original.may_split || changes_height_inside(original)))
+    return std::numeric_limits<std::size_t>::max();
   return original.may_jump || original.may_position ? 2 : 1;
 }
 
@@ -67,8 +68,8 @@ std::size_t MoveFinder::count(const Move& original, std::optional<std::size_t> s
   const Curve curve = curve_of(original);
   const double length_mm = length(curve);
   double slack_mm = 2 * job_.options.max_correction / mm;
-  // Every turn of a circle ends at the same place. An angle tells them apart, also where corrections are larger than
-  // the radius.
+  // Every turn of a circle ends at the same place. An angle tells them apart, also where corrections are
+  // larger than the radius.
   Arc axis;
   if (curve.arc) {
     axis = *curve.arc;
@@ -151,14 +152,16 @@ std::optional<Failure> words_failure(const Job& job, const MatchedMoves& matched
     if (words != wanted && !plain)
       return fail(found, "an inserted block may hold motion, axes and the feed that acts, nothing else");
     if (!is_numbered_rightly(move, &found == &matched.found.front()))
-      return fail(found,
-                  "the N of a block belongs to its first piece, and other pieces of a block without N have none");
+      return fail(
+          found,
+          "the N of a block belongs to its first piece, and other pieces of a block without N have none");
     if (!same_feed)
       return fail(found, fmt::format("the feed is {:g} mm/min here, in the original {:g} mm/min",
                                      move.feed_mm_min, original.feed_mm_min));
   }
   if (own_blocks == 0 || (own_blocks > 1 && !is_plain(wanted)))
-    return fail(matched.found.back(), "the words of the original's block stand in no block here, or in several");
+    return fail(matched.found.back(),
+                "the words of the original's block stand in no block here, or in several");
   return std::nullopt;
 }
 

@@ -5,8 +5,9 @@
 #include <numbers>
 
 #include "arc_angles.hpp"
+#include "commands.hpp"
 #include "counterflex/compensation/compensate.hpp"
-#include "emit.hpp"
+#include "solver.hpp"
 
 namespace counterflex {
 namespace {
@@ -47,8 +48,8 @@ void PieceMaker::read_ways(const MatchedMoves& matched) {
   steps_.back().settled = true;
 }
 
-// Points that were inserted where the plan has a knot belong to its fraction. Where the force steps, one move ends on
-// this side of the step and the next one on the other.
+// Points that were inserted where the plan has a knot belong to its fraction. Where the force steps, one move
+// ends on this side of the step and the next one on the other.
 void PieceMaker::find_knots(std::span<const Knot> knots) {
   std::size_t next = 0;  // step
   const Knot* last = nullptr;
@@ -132,7 +133,8 @@ void PieceMaker::add(const MatchedMoves& matched, std::vector<DraftPiece>& piece
                          .commanded = step.way,
                          .end_only = !segment.cutting,
                          .exempt = !own || !original.may_split,
-                         .exempt_end = !own || !takes_all_words(original) || (original.corners && &step != &steps_.back())},
+                         .exempt_end = !own || !takes_all_words(original) ||
+                                       (original.corners && &step != &steps_.back())},
                         step.settled});
     u0 = step.u;
   }
@@ -141,19 +143,24 @@ void PieceMaker::add(const MatchedMoves& matched, std::vector<DraftPiece>& piece
 namespace {
 
 // Moves the ends of the pieces in `open` to where they put the tip; whether none has moved far.
-bool refine(const Job& job, const NominalTrack& track, const std::vector<std::size_t>& open,
+bool refine(const Job& job, PlaceSolver& solver, const std::vector<std::size_t>& open,
             std::vector<DraftPiece>& drafts) {
-  std::vector<Piece> pieces;
-  pieces.reserve(open.size());
-  for (const std::size_t i : open) pieces.push_back(drafts[i].piece);
-  const ForwardRun run = solve_forward_from(
-      job, track, pieces, {.before = false, .attribution = false, .inside = false}, std::nullopt);
-  if (run.failure) return true;  // found again where the pieces are solved
+  std::vector<ForwardRequest> requests;
+  std::vector<ForwardAnswer> answers(open.size());
+  for (const std::size_t i : open) {
+    const Piece& piece = drafts[i].piece;
+    const Model& model = model_of(job, job.path.segments[piece.segment]);
+    requests.push_back({&model, piece.commanded.end, job.forces.at(piece.segment, piece.u1, Side::before)});
+  }
+  solver.forwards(requests, answers);
+  const auto fails = [](const ForwardAnswer& answer) { return answer.status != Status::converged; };
+  if (std::ranges::any_of(answers, fails)) return true;  // found again where the pieces are solved
   double largest = 0;
   for (std::size_t k = 0; k < open.size(); ++k) {
     Piece &piece = drafts[open[k]].piece, &next = drafts[open[k] + 1].piece;
-    const double whole = length(job.path.segments[piece.segment].wanted);
-    const double step = run.waypoints[k].after.head<3>().dot(run.waypoints[k].direction);
+    const Curve& wanted = job.path.segments[piece.segment].wanted;
+    const Vector3 miss = answers[k].X_MT.p - point_at(wanted, piece.u1);
+    const double whole = length(wanted), step = miss.dot(direction_at(wanted, piece.u1));
     const double u = std::clamp(piece.u1 + step / whole, 0.0, inner_end);
     largest = std::max(largest, std::abs(u - piece.u1) * whole);
     piece.u1 = next.u0 = u;
@@ -170,12 +177,13 @@ bool is_jump(const Job& job, const Piece& piece) {
 
 }  // namespace
 
-std::vector<Piece> refined(const Job& job, const NominalTrack& track, std::vector<DraftPiece> drafts) {
+std::vector<Piece> refined(const Job& job, std::vector<DraftPiece> drafts) {
   std::vector<std::size_t> open;
   for (std::size_t i = 0; i < drafts.size(); ++i)
     if (!drafts[i].settled) open.push_back(i);
+  PlaceSolver solver(job);
   for (int k = 0; k < most_refinements && !open.empty(); ++k)
-    if (refine(job, track, open, drafts)) break;
+    if (refine(job, solver, open, drafts)) break;
   std::vector<Piece> pieces;
   pieces.reserve(drafts.size());
   std::optional<double> u0;  // where the piece after a jump begins

@@ -10,10 +10,9 @@ struct DraftPiece {
   bool settled = true;
 };
 
-/// Makes pieces of matched moves. A point inside a segment that stands within the tolerance of a knot of the plan has the
-/// knot's fraction. Any other gets the fraction to which it projects: on a line
-/// along it, on an arc by its angle about the centre, over all turns; no error of a fraction reaches the next
-/// one.
+/// Makes pieces of matched moves. A point inside a segment that stands within the tolerance of a knot of the
+/// plan has the knot's fraction. Any other gets the fraction to which it projects: on a line along it, on an
+/// arc by its angle about the centre, over all turns; no error of a fraction reaches the next one.
 class PieceMaker {
  public:
   PieceMaker(const Job& job, const PlannedWays& ways) : job_(job), ways_(ways) {}
@@ -46,6 +45,6 @@ class PieceMaker {
 /// An inserted point stands where it puts the tip: its fraction is that of the tip's place along the segment,
 /// found from the projected one by Newton's method. A jump of the correction at the start of a segment, and
 /// what goes backwards, gives no piece: what follows begins where it ends, and is judged from there on.
-std::vector<Piece> refined(const Job& job, const NominalTrack& track, std::vector<DraftPiece> drafts);
+std::vector<Piece> refined(const Job& job, std::vector<DraftPiece> drafts);
 
 }  // namespace counterflex

@@ -1,12 +1,9 @@
 #pragma once
 /// What should be commanded along every segment: targets at knots, before they are rounded and written.
+#include "counterflex/compensation/options.hpp"
 #include "curve.hpp"
-#include "track.hpp"
 
 namespace counterflex {
-
-inline constexpr double least_share =
-    0.02;  ///< of the tolerance: what rounding must leave of it where points are inserted
 
 struct Knot {
   double u = 1;                      ///< fraction of the segment
@@ -29,20 +26,16 @@ struct PlannedSegment {
 
 struct Plan {
   std::vector<PlannedSegment> segments;
-  std::optional<Failure> failure;
+  std::optional<Failure> failure;  ///< the first along the path
 };
-
-/// By how much the words of a move as read, and positions that it does not repeat, may be rounded: half of the last digit times sqrt 3 (m).
-double rounding_as_read(const Move& move);
-
-/// The failure of a move's words that are rounded too much for the tolerance.
-Failure few_decimals_failure(const Move& move, const CompensationOptions& options);
 
 /// What must be left of the tolerance of a segment for corrections between points (m); nothing where rounding
 /// to the digits takes it all.
 std::optional<double> room_between_points(const Job& job, const Segment& segment, double gain);
 
-/// Plans all segments that are corrected on their own or in a group, in parallel over chunks.
-Plan plan(const Job& job, const NominalTrack& track);
+/// Plans all segments that are corrected on their own or in a group. A line that bends little, by the bound
+/// of its cell, is planned by its ends. Other lines and arcs are sampled between their corners until a
+/// polynomial predicts them.
+Plan plan(const Job& job);
 
 }  // namespace counterflex

@@ -30,9 +30,8 @@ std::string parts_of(const Travel& axis, const CommandedPlace& at, double value,
   const double offset = at.frame.X_MW.p[i], tool = (at.model.home.X_MP.p - X_MT_home.p)[i];
   const double rest = value - at.target[i] - tool;
   const char letter = "XYZ"[c];
-  std::string text = at.frame.name.empty()
-                         ? ""
-                         : with_sign(offset, fmt::format("{} {}", at.frame.name, letter), true);
+  std::string text =
+      at.frame.name.empty() ? "" : with_sign(offset, fmt::format("{} {}", at.frame.name, letter), true);
   text += with_sign(at.target[i] - offset, fmt::format("program {}", letter), text.empty());
   if (std::abs(tool) > same)
     text += with_sign(tool, at.tool > 0 ? fmt::format("tool T{}", at.tool) : "[tool]", false);
@@ -54,9 +53,10 @@ std::string outside_travel_words(const Mechanism& named, const CommandedPlace& a
   const double home = actuator_values(mechanism, at.model.home)[static_cast<Eigen::Index>(axis->actuator)];
   const std::string parts = parts_of(travel, at, axis->value, home);
   const bool linear = travel.kind == JointKind::prismatic;
-  return fmt::format("{}{}{}; check the work offset (--work, [work]), the tool's length, and {} of the machine file",
-                     outside_travel_words(travel, axis->value), parts.empty() ? "" : ": ", parts,
-                     linear ? "min_mm and max_mm" : "min_deg and max_deg");
+  return fmt::format(
+      "{}{}{}; check the work offset (--work, [work]), the tool's length, and {} of the machine file",
+      outside_travel_words(travel, axis->value), parts.empty() ? "" : ": ", parts,
+      linear ? "min_mm and max_mm" : "min_deg and max_deg");
 }
 
 }  // namespace counterflex

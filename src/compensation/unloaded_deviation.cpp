@@ -1,8 +1,8 @@
 #include "counterflex/compensation/unloaded_deviation.hpp"
 
-#include "counterflex/compensation/options.hpp"
 #include "counterflex/geometry/units.hpp"
 #include "counterflex/toolpath/toolpath.hpp"
+#include "solver.hpp"
 
 namespace counterflex {
 
@@ -37,25 +37,27 @@ std::span<const PathPlace> PathPlaces::of(const std::string& offset) const {
   return found == offsets_.end() ? std::span<const PathPlace>{} : std::span(found->second.places);
 }
 
-UnloadedDeviation unloaded_deviation(const Model& model, NominalToolPath& nominal, const Vector3& p_MT) {
-  const Status reached = nominal.go_to(model, p_MT);
-  if (reached != Status::converged) return {reached};
-  StaticsWork work(model.mechanism);
-  const Equilibrium actual = solve_forward(model, nominal.configuration(), Load{}, Stage{}, work);
-  if (actual.status != Status::converged) return {actual.status};
-  return {Status::converged,
-          tip(model.mechanism, actual.configuration).p - tip(model.mechanism, nominal.configuration()).p};
+UnloadedDeviation unloaded_deviation(const Model& model, const Vector3& p_MT, const StartTables* starts) {
+  PlaceSolver solver(starts, false);
+  const TipPosition place{&model, p_MT};
+  const ForwardRequest request{&model, p_MT};
+  WantedPose wanted;
+  ForwardAnswer actual;
+  solver.wanted({&place, 1}, {&wanted, 1});
+  if (wanted.status == Status::converged) solver.forwards({&request, 1}, {&actual, 1});
+  const Status status = wanted.status == Status::converged ? actual.status : wanted.status;
+  if (status != Status::converged) return {status};
+  return {status, actual.X_MT.p - wanted.X_MT.p};
 }
 
 std::optional<Vector3> common_shift(const Model& model, const ToolModels& tools, const Pose& X_MW,
-                                    std::span<const PathPlace> places) {
-  NominalToolPath nominal(home_of(model));
+                                    std::span<const PathPlace> places, const StartTables* starts) {
   Vector3 sum = Vector3::Zero();
   int solved = 0;
   for (const PathPlace& place : places) {
     const UnloadedDeviation here =
-        unloaded_deviation(model_with(model, &tools, place.tool), nominal, X_MW * Vector3(place.p_mm * mm));
-    if (here.status != Status::converged) break;  // a run ends there, too; each further place would be tried for long
+        unloaded_deviation(model_with(model, &tools, place.tool), X_MW * Vector3(place.p_mm * mm), starts);
+    if (here.status != Status::converged) break;  // a run ends there, too; each further place takes long
     sum += here.d;
     ++solved;
   }

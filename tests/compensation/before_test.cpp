@@ -45,7 +45,7 @@ void check_same_places(const std::vector<MeasuredPlace>& expected, const std::ve
 void check_runs_agree_before(const Order& order) {
   const Shop shop(order);
   const ForwardRun predicted =
-      solve_forward_along(shop.job(), original_pieces(shop.job()), {.inside = false});
+      solve_pieces(shop.job(), original_pieces(shop.job()), {.inside = false});
   REQUIRE(!predicted.failure);
   const Compensation verified = judged(shop, order.text);
   const std::vector<MeasuredPlace> expected = measured_places(predicted.waypoints);

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include "compensation/window_run.hpp"
-#include "counterflex/compensation/for_each_window.hpp"
 
 using namespace counterflex;
 using namespace counterflex::test;
@@ -44,6 +43,7 @@ std::string failure_of(const Order& order, WindowRun& run) {
 
 TEST_CASE("windows give the same bytes and numbers on any number of threads") {
   Order order = cuts(300);
+  order.in_batches = false;
   const WindowRun one = in_windows(order, 8);
   CHECK_FALSE(one.failure);
   CHECK(one.windows > 20);
@@ -59,7 +59,6 @@ TEST_CASE("windows whose waypoints are solved side by side give the same bytes o
     CAPTURE(machine);
     Order order = cuts(600);
     order.machine = load_machine(machine);
-    order.in_batches = true;
     const WindowRun one = in_windows(order, 280);
     CHECK_FALSE(one.failure);
     CHECK(one.windows >= 2);

@@ -9,7 +9,7 @@ namespace {
 /// The largest deviation (m) that `tolerance_failure` judges of pieces that command as they are given.
 double inside_of(const Shop& shop, const std::vector<Piece>& pieces) {
   const ForwardRun run =
-      solve_forward_along(shop.job(), pieces, {.before = false, .attribution = false, .inside = true});
+      solve_pieces(shop.job(), pieces, {.before = false, .attribution = false, .inside = true});
   if (run.failure) FAIL(run.failure->what);
   double largest = 0;
   for (const Waypoint& w : run.waypoints) largest = std::max(largest, w.after.head<3>().norm());
@@ -73,7 +73,7 @@ TEST_CASE("a narrow spike of the force inside a long block is found") {
   CHECK(largest > 28e-6);
   CHECK(inside_of(shop, pieces) > 0.99 * largest);
   CHECK(tolerance_failure(
-      shop.job(), solve_forward_along(shop.job(), pieces, {.before = false, .inside = true}).waypoints));
+      shop.job(), solve_pieces(shop.job(), pieces, {.before = false, .inside = true}).waypoints));
 }
 
 TEST_CASE("a spike inside one of many short blocks is found") {
@@ -104,13 +104,14 @@ TEST_CASE("a hump of the force between the samples of a long block is found by c
   CHECK(inside_of(shop, pieces) > 0.9 * largest);
 }
 
-TEST_CASE("every feed piece is sampled in its own middle, arcs every 11.25 degrees on all of their turns") {
+TEST_CASE("without bounds every feed piece is sampled in its own middle, arcs every 11.25 degrees on all of their turns") {
   const Shop shop({.machine = perfect_gantry(),
                    .text =
                        "G21 G90 G17\nG0 X10 Y0 Z0\nG1 X10.5 F600\nX11\nX11.5\nX12\nG3 X12 Y0 Z-2 I-12 J0 P6\n"
-                       "G3 X0 Y12 I-12 J0\nM30\n"});
+                       "G3 X0 Y12 I-12 J0\nM30\n",
+                   .in_batches = false});
   const std::vector<Piece> pieces = right_at_ends(shop);
-  const ForwardRun run = solve_forward_along(shop.job(), pieces, {});
+  const ForwardRun run = solve_pieces(shop.job(), pieces, {});
   REQUIRE(!run.failure);
   for (const Piece& piece : pieces) {
     if (piece.end_only) continue;
@@ -159,7 +160,7 @@ TEST_CASE("short blocks under a force of their own each are followed within the 
   }
   ForceSource force;
   force.rules = read_force_csv(rows, "forces.csv");
-  const Shop shop({.machine = load_machine(orthoglide_b), .text = text + "M30\n", .force = force, .in_batches = true});
+  const Shop shop({.machine = load_machine(orthoglide_b), .text = text + "M30\n", .force = force});
   const Compensation result = compensated(shop);
   const Miss miss = dense_miss(shop, result, 7);
   CAPTURE(miss.line);

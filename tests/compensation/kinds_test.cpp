@@ -144,8 +144,7 @@ TEST_CASE("narrow helices of many turns are verified as they were written") {
     force.blend = blend;
     const Shop shop({.machine = load_machine(orthoglide_b),
                      .text = "G21 G90 G17\nG0 X0 Y0 Z5\nG1 Z-1 F300\n" + arc + "\nG1 X11.756\nM30\n",
-                     .force = force,
-                     .in_batches = true});
+                     .force = force});
     CHECK(refusal_of(shop, compensated(shop).text) == "");
   };
   written_and_verified(5e-4, "G3 X0 Y0 Z-1.5 I0.081 J0.183 P33");

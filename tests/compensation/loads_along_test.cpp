@@ -198,7 +198,7 @@ TEST_CASE("loads are the same to the last bit for any number of threads" * docte
   const Job job = shop.job();
   LoadPlaces places;
   places.add(
-      job, solve_forward_along(job, original_pieces(job), {.attribution = true, .inside = false}).waypoints);
+      job, solve_pieces(job, original_pieces(job), {.attribution = true, .inside = false}).waypoints);
   REQUIRE(places.places().size() > 600);  // several chunks
   const LoadsAlong one = solve_loads(shop.model, places.places(), 1);
   CHECK(one.unsolved == 0);

@@ -6,7 +6,6 @@
 #include <string>
 
 #include "counterflex/compensation/compensate.hpp"
-#include "counterflex/compensation/verify_windows.hpp"
 #include "counterflex/files/files.hpp"
 #include "counterflex/geometry/units.hpp"
 #include "counterflex/machine/read_machine.hpp"
@@ -52,7 +51,7 @@ struct Order {
   Vector3 datum_shift = Vector3::Zero();
   std::array<bool, 3> ignored{};  ///< program axes that the machine does not control
   ReadOptions read{};
-  bool in_batches = false;  ///< waypoints side by side
+  bool in_batches = true;  ///< else every waypoint is solved by itself
 };
 
 /// Keeps alive what a job borrows.

@@ -5,7 +5,7 @@
 #include "counterflex/geometry/units.hpp"
 #include "counterflex/machine/read_machine.hpp"
 #include "support/reference_data.hpp"
-#include "waypoint_solver.hpp"
+#include "solver.hpp"
 
 using namespace counterflex;
 using namespace counterflex::test;
@@ -33,26 +33,31 @@ Load cut(int i) {
   return load;
 }
 
-/// Each target in a batch is the one that a solver finds which has been asked for nothing before.
+/// Each target in a batch is, to the last bit, the one that a solver finds which has been asked for nothing before: one by one,
+/// and by the kernel.
 void check_order(const Machine& machine, const Block& block) {
   CAPTURE(machine.name);
   const Model model = prepare(machine);
   const Program program = read_program("G21 G90\nG0 X0 Y0 Z0\nG1 X1 F600\nM30\n", "made.ngc", {});
   const Toolpath path = build_toolpath(program, one_frame(program, {}));
   const PathForces forces({}, program, path, {tip(model.mechanism, model.home).R});
-  const Job job{model, program, path, forces, {}, {}};
-  std::vector<TargetRequest> requests;
-  for (int i = 0; i < asked; ++i) requests.push_back({place(block, i), cut(i)});
-  std::vector<TargetSolution> together(asked);
-  WaypointSolver(job, model, model.home).targets(requests, together);
-  for (int i = 0; i < asked; ++i) {
-    CAPTURE(requests[i].p_MT.transpose());
-    CAPTURE(requests[i].load.F.transpose());
-    TargetSolution alone;
-    WaypointSolver(job, model, model.home).targets({&requests[i], 1}, {&alone, 1});
-    CHECK(to_string(together[i].status) == "converged");
-    CHECK(to_string(alone.status) == "converged");
-    CHECK((together[i].target - alone.target).norm() < 1e-9);
+  const StartTables starts;
+  for (const StartTables* tables : {static_cast<const StartTables*>(nullptr), &starts}) {
+    CAPTURE(tables != nullptr);
+    const Job job{.model = model, .program = program, .path = path, .forces = forces, .starts = tables};
+    std::vector<TargetRequest> requests;
+    for (int i = 0; i < asked; ++i) requests.push_back({&model, place(block, i), cut(i).F});
+    std::vector<TargetAnswer> together(asked);
+    PlaceSolver(job).targets(requests, together);
+    for (int i = 0; i < asked; ++i) {
+      CAPTURE(requests[i].p_MT.transpose());
+      CAPTURE(requests[i].F.transpose());
+      TargetAnswer alone;
+      PlaceSolver(job).targets({&requests[i], 1}, {&alone, 1});
+      CHECK(to_string(together[i].status) == "converged");
+      CHECK(to_string(alone.status) == "converged");
+      CHECK(together[i].target == alone.target);
+    }
   }
 }
 

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "compensation/shop.hpp"
-#include "counterflex/compensation/compensate_windows.hpp"
+#include "counterflex/compensation/windows.hpp"
 
 namespace counterflex::test {
 

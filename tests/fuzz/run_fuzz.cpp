@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "counterflex/compensation/compensate.hpp"
-#include "counterflex/compensation/verify_windows.hpp"
 #include "counterflex/machine/read_machine.hpp"
 #include "dialects.hpp"
 #include "fuzz.hpp"

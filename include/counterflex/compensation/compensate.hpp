@@ -1,8 +1,6 @@
 #pragma once
-/// Compensates a program: plans the correction of every move, writes the text, reads it back and solves it
-/// forward.
-#include <memory>
-
+/// Compensates a program that is one window, or verifies one: plans the correction of every move, writes the
+/// text, reads it back and solves it forward.
 #include "counterflex/compensation/waypoint.hpp"
 #include "counterflex/program/program_reader.hpp"
 
@@ -13,14 +11,16 @@ struct OtherMoves {
   std::size_t grouped = 0;  ///< with their contour, by one motion in its plane
   std::size_t held = 0;     ///< they keep the correction with which they are entered
   std::size_t in_part = 0;  ///< in some axes, or without their force
-  std::size_t left = 0;     ///< they stay as they are
+  std::size_t left = 0;     ///< they are not changed
 };
 
+/// What comes of a window. A failure has exit status, line and what happened: not solved or not within
+/// tolerance 5, travel or correction limit 6, too few decimals 2.
 struct Compensation {
   std::optional<Failure> failure;   ///< then `text` must not be written
   std::string text;                 ///< the corrected program
-  Program corrected;                ///< `text`, read anew
-  std::vector<Waypoint> waypoints;  ///< of the emitted, rounded text, read anew
+  Program corrected;                ///< `text`, read again
+  std::vector<Waypoint> waypoints;  ///< of the emitted, rounded text; of windows that are not given out
   std::vector<LeftAlone>
       left_alone;    ///< what the plan could not correct or split, besides the program's own list
   Rewritten counts;  ///< its text is moved to `text`
@@ -30,27 +30,12 @@ struct Compensation {
   int largest_correction_line = 0;
 };
 
-/// Compensates a program window by window: what `counterflex compensate` does between reading and writing.
-class Compensator {
- public:
-  /// `corrected` reads the text that is written. With `attribution` each waypoint's deviation is split into
-  /// its sources.
-  Compensator(const WriteOptions& write, TextReader corrected, bool attribution);
-  ~Compensator();
-  Compensator(Compensator&&) noexcept;
-
-  /// The next window: `job` holds its program, path and forces. A failure says exit status, line and what
-  /// happened: not solved or not within tolerance 5, travel or correction limit 6, too few decimals 2; the
-  /// windows behind it cannot be compensated then.
-  Compensation next(const Job& job);
-
- private:
-  struct State;
-  std::unique_ptr<State> state_;
-};
-
-/// Compensates a program that is one window.
+/// With `attribution` each waypoint's deviation is split into its causes.
 Compensation compensate(const Job& job, bool attribution);
+
+/// Judges `corrected` by its text alone: matches it with the original and solves it forward. Only failure and
+/// waypoints are set.
+Compensation verify(const Job& job, const Program& corrected, bool attribution);
 
 /// The failure of words that are written too coarsely for the tolerance (Exit::usage), if there are any.
 std::optional<Failure> decimals_failure(const Program& program, const Toolpath& path,
@@ -59,11 +44,11 @@ std::optional<Failure> decimals_failure(const Program& program, const Toolpath& 
 /// The controlled part of a waypoint's `after`: what the tolerance applies to (m).
 double position_miss(const Job& job, const Waypoint& w);
 
-/// The first waypoint that misses the tolerance in a move that the plan corrects (not `exempt`), in words.
+/// The failure of the first waypoint that misses the tolerance in a move that the plan corrects (not
+/// `exempt`).
 std::optional<Failure> tolerance_failure(const Job& job, const std::vector<Waypoint>& waypoints);
 
-/// A line of the report: what is left of a tolerance when words are rounded to their digits, half the last
-/// one times sqrt 3 (m).
+/// What is left of a tolerance when words are rounded to their digits: half of the last one times sqrt 3 (m).
 double rounding_allowance(const Move& move, const WriteOptions& options);
 
 }  // namespace counterflex

@@ -59,8 +59,9 @@ struct LoadsAlong {
   std::size_t unsolved = 0;          ///< places besides them that were not solved
 };
 
-/// The machine's loads with everything acting, followed from its nominal configuration at every place.
-/// `base`: the machine without a tool that makes it another one. What comes out does not depend on `threads`.
-LoadsAlong solve_loads(const Model& base, const std::vector<LoadPlace>& places, int threads);
+/// The machine's loads with everything acting. `base`: the machine without a tool that makes it another one.
+/// `starts`: as for a job. The result does not depend on `threads`.
+LoadsAlong solve_loads(const Model& base, const std::vector<LoadPlace>& places, int threads,
+                       const StartTables* starts = nullptr);
 
 }  // namespace counterflex

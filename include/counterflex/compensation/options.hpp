@@ -25,6 +25,12 @@ struct CompensationOptions {
   WriteOptions write;
 };
 
+/// A position of the nominal tip (M, m) on a machine.
+struct TipPosition {
+  const Model* model = nullptr;
+  Vector3 p_MT = Vector3::Zero();
+};
+
 /// One program on one machine. Borrowed: everything outlives the job.
 struct Job {
   const Model& model;
@@ -33,8 +39,9 @@ struct Job {
   const PathForces& forces;
   CompensationOptions options;
   ReadOptions read;  ///< with which the program was read: its corrected text is read anew in the same way
-  const ToolModels* tools = nullptr;  ///< of tools that make the machine another one; none: `model` is all
+  const ToolModels* tools = nullptr;    ///< of tools that make the machine another one; none: `model` is all
   const StartTables* starts = nullptr;  ///< of the kernel; none: waypoints are solved one by one
+  std::optional<TipPosition> from{};    ///< of a window: where the path before it ended
 };
 
 /// The machine with tool number `tool` in its spindle.

@@ -9,10 +9,10 @@ namespace counterflex {
 
 /// A position that is commanded, and what puts it there. Borrowed: everything outlives it.
 struct CommandedPlace {
-  const Model& model;       ///< with the tool in the spindle
-  const WorkFrame& frame;   ///< of the move
-  long tool = 0;            ///< its number; 0: none known
-  Vector3 target;           ///< in M (m)
+  const Model& model;      ///< with the tool in the spindle
+  const WorkFrame& frame;  ///< of the move
+  long tool = 0;           ///< its number; 0: none known
+  Vector3 target;          ///< in M (m)
 };
 
 /// "axis Z: 138.0 mm is outside its travel (-300 to 0 mm): ...", with the parts that make up the value where

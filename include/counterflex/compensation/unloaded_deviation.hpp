@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "counterflex/program/program.hpp"
-#include "counterflex/statics/equilibrium.hpp"
+#include "counterflex/statics/batch_solver.hpp"
 #include "counterflex/statics/tool_models.hpp"
 
 namespace counterflex {
@@ -26,8 +26,8 @@ class PathPlaces {
  public:
   static constexpr std::size_t most = 64;
 
-  /// The next window of the program. Moves whose start or end is not known, or whose offset the program sets, are
-  /// passed over.
+  /// The next window of the program. Moves whose start or end is not known, or whose offset the program sets,
+  /// are passed over.
   void add(const Program& window);
 
   /// Of the work offset of that name.
@@ -50,13 +50,14 @@ struct UnloadedDeviation {
   Vector3 d = Vector3::Zero();
 };
 
-/// At `p_MT` (M), the nominal machine reached from where `nominal` is, which goes there.
-UnloadedDeviation unloaded_deviation(const Model& model, NominalToolPath& nominal, const Vector3& p_MT);
+/// At `p_MT` (M, m). `starts`: as for a job.
+UnloadedDeviation unloaded_deviation(const Model& model, const Vector3& p_MT,
+                                     const StartTables* starts = nullptr);
 
-/// The mean over `places` of the offset at `X_MW`: the common shift of a path that the
-/// errors and the weights of the machine cause. Up to the first place that the machine does not reach; none:
-/// it does not reach the first one.
+/// The mean over `places` of the offset at `X_MW`: the common shift of a path that the errors and the weights
+/// of the machine cause. Up to the first place that the machine does not reach; nothing if it does not reach
+/// the first one.
 std::optional<Vector3> common_shift(const Model& model, const ToolModels& tools, const Pose& X_MW,
-                                    std::span<const PathPlace> places);
+                                    std::span<const PathPlace> places, const StartTables* starts = nullptr);
 
 }  // namespace counterflex

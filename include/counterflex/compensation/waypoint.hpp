@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "counterflex/compensation/options.hpp"
@@ -19,7 +20,7 @@ inline constexpr std::size_t no_segment = static_cast<std::size_t>(-1);
 struct Piece {
   std::size_t segment =
       0;         ///< index into Toolpath::segments; no_segment for a position reached from an unknown one
-  int line = 0;            ///< of the original program
+  int line = 0;  ///< of the original program
   int corrected_line = 0;  ///< of the corrected one; 0: none
   double u0 = 0, u1 = 1;
   std::size_t frame = 0;  ///< index into Toolpath::frames
@@ -100,38 +101,34 @@ struct ForwardRun {
 };
 
 /// Solves the machine forward along `pieces` (guarantee 2 of DESIGN): every end, and samples inside feed
-/// pieces.
+/// pieces. `command`: where the piece before them ended (M, m).
 ///
-/// The places of the original path are the ends of its segments, the starts of feed runs (see PathForces) and,
-/// along feed moves, the corners of the force and equal steps of at most 5 mm (a 64th of a longer move) and 22.5 degrees of an arc, on all of its
-/// turns. They do not depend on the pieces. `before` and its causes count there: all runs over one program
-/// agree on them.
+/// The places of the original path are the ends of its segments, the starts of feed runs (see PathForces)
+/// and, along feed moves, the corners of the force and equal steps of at most 5 mm (a 64th of a longer move)
+/// and 22.5 degrees of an arc, on all of its turns. They do not depend on the pieces. `before` and its causes
+/// count there: all runs over one program agree on them.
 ///
-/// A feed piece is sampled at the places inside it and in the middle between neighbouring places: a short
-/// line in its middle, an arc at least every 11.25 degrees. No piece is inferred from its neighbours. Where
-/// the middle is off the line between the deviations beside it by more than a tenth of the tolerance, or
-/// where less than a fifth of the tolerance is left, the odd sixteenths between the two places are sampled,
-/// too.
+/// A feed piece is sampled at the places inside it. Between neighbouring places of a line the deviation is at
+/// most that at the larger of both, and what the tip bends by the bound of its cell. If that is within 0.8 of
+/// the tolerance, nothing is solved between them. Otherwise the middle is sampled: a short line in its
+/// middle, an arc at least every 11.25 degrees. Where the middle is off the line between the deviations
+/// beside it by more than a tenth of the tolerance, or where less than a fifth of the tolerance is left, the
+/// odd sixteenths between the two places are sampled, too. No piece is inferred from its neighbours.
 ///
-/// Parallel over chunks of fixed size, so that results do not depend on Job's threads. What differs from the
-/// wanted path is a matter for the caller; only a status other than converged is a failure here.
-ForwardRun solve_forward_along(const Job& job, const std::vector<Piece>& pieces, const Questions& questions);
+/// What differs from the wanted path is a matter for the caller; only a status other than converged is a
+/// failure here.
+ForwardRun solve_pieces(const Job& job, std::span<const Piece> pieces, const Questions& questions,
+                        const std::optional<Vector3>& command = {});
 
-/// What solving forward carries from one window of a program to the next.
-struct ForwardState {
-  std::optional<NominalPlace> nominal;  ///< none: home
-  std::optional<Vector3> command;       ///< end of the last piece
-};
-
-/// Takes the waypoints of a window in order, in one portion or more.
+/// Takes waypoints in order, in one portion or more.
 using WaypointTaker = std::function<void(std::vector<Waypoint>&&)>;
+
+/// The same for many pieces: gives their waypoints out in portions. Returns the failure of the last waypoint.
+std::optional<Failure> solve_in_portions(const Job& job, std::span<const Piece> pieces,
+                                         const Questions& questions, const std::optional<Vector3>& command,
+                                         const WaypointTaker& take);
 
 /// The pieces of the original program itself, one for each place of its path.
 std::vector<Piece> original_pieces(const Job& job);
-
-/// Solves the original program of one window forward, which gives its waypoints out in portions; moves `state` on.
-/// Returns the failure of the last waypoint.
-std::optional<Failure> solve_original(const Job& job, const Questions& questions, ForwardState& state,
-                                      const WaypointTaker& take);
 
 }  // namespace counterflex

@@ -1,4 +1,4 @@
-#include "chunks.hpp"
+#include "parallel.hpp"
 
 #include <algorithm>
 #include <atomic>
@@ -29,11 +29,6 @@ void for_each_index(std::size_t count, int threads, const std::function<void(std
   run();
   others.clear();
   if (failure) std::rethrow_exception(failure);
-}
-
-void for_each_chunk(std::size_t items, int threads, const std::function<void(const Chunk&)>& work) {
-  for_each_index(chunk_count(items), threads,
-                 [&](std::size_t i) { work({i, i * chunk_size, std::min(items, (i + 1) * chunk_size)}); });
 }
 
 }  // namespace counterflex

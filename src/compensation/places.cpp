@@ -1,4 +1,4 @@
-#include "sample_places.hpp"
+#include "places.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -20,7 +20,8 @@ int steps_along(const Segment& segment) {
   if (!segment.cutting) return 1;
   const double by_length =
       std::clamp(std::ceil((segment.s_end - segment.s_start) / spacing), 1.0, double{most_by_length});
-  const double by_angle = segment.wanted.arc ? std::ceil(segment.wanted.arc->sweep / angle_between_places) : 1.0;
+  const double by_angle =
+      segment.wanted.arc ? std::ceil(segment.wanted.arc->sweep / angle_between_places) : 1.0;
   return static_cast<int>(std::max(by_length, by_angle));
 }
 
@@ -36,6 +37,20 @@ void places_along(const Job& job, std::size_t index, ForceCursor& cursor, std::v
     fractions.erase(std::unique(fractions.begin(), fractions.end(), same), fractions.end());
   }
   fractions.push_back(1);
+}
+
+std::vector<Vector6> force_bends(const Job& job, const ForceStretch& stretch, std::span<const double> corners,
+                                 ForceCursor& cursor) {
+  std::vector<Vector6> bends;
+  const auto add = [&](double u) {
+    const double v = (u - stretch.u0) / (stretch.u1 - stretch.u0);
+    const Vector6 F = job.forces.at(stretch.segment, u, Side::before, cursor);
+    bends.emplace_back(F - (1 - v) * stretch.F0 - v * stretch.F1);
+  };
+  for (const double u : corners) add(u);
+  for (int k = 1; k < 8 && !job.forces.is_linear_between_breaks(); ++k)
+    add(stretch.u0 + k / 8.0 * (stretch.u1 - stretch.u0));
+  return bends;
 }
 
 }  // namespace counterflex

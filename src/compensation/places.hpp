@@ -1,5 +1,6 @@
 #pragma once
 /// Places of the original path. They do not depend on how a text divides it.
+#include <span>
 #include <vector>
 
 #include "counterflex/compensation/options.hpp"
@@ -14,5 +15,17 @@ int steps_along(const Segment& segment);
 /// move) and, around an arc, of at most 22.5 degrees: an arc of many turns has 16 places or more on each of
 /// them.
 void places_along(const Job& job, std::size_t segment, ForceCursor& cursor, std::vector<double>& fractions);
+
+/// A part of a segment between two fractions, and the forces at its ends.
+struct ForceStretch {
+  std::size_t segment = 0;
+  double u0 = 0, u1 = 1;
+  Vector6 F0 = Vector6::Zero(), F1 = Vector6::Zero();
+};
+
+/// By how much the force differs from an even change between the ends of a stretch: at `corners` (fractions
+/// of the segment, inside the stretch) and, where it may curve between them, at its eighths.
+std::vector<Vector6> force_bends(const Job& job, const ForceStretch& stretch, std::span<const double> corners,
+                                 ForceCursor& cursor);
 
 }  // namespace counterflex

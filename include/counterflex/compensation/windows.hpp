@@ -1,0 +1,88 @@
+#pragma once
+/// Programs of any length on a machine, window by window: predict, compensate and verify.
+#include <functional>
+
+#include "counterflex/compensation/compensate.hpp"
+
+namespace counterflex {
+
+/// What all windows of a run have in common. Borrowed: everything outlives it.
+struct RunInput {
+  const Model& model;
+  const std::vector<WorkFrame>& frames;  ///< by index into the program's work offsets, all of them
+  const std::array<bool, 3>& ignored;    ///< program axes that no target needs (`ignore_axes`)
+  const ForceSource& source;
+  const CompensationOptions& options;
+  const ReadOptions& read;
+  const ToolModels* tools = nullptr;    ///< as for a job
+  const StartTables* starts = nullptr;  ///< as for a job
+};
+
+/// A window with its path and forces. It does not change while others are read.
+struct JobWindow {
+  Program program;
+  Toolpath path;
+  std::optional<PathForces> forces;
+  std::optional<TipPosition> from;  ///< as for a job
+};
+
+/// Reads the windows of a run, and carries path and forces from one to the next.
+class JobWindows {
+ public:
+  JobWindows(const RunInput& input, ProgramReader& reader) : input_(input), reader_(reader) {}
+
+  /// Reads the next window, which is as long as its forces need; false at the program's end. The memory of
+  /// `window` is used again. Throws `InputError` as reader and forces do.
+  bool next(JobWindow& window);
+  Job job(const JobWindow& window) const;
+
+ private:
+  void build(JobWindow& window) const;
+
+  const RunInput input_;
+  ProgramReader& reader_;
+  PathEnd path_end_{};
+  ForceTail forces_{};
+  std::optional<TipPosition> tip_{};
+};
+
+/// Functions that are called with the windows of a run, each by one thread at a time.
+struct WindowEvents {
+  /// A window has been read, perhaps while others before it are still being solved. What this throws is
+  /// thrown by the run when all windows before it are done.
+  std::function<void(const Job&)> read;
+  /// In the order of windows, before `solved` and `done`: all windows before it are done.
+  std::function<void(const Job&)> begun;
+  /// Waypoints of the window in order, in one portion or more.
+  std::function<void(const Job&, const std::vector<Waypoint>&)> solved;
+  /// The window is done, or has failed. Its waypoints have been given to `solved`.
+  std::function<void(const Job&, Compensation&)> done;
+};
+
+/// Each of the following takes all windows of a run to the first that fails, and returns its failure. An
+/// `InputError` is thrown when all windows before it are done. Several windows are in progress at once on
+/// `threads` threads. Events, their numbers and bytes do not depend on `threads`. Behind a window that fails
+/// only `read` may be called.
+
+/// Solves the original program forward.
+std::optional<Failure> predict_windows(JobWindows& windows, int threads, const WindowEvents& events);
+
+/// Compensates a program. `corrected` reads the text that is written. With `attribution` each waypoint has
+/// its causes.
+std::optional<Failure> compensate_windows(JobWindows& windows, const CompensationOptions& options,
+                                          TextReader corrected, bool attribution, const WindowEvents& events);
+
+/// Judges a corrected program by its text alone, however many places miss the tolerance: returns the failure
+/// of the first window that cannot be matched or solved, else the first miss of the tolerance. `corrected` is
+/// read to its end.
+std::optional<Failure> verify_windows(JobWindows& windows, int threads, ProgramReader& corrected,
+                                      bool attribution, const WindowEvents& events);
+
+/// Calls `first` and then `behind` for all windows of `reader`, each in their order. With more than one
+/// thread, `behind` looks at a window while the next one is read and `first` looks at that. What `behind`
+/// gets is without remarks and path tolerances (`take_window`). Throws what the reader or either of them
+/// throws.
+void for_each_window(ProgramReader& reader, int threads, const std::function<void(const Program&)>& first,
+                     const std::function<void(const Program&)>& behind);
+
+}  // namespace counterflex

@@ -1,0 +1,117 @@
+#include "attribution.hpp"
+
+#include <algorithm>
+
+namespace counterflex {
+namespace {
+
+// Waypoints, and what has been solved there.
+struct Solved {
+  PlaceSolver& solver;
+  std::span<const ForwardPlace> places;
+  std::span<Waypoint> waypoints;
+};
+
+// One question to the waypoints that `wants`.
+template <typename Wants, typename Request, typename Take>
+void ask(const Solved& at, StopAt stop, const Wants& wants, const Request& request, const Take& take) {
+  std::vector<std::size_t> asked;
+  std::vector<ForwardRequest> requests;
+  for (std::size_t i = 0; i < at.waypoints.size(); ++i) {
+    if (!wants(at.waypoints[i])) continue;
+    asked.push_back(i);
+    requests.push_back(request(at.places[i]));
+  }
+  std::vector<ForwardAnswer> answers(requests.size());
+  at.solver.forwards(requests, answers, stop);
+  for (std::size_t k = 0; k < asked.size(); ++k)
+    take(at.waypoints[asked[k]], at.places[asked[k]], answers[k]);
+}
+
+// The perfect machine is compared with the command: the shift of a datum is a deviation of the real one.
+Pose reference(const ForwardPlace& place, const Stage& stage) {
+  return stage.errors == 0 ? Pose{place.wanted.R, place.original} : place.wanted;
+}
+
+// The deviation under `stage` of a command, where `before` is known.
+template <typename Result>  // Vector6&(Waypoint&)
+void deviations(const Solved& at, Vector3 ForwardPlace::*command, const Stage& stage, const Result& result) {
+  ask(
+      at, StopAt::first_failure, knows_before,
+      [&](const ForwardPlace& place) {
+        return ForwardRequest{place.model, place.*command, place.F, stage};
+      },
+      [&](Waypoint& w, const ForwardPlace& place, const ForwardAnswer& answer) {
+        w.iterations += answer.iterations;
+        if (answer.status == Status::converged)
+          result(w) = deviation(answer.X_MT, reference(place, stage));
+        else if (w.status == Status::converged)
+          w.status = answer.status;
+      });
+}
+
+void add_sources(const Solved& at) {
+  const auto add = [&](Vector3 ForwardPlace::*command, const Stage& stage, Vector6 Causes::*result) {
+    deviations(at, command, stage, [&](Waypoint& w) -> Vector6& { return (*w.causes).*result; });
+  };
+  add(&ForwardPlace::original, {.load = 0, .gravity = 0}, &Causes::geometry);
+  add(&ForwardPlace::original, {.errors = 0, .gravity = 0}, &Causes::load);
+  add(&ForwardPlace::emitted, {.load = 0}, &Causes::air);
+  add(&ForwardPlace::original, {.errors = 0, .load = 0, .gravity = 0}, &Causes::superposition);
+  const auto weighs = [](const ForwardPlace& place) { return has_weight(place.model->mechanism); };
+  const bool weight = std::ranges::any_of(at.places, weighs);
+  if (weight) add(&ForwardPlace::original, {.errors = 0, .load = 0}, &Causes::gravity);
+  for (Waypoint& w : at.waypoints) {
+    if (!knows_before(w)) continue;
+    Causes& c = *w.causes;
+    const Vector6 preloads = c.superposition;  // act in each of the others, too
+    c.geometry -= preloads;
+    c.load -= preloads;
+    if (weight) c.gravity -= preloads;
+    c.superposition = preloads + c.geometry + c.load + c.gravity;
+  }
+}
+
+// The emitted target under another force, where one acts.
+template <typename Wants>
+void add_other_force(const Solved& at, double factor, OtherForce Causes::*result, const Wants& wants) {
+  ask(
+      at, StopAt::end, [&](const Waypoint& w) { return wants(w) && !w.wrench.isZero(0); },
+      [&](const ForwardPlace& place) {
+        return ForwardRequest{place.model, place.emitted, factor * place.F};
+      },
+      [&](Waypoint& w, const ForwardPlace& place, const ForwardAnswer& answer) {
+        OtherForce& other = (*w.causes).*result;
+        other.status = answer.status;
+        if (answer.status == Status::converged) other.deviation = deviation(answer.X_MT, place.wanted);
+      });
+  for (Waypoint& w : at.waypoints)
+    if (wants(w) && w.wrench.isZero(0)) (*w.causes).*result = {w.after, Status::converged};
+}
+
+// Between ends, where only the largest deviation counts, the lower force is taken to do the opposite of the
+// higher one: half of the time for what differs in second order.
+void add_other_forces(const Solved& at) {
+  add_other_force(at, 1 + force_change, &Causes::higher, [](const Waypoint&) { return true; });
+  const auto mirrors = [](const Waypoint& w) {
+    return w.between && w.causes->higher.status == Status::converged;
+  };
+  for (Waypoint& w : at.waypoints)
+    if (mirrors(w)) w.causes->lower.deviation = 2 * w.after - w.causes->higher.deviation;
+  add_other_force(at, 1 - force_change, &Causes::lower, [&](const Waypoint& w) { return !mirrors(w); });
+}
+
+}  // namespace
+
+void add_before(PlaceSolver& solver, std::span<const ForwardPlace> places, std::span<Waypoint> waypoints) {
+  deviations({solver, places, waypoints}, &ForwardPlace::original, {},
+             [](Waypoint& w) -> Vector6& { return w.before; });
+}
+
+void add_causes(PlaceSolver& solver, std::span<const ForwardPlace> places, std::span<Waypoint> waypoints) {
+  for (Waypoint& w : waypoints) w.causes.emplace();
+  add_other_forces({solver, places, waypoints});
+  add_sources({solver, places, waypoints});
+}
+
+}  // namespace counterflex

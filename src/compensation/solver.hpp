@@ -1,0 +1,103 @@
+#pragma once
+/// Solves waypoints of a job. Each answer depends on its own request alone.
+#include <map>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "counterflex/compensation/options.hpp"
+#include "counterflex/statics/equilibrium.hpp"
+
+namespace counterflex {
+
+/// A place where the tip is wanted (M, m), the wrench there (N, N m; axes of M), and the machine.
+struct TargetRequest {
+  const Model* model = nullptr;
+  Vector3 p_MT = Vector3::Zero();
+  Vector6 F = Vector6::Zero();
+};
+
+/// A command that puts the tip where it is wanted.
+struct TargetAnswer {
+  Status status = Status::not_converged;
+  Vector3 target = Vector3::Zero();  ///< position to write, in M (m)
+  int iterations = 0;
+};
+
+/// A commanded position (M, m), the wrench there, what else acts, and the machine.
+struct ForwardRequest {
+  const Model* model = nullptr;
+  Vector3 target = Vector3::Zero();
+  Vector6 F = Vector6::Zero();
+  Stage stage{};
+  bool within_travel = false;  ///< a command outside the travel of an actuator is `outside_travel`
+};
+
+/// Where the tip is for a command.
+struct ForwardAnswer {
+  Status status = Status::not_converged;
+  Pose X_MT;
+  int iterations = 0;
+  Eigen::VectorXd rho;  ///< actuators of the command (m, rad)
+};
+
+/// The wanted pose of the tip at a position. Its controlled orientation is home's, uncontrolled components
+/// are those of nominal kinematics.
+struct WantedPose {
+  Status status = Status::not_converged;
+  Pose X_MT;
+};
+
+/// Whether requests behind the first one that fails need an answer: without one they are `not_converged`.
+enum class StopAt { end, first_failure };
+
+/// Solver for one thread. The kernel solves what it can in batches. The other requests are solved one by one,
+/// from the nominal configuration of the place: the cell's, or home, followed to the place.
+class PlaceSolver {
+ public:
+  explicit PlaceSolver(const Job& job)
+      : PlaceSolver(job.starts, job.forces.at_platform(), job.options.method) {}
+
+  /// Without start tables every request is solved by itself.
+  PlaceSolver(const StartTables* starts, bool at_platform, Method method = Method::direct);
+  ~PlaceSolver();
+
+  /// `answers` is as long as `requests`, and holds defaults. Numerical trouble is a status in the answer.
+  void wanted(std::span<const TipPosition> requests, std::span<WantedPose> answers,
+              StopAt stop = StopAt::first_failure);
+  void targets(std::span<const TargetRequest> requests, std::span<TargetAnswer> answers,
+               StopAt stop = StopAt::first_failure);
+  void forwards(std::span<const ForwardRequest> requests, std::span<ForwardAnswer> answers,
+                StopAt stop = StopAt::first_failure);
+
+  /// The nominal configuration with the tip at `p_MT`, its controlled orientation home's.
+  NominalResult nominal(const Model& model, const Vector3& p_MT);
+
+  /// Whether the nominal machine goes from one position (M, m) straight to another on one branch: converged,
+  /// or why not.
+  Status join(const Model& model, const Vector3& from, const Vector3& to);
+
+  /// As `BatchSolver::bend_along`; infinite without start tables.
+  LineBend bend_along(const Model& model, const BatchLine& line);
+
+ private:
+  struct OfModel;
+  OfModel& of(const Model& model);
+  WantedPose wanted_alone(OfModel& m, const Vector3& p_MT);
+  TargetAnswer target_alone(OfModel& m, const TargetRequest& request);
+  ForwardAnswer forward_alone(OfModel& m, const ForwardRequest& request);
+  NominalResult nominal(OfModel& m, const Vector3& p_MT);
+  TargetAnswer by_outer_iteration(OfModel& m, const TargetRequest& request);
+  TargetAnswer by_linear_theory(OfModel& m, const TargetRequest& request);
+
+  const StartTables* starts_;
+  const bool at_platform_;
+  const Method method_;
+  std::map<const Model*, std::unique_ptr<OfModel>> models_;
+  std::vector<BatchRequest> requests_;
+  std::vector<BatchAnswer> answers_;
+  std::vector<Vector3> positions_;
+  std::vector<NominalAnswer> nominals_;
+};
+
+}  // namespace counterflex
