@@ -92,13 +92,15 @@ void warn_of_datum(Run& run) {
   for (const WorkFrame& frame : run.work.frames) {
     if (!frame.common_shift || frame.common_shift->norm() <= run.options.tolerance) continue;
     const Vector3 shift_mm = *frame.common_shift / mm;
-    const std::string assumed = frame.name.empty() ? "no datum is stated, and the machine frame counts"
-                                                   : fmt::format("no datum is stated for {}, and it counts", frame.name);
+    const std::string assumed = frame.name.empty()
+                                    ? "no datum is stated, and the machine frame counts"
+                                    : fmt::format("no datum is stated for {}, and it counts", frame.name);
     const std::string cure =
         frame.name.empty()
             ? "give the work offset with its datum, or --work machine"
-            : fmt::format("state datum = {{ touched_at_mm = [x, y, z] }} in [work.{0}], else datum = \"machine\"",
-                          frame.name);
+            : fmt::format(
+                  "state datum = {{ touched_at_mm = [x, y, z] }} in [work.{0}], else datum = \"machine\"",
+                  frame.name);
     run.facts.warnings.push_back(
         {0, fmt::format("{} as set independently of this machine's errors. The unloaded machine is off by "
                         "({}, {}, {}) mm on average along the path, and the correction removes this. If the "
@@ -186,12 +188,13 @@ std::unique_ptr<Run> prepare_run(const Options& options, Console& console) {
   run->is_corrected = look.is_corrected;
   run->tool_models = prepare_tools(on, run->machine.model, run->program.tools);
   forces.refuse_unread();
+  run->starts.emplace();
   run->work = place_work(on, run->machine.model, shown_name(options.machine), run->program);
-  add_common_shifts(on, run->machine.model, run->tool_models, places, run->program, run->work.frames);
+  add_common_shifts(on, {run->machine.model, run->tool_models, &*run->starts}, places, run->program,
+                    run->work.frames);
   run->ignored = uncontrolled_axes(on, run->work.frames);
   forces.settle({run->file.bytes, run->program.file, run->read, run->work.frames, run->ignored});
   run->options = compensation_options(options, on);
-  run->starts.emplace();
   run->sanity = program_sanity({run->machine, run->tool_models, run->tools, run->work, run->program});
   refuse_wrong(run->sanity, on);
   run->facts = facts_of(options, *run);

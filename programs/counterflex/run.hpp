@@ -62,8 +62,8 @@ class Windows {
   const ProgramReader& reader() const { return reader_; }
   JobWindows& jobs() { return jobs_; }
 
-  /// Of a window that has been read: shows progress. Throws `InputError` (Exit::program_text) for a move along what the
-  /// machine does not control.
+  /// Of a window that has been read: shows progress. Throws `InputError` (Exit::program_text) for a move
+  /// along what the machine does not control.
   void check(const Job& window);
   /// Warns of what is noted of its forces.
   void warn(const Job& window);

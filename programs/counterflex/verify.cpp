@@ -57,7 +57,8 @@ std::optional<Failure> verify_all(Run& run, ProgramReader& corrected, RunTally& 
     console.solved(waypoints.size());
   };
   const auto done = [](const Job&, const Compensation&) {};
-  return verify_windows(windows.jobs(), run.options.threads, corrected, run.facts.attribution, {read, begun, solved, done});
+  return verify_windows(windows.jobs(), run.options.threads, corrected, run.facts.attribution,
+                        {read, begun, solved, done});
 }
 
 }  // namespace

@@ -148,19 +148,21 @@ WorkPlace place_work(const std::vector<std::string>& given, const Overview& prog
   return place;
 }
 
-void add_common_shifts(const Machine& machine, const Model& model, const ToolModels& tools,
-                       const PathPlaces& places, const Overview& program, std::vector<WorkFrame>& frames) {
+void add_common_shifts(const Machine& machine, const RunModels& models, const PathPlaces& places,
+                       const Overview& program, std::vector<WorkFrame>& frames) {
   if (machine.work_is_machine_frame) return;
   std::map<std::string, std::optional<Vector3>>
       shifts;  // by offset, however many frames a program makes of it
   for (std::size_t i = 0; i < frames.size(); ++i) {
     const auto offset = machine.work.find(frames[i].name);
-    if ((offset != machine.work.end() && offset->second.datum.stated()) || is_set(program.frames[i])) continue;
+    if ((offset != machine.work.end() && offset->second.datum.stated()) || is_set(program.frames[i]))
+      continue;
     const std::string& selected = program.frames[i].work_offset;
     const auto [known, is_new] = shifts.try_emplace(selected);
     if (is_new)
-      known->second = common_shift(model, tools, frames[i].X_MW * inverse(placed(program.frames[i])),
-                                   places.of(selected));
+      known->second =
+          common_shift(models.model, models.tools, frames[i].X_MW * inverse(placed(program.frames[i])),
+                       places.of(selected), models.starts);
     frames[i].common_shift = known->second;
   }
 }

@@ -27,8 +27,15 @@ WorkPlace place_work(const Machine& machine, const Model& model, const std::stri
 /// frame. Throws `InputError` (Exit::usage) where they make no sense or do not give an offset in use.
 WorkPlace place_work(const std::vector<std::string>& given, const Overview& program);
 
+/// The machine of a run with its tools, and where solutions start.
+struct RunModels {
+  const Model& model;
+  const ToolModels& tools;
+  const StartTables* starts;
+};
+
 /// Fills the common shift of the frames in use whose datum is not stated. `places` are those of the program.
-void add_common_shifts(const Machine& machine, const Model& model, const ToolModels& tools,
-                       const PathPlaces& places, const Overview& program, std::vector<WorkFrame>& frames);
+void add_common_shifts(const Machine& machine, const RunModels& models, const PathPlaces& places,
+                       const Overview& program, std::vector<WorkFrame>& frames);
 
 }  // namespace counterflex::cli

@@ -46,7 +46,6 @@ void Emitter::emit_segment(std::size_t s) {
   EmittedMove& emitted = out_.moves.emplace_back();
   emitted.edit.move = segment.move;
   emitted.kind = Kind::segment;
-  emitted.segment = s;
   double unsplit_miss = planned.unsplit_miss, jump = 0;
   const bool jumps = put_jump(segment, planned, emitted, jump);
   if (segment.wanted.arc)
@@ -108,7 +107,7 @@ void Emitter::emit_line(const Segment& segment, const PlannedSegment& planned, E
     above.z() = before(move)[2].value_or(move.start_mm.z());
     emitted.edit.inserted.push_back({above});
   }
-  const double miss_mm = set_height_inside(emitted.segment, in_words_mm(job_, move, end), emitted.edit);
+  const double miss_mm = set_height_inside(index_of(segment), in_words_mm(job_, move, end), emitted.edit);
   if (miss_mm * mm > flat_share * job_.options.tolerance) unsplit_miss = std::max(unsplit_miss, miss_mm * mm);
 }
 
@@ -117,15 +116,14 @@ void Emitter::finish_segment(const Segment& segment, const PlannedSegment& plann
   const Move& move = job_.program.moves[segment.move];
   const Vector3 correction = (planned.end ? *planned.end : planned.knots.back().target) - segment.wanted.end;
   Vector3 kept = correction_that_can_be_written(move, correction);
-  emitted.exempt_end = emitted.in_part = kept != correction;
+  emitted.in_part = kept != correction;
   const bool ends_elsewhere = move.arc && (move.arc->flat || move.polar);
   if (ends_elsewhere) kept = correction_where_held(move, kept);
   emitted.edit.end_mm = in_words_mm(job_, move, segment.wanted.end + kept);
   hold(kept, {true, true, true});
-  emitted.exempt = unsplit_miss > 0 || emitted.exempt_end;
-  if (emitted.exempt_end)
+  if (emitted.in_part)
     list_held_words(move, correction - kept);
-  else if (emitted.exempt)
+  else if (unsplit_miss > 0)
     list(move,
          fmt::format("not split, its end is corrected: between its ends the deviation may reach {:.4f} mm",
                      unsplit_miss / mm));

@@ -8,17 +8,13 @@ namespace counterflex {
 /// One move of the original with its edit.
 struct EmittedMove {
   enum class Kind {
-    segment,      ///< judged along its segment
-    shifted,      ///< goes nowhere, or from where nobody knows: it keeps a correction
-    first_known,  ///< its end is the first position that is known in all axes
-    hole,         ///< a cycle: the bottom of its hole is judged
+    segment,  ///< judged along its segment
+    shifted,  ///< goes nowhere, or from an unknown position: it keeps a correction
+    alone,    ///< the first position that is known in all axes, or the bottom of a hole
   };
   MoveEdit edit;
   Kind kind = Kind::shifted;
-  std::size_t segment = no_segment;
-  bool in_part = false;     ///< listed: held, or corrected without its force
-  bool exempt = false;      ///< listed: its inside may miss the tolerance
-  bool exempt_end = false;  ///< listed: its end may, too
+  bool in_part = false;  ///< listed: held, or corrected without its force
 };
 
 struct Emission {

@@ -44,7 +44,6 @@ ArcTask Emitter::arc_task(const Segment& segment, const PlannedSegment& planned,
                           const CorrectionCurve& stretch) const {
   const Move& move = job_.program.moves[segment.move];
   const Pose X_WM = inverse(frame(move).X_MW);
-  const auto s = static_cast<std::size_t>(&segment - job_.path.segments.data());
   return {.move = move,
           .options = job_.options.write,
           .source = curve_of(move),
@@ -54,7 +53,7 @@ ArcTask Emitter::arc_task(const Segment& segment, const PlannedSegment& planned,
               },
           .begin = stretch.begin(),
           .end = stretch.end(),
-          .corners = job_.forces.breaks(s),
+          .corners = job_.forces.breaks(index_of(segment)),
           .tolerance_mm = (1 - sampling_share) * job_.options.tolerance / planned.gain / mm,
           .chord_room_mm = room_between_points(job_, segment, planned.gain).value_or(0) / mm};
 }

@@ -116,8 +116,8 @@ void Emitter::emit_rigid(std::size_t m, Index s, Kind otherwise) {
     emitted.edit.retract_mm = move.cycle->retract_mm + shift.z();
   }
   if (move.handling != Handling::own) {
-    emitted.in_part = emitted.exempt = emitted.exempt_end = true;
-    if (s && !move.cycle) emitted.kind = Kind::segment, emitted.segment = *s;
+    emitted.in_part = true;
+    if (s && !move.cycle) emitted.kind = Kind::segment;
     if (s && move.arc && move.handling == Handling::group && group_motion_)
       divide_by_height(move, *s, emitted.edit);
     if (s && move.handling == Handling::group) set_height_inside(*s, emitted.edit.end_mm, emitted.edit);

@@ -61,9 +61,8 @@ void Emitter::emit_first_known(std::size_t m) {
   else if (move.motion == Motion::feed)
     list(move, "a feed move from a position that is not known: its end is corrected without cutting force");
   put({.edit = shifted(m, shift_mm(move, state_.correction)),
-       .kind = Kind::first_known,
-       .in_part = kept != *correction || move.motion == Motion::feed,
-       .exempt_end = kept != *correction});
+       .kind = Kind::alone,
+       .in_part = kept != *correction || move.motion == Motion::feed});
 }
 
 // A hole is shifted by the correction at its bottom; the tool leaves it there, or at the height where it
@@ -75,12 +74,12 @@ void Emitter::emit_hole(std::size_t m) {
   if (!correction) return;
   Vector3 shift = shift_mm(move, *correction);
   const Vector3 entered = held_shift_mm(move);
-  EmittedMove emitted{.edit = {.move = m}, .kind = Kind::hole};
+  EmittedMove emitted{.edit = {.move = m}, .kind = Kind::alone};
   if (!move.cycle->bottom_word && !move.cycle->may_insert_bottom) {
     const double miss = shift.z() - entered.z();
     if (!rounds_to_nothing(move, 2, miss)) {
       list(move, fmt::format("the block takes no Z word: the hole's bottom stays off by {:.4f} mm", miss));
-      emitted.in_part = emitted.exempt_end = true;
+      emitted.in_part = true;
     }
     shift.z() = entered.z();
   }

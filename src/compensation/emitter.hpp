@@ -85,6 +85,9 @@ class Emitter {
   void leave_far_pending_alone(const Move& move);
 
   // Corrections as shifts of the text, program coordinates (mm).
+  std::size_t index_of(const Segment& segment) const {
+    return static_cast<std::size_t>(&segment - job_.path.segments.data());
+  }
   const WorkFrame& frame(const Move& move) const { return job_.path.frames[move.frame]; }
   Vector3 shift_mm(const Move& move, const Vector3& correction) const;
   Vector3 held_shift_mm(const Move& move) const;  ///< zero on axes that hold none

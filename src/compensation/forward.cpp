@@ -295,23 +295,15 @@ Waypoint waypoint_of(const Slice& slice, std::size_t s, double share) {
   return w;
 }
 
-// Every sample stands for half of the way to those beside it, the end for half of the way behind the start,
-// too.
+// Every sample stands for the way behind it, from the sample before: so the weights between two places do not
+// depend on what is sampled between them.
 std::vector<Waypoint> waypoints_of(const Slice& slice, const std::vector<std::size_t>& order) {
   std::vector<Waypoint> waypoints;
   waypoints.reserve(order.size());
-  double v = 0, start = 0;  // of the sample before on this piece; what the start of the piece would stand for
   for (std::size_t k = 0; k < order.size(); ++k) {
     const ForwardSample& sample = slice.samples[order[k]];
     const bool first = k == 0 || slice.samples[order[k - 1]].task != sample.task;
-    const bool last = k + 1 == order.size() || slice.samples[order[k + 1]].task != sample.task;
-    if (first) {
-      v = 0;
-      start = sample.v > 0 ? sample.v / 2 : 0;
-    }
-    const double next = last ? 1 : slice.samples[order[k + 1]].v;
-    waypoints.push_back(waypoint_of(slice, order[k], (next - v) / 2 + (last ? start : 0)));
-    v = sample.v;
+    waypoints.push_back(waypoint_of(slice, order[k], sample.v - (first ? 0 : slice.samples[order[k - 1]].v)));
   }
   return waypoints;
 }

@@ -34,11 +34,10 @@ void note_planned_corrections(const Job& job, const Plan& plan, Compensation& re
 // Positions that come from unknown ones, and holes, have no segment.
 void note_first_corrections(const Job& job, const Emission& emission, Compensation& result) {
   for (const EmittedMove& emitted : emission.moves) {
-    const bool hole = emitted.kind == EmittedMove::Kind::hole;
-    if (!hole && emitted.kind != EmittedMove::Kind::first_known) continue;
+    if (emitted.kind != EmittedMove::Kind::alone) continue;
     const Move& move = job.program.moves[emitted.edit.move];
     Vector3 shift = emitted.edit.end_mm - move.end_mm;
-    if (hole) shift.z() = *emitted.edit.bottom_mm - move.cycle->bottom_mm;
+    if (emitted.edit.bottom_mm) shift.z() = *emitted.edit.bottom_mm - move.cycle->bottom_mm;
     note_correction(shift.norm() * mm, move.line, result);
   }
 }

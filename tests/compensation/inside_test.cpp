@@ -129,6 +129,28 @@ TEST_CASE("without bounds every feed piece is sampled in its own middle, arcs ev
   }
 }
 
+TEST_CASE("a short line is judged by its ends where its cell bounds the rest, and inside where they leave too little") {
+  const Shop shop(
+      {.machine = load_machine(orthoglide_b), .text = blocks(40, 0.5), .force = constant_force(milling(), 0)});
+  const auto miss_of_ends = [&](double miss) {
+    std::vector<Piece> pieces = right_at_ends(shop);
+    for (Piece& piece : pieces) {
+      piece.commanded.start.z() += miss;
+      piece.commanded.end.z() += miss;
+    }
+    return pieces;
+  };
+  const auto inside = [&](const std::vector<Piece>& pieces) {
+    const ForwardRun run = solve_pieces(shop.job(), pieces, {.before = false});
+    REQUIRE(!run.failure);
+    return std::ranges::count_if(run.waypoints, [](const Waypoint& w) { return w.between && !w.place && w.fraction > 0; });
+  };
+  const double tolerance = shop.options.tolerance;
+  CHECK(inside(miss_of_ends(0.5 * tolerance)) == 0);
+  CHECK(dense(shop, miss_of_ends(0.5 * tolerance), 7) < 0.8 * tolerance);
+  CHECK(inside(miss_of_ends(0.85 * tolerance)) >= 40);
+}
+
 TEST_CASE("a wave of the deviation on an arc is found") {
   const Shop shop({.machine = load_machine(orthoglide_b),
                    .text = "G21 G90 G17\nG0 X60 Y0 Z0\nG2 X60 Y0 I-60 J0 F600\nM30\n",

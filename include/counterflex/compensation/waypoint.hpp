@@ -61,7 +61,7 @@ struct Waypoint {
   bool between = false;  ///< a sample inside a piece
   bool place = true;     ///< of the original path: statistics of `before` and of its causes are over these
   bool exempt = false;
-  double weight = 0;                     ///< share of the cutting length (m)
+  double weight = 0;                     ///< of the cutting length: the way from the waypoint before (m)
   double s = 0;                          ///< cutting path length (m)
   Vector3 p_MT = Vector3::Zero();        ///< wanted tip
   Vector3 direction = Vector3::Zero();   ///< unit vector of the path, zero where it has none
