@@ -16,7 +16,7 @@ constexpr double fit_angle = std::numbers::pi / 16;  // samples are at most so f
 constexpr double flat_fit_angle = fit_angle / 4;     // the height that is missed bends as the arc does
 constexpr int fit_iterations = 4;
 constexpr double fit_step_mm = 1e-4;       // of numerical derivatives
-constexpr double pull_to_source = 4e-4;    // where the curve hardly tells the centre it stays where it was
+constexpr double pull_to_source = 4e-4;    // a centre that the curve hardly determines keeps its place
 constexpr double centre_kept_share = 0.5;  // of the tolerance: a centre that misses by less is kept
 constexpr double most_sweep_change = 0.1;  // rad
 constexpr double same_mm = 1e-9;
@@ -27,8 +27,8 @@ struct Sample {
   Vector3 p_mm;  // commanded
 };
 
-// The fraction that a written end of a piece stands for: rounding moves it along the curve. Where the
-// stretch begins or ends it stands for that.
+// The fraction of a written end of a piece: rounding moves it along the curve. The ends of the stretch keep
+// theirs.
 double fraction_at(const ArcTask& task, double u, const Vector3& written) {
   if (u == task.begin || u == task.end) return u;
   const double along_mm = (written - task.commanded(u)).dot(direction_at(task.source, u));
@@ -178,7 +178,7 @@ class PieceFit {
       r.segment<3>(3 * static_cast<Eigen::Index>(k)) = point_at(curve, samples_[k].v) - samples_[k].p_mm;
   }
 
-  // Gauss-Newton on the mean square of the misses, pulled a little to where the centre stood.
+  // Gauss-Newton on the mean square of the misses, pulled a little to the original centre.
   Vector3 fitted_centre(const Vector3& end) const {
     const std::optional<CentreLine> line = centre_line(end);
     if (!line) return kept_;
@@ -200,7 +200,7 @@ class PieceFit {
   std::array<Eigen::Index, 2> plane_;
   std::vector<Sample> samples_;
   Vector3 start_ = Vector3::Zero(), end_;
-  Vector3 kept_ = Vector3::Zero();  // the centre where it stood, seen from the start
+  Vector3 kept_ = Vector3::Zero();  // the original centre, seen from the start
 };
 
 }  // namespace

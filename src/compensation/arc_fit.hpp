@@ -37,7 +37,7 @@ struct FittedArc {
   bool sound = false;  ///< radius rules of controls hold, and its sweep is the wanted one
 };
 
-/// The best arc for a piece: with the centre where it stood, seen from the start, if that is good enough,
+/// The best arc for a piece: with the original centre, seen from the start, if that is good enough,
 /// else with a fitted one. The mismatch of its radii is at most the source's and one digit, else it is not
 /// sound.
 FittedArc fit_arc(const ArcTask& task, const ArcPiece& piece);
@@ -52,11 +52,11 @@ bool keeps_words(const ArcTask& task, const ArcPiece& piece, const FittedArc& fi
 /// for: the last piece makes those.
 double sweep_beside_turns(const Move& move, const Curve& source);
 
-/// Whether the words of an arc can say the piece between two fractions at all: no piece but the last makes
-/// the full turns of its block, and that one has to.
+/// Whether the words of an arc can express the piece between two fractions at all: no piece but the last
+/// makes the full turns of its block, and that one has to.
 bool can_be_one(const ArcTask& task, double u0, double u1);
 
-/// Whether a piece that is written anew must not be one arc: a small shift of its end could turn a full
+/// Whether a piece that is rewritten must not be one arc: a small shift of its end could turn a full
 /// circle into nothing, or an R near half a turn into none at all.
 bool must_halve(const ArcTask& task, double u0, double u1);
 

@@ -67,7 +67,7 @@ class ArcDivider {
     return fit;
   }
 
-  // What only polar words say is kept wherever it is good enough.
+  // What only polar words can express is kept wherever it is good enough.
   std::optional<FittedArc> fitting_as_polar() const {
     const bool only_polar = task_.move.arc->turns > 0 || !stays_flat(task_.move);
     const double room_mm = (only_polar ? 1 : polar_kept_share) * task_.tolerance_mm;

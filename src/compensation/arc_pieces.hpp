@@ -1,5 +1,5 @@
 #pragma once
-/// Divides an arc into pieces that the control can be told.
+/// Divides an arc into pieces that a control can read.
 #include "arc_fit.hpp"
 
 namespace counterflex {

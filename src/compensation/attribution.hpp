@@ -20,7 +20,7 @@ void add_before(PlaceSolver& solver, std::span<const ForwardPlace> places, std::
 
 /// Fills all causes. Geometry, load, gravity, superposition and air are those of the ends of pieces and of
 /// places, where trouble is a status of the waypoint. The shift of a datum that was touched off is part of
-/// geometry alone. A force under which the machine gives way is no failure of a run: it does not act.
+/// geometry alone. A force under which the machine is unstable is no failure of a run: it does not act.
 void add_causes(PlaceSolver& solver, std::span<const ForwardPlace> places, std::span<Waypoint> waypoints);
 
 }  // namespace counterflex

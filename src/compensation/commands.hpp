@@ -4,7 +4,7 @@
 
 namespace counterflex {
 
-/// A target (M, m) in the program coordinates of a move (mm): what words are asked to say.
+/// A target (M, m) in the program coordinates of a move (mm): what words should express.
 Vector3 in_words_mm(const Job& job, const Move& move, const Vector3& target);
 
 /// The position (M, m) that words of a move command (program coordinates, mm).

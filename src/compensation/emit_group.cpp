@@ -18,7 +18,7 @@ bool is_in_plane(const Move& move) {
 
 }  // namespace
 
-// Whether the contour lies in X Y, as far as its arcs say: Z does not touch the radius of the cutter there,
+// Whether the arcs of the contour lie in X Y: Z does not touch the radius of the cutter there,
 // and is corrected block by block.
 bool Emitter::is_in_xy(std::size_t m) const {
   const auto& moves = job_.program.moves;

@@ -55,7 +55,7 @@ void Emitter::note_doubt(const Move& move) {
   state_.doubtful = lost || (state_.doubtful && !all_known(move.known_end));
 }
 
-// Why the block is not followed, as the reader has said at the first of a run of such blocks.
+// Why the block is not followed, as the reader notes it at the first of a run of such blocks.
 std::string Emitter::why_fixed(const Move& move) const {
   std::string why = "the block is not followed";
   for (const LeftAlone& block : job_.program.left_alone)
@@ -91,8 +91,8 @@ MoveEdit Emitter::shifted(std::size_t m, const Vector3& shift) const {
   return edit;
 }
 
-// Words of axes that stand still say where the text holds them, to the last digit: G92 sets coordinates by
-// them.
+// Words of axes that do not move have the value that the text holds, to the last digit: G92 sets coordinates
+// by them.
 void Emitter::keep_standing_axes(const Move& move, MoveEdit& edit) {
   come_to(move);
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -125,7 +125,7 @@ void Emitter::emit_rigid(std::size_t m, Index s, Kind otherwise) {
   put(std::move(emitted));
 }
 
-// After a block that '/' may skip, or that goes where the program does not say, the correction with which it
+// After a block that '/' may skip, or that goes to an unknown place, the correction with which it
 // was entered holds.
 void Emitter::emit_doubtful(std::size_t m) {
   const Move& move = job_.program.moves[m];
@@ -183,7 +183,7 @@ void Emitter::come_to(const Move& move) {
   held_for_ = m;
 }
 
-// Axes that nobody corrects may have no position in the text; any serves.
+// Axes without a correction may have no position in the text: they take that of the original.
 HeldPosition Emitter::before(const Move& move) {
   come_to(move);
   HeldPosition held = state_.held;

@@ -92,7 +92,7 @@ void Emitter::emit_hole(std::size_t m) {
   state_.holds = {true, true, true};
   give_to_pending();
   put(std::move(emitted));
-  // Where the cycle leaves the tool its text tells.
+  // The text determines where the cycle leaves the tool.
   if (state_.held[2]) shift.z() = *state_.held[2] - move.end_mm.z();
   if (!move.known_end[2]) shift.z() = entered.z();
   set_shift(move, shift);

@@ -139,7 +139,7 @@ std::size_t add_behind_step(Slice& slice, std::size_t before) {
 double bend_between(Slice& slice, std::size_t start, const ForwardSample& end, const Vector6& F_end) {
   const PieceTask& task = slice.tasks[end.task];
   if (task.segment->wanted.arc || task.piece->commanded.arc) return HUGE_VAL;
-  const ForceStretch along{task.piece->segment, slice.samples[start].u, end.u, slice.requests[start].F,
+  const ForceChord along{task.piece->segment, slice.samples[start].u, end.u, slice.requests[start].F,
                            F_end};
   const std::vector<Vector6> dF = force_bends(slice.job, along, {}, slice.cursor);
   const LineBend bend = slice.solver.bend_along(
@@ -264,7 +264,7 @@ std::size_t frame_of(const PieceTask& task) {
   return task.segment != nullptr ? task.segment->frame : task.piece->frame;
 }
 
-// `share`: of the piece, for which the sample stands.
+// `share`: of the way of the piece, from the sample before.
 Waypoint waypoint_of(const Slice& slice, std::size_t s, double share) {
   const ForwardSample& sample = slice.samples[s];
   const PieceTask& task = slice.tasks[sample.task];
@@ -295,7 +295,7 @@ Waypoint waypoint_of(const Slice& slice, std::size_t s, double share) {
   return w;
 }
 
-// Every sample stands for the way behind it, from the sample before: so the weights between two places do not
+// A waypoint weighs the way from the sample before: so the weights between two places do not
 // depend on what is sampled between them.
 std::vector<Waypoint> waypoints_of(const Slice& slice, const std::vector<std::size_t>& order) {
   std::vector<Waypoint> waypoints;

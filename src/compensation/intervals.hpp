@@ -12,7 +12,7 @@ struct Interval {
   std::size_t segment = 0;
   std::array<double, 5> u{};
   std::array<Answer, 5> at{no_answer, no_answer, no_answer, no_answer, no_answer};
-  bool by_quarters = false;  ///< its middle does not tell whether it is a line
+  bool by_quarters = false;  ///< its middle does not show whether it is a line
 };
 
 /// Between two fractions of a segment. Requests what is inside, and its end under the force `F`; `a`: the

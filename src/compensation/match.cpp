@@ -81,8 +81,8 @@ class WindowMatcher {
     return std::nullopt;
   }
 
-  // After a word of an axis has been shifted, none stands unshifted until the axis has gone to a position of
-  // the machine. Where the deviation is judged a correction may be nothing.
+  // After a word of an axis has been shifted, no word of it is unshifted until the axis has gone to a
+  // position of the machine. Where the deviation is judged a correction may be nothing.
   std::optional<Failure> shift_failure(const MatchedMoves& matched, std::size_t m) {
     constexpr double unshifted_mm = 1e-9;
     const Move &original = matched.original, &found = *matched.found.back().move;

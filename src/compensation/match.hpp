@@ -10,8 +10,8 @@
 
 namespace counterflex {
 
-/// How a plan leads a segment: they tell the end of a move from points that were inserted before it, and
-/// where along the segment such a point belongs.
+/// How a plan leads a segment. It distinguishes the end of a move from points that were inserted before it,
+/// and where along the segment such a point belongs.
 struct PlannedWay {
   std::optional<Vector3> end;  ///< M (m); nothing where the plan does not correct the segment by itself
   std::vector<Knot> inner;     ///< before the end, in order; a step is two knots at one fraction

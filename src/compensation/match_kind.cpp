@@ -124,7 +124,7 @@ class KindComparison {
                        miss));
   }
 
-  // A chord may stand for a part of the arc from which it keeps within the tolerance.
+  // A chord may replace a part of the arc from which it keeps within the tolerance.
   void compare_chord(const Move& found, bool may_be_jump) {
     const double radius = radius_mm(), chord = in_plane(found.end_mm - found.start_mm, original_.arc->normal);
     const double half = std::asin(std::min(1.0, chord / 2 / radius)), sagitta = radius * (1 - std::cos(half));
@@ -198,7 +198,7 @@ class KindComparison {
     }
   }
 
-  // Depth and retract plane, also where an earlier hole has said them. Words of one block are shifted alike.
+  // Depth and retract plane, also where an earlier hole has given them. Words of one block are shifted alike.
   void compare_cycle(const Move& found) {
     const CycleMove &wanted = *original_.cycle, &cycle = *found.cycle;
     const double bottom = cycle.bottom_mm - wanted.bottom_mm, retract = cycle.retract_mm - wanted.retract_mm;

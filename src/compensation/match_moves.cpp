@@ -68,7 +68,7 @@ std::size_t MoveFinder::count(const Move& original, std::optional<std::size_t> s
   const Curve curve = curve_of(original);
   const double length_mm = length(curve);
   double slack_mm = 2 * job_.options.max_correction / mm;
-  // Every turn of a circle ends at the same place. An angle tells them apart, also where corrections are
+  // Every turn of a circle ends at the same place. An angle distinguishes them, also where corrections are
   // larger than the radius.
   Arc axis;
   if (curve.arc) {

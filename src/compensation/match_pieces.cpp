@@ -82,7 +82,7 @@ bool PieceMaker::find_knot(const Knot& knot, std::size_t& next) {
 bool PieceMaker::find_jump(const Knot& knot, std::size_t& next) {
   const Vector3 end = steps_[next].way.end;
   if ((end - knot.target).norm() > job_.options.tolerance) return false;
-  // What is left of the way behind the jump may be less than the digits tell.
+  // What is left of the way behind the jump may be less than a digit.
   if (next + 1 == steps_.size()) steps_.push_back({{end, end, {}}, steps_.back().line, 1, true});
   steps_[next].u = knot.u;
   steps_[next].settled = steps_[next].jump = true;

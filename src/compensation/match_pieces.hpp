@@ -10,7 +10,7 @@ struct DraftPiece {
   bool settled = true;
 };
 
-/// Makes pieces of matched moves. A point inside a segment that stands within the tolerance of a knot of the
+/// Makes pieces of matched moves. A point inside a segment that is within the tolerance of a knot of the
 /// plan has the knot's fraction. Any other gets the fraction to which it projects: on a line along it, on an
 /// arc by its angle about the centre, over all turns; no error of a fraction reaches the next one.
 class PieceMaker {
@@ -32,7 +32,7 @@ class PieceMaker {
 
   void read_ways(const MatchedMoves& matched);
   void find_knots(std::span<const Knot> knots);
-  // Whether a step from `next` on stands there; `next` goes behind it.
+  // Whether a step from `next` on ends there; `next` goes behind it.
   bool find_knot(const Knot& knot, std::size_t& next);
   bool find_jump(const Knot& knot, std::size_t& next);
   void project(const Curve& wanted);
@@ -42,7 +42,7 @@ class PieceMaker {
   std::vector<Step> steps_;  // of one move; the room is used again
 };
 
-/// An inserted point stands where it puts the tip: its fraction is that of the tip's place along the segment,
+/// The fraction of an inserted point is that of the place of the tip along the segment,
 /// found from the projected one by Newton's method. A jump of the correction at the start of a segment, and
 /// what goes backwards, gives no piece: what follows begins where it ends, and is judged from there on.
 std::vector<Piece> refined(const Job& job, std::vector<DraftPiece> drafts);

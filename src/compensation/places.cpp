@@ -39,7 +39,7 @@ void places_along(const Job& job, std::size_t index, ForceCursor& cursor, std::v
   fractions.push_back(1);
 }
 
-std::vector<Vector6> force_bends(const Job& job, const ForceStretch& stretch, std::span<const double> corners,
+std::vector<Vector6> force_bends(const Job& job, const ForceChord& stretch, std::span<const double> corners,
                                  ForceCursor& cursor) {
   std::vector<Vector6> bends;
   const auto add = [&](double u) {

@@ -16,8 +16,8 @@ int steps_along(const Segment& segment);
 /// them.
 void places_along(const Job& job, std::size_t segment, ForceCursor& cursor, std::vector<double>& fractions);
 
-/// A part of a segment between two fractions, and the forces at its ends.
-struct ForceStretch {
+/// A part of a segment between two fractions, and the forces at its ends, between which it may change evenly.
+struct ForceChord {
   std::size_t segment = 0;
   double u0 = 0, u1 = 1;
   Vector6 F0 = Vector6::Zero(), F1 = Vector6::Zero();
@@ -25,7 +25,7 @@ struct ForceStretch {
 
 /// By how much the force differs from an even change between the ends of a stretch: at `corners` (fractions
 /// of the segment, inside the stretch) and, where it may curve between them, at its eighths.
-std::vector<Vector6> force_bends(const Job& job, const ForceStretch& stretch, std::span<const double> corners,
+std::vector<Vector6> force_bends(const Job& job, const ForceChord& stretch, std::span<const double> corners,
                                  ForceCursor& cursor);
 
 }  // namespace counterflex

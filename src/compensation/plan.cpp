@@ -51,7 +51,7 @@ void find_limits(const Job& job, std::size_t index, ForceCursor& cursor, std::ve
 bool bends_little(const Job& job, Corrections& corrections, const PlanTask& task, const Vector6& F1) {
   const Segment& segment = job.path.segments[task.segment];
   if (segment.wanted.arc || (job.options.blend == 0 && !task.limits.empty())) return false;
-  const ForceStretch along{task.segment, 0, 1, corrections.force(task.start), F1};
+  const ForceChord along{task.segment, 0, 1, corrections.force(task.start), F1};
   const std::vector<Vector6> dF = force_bends(job, along, task.limits, corrections.cursor());
   const LineBend bend = corrections.solver().bend_along(
       model_of(job, segment), {segment.wanted.start, segment.wanted.end, along.F0, along.F1, dF});

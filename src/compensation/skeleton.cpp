@@ -15,7 +15,7 @@ bool is_digit(char c) {
   return c >= '0' && c <= '9';
 }
 
-// Whether no polar word says it: they stand for two axes each.
+// Whether it is no polar word: each of these gives two axes.
 bool is_height(const Move& move, const PackedAxisWord& word) {
   std::size_t axes = 0;
   for (const auto& other : move.words) axes += word && other && other->number.begin == word->number.begin;

@@ -11,9 +11,14 @@ namespace counterflex {
 namespace {
 
 /// Never "100 %" for less than all, nor "0 %" for more than nothing.
+// Lengths are sums of pieces in another order: a part that differs by rounding is the whole.
+bool is_whole(double part, double all) {
+  return part >= (1 - 1e-9) * all;
+}
+
 std::string percent_text(double part, double all) {
   const double percent = 100 * part / all;
-  if (part >= all || percent == 0) return fmt::format("{:.0f} %", percent);
+  if (is_whole(part, all) || percent == 0) return fmt::format("{:.0f} %", percent);
   if (percent > 1 && percent < 99) return fmt::format("{:.0f} %", percent);
   return fmt::format("{} %", format_fixed(std::max(std::floor(10 * percent) / 10, 0.1), 1));
 }
@@ -55,7 +60,7 @@ std::string partly_reason(const FeedMoves& moves, double tolerance_mm) {
                     moves.unknown_length > 0 ? "known " : ""));
   else
     add(fmt::format("{} of {}", moves.within, counted(moves.count, "feed move")));
-  if (moves.missed > 0 && moves.within_mm >= moves.length_mm)
+  if (moves.missed > 0 && is_whole(moves.within_mm, moves.length_mm))
     add(fmt::format("{} above the tolerance", counted(moves.missed, "feed move")));
   if (moves.missed > 0) add(above_text(moves.worst_mm, tolerance_mm));
   const std::size_t unsolved = moves.unknown - moves.unknown_length;

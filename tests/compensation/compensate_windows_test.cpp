@@ -2,6 +2,8 @@
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
+#include <thread>
+
 #include "compensation/window_run.hpp"
 
 using namespace counterflex;
@@ -109,6 +111,23 @@ TEST_CASE("what hears of a window that was read may refuse it, when its turn com
     CHECK(run.windows > 10);
     CHECK(run.waypoints.back().line <= 150);
   }
+}
+
+TEST_CASE("with one thread everything comes from the calling one, and what an event throws ends the run") {
+  const Order order = cuts(300);
+  WindowShop shop(order, 8);
+  WindowRun run;
+  WindowEvents events = events_for(run);
+  bool elsewhere = false;
+  const auto here = std::this_thread::get_id();
+  events.solved = [&](const Job&, const std::vector<Waypoint>&) {
+    elsewhere = elsewhere || std::this_thread::get_id() != here;
+    if (run.begun == 5) throw std::runtime_error("full");
+  };
+  CHECK_THROWS_WITH(compensate_windows(*shop.windows, shop.options, TextReader(shop.reader), false, events),
+                    "full");
+  CHECK_FALSE(elsewhere);
+  CHECK(run.windows == 4);
 }
 
 TEST_CASE("windows come in their order while others are read, and an error of the reader comes out") {

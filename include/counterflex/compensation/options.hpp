@@ -38,7 +38,7 @@ struct Job {
   const Toolpath& path;  ///< wanted tip path in M, and the frames of the program's work offsets
   const PathForces& forces;
   CompensationOptions options;
-  ReadOptions read;  ///< with which the program was read: its corrected text is read anew in the same way
+  ReadOptions read;  ///< with which the program was read: its corrected text is read in the same way
   const ToolModels* tools = nullptr;    ///< of tools that make the machine another one; none: `model` is all
   const StartTables* starts = nullptr;  ///< of the kernel; none: waypoints are solved one by one
   std::optional<TipPosition> from{};    ///< of a window: where the path before it ended

@@ -1,5 +1,5 @@
 #pragma once
-/// What touching off with the machine finds: where the tip of the unloaded machine stands, relative to where
+/// What touching off with the machine finds: where the tip of the unloaded machine is, relative to where
 /// it should. Lengths in m but for program coordinates, which are in mm.
 #include <cstddef>
 #include <map>
