@@ -134,13 +134,14 @@ std::size_t add_behind_step(Slice& slice, std::size_t before) {
   return add_sample(slice, behind);
 }
 
-// By how much the tip bends between two samples at most, while its command goes straight (m). `F_end`: at the
-// end.
-double bend_between(Slice& slice, std::size_t start, const ForwardSample& end, const Vector6& F_end) {
+// By how much the tip bends between the sample `start`, at fraction `u0`, and `end` at most, while its
+// command goes straight (m). `F_end`: at the end. The sample may be shared with the segment before, of which
+// it is the end.
+double bend_between(Slice& slice, std::size_t start, double u0, const ForwardSample& end,
+                    const Vector6& F_end) {
   const PieceTask& task = slice.tasks[end.task];
   if (task.segment->wanted.arc || task.piece->commanded.arc) return HUGE_VAL;
-  const ForceChord along{task.piece->segment, slice.samples[start].u, end.u, slice.requests[start].F,
-                           F_end};
+  const ForceChord along{task.piece->segment, u0, end.u, slice.requests[start].F, F_end};
   const std::vector<Vector6> dF = force_bends(slice.job, along, {}, slice.cursor);
   const LineBend bend = slice.solver.bend_along(
       *task.model, {slice.places[start].p_MT, slice.wanted_at(task, end.u), along.F0, along.F1, dF});
@@ -172,7 +173,7 @@ void add_samples(Slice& slice, std::size_t t) {
     const ForwardSample at_end =
         last ? end : ForwardSample{.task = t, .v = stretch.v1, .u = *next, .between = true, .place = true};
     const Vector6 F = force_at(slice, at_end);
-    stretch.bend = bend_between(slice, stretch.a, at_end, F);
+    stretch.bend = bend_between(slice, stretch.a, piece.u0 + stretch.v0 * span, at_end, F);
     const bool bounded = stretch.bend <= near_share * slice.job.options.tolerance;
     stretch.m = bounded ? no_sample : add_inside(slice, t, (stretch.v0 + stretch.v1) / 2);
     stretch.b = add_sample(slice, at_end, F);

@@ -12,21 +12,7 @@ using namespace counterflex::test;
 
 namespace {
 
-/// Which short lines are sampled inside depends on those that are solved with them.
-std::vector<Waypoint> ends_among(const std::vector<Waypoint>& waypoints) {
-  std::vector<Waypoint> ends;
-  for (const Waypoint& w : waypoints)
-    if (!w.between) ends.push_back(w);
-  return ends;
-}
-
-double largest_after(const std::vector<Waypoint>& waypoints) {
-  double largest = 0;
-  for (const Waypoint& w : waypoints) largest = std::max(largest, w.after.head<3>().norm());
-  return largest;
-}
-
-/// What a window changes is less than any digit: solutions begin from other neighbours.
+/// Answers do not depend on windows. Forces may, by rounding: their path is added up in another order.
 void check_same(const WindowRun& parts, const WindowRun& whole) {
   CHECK(parts.text == whole.text);
   CHECK(parts.inserted == whole.inserted);
@@ -37,19 +23,19 @@ void check_same(const WindowRun& parts, const WindowRun& whole) {
     CHECK(parts.left_alone[i].line == whole.left_alone[i].line);
     CHECK(parts.left_alone[i].why == whole.left_alone[i].why);
   }
-  CHECK(largest_after(parts.waypoints) == doctest::Approx(largest_after(whole.waypoints)).epsilon(0.05));
-  const std::vector<Waypoint> of_parts = ends_among(parts.waypoints), of_whole = ends_among(whole.waypoints);
-  REQUIRE(of_parts.size() == of_whole.size());
-  for (std::size_t i = 0; i < of_whole.size(); ++i) {
-    const Waypoint &a = of_parts[i], &b = of_whole[i];
+  REQUIRE(parts.waypoints.size() == whole.waypoints.size());
+  for (std::size_t i = 0; i < whole.waypoints.size(); ++i) {
+    const Waypoint &a = parts.waypoints[i], &b = whole.waypoints[i];
     CAPTURE(b.line);
+    CAPTURE(b.fraction);
     CHECK(a.line == b.line);
     CHECK(a.fraction == doctest::Approx(b.fraction).epsilon(1e-9));  // p_MT is closer
     CHECK(a.s == doctest::Approx(b.s).epsilon(1e-12));
     CHECK((a.p_MT - b.p_MT).norm() < 1e-12);
     CHECK((a.wrench - b.wrench).norm() < 1e-9 * (1 + b.wrench.norm()));
-    CHECK((a.after - b.after).norm() < 1e-9);
-    CHECK((a.before - b.before).norm() < 1e-9);
+    const double room = a.wrench == b.wrench && a.p_MT == b.p_MT && a.correction == b.correction ? 0 : 1e-10;
+    CHECK((a.after - b.after).norm() <= room);
+    CHECK((a.before - b.before).norm() <= room);
   }
 }
 

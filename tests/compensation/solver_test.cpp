@@ -1,11 +1,12 @@
 /// Targets all over the workspaces of the machines, asked for in one batch, far from one another.
+#include "solver.hpp"
+
 #include <doctest/doctest.h>
 
 #include "counterflex/compensation/options.hpp"
 #include "counterflex/geometry/units.hpp"
 #include "counterflex/machine/read_machine.hpp"
 #include "support/reference_data.hpp"
-#include "solver.hpp"
 
 using namespace counterflex;
 using namespace counterflex::test;
@@ -33,8 +34,8 @@ Load cut(int i) {
   return load;
 }
 
-/// Each target in a batch is, to the last bit, the one that a solver finds which has been asked for nothing before: one by one,
-/// and by the kernel.
+/// Answers of a batch are, to the last bit, those of a solver for each request alone: one by one, and by the
+/// kernel.
 void check_order(const Machine& machine, const Block& block) {
   CAPTURE(machine.name);
   const Model model = prepare(machine);
@@ -49,6 +50,11 @@ void check_order(const Machine& machine, const Block& block) {
     for (int i = 0; i < asked; ++i) requests.push_back({&model, place(block, i), cut(i).F});
     std::vector<TargetAnswer> together(asked);
     PlaceSolver(job).targets(requests, together);
+    std::vector<ForwardRequest> commands;
+    for (int i = 0; i < asked; ++i)
+      commands.push_back({&model, place(block, i), cut(i).F, i % 4 == 0 ? Stage{.errors = 0} : Stage{}});
+    std::vector<ForwardAnswer> reached(asked);
+    PlaceSolver(job).forwards(commands, reached);
     for (int i = 0; i < asked; ++i) {
       CAPTURE(requests[i].p_MT.transpose());
       CAPTURE(requests[i].F.transpose());
@@ -57,26 +63,60 @@ void check_order(const Machine& machine, const Block& block) {
       CHECK(to_string(together[i].status) == "converged");
       CHECK(to_string(alone.status) == "converged");
       CHECK(together[i].target == alone.target);
+      ForwardAnswer reached_alone;
+      PlaceSolver(job).forwards({&commands[i], 1}, {&reached_alone, 1});
+      CHECK(to_string(reached_alone.status) == "converged");
+      CHECK(reached[i].X_MT.p == reached_alone.X_MT.p);
+      CHECK(reached[i].X_MT.R == reached_alone.X_MT.R);
+      CHECK(reached[i].rho == reached_alone.rho);
     }
   }
 }
 
 }  // namespace
 
-TEST_CASE("a target of the Orthoglide does not depend on what was asked before") {
+TEST_CASE("an answer for the Orthoglide does not depend on other requests") {
   const Block cube{{-73.65, -73.65, -73.65}, {126.35, 126.35, 126.35}};
   check_order(load_machine(reference_machine_file("orthoglide_case_a")), cube);
   check_order(load_machine(reference_machine_file("orthoglide_case_b")), cube);
 }
 
-TEST_CASE("a target of the hexapod does not depend on what was asked before") {
+TEST_CASE("an answer for the hexapod does not depend on other requests") {
   const Block block{{-120, -120, 780}, {120, 120, 940}};
   check_order(load_machine(reference_machine_file("hexapod_joint_springs")), block);
   check_order(load_machine(reference_machine_file("hexapod_free_joints")), block);
 }
 
-TEST_CASE("a target of a serial machine does not depend on what was asked before") {
+TEST_CASE("an answer for a serial machine does not depend on other requests") {
   check_order(load_machine(reference_machine_file("serial6r_link6")), {{1500, -300, 500}, {1900, 300, 900}});
   check_order(load_machine(COUNTERFLEX_SOURCE_DIR "/samples/mill3/machine.toml"),
               {{10, 10, -420}, {390, 240, -160}});
+}
+
+TEST_CASE("behind the first failure no answer is sought, and the answers before it are right") {
+  const Model model = prepare(load_machine(reference_machine_file("orthoglide_case_b")));
+  const StartTables starts;
+  for (const StartTables* tables : {static_cast<const StartTables*>(nullptr), &starts}) {
+    std::vector<TargetRequest> requests;
+    for (const double x : {0.0, 0.01, 9.0, 0.02}) requests.push_back({&model, Vector3(x, 0, 0)});
+    std::vector<TargetAnswer> answers(4), all(4);
+    PlaceSolver(tables, false).targets(requests, answers);
+    PlaceSolver(tables, false).targets(requests, all, StopAt::end);
+    CHECK(answers[1].status == Status::converged);
+    CHECK(answers[1].target == all[1].target);
+    CHECK(to_string(answers[2].status) == "unreachable");
+    CHECK(answers[3].status == Status::not_converged);
+    CHECK(all[3].status == Status::converged);
+  }
+}
+
+TEST_CASE("a straight way inside the workspace stays on one branch, a way out of it does not") {
+  const Model model = prepare(load_machine(reference_machine_file("orthoglide_case_b")));
+  const StartTables starts;
+  for (const StartTables* tables : {static_cast<const StartTables*>(nullptr), &starts}) {
+    PlaceSolver solver(tables, false);
+    CHECK(solver.join(model, Vector3(-70, -70, -70) * mm, Vector3(120, 100, 90) * mm) == Status::converged);
+    CHECK(solver.join(model, Vector3::Zero(), Vector3(9, 0, 0)) != Status::converged);
+    CHECK(solver.join(model, Vector3(9, 0, 0), Vector3::Zero()) != Status::converged);
+  }
 }
