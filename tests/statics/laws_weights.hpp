@@ -3,7 +3,7 @@
 #include <Eigen/LU>
 
 #include "laws_states.hpp"
-#include "newton.hpp"
+#include "solve/newton.hpp"
 
 namespace counterflex::laws {
 

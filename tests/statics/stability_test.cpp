@@ -5,7 +5,7 @@
 #include "counterflex/statics/chain.hpp"
 #include "counterflex/statics/tool_models.hpp"
 #include "laws_weights.hpp"
-#include "newton.hpp"
+#include "solve/newton.hpp"
 
 using namespace counterflex;
 using namespace counterflex::laws;

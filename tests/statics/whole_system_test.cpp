@@ -1,8 +1,8 @@
 /// The whole static system beside the condensed one: two ways to the same step.
-#include "whole_system.hpp"
+#include "theory/whole_system.hpp"
 
 #include "laws_weights.hpp"
-#include "newton.hpp"
+#include "solve/newton.hpp"
 
 using namespace counterflex;
 using namespace counterflex::laws;

@@ -5,8 +5,8 @@
 #include <limits>
 
 #include "counterflex/geometry/rotation.hpp"
-#include "start_table.hpp"
 #include "statics/kernel/offset_bounds.hpp"
+#include "statics/solve/start_table.hpp"
 
 namespace counterflex {
 namespace {

@@ -1,4 +1,4 @@
-#include "start_table.hpp"
+#include "statics/solve/start_table.hpp"
 
 #include <algorithm>
 #include <cmath>

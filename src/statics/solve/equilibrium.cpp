@@ -1,6 +1,6 @@
 #include "counterflex/statics/equilibrium.hpp"
 
-#include "continuation.hpp"
+#include "statics/solve/continuation.hpp"
 
 namespace counterflex {
 StaticsWork::StaticsWork(const Mechanism& mechanism) : impl_(std::make_unique<Impl>()) {

@@ -1,7 +1,7 @@
-#include "home_reference.hpp"
+#include "statics/model/home_reference.hpp"
 
 #include "counterflex/statics/equilibrium.hpp"
-#include "tolerances.hpp"
+#include "statics/solve/tolerances.hpp"
 
 namespace counterflex {
 

@@ -2,7 +2,7 @@
 /// Following an equilibrium while errors, load, preloads and weights grow.
 #include <functional>
 
-#include "newton.hpp"
+#include "statics/solve/newton.hpp"
 
 namespace counterflex {
 

@@ -3,8 +3,8 @@
 #include <optional>
 
 #include "counterflex/statics/equilibrium.hpp"
-#include "tip.hpp"
-#include "tolerances.hpp"
+#include "statics/theory/whole_system.hpp"
+#include "statics/solve/tolerances.hpp"
 
 namespace counterflex {
 

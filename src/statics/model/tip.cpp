@@ -1,6 +1,6 @@
 #include <Eigen/Geometry>
 
-#include "tip.hpp"
+#include "statics/model/tip.hpp"
 
 namespace counterflex {
 

@@ -1,4 +1,4 @@
-#include "continuation.hpp"
+#include "statics/solve/continuation.hpp"
 
 #include <algorithm>
 #include <optional>

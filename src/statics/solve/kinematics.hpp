@@ -1,8 +1,8 @@
 #pragma once
 /// Closures of the nominal machine, linearised and solved: Gauss-Newton with steps of minimum norm. EQUATIONS.md, section 1.
 
-#include "tip.hpp"
-#include "tolerances.hpp"
+#include "statics/theory/whole_system.hpp"
+#include "statics/solve/tolerances.hpp"
 
 namespace counterflex {
 

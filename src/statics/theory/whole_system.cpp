@@ -1,4 +1,4 @@
-#include "whole_system.hpp"
+#include "statics/theory/whole_system.hpp"
 
 #include <algorithm>
 #include <cmath>

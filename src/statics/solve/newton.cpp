@@ -1,6 +1,6 @@
 #include <Eigen/Geometry>
 
-#include "newton.hpp"
+#include "statics/solve/newton.hpp"
 
 #include <algorithm>
 #include <cmath>

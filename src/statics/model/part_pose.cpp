@@ -1,4 +1,4 @@
-#include "part_pose.hpp"
+#include "statics/model/part_pose.hpp"
 
 namespace counterflex {
 

@@ -2,7 +2,7 @@
 
 #include <Eigen/Geometry>
 
-#include "weights.hpp"
+#include "statics/theory/weights.hpp"
 
 namespace counterflex {
 namespace {

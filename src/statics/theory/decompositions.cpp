@@ -1,4 +1,4 @@
-#include "decompositions.hpp"
+#include "statics/theory/decompositions.hpp"
 
 template void Eigen::PartialPivLU<Eigen::MatrixXd>::compute();
 template void Eigen::FullPivLU<Eigen::MatrixXd>::computeInPlace();

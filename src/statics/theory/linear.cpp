@@ -2,8 +2,8 @@
 
 #include <Eigen/Geometry>
 
-#include "newton.hpp"
-#include "part_pose.hpp"
+#include "statics/solve/newton.hpp"
+#include "statics/model/part_pose.hpp"
 
 namespace counterflex {
 namespace {

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <limits>
 
-#include "home_reference.hpp"
-#include "kinematics.hpp"
-#include "part_pose.hpp"
+#include "statics/model/home_reference.hpp"
+#include "statics/solve/kinematics.hpp"
+#include "statics/model/part_pose.hpp"
 
 namespace counterflex {
 namespace {

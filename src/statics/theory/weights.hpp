@@ -1,7 +1,7 @@
 #pragma once
 /// The weights of a series' masses: how they move with its columns, and how a branch feels that its start frame turns.
 /// EQUATIONS.md, section 10.
-#include "series.hpp"
+#include "statics/theory/series.hpp"
 
 namespace counterflex {
 

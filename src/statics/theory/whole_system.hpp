@@ -5,7 +5,8 @@
 #include <optional>
 #include <vector>
 
-#include "series.hpp"
+#include "statics/model/tip.hpp"
+#include "statics/theory/series.hpp"
 
 namespace counterflex {
 
@@ -36,16 +37,6 @@ struct PlatformTerms {
 /// From evaluated works (not condensed ones).
 WholeSystem assemble_whole(const Mechanism& mechanism, const std::vector<SeriesWork>& works, const PlatformTerms& platform,
                            const Units& units);
-
-/// By controlled component; in place, there are at most six.
-using ControlledRows = Eigen::Matrix<double, Eigen::Dynamic, 6, 0, 6, 6>;
-using ControlledValues = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 6, 1>;
-
-/// Equations that fix components of the tip: rows over the platform's variables, and their right-hand side.
-struct Controlled {
-  ControlledRows rows;  ///< n x 6, without unit
-  ControlledValues rhs;
-};
 
 /// A step of variables and wrenches, in SI, in the order of `WholeSystem`.
 struct WholeStep {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "newton.hpp"
+#include "statics/solve/newton.hpp"
 
 namespace counterflex {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <optional>
 
-#include "part_pose.hpp"
+#include "statics/model/part_pose.hpp"
 
 namespace counterflex {
 namespace {

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <limits>
 
-#include "newton.hpp"
-#include "part_pose.hpp"
+#include "statics/solve/newton.hpp"
+#include "statics/model/part_pose.hpp"
 
 namespace counterflex {
 namespace {

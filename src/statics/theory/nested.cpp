@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "continuation.hpp"
+#include "statics/solve/continuation.hpp"
 #include "counterflex/statics/chain.hpp"
 
 namespace counterflex {

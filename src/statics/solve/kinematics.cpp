@@ -1,4 +1,4 @@
-#include "kinematics.hpp"
+#include "statics/solve/kinematics.hpp"
 
 #include <cmath>
 #include <limits>

@@ -2,21 +2,13 @@
 /// One series at one state: its Jacobian, Hessian and residuals, and its condensation to the end's wrench. The same code
 /// serves a chain between base and platform and a branch between the two frames of a group. EQUATIONS.md, sections 2-4.
 #include "counterflex/statics/configuration.hpp"
-#include "decompositions.hpp"
+#include "statics/model/units.hpp"
+#include "statics/theory/decompositions.hpp"
 
 namespace counterflex {
 
 using Matrix63 = Eigen::Matrix<double, 6, 3>;
 using Matrix36 = Eigen::Matrix<double, 3, 6>;
-
-/// Units in which matrices are compared and pivoted: lengths in l, forces in k l, moments in k l^2 with k = 1e6 N/m.
-struct Units {
-  double length = 1;
-  double energy() const { return 1e6 * length * length; }
-  double of_column(bool angular) const { return angular ? 1.0 : length; }
-  /// Of the rows of a closure (m m m rad rad rad); a wrench times this, divided by energy(), is without unit.
-  Vector6 of_pose() const { return (Vector6() << length, length, length, 1, 1, 1).finished(); }
-};
 
 /// Where the masses of a series are, and how they move with its columns (start axes).
 struct MassWork {

@@ -1,6 +1,6 @@
 #include <Eigen/Geometry>
 
-#include "weights.hpp"
+#include "statics/theory/weights.hpp"
 
 #include <algorithm>
 

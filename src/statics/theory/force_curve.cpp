@@ -5,7 +5,7 @@
 #include <limits>
 #include <tuple>
 
-#include "newton.hpp"
+#include "statics/solve/newton.hpp"
 
 namespace counterflex {
 namespace {

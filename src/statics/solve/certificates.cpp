@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <optional>
 
-#include "newton.hpp"
+#include "statics/solve/newton.hpp"
 
 namespace counterflex {
 namespace {

@@ -1,0 +1,15 @@
+#pragma once
+/// Units in which matrices are compared and pivoted: lengths in l, forces in k l, moments in k l^2 with k = 1e6 N/m.
+#include "counterflex/geometry/pose.hpp"
+
+namespace counterflex {
+
+struct Units {
+  double length = 1;
+  double energy() const { return 1e6 * length * length; }
+  double of_column(bool angular) const { return angular ? 1.0 : length; }
+  /// Of the rows of a closure (m m m rad rad rad); a wrench times this, divided by energy(), is without unit.
+  Vector6 of_pose() const { return (Vector6() << length, length, length, 1, 1, 1).finished(); }
+};
+
+}  // namespace counterflex
