@@ -3,7 +3,7 @@
 #include <Eigen/LU>
 
 #include "laws_states.hpp"
-#include "solve/newton.hpp"
+#include "theory/manipulator.hpp"
 
 namespace counterflex::laws {
 

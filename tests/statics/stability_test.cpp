@@ -1,11 +1,11 @@
-/// Condition and stability of a configuration, and the cheap proofs of them.
+/// Condition and stability of a configuration, and how pivots and bounds prove them.
 #include <fmt/format.h>
 
 #include "counterflex/machine/tool.hpp"
 #include "counterflex/statics/chain.hpp"
 #include "counterflex/statics/tool_models.hpp"
 #include "laws_weights.hpp"
-#include "solve/newton.hpp"
+#include "solve/judge.hpp"
 
 using namespace counterflex;
 using namespace counterflex::laws;
@@ -53,6 +53,11 @@ void for_any_configurations(unsigned seed, const Check& check) {
   }
 }
 
+WholeSystem whole_system_at(const Model& model, const Configuration& c, const Load& load, StaticsWork& work) {
+  evaluate_all(model, c, {}, work.impl());
+  return whole_system(model, c, {load, {}, nullptr}, work.impl());
+}
+
 Vector6 push(double P) {
   return -P * unit(0);
 }
@@ -72,55 +77,28 @@ Load turned(const Load& load, const Matrix3& R) {
 
 }  // namespace
 
-TEST_CASE("a proof of stability is never wrong, and is found for most ordinary configurations") {
-  int proved = 0, unproved = 0, unstable = 0;
-  for_any_configurations(71, [&](const Model& model, const Configuration& c, const Load& load,
-                                 StaticsWork& work) {
-    const double ratio = stability(model, c, load, {}, work);
-    unstable += ratio < 0;
-    evaluate_all(model, c, {}, work.impl());
-    const Matrix6 tangent = applied_wrench(model.mechanism, c.X_MP, load, 1).tangent;
-    const bool sure = surely_stable(model.mechanism, work.impl().chains, tangent, {model.mechanism.length});
-    if (sure) CHECK(ratio > 0);
-    (sure ? proved : unproved)++;
-  });
-  CHECK(proved > 20);
-  CHECK(unproved > 20);
-  CHECK(unstable > 20);
-}
-
-TEST_CASE("a bound on the condition is never below it, and is found for ordinary configurations" * doctest::test_suite("long")) {
-  int proved = 0, near = 0;
+TEST_CASE("a bound on the condition is never below it, and is near for ordinary configurations" * doctest::test_suite("long")) {
+  int near = 0;
   for_any_configurations(
       72, [&](const Model& model, const Configuration& c, const Load& load, StaticsWork& work) {
         const double exact = static_condition(model, c, load, {}, work);
-        const Matrix6 tangent = applied_wrench(model.mechanism, c.X_MP, load, 1).tangent;
-        for (double limit = 10; limit < 1e11; limit *= 1.1) {
-          evaluate_all(model, c, {}, work.impl());
-          if (!surely_well_conditioned(model.mechanism, work.impl().chains, tangent, {model.mechanism.length},
-                                       limit))
-            continue;
-          CHECK(exact < limit);
-          ++proved;
-          near += exact > limit / 1e4;
-          break;
-        }
+        const double bound = condition_bound(whole_system_at(model, c, load, work));
+        CHECK(exact <= bound * (1 + 1e-9));
+        near += exact > bound / 1e3;
       });
-  CHECK(proved > 60);
-  CHECK(near > 0);
+  CHECK(near > 60);
 }
 
 TEST_CASE("the bound leaves room where a slender tool bends behind chains side by side") {
   const Model model = with_slender_tool(machine_of(all_machines[0]));
   StaticsWork work(model.mechanism);
-  evaluate_all(model, model.home, {}, work.impl());
-  CHECK(surely_well_conditioned(model.mechanism, work.impl().chains, Matrix6::Zero(),
-                                {model.mechanism.length}, 1e8));
+  CHECK(condition_bound(whole_system_at(model, model.home, {}, work)) < 1e8);
 }
 
-TEST_CASE("both proofs are found in machines at work, with masses in branches that lean and without") {
+TEST_CASE("machines at work are proved stable and well conditioned by pivots, or, where masses turn with joints, by a bound") {
   for (const Trial& trial : controlled_machines())
     for (const double kg : {0.0, 1.0, 3.0}) {
+      if (trial.name == "hexapod_free_joints") continue;  // its struts turn freely about themselves
       CAPTURE(trial.name);
       CAPTURE(kg);
       const Model model = kg > 0 ? heavy_model_of(trial.name, kg) : model_of(trial.name);
@@ -130,21 +108,39 @@ TEST_CASE("both proofs are found in machines at work, with masses in branches th
       const Load load = random.load(trial);
       const Equilibrium e = solve_forward(model, nominal, load, {}, work);
       REQUIRE(e.status == Status::converged);
-      evaluate_all(model, e.configuration, {}, work.impl());
-      const Matrix6 tangent = applied_wrench(model.mechanism, e.configuration.X_MP, load, 1).tangent;
-      CHECK(surely_stable(model.mechanism, work.impl().chains, tangent, {model.mechanism.length}));
-      CHECK(surely_well_conditioned(model.mechanism, work.impl().chains, tangent, {model.mechanism.length},
-                                    1e8));
+      const Stability form = judge_stability(model, e.configuration, {load, {}, nullptr}, work.impl());
+      CHECK(form.stable);
+      if (kg == 0) CHECK(form.well_conditioned);
+      CHECK(condition_bound(whole_system_at(model, e.configuration, load, work)) < 1e8);
     }
 }
 
-TEST_CASE("the judgement of a solution is that of the eigenvalues, proof or no proof") {
-  for_any_configurations(
-      73, [&](const Model& model, const Configuration& c, const Load& load, StaticsWork& work) {
-        evaluate_all(model, c, {}, work.impl());
-        const bool stable = is_stable(model, c, {load, {}, nullptr}, work.impl());
-        CHECK(stable == (stability(model, c, load, {}, work) >= 0));
-      });
+TEST_CASE("pivots prove no equilibrium that the whole system does not find stable and well conditioned") {
+  int proved = 0, unstable = 0;
+  double largest = 0;
+  for (const std::string name : all_machines) {
+    CAPTURE(name);
+    const Model model = model_of(name);
+    StaticsWork work(model.mechanism);
+    Random random(73);
+    for (const double size : {1.0, 30.0, 300.0, 3000.0, 30000.0})
+      for (int i = 0; i < 6; ++i) {
+        CAPTURE(size);
+        const Load load{random.six(size, 0.1 * size), false};
+        const Equilibrium e = refine_forward(model, model.home, load, {}, work);
+        if (e.status == Status::not_converged) continue;
+        const double least = stability(model, e.configuration, load, {}, work);
+        const Stability form = judge_stability(model, e.configuration, {load, {}, nullptr}, work.impl());
+        CHECK(form.stable == (least >= 0));
+        unstable += least < 0;
+        if (!form.well_conditioned) continue;
+        ++proved;
+        largest = std::max(largest, static_condition(model, e.configuration, load, {}, work));
+      }
+  }
+  CHECK(largest < 1e7);
+  CHECK(proved > 200);
+  CHECK(unstable > 2);
 }
 
 TEST_CASE("the reference machines stay below a condition of 2e5") {

@@ -22,7 +22,7 @@ struct Equilibrium {
   bool indeterminate = false;     ///< redundant rigid closures: some wrenches are minimum-norm ones
 };
 
-/// Scratch memory for one thread, and the tallies of what it was used for. Reused between calls it saves allocations.
+/// Memory for one thread and one mechanism, which must not change. Reused between calls it saves allocations.
 class StaticsWork {
  public:
   explicit StaticsWork(const Mechanism& mechanism);

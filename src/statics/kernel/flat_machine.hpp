@@ -82,6 +82,7 @@ struct Spring {
   std::array<double, 36> K{};
   std::array<double, 6> theta_0{};
   SpringShape shape = SpringShape::full;
+  double tangent_factor = 1;  ///< of an isotropic one: its K in tangents over that in forces
 };
 
 struct FlatMachine {

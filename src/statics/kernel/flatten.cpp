@@ -16,9 +16,6 @@ bool is_joint(const Part& part) {
   return part.kind == PartKind::actuator || part.kind == PartKind::passive ||
          part.kind == PartKind::compliance;
 }
-bool is_six(const Part& part) {
-  return part.kind == PartKind::spring || part.kind == PartKind::group;
-}
 bool is_rigid(const Part& part) {
   return part.kind == PartKind::fixed || part.kind == PartKind::error;
 }
@@ -203,7 +200,6 @@ class SeriesFlattener {
       return;
     }
     const auto& branches = at(series_.groups, part.group).branches;
-    group_ = part.group;
     element_.kind = ElementKind::group;
     element_.branches = static_cast<int>(branches.size());
     const int first = static_cast<int>(machine_.series.size());
@@ -252,14 +248,15 @@ class SeriesFlattener {
   }
 
   /// Joints without a six-element behind them: a spring K and a spring -K in series hold their end rigidly to
-  /// `node`. The second one is stiffer by a little: where the joints before it do not yield in all directions
-  /// the node's pivots were zero else. What yields by that is less than rounding (EQUATIONS.md, section 11).
+  /// `node`. In tangents the second one is stiffer by a little: where the joints before it do not yield in all
+  /// directions the node's pivots were zero else (EQUATIONS.md, section 11).
   void close_rigidly(std::size_t part, int node) {
     constexpr double surplus = 1e-8;
     const double k = machine_.stiffest, l = machine_.length;
-    for (const double sign : {1.0, -1.0 - surplus}) {
+    for (const double sign : {1.0, -1.0}) {
       Spring spring;
       spring.shape = SpringShape::isotropic;
+      if (sign < 0) spring.tangent_factor = 1 + surplus;
       for (int i = 0; i < 6; ++i) at(spring.K, 7 * i) = sign * k * (i < 3 ? 1 : l * l);
       element_.spring = parts_.add_spring(spring);
       close_element(sign > 0 ? add_node(part) : node);
@@ -272,11 +269,9 @@ class SeriesFlattener {
     emit(after_, true, element_.after, element_.afters);
     element_.node = node;
     elements_.push_back(element_);
-    groups_.push_back(group_);
     element_ = {};
     front_ = after_ = {};
     has_six_ = false;
-    group_ = -1;
   }
 
   /// Writes the steps of a stretch, backwards where they lead from the end frame to the element.
@@ -313,7 +308,6 @@ class SeriesFlattener {
     machine_.actuators.insert(machine_.actuators.end(), series_.actuators.begin(), series_.actuators.end());
     for (Element& element : elements_) number_actuators(element);
     machine_.elements.insert(machine_.elements.end(), elements_.begin(), elements_.end());
-    parts_.flat.group_of_element.insert(parts_.flat.group_of_element.end(), groups_.begin(), groups_.end());
   }
 
   int slot_of(int actuator) const {
@@ -352,94 +346,17 @@ class SeriesFlattener {
   Parts& parts_;
   FlatMachine& machine_;
   std::vector<Element> elements_{};
-  std::vector<int> groups_{};  // by element: its number among the series' groups, or -1
   Element element_{};          // the one that is being read, with the joints on both sides
   Stretch front_{}, after_{};
   bool has_six_ = false;
-  int group_ = -1;
   bool at_start_ = true;          // this place rides with the start; in a chain, up to actuators
   int node_ = -1;                 // the node with which it rides, if there is one
   TransformProduct from_node_{};  // from that node, or from the start
 };
 
-/// Numbers of a state from a configuration.
-class StateReader {
- public:
-  StateReader(const Model& model, const Flat& flat, double errors)
-      : mechanism_(model.mechanism),
-        flat_(flat),
-        errors_(errors),
-        states_(flat.machine.series.size()),
-        nodes_(flat.nodes.size()) {}
-
-  std::vector<double> read(const Configuration& configuration) {
-    for (int s = 0; s < flat_.machine.chains; ++s)
-      walk(at(mechanism_.chains, s), at(configuration.chains, s), s, Pose{});
-    std::vector<double> numbers;
-    for (const Flat::Place& joint : flat_.joints)
-      numbers.push_back(at(states_, joint.series)->x[joint.index]);
-    nodes_.push_back(configuration.X_MP);
-    for (const Pose& X : nodes_) {
-      for (int i = 0; i < 9; ++i) numbers.push_back(X.R(i / 3, i % 3));
-      for (int i = 0; i < 3; ++i) numbers.push_back(X.p[i]);
-    }
-    return numbers;
-  }
-
- private:
-  void note_nodes(int s, std::size_t part, const Pose& X) {
-    for (std::size_t i = 0; i < flat_.nodes.size(); ++i)
-      if (flat_.nodes[i].series == s && flat_.nodes[i].index == static_cast<int>(part)) nodes_[i] = X;
-  }
-
-  void walk(const ModelSeries& series, const SeriesState& state, int s, Pose X) {
-    at(states_, s) = &state;
-    for (std::size_t k = 0; k < series.parts.size(); ++k) {
-      note_nodes(s, k, X);
-      pass(series, state, series.parts[k], s, X);
-    }
-    note_nodes(s, series.parts.size(), X);
-  }
-
-  void pass(const ModelSeries& series, const SeriesState& state, const Part& part, int s, Pose& X) {
-    if (is_rigid(part)) {
-      X = X * pose_of({factor_of(part)}, part.kind == PartKind::error ? errors_ : 1);
-    } else if (is_joint(part)) {
-      const double q = state.x[part.column];
-      X = X * (part.joint.kind == JointKind::prismatic ? translation(q * part.joint.axis)
-                                                       : rotation(counterflex::exp_so3(q * part.joint.axis)));
-    } else if (part.kind == PartKind::spring) {
-      X = X * translation(state.x.segment<3>(part.column)) *
-          rotation(counterflex::exp_so3(state.x.segment<3>(part.column + 3)));
-    } else if (part.kind == PartKind::group) {
-      const GroupState& group = at(state.groups, part.group);
-      const auto& branches = at(series.groups, part.group).branches;
-      const int first = branches_of(s, part.group);
-      for (int b = 0; b < static_cast<int>(branches.size()); ++b)
-        walk(at(branches, b), at(group.branches, b), first + b, X);
-      X = X * group.X;
-    }
-  }
-
-  /// The first branch of a group of series `s`.
-  int branches_of(int s, int group) const {
-    const Series& series = at(flat_.machine.series, s);
-    for (int i = series.first; i < series.first + series.count; ++i)
-      if (at(flat_.group_of_element, i) == group) return at(flat_.machine.elements, i).series;
-    return -1;
-  }
-
-  const Mechanism& mechanism_;
-  const Flat& flat_;
-  const double errors_;
-  std::vector<const SeriesState*> states_;
-  std::vector<Pose> nodes_;
-};
-
 }  // namespace
 
-Flat flatten(const Model& model, bool load_at_platform) {
-  const Mechanism& mechanism = model.mechanism;
+Flat flatten(const Mechanism& mechanism, bool load_at_platform) {
   Parts parts;
   FlatMachine& machine = parts.flat.machine;
   machine.chains = static_cast<int>(mechanism.chains.size());
@@ -468,11 +385,6 @@ std::vector<Transform> transforms_at(const Flat& flat, double errors) {
   for (const TransformProduct& product : flat.transforms)
     table.push_back(transform_of(pose_of(product, errors)));
   return table;
-}
-
-std::vector<double> state_of(const Model& model, const Flat& flat, const Configuration& configuration,
-                             double errors) {
-  return StateReader(model, flat, errors).read(configuration);
 }
 
 }  // namespace counterflex::kernel

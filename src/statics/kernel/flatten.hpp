@@ -27,11 +27,18 @@ struct Flat {
     int series = 0, index = 0;
   };
   std::vector<Place> joints, nodes;
-  std::vector<int> group_of_element;  ///< its number in its series
 };
 
-/// The machine of `model`, its load at the tip or at the reference point.
-Flat flatten(const Model& model, bool load_at_platform);
+/// Whether a part is a six-element. Those of a series are its first elements, in order.
+inline bool is_six(const Part& part) {
+  return part.kind == PartKind::spring || part.kind == PartKind::group;
+}
+
+/// The machine of a mechanism, its load at the tip or at the reference point.
+Flat flatten(const Mechanism& mechanism, bool load_at_platform);
+inline Flat flatten(const Model& model, bool load_at_platform) {
+  return flatten(model.mechanism, load_at_platform);
+}
 
 /// The table of transforms with a share of the errors: s p, Exp(s Log R) of each.
 std::vector<Transform> transforms_at(const Flat& flat, double errors);

@@ -207,7 +207,10 @@ SeriesEnds<T> evaluate_series(int s, const Frame<T>& A, const Frame<T>& B, Work<
   }
   Vec6<T> end{};
   add_weights(series.at_end, B, work, end);
-  return {at(work.equations.elements, series.first + series.count - 1).phi + end, inside + end};
+  inside = inside + end;
+  end = at(work.equations.elements, series.first + series.count - 1).phi + end;
+  at(work.equations.ends, s) = end;
+  return {end, inside};
 }
 
 /// Place of the load in the axes of M, from the common point.

@@ -71,9 +71,9 @@ COUNTERFLEX_INLINE Sym6<T> spring_tangent(const Spring& spring, const ElementTer
   if (spring.shape == SpringShape::isotropic) {
     ww = times_transposed(Q, Q);
     COUNTERFLEX_UNROLL
-    for (int i = 0; i < 9; ++i) ww.c[i] = ww.c[i] * spring.K[21];
+    for (int i = 0; i < 9; ++i) ww.c[i] = ww.c[i] * (spring.K[21] * spring.tangent_factor);
     COUNTERFLEX_UNROLL
-    for (int i = 0; i < 3; ++i) vv(i, i) = all<T>(spring.K[0]);
+    for (int i = 0; i < 3; ++i) vv(i, i) = all<T>(spring.K[0] * spring.tangent_factor);
   } else {
     vv = times_transposed(times_block(terms.R, spring, 0, 0), terms.R);
     ww = times_transposed(times_block(Q, spring, 3, 3), Q);

@@ -55,6 +55,7 @@ struct Equations {
   std::vector<ElementTerms<T>> elements;
   std::vector<Vec6<T>> nodes;    ///< residuals
   std::vector<Vec6<T>> hanging;  ///< by weight: gradients of those that are steps
+  std::vector<Vec6<T>> ends;     ///< by series: wrench on its end
   Vec6<T> platform;              ///< residual
   Frame<T> tip;
   Vec6<T> tip_error;       ///< wanted less actual, in controlled components
@@ -120,7 +121,7 @@ struct Work {
     start_stress.resize(m.elements.size());
     equations.joints.resize(joints), equations.elements.resize(m.elements.size()),
         equations.nodes.resize(nodes);
-    equations.hanging.resize(m.weights.size());
+    equations.hanging.resize(m.weights.size()), equations.ends.resize(m.series.size());
     factors.joints.resize(joints), factors.nodes.resize(nodes);
     factors.couplings.resize(static_cast<std::size_t>(m.couplings));
     factors.node_columns.resize(nodes * static_cast<std::size_t>(m.most_actuators));

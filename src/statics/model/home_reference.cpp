@@ -1,7 +1,7 @@
 #include "statics/model/home_reference.hpp"
 
 #include "counterflex/statics/equilibrium.hpp"
-#include "statics/solve/tolerances.hpp"
+#include "statics/model/tolerances.hpp"
 
 namespace counterflex {
 

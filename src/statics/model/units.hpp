@@ -1,5 +1,6 @@
 #pragma once
-/// Units in which matrices are compared and pivoted: lengths in l, forces in k l, moments in k l^2 with k = 1e6 N/m.
+/// Units in which matrices are compared and pivoted: lengths in l, forces in k l, moments in k l^2 with k =
+/// 1e6 N/m.
 #include "counterflex/geometry/pose.hpp"
 
 namespace counterflex {

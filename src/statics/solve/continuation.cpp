@@ -6,7 +6,6 @@
 namespace counterflex {
 namespace {
 
-constexpr double largest_condition = 1e10;
 constexpr double first_step = 0.25, smallest_step = 1.0 / 1024;
 
 Stage between(const Stage& from, const Stage& goal, double s) {
@@ -38,12 +37,12 @@ Configuration extrapolated(const Configuration& before, const Configuration& now
 struct Followed {
   double s = 0;
   Configuration configuration;
-  bool stable = false;
+  Stability form{};
 };
 
-bool solves(const Problem& problem, const EquilibriumSolver& solve, StaticsWork::Impl& work, Configuration& next,
+bool solves(const Model& model, const Problem& problem, const EquilibriumSolver& solve, StaticsWork::Impl& work, Configuration& next,
             int& iterations) {
-  const NewtonResult solved = solve(problem, work, next);
+  const NewtonResult solved = solve(model, problem, work, next);
   iterations += solved.iterations;
   return solved.converged && !solved.jumped;  // a jump: past a limit point, to an equilibrium on another branch
 }
@@ -55,10 +54,11 @@ bool goes_on(const Model& model, const Problem& problem, const EquilibriumSolver
   const double ratio = (next.s - now.s) / (now.s - before.s);
   const Configuration foreseen = extrapolated(before.configuration, now.configuration, ratio);
   next.configuration = foreseen;
-  next.stable = solves(problem, solve, work, next.configuration, iterations) &&
-                !ends_elsewhere(model.mechanism, now.configuration, foreseen, next.configuration) &&
-                is_stable(model, next.configuration, problem, work);
-  return next.stable;
+  if (!solves(model, problem, solve, work, next.configuration, iterations) ||
+      ends_elsewhere(model.mechanism, now.configuration, foreseen, next.configuration))
+    return false;
+  next.form = judge_stability(model, next.configuration, problem, work);
+  return next.form.stable;
 }
 
 // Whether the state under half of a step is not about half of the way: then a limit point may lie between.
@@ -71,23 +71,16 @@ bool advances(const Model& model, const Problem& problem, const EquilibriumSolve
               int& iterations) {
   if (before && goes_on(model, problem, solve, *before, now, work, next, iterations)) return true;
   next.configuration = now.configuration;
-  if (!solves(problem, solve, work, next.configuration, iterations)) return false;
-  next.stable = is_stable(model, next.configuration, problem, work);
+  if (!solves(model, problem, solve, work, next.configuration, iterations)) return false;
+  next.form = judge_stability(model, next.configuration, problem, work);
   return true;
 }
 
-// What is reported of a solution that Newton found: `converged` unless the system there is singular.
-void judge_condition(const Model& model, const Problem& problem, StaticsWork::Impl& work, Equilibrium& result) {
-  const Units units{model.mechanism.length};
-  const auto applied = applied_wrench(model.mechanism, result.configuration.X_MP, problem.load, problem.stage.load);
-  result.status = Status::converged;
-  if (surely_well_conditioned(model.mechanism, work.chains, applied.tangent, units, largest_condition)) return;
-  evaluate_all(model, result.configuration, problem.stage, work);
-  const Condition whole = condition(whole_system(model, result.configuration, problem, work), units);
-  result.indeterminate = whole.indeterminate;
-  if (whole.value <= largest_condition) return;
-  result.status = Status::singular;
-  result.weakest = whole.weakest;
+// The status of an equilibrium.
+void report(const Model& model, const Problem& problem, const Stability& form, StaticsWork::Impl& work,
+            Equilibrium& result) {
+  result.status = form.stable ? Status::converged : Status::unstable;
+  if (form.stable && !form.well_conditioned) judge_condition(model, problem, work, result);
 }
 
 }  // namespace
@@ -96,17 +89,10 @@ Equilibrium refine(const Model& model, const Configuration& start, const Problem
                    StaticsWork::Impl& work) {
   Equilibrium result;
   result.configuration = start;
-  const NewtonResult solved = solve(problem, work, result.configuration);
+  const NewtonResult solved = solve(model, problem, work, result.configuration);
   result.iterations = solved.iterations;
-  if (solved.converged) judge(model, problem, work, result);
+  if (solved.converged) report(model, problem, judge_stability(model, result.configuration, problem, work), work, result);
   return result;
-}
-
-void judge(const Model& model, const Problem& problem, StaticsWork::Impl& work, Equilibrium& result) {
-  if (is_stable(model, result.configuration, problem, work))
-    judge_condition(model, problem, work, result);
-  else
-    result.status = Status::unstable;
 }
 
 Equilibrium continue_from(const Model& model, const Configuration& start, const Stage& from, Problem problem,
@@ -114,13 +100,13 @@ Equilibrium continue_from(const Model& model, const Configuration& start, const 
   const Stage goal = problem.stage;
   Equilibrium result;
   std::optional<Followed> before;
-  Followed now{0, start, true};
+  Followed now{0, start, {true, false}};
   double step = first_step;
   while (now.s < 1) {
     Followed next{std::min(1.0, now.s + step), {}};
     Configuration half = now.configuration;
     problem.stage = between(from, goal, (now.s + next.s) / 2);
-    const bool begins = watch == Watch::equilibria || solves(problem, solve, work, half, result.iterations);
+    const bool begins = watch == Watch::equilibria || solves(model, problem, solve, work, half, result.iterations);
     problem.stage = between(from, goal, next.s);
     if (!begins || !advances(model, problem, solve, before, now, work, next, result.iterations) ||
         (watch == Watch::ways && bends(model.mechanism, now, half, next))) {
@@ -130,27 +116,11 @@ Equilibrium continue_from(const Model& model, const Configuration& start, const 
     }
     before = std::move(now);
     now = std::move(next);
-    if (now.stable) continue;
-    result.configuration = std::move(now.configuration);
-    result.status = Status::unstable;
-    return result;
+    if (!now.form.stable) break;
   }
   result.configuration = std::move(now.configuration);
-  judge_condition(model, problem, work, result);
+  report(model, problem, now.form, work, result);
   return result;
-}
-
-EquilibriumSolver newton_solver(const Model& model) {
-  return [&model](const Problem& problem, StaticsWork::Impl& work, Configuration& configuration) {
-    return newton(model, problem, work, configuration);
-  };
-}
-
-bool is_stable(const Model& model, const Configuration& configuration, const Problem& problem,
-               const StaticsWork::Impl& work) {
-  const auto applied = applied_wrench(model.mechanism, configuration.X_MP, problem.load, problem.stage.load);
-  if (surely_stable(model.mechanism, work.chains, applied.tangent, {model.mechanism.length})) return true;
-  return least_scaled_eigenvalue(whole_system(model, configuration, problem, work)) >= 0;
 }
 
 }  // namespace counterflex

@@ -2,29 +2,25 @@
 /// Following an equilibrium while errors, load, preloads and weights grow.
 #include <functional>
 
+#include "statics/solve/judge.hpp"
 #include "statics/solve/newton.hpp"
 
 namespace counterflex {
 
-using EquilibriumSolver = std::function<NewtonResult(const Problem&, StaticsWork::Impl&, Configuration&)>;
+using EquilibriumSolver =
+    std::function<NewtonResult(const Model&, const Problem&, StaticsWork::Impl&, Configuration&)>;  ///< as `newton`
 
 /// What must be right of a step: the equilibria that it joins; or also that half of it leads about half of the way, since a
 /// step that is long enough passes over a limit point to another stable branch.
 enum class Watch { equilibria, ways };
 
 /// From the equilibrium `start` of stage `from` to the stage of `problem`, in at least four steps, smaller where one does not
-/// converge. `solve` must leave the works evaluated at its solution.
+/// converge.
 Equilibrium continue_from(const Model& model, const Configuration& start, const Stage& from, Problem problem,
                           const EquilibriumSolver& solve, StaticsWork::Impl& work, Watch watch = Watch::equilibria);
 
 /// One solve from a start of the caller's choice, judged like the end of a continuation.
 Equilibrium refine(const Model& model, const Configuration& start, const Problem& problem, const EquilibriumSolver& solve,
                    StaticsWork::Impl& work);
-
-/// The status of an equilibrium at which the works are evaluated: converged, unstable or singular.
-void judge(const Model& model, const Problem& problem, StaticsWork::Impl& work, Equilibrium& result);
-
-/// Newton's method as such a solver.
-EquilibriumSolver newton_solver(const Model& model);
 
 }  // namespace counterflex

@@ -3,21 +3,24 @@
 #include "statics/solve/continuation.hpp"
 
 namespace counterflex {
-StaticsWork::StaticsWork(const Mechanism& mechanism) : impl_(std::make_unique<Impl>()) {
+
+StaticsWork::StaticsWork(const Mechanism& mechanism)
+    : impl_(std::make_unique<Impl>(Impl{{},
+                                        Eigen::VectorXd::Zero(static_cast<Eigen::Index>(mechanism.travel.size())),
+                                        kernel::Single(mechanism)})) {
   for (const Series& chain : mechanism.chains) impl_->chains.push_back(make_work(chain));
-  impl_->no_actuator_step.setZero(static_cast<Eigen::Index>(mechanism.travel.size()));
 }
 StaticsWork::~StaticsWork() = default;
 StaticsWork::StaticsWork(StaticsWork&&) noexcept = default;
 
 Equilibrium solve_forward(const Model& model, const Configuration& nominal, const Load& load, const Stage& goal,
                           StaticsWork& work) {
-  return continue_from(model, nominal, nominal_stage, {load, goal, nullptr}, newton_solver(model), work.impl());
+  return continue_from(model, nominal, nominal_stage, {load, goal, nullptr}, newton, work.impl());
 }
 
 Equilibrium refine_forward(const Model& model, const Configuration& start, const Load& load, const Stage& goal,
                            StaticsWork& work) {
-  return refine(model, start, {load, goal, nullptr}, newton_solver(model), work.impl());
+  return refine(model, start, {load, goal, nullptr}, newton, work.impl());
 }
 
 bool is_reached_by_load_alone(const Model& model, const Configuration& nominal, const Load& load, const Stage& goal,
@@ -28,7 +31,7 @@ bool is_reached_by_load_alone(const Model& model, const Configuration& nominal, 
   const Equilibrium rest = solve_forward(model, nominal, load, unloaded, work);
   if (rest.status != Status::converged) return true;
   const Equilibrium found =
-      continue_from(model, rest.configuration, unloaded, {load, goal, nullptr}, newton_solver(model), work.impl(), Watch::ways);
+      continue_from(model, rest.configuration, unloaded, {load, goal, nullptr}, newton, work.impl(), Watch::ways);
   const Vector6 apart = difference(found.configuration.X_MP, loaded.configuration.X_MP);
   return found.status == Status::converged &&
          apart.cwiseQuotient(Units{model.mechanism.length}.of_pose()).norm() <= same_place;
@@ -36,12 +39,12 @@ bool is_reached_by_load_alone(const Model& model, const Configuration& nominal, 
 
 Equilibrium solve_target(const Model& model, const Configuration& nominal, const Pose& X_MT, const Load& load,
                          const Stage& goal, StaticsWork& work) {
-  return continue_from(model, nominal, nominal_stage, {load, goal, &X_MT}, newton_solver(model), work.impl());
+  return continue_from(model, nominal, nominal_stage, {load, goal, &X_MT}, newton, work.impl());
 }
 
 Equilibrium refine_target(const Model& model, const Configuration& start, const Pose& X_MT, const Load& load,
                           const Stage& goal, StaticsWork& work) {
-  return refine(model, start, {load, goal, &X_MT}, newton_solver(model), work.impl());
+  return refine(model, start, {load, goal, &X_MT}, newton, work.impl());
 }
 
 ManipulatorStiffness stiffness(const Model& model, const Configuration& configuration, const Stage& stage,

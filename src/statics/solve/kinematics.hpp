@@ -2,7 +2,7 @@
 /// Closures of the nominal machine, linearised and solved: Gauss-Newton with steps of minimum norm. EQUATIONS.md, section 1.
 
 #include "statics/theory/whole_system.hpp"
-#include "statics/solve/tolerances.hpp"
+#include "statics/model/tolerances.hpp"
 
 namespace counterflex {
 

@@ -3,7 +3,8 @@
 #include <cmath>
 #include <limits>
 
-#include "statics/solve/newton.hpp"
+#include "statics/model/tolerances.hpp"
+#include "statics/theory/manipulator.hpp"
 #include "statics/model/part_pose.hpp"
 
 namespace counterflex {

@@ -5,7 +5,8 @@
 #include <limits>
 #include <tuple>
 
-#include "statics/solve/newton.hpp"
+#include "statics/model/tolerances.hpp"
+#include "statics/solve/judge.hpp"
 
 namespace counterflex {
 namespace {
@@ -109,8 +110,7 @@ class Follower {
   }
 
   bool is_stable(const State& state) const {
-    evaluate_all(model_, state.configuration, Stage{}, work_);
-    return counterflex::is_stable(model_, state.configuration, problem(state), work_);
+    return judge_stability(model_, state.configuration, problem(state), work_).stable;
   }
 
   CurvePoint point(const State& state) const {
@@ -143,15 +143,9 @@ class Follower {
   }
 
   bool is_solved(const State& state, double missing) const {
-    Residual residual;
-    for (std::size_t i = 0; i < work_.chains.size(); ++i)
-      add_residual(model_.mechanism.chains[i], state.configuration.chains[i], work_.chains[i], units_, residual);
-    const Problem acting = problem(state);
-    residual.force =
-        std::max(residual.force, wrench_size(platform_terms(model_, state.configuration, acting).gradient, units_));
-    residual.largest = std::max(residual.largest, wrench_size(acting.load.F, units_));
-    return std::max(residual.closure, std::abs(missing)) <= closure_tolerance &&
-           residual.force <= force_tolerance(model_.mechanism, state.configuration.X_MP, residual.largest);
+    return std::abs(missing) <= closure_tolerance &&
+           counterflex::is_solved(model_.mechanism, state.configuration.X_MP,
+                                  residual_of(model_, state.configuration, problem(state), work_));
   }
 
   const Model& model_;

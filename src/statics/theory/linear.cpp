@@ -2,7 +2,8 @@
 
 #include <Eigen/Geometry>
 
-#include "statics/solve/newton.hpp"
+#include "statics/model/tolerances.hpp"
+#include "statics/theory/manipulator.hpp"
 #include "statics/model/part_pose.hpp"
 
 namespace counterflex {

@@ -57,7 +57,6 @@ NewtonResult equilibrium_by_chains(const Model& model, const Problem& problem, C
     step = std::max(dt.head<3>().norm(), dt.tail<3>().norm() * units.length);
     configuration.X_MP = moved(configuration.X_MP, dt);
   }
-  evaluate_all(model, configuration, problem.stage, work.impl());
   return result;
 }
 
@@ -83,7 +82,7 @@ Equilibrium solve_target_nested(const Model& model, const Configuration& nominal
                                 const Stage& goal, StaticsWork& work) {
   const Units units{model.mechanism.length};
   const Problem problem{load, goal, nullptr};
-  const EquilibriumSolver by_chains = [&](const Problem& p, StaticsWork::Impl&, Configuration& c) {
+  const EquilibriumSolver by_chains = [&](const Model&, const Problem& p, StaticsWork::Impl&, Configuration& c) {
     return equilibrium_by_chains(model, p, c, work);
   };
   Equilibrium result = continue_from(model, nominal, nominal_stage, problem, by_chains, work.impl());

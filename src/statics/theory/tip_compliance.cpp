@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "statics/solve/newton.hpp"
+#include "statics/theory/manipulator.hpp"
 
 namespace counterflex {
 namespace {

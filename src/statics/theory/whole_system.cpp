@@ -247,6 +247,14 @@ Condition condition(const WholeSystem& system, const Units& units) {
   return result;
 }
 
+double condition_bound(const WholeSystem& system) {
+  const auto columns = unknowns(system, false);
+  Eigen::MatrixXd B = bordered(system, columns, columns);
+  soften(system, columns, B);
+  const double bound = B.norm() * Eigen::PartialPivLU<Eigen::MatrixXd>(B).inverse().norm();
+  return std::isfinite(bound) ? bound : std::numeric_limits<double>::infinity();
+}
+
 double least_scaled_eigenvalue(const WholeSystem& system) {
   const auto columns = unknowns(system, false);
   Eigen::MatrixXd C = system.C(Eigen::all, columns), A = system.A(columns, columns);

@@ -60,6 +60,9 @@ struct Condition {
 };
 Condition condition(const WholeSystem& system, const Units& units);
 
+/// The condition is at most this; infinite where the system has zero modes.
+double condition_bound(const WholeSystem& system);
+
 /// Least eigenvalue of the symmetric part of A on the null space of C, actuators held, every coordinate scaled by its own
 /// stiffness first. A negative one within its rounding error is 0. EQUATIONS.md, section 6.
 double least_scaled_eigenvalue(const WholeSystem& system);

@@ -1,0 +1,14 @@
+#pragma once
+/// What one waypoint should satisfy.
+#include "counterflex/statics/equilibrium.hpp"
+
+namespace counterflex {
+
+struct Problem {
+  Load load;
+  Stage stage;
+  const Pose* X_MT =
+      nullptr;  ///< where the controlled components of the tip are wanted; none: actuators are held
+};
+
+}  // namespace counterflex

@@ -1,0 +1,20 @@
+#pragma once
+/// Whether an equilibrium is stable, and its system regular. EQUATIONS.md, sections 6 and 8.
+#include "statics/theory/manipulator.hpp"
+
+namespace counterflex {
+
+/// Of an equilibrium. The pivots of the kernel prove most equilibria; the whole system decides about the
+/// others.
+struct Stability {
+  bool stable = false;
+  bool well_conditioned = false;  ///< proved; false says nothing
+};
+Stability judge_stability(const Model& model, const Configuration& configuration, const Problem& problem,
+                          StaticsWork::Impl& work);
+
+/// The status of a stable equilibrium, `converged` or `singular`, into `result`.
+void judge_condition(const Model& model, const Problem& problem, StaticsWork::Impl& work,
+                     Equilibrium& result);
+
+}  // namespace counterflex
