@@ -40,14 +40,13 @@ inline Configuration condensed_step(const Model& model, Configuration c, const P
   Matrix6 K = terms.A;
   Vector6 rhs = -terms.gradient;
   for (std::size_t i = 0; i < work.chains.size(); ++i) {
-    REQUIRE(condense(model.mechanism.chains[i], units, false, work.chains[i]));
+    REQUIRE(condense(model.mechanism.chains[i], units, work.chains[i]));
     K += work.chains[i].K;
     rhs -= work.chains[i].dF;
   }
   const Vector6 dxi = K.fullPivLu().solve(rhs);
   for (std::size_t i = 0; i < work.chains.size(); ++i)
-    take_step(model.mechanism.chains[i], dxi, work.no_actuator_step, Vector3::Zero(), units, work.chains[i],
-              c.chains[i]);
+    take_step(model.mechanism.chains[i], dxi, Vector3::Zero(), units, work.chains[i], c.chains[i]);
   c.X_MP = moved(c.X_MP, dxi);
   return c;
 }

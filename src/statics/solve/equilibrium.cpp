@@ -5,9 +5,7 @@
 namespace counterflex {
 
 StaticsWork::StaticsWork(const Mechanism& mechanism)
-    : impl_(std::make_unique<Impl>(Impl{{},
-                                        Eigen::VectorXd::Zero(static_cast<Eigen::Index>(mechanism.travel.size())),
-                                        kernel::Single(mechanism)})) {
+    : impl_(std::make_unique<Impl>(Impl{{}, kernel::Single(mechanism)})) {
   for (const Series& chain : mechanism.chains) impl_->chains.push_back(make_work(chain));
 }
 StaticsWork::~StaticsWork() = default;
@@ -53,7 +51,7 @@ ManipulatorStiffness stiffness(const Model& model, const Configuration& configur
   ManipulatorStiffness result;
   for (std::size_t i = 0; i < model.mechanism.chains.size(); ++i) {
     SeriesWork& chain = work.impl().chains[i];
-    if (!condense(model.mechanism.chains[i], {model.mechanism.length}, false, chain)) return {Matrix6::Zero(), false};
+    if (!condense(model.mechanism.chains[i], {model.mechanism.length}, chain)) return {Matrix6::Zero(), false};
     result.K += chain.K;
   }
   return result;

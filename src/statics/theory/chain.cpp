@@ -31,7 +31,6 @@ ChainEquilibrium solve_chain(const Model& model, std::size_t i, const Pose& X_MP
   const Units units{model.mechanism.length};
   const Hessians hessians = method == ChainMethod::newton ? Hessians::yes : Hessians::no;
   SeriesWork& chain = work.impl().chains[i];
-  const Eigen::VectorXd& no_actuator = work.impl().no_actuator_step;
   ChainEquilibrium result;
   double step = std::numeric_limits<double>::infinity();
   for (; result.iterations < most_chain_steps; ++result.iterations) {
@@ -44,11 +43,11 @@ ChainEquilibrium solve_chain(const Model& model, std::size_t i, const Pose& X_MP
       result.status = Status::converged;
       return result;
     }
-    if (!condense(series, units, false, chain)) {
+    if (!condense(series, units, chain)) {
       result.status = Status::singular;
       return result;
     }
-    step = take_step(series, Vector6::Zero(), no_actuator, Vector3::Zero(), units, chain, state);
+    step = take_step(series, Vector6::Zero(), Vector3::Zero(), units, chain, state);
   }
   return result;
 }
@@ -61,7 +60,7 @@ ChainStiffness chain_stiffness(const Model& model, std::size_t i, const SeriesSt
   const Pose X_MP = chain_end(model, i, state, stage, work);
   evaluate(series, state, X_MP, stage, acting_gravity(model.mechanism, stage), Hessians::yes, chain);
   ChainStiffness result;
-  result.available = condense(series, units, false, chain);
+  result.available = condense(series, units, chain);
   if (!result.available) return result;
   result.K_C = chain.K;
   const auto append = [&](Eigen::Matrix<double, Eigen::Dynamic, 6>& rows, std::size_t row) {

@@ -9,16 +9,16 @@ namespace {
 
 constexpr double smallest_pivot_ratio = 1e-12;
 
-// What a group's branches add to its six columns: stiffness, corrected wrench, and dependence on inner actuators.
+// What a group's branches add to its six columns: stiffness and corrected wrench.
 struct GroupTerms {
   Matrix6 K = Matrix6::Zero();
   Vector6 dF = Vector6::Zero();
 };
 
-bool condense_branches(const Series& series, const Units& units, bool with_actuators, SeriesWork& work) {
+bool condense_branches(const Series& series, const Units& units, SeriesWork& work) {
   for (std::size_t g = 0; g < series.groups.size(); ++g)
     for (std::size_t b = 0; b < series.groups[g].branches.size(); ++b)
-      if (!condense(series.groups[g].branches[b], units, with_actuators, work.groups[g][b])) return false;
+      if (!condense(series.groups[g].branches[b], units, work.groups[g][b])) return false;
   return true;
 }
 
@@ -44,8 +44,8 @@ void enter_groups(const Series& series, SeriesWork& work) {
   }
 }
 
-//     [ 0    J  ] [ dF ]   [ gap + dxi - J_rho drho ]
-//     [ J'  -A  ] [ dx ] = [ gradient + A_rho drho  ]      in units of `Units`
+//     [ 0    J  ] [ dF ]   [ gap + dxi ]
+//     [ J'  -A  ] [ dx ] = [ gradient  ]      in units of `Units`
 void assemble_bordered(const Series& series, const Units& units, SeriesWork& work) {
   const Vector6 pose = units.of_pose();
   const double energy = units.energy();
@@ -76,53 +76,6 @@ void assemble_constant_and_pose_columns(const Series& series, const Units& units
   }
 }
 
-int position_of(const Series& series, int actuator) {
-  return static_cast<int>(std::lower_bound(series.actuators.begin(), series.actuators.end(), actuator) -
-                          series.actuators.begin());
-}
-
-void assemble_own_actuators(const Series& series, const Units& units, SeriesWork& work) {
-  const Vector6 pose = units.of_pose();
-  for (const Part& part : series.parts) {
-    if (part.kind != PartKind::actuator) continue;
-    auto column = work.rhs.col(7 + position_of(series, part.actuator));
-    Vector6 J_rho;
-    J_rho << work.v.col(part.column), work.w.col(part.column);
-    column.head<6>() = -J_rho.cwiseQuotient(pose);
-    for (std::size_t i = 0; i < series.free.size(); ++i) {
-      const int c = series.free[i];
-      column[6 + i] = units.of_column(series.angular[c]) / units.energy() * work.A(c, part.column);
-    }
-  }
-}
-
-// A branch's inner actuators move its weights, whose torque the columns before the group feel.
-void assemble_inner_weights(const Series& series, const Part& group, const SeriesWork& branch, int side, Eigen::Index a,
-                            const Units& units, SeriesWork& work) {
-  const Vector3 N_a = work.v.middleCols<3>(group.column) * branch.lean.N.col(7 + a);
-  for (std::size_t i = 0; i < series.free.size(); ++i) {
-    const int c = series.free[i];
-    if (c < group.column && series.angular[c]) work.rhs(6 + i, side) += work.w.col(c).dot(N_a) / units.energy();
-  }
-  if (series.leans) work.lean.N.col(side) += N_a;
-}
-
-// Rows of a group depend on the actuators inside its branches.
-void assemble_inner_actuators(const Series& series, const Units& units, SeriesWork& work) {
-  for (const Part& part : series.parts) {
-    if (part.kind != PartKind::group) continue;
-    const auto first = std::find(series.free.begin(), series.free.end(), part.column) - series.free.begin();
-    const auto& branches = series.groups[part.group].branches;
-    for (std::size_t b = 0; b < branches.size(); ++b)
-      for (std::size_t a = 0; a < branches[b].actuators.size(); ++a) {
-        const SeriesWork& branch = work.groups[part.group][b];
-        const int side = 7 + position_of(series, branches[b].actuators[a]);
-        work.rhs.col(side).segment<6>(6 + first) += branch.G.col(a).cwiseProduct(units.of_pose()) / units.energy();
-        if (branches[b].leans) assemble_inner_weights(series, part, branch, side, a, units, work);
-      }
-  }
-}
-
 void assemble_lean(const Series& series, const Units& units, SeriesWork& work) {
   for (std::size_t i = 0; i < series.free.size(); ++i) {
     const int c = series.free[i];
@@ -131,7 +84,7 @@ void assemble_lean(const Series& series, const Units& units, SeriesWork& work) {
 }
 
 //     G_w and N: what the turn of the start does to F, and what all steps do to the weights' torque about the start
-void finish_lean(const Series& series, const Units& units, bool with_actuators, SeriesWork& work) {
+void finish_lean(const Series& series, const Units& units, SeriesWork& work) {
   LeanWork& lean = work.lean;
   lean.G_w = units.of_pose().cwiseInverse().asDiagonal() * work.solution.topRightCorner<6, 3>() * units.energy();
   for (std::size_t i = 0; i < series.free.size(); ++i) {
@@ -139,10 +92,6 @@ void finish_lean(const Series& series, const Units& units, bool with_actuators, 
     const Vector3 N_x = units.of_column(series.angular[c]) * lean.N_x.col(c);
     for (Eigen::Index side = 0; side < work.solution.cols(); ++side) lean.N.col(side) += N_x * work.solution(6 + i, side);
   }
-  if (!with_actuators) return;
-  for (const Part& part : series.parts)
-    if (part.kind == PartKind::actuator)
-      lean.N.col(7 + position_of(series, part.actuator)) += lean.N_x.col(part.column);
 }
 
 bool factor(SeriesWork& work) {
@@ -153,34 +102,27 @@ bool factor(SeriesWork& work) {
 
 }  // namespace
 
-bool condense(const Series& series, const Units& units, bool with_actuators, SeriesWork& work) {
-  if (!condense_branches(series, units, with_actuators, work)) return false;
+bool condense(const Series& series, const Units& units, SeriesWork& work) {
+  if (!condense_branches(series, units, work)) return false;
   enter_groups(series, work);
   assemble_bordered(series, units, work);
   if (!factor(work)) return false;
   assemble_constant_and_pose_columns(series, units, work);
-  if (with_actuators) {
-    assemble_own_actuators(series, units, work);
-    assemble_inner_actuators(series, units, work);
-  }
   if (series.leans) assemble_lean(series, units, work);
   work.solution = work.lu.solve(work.rhs);
   const Vector6 to_wrench = units.of_pose().cwiseInverse() * units.energy();
   work.dF = to_wrench.cwiseProduct(work.solution.block<6, 1>(0, 0));
   work.K = to_wrench.asDiagonal() * work.solution.block<6, 6>(0, 1);
-  work.G = to_wrench.asDiagonal() * work.solution.block(0, 7, 6, work.G.cols());
-  if (series.leans) finish_lean(series, units, with_actuators, work);
+  if (series.leans) finish_lean(series, units, work);
   return true;
 }
 
-double take_step(const Series& series, const Vector6& dxi, const Eigen::VectorXd& drho, const Vector3& dw,
-                 const Units& units, const SeriesWork& work, SeriesState& state) {
+double take_step(const Series& series, const Vector6& dxi, const Vector3& dw, const Units& units,
+                 const SeriesWork& work, SeriesState& state) {
   double largest = 0;
   Vector3 turn = dw;  // of the frame that the walk along the parts has reached
   const auto along = [&](int row) {
     double value = work.solution(row, 0) + work.solution.block<1, 6>(row, 1).dot(dxi);
-    for (std::size_t a = 0; a < series.actuators.size(); ++a)
-      value += work.solution(row, 7 + a) * drho[series.actuators[a]];
     if (series.leans) value += work.solution.rightCols<3>().row(row).dot(dw);
     return value;
   };
@@ -188,12 +130,7 @@ double take_step(const Series& series, const Vector6& dxi, const Eigen::VectorXd
   for (int i = 0; i < 6; ++i) state.F[i] += to_wrench[i] * along(i);
   std::size_t i = 0;
   for (const Part& part : series.parts) {
-    if (part.column < 0) continue;
-    if (part.kind == PartKind::actuator) {
-      state.x[part.column] += drho[part.actuator];
-      turn += work.w.col(part.column) * drho[part.actuator];
-      continue;
-    }
+    if (part.column < 0 || part.kind == PartKind::actuator) continue;
     const int size = part.kind == PartKind::spring || part.kind == PartKind::group ? 6 : 1;
     Vector6 step = Vector6::Zero();
     for (int k = 0; k < size; ++k, ++i) {
@@ -210,7 +147,7 @@ double take_step(const Series& series, const Vector6& dxi, const Eigen::VectorXd
     GroupState& group = state.groups[part.group];
     group.X = moved(group.X, step);
     for (std::size_t b = 0; b < group.branches.size(); ++b)
-      largest = std::max(largest, take_step(series.groups[part.group].branches[b], step, drho, dw_group, units,
+      largest = std::max(largest, take_step(series.groups[part.group].branches[b], step, dw_group, units,
                                             work.groups[part.group][b], group.branches[b]));
   }
   return largest;

@@ -7,8 +7,6 @@ template void Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd>::computeIn
 
 namespace counterflex {
 
-Eigen::LLT<Eigen::MatrixXd> cholesky(const Eigen::MatrixXd& A) { return Eigen::LLT<Eigen::MatrixXd>(A); }
-
 Eigen::MatrixXd null_space(const Eigen::MatrixXd& C, double threshold) {
   Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr;
   qr.setThreshold(threshold);
@@ -19,15 +17,6 @@ Eigen::MatrixXd null_space(const Eigen::MatrixXd& C, double threshold) {
   Z.bottomRows(nullity).setIdentity();
   Z.applyOnTheLeft(qr.householderQ().setLength(qr.rank()));
   return Z;
-}
-
-Eigen::MatrixXd pseudo_inverse(const Eigen::MatrixXd& A) {
-  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(A);
-  Eigen::MatrixXd Q = Eigen::MatrixXd::Identity(A.rows(), A.cols());
-  Q.applyOnTheLeft(qr.householderQ());
-  Eigen::MatrixXd inverse = Q.transpose();
-  qr.matrixQR().topRows(A.cols()).triangularView<Eigen::Upper>().solveInPlace(inverse);
-  return inverse;
 }
 
 Eigen::MatrixXd solved(const Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd>& A, const Eigen::MatrixXd& B) {

@@ -1,6 +1,5 @@
 #pragma once
 /// Eigen's decompositions of matrices of any size, compiled once for the module: each costs seconds wherever it is used.
-#include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <Eigen/QR>
 #include <Eigen/SVD>
@@ -13,14 +12,8 @@ extern template Eigen::JacobiSVD<Eigen::MatrixXd>& Eigen::JacobiSVD<Eigen::Matri
 
 namespace counterflex {
 
-/// Cholesky's decomposition of a symmetric matrix, whose lower half is read.
-Eigen::LLT<Eigen::MatrixXd> cholesky(const Eigen::MatrixXd& A);
-
 /// An orthonormal basis, as columns, of the vectors x with C x = 0; what is zero is judged as in Eigen's QR of C'.
 Eigen::MatrixXd null_space(const Eigen::MatrixXd& C, double threshold);
-
-/// (A' A)^-1 A' of a matrix whose columns are independent.
-Eigen::MatrixXd pseudo_inverse(const Eigen::MatrixXd& A);
 
 /// Solutions of minimum norm, and of square systems: calls of Eigen's own `solve`.
 Eigen::MatrixXd solved(const Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd>& A, const Eigen::MatrixXd& B);

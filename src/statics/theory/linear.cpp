@@ -53,7 +53,7 @@ bool condensed(const Model& model, const Vector6& F, const Units& units, Statics
   Matrix6 K = Matrix6::Zero();
   Vector6 rhs = F;
   for (std::size_t i = 0; i < work.chains.size(); ++i) {
-    if (!condense(mechanism.chains[i], units, false, work.chains[i])) return false;
+    if (!condense(mechanism.chains[i], units, work.chains[i])) return false;
     K += work.chains[i].K;
     rhs -= work.chains[i].dF;
   }
@@ -62,8 +62,7 @@ bool condensed(const Model& model, const Vector6& F, const Units& units, Statics
   if (!lu.isInvertible()) return false;
   result.dt_P = pose.cwiseProduct(Vector6(solved(lu, pose.cwiseProduct(rhs) / units.energy())));
   for (std::size_t i = 0; i < work.chains.size(); ++i)
-    take_step(mechanism.chains[i], result.dt_P, work.no_actuator_step, Vector3::Zero(), units, work.chains[i],
-              result.configuration.chains[i]);
+    take_step(mechanism.chains[i], result.dt_P, Vector3::Zero(), units, work.chains[i], result.configuration.chains[i]);
   result.configuration.X_MP = moved(result.configuration.X_MP, result.dt_P);
   return true;
 }
@@ -102,7 +101,7 @@ std::optional<Vector6> group_eps(const std::vector<Series>& branches, const Unit
   Matrix6 K = Matrix6::Zero();
   Vector6 F = Vector6::Zero();
   for (std::size_t b = 0; b < branches.size(); ++b) {
-    if (!condense(branches[b], units, false, works[b])) return std::nullopt;
+    if (!condense(branches[b], units, works[b])) return std::nullopt;
     K += works[b].K;
     F -= works[b].dF;
   }

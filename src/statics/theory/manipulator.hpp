@@ -9,7 +9,6 @@ namespace counterflex {
 
 struct StaticsWork::Impl {
   std::vector<SeriesWork> chains;
-  Eigen::VectorXd no_actuator_step;  ///< zeros, one an actuator
   kernel::Single kernel;
 };
 

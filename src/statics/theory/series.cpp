@@ -147,8 +147,7 @@ void evaluate_branches(const Series& series, const SeriesState& state, const Sta
 SeriesWork make_work(const Series& series) {
   SeriesWork work;
   const int n = series.columns, size = 6 + static_cast<int>(series.free.size());
-  const int actuators = static_cast<int>(series.actuators.size());
-  const int sides = 7 + actuators + (series.leans ? 3 : 0);
+  const int sides = 7 + (series.leans ? 3 : 0);
   work.v.setZero(3, n);
   work.w.setZero(3, n);
   work.point.setZero(3, n);
@@ -160,7 +159,6 @@ SeriesWork make_work(const Series& series) {
   work.rhs.setZero(size, sides);
   work.solution.setZero(size, sides);
   work.lu = Eigen::PartialPivLU<Eigen::MatrixXd>(size);
-  work.G.setZero(6, actuators);
   make_mass_work(series, work);
   for (const SeriesGroup& group : series.groups) {
     work.groups.emplace_back();

@@ -24,7 +24,7 @@ struct MassWork {
 struct LeanWork {
   Eigen::Matrix<double, Eigen::Dynamic, 3> A_w;  ///< d gradient / dw
   Eigen::Matrix<double, 3, Eigen::Dynamic> N_x;  ///< dN/dx
-  Matrix63 G_w;                                  ///< of condense(): F_new = F + dF + K dxi + G drho + G_w dw
+  Matrix63 G_w;                                  ///< of condense(): F_new = F + dF + K dxi + G_w dw
   Eigen::Matrix<double, 3, Eigen::Dynamic> N;    ///< of condense(): change of N by the columns of `solution`
 };
 
@@ -46,9 +46,8 @@ struct SeriesWork {
 
   Eigen::MatrixXd bordered, rhs, solution;       ///< of condense(), in units of `Units`
   Eigen::PartialPivLU<Eigen::MatrixXd> lu;
-  Vector6 dF;                                    ///< F_new = F + dF + K dxi + G drho
+  Vector6 dF;                                    ///< F_new = F + dF + K dxi
   Matrix6 K;
-  Eigen::Matrix<double, 6, Eigen::Dynamic> G;    ///< by Series::actuators
   std::vector<std::vector<SeriesWork>> groups;
 };
 
@@ -62,14 +61,14 @@ enum class Hessians { no, yes };
 void evaluate(const Series& series, const SeriesState& state, const Pose& X_end, const Stage& stage, const Vector3& g,
               Hessians hessians, SeriesWork& work);
 
-/// Eliminates everything inside the series: fills dF, K and, if asked, G. False where the bordered matrix is singular:
+/// Eliminates everything inside the series: fills dF and K. False where the bordered matrix is singular:
 /// then only the whole system can decide.
-bool condense(const Series& series, const Units& units, bool with_actuators, SeriesWork& work);
+bool condense(const Series& series, const Units& units, SeriesWork& work);
 
-/// Adds to the state the step that belongs to a step `dxi` of the end (start axes) and `drho` of all actuators of the
-/// machine, and to a turn `dw` of its start frame (start axes); returns the largest of its entries (m, rad times l).
-double take_step(const Series& series, const Vector6& dxi, const Eigen::VectorXd& drho, const Vector3& dw,
-                 const Units& units, const SeriesWork& work, SeriesState& state);
+/// Adds to the state the step that belongs to a step `dxi` of the end and to a turn `dw` of its start frame (start axes),
+/// actuators held; returns the largest of its entries (m, rad times l).
+double take_step(const Series& series, const Vector6& dxi, const Vector3& dw, const Units& units, const SeriesWork& work,
+                 SeriesState& state);
 
 /// The largest residuals of a series and its branches.
 struct Residual {
