@@ -185,6 +185,11 @@ TEST_CASE("a leaning branch's share in a collapse is that of the same elements i
     StaticsWork work(model.mechanism);
     return stability(model, model.home, {}, {}, work) > 0;
   };
+  const auto status = [&](double kg, int groups) {
+    const Model model = column(kg, groups);
+    StaticsWork work(model.mechanism);
+    return solve_forward(model, model.home, {}, {}, work).status;
+  };
   double below = 1, above = 1000;
   while (above - below > 1e-5) {
     const double middle = (below + above) / 2;
@@ -194,5 +199,7 @@ TEST_CASE("a leaning branch's share in a collapse is that of the same elements i
     CAPTURE(groups);
     CHECK(judge(0.9999 * below, groups));
     CHECK_FALSE(judge(1.0001 * above, groups));
+    CHECK(status(0.9 * below, groups) == Status::converged);
+    CHECK(status(1.1 * above, groups) == Status::unstable);
   }
 }

@@ -95,10 +95,9 @@ TEST_CASE("the bound leaves room where a slender tool bends behind chains side b
   CHECK(condition_bound(whole_system_at(model, model.home, {}, work)) < 1e8);
 }
 
-TEST_CASE("machines at work are proved stable and well conditioned by pivots, or, where masses turn with joints, by a bound") {
+TEST_CASE("machines at work are proved stable and well conditioned, with masses in branches that lean and without") {
   for (const Trial& trial : controlled_machines())
     for (const double kg : {0.0, 1.0, 3.0}) {
-      if (trial.name == "hexapod_free_joints") continue;  // its struts turn freely about themselves
       CAPTURE(trial.name);
       CAPTURE(kg);
       const Model model = kg > 0 ? heavy_model_of(trial.name, kg) : model_of(trial.name);
@@ -110,7 +109,7 @@ TEST_CASE("machines at work are proved stable and well conditioned by pivots, or
       REQUIRE(e.status == Status::converged);
       const Stability form = judge_stability(model, e.configuration, {load, {}, nullptr}, work.impl());
       CHECK(form.stable);
-      if (kg == 0) CHECK(form.well_conditioned);
+      if (kg == 0 || trial.name != "laws_mixed") CHECK(form.well_conditioned);
       CHECK(condition_bound(whole_system_at(model, e.configuration, load, work)) < 1e8);
     }
 }
@@ -120,11 +119,12 @@ TEST_CASE("pivots prove no equilibrium that the whole system does not find stabl
   double largest = 0;
   for (const std::string name : all_machines) {
     CAPTURE(name);
-    const Model model = model_of(name);
-    StaticsWork work(model.mechanism);
-    Random random(73);
-    for (const double size : {1.0, 30.0, 300.0, 3000.0, 30000.0})
-      for (int i = 0; i < 6; ++i) {
+    for (const double kg : {0.0, 1.0, 30.0}) {
+      CAPTURE(kg);
+      const Model model = kg > 0 ? heavy_model_of(name, kg) : model_of(name);
+      StaticsWork work(model.mechanism);
+      Random random(73);
+      for (const double size : {1.0, 300.0, 300.0, 3000.0, 30000.0}) {
         CAPTURE(size);
         const Load load{random.six(size, 0.1 * size), false};
         const Equilibrium e = refine_forward(model, model.home, load, {}, work);
@@ -137,9 +137,10 @@ TEST_CASE("pivots prove no equilibrium that the whole system does not find stabl
         ++proved;
         largest = std::max(largest, static_condition(model, e.configuration, load, {}, work));
       }
+    }
   }
   CHECK(largest < 1e7);
-  CHECK(proved > 200);
+  CHECK(proved > 60);
   CHECK(unstable > 2);
 }
 

@@ -106,6 +106,18 @@ struct Single::Impl {
       work().start_stress[i] = vec6(numbers.stress.data() + 6 * i);
   }
 
+  // What the linear step adds to the wrench on the end of a series.
+  Vec6<double> correction(int s) {
+    const Series& series = at(flat.machine.series, s);
+    const int last = series.first + series.count - 1;
+    const Element& element = at(flat.machine.elements, last);
+    const ElementTerms<double>& terms = at(work().equations.elements, last);
+    if (element.kind == ElementKind::spring) return terms.stress - terms.phi;
+    Vec6<double> sum{};
+    for (int b = 0; b < element.branches; ++b) sum = sum + correction(element.series + b);
+    return sum;
+  }
+
   void get(const Mechanism& mechanism, const Stage& stage, Configuration& configuration) {
     const State<double>& state = work().state;
     double* x = numbers.state.data();
@@ -117,9 +129,7 @@ struct Single::Impl {
     put_frame(state.platform, work().origin, x);
     numbers.ends.clear();
     for (std::size_t s = 0; s < flat.machine.series.size(); ++s) {
-      const Series& series = flat.machine.series[s];
-      const ElementTerms<double>& last = at(work().equations.elements, series.first + series.count - 1);
-      const Vec6<double> end = work().equations.ends[s] + (last.stress - last.phi);
+      const Vec6<double> end = work().equations.ends[s] + correction(static_cast<int>(s));
       for (int i = 0; i < 6; ++i) numbers.ends.push_back(end[i]);
     }
     write_state(mechanism, flat, numbers, Vector3(work().origin[0], work().origin[1], work().origin[2]),
@@ -134,6 +144,48 @@ struct Single::Impl {
     w.predicts_stress = true;
     find_step(coupled);
     take_step<double>(true, w);
+  }
+
+  // A displacement of all unknowns by about a millionth of l.
+  void displace() {
+    constexpr double size = 1e-6;
+    const FlatMachine& machine = flat.machine;
+    Work<double>& w = work();
+    int i = 0;
+    const auto next = [&] { return size * std::sin(++i); };
+    const auto twist = [&] {
+      Vec6<double> xi;
+      for (int k = 0; k < 6; ++k) xi[k] = next() * (k < 3 ? machine.length : 1);
+      return xi;
+    };
+    for (int j = 0; j < machine.joints; ++j) {
+      const double dq = next() * (at(machine.joint_turns, j) != 0 ? 1 : machine.length);
+      at(w.equations.joints, j).y = actuator_of(machine, j) < 0 ? dq : 0;
+    }
+    for (Vec6<double>& node : w.step.nodes) node = twist();
+    w.step.platform = twist();
+    w.step.turn = size;
+    take_step<double>(true, w);
+  }
+
+  // Whether steps by the last factors, actuators held, take a displacement away by far. With A the tangent
+  // and E what it leaves out, they leave -A^-1 E of it; where that contracts, A + E has the inertia of A.
+  bool contracts() {
+    constexpr double much = 0.3, negligible = 1e-3;
+    Work<double>& w = work();
+    displace();
+    double last = 0, ratio = 0;
+    for (int i = 0; i < 4; ++i) {
+      evaluate(w);
+      find_held_step(w);
+      find_inner_steps(w);
+      take_step<double>(true, w);
+      if (i > 0) ratio = w.step.size / last;
+      if (i > 0 && !(ratio < much)) return false;
+      if (ratio < negligible && i > 0) return true;
+      last = w.step.size;
+    }
+    return true;
   }
 
   void note_first_step(SingleAnswer& answer) {
@@ -178,8 +230,7 @@ SingleAnswer Single::solve(const Mechanism& mechanism, const Waypoint& waypoint,
 std::optional<PivotRange> Single::pivots(const Mechanism& mechanism, const Waypoint& waypoint,
                                          const Configuration& configuration) {
   const FlatMachine& machine = impl_->flat.machine;
-  const bool hang = machine.has_hanging_weights && waypoint.stage.gravity != 0;
-  if (!impl_->flat.why_not.empty() || hang) return std::nullopt;
+  if (!impl_->flat.why_not.empty()) return std::nullopt;
   impl_->put(mechanism, {waypoint.load, waypoint.stage}, configuration);
   Work<double>& work = impl_->work();
   evaluate(work);
@@ -196,6 +247,7 @@ std::optional<PivotRange> Single::pivots(const Mechanism& mechanism, const Waypo
     range.largest = std::max(range.largest, size);
     range.unstable_directions += pivot < 0;
   });
+  if (machine.has_hanging_weights && waypoint.stage.gravity != 0 && !impl_->contracts()) return std::nullopt;
   return range;
 }
 
