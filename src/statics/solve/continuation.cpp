@@ -15,21 +15,21 @@ Stage between(const Stage& from, const Stage& goal, double s) {
 }
 
 // From `before` through `now`, `ratio` times as far again.
-void go_on(const SeriesState& before, double ratio, SeriesState& now) {
+void extrapolate(const SeriesState& before, double ratio, SeriesState& now) {
   now.x += ratio * (now.x - before.x);
   now.F += ratio * (now.F - before.F);
   for (std::size_t g = 0; g < now.groups.size(); ++g) {
     GroupState& group = now.groups[g];
     group.X = moved(group.X, ratio * difference(group.X, before.groups[g].X));
     for (std::size_t b = 0; b < group.branches.size(); ++b)
-      go_on(before.groups[g].branches[b], ratio, group.branches[b]);
+      extrapolate(before.groups[g].branches[b], ratio, group.branches[b]);
   }
 }
 
 Configuration extrapolated(const Configuration& before, const Configuration& now, double ratio) {
   Configuration next = now;
   next.X_MP = moved(now.X_MP, ratio * difference(now.X_MP, before.X_MP));
-  for (std::size_t i = 0; i < next.chains.size(); ++i) go_on(before.chains[i], ratio, next.chains[i]);
+  for (std::size_t i = 0; i < next.chains.size(); ++i) extrapolate(before.chains[i], ratio, next.chains[i]);
   return next;
 }
 
@@ -40,41 +40,45 @@ struct Followed {
   Stability form{};
 };
 
-bool solves(const Model& model, const Problem& problem, const EquilibriumSolver& solve, StaticsWork::Impl& work, Configuration& next,
-            int& iterations) {
-  const NewtonResult solved = solve(model, problem, work, next);
-  iterations += solved.iterations;
-  return solved.converged && !solved.jumped;  // a jump: past a limit point, to an equilibrium on another branch
-}
-
-// The next equilibrium, from where the last two point to. What is found there counts only if it is stable and where they
-// point to: the last equilibrium decides otherwise.
-bool goes_on(const Model& model, const Problem& problem, const EquilibriumSolver& solve, const Followed& before,
-             const Followed& now, StaticsWork::Impl& work, Followed& next, int& iterations) {
-  const double ratio = (next.s - now.s) / (now.s - before.s);
-  const Configuration foreseen = extrapolated(before.configuration, now.configuration, ratio);
-  next.configuration = foreseen;
-  if (!solves(model, problem, solve, work, next.configuration, iterations) ||
-      ends_elsewhere(model.mechanism, now.configuration, foreseen, next.configuration))
-    return false;
-  next.form = judge_stability(model, next.configuration, problem, work);
-  return next.form.stable;
-}
-
 // Whether the state under half of a step is not about half of the way: then a limit point may lie between.
 bool bends(const Mechanism& mechanism, const Followed& now, const Configuration& half, const Followed& next) {
   return ends_elsewhere(mechanism, now.configuration, extrapolated(now.configuration, next.configuration, -0.5), half);
 }
 
-bool advances(const Model& model, const Problem& problem, const EquilibriumSolver& solve,
-              const std::optional<Followed>& before, const Followed& now, StaticsWork::Impl& work, Followed& next,
-              int& iterations) {
-  if (before && goes_on(model, problem, solve, *before, now, work, next, iterations)) return true;
-  next.configuration = now.configuration;
-  if (!solves(model, problem, solve, work, next.configuration, iterations)) return false;
-  next.form = judge_stability(model, next.configuration, problem, work);
-  return true;
-}
+// Solves and judges the equilibria of one continuation.
+struct EquilibriumFollower {
+  const Model& model;
+  const EquilibriumSolver& solve;
+  StaticsWork::Impl& work;
+  int iterations = 0;
+
+  bool solves(const Problem& problem, Configuration& next) {
+    const NewtonResult solved = solve(model, problem, work, next);
+    iterations += solved.iterations;
+    return solved.converged && !solved.jumped;  // a jump: past a limit point, to an equilibrium on another branch
+  }
+
+  // The next equilibrium, from where the last two point to. What is found there counts only if it is stable and where they
+  // point to: the last equilibrium decides otherwise.
+  bool steps_straight_on(const Problem& problem, const Followed& before, const Followed& now, Followed& next) {
+    const double ratio = (next.s - now.s) / (now.s - before.s);
+    const Configuration foreseen = extrapolated(before.configuration, now.configuration, ratio);
+    next.configuration = foreseen;
+    if (!solves(problem, next.configuration) ||
+        ends_elsewhere(model.mechanism, now.configuration, foreseen, next.configuration))
+      return false;
+    next.form = judge_stability(model, next.configuration, problem, work);
+    return next.form.stable;
+  }
+
+  bool advances(const Problem& problem, const std::optional<Followed>& before, const Followed& now, Followed& next) {
+    if (before && steps_straight_on(problem, *before, now, next)) return true;
+    next.configuration = now.configuration;
+    if (!solves(problem, next.configuration)) return false;
+    next.form = judge_stability(model, next.configuration, problem, work);
+    return true;
+  }
+};
 
 // The status of an equilibrium.
 void report(const Model& model, const Problem& problem, const Stability& form, StaticsWork::Impl& work,
@@ -99,6 +103,7 @@ Equilibrium continue_from(const Model& model, const Configuration& start, const 
                           const EquilibriumSolver& solve, StaticsWork::Impl& work, Watch watch) {
   const Stage goal = problem.stage;
   Equilibrium result;
+  EquilibriumFollower follower{model, solve, work};
   std::optional<Followed> before;
   Followed now{0, start, {true, false}};
   double step = first_step;
@@ -106,12 +111,13 @@ Equilibrium continue_from(const Model& model, const Configuration& start, const 
     Followed next{std::min(1.0, now.s + step), {}};
     Configuration half = now.configuration;
     problem.stage = between(from, goal, (now.s + next.s) / 2);
-    const bool begins = watch == Watch::equilibria || solves(model, problem, solve, work, half, result.iterations);
+    const bool begins = watch == Watch::equilibria || follower.solves(problem, half);
     problem.stage = between(from, goal, next.s);
-    if (!begins || !advances(model, problem, solve, before, now, work, next, result.iterations) ||
+    if (!begins || !follower.advances(problem, before, now, next) ||
         (watch == Watch::ways && bends(model.mechanism, now, half, next))) {
       if ((step /= 2) >= smallest_step) continue;
       result.configuration = std::move(now.configuration);
+      result.iterations = follower.iterations;
       return result;
     }
     before = std::move(now);
@@ -119,6 +125,7 @@ Equilibrium continue_from(const Model& model, const Configuration& start, const 
     if (!now.form.stable) break;
   }
   result.configuration = std::move(now.configuration);
+  result.iterations = follower.iterations;
   report(model, problem, now.form, work, result);
   return result;
 }
