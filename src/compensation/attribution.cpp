@@ -57,7 +57,9 @@ void add_sources(const Solved& at) {
   add(&ForwardPlace::original, {.load = 0, .gravity = 0}, &Causes::geometry);
   add(&ForwardPlace::original, {.errors = 0, .gravity = 0}, &Causes::load);
   add(&ForwardPlace::emitted, {.load = 0}, &Causes::air);
-  add(&ForwardPlace::original, {.errors = 0, .load = 0, .gravity = 0}, &Causes::superposition);
+  const auto preloads = [](const ForwardPlace& place) { return has_preload(place.model->mechanism); };
+  if (std::ranges::any_of(at.places, preloads))
+    add(&ForwardPlace::original, {.errors = 0, .load = 0, .gravity = 0}, &Causes::superposition);
   const auto weighs = [](const ForwardPlace& place) { return has_weight(place.model->mechanism); };
   const bool weight = std::ranges::any_of(at.places, weighs);
   if (weight) add(&ForwardPlace::original, {.errors = 0, .load = 0}, &Causes::gravity);

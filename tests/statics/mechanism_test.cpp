@@ -84,3 +84,18 @@ TEST_CASE("a configuration of zeros has room for every coordinate of chains and 
   CHECK(configuration.chains[0].groups[0].branches[0].x.size() == 7);
   CHECK(configuration.chains[0].F.isZero(0));
 }
+
+TEST_CASE("mechanism: preloads are found in chains and in the branches of groups") {
+  CHECK(!has_preload(model_of("orthoglide_case_b").mechanism));
+  CHECK(has_preload(model_of("hexapod_joint_springs").mechanism));  // springs of its joints
+  const std::string head =
+      "[[chain]]\nname = \"c\"\nelements = [{ actuator = \"prismatic\", axis = \"x\" }, ";
+  const std::string spring = "[springs.s]\nstiffness_diag_si = [1e6, 1e6, 1e6, 1e4, 1e4, 1e4]\n";
+  CHECK(!has_preload(model_of_text(spring + head + "{ spring = \"s\" }]\n").mechanism));
+  const std::string preloaded = spring + "preload_si = [1e-6, 0, 0, 0, 0, 0]\n";
+  CHECK(has_preload(model_of_text(preloaded + head + "{ spring = \"s\" }]\n").mechanism));
+  const std::string branch = "[branches.b]\nelements = [{ spring = \"s\" }]\n",
+                    in_group = head + "{ parallel = [\"b\"] }]\n";
+  CHECK(has_preload(model_of_text(preloaded + branch + in_group).mechanism));
+  CHECK(!has_preload(model_of_text(spring + branch + in_group).mechanism));
+}

@@ -79,4 +79,8 @@ void set_zero_offsets(const Eigen::VectorXd& offsets, Mechanism& mechanism);
 /// Whether weights act, or a zero set at home (against preloads alone, too): only then does Stage::gravity change anything.
 bool has_weight(const Mechanism& mechanism);
 
+/// Whether a spring has a rest value of its own, or a passive joint a spring: only then does the perfect machine without a load
+/// and weights deviate from the command.
+bool has_preload(const Mechanism& mechanism);
+
 }  // namespace counterflex

@@ -35,15 +35,20 @@ struct Compiler {
     return {.kind = PartKind::error, .X = e.X, .log_R = log_so3(e.X.R)};
   }
   Part operator()(const Actuator& e) {
-    Part part{.kind = PartKind::actuator, .joint = e.joint, .home = e.home, .actuator = numbering.next_actuator++};
+    Part part{
+        .kind = PartKind::actuator, .joint = e.joint, .home = e.home, .actuator = numbering.next_actuator++};
     numbering.travel.push_back({e.min, e.max, e.joint.kind});
     series.actuators.push_back(part.actuator);
     joint_column(part);
     return part;
   }
   Part operator()(const Passive& e) {
-    Part part{.kind = PartKind::passive, .joint = e.joint, .k = e.stiffness, .rest = e.rest,
-              .rest_at_home = e.rest_at_home, .home = e.home};
+    Part part{.kind = PartKind::passive,
+              .joint = e.joint,
+              .k = e.stiffness,
+              .rest = e.rest,
+              .rest_at_home = e.rest_at_home,
+              .home = e.home};
     joint_column(part);
     return part;
   }
@@ -82,7 +87,8 @@ Series compile_series(const Branch& branch, bool weighs, bool turns, Numbering& 
   series.name = branch.name;
   Compiler compiler{series, weighs, turns, numbering};
   for (const Element& element : branch.elements)
-    if (weighs || !std::holds_alternative<PointMass>(element)) series.parts.push_back(std::visit(compiler, element));
+    if (weighs || !std::holds_alternative<PointMass>(element))
+      series.parts.push_back(std::visit(compiler, element));
   series.leans = turns && series.mass > 0;
   return series;
 }
@@ -127,10 +133,30 @@ void set_zero_offsets(const Eigen::VectorXd& offsets, Mechanism& mechanism) {
     for_each_actuator_part(chain, [&](Part& part) { part.offset = offsets[part.actuator]; });
 }
 
+namespace {
+
+bool has_preload(const Series& series) {
+  const auto is_preloaded = [](const Part& part) {
+    return (part.kind == PartKind::spring && !part.theta_0.isZero(0)) ||
+           (part.kind == PartKind::passive && part.k != 0);
+  };
+  const auto in_branches = [](const SeriesGroup& group) {
+    return std::ranges::any_of(group.branches, [](const Series& branch) { return has_preload(branch); });
+  };
+  return std::ranges::any_of(series.parts, is_preloaded) || std::ranges::any_of(series.groups, in_branches);
+}
+
+}  // namespace
+
+bool has_preload(const Mechanism& mechanism) {
+  return std::ranges::any_of(mechanism.chains, [](const Series& chain) { return has_preload(chain); });
+}
+
 bool has_weight(const Mechanism& mechanism) {
   if (mechanism.gravity.isZero(0)) return false;
   return !zero_offsets(mechanism).isZero(0) ||
-         std::any_of(mechanism.chains.begin(), mechanism.chains.end(), [](const Series& chain) { return chain.mass > 0; });
+         std::any_of(mechanism.chains.begin(), mechanism.chains.end(),
+                     [](const Series& chain) { return chain.mass > 0; });
 }
 
 }  // namespace counterflex
