@@ -63,7 +63,7 @@ inline const Case& robot_6r() {
       line_case("tests/statics/data/serial6r_joints.toml", Vector3(0, -100, 0), Vector3(0, 100, 0));
   return c;
 }
-/// Its links weigh 1.1 t.
+/// Its links weigh 0.76 t.
 inline const Case& robot_masses() {
   static const Case c = line_case("samples/robot-spindle/machine.toml", Vector3(0, -100, 0), Vector3(0, 100, 0));
   return c;
