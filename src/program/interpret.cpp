@@ -53,7 +53,7 @@ void check_can_move(const Block& block, const Reading& r) {
     fail(fmt::format("{} without a motion: G80 ended it, and {} needs G0 or G1 anew", word.letter,
                      r.dialect.name));
   if (!r.state.unit)
-    fail(fmt::format("{} before the unit is known: program G20 or G21, or give mm or inch as the unit",
+    fail(fmt::format("{} before the unit is known: program G20 or G21, or give --units mm or --units inch",
                      word.letter));
 }
 

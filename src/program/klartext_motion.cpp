@@ -30,7 +30,7 @@ void check_unit(const KlartextBlock& block, const KlartextReading& r) {
   if (!r.state.unit)
     refuse_klartext(
         r.program.text, r.program.file, block, block.parts[0].begin,
-        "a move before the unit is known: BEGIN PGM says MM or INCH, or give mm or inch as the unit");
+        "a move before the unit is known: write MM or INCH behind BEGIN PGM, or give --units mm or --units inch");
 }
 
 bool is_polar(const KlartextBlock& block) {
