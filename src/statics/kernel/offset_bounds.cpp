@@ -90,7 +90,7 @@ ChordBounds chord_bounds(const OffsetBounds& bounds, const LineSizes& line) {
   const std::array<double, 3> step{
       line.way, (first(1, position) * line.way + first(1, load) * line.load_change) / turn_follows,
       line.load_change};
-  // A polynomial of fourth order that is at most 1 over a reach bends by at most 80 (Markov); none is further
+  // A polynomial of fourth order that is at most 1 over a reach bends by at most 80 (Markov); it is never further
   // than 2 off its chord.
   const double share = line.way / bounds.reach + (line.load_change + line.kink) / bounds.load;
   const double missed = std::pow(excess, 3) * std::min(2.0, 10 * share * share);
