@@ -154,6 +154,7 @@ bool is_plain(const std::string& skeleton) {
     const char c = upper(skeleton[i]);
     if (c == '(') i = std::min(skeleton.find(')', i), skeleton.size() - 1);
     if (c >= 'A' && c <= 'Z' && c != 'F') return false;
+    if (c == 'F' && skeleton.compare(i, 4, "FMAX") == 0) i += 3;
   }
   return true;
 }

@@ -104,7 +104,9 @@ std::string inserted_line(const KlartextWriter& w, const std::string& statement)
   return start + statement;
 }
 
-std::string feed_of(const KlartextWriter& w) {
+/// FMAX acts in its own block only.
+std::string feed_of(const KlartextWriter& w, const Step& step) {
+  if (step.motion == 0) return " FMAX";
   if (w.move.motion == Motion::rapid) return {};
   for (const KlartextWord& word : w.words)
     if (word.key.starts_with('F')) return " " + std::string(part(w.program.text, word.span));
@@ -166,7 +168,7 @@ void insert_step(KlartextWriter& w, const Step& step, bool states_feed,
     head = "C";
     tail = sense_of(w.move);
   }
-  statements.push_back(head + coordinates + tail + (states_feed ? feed_of(w) : ""));
+  statements.push_back(head + coordinates + tail + (states_feed ? feed_of(w, step) : ""));
 }
 
 /// The statement that holds byte `at`, with the lines that continue it and without its number.

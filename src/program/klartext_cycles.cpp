@@ -209,10 +209,9 @@ bool take_hole(KlartextReading& r, Move& move) {
     move.relative = false;
     move.words[2] = surface.word;
     move.repeats_surface = !first;
-    move.end_mm.z() = surface.z_mm;
-    move.known_end[2] = end_is_known;
   }
-  state.known[2] = end_is_known;
+  move.end_mm.z() = surface.z_mm;
+  move.known_end[2] = state.known[2] = end_is_known;
   if (end_is_known) state.position_mm.z() = surface.z_mm + std::max(*state.clearance_mm, *state.second_clearance_mm);
   return true;
 }

@@ -204,11 +204,13 @@ void allow_klartext_changes(const KlartextCodes& codes, bool held, KlartextReadi
   move.stays_whole = codes.acts_after || find_word(r.words, "M") != nullptr;
 }
 
-/// Whether the block ends with the cycle; M89 calls it at the end of the blocks that follow, too, until M99.
-bool calls_cycle(const KlartextCodes& codes, KlartextReading& r) {
-  const bool calls = codes.cycle_call || r.state.calls_each;
+/// M89 calls the cycle at the end of the blocks that follow, too, until M99. Its own block and that of M99 call the cycle
+/// themselves: there its definition may be written again.
+template <typename Call>
+void call_cycle(const KlartextCodes& codes, KlartextReading& r, Call&& call) {
+  if (codes.cycle_call) r.state.calls_each = false;
+  call();
   if (codes.cycle_call) r.state.calls_each = codes.calls_each;
-  return calls;
 }
 
 /// A cycle of an older control goes along with the position where it is called.
@@ -288,8 +290,8 @@ void add_klartext_move(const KlartextBlock& block, const KlartextCodes& codes, K
   allow_klartext_changes(codes, held, r, move);
   follow_contour(block, r, move);
   move.known_end = r.state.known;
-  if (calls_cycle(codes, r)) {
-    call_cycle_after(block, r, move);
+  if (codes.cycle_call || r.state.calls_each) {
+    call_cycle(codes, r, [&] { call_cycle_after(block, r, move); });
     for (std::size_t axis = 0; axis < 3; ++axis)
       move.known_end[axis] = move.known_end[axis] && r.state.known[axis];
   }
@@ -371,8 +373,7 @@ void read_klartext_motion(const KlartextBlock& block, KlartextReading& r) {
   } else if (programs_axis(r)) {
     add_klartext_move(block, codes, r);
   } else if (codes.cycle_call) {
-    calls_cycle(codes, r);
-    add_cycle_call(block, r);
+    call_cycle(codes, r, [&] { add_cycle_call(block, r); });
   } else if (find_word(r.words, "R") != nullptr && r.state.contour) {
     r.state.contour = false;
     r.state.after_contour = true;
@@ -388,7 +389,7 @@ void read_klartext_codes(const KlartextBlock& block, KlartextReading& r) {
     return add_unfollowed_move(block, r, "the block M has words that are not read");
   const KlartextCodes found = read_klartext_m(block, r);
   if (programs_axis(r)) return add_unfollowed_move(block, r, "axes without L are not read");
-  if (found.cycle_call) calls_cycle(found, r), add_cycle_call(block, r);
+  if (found.cycle_call) call_cycle(found, r, [&] { add_cycle_call(block, r); });
   if (found.retracts) leave_retract(block, r);
   r.ended = r.ended || found.ends;
 }

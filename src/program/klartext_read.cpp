@@ -248,10 +248,12 @@ void add_cycle_call(const KlartextBlock& block, KlartextReading& r) {
   Move move = begin_klartext_move(block, r);
   r.state.known[2] = false;
   move.fixed[2] = !take_hole(r, move);
+  move.may_position = !move.fixed[2] && r.state.known[0] && r.state.known[1];
   move.known_end = r.state.known;
   add_move(r, move);
   r.state.run_begin = r.program.moves.size();
-  leave_alone(r, block.line, move.fixed[2] ? "cycles are left as they are" : "holes are held");
+  if (move.fixed[2]) leave_alone(r, block.line, "cycles are left as they are");
+  if (move.handling == Handling::held) leave_alone(r, block.line, "holes are held");
 }
 
 }  // namespace counterflex

@@ -48,6 +48,30 @@ TEST_CASE("holes of a relative cycle keep the correction with which the cycle is
   CHECK((moves_in(result.text).back().end_mm - shift_mm - Vector3(0, 0, 20)).norm() < 1e-9);
 }
 
+// The tool is 50 mm above the surface when the cycle is called: there the correction of this machine is 0.05 mm in X.
+TEST_CASE("klartext: a hole that CYCL CALL or M89 drills is corrected at its surface, not at the clearance height") {
+  const std::string text =
+      "BEGIN PGM A MM\nTOOL CALL 1 Z S1000\nCYCL DEF 200 DRILLING ~\nQ200=2 ~\nQ201=-10 ~\nQ203=+0 ~\nQ204=50\n"
+      "L X+10 Y+10 Z+50 R0 FMAX\nCYCL CALL\nL X+20 R0 FMAX\nCYCL CALL\nL X+30 R0 FMAX M89\nL X+35 R0 FMAX\n"
+      "L X+40 R0 FMAX M99\nL Z+100 R0 FMAX M30\nEND PGM A MM\n";
+  const double lean = 1e-3;
+  const Compensation result = compensated(Shop({.machine = rigid_gantry("0, 0, 0", 0, lean), .text = text}));
+  CAPTURE(result.text);
+  std::size_t holes = 0;
+  for (const Move& move : moves_in(result.text)) {
+    if (!move.makes_hole) {
+      CHECK(std::abs(move.end_mm.x() - std::round(move.end_mm.x())) <= 0.1 + 1e-9);
+      continue;
+    }
+    ++holes;
+    CAPTURE(move.line);
+    CHECK(std::abs(move.end_mm.x() - std::round(move.end_mm.x())) <= 1e-9);
+    CHECK(move.end_mm.z() == 0);
+  }
+  CHECK(holes == 5);
+  CHECK(result.text.find("L X+9.95 Y+10 Z+50") != std::string::npos);
+}
+
 TEST_CASE("a perfect machine gives back programs with cycles byte for byte") {
   CHECK(compensated(Shop({.machine = perfect_gantry(), .text = holes})).text == holes);
 }
