@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <string>
 
 #include "counterflex/files/numbers.hpp"
 #include "counterflex/geometry/units.hpp"
@@ -89,6 +91,7 @@ void warn_of_tools(Run& run) {
 
 /// A datum that is not stated counts as "machine".
 void warn_of_datum(Run& run) {
+  std::set<std::string> warnings;  // one offset may have several frames
   for (const WorkFrame& frame : run.work.frames) {
     if (!frame.common_shift || frame.common_shift->norm() <= run.options.tolerance) continue;
     const Vector3 shift_mm = *frame.common_shift / mm;
@@ -101,12 +104,12 @@ void warn_of_datum(Run& run) {
             : fmt::format(
                   "state datum = {{ touched_at_mm = [x, y, z] }} in [work.{0}], else datum = \"machine\"",
                   frame.name);
-    run.facts.warnings.push_back(
-        {0, fmt::format("{} as set independently of this machine's errors. The unloaded machine is off by "
-                        "({}, {}, {}) mm on average along the path, and the correction removes this. If the "
-                        "part was touched off with this machine, the offset contains this shift already: {}",
-                        assumed, format_fixed(shift_mm.x(), 4), format_fixed(shift_mm.y(), 4),
-                        format_fixed(shift_mm.z(), 4), cure)});
+    const std::string warning =
+        fmt::format("{} as set independently of this machine's errors. The unloaded machine is off by "
+                    "({}, {}, {}) mm on average along the path, and the correction removes this. If the "
+                    "part was touched off with this machine, the offset contains this shift already: {}",
+                    assumed, format_fixed(shift_mm.x(), 4), format_fixed(shift_mm.y(), 4), format_fixed(shift_mm.z(), 4), cure);
+    if (warnings.insert(warning).second) run.facts.warnings.push_back({0, warning});
   }
 }
 

@@ -91,6 +91,7 @@ Failure status_failure(const Job& job, Status status, const Segment& segment, co
 std::optional<Failure> limit_failure(const Job& job, const Vector3& correction, int line) {
   const double size = correction.norm();
   if (size <= job.options.max_correction) return std::nullopt;
+  if (const auto word = integer_word_in_doubt(job.program, line)) return Failure{Exit::program_text, word->line, word->what};
   return Failure{Exit::limit, line,
                  fmt::format("the correction would be {:.3f} mm, more than the limit of {:.3f} mm", size / mm,
                              job.options.max_correction / mm)};

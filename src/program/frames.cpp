@@ -45,21 +45,23 @@ const Word* axis_word(const Reading& r, std::size_t axis) {
   return r.sorted.word(letters_of_axes[axis]);
 }
 
-/// Whether the block runs once, where all is known, and its words are plain numbers of X, Y, Z and `more`.
-bool is_plain(const Reading& r, std::string_view more) {
+/// Whether the block runs once, where all is known, and its words are plain numbers of X, Y, Z and `more`. Zero needs no
+/// unit.
+bool is_plain(const Block& block, const Reading& r, std::string_view more) {
   if (r.in_body() || r.state.displaced != 0 || r.state.doubts != 0) return false;
   for (char letter = 'A'; letter <= 'Z'; ++letter) {
     const Word* word = r.sorted.word(letter);
     if (word == nullptr || letter == 'N') continue;
     const bool used = (letter >= 'X' && letter <= 'Z') || more.find(letter) != std::string_view::npos;
     if (!used || !word->literal) return false;
+    if (letter >= 'X' && letter <= 'Z' && word->value != 0) demand_unit(block, r, *word);
   }
-  return r.state.unit.has_value();
+  return true;
 }
 
 /// LinuxCNC and Mach3 keep G52 and G92 in one place.
-bool shift_locally(Reading& r) {
-  if (!is_plain(r, "") || r.state.relative || r.state.shifts.turn_rad != 0) return false;
+bool shift_locally(const Block& block, Reading& r) {
+  if (!is_plain(block, r, "") || r.state.relative || r.state.shifts.turn_rad != 0) return false;
   const bool one_place = (r.dialect.family & (linuxcnc_family | mach3_family)) != 0;
   Vector3& shift = one_place ? r.state.shifts.set_mm : r.state.shifts.local_mm;
   for (std::size_t axis = 0; axis < 3; ++axis)
@@ -118,18 +120,18 @@ bool move_zero(const Block& block, Reading& r, Vector3& zero_mm) {
   return true;
 }
 
-bool end_set_position(Reading& r) {
-  if (!is_plain(r, "")) return false;
+bool end_set_position(const Block& block, Reading& r) {
+  if (!is_plain(block, r, "")) return false;
   r.state.shifts.set_mm.setZero();
   change_frame(r);
   return true;
 }
 
 /// G68 X Y R: counter-clockwise in the plane X Y.
-bool turn(Reading& r) {
+bool turn(const Block& block, Reading& r) {
   const Word *x = r.sorted.word('X'), *y = r.sorted.word('Y'), *angle = r.sorted.word('R');
   const bool about_z = r.state.normal == 2 && !r.state.relative && r.sorted.word('Z') == nullptr;
-  if (!is_plain(r, "R") || !about_z || x == nullptr || y == nullptr || angle == nullptr) return false;
+  if (!is_plain(block, r, "R") || !about_z || x == nullptr || y == nullptr || angle == nullptr) return false;
   if (r.state.shifts.turn_rad != 0) return false;
   r.state.shifts.turn_centre_mm = {length_mm(r, *x), length_mm(r, *y), 0};
   r.state.shifts.turn_rad = angle->value * deg;
@@ -215,7 +217,7 @@ void enter_frame(Reading& r, const std::string& work_offset) {
 bool set_work_offset(const Block& block, Reading& r) {
   constexpr std::array<const char*, 9> names{"G54", "G55", "G56", "G57", "G58", "G59", "G59.1", "G59.2", "G59.3"};
   const Word *l = r.sorted.word('L'), *p = r.sorted.word('P'), *turn = r.sorted.word('R');
-  if (!is_plain(r, "LPR") || l == nullptr || p == nullptr || (turn != nullptr && turn->value != 0)) return false;
+  if (!is_plain(block, r, "LPR") || l == nullptr || p == nullptr || (turn != nullptr && turn->value != 0)) return false;
   if (r.state.relative || !empty(block.block_delete) || p->value < 0 || p->value > 9) return false;
   const std::string acting = name_of(current(r).work_offset);
   const bool acts = p->value == 0 && (r.dialect.family & (linuxcnc_family | grbl_family)) != 0;
@@ -235,16 +237,16 @@ bool set_work_offset(const Block& block, Reading& r) {
 bool apply_frame_code(const Block& block, Reading& r, const GCode& code) {
   switch (code.tenths) {
     case 520:
-      return shift_locally(r);
+      return shift_locally(block, r);
     case 680:
-      return turn(r);
+      return turn(block, r);
     case 690:
       return r.state.shifts.turn_rad != 0 && end_turn(r);
     case 920:
-      return is_plain(r, "") && move_zero(block, r, r.state.shifts.set_mm);
+      return is_plain(block, r, "") && move_zero(block, r, r.state.shifts.set_mm);
     case 921:
     case 922:
-      return !r.state.shifts.set_mm.isZero(0) && end_set_position(r);
+      return !r.state.shifts.set_mm.isZero(0) && end_set_position(block, r);
     default:
       return false;
   }

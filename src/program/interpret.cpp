@@ -52,9 +52,7 @@ void check_can_move(const Block& block, const Reading& r) {
   if (r.state.motion == MotionMode::cancelled)
     fail(fmt::format("{} without a motion: G80 ended it, and {} needs G0 or G1 anew", word.letter,
                      r.dialect.name));
-  if (!r.state.unit)
-    fail(fmt::format("{} before the unit is known: program G20 or G21, or give --units mm or --units inch",
-                     word.letter));
+  demand_unit(block, r, word);
 }
 
 void read_line(const Block& block, Reading& r, Motion motion) {

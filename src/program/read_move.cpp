@@ -298,4 +298,11 @@ void refuse_word(const Block& block, const Reading& r, const Word& word, const s
   refuse(r.program.file, block, word.span.begin, message);
 }
 
+void demand_unit(const Block& block, const Reading& r, const Word& word) {
+  if (r.state.unit) return;
+  const char* codes = (r.dialect.family & siemens_family) != 0 ? "G70 or G71" : "G20 or G21";
+  refuse_word(block, r, word,
+              fmt::format("{} before the unit is known: program {}, or give --units mm or --units inch", word.letter, codes));
+}
+
 }  // namespace counterflex

@@ -49,6 +49,9 @@ void leave_alone(const Block& block, Reading& reading, std::string_view why);
 [[noreturn]] void refuse_word(const Block& block, const Reading& reading, const Word& word,
                               const std::string& message);
 
+/// Refuses the block at `word`, a length, where no unit is known for it.
+void demand_unit(const Block& block, const Reading& reading, const Word& word);
+
 inline double& coordinate(Vector3& v, std::size_t axis) {
   return v[static_cast<Eigen::Index>(axis)];
 }

@@ -72,6 +72,10 @@ TEST_CASE("G92 before any move says where the operator has put the tool") {
   CHECK(frame_of_last(program).origin_mm.isZero(0));
 }
 
+TEST_CASE("G92 of zeros needs no unit") {
+  CHECK(followed(read("G92 X0 Y0 Z0\nG21 G90\nG0 X1. Y2. Z3.\nG1 X2. F100\n", "grbl")));
+}
+
 TEST_CASE("in LinuxCNC and Mach3 G52 takes the place of G92, on other controls it adds to it") {
   const std::string text = start + "G92 X0. Y0.\nG52 X3. Y4.\nG1 X1. Y1.\n";
   for (const char* const dialect : {"linuxcnc", "mach3"})
