@@ -44,14 +44,21 @@ std::vector<Span> rewritten_numbers(const Move& move) {
   return numbers;
 }
 
-// Takes the letter off with which a word begins, or its name and sign of equality.
-void drop_letter(std::string& text, bool klartext) {
-  if (text.empty()) return;
-  const bool named = text.back() == '=';
-  text.pop_back();
+void drop_name(std::string& text) {
+  while (!text.empty() && std::isalpha(static_cast<unsigned char>(text.back())) != 0) text.pop_back();
+}
+
+// Takes the letter off with which a word begins, or its name and sign of equality, with the AC( or IC( of Sinumerik. True
+// where a bracket has been taken off.
+bool drop_letter(std::string& text, bool klartext) {
+  if (text.empty()) return false;
+  const bool bracket = text.back() == '(';
+  if (bracket) text.pop_back(), drop_name(text);
+  const bool named = !text.empty() && text.back() == '=';
+  if (!text.empty()) text.pop_back();
   if (klartext && !text.empty() && upper(text.back()) == 'I') text.pop_back();
-  while (named && !text.empty() && std::isalpha(static_cast<unsigned char>(text.back())) != 0)
-    text.pop_back();
+  if (named) drop_name(text);
+  return bracket;
 }
 
 // The end of a word of motion (G0 to G3, with zeros before the digit) at `i`; `i` where there is none.
@@ -138,8 +145,9 @@ std::string skeleton(const Program& program, const Move& move) {
   };
   for (const Span& number : rewritten_numbers(move)) {
     keep(number.begin);
-    drop_letter(text, klartext);
+    const bool bracket = drop_letter(text, klartext);
     at = number.end;
+    if (bracket) at = program.text.find(')', at) + 1;
   }
   keep(move.block.end);
   std::vector<std::string_view> names{"N"};

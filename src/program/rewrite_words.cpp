@@ -30,6 +30,12 @@ std::string word_text(const Original& o, char letter, const WordNumber& number) 
   return fmt::format("{}{}", letter_of(o, letter), inserted_number(number.value, number.decimals));
 }
 
+/// In an inserted block: an axis that the original's block gives as a difference, beside others as places, says so itself.
+std::string point_text(const Original& o, std::size_t axis, const WordNumber& number) {
+  if (o.move.relative || !is_relative(o.move, axis)) return word_text(o, axis_letters[axis], number);
+  return fmt::format("{}=IC({})", letter_of(o, axis_letters[axis]), inserted_number(number.value, number.decimals));
+}
+
 std::string radius_text(const Original& o, const WordNumber& number) {
   if (o.dialect.radius_name.size() == 1) return word_text(o, 'R', number);
   return fmt::format("{}{}", o.dialect.radius_name, inserted_number(number.value, number.decimals));
@@ -267,7 +273,7 @@ std::string inserted_block(const Original& o, const Step& step, const BesidesPoi
     append(o, motion_text(o, step.motion), line);
   for (std::size_t axis = 0; axis < 3; ++axis)
     if (step.after[axis] && step.after[axis] != step.before[axis])
-      append(o, word_text(o, axis_letters[axis], step.axes[axis].number), line);
+      append(o, point_text(o, axis, step.axes[axis].number), line);
   if (step.arc) append_centre(o, *step.arc, line);
   if (const Word* turns = turns_word(o); step.arc && step.place == Place::end && turns != nullptr)
     append(o, std::string(o.text(turns->span)), line);

@@ -39,13 +39,14 @@ TEST_CASE("a flat circle of many turns is followed on all of them") {
 }
 
 TEST_CASE("the turns of a Siemens helix are followed") {
-  for (const int turns : {7, 15})
-    check_followed_around(
-        {.machine = rigid_gantry("0, 0, 0", out_of_square),
-         .text = fmt::format(
-             "STOPRE\nG71 G90 G17\nG0 X25. Y0. Z5.\nG1 Z-5. F300\nG3 X25. Y0. Z-13. I-25. J0. TURN={} F600\n"
-             "G0 Z20.\nM30\n",
-             turns)});
+  for (const char* centre : {"I-25. J0.", "I=AC(0.) J=AC(0.)"})
+    for (const int turns : {7, 15})
+      check_followed_around(
+          {.machine = rigid_gantry("0, 0, 0", out_of_square),
+           .text = fmt::format(
+               "STOPRE\nG71 G90 G17\nG0 X25. Y0. Z5.\nG1 Z-5. F300\nG3 X25. Y0. Z-13. {} TURN={} F600\n"
+               "G0 Z20.\nM30\n",
+               centre, turns)});
 }
 
 TEST_CASE("a helix that begins where the datum was touched is followed") {
