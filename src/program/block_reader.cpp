@@ -4,9 +4,9 @@
 #include <utility>
 
 #include "counterflex/program/program_reader.hpp"
-#include "program/klartext_reader.hpp"
-#include "program/line_reader.hpp"
-#include "program/remarks.hpp"
+#include "program/klartext/reader.hpp"
+#include "program/gcode/line_reader.hpp"
+#include "program/gcode/remarks.hpp"
 
 namespace counterflex {
 namespace {

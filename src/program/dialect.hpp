@@ -64,6 +64,9 @@ struct Dialect {
   RadiusRoom radius_room_inch{0.00283 * 25.4, 0.283 * 25.4};
 };
 
+/// The name of Heidenhain Klartext, which is spelt otherwise than G-code.
+inline constexpr std::string_view klartext_name = "heidenhain";
+
 inline constexpr char comment_open = '(';
 inline constexpr char comment_close = ')';
 
@@ -72,10 +75,6 @@ const Dialect* find_dialect(std::string_view name);
 
 /// Names for diagnostics, with commas.
 std::string dialect_names();
-
-/// What "auto" means for `text`: heidenhain where it begins with BEGIN PGM, fanuc where the first line that
-/// says anything holds an O-number, siemens where there are words that only a Sinumerik reads, else linuxcnc.
-const Dialect& detect_dialect(std::string_view text);
 
 /// Digits after the point of the resolution: 0.001 mm, 0.0001 inch.
 constexpr int resolution_decimals(LengthUnit unit) {

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "program/scanner.hpp"
-#include "program/siemens_signs.hpp"
+#include "program/text/scanner.hpp"
+#include "program/siemens/signs.hpp"
 
 namespace counterflex {
 namespace {

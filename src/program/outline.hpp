@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "program/dialect.hpp"
-#include "program/klartext_labels.hpp"
+#include "program/klartext/labels.hpp"
 
 namespace counterflex {
 

@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "program/block_reader.hpp"
-#include "program/choose_dialect.hpp"
-#include "program/klartext_lex.hpp"
+#include "program/detect/choose_dialect.hpp"
+#include "program/klartext/lex.hpp"
 
 namespace counterflex {
 namespace {

@@ -1,11 +1,11 @@
 #include "counterflex/program/read_program.hpp"
 
 #include "program/block_reader.hpp"
-#include "program/choose_dialect.hpp"
-#include "program/expand.hpp"
-#include "program/klartext_expand.hpp"
-#include "program/klartext_reader.hpp"
-#include "program/operation.hpp"
+#include "program/detect/choose_dialect.hpp"
+#include "program/expand/expand.hpp"
+#include "program/klartext/expand.hpp"
+#include "program/klartext/reader.hpp"
+#include "program/text/operation.hpp"
 
 namespace counterflex {
 

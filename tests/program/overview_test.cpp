@@ -2,9 +2,9 @@
 
 #include <doctest/doctest.h>
 
-#include "reading.hpp"
+#include "program/reading.hpp"
 #include "support/windows.hpp"
-#include "synthetic_program.hpp"
+#include "program/synthetic_program.hpp"
 
 using namespace counterflex;
 using namespace counterflex::test;

@@ -91,42 +91,7 @@ struct Rewritten {
   int first_unnumbered_line = 0;            ///< line of the first block with such pieces; 0: none
 };
 
-/// How far (mm) the sticky Z and R of canned cycles in the written text lie from those that the original
-/// repeats.
-struct HeldCycle {
-  double bottom_change_mm = 0, retract_change_mm = 0;
-};
-
-/// The last CC of the written Klartext.
-struct HeldPole {
-  std::optional<Vector3> centre_mm{};  ///< none where it counts from a position
-  bool differs = false;                ///< it is not that of the original
-};
-
-/// The modal cycle of a Sinumerik in the written text.
-struct HeldCall {
-  int line = 0;         ///< of its MCALL in the original; 0: none
-  double shift_mm = 0;  ///< of its heights
-};
-
-/// The numbers of the blocks of the written Klartext.
-struct WrittenNumbers {
-  std::optional<unsigned long> last{};
-  bool renumbers = false;  ///< a block was inserted: those behind it count on from `last`
-  bool ended = false;      ///< END PGM: what follows is another program
-};
-
-/// What the text written so far leaves to the blocks that follow.
-struct TextState {
-  HeldPosition held{};
-  HeldCycle cycle{};
-  std::optional<int> restate_motion{};  ///< what a block that relies on the modal motion must say: that of
-                                        ///< the original, where inserted text may have left another
-  HeldPole pole{};
-  std::optional<double> surface{};  ///< of the Klartext cycle that acts, as the text says it; none: as the original does
-  HeldCall call{};
-  WrittenNumbers numbers{};
-};
+class ProgramWriter;
 
 /// Writes a program window by window (ProgramReader).
 class Rewriter {
@@ -139,8 +104,8 @@ class Rewriter {
   Rewritten write(const Program& window, const std::vector<MoveEdit>& edits);
 
  private:
-  struct State;
-  std::unique_ptr<State> state_;
+  WriteOptions options_;
+  std::unique_ptr<ProgramWriter> writer_;  ///< none before the first window
 };
 
 /// Applies `edits`, in the order of moves, at most one a move. The N of a block is that of its first piece. A

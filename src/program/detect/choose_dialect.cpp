@@ -1,0 +1,69 @@
+#include "program/detect/choose_dialect.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+
+#include "program/detect/detect_dialect.hpp"
+#include "program/detect/other_machines.hpp"
+#include "program/detect/robot_language.hpp"
+#include "program/klartext/lex.hpp"
+
+namespace counterflex {
+namespace {
+
+/// Whole lines, so that no comment loses its end.
+std::string_view beginning(std::string_view text) {
+  if (text.size() < bytes_of_dialect) return text;
+  text = text.substr(0, bytes_of_dialect);
+  return text.substr(0, text.rfind('\n'));
+}
+
+bool ends_in(std::string_view file, std::string_view ending) {
+  return file.size() >= ending.size() &&
+         std::equal(ending.begin(), ending.end(), file.end() - static_cast<std::ptrdiff_t>(ending.size()),
+                    [](char a, char b) { return a == std::tolower(static_cast<unsigned char>(b)); });
+}
+
+/// The ending of the file's name decides where the text does not show Klartext.
+const Dialect& detect_dialect_of_file(std::string_view text, std::string_view file) {
+  if (ends_in(file, ".h") && begins_like_klartext(text)) return *find_dialect(klartext_name);
+  const Dialect& detected = detect_dialect(text);
+  const bool siemens_file = ends_in(file, ".mpf") || ends_in(file, ".spf");
+  return siemens_file && detected.name != klartext_name ? *find_dialect("siemens") : detected;
+}
+
+}  // namespace
+
+std::optional<std::string> unknown_dialect(const std::string& dialect) {
+  if (dialect == "auto" || find_dialect(dialect) != nullptr) return std::nullopt;
+  return fmt::format("dialect '{}' is not known: {} are", dialect, dialect_names());
+}
+
+const Dialect& choose_dialect(std::string_view text, const std::string& file, const ReadOptions& options) {
+  if (const std::string_view language = robot_language(text); !language.empty())
+    throw InputError(Exit::program_text, {file, 1, 1},
+                     fmt::format("this is a program in {}, which is not read yet; G-code, Siemens and Heidenhain "
+                                 "programs are: post the job as one of them",
+                                 language));
+  if (const std::string machine = other_machine(text); !machine.empty())
+    throw InputError(Exit::program_text, {file, 1, 1},
+                     fmt::format("this is {}, which is not read: milling programs for Fanuc, Haas, LinuxCNC, GRBL, "
+                                 "Mach3, Siemens and Heidenhain are",
+                                 machine));
+  if (options.dialect == "auto") return detect_dialect_of_file(beginning(text), file);
+  if (const auto problem = unknown_dialect(options.dialect)) throw UnknownDialect(Exit::usage, {file}, *problem);
+  return *find_dialect(options.dialect);
+}
+
+std::array<bool, 3> axes_of_tool_change(const Dialect& dialect, const ReadOptions& options) {
+  std::array<bool, 3> axes{};
+  axes.fill(!options.tool_change_moves && dialect.tool_change_moves_axes);
+  if (!options.tool_change_moves) return axes;
+  for (const char letter : *options.tool_change_moves)
+    if (letter >= 'X' && letter <= 'Z') axes[static_cast<std::size_t>(letter - 'X')] = true;
+  return axes;
+}
+
+}  // namespace counterflex

@@ -1,0 +1,70 @@
+#include "program/detect/robot_language.hpp"
+
+#include <algorithm>
+#include <cctype>
+
+namespace counterflex {
+namespace {
+
+bool is_name(char c) {
+  return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '$';
+}
+
+std::string_view without_blanks(std::string_view text) {
+  const std::size_t first = text.find_first_not_of(" \t\r");
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
+}
+
+/// Whether `line` is `word`, blanks and more; in any case of letters where `any_case`.
+bool begins_with(std::string_view line, std::string_view word, bool any_case) {
+  if (line.size() < word.size()) return false;
+  const auto same = [&](char a, char b) {
+    return any_case ? std::toupper(static_cast<unsigned char>(a)) == b : a == b;
+  };
+  return std::equal(word.begin(), word.end(), line.begin(), [&](char w, char l) { return same(l, w); }) &&
+         (line.size() == word.size() || !is_name(line[word.size()]));
+}
+
+/// `NAME ( ... )` and `end`, as programs are defined; Siemens defines variables as `DEF REAL NAME`.
+bool is_definition(std::string_view line, std::string_view end) {
+  const auto named =
+      static_cast<std::size_t>(std::find_if_not(line.begin(), line.end(), is_name) - line.begin());
+  if (named == 0) return false;
+  line = without_blanks(line.substr(named));
+  if (line.empty() || line.front() != '(' || !line.ends_with(end)) return false;
+  return without_blanks(line.substr(0, line.size() - end.size())).ends_with(')');
+}
+
+bool is_comment(std::string_view line) {
+  return line.front() == ';' || line.front() == '!' || line.front() == '#';
+}
+
+std::string_view language_of(std::string_view line) {
+  if (line.size() > 1 && line[0] == '&' && std::isalpha(static_cast<unsigned char>(line[1])) != 0)
+    return "KUKA KRL";
+  if (begins_with(line, "DEFDAT", true)) return "KUKA KRL";
+  if (begins_with(line, "DEF", true) && is_definition(without_blanks(line.substr(3)), "")) return "KUKA KRL";
+  if (begins_with(line, "def", false) && is_definition(without_blanks(line.substr(3)), ":"))
+    return "URScript";
+  if (line == "%%%" || begins_with(line, "MODULE", true)) return "ABB RAPID";
+  if (begins_with(line, "/PROG", true)) return "FANUC TP (LS)";
+  if (begins_with(line, "/JOB", true)) return "Yaskawa INFORM (JBI)";
+  if (begins_with(line, "PARTNO", true)) return "APT";
+  return {};
+}
+
+}  // namespace
+
+std::string_view robot_language(std::string_view text) {
+  if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    const std::string_view line = without_blanks(text.substr(0, end));
+    if (!line.empty() && !is_comment(line)) return language_of(line);
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  return {};
+}
+
+}  // namespace counterflex

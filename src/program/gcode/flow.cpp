@@ -1,0 +1,183 @@
+#include "program/gcode/flow.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "program/gcode/contour.hpp"
+#include "program/gcode/other_moves.hpp"
+#include "program/gcode/read_move.hpp"
+#include "program/text/scanner.hpp"
+
+namespace counterflex {
+namespace {
+
+constexpr std::string_view subprogram_by_number = "O";
+
+std::uint16_t differences(const ModalState& a, const ModalState& b) {
+  std::uint16_t found = a.doubts | b.doubts;
+  if (a.motion != b.motion) found |= doubtful_motion;
+  if (a.relative != b.relative) found |= doubtful_distance;
+  if (a.normal != b.normal) found |= doubtful_plane;
+  if (a.unit != b.unit) found |= doubtful_unit;
+  if (a.frame != b.frame) found |= doubtful_offset;
+  if (a.absolute_centres != b.absolute_centres) found |= doubtful_centres;
+  if (a.returns_to_retract != b.returns_to_retract) found |= doubtful_level;
+  if (a.contour != b.contour) found |= doubtful_cutter;
+  return found;
+}
+
+/// What any state may be at the begin of a subprogram.
+void forget_state(ModalState& state) {
+  state.known.fill(false);
+  state.doubts = all_doubts;
+  state.displaced = 0;
+  state.feed = 0;
+}
+
+void open_body(Reading& r, std::string name) {
+  if (r.body.open.empty()) {
+    end_contour(r);
+    r.body.before = r.state;
+    r.body.doubts = 0;
+  }
+  r.body.open.push_back(std::move(name));
+  r.state.known.fill(false);
+}
+
+void open_subprogram(Reading& r, std::string name) {
+  const bool outermost = r.body.open.empty();
+  open_body(r, std::move(name));
+  if (!outermost) return;
+  r.body.subprogram = true;
+  r.taken_away.fill(true);
+  forget_state(r.state);
+}
+
+void close_body(Reading& r) {
+  r.body.open.pop_back();
+  if (!r.body.open.empty()) return;
+  if (r.body.subprogram) {
+    r.state = r.body.before;
+    r.body.subprogram = false;
+    return;
+  }
+  doubt_differences(r.body.before, r.state);
+  r.state.doubts |= r.body.doubts;
+  r.state.known.fill(false);
+}
+
+/// A way through the body leaves it here, or begins anew.
+void note_differences(Reading& r) {
+  if (!r.body.open.empty()) r.body.doubts |= differences(r.body.before, r.state);
+}
+
+void call(const Block& block, Reading& r) {
+  ++r.program.block_count;
+  r.sorted = {};
+  read_call(block, r);
+}
+
+struct FlowLine {
+  std::string name;
+  std::string_view keyword;
+  bool is(std::string_view wanted) const { return is_word(keyword, wanted); }
+};
+
+bool opens(const FlowLine& line) {
+  return line.is("IF") || line.is("WHILE") || line.is("DO") || line.is("REPEAT");
+}
+
+bool closes(const FlowLine& line) {
+  return line.is("ENDIF") || line.is("ENDWHILE") || line.is("ENDREPEAT") || line.is("ENDSUB");
+}
+
+[[noreturn]] void refuse_end(const Block& block, const Reading& r, const FlowLine& line) {
+  refuse(r.program.file, block, block.flow_keyword.begin, fmt::format("'{}' ends nothing", line.keyword));
+}
+
+void read_o_word(const Block& block, Reading& r, const FlowLine& line) {
+  const std::string opened_do = line.name + " DO";
+  if (line.is("CALL")) return call(block, r);
+  if (line.is("SUB")) return open_subprogram(r, line.name);
+  if (closes(line)) {
+    if (r.body.open.empty()) refuse_end(block, r, line);
+    return close_body(r);
+  }
+  if (line.is("WHILE") && !r.body.open.empty() && r.body.open.back() == opened_do) return close_body(r);
+  if (opens(line)) return open_body(r, line.is("DO") ? opened_do : line.name);
+  note_differences(r);
+}
+
+/// IF jumps or assigns, and jumps make the whole program a body.
+void read_macro_word(const Block& block, Reading& r, const FlowLine& line) {
+  if (line.is("WHILE") || line.is("DO")) return open_body(r, "DO");
+  if (!line.is("END")) return;
+  if (r.body.open.empty()) refuse_end(block, r, line);
+  close_body(r);
+}
+
+bool opens_structure(const FlowLine& line) {
+  return line.is("IF") || line.is("WHILE") || line.is("FOR") || line.is("LOOP") || line.is("REPEAT");
+}
+
+/// IF to ENDIF, FOR to ENDFOR, LOOP to ENDLOOP, REPEAT to UNTIL of a Sinumerik.
+void read_structure(const Block& block, Reading& r, const FlowLine& line) {
+  if (opens_structure(line)) return open_body(r, std::string(line.keyword));
+  if (line.is("ELSE")) return note_differences(r);
+  if (r.body.open.empty()) refuse_end(block, r, line);
+  close_body(r);
+}
+
+}  // namespace
+
+void read_flow(const Block& block, Reading& r) {
+  const std::string_view text = r.program.text;
+  const FlowLine line{std::string(part(text, block.flow_name)), part(text, block.flow_keyword)};
+  if (r.dialect.sinumerik_words) return read_structure(block, r, line);
+  r.dialect.o_words ? read_o_word(block, r, line) : read_macro_word(block, r, line);
+}
+
+void read_program_number(const Block& block, Reading& r) {
+  const Word* o = r.sorted.word('O');
+  if (o == nullptr) return;
+  const std::vector<bool>& known = r.outline.subprograms;
+  bool subprogram = false;
+  if (is_numbered(part(r.program.text, block.span))) {
+    subprogram = r.program_numbers < known.size() && known[r.program_numbers];
+    ++r.program_numbers;
+  }
+  const bool misplaced =
+      !begins_with_program_number(block) || (!subprogram && r.program.block_count > 1 && !r.after_subprogram);
+  if (misplaced || !r.body.open.empty())
+    refuse_word(block, r, *o,
+                fmt::format("O{}: a program's number stands alone, first or behind a program that has ended",
+                            o->value));
+  if (subprogram) open_subprogram(r, std::string(subprogram_by_number));
+}
+
+void come_back(Reading& r) {
+  if (r.body.subprogram && r.body.open.size() == 1) {
+    close_body(r);
+    r.after_subprogram = true;
+  } else if (r.body.open.empty()) {
+    r.ended = true;
+  } else {
+    note_differences(r);
+  }
+}
+
+void doubt_differences(const ModalState& before, ModalState& now) {
+  now.doubts |= differences(before, now);
+  now.displaced |= before.displaced;
+  now.offsets_set |= before.offsets_set;
+  if (now.tool_length != before.tool_length) {
+    now.tool_length.reset();
+    now.tool_length_mm.reset();
+    now.known[2] = false;
+  }
+  if (now.tool != before.tool) now.tool = 0;
+  now.exact_stop = now.exact_stop || before.exact_stop;
+}
+
+}  // namespace counterflex

@@ -1,0 +1,272 @@
+#include "program/gcode/interpret.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "program/gcode/contour.hpp"
+#include "program/gcode/flow.hpp"
+#include "program/text/force_comment.hpp"
+#include "program/gcode/words/modal_words.hpp"
+#include "program/gcode/offsets.hpp"
+#include "program/gcode/other_moves.hpp"
+#include "program/gcode/read_arc.hpp"
+#include "program/gcode/read_cycle.hpp"
+#include "program/gcode/read_move.hpp"
+#include "program/gcode/remarks.hpp"
+#include "program/siemens/cycles.hpp"
+#include "program/siemens/statements.hpp"
+
+namespace counterflex {
+namespace {
+
+/// Of several comments alone in a line the first that names something is the operation.
+void apply_comments(const Block& block, Reading& r) {
+  if (block.comments.empty()) return;
+  const std::string_view text = r.program.text;
+  bool may_name = has_comments_alone(text, block);
+  for (const Span& comment : block.comments) {
+    if (const auto force = read_force_comment(text, r.program.file, block, comment))
+      r.state.force = force->F;
+    else if (may_name)
+      may_name = !r.operation.name(part(text, comment));
+  }
+}
+
+constexpr std::uint64_t bit_of(Action action) {
+  return std::uint64_t{1} << static_cast<unsigned>(action);
+}
+
+/// Whether codes besides G0 to G3 stand in the block.
+bool has_other_codes(const SortedBlock& sorted) {
+  constexpr std::uint64_t motions = bit_of(Action::rapid) | bit_of(Action::feed) | bit_of(Action::arc);
+  return (sorted.actions & ~motions) != 0 || !sorted.m.empty();
+}
+
+void check_can_move(const Block& block, const Reading& r) {
+  const Word& word = first_axis_word(block);
+  const auto fail = [&](const std::string& message) { refuse_word(block, r, word, message); };
+  if (!why_not_followed(r).empty()) return;
+  if (r.state.motion == MotionMode::none)
+    fail(fmt::format("{} without a motion: no G0 or G1 stands before it", word.letter));
+  if (r.state.motion == MotionMode::cancelled)
+    fail(fmt::format("{} without a motion: G80 ended it, and {} needs G0 or G1 anew", word.letter,
+                     r.dialect.name));
+  demand_unit(block, r, word);
+}
+
+void read_line(const Block& block, Reading& r, Motion motion) {
+  const bool hole = r.called && takes_modal_hole(block, r);
+  Move& move = start_move(block, r, motion);
+  place_words(block, r, move);
+  if (hole) place_modal_hole(r, move);
+  finish_move(r, move);
+  if (hole) leave_called_hole(r);
+}
+
+/// The move of a block under the motion that acts.
+void read_modal_move(const Block& block, Reading& r) {
+  check_can_move(block, r);
+  if (r.called && r.state.motion != MotionMode::rapid && r.state.motion != MotionMode::feed) takes_modal_hole(block, r);
+  switch (r.state.motion) {
+    case MotionMode::clockwise:
+    case MotionMode::counter_clockwise:
+      return read_arc(block, r);
+    case MotionMode::cycle:
+      return read_cycle(block, r);
+    case MotionMode::probe:
+      return read_held(block, r, "a probing move ends where it touches", false);
+    case MotionMode::spline:
+      return read_held(block, r, "a spline is not followed", true);
+    case MotionMode::thread:
+      return read_held(block, r, "a thread is not followed", false);
+    default:
+      return read_line(block, r, r.state.motion == MotionMode::feed ? Motion::feed : Motion::rapid);
+  }
+}
+
+/// Whether the words of the block move the tool under the motion that acts.
+bool has_words_of_motion(const Reading& r) {
+  if (has_axis_word(r.sorted)) return true;
+  switch (r.state.motion) {
+    case MotionMode::clockwise:
+    case MotionMode::counter_clockwise:
+      return r.sorted.has_any("IJKR");
+    case MotionMode::cycle:
+      return r.sorted.has(Action::cycle) || r.sorted.has_any("RL");
+    default:
+      return false;
+  }
+}
+
+const FoundG* find_own_motion(const SortedBlock& sorted) {
+  for (const FoundG& g : sorted.g) {
+    const Action action = g.code->action;
+    if (action == Action::own_way || action == Action::engrave || action == Action::pocket ||
+        action == Action::call || (action == Action::probe && g.code->group == CodeGroup::none))
+      return &g;
+  }
+  return nullptr;
+}
+
+void read_own_motion(const Block& block, Reading& r, const FoundG& found) {
+  switch (found.code->action) {
+    case Action::own_way:
+      return read_own_way(block, r, found);
+    case Action::engrave:
+      return read_engraving(block, r, found);
+    case Action::pocket:
+      return read_pocket(block, r);
+    case Action::call:
+      return read_call(block, r);
+    default:
+      return read_held(block, r, "a probing move ends where it touches", false);
+  }
+}
+
+/// G28 beside G0 is an error on some controls, G53 beside G28 on all.
+void check_reference(const Block& block, const Reading& r, const FoundG& reference) {
+  const bool other = r.sorted.has(Action::rapid) || r.sorted.has(Action::feed);
+  if (r.sorted.has(Action::machine_move) || (other && !r.dialect.reference_beside_motion))
+    refuse_word(block, r, *reference.word,
+                fmt::format("G{} stands beside another motion", reference.word->value));
+}
+
+/// Gives the axis words to the code that uses them.
+void apply_axis_words(const Block& block, Reading& r) {
+  if (!has_other_codes(r.sorted)) {
+    if (!r.state.entering_data && has_words_of_motion(r)) read_modal_move(block, r);
+    return;
+  }
+  if (const FoundG* reference = r.sorted.find(Action::reference_move)) {
+    check_reference(block, r, *reference);
+    return leave_machine_move(block, r, *reference);
+  }
+  if (const FoundG* machine = r.sorted.find(Action::machine_move))
+    return leave_machine_move(block, r, *machine);
+  if (const FoundG* own = find_own_motion(r.sorted)) return read_own_motion(block, r, *own);
+  if (r.sorted.has(MAction::call)) return read_call(block, r);
+  if (!has_words_of_motion(r) || takes_axis_words(r)) return;
+  if (const FoundG* dwell = r.sorted.find(Action::dwell)) {
+    if (r.dialect.dwell_takes_axis_words) return;
+    refuse_word(block, r, *dwell->word, "axis words stand beside a dwell");
+  }
+  if (const FoundG* smooth = r.sorted.find(Action::smooth))
+    refuse_word(block, r, *smooth->word, fmt::format("axis words stand beside G{}", smooth->word->value));
+  read_modal_move(block, r);
+}
+
+void end_doubtful_cutter(Reading& r) {
+  if (r.sorted.has(Action::cutter) || r.sorted.has(Action::no_cutter))
+    r.state.doubts &= static_cast<std::uint16_t>(~doubtful_cutter);
+}
+
+/// In the order in which controls act on them.
+void apply_codes(const Block& block, Reading& r) {
+  apply_feed_and_tool(r);
+  end_doubtful_cutter(r);
+  apply_modes(block, r);
+  apply_cutter(r);
+  apply_work_offset(block, r);
+  apply_tool_length(block, r);
+  apply_displacements(block, r);
+  apply_set_data(block, r);
+  if (r.sorted.has(MAction::restore)) r.state.doubts = all_doubts;
+  remark_machine_codes(block, r);
+}
+
+Context context_of(const Reading& r) {
+  const bool open = r.in_body() || r.state.doubts != 0 || r.state.entering_data;
+  if (open || (r.state.displaced & modal_macro) != 0) return Context::unknown;
+  switch (r.state.motion) {
+    case MotionMode::clockwise:
+    case MotionMode::counter_clockwise:
+      return Context::arc;
+    case MotionMode::cycle:
+    case MotionMode::spline:
+    case MotionMode::thread:
+      return Context::cycle;
+    default:
+      return Context::plain;
+  }
+}
+
+void apply_words(const Block& block, Reading& r) {
+  r.corner = block.corner;
+  r.angle = block.angle;
+  sort_words(r.program.file, r.dialect, block, context_of(r), r.sorted);
+  read_program_number(block, r);
+  if (has_other_codes(r.sorted)) {
+    apply_codes(block, r);
+  } else {
+    apply_feed_and_tool(r);
+    apply_motion(r);
+    watch_other_axes(block, r);
+  }
+  if (r.dialect.sinumerik_words) apply_tool_edge(r);
+  const std::size_t moves = r.program.moves.size();
+  if (r.sorted.unknown_code)
+    read_anything(block, r, "the number of a code is a variable or an expression");
+  else if (r.angle && !has_axis_word(r.sorted))
+    read_anything(block, r, "ANG= is followed beside one of X and Y alone, in a line of G17");
+  else
+    apply_axis_words(block, r);
+  if (r.program.moves.size() > moves) join_contour(r);
+  if (r.sorted.has(MAction::retract)) leave_retract(block, r);
+}
+
+void read_words(const Block& block, Reading& r) {
+  if (empty(block.block_delete)) return apply_words(block, r);
+  // What a block that may be skipped has set is in doubt afterwards.
+  const ModalState before = r.state;
+  apply_words(block, r);
+  doubt_differences(before, r.state);
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    if (r.sorted.word(letters_of_axes[axis]) != nullptr) r.state.known[axis] = false;
+}
+
+void end_program(Reading& r) {
+  if (r.sorted.has(MAction::come_back)) come_back(r);
+  if (r.sorted.has(MAction::end) && (r.body.jumps || r.body.open.empty())) r.ended = true;
+}
+
+void read_with_senses(const Block& block, Reading& r) {
+  if (!block.has_sense) return read_words(block, r);
+  read_words(with_senses(block, r), r);
+  r.block_relative.reset();
+  r.relative_axes = 0;
+}
+
+/// A line of a Sinumerik that says more than words.
+void read_statement(const Block& block, Reading& r) {
+  ++r.program.block_count;
+  begin_statement(block, r);
+  const bool words = !block.words.empty() && has_words_of_its_own(block, r);
+  if (words) read_with_senses(block, r);
+  end_statement(block, r);
+  if (words && empty(block.block_delete)) end_program(r);
+}
+
+}  // namespace
+
+void interpret(const Block& block, Reading& r) {
+  apply_comments(block, r);
+  remark_length(block, r);
+  if (!says_something(block)) return;
+  if (!empty(block.flow_keyword)) {
+    if (block.words.empty() || block.words.front().letter == 'N') {
+      read_flow(block, r);
+      if (block.statement != Statement::none) end_statement(block, r);
+      return;
+    }
+    refuse(r.program.file, block, block.flow_keyword.begin,
+           "words stand before a condition, a loop or a call");
+  }
+  if (block.statement != Statement::none) return read_statement(block, r);
+  if (block.words.empty()) return;
+  ++r.program.block_count;
+  read_with_senses(block, r);
+  if (empty(block.block_delete)) end_program(r);
+}
+
+}  // namespace counterflex

@@ -1,0 +1,212 @@
+#include "program/gcode/offsets.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "program/gcode/contour.hpp"
+#include "program/gcode/frames.hpp"
+#include "program/gcode/read_move.hpp"
+#include "program/gcode/remarks.hpp"
+
+namespace counterflex {
+namespace {
+
+constexpr std::uint16_t other_offsets = 1u << 15;
+
+const std::string& offset_that_acts(const Reading& r) {
+  return r.program.frames[r.state.frame].work_offset;
+}
+
+/// "G54", "G59.3", "G54.1 P3", which G154 P3 and G112 of Haas name too, and G54 P3 of Fanuc.
+std::optional<std::string> offset_name(const Reading& r, const FoundG& offset) {
+  const Word* p = r.sorted.word('P');
+  if (offset.code->tenths >= 1100 && offset.code->tenths <= 1290)
+    return fmt::format("G54.1 P{}", offset.code->tenths / 10 - 109);
+  const bool extended = offset.code->tenths == 541 || offset.code->tenths == 1540 ||
+                        (offset.code->tenths == 540 && p != nullptr && r.dialect.macro_words &&
+                         !r.sorted.has(MAction::call) && !r.sorted.has(Action::dwell));
+  if (!extended) return fmt::format("G{}", offset.word->value);
+  if (p == nullptr || !p->literal) return std::nullopt;
+  return fmt::format("G54.1 P{}", p->value);
+}
+
+void add_displacement(const Block& block, Reading& r, std::uint16_t bit) {
+  r.state.displaced |= bit;
+  r.state.known.fill(false);
+  end_contour(r);
+  leave_alone(block, r, why_not_followed(r));
+}
+
+/// The bit of an offset in ModalState::offsets_set.
+std::uint16_t offset_bit(std::string_view name) {
+  if (name.empty() || name == "G54") return 1;
+  constexpr std::array<std::string_view, 8> names{"G55", "G56",   "G57",   "G58",
+                                                  "G59", "G59.1", "G59.2", "G59.3"};
+  const auto found = std::find(names.begin(), names.end(), name);
+  return found == names.end() ? other_offsets : static_cast<std::uint16_t>(2u << (found - names.begin()));
+}
+
+void displace_by_data(Reading& r) {
+  const bool set = (r.state.offsets_set & offset_bit(offset_that_acts(r))) != 0;
+  const auto others = static_cast<std::uint16_t>(r.state.displaced & ~data);
+  r.state.displaced = set ? static_cast<std::uint16_t>(others | data) : others;
+}
+
+/// The number of H that G43 takes, and its length where the options hold it.
+void find_length(const Reading& r, std::optional<double>& number, std::optional<double>& length_mm) {
+  const Word* h = r.sorted.word('H');
+  if (h != nullptr && !h->literal) return;
+  if (h != nullptr) number = h->value;
+  const long tool = h != nullptr ? count_of(*h) : r.state.tool;
+  const auto found = r.options.tool_lengths_mm.find(tool);
+  if (r.lengths_set || found == r.options.tool_lengths_mm.end()) return;
+  if (h == nullptr) number = static_cast<double>(tool);
+  length_mm = found->second;
+}
+
+bool is_zero_or_absent(const Word* word) {
+  return word == nullptr || (word->literal && word->value == 0);
+}
+
+void end_displacements(Reading& r) {
+  for (const FoundG& g : r.sorted.g) {
+    if (g.code->action != Action::end_displace || (r.state.displaced & g.code->bit) == 0) continue;
+    r.state.displaced &= static_cast<std::uint16_t>(~g.code->bit);
+    r.state.known.fill(false);
+  }
+  if (r.sorted.has(Action::no_tool_length) && (r.state.displaced & tool_point) != 0) {
+    r.state.displaced &= static_cast<std::uint16_t>(~tool_point);
+    r.state.known.fill(false);
+  }
+}
+
+bool sets_offset(const Word* l) {
+  return l != nullptr && l->literal && (l->value == 2 || l->value == 20);
+}
+
+bool sets_tools(const Word* l) {
+  return l != nullptr && l->literal && (l->value == 1 || (l->value >= 10 && l->value <= 13));
+}
+
+}  // namespace
+
+void apply_work_offset(const Block& block, Reading& r) {
+  const FoundG* offset = r.sorted.find(Action::work_offset);
+  if (offset == nullptr) return;
+  const std::optional<std::string> name = offset_name(r, *offset);
+  if (!name) {
+    r.state.doubts |= doubtful_offset;
+    r.state.known.fill(false);
+    return leave_alone(block, r, why_not_followed(r));
+  }
+  if (*name != offset_that_acts(r)) {
+    end_contour(r);
+    // Whether a local shift acts in the other offset, too, differs between controls.
+    if (!r.state.shifts.local_mm.isZero(0) && !r.dialect.sinumerik_words) add_displacement(block, r, shifted);
+    enter_frame(r, *name);
+  }
+  r.state.doubts &= static_cast<std::uint16_t>(~doubtful_offset);
+  displace_by_data(r);
+}
+
+void apply_tool_length(const Block& block, Reading& r) {
+  const bool on = r.sorted.has(Action::tool_length);
+  if (!on && !r.sorted.has(Action::no_tool_length)) return;
+  ModalState& state = r.state;
+  std::optional<double> number, length_mm;
+  if (!on) number = 0, length_mm = 0;
+  const FoundG* found = r.sorted.find(Action::tool_length);
+  const bool dynamic = on && found->code->tenths != 430 && found->code->tenths != 440;
+  if (on && !dynamic) find_length(r, number, length_mm);
+  if (length_mm && on && found->code->tenths == 440) *length_mm = -*length_mm;
+  // Shop controls add relative Z to the position that the program has reached, whatever the length.
+  const bool counts_on = r.dialect.macro_words && state.relative && r.sorted.word('Z') != nullptr;
+  if (length_mm && state.tool_length_mm)
+    state.position_mm.z() += *state.tool_length_mm - *length_mm;
+  else if ((!number || number != state.tool_length) && !counts_on)
+    state.known[2] = false;
+
+  if (number != state.tool_length || length_mm != state.tool_length_mm) state.cycle.initial.reset();
+  state.tool_length = number;
+  state.tool_length_mm = length_mm;
+  if (!length_mm) remark_tool_length(block, r);
+}
+
+void watch_other_axes(const Block& block, Reading& r) {
+  if (r.sorted.has(Action::call) || r.sorted.has(Action::dwell) || r.sorted.has(Action::displace)) return;
+  for (const char letter : {'A', 'B', 'C', 'U', 'V', 'W'})
+    if (!is_zero_or_absent(r.sorted.word(letter)) && (r.state.displaced & rotary) == 0)
+      add_displacement(block, r, rotary);
+}
+
+void apply_displacements(const Block& block, Reading& r) {
+  end_displacements(r);
+  bool followed = false;
+  for (const FoundG& g : r.sorted.g) {
+    if (apply_frame_code(block, r, *g.code)) {
+      followed = true;
+      continue;
+    }
+    if (g.code->action == Action::displace) add_displacement(block, r, g.code->bit);
+    if (g.code->bit == unknown) r.state.displaced |= unknown, end_contour(r);
+  }
+  if (r.sorted.has(Action::shift) && !followed) {
+    const bool zero = is_zero_or_absent(r.sorted.word('X')) && is_zero_or_absent(r.sorted.word('Y')) &&
+                      is_zero_or_absent(r.sorted.word('Z'));
+    const bool all_named = r.sorted.word('X') && r.sorted.word('Y') && r.sorted.word('Z');
+    if (!zero) {
+      add_displacement(block, r, shifted);
+    } else if (all_named && (r.state.displaced & shifted) != 0) {
+      r.state.displaced &= static_cast<std::uint16_t>(~shifted);
+      r.state.known.fill(false);
+    }
+  }
+  watch_other_axes(block, r);
+  if (r.sorted.has(MAction::kinematics)) add_displacement(block, r, kinematics);
+}
+
+void apply_set_data(const Block& block, Reading& r) {
+  if (r.sorted.has(Action::end_data)) r.state.entering_data = false;
+  if (!r.sorted.has(Action::set_data)) return;
+  const Word* l = r.sorted.word('L');
+  r.state.entering_data = r.dialect.macro_words && l != nullptr && l->value >= 50;
+  if (sets_offset(l) && set_work_offset(block, r)) return;
+  leave_alone(block, r, "G10 sets offsets or tools");
+  if (sets_tools(l)) {
+    r.state.tool_length.reset();
+    r.state.tool_length_mm.reset();
+    r.lengths_set = true;
+    return;
+  }
+  if (!sets_offset(l)) return;
+  const Word* p = r.sorted.word('P');
+  const bool clear = p != nullptr && p->literal && l->value == 2 && p->value >= 1 && p->value <= 9;
+  if (p != nullptr && p->literal && p->value == 0) {
+    r.state.offsets_set |= offset_bit(offset_that_acts(r));
+  } else {
+    r.state.offsets_set =
+        clear ? static_cast<std::uint16_t>(r.state.offsets_set | 1u << (static_cast<int>(p->value) - 1))
+              : std::uint16_t{0xffff};
+  }
+  displace_by_data(r);
+  if ((r.state.displaced & data) != 0) r.state.known.fill(false), end_contour(r);
+}
+
+bool takes_axis_words(const Reading& r) {
+  if (r.state.entering_data) return true;
+  return std::any_of(r.sorted.g.begin(), r.sorted.g.end(), [](const FoundG& g) {
+    switch (g.code->action) {
+      case Action::set_data:
+      case Action::shift:
+        return true;
+      case Action::displace:
+        return g.code->bit != tool_point && g.code->bit != polar;
+      default:
+        return g.code->tenths == 220 || g.code->tenths == 281 || g.code->tenths == 301 ||
+               g.code->tenths == 431 || g.code->tenths == 501;
+    }
+  });
+}
+
+}  // namespace counterflex

@@ -1,0 +1,113 @@
+#include "program/gcode/other_moves.hpp"
+
+#include <fmt/format.h>
+
+#include "program/gcode/contour.hpp"
+#include "program/expand/expand.hpp"
+#include "program/gcode/read_move.hpp"
+#include "program/gcode/remarks.hpp"
+
+namespace counterflex {
+
+void leave_machine_move(const Block& block, Reading& r, const FoundG& found) {
+  const bool reference = found.code->action == Action::reference_move;
+  if (!reference && !has_axis_word(r.sorted) && !r.sorted.has_any("ABCUVW") && !r.in_body())
+    refuse_word(block, r, *found.word, "G53 has no axis word");
+  const bool all = !has_axis_word(r.sorted);
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    if (all || r.sorted.word(letters_of_axes[axis]) != nullptr) take_away(r, axis);
+  end_contour(r);
+  r.run_begin = r.program.moves.size();
+  r.last_reason = fmt::format("G{} moves to a position of the machine", found.word->value);
+  r.program.left_alone.push_back({block.line, r.last_reason, true, block.text_line});
+}
+
+void leave_retract(const Block& block, Reading& r) {
+  take_away(r, 2);
+  end_contour(r);
+  r.run_begin = r.program.moves.size();
+  r.last_reason = "M25 may take Z to a position of the machine";
+  r.program.left_alone.push_back({block.line, r.last_reason, true, block.text_line});
+}
+
+void read_held(const Block& block, Reading& r, std::string_view what, bool end_known) {
+  Move& move = start_move(block, r, Motion::feed);
+  place_words(block, r, move);
+  move.handling = Handling::held;
+  move.may_insert_words = false;
+  if (!end_known)
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      if (r.sorted.word(letters_of_axes[axis]) != nullptr) r.state.known[axis] = false;
+  if (why_not_followed(r).empty()) leave_alone(block, r, what);
+  finish_move(r, move);
+}
+
+void read_own_way(const Block& block, Reading& r, const FoundG& found) {
+  Move& move = start_move(block, r, Motion::feed);
+  for (std::size_t axis = 0; axis < 3; ++axis) fix_axis(r, move, axis);
+  const bool known = found.code->bit != unknown;
+  leave_alone(block, r,
+              known ? fmt::format("G{} moves in a way of the control's own", found.word->value)
+                    : fmt::format("G{} is not known in dialect {}", found.word->value, r.dialect.name));
+  finish_move(r, move);
+}
+
+void read_engraving(const Block& block, Reading& r, const FoundG& found) {
+  bool plain = !r.state.relative && why_not_followed(r).empty();
+  for (const char letter : {'X', 'Y', 'Z', 'R'})
+    if (const Word* word = r.sorted.word(letter)) plain = plain && word->literal;
+  const Word* plane = r.sorted.word('R');
+  if (!plain || r.sorted.word('Z') == nullptr || plane == nullptr) return read_own_way(block, r, found);
+  Move& move = start_move(block, r, Motion::feed);
+  place_words(block, r, move);
+  move.handling = Handling::held;
+  CycleMove& text = move.cycle.emplace();
+  text.bottom_mm = r.state.position_mm.z();
+  text.bottom_word = move.words[2];
+  text.retract_mm = length_mm(r, *plane);
+  text.retract_word = AxisWord{plane->number, plane->decimals};
+  text.may_insert_bottom = false;
+  move.words[2].reset();
+  // Where the text ends is not followed, nor what is left of the words of a cycle that it interrupts.
+  r.state.known.fill(false);
+  r.state.cycle = {};
+  leave_alone(block, r, "the control engraves text");
+  finish_move(r, move);
+}
+
+void read_pocket(const Block& block, Reading& r) {
+  Move& move = start_move(block, r, Motion::feed);
+  place_words(block, r, move);
+  move.handling = Handling::held;
+  move.may_insert_words = false;
+  if (why_not_followed(r).empty()) leave_alone(block, r, "the control cuts a round pocket");
+  finish_move(r, move);
+}
+
+void read_call(const Block& block, Reading& r) {
+  r.variables.clear();
+  Move& move = start_move(block, r, Motion::rapid);
+  for (std::size_t axis = 0; axis < 3; ++axis) fix_axis(r, move, axis);
+  move.relative = false;
+  std::string why(why_not_expanded(r.program.expansion, block.text_line));
+  if (!why.empty()) why = ", not expanded: " + why;
+  if (!r.options.expand_subprograms && may_expand(r.dialect)) why = " (--expand-subprograms puts its text in its place)";
+  leave_alone(block, r, "a subprogram is called" + why);
+  finish_move(r, move);
+  end_contour(r);
+  r.state.doubts |= doubtful_motion | doubtful_distance | doubtful_plane | doubtful_centres | doubtful_level;
+  add_remark(
+      r.program, block.line,
+      "subprograms are taken to leave the unit, the work offset, the tool length and G40 to G42 as they are");
+}
+
+void read_anything(const Block& block, Reading& r, std::string_view why) {
+  r.state.doubts = all_doubts;
+  r.variables.clear();
+  Move& move = start_move(block, r, Motion::rapid);
+  for (std::size_t axis = 0; axis < 3; ++axis) fix_axis(r, move, axis);
+  leave_alone(block, r, why);
+  finish_move(r, move);
+}
+
+}  // namespace counterflex

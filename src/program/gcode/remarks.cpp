@@ -1,0 +1,107 @@
+#include "program/gcode/remarks.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "program/text/line_length.hpp"
+
+namespace counterflex {
+namespace {
+
+constexpr std::size_t most_remarks = 1000;
+
+/// "0.0039 inch = 0.09906 mm", or the bare number where the unit is not known yet.
+std::string length_text(double value, const ModalState& state) {
+  if (!state.unit) return fmt::format("{} in the program's unit", value);
+  if (*state.unit == LengthUnit::millimetres) return fmt::format("{} mm", value);
+  return fmt::format("{} inch = {:.6g} mm", value, value * mm_per(*state.unit));
+}
+
+std::string blend_text(const Reading& reading) {
+  const Word* p = reading.sorted.word('P');
+  const Word* q = reading.sorted.word('Q');
+  if (p == nullptr) return "G64 without P: the control may leave the path by any distance";
+  std::string text = fmt::format("G64 P{}: the control may leave the path by {}", p->value,
+                                 length_text(p->value, reading.state));
+  const double merged = q != nullptr ? q->value : p->value;
+  if (merged > 0)
+    text += fmt::format(" and merges moves within {} of a line: smaller corrections can vanish",
+                        length_text(merged, reading.state));
+  return text;
+}
+
+void record_tolerance(const Block& block, Reading& reading) {
+  const double unit = mm_per(reading.state.unit.value_or(LengthUnit::millimetres));
+  const auto length = [&](char letter) -> std::optional<double> {
+    const Word* word = reading.sorted.word(letter);
+    if (word == nullptr) return std::nullopt;
+    return word->value * unit;
+  };
+  const PathTolerance tolerance{block.line, length('P'), length('Q')};
+  auto& known = reading.program.path_tolerances;
+  if (std::none_of(known.begin(), known.end(), [&](const PathTolerance& other) {
+        return other.path_mm == tolerance.path_mm && other.merge_mm == tolerance.merge_mm;
+      }))
+    known.push_back(tolerance);
+}
+
+}  // namespace
+
+void add_remark(Program& program, int line, std::string what) {
+  if (program.remarks.size() >= most_remarks) return;
+  const bool known = std::any_of(program.remarks.begin(), program.remarks.end(),
+                                 [&](const Remark& remark) { return remark.what == what; });
+  if (!known) program.remarks.push_back({line, std::move(what)});
+}
+
+void remark_path_mode(const Block& block, Reading& reading) {
+  if (reading.sorted.has(Action::blend)) {
+    add_remark(reading.program, block.line, blend_text(reading));
+    record_tolerance(block, reading);
+  }
+  if (const FoundG* smooth = reading.sorted.find(Action::smooth))
+    add_remark(
+        reading.program, block.line,
+        fmt::format("G{}: the control smooths the path; corrections smaller than its tolerance can vanish",
+                    smooth->word->value));
+}
+
+void remark_tool_length(const Block& block, Reading& reading) {
+  const FoundG* length = reading.sorted.find(Action::tool_length);
+  if (length == nullptr) return;
+  const Word* h = reading.sorted.word('H');
+  const long tool = h != nullptr && h->literal ? static_cast<long>(h->value) : reading.state.tool;
+  const std::string code = fmt::format("G{}", length->word->value);
+  if (tool <= 0)
+    return add_remark(reading.program, block.line,
+                      code + ": the tool and its length are not known; the tip of [tool] is used");
+  add_remark(reading.program, block.line,
+             fmt::format("{}: the length of T{} is not known; the tip of [tool] is used (give --tool-length "
+                         "T{}=MM, --tool-table, or length_mm in [tools.T{}])",
+                         code, tool, tool, tool));
+}
+
+void remark_machine_codes(const Block& block, Reading& reading) {
+  for (const FoundM& m : reading.sorted.m)
+    if (m.action == MAction::machine)
+      add_remark(reading.program, block.line,
+                 fmt::format("M{}: set by the machine's builder; taken as moving no axis", m.code));
+}
+
+void remark_length(const Block& block, Reading& reading) {
+  const std::size_t limit = reading.dialect.line_limit;
+  const std::string_view line = part(reading.program.text, block.span);
+  if (limit == 0 || line.size() + room_for_words <= limit) return;
+  const std::size_t length = counted_length(reading.dialect, line);
+  if (length > limit) {
+    add_remark(reading.program, block.line,
+               fmt::format("the line has {} characters; {} reads {}", length, reading.dialect.name, limit));
+  } else if (length + room_for_words > limit) {
+    add_remark(reading.program, block.line,
+               fmt::format("the line has {} of the {} characters that {} reads: little room for corrections",
+                           length, limit, reading.dialect.name));
+  }
+}
+
+}  // namespace counterflex

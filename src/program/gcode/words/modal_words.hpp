@@ -1,0 +1,16 @@
+#pragma once
+/// Words that change what is modal and move nothing.
+#include "program/gcode/interpret.hpp"
+
+namespace counterflex {
+
+/// Unit, feed mode, F, S and T; the tool change.
+void apply_feed_and_tool(Reading& reading);
+
+/// Plane, G90, G91, the form of centres, levels of cycles, stops, and the motion.
+void apply_modes(const Block& block, Reading& reading);
+
+/// The motion alone.
+void apply_motion(Reading& reading);
+
+}  // namespace counterflex

@@ -1,0 +1,52 @@
+#pragma once
+/// The words of one block by what they are, checked against each other.
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "program/gcode/words/codes.hpp"
+#include "program/text/lex.hpp"
+
+namespace counterflex {
+
+struct FoundG {
+  const GCode* code;
+  const Word* word;
+};
+
+struct FoundM {
+  MAction action;
+  int code;
+  const Word* word;
+};
+
+/// Points into the `Block` it was sorted from.
+struct SortedBlock {
+  std::array<const Word*, 26> letters{};  ///< all but G and M, of those in `present`
+  std::uint32_t present = 0;              ///< a bit for each letter
+  std::vector<FoundG> g;
+  std::vector<FoundM> m;
+  std::uint64_t actions = 0;    ///< a bit for each Action in `g`
+  std::uint32_t m_actions = 0;  ///< a bit for each MAction in `m`
+  bool unknown_code = false;    ///< holds a G or M whose number the control works out
+
+  const Word* word(char letter) const {
+    const auto i = static_cast<std::size_t>(letter - 'A');
+    return (present >> i & 1) != 0 ? letters[i] : nullptr;
+  }
+  bool has_any(std::string_view wanted) const;
+  const FoundG* find(Action action) const;
+  bool has(Action action) const { return (actions >> static_cast<unsigned>(action) & 1) != 0; }
+  bool has(MAction action) const { return (m_actions >> static_cast<unsigned>(action) & 1) != 0; }
+};
+
+/// Which words a block may hold beside those of its own codes.
+enum class Context { plain, arc, cycle, unknown };
+
+/// Sorts `block` into `sorted`, whose vectors are reused; `context` is the motion that acts where the block
+/// programs none. Throws `InputError` for words that are not known or not read yet, that stand twice, exclude
+/// each other, or that nothing in the block uses.
+void sort_words(const std::string& file, const Dialect& dialect, const Block& block, Context context,
+                SortedBlock& sorted);
+
+}  // namespace counterflex

@@ -1,0 +1,53 @@
+#include "program/klartext/codes.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "program/gcode/remarks.hpp"
+
+namespace counterflex {
+namespace {
+
+void read_code(int code, const KlartextBlock& block, KlartextReading& r, KlartextCodes& codes) {
+  constexpr std::array after{0, 1, 2, 5, 6, 9, 30, 60, 89, 99, 140};
+  constexpr std::array quiet{0,   1,   2,   3,   4,   5,   6,   8,   9,   13,  14,  30,  60,  89,
+                             90,  91,  92,  94,  97,  98,  99,  101, 102, 103, 107, 108, 109, 110,
+                             111, 116, 117, 118, 120, 126, 127, 136, 137, 140, 141, 148, 149};
+  codes.machine_position = codes.machine_position || code == 91 || code == 92;
+  codes.cycle_call = codes.cycle_call || code == 89 || code == 99;
+  codes.calls_each = codes.calls_each || code == 89;
+  codes.retracts = codes.retracts || code == 140;
+  codes.ends = codes.ends || code == 2 || code == 30;
+  codes.acts_after = codes.acts_after || std::find(after.begin(), after.end(), code) != after.end();
+  if (code == 136 || code == 137) r.state.feed_per_turn = code == 136, r.state.feed_mm_min = 0;
+  if (code == 128 || code == 114 || code == 144)
+    r.state.elsewhere[128] = fmt::format("M{} moves the linear axes with the rotary ones", code);
+  if (code == 129 || code == 115 || code == 145) r.state.elsewhere.erase(128);
+  if (code == 124)
+    add_remark(r.program, line_of_file(r.program.expansion, block.line),
+               "M124: the control leaves out points that lie closer than it says");
+  else if (std::find(quiet.begin(), quiet.end(), code) == quiet.end())
+    add_remark(r.program, line_of_file(r.program.expansion, block.line),
+               fmt::format("M{}: taken as moving no axis", code));
+}
+
+int code_of(const KlartextWord& word, const KlartextBlock& block, const KlartextReading& r) {
+  if (word.value < 0 || word.value > 99999 || word.value != std::floor(word.value))
+    refuse_klartext(r.program.text, r.program.file, block, word.span.begin,
+                    fmt::format("M{} is not a code: whole numbers from 0 to 99999 are", word.value));
+  return static_cast<int>(word.value);
+}
+
+}  // namespace
+
+KlartextCodes read_klartext_m(const KlartextBlock& block, KlartextReading& r) {
+  KlartextCodes codes;
+  for (const KlartextWord& word : r.words)
+    if (word.key == "M" && word.literal) read_code(code_of(word, block, r), block, r, codes);
+  return codes;
+}
+
+}  // namespace counterflex

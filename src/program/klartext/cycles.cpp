@@ -1,0 +1,234 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+#include <array>
+#include <cmath>
+
+#include "counterflex/files/numbers.hpp"
+#include "program/dialect.hpp"
+#include "program/klartext/read.hpp"
+#include "program/text/lex.hpp"
+#include "program/gcode/remarks.hpp"
+
+namespace counterflex {
+namespace {
+
+/// "7.1" of CYCL DEF 7.1 and where it ends; 0.0 where there is no number.
+struct CycleNumber {
+  int cycle = 0;
+  int line = 0;
+  std::size_t end = 0;
+};
+
+int take_integer(std::string_view text, std::size_t& at, std::size_t end) {
+  int value = 0;
+  for (; at < end && text[at] >= '0' && text[at] <= '9' && value < 100000; ++at)
+    value = 10 * value + (text[at] - '0');
+  return value;
+}
+
+CycleNumber number_of(std::string_view text, const KlartextBlock& block) {
+  CycleNumber number;
+  std::size_t at = text.find_first_of("0123456789", block.parts[0].begin);
+  const std::size_t end = block.parts[0].end;
+  if (at >= end) return number;
+  number.cycle = take_integer(text, at, end);
+  if (at < end && text[at] == '.') number.line = take_integer(text, ++at, end);
+  number.end = at;
+  return number;
+}
+
+/// Cycles that stay above or in the point where they are called: holes, taps, pockets about the point.
+bool acts_where_called(int cycle) {
+  constexpr std::array in_place{1,   2,   17,  18,  240, 241, 251, 252, 253,
+                                254, 256, 257, 262, 263, 264, 265, 267};
+  return std::find(in_place.begin(), in_place.end(), cycle) != in_place.end() ||
+         (cycle >= 200 && cycle <= 215);
+}
+
+/// Cycles of older controls, which count from the height where the tool stands.
+bool counts_from_tool(int cycle) {
+  return (cycle >= 1 && cycle <= 5) || cycle == 17 || cycle == 18;
+}
+
+/// Drilling and tapping come back to where they have begun; where slots and pockets end is not followed.
+bool returns_to_start(int cycle) {
+  return cycle == 1 || cycle == 2 || cycle == 17;
+}
+
+/// Cycles whose heights and depths all count from their surface, and that take no other place.
+bool counts_from_surface(int cycle) {
+  return (cycle >= 200 && cycle <= 209) || cycle == 240 || cycle == 241;
+}
+
+/// A parameter that is a plain number of mm.
+struct ParameterWord {
+  double value_mm;
+  AxisWord word;
+};
+
+/// What the block gives the parameter `name`; nothing where that is no plain number.
+std::optional<ParameterWord> parameter_of(std::string_view name, const KlartextBlock& block, const KlartextReading& r) {
+  const std::string_view text = r.program.text;
+  for (const Span& line : block.parts) {
+    const std::size_t found = part(text, line).find(name);
+    if (found == std::string_view::npos) continue;
+    const std::size_t equals = text.find_first_not_of(" \t", line.begin + found + name.size());
+    if (equals >= line.end || text[equals] != '=') return std::nullopt;
+    const std::size_t begin = text.find_first_not_of(" \t", equals + 1);
+    const std::size_t end = std::min(text.find_first_of(" \t\r\n;~", begin), line.end);
+    if (begin >= end) return std::nullopt;
+    std::string number(part(text, {begin, end}));
+    std::replace(number.begin(), number.end(), ',', '.');
+    const std::optional<double> value = read_number(number);
+    if (!value || std::abs(*value) > 99999.9999 || number.find_first_of("eE") != std::string::npos)
+      return std::nullopt;
+    const std::size_t point = std::min(number.find('.'), number.size() - 1);
+    return ParameterWord{*value * mm_per(r.state.unit.value_or(LengthUnit::millimetres)),
+                         {{begin, end}, static_cast<int>(number.size() - 1 - point)}};
+  }
+  return std::nullopt;
+}
+
+std::optional<KlartextSurface> surface_of(const KlartextBlock& block, const KlartextReading& r) {
+  const auto found = parameter_of("Q203", block, r);
+  if (!found) return std::nullopt;
+  return KlartextSurface{found->value_mm, found->word, true};
+}
+
+/// Q200 and Q204, where the block has them.
+void read_clearances(const KlartextBlock& block, KlartextReading& r, bool followed) {
+  const auto read = [&](std::string_view name, std::optional<double>& clearance_mm) {
+    const bool named = std::any_of(block.parts.begin(), block.parts.end(), [&](const Span& line) {
+      return part(r.program.text, line).find(name) != std::string_view::npos;
+    });
+    if (!named) return;
+    const auto found = parameter_of(name, block, r);
+    clearance_mm = followed && found ? std::optional(found->value_mm) : std::nullopt;
+  };
+  read("Q200", r.state.clearance_mm);
+  read("Q204", r.state.second_clearance_mm);
+}
+
+/// The words behind the number of an old cycle's line; nothing where one of them is not known.
+bool lex_cycle_words(const KlartextBlock& block, std::size_t begin, KlartextReading& r) {
+  KlartextBlock words = block;
+  words.head.clear();
+  words.parts[0].begin = begin;
+  return read_words(words, r);
+}
+
+/// "SCL1", "SCL1.000".
+bool is_scale_of_one(std::string_view rest) {
+  const std::size_t digit = std::min(rest.find_first_of("0123456789"), rest.size());
+  return read_number(rest.substr(digit)) == 1.0;
+}
+
+/// Mirror, scale, tilt: what they say acts unless it is neutral.
+void turn_coordinates(const KlartextBlock& block, const CycleNumber& number, KlartextReading& r) {
+  const std::string rest = squeezed(part(r.program.text, {number.end, block.parts[0].end}));
+  if (number.cycle == 10) return turn_frame(block, rest, r);
+  bool acts = rest.find_first_of("Q123456789") != std::string::npos;
+  if (number.cycle == 8 || number.cycle == 26) acts = !rest.empty();
+  if (number.cycle == 11) acts = !is_scale_of_one(rest);
+  set_elsewhere(r, number.cycle, acts, "mirrored, scaled or tilted coordinates");
+}
+
+void select_preset(const KlartextBlock& block, KlartextReading& r) {
+  std::string definition;
+  for (const Span& line : block.parts) definition += squeezed(part(r.program.text, line));
+  const std::size_t q = definition.find("Q339=");
+  const std::string preset = q == std::string::npos ? "?" : definition.substr(q + 5);
+  end_frame(r);
+  r.state.known.fill(false);
+  r.state.run_begin = r.program.moves.size();
+  if (r.state.preset.empty()) {
+    r.state.preset = preset;
+    add_remark(r.program, line_of_file(r.program.expansion, block.line),
+               fmt::format("CYCL DEF 247 selects preset {}", preset));
+    return;
+  }
+  set_elsewhere(r, 247, preset != r.state.preset || preset == "?", "another preset is selected");
+}
+
+void define_cycle(const KlartextBlock& block, KlartextReading& r) {
+  const CycleNumber number = number_of(r.program.text, block);
+  const int cycle = number.cycle;
+  if (cycle == 7 && number.line > 0) return shift_datum(block, lex_cycle_words(block, number.end, r), r);
+  if ((cycle == 8 || cycle == 10 || cycle == 11 || cycle == 19 || cycle == 26) && number.line > 0)
+    return turn_coordinates(block, number, r);
+  if (cycle == 247) return select_preset(block, r);
+  if (cycle == 220 || cycle == 221)
+    return add_unfollowed_move(block, r, "patterns of cycles are left as they are");
+  if (cycle == 32 && number.line == 1)
+    add_remark(r.program, line_of_file(r.program.expansion, block.line),
+               fmt::format("CYCL DEF 32{}: the control smooths the path; corrections smaller than its "
+                           "tolerance can vanish",
+                           part(r.program.text, {number.end - 2, block.parts[0].end})));
+  const bool state_only = cycle == 7 || cycle == 8 || cycle == 9 || cycle == 10 || cycle == 11 ||
+                          cycle == 13 || cycle == 19 || cycle == 26 || cycle == 32;
+  if (state_only || number.line != 0) return;
+  r.state.calls_each = false;  // a new cycle ends M89
+  r.state.cycle_acts_here = acts_where_called(cycle);
+  r.state.surface.reset();
+  const bool runs_once = empty(block.block_delete) && !in_doubt(r);
+  r.state.cycle_is_relative = counts_from_tool(cycle) && r.state.tool_along_z && runs_once;
+  r.state.cycle_returns = returns_to_start(cycle);
+  r.state.takes_surface = counts_from_surface(cycle) && runs_once;
+  r.state.clearance_mm.reset();
+  r.state.second_clearance_mm.reset();
+  if (!r.state.takes_surface) return;
+  r.state.surface = surface_of(block, r);
+  if (r.state.surface) r.state.surface->of_definition = true;
+  read_clearances(block, r, true);
+}
+
+}  // namespace
+
+bool take_hole(KlartextReading& r, Move& move) {
+  KlartextState& state = r.state;
+  const bool rigid = state.surface && state.tool_along_z && !move.block_delete && !move.arc && move.group == 0 &&
+                     !move.words[2] && !move.fixed[0] && !move.fixed[1] && !move.fixed[2];
+  if (!rigid) {
+    state.surface.reset();
+    return false;
+  }
+  KlartextSurface& surface = *state.surface;
+  const bool end_is_known = state.clearance_mm && state.second_clearance_mm;
+  move.may_split = move.may_jump = false;
+  move.makes_hole = move.takes_no_z = true;
+  move.motion = Motion::rapid;  // the way to a hole is no cut, as with the cycles of G-code
+  if (!end_is_known) move.handling = Handling::held;
+  const bool first = std::exchange(surface.just_set, false);
+  // The whole definition can be repeated before a hole, but it would end M89, and set its other parameters again.
+  if (first || !surface.of_definition || (surface.repeatable && !state.calls_each)) {
+    // The word of the surface is absolute.
+    for (std::size_t axis = 0; axis < 2; ++axis)
+      if (move.relative && move.words[axis]) move.incremental = (move.incremental | 1U << axis) & 7U;
+    move.relative = false;
+    move.words[2] = surface.word;
+    move.repeats_surface = !first;
+  }
+  move.end_mm.z() = surface.z_mm;
+  move.known_end[2] = state.known[2] = end_is_known;
+  if (end_is_known) state.position_mm.z() = surface.z_mm + std::max(*state.clearance_mm, *state.second_clearance_mm);
+  return true;
+}
+
+void read_cycle_parameter(const KlartextBlock& block, KlartextReading& r) {
+  const bool followed = r.state.takes_surface && empty(block.block_delete) && !in_doubt(r) && r.state.elsewhere.empty();
+  read_clearances(block, r, followed);
+  if (part(r.program.text, block.parts[0]).find("203") == std::string_view::npos) return;
+  r.state.surface = followed ? surface_of(block, r) : std::nullopt;
+}
+
+void read_klartext_cycle(const KlartextBlock& block, KlartextReading& r) {
+  const std::string rest = squeezed(after_head(r.program.text, block));
+  if (rest.starts_with("DEF")) return define_cycle(block, r);
+  const bool here = rest == "CALL" || (rest.starts_with("CALLM") && rest.size() > 5);
+  if (here) return add_cycle_call(block, r);
+  add_unfollowed_move(block, r, "cycles are left as they are");
+}
+
+}  // namespace counterflex

@@ -1,0 +1,97 @@
+// Shifts (CYCL DEF 7) and turns about Z (CYCL DEF 10) of the coordinates.
+#include <algorithm>
+
+#include "counterflex/files/numbers.hpp"
+#include "counterflex/geometry/pose.hpp"
+#include "counterflex/geometry/units.hpp"
+#include "program/dialect.hpp"
+#include "program/gcode/frames.hpp"
+#include "program/klartext/read.hpp"
+#include "program/text/lex.hpp"
+
+namespace counterflex {
+namespace {
+
+constexpr std::string_view shifted_axes = "XYZABCUVW";
+
+/// The coordinates have changed: a known position goes along with a shift, a turn leaves X and Y unknown.
+void enter_frame(KlartextReading& r) {
+  KlartextState& state = r.state;
+  const ProgramFrame before = r.program.frames[state.frame],
+                     now{before.work_offset, state.shift_mm, state.turn_rad};
+  if (before == now) return;
+  state.frame = index_of_frame(r.program, now);
+  state.position_mm = position_in(now, before, state.position_mm);
+  if (before.turn_rad != now.turn_rad) state.known[0] = state.known[1] = false;
+  state.pole.reset();
+  state.contour = state.after_contour = false;
+  state.run_begin = r.program.moves.size();
+}
+
+/// A cycle that a jump may pass over or repeat, or that '/' skips.
+bool may_not_run(const KlartextBlock& block, const KlartextReading& r) {
+  return !empty(block.block_delete) || in_doubt(r);
+}
+
+}  // namespace
+
+void set_elsewhere(KlartextReading& r, int number, bool acts, const char* why) {
+  const bool acted = r.state.elsewhere.contains(number);
+  if (acts) r.state.elsewhere[number] = why;
+  if (!acts) r.state.elsewhere.erase(number);
+  if (acts || acted) r.state.known.fill(false), r.state.run_begin = r.program.moves.size();
+}
+
+void shift_datum(const KlartextBlock& block, bool lexed, KlartextReading& r) {
+  KlartextState& state = r.state;
+  const bool unsure = may_not_run(block, r);
+  const double unit = mm_per(state.unit.value_or(LengthUnit::millimetres));
+  const Vector3 before = state.shift_mm;
+  for (const KlartextWord& word : r.words) {
+    const std::size_t axis = shifted_axes.find(word.key);
+    if (axis == std::string_view::npos) continue;
+    bool& unfollowed = state.unfollowed_shift[axis];
+    if (!word.literal || unsure || (axis > 2 && word.value != 0)) {
+      unfollowed = true;
+    } else if (axis > 2 || !word.incremental) {
+      unfollowed = unfollowed && word.incremental;
+    }
+    if (axis > 2 || unfollowed) continue;
+    double& shift = state.shift_mm[static_cast<Eigen::Index>(axis)];
+    shift = word.value * unit + (word.incremental ? shift : 0);
+  }
+  // A second equal shift does not make the first one followed.
+  const bool shifts_turned = state.turn_rad != 0 && (state.shift_mm != before || state.elsewhere.contains(7));
+  const auto& unfollowed = state.unfollowed_shift;
+  const bool acts = !lexed || shifts_turned ||
+                    std::any_of(unfollowed.begin(), unfollowed.end(), [](bool on) { return on; });
+  set_elsewhere(r, 7, acts,
+                shifts_turned ? "CYCL DEF 7 shifts coordinates that CYCL DEF 10 has turned; shift them before"
+                              : "CYCL DEF 7 shifts coordinates by more than plain numbers of X, Y and Z");
+  enter_frame(r);
+}
+
+void turn_frame(const KlartextBlock& block, std::string_view rest, KlartextReading& r) {
+  const bool incremental = rest.starts_with("IROT");
+  const std::size_t begin = rest.find("ROT");
+  std::string number(begin == std::string_view::npos ? rest : rest.substr(begin + 3));
+  std::replace(number.begin(), number.end(), ',', '.');
+  if (number.starts_with('+')) number.erase(0, 1);
+  const std::optional<double> angle = read_number(number);
+  const bool followed = angle && r.state.tool_along_z && !may_not_run(block, r) && r.state.elsewhere.empty();
+  if (!followed && angle != 0.0) {
+    set_elsewhere(r, 10, true, "CYCL DEF 10 turns coordinates by more than a plain number about Z");
+    return;
+  }
+  set_elsewhere(r, 10, false, "");
+  r.state.turn_rad = *angle * deg + (incremental ? r.state.turn_rad : 0);
+  enter_frame(r);
+}
+
+void end_frame(KlartextReading& r) {
+  r.state.shift_mm.setZero();
+  r.state.turn_rad = 0;
+  enter_frame(r);
+}
+
+}  // namespace counterflex

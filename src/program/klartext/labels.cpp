@@ -1,0 +1,121 @@
+#include "program/klartext/labels.hpp"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <string>
+
+namespace counterflex {
+namespace {
+
+constexpr int everywhere = std::numeric_limits<int>::max();
+
+bool concerns_labels(const KlartextBlock& block) {
+  return block.head == "LBL" || block.head == "CALL" || block.head == "FN" || block.head == "IF";
+}
+
+std::vector<PlaceStretch> merged(std::vector<PlaceStretch> stretches) {
+  std::sort(stretches.begin(), stretches.end(), [](auto& a, auto& b) { return a.first < b.first; });
+  std::vector<PlaceStretch> result;
+  for (const PlaceStretch& stretch : stretches)
+    if (!result.empty() && stretch.first <= result.back().last)
+      result.back().last = std::max(result.back().last, stretch.last);
+    else
+      result.push_back(stretch);
+  return result;
+}
+
+}  // namespace
+
+std::string label_name(std::string_view text) {
+  if (text.starts_with('"')) return std::string(text.substr(0, text.find('"', 1)));
+  std::size_t end = 0;
+  while (end < text.size() && text[end] >= '0' && text[end] <= '9') ++end;
+  return end > 0 ? std::string(text.substr(0, end)) : "Q";
+}
+
+int next_place(int place, const KlartextBlock& block) {
+  const int between = place + place % 2;
+  return concerns_labels(block) ? between + 1 : between;
+}
+
+bool holds(const std::vector<PlaceStretch>& stretches, int place) {
+  const auto after = std::upper_bound(stretches.begin(), stretches.end(), place,
+                                      [](int wanted, const PlaceStretch& s) { return wanted < s.first; });
+  return after != stretches.begin() && (after - 1)->last >= place;
+}
+
+void KlartextScan::add(std::string_view blocks) {
+  block_.line_end = {};
+  while (next_klartext_block(blocks, block_)) {
+    place_ = next_place(place_, block_);
+    take_label(blocks);
+    take_pole(blocks);
+  }
+}
+
+void KlartextScan::take_label(std::string_view text) {
+  if (!concerns_labels(block_)) return;
+  const std::string rest = squeezed(after_head(text, block_));
+  if (block_.head == "LBL") {
+    labels_[label_name(rest)].set.push_back(place_);
+  } else if (block_.head == "CALL" && rest.starts_with("LBL")) {
+    Label& label = labels_[label_name(std::string_view(rest).substr(3))];
+    if (rest.find("REP") == std::string::npos)
+      label.called = true;
+    else
+      label.jumped_to.push_back(place_);
+  } else if (const std::size_t jump = rest.find("GOTOLBL"); jump != std::string::npos) {
+    labels_[label_name(std::string_view(rest).substr(jump + 7))].jumped_to.push_back(place_);
+  }
+}
+
+/// Notes where a block counts from the pole in a way that is not followed, or not in doubt.
+void KlartextScan::take_pole(std::string_view text) {
+  constexpr std::array<std::string_view, 6> unfollowed{"CTP", "FPOL", "FL", "FC", "FLT", "FCT"};
+  const std::string& head = block_.head;
+  if (head == "CC") pole_ = block_.line;
+  const bool polar = head == "LP" || head == "CP", approach = head == "APPR" || head == "DEP";
+  const bool other = std::find(unfollowed.begin(), unfollowed.end(), head) != unfollowed.end();
+  if (pole_ == 0 || (!polar && !approach && !other)) return;
+  const std::string rest = squeezed(after_head(text, block_));
+  if (approach && !rest.starts_with('P')) return;
+  const PoleUse use{pole_, place_, polar && rest.find('Q') == std::string::npos};
+  if (pole_uses_.empty() || pole_uses_.back() != use) pole_uses_.push_back(use);
+}
+
+/// From a label to the LBL 0 behind it.
+void KlartextScan::add_body(int first, std::vector<PlaceStretch>& stretches) const {
+  const auto ends = labels_.find("0");
+  int last = everywhere;
+  if (ends != labels_.end()) {
+    const auto end = std::upper_bound(ends->second.set.begin(), ends->second.set.end(), first);
+    if (end != ends->second.set.end()) last = *end;
+  }
+  stretches.push_back({first, last});
+}
+
+std::vector<PlaceStretch> KlartextScan::doubtful() const {
+  std::vector<PlaceStretch> stretches;
+  for (const auto& [name, label] : labels_) {
+    const std::vector<int>&set = label.set, &from = label.jumped_to;
+    if (name == "Q" && (label.called || !from.empty())) return {{0, everywhere}};
+    if (set.empty()) continue;
+    if (label.called)
+      for (const int place : set) add_body(place, stretches);
+    if (!from.empty())
+      stretches.push_back({std::min(set.front(), from.front()), std::max(set.back(), from.back())});
+  }
+  return merged(std::move(stretches));
+}
+
+KlartextOutline KlartextScan::finish() const {
+  KlartextOutline outline{doubtful(), {}};
+  for (const PoleUse& use : pole_uses_) {
+    const bool followed = use.plain && !holds(outline.doubtful, use.place);
+    if (!followed && (outline.poles.empty() || outline.poles.back() != use.line)) outline.poles.push_back(use.line);
+  }
+  return outline;
+}
+
+}  // namespace counterflex

@@ -1,0 +1,397 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "program/text/arc_radius.hpp"
+#include "program/gcode/contour.hpp"
+#include "program/dialect.hpp"
+#include "program/klartext/codes.hpp"
+#include "program/klartext/read.hpp"
+#include "program/text/lex.hpp"
+
+namespace counterflex {
+namespace {
+
+constexpr std::array<std::string_view, 3> klartext_axes{"X", "Y", "Z"};
+
+double mm_per_unit(const KlartextReading& r) {
+  return r.state.unit ? mm_per(*r.state.unit) : 1.0;
+}
+
+void watch_rotary_axes(KlartextReading& r) {
+  for (const KlartextWord& word : r.words)
+    if (word.key.size() == 1 && std::string_view("ABCUVW").find(word.key[0]) != std::string_view::npos &&
+        (!word.literal || word.value != 0))
+      r.state.elsewhere[1] = "a rotary or further axis is not at zero";
+}
+
+void check_unit(const KlartextBlock& block, const KlartextReading& r) {
+  if (!r.state.unit)
+    refuse_klartext(
+        r.program.text, r.program.file, block, block.parts[0].begin,
+        "a move before the unit is known: write MM or INCH behind BEGIN PGM, or give --units mm or --units inch");
+}
+
+bool is_polar(const KlartextBlock& block) {
+  return block.head == "LP" || block.head == "CP";
+}
+
+bool programs_axis(const KlartextReading& r) {
+  return std::any_of(klartext_axes.begin(), klartext_axes.end(),
+                     [&](auto axis) { return find_word(r.words, axis) != nullptr; });
+}
+
+bool all_incremental(const KlartextReading& r) {
+  return std::all_of(r.words.begin(), r.words.end(), [](const KlartextWord& word) {
+    return word.incremental ||
+           std::find(klartext_axes.begin(), klartext_axes.end(), word.key) == klartext_axes.end();
+  });
+}
+
+std::string why_elsewhere(const KlartextReading& r) {
+  if (!r.state.elsewhere.empty()) return r.state.elsewhere.begin()->second;
+  return in_doubt(r)
+             ? "a jump, a repetition or a call may run the block often or not at all"
+             : "";
+}
+
+/// One coordinate: a word that may be changed, or one that is not known.
+void place_coordinate(const KlartextWord& word, std::size_t axis, bool doubtful, KlartextReading& r,
+                      Move& move) {
+  KlartextState& state = r.state;
+  const auto i = static_cast<Eigen::Index>(axis);
+  const bool known_before = state.known[axis];
+  state.known[axis] = false;
+  if (doubtful || !word.literal || (word.incremental && !known_before)) {
+    move.fixed[axis] = !word.incremental || (word.literal && !doubtful);
+    return;
+  }
+  if (word.incremental) {
+    state.position_mm[i] += word.value * mm_per_unit(r);
+    if (!move.relative) move.incremental = (move.incremental | 1U << axis) & 7U;
+  } else {
+    state.position_mm[i] = word.value * mm_per_unit(r);
+  }
+  state.known[axis] = true;
+  move.words[axis] = AxisWord{word.number, word.decimals};
+}
+
+void place_coordinates(const KlartextBlock& block, KlartextReading& r, Move& move) {
+  const std::string elsewhere = why_elsewhere(r);
+  move.relative = !is_polar(block) && all_incremental(r);
+  bool expression = false;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const KlartextWord* word = find_word(r.words, klartext_axes[axis]);
+    if (word == nullptr) continue;
+    expression = expression || !word->literal;
+    place_coordinate(*word, axis, !elsewhere.empty(), r, move);
+  }
+  if (!elsewhere.empty()) {
+    r.state.known.fill(false);
+    leave_alone(r, block.line, elsewhere);
+  } else if (expression) {
+    const char* cure = r.options.evaluate ? "" : " (--evaluate works out constants)";
+    leave_alone(r, block.line, fmt::format("a Q parameter gives the position{}", cure));
+  }
+}
+
+/// The centre of an arc of given radius; nothing where its ends are the same or further apart than it
+/// reaches.
+std::optional<Vector3> centre_of_radius(const Move& move, double radius, bool clockwise) {
+  const double half = 0.5 * (move.end_mm - move.start_mm).head<2>().norm();
+  if (half == 0 || half > std::abs(radius) * 1.001) return std::nullopt;
+  return centre_from_radius(move.start_mm, move.end_mm, radius, (clockwise ? -1 : 1) * Vector3::UnitZ());
+}
+
+void set_arc(const KlartextBlock& block, KlartextReading& r, Move& move, bool clockwise) {
+  ArcMove arc;
+  arc.clockwise = clockwise;
+  arc.flat = true;
+  if (block.head == "CR") {
+    const KlartextWord* radius = find_word(r.words, "R");
+    if (radius == nullptr || !radius->literal) return;
+    arc.radius_word = AxisWord{radius->number, radius->decimals};
+    arc.radius_mm = radius->value * mm_per_unit(r);
+    const auto centre = centre_of_radius(move, arc.radius_mm, clockwise);
+    if (!centre) return;
+    arc.centre_mm = *centre;
+    arc.centre_mm.z() = move.start_mm.z();
+  } else {
+    set_centre(arc, *r.state.pole, move, r);
+  }
+  move.arc = arc;
+}
+
+/// Whether an arc across the axis `normal` has known ends and no word of that axis.
+bool has_known_ends(const KlartextReading& r, const Move& move, std::size_t normal) {
+  bool known = r.state.tool_along_z && find_word(r.words, klartext_axes[normal]) == nullptr;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    known = known && (axis == normal || (move.known_start[axis] && r.state.known[axis]));
+  return known;
+}
+
+/// A pole that is not equally far from both ends makes no arc.
+void check_radii(const KlartextBlock& block, const KlartextReading& r, const Move& move) {
+  const auto radius_at = [&](Vector3 p) {
+    p -= move.arc->centre_mm;
+    p[move.arc->normal] = 0;
+    return p.norm();
+  };
+  const double start = radius_at(move.start_mm), end = radius_at(move.end_mm);
+  if (radii_agree(find_dialect(klartext_name)->radius_room, start, end)) return;
+  refuse_klartext(r.program.text, r.program.file, block, r.words.front().span.begin,
+                  fmt::format("the radius about CC is {:.4f} mm at the arc's start and {:.4f} mm at its end, which differ by more "
+                              "than a heidenhain control accepts; correct the end of the arc or its CC",
+                              start, end));
+}
+
+/// C and CR with plain coordinates from a known start: C in the plane of its CC, CR in the plane XY.
+void read_arc(const KlartextBlock& block, KlartextReading& r, Move& move) {
+  const KlartextWord* sense = find_word(r.words, "DR");
+  const bool sense_known = sense != nullptr && !empty(sense->number);
+  const bool centre_known = block.head == "CR" || r.state.pole;
+  const int normal = block.head == "C" && r.state.pole ? r.state.pole->normal : 2;
+  const bool ends_known = has_known_ends(r, move, static_cast<std::size_t>(normal));
+  if (sense_known && centre_known && ends_known)
+    set_arc(block, r, move, r.program.text[sense->number.begin] == '-');
+  if (move.arc && block.head == "C") check_radii(block, r, move);
+  if (move.arc) return;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (!move.words[axis] && !move.fixed[axis]) continue;
+    move.fixed[axis] = true;
+    move.words[axis].reset();
+    r.state.known[axis] = false;
+  }
+  move.incremental = 0;
+  leave_alone(r, block.line, block.head + ": an arc whose start or centre is not known");
+}
+
+constexpr double straight = 1e-6;  // rad: an arc that turns by less is a line
+
+/// The way that a move goes at its end, across Z; zero where it is not known.
+Vector3 direction_at_end(const Move& move) {
+  if (!all_known(move.known_start) || !all_known(move.known_end) || move.motion == Motion::rapid) return Vector3::Zero();
+  Vector3 way = move.end_mm - move.start_mm;
+  if (move.arc) {
+    if (move.arc->normal != 2) return Vector3::Zero();
+    way = normal_of(*move.arc).cross(move.end_mm - move.arc->centre_mm);
+  }
+  way.z() = 0;
+  return way.isZero(0) ? way : Vector3(way.normalized());
+}
+
+/// CT between known ends: the arc tangent to the move before it. False where it is not known, is a line, or goes nowhere.
+bool read_tangent_arc(KlartextReading& r, Move& move) {
+  const auto& moves = r.program.moves;
+  if (moves.empty() || r.state.corner || !has_known_ends(r, move, 2) || !move.known_start[2]) return false;
+  const Vector3 way = direction_at_end(moves.back()), chord = move.end_mm - move.start_mm, side(-way.y(), way.x(), 0);
+  const double across = side.dot(chord);
+  if (std::abs(across) <= straight * chord.norm() || moves.back().end_mm != move.start_mm) return false;
+  ArcMove arc;
+  arc.flat = arc.absolute_centre = true;
+  arc.clockwise = across < 0;
+  arc.centre_mm = move.start_mm + chord.squaredNorm() / (2 * across) * side;
+  move.arc = arc;
+  return true;
+}
+
+void allow_klartext_changes(const KlartextCodes& codes, bool held, KlartextReading& r, Move& move) {
+  const bool divided = !codes.acts_after && !r.state.corner && !held;
+  const bool feed = move.motion == Motion::feed;
+  move.may_split = feed && divided;
+  move.may_jump = all_known(move.known_start) && move.feed_mm_min > 0 && divided;
+  move.stays_whole = codes.acts_after || find_word(r.words, "M") != nullptr;
+}
+
+/// M89 calls the cycle at the end of the blocks that follow, too, until M99. Its own block and that of M99 call the cycle
+/// themselves: there its definition may be written again.
+template <typename Call>
+void call_cycle(const KlartextCodes& codes, KlartextReading& r, Call&& call) {
+  if (codes.cycle_call) r.state.calls_each = false;
+  call();
+  if (codes.cycle_call) r.state.calls_each = codes.calls_each;
+}
+
+/// A cycle of an older control goes along with the position where it is called.
+bool goes_along(const KlartextReading& r, const Move& move) {
+  return r.state.cycle_is_relative && !move.block_delete && move.group == 0 && !move.fixed[0] &&
+         !move.fixed[1] && !move.fixed[2];
+}
+
+void call_cycle_after(const KlartextBlock& block, KlartextReading& r, Move& move) {
+  if (why_elsewhere(r).empty() && goes_along(r, move)) {
+    move.known_end = r.state.known;
+    return call_relative_cycle(block, r, move);
+  }
+  r.state.known[2] = false;
+  if (why_elsewhere(r).empty() && r.state.cycle_acts_here && take_hole(r, move)) {
+    if (move.handling == Handling::held) leave_alone(r, block.line, "holes are held");
+    return;
+  }
+  r.state.surface.reset();
+  move.fixed[2] = true;
+  move.words[2].reset();
+  if (!r.state.cycle_acts_here) move.fixed.fill(true), move.words.fill({}), r.state.known.fill(false);
+  leave_alone(r, block.line, "cycles are left as they are");
+}
+
+void leave_machine_position(const KlartextBlock& block, KlartextReading& r) {
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    if (find_word(r.words, klartext_axes[axis]) != nullptr) take_away(r, axis);
+  r.state.run_begin = r.program.moves.size();
+  r.state.contour = r.state.after_contour = false;
+  add_left_alone(r, {block.line, "M91 or M92: a position of the machine", true});
+}
+
+/// How far M140 goes depends on the machine: a word put into the next block would go back.
+void leave_retract(const KlartextBlock& block, KlartextReading& r) {
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    if (axis == 2 || !r.state.tool_along_z) take_away(r, axis);
+  r.state.run_begin = r.program.moves.size();
+  r.state.contour = r.state.after_contour = false;
+  add_left_alone(r, {block.line, "M140 leaves the part along the tool", true});
+}
+
+/// After a block that may be skipped its axes are in doubt.
+void doubt_klartext_skippable(const KlartextBlock& block, KlartextReading& r, const Move& move) {
+  if (empty(block.block_delete)) return;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    if (move.words[axis]) r.state.known[axis] = false;
+}
+
+/// The arc about a pole has the words of its CC, and those that follow it find the pole where it has left it.
+/// One that stays as it is, or may be skipped, leaves the CC to nobody.
+void use_pole(KlartextReading& r, const Move& move) {
+  const bool taken = move.arc && (move.words[0] || move.words[1] || move.words[2]) && !move.block_delete;
+  if (!taken) return r.state.pole.reset();
+  r.state.pole->just_set = false;
+}
+
+void add_klartext_move(const KlartextBlock& block, const KlartextCodes& codes, KlartextReading& r) {
+  check_unit(block, r);
+  Move move = begin_klartext_move(block, r);
+  const bool rapid = find_word(r.words, "FMAX") != nullptr;
+  move.motion = rapid ? Motion::rapid : Motion::feed;
+  place_coordinates(block, r, move);
+  if (is_polar(block)) {
+    std::string why = why_elsewhere(r);
+    if (why.empty()) why = place_polar_end(block, r, move);
+    if (!why.empty()) return add_unfollowed_move(block, r, why);
+  } else if (r.state.pole && !goes_along_z(move)) {
+    r.state.pole->radius_mm.reset();
+    r.state.pole->angle.reset();
+  }
+  move.end_mm = r.state.position_mm;
+  if (block.head == "C" || block.head == "CR") read_arc(block, r, move);
+  const bool tangent = block.head == "CT";
+  const bool held = tangent && !read_tangent_arc(r, move);
+  if (held) move.handling = Handling::held;
+  allow_klartext_changes(codes, held, r, move);
+  follow_contour(block, r, move);
+  move.known_end = r.state.known;
+  if (codes.cycle_call || r.state.calls_each) {
+    call_cycle(codes, r, [&] { call_cycle_after(block, r, move); });
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      move.known_end[axis] = move.known_end[axis] && r.state.known[axis];
+  }
+  move.may_insert_words = move.words[0] || move.words[1] || move.words[2];
+  if (r.state.corner) {
+    expect_corner_before(move);
+    if (!r.program.moves.empty()) place_corner(*r.state.corner, r.program.moves.back(), move);
+    r.state.corner.reset();
+  }
+  doubt_klartext_skippable(block, r, move);
+  if ((block.head == "C" || block.head == "CP") && r.state.pole) use_pole(r, move);
+  add_move(r, std::move(move));
+}
+
+}  // namespace
+
+double klartext_length_mm(const KlartextReading& r, const KlartextWord& word) {
+  return word.value * mm_per_unit(r);
+}
+
+/// F: mm/min, in inch programs tenths of an inch/min; expressions and feeds a tooth are not known.
+void read_klartext_feed(KlartextReading& r) {
+  KlartextState& state = r.state;
+  const double tenths = state.unit == LengthUnit::inches && !state.feed_per_turn ? 0.1 : 1.0;
+  for (const KlartextWord& word : r.words) {
+    if (word.key == "F") state.feed_mm_min = word.literal ? word.value * mm_per_unit(r) * tenths : 0;
+    if (word.key == "FAUTO") state.feed_mm_min = state.tool_feed_mm_min;
+    if (word.key == "FU") state.feed_mm_min = word.value * mm_per_unit(r) * state.spindle_rpm;
+    if (word.key == "FZ" || word.key == "FT") state.feed_mm_min = 0;
+  }
+}
+
+Move begin_klartext_move(const KlartextBlock& block, KlartextReading& r) {
+  const KlartextState& state = r.state;
+  Move move;
+  move.line = line_of_file(r.program.expansion, block.line);
+  if (!r.program.expansion.lines.empty()) move.text_line = block.line;
+  move.block_index = r.program.block_count - 1;
+  move.block = block.span;
+  move.unit = state.unit.value_or(LengthUnit::millimetres);
+  move.known_start = state.known;
+  move.frame = static_cast<std::uint32_t>(state.frame);
+  if (!why_elsewhere(r).empty())
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      move.stands[axis] = state.taken_away[axis] != r.moves_read + 1;
+  move.start_mm = move.end_mm = state.position_mm;
+  move.feed_mm_min = state.feed_mm_min * (state.feed_per_turn ? state.spindle_rpm : 1.0);
+  move.spindle_rpm = state.spindle_rpm;
+  if (!empty(block.number)) {
+    long number = 0;
+    for (const char c : part(r.program.text, block.number).substr(0, 9)) number = 10 * number + (c - '0');
+    move.block_number = number;
+  }
+  move.tool = as_tool(state.tool);
+  move.operation = r.operation.index_in(r.program);
+  move.may_insert_words = false;
+  move.force = state.force;
+  move.block_delete = !empty(block.block_delete);
+  return move;
+}
+
+void take_away(KlartextReading& r, std::size_t axis) {
+  r.state.known[axis] = false;
+  r.state.taken_away[axis] = r.moves_read + 1;
+}
+
+void read_klartext_motion(const KlartextBlock& block, KlartextReading& r) {
+  if (!read_words(block, r))
+    return add_unfollowed_move(block, r, fmt::format("the block {} has words that are not read", block.head));
+  const KlartextCodes codes = read_klartext_m(block, r);
+  read_klartext_feed(r);
+  watch_rotary_axes(r);
+  if (is_polar(block) && codes.machine_position) {
+    add_unfollowed_move(block, r, block.head + " with M91 or M92 is not followed");
+  } else if (is_polar(block)) {
+    add_klartext_move(block, codes, r);
+  } else if (codes.machine_position && programs_axis(r)) {
+    leave_machine_position(block, r);
+  } else if (programs_axis(r)) {
+    add_klartext_move(block, codes, r);
+  } else if (codes.cycle_call) {
+    call_cycle(codes, r, [&] { add_cycle_call(block, r); });
+  } else if (find_word(r.words, "R") != nullptr && r.state.contour) {
+    r.state.contour = false;
+    r.state.after_contour = true;
+  }
+  if (codes.retracts) leave_retract(block, r);
+  r.ended = r.ended || codes.ends;
+}
+
+void read_klartext_codes(const KlartextBlock& block, KlartextReading& r) {
+  KlartextBlock codes = block;
+  codes.head.clear();
+  if (!read_words(codes, r))
+    return add_unfollowed_move(block, r, "the block M has words that are not read");
+  const KlartextCodes found = read_klartext_m(block, r);
+  if (programs_axis(r)) return add_unfollowed_move(block, r, "axes without L are not read");
+  if (found.cycle_call) call_cycle(found, r, [&] { add_cycle_call(block, r); });
+  if (found.retracts) leave_retract(block, r);
+  r.ended = r.ended || found.ends;
+}
+
+}  // namespace counterflex

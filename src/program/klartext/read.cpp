@@ -1,0 +1,259 @@
+#include "program/klartext/read.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+
+#include "counterflex/files/numbers.hpp"
+#include "program/dialect.hpp"
+#include "program/expand/expand.hpp"
+#include "program/text/force_comment.hpp"
+#include "program/gcode/remarks.hpp"
+
+namespace counterflex {
+namespace {
+
+/// The number behind `key` in `squeezed_text`, where it is plain.
+std::optional<double> number_behind(std::string_view squeezed_text, char key) {
+  for (std::size_t at = 0; at + 1 < squeezed_text.size(); ++at) {
+    if (squeezed_text[at] != key) continue;
+    std::string number;
+    for (std::size_t i = at + 1; i < squeezed_text.size(); ++i) {
+      const char c = squeezed_text[i];
+      if ((c < '0' || c > '9') && c != '.' && c != ',') break;
+      number += c == ',' ? '.' : c;
+    }
+    if (const auto value = read_number(number)) return value;
+  }
+  return std::nullopt;
+}
+
+void read_begin(const KlartextBlock& block, KlartextReading& r) {
+  const std::string rest = squeezed(after_head(r.program.text, block));
+  if (rest.ends_with("MM")) r.state.unit = LengthUnit::millimetres;
+  if (rest.ends_with("INCH")) r.state.unit = LengthUnit::inches;
+}
+
+/// `TOOL CALL 5 Z S3000 F500`, `TOOL CALL "MILL" Z S3000`, `TOOL CALL S500` of the speed alone.
+void read_tool_call(const KlartextBlock& block, KlartextReading& r) {
+  std::string rest = squeezed(after_head(r.program.text, block));
+  if (!rest.starts_with("CALL")) return;
+  rest.erase(0, 4);
+  std::size_t end = 0;
+  if (rest.starts_with('"')) {
+    end = rest.find('"', 1) == std::string::npos ? rest.size() : rest.find('"', 1) + 1;
+  } else if (rest.starts_with('Q')) {
+    end = std::min(rest.find_first_of("XYZ"), rest.size());
+  } else {
+    end = std::min(rest.find_first_not_of("0123456789."), rest.size());
+  }
+  KlartextState& state = r.state;
+  if (end > 0) {
+    state.tool = 0;
+    std::from_chars(rest.data(), rest.data() + end, state.tool);
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      if (r.tool_change_axes[axis]) take_away(r, axis);
+    state.run_begin = r.program.moves.size();
+    state.contour = state.after_contour = false;
+    rest.erase(0, end);
+    if (!rest.empty() && rest[0] >= 'U' && rest[0] <= 'Z') state.tool_along_z = rest[0] == 'Z';
+  }
+  if (const auto speed = number_behind(rest, 'S')) state.spindle_rpm = *speed;
+  const double unit = state.unit == LengthUnit::inches ? 2.54 : 1.0;
+  if (const auto feed = number_behind(rest, 'F')) state.tool_feed_mm_min = state.feed_mm_min = *feed * unit;
+}
+
+/// A corner that RND or CHF makes of the end of one move and the beginning of the next, which lie in one plane.
+void read_corner(const KlartextBlock& block, KlartextReading& r) {
+  const std::string rest = squeezed(after_head(r.program.text, block));
+  const CornerKind kind = block.head == "RND" ? CornerKind::round : CornerKind::side;
+  const std::optional<double> size = kind == CornerKind::round ? number_behind(rest, 'R') : number_behind('=' + rest, '=');
+  const double unit = mm_per(r.state.unit.value_or(LengthUnit::millimetres));
+  r.state.corner = CornerSize{size.value_or(NAN) * unit, kind};
+  if (r.program.moves.empty()) return;
+  Move& last = r.program.moves.back();
+  last.may_split = last.may_jump = false;
+  expect_corner_behind(last);
+}
+
+void read_call(const KlartextBlock& block, KlartextReading& r) {
+  const std::string_view why_left = why_not_expanded(r.program.expansion, block.line);
+  std::string why = "a subprogram or a part of the program is called";
+  if (!why_left.empty())
+    why += fmt::format(" and cannot be put in the place of its call: {}", why_left);
+  else if (squeezed(after_head(r.program.text, block)).starts_with("LBL"))
+    why += " (--expand-subprograms puts its text in its place)";
+  add_unfollowed_move(block, r, why);
+}
+
+void read_plane(const KlartextBlock& block, KlartextReading& r) {
+  const std::string rest = squeezed(after_head(r.program.text, block));
+  const bool resets = rest.starts_with("RESET");
+  // Without MOVE rotary axes alone turn back, if any.
+  if (!resets || rest.find("MOVE") != std::string::npos)
+    add_unfollowed_move(block, r, "PLANE turns coordinates");
+  if (r.state.elsewhere.erase(19) > 0) r.state.known.fill(false), r.state.run_begin = r.program.moves.size();
+  if (!resets) r.state.elsewhere[19] = "coordinates are tilted";
+}
+
+/// FN9 to FN12 jump, the others calculate, print or read; none moves an axis.
+void read_nothing(const KlartextBlock&, KlartextReading&) {}
+
+/// The words of a cycle are parameters: one that is calculated is no longer what its definition says.
+void read_parameter(const KlartextBlock& block, KlartextReading& r) {
+  take_parameter(block, r);
+  if (block.head == "Q") return read_cycle_parameter(block, r);
+  if (after_head(r.program.text, block).find("203") != std::string_view::npos) r.state.surface.reset();
+}
+
+void read_end(const KlartextBlock&, KlartextReading& r) {
+  r.ended = true;
+}
+
+struct KnownStatement {
+  std::string_view head;
+  void (*read)(const KlartextBlock&, KlartextReading&);
+};
+
+constexpr std::array statements{
+    KnownStatement{"L", read_klartext_motion},
+    KnownStatement{"C", read_klartext_motion},
+    KnownStatement{"CR", read_klartext_motion},
+    KnownStatement{"CT", read_klartext_motion},
+    KnownStatement{"CP", read_klartext_motion},
+    KnownStatement{"LP", read_klartext_motion},
+    KnownStatement{"CC", read_klartext_pole},
+    KnownStatement{"M", read_klartext_codes},
+    KnownStatement{"CYCL", read_klartext_cycle},
+    KnownStatement{"CYCLE", read_klartext_cycle},
+    KnownStatement{"TOOL", read_tool_call},
+    KnownStatement{"RND", read_corner},
+    KnownStatement{"CHF", read_corner},
+    KnownStatement{"CALL", read_call},
+    KnownStatement{"APPR", read_klartext_approach},
+    KnownStatement{"DEP", read_klartext_approach},
+    KnownStatement{"PLANE", read_plane},
+    KnownStatement{"BEGIN", read_begin},
+    KnownStatement{"END", read_end},
+    KnownStatement{"BLK", read_nothing},
+    KnownStatement{"STOP", read_nothing},
+    KnownStatement{"LBL", read_nothing},
+    KnownStatement{"FN", read_parameter},
+    KnownStatement{"Q", read_parameter},
+    KnownStatement{"QL", read_nothing},
+    KnownStatement{"QR", read_nothing},
+    KnownStatement{"QS", read_nothing},
+    KnownStatement{"DECLARE", read_nothing},
+    KnownStatement{"IF", read_nothing},
+    KnownStatement{"ERROR", read_nothing},
+};
+
+void refuse_conflict_marker(const KlartextBlock& block, const KlartextReading& r) {
+  const std::string_view line = part(r.program.text, block.parts[0]);
+  for (const std::string_view marker : {"<<<<<<<", "=======", ">>>>>>>", "|||||||"})
+    if (line.starts_with(marker))
+      refuse_klartext(r.program.text, r.program.file, block, block.parts[0].begin,
+                      fmt::format("'{}' is a conflict marker of a version control system", marker));
+}
+
+/// A comment that stands alone names the operation; so does the text of a structure line, "* - POCKET".
+void read_comments(const KlartextBlock& block, KlartextReading& r) {
+  Block place;
+  place.line = block.line;
+  place.span = block.span;
+  for (const Span& comment : block.comments) {
+    if (const auto force = read_force_comment(r.program.text, r.program.file, place, comment))
+      r.state.force = force->F;
+    else if (block.parts.empty())
+      r.operation.name(part(r.program.text, comment));
+  }
+}
+
+}  // namespace
+
+/// Whatever is neither a move nor a cycle may set parameters of the cycle that is defined.
+void doubt_definition(const KlartextBlock& block, KlartextReading& r) {
+  constexpr std::array<std::string_view, 11> harmless{"L", "LP", "C", "CP", "CR", "CT", "CC", "RND", "CHF", "CYCL", "M"};
+  if (r.state.surface && std::find(harmless.begin(), harmless.end(), block.head) == harmless.end())
+    r.state.surface->repeatable = false;
+}
+
+void read_statement(const KlartextBlock& block, KlartextReading& r) {
+  read_comments(block, r);
+  if (block.parts.empty()) return;
+  ++r.program.block_count;
+  const auto known = std::find_if(statements.begin(), statements.end(),
+                                  [&](const KnownStatement& s) { return s.head == block.head; });
+  doubt_definition(block, r);
+  if (known != statements.end()) return known->read(block, r);
+  refuse_conflict_marker(block, r);
+  add_unfollowed_move(block, r, fmt::format("{} is not read", block.head.empty() ? "the block" : block.head));
+}
+
+bool in_doubt(const KlartextReading& r) {
+  return holds(r.outline.doubtful, r.place);
+}
+
+void add_move(KlartextReading& r, Move move) {
+  r.program.moves.push_back(std::move(move));
+  ++r.moves_read;
+}
+
+void leave_alone(KlartextReading& r, int line, std::string why) {
+  if (r.last_reason != why) add_left_alone(r, {.line = line, .why = std::move(why)});
+}
+
+void add_left_alone(KlartextReading& r, LeftAlone left) {
+  if (!r.program.expansion.lines.empty()) left.text_line = left.line;
+  left.line = line_of_file(r.program.expansion, left.line);
+  r.last_reason = left.why;
+  r.program.left_alone.push_back(std::move(left));
+}
+
+void add_unfollowed_move(const KlartextBlock& block, KlartextReading& r, std::string why) {
+  Move move = begin_klartext_move(block, r);
+  move.fixed.fill(true);
+  r.state.known.fill(false);
+  r.state.contour = r.state.after_contour = false;
+  r.state.pole.reset();
+  r.state.surface.reset();
+  r.variables.clear();  // whatever it is, it may set them
+  add_move(r, std::move(move));
+  r.state.run_begin = r.program.moves.size();
+  leave_alone(r, block.line, std::move(why));
+}
+
+void call_relative_cycle(const KlartextBlock& block, KlartextReading& r, Move& move) {
+  if (r.state.cycle_returns) {
+    move.makes_hole = true;
+    return leave_alone(r, block.line, "holes are held");
+  }
+  move.mills_at_end = true;
+  r.state.known.fill(false);
+  leave_alone(r, block.line, std::string(milled_as_a_whole));
+}
+
+void add_cycle_call(const KlartextBlock& block, KlartextReading& r) {
+  const bool followed =
+      r.state.elsewhere.empty() && !in_doubt(r) && empty(block.block_delete);
+  if (r.state.cycle_is_relative && followed) {
+    if (!r.program.moves.empty()) call_relative_cycle(block, r, r.program.moves.back());
+    return;
+  }
+  if (!r.state.cycle_acts_here || !r.state.elsewhere.empty() || in_doubt(r))
+    return add_unfollowed_move(block, r, "cycles are left as they are");
+  Move move = begin_klartext_move(block, r);
+  r.state.known[2] = false;
+  move.fixed[2] = !take_hole(r, move);
+  move.may_position = !move.fixed[2] && r.state.known[0] && r.state.known[1];
+  move.known_end = r.state.known;
+  add_move(r, move);
+  r.state.run_begin = r.program.moves.size();
+  if (move.fixed[2]) leave_alone(r, block.line, "cycles are left as they are");
+  if (move.handling == Handling::held) leave_alone(r, block.line, "holes are held");
+}
+
+}  // namespace counterflex

@@ -1,0 +1,22 @@
+#pragma once
+/// Writes corrected Klartext.
+#include "program/klartext/block.hpp"
+#include "program/program_writer.hpp"
+
+namespace counterflex {
+
+class KlartextWriter final : public ProgramWriter {
+ public:
+  KlartextWriter(const Program& window, const WriteOptions& options) : options_(options), style_(klartext_style(window)) {}
+
+  /// Where the blocks are numbered and one is inserted, those from the window's begin on are numbered without gaps.
+  Rewritten write(const Program& window, const std::vector<MoveEdit>& edits) override;
+
+ private:
+  WriteOptions options_;
+  KlartextStyle style_;
+  KlartextTextState text_;
+  bool begun_ = false;
+};
+
+}  // namespace counterflex

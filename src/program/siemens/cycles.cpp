@@ -1,0 +1,266 @@
+#include "program/siemens/cycles.hpp"
+
+#include <algorithm>
+
+#include "counterflex/files/numbers.hpp"
+#include "program/gcode/read_move.hpp"
+#include "program/gcode/remarks.hpp"
+#include "program/text/scanner.hpp"
+
+namespace counterflex {
+namespace {
+
+constexpr std::array<std::string_view, 10> drilling_cycles{"CYCLE81", "CYCLE82", "CYCLE83", "CYCLE84",
+                                                           "CYCLE85", "CYCLE86", "CYCLE87", "CYCLE88",
+                                                           "CYCLE89", "CYCLE840"};
+
+/// A cycle that mills about a place of its own: where its centre stands in the list, and how many arguments it
+/// has. Longer lists are those of newer versions, whose last arguments may say that the depth is a difference.
+struct MillingCycle {
+  std::string_view name;
+  std::size_t centre, arguments;
+};
+constexpr std::array<MillingCycle, 10> milling_cycles{{{"POCKET1", 8, 20},
+                                                       {"POCKET2", 6, 17},
+                                                       {"POCKET3", 7, 23},
+                                                       {"POCKET4", 5, 19},
+                                                       {"SLOT1", 8, 25},
+                                                       {"SLOT2", 8, 23},
+                                                       {"LONGHOLE", 7, 15},
+                                                       {"CYCLE71", 4, 16},
+                                                       {"CYCLE76", 8, 20},
+                                                       {"CYCLE77", 6, 16}}};
+
+// Places in the list of arguments.
+constexpr std::size_t retract_plane = 0, reference_plane = 1, final_depth = 3, first_depth = 5;
+
+/// The name of a call and the spans of its arguments, without blanks.
+struct ArgumentList {
+  std::string_view name;
+  std::vector<Span> arguments;
+};
+
+Span trimmed(std::string_view text, Span span) {
+  while (span.begin < span.end && is_blank(text[span.begin])) ++span.begin;
+  while (span.end > span.begin && is_blank(text[span.end - 1])) --span.end;
+  return span;
+}
+
+/// "CYCLE81(50, 0, 2, -20)" from `at` on; none where the brackets are not those of one plain list.
+std::optional<ArgumentList> call_at(std::string_view text, std::size_t at, std::size_t end) {
+  const std::size_t open = text.find('(', at), close = text.find(')', at);
+  if (open >= end || close >= end) return std::nullopt;
+  const Span name = trimmed(text, {at, open});
+  ArgumentList call{part(text, name), {}};
+  if (call.name.empty() ||
+      text.substr(open + 1, close - open - 1).find_first_of("(\"") != std::string_view::npos)
+    return std::nullopt;
+  if (!empty(trimmed(text, {close + 1, end}))) return std::nullopt;
+  for (std::size_t begin = open + 1; begin <= close;) {
+    const std::size_t comma = std::min(text.find(',', begin), close);
+    call.arguments.push_back(trimmed(text, {begin, comma}));
+    begin = comma + 1;
+  }
+  return call;
+}
+
+bool is_plain(std::string_view number) {
+  return !number.empty() && number.find_first_not_of("+-.0123456789") == std::string_view::npos &&
+         read_number(number).has_value();
+}
+
+struct Argument {
+  AxisWord word;
+  double value;
+};
+
+/// The argument at `place`; none where it is no plain number.
+std::optional<Argument> number_at(std::string_view text, const ArgumentList& call, std::size_t place) {
+  const Span span = call.arguments[place];
+  const std::string_view number = part(text, span);
+  if (!is_plain(number)) return std::nullopt;
+  const std::size_t point = number.find('.');
+  const int decimals = point == std::string_view::npos ? 0 : static_cast<int>(number.size() - point - 1);
+  return Argument{{span, decimals}, *read_number(number)};
+}
+
+/// Fills `cycle` from the arguments; false where a height is no plain number.
+bool take_heights(std::string_view text, const ArgumentList& call, CalledCycle& cycle) {
+  const bool pecks = is_word(call.name, "CYCLE83");
+  std::size_t i = 0;
+  for (const std::size_t place : {reference_plane, retract_plane, final_depth, first_depth}) {
+    const std::size_t height = i++;
+    if (place == first_depth && !pecks) continue;
+    const bool given = place < call.arguments.size() && !empty(call.arguments[place]);
+    if (!given && (place == reference_plane || place == retract_plane)) return false;
+    if (!given) continue;
+    const auto argument = number_at(text, call, place);
+    if (!argument) return false;
+    cycle.heights[height] = argument->word;
+    cycle.heights_mm[height] = argument->value;
+  }
+  return true;
+}
+
+bool is_drilling(std::string_view name) {
+  return std::any_of(drilling_cycles.begin(), drilling_cycles.end(),
+                     [&](auto known) { return is_word(name, known); });
+}
+
+std::optional<CalledCycle> drilling_at(std::string_view text, Span span) {
+  const auto call = call_at(text, span.begin, span.end);
+  CalledCycle cycle;
+  if (!call || !is_drilling(call->name) || !take_heights(text, *call, cycle)) return std::nullopt;
+  return cycle;
+}
+
+/// Whether holes are drilled along Z of coordinates that are known.
+bool drills_along_z(const Block& block, const Reading& r) {
+  return empty(block.block_delete) && why_not_followed(r).empty() && r.state.normal == 2 &&
+         r.state.unit == LengthUnit::millimetres && r.state.contour == Contour::none;
+}
+
+void give_up(Reading& r) {
+  r.called.reset();
+  r.state.displaced |= modal_macro;
+}
+
+void make_hole(const CalledCycle& cycle, Reading& r, Move& move) {
+  move.called = cycle;
+  move.makes_hole = move.takes_no_z = true;
+  move.motion = Motion::rapid;  // the way to a hole is no cut, as with the cycles of G-code
+  // The heights are absolute, under G91 too.
+  if (move.relative) move.incremental = 3;
+  move.relative = false;
+  move.words[2] = cycle.heights[0];
+  if (!cycle.modal.empty())  // no number of this block: its place there means nothing
+    move.words[2] = AxisWord{{move.block.begin, move.block.begin + 1}, cycle.heights[0]->decimals};
+  r.state.position_mm.z() = cycle.heights_mm[0];
+  r.state.known[2] = true;
+}
+
+Move& start_call(const CalledCycle& cycle, const Block& block, Reading& r) {
+  Move& move = start_move(block, r, Motion::rapid);
+  for (const Word& word : block.words)
+    if (word.letter == 'N') move.block_number = count_of(word);
+  make_hole(cycle, r, move);
+  return move;
+}
+
+void end_call(const CalledCycle& cycle, Reading& r, Move& move) {
+  finish_move(r, move);
+  move.may_insert_words = move.may_jump = move.may_split = false;
+  r.state.position_mm.z() = cycle.heights_mm[1];
+}
+
+struct MillingCall {
+  CalledCycle cycle;
+  std::array<Argument, 2> centre;
+};
+
+/// The call of a milling cycle whose centre and heights are plain numbers.
+std::optional<MillingCall> milling_call(const Block& block, const Reading& r) {
+  const std::string_view text = r.program.text;
+  const auto call = call_at(text, block.statement_text.begin, block.statement_text.end);
+  if (!call) return std::nullopt;
+  const auto known = std::find_if(milling_cycles.begin(), milling_cycles.end(),
+                                  [&](const MillingCycle& cycle) { return is_word(call->name, cycle.name); });
+  if (known == milling_cycles.end()) return std::nullopt;
+  const std::size_t given = call->arguments.size();
+  if (given > known->arguments || given < known->centre + 2) return std::nullopt;
+  MillingCall milling;
+  const auto x = number_at(text, *call, known->centre), y = number_at(text, *call, known->centre + 1);
+  if (!x || !y || !take_heights(text, *call, milling.cycle)) return std::nullopt;
+  milling.cycle.line = block.line;
+  milling.centre = {*x, *y};
+  return milling;
+}
+
+/// Makes the call a move to the cycle's centre. What it mills about the centre is not corrected each on its own,
+/// and where it ends in X and Y is not followed.
+void mill(const MillingCall& milling, const Block& block, Reading& r) {
+  Move& move = start_call(milling.cycle, block, r);
+  move.makes_hole = false;
+  move.mills_at_end = true;
+  move.incremental = 0;
+  for (const std::size_t axis : {std::size_t{0}, std::size_t{1}}) {
+    move.words[axis] = milling.centre[axis].word;
+    r.state.position_mm[static_cast<Eigen::Index>(axis)] = milling.centre[axis].value;
+    r.state.known[axis] = true;
+  }
+  end_call(milling.cycle, r, move);
+  r.state.known[0] = r.state.known[1] = false;
+  leave_alone(block, r, milled_as_a_whole);
+}
+
+}  // namespace
+
+std::optional<CalledCycle> drilling_cycle(const Block& block, const Reading& r) {
+  const std::string_view text = r.program.text;
+  const Span statement = trimmed(text, block.statement_text);
+  std::optional<CalledCycle> cycle;
+  if (block.statement == Statement::modal_call)
+    cycle = modal_drilling_cycle(part(text, statement));
+  else
+    cycle = drilling_at(text, statement);
+  if (cycle) cycle->line = block.line;
+  return cycle;
+}
+
+std::optional<CalledCycle> modal_drilling_cycle(std::string_view statement) {
+  constexpr std::string_view name = "MCALL";
+  const std::string_view line = statement.substr(0, statement.find(';'));
+  if (line.size() <= name.size() || !is_word(line.substr(0, name.size()), name) ||
+      !is_blank(line[name.size()]))
+    return std::nullopt;
+  const Span call = trimmed(line, {name.size(), line.size()});
+  auto cycle = drilling_at(line, call);
+  if (cycle) cycle->modal = std::string(line.substr(0, call.end));
+  return cycle;
+}
+
+bool read_called_cycle(const Block& block, Reading& r) {
+  if (r.called || !drills_along_z(block, r)) return false;
+  const bool stands = r.state.known[0] && r.state.known[1];
+  if (const auto cycle = drilling_cycle(block, r); cycle && stands) {
+    Move& move = start_call(*cycle, block, r);
+    move.may_position = r.state.motion == MotionMode::rapid && !r.state.relative;
+    end_call(*cycle, r, move);
+    return true;
+  }
+  const auto milling = milling_call(block, r);
+  if (milling) mill(*milling, block, r);
+  return milling.has_value();
+}
+
+bool begin_modal_cycle(const Block& block, Reading& r) {
+  r.called.reset();
+  if (!drills_along_z(block, r)) return false;
+  r.called = drilling_cycle(block, r);
+  return r.called.has_value();
+}
+
+bool takes_modal_hole(const Block& block, Reading& r) {
+  const Word *x = r.sorted.word('X'), *y = r.sorted.word('Y');
+  const auto comes_to = [&](const Word* word, std::size_t axis) {
+    const bool said = word != nullptr && word->literal && !r.relative();
+    return said || (r.state.known[axis] && (word == nullptr || word->literal));
+  };
+  const bool line = r.state.motion == MotionMode::rapid || r.state.motion == MotionMode::feed;
+  const bool follows = drills_along_z(block, r) && line && r.sorted.word('Z') == nullptr &&
+                       (x != nullptr || y != nullptr) && comes_to(x, 0) && comes_to(y, 1);
+  if (!follows) give_up(r);
+  return follows;
+}
+
+void place_modal_hole(Reading& r, Move& move) {
+  make_hole(*r.called, r, move);
+}
+
+void leave_called_hole(Reading& r) {
+  Move& move = r.program.moves.back();
+  move.may_jump = move.may_split = false;
+  r.state.position_mm.z() = r.called->heights_mm[1];
+}
+
+}  // namespace counterflex

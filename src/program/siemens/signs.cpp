@@ -1,0 +1,71 @@
+#include "program/siemens/signs.hpp"
+
+#include <algorithm>
+#include <string>
+
+#include "program/text/scanner.hpp"
+
+namespace counterflex {
+namespace {
+
+constexpr std::size_t searched = 1 << 16;  // bytes
+
+/// The part of a line before its comment, without what stands in round brackets.
+std::string statements_of(std::string_view line) {
+  std::string kept;
+  int depth = 0;
+  for (const char c : line) {
+    if (c == ';') break;
+    if (c == '(') kept += c, ++depth;
+    if (c == ')' && depth > 0) --depth;
+    if (depth == 0) kept += upper(c);
+  }
+  return kept;
+}
+
+/// Whether two letters stand side by side, or a G5 that may be G500: most lines of G-code hold neither.
+bool may_hold_names(std::string_view line) {
+  char before = ' ';
+  for (const char c : line) {
+    if (is_letter(before) && (is_letter(c) || (c == '5' && upper(before) == 'G'))) return true;
+    before = c;
+  }
+  return false;
+}
+
+}  // namespace
+
+bool is_siemens(std::string_view text) {
+  text = text.substr(0, searched);
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    const std::string_view line = text.substr(0, end);
+    if (line.starts_with("%_N_") || line.starts_with(";%_N_") || line.starts_with(";$PATH=")) return true;
+    if (may_hold_names(line) && line.find_first_of("#<") == std::string_view::npos) {
+      const std::string words = statements_of(line);
+      for (const std::string_view only :
+           {"CR=", "MSG(", "SUPA", "STOPRE", "MCALL", "CYCLE8", "GOTOF", "GOTOB", "TRAORI", "WORKPIECE(",
+            "=AC(", "=IC(", "G500 ", "COMPCAD"})
+        if (words.find(only) != std::string::npos) return true;
+    }
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  return false;
+}
+
+bool siemens_jumps(std::string_view text) {
+  Block block;
+  while (next_line(text, block)) {
+    const std::string_view line = part(text, block.span);
+    if (line.find("GOTO") == std::string_view::npos && line.find("REPEAT") == std::string_view::npos)
+      continue;
+    const std::string words = statements_of(line);
+    if (words.find("GOTO") != std::string::npos) return true;
+    const std::size_t repeat = words.find("REPEAT");
+    if (repeat != std::string::npos && words.find_first_not_of(" \t\r", repeat + 6) != std::string::npos)
+      return true;
+  }
+  return false;
+}
+
+}  // namespace counterflex

@@ -1,0 +1,149 @@
+#include "program/siemens/statements.hpp"
+
+#include <algorithm>
+
+#include "program/gcode/contour.hpp"
+#include "program/gcode/frames.hpp"
+#include "program/gcode/other_moves.hpp"
+#include "program/gcode/read_move.hpp"
+#include "program/gcode/remarks.hpp"
+#include "program/siemens/cycles.hpp"
+
+namespace counterflex {
+namespace {
+
+bool is_length_word(const Word& word) {
+  return word.letter >= 'X' && word.letter <= 'Z';
+}
+
+/// Starts or ends a state that places programmed coordinates elsewhere.
+void displace_by_statement(const Block& block, Reading& r, std::uint16_t bit, bool acts) {
+  const bool acted = (r.state.displaced & bit) != 0;
+  const auto others = static_cast<std::uint16_t>(r.state.displaced & ~bit);
+  r.state.displaced = acts ? static_cast<std::uint16_t>(others | bit) : others;
+  if (!acts && !acted) return;
+  r.state.known.fill(false);
+  end_contour(r);
+  if (acts) leave_alone(block, r, why_not_followed(r));
+}
+
+void call_subprogram(const Block& block, Reading& r) {
+  r.sorted = {};
+  read_call(block, r);
+}
+
+/// Cycles move as their arguments say, and restore what is modal.
+void run_cycle(const Block& block, Reading& r) {
+  const std::string_view why = why_not_followed(r);
+  r.sorted = {};
+  Move& move = start_move(block, r, Motion::feed);
+  for (std::size_t axis = 0; axis < 3; ++axis) fix_axis(r, move, axis);
+  leave_alone(block, r, why.empty() ? "a cycle of the control is called; followed in G17 and mm are CYCLE81 to CYCLE89, CYCLE840, "
+                                      "POCKET1 to POCKET4, SLOT1, SLOT2, LONGHOLE, CYCLE71, CYCLE76 and CYCLE77, "
+                                      "with plain numbers for heights and centre"
+                                    : why);
+  finish_move(r, move);
+  r.run_begin = r.program.moves.size();
+}
+
+}  // namespace
+
+void begin_statement(const Block& block, Reading& r) {
+  if (block.statement == Statement::curve) r.state.doubts |= doubtful_motion;
+}
+
+bool has_words_of_its_own(const Block& block, const Reading&) {
+  if (block.statement == Statement::curve || block.statement == Statement::smoothed) return true;
+  const bool is_frame = block.statement >= Statement::shift && block.statement <= Statement::added_turn;
+  const auto of_frame = [](const Word& word) { return std::string_view("NXYZR").find(word.letter) != std::string_view::npos; };
+  if (is_frame && std::all_of(block.words.begin(), block.words.end(), of_frame)) return false;
+  return std::none_of(block.words.begin(), block.words.end(), is_length_word);
+}
+
+void end_statement(const Block& block, Reading& r) {
+  switch (block.statement) {
+    case Statement::call:
+    case Statement::arc_not_read:
+      return call_subprogram(block, r);
+    case Statement::not_read:
+      r.sorted = {};
+      return read_anything(block, r, "axis words or G codes stand in a part of the block that is not read");
+    case Statement::cycle:
+      r.sorted = {};
+      if (read_called_cycle(block, r)) return;
+      return run_cycle(block, r);
+    case Statement::modal_call:
+      displace_by_statement(block, r, modal_macro, false);
+      if (begin_modal_cycle(block, r) || block.statement_is_bare) return;
+      return displace_by_statement(block, r, modal_macro, true);
+    case Statement::shift:
+    case Statement::added_shift:
+    case Statement::turn:
+    case Statement::added_turn:
+      if (!apply_frame_statement(block, r)) displace_by_statement(block, r, framed, !block.statement_is_bare);
+      return;
+    case Statement::frame:
+      return displace_by_statement(block, r, framed, !block.statement_is_bare);
+    case Statement::added_frame:
+      return displace_by_statement(block, r, framed, true);
+    case Statement::tilt:
+      run_cycle(block, r);
+      return displace_by_statement(block, r, tilted, !block.statement_is_bare);
+    case Statement::transformed:
+      return displace_by_statement(block, r, tool_point, true);
+    case Statement::transform_off:
+      return displace_by_statement(block, r, tool_point, false);
+    case Statement::smoothed:
+      return add_remark(r.program, block.line,
+                        "the control smooths the path; corrections smaller than its tolerance can vanish");
+    case Statement::data:
+      r.state.doubts |= doubtful_offset;
+      r.state.known.fill(false);
+      return leave_alone(block, r, "a variable of the control is set");
+    case Statement::end:
+      r.ended = true;
+      return;
+    default:
+      return;
+  }
+}
+
+Block with_senses(const Block& block, Reading& r) {
+  Block result = block;
+  bool modal = r.state.relative;
+  for (const Word& word : block.words)
+    if (word.letter == 'G' && (word.value == 90 || word.value == 91)) modal = word.value == 91;
+  if (std::none_of(block.words.begin(), block.words.end(), is_length_word)) return result;
+  bool all_relative = true, all_absolute = true;
+  const auto relative = [&](const Word& word) {
+    return word.sense == Sense::modal ? modal : word.sense == Sense::relative;
+  };
+  for (const Word& word : block.words) {
+    if (!is_length_word(word)) continue;
+    all_relative = all_relative && relative(word);
+    all_absolute = all_absolute && !relative(word);
+  }
+  if (all_relative != modal) r.block_relative = all_relative;
+  if (all_relative || all_absolute) return result;
+  // Each axis of a line counts for itself; of an arc this is not followed.
+  const bool arc = std::any_of(block.words.begin(), block.words.end(), [](const Word& word) {
+    return std::string_view("IJKRP").find(word.letter) != std::string_view::npos;
+  });
+  for (Word& word : result.words)
+    if (is_length_word(word) && relative(word)) {
+      if (arc) word.literal = false;
+      r.relative_axes = (r.relative_axes | 1U << (word.letter - 'X')) & 7U;
+    }
+  return result;
+}
+
+void apply_tool_edge(Reading& r) {
+  if (r.sorted.has(MAction::tool_change)) r.state.tool_length = 1;
+  const Word* d = r.sorted.word('D');
+  if (d == nullptr || (d->literal && r.state.tool_length == d->value)) return;
+  r.state.known[2] = false;
+  r.state.tool_length.reset();
+  if (d->literal) r.state.tool_length = d->value;
+}
+
+}  // namespace counterflex

@@ -1,0 +1,136 @@
+#include "program/text/number_style.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <cstring>
+
+namespace counterflex {
+namespace {
+
+/// How a number is written.
+struct NumberStyle {
+  int decimals = 0;
+  bool leading_zero = true;
+  bool plus = false;
+};
+
+NumberStyle read_style(std::string_view number) {
+  NumberStyle style;
+  style.plus = number.starts_with('+');
+  bool digit = false, point = false;
+  for (const char c : number) {
+    if (c == '.') {
+      if (!digit && !point) style.leading_zero = false;
+      point = true;
+    } else if (c >= '0' && c <= '9') {
+      digit = true;
+      style.decimals += point ? 1 : 0;
+    }
+  }
+  return style;
+}
+
+/// A number's characters, with room for a sign before them.
+struct NumberText {
+  std::array<char, 400> buffer;
+  char* begin = buffer.data() + 1;
+  char* end = begin;
+
+  std::string_view view() const { return {begin, static_cast<std::size_t>(end - begin)}; }
+};
+
+/// The nearest whole number, as `std::round`, of one that 64 bits hold.
+std::int64_t nearest(double value) {
+  const auto whole = static_cast<std::int64_t>(value);
+  const double rest = value - static_cast<double>(whole);
+  return rest >= 0.5 ? whole + 1 : rest <= -0.5 ? whole - 1 : whole;
+}
+
+/// `value` with `decimals` digits after the point, which it always has.
+void put_number(double value, int decimals, NumberText& text) {
+  constexpr double whole_numbers_of_64_bits = 1e15;
+  const double scaled = decimals >= 0 && decimals < 10 ? value * power_of_ten(decimals) : 2e15;
+  if (std::abs(scaled) < whole_numbers_of_64_bits) {
+    text.end = put_steps(nearest(scaled), decimals, text.begin);
+    return;
+  }
+  const std::string fixed = format_fixed(value, decimals);
+  text.end = std::copy(fixed.begin(), fixed.end(), text.begin);
+  if (decimals == 0) *text.end++ = '.';
+}
+
+/// Drops zeros from the end until `least` digits after the point are left.
+void drop_zeros(NumberText& text, int least) {
+  const char* point = std::find(text.begin, text.end, '.');
+  while (text.end[-1] == '0' && text.end - point - 1 > least) --text.end;
+}
+
+void drop_leading_zero(NumberText& text) {
+  const bool negative = *text.begin == '-';
+  const char* zero = text.begin + (negative ? 1 : 0);
+  if (*zero != '0' || text.end - zero <= 2 || zero[1] != '.') return;
+  ++text.begin;
+  if (negative) *text.begin = '-';
+}
+
+void put_changed_number(std::string_view original, double value, int decimals, NumberText& text) {
+  const NumberStyle style = read_style(original);
+  put_number(value, decimals, text);
+  drop_zeros(text, std::min(style.decimals, decimals));
+  if (!style.leading_zero) drop_leading_zero(text);
+  if (style.plus && *text.begin != '-') *--text.begin = '+';
+}
+
+constexpr std::array<std::uint64_t, 20> whole_powers_of_ten = [] {
+  std::array<std::uint64_t, 20> powers{1};
+  for (std::size_t i = 1; i < powers.size(); ++i) powers[i] = powers[i - 1] * 10;
+  return powers;
+}();
+
+/// The last `count` digits of `number`, in front of `end`.
+void put_digits(std::uint64_t number, int count, char* end) {
+  static constexpr auto pairs = [] {
+    std::array<char, 200> digits{};
+    for (std::size_t i = 0; i < digits.size(); ++i)
+      digits[i] = static_cast<char>('0' + (i % 2 == 0 ? i / 20 : i / 2 % 10));
+    return digits;
+  }();
+  for (; count >= 2; count -= 2, number /= 100) std::memcpy(end -= 2, &pairs[number % 100 * 2], 2);
+  if (count == 1) *--end = static_cast<char>('0' + number % 10);
+}
+
+}  // namespace
+
+char* put_steps(std::int64_t whole, int decimals, char* to) {
+  if (whole < 0) *to++ = '-';
+  const auto steps = static_cast<std::uint64_t>(whole < 0 ? -whole : whole);
+  const std::uint64_t power = whole_powers_of_ten[static_cast<std::size_t>(decimals)];
+  const std::uint64_t before_point = steps / power;
+  int digits = 1;
+  while (before_point >= whole_powers_of_ten[static_cast<std::size_t>(digits)]) ++digits;
+  char* const point = to + digits;
+  put_digits(before_point, digits, point);
+  *point = '.';
+  put_digits(steps - before_point * power, decimals, point + 1 + decimals);
+  return point + 1 + decimals;
+}
+
+std::string inserted_number(double value, int decimals) {
+  NumberText text;
+  put_number(value, decimals, text);
+  return std::string(text.view());
+}
+
+std::string changed_number(std::string_view original, double value, int decimals) {
+  NumberText text;
+  put_changed_number(original, value, decimals, text);
+  return std::string(text.view());
+}
+
+void append_changed_number(std::string_view original, double value, int decimals, std::string& text) {
+  NumberText number;
+  put_changed_number(original, value, decimals, number);
+  text.append(number.view());
+}
+
+}  // namespace counterflex

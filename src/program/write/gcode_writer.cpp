@@ -1,0 +1,154 @@
+#include "program/write/gcode_writer.hpp"
+
+#include <cassert>
+
+#include "program/expand/expand.hpp"
+#include "program/write/block.hpp"
+#include "program/write/plain.hpp"
+#include "program/text/scanner.hpp"
+
+namespace counterflex {
+namespace {
+
+/// Behind the line of '%' and that of the program's number, whichever comes last; else the beginning,
+/// behind the mark of UTF-8 and the line that it begins where that says nothing.
+std::size_t header_position(const Program& program) {
+  const Dialect& dialect = *find_dialect(program.dialect);
+  std::size_t position = byte_order_mark(program.text);
+  bool opened = false;
+  Block block;
+  while (next_line(program.text, block)) {
+    lex(program.text, program.file, dialect, block);
+    const bool number = begins_with_program_number(block) || (block.part_name && !block.percent);
+    if (!program.moves.empty() && block.span.begin >= program.moves.front().block.begin) break;
+    if ((block.percent && opened) || (!block.words.empty() && !number)) break;
+    opened = opened || block.percent;
+    const bool path =
+        part(program.text, block.span).starts_with(";$PATH");  // belongs below a Sinumerik's '%'
+    const bool marked = block.text_line == 1 && position > 0 && block.words.empty();
+    if (block.percent || number || marked || (path && opened)) position = block.line_end.end;
+    if (number) break;
+  }
+  return position;
+}
+
+/// A comment's text in upper-case ASCII without comment characters.
+std::string comment_text(const std::string& text) {
+  std::string safe;
+  for (const char c : text) {
+    const bool printable = c >= 0x20 && c < 0x7f && c != comment_open && c != comment_close;
+    const char kept = printable ? c : ' ';
+    safe += kept >= 'a' && kept <= 'z' ? static_cast<char>(kept - 'a' + 'A') : kept;
+  }
+  return safe;
+}
+
+std::string header_text(const Program& program, const ProgramStyle& style, std::size_t position,
+                        const WriteOptions& options) {
+  std::string text;
+  if (!options.header.empty() && position > byte_order_mark(program.text) &&
+      program.text[position - 1] != '\n')
+    text += style.line_end;
+  if (find_dialect(program.dialect)->sinumerik_words) {
+    for (const std::string& line : options.header)
+      text.append(1, ';').append(comment_text(line)).append(style.line_end);
+    return text;
+  }
+  for (const std::string& line : options.header)
+    text += comment_open + comment_text(line) + comment_close + style.line_end;
+  return text;
+}
+
+/// The text being written: everything before byte `copied` of the input is in `out`.
+struct Writing {
+  const Program& program;
+  const ProgramStyle& style;
+  TextState& state;
+  const PlainRewriting common;
+  std::size_t copied = 0;
+  Rewritten out{};
+};
+
+/// A motion word or the end of a program before byte `end` ends the doubt about the modal motion.
+void end_doubt_until(std::size_t end, Writing& w) {
+  const Dialect& dialect = *find_dialect(w.program.dialect);
+  Block block;
+  block.line_end.end = w.copied;
+  while (w.state.restate_motion && block.line_end.end < end && next_line(w.program.text, block)) {
+    if (stands_unused(w.program.expansion, block.span.begin)) continue;
+    lex(w.program.text, w.program.file, dialect, block);
+    if (block.span.begin < end && ends_motion(block, dialect)) w.state.restate_motion.reset();
+  }
+}
+
+/// Copies what stands before byte `end`, where no move is.
+void copy_until(std::size_t end, Writing& w) {
+  if (w.state.restate_motion) end_doubt_until(end, w);
+  w.out.text.append(w.program.text, w.copied, end - w.copied);
+  w.copied = end;
+}
+
+/// The move that is written next, and what the text holds before it.
+const Move& come_to(std::size_t index, Writing& w) {
+  const Move& move = w.program.moves[index];
+  const Move* last = move_before(w.program, index);
+  if (last != nullptr && last->end_mm != move.start_mm)
+    w.state.held = held_between(*last, move, w.state.held);
+  return move;
+}
+
+void pass_over(std::size_t index, const WriteOptions& options, Writing& w) {
+  const Move& move = come_to(index, w);
+  if (!holds_call(move, 0, w.state)) {
+    copy_until(move.block.begin, w);
+    rewrite_block(w.program, w.style, {.move = index, .end_mm = move.end_mm}, options, w.state, w.out);
+    w.copied = move.block.end;
+    return;
+  }
+  if (w.state.restate_motion) copy_until(move.block.begin, w);
+  if (!w.state.restate_motion) return pass_block(move, w.state);
+  copy_block(w.program, w.style, move, w.state, w.out);
+  w.copied = move.block.end;
+}
+
+void apply(const MoveEdit& edit, const WriteOptions& options, Writing& w) {
+  const Span block = come_to(edit.move, w).block;
+  if (!w.state.restate_motion && append_plain_block(w.common, edit, w.copied, w.state.held, w.out)) {
+    w.out.blocks_of_edit.push_back(0);
+    w.copied = block.end;
+    return;
+  }
+  copy_until(block.begin, w);
+  const std::size_t inserted = w.out.inserted_blocks;
+  rewrite_block(w.program, w.style, edit, options, w.state, w.out);
+  w.out.blocks_of_edit.push_back(w.out.inserted_blocks - inserted);
+  w.copied = block.end;
+}
+
+/// The header goes behind what a program must begin with.
+void begin(const WriteOptions& options, Writing& w) {
+  w.copied = header_position(w.program);
+  w.out.text.append(w.program.text, 0, w.copied).append(header_text(w.program, w.style, w.copied, options));
+}
+
+}  // namespace
+
+Rewritten GcodeWriter::write(const Program& window, const std::vector<MoveEdit>& edits) {
+  Writing w{window, style_, text_, {window, options_}};
+  w.out.text.reserve(window.text.size() + window.text.size() / 8);
+  w.out.blocks_of_edit.reserve(edits.size());
+  if (!begun_) begin(options_, w);
+  begun_ = true;
+  std::size_t next = 0;
+  for (const MoveEdit& edit : edits) {
+    assert(edit.move >= next && edit.move < window.moves.size());
+    for (; next < edit.move; ++next) pass_over(next, options_, w);
+    apply(edit, options_, w);
+    ++next;
+  }
+  for (; next < window.moves.size(); ++next) pass_over(next, options_, w);
+  copy_until(window.text.size(), w);
+  return std::move(w.out);
+}
+
+}  // namespace counterflex

@@ -1,0 +1,136 @@
+#include "program/write/plain.hpp"
+
+#include <algorithm>
+#include <cstring>
+
+#include "program/dialect.hpp"
+#include "program/write/held_position.hpp"
+#include "program/text/number_style.hpp"
+#include "program/text/scanner.hpp"
+
+namespace counterflex {
+namespace {
+
+/// A number that is written anew.
+struct NewNumber {
+  Span span;
+  std::int64_t steps;
+  int decimals, least_decimals;
+};
+
+/// The numbers of a block, in the order of the text, and where it leaves the tool.
+struct PlainEdit {
+  std::array<NewNumber, 3> numbers;
+  std::size_t count = 0;
+  std::array<double, 3> held_mm;
+};
+
+/// Whether nothing but the coordinates of the words decides where the move goes.
+bool is_plain_move(const Move& move) {
+  return !move.arc && !move.cycle && !move.called && move.angle_axis == 0 && !move.relative && move.incremental == 0 && !move.block_delete && !move.fixed[0] &&
+         !move.fixed[1] && !move.fixed[2] && all_known(move.known_end);
+}
+
+/// A digit first, or a minus and a digit: no plus, and a zero before the point.
+bool is_in_plain_style(const std::string& text, Span number) {
+  return is_digit(text[text[number.begin] == '-' ? number.begin + 1 : number.begin]);
+}
+
+int decimals_for(const PlainRewriting& common, const Move& move, int shown) {
+  return common.decimals >= 0 ? common.decimals : std::max(resolution_decimals(move.unit), shown);
+}
+
+/// As `settle_axis` for a block with a word for the axis.
+bool settle_word(const PlainRewriting& common, const Move& move, std::size_t axis, double wanted_mm,
+                 PlainEdit& edit) {
+  const AxisWord word = *move.words[axis];
+  const double end_mm = component(move.end_mm, axis), wanted = in_unit(wanted_mm, move.unit);
+  const int decimals = decimals_for(common, move, word.decimals);
+  edit.held_mm[axis] = end_mm;
+  if (rounds_to(in_unit(end_mm, move.unit), wanted, decimals)) return true;
+  const std::optional<double> steps = whole_steps(wanted, decimals);
+  const bool in_order = edit.count == 0 || edit.numbers[edit.count - 1].span.end < word.number.begin;
+  if (!steps || !in_order || !is_in_plain_style(common.program.text, word.number)) return false;
+  edit.held_mm[axis] = value_of_steps(*steps, decimals) * mm_per(move.unit);
+  edit.numbers[edit.count++] = {word.number, static_cast<std::int64_t>(*steps), decimals,
+                                std::min(word.decimals, decimals)};
+  return true;
+}
+
+/// As `settle_axis` for one without, where none is to be inserted.
+bool settle_no_word(const PlainRewriting& common, const Move& move, std::size_t axis, double wanted_mm,
+                    const HeldPosition& held, PlainEdit& edit) {
+  if (!move.known_start[axis] || !held[axis]) return false;
+  edit.held_mm[axis] = *held[axis];
+  return move.ignored[axis] || !move.may_insert_words ||
+         rounds_to(in_unit(*held[axis], move.unit), in_unit(wanted_mm, move.unit),
+                   decimals_for(common, move, 0));
+}
+
+bool settle(const PlainRewriting& common, const MoveEdit& to, const HeldPosition& held, PlainEdit& edit) {
+  const Move& move = common.program.moves[to.move];
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double wanted_mm = component(to.end_mm, axis);
+    if (!(move.words[axis] ? settle_word(common, move, axis, wanted_mm, edit)
+                           : settle_no_word(common, move, axis, wanted_mm, held, edit)))
+      return false;
+  }
+  return edit.count == 0 || !common.doubts_integers;
+}
+
+constexpr std::size_t most_digits = 32, at_once = 16;
+
+/// Copies at least the bytes [begin, end) to `to`, behind which there is room for more; their end.
+char* copy_short(const std::string& text, std::size_t begin, std::size_t end, char* to) {
+  const bool short_enough = end - begin <= at_once && begin + at_once <= text.size();
+  std::memcpy(to, text.data() + begin, short_enough ? at_once : end - begin);
+  return to + (end - begin);
+}
+
+char* put_number(const NewNumber& number, char* to) {
+  to = put_steps(number.steps, number.decimals, to);
+  for (int more = number.decimals - number.least_decimals; more > 0 && to[-1] == '0'; --more) --to;
+  return to;
+}
+
+/// The text from `begin` to `end` with its new numbers; nullptr where the buffer has no room for it.
+template <std::size_t size>
+char* put_text(const std::string& text, Span span, const PlainEdit& edit, std::array<char, size>& buffer) {
+  if (span.end - span.begin + 3 * most_digits + at_once > size) return nullptr;
+  char* to = buffer.data();
+  std::size_t at = span.begin;
+  for (std::size_t i = 0; i < edit.count; ++i) {
+    const NewNumber& number = edit.numbers[i];
+    to = put_number(number, copy_short(text, at, number.span.begin, to));
+    at = number.span.end;
+  }
+  return copy_short(text, at, span.end, to);
+}
+
+}  // namespace
+
+PlainRewriting::PlainRewriting(const Program& window, const WriteOptions& options)
+    : program(window), decimals(options.decimals) {
+  const Dialect& dialect = *find_dialect(window.dialect);
+  line_limit = dialect.line_limit;
+  doubts_integers = dialect.integer_words_doubtful && window.integer_words == IntegerWords::unsaid;
+}
+
+bool append_plain_block(const PlainRewriting& common, const MoveEdit& to, std::size_t copied,
+                        HeldPosition& held, Rewritten& out) {
+  const Move& move = common.program.moves[to.move];
+  if (to.jump_mm || !to.inserted.empty() || !is_plain_move(move)) return false;
+  PlainEdit edit;
+  if (!settle(common, to, held, edit)) return false;
+  std::array<char, 256> buffer;
+  const char* const end = put_text(common.program.text, {copied, move.block.end}, edit, buffer);
+  if (end == nullptr) return false;
+  const auto size = static_cast<std::size_t>(end - buffer.data());
+  if (common.line_limit > 0 && size - (move.block.begin - copied) > common.line_limit) return false;
+  out.text.append(buffer.data(), size);
+  out.changed_words += edit.count;
+  for (std::size_t axis = 0; axis < 3; ++axis) held[axis] = edit.held_mm[axis];
+  return true;
+}
+
+}  // namespace counterflex
