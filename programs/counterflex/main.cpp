@@ -1,19 +1,22 @@
 /// counterflex: bends a machining program the other way.
 #include <malloc.h>
 
-#include "command_line.hpp"
-#include "commands.hpp"
+#include "commands/commands.hpp"
 #include "counterflex/report/formats.hpp"
-#include "guarded.hpp"
-#include "outputs.hpp"
-#include "signals.hpp"
-#include "version.hpp"
+#include "process/guarded.hpp"
+#include "process/signals.hpp"
+#include "process/standard_output.hpp"
+#include "process/version.hpp"
+#include "run/outputs.hpp"
+#include "settings/command_line.hpp"
 
 namespace counterflex::cli {
 namespace {
 
-/// A run with a verdict: standard output has one also where inputs could not be read, unless it takes the program.
-Exit judged(counterflex::Command command, Exit (*run)(const Options&, Console&), const Options& options, Console& console) {
+/// A run with a verdict: standard output has one also where inputs could not be read, unless it takes the
+/// program.
+Exit judged(counterflex::Command command, Exit (*run)(const Options&, Console&), const Options& options,
+            Console& console) {
   try {
     return run(options, console);
   } catch (const InputError& error) {
@@ -48,12 +51,12 @@ Exit run_command(const Options& options, Console& console) {
 }
 
 Exit run(int argc, char** argv) {
-  Console plain{Options{}};
+  Console plain;
   return guarded(plain, [&] {
     const auto command_line = read_command_line(argc, argv);
     if (const Exit* exit = std::get_if<Exit>(&command_line)) return *exit;
     const Options& options = std::get<Options>(command_line);
-    Console console(options);
+    Console console({options.quiet, options.verbose});
     for (const SettingRemark& remark : options.remarks)
       console.warning(remark.where.file, remark.where.line, remark.what);
     if (!options.project_file.empty()) console.detail("project file " + options.project_file);

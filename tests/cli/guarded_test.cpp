@@ -1,4 +1,4 @@
-#include "guarded.hpp"
+#include "process/guarded.hpp"
 
 #include <doctest/doctest.h>
 
@@ -8,7 +8,7 @@ using namespace counterflex::cli;
 TEST_CASE(
     "memory and threads that there are not enough of ask for another try, what is wrong by itself does not") {
   std::string said;
-  Console console(Options{}, {.error = [&](std::string_view diagnostic) { said = diagnostic; }});
+  Console console({}, {.error = [&](std::string_view diagnostic) { said = diagnostic; }});
   const auto thrown = [&](const auto& error) { return guarded(console, [&]() -> Exit { throw error; }); };
   CHECK(thrown(std::bad_alloc()) == Exit::transient_io);
   CHECK(said == "error: there is not enough memory");

@@ -1,4 +1,4 @@
-#include "workers.hpp"
+#include "process/workers.hpp"
 
 #include <doctest/doctest.h>
 #include <fcntl.h>

@@ -1,0 +1,115 @@
+#include "batch/estimate.hpp"
+
+#include <unistd.h>
+
+#include <chrono>
+#include <cstdlib>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <tuple>
+#include <utility>
+
+#include "batch/job_process.hpp"
+#include "counterflex/files/input_error.hpp"
+#include "process/signals.hpp"
+
+namespace counterflex::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+constexpr double longest_try = 2;          // s
+constexpr double least_share = 0.001;      // of a program, below which no time can be told
+constexpr double process_seconds = 0.005;  // that a job takes besides its work
+
+/// A folder that goes with its content.
+class TemporaryFolder {
+ public:
+  TemporaryFolder() {
+    std::error_code ignored;
+    path_ = (fs::temp_directory_path(ignored) / "counterflex-XXXXXX").native();
+    if (::mkdtemp(path_.data()) == nullptr)
+      throw InputError(Exit::transient_io, {path_}, "cannot make a temporary folder");
+  }
+  ~TemporaryFolder() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+  }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+
+  std::string file(const std::string& name) const { return (fs::path(path_) / name).native(); }
+
+ private:
+  std::string path_;
+};
+
+/// The time that `job` takes, from the part of it that is done in a few seconds. A signal stops it and is
+/// returned in `stopped`.
+double tried_seconds(BatchJob job, const AwaitedSignals& signals, std::optional<int>& stopped) {
+  const TemporaryFolder folder;
+  job.options.output = folder.file("tried");
+  if (job.options.report) job.options.report = folder.file("report");
+  if (job.options.plot) job.options.plot = folder.file("plot.svg");
+  Workers workers;
+  workers.start(0, [&](const SendLine& send) { do_job(job, 1, send); });
+  const auto begun = Clock::now();
+  double share = 0, elapsed = 0;
+  for (bool ended = false; !ended && !stopped && elapsed < longest_try;) {
+    const auto events = workers.wait(signals.descriptor(), 100);
+    stopped = signals.take();
+    elapsed = std::chrono::duration<double>(Clock::now() - begun).count();
+    for (const WorkerEvent& event : events) {
+      ended = ended || event.ended;
+      if (const auto done = news_of(event.line).done) share = *done;
+    }
+    if (ended) share = 1;
+  }
+  workers.end_all(500);
+  return elapsed / std::max(share, least_share);
+}
+
+struct JobKind {
+  double work = 0;
+  std::size_t jobs = 0;
+  const BatchJob* largest = nullptr;
+};
+
+/// By machine, method, and whether causes are asked for.
+using JobKinds = std::map<std::tuple<std::string, Method, bool>, JobKind>;
+
+JobKinds kinds_of(const Batch& batch) {
+  JobKinds kinds;
+  for (const BatchJob& job : batch.jobs) {
+    const bool causes = job.options.report || job.options.plot;
+    JobKind& kind = kinds[{job.options.machine, job.options.method, causes}];
+    kind.work += job.work;
+    ++kind.jobs;
+    if (kind.largest == nullptr || job.work > kind.largest->work) kind.largest = &job;
+  }
+  return kinds;
+}
+
+double seconds_of(const JobKinds& kinds, std::optional<int>& stopped) {
+  const AwaitedSignals signals;
+  double seconds = 0;
+  for (const auto& [name, kind] : kinds) {
+    if (stopped) break;
+    seconds += tried_seconds(*kind.largest, signals, stopped) * kind.work / kind.largest->work +
+               process_seconds * static_cast<double>(kind.jobs);
+  }
+  return seconds;
+}
+
+}  // namespace
+
+double estimated_seconds(const Batch& batch) {
+  std::optional<int> stopped;
+  const double seconds = seconds_of(kinds_of(batch), stopped);
+  if (stopped) end_by(*stopped);  // the temporary folder is gone
+  return seconds;
+}
+
+}  // namespace counterflex::cli

@@ -1,0 +1,88 @@
+#include "batch/globs.hpp"
+
+#include <fnmatch.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+#include <system_error>
+#include <utility>
+
+#include "counterflex/files/input_error.hpp"
+
+namespace counterflex::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Goes through the folders that the parts of a pattern match, one part a level.
+class Walk {
+ public:
+  /// "**" behind "**" adds nothing but time.
+  explicit Walk(const fs::path& pattern) {
+    for (const fs::path& part : pattern)
+      if (part != "**" || parts_.empty() || parts_.back() != "**") parts_.push_back(part);
+  }
+
+  std::vector<std::string> run() {
+    go({}, 0);
+    return {found_.begin(), found_.end()};
+  }
+
+ private:
+  void go(const fs::path& at, std::size_t part) {
+    if (!visited_.emplace(at.native(), part).second)
+      return;  // by another way, where "**" stands more than once
+    if (part == parts_.size()) return take(at);
+    const std::string& name = parts_[part].native();
+    if (!is_glob(name)) return go(at / parts_[part], part + 1);
+    const bool any_depth = name == "**";
+    if (any_depth) go(at, part + 1);
+    for (const fs::path& entry : names_in(at)) {
+      if (::fnmatch(any_depth ? "*" : name.c_str(), entry.c_str(), FNM_PERIOD) != 0) continue;
+      std::error_code ignored;
+      if (!any_depth)
+        go(at / entry, part + 1);
+      else if (fs::is_directory(fs::symlink_status(at / entry, ignored)))
+        go(at / entry, part);
+    }
+  }
+
+  /// All of them, before any of them is gone into: the depth of folders needs no descriptors. A folder that
+  /// is not there has none; one that cannot be read might hold programs.
+  static std::vector<fs::path> names_in(const fs::path& folder) {
+    const fs::path place = folder.empty() ? fs::path(".") : folder;
+    std::vector<fs::path> names;
+    std::error_code error;
+    fs::directory_iterator entry(place, error);
+    for (; !error && entry != fs::directory_iterator(); entry.increment(error))
+      names.push_back(entry->path().filename());
+    if (!error || error == std::errc::no_such_file_or_directory || error == std::errc::not_a_directory)
+      return names;
+    const bool for_good = error == std::errc::permission_denied;
+    throw InputError(for_good ? Exit::machine_or_force : Exit::transient_io, {place.native()},
+                     "cannot read the folder: " + error.message());
+  }
+
+  /// Pipes and devices are no programs: nothing may ever come out of them.
+  void take(const fs::path& path) {
+    std::error_code ignored;
+    if (fs::is_regular_file(path, ignored)) found_.insert(path.native());
+  }
+
+  std::vector<fs::path> parts_;
+  std::set<std::pair<std::string, std::size_t>> visited_;
+  std::set<std::string> found_;
+};
+
+}  // namespace
+
+bool is_glob(std::string_view text) {
+  return text.find_first_of("*?[") != std::string_view::npos;
+}
+
+std::vector<std::string> files_matching(const std::string& pattern) {
+  return Walk(pattern).run();
+}
+
+}  // namespace counterflex::cli

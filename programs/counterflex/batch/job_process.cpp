@@ -1,0 +1,98 @@
+#include "batch/job_process.hpp"
+
+#include <fmt/format.h>
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <charconv>
+
+#include "counterflex/files/input_error.hpp"
+#include "process/guarded.hpp"
+#include "run/compensate.hpp"
+
+namespace counterflex::cli {
+namespace {
+
+constexpr std::string_view line_word = "line ", solved_word = "solved ", outcome_word = "outcome ";
+
+void note_report(const Run& run, const RunEnd& end, const RunFiles& files, JobOutcome& outcome) {
+  const RunReport& report = end.report;
+  for (const InputFile& input : run.facts.inputs) outcome.inputs.push_back({input.path, input.sha256});
+  outcome.outputs = files.published();
+  if (report.before) outcome.before_mm = report.before->max_mm;
+  if (report.after) outcome.after_mm = report.after->max_mm;
+  outcome.corrected_percent = report.corrected_percent;
+  outcome.verdict = to_string(report.verdict);
+  outcome.verdict_reason = report.verdict_reason;
+  outcome.warnings = report.warnings.count;
+  outcome.moves = report.blocks.moves;
+}
+
+std::size_t count_of(std::string_view text) {
+  std::size_t value = 0;
+  std::from_chars(text.data(), text.data() + text.size(), value);
+  return value;
+}
+
+/// "12 of 200" lines.
+double share_of(std::string_view text) {
+  const std::size_t blank = text.find(' ');
+  const auto all = static_cast<double>(std::max<std::size_t>(1, count_of(text.substr(blank + 1))));
+  return std::min(1.0, static_cast<double>(count_of(text.substr(0, blank))) / all);
+}
+
+}  // namespace
+
+void do_job(const BatchJob& job, int threads, const SendLine& send) {
+  JobOutcome outcome = outcome_for(job);
+  Options options = job.options;
+  options.hash_outputs = true;
+  options.threads = std::min(threads, options.threads);
+  Console console(
+      {options.quiet, options.verbose},
+      {.error =
+           [&](std::string_view diagnostic) {
+             if (outcome.error.empty()) outcome.error = with_file(std::string(diagnostic), job.program);
+           },
+       .solving = [&](int line, int lines) { send(fmt::format("{}{} {}", line_word, line, lines)); },
+       .solved = [&](std::size_t waypoints) { send(fmt::format("{}{}", solved_word, waypoints)); }});
+  outcome.exit = guarded(console, [&] {
+    return compensate_program(options, console,
+                              [&](const Run& run, const RunEnd& end, const RunFiles& files) {
+                                note_report(run, end, files, outcome);
+                                return exit_of(run, end.report, console);
+                              });
+  });
+  console.finish_warnings();
+  send(fmt::format("{}{}", outcome_word, to_json_line(outcome)));
+}
+
+JobNews news_of(std::string_view line) {
+  const auto rest = [&](std::string_view word) { return line.substr(word.size()); };
+  if (line.starts_with(line_word)) return {.done = share_of(rest(line_word))};
+  if (line.starts_with(solved_word)) return {.waypoints = count_of(rest(solved_word))};
+  if (line.starts_with(outcome_word)) return {.outcome = outcome_of(rest(outcome_word))};
+  return {};
+}
+
+JobOutcome outcome_for(const BatchJob& job) {
+  JobOutcome outcome;
+  outcome.key = job.key;
+  outcome.program = job.program;
+  outcome.output = job.output;
+  return outcome;
+}
+
+JobOutcome lost_outcome(const BatchJob& job, int status) {
+  JobOutcome outcome = outcome_for(job);
+  const int signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
+  const bool broke_down = signal == SIGSEGV || signal == SIGABRT || signal == SIGBUS || signal == SIGFPE ||
+                          signal == SIGILL || (signal == 0 && WEXITSTATUS(status) < 128);
+  outcome.exit = broke_down ? Exit::internal : Exit::transient_io;
+  outcome.error = fmt::format("{}: error: {}the process of this job {}{}", job.program,
+                              broke_down ? "internal error: " : "", ending_text(status),
+                              signal == SIGKILL ? ", perhaps for want of memory" : "");
+  return outcome;
+}
+
+}  // namespace counterflex::cli

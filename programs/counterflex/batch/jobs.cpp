@@ -1,0 +1,192 @@
+#include "batch/jobs.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <set>
+
+#include "batch/globs.hpp"
+#include "counterflex/files/files.hpp"
+#include "counterflex/settings/environment.hpp"
+#include "counterflex/settings/jobs_file.hpp"
+#include "counterflex/settings/project_file.hpp"
+#include "process/version.hpp"
+#include "run/corrected_header.hpp"
+#include "run/inputs.hpp"
+#include "run/outputs.hpp"
+#include "settings/layers.hpp"
+
+namespace counterflex::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<std::string> files_read(const Options& options) {
+  std::vector<std::string> files = options.forces;
+  files.push_back(options.program);
+  files.push_back(options.machine);
+  if (options.tool_table) files.push_back(*options.tool_table);
+  return files;
+}
+
+/// What the environment says; its files are those that it names where the program was called.
+std::vector<Setting> environment_of(const std::string& from) {
+  std::vector<Setting> settings = read_environment(environ);
+  for (Setting& setting : settings)
+    if (setting.option == "machine" || setting.option == "forces" || setting.option == "tool-table")
+      for (std::string& path : setting.values)
+        if (path != "-") path = (fs::path(from) / path).lexically_normal().native();
+  return settings;
+}
+
+/// What decides the bytes of the outputs besides those of the inputs: all options, and all paths,
+/// which reports name.
+std::string key_of(const Layers& layers, const BatchJob& job) {
+  std::string all = fmt::format("counterflex {}\n{}\n{}\n", version, job.program, job.output);
+  for (const Setting& setting : effective_settings(Command::compensate, layers)) {
+    if (setting.option == "threads" || setting.option == "output" || setting.option == "force-overwrite")
+      continue;
+    all += setting.option + '\n';
+    for (const std::string& value : setting.values) all += value + '\n';
+  }
+  return sha256(all);
+}
+
+/// Bytes, and what every run takes to begin. Where causes are asked for, or each waypoint is iterated for,
+/// they take longer. It decides what is done first and where, nothing else.
+double work_of(const BatchJob& job) {
+  constexpr double beginning = 4096, causes = 2.5, nested = 500;
+  std::error_code missing;
+  const auto bytes = fs::file_size(job.program, missing);
+  double work = beginning + (missing ? 0.0 : static_cast<double>(bytes));
+  if (job.options.report || job.options.plot) work *= causes;
+  if (job.options.method == Method::nested) work *= nested;
+  return work;
+}
+
+/// Jobs as they are found, which have to be apart.
+class JobList {
+ public:
+  JobList(const JobsFile& file, const std::vector<Setting>& environment, bool force_overwrite)
+      : file_(file), environment_(environment), force_overwrite_(force_overwrite) {}
+
+  std::vector<BatchJob> take() {
+    for (const JobEntry& entry : file_.jobs)
+      for (const std::string& pattern : entry.programs) add_all(pattern, entry);
+    refuse_shared_files();
+    std::vector<BatchJob> jobs;
+    for (FoundJob& found : found_) jobs.push_back(std::move(found.job));
+    return jobs;
+  }
+
+ private:
+  struct FoundJob {
+    BatchJob job;
+    Location where;
+  };
+
+  void add_all(const std::string& pattern, const JobEntry& entry) {
+    std::error_code ignored;
+    const fs::file_status found = fs::status(pattern, ignored);
+    if (fs::exists(found) && !fs::is_regular_file(found))
+      throw InputError(Exit::machine_or_force, entry.where,
+                       fmt::format("'{}' is no file of a program", pattern));
+    if (!is_glob(pattern) || fs::exists(found)) return add(pattern, entry);
+    std::vector<std::string> programs = files_matching(pattern);
+    std::erase_if(programs, has_corrected_header);
+    if (programs.empty())
+      throw InputError(Exit::machine_or_force, entry.where,
+                       fmt::format("no file, or none that is not corrected already, matches '{}'", pattern));
+    for (const std::string& program : programs) add(program, entry);
+  }
+
+  void add(const std::string& program, const JobEntry& entry) {
+    const Layers layers{entry.settings, file_.defaults, environment_, project_settings(program)};
+    BatchJob job;
+    job.program = program;
+    job.options = options_for(program, layers, entry);
+    job.options.force_overwrite = job.options.force_overwrite || force_overwrite_;
+    job.output = *job.options.output;
+    job.key = key_of(layers, job);
+    job.work = work_of(job);
+    for (const std::string& file : files_read(job.options))
+      if (file == "-")
+        throw InputError(
+            Exit::machine_or_force, entry.where,
+            fmt::format("{}: a job cannot read standard input (-), which is not its own", program));
+    found_.push_back({std::move(job), entry.where});
+  }
+
+  /// A machine that nobody names is the fault of the list.
+  static Options options_for(const std::string& program, const Layers& layers, const JobEntry& entry) {
+    try {
+      return options_of(Command::compensate, layers, program);
+    } catch (const InputError& error) {
+      if (!error.where().file.empty()) throw;
+      throw InputError(Exit::machine_or_force, entry.where, fmt::format("{}: {}", program, error.what()));
+    }
+  }
+
+  /// Programs of one folder have one project file.
+  const std::vector<Setting>& project_settings(const std::string& program) {
+    const auto file = find_project_file(program);
+    if (!file) return none_;
+    const auto [found, is_new] = projects_.try_emplace(*file);
+    if (is_new) found->second = read_project(read_input(*file, Exit::machine_or_force), *file);
+    return found->second;
+  }
+
+  void refuse_shared_files() const {
+    std::set<std::string> inputs, outputs, summaries;
+    for (const char* name : {"/summary.json", "/summary.csv"})
+      summaries.insert(canonical_name(file_.output + name));
+    for (const FoundJob& found : found_)
+      for (const std::string& path : files_read(found.job.options)) inputs.insert(canonical_name(path));
+    for (const FoundJob& found : found_)
+      for (const std::string& path : files_written(found.job)) {
+        const std::string name = canonical_name(path);
+        if (inputs.count(name) > 0)
+          refuse(found, path, "an input of this batch, and inputs are never overwritten");
+        if (summaries.count(name) > 0) refuse(found, path, "the summary of the batch");
+        if (!outputs.insert(name).second)
+          refuse(found, path, "as that of another job is: give one of them another folder or name");
+      }
+  }
+
+  [[noreturn]] static void refuse(const FoundJob& found, const std::string& path, const std::string& why) {
+    throw InputError(Exit::machine_or_force, found.where,
+                     fmt::format("the output of {} would be {}, {}", found.job.program, path, why));
+  }
+
+  const JobsFile& file_;
+  const std::vector<Setting>& environment_;
+  const bool force_overwrite_;
+  const std::vector<Setting> none_{};
+  std::map<std::string, std::vector<Setting>> projects_;
+  std::vector<FoundJob> found_;
+};
+
+}  // namespace
+
+std::vector<std::string> files_written(const BatchJob& job) {
+  std::vector<std::string> files{job.output};
+  if (job.options.report)
+    for (const char* ending : {".html", ".json", ".csv"}) files.push_back(*job.options.report + ending);
+  if (job.options.plot) files.push_back(*job.options.plot);
+  return files;
+}
+
+Batch read_batch(const std::string& file, const std::string& from, const std::vector<Setting>& flags) {
+  const JobsFile jobs_file = read_jobs(read_input(file, Exit::machine_or_force), file);
+  const std::vector<Setting> environment = environment_of(from);
+  Options whole;
+  whole.command = Command::batch;
+  whole = with_settings(std::move(whole), {flags, environment, jobs_file.defaults});
+  return {jobs_file.output, JobList(jobs_file, environment, whole.force_overwrite).take(), whole.threads,
+          whole.force_overwrite};
+}
+
+}  // namespace counterflex::cli

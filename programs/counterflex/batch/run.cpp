@@ -1,0 +1,144 @@
+#include "batch/run.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstddef>
+#include <functional>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+#include "batch/job_process.hpp"
+#include "batch/progress.hpp"
+#include "counterflex/files/input_error.hpp"
+#include "process/signals.hpp"
+#include "process/workers.hpp"
+
+namespace counterflex::cli {
+namespace {
+
+constexpr int tick_ms = 250;
+constexpr int patience_ms = 400;      // for workers that are asked to end
+constexpr int hesitation_ms = 100;    // for a signal that has ended a worker to arrive here, too
+constexpr double large_share = 0.25;  // of what one processor has to do in all
+
+using Clock = std::chrono::steady_clock;
+constexpr std::chrono::milliseconds between_progress(250);
+
+/// Indices of jobs that have no outcome yet, the largest first.
+std::vector<std::size_t> missing_jobs(const BatchManifest& manifest) {
+  std::vector<std::size_t> missing;
+  for (std::size_t job = 0; job < manifest.jobs().size(); ++job)
+    if (!manifest.outcome(job)) missing.push_back(job);
+  std::ranges::stable_sort(missing, std::greater<>(),
+                           [&](std::size_t job) { return manifest.jobs()[job]->work; });
+  return missing;
+}
+
+/// A task of the workers is a place in `missing_`.
+class JobsRun {
+ public:
+  JobsRun(BatchManifest& manifest, int threads, Console& console)
+      : manifest_(manifest),
+        missing_(missing_jobs(manifest)),
+        threads_(threads),
+        console_(console),
+        outcomes_(missing_.size()) {
+    std::vector<double> work;
+    for (std::size_t task = 0; task < missing_.size(); ++task) work.push_back(job(task).work);
+    large_ = large_share * std::accumulate(work.begin(), work.end(), 0.0) / threads_;
+    progress_ = BatchProgress(std::move(work));
+  }
+
+  std::optional<int> run() {
+    while (next_ < missing_.size() || workers_.running() > 0) {
+      start_some();
+      for (const WorkerEvent& event : workers_.wait(signals_.descriptor(), tick_ms)) {
+        hear(event);
+        if (stopped_) break;
+      }
+      if (!stopped_) stopped_ = signals_.take();
+      if (stopped_) {
+        workers_.end_all(patience_ms);
+        return stopped_;
+      }
+      manifest_.save_sometimes();
+      show_progress();
+    }
+    return std::nullopt;
+  }
+
+ private:
+  /// Nobody reads it faster, and there may be an event of every window of every job.
+  void show_progress() {
+    const auto now = Clock::now();
+    if (shown_ && now - *shown_ < between_progress) return;
+    shown_ = now;
+    console_.progress_line(progress_.text());
+  }
+
+  const BatchJob& job(std::size_t task) const { return *manifest_.jobs()[missing_[task]]; }
+  bool is_large(std::size_t task) const { return threads_ > 1 && job(task).work > large_; }
+
+  void start_some() {
+    while (next_ < missing_.size() && static_cast<int>(workers_.running()) < threads_ && !alone_) {
+      alone_ = is_large(next_);
+      if (alone_ && workers_.running() > 0) break;
+      if (!start(next_, alone_ ? threads_ : 1)) break;
+      ++next_;
+    }
+  }
+
+  /// A system that has no more processes may have some when one of these has ended: false.
+  bool start(std::size_t task, int threads) {
+    try {
+      workers_.start(task, [&](const SendLine& send) { do_job(job(task), threads, send); });
+      return true;
+    } catch (const InputError&) {
+      if (workers_.running() == 0) throw;
+      return false;
+    }
+  }
+
+  void hear(const WorkerEvent& event) {
+    if (event.ended) return end(event);
+    JobNews news = news_of(event.line);
+    progress_.add(event.task, news.done, news.waypoints);
+    if (news.outcome) outcomes_[event.task] = std::move(news.outcome);
+  }
+
+  /// The signal that ends this program may have ended the worker first: nothing is wrong with it then.
+  void end(const WorkerEvent& event) {
+    std::optional<JobOutcome>& outcome = outcomes_[event.task];
+    if (!outcome && (stopped_ = signals_.take(hesitation_ms))) return;
+    if (!outcome) outcome = lost_outcome(job(event.task), event.status);
+    if (workers_.running() == 0) alone_ = false;
+    progress_.end(event.task, outcome->exit == Exit::done);
+    if (outcome->exit != Exit::done) console_.error(outcome->error);
+    manifest_.set(missing_[event.task], std::move(*outcome));
+  }
+
+  BatchManifest& manifest_;
+  const std::vector<std::size_t> missing_;
+  const int threads_;
+  Console& console_;
+  const AwaitedSignals signals_;
+  Workers workers_;
+  BatchProgress progress_;
+  std::vector<std::optional<JobOutcome>> outcomes_;  // of those that have sent one
+  std::size_t next_ = 0;                             // task
+  double large_ = 0;
+  bool alone_ = false;  // a large job runs, or waits for the others to end
+  std::optional<int> stopped_;
+  std::optional<Clock::time_point> shown_;  // progress
+};
+
+}  // namespace
+
+std::optional<int> do_missing(BatchManifest& manifest, int threads, Console& console) {
+  return JobsRun(manifest, threads, console).run();
+}
+
+}  // namespace counterflex::cli

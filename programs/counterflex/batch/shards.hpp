@@ -1,0 +1,21 @@
+#pragma once
+/// How the jobs of a batch are shared out.
+#include <string>
+#include <vector>
+
+#include "batch/jobs.hpp"
+
+namespace counterflex::cli {
+
+/// Some jobs of a batch, which outlives the list.
+using BatchJobs = std::vector<const BatchJob*>;
+
+BatchJobs all_jobs(const Batch& batch);
+
+/// The jobs of each of `shards` shards.
+std::vector<BatchJobs> jobs_by_shard(const Batch& batch, int shards);
+
+/// SHA-256 of the keys of all jobs and of how they are shared out.
+std::string plan_of(const std::vector<BatchJobs>& jobs_by_shard);
+
+}  // namespace counterflex::cli

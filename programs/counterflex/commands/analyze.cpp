@@ -1,0 +1,153 @@
+#include <fmt/format.h>
+
+#include "commands/commands.hpp"
+#include "counterflex/files/numbers.hpp"
+#include "counterflex/machine/tool.hpp"
+#include "counterflex/report/analysis.hpp"
+#include "counterflex/statics/tool_models.hpp"
+#include "process/standard_output.hpp"
+#include "process/version.hpp"
+#include "run/inputs.hpp"
+#include "run/outputs.hpp"
+#include "settings/values.hpp"
+
+namespace counterflex::cli {
+namespace {
+
+/// The poses asked for; without an orientation, home's.
+std::vector<Pose> wanted_poses(const Options& options, const Model& model) {
+  const Matrix3 R_home = tip(model.mechanism, model.home).R;
+  std::vector<Pose> poses;
+  for (const std::string& text : options.analyze.at) {
+    const PoseText at = pose_of("--at", text);
+    poses.push_back(at.has_orientation ? at.X : Pose{R_home, at.X.p});
+  }
+  return poses;
+}
+
+/// What `--at` says of components that the machine does not control, and where it stands instead.
+void warn_of_uncontrolled(const PoseAnalysis& pose, const Pose& asked, const std::string& at,
+                          Console& console) {
+  const Vector6 difference = deviation(pose.X_MT, asked);
+  const bool turned = pose_of("--at", at).has_orientation && difference.tail<3>().norm() > 1e-9;
+  if (difference.head<3>().norm() < 1e-9 && !turned) return;
+  console.warning(
+      "--at " + at, 0,
+      "the machine does not control all components of this pose; those of the nominal machine are taken");
+}
+
+/// Says which poses were not solved; the exit status that they ask for.
+Exit judge(const AnalysisReport& report, const std::vector<Pose>& asked, const Options& options,
+           Console& console) {
+  Exit exit = Exit::done;
+  for (std::size_t i = 0; i < report.poses.size(); ++i) {
+    const PoseAnalysis& pose = report.poses[i];
+    const bool corrected = !pose.corrected || pose.corrected->status == Status::converged;
+    const Status status =
+        pose.status == Status::converged && !corrected ? pose.corrected->status : pose.status;
+    if (pose.status != Status::converged)
+      console.error(fmt::format("--at {}: error: {}{}", options.analyze.at[i], to_string(pose.status),
+                                pose.why.empty() ? "" : ": " + pose.why));
+    else if (!corrected)
+      console.error(fmt::format("--at {}: error: no target corrects this pose: {}", options.analyze.at[i],
+                                to_string(status)));
+    else
+      warn_of_uncontrolled(pose, asked[i], options.analyze.at[i], console);
+    if (status == Status::converged || exit == Exit::not_compensated) continue;
+    exit = status == Status::outside_travel ? Exit::limit : Exit::not_compensated;
+  }
+  return exit;
+}
+
+/// Throws (Exit::usage) naming the tools that there are.
+const std::pair<const long, Tool>& tool_named(const std::string& text, const Machine& machine) {
+  const std::optional<long> number = read_tool_number(text);
+  if (!number)
+    throw InputError(Exit::usage, {}, fmt::format("--tool is '{}', must be T and its number, as T3", text));
+  std::string known;
+  for (const auto& entry : machine.tools) {
+    if (entry.first == 0) continue;  // no known tool: what [tool] says
+    if (entry.first == *number) return entry;
+    known += fmt::format("{}T{}", known.empty() ? "" : ", ", entry.first);
+  }
+  throw InputError(Exit::usage, {},
+                   fmt::format("--tool {}: the machine file has no such tool; it has {}", text,
+                               known.empty() ? "none" : known));
+}
+
+/// Throws (Exit::usage) where values are wrong or do not belong together; before files are read.
+void check_values(const Options& options) {
+  for (const std::string& text : options.analyze.at) pose_of("--at", text);
+  if (options.analyze.hold) pose_of("--hold", *options.analyze.hold);
+  if (options.analyze.curve) curve_of("--curve", *options.analyze.curve);
+  if (!options.output) return;
+  if (!options.analyze.curve)
+    throw InputError(Exit::usage, {}, "--output of analyze writes the points of --curve, which is not given");
+  if (!options.output->ends_with(".csv"))
+    throw InputError(
+        Exit::usage, {},
+        fmt::format("--output of analyze writes a file that ends in .csv, not '{}'", *options.output));
+  check_output(options, curve_mark);
+}
+
+AnalysisExtras extras_of(const Options& options, const Model& machine, const Model& model) {
+  AnalysisExtras extras{&machine.mechanism, options.analyze.full, {}, {}};
+  if (options.analyze.hold) {
+    const PoseText held = pose_of("--hold", *options.analyze.hold);
+    extras.hold = held.has_orientation ? held.X : Pose{tip(model.mechanism, model.home).R, held.X.p};
+  }
+  if (options.analyze.curve) {
+    const CurveText curve = curve_of("--curve", *options.analyze.curve);
+    extras.curve = CurveRequest{curve.direction, curve.from, curve.to, curve.steps};
+  }
+  return extras;
+}
+
+/// Says which states of --hold and --curve were not found.
+Exit judge_extras(const AnalysisReport& report, const Options& options, Console& console) {
+  Exit exit = Exit::done;
+  const auto fail = [&](const std::string& what) {
+    console.error(what);
+    exit = Exit::not_compensated;
+  };
+  for (std::size_t i = 0; i < report.poses.size(); ++i) {
+    const PoseAnalysis& pose = report.poses[i];
+    if (pose.held && pose.held->status != Status::converged)
+      fail(fmt::format("--hold {}: error: {}: {}", *options.analyze.hold, to_string(pose.held->status),
+                       pose.held->why));
+    if (pose.curve && pose.curve->status != Status::converged)
+      fail(fmt::format("--curve {}: error: {} at --at {}: {} of {} points were found", *options.analyze.curve,
+                       to_string(pose.curve->status), options.analyze.at[i], pose.curve->points.size(),
+                       report.curve->steps + 1));
+  }
+  return exit;
+}
+
+void write_curve(const AnalysisReport& report, const Options& options) {
+  if (!options.output) return;
+  FileWriter file(*options.output);
+  file.write(to_csv(report));
+  publish_together({&file});
+}
+
+}  // namespace
+
+Exit run_analyze(const Options& options, Console& console) {
+  check_values(options);
+  const MachineInput input = read_machine_input(options);
+  const Load load{options.analyze.force.value_or(Vector6::Zero()), false};
+  console.progress("solving");
+  const auto* tool = options.analyze.tool ? &tool_named(*options.analyze.tool, input.machine) : nullptr;
+  const Model with_tool = tool ? prepare_with_tool(input.machine, input.model, tool->second) : Model{};
+  const Model& model = tool ? with_tool : input.model;
+  const std::vector<Pose> asked = wanted_poses(options, model);
+  AnalysisReport report =
+      analyze(model, asked, load, options.method, version, extras_of(options, input.model, model));
+  if (tool) report.tool = fmt::format("tool T{}: {}", tool->first, stiffness_phrase(tool->second));
+  write_result(options.json ? to_json(report) : to_text(report));
+  write_curve(report, options);
+  const Exit exit = judge(report, asked, options, console), extras = judge_extras(report, options, console);
+  return exit == Exit::done ? extras : exit;
+}
+
+}  // namespace counterflex::cli

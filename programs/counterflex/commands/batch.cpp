@@ -1,0 +1,181 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <exception>
+#include <filesystem>
+
+#include "batch/estimate.hpp"
+#include "batch/folder.hpp"
+#include "batch/jobs.hpp"
+#include "batch/manifest.hpp"
+#include "batch/merge.hpp"
+#include "batch/run.hpp"
+#include "batch/shards.hpp"
+#include "commands/commands.hpp"
+#include "counterflex/batch/summary.hpp"
+#include "counterflex/files/file_writer.hpp"
+#include "counterflex/files/files.hpp"
+#include "counterflex/settings/project_file.hpp"
+#include "process/signals.hpp"
+#include "process/standard_output.hpp"
+#include "process/version.hpp"
+#include "run/outputs.hpp"
+
+namespace counterflex::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t rows_shown = 30;
+
+/// Paths of a jobs file, and so those in reports, are relative to its folder, from wherever it is called.
+std::string enter_folder_of(const std::string& file, Console& console) {
+  if (file == "-")
+    throw InputError(Exit::usage, {},
+                     "a jobs file has a folder, to which its paths are relative: not standard input");
+  refuse_special_file(file);
+  const fs::path path(file);
+  if (!path.has_parent_path()) return file;
+  std::error_code error;
+  fs::current_path(path.parent_path(), error);
+  if (error) throw InputError(Exit::machine_or_force, {file}, "cannot read the file: " + error.message());
+  console.detail(fmt::format("in {}/", path.parent_path().native()));
+  return path.filename().native();
+}
+
+void check_flags(const Options& options) {
+  const int asked =
+      (options.batch.merge ? 1 : 0) + (options.batch.shard ? 1 : 0) + (options.batch.estimate ? 1 : 0);
+  if (asked > 1) throw InputError(Exit::usage, {}, "--shard, --merge and --estimate exclude each other");
+  if (options.batch.resume && (options.batch.merge || options.batch.estimate))
+    throw InputError(Exit::usage, {}, "--resume goes with a run or a --shard of it");
+}
+
+/// Before anything is done: what somebody else wrote under the names of a batch stays.
+void refuse_foreign_summary(const Batch& batch) {
+  if (batch.force_overwrite) return;
+  refuse_foreign({marked_file(batch.folder + "/summary.json", "\"counterflex-batch 1\""),
+                  marked_file(batch.folder + "/summary.csv", summary_columns)});
+}
+
+void write_summary(const Batch& batch, const std::vector<JobOutcome>& outcomes, const std::string& json) {
+  FileWriter json_file(batch.folder + "/summary.json"), csv_file(batch.folder + "/summary.csv");
+  json_file.write(json);
+  csv_file.write(summary_csv(outcomes));
+  publish_together({&json_file, &csv_file});
+}
+
+/// From here on until all have ended there is none: the table of an earlier run would be taken for this
+/// one's.
+void remove_summary(const Batch& batch) {
+  for (const char* name : {"/summary.json", "/summary.csv"}) {
+    std::error_code error;
+    if (fs::remove(batch.folder + name, error); error)
+      throw InputError(Exit::transient_io, {batch.folder + name},
+                       "cannot remove the file: " + error.message());
+  }
+}
+
+/// An older program under the name that a job which failed would have written is no correction of this one.
+void warn_of_older(const std::vector<JobOutcome>& outcomes, Console& console) {
+  std::error_code ignored;
+  for (const JobOutcome& outcome : outcomes)
+    if (outcome.exit != Exit::done && fs::exists(outcome.output, ignored))
+      console.warning(outcome.output, 0, fmt::format("is of an earlier run: {} failed now", outcome.program));
+}
+
+/// The table is told also where nothing can be written any more: a full disk has no room for it.
+Exit conclude(const Options& options, const Batch& batch, BatchManifest& manifest, Console& console) {
+  const std::vector<JobOutcome> outcomes = manifest.ended();
+  const std::string json = summary_json(outcomes, version);
+  std::exception_ptr unsaved;
+  try {
+    manifest.save();
+    write_summary(batch, outcomes, json);
+  } catch (const InputError&) {
+    unsaved = std::current_exception();
+  }
+  warn_of_older(outcomes, console);
+  console.finish_warnings();
+  write_result(options.json ? json : summary_table(outcomes, rows_shown));
+  if (unsaved) std::rethrow_exception(unsaved);
+  return exit_of(outcomes);
+}
+
+/// One line that scripts take apart.
+Exit say_estimate(const Batch& batch) {
+  write_result(fmt::format("work_s={:.1f} jobs={}\n", estimated_seconds(batch), batch.jobs.size()));
+  return Exit::done;
+}
+
+/// What need not be done again.
+void take_proven(const Options& options, const BatchFolder& folder, BatchManifest& manifest,
+                 Console& console) {
+  if (!options.batch.resume) return;
+  manifest.take_proven(folder.manifests());
+  console.detail(fmt::format("{} of {} are proven done", manifest.ended().size(), manifest.jobs().size()));
+}
+
+/// Of a run that was stopped: what it has done is kept.
+Exit saved(BatchManifest& manifest, int signal) {
+  manifest.save();
+  return static_cast<Exit>(status_of(signal));
+}
+
+Exit run_shard(const Options& options, const Batch& batch, Console& console) {
+  const auto [index, count] = *options.batch.shard;
+  const BatchFolder folder(batch, BatchFolder::Use::shared, console);
+  folder.make_state("shards");
+  const std::vector<BatchJobs> by_shard = jobs_by_shard(batch, count);
+  const BatchJobs& jobs = by_shard[static_cast<std::size_t>(index - 1)];
+  BatchManifest manifest(shard_manifest(folder, index, count), plan_of(by_shard), jobs);
+  take_proven(options, folder, manifest, console);
+  const auto stopped = do_missing(manifest, batch.threads, console);
+  if (stopped) return saved(manifest, *stopped);
+  manifest.save();
+  const std::vector<JobOutcome> outcomes = manifest.ended();
+  const auto failed = std::count_if(outcomes.begin(), outcomes.end(),
+                                    [](const JobOutcome& o) { return o.exit != Exit::done; });
+  write_result(fmt::format("shard {} of {}: {} jobs, {} failed\n", index, count, jobs.size(), failed));
+  return exit_of(outcomes);
+}
+
+Exit run_merge(const Options& options, const Batch& batch, Console& console) {
+  const BatchFolder folder(batch, BatchFolder::Use::alone, console);
+  BatchManifest manifest(folder.state("manifest.json"), plan_of({all_jobs(batch)}), all_jobs(batch));
+  if (has_shards(folder)) remove_summary(batch);
+  merge_shards(batch, folder, manifest);
+  const Exit exit = conclude(options, batch, manifest, console);
+  if (exit == Exit::done || fails_again(exit)) remove_shards(folder);  // else another try would want them
+  return exit;
+}
+
+Exit run_all(const Options& options, const Batch& batch, Console& console) {
+  const BatchFolder folder(batch, BatchFolder::Use::alone, console);
+  BatchManifest manifest(folder.state("manifest.json"), plan_of({all_jobs(batch)}), all_jobs(batch));
+  take_proven(options, folder, manifest, console);
+  remove_summary(batch);
+  const auto stopped = do_missing(manifest, batch.threads, console);
+  folder.sweep();
+  if (stopped) return saved(manifest, *stopped);
+  const Exit exit = conclude(options, batch, manifest, console);
+  remove_shards(folder);  // of an earlier try, which nobody will finish
+  return exit;
+}
+
+}  // namespace
+
+Exit run_batch(const Options& options, Console& console) {
+  check_flags(options);
+  std::error_code gone;
+  const std::string from = fs::current_path(gone).native();
+  Batch batch = read_batch(enter_folder_of(options.batch.jobs, console), from, options.sources.flags);
+  for (BatchJob& job : batch.jobs) job.options.quiet = !options.verbose;  // the table counts their warnings
+  if (options.batch.estimate) return say_estimate(batch);
+  refuse_foreign_summary(batch);
+  if (options.batch.shard) return run_shard(options, batch, console);
+  return options.batch.merge ? run_merge(options, batch, console) : run_all(options, batch, console);
+}
+
+}  // namespace counterflex::cli

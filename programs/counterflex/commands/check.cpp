@@ -1,0 +1,73 @@
+#include "commands/check.hpp"
+
+#include <fmt/format.h>
+
+#include <optional>
+
+#include "commands/commands.hpp"
+#include "counterflex/files/shown_text.hpp"
+#include "counterflex/report/formats.hpp"
+#include "process/standard_output.hpp"
+#include "run/outputs.hpp"
+#include "run/sanity.hpp"
+
+namespace counterflex::cli {
+namespace {
+
+bool is_machine(const std::string& path) {
+  return path.ends_with(".toml");
+}
+
+Checked check_file(const std::string& path, const Options& options, const MachineInput* machine,
+                   Console& console) {
+  try {
+    return is_machine(path) ? check_machine(path, options, console)
+                            : check_program(path, options, machine, console);
+  } catch (const InputError& error) {
+    console.error(error.what());
+    return {"", "", {{"file", path}, {"error", error.what()}}, error.exit()};
+  }
+}
+
+}  // namespace
+
+void add_sanity(const SanityChecks& checks, const Machine& machine, Checked& checked, Console& console) {
+  checked.sanity = sanity_block(checks, console.colour_out(), console.marks_out());
+  checked.json["sanity"] = nlohmann::ordered_json::parse(to_json(checks));
+  try {
+    refuse_wrong(checks, machine);
+  } catch (const InputError& error) {
+    console.error(error.what());
+    checked.exit = error.exit();
+  }
+}
+
+std::string row(std::string_view what, std::string_view said) {
+  return fmt::format("{:<12} {}\n", what, said);
+}
+
+Exit run_check(const Options& options, Console& console) {
+  std::optional<MachineInput> machine;
+  if (!options.machine.empty()) {
+    machine = read_machine_input(options);
+    take_lengths(read_tool_lengths(options, &machine->machine), machine->machine);
+  }
+  nlohmann::ordered_json files = nlohmann::ordered_json::array();
+  Exit exit = Exit::done;
+  std::string text;
+  for (const std::string& path : options.check.files) {
+    Checked checked = check_file(path, options, machine ? &*machine : nullptr, console);
+    if (exit == Exit::done) exit = checked.exit;
+    if (!checked.text.empty())
+      text += (text.empty() ? "" : "\n\n") + lines_without_controls(checked.text) + checked.sanity;
+    files.push_back(std::move(checked.json));
+  }
+  console.finish_warnings();
+  if (options.json)
+    write_result(nlohmann::ordered_json{{"schema", "counterflex-check 1"}, {"files", files}}.dump(2) + "\n");
+  else
+    write_painted_result(text);
+  return exit;
+}
+
+}  // namespace counterflex::cli

@@ -1,0 +1,237 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <optional>
+
+#include "commands/check.hpp"
+#include "commands/check_plan.hpp"
+#include "counterflex/compensation/travel_words.hpp"
+#include "counterflex/geometry/units.hpp"
+#include "counterflex/sanity/path_checks.hpp"
+#include "run/sanity.hpp"
+#include "run/work.hpp"
+
+namespace counterflex::cli {
+namespace {
+
+constexpr double inf = std::numeric_limits<double>::infinity();
+
+/// What the moves of a program add up to; lengths in mm, program coordinates.
+struct MoveFacts {
+  std::size_t rapids = 0, feeds = 0, without_feed = 0, with_force = 0;
+  Vector3 least = Vector3::Constant(inf), most = Vector3::Constant(-inf);
+  double slowest = inf, fastest = 0;  ///< mm/min
+  std::vector<std::string> offsets;
+  std::vector<LengthUnit> units;
+};
+
+template <typename T>
+void add_once(std::vector<T>& list, const T& value) {
+  if (std::find(list.begin(), list.end(), value) == list.end()) list.push_back(value);
+}
+
+void add_move(const Program& program, const Move& move, MoveFacts& facts) {
+  ++(move.motion == Motion::feed ? facts.feeds : facts.rapids);
+  const bool whole_way = move.arc && all_known(move.known_start) && all_known(move.known_end);
+  const Extent extent = whole_way ? extent_of(move) : Extent{move.end_mm, move.end_mm};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto i = static_cast<Eigen::Index>(axis);
+    if (!move.known_end[axis]) continue;
+    facts.least[i] = std::min(facts.least[i], extent.least[i]);
+    facts.most[i] = std::max(facts.most[i], extent.most[i]);
+  }
+  add_once(facts.offsets, program.frames[move.frame].work_offset);
+  add_once(facts.units, move.unit);
+  facts.with_force += move.force.has_value();
+  if (move.motion != Motion::feed) return;
+  facts.without_feed += move.feed_mm_min <= 0;
+  if (move.feed_mm_min <= 0) return;
+  facts.slowest = std::min(facts.slowest, move.feed_mm_min);
+  facts.fastest = std::max(facts.fastest, move.feed_mm_min);
+}
+
+/// What is found of a program, window by window.
+struct ProgramFacts {
+  Overview overview;
+  MoveFacts moves;
+  MotionPlanner planner;
+  bool corrected = false;
+  PathEnd end;
+};
+
+ProgramFacts facts_of(ProgramReader reader) {
+  ProgramFacts facts;
+  for (bool first = true; reader.next(); first = false) {
+    const Program& window = reader.window();
+    if (first) facts.corrected = is_corrected(window);
+    add_window(facts.overview, window);
+    facts.planner.add(window);
+    for (const Move& move : window.moves) add_move(window, move, facts.moves);
+    facts.end = build_toolpath(window, one_frame(window, {}), facts.end).end;
+  }
+  return facts;
+}
+
+std::string units_text(const MoveFacts& facts) {
+  std::string text;
+  for (const LengthUnit unit : facts.units) {
+    text += text.empty() ? "" : " and ";
+    text += unit == LengthUnit::millimetres ? "mm" : "inch";
+  }
+  return text.empty() ? "no move says" : text;
+}
+
+std::string feeds_text(const MoveFacts& facts) {
+  std::string text = facts.fastest == 0
+                         ? "none programmed"
+                         : fmt::format("{:.6g} to {:.6g} mm/min", facts.slowest, facts.fastest);
+  if (facts.without_feed > 0) text += fmt::format("; {} feed moves without F", facts.without_feed);
+  return text;
+}
+
+std::string extents_text(const MoveFacts& facts) {
+  std::string text;
+  for (int i = 0; i < 3; ++i) {
+    text += fmt::format("{}{} ", i == 0 ? "" : ", ", "XYZ"[i]);
+    text += facts.least[i] > facts.most[i] ? "unknown"
+                                           : fmt::format("{:.6g} to {:.6g}", facts.least[i], facts.most[i]);
+  }
+  return text + " mm";
+}
+
+std::string offsets_text(const MoveFacts& facts) {
+  std::string text;
+  for (const std::string& offset : facts.offsets) {
+    text += text.empty() ? "" : ", ";
+    text += offset.empty() ? "none selected" : offset;
+  }
+  return text.empty() ? "none selected" : text;
+}
+
+std::string text_of(const ProgramFacts& facts) {
+  const Overview& program = facts.overview;
+  const MoveFacts& moves = facts.moves;
+  std::string text = row("file", program.file) + row("program", fmt::format("dialect {}", program.dialect));
+  text += row("units", units_text(moves));
+  text += row("blocks", fmt::format("{}, of them {} moves: {} feeds, {} rapids", program.blocks,
+                                    program.moves, moves.feeds, moves.rapids));
+  text +=
+      row("cutting", fmt::format("{:.6g} mm, {:.6g} s at programmed feeds", facts.end.s / mm, facts.end.t));
+  text += row("feeds", feeds_text(moves));
+  text += row("extents", extents_text(moves));
+  text += row("offsets", offsets_text(moves));
+  if (moves.with_force > 0)
+    text += row("forces", fmt::format("FORCE comments act on {} moves", moves.with_force));
+  if (facts.corrected) text += row("header", "COUNTERFLEX 1: a corrected program, not compensated again");
+  text += plan_text(facts.planner.plan());
+  if (!program.remarks.empty()) text += "\nremarks\n";
+  for (const Remark& remark : program.remarks)
+    text += fmt::format("  line {:<6} {}\n", remark.line, remark.what);
+  return text;
+}
+
+nlohmann::ordered_json extent_json(double value) {
+  if (!std::isfinite(value)) return nullptr;
+  return value;
+}
+
+nlohmann::ordered_json json_of(const ProgramFacts& facts) {
+  const Overview& program = facts.overview;
+  const MoveFacts& moves = facts.moves;
+  nlohmann::ordered_json json{{"file", program.file},         {"kind", "program"},
+                              {"dialect", program.dialect},   {"units", units_text(moves)},
+                              {"corrected", facts.corrected}, {"blocks", program.blocks},
+                              {"moves", program.moves},       {"feeds", moves.feeds},
+                              {"rapids", moves.rapids},       {"cutting_mm", facts.end.s / mm},
+                              {"cutting_s", facts.end.t},     {"offsets", moves.offsets}};
+  auto& extents = json["extents_mm"] = nlohmann::ordered_json::object();
+  for (int i = 0; i < 3; ++i)
+    extents[std::string(1, "xyz"[i])] = {extent_json(moves.least[i]), extent_json(moves.most[i])};
+  json["plan"] = plan_json(facts.planner.plan());
+  json["left_alone_count"] = program.left_alone.count;
+  json["left_alone"] = json["remarks"] = nlohmann::ordered_json::array();
+  for (const LeftAlone& block : program.left_alone.rows)
+    json["left_alone"].push_back({{"line", block.line}, {"why", block.why}});
+  for (const Remark& remark : program.remarks)
+    json["remarks"].push_back({{"line", remark.line}, {"what", remark.what}});
+  return json;
+}
+
+/// What stops the nominal machine from going to a place in a move of `line`. `base`: the machine without a
+/// tool.
+std::optional<Failure> go_to(NominalToolPath& nominal, const Model& base, const CommandedPlace& at,
+                             const Program& window, int line) {
+  const Status status = nominal.go_to(at.model, at.target);
+  if (status != Status::converged)
+    return Failure{Exit::not_compensated, line,
+                   fmt::format("the machine does not reach the end of this move: {}", to_string(status)), 0,
+                   status};
+  if (within_travel(at.model.mechanism, actuator_values(at.model.mechanism, nominal.configuration())))
+    return std::nullopt;
+  if (const auto word = integer_word_in_doubt(window, line))
+    return Failure{Exit::program_text, word->line, word->what};
+  return Failure{Exit::limit, line, outside_travel_words(base.mechanism, at), 0, Status::outside_travel};
+}
+
+/// The first place, end of a line or on an arc, that the nominal machine does not reach.
+std::optional<Failure> first_unreached(const Model& base, const ToolModels& tools,
+                                       const std::vector<WorkFrame>& frames, ProgramReader reader,
+                                       TravelTally& travel) {
+  NominalToolPath nominal(home_of(base));
+  while (reader.next())
+    for (const Segment& segment : build_toolpath(reader.window(), frames).segments) {
+      const long tool = reader.window().moves[segment.move].tool;
+      const Model& model = model_with(base, &tools, tool);
+      const std::vector<Vector3> points = points_along(segment.wanted);
+      for (std::size_t i = 1; i < points.size(); ++i) {
+        const CommandedPlace at{model, frames[segment.frame], tool, points[i]};
+        if (const auto failure = go_to(nominal, base, at, reader.window(), segment.line)) return failure;
+        travel.add(model.mechanism, actuator_values(model.mechanism, nominal.configuration()), segment.line);
+      }
+    }
+  return std::nullopt;
+}
+
+void check_reach(const Overview& program, ProgramReader reader, const MachineInput& input,
+                 const ToolLengths& lengths, Checked& checked, Console& console) {
+  const WorkPlace work = place_work(input.machine, input.model, shown_name(input.file.path), program);
+  if (!work.assumption.empty()) console.warning(program.file, 0, work.assumption);
+  const ToolModels tools = prepare_tools(input.machine, input.model, program.tools);
+  TravelTally travel;
+  const auto failure = first_unreached(input.model, tools, work.frames, std::move(reader), travel);
+  checked.json["reached"] = !failure;
+  checked.text +=
+      row("reach", failure ? fmt::format("line {}: {}", failure->line, failure->what)
+                           : fmt::format("{} reaches the ends of all moves", shown_name(input.file.path)));
+  SanityChecks sanity = program_sanity({input, tools, lengths, work, program});
+  sanity.push_back(check_travel(input.model.mechanism, travel, failure));
+  add_sanity(sanity, input.machine, checked, console);
+  if (!failure) return;
+  checked.exit = failure->exit;
+  console.error(located(program.file, *failure));
+}
+
+}  // namespace
+
+Checked check_program(const std::string& path, const Options& options, const MachineInput* machine,
+                      Console& console) {
+  const Machine* of = machine != nullptr ? &machine->machine : nullptr;
+  const ToolLengths lengths = read_tool_lengths(options, of);
+  const ReadOptions read = read_options(options, of, lengths);
+  const std::string name = shown_name(path);
+  ProgramFile file = open_program("program", path);
+  try {
+    const ProgramFacts facts = facts_of(ProgramReader(file.bytes, name, read));
+    Checked checked{text_of(facts), "", json_of(facts), Exit::done};
+    if (machine != nullptr)
+      check_reach(facts.overview, ProgramReader(file.bytes, name, read), *machine, lengths, checked, console);
+    file.bytes.refuse_change();  // it was read more than once
+    return checked;
+  } catch (const InputError& error) {
+    file.bytes.refuse_change();  // what is wrong may be half of another program
+    blame_dialect(error, options, of, name);
+  }
+}
+
+}  // namespace counterflex::cli

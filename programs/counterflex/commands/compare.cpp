@@ -1,0 +1,67 @@
+#include <fmt/format.h>
+
+#include "commands/commands.hpp"
+#include "counterflex/files/file_writer.hpp"
+#include "counterflex/report/comparison.hpp"
+#include "counterflex/report/page.hpp"
+#include "process/standard_output.hpp"
+#include "process/version.hpp"
+#include "run/outputs.hpp"
+#include "run/run.hpp"
+
+namespace counterflex::cli {
+namespace {
+
+void name_runs(const Options& options, ReportFile& a, ReportFile& b) {
+  if (options.compare.names.empty()) return tell_apart(a, b);
+  if (options.compare.names.size() != 2)
+    throw InputError(
+        Exit::usage, {},
+        fmt::format("--name is given {} times; it is for both runs or for none, in the order of the reports",
+                    options.compare.names.size()));
+  a.name = options.compare.names[0];
+  b.name = options.compare.names[1];
+}
+
+PageRun page_run(const ReportFile& file) {
+  PageRun run;
+  run.name = file.name;
+  run.report = file.report;
+  if (!file.curves.empty()) run.curves = file.curves;
+  if (!file.loads.empty()) run.loads = file.loads;
+  return run;
+}
+
+void write_files(const ComparisonPaths& paths, const std::string& json, const std::string& conclusion,
+                 const ReportFile& a, const ReportFile& b) {
+  FileWriter document(paths.json), page(paths.page);
+  document.write(json);
+  write_page(
+      a.name + " and " + b.name, {page_run(a), page_run(b)}, [&](std::string_view part) { page.write(part); },
+      conclusion);
+  publish_together({&document, &page});
+}
+
+}  // namespace
+
+Exit run_compare(const Options& options, Console& console) {
+  refuse_stdin_twice(options);
+  const ComparisonPaths paths = comparison_paths(options);
+  const WithCurves with = options.report ? WithCurves::yes : WithCurves::no;
+  ReportFile a = read_report_file(options.compare.reports.front(), with);
+  ReportFile b = read_report_file(options.compare.reports.back(), with);
+  name_runs(options, a, b);
+  for (const ReportFile* file : {&a, &b})
+    if (!file->remark.empty()) console.warning(file->path, 0, file->remark);
+  const Comparison comparison = compare(a, b, version);
+  const std::string json = to_json(comparison);
+  if (options.report) write_files(paths, json, comparison.conclusion, a, b);
+  console.finish_warnings();
+  if (options.json)
+    write_result(json);
+  else
+    write_painted_result(to_text(comparison, console.colour_out()));
+  return Exit::done;
+}
+
+}  // namespace counterflex::cli

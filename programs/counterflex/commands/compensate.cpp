@@ -1,0 +1,13 @@
+#include "run/compensate.hpp"
+
+#include "commands/commands.hpp"
+
+namespace counterflex::cli {
+
+Exit run_compensate(const Options& options, Console& console) {
+  return compensate_program(options, console, [&](const Run& run, const RunEnd& end, const RunFiles& files) {
+    return tell_result(options, run, end, files, console);
+  });
+}
+
+}  // namespace counterflex::cli

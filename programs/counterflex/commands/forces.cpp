@@ -1,0 +1,206 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "commands/commands.hpp"
+#include "commands/forces_table.hpp"
+#include "commands/materials.hpp"
+#include "process/standard_output.hpp"
+#include "run/outputs.hpp"
+#include "run/reading.hpp"
+#include "run/run.hpp"
+#include "run/work.hpp"
+
+namespace counterflex::cli {
+namespace {
+
+/// A program and its forces without a machine: the tool stands along z of the program.
+struct BareRun {
+  ToolLengths tools;
+  ReadOptions read;
+  ProgramFile file;
+  ProgramLook look;
+  ForceInput force_input;
+  WorkPlace work;
+  std::array<bool, 3> ignored{};
+};
+
+/// Whether the way in which the machine's axes lie in the program's changes the forces.
+bool needs_machine_axes(const ForceSource& source, const Overview& program) {
+  const auto needs = [](const ForceRule& rule) {
+    const auto* profile = std::get_if<ForceProfile>(&rule.content);
+    const bool log = profile != nullptr && profile->within && profile->machine_coordinates;
+    return log || (frame_of(rule) == ForceFrame::machine && !is_zero(rule));
+  };
+  return program.commented_force || std::any_of(source.rules.begin(), source.rules.end(), needs);
+}
+
+void warn_of_bare_run(const BareRun& run, const Options& options, Console& console) {
+  const Overview& program = run.look.program;
+  warn_of(program, options.command, console);
+  if (!run.work.assumption.empty()) console.warning(program.file, 0, run.work.assumption);
+  const ForceSource& source = run.force_input.source;
+  if (options.work.empty() && needs_machine_axes(source, program))
+    console.warning(program.file, 0,
+                    "neither a machine nor --work is given: the axes of the machine frame are taken as those "
+                    "of the program");
+  if (const auto cycles = remark_of_cycles(program, source, options.command))
+    console.warning(program.file, cycles->line, cycles->what);
+}
+
+BareRun prepare_bare_run(const Options& options, Console& console) {
+  refuse_stdin_twice(options);
+  console.progress("reading");
+  ToolLengths tools = read_tool_lengths(options, nullptr);
+  const ReadOptions read = read_options(options, nullptr, tools);
+  BareRun run{std::move(tools), read, open_program("program", options.program), {}, {}, {}};
+  run.look = look_through(options, run.file, run.read, nullptr);
+  run.force_input = read_force_input(options);
+  run.work = place_work(options.work, run.look.program);
+  settle_forces({run.file.bytes, run.look.program.file, run.read, run.work.frames, run.ignored},
+                run.force_input.source);
+  warn_of_bare_run(run, options, console);
+  return run;
+}
+
+/// How the tool stands in the middle of every move.
+class ToolAxes {
+ public:
+  explicit ToolAxes(const Run* run) : run_(run) {
+    if (run != nullptr) nominal_.emplace(home_of(run->machine.model));
+  }
+
+  std::vector<Matrix3> along(const Program& window, const Toolpath& path) {
+    if (run_ == nullptr || path.segments.empty()) return {Matrix3::Identity()};
+    std::vector<Matrix3> R_MT;
+    for (const Segment& segment : path.segments) {
+      const Model& model =
+          model_with(run_->machine.model, &run_->tool_models, window.moves[segment.move].tool);
+      nominal_->go_to(model, point_at(segment.wanted, 0.5));  // one that is not reached is not solved here
+      R_MT.push_back(nominal_->orientation());
+    }
+    return R_MT;
+  }
+
+ private:
+  const Run* run_;
+  std::optional<NominalToolPath> nominal_;
+};
+
+/// Feed moves that are no part of the path, because their place is not known: each run of them once.
+class Unplaced {
+ public:
+  void warn(const Program& window, const Toolpath& path, Console& console) {
+    std::size_t next = 0;
+    for (std::size_t m = 0; m < window.moves.size(); ++m) {
+      while (next < path.segments.size() && path.segments[next].move < m) ++next;
+      const Move& move = window.moves[m];
+      const bool placed = next < path.segments.size() && path.segments[next].move == m;
+      const std::string axes = unknown_axes(move);
+      const bool is = !placed && !move.cycle && move.motion == Motion::feed && !axes.empty();
+      if (is && !before_)
+        console.warning(
+            window.file, move.line,
+            "not on a known path: the position in " + axes + " is not known, and no force is told");
+      before_ = is;
+    }
+  }
+
+ private:
+  static std::string unknown_axes(const Move& move) {
+    std::string axes;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      if (!move.known_start[axis] || !move.known_end[axis]) axes += "XYZ"[axis];
+    return axes;
+  }
+
+  bool before_ = false;
+};
+
+/// Where the moves are told.
+class Told {
+ public:
+  Told(const Options& options, const std::string& program, bool at_platform)
+      : program_(program), json_(options.json) {
+    if (options.output) profile_.emplace(*options.output);
+    if (profile_) profile_->write(profile_head(program, at_platform));
+    to_stdout_ = options.output == "-";
+    if (!to_stdout_) page_.emplace("-");
+    say(json_ ? json_head(program) : table_head(program));
+  }
+
+  void add(const MoveForce& move) {
+    say(json_ ? json_row(move, is_first_) : table_row(move));
+    is_first_ = false;
+    cli::add(move, totals_);
+    if (profile_) profile_->write(profile_rows(program_, move));
+  }
+
+  /// Throws `InputError` (Exit::program_text) where a profile would have no row.
+  void finish(Console& console) {
+    if (profile_ && is_first_)
+      throw InputError(Exit::program_text, {program_},
+                       "has no feed move, so that there is no profile to write");
+    say(json_ ? json_foot(totals_) : table_foot(totals_));
+    publish_together({if_any(profile_), if_any(page_)});
+    if (to_stdout_) console.note(table_foot(totals_));
+  }
+
+ private:
+  void say(std::string_view text) {
+    if (page_) page_->write(text);
+  }
+
+  const std::string& program_;
+  bool json_, to_stdout_ = false, is_first_ = true;
+  ForceTotals totals_;
+  std::optional<FileWriter> profile_, page_;
+};
+
+void tell_moves(const PathInput& input, const ForceSource& source, const Run* run, int lines, Told& told,
+                Console& console) {
+  ProgramReader reader(input.bytes, input.name, input.read);
+  ToolAxes tool(run);
+  std::optional<long> block_number;
+  PathEnd end;
+  Unplaced unplaced;
+  while (reader.next()) {
+    ignore_axes(reader.window(), input.ignored);
+    const Toolpath path = build_toolpath(reader.window(), input.frames, end);
+    end = path.end;
+    unplaced.warn(reader.window(), path, console);
+    if (!path.segments.empty())
+      console.progress(fmt::format("line {} of {}", path.segments.front().line, lines));
+    const std::vector<Matrix3> R_MT = tool.along(reader.window(), path);
+    for (const MoveForce& move : move_forces(source, reader.window(), path, R_MT, block_number))
+      told.add(move);
+  }
+  input.bytes.refuse_change();
+  told.finish(console);
+  console.finish_warnings();
+}
+
+}  // namespace
+
+Exit run_forces(const Options& options, Console& console) {
+  if (options.forces_table.materials) {
+    write_result(materials_page(options.json));
+    return Exit::done;
+  }
+  if (options.program.empty()) throw InputError(Exit::usage, {}, "PROGRAM is required, or --materials");
+  check_output(options, profile_mark);
+  if (options.machine.empty()) {
+    BareRun run = prepare_bare_run(options, console);
+    Told told(options, run.look.program.file, acts_at_platform(run.force_input.source));
+    tell_moves({run.file.bytes, run.look.program.file, run.read, run.work.frames, run.ignored},
+               run.force_input.source, nullptr, run.look.program.lines, told, console);
+    return Exit::done;
+  }
+  const auto run = prepare_run(options, console);
+  Told told(options, run->program.file, acts_at_platform(run->force_input.source));
+  tell_moves({run->file.bytes, run->program.file, run->read, run->work.frames, run->ignored},
+             run->force_input.source, run.get(), run->program.lines, told, console);
+  return Exit::done;
+}
+
+}  // namespace counterflex::cli

@@ -1,0 +1,179 @@
+#include "commands/forces_table.hpp"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "counterflex/files/input_error.hpp"
+#include "counterflex/files/numbers.hpp"
+#include "counterflex/geometry/units.hpp"
+
+namespace counterflex::cli {
+namespace {
+
+constexpr int force_decimals = 6, length_decimals = 9;  // of the profile: N, N m and mm
+
+// Of two forces of equal size the first is the largest, however their axes turn.
+constexpr double rounding = 1e-9;
+
+std::string moves_text(const ForceTotals::Sum& sum) {
+  return fmt::format("{} feed move{}, {:.3f} mm", sum.moves, sum.moves == 1 ? "" : "s", sum.length / mm);
+}
+
+nlohmann::ordered_json sum_json(const ForceTotals::Sum& sum) {
+  return {{"moves", sum.moves}, {"length_mm", rounded(sum.length / mm, 6)}};
+}
+
+nlohmann::ordered_json number_or_null(double value, int decimals) {
+  if (value == 0) return nullptr;
+  return rounded(value, decimals);
+}
+
+/// Throws where a profile of steps in the feed frame cannot hold the force of a move.
+void refuse_move(const std::string& program, const MoveForce& move) {
+  const auto refuse = [&](Exit exit, const std::string& why) {
+    throw InputError(exit, {program, move.line, 1}, why);
+  };
+  if (move.comment_altered)
+    refuse(Exit::usage,
+           "a FORCE comment covers this move, which the profile leaves to it, with neither --load-scale nor "
+           "--air-above: give these to the command that reads the profile instead");
+  if (move.comment) return;
+  constexpr std::string_view instead =
+      "give the other commands the forces from which this one has them, or take --json";
+  if (move.only_z)
+    refuse(
+        Exit::machine_or_force,
+        fmt::format("the feed is parallel to the tool axis, and the force of {:.6g} N is not: a profile in "
+                    "the feed frame cannot say it; {}",
+                    move.largest_N, instead));
+  if (move.steps.empty())
+    refuse(Exit::machine_or_force,
+           fmt::format("the force, {:.6g} N at most, changes along this move: a profile of steps in the feed "
+                       "frame cannot say it; {}",
+                       move.largest_N, instead));
+}
+
+}  // namespace
+
+void add(const MoveForce& move, ForceTotals& totals) {
+  const auto count = [&](ForceTotals::Sum& sum) {
+    ++sum.moves;
+    sum.length += move.length;
+  };
+  if (!move.why.empty()) {
+    count(totals.without);
+    return count(totals.why[move.why]);
+  }
+  count(totals.with);
+  totals.only_z += move.only_z;
+  totals.changing += move.changes;
+  if (move.largest_N <= totals.largest_N * (1 + rounding)) return;
+  totals.largest_N = move.largest_N;
+  totals.largest_line = move.line;
+}
+
+std::string table_head(const std::string& program) {
+  return fmt::format(
+      "forces of {}\n"
+      "on the tool, in the middle of every feed move, in the feed frame: x along the feed, z from tip to "
+      "spindle\n\n"
+      "{:>7} {:>5} {:>11} {:>9} {:>7} {:>8} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9}\n",
+      program, "line", "tool", "length_mm", "mm_min", "S", "fz_mm", "fx_N", "fy_N", "fz_N", "mx_Nm", "my_Nm",
+      "mz_Nm");
+}
+
+std::string table_row(const MoveForce& move) {
+  std::string text = fmt::format("{:>7} {:>5} {:>11.3f} {:>9.6g} {:>7.6g} ", move.line,
+                                 move.tool == 0 ? "-" : fmt::format("T{}", move.tool), move.length / mm,
+                                 move.feed_m_s / mm * 60, move.spindle_rpm);
+  text += move.feed_per_tooth == 0 ? fmt::format("{:>8}", "-")
+                                   : fmt::format("{:>8.4f}", move.feed_per_tooth / mm);
+  if (!move.why.empty()) return text + "   none: " + move.why + "\n";
+  for (int i = 0; i < 6; ++i) text += " " + fmt::format("{:>9}", format_fixed(move.F[i], i < 3 ? 2 : 4));
+  if (move.only_z) text += "  along the tool only";
+  if (move.changes) text += "  changes along the move";
+  return text + "\n";
+}
+
+std::string table_foot(const ForceTotals& totals) {
+  std::string text = fmt::format("\nwith a force     {}\n", moves_text(totals.with));
+  if (totals.largest_N > 0)
+    text += fmt::format("  largest force  {:.1f} N, line {}\n", totals.largest_N, totals.largest_line);
+  if (totals.only_z > 0)
+    text += fmt::format(
+        "  {} of them along the tool: sideways there is no direction, and only what is along the tool "
+        "is shown\n",
+        totals.only_z);
+  if (totals.changing > 0)
+    text += fmt::format(
+        "  the force changes along {} of them: what is shown is in the middle, the largest may be "
+        "elsewhere\n",
+        totals.changing);
+  text += fmt::format("without a force  {}\n", moves_text(totals.without));
+  for (const auto& [why, sum] : totals.why) text += fmt::format("  {}: {}\n", why, moves_text(sum));
+  return text;
+}
+
+std::string json_head(const std::string& program) {
+  return fmt::format("{{\n  \"schema\": \"counterflex-move-forces 1\",\n  \"program\": {},\n  \"moves\": [",
+                     nlohmann::json(program).dump());
+}
+
+std::string json_row(const MoveForce& move, bool first) {
+  nlohmann::ordered_json json{{"line", move.line},
+                              {"tool", move.tool},
+                              {"s_mm", rounded(move.s_start / mm, 6)},
+                              {"length_mm", rounded(move.length / mm, 6)},
+                              {"feed_mm_min", number_or_null(move.feed_m_s / mm * 60, 6)},
+                              {"spindle_rpm", number_or_null(move.spindle_rpm, 6)},
+                              {"feed_per_tooth_mm", number_or_null(move.feed_per_tooth / mm, 9)}};
+  if (move.why.empty()) {
+    auto& wrench = json["wrench_N_Nm"] = nlohmann::ordered_json::array();
+    for (int i = 0; i < 6; ++i) wrench.push_back(rounded(move.F[i], force_decimals));
+    json["along_tool_only"] = move.only_z;
+    json["changes_along_move"] = move.changes;
+    json["largest_N"] = rounded(move.largest_N, force_decimals);
+  } else {
+    json["why"] = move.why;
+  }
+  return (first ? "\n    " : ",\n    ") + json.dump();
+}
+
+std::string json_foot(const ForceTotals& totals) {
+  nlohmann::ordered_json reasons = nlohmann::ordered_json::array();
+  for (const auto& [why, sum] : totals.why) {
+    nlohmann::ordered_json entry{{"why", why}};
+    entry.update(sum_json(sum));
+    reasons.push_back(entry);
+  }
+  nlohmann::ordered_json json = sum_json(totals.with);
+  json["largest_N"] = rounded(totals.largest_N, force_decimals);
+  json["largest_line"] = totals.largest_line;
+  return fmt::format("\n  ],\n  \"with_force\": {},\n  \"without_force\": {},\n  \"reasons\": {}\n}}\n",
+                     json.dump(), sum_json(totals.without).dump(), reasons.dump());
+}
+
+std::string profile_head(const std::string& program, bool at_platform) {
+  return fmt::format(
+      "{}{}, a row a feed move, and one where the force steps within it;\n"
+      "# zeros where none acts, nothing where a FORCE comment does.\n"
+      "# frame = feed\n# sense = on_tool\n# at = {}\n# interpolation = step\n"
+      "s_mm, fx_N, fy_N, fz_N, mx_Nm, my_Nm, mz_Nm\n",
+      profile_mark, program, at_platform ? "platform" : "tip");
+}
+
+std::string profile_rows(const std::string& program, const MoveForce& move) {
+  refuse_move(program, move);
+  const auto key = [](double s) { return format_fixed(s / mm, length_decimals); };
+  if (move.comment) return key(move.s_start) + ", , , , , ,\n";
+  std::string text;
+  for (const ForceStep& step : move.steps) {
+    text += key(step.s);
+    for (int i = 0; i < 6; ++i) text += ", " + format_fixed(step.F[i], force_decimals);
+    text += "\n";
+  }
+  return text;
+}
+
+}  // namespace counterflex::cli

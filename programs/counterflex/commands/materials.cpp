@@ -1,0 +1,56 @@
+#include "commands/materials.hpp"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "counterflex/files/numbers.hpp"
+#include "counterflex/forces/read_cutting_model.hpp"
+#include "counterflex/geometry/units.hpp"
+
+namespace counterflex::cli {
+namespace {
+
+std::string materials_text() {
+  std::string text =
+      fmt::format("{:<20} {:>7} {:>7} {:>7} {:>6} {:>6} {:>6}   {}\n{:<20} {:>23} {:>20}\n", "material",
+                  "Ktc", "Krc", "Kac", "Kte", "Kre", "Kae", "of", "", "N/mm2", "N/mm");
+  for (const PublishedCoefficients& published : published_coefficients()) {
+    const CuttingCoefficients& K = published.coefficients;
+    text +=
+        fmt::format("{:<20} {:>7.1f} {:>7.1f} {:>7.1f} {:>6.2f} {:>6.2f} {:>6.2f}   {}, {}\n", published.name,
+                    K.K_tc / N_per_mm2, K.K_rc / N_per_mm2, K.K_ac / N_per_mm2, K.K_te / N_per_mm,
+                    K.K_re / N_per_mm, K.K_ae / N_per_mm, published.material, published.cutter);
+  }
+  text += "\nsources\n";
+  for (const PublishedCoefficients& published : published_coefficients())
+    text += fmt::format("  {:<20} {}\n", published.name, published.source);
+  return text +
+         "\nEdges, coatings and wear change them by tens of percent: measure your own where it matters.\n";
+}
+
+std::string materials_json() {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const PublishedCoefficients& published : published_coefficients()) {
+    const CuttingCoefficients& K = published.coefficients;
+    list.push_back({{"name", published.name},
+                    {"material", published.material},
+                    {"cutter", published.cutter},
+                    {"source", published.source},
+                    {"Ktc_N_mm2", rounded(K.K_tc / N_per_mm2, 6)},
+                    {"Krc_N_mm2", rounded(K.K_rc / N_per_mm2, 6)},
+                    {"Kac_N_mm2", rounded(K.K_ac / N_per_mm2, 6)},
+                    {"Kte_N_mm", rounded(K.K_te / N_per_mm, 6)},
+                    {"Kre_N_mm", rounded(K.K_re / N_per_mm, 6)},
+                    {"Kae_N_mm", rounded(K.K_ae / N_per_mm, 6)}});
+  }
+  return nlohmann::ordered_json{{"schema", "counterflex-materials 1"}, {"materials", list}}.dump(2) + "\n";
+}
+
+}  // namespace
+
+std::string materials_page(bool json) {
+  return json ? materials_json() : materials_text();
+}
+
+}  // namespace counterflex::cli

@@ -1,0 +1,89 @@
+#include <mutex>
+#include <utility>
+
+#include "commands/commands.hpp"
+#include "counterflex/compensation/windows.hpp"
+#include "run/header_hashes.hpp"
+#include "run/run.hpp"
+
+namespace counterflex::cli {
+namespace {
+
+/// What a corrected program holds besides its moves, which are matched later.
+struct CorrectedLook {
+  Overview program;
+  std::string beginning;  ///< text of the first window, which has the header
+};
+
+CorrectedLook look_through_corrected(const Options& options, const Run& run, const ReadOptions& read,
+                                     ProgramFile& file, RunTally& tally) {
+  const std::string name = shown_name(options.verify.corrected);
+  CorrectedLook look;
+  try {
+    file.bytes.hash_along();
+    ProgramReader reader(file.bytes, name, read);
+    bool begun = false;
+    while (reader.next()) {
+      Program& window = reader.window();
+      if (!std::exchange(begun, true)) look.beginning = window.text;
+      ignore_axes(window, run.ignored);
+      add_window(look.program, window);
+      tally.add_corrected(window);
+    }
+  } catch (const InputError& error) {
+    blame_dialect(error, options, &run.machine.machine, name);
+  }
+  file.file.sha256 = sha256(file.bytes);
+  return look;
+}
+
+std::optional<Failure> verify_all(Run& run, ProgramReader& corrected, RunTally& tally, RunFiles& files,
+                                  Console& console) {
+  Windows windows(run, console);
+  std::mutex speaking;
+  const auto read = [&](const Job& job) {
+    const std::lock_guard alone(speaking);
+    windows.check(job);
+  };
+  const auto begun = [&](const Job& job) {
+    const std::lock_guard alone(speaking);
+    windows.warn(job);
+    tally.add_window(job);
+  };
+  const auto solved = [&](const Job& job, const std::vector<Waypoint>& waypoints) {
+    run.load_places.add(job, waypoints);
+    tally.add_waypoints(waypoints, job);
+    files.add_waypoints(waypoints);
+    console.solved(waypoints.size());
+  };
+  const auto done = [](const Job&, const Compensation&) {};
+  return verify_windows(windows.jobs(), run.options.threads, corrected, run.facts.attribution,
+                        {read, begun, solved, done});
+}
+
+}  // namespace
+
+Exit run_verify(const Options& options, Console& console) {
+  const OutputPaths paths = output_paths(options);
+  refuse_foreign_outputs(paths, options);
+  const auto run = prepare_run(options, console);
+  refuse_what_cannot_be_compensated(*run);
+  RunTally tally = tally_for(options, *run);
+  ProgramFile corrected = open_program("corrected", options.verify.corrected);
+  ReadOptions read = run->read;
+  read.dialect = run->program.dialect;  // the original's, whatever the name of the corrected file
+  const CorrectedLook look = look_through_corrected(options, *run, read, corrected, tally);
+  run->facts.inputs.push_back(corrected.file);
+  run->corrected_name = shown_name(options.verify.corrected);
+  for (const std::string& warning : other_inputs_of_header(look.beginning, *run))
+    console.warning(run->corrected_name, 0, warning);
+  RunFiles files(paths, {});
+  corrected.bytes.rewind();
+  ProgramReader reader(corrected.bytes, run->corrected_name, read);
+  const std::optional<Failure> failure = verify_all(*run, reader, tally, files, console);
+  corrected.bytes.refuse_change();
+  return deliver(options, *run, report_verification(run->context(), tally, look.program, failure), tally,
+                 files, console);
+}
+
+}  // namespace counterflex::cli

@@ -1,0 +1,261 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <thread>
+#include <utility>
+
+#include "batch/job_process.hpp"
+#include "batch/jobs.hpp"
+#include "batch/watched_files.hpp"
+#include "commands/commands.hpp"
+#include "counterflex/batch/folder_lock.hpp"
+#include "counterflex/files/input_error.hpp"
+#include "counterflex/files/shown_text.hpp"
+#include "counterflex/files/temporaries.hpp"
+#include "counterflex/files/utf8.hpp"
+#include "process/console.hpp"
+#include "process/signals.hpp"
+#include "process/standard_output.hpp"
+#include "run/corrected_header.hpp"
+#include "run/inputs.hpp"
+#include "run/outputs.hpp"
+#include "settings/layers.hpp"
+#include "settings/output_names.hpp"
+
+namespace counterflex::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+constexpr std::chrono::seconds between_polls{1};
+constexpr std::chrono::seconds retry_after{30};  // of input or output that failed
+constexpr int patience_ms = 700;                 // for a job that is asked to end
+constexpr int hesitation_ms = 100;               // for a signal that ended a job first to arrive here, too
+
+/// What `compensate` does for `program`. Throws `InputError` for settings that are wrong.
+BatchJob job_for(const Options& watch, const std::string& program) {
+  BatchJob job;
+  job.program = program;
+  job.options = options_of(Command::compensate, layers_of(watch.sources, program).layers, program);
+  job.options.quiet = watch.quiet;
+  job.options.verbose = watch.verbose;
+  job.output = job.options.output.value_or(default_output(program));
+  return job;
+}
+
+[[noreturn]] void refuse_shared(const char* option, const std::string& path) {
+  throw InputError(
+      Exit::usage, {},
+      fmt::format("{} of every program would be {}; name a folder, which ends in /, or a pattern, "
+                  "as {{name}}_CF{{ext}}",
+                  option, path));
+}
+
+/// Outputs of different programs must not be one file, nor the program itself.
+void refuse_shared_outputs(const Options& watch) {
+  const BatchJob one = job_for(watch, (fs::path(watch.watch.folder) / "one.nc").string());
+  const BatchJob other = job_for(watch, (fs::path(watch.watch.folder) / "other.nc").string());
+  if (one.output == other.output) refuse_shared("--output", one.output);
+  if (one.options.report && one.options.report == other.options.report)
+    refuse_shared("--report", *one.options.report);
+  if (one.options.plot && one.options.plot == other.options.plot) refuse_shared("--plot", *one.options.plot);
+  if (canonical_name(one.output) == canonical_name(one.program))
+    throw InputError(Exit::usage, {watch.watch.folder},
+                     "corrected programs would replace their originals: name another folder with --output");
+}
+
+/// Reports what is wrong for every program before the first one comes.
+void check_watch(const Options& options) {
+  std::vector<std::string> read = options.forces;
+  read.push_back(options.machine);
+  if (options.tool_table) read.push_back(*options.tool_table);
+  if (std::ranges::find(read, "-") != read.end())
+    throw InputError(Exit::usage, {},
+                     "standard input (-) can be read once, not for every program of a folder");
+  refuse_shared_outputs(options);
+  const MachineInput machine = read_machine_input(options);
+  read_tool_lengths(options, &machine.machine);
+  read_force_input(options);
+}
+
+nlohmann::ordered_json or_null(const std::optional<double>& number) {
+  return number ? nlohmann::ordered_json(*number) : nlohmann::ordered_json();
+}
+
+std::string json_line(const JobOutcome& outcome) {
+  const nlohmann::ordered_json line{
+      {"program", utf8_of_bytes(outcome.program)}, {"output", outcome.output},
+      {"exit", static_cast<int>(outcome.exit)},    {"verdict", outcome.verdict},
+      {"verdict_reason", outcome.verdict_reason},  {"error", outcome.error},
+      {"before_mm", or_null(outcome.before_mm)},   {"after_mm", or_null(outcome.after_mm)}};
+  return line.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+}
+
+std::string mm_text(const std::optional<double>& value, int decimals) {
+  return value ? fmt::format("{:.{}f} mm", *value, decimals) : "-";
+}
+
+std::string text_line(const JobOutcome& outcome) {
+  const std::string reason =
+      outcome.verdict_reason.empty() ? "" : fmt::format(" ({})", outcome.verdict_reason);
+  const std::string begin =
+      fmt::format("{}{}: {}", outcome.verdict, reason, without_controls(outcome.program));
+  if (outcome.exit != Exit::done)
+    return fmt::format("{}: not written (exit status {})\n", begin, static_cast<int>(outcome.exit));
+  return fmt::format("{} -> {}: {} before, {} after\n", begin, without_controls(outcome.output),
+                     mm_text(outcome.before_mm, 3), mm_text(outcome.after_mm, 4));
+}
+
+/// Does the job in a process of its own. A signal ends that process, and then this one.
+JobOutcome outcome_of_process(const BatchJob& job) {
+  const AwaitedSignals signals;
+  Workers workers;
+  workers.start(0, [&](const SendLine& send) { do_job(job, job.options.threads, send); });
+  std::optional<JobOutcome> outcome;
+  while (workers.running() > 0) {
+    for (const WorkerEvent& event : workers.wait(signals.descriptor(), -1)) {
+      if (auto sent = news_of(event.line).outcome) outcome = std::move(sent);
+      if (event.ended && !outcome) outcome = lost_outcome(job, event.status);
+    }
+    const bool is_lost = workers.running() == 0 && outcome->exit != Exit::done;
+    const auto signal = signals.take(is_lost ? hesitation_ms : 0);
+    if (!signal) continue;
+    workers.end_all(patience_ms);
+    sweep_abandoned(files_written(job));
+    end_by(*signal);
+  }
+  sweep_abandoned(files_written(job));
+  return *outcome;
+}
+
+/// One program at a time. Outside of jobs a signal ends the process as ever.
+class Watch {
+ public:
+  Watch(const Options& options, Console& console)
+      : options_(options),
+        console_(console),
+        files_(options.watch.folder, options.watch.patterns),
+        lock_(options.watch.folder, LockKind::exclusive, "counterflex watch") {
+    if (!lock_.locked())
+      console.warning(
+          options.watch.folder, 0,
+          fmt::format("its file system has no locks ({}): a second watch is not refused", lock_.why_not()));
+  }
+
+  Exit run() {
+    files_.poll();
+    do {
+      std::this_thread::sleep_for(between_polls);
+      files_.poll();
+      for (const std::string& path : due()) compensate(path);
+    } while (!options_.watch.once);
+    for (const std::string& path : files_.changing())
+      console_.note(path + ": it is being written; left for the next time\n");
+    return first_failure_;
+  }
+
+ private:
+  /// Complete programs that are not done, and those whose failure may have passed.
+  std::vector<std::string> due() {
+    std::vector<std::string> due;
+    for (const std::string& path : files_.complete()) {
+      retries_.erase(path);
+      if (is_own(path) || is_done(path))
+        files_.set_done(path);
+      else
+        due.push_back(path);
+    }
+    for (const auto& [path, time] : retries_)
+      if (files_.contains(path) && Clock::now() >= time) due.push_back(path);
+    return due;
+  }
+
+  /// Whether the watch wrote it: a corrected program is known by its header, without -o also by its name.
+  bool is_own(const std::string& path) const {
+    const bool named_so = !options_.output && fs::path(path).stem().extension() == ".comp";
+    return named_so || has_corrected_header(path);
+  }
+
+  /// Whether an earlier watch did it. Settings that are wrong are reported when the program is begun.
+  bool is_done(const std::string& path) {
+    if (!files_.is_from_start(path)) return false;
+    try {
+      const BatchJob job = job_for(options_, path);
+      if (!is_corrected_from(job.output, path)) return false;
+      claim_outputs(job);
+      return true;
+    } catch (const InputError&) {
+      return false;
+    }
+  }
+
+  /// Throws `InputError` (Exit::usage) where another program of the folder has one of the outputs.
+  void claim_outputs(const BatchJob& job) {
+    for (const std::string& file : files_written(job)) {
+      const auto owner = owners_.find(canonical_name(file));
+      if (owner == owners_.end() || owner->second == job.program || !files_.contains(owner->second)) continue;
+      throw InputError(
+          Exit::usage, {job.program},
+          fmt::format("its output would be {}, as that of {} is: give one of them another name, or "
+                      "name outputs with {{name}}{{ext}}",
+                      file, owner->second));
+    }
+    for (const std::string& file : files_written(job)) owners_[canonical_name(file)] = job.program;
+  }
+
+  void compensate(const std::string& path) {
+    files_.set_done(path);
+    JobOutcome outcome;
+    outcome.program = path;
+    try {
+      const BatchJob job = job_for(options_, path);
+      claim_outputs(job);
+      outcome = outcome_of_process(job);
+    } catch (const InputError& wrong) {
+      outcome.exit = wrong.exit();
+      outcome.error = wrong.what();
+    }
+    const bool may_pass = outcome.exit == Exit::transient_io;
+    const bool is_reported = may_pass && retries_.contains(path);
+    retries_.erase(path);
+    if (may_pass) retries_[path] = Clock::now() + retry_after;
+    if (!is_reported) report(outcome);
+  }
+
+  void report(const JobOutcome& outcome) {
+    if (first_failure_ == Exit::done) first_failure_ = outcome.exit;
+    if (!outcome.error.empty()) console_.error(outcome.error);
+    write_result(options_.json ? json_line(outcome) : text_line(outcome));
+    std::error_code ignored;
+    if (outcome.exit != Exit::done && fs::is_regular_file(outcome.output, ignored))
+      console_.warning(outcome.output, 0,
+                       fmt::format("is of an earlier run: {} failed now", outcome.program));
+    console_.finish_warnings();
+  }
+
+  const Options& options_;
+  Console& console_;
+  WatchedFiles files_;
+  FolderLock lock_;
+  std::map<std::string, std::string> owners_;  ///< program by output
+  std::map<std::string, Clock::time_point>
+      retries_;  ///< programs whose failure may pass, and when to try again
+  Exit first_failure_ = Exit::done;
+};
+
+}  // namespace
+
+Exit run_watch(const Options& options, Console& console) {
+  check_watch(options);
+  Watch watch(options, console);
+  if (!options.watch.once) console.detail(fmt::format("watching {}", options.watch.folder));
+  return watch.run();
+}
+
+}  // namespace counterflex::cli

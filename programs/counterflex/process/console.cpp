@@ -1,0 +1,153 @@
+#include "process/console.hpp"
+
+#include <fmt/format.h>
+#include <poll.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <utility>
+
+#include "counterflex/files/shown_text.hpp"
+
+namespace counterflex::cli {
+namespace {
+
+constexpr std::size_t warnings_shown = 20;
+
+bool colours_on(int descriptor) {
+  const char* no_colour = std::getenv("NO_COLOR");
+  const char* terminal = std::getenv("TERM");
+  if (no_colour != nullptr && *no_colour != '\0') return false;
+  return ::isatty(descriptor) == 1 && terminal != nullptr && std::string_view(terminal) != "dumb";
+}
+
+/// By the locale that the first of these variables names.
+bool shows_utf8(int descriptor) {
+  if (::isatty(descriptor) != 1) return false;
+  for (const char* name : {"LC_ALL", "LC_CTYPE", "LANG"}) {
+    const char* value = std::getenv(name);
+    if (value == nullptr || *value == '\0') continue;
+    const std::string_view locale(value);
+    return locale.find("UTF-8") != std::string_view::npos || locale.find("utf8") != std::string_view::npos;
+  }
+  return false;
+}
+
+/// Whether standard error takes text now. A terminal that is stopped does not.
+bool is_ready() {
+  pollfd stream{STDERR_FILENO, POLLOUT, 0};
+  return ::poll(&stream, 1, 0) > 0 && (stream.revents & POLLOUT) != 0;
+}
+
+/// What cannot be written to standard error cannot be reported at all: no reason to fail.
+void say(const std::string& text) {
+  std::fputs(text.c_str(), stderr);
+}
+
+/// `word` of a diagnostic in colour, where it first stands as ": word: ", or at the beginning.
+std::string painted(std::string_view diagnostic, std::string_view word, int colour) {
+  std::string text(diagnostic);
+  const std::string marked = fmt::format("{}: ", word);
+  const std::size_t at = text.starts_with(marked) ? 0 : text.find(": " + marked);
+  if (at == std::string::npos) return text;
+  return text.replace(at == 0 ? 0 : at + 2, word.size() + 1,
+                      fmt::format("\033[1;{}m{}:\033[0m", colour, word));
+}
+
+}  // namespace
+
+Console::Console(Loudness loudness, ConsoleListener listener)
+    : listener_(std::move(listener)),
+      quiet_(loudness.quiet),
+      verbose_(loudness.verbose && !loudness.quiet),
+      terminal_(::isatty(STDERR_FILENO) == 1),
+      colour_(colours_on(STDERR_FILENO)),
+      colour_out_(colours_on(STDOUT_FILENO)),
+      marks_out_(shows_utf8(STDOUT_FILENO)),
+      marks_error_(shows_utf8(STDERR_FILENO)) {}
+
+Console::~Console() {
+  erase_progress();
+}
+
+void Console::erase_progress() {
+  if (showing_progress_ && is_ready()) say("\r\033[K");
+  showing_progress_ = false;
+}
+
+void Console::warning(const std::string& file, int line, std::string_view what) {
+  if (quiet_ || ++warnings_[file] > warnings_shown) return;
+  erase_progress();
+  if (terminal_ && ::isatty(STDOUT_FILENO) == 1) shown_.emplace(what);
+  const std::string text = without_controls(line > 0 ? fmt::format("{}:{}: warning: {}", file, line, what)
+                                                     : fmt::format("{}: warning: {}", file, what));
+  say((colour_ ? painted(text, "warning", 35) : text) + "\n");
+}
+
+void Console::more_warnings(const std::string& file, std::size_t count) {
+  if (count > 0) warnings_[file] += count;
+}
+
+void Console::finish_warnings() {
+  erase_progress();
+  for (const auto& [file, count] : warnings_)
+    if (!quiet_ && count > warnings_shown)
+      say(fmt::format("{}: {} more warnings; a report lists them\n", without_controls(file),
+                      count - warnings_shown));
+  warnings_.clear();
+}
+
+void Console::detail(std::string_view what) {
+  if (!verbose_) return;
+  erase_progress();
+  say(without_controls(what) + "\n");
+}
+
+void Console::note(std::string_view text) {
+  if (quiet_) return;
+  erase_progress();
+  say(std::string(text));
+}
+
+void Console::progress(std::string_view what) {
+  progress_line(fmt::format("{} ...", what));
+}
+
+void Console::progress_line(std::string_view line) {
+  if (quiet_ || !terminal_ || !is_ready()) return;
+  erase_progress();
+  say(without_controls(line));
+  showing_progress_ = true;
+}
+
+void Console::solving(int line, int lines) {
+  if (listener_.solving) return listener_.solving(line, lines);
+  progress(fmt::format("solving line {} of {}", line, lines));
+}
+
+void Console::solved(std::size_t waypoints) const {
+  if (listener_.solved) listener_.solved(waypoints);
+}
+
+void Console::error(std::string_view diagnostic) {
+  if (listener_.error) return listener_.error(diagnostic);
+  erase_progress();
+  const std::string text = without_controls(diagnostic);
+  say((colour_ ? painted(text, "error", 31) : text) + "\n");
+}
+
+std::string located(const std::string& file, const Failure& failure) {
+  if (failure.line > 0) return fmt::format("{}:{}:1: error: {}", file, failure.line, failure.what);
+  return fmt::format("{}: error: {}", file, failure.what);
+}
+
+std::string with_file(const std::string& diagnostic, const std::string& file) {
+  return diagnostic.starts_with("error: ") ? file + ": " + diagnostic : diagnostic;
+}
+
+std::string shown_name(const std::string& path) {
+  return path == "-" ? "<stdin>" : without_controls(path);
+}
+
+}  // namespace counterflex::cli

@@ -1,0 +1,143 @@
+#include "process/workers.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <poll.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <cstring>
+
+#include "counterflex/files/input_error.hpp"
+#include "process/signals.hpp"
+
+namespace counterflex::cli {
+namespace {
+
+[[noreturn]] void fail_starting() {
+  throw InputError(Exit::transient_io, {}, fmt::format("cannot start a process: {}", std::strerror(errno)));
+}
+
+void send_line(int pipe, std::string_view line) {
+  std::string text(line);
+  text += '\n';
+  for (std::string_view rest = text; !rest.empty();) {
+    const ssize_t n = ::write(pipe, rest.data(), rest.size());
+    if (n < 0 && errno == EINTR) continue;
+    if (n <= 0) ::_exit(status_of(SIGPIPE));  // nobody listens any more
+    rest.remove_prefix(static_cast<std::size_t>(n));
+  }
+}
+
+/// The child's side: what it does not return from.
+[[noreturn]] void be_worker(pid_t parent, int pipe, const std::function<void(const SendLine&)>& work) {
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (::getppid() != parent) ::_exit(status_of(SIGKILL));  // it has died meanwhile
+  hear_signals_again();
+  try {
+    work([pipe](std::string_view line) { send_line(pipe, line); });
+    std::fflush(nullptr);
+  } catch (...) {  // it would find its way through what is the parent's, and end the other workers
+    ::_exit(1);
+  }
+  ::_exit(0);
+}
+
+int end_of(pid_t process) {
+  int status = 0;
+  while (::waitpid(process, &status, 0) < 0 && errno == EINTR) {
+  }
+  return status;
+}
+
+}  // namespace
+
+/// Who ignores that its children end, as this program's caller may have, is not told how.
+Workers::Workers() {
+  std::signal(SIGCHLD, SIG_DFL);
+}
+
+Workers::~Workers() {
+  end_all(0);
+}
+
+void Workers::start(std::size_t task, const std::function<void(const SendLine&)>& work) {
+  std::array<int, 2> ends{};
+  if (::pipe2(ends.data(), O_CLOEXEC) != 0) fail_starting();
+  std::fflush(nullptr);  // or it would be written twice
+  const pid_t parent = ::getpid();
+  const pid_t process = ::fork();
+  if (process == 0) {
+    ::close(ends[0]);
+    for (const Worker& other : workers_) ::close(other.pipe);
+    be_worker(parent, ends[1], work);
+  }
+  ::close(ends[1]);
+  if (process < 0) {
+    const int why = errno;
+    ::close(ends[0]);
+    errno = why;
+    fail_starting();
+  }
+  workers_.push_back({process, ends[0], task});
+}
+
+/// What `worker` has written so far; false where it has ended.
+bool Workers::read_from(Worker& worker, std::vector<WorkerEvent>& events) {
+  std::array<char, 65536> bytes;
+  const ssize_t n = ::read(worker.pipe, bytes.data(), bytes.size());
+  if (n < 0) return errno == EINTR;
+  worker.unread.append(bytes.data(), static_cast<std::size_t>(n));
+  std::size_t begin = 0;
+  for (std::size_t end; (end = worker.unread.find('\n', begin)) != std::string::npos; begin = end + 1)
+    events.push_back({worker.task, worker.unread.substr(begin, end - begin)});
+  worker.unread.erase(0, begin);
+  return n > 0;
+}
+
+std::vector<WorkerEvent> Workers::wait(int other, int timeout_ms) {
+  std::vector<pollfd> watched;
+  for (const Worker& worker : workers_) watched.push_back({worker.pipe, POLLIN, 0});
+  if (other >= 0) watched.push_back({other, POLLIN, 0});
+  std::vector<WorkerEvent> events;
+  if (::poll(watched.data(), watched.size(), timeout_ms) <= 0) return events;
+  std::vector<Worker> still_running;
+  for (std::size_t i = 0; i < workers_.size(); ++i) {
+    Worker& worker = workers_[i];
+    if (watched[i].revents == 0 || read_from(worker, events)) {
+      still_running.push_back(std::move(worker));
+      continue;
+    }
+    ::close(worker.pipe);
+    events.push_back({worker.task, {}, true, end_of(worker.process)});
+  }
+  workers_ = std::move(still_running);
+  return events;
+}
+
+void Workers::end_all(int patience_ms) {
+  const auto deadline = std::chrono::steady_clock::now() + std::chrono::milliseconds(patience_ms);
+  if (patience_ms > 0)
+    for (const Worker& worker : workers_) ::kill(worker.process, SIGTERM);
+  while (!workers_.empty() && std::chrono::steady_clock::now() < deadline) wait(-1, 10);
+  for (const Worker& worker : workers_) {
+    ::kill(worker.process, SIGKILL);
+    ::close(worker.pipe);
+    end_of(worker.process);
+  }
+  workers_.clear();
+}
+
+std::string ending_text(int status) {
+  if (WIFSIGNALED(status)) return fmt::format("was killed by signal {}", WTERMSIG(status));
+  return fmt::format("ended with status {}", WEXITSTATUS(status));
+}
+
+}  // namespace counterflex::cli

@@ -1,0 +1,68 @@
+#include "run/facts.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "counterflex/files/shown_text.hpp"
+#include "counterflex/geometry/units.hpp"
+#include "process/version.hpp"
+#include "run/header.hpp"
+
+namespace counterflex::cli {
+namespace {
+
+/// Millimetres of what was given in millimetres: 0.005, not 0.0049999999.
+double in_mm(double length) {
+  return std::round(length / mm * 1e12) / 1e12;
+}
+
+std::vector<OptionValue> reading_options(const Options& options, const Run& run) {
+  std::vector<OptionValue> values{{"dialect", run.program.dialect}};
+  if (options.units)
+    values.push_back({"units", std::string(*options.units == LengthUnit::millimetres ? "mm" : "inch")});
+  if (options.integer_words != IntegerWords::unsaid)
+    values.push_back({"integer-words",
+                      std::string(options.integer_words == IntegerWords::units ? "units" : "increments")});
+  if (options.absolute_centres)
+    values.push_back({"arc-centres", std::string(*options.absolute_centres ? "absolute" : "incremental")});
+  if (options.evaluate) values.push_back({"evaluate", true});
+  if (options.expand_subprograms) values.push_back({"expand-subprograms", true});
+  for (const std::string& work : options.work) values.push_back({"work", work});
+  for (const auto& [number, length_mm] : options.tool_lengths_mm)
+    values.push_back({"tool-length", fmt::format("T{}={}", number, length_mm)});
+  return values;
+}
+
+}  // namespace
+
+RunFacts facts_of(const Options& options, const Run& run) {
+  RunFacts facts;
+  facts.version = version;
+  // It takes several times as long as all else of `compensate`, which is not the command that asks for it.
+  facts.attribution =
+      options.command != Command::compensate || options.json || options.report || options.plot;
+  facts.inputs = {run.file.file, run.machine.file};
+  const auto& forces = run.force_input.files;
+  facts.inputs.insert(facts.inputs.end(), forces.begin(), forces.end());
+  if (run.tools.file) facts.inputs.push_back(*run.tools.file);
+  for (InputFile& input : facts.inputs) input.path = without_controls(input.path);
+  facts.min_block_ms = options.min_block_ms;
+  facts.accept_partial = options.accept_partial;
+  facts.options = {{"method", std::string(to_string(options.method))},
+                   {"tolerance-mm", in_mm(run.options.tolerance)},
+                   {"max-correction-mm", in_mm(run.options.max_correction)},
+                   {"load-scale", options.load_scale},
+                   {"blend-mm", in_mm(options.blend)}};
+  for (const ForceRule& rule : options.force_rules) facts.options.push_back({"force", force_rule_text(rule)});
+  if (options.number_pieces) facts.options.push_back({"number-pieces", true});
+  if (options.air_above_mm) facts.options.push_back({"air-above", *options.air_above_mm});
+  if (options.accept_partial) facts.options.push_back({"accept-partial", true});
+  if (options.decimals >= 0) facts.options.push_back({"decimals", static_cast<double>(options.decimals)});
+  for (OptionValue& value : reading_options(options, run)) facts.options.push_back(std::move(value));
+  return facts;
+}
+
+}  // namespace counterflex::cli

@@ -1,0 +1,95 @@
+#include "run/header_hashes.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <sstream>
+
+#include "run/header.hpp"
+
+namespace counterflex::cli {
+namespace {
+
+constexpr std::size_t least_digits = 8;
+
+/// The last word of at least eight hexadecimal digits, in lower case; empty where there is none.
+std::string hash_in(const std::string& line) {
+  std::string found;
+  std::istringstream words(line);
+  for (std::string word; words >> word;) {
+    while (!word.empty() && (word.back() == ')' || word.back() == '\r')) word.pop_back();
+    std::ranges::transform(word, word.begin(), [](unsigned char c) { return std::tolower(c); });
+    if (word.size() >= least_digits && word.find_first_not_of("0123456789abcdef") == std::string::npos)
+      found = word;
+  }
+  return found;
+}
+
+/// Hashes in the lines of the header that begin with `key`.
+std::vector<std::string> hashes_of(const std::string& text, const std::string& key) {
+  std::vector<std::string> hashes;
+  const std::string begin = "COUNTERFLEX 1 " + key + " ";
+  for (std::size_t at = text.find(begin); at != std::string::npos; at = text.find(begin, at + 1)) {
+    std::string hash = hash_in(text.substr(at + begin.size(), text.find('\n', at) - at - begin.size()));
+    if (!hash.empty()) hashes.push_back(std::move(hash));
+  }
+  return hashes;
+}
+
+bool is_hash_of(const std::string& hash, const InputFile& file) {
+  return file.sha256.starts_with(hash);
+}
+
+std::string warning(const std::string& what, const std::string& hash, const std::string& given) {
+  return fmt::format("made for {} (SHA-256 {}...) than {}", what, hash.substr(0, 12), given);
+}
+
+std::string given(const std::string& name, const InputFile& file) {
+  return fmt::format("{} (SHA-256 {}...)", name, file.sha256.substr(0, 12));
+}
+
+/// How the header says that the original was read, where that is otherwise than now.
+std::string other_reading(const std::string& text, const ReadOptions& read) {
+  const std::string begin = "COUNTERFLEX 1 READ WITH ";
+  const std::size_t at = text.find(begin), end = text.find('\n', at);
+  const std::string said =
+      at == std::string::npos ? "" : text.substr(at + begin.size(), end - at - begin.size());
+  std::string missing, more;
+  for (const ReadingWord& word : reading_words(read)) {
+    const bool was = said.find(word.in_header) != std::string::npos;
+    std::string& list = was ? missing : more;
+    if (was != word.acts) list += fmt::format("{}{}", list.empty() ? "" : " ", word.option);
+  }
+  if (missing.empty() && more.empty()) return {};
+  std::string words = "the original was read in another way when this program was made:";
+  if (!missing.empty()) words += fmt::format(" give {} here, too", missing);
+  if (!more.empty()) words += fmt::format("{} leave out {}", missing.empty() ? "" : ", and", more);
+  return words;
+}
+
+}  // namespace
+
+std::vector<std::string> other_inputs_of_header(const std::string& text, const Run& run) {
+  std::vector<std::string> warnings;
+  for (const std::string& hash : hashes_of(text, "MACHINE"))
+    if (!is_hash_of(hash, run.machine.file))
+      warnings.push_back(
+          warning("another machine file", hash, given(run.machine.file.path, run.machine.file)));
+  const auto& forces = run.force_input.files;
+  for (const std::string& hash : hashes_of(text, "FORCES"))
+    if (std::ranges::none_of(forces, [&](const InputFile& file) { return is_hash_of(hash, file); }))
+      warnings.push_back(warning(
+          "another force file", hash,
+          forces.empty() ? "this run, which has no force file" : given(forces.front().path, forces.front())));
+  for (const std::string& hash : hashes_of(text, "TOOLS"))
+    if (!run.tools.file || !is_hash_of(hash, *run.tools.file))
+      warnings.push_back(warning("another tool table", hash,
+                                 run.tools.file ? given(run.tools.file->path, *run.tools.file)
+                                                : "this run, which has no tool table"));
+  const bool has_header = text.find("COUNTERFLEX 1 VERSION") != std::string::npos;
+  if (std::string reading = has_header ? other_reading(text, run.read) : ""; !reading.empty())
+    warnings.push_back(std::move(reading));
+  return warnings;
+}
+
+}  // namespace counterflex::cli

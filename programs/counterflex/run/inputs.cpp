@@ -1,0 +1,207 @@
+#include "run/inputs.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "counterflex/files/files.hpp"
+#include "counterflex/geometry/units.hpp"
+#include "counterflex/machine/read_machine.hpp"
+#include "counterflex/machine/tool_table.hpp"
+#include "settings/values.hpp"
+
+namespace counterflex::cli {
+namespace {
+
+constexpr double largest_condition = 1e6;  // as for waypoints
+
+/// An offset that states no datum keeps that of the machine file.
+void override_work(const Options& options, Machine& machine) {
+  for (const std::string& text : options.work) {
+    const WorkText given = work_of(text);
+    machine.work_is_machine_frame = given.offset.empty();
+    if (machine.work_is_machine_frame) return machine.work.clear();
+    WorkOffset& offset = machine.work[given.offset];
+    offset.X_MW = given.place.X_MW;
+    if (given.place.datum.stated()) offset.datum = given.place.datum;
+  }
+}
+
+std::optional<LengthUnit> unit_of(const Options& options, const Machine* machine) {
+  if (options.units || machine == nullptr || machine->control.units.empty()) return options.units;
+  return machine->control.units == "inch" ? LengthUnit::inches : LengthUnit::millimetres;
+}
+
+/// By extension; standard input is CSV.
+bool is_cutting_model(const std::string& path) {
+  const std::string extension = path == "-" ? ".csv" : std::filesystem::path(path).extension().string();
+  if (extension == ".csv" || extension == ".toml") return extension == ".toml";
+  throw InputError(Exit::usage, {path}, fmt::format("a force file is .csv or .toml, not '{}'", extension));
+}
+
+InputFile input_file(const std::string& role, const std::string& path, const std::string& bytes) {
+  return {role, path, sha256(bytes)};
+}
+
+std::vector<ForceRule> read_cutting_models(const std::string& role, const std::string& path,
+                                           std::vector<InputFile>& files) {
+  const std::string text = read_input(path, Exit::machine_or_force);
+  files.push_back(input_file(role, path, text));
+  return read_force_toml(text, shown_name(path));
+}
+
+/// A profile may be as long as the program: it is not held in memory.
+std::vector<ForceRule> read_profile(const std::string& role, const std::string& path,
+                                    std::vector<InputFile>& files) {
+  refuse_folder(path, Exit::machine_or_force);
+  FileReader bytes = or_unreadable(Exit::machine_or_force, [&] { return FileReader(path); });
+  files.push_back({role, path, or_unreadable(Exit::machine_or_force, [&] { return sha256(bytes); })});
+  std::vector<ForceRule> rules = read_force_csv(bytes, shown_name(path));
+  bytes.refuse_change();  // it was read twice
+  return rules;
+}
+
+}  // namespace
+
+void refuse_home(const Model& model, const Machine& machine) {
+  const Location& home_at = machine.home_at;
+  if (model.home_status != Status::converged)
+    throw InputError(
+        Exit::machine_or_force, home_at,
+        fmt::format("home does not close: its chains miss each other by {:.3g} (m and rad), at most 1e-7 is "
+                    "allowed; check [home], the joints' home values and the chains' lengths",
+                    model.home_gap));
+  if (model.mechanism.travel.empty()) return;
+  const double condition = actuator_jacobian(model, model.home).condition;
+  if (!(condition <= largest_condition))
+    throw InputError(
+        Exit::machine_or_force, home_at,
+        fmt::format("home is singular: the matrix from actuators to the tip has condition {:.3g}, at most "
+                    "1e6 is allowed; give joints other home values (home_deg, home_mm), or [home]",
+                    condition));
+  if (model.gravity_status != Status::converged)
+    throw InputError(
+        Exit::machine_or_force, machine.gravity.reference_at,
+        fmt::format("gravity_reference is \"home\", but the perfect machine cannot be held true there under "
+                    "its own weight: it is {}",
+                    to_string(model.gravity_status)));
+}
+
+MachineInput read_machine_input(const Options& options) {
+  const std::string text = read_input(options.machine, Exit::machine_or_force);
+  const std::string name = shown_name(options.machine);
+  MachineInput input{input_file("machine", options.machine, text), read_machine(text, name), {}};
+  override_work(options, input.machine);
+  input.model = prepare(input.machine);
+  refuse_home(input.model, input.machine);
+  return input;
+}
+
+ToolLengths read_tool_lengths(const Options& options, const Machine* machine) {
+  ToolLengths tools;
+  std::map<long, double> lengths;
+  for (const auto& [number, length_mm] : options.tool_lengths_mm) lengths[number] = length_mm * mm;
+  if (options.tool_table) {
+    const std::string text = read_input(*options.tool_table, Exit::machine_or_force);
+    tools.file = input_file("tool-table", *options.tool_table, text);
+    lengths.merge(read_tool_table(text, shown_name(*options.tool_table)));
+  }
+  if (machine != nullptr)
+    for (const auto& [number, tool] : machine->tools)
+      if (tool.length) lengths.emplace(number, *tool.length);
+  for (const auto& [tool, length] : lengths) tools.mm[tool] = length / mm;
+  return tools;
+}
+
+void take_lengths(const ToolLengths& lengths, Machine& machine) {
+  for (const auto& [number, length_mm] : lengths.mm) {
+    const auto named = machine.tools.find(number);
+    if (named != machine.tools.end())
+      named->second.length = length_mm * mm;
+    else if (machine.X_PS)
+      machine.tools[number] = {.length = length_mm * mm, .in_file = false};
+  }
+}
+
+ReadOptions read_options(const Options& options, const Machine* machine, const ToolLengths& tools) {
+  ReadOptions read;
+  if (machine != nullptr) read.dialect = machine->control.dialect;
+  if (options.dialect) read.dialect = *options.dialect;
+  read.unit = unit_of(options, machine);
+  read.integer_words = options.integer_words;
+  read.absolute_centres =
+      options.absolute_centres.value_or(machine != nullptr && machine->control.absolute_centres);
+  read.evaluate = options.evaluate;
+  read.expand_subprograms = options.expand_subprograms;
+  read.tool_lengths_mm = tools.mm;
+  if (machine != nullptr && machine->control.tool_change_moves) {
+    read.tool_change_moves.emplace();
+    for (const std::string& axis : *machine->control.tool_change_moves)
+      read.tool_change_moves->push_back(axis[0]);
+  }
+  return read;
+}
+
+void blame_dialect(const InputError& error, const Options& options, const Machine* machine,
+                   const std::string& program) {
+  const bool of_dialect = dynamic_cast<const UnknownDialect*>(&error) != nullptr;
+  const bool of_machine = of_dialect && machine != nullptr && !options.dialect;
+  if (!of_machine) throw;
+  throw InputError(
+      Exit::program_text, {program},
+      fmt::format("programs in the machine file's dialect, \"{}\", are not read yet; --dialect names another",
+                  machine->control.dialect));
+}
+
+ProgramInput read_program_input(const std::string& role, const std::string& path, const Options& options,
+                                const Machine* machine, const ReadOptions& read) {
+  std::string text = read_input(path, Exit::usage);
+  const InputFile file = input_file(role, path, text);
+  try {
+    return {file, read_program(std::move(text), shown_name(path), read)};
+  } catch (const InputError& error) {
+    blame_dialect(error, options, machine, shown_name(path));
+  }
+}
+
+ProgramFile open_program(const std::string& role, const std::string& path) {
+  refuse_folder(path, Exit::usage);
+  return {{role, path, {}}, FileReader(path)};
+}
+
+void warn_of(const Overview& program, Command command, Console& console) {
+  const std::string left = command == Command::forces ? "not on a known path: " : "not corrected: ";
+  for (const Remark& remark : program.remarks) console.warning(program.file, remark.line, remark.what);
+  const Capped<LeftAlone>& left_alone = program.left_alone;
+  for (const LeftAlone& block : left_alone.rows) console.warning(program.file, block.line, left + block.why);
+  console.more_warnings(program.file, left_alone.count - left_alone.rows.size());
+}
+
+std::optional<Remark> remark_of_cycles(const Overview& program, const ForceSource& source, Command command) {
+  const bool forces = !source.rules.empty() || program.commented_force;
+  if (!program.first_cycle_line || !forces || source.scale == 0) return std::nullopt;
+  return Remark{*program.first_cycle_line,
+                command == Command::forces ? "holes of cycles have no force, and are not among the feed moves"
+                                           : "holes of cycles are corrected without the cutting force"};
+}
+
+ForceInput read_force_input(const Options& options) {
+  ForceInput input;
+  ForceSource& source = input.source;
+  source.blend = options.blend;
+  source.scale = options.load_scale;
+  source.air_above_mm = options.air_above_mm;
+  for (const std::string& path : options.forces) {
+    const std::string role =
+        input.files.empty() ? "forces" : fmt::format("forces-{}", input.files.size() + 1);
+    auto rules = is_cutting_model(path) ? read_cutting_models(role, path, input.files)
+                                        : read_profile(role, path, input.files);
+    source.rules.insert(source.rules.end(), std::make_move_iterator(rules.begin()),
+                        std::make_move_iterator(rules.end()));
+  }
+  source.rules.insert(source.rules.end(), options.force_rules.begin(), options.force_rules.end());
+  return input;
+}
+
+}  // namespace counterflex::cli

@@ -1,0 +1,264 @@
+#include "run/outputs.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+
+#include "counterflex/files/file_reader.hpp"
+#include "counterflex/files/files.hpp"
+#include "counterflex/files/folders.hpp"
+#include "counterflex/files/input_error.hpp"
+#include "counterflex/files/shown_text.hpp"
+#include "counterflex/files/temporaries.hpp"
+#include "counterflex/report/plot.hpp"
+#include "counterflex/report/report_file.hpp"
+#include "process/signals.hpp"
+#include "run/corrected_header.hpp"
+#include "settings/output_names.hpp"
+
+namespace counterflex::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// By file where both exist, else by name.
+bool same_file(const std::string& a, const std::string& b) {
+  if (a == "-" || b == "-") return false;
+  std::error_code error;
+  if (fs::equivalent(a, b, error)) return true;
+  return fs::weakly_canonical(a, error) == fs::weakly_canonical(b, error);
+}
+
+std::vector<std::string> inputs_of(const Options& options) {
+  std::vector<std::string> inputs{options.program, options.machine};
+  if (!options.verify.corrected.empty()) inputs.push_back(options.verify.corrected);
+  inputs.insert(inputs.end(), options.forces.begin(), options.forces.end());
+  if (options.tool_table) inputs.push_back(*options.tool_table);
+  if (!options.project_file.empty()) inputs.push_back(options.project_file);
+  return inputs;
+}
+
+void check_place(const std::string& path, const std::vector<std::string>& made = {}) {
+  if (path == "-") return;
+  std::error_code ignored;
+  if (path.empty() || fs::is_directory(path, ignored))
+    throw InputError(Exit::usage, {},
+                     fmt::format("cannot write to '{}': it is not the name of a file", path));
+  const fs::path folder = fs::path(path).parent_path();
+  const bool is_made = std::find(made.begin(), made.end(), folder.string()) != made.end();
+  if (!folder.empty() && !is_made && !fs::is_directory(folder, ignored))
+    throw InputError(Exit::usage, {path}, "cannot write the file: its folder does not exist; make it");
+}
+
+/// A project file of somebody else is not to make names that write on a terminal. Those of programs stay.
+void refuse_control_characters(const std::vector<std::string>& outputs, const std::string& program) {
+  if (without_controls(program) != program) return;
+  for (const std::string& path : outputs)
+    if (without_controls(path) != path)
+      throw InputError(Exit::usage, {},
+                       fmt::format("the name of the output '{}' has control characters; give another name",
+                                   without_controls(path)));
+}
+
+void check_paths(const std::vector<std::string>& outputs, const std::vector<std::string>& inputs,
+                 const std::vector<std::string>& made = {}) {
+  for (std::size_t i = 0; i < outputs.size(); ++i) {
+    check_place(outputs[i], made);
+    for (const std::string& input : inputs)
+      if (same_file(outputs[i], input))
+        throw InputError(Exit::usage, {outputs[i]},
+                         fmt::format("is the input {}, which is never overwritten", input));
+    for (std::size_t k = 0; k < i; ++k)
+      if (same_file(outputs[i], outputs[k]))
+        throw InputError(Exit::usage, {outputs[i]}, "is to hold two different outputs");
+  }
+}
+
+/// Whether `mark` stands in the first bytes of a file.
+bool begins_with_mark(const std::string& path, std::string_view mark) {
+  constexpr std::size_t looked_at = 1 << 14;
+  std::string bytes;
+  FileReader(path).append(bytes, looked_at);
+  return bytes.find(mark) != std::string::npos;
+}
+
+void make_folders(const std::vector<std::string>& folders) {
+  for (const std::string& folder : folders)
+    if (!folder.empty()) make_folder(folder);
+}
+
+/// What runs that were killed have left of these files.
+void sweep_left(const OutputPaths& paths) {
+  std::vector<std::string> files{paths.program, paths.report_json, paths.report_csv, paths.report_page,
+                                 paths.plot};
+  std::erase_if(files, [](const std::string& path) { return path.empty() || path == "-"; });
+  sweep_abandoned(files);
+}
+
+std::string stem_of_report(const Options& options) {
+  if (options.report->empty() || *options.report == "-")
+    throw InputError(Exit::usage, {}, "--report takes the stem of the names of files, not standard output");
+  return *options.report;
+}
+
+std::string path_of_plot(const std::string& path) {
+  if (fs::path(path).extension() != ".svg")
+    throw InputError(Exit::usage, {}, fmt::format("--plot writes a file that ends in .svg, not '{}'", path));
+  return path;
+}
+
+}  // namespace
+
+std::string canonical_name(const std::string& path) {
+  std::error_code ignored;
+  const fs::path canonical = fs::weakly_canonical(fs::absolute(path, ignored), ignored);
+  return canonical.empty() ? path : canonical.native();
+}
+
+OutputPaths output_paths(const Options& options) {
+  OutputPaths paths;
+  std::vector<std::string> outputs;
+  if (options.command == Command::compensate) {
+    paths.program = options.output.value_or(default_output(options.program));
+    outputs.push_back(paths.program);
+  }
+  if (options.report) {
+    paths.report_json = stem_of_report(options) + ".json";
+    paths.report_csv = stem_of_report(options) + ".csv";
+    paths.report_page = stem_of_report(options) + ".html";
+    outputs.insert(outputs.end(), {paths.report_json, paths.report_csv, paths.report_page});
+  }
+  if (options.plot) outputs.push_back(paths.plot = path_of_plot(*options.plot));
+  if (paths.program == "-" && options.json)
+    throw InputError(
+        Exit::usage, {},
+        "the program and the document of --json cannot both go to standard output; give -o a file");
+  refuse_control_characters(outputs, options.program);
+  check_paths(outputs, inputs_of(options), options.folders);
+  paths.folders = options.folders;
+  return paths;
+}
+
+void refuse_foreign(const std::vector<OwnFile>& files) {
+  for (const OwnFile& file : files) {
+    std::error_code error;
+    if (file.path.empty() || file.path == "-" || !fs::is_regular_file(file.path, error)) continue;
+    if (fs::file_size(file.path, error) == 0 || file.is_own(file.path)) continue;
+    throw InputError(
+        Exit::usage, {file.path},
+        "the file exists, and counterflex did not write it; give another name, or --force-overwrite "
+        "to replace it");
+  }
+}
+
+OwnFile marked_file(const std::string& path, std::string_view mark) {
+  return {path, [mark](const std::string& own) { return begins_with_mark(own, mark); }};
+}
+
+OwnFile page_file(const std::string& path) {
+  return marked_file(path, "content=\"counterflex\"");
+}
+
+void refuse_foreign_outputs(const OutputPaths& paths, const Options& options) {
+  if (options.force_overwrite) return;
+  refuse_foreign({{paths.program, has_corrected_header},
+                  marked_file(paths.report_json, "\"counterflex"),
+                  marked_file(paths.report_csv, "index,line,cutting,s_mm"),
+                  page_file(paths.report_page),
+                  marked_file(paths.plot, plot_mark)});
+}
+
+ComparisonPaths comparison_paths(const Options& options) {
+  if (!options.report) return {};
+  ComparisonPaths paths{stem_of_report(options) + ".json", stem_of_report(options) + ".html"};
+  std::vector<std::string> inputs = options.compare.reports;
+  for (const std::string& report : options.compare.reports)
+    if (const std::string page = page_beside(report); !page.empty()) inputs.push_back(page);
+  check_paths({paths.json, paths.page}, inputs);
+  if (!options.force_overwrite)
+    refuse_foreign({marked_file(paths.json, "\"counterflex-comparison"), page_file(paths.page)});
+  return paths;
+}
+
+void check_output(const Options& options, std::string_view mark) {
+  if (!options.output) return;
+  if (*options.output == "-" && options.json)
+    throw InputError(
+        Exit::usage, {},
+        "the profile and the document of --json cannot both go to standard output; give -o a file");
+  check_paths({*options.output}, inputs_of(options));
+  const std::string extension = fs::path(*options.output).extension().string();
+  if (*options.output != "-" && extension != ".csv")
+    throw InputError(Exit::usage, {*options.output},
+                     fmt::format("a table is written to a .csv file, not to '{}'", extension));
+  if (!options.force_overwrite) refuse_foreign({marked_file(*options.output, mark)});
+}
+
+RunFiles::RunFiles(const OutputPaths& paths, const CsvColumns& columns, bool hashed)
+    : paths_(paths), columns_(columns) {
+  make_folders(paths.folders);
+  sweep_left(paths);
+  const auto open = [&](std::optional<FileWriter>& file, const std::string& path) {
+    if (path.empty()) return;
+    file.emplace(path);
+    if (hashed) file->hash_along();
+  };
+  open(program_, paths.program);
+  open(plot_, paths.plot);
+  open(csv_, paths.report_csv);
+  open(json_, paths.report_json);
+  open(page_, paths.report_page);
+  if (csv_) csv_->write(csv_header());
+}
+
+void RunFiles::add_program(std::string_view text) {
+  if (program_) program_->write(text);
+}
+
+void RunFiles::add_waypoints(const std::vector<Waypoint>& waypoints) {
+  constexpr std::size_t at_once = 256;  // a row has half a kilobyte
+  if (!csv_) return;
+  for (std::span<const Waypoint> rest(waypoints); !rest.empty();) {
+    const auto some = rest.first(std::min(at_once, rest.size()));
+    csv_->write(csv_rows(some, columns_, next_row_));
+    rest = rest.subspan(some.size());
+  }
+}
+
+void RunFiles::add_report(const RunReport& report, const std::string& report_json, const PathCurves& curves) {
+  if (json_) json_->write(report_json);
+  if (plot_) plot_->write(to_svg(curves, report));
+  if (!page_) return;
+  std::vector<PageRun> runs(1);
+  runs[0].report = report_json;
+  runs[0].curves = curves_json(curves);
+  runs[0].loads = loads_json(report.loads);
+  write_page(page_title(report), runs, [&](std::string_view part) { page_->write(part); });
+}
+
+void RunFiles::publish(bool with_program) {
+  FileWriter* program = with_program ? if_any(program_) : nullptr;
+  publish_together({if_any(json_), if_any(csv_), if_any(page_), if_any(plot_), program});
+  for (const FileWriter* file : {program, if_any(json_), if_any(csv_), if_any(page_), if_any(plot_)})
+    if (file != nullptr && !file->is_stream()) published_.push_back({file->path(), file->sha256()});
+}
+
+FileWriter* if_any(std::optional<FileWriter>& file) {
+  return file ? &*file : nullptr;
+}
+
+void publish_together(std::vector<FileWriter*> files) {
+  std::erase(files, nullptr);
+  for (FileWriter* file : files) file->complete();
+  // Who reads a stream may break it off, or be slow, so that interrupts must be heard.
+  for (FileWriter* file : files)
+    if (file->is_stream()) file->publish();
+  std::erase_if(files, [](const FileWriter* file) { return file->is_stream(); });
+  const HeldSignals held;
+  FileWriter::publish_files(files);
+}
+
+}  // namespace counterflex::cli

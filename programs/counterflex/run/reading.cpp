@@ -1,0 +1,106 @@
+#include "run/reading.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "counterflex/compensation/windows.hpp"
+
+namespace counterflex::cli {
+namespace {
+
+/// Whether the machine moves along all axes of any program: then none of them has to be taken as known.
+bool ignores_no_axis(const Machine& machine) {
+  const auto& controlled = machine.controlled;
+  const auto controls = [&](Component c) {
+    return std::find(controlled.begin(), controlled.end(), c) != controlled.end();
+  };
+  return controlled.empty() || (controls(Component::x) && controls(Component::y) && controls(Component::z));
+}
+
+/// Logged positions are looked for in space, with more than one pass.
+bool has_logs(const ForceSource& source) {
+  return std::any_of(source.rules.begin(), source.rules.end(), [](const ForceRule& rule) {
+    const auto* profile = std::get_if<ForceProfile>(&rule.content);
+    return profile != nullptr && profile->key == ForceKey::point;
+  });
+}
+
+}  // namespace
+
+ProgramLook look_through(const Options& options, ProgramFile& file, const ReadOptions& read,
+                         const Machine* machine, const std::function<void(const Program&)>& also) {
+  const std::string name = shown_name(options.program);
+  ProgramLook look;
+  try {
+    file.bytes.hash_along();
+    ProgramReader reader(file.bytes, name, read);
+    bool begun = false;
+    const auto first = [&](const Program& window) {
+      add_window(look.program, window);
+      if (!std::exchange(begun, true)) look.is_corrected = is_corrected(window);
+    };
+    for_each_window(
+        reader, also ? options.threads : 1, first, also ? also : [](const Program&) {});
+  } catch (const InputError& error) {
+    file.bytes.refuse_change();  // what is wrong may be half of another program
+    blame_dialect(error, options, machine, name);
+  }
+  file.file.sha256 = sha256(file.bytes);
+  return look;
+}
+
+void settle_forces(const PathInput& input, ForceSource& source) {
+  ForceCover cover(source);
+  while (cover.needs_pass()) {
+    ProgramReader reader(input.bytes, input.name, input.read);
+    PathEnd end;
+    while (reader.next()) {
+      ignore_axes(reader.window(), input.ignored);
+      const Toolpath path = build_toolpath(reader.window(), input.frames, end);
+      cover.add(reader.window(), path);
+      end = path.end;
+    }
+    cover.end_pass();
+  }
+}
+
+template <typename Work>
+void EarlyForces::keep_error(const Work& work) {
+  try {
+    work();
+  } catch (const InputError&) {
+    unsettled_ = std::current_exception();
+  }
+}
+
+EarlyForces::EarlyForces(const Options& options, const Machine& machine, ForceInput& input)
+    : source_(input.source) {
+  try {
+    input = read_force_input(options);
+  } catch (const InputError&) {
+    unread_ = std::current_exception();
+    return;
+  }
+  if (ignores_no_axis(machine) && !has_logs(source_)) keep_error([&] { cover_.emplace(source_); });
+}
+
+void EarlyForces::add(const Program& window) {
+  if (!cover_ || unsettled_ || !cover_->needs_pass()) return;
+  keep_error([&] {
+    const Toolpath path = build_toolpath(window, one_frame(window, {}), end_);
+    cover_->add(window, path);
+    end_ = path.end;
+  });
+}
+
+void EarlyForces::refuse_unread() const {
+  if (unread_) std::rethrow_exception(unread_);
+}
+
+void EarlyForces::settle(const PathInput& input) {
+  if (unsettled_) std::rethrow_exception(unsettled_);
+  if (!cover_) return settle_forces(input, source_);
+  if (cover_->needs_pass()) cover_->end_pass();
+}
+
+}  // namespace counterflex::cli

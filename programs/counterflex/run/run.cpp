@@ -1,0 +1,336 @@
+#include "run/run.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <string>
+
+#include "counterflex/files/numbers.hpp"
+#include "counterflex/geometry/units.hpp"
+#include "counterflex/machine/tool.hpp"
+#include "counterflex/report/formats.hpp"
+#include "process/standard_output.hpp"
+#include "run/facts.hpp"
+#include "run/header.hpp"
+#include "run/reading.hpp"
+#include "run/sanity.hpp"
+
+namespace counterflex::cli {
+namespace {
+
+bool controls(const Machine& machine, int component) {
+  const auto& list = machine.controlled;
+  return std::find(list.begin(), list.end(), static_cast<Component>(component)) != list.end();
+}
+
+/// Axes of the program along which the machine has nothing to control.
+std::array<bool, 3> uncontrolled_axes(const Machine& machine, const std::vector<WorkFrame>& frames) {
+  std::array<bool, 3> axes{};
+  if (machine.controlled.empty()) return axes;
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    bool moves_controlled = false;
+    for (const WorkFrame& frame : frames)
+      for (int c = 0; c < 3; ++c)
+        moves_controlled =
+            moves_controlled || (controls(machine, c) && std::abs(frame.X_MW.R(c, axis)) > 1e-12);
+    axes[static_cast<std::size_t>(axis)] = !moves_controlled;
+  }
+  return axes;
+}
+
+/// Orientations that the machine controls, and that a program of X, Y and Z does not state.
+void warn_of_orientation(Run& run) {
+  const Machine& machine = run.machine.machine;
+  if (std::none_of(machine.controlled.begin(), machine.controlled.end(),
+                   [](Component c) { return c > Component::z; }))
+    return;
+  run.facts.warnings.push_back({0,
+                                "the machine controls the tool's orientation, which the program does not "
+                                "state: home's is commanded, and its "
+                                "error stays (see the largest rotation)"});
+}
+
+CompensationOptions compensation_options(const Options& options, const Machine& machine) {
+  CompensationOptions result;
+  result.method = options.method;
+  result.tolerance = options.tolerance;
+  result.max_correction = options.max_correction.value_or(machine.max_correction);
+  result.blend = options.blend;
+  result.threads = options.threads;
+  result.write.decimals = options.decimals;
+  return result;
+}
+
+/// Stiffness that nobody has given, and tools that the file does not know beside those that it does.
+void warn_of_tools(Run& run) {
+  const Machine& machine = run.machine.machine;
+  const auto& tools = machine.tools;
+  const bool bends =
+      std::any_of(tools.begin(), tools.end(), [](const auto& t) { return !t.second.yields.empty(); });
+  if (run.tool_models.empty() && !bends) return;
+  if (run.program.first_feed_without_tool)
+    run.facts.warnings.push_back(
+        {*run.program.first_feed_without_tool,
+         "no tool is known here by its number (a T with M6): [tool] is taken, rigid, "
+         "whatever bends in [tools]"});
+  for (const long number : run.program.tools) {
+    if (number == 0) continue;
+    const auto found = tools.find(number);
+    const Tool* tool = found == tools.end() ? nullptr : &found->second;
+    std::string what;
+    if (tool == nullptr)
+      what = " is not in [tools]: its moves use [tool], rigid";
+    else if (!tool->in_file && bends)
+      what = " is not in [tools]: it is " + stiffness_phrase(*tool);
+    else if (tool->from == ToolStiffness::cantilever)
+      what = ": " + stiffness_phrase(*tool);
+    if (!what.empty()) run.facts.warnings.push_back({0, fmt::format("tool T{}{}", number, what)});
+  }
+}
+
+/// A datum that is not stated counts as "machine".
+void warn_of_datum(Run& run) {
+  std::set<std::string> warnings;  // one offset may have several frames
+  for (const WorkFrame& frame : run.work.frames) {
+    if (!frame.common_shift || frame.common_shift->norm() <= run.options.tolerance) continue;
+    const Vector3 shift_mm = *frame.common_shift / mm;
+    const std::string assumed = frame.name.empty()
+                                    ? "no datum is stated, and the machine frame counts"
+                                    : fmt::format("no datum is stated for {}, and it counts", frame.name);
+    const std::string cure =
+        frame.name.empty()
+            ? "give the work offset with its datum, or --work machine"
+            : fmt::format(
+                  "state datum = {{ touched_at_mm = [x, y, z] }} in [work.{0}], else datum = \"machine\"",
+                  frame.name);
+    const std::string warning = fmt::format(
+        "{} as set independently of this machine's errors. The unloaded machine is off by "
+        "({}, {}, {}) mm on average along the path, and the correction removes this. If the "
+        "part was touched off with this machine, the offset contains this shift already: {}",
+        assumed, format_fixed(shift_mm.x(), 4), format_fixed(shift_mm.y(), 4), format_fixed(shift_mm.z(), 4),
+        cure);
+    if (warnings.insert(warning).second) run.facts.warnings.push_back({0, warning});
+  }
+}
+
+/// The diameter of a tool is that of [tools], else that of the largest cutter whose forces may act on it.
+std::vector<ToolSize> tool_sizes(const Run& run) {
+  std::vector<ToolSize> sizes;
+  for (const long number : run.program.tools) {
+    ToolSize& size = sizes.emplace_back(ToolSize{number, {}, {}});
+    const auto found = run.machine.machine.tools.find(number);
+    if (found != run.machine.machine.tools.end()) {
+      size.diameter = found->second.diameter;
+      size.flute = found->second.flute;
+    }
+    if (size.diameter) continue;
+    for (const ForceRule& rule : run.force_input.source.rules) {
+      const auto* cut = std::get_if<CutResponse>(&rule.content);
+      if (cut == nullptr || rule.selector.tool.value_or(number) != number) continue;
+      size.diameter = std::max(size.diameter.value_or(0), cut->diameter);
+    }
+  }
+  return sizes;
+}
+
+void warn_of_run(Run& run, Command command, Console& console) {
+  const Overview& program = run.program;
+  warn_of(program, command, console);
+  if (!run.work.assumption.empty()) run.facts.warnings.push_back({0, run.work.assumption});
+  for (const Remark& warning : run.facts.warnings) console.warning(program.file, warning.line, warning.what);
+  console.detail(fmt::format("{}: dialect {}, {} blocks, {} moves", program.file, program.dialect,
+                             program.blocks, program.moves));
+}
+
+/// A terminal that shows both streams shows each warning once.
+RunReport without_shown_warnings(RunReport report, const Console& console) {
+  auto& [rows, count] = report.warnings;
+  count -= std::erase_if(rows, [&](const Remark& warning) { return console.has_shown(warning.what); });
+  return report;
+}
+
+}  // namespace
+
+RunInput Run::input() const {
+  return {machine.model, work.frames, ignored,      force_input.source,
+          options,       read,        &tool_models, starts ? &*starts : nullptr};
+}
+
+RunContext Run::context() const {
+  return {machine.machine, options, work.frames, program, facts};
+}
+
+void refuse_stdin_twice(const Options& options) {
+  std::vector<std::string> paths{options.program, options.verify.corrected, options.machine,
+                                 options.tool_table.value_or("")};
+  paths.insert(paths.end(), options.forces.begin(), options.forces.end());
+  paths.insert(paths.end(), options.compare.reports.begin(), options.compare.reports.end());
+  const auto count = std::count(paths.begin(), paths.end(), "-");
+  if (count > 1) throw InputError(Exit::usage, {}, "standard input (-) can be only one of the inputs");
+}
+
+std::unique_ptr<Run> prepare_run(const Options& options, Console& console) {
+  refuse_stdin_twice(options);
+  console.progress("reading");
+  MachineInput machine = read_machine_input(options);
+  ToolLengths tools = read_tool_lengths(options, &machine.machine);
+  take_lengths(tools, machine.machine);
+  auto run = std::make_unique<Run>(
+      Run{.machine = std::move(machine), .file = open_program("program", options.program)});
+  run->tools = std::move(tools);
+  const Machine& on = run->machine.machine;
+  run->read = read_options(options, &on, run->tools);
+  EarlyForces forces(options, on, run->force_input);
+  PathPlaces places;
+  ProgramLook look = look_through(options, run->file, run->read, &on, [&](const Program& window) {
+    forces.add(window);
+    places.add(window);
+    if (options.number_pieces) run->numbers.add(window.text);
+  });
+  run->program = std::move(look.program);
+  run->is_corrected = look.is_corrected;
+  run->tool_models = prepare_tools(on, run->machine.model, run->program.tools);
+  forces.refuse_unread();
+  run->starts.emplace();
+  run->work = place_work(on, run->machine.model, shown_name(options.machine), run->program);
+  add_common_shifts(on, {run->machine.model, run->tool_models, &*run->starts}, places, run->program,
+                    run->work.frames);
+  run->ignored = uncontrolled_axes(on, run->work.frames);
+  forces.settle({run->file.bytes, run->program.file, run->read, run->work.frames, run->ignored});
+  run->options = compensation_options(options, on);
+  run->sanity = program_sanity({run->machine, run->tool_models, run->tools, run->work, run->program});
+  refuse_wrong(run->sanity, on);
+  run->facts = facts_of(options, *run);
+  warn_of_datum(*run);
+  warn_of_orientation(*run);
+  warn_of_tools(*run);
+  if (auto cycles = remark_of_cycles(run->program, run->force_input.source, options.command))
+    run->facts.warnings.push_back(std::move(*cycles));
+  warn_of_run(*run, options.command, console);
+  return run;
+}
+
+void refuse_what_cannot_be_compensated(const Run& run) {
+  if (run.machine.machine.controlled.empty())
+    throw InputError(
+        Exit::machine_or_force, {shown_name(run.machine.file.path)},
+        "controlled = [] allows analysis alone; name the components of the tip that the program controls");
+  if (run.is_corrected)
+    throw InputError(
+        Exit::program_text, {run.program.file, 1, 1},
+        "the header says that this program is already corrected (COUNTERFLEX 1); nothing is compensated "
+        "twice");
+}
+
+void prepare_writing(const Options& options, Run& run) {
+  run.options.write.header = header_of(options, run);
+  if (!options.number_pieces) return;
+  run.numbers.finish();
+  run.options.write.number_pieces = &run.numbers;
+}
+
+namespace {
+
+/// The corrected program is what is open in front of its reader.
+std::string located_in_corrected(const Run& run, Failure failure) {
+  if (failure.corrected_line == 0) return located(run.program.file, failure);
+  if (failure.line > 0) failure.what += fmt::format(" (line {} of the original)", failure.line);
+  failure.line = failure.corrected_line;
+  return located(run.corrected_name, failure);
+}
+
+}  // namespace
+
+bool wants_loads(const Run& run) {
+  return run.facts.attribution || !run.machine.machine.load_limits.empty();
+}
+
+Windows::Windows(Run& run, Console& console, std::size_t least_moves)
+    : run_(run),
+      console_(console),
+      reader_(run.file.bytes, run.program.file, run.read, least_moves),
+      jobs_(run.input(), reader_) {}
+
+void Windows::check(const Job& window) {
+  console_.solving(window.path.segments.empty() ? 0 : window.path.segments.front().line, run_.program.lines);
+  refuse_uncontrolled_moves(window);
+}
+
+void Windows::warn(const Job& window) {
+  for (const ForceNote& note : window.forces.notes())
+    console_.warning(run_.program.file, note.line, note.what);
+}
+
+/// A component of the position that the machine does not control has to keep its value.
+void Windows::refuse_uncontrolled_moves(const Job& job) {
+  const Machine& machine = run_.machine.machine;
+  if (machine.controlled.empty() || job.path.segments.empty()) return;
+  if (!first_) first_ = job.path.segments.front().wanted.start;
+  for (int c = 0; c < 3; ++c) {
+    if (controls(machine, c)) continue;
+    for (const Segment& segment : job.path.segments)
+      for (const Vector3& p : points_along(segment.wanted))
+        if (std::abs(p[c] - (*first_)[c]) > 1e-9)
+          throw InputError(
+              Exit::program_text, {run_.program.file, segment.line, 1},
+              fmt::format("the move changes {} of the machine frame from {:.6g} to {:.6g} mm, which the "
+                          "machine does not control",
+                          "xyz"[c], (*first_)[c] / mm, p[c] / mm));
+  }
+}
+
+RunTally tally_for(const Options& options, const Run& run) {
+  std::optional<PathCurves> curves;
+  if (options.report || options.plot)
+    curves.emplace(options.command != Command::predict, weighs(run.machine.machine));
+  return RunTally(run.facts.min_block_ms, std::move(curves), tool_sizes(run));
+}
+
+RunEnd finish_run(const Options& options, Run& run, RunReport report, const RunTally& tally,
+                  RunFiles& files) {
+  const MachineInput& on = run.machine;
+  const LoadsAlong loads = solve_loads(on.model, run.load_places.places(), run.options.threads, &*run.starts);
+  run.starts.reset();  // nothing else is solved; the report takes their memory
+  report.sanity = run_sanity(run, report, tally);
+  add_loads(report, loads, on.machine);
+  if (options.report || options.json) add_texts(report, run.file.bytes);
+  run.file.bytes.refuse_change();  // it was read more than once
+  std::string json = to_json(report);
+  if (tally.curves()) files.add_report(report, json, *tally.curves());
+  files.publish(report.exit == Exit::done);
+  return {std::move(report), std::move(json)};
+}
+
+Exit tell_result(const Options& options, const Run& run, const RunEnd& end, const RunFiles& files,
+                 Console& console) {
+  console.finish_warnings();
+  if (options.json)
+    write_result(end.json);
+  else if (files.program_to_stdout())
+    console.note(summary_text(end.report, console.colour_error(), console.marks_error()));
+  else
+    write_painted_result(
+        summary_text(without_shown_warnings(end.report, console), console.colour_out(), console.marks_out()));
+  return exit_of(run, end.report, console);
+}
+
+Exit exit_of(const Run& run, const RunReport& report, Console& console) {
+  return exit_of(run, report.failure ? report.failure : refusal_of(report), console);
+}
+
+Exit exit_of(const Run& run, const std::optional<Failure>& failure, Console& console) {
+  if (!failure) return Exit::done;
+  console.error(run.corrected_name.empty() ? located(run.program.file, *failure)
+                                           : located_in_corrected(run, *failure));
+  return failure->exit;
+}
+
+Exit deliver(const Options& options, Run& run, RunReport report, const RunTally& tally, RunFiles& files,
+             Console& console) {
+  const RunEnd end = finish_run(options, run, std::move(report), tally, files);
+  return tell_result(options, run, end, files, console);
+}
+
+}  // namespace counterflex::cli

@@ -1,0 +1,126 @@
+#include "run/sanity.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "counterflex/geometry/units.hpp"
+#include "counterflex/sanity/machine_checks.hpp"
+#include "counterflex/sanity/path_checks.hpp"
+
+namespace counterflex::cli {
+namespace {
+
+void append(SanityChecks& checks, SanityChecks more) {
+  checks.insert(checks.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
+}
+
+/// The frames that moves of a program use, each once.
+std::vector<WorkFrame> frames_in_use(const PlacedProgram& placed) {
+  std::vector<WorkFrame> frames;
+  const std::vector<bool>& used = placed.program.frames_used;
+  for (std::size_t i = 0; i < used.size(); ++i) {
+    if (!used[i]) continue;
+    const WorkFrame& frame = placed.work.frames[i];
+    const bool known = std::any_of(frames.begin(), frames.end(),
+                                   [&](const WorkFrame& other) { return other.name == frame.name; });
+    if (!known) frames.push_back(frame);
+  }
+  return frames;
+}
+
+std::vector<std::string> selected_offsets(const Overview& program) {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < program.frames_used.size(); ++i)
+    if (program.frames_used[i]) names.push_back(program.frames[i].work_offset);
+  return names;
+}
+
+/// The machine with [tool] where some move uses it, and with the tools that change it.
+std::vector<const Model*> models_in_use(const PlacedProgram& placed) {
+  std::vector<const Model*> models;
+  const auto& numbers = placed.program.tools;
+  const bool all_change = !numbers.empty() && std::all_of(numbers.begin(), numbers.end(), [&](long number) {
+    return placed.tools.count(number) > 0;
+  });
+  if (!all_change) models.push_back(&placed.machine.model);
+  for (const auto& [number, model] : placed.tools) models.push_back(&model);
+  return models;
+}
+
+/// Whether all forces are those of cutting models.
+bool are_computed(const Run& run) {
+  const auto& rules = run.force_input.source.rules;
+  return !run.program.commented_force && std::all_of(rules.begin(), rules.end(), [](const ForceRule& rule) {
+    return !std::holds_alternative<ConstantForce>(rule.content) &&
+           !std::holds_alternative<ForceProfile>(rule.content);
+  });
+}
+
+/// The place of the path with the largest deviation, which is known at the end of a run.
+std::optional<SanityCheck> stiffness_on_path(const Run& run, const RunReport& report) {
+  if (report.worst.empty()) return std::nullopt;
+  const WorstRow& row = report.worst.front();
+  const WorstPlace& place = report.after ? row.at_after : row.at_before;
+  if (!place.known) return std::nullopt;
+  const long tool =
+      place.operation < 0 ? 0 : report.operations[static_cast<std::size_t>(place.operation)].tool;
+  const Model& model = model_with(run.machine.model, &run.tool_models, tool);
+  return check_tip_stiffness(tip_stiffness(model, place.place_mm * mm), fmt::format("at line {}", row.line));
+}
+
+}  // namespace
+
+SanityChecks machine_sanity(const Machine& machine, const Model& model) {
+  std::vector<WorkFrame> frames;
+  for (const auto& [name, offset] : machine.work) frames.push_back({name, offset.X_MW});
+  std::map<long, double> lengths_mm;
+  for (const auto& [number, tool] : machine.tools)
+    if (tool.length) lengths_mm[number] = *tool.length / mm;
+  const bool turns = turns_joints(machine), inverted = machine.allows_inverted_tool;
+  SanityCheck axis = check_tool_axis({&model}, frames, turns, inverted);
+  const auto fits = [&](const WorkFrame& frame) {
+    return check_tool_axis({&model}, {frame}, turns, inverted).state != SanityState::wrong;
+  };
+  if (axis.state == SanityState::wrong && std::any_of(frames.begin(), frames.end(), fits))
+    axis.state = SanityState::doubtful;  // a program may use the other offsets
+  SanityChecks checks{std::move(axis), check_tip_stiffness(tip_stiffness(model, {}), "at home"),
+                      check_tool_lengths(lengths_mm, {}, machine.X_PS.has_value())};
+  append(checks, check_magnitudes(machine));
+  return checks;
+}
+
+SanityChecks program_sanity(const PlacedProgram& placed) {
+  const Machine& machine = placed.machine.machine;
+  const Model& model = placed.machine.model;
+  SanityChecks checks{check_tool_axis(models_in_use(placed), frames_in_use(placed), turns_joints(machine),
+                                      machine.allows_inverted_tool),
+                      check_tip_stiffness(tip_stiffness(model, {}), "at home"),
+                      check_tool_lengths(placed.lengths.mm, placed.program.tools, machine.X_PS.has_value()),
+                      check_work_offset(selected_offsets(placed.program),
+                                        !machine.work.empty() || machine.work_is_machine_frame)};
+  append(checks, check_magnitudes(machine));
+  return checks;
+}
+
+void refuse_wrong(const SanityChecks& checks, const Machine& machine) {
+  for (const SanityCheck& check : checks)
+    if (check.state == SanityState::wrong)
+      throw InputError(Exit::machine_or_force, machine.tool_at, check.text);
+}
+
+SanityChecks run_sanity(const Run& run, const RunReport& report, const RunTally& tally) {
+  SanityChecks checks = run.sanity;
+  if (auto stiffness = stiffness_on_path(run, report)) {
+    const auto home = std::find_if(checks.begin(), checks.end(),
+                                   [](const SanityCheck& check) { return check.name == "tip stiffness"; });
+    checks.insert(home + 1, std::move(*stiffness));
+  }
+  checks.push_back(check_travel(run.machine.model.mechanism, tally.travel(), report.failure));
+  checks.push_back(check_feed_force(tally.feed_force(), are_computed(run)));
+  append(checks, check_force_size(report.forces.largest_N));
+  append(checks, check_tolerance(report.tolerance_mm));
+  return checks;
+}
+
+}  // namespace counterflex::cli

@@ -1,0 +1,170 @@
+#include "run/work.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <map>
+
+#include "counterflex/compensation/unloaded_deviation.hpp"
+#include "counterflex/files/input_error.hpp"
+#include "counterflex/geometry/units.hpp"
+#include "settings/values.hpp"
+
+namespace counterflex::cli {
+namespace {
+
+constexpr const char* power_on_offset = "G54";
+
+template <typename Place>
+std::string names(const std::map<std::string, Place>& work) {
+  std::string text;
+  for (const auto& [name, offset] : work) text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
+/// Where the unloaded machine's tip stands, relative to where it should, at the touched point.
+Vector3 deviation_at(const Model& model, const Vector3& p_MT, const std::string& file,
+                     const std::string& offset) {
+  const auto fail = [&](Status status) {
+    throw InputError(
+        Exit::machine_or_force, {file},
+        fmt::format(
+            "[work.{}] was touched off at ({:.6g}, {:.6g}, {:.6g}) mm of the machine frame, which the "
+            "machine does not reach: {}",
+            offset, p_MT.x() / mm, p_MT.y() / mm, p_MT.z() / mm, to_string(status)));
+  };
+  const UnloadedDeviation touched = unloaded_deviation(model, p_MT);
+  if (touched.status != Status::converged) fail(touched.status);
+  return touched.d;
+}
+
+/// Offsets in use that nobody has given a place: they cannot all be the machine frame.
+std::string no_table_warning(const Overview& program) {
+  std::vector<std::string> in_use;
+  for (std::size_t i = 0; i < program.frames_used.size(); ++i) {
+    const std::string& offset = program.frames[i].work_offset;
+    const std::string name = offset.empty() ? "none at first" : offset;
+    const bool listed = std::find(in_use.begin(), in_use.end(), name) != in_use.end();
+    if (program.frames_used[i] && !listed) in_use.push_back(name);
+  }
+  if (in_use.size() < 2) return "";
+  return fmt::format(
+      "the program uses the offsets {}, and no work offsets are given: all are taken as the machine frame "
+      "(--work, or "
+      "[work] "
+      "in the machine file, says where they are)",
+      fmt::join(in_use, ", "));
+}
+
+std::string start_warning(const Overview& program) {
+  if (program.frames_used.empty() || !program.frames_used[0]) return "";
+  return "the program selects no work offset at first; G54, which controls start with, is assumed";
+}
+
+/// The place of `frame` in its offset, in m.
+Pose placed(const ProgramFrame& frame) {
+  Pose pose = in_offset(frame);
+  pose.p *= mm;
+  return pose;
+}
+
+/// The coordinates of `frame`, of an offset that stands at `offset` where the program has not set it.
+WorkFrame place_frame(WorkFrame offset, const ProgramFrame& frame) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (!frame.set_mm[axis]) continue;
+    const auto k = static_cast<Eigen::Index>(axis);
+    offset.X_MW.p[k] = *frame.set_mm[axis] * mm;
+    offset.datum_shift[k] = 0;
+  }
+  offset.X_MW = offset.X_MW * placed(frame);
+  return offset;
+}
+
+/// The offset itself; program coordinates may be shifted and turned in it.
+WorkFrame place_offset(const Machine& machine, const Model& model, const std::string& machine_file,
+                       const std::string& selected) {
+  const std::string name = selected.empty() ? power_on_offset : selected;
+  const auto found = machine.work.find(name);
+  if (found == machine.work.end())
+    throw InputError(
+        Exit::machine_or_force, {machine_file},
+        fmt::format("no [work.{}], which the program {}; the offsets are {} (--work gives others)", name,
+                    selected.empty() ? "starts with, selecting none" : "selects", names(machine.work)));
+  WorkFrame frame{name, found->second.X_MW};
+  if (const auto& touched = found->second.datum.touched_at)
+    frame.datum_shift = deviation_at(model, frame.X_MW * *touched, machine_file, name);
+  return frame;
+}
+
+WorkPlace in_machine_frame(const Overview& program) {
+  WorkPlace place;
+  for (const ProgramFrame& frame : program.frames) place.frames.push_back(place_frame({}, frame));
+  return place;
+}
+
+}  // namespace
+
+WorkPlace place_work(const Machine& machine, const Model& model, const std::string& machine_file,
+                     const Overview& program) {
+  WorkPlace place = in_machine_frame(program);
+  if (machine.work_is_machine_frame) return place;
+  if (machine.work.empty()) {
+    place.assumption = no_table_warning(program);
+    return place;
+  }
+  std::map<std::string, WorkFrame> offsets;  // solved once, however many frames a program makes of them
+  for (std::size_t i = 0; i < program.frames_used.size(); ++i) {
+    if (!program.frames_used[i]) continue;
+    const std::string& selected = program.frames[i].work_offset;
+    auto offset = offsets.find(selected);
+    if (offset == offsets.end())
+      offset = offsets.emplace(selected, place_offset(machine, model, machine_file, selected)).first;
+    place.frames[i] = place_frame(offset->second, program.frames[i]);
+  }
+  place.assumption = start_warning(program);
+  return place;
+}
+
+WorkPlace place_work(const std::vector<std::string>& given, const Overview& program) {
+  WorkPlace place = in_machine_frame(program);
+  std::map<std::string, Pose> table;
+  for (const std::string& text : given)
+    if (const WorkText work = work_of(text); !work.offset.empty()) table[work.offset] = work.place.X_MW;
+  if (table.empty()) return place;
+  for (std::size_t i = 0; i < program.frames_used.size(); ++i) {
+    if (!program.frames_used[i]) continue;
+    const std::string& selected = program.frames[i].work_offset;
+    const std::string name = selected.empty() ? power_on_offset : selected;
+    const auto found = table.find(name);
+    if (found == table.end())
+      throw InputError(
+          Exit::usage, {},
+          fmt::format("--work does not give {}, which the program {}; it gives {}", name,
+                      selected.empty() ? "starts with, selecting none" : "selects", names(table)));
+    place.frames[i] = place_frame({name, found->second}, program.frames[i]);
+  }
+  place.assumption = start_warning(program);
+  return place;
+}
+
+void add_common_shifts(const Machine& machine, const RunModels& models, const PathPlaces& places,
+                       const Overview& program, std::vector<WorkFrame>& frames) {
+  if (machine.work_is_machine_frame) return;
+  std::map<std::string, std::optional<Vector3>>
+      shifts;  // by offset, however many frames a program makes of it
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    const auto offset = machine.work.find(frames[i].name);
+    if ((offset != machine.work.end() && offset->second.datum.stated()) || is_set(program.frames[i]))
+      continue;
+    const std::string& selected = program.frames[i].work_offset;
+    const auto [known, is_new] = shifts.try_emplace(selected);
+    if (is_new)
+      known->second =
+          common_shift(models.model, models.tools, frames[i].X_MW * inverse(placed(program.frames[i])),
+                       places.of(selected), models.starts);
+    frames[i].common_shift = known->second;
+  }
+}
+
+}  // namespace counterflex::cli

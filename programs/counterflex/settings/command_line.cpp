@@ -1,0 +1,163 @@
+#include "settings/command_line.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+
+#include "counterflex/files/shown_text.hpp"
+#include "counterflex/settings/environment.hpp"
+#include "process/standard_output.hpp"
+#include "process/version.hpp"
+#include "settings/command_options.hpp"
+#include "settings/layers.hpp"
+
+namespace counterflex::cli {
+namespace {
+
+void describe_program(CLI::App& app) {
+  app.description(
+      "Bends a machining program against the errors and the deflection of its machine, and reports the "
+      "deviation\n"
+      "before and after. counterflex PROGRAM is counterflex compensate PROGRAM.");
+  app.footer(
+      "Exit status: 0 done, 1 internal error, 2 usage, 3 program text, 4 machine, force, job or project "
+      "file,\n"
+      "5 tolerance missed or not converged, 6 travel or correction limit, 75 input or output failed,\n"
+      "130 interrupted (143 by SIGTERM).");
+  app.set_version_flag("--version", fmt::format("counterflex {}", version), "Print the version");
+  app.require_subcommand(1);
+  app.get_formatter()->column_width(38);
+}
+
+/// "--output=" says that a value follows, and CLI11 would take the next word as that, be it another option;
+/// of
+/// "-o=" the sign.
+void refuse_no_value(std::string_view word) {
+  const bool names_an_option = word.starts_with("--") || (word.size() == 3 && word[0] == '-');
+  if (!names_an_option || word.find('=') != word.size() - 1) return;
+  word.remove_suffix(1);
+  throw InputError(Exit::usage, {}, fmt::format("{} has no value", word));
+}
+
+/// A value that begins with a minus, joined with the option before it: "--at -10,0,0" reads as
+/// "--at=-10,0,0". Throws `InputError` (Exit::usage) for "--at=".
+std::vector<std::string> joined(int argc, const char* const* argv) {
+  std::vector<std::string> words;
+  bool options_end = false;
+  for (int i = 1; i < argc; ++i) {
+    const std::string_view word = argv[i];
+    options_end = options_end || word == "--";
+    if (!options_end) refuse_no_value(word);
+    const bool negative =
+        word.size() > 1 && word[0] == '-' && (word[1] == '.' || (word[1] >= '0' && word[1] <= '9'));
+    const bool takes_numbers =
+        !words.empty() && words.back().starts_with("--") && words.back().find('=') == std::string::npos;
+    if (negative && takes_numbers)
+      words.back().append("=").append(word);
+    else
+      words.emplace_back(word);
+  }
+  return words;
+}
+
+/// "counterflex O1001.NC" is "counterflex compensate O1001.NC". Throws `InputError` (Exit::usage) for a first
+/// word that is neither a command nor a file.
+void add_missing_command(std::vector<std::string>& words, const CLI::App& app) {
+  if (words.empty() || (words[0].starts_with('-') && words[0] != "-")) return;
+  const auto is_meant = [&](const CLI::App* command) { return command->get_name() == words[0]; };
+  if (!app.get_subcommands(is_meant).empty()) return;
+  std::error_code ignored;
+  if (words[0] != "-" && !std::filesystem::exists(words[0], ignored))
+    throw InputError(Exit::usage, {},
+                     fmt::format("'{}' is neither a command nor a file; see counterflex --help", words[0]));
+  words.insert(words.begin(), "compensate");
+}
+
+/// Throws `InputError` (Exit::usage) for --shard with a command that has none.
+void refuse_shard_of_program(const std::vector<std::string>& words) {
+  const auto is_shard = [](const std::string& word) {
+    return word == "--shard" || word.starts_with("--shard=");
+  };
+  const auto end = std::ranges::find(words, "--");
+  if (words.empty() || words[0] == "batch" || std::none_of(words.begin(), end, is_shard)) return;
+  throw InputError(
+      Exit::usage, {},
+      "--shard divides the jobs of a batch: one program is always done by one process. Leave out --shard, "
+      "or list several programs in a jobs file and use counterflex batch JOBS.toml --shard I/N");
+}
+
+Exit leave(const CLI::App& app, const CLI::ParseError& error) {
+  if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success))
+    return static_cast<Exit>(app.exit(error));
+  const auto chosen = app.get_subcommands();
+  fmt::print(stderr, "error: {}\nSee counterflex {}--help.\n", without_controls(error.what()),
+             chosen.empty() ? "" : chosen.front()->get_name() + " ");
+  return Exit::usage;
+}
+
+/// Whose folder, and those above, may hold the project file: of several files the first program.
+std::string placing_program(const Options& options) {
+  if (options.command == Command::watch)
+    return (std::filesystem::path(options.watch.folder) / "any").string();
+  if (options.command != Command::check) return options.program;
+  const auto program = std::find_if(options.check.files.begin(), options.check.files.end(),
+                                    [](const std::string& file) { return !file.ends_with(".toml"); });
+  return program == options.check.files.end() ? options.check.files.front() : *program;
+}
+
+/// Whether more than flags is asked for. A broken project file is not to hinder the check of machine files.
+bool reads_sources(const Options& options) {
+  if (options.print_config || options.sources.config) return true;
+  if (options.command == Command::check) return !placing_program(options).ends_with(".toml");
+  return options.command != Command::compare && options.command != Command::batch &&
+         !options.forces_table.materials;
+}
+
+std::vector<SettingRemark> remarks_on_environment() {
+  std::vector<SettingRemark> remarks;
+  for (const auto& [name, meant] : misspelt_variables(environ)) {
+    SettingRemark& remark = remarks.emplace_back();
+    remark.where.file = name;
+    remark.what = fmt::format("is no setting and does nothing; did you mean {}?", meant);
+  }
+  return remarks;
+}
+
+}  // namespace
+
+std::variant<Options, Exit> read_command_line(int argc, const char* const* argv) {
+  Options options;
+  CLI::App app("", "counterflex");
+  describe_program(app);
+  add_commands(app, options);
+  try {
+    auto words = joined(argc, argv);
+    add_missing_command(words, app);
+    refuse_shard_of_program(words);
+    std::reverse(words.begin(), words.end());
+    app.parse(std::move(words));
+  } catch (const CLI::ParseError& error) {
+    return leave(app, error);
+  }
+  if (options.sources.config && options.sources.no_config)
+    throw InputError(Exit::usage, {}, "--config names a project file, and --no-config wants none");
+  options.remarks = remarks_on_environment();
+  options.sources.environment = read_environment(environ);
+  if (!reads_sources(options)) return with_settings(options, {options.sources.flags});
+  const ProgramLayers said = layers_of(options.sources, placing_program(options));
+  options.project_file = said.project_file;
+  const bool print = options.print_config;
+  Options result = with_settings(std::move(options), said.layers);
+  if (print) {
+    write_result(config_text(result.command, said.layers));
+    return Exit::done;
+  }
+  refuse_no_machine(result);
+  return result;
+}
+
+}  // namespace counterflex::cli

@@ -1,0 +1,241 @@
+#include "settings/command_options.hpp"
+
+#include <CLI/CLI.hpp>
+#include <functional>
+
+#include "settings/setting_options.hpp"
+#include "settings/values.hpp"
+
+namespace counterflex::cli {
+namespace {
+
+/// An option with one value that `take` makes sense of.
+CLI::Option* value_option(CLI::App& app, const std::string& name, const std::string& type,
+                          const std::string& help, std::function<void(const std::string&)> take) {
+  CLI::Option* option = app.add_option_function<std::string>(name, std::move(take), help);
+  return option->type_name(type)->take_last();
+}
+
+/// A flag of the table: its values are kept as they are, to be judged with those of other sources.
+void add_setting(CLI::App& app, Options& options, std::string_view name, std::string_view other_help = {}) {
+  const SettingOption& setting = setting_option(name);
+  std::vector<Setting>& flags = options.sources.flags;
+  const auto keep = [&flags, name](const std::vector<std::string>& values) {
+    flags.push_back({std::string(name), values, {}, Origin::flag});
+  };
+  const std::string names(setting.flags), type(setting.type);
+  const std::string help(other_help.empty() ? setting.help : other_help);
+  if (type.empty())
+    app.add_flag_function(
+        names, [keep](std::int64_t count) { keep({count > 0 ? "true" : "false"}); }, help);
+  else if (setting.repeated)
+    app.add_option_function<std::vector<std::string>>(names, keep, help)
+        ->type_name(type)
+        ->allow_extra_args(false);
+  else
+    value_option(app, names, type, help, [keep](const std::string& value) { keep({value}); });
+}
+
+void add_settings(CLI::App& app, Options& options, std::initializer_list<std::string_view> names) {
+  for (const std::string_view name : names) add_setting(app, options, name);
+}
+
+void add_forces(CLI::App& app, Options& options) {
+  add_settings(app, options, {"forces", "force", "load-scale", "air-above"});
+}
+
+void add_reading(CLI::App& app, Options& options) {
+  add_settings(app, options,
+               {"dialect", "units", "integer-words", "arc-centres", "evaluate", "expand-subprograms", "work",
+                "tool-table", "tool-length"});
+}
+
+void add_config(CLI::App& app, Options& options) {
+  value_option(app, "--config", "FILE", "The project file; counterflex.toml beside the program or above",
+               [&](const std::string& file) { options.sources.config = file; });
+  app.add_flag("--no-config", options.sources.no_config, "Take nothing from a project file");
+  app.add_flag("--print-config", options.print_config,
+               "Print what is in force, and where it is from, as a project file");
+}
+
+void add_output(CLI::App& app, Options& options) {
+  app.add_flag("--json", options.json, "One JSON document on standard output and nothing else");
+  app.add_flag("-q,--quiet", options.quiet, "Errors only on standard error");
+  app.add_flag("-v,--verbose", options.verbose, "More about what is done");
+}
+
+CLI::Option* add_file(CLI::App& app, const std::string& name, std::string& file, const std::string& help) {
+  return app.add_option(name, file, help)->required()->type_name("");
+}
+
+void add_run(CLI::App& app, Options& options) {
+  add_setting(app, options, "machine");
+  add_forces(app, options);
+  add_setting(app, options, "blend-mm");
+  add_reading(app, options);
+  add_settings(app, options,
+               {"method", "tolerance-mm", "max-correction-mm", "accept-partial", "decimals", "threads",
+                "min-block-ms", "report", "plot", "force-overwrite"});
+  add_config(app, options);
+  add_output(app, options);
+}
+
+CLI::App& add_command(CLI::App& app, Options& options, const std::string& name, Command command,
+                      const std::string& help) {
+  CLI::App& subcommand = *app.add_subcommand(name, help);
+  subcommand.callback([&options, command] { options.command = command; });
+  return subcommand;
+}
+
+void add_compensate(CLI::App& app, Options& options) {
+  CLI::App& command = add_command(app, options, "compensate", Command::compensate,
+                                  "Write the program whose execution follows the path of the original");
+  add_file(command, "PROGRAM", options.program, "The machining program; - is standard input");
+  add_settings(command, options, {"output", "number-pieces"});
+  add_run(command, options);
+}
+
+void add_predict(CLI::App& app, Options& options) {
+  CLI::App& command = add_command(app, options, "predict", Command::predict,
+                                  "Show the deviation of a program and what causes it; write no program");
+  add_file(command, "PROGRAM", options.program, "The machining program; - is standard input");
+  add_run(command, options);
+}
+
+void add_verify(CLI::App& app, Options& options) {
+  CLI::App& command = add_command(app, options, "verify", Command::verify,
+                                  "Solve a corrected program forward against the path of the original");
+  add_file(command, "ORIGINAL", options.program, "The program that says what is wanted");
+  add_file(command, "CORRECTED", options.verify.corrected, "The program that is to be judged");
+  add_run(command, options);
+}
+
+void add_compare(CLI::App& app, Options& options) {
+  CLI::App& command = add_command(app, options, "compare", Command::compare,
+                                  "Show the reports of two runs side by side: machines, methods, tolerances");
+  command
+      .add_option("REPORT", options.compare.reports,
+                  "Two reports, STEM.json or STEM.html, as --report wrote them")
+      ->required()
+      ->expected(2)
+      ->type_name("");
+  command
+      .add_option("--name", options.compare.names,
+                  "What a run is called; given twice, in the order of the reports")
+      ->type_name("NAME")
+      ->allow_extra_args(false);
+  value_option(command, "--report", "STEM", "Write STEM.json and STEM.html, a page of both runs",
+               [&](const std::string& text) { options.report = text; });
+  add_setting(command, options, "force-overwrite");
+  add_output(command, options);
+}
+
+void add_analyze(CLI::App& app, Options& options) {
+  CLI::App& command =
+      add_command(app, options, "analyze", Command::analyze,
+                  "Stiffness, assembly, joint loads, deviation and corrected target at poses");
+  add_setting(command, options, "machine");
+  command
+      .add_option("--at", options.analyze.at,
+                  "A pose of the tip: mm, and roll, pitch, yaw in degrees; may be repeated")
+      ->type_name("X,Y,Z[,R,P,Y]")
+      ->allow_extra_args(false)
+      ->required();
+  value_option(command, "--tool", "T3", "The tool of the machine file in the spindle; [tool], rigid",
+               [&](const std::string& text) { options.analyze.tool = text; });
+  value_option(command, "--force", "FX,FY,FZ[,MX,MY,MZ]",
+               "A constant wrench on the tool at its tip in feed moves: N and N m, machine frame",
+               [&](const std::string& text) { options.analyze.force = parse_force(text); });
+  add_setting(command, options, "method");
+  command.add_flag("--full", options.analyze.full,
+                   "Every chain in full: stiffness, energy, each joint and spring by name");
+  value_option(command, "--hold", "X,Y,Z[,R,P,Y]",
+               "Hold the tip at this pose, the actuators commanded for --at: the wrenches of the chains",
+               [&](const std::string& text) { options.analyze.hold = text; });
+  value_option(command, "--curve", "DIRECTION=FROM:TO:STEPS",
+               "Force over displacement of the tip, mm, along x, y, z or a vector 1,0,1; the critical load",
+               [&](const std::string& text) { options.analyze.curve = text; });
+  value_option(command, "-o,--output", "OUTPUT", "A table (.csv) of the points of --curve to write",
+               [&](const std::string& text) { options.output = text; });
+  add_setting(command, options, "force-overwrite");
+  add_config(command, options);
+  add_output(command, options);
+}
+
+void add_show_forces(CLI::App& app, Options& options) {
+  CLI::App& command = add_command(app, options, "forces", Command::forces,
+                                  "Show the wrench of every feed move, or write it as a force profile");
+  command.add_option("PROGRAM", options.program, "The machining program; - is standard input")->type_name("");
+  add_setting(command, options, "machine",
+              "The machine on which the program runs; the tool stands along z of the program without one");
+  value_option(command, "-o,--output", "OUTPUT", "A force profile (.csv) to write; - takes the table's place",
+               [&](const std::string& text) { options.output = text; });
+  add_setting(command, options, "force-overwrite");
+  command.add_flag("--materials", options.forces_table.materials,
+                   "List the cutting coefficients that a cutting model can name, with their sources");
+  add_forces(command, options);
+  add_reading(command, options);
+  add_config(command, options);
+  add_output(command, options);
+}
+
+void add_check(CLI::App& app, Options& options) {
+  CLI::App& command =
+      add_command(app, options, "check", Command::check,
+                  "Read machine files (.toml) and programs, say what was understood, find mistakes");
+  command.add_option("FILE", options.check.files, "Machine files and programs")->required()->type_name("");
+  add_setting(command, options, "machine", "A machine that is to reach the programs' points");
+  add_reading(command, options);
+  add_config(command, options);
+  add_output(command, options);
+}
+
+void add_batch(CLI::App& app, Options& options) {
+  CLI::App& command =
+      add_command(app, options, "batch", Command::batch,
+                  "Compensate all programs of a list of jobs, and sum up what became of them");
+  add_file(command, "JOBS", options.batch.jobs, "The jobs file (.toml)");
+  command.add_flag("--resume", options.batch.resume, "Do only what is not proven done by the last run");
+  value_option(command, "--shard", "I/N",
+               "Do the jobs of shard I of N; other processes or computers do the others",
+               [&](const std::string& text) { options.batch.shard = read_shard(text); });
+  command.add_flag("--merge", options.batch.merge, "Sum up the results of all shards");
+  command.add_flag("--estimate", options.batch.estimate,
+                   "Say how long the jobs would take on one processor, by trying some of them");
+  add_setting(command, options, "threads",
+              "Processors to use; the result does not depend on it; all of them");
+  add_setting(command, options, "force-overwrite");
+  add_output(command, options);
+}
+
+void add_watch(CLI::App& app, Options& options) {
+  CLI::App& command = add_command(app, options, "watch", Command::watch,
+                                  "Compensate the programs that a post-processor drops into a folder");
+  add_file(command, "DIR", options.watch.folder, "The folder");
+  command
+      .add_option("--pattern", options.watch.patterns,
+                  "Only files whose names match, as in a shell; all programs; may be repeated")
+      ->type_name("'*.ngc'")
+      ->allow_extra_args(false);
+  command.add_flag("--once", options.watch.once, "Do what is there and not yet done, and end");
+  add_setting(command, options, "output",
+              "The folder of the corrected programs, or a pattern; NAME.comp.EXT beside each program");
+  add_setting(command, options, "number-pieces");
+  add_run(command, options);
+}
+
+}  // namespace
+
+void add_commands(CLI::App& app, Options& options) {
+  add_compensate(app, options);
+  add_predict(app, options);
+  add_verify(app, options);
+  add_compare(app, options);
+  add_analyze(app, options);
+  add_show_forces(app, options);
+  add_check(app, options);
+  add_batch(app, options);
+  add_watch(app, options);
+}
+
+}  // namespace counterflex::cli

@@ -1,0 +1,128 @@
+#pragma once
+/// What the command line says, as plain data. Texts that need a file to make sense of them stay texts.
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "counterflex/batch/shards.hpp"
+#include "counterflex/compensation/options.hpp"
+#include "counterflex/program/program.hpp"
+#include "counterflex/settings/setting.hpp"
+
+namespace counterflex::cli {
+
+enum class Command { compensate, predict, verify, compare, analyze, forces, check, batch, watch };
+
+/// Where settings come from besides jobs files.
+struct SettingSources {
+  std::vector<Setting> flags, environment;
+  std::optional<std::string> config;  ///< the project file that --config names
+  bool no_config = false;             ///< no project file is looked for
+};
+
+/// A warning about a setting.
+struct SettingRemark {
+  Location where;
+  std::string what;
+};
+
+/// Of `check`.
+struct CheckOptions {
+  std::vector<std::string> files;
+};
+
+struct VerifyOptions {
+  std::string corrected;  ///< the corrected program
+};
+
+struct CompareOptions {
+  std::vector<std::string> reports;  ///< two
+  std::vector<std::string> names;    ///< of these, or none
+};
+
+struct ForcesOptions {
+  bool materials = false;  ///< list the materials whose coefficients are known
+};
+
+struct AnalyzeOptions {
+  std::vector<std::string> at;       ///< "X,Y,Z[,R,P,Y]"
+  std::optional<std::string> tool;   ///< "T3"
+  std::optional<Vector6> force;      ///< N, N m
+  bool full = false;                 ///< details of every chain
+  std::optional<std::string> hold;   ///< "X,Y,Z[,R,P,Y]"
+  std::optional<std::string> curve;  ///< "DIRECTION=FROM:TO:STEPS"
+};
+
+struct BatchOptions {
+  std::string jobs;            ///< the jobs file
+  bool resume = false;         ///< skip jobs whose outputs match the manifest
+  std::optional<Shard> shard;  ///< only its jobs
+  bool merge = false;          ///< sum up what the shards have done
+  bool estimate = false;       ///< print how long the batch would take
+};
+
+struct WatchOptions {
+  std::string folder;
+  std::vector<std::string> patterns;  ///< that names of programs match; empty: any
+  bool once = false;                  ///< the programs that are there, and no more
+};
+
+/// Options of every command that uses them; those of one command alone have a struct of their own.
+struct Options {
+  Command command = Command::check;
+
+  std::string program;  ///< verify: the original
+  std::string machine;  ///< empty: none, which check and forces alone allow
+
+  std::vector<std::string> forces;     ///< files
+  std::vector<ForceRule> force_rules;  ///< of --force
+  double load_scale = 1;
+  double blend = 2e-3;  ///< m
+  std::optional<double> air_above_mm;
+
+  std::optional<std::string> dialect;
+  std::optional<LengthUnit> units;
+  IntegerWords integer_words = IntegerWords::unsaid;
+  std::optional<bool> absolute_centres;  ///< of arcs; none: the machine file's, or incremental
+  bool evaluate = false;
+  bool expand_subprograms = false;
+  std::vector<std::string> work;           ///< "G54=X,Y,Z[,RX,RY,RZ][/DATUM]", or "machine"
+  std::optional<std::string> tool_table;   ///< a file
+  std::map<long, double> tool_lengths_mm;  ///< of --tool-length
+
+  Method method = Method::direct;
+  double tolerance = 5e-6;               ///< m
+  std::optional<double> max_correction;  ///< m; none: the machine file's
+  bool accept_partial = false;           ///< a program is written though the verdict is PARTLY
+  int decimals = -1;                     ///< -1: each word's own
+  bool number_pieces = false;
+  int threads = 1;
+  double min_block_ms = 2;
+
+  std::optional<std::string> output;
+  std::vector<std::string> folders;   ///< of outputs: made before anything is written, if they are missing
+  std::optional<std::string> report;  ///< stem
+  std::optional<std::string> plot;    ///< a file
+  bool force_overwrite = false;       ///< replace files that this program did not write
+
+  CheckOptions check;
+  VerifyOptions verify;
+  CompareOptions compare;
+  ForcesOptions forces_table;
+  AnalyzeOptions analyze;
+  BatchOptions batch;
+  WatchOptions watch;
+
+  bool hash_outputs = false;  ///< compensate alone, of a batch: for its manifest
+
+  bool json = false;
+  bool quiet = false;
+  bool verbose = false;
+  SettingSources sources;    ///< what this command line, and the environment, say of them
+  std::string project_file;  ///< from which settings are, too; empty: none
+  bool print_config = false;
+  std::vector<SettingRemark> remarks;  ///< on what is said for this run
+};
+
+}  // namespace counterflex::cli

@@ -1,0 +1,143 @@
+#include "settings/output_names.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "counterflex/settings/name_pattern.hpp"
+#include "settings/setting_options.hpp"
+
+namespace counterflex::cli {
+namespace {
+
+NameParts known_parts(const std::string& program) {
+  if (program == "-" || program.empty()) return {};
+  const std::filesystem::path path(program);
+  return {path.stem().string(), path.extension().string(), std::nullopt};
+}
+
+std::string without_extension(const std::string& path) {
+  return std::filesystem::path(path).replace_extension().string();
+}
+
+/// The path that `text` says, beside the program where it says no folder; nothing where a part is not known.
+std::optional<std::string> filled_path(const std::string& text, const std::string& program,
+                                       const NameParts& parts) {
+  if (!unknown_placeholder(text, parts).empty()) return std::nullopt;
+  const std::string path = fill(text, parts);
+  if (!is_pattern(text) || text.find('/') != std::string::npos || text.starts_with("{output}")) return path;
+  return (std::filesystem::path(program).parent_path() / path).string();
+}
+
+struct Naming {
+  Options& options;
+  const std::vector<Setting>& settings;
+  NameParts parts;
+};
+
+[[noreturn]] void refuse_nameless(const Setting& setting, const std::string& text) {
+  blame_setting(setting, 0,
+                fmt::format("{} is '{}', but standard input has no name; give a path",
+                            name_in_messages(setting), text));
+}
+
+/// What keeps the reports of the other commands apart from those of compensate.
+std::string_view mark_of(Command command) {
+  if (command == Command::predict) return ".predict";
+  return command == Command::verify ? ".verify" : "";
+}
+
+/// The name of a report or plot with the mark of its command, before the ending of a plot. Flags are said for
+/// this run alone and taken at their word; {output} has the mark already.
+std::string marked(std::string name, const Setting& setting, Command command) {
+  const bool own = setting.option == "output" || setting.origin == Origin::flag;
+  if (own || name.find("{output}") != std::string::npos) return name;
+  const std::size_t ending = setting.option == "plot" ? std::string_view(".svg").size() : 0;
+  return name.insert(name.size() - ending, mark_of(command));
+}
+
+/// What `said` is with its words filled in; nothing where it has to be left out. `in_folder` is the name in a
+/// folder that is said alone.
+std::optional<std::string> named(const std::optional<std::string>& said, std::string_view option,
+                                 std::string_view in_folder, const Naming& naming) {
+  if (!said || *said == "-") return said;
+  const Setting& setting = *std::find_if(naming.settings.begin(), naming.settings.end(),
+                                         [&](const Setting& entry) { return entry.option == option; });
+  const std::string pattern =
+      marked(said->ends_with('/') ? *said + std::string(in_folder) : *said, setting, naming.options.command);
+  if (!is_pattern(pattern)) return fill(pattern, {});
+  const auto path = filled_path(pattern, naming.options.program, naming.parts);
+  if (path) {
+    naming.options.folders.push_back(std::filesystem::path(*path).parent_path().string());
+    return path;
+  }
+  if (setting.origin == Origin::flag) refuse_nameless(setting, *said);
+  return std::nullopt;
+}
+
+/// {output}: of what compensate writes, with the mark of the command.
+std::optional<std::string> output_stem(const Options& options, const std::optional<std::string>& output) {
+  const std::string mark(mark_of(options.command));
+  if (options.command == Command::verify) return without_extension(options.verify.corrected) + mark;
+  const std::string path = output && *output != "-" ? *output : default_output(options.program);
+  if (path == "-") return std::nullopt;
+  return without_extension(path) + mark;
+}
+
+}  // namespace
+
+Setting with_folder_marked(Setting output) {
+  for (std::string& text : output.values) {
+    std::error_code ignored;
+    const bool is_path = text != "-" && !text.ends_with('/') && !is_pattern(text);
+    if (is_path && std::filesystem::is_directory(fill(text, {}), ignored)) text += '/';
+  }
+  return output;
+}
+
+void check_pattern(const std::string& name, const std::string& text) {
+  const bool of_report = !name.ends_with("output");
+  const NameParts all{"", "", of_report ? std::optional<std::string>("") : std::nullopt};
+  const std::string unknown = unknown_placeholder(text, all);
+  if (unknown.empty()) return;
+  const std::string meant = nearest_placeholder(unknown);
+  const bool is_hint = !meant.empty() && meant != unknown;
+  throw InputError(Exit::usage, {},
+                   fmt::format("{} is '{}', in which {{{}}} stands for nothing; {{name}}, {{ext}}{} do{}",
+                               name, text, unknown, of_report ? ", {output}" : "",
+                               is_hint ? fmt::format("; did you mean {{{}}}?", meant) : ""));
+}
+
+void name_outputs(Options& options, const std::vector<Setting>& settings) {
+  if (!has_setting(options.command, "output") || options.command == Command::watch) return;
+  Naming naming{options, settings, known_parts(options.program)};
+  options.output = named(options.output, "output", "{name}{ext}", naming);
+  naming.parts.output = output_stem(options, options.output);
+  if (options.command != Command::compensate) {
+    options.output.reset();
+    options.folders.clear();
+  }
+  options.report = named(options.report, "report", "{name}", naming);
+  options.plot = named(options.plot, "plot", "{name}.svg", naming);
+}
+
+void remark_on_name(const Setting& setting, Options& options) {
+  const bool names = setting.option == "output" || setting.option == "report" || setting.option == "plot";
+  if (!names || setting.origin != Origin::file || setting.values.empty()) return;
+  const std::string& text = setting.values[0];
+  if (text == "-" || text.ends_with('/') || is_pattern(text)) return;
+  SettingRemark& remark = options.remarks.emplace_back();
+  remark.where = setting.where;
+  remark.what =
+      fmt::format("{} is '{}' for all programs; a name with {{name}} is one for each, and a folder ends in /",
+                  name_in_messages(setting), fill(text, {}));
+}
+
+std::string default_output(const std::string& program) {
+  if (program == "-") return "-";
+  const std::filesystem::path path(program);
+  return (path.parent_path() / (path.stem().string() + ".comp" + path.extension().string())).string();
+}
+
+}  // namespace counterflex::cli

@@ -1,0 +1,246 @@
+#include "settings/setting_options.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "counterflex/geometry/units.hpp"
+#include "counterflex/program/read_program.hpp"
+#include "settings/output_names.hpp"
+#include "settings/values.hpp"
+
+namespace counterflex::cli {
+namespace {
+
+void take_dialect(const std::string&, const std::string& text, Options& options) {
+  if (const auto problem = unknown_dialect(text)) throw InputError(Exit::usage, {}, *problem);
+  options.dialect = text;
+}
+
+void take_units(const std::string& name, const std::string& text, Options& options) {
+  options.units = choice_of(name, text, {"mm", "inch"}) == 0 ? LengthUnit::millimetres : LengthUnit::inches;
+}
+
+void take_integer_words(const std::string& name, const std::string& text, Options& options) {
+  options.integer_words =
+      choice_of(name, text, {"units", "increments"}) == 0 ? IntegerWords::units : IntegerWords::increments;
+}
+
+void take_arc_centres(const std::string& name, const std::string& text, Options& options) {
+  options.absolute_centres = choice_of(name, text, {"incremental", "absolute"}) == 1;
+}
+
+void take_method(const std::string& name, const std::string& text, Options& options) {
+  constexpr std::array methods{Method::direct, Method::nested, Method::linear};
+  options.method = methods[choice_of(name, text, {"direct", "nested", "linear"})];
+}
+
+void take_work(const std::string& name, const std::string& text, Options& options) {
+  const bool machine = work_of(text, name).offset.empty();
+  for (const std::string& other : options.work)
+    if (machine != work_of(other).offset.empty())
+      throw InputError(Exit::usage, {},
+                       fmt::format("{} is '{}' and '{}': machine, which makes program coordinates machine "
+                                   "coordinates, goes with no offset",
+                                   name, other, text));
+  options.work.push_back(text);
+}
+
+void take_tool_length(const std::string& name, const std::string& text, Options& options) {
+  const auto [tool, length_mm] = tool_length_of(name, text);
+  options.tool_lengths_mm[tool] = length_mm;
+}
+
+void take_plot(const std::string& name, const std::string& text, Options& options) {
+  check_pattern(name, text);
+  if (!text.ends_with(".svg") && !text.ends_with('/'))
+    throw InputError(Exit::usage, {},
+                     fmt::format("{} writes a file that ends in .svg, not '{}'", name, text));
+  options.plot = text;
+}
+
+void take_report(const std::string& name, const std::string& text, Options& options) {
+  check_pattern(name, text);
+  options.report = text;
+}
+
+using Text = const std::string&;
+
+const std::array option_table{
+    SettingOption{"machine", "-m,--machine", "MACHINE", "The machine file; the project file's", "", false,
+                  [](Text, Text text, Options& options) { options.machine = text; }},
+    SettingOption{"forces", "-f,--forces", "FORCES",
+                  "Forces by place, tool or operation (.csv), cutting models (.toml); may be repeated", "",
+                  true, [](Text, Text text, Options& options) { options.forces.push_back(text); }},
+    SettingOption{
+        "force", "--force", "[T3=]FX,FY,FZ[,MX,MY,MZ]",
+        "A constant wrench on the tool at its tip in feed moves, or in those of a tool: N and N m, machine "
+        "frame; may be repeated",
+        "", true,
+        [](Text, Text text, Options& options) { options.force_rules.push_back(parse_force_rule(text)); }},
+    SettingOption{
+        "load-scale", "--load-scale", "SCALE", "Multiplies all cutting forces [1]; 0 corrects geometry only",
+        "1", false,
+        [](Text name, Text text, Options& options) { options.load_scale = number_of(name, text, {0}); }},
+    SettingOption{
+        "air-above", "--air-above", "Z", "Feed moves wholly above this Z of the program carry no force, mm",
+        "", false,
+        [](Text name, Text text, Options& options) { options.air_above_mm = number_of(name, text); }},
+    SettingOption{"blend-mm", "--blend-mm", "LENGTH",
+                  "A step of the force acts as a ramp over this length [2]; 0: as a jump", "2", false,
+                  [](Text name, Text text, Options& options) {
+                    constexpr double least_mm = 0.01;  // words have hardly finer digits
+                    const double blend_mm = number_of(name, text, {0});
+                    if (blend_mm > 0 && blend_mm < least_mm)
+                      throw InputError(Exit::usage, {},
+                                       fmt::format("{} is '{}', must be 0 for jumps, or at least {}", name,
+                                                   text, least_mm));
+                    options.blend = blend_mm * mm;
+                  }},
+    SettingOption{
+        "dialect", "--dialect", "NAME",
+        "auto, linuxcnc, grbl, fanuc, haas, mach3, siemens or heidenhain; the machine file's, or auto", "",
+        false, take_dialect},
+    SettingOption{"units", "--units", "mm|inch", "Units before the program states its own", "", false,
+                  take_units},
+    SettingOption{"integer-words", "--integer-words", "units|increments",
+                  "What length words without a point mean to a fanuc or haas control", "", false,
+                  take_integer_words},
+    SettingOption{"arc-centres", "--arc-centres", "incremental|absolute",
+                  "What I, J and K of arcs are before the program says it: distances from the start, or "
+                  "coordinates; the "
+                  "machine file's, or incremental",
+                  "", false, take_arc_centres},
+    SettingOption{"evaluate", "--evaluate", "",
+                  "Work out variables that the program sets to constants, and expressions of them", "false",
+                  false,
+                  [](Text name, Text text, Options& options) { options.evaluate = truth_of(name, text); }},
+    SettingOption{
+        "expand-subprograms", "--expand-subprograms", "",
+        "Put the bodies of subprograms in the place of calls with plain numbers, and execute loops, "
+        "conditions and jumps of "
+        "constants",
+        "false", false,
+        [](Text name, Text text, Options& options) { options.expand_subprograms = truth_of(name, text); }},
+    SettingOption{
+        "work", "--work", "G54=X,Y,Z[,RX,RY,RZ][/DATUM]",
+        "A work offset in the machine frame, mm and degrees, and how it was found: DATUM is machine "
+        "or touched=X,Y,Z; may be repeated. Or machine: program coordinates are machine coordinates",
+        "", true, take_work},
+    SettingOption{"tool-table", "--tool-table", "FILE", "Tool lengths as LinuxCNC keeps them, mm", "", false,
+                  [](Text, Text text, Options& options) { options.tool_table = text; }},
+    SettingOption{"tool-length", "--tool-length", "T1=LENGTH",
+                  "A tool's length in mm, before that of table and machine file; may be repeated", "", true,
+                  take_tool_length},
+    SettingOption{"method", "--method", "NAME", "How targets are solved: direct, nested or linear [direct]",
+                  "direct", false, take_method},
+    SettingOption{"tolerance-mm", "--tolerance-mm", "LENGTH",
+                  "The largest deviation of the tip to leave [0.005]", "0.005", false,
+                  [](Text name, Text text, Options& options) {
+                    options.tolerance = number_of(name, text, {0, true}) * mm;
+                  }},
+    SettingOption{"max-correction-mm", "--max-correction-mm", "LENGTH",
+                  "The largest correction to accept; the machine file's limit, or 1", "", false,
+                  [](Text name, Text text, Options& options) {
+                    options.max_correction = number_of(name, text, {0, true}) * mm;
+                  }},
+    SettingOption{
+        "accept-partial", "--accept-partial", "",
+        "Accept the verdict PARTLY: write the program though some feed moves miss the tolerance", "false",
+        false, [](Text name, Text text, Options& options) { options.accept_partial = truth_of(name, text); }},
+    SettingOption{
+        "decimals", "--decimals", "N", "Digits after the point in corrected words; each word's own", "",
+        false,
+        [](Text name, Text text, Options& options) { options.decimals = integer_of(name, text, 0, 9); }},
+    SettingOption{
+        "number-pieces", "--number-pieces", "",
+        "Give the pieces of a split block Nn the numbers Nn+1, Nn+2 ..., if they are free", "", false,
+        [](Text name, Text text, Options& options) { options.number_pieces = truth_of(name, text); }},
+    SettingOption{
+        "threads", "--threads", "N", "Threads to use; the result does not depend on it; one a processor", "",
+        false,
+        [](Text name, Text text, Options& options) { options.threads = integer_of(name, text, 1, 1024); }},
+    SettingOption{
+        "min-block-ms", "--min-block-ms", "TIME", "Feed moves that take less are warned of [2]", "2", false,
+        [](Text name, Text text, Options& options) { options.min_block_ms = number_of(name, text, {0}); }},
+    SettingOption{"report", "--report", "STEM", "Write STEM.html, STEM.json and STEM.csv", "", false,
+                  take_report},
+    SettingOption{"plot", "--plot", "FILE.svg",
+                  "Write the deviation along the path and its causes as a picture", "", false, take_plot},
+    SettingOption{
+        "force-overwrite", "--force-overwrite", "", "Replace existing files that counterflex did not write",
+        "", false,
+        [](Text name, Text text, Options& options) { options.force_overwrite = truth_of(name, text); }},
+    SettingOption{"output", "-o,--output", "OUTPUT",
+                  "The corrected program, a folder for it (DIR/) or a pattern ({name}_CF{ext}); "
+                  "NAME.comp.EXT beside the input; - is standard output",
+                  "", false, [](Text name, Text text, Options& options) {
+                    check_pattern(name, text);
+                    options.output = text;
+                  }}};
+
+bool is_among(std::string_view option, std::initializer_list<std::string_view> list) {
+  return std::find(list.begin(), list.end(), option) != list.end();
+}
+
+bool is_of_reading(std::string_view option) {
+  return is_among(option, {"machine", "dialect", "units", "integer-words", "arc-centres", "evaluate",
+                           "expand-subprograms", "work", "tool-table", "tool-length"});
+}
+
+}  // namespace
+
+std::span<const SettingOption> setting_options() {
+  return option_table;
+}
+
+const SettingOption& setting_option(std::string_view option) {
+  return *std::find_if(option_table.begin(), option_table.end(),
+                       [&](const SettingOption& entry) { return entry.option == option; });
+}
+
+bool has_setting(Command command, std::string_view option) {
+  switch (command) {
+    case Command::compensate:
+    case Command::predict:
+    case Command::verify:
+    case Command::watch:
+      return true;
+    case Command::analyze:
+      return is_among(option, {"machine", "method", "force-overwrite"});
+    case Command::forces:
+      return is_of_reading(option) ||
+             is_among(option, {"forces", "force", "load-scale", "air-above", "force-overwrite"});
+    case Command::check:
+      return is_of_reading(option);
+    case Command::batch:
+      return is_among(option, {"threads", "force-overwrite"});
+    case Command::compare:
+      return option == "force-overwrite";
+  }
+  return false;
+}
+
+std::string name_in_messages(const Setting& setting) {
+  return shown_option(setting.option, setting.origin == Origin::environment ? Origin::file : setting.origin);
+}
+
+void blame_setting(const Setting& setting, std::size_t i, const std::string& message) {
+  throw InputError(setting.origin == Origin::file ? Exit::machine_or_force : Exit::usage,
+                   place_of(setting, i), message);
+}
+
+void apply_setting(const Setting& setting, Options& options) {
+  const SettingOption& option = setting_option(setting.option);
+  for (std::size_t i = 0; i < setting.values.size(); ++i) {
+    try {
+      option.take(name_in_messages(setting), setting.values[i], options);
+    } catch (const InputError& error) {
+      const std::string_view what = error.what(), prefix = "error: ";
+      blame_setting(setting, i, std::string(what.starts_with(prefix) ? what.substr(prefix.size()) : what));
+    }
+  }
+}
+
+}  // namespace counterflex::cli

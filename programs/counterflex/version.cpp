@@ -1,7 +1,0 @@
-#include "version.hpp"
-
-namespace counterflex::cli {
-
-const char* const version = COUNTERFLEX_VERSION;
-
-}  // namespace counterflex::cli
