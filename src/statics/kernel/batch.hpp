@@ -7,10 +7,11 @@
 
 namespace counterflex::kernel {
 
-/// Bounds of the offset from tip to command in a cell, for the chords of short lines. Twists are (m, rad), loads N and N m / l.
+/// Bounds of the offset from tip to command in a cell, for the chords of short lines. Twists are (m, rad),
+/// loads N and N m / l.
 struct OffsetBounds {
-  /// Of the position (row 0) and of the rotation vector (row 1): first derivatives by position, rotation vector and load;
-  /// second derivatives by pairs of them; what the polynomial misses.
+  /// Of the position (row 0) and of the rotation vector (row 1): first derivatives by position, rotation
+  /// vector and load; second derivatives by pairs of them; what the polynomial misses.
   std::array<std::array<double, 3>, 2> first{};
   std::array<std::array<std::array<double, 3>, 3>, 2> second{};
   std::array<double, 2> remainder{};
@@ -18,23 +19,27 @@ struct OffsetBounds {
   double load = 0;   ///< N: and with loads of this size in all components
 };
 
-/// The solutions of a question about a place: the state at the centre without a load, and how it changes with the variables. A
-/// pure function of machine, question, centre and step.
+/// The solutions of a question about a place: the state at the centre without a load, and how it changes with
+/// the variables. A pure function of machine, question, centre and step.
 struct StartCell {
   Variables variables;
   std::array<double, 3> centre{};    ///< position of the tip (m)
   std::array<double, 9> R{};         ///< its orientation, row by row
   std::vector<double> state;         ///< as `state_of`
   std::vector<double> cosine, sine;  ///< by joint
-  std::vector<double> changes;       ///< blocks: of the joints, filled up with zeros, then of the twists of nodes and platform
+  Polynomials changes;  ///< of the joints, filled up with zeros, of the twists of nodes and platform, of a
+                        ///< target's offset
+
+  bool only_translates =
+      false;  ///< the platform does not turn with the position, to 1e-11 rad in a cell of 1 cm
 
   // Of a target's cell:
-  std::vector<double> stress;          ///< by element, six numbers: at the centre
-  std::vector<double> stress_changes;  ///< by element a block: first-order terms alone
-  std::vector<double> pivots;          ///< at the centre without a load, actuators held
-  double contraction = 1;              ///< bound of the second step over the first one, with the tangent of this start
-  std::array<double, 6> offset{};      ///< from the tip to the command: position (m), rotation vector (rad)
-  std::vector<double> offset_changes;  ///< a block
+  std::vector<double> stress;  ///< by element, six numbers: at the centre
+  Polynomials stress_changes;  ///< by element a block: first-order terms alone
+  std::vector<double> pivots;  ///< at the centre without a load, actuators held
+  double contraction = 1;  ///< bound of the second step over the first one, with the tangent of this start
+  std::array<double, 6> offset{};  ///< from the tip to the command: position (m), rotation vector (rad)
+  Polynomials offset_changes;      ///< all terms
   OffsetBounds bounds{};
 };
 
@@ -42,8 +47,8 @@ struct StartCell {
 /// as without the load, up to this factor.
 inline constexpr double least_stiffness = 0.5;
 
-/// What is solved. Of the controlled components of a tip, those `of_command` are wanted of the nominal machine:
-/// they are commanded. The others are wanted of the real one.
+/// What is solved. Of the controlled components of a tip, those `of_command` are wanted of the nominal
+/// machine: they are commanded. The others are wanted of the real one.
 struct Problem {
   std::optional<Question> real;     ///< none: nominal kinematics alone
   std::optional<Question> nominal;  ///< none: actuators are held
@@ -64,16 +69,19 @@ struct Batch {
 
   unsigned char* accepted = nullptr;
   int* iterations = nullptr;
-  double* contraction = nullptr;  ///< of the real machine's first step, or of both: the second step over the first; 0: none
+  double* contraction =
+      nullptr;  ///< of the real machine's first step, or of both: the second step over the first; 0: none
   double* actuators = nullptr;    ///< commanded values that belong to the solution
   double* tip = nullptr;          ///< of the real machine, 12 each: R row by row, p
   double* nominal_tip = nullptr;  ///< 12 each
   // Of the real machine, or of the nominal one where it is alone:
-  double* state = nullptr;   ///< state_size each
-  double* stress = nullptr;  ///< by element: force and moment about its end (N, N m), axes of M; of groups zero
+  double* state = nullptr;  ///< state_size each
+  double* stress =
+      nullptr;  ///< by element: force and moment about its end (N, N m), axes of M; of groups zero
   double* pivots = nullptr;  ///< FlatMachine::pivots each, actuators held; zero: a free joint
-  /// First derivatives of the solution by the variables `response_to`: for each of them the step of the unknowns (joints,
-  /// then twists about the wanted tip), and of the nominal platform (a twist), if there is a real machine.
+  /// First derivatives of the solution by the variables `response_to`: for each of them the step of the
+  /// unknowns (joints, then twists about the wanted tip), and of the nominal platform (a twist), if there is
+  /// a real machine.
   double* responses = nullptr;
   Variables response_to{};
   /// Every pivot of the last tangent, which has the stress that the cell or the step before predicts, keeps

@@ -1,44 +1,63 @@
 #pragma once
 /// Functions near a point as polynomials of a few variables. EQUATIONS.md, section 11, "Starts".
+#include <vector>
+
 #include "spatial.hpp"
 
 namespace counterflex::kernel {
 
-/// What a solution is a function of: the position of the tip (m), its rotation vector against the centre (rad) and
-/// the load (N, N m).
+/// What a solution is a function of: the position of the tip (m), its rotation vector against the centre
+/// (rad) and the load (N, N m).
 struct Variables {
   bool turns = false;  ///< the rotation vector is a variable: the machine controls an orientation
   bool loads = false;  ///< the load is one
 
   constexpr int count() const { return 3 + (turns ? 3 : 0) + (loads ? 6 : 0); }
   constexpr int first_load() const { return turns ? 6 : 3; }
-  /// The variables, and their products in pairs: of a start.
-  constexpr int start_terms() const { return count() + count() * (count() + 1) / 2; }
-  /// And the products of a squared position with each variable.
-  constexpr int terms() const { return start_terms() + 3 * count(); }
+  bool is_position(int variable) const { return variable < 3; }
+  bool is_load(int variable) const { return variable >= first_load(); }
+  bool is_turn(int variable) const { return !is_position(variable) && !is_load(variable); }
 };
 
 inline constexpr int most_variables = Variables{true, true}.count();
-inline constexpr int most_terms = Variables{true, true}.terms();
-inline constexpr int most_start_terms = Variables{true, true}.start_terms();
+inline constexpr int most_terms =
+    most_variables + most_variables * (most_variables + 1) / 2 + 3 * most_variables + 1;
+inline constexpr int no_variable = most_variables;  ///< a factor of 1
 
-/// The terms of a start at x: x_i; x_i x_j, j >= i. Returns the end.
-template <class T>
-COUNTERFLEX_INLINE T* fill_start_terms(int variables, const T* x, T* terms) {
-  for (int i = 0; i < variables; ++i) *terms++ = x[i];
-  for (int i = 0; i < variables; ++i)
-    for (int j = i; j < variables; ++j) *terms++ = x[i] * x[j];
+/// A product of up to three variables.
+struct Term {
+  int number = 0;  ///< among all terms
+  int of[3]{no_variable, no_variable, no_variable};
+};
+
+/// All terms: x_i; x_i x_j, j >= i; x_i^2 x_j, i a position; x y z.
+inline std::vector<Term> terms_of(const Variables& variables) {
+  std::vector<Term> terms;
+  const auto add = [&](int i, int j = no_variable, int k = no_variable) {
+    terms.push_back({static_cast<int>(terms.size()), {i, j, k}});
+  };
+  const int n = variables.count();
+  for (int i = 0; i < n; ++i) add(i);
+  for (int i = 0; i < n; ++i)
+    for (int j = i; j < n; ++j) add(i, j);
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < n; ++j) add(i, i, j);
+  add(0, 1, 2);
   return terms;
 }
 
-/// All terms at x: those of a start; x_i^2 x_j, i a position.
-inline void fill_terms(int variables, const double* x, double* terms) {
-  terms = fill_start_terms(variables, x, terms);
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < variables; ++j) *terms++ = x[i] * x[i] * x[j];
-}
+/// A point of polynomials, and the factor 1.
+template <class T>
+struct Point {
+  T x[most_variables + 1]{};
+  Point() { x[no_variable] += 1.0; }
+  COUNTERFLEX_INLINE T& operator[](int i) { return x[i]; }
+  COUNTERFLEX_INLINE T value_of(const Term& term) const {
+    return x[term.of[0]] * x[term.of[1]] * x[term.of[2]];
+  }
+};
 
-/// Values are computed six at a time. The coefficients of six values: by term, six numbers.
+/// Values are computed six at a time.
 inline constexpr int block = 6;
 
 template <class T>
@@ -46,15 +65,15 @@ struct Block {
   T value[block];
 };
 
-/// Six values: `number(i)` is coefficient i in every lane.
-template <class T, class Number>
-COUNTERFLEX_INLINE Block<T> sum_terms(int terms, const T* x, const Number& number) {
-  Block<T> sum{};
-  for (int k = 0; k < terms; ++k) {
-    COUNTERFLEX_UNROLL
-    for (int i = 0; i < block; ++i) sum.value[i] += number(block * k + i) * x[k];
+/// Polynomials in blocks of six, of the same terms.
+struct Polynomials {
+  std::vector<Term> terms;           ///< by number
+  std::vector<double> coefficients;  ///< by block and term, six numbers
+
+  double coefficient(int block_number, std::size_t term, int row) const {
+    return coefficients[block * (static_cast<std::size_t>(block_number) * terms.size() + term) +
+                        static_cast<std::size_t>(row)];
   }
-  return sum;
-}
+};
 
 }  // namespace counterflex::kernel

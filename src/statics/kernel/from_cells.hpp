@@ -4,146 +4,156 @@
 
 namespace counterflex::kernel {
 
-/// The cells of the waypoints from `first` on, and their numbers in the lanes. `shared`: all lanes have the
-/// same cell.
-template <class T, bool shared>
-struct CellLanes {
-  const StartCell* cells[lane_count<T>];
+/// Calls `visit(cell, lanes)` for every cell that one of the waypoints from `first` on has, and their lanes.
+template <class T, class Visit>
+COUNTERFLEX_INLINE void for_each_cell(const Batch& batch, int first, const StartCell* const* cells,
+                                      const Visit& visit) {
+  const auto of = [&](int l) { return cells[first + l < batch.count ? first + l : batch.count - 1]; };
+  for (int l = 0; l < lane_count<T>; ++l) {
+    bool is_new = true;
+    for (int k = 0; k < l; ++k) is_new = is_new && of(k) != of(l);
+    if (is_new) visit(*of(l), lanes_where<T>([&](int k) { return of(k) == of(l); }));
+  }
+}
 
-  const StartCell& only() const { return *cells[0]; }
-  COUNTERFLEX_INLINE T number(std::vector<double> StartCell::*of, int i) const {
-    if constexpr (shared)
-      return all<T>(at(only().*of, i));
-    else
-      return gather<T>([&](int l) { return at(cells[l]->*of, i); });
-  }
-  COUNTERFLEX_INLINE Block<T> sum(std::vector<double> StartCell::*of, int number_of_block, int terms,
-                                  const T* x) const {
-    const int first = block * terms * number_of_block;
-    return sum_terms<T>(terms, x, [&](int i) { return number(of, first + i); });
-  }
+/// The terms of polynomials at a point.
+template <class T>
+struct TermValues {
+  T value[most_terms];
 };
 
-/// Calls `visit` with the lanes of `cells`.
-template <class T, class Visit>
-COUNTERFLEX_INLINE void with_cells(const Batch& batch, int first, const StartCell* const* cells,
-                                   const Visit& visit) {
-  CellLanes<T, true> same{};
-  bool shared = true;
-  for (int l = 0; l < lane_count<T>; ++l) {
-    same.cells[l] = cells[first + l < batch.count ? first + l : batch.count - 1];
-    shared = shared && same.cells[l] == same.cells[0];
-  }
-  if (shared) return visit(same);
-  CellLanes<T, false> different{};
-  for (int l = 0; l < lane_count<T>; ++l) different.cells[l] = same.cells[l];
-  visit(different);
+template <class T>
+COUNTERFLEX_INLINE void fill(const Polynomials& polynomials, const Point<T>& x, TermValues<T>& values) {
+  T* value = values.value;
+  for (const Term& term : polynomials.terms) *value++ = x.value_of(term);
 }
 
-/// The state that cells have for the variables x.
-template <class T, bool shared>
-void put_state_of_cells(const CellLanes<T, shared>& cells, const T* x, Work<T>& work) {
+template <class T>
+COUNTERFLEX_INLINE Block<T> sum(const Polynomials& polynomials, int block_number,
+                                const TermValues<T>& values) {
+  const std::size_t terms = polynomials.terms.size();
+  const double* coefficients =
+      polynomials.coefficients.data() + block * terms * static_cast<std::size_t>(block_number);
+  Block<T> sum{};
+  for (std::size_t k = 0; k < terms; ++k, coefficients += block) {
+    COUNTERFLEX_UNROLL
+    for (int i = 0; i < block; ++i) sum.value[i] += coefficients[i] * values.value[k];
+  }
+  return sum;
+}
+
+/// Puts the state that a cell has for the variables x into its lanes. `terms`: those of the cell's changes at
+/// x.
+template <class T>
+void put_state_of_cell(const StartCell& cell, const Mask<T>& lanes, const Point<T>& x,
+                       const TermValues<T>& terms, Work<T>& work) {
   const FlatMachine& machine = work.machine;
-  const Variables& variables = cells.only().variables;
-  const int terms = variables.start_terms();
-  T of_terms[most_start_terms];
-  fill_start_terms(variables.count(), x, of_terms);
-  int number_of_block = 0;
-  for (int begin = 0; begin < machine.joints; begin += block, ++number_of_block) {
-    const Block<T> dq = cells.sum(&StartCell::changes, number_of_block, terms, of_terms);
+  const auto put = [&](T value, T& to) { to = select<T>(lanes, value, to); };
+  int block_number = 0;
+  for (int begin = 0; begin < machine.joints; begin += block, ++block_number) {
+    const Block<T> dq = sum(cell.changes, block_number, terms);
     for (int i = 0; i < block && begin + i < machine.joints; ++i) {
       const int j = begin + i;
-      at(work.state.q, j) = cells.number(&StartCell::state, j);
-      at(work.state.cosine, j) = cells.number(&StartCell::cosine, j);
-      at(work.state.sine, j) = cells.number(&StartCell::sine, j);
-      move_joint(dq.value[i], at(machine.joint_turns, j) != 0, j, work.state);
+      JointState<T> found{all<T>(at(cell.state, j)), all<T>(at(cell.cosine, j)), all<T>(at(cell.sine, j))};
+      move_joint(dq.value[i], at(machine.joint_turns, j) != 0, found);
+      JointState<T>& joint = at(work.state.joints, j);
+      put(found.q, joint.q), put(found.cosine, joint.cosine), put(found.sine, joint.sine);
     }
   }
-  for (int i = 0; i <= machine.nodes; ++i, ++number_of_block) {
+  for (int i = 0; i <= machine.nodes; ++i, ++block_number) {
     Frame<T>& X = i < machine.nodes ? at(work.state.nodes, i) : work.state.platform;
-    const int frame = machine.joints + 12 * i;
-    const Block<T> way = cells.sum(&StartCell::changes, number_of_block, terms, of_terms);
+    const double* frame = &at(cell.state, machine.joints + 12 * i);
+    const Block<T> way = sum(cell.changes, block_number, terms);
     Mat3<T> R;
-    for (int k = 0; k < 9; ++k) R.c[k] = cells.number(&StartCell::state, frame + k);
-    for (int k = 0; k < 3; ++k)
-      X.p[k] = cells.number(&StartCell::state, frame + 9 + k) - work.origin[k] + way.value[k];
-    X.R = exp_so3(Vec3<T>{{way.value[3], way.value[4], way.value[5]}}) * R;
+    for (int k = 0; k < 9; ++k) R.c[k] = all<T>(frame[k]);
+    R = exp_so3(Vec3<T>{{way.value[3], way.value[4], way.value[5]}}) * R;
+    for (int k = 0; k < 9; ++k) put(R.c[k], X.R.c[k]);
+    for (int k = 0; k < 3; ++k) put(frame[9 + k] - work.origin[k] + way.value[k], X.p[k]);
   }
-  if (cells.only().stress.empty()) return;
+  if (cell.stress.empty()) return;
+  TermValues<T> of_stress;
+  fill(cell.stress_changes, x, of_stress);
   for (int i = 0; i < static_cast<int>(machine.elements.size()); ++i) {
-    const Block<T> change = cells.sum(&StartCell::stress_changes, i, variables.count(), x);
+    const Block<T> change = sum(cell.stress_changes, i, of_stress);
     Vec6<T>& stress = at(work.start_stress, i);
     for (int k = 0; k < 3; ++k) {
-      stress.v[k] = cells.number(&StartCell::stress, block * i + k) + change.value[k];
-      stress.w[k] = cells.number(&StartCell::stress, block * i + 3 + k) + change.value[3 + k];
+      put(at(cell.stress, block * i + k) + change.value[k], stress.v[k]);
+      put(at(cell.stress, block * i + 3 + k) + change.value[3 + k], stress.w[k]);
     }
   }
 }
 
-/// From the wanted tip to the variables of the cells of one machine, without loads.
-template <class T, bool shared>
-COUNTERFLEX_INLINE void find_place(const CellLanes<T, shared>& cells, const Work<T>& work, T* x) {
-  for (int i = 0; i < 3; ++i)
-    x[i] = work.origin[i] - gather<T>([&](int l) { return at(cells.cells[l]->centre, i); });
-  for (int i = 3; i < most_variables; ++i) x[i] = T{};
-  if (!cells.only().variables.turns) return;
+/// From the wanted tip to the variables of a cell of one machine, without loads.
+template <class T>
+COUNTERFLEX_INLINE Point<T> find_place(const StartCell& cell, const Work<T>& work) {
+  Point<T> x;
+  for (int i = 0; i < 3; ++i) x[i] = work.origin[i] - at(cell.centre, i);
+  if (!cell.variables.turns) return x;
   Mat3<T> R;
-  for (int i = 0; i < 9; ++i) R.c[i] = gather<T>([&](int l) { return at(cells.cells[l]->R, i); });
+  for (int i = 0; i < 9; ++i) R.c[i] = all<T>(at(cell.R, i));
   const Vec3<T> turn = log_so3(times_transposed(work.wanted_R, R));
   for (int i = 0; i < 3; ++i) x[3 + i] = turn[i];
+  return x;
 }
 
-/// The offset from the tip to the command that cells have for the variables x.
-template <class T, bool shared>
-Block<T> command_offset(const CellLanes<T, shared>& cells, const T* x) {
-  const Variables& variables = cells.only().variables;
-  T terms[most_start_terms];
-  fill_start_terms(variables.count(), x, terms);
-  Block<T> offset = cells.sum(&StartCell::offset_changes, 0, variables.start_terms(), terms);
-  for (int i = 0; i < block; ++i)
-    offset.value[i] += gather<T>([&](int l) { return at(cells.cells[l]->offset, i); });
+/// The offset from the tip to the command that a target's cell has, `terms` being those of its changes: the
+/// block behind those of the state.
+template <class T>
+COUNTERFLEX_INLINE Block<T> command_offset(const StartCell& cell, const FlatMachine& machine,
+                                           const TermValues<T>& terms) {
+  Block<T> offset = sum(cell.changes, (machine.joints + block - 1) / block + machine.nodes + 1, terms);
+  for (int i = 0; i < block; ++i) offset.value[i] += at(cell.offset, i);
   return offset;
 }
 
-/// Begins both machines at the states that the cells have for the waypoints from `first` on. Where a
-/// component is commanded, the tip is found from the command: each round leaves some hundredths of the error.
+/// Begins the real machine at the state that a cell has for its lanes. Where a component is commanded, the
+/// tip is found from the command: each round leaves some hundredths of the error. Finds the way from the
+/// wanted tip to the nominal one.
+template <class T>
+void put_real_from_cell(const StartCell& cell, const Mask<T>& lanes, Coupled<T>& coupled, T* nominal_way) {
+  Work<T>& work = coupled.real;
+  const Variables& variables = cell.variables;
+  const auto& of_command = coupled.problem.of_command;
+  Point<T> place = find_place(cell, work);
+  for (int i = 0; i < 3 && variables.loads; ++i) {
+    place[variables.first_load() + i] = work.load.v[i] * work.question.load;
+    place[variables.first_load() + 3 + i] = work.load.w[i] * work.question.load;
+  }
+  Point<T> x = place;
+  TermValues<T> terms;
+  fill(cell.changes, x, terms);
+  bool is_commanded = false;
+  const int components = variables.first_load();
+  for (int j = 0; j < components; ++j) is_commanded = is_commanded || at(of_command, j);
+  const int rounds = !is_commanded ? 1 : of_command[0] ? 3 : 2;  // an orientation changes the offset less
+  for (int k = 0; k < rounds; ++k) {
+    const Block<T> offset = command_offset(cell, work.machine, terms);
+    for (int j = 0; j < components; ++j)
+      if (at(of_command, j))
+        x[j] = place[j] - offset.value[j];
+      else
+        nominal_way[j] = select<T>(lanes, offset.value[j], nominal_way[j]);
+    if (is_commanded) fill(cell.changes, x, terms);
+  }
+  put_state_of_cell(cell, lanes, x, terms, work);
+}
+
+/// Begins both machines at the states that the cells have for the waypoints from `first` on.
 template <class T>
 void put_from_cells(const Batch& batch, int first, Coupled<T>& coupled) {
   const Problem& problem = coupled.problem;
-  T nominal_way[6]{};  // from the wanted tip to the nominal one
+  T nominal_way[6]{};
   if (problem.real)
-    with_cells<T>(batch, first, batch.cells, [&](const auto& cells) {
-      Work<T>& work = coupled.real;
-      const Variables& variables = cells.only().variables;
-      T x[most_variables], place[most_variables];
-      find_place(cells, work, place);
-      for (int i = 0; i < 3 && variables.loads; ++i) {
-        place[variables.first_load() + i] = work.load.v[i] * work.question.load;
-        place[variables.first_load() + 3 + i] = work.load.w[i] * work.question.load;
-      }
-      for (int i = 0; i < most_variables; ++i) x[i] = place[i];
-      bool is_commanded = false;
-      const int components = variables.first_load();
-      for (int j = 0; j < components; ++j) is_commanded = is_commanded || at(problem.of_command, j);
-      const int rounds = !is_commanded               ? 1
-                         : at(problem.of_command, 0) ? 3
-                                                     : 2;  // an orientation changes the offset less
-      for (int k = 0; k < rounds; ++k) {
-        const Block<T> offset = command_offset(cells, x);
-        for (int j = 0; j < components; ++j)
-          if (at(problem.of_command, j))
-            x[j] = place[j] - offset.value[j];
-          else
-            nominal_way[j] = offset.value[j];
-      }
-      put_state_of_cells(cells, x, work);
+    for_each_cell<T>(batch, first, batch.cells, [&](const StartCell& cell, const Mask<T>& lanes) {
+      put_real_from_cell<T>(cell, lanes, coupled, nominal_way);
     });
   if (problem.nominal)
-    with_cells<T>(batch, first, batch.nominal_cells, [&](const auto& cells) {
-      T x[most_variables];
-      find_place(cells, coupled.nominal, x);
+    for_each_cell<T>(batch, first, batch.nominal_cells, [&](const StartCell& cell, const Mask<T>& lanes) {
+      Point<T> x = find_place(cell, coupled.nominal);
       for (int i = 0; i < 6; ++i) x[i] += nominal_way[i];
-      put_state_of_cells(cells, x, coupled.nominal);
+      TermValues<T> terms;
+      fill(cell.changes, x, terms);
+      put_state_of_cell<T>(cell, lanes, x, terms, coupled.nominal);
     });
 }
 

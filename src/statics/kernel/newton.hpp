@@ -6,11 +6,13 @@ namespace counterflex::kernel {
 
 inline constexpr double step_tolerance = 1e-11;  ///< largest component of the last step (m; angles times l)
 inline constexpr double predicted_tolerance = 1e-12;  ///< of a step that need not be taken
-/// Chords contract less evenly: they have to be small, too, and tangents complete. With both, answers from different starts
-/// agree to 1e-11 (tests/statics/kernel_test.cpp); where tangents leave out hanging weights, 9e-11 were seen.
+/// Chords contract less evenly: they have to be small, too, and tangents complete. With both, answers from
+/// different starts agree to 1e-11 (tests/statics/kernel_test.cpp); where tangents leave out hanging weights,
+/// 9e-11 were seen.
 inline constexpr double small_chord = 1e-9;
-inline constexpr double predicted_first_step = 4e-12;  ///< of a step behind the first one, by a bound of the contraction
-inline constexpr double force_tolerance = 1e-9;       ///< of the residual forces, against those that act
+inline constexpr double predicted_first_step =
+    4e-12;  ///< of a step behind the first one, by a bound of the contraction
+inline constexpr double force_tolerance = 1e-9;  ///< of the residual forces, against those that act
 inline constexpr double deflection_tolerance =
     1e-12;  ///< and what the stiffest spring has at this deflection (m)
 
@@ -18,7 +20,7 @@ template <class T>
 struct Solved {
   Mask<T> accepted;  ///< the last step is small, and so is the residual at the solution
   T iterations;
-  T contraction;     ///< the second step over the first one; 0: there was none
+  T contraction;  ///< the second step over the first one; 0: there was none
 };
 
 /// Whether every unknown is a number.
@@ -29,7 +31,7 @@ Mask<T> is_finite(const State<T>& state) {
     for (int i = 0; i < 9; ++i) sum += X.R.c[i] * 0.0;
     for (int i = 0; i < 3; ++i) sum += X.p[i] * 0.0;
   };
-  for (const T& q : state.q) sum += q * 0.0;
+  for (const JointState<T>& joint : state.joints) sum += joint.q * 0.0;
   for (const Frame<T>& node : state.nodes) add(node);
   add(state.platform);
   return sum == 0.0;
@@ -73,17 +75,19 @@ Mask<T> is_balanced(const Work<T>& work) {
          (e.largest_turn_squared <= largest_spring_turn * largest_spring_turn) & is_finite(work.state);
 }
 
-/// Solves the phase of the problem from the states of its machines, in the lanes that are `active`. The equations are
-/// evaluated at the solution at last. `contraction`: a bound for the first step, where one is known; else infinite. Calls
-/// `judge(active)` behind each factorisation of a tangent.
+/// Solves the phase of the problem from the states of its machines, in the lanes that are `active`. The
+/// equations are evaluated at the solution at last. `contraction`: a bound for the first step, where one is
+/// known; else infinite. Calls `judge(active)` behind each factorisation of a tangent.
 template <class T, class Judge>
-Solved<T> iterate(const Schedule& schedule, Mask<T> active, const T& contraction, Coupled<T>& coupled, const Judge& judge) {
+Solved<T> iterate(const Schedule& schedule, Mask<T> active, const T& contraction, Coupled<T>& coupled,
+                  const Judge& judge) {
   Solved<T> solved{static_cast<Mask<T>>(opposite<T>(active) & active), {}, {}};
   Mask<T> is_small = solved.accepted;
   Work<T>& first = coupled.first();
   // Nothing is known of the contraction of a first step, but of Newton's on kinematics.
   T last = all<T>(coupled.phase.real ? 0 : first.machine.length);
-  const bool is_exact = !coupled.phase.real || !first.machine.has_hanging_weights;  // tangents: else steps contract slowly
+  const bool is_exact =
+      !coupled.phase.real || !first.machine.has_hanging_weights;  // tangents: else steps contract slowly
   for (int k = 0;; ++k) {
     Mask<T> is_solved = active & is_small;
     coupled.for_each([&](Work<T>& work) {

@@ -29,7 +29,7 @@ inline constexpr int lane_count = LaneTraits<T>::count;
 
 template <class T>
 COUNTERFLEX_INLINE T all(double value) {
-  return T{} + value;
+  return value - T{};  // not a sum: it would change -0
 }
 template <class T>
 COUNTERFLEX_INLINE T select(Mask<T> where, T yes, T no) {
@@ -87,6 +87,18 @@ COUNTERFLEX_INLINE T gather(const Value& value) {
   T result{};
   for (int i = 0; i < lane_count<T>; ++i) lane(result, i) = value(i);
   return result;
+}
+
+/// The lanes i of which `is(i)` is true.
+template <class T, class Is>
+COUNTERFLEX_INLINE Mask<T> lanes_where(const Is& is) {
+  if constexpr (lane_count<T> == 1) {
+    return is(0);
+  } else {
+    Mask<T> mask{};
+    for (int i = 0; i < lane_count<T>; ++i) mask[i] = is(i) ? -1 : 0;
+    return mask;
+  }
 }
 
 }  // namespace counterflex::kernel

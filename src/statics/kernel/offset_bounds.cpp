@@ -26,24 +26,28 @@ Eigen::MatrixXd second_derivatives(const StartCell& cell, int row, double reach,
                                    double length) {
   const Variables& variables = cell.variables;
   const int n = variables.count();
-  const auto coefficient = [&](int term) { return at(cell.offset_changes, block * term + row); };
   const auto extent = [&](int k) {
     return group_of(k, variables) == position ? reach
            : group_of(k, variables) == turn   ? 0
                                               : largest_load / unit_of(k, variables, length);
   };
   Eigen::MatrixXd D = Eigen::MatrixXd::Zero(n, n);
-  int term = n;
-  for (int i = 0; i < n; ++i)
-    for (int j = i; j < n; ++j, ++term) D(i, j) = D(j, i) = std::abs(coefficient(term)) * (i == j ? 2 : 1);
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < n; ++j, ++term) {
-      const double third = std::abs(coefficient(term)) * (i == j ? 6 : 2);
-      D(i, i) += third * extent(j);
-      if (i == j) continue;
-      D(i, j) += third * extent(i);
-      D(j, i) += third * extent(i);
+  const std::vector<Term>& terms = cell.offset_changes.terms;
+  for (std::size_t t = 0; t < terms.size(); ++t) {
+    const auto [i, j, k] = terms[t].of;
+    const double size = std::abs(cell.offset_changes.coefficient(0, t, row));
+    if (j == no_variable) continue;
+    if (k == no_variable) {
+      D(i, j) += size * (i == j ? 2 : 1);
+      if (i != j) D(j, i) += size;
+      continue;
     }
+    // x_i x_j x_k has three factors, each of which is the one that is not differentiated by.
+    for (const auto& [a, b, c] : {std::array{i, j, k}, std::array{j, k, i}, std::array{k, i, j}}) {
+      D(a, b) += size * extent(c);
+      D(b, a) += size * extent(c);
+    }
+  }
   return D;
 }
 
@@ -60,7 +64,9 @@ OffsetBounds offset_bounds(const StartCell& cell, double reach, double load, dou
     auto& second = at(bounds.second, row / 3);
     for (int i = 0; i < n; ++i) {
       const auto v = static_cast<std::size_t>(group_of(i, variables));
-      first[v] += std::pow(at(cell.offset_changes, block * i + row) * unit_of(i, variables, length), 2);
+      first[v] += std::pow(cell.offset_changes.coefficient(0, static_cast<std::size_t>(i), row) *
+                               unit_of(i, variables, length),
+                           2);
       for (int j = 0; j < n; ++j)
         second[v][static_cast<std::size_t>(group_of(j, variables))] +=
             std::pow(D(i, j) * unit_of(i, variables, length) * unit_of(j, variables, length), 2);
@@ -90,8 +96,8 @@ ChordBounds chord_bounds(const OffsetBounds& bounds, const LineSizes& line) {
   const std::array<double, 3> step{
       line.way, (first(1, position) * line.way + first(1, load) * line.load_change) / turn_follows,
       line.load_change};
-  // A polynomial of fourth order that is at most 1 over a reach bends by at most 80 (Markov); it is never further
-  // than 2 off its chord.
+  // A polynomial of fourth order that is at most 1 over a reach bends by at most 80 (Markov); it is never
+  // further than 2 off its chord.
   const double share = line.way / bounds.reach + (line.load_change + line.kink) / bounds.load;
   const double missed = std::pow(excess, 3) * std::min(2.0, 10 * share * share);
   std::array<double, 2> off{};

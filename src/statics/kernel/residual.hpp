@@ -43,12 +43,12 @@ COUNTERFLEX_INLINE void pass(const FrameStep& step, Work<T>& work, Frame<T>& X) 
       {X.R(0, step.axis) * step.sign, X.R(1, step.axis) * step.sign, X.R(2, step.axis) * step.sign}};
   if (step.kind == StepKind::slide) {
     s = {axis, {}};
-    X.p = X.p + axis * (at(work.state.q, step.joint) * step.direction);
+    X.p = X.p + axis * (at(work.state.joints, step.joint).q * step.direction);
     return;
   }
   s = {cross(X.p, axis), axis};
-  const T cosine = at(work.state.cosine, step.joint),
-          sine = at(work.state.sine, step.joint) * (step.sign * step.direction);
+  const JointState<T>& joint = at(work.state.joints, step.joint);
+  const T cosine = joint.cosine, sine = joint.sine * (step.sign * step.direction);
   if (step.axis == 0)
     turn_about<0>(cosine, sine, X);
   else if (step.axis == 1)
@@ -141,7 +141,7 @@ COUNTERFLEX_INLINE void evaluate_joint(const FrameStep& step, const Vec6<T>& phi
   if (!step.is_joint() || step.actuator >= 0) return;
   JointTerms<T>& joint = at(work.equations.joints, step.joint);
   const double k = step.passive && work.question.nominal ? 0 : step.k;
-  joint.r = k * (at(work.state.q, step.joint) - step.rest) - dot(joint.s, phi);
+  joint.r = k * (at(work.state.joints, step.joint).q - step.rest) - dot(joint.s, phi);
   work.equations.largest_force =
       larger(work.equations.largest_force,
              magnitude(joint.r) * (step.kind == StepKind::turn ? 1 / work.machine.length : 1.0));

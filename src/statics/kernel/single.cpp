@@ -93,9 +93,7 @@ struct Single::Impl {
     State<double>& state = work().state;
     const double* x = numbers.state.data();
     for (int j = 0; j < machine.joints; ++j, ++x) {
-      at(state.q, j) = *x;
-      at(state.cosine, j) = std::cos(*x);
-      at(state.sine, j) = std::sin(*x);
+      at(state.joints, j) = {*x, std::cos(*x), std::sin(*x)};
     }
     for (Frame<double>& node : state.nodes) {
       node = frame_about(x, work().origin);
@@ -121,7 +119,7 @@ struct Single::Impl {
   void get(const Mechanism& mechanism, const Stage& stage, Configuration& configuration) {
     const State<double>& state = work().state;
     double* x = numbers.state.data();
-    for (const double q : state.q) *x++ = q;
+    for (const JointState<double>& joint : state.joints) *x++ = joint.q;
     for (const Frame<double>& node : state.nodes) {
       put_frame(node, work().origin, x);
       x += 12;
@@ -196,7 +194,7 @@ struct Single::Impl {
     for (int i = 0; i < 3; ++i) answer.first_X_MP.p[i] = x[9 + i];
     answer.first_rho.resize(static_cast<Eigen::Index>(machine.actuator_joint.size()));
     for (int a = 0; a < static_cast<int>(answer.first_rho.size()); ++a)
-      answer.first_rho[a] = at(work().state.q, at(machine.actuator_joint, a)) -
+      answer.first_rho[a] = at(work().state.joints, at(machine.actuator_joint, a)).q -
                             work().question.gravity * at(machine.actuator_offset, a);
   }
 };
@@ -216,8 +214,8 @@ SingleAnswer Single::solve(const Mechanism& mechanism, const Waypoint& waypoint,
     in_range = in_range && turns_are_in_range(impl_->work());
     if (++tangents == 2) impl_->note_first_step(answer);
   };
-  const Solved<double> solved =
-      iterate<double>({.first = FirstStress::of_cells}, true, unknown_contraction, impl_->coupled, at_tangent);
+  const Solved<double> solved = iterate<double>({.first = FirstStress::of_cells}, true, unknown_contraction,
+                                                impl_->coupled, at_tangent);
   answer.accepted = solved.accepted && in_range;
   answer.iterations = static_cast<int>(solved.iterations);
   if (!answer.accepted) return answer;

@@ -7,12 +7,15 @@
 namespace counterflex::kernel {
 
 template <class T>
+COUNTERFLEX_INLINE void put_joint(int l, double q, JointState<T>& joint) {
+  lane(joint.q, l) = q;
+  lane(joint.cosine, l) = std::cos(q);
+  lane(joint.sine, l) = std::sin(q);
+}
+
+template <class T>
 void put_state(const FlatMachine& machine, int l, const double* numbers, Work<T>& work) {
-  for (int j = 0; j < machine.joints; ++j, ++numbers) {
-    lane(at(work.state.q, j), l) = *numbers;
-    lane(at(work.state.cosine, j), l) = std::cos(*numbers);
-    lane(at(work.state.sine, j), l) = std::sin(*numbers);
-  }
+  for (int j = 0; j < machine.joints; ++j, ++numbers) put_joint(l, *numbers, at(work.state.joints, j));
   const auto put = [&](Frame<T>& X) {
     for (int i = 0; i < 9; ++i) lane(X.R.c[i], l) = *numbers++;
     for (int i = 0; i < 3; ++i) lane(X.p[i], l) = *numbers++ - lane(work.origin[i], l);
@@ -23,7 +26,7 @@ void put_state(const FlatMachine& machine, int l, const double* numbers, Work<T>
 
 template <class T>
 void get_state(int l, const Work<T>& work, double* numbers) {
-  for (const T& q : work.state.q) *numbers++ = lane(q, l);
+  for (const JointState<T>& joint : work.state.joints) *numbers++ = lane(joint.q, l);
   const auto get = [&](const Frame<T>& X) {
     for (int i = 0; i < 9; ++i) *numbers++ = lane(X.R.c[i], l);
     for (int i = 0; i < 3; ++i) *numbers++ = lane(X.p[i], l) + lane(work.origin[i], l);
@@ -61,16 +64,13 @@ void put_waypoints(const Batch& batch, int first, Work<T>& work) {
 
 template <class T>
 void put_actuator(int a, int l, double rho, Work<T>& work) {
-  const int j = at(work.machine.actuator_joint, a);
-  const double q = rho + work.question.gravity * at(work.machine.actuator_offset, a);
-  lane(at(work.state.q, j), l) = q;
-  lane(at(work.state.cosine, j), l) = std::cos(q);
-  lane(at(work.state.sine, j), l) = std::sin(q);
+  put_joint(l, rho + work.question.gravity * at(work.machine.actuator_offset, a),
+            at(work.state.joints, at(work.machine.actuator_joint, a)));
 }
 
 template <class T>
 double get_actuator(int a, int l, const Work<T>& work) {
-  return lane(at(work.state.q, at(work.machine.actuator_joint, a)), l) -
+  return lane(at(work.state.joints, at(work.machine.actuator_joint, a)).q, l) -
          work.question.gravity * at(work.machine.actuator_offset, a);
 }
 
@@ -80,9 +80,7 @@ void copy_actuators(const Work<T>& from, Work<T>& to) {
   const FlatMachine& machine = to.machine;
   for (int a = 0; a < static_cast<int>(machine.actuator_joint.size()); ++a) {
     const int j = at(machine.actuator_joint, a);
-    at(to.state.q, j) = at(from.state.q, j);
-    at(to.state.cosine, j) = at(from.state.cosine, j);
-    at(to.state.sine, j) = at(from.state.sine, j);
+    at(to.state.joints, j) = at(from.state.joints, j);
     if (at(machine.actuator_offset, a) == 0 || from.question.gravity == to.question.gravity) continue;
     for (int l = 0; l < lane_count<T>; ++l) put_actuator(a, l, get_actuator(a, l, from), to);
   }

@@ -12,8 +12,11 @@ namespace {
 
 using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic>;
 
-constexpr double turn_step = 0.01;  // rad
-constexpr double force_step = 100;  // N: under it machines yield by micrometres to millimetres
+constexpr double turn_step = 0.01;               // rad
+constexpr double force_step = 100;               // N: under it machines yield by micrometres to millimetres
+constexpr double largest_turn_of_cells = 0.025;  // rad: half of a cell's edge
+/// Of a term at the rim of its cell (m; angles times l). With 1e-9 no machine of the bench takes fewer steps.
+constexpr double negligible_term = 2e-8;
 /// Ends of a line lie so far beyond the cell that holds its middle, in half edges.
 constexpr double reach_of_lines = 1.25;
 constexpr double load_of_lines = 250;  // N
@@ -28,7 +31,7 @@ struct Sample {
   Vector6 F = Vector6::Zero();
 };
 
-/// The centre, then a pair of samples on either side of it for each variable.
+/// The centre, then a pair of samples on either side of it for each variable, then four in y and z.
 struct Samples {
   std::vector<Sample> all;
   std::vector<double> steps;  ///< by variable
@@ -52,6 +55,8 @@ Samples samples_about(const CellPlace& place, const Variables& variables, double
       samples.all.push_back(sample);
     }
   }
+  for (const double y : {place.step, -place.step})
+    for (const double z : {place.step, -place.step}) samples.all.push_back({place.centre + Vector3(0, y, z)});
   return samples;
 }
 
@@ -184,57 +189,86 @@ class CellSamples {
   }
 
   /// First-order terms of the stress, by element a block.
-  std::vector<double> stress_changes() const {
-    const std::size_t size = 6 * machine_.elements.size();
-    std::vector<double> changes;
-    for (std::size_t element = 0; element < machine_.elements.size(); ++element)
-      for (int k = 0; k < variables_.count(); ++k)
-        for (std::size_t i = 6 * element; i < 6 * element + 6; ++i) {
-          const double forth = solutions_.stress[size * static_cast<std::size_t>(1 + 2 * k) + i];
-          const double back = solutions_.stress[size * static_cast<std::size_t>(2 + 2 * k) + i];
-          changes.push_back((forth - back) / (2 * at(samples_.steps, k)));
-        }
-    return changes;
+  Polynomials stress_changes() const {
+    const Eigen::Index size = 6 * static_cast<Eigen::Index>(machine_.elements.size());
+    const auto stress = [&](int sample) {
+      return Eigen::Map<const Eigen::VectorXd>(solutions_.stress.data() + size * sample, size);
+    };
+    Rows changes(size, variables_.count());
+    for (int k = 0; k < variables_.count(); ++k)
+      changes.col(k) = (stress(1 + 2 * k) - stress(2 + 2 * k)) / (2 * at(samples_.steps, k));
+    return in_blocks(changes, size, {all_terms_.begin(), all_terms_.begin() + variables_.count()});
   }
 
-  /// Coefficients in blocks of the rows whose first derivatives at a sample are `jacobian(sample)`. The first
-  /// rows are filled up with zeros to whole blocks.
+  /// The coefficients of all terms, by column, of the rows whose first derivatives at a sample are
+  /// `jacobian(sample)`.
   template <class Jacobian>
-  std::vector<double> expanded(const Jacobian& jacobian, Eigen::Index first_rows, int terms) const {
-    const int n = variables_.count();
+  Rows expanded(const Jacobian& jacobian) const {
     std::vector<Rows> J;
-    for (int sample = 0; sample < 1 + 2 * n; ++sample) J.push_back(jacobian(sample));
-    const Eigen::Index rows = J[0].rows(), filled = (first_rows + block - 1) / block * block - first_rows;
-    Rows coefficients = Rows::Zero(rows + filled, terms);
-    const auto set = [&](int term, const Eigen::VectorXd& values) {
-      coefficients.col(term).head(first_rows) = values.head(first_rows);
-      coefficients.col(term).tail(rows - first_rows) = values.tail(rows - first_rows);
-    };
-    int term = 0;
-    for (int i = 0; i < n; ++i) set(term++, J[0].col(i));
+    for (int sample = 0; sample < static_cast<int>(samples_.all.size()); ++sample)
+      J.push_back(jacobian(sample));
     const auto second = [&](int i, int j) -> Eigen::VectorXd {  // of derivative i by variable j
       return (at(J, 1 + 2 * j).col(i) - at(J, 2 + 2 * j).col(i)) / (2 * at(samples_.steps, j));
     };
-    for (int i = 0; i < n; ++i)
-      for (int j = i; j < n; ++j)
-        set(term++,
-            i == j ? Eigen::VectorXd(second(i, i) / 2) : Eigen::VectorXd((second(i, j) + second(j, i)) / 2));
-    for (int i = 0; i < 3 && terms == variables_.terms(); ++i)
-      for (int j = 0; j < n; ++j) {
-        const double h = at(samples_.steps, i);
-        const Eigen::VectorXd third =
-            (at(J, 1 + 2 * i).col(j) + at(J, 2 + 2 * i).col(j) - 2 * J[0].col(j)) / (h * h);
-        set(term++, third / (i == j ? 6 : 2));
+    Rows coefficients(J[0].rows(), static_cast<Eigen::Index>(all_terms_.size()));
+    for (const Term& term : all_terms_) {
+      const auto [i, j, k] = term.of;
+      auto of_term = coefficients.col(term.number);
+      if (j == no_variable)
+        of_term = J[0].col(i);
+      else if (k == no_variable)
+        of_term = (second(i, j) + second(j, i)) / (i == j ? 4 : 2);
+      else if (i == j)
+        of_term = (at(J, 1 + 2 * i).col(k) + at(J, 2 + 2 * i).col(k) - 2 * J[0].col(k)) /
+                  (std::pow(at(samples_.steps, i), 2) * (j == k ? 6 : 2));
+      else {
+        const std::size_t corner = 1 + 2 * static_cast<std::size_t>(variables_.count());
+        of_term = (J[corner].col(0) - J[corner + 1].col(0) - J[corner + 2].col(0) + J[corner + 3].col(0)) /
+                  (4 * place_.step * place_.step);
       }
-    std::vector<double> blocks;
-    blocks.reserve(static_cast<std::size_t>(coefficients.size()));
-    for (Eigen::Index first = 0; first < coefficients.rows(); first += block)
-      for (int k = 0; k < terms; ++k)
-        for (int i = 0; i < block; ++i) blocks.push_back(coefficients(first + i, k));
-    return blocks;
+    }
+    return coefficients;
+  }
+
+  Polynomials all_of(const Rows& coefficients) const {
+    return in_blocks(coefficients, coefficients.rows(), all_terms_);
+  }
+
+  /// The polynomials of a start: without terms that are negligible everywhere in the cell, and without those
+  /// that do not save a step. `units`: what rows are multiplied with to be m.
+  Polynomials of_start(const Rows& coefficients, const Eigen::VectorXd& units) const {
+    Point<double> extents;
+    for (int k = 0; k < variables_.count(); ++k)
+      extents[k] = variables_.is_position(k)         ? place_.step
+                   : variables_.is_turn(k)           ? largest_turn_of_cells
+                   : k < variables_.first_load() + 3 ? load_of_lines
+                                                     : load_of_lines * machine_.length;
+    std::vector<Term> terms;
+    for (const Term& term : all_terms_) {
+      const auto [i, j, k] = term.of;
+      if (k != no_variable && !variables_.is_position(k)) continue;
+      if (j != no_variable && variables_.is_turn(i) && variables_.is_load(j)) continue;
+      const double moves =
+          coefficients.col(term.number).cwiseProduct(units).cwiseAbs().maxCoeff() * extents.value_of(term);
+      if (moves > negligible_term) terms.push_back(term);
+    }
+    return in_blocks(coefficients, machine_.joints, std::move(terms));
   }
 
  private:
+  /// Coefficients in blocks: the first rows are filled up with zeros to whole blocks.
+  static Polynomials in_blocks(const Rows& coefficients, Eigen::Index first_rows, std::vector<Term> terms) {
+    Polynomials polynomials{std::move(terms), {}};
+    for (Eigen::Index first = 0; first < coefficients.rows();) {
+      const Eigen::Index end = first < first_rows ? std::min(first + block, first_rows) : first + block;
+      for (const Term& term : polynomials.terms)
+        for (Eigen::Index i = first; i < first + block; ++i)
+          polynomials.coefficients.push_back(i < end ? coefficients(i, term.number) : 0);
+      first = end;
+    }
+    return polynomials;
+  }
+
   Rows responses(int sample) const {
     const Eigen::Index size = machine_.unknowns() + (variables_.loads ? 6 : 0);
     const Eigen::Index n = variables_.count();
@@ -246,7 +280,27 @@ class CellSamples {
   const Variables variables_;
   const Samples& samples_;
   const Solutions& solutions_;
+  const std::vector<Term> all_terms_ = terms_of(variables_);
 };
+
+/// What rows of twists are multiplied with to be m.
+Eigen::VectorXd units_of_twists(Eigen::Index twists, double length) {
+  Vector6 units;
+  units << Vector3::Ones(), Vector3::Constant(length);
+  return units.replicate(twists, 1);
+}
+
+bool only_translates(const Rows& changes, const Variables& variables) {
+  constexpr double least_slope = 1e-9, least_bend = 1e-7;  // rad/m, rad/m2
+  for (const Term& term : terms_of(variables)) {
+    const auto [i, j, k] = term.of;
+    if (k != no_variable || !variables.is_position(i) || !(j == no_variable || variables.is_position(j)))
+      continue;
+    const double turns = changes.bottomRows<3>().col(term.number).cwiseAbs().maxCoeff();
+    if (turns > (j == no_variable ? least_slope : least_bend)) return false;
+  }
+  return true;
+}
 
 /// State and changes of a cell at its centre.
 StartCell cell_of(const FlatMachine& machine, const CellPlace& place, const Variables& variables,
@@ -260,8 +314,19 @@ StartCell cell_of(const FlatMachine& machine, const CellPlace& place, const Vari
     cell.cosine.push_back(std::cos(at(cell.state, j)));
     cell.sine.push_back(std::sin(at(cell.state, j)));
   }
-  cell.changes = samples.expanded([&](int sample) { return samples.state_jacobian(sample); }, machine.joints,
-                                  variables.start_terms());
+  Rows changes = samples.expanded([&](int sample) { return samples.state_jacobian(sample); });
+  cell.only_translates = only_translates(changes, variables);
+  if (variables.loads) {
+    const Rows offset = samples.expanded([&](int sample) { return samples.offset_jacobian(sample); });
+    cell.offset_changes = samples.all_of(offset);
+    changes.conservativeResize(changes.rows() + 6, Eigen::NoChange);
+    changes.bottomRows<6>() = offset;
+  }
+  Eigen::VectorXd units(changes.rows());
+  for (int j = 0; j < machine.joints; ++j) units[j] = at(machine.joint_turns, j) != 0 ? machine.length : 1;
+  const Eigen::Index twists = changes.rows() - machine.joints;
+  units.tail(twists) = units_of_twists(twists / 6, machine.length);
+  cell.changes = samples.of_start(changes, units);
   return cell;
 }
 
@@ -319,22 +384,20 @@ std::optional<StartCell> make_target_cell(const FlatMachine& machine, const Ques
   cell.pivots.assign(solutions->pivots.begin(), solutions->pivots.begin() + machine.pivots());
   const Vector6 offset = offset_of(place, samples.all[0], solutions->commands.data());
   for (int i = 0; i < 6; ++i) at(cell.offset, i) = offset[i];
-  cell.offset_changes =
-      of.expanded([&](int sample) { return of.offset_jacobian(sample); }, 6, variables.terms());
   measure_at_corners(machine, target, place, kinematics, cell);
   return cell;
 }
 
 Vector6 command_offset(const StartCell& cell, const Vector3& p, const Vector3& turn, const Vector6& F) {
-  double x[most_variables], terms[most_terms];
+  Point<double> x;
   for (int i = 0; i < 3; ++i) x[i] = p[i] - at(cell.centre, i);
   for (int i = 0; i < 3 && cell.variables.turns; ++i) x[3 + i] = turn[i];
   for (int i = 0; i < 6 && cell.variables.loads; ++i) x[cell.variables.first_load() + i] = F[i];
-  fill_terms(cell.variables.count(), x, terms);
-  const Block<double> way =
-      sum_terms<double>(cell.variables.terms(), terms, [&](int i) { return at(cell.offset_changes, i); });
   Vector6 offset;
-  for (int i = 0; i < 6; ++i) offset[i] = at(cell.offset, i) + way.value[i];
+  for (int i = 0; i < 6; ++i) offset[i] = at(cell.offset, i);
+  const std::vector<Term>& terms = cell.offset_changes.terms;
+  for (std::size_t t = 0; t < terms.size(); ++t)
+    for (int i = 0; i < 6; ++i) offset[i] += cell.offset_changes.coefficient(0, t, i) * x.value_of(terms[t]);
   return offset;
 }
 

@@ -166,8 +166,8 @@ COUNTERFLEX_INLINE void move_frame(const Vec6<T>& xi, T share, Frame<T>& X) {
 }
 
 template <class T>
-COUNTERFLEX_INLINE void move_joint(T dq, bool turns, int joint, State<T>& state) {
-  at(state.q, joint) += dq;
+COUNTERFLEX_INLINE void move_joint(T dq, bool turns, JointState<T>& joint) {
+  joint.q += dq;
   if (!turns) return;
   const T y = dq * dq;
   const T s =
@@ -181,9 +181,9 @@ COUNTERFLEX_INLINE void move_joint(T dq, bool turns, int joint, State<T>& state)
                        (1 - y * (1. / 30) *
                                 (1 - y * (1. / 56) *
                                          (1 - y * (1. / 90) * (1 - y * (1. / 132) * (1 - y * (1. / 182)))))));
-  const T cosine = at(state.cosine, joint), sine = at(state.sine, joint);
-  at(state.cosine, joint) = cosine * c - sine * s;
-  at(state.sine, joint) = sine * c + cosine * s;
+  const T cosine = joint.cosine, sine = joint.sine;
+  joint.cosine = cosine * c - sine * s;
+  joint.sine = sine * c + cosine * s;
 }
 
 /// Takes the step in the lanes that are `active`, shortened where its largest turn is larger than
@@ -193,7 +193,8 @@ void take_step(const Mask<T>& active, Work<T>& work) {
   const T share =
       select<T>(active, smaller(all<T>(1), largest_turn / larger(work.step.turn, all<T>(1e-30))), T{});
   for (int j = 0; j < work.machine.joints; ++j)
-    move_joint(at(work.equations.joints, j).y * share, at(work.machine.joint_turns, j) != 0, j, work.state);
+    move_joint(at(work.equations.joints, j).y * share, at(work.machine.joint_turns, j) != 0,
+               at(work.state.joints, j));
   for (int i = 0; i < work.machine.nodes; ++i)
     move_frame(at(work.step.nodes, i), share, at(work.state.nodes, i));
   move_frame(work.step.platform, share, work.state.platform);

@@ -295,11 +295,13 @@ void factor_series(int s, Work<T>& work, Sym6<T>& K, Columns<T>& columns) {
   }
 }
 
-/// Solves the platform's equations. The moment of the load keeps its direction, so it has no potential: the second derivative
-/// of energy lacks half of its bracket, K xi + (0, w x m) / 2. It is small beside K: one correction does for it.
+/// Solves the platform's equations. The moment of the load keeps its direction, so it has no potential: the
+/// second derivative of energy lacks half of its bracket, K xi + (0, w x m) / 2. It is small beside K: one
+/// correction does for it.
 template <class T>
 COUNTERFLEX_INLINE void solve_platform(const Work<T>& work, Vec6<T>& x) {
   solve_factored(work.factors.L, x);
+  if (work.question.load == 0) return;
   Vec6<T> correction{{}, cross(x.w, work.load.w) * (0.5 * work.question.load)};
   solve_factored(work.factors.L, correction);
   x = x - correction;

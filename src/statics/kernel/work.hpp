@@ -13,8 +13,8 @@ inline constexpr int most_actuators_of_series = 12;
 /// What acts on a machine.
 struct Question {
   const std::vector<Transform>* transforms =
-      nullptr;           ///< rigid transforms, with as much of the errors as acts
-  bool nominal = false;  ///< kinematics: passive springs do not act, nor anything below
+      nullptr;                                ///< rigid transforms, with as much of the errors as acts
+  bool nominal = false;                       ///< kinematics: passive springs do not act, nor anything below
   double load = 1, preload = 1, gravity = 1;  ///< how much of them acts
 };
 
@@ -25,8 +25,12 @@ inline Question nominal_question(const std::vector<Transform>& transforms) {
 
 /// Unknowns. Positions are from the common point, the wanted tip.
 template <class T>
+struct JointState {
+  T q, cosine, sine;
+};
+template <class T>
 struct State {
-  std::vector<T> q, cosine, sine;  ///< by joint; of actuators, too
+  std::vector<JointState<T>> joints;  ///< of actuators, too
   std::vector<Frame<T>> nodes;
   Frame<T> platform;
 };
@@ -117,7 +121,7 @@ struct Work {
   explicit Work(const FlatMachine& m) : machine(m) {
     const auto joints = static_cast<std::size_t>(m.joints), nodes = static_cast<std::size_t>(m.nodes);
     const auto actuators = m.actuator_joint.size();
-    state.q.resize(joints), state.cosine.resize(joints), state.sine.resize(joints), state.nodes.resize(nodes);
+    state.joints.resize(joints), state.nodes.resize(nodes);
     start_stress.resize(m.elements.size());
     equations.joints.resize(joints), equations.elements.resize(m.elements.size()),
         equations.nodes.resize(nodes);

@@ -36,27 +36,9 @@ bool only_slides(const Mechanism& mechanism) {
 std::size_t kept_cells(const kernel::FlatMachine& machine, bool turns) {
   const auto unknowns = static_cast<std::size_t>(machine.unknowns());
   const kernel::Variables variables{turns, true};
-  const std::size_t numbers = unknowns * static_cast<std::size_t>(variables.start_terms() + 4) +
+  const std::size_t numbers = unknowns * (kernel::terms_of(variables).size() + 4) +
                               6 * machine.elements.size() * static_cast<std::size_t>(1 + variables.count());
   return std::clamp(bytes_of_cells / (sizeof(double) * numbers), least_cells, most_cells);
-}
-
-/// Whether the platform does not turn with the position, to 1e-11 rad in a cell of 1 cm.
-bool only_translates(const kernel::StartCell& cell) {
-  constexpr double least_slope = 1e-9, least_bend = 1e-7;  // rad/m, rad/m2
-  const int n = cell.variables.count(), terms = cell.variables.start_terms();
-  const std::size_t last_block = cell.changes.size() - static_cast<std::size_t>(kernel::block * terms);
-  const auto turns_by = [&](int term, double limit) {
-    const auto first = last_block + static_cast<std::size_t>(kernel::block * term);
-    return std::any_of(&cell.changes[first + 3], &cell.changes[first + 3] + 3,
-                       [=](double x) { return std::abs(x) > limit; });
-  };
-  int term = 0;
-  bool turns = false;
-  for (int i = 0; i < n; ++i, ++term) turns = turns || (i < 3 && turns_by(term, least_slope));
-  for (int i = 0; i < n; ++i)
-    for (int j = i; j < n; ++j, ++term) turns = turns || (j < 3 && turns_by(term, least_bend));
-  return !turns;
 }
 
 }  // namespace
@@ -134,7 +116,7 @@ std::shared_ptr<const KinematicsCell> StartTable::Impl::make_kinematics(const Ce
       make_kinematics_cell(flat.machine, perfect, place, state_of(model, flat, nominal.configuration, 0));
   if (!start) return nullptr;
   std::optional<Matrix3> R_MT;
-  if (only_translates(*start)) R_MT = tip(model.mechanism, nominal.configuration).R;
+  if (start->only_translates) R_MT = tip(model.mechanism, nominal.configuration).R;
   return std::make_shared<const KinematicsCell>(
       KinematicsCell{std::move(nominal.configuration), std::move(*start), R_MT});
 }
