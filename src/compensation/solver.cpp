@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "counterflex/statics/linear.hpp"
-#include "counterflex/statics/nested.hpp"
+#include "counterflex/statics/theory.hpp"
 
 namespace counterflex {
 namespace {

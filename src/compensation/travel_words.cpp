@@ -6,7 +6,7 @@
 
 #include "counterflex/files/numbers.hpp"
 #include "counterflex/geometry/units.hpp"
-#include "counterflex/statics/travel.hpp"
+#include "counterflex/statics/mechanism.hpp"
 
 namespace counterflex {
 namespace {

@@ -5,11 +5,10 @@
 #include <cmath>
 
 #include "counterflex/geometry/spectrum.hpp"
-#include "counterflex/statics/hold.hpp"
-#include "counterflex/statics/linear.hpp"
-#include "counterflex/statics/nested.hpp"
-#include "counterflex/statics/tip_compliance.hpp"
-#include "counterflex/statics/travel.hpp"
+#include "counterflex/statics/chain.hpp"
+#include "counterflex/statics/theory.hpp"
+#include "counterflex/statics/tip_stiffness.hpp"
+#include "counterflex/statics/mechanism.hpp"
 
 namespace counterflex {
 

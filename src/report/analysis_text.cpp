@@ -7,7 +7,7 @@
 #include "counterflex/files/numbers.hpp"
 #include "counterflex/geometry/units.hpp"
 #include "analysis_parts.hpp"
-#include "counterflex/statics/tip_compliance.hpp"
+#include "counterflex/statics/tip_stiffness.hpp"
 #include "names.hpp"
 #include "text_layout.hpp"
 

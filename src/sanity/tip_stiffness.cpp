@@ -4,7 +4,7 @@
 
 #include "counterflex/geometry/units.hpp"
 #include "counterflex/sanity/machine_checks.hpp"
-#include "counterflex/statics/tip_compliance.hpp"
+#include "counterflex/statics/tip_stiffness.hpp"
 
 namespace counterflex {
 namespace {

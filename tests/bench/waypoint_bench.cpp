@@ -2,8 +2,7 @@
 #include <benchmark/benchmark.h>
 
 #include "bench_cases.hpp"
-#include "counterflex/statics/linear.hpp"
-#include "counterflex/statics/nested.hpp"
+#include "counterflex/statics/theory.hpp"
 
 namespace counterflex::bench {
 namespace {

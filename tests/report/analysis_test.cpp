@@ -10,7 +10,7 @@
 #include "counterflex/geometry/units.hpp"
 #include "counterflex/machine/read_machine.hpp"
 #include "counterflex/machine/tool.hpp"
-#include "counterflex/statics/tool_models.hpp"
+#include "counterflex/statics/nominal.hpp"
 #include "support/text.hpp"
 
 using namespace counterflex;

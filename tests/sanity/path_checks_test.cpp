@@ -7,8 +7,8 @@
 
 #include "counterflex/geometry/units.hpp"
 #include "counterflex/machine/read_machine.hpp"
-#include "counterflex/statics/tool_models.hpp"
-#include "counterflex/statics/travel.hpp"
+#include "counterflex/statics/nominal.hpp"
+#include "counterflex/statics/mechanism.hpp"
 
 using namespace counterflex;
 

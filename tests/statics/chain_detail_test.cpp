@@ -1,6 +1,6 @@
-#include "counterflex/statics/chain_detail.hpp"
+#include "counterflex/statics/chain.hpp"
 
-#include "counterflex/statics/linear.hpp"
+#include "counterflex/statics/theory.hpp"
 #include "laws_support.hpp"
 
 using namespace counterflex;

@@ -1,4 +1,4 @@
-#include "counterflex/statics/force_curve.hpp"
+#include "counterflex/statics/tip_stiffness.hpp"
 
 #include <cmath>
 

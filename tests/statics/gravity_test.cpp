@@ -1,7 +1,7 @@
 /// Machines under their own weight, against closed forms and the laws of weights.
 #include <fmt/format.h>
 
-#include "counterflex/statics/nested.hpp"
+#include "counterflex/statics/theory.hpp"
 #include "laws_weights.hpp"
 
 using namespace counterflex;

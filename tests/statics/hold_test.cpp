@@ -1,4 +1,4 @@
-#include "counterflex/statics/hold.hpp"
+#include "counterflex/statics/chain.hpp"
 
 #include "laws_support.hpp"
 

@@ -1,8 +1,7 @@
 /// A controller whose zero was set at home, under the machine's own weight.
 #include <fmt/format.h>
 
-#include "counterflex/statics/linear.hpp"
-#include "counterflex/statics/nested.hpp"
+#include "counterflex/statics/theory.hpp"
 #include "laws_weights.hpp"
 
 using namespace counterflex;

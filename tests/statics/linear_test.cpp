@@ -1,10 +1,9 @@
 /// The linear theory of non-perfect chains (10)-(16).
-#include "counterflex/statics/linear.hpp"
+#include "counterflex/statics/theory.hpp"
 
 #include <Eigen/LU>
 
 #include "counterflex/statics/chain.hpp"
-#include "counterflex/statics/loads.hpp"
 #include "laws_weights.hpp"
 
 using namespace counterflex;

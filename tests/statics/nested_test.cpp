@@ -1,5 +1,5 @@
 /// The corrected target by Newton on (22), and by the paper's scheme (23): one answer.
-#include "counterflex/statics/nested.hpp"
+#include "counterflex/statics/theory.hpp"
 
 #include "laws_weights.hpp"
 

@@ -3,7 +3,7 @@
 
 #include "counterflex/machine/tool.hpp"
 #include "counterflex/statics/chain.hpp"
-#include "counterflex/statics/tool_models.hpp"
+#include "counterflex/statics/nominal.hpp"
 #include "laws_weights.hpp"
 #include "solve/judge.hpp"
 

@@ -1,8 +1,8 @@
-#include "counterflex/statics/tip_compliance.hpp"
+#include "counterflex/statics/tip_stiffness.hpp"
 
 #include "counterflex/geometry/spectrum.hpp"
 #include "counterflex/machine/tool.hpp"
-#include "counterflex/statics/tool_models.hpp"
+#include "counterflex/statics/nominal.hpp"
 #include "laws_support.hpp"
 
 using namespace counterflex;

@@ -8,10 +8,9 @@
 #include "counterflex/geometry/rotation.hpp"
 #include "counterflex/machine/read_machine.hpp"
 #include "counterflex/statics/equilibrium.hpp"
-#include "counterflex/statics/linear.hpp"
-#include "counterflex/statics/loads.hpp"
-#include "counterflex/statics/nested.hpp"
-#include "counterflex/statics/tool_models.hpp"
+#include "counterflex/statics/theory.hpp"
+#include "counterflex/statics/chain.hpp"
+#include "counterflex/statics/nominal.hpp"
 
 using namespace counterflex;
 

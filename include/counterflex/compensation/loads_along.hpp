@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "counterflex/compensation/waypoint.hpp"
-#include "counterflex/statics/loads.hpp"
+#include "counterflex/statics/chain.hpp"
 
 namespace counterflex {
 

@@ -8,7 +8,7 @@
 #include "counterflex/program/read_program.hpp"
 #include "counterflex/program/rewrite.hpp"
 #include "counterflex/statics/batch_solver.hpp"
-#include "counterflex/statics/tool_models.hpp"
+#include "counterflex/statics/nominal.hpp"
 #include "counterflex/toolpath/toolpath.hpp"
 
 namespace counterflex {

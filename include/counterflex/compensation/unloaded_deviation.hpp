@@ -10,7 +10,7 @@
 
 #include "counterflex/program/program.hpp"
 #include "counterflex/statics/batch_solver.hpp"
-#include "counterflex/statics/tool_models.hpp"
+#include "counterflex/statics/nominal.hpp"
 
 namespace counterflex {
 

@@ -7,9 +7,8 @@
 #include <vector>
 
 #include "counterflex/compensation/options.hpp"
-#include "counterflex/statics/chain_detail.hpp"
-#include "counterflex/statics/force_curve.hpp"
-#include "counterflex/statics/loads.hpp"
+#include "counterflex/statics/chain.hpp"
+#include "counterflex/statics/tip_stiffness.hpp"
 
 namespace counterflex {
 

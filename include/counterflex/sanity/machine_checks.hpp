@@ -5,7 +5,6 @@
 
 #include "counterflex/sanity/check.hpp"
 #include "counterflex/statics/nominal.hpp"
-#include "counterflex/statics/tool_models.hpp"
 #include "counterflex/toolpath/toolpath.hpp"
 
 namespace counterflex {

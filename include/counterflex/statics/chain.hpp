@@ -1,7 +1,11 @@
 #pragma once
-/// One chain on its own: its equilibrium at a given end pose (2) and its loaded stiffness (3)-(5).
+/// Single chains: the equilibrium at a given end pose (2) and the loaded stiffness (3)-(5), the platform held at a pose (1),
+/// loads in joints and springs, and everything that is known of each chain at an equilibrium.
+#include <optional>
+#include <string>
 #include <vector>
 
+#include "counterflex/machine/load_limits.hpp"
 #include "counterflex/statics/equilibrium.hpp"
 
 namespace counterflex {
@@ -53,5 +57,87 @@ Eigen::MatrixXd chain_hessian(const Model& model, std::size_t i, const SeriesSta
 
 /// Pose of the chain's end in M.
 Pose chain_end(const Model& model, std::size_t i, const SeriesState& state, const Stage& stage, StaticsWork& work);
+
+/// Chains in equilibrium whose ends are held. Their F are the wrenches that hold them.
+struct HeldPlatform {
+  Status status = Status::not_converged;
+  std::size_t chain = 0;  ///< the first that has no solution, where `status` is not converged
+  Configuration configuration;
+};
+
+/// (1): F_i = f_i(t given t0), each chain by (2) with its end at `X_MP`. The actuators are those of `nominal`. Errors,
+/// preloads, weights and the motion from the nominal pose to `X_MP` grow together, in four steps or more. `singular`: a chain
+/// has no stiffness of its own, so that some end poses cannot be held.
+HeldPlatform hold_platform(const Model& model, const Configuration& nominal, const Pose& X_MP, const Stage& goal,
+                           StaticsWork& work);
+
+/// Sum of the chains' wrenches (N, N m; axes of M): what must act at the reference point to hold it.
+Vector6 holding_wrench(const Configuration& configuration);
+
+/// The same at the tool tip.
+Vector6 holding_wrench_at_tip(const Mechanism& mechanism, const Configuration& configuration);
+
+/// Of one chain. Springs and compliances in their own frames, theta and K (theta - theta_0); what a group
+/// transmits (the moment at its end) in the frame of its first branch's first spring, the paper's tau_phi;
+/// passive revolute joints by their change from the nominal configuration. SI.
+struct ChainLoads {
+  std::string name;
+  Vector6 wrench =
+      Vector6::Zero();  ///< that the platform exerts on the chain's end, at the reference point, axes of M
+  double moment_max = 0;
+  double spring_translation_max = 0;
+  double spring_rotation_max = 0;
+  double spring_force_max = 0;
+  double spring_torque_max = 0;
+  double group_moment_max = 0;
+  double passive_change_max = 0;
+};
+
+/// Of every chain of `model`. A tool that yields is part of the chain behind which it stands.
+std::vector<ChainLoads> loads(const Model& model, const Configuration& configuration, const Stage& stage);
+
+/// Of every chain of the machine that `base` is without a tool, at a configuration of `model`, the same
+/// machine with one: a tool that yields has no load here, and chains that it has made the branches of one
+/// chain (`with_tool`) are chains again. What is exerted on their ends is at `base`'s reference point, where it
+/// is in the deflected machine.
+std::vector<ChainLoads> loads_without_tool(const Mechanism& base, const Model& model,
+                                           const Configuration& configuration, const Stage& stage);
+
+/// One of them (SI).
+double value_of(const ChainLoads& loads, LoadKind kind);
+
+/// One coordinate: a joint, a compliance, or one component of a spring. SI.
+struct CoordinateDetail {
+  std::string element;  ///< its number in the chain, "7/upper_bar/4" in the fourth place of a branch; masses not counted
+  PartKind kind = PartKind::passive;
+  int component = -1;   ///< of a spring, 0 to 5: x y z rx ry rz; else -1
+  bool angular = false;
+  double value = 0;     ///< m, rad; a spring's theta with its preload
+  double change = 0;    ///< from the nominal configuration
+  double load = 0;      ///< N, N m: dE/dx, K (theta - theta_0) of a spring; zero for an actuator
+};
+
+struct ChainDetail {
+  std::string name;
+  Vector6 wrench = Vector6::Zero();       ///< of the platform on the chain's end, at its origin, axes of M
+  ChainStiffness stiffness;               ///< (3)-(5)
+  std::vector<std::size_t> passive;       ///< by row of K_Cq: index into `coordinates`
+  std::vector<std::size_t> elastic;       ///< by row of K_Ctheta
+  std::optional<Vector6> eps;             ///< of (14), first order; see `chain_eps`
+  std::optional<Vector6> dt;              ///< (14): motion of the platform less eps
+  double energy = 0;                      ///< (12), J: of springs, compliances and sprung joints
+  std::vector<CoordinateDetail> coordinates;  ///< in the order of elements; a group's branches where it stands
+};
+
+/// Where stiffness is taken: at the equilibrium itself, or for the linear theory at the nominal configuration.
+struct StiffnessPlace {
+  const Configuration& configuration;
+  Stage stage;
+};
+
+/// Details of every chain of `model`; a tool that bends is part of the chain behind which it stands. `dt_P` is the motion of
+/// the reference point from the nominal configuration (m, rad; axes of M).
+std::vector<ChainDetail> chain_details(const Model& model, const Configuration& nominal, const Configuration& loaded,
+                                       const Vector6& dt_P, const StiffnessPlace& stiff, StaticsWork& work);
 
 }  // namespace counterflex

@@ -1,7 +1,9 @@
 #pragma once
-/// A machine made ready for computing: every chain, and every branch of a group inside it, as a series of parts with
-/// numbered columns. One recursion serves chains and branches: a series runs from its start frame (M for chains, the
-/// group's for branches) to its end frame (P for chains).
+/// A machine made ready for computing, and its states. Every chain, and every branch of a group inside it, is a series of
+/// parts with numbered columns. One recursion serves chains and branches: a series runs from its start frame (M for chains,
+/// the group's for branches) to its end frame (P for chains).
+#include <Eigen/Core>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -82,5 +84,66 @@ bool has_weight(const Mechanism& mechanism);
 /// Whether a spring has a rest value of its own, or a passive joint a spring: only then does the perfect machine without a load
 /// and weights deviate from the command.
 bool has_preload(const Mechanism& mechanism);
+
+struct SeriesState;
+
+struct GroupState {
+  Pose X;  ///< of the group's end in its start frame
+  std::vector<SeriesState> branches;
+};
+
+struct SeriesState {
+  Eigen::VectorXd x;        ///< by column (m, rad); a group's six entries are unused
+  Eigen::VectorXd x_nominal;  ///< the same in the nominal configuration from which this one was continued
+  Vector6 F = Vector6::Zero();  ///< wrench exerted on the end (N, N m), at the end's origin, axes of the start frame
+  std::vector<GroupState> groups;
+};
+
+struct Configuration {
+  Pose X_MP;
+  std::vector<SeriesState> chains;
+};
+
+/// A configuration with every coordinate zero.
+Configuration zero_configuration(const Mechanism& mechanism);
+
+/// Values of all actuators (m, rad).
+Eigen::VectorXd actuator_values(const Mechanism& mechanism, const Configuration& configuration);
+void set_actuator_values(const Mechanism& mechanism, const Eigen::VectorXd& rho, Configuration& configuration);
+
+/// How much of what is not nominal acts. The continuation to a loaded, imperfect machine runs from 0 to 1 in all of them.
+struct Stage {
+  double errors = 1;   ///< assembly errors: s p, Exp(s Log R)
+  double load = 1;     ///< the applied wrench
+  double preload = 1;  ///< passive springs as k (q - q_nom) + s k (q_nom - q_rest), springs as K (theta - s theta_0)
+  double gravity = 1;  ///< the weights of all masses, and what the controller's zero holds against them
+
+  bool operator==(const Stage&) const = default;
+};
+inline constexpr Stage nominal_stage{0, 0, 0, 0};
+
+inline bool everything_acts(const Stage& stage) {
+  return stage == Stage{};
+}
+
+/// An actuator that has a limit: its value, how far the nearer limit is (m or rad; negative: outside), and
+/// that as a share of the travel (of 1 m or 1 rad where there is one limit only).
+struct AxisPlace {
+  std::size_t actuator = 0;
+  double value = 0, margin = 0, share = 0;
+};
+
+/// The actuator nearest to an end of its travel, or farthest outside it, for actuator values `rho`. Linear
+/// and rotary axes are compared in shares of their travel. None where no actuator has a limit.
+std::optional<AxisPlace> tightest_axis(const Mechanism& mechanism, const Eigen::VectorXd& rho);
+
+/// "138.0 mm", "-12.5 deg": the value of an actuator.
+std::string axis_value(const Travel& travel, double value);
+
+/// "-300 to 0 mm", "from -10 deg": the travel of an actuator.
+std::string travel_range(const Travel& travel);
+
+/// "axis Z: 138.0 mm is outside its travel (-300 to 0 mm)".
+std::string outside_travel_words(const Travel& travel, double value);
 
 }  // namespace counterflex

@@ -4,7 +4,7 @@
 #include "counterflex/files/numbers.hpp"
 #include "counterflex/machine/tool.hpp"
 #include "counterflex/report/analysis.hpp"
-#include "counterflex/statics/tool_models.hpp"
+#include "counterflex/statics/nominal.hpp"
 #include "process/standard_output.hpp"
 #include "process/version.hpp"
 #include "run/inputs.hpp"

@@ -1,4 +1,4 @@
-#include "counterflex/statics/configuration.hpp"
+#include "counterflex/statics/mechanism.hpp"
 
 namespace counterflex {
 namespace {

@@ -1,6 +1,6 @@
 #pragma once
 /// The transform of one part of a series at one state.
-#include "counterflex/statics/configuration.hpp"
+#include "counterflex/statics/mechanism.hpp"
 
 namespace counterflex {
 

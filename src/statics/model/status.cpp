@@ -1,4 +1,4 @@
-#include "counterflex/statics/status.hpp"
+#include "counterflex/statics/nominal.hpp"
 
 namespace counterflex {
 

@@ -1,4 +1,4 @@
-#include "counterflex/statics/tool_models.hpp"
+#include "counterflex/statics/nominal.hpp"
 
 #include "counterflex/machine/tool.hpp"
 

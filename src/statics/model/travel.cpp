@@ -1,4 +1,4 @@
-#include "counterflex/statics/travel.hpp"
+#include "counterflex/statics/mechanism.hpp"
 
 #include <fmt/format.h>
 

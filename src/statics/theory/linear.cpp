@@ -1,4 +1,4 @@
-#include "counterflex/statics/linear.hpp"
+#include "counterflex/statics/theory.hpp"
 
 #include <Eigen/Geometry>
 

@@ -1,4 +1,4 @@
-#include "counterflex/statics/loads.hpp"
+#include "counterflex/statics/chain.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "counterflex/statics/nested.hpp"
+#include "counterflex/statics/theory.hpp"
 
 #include <algorithm>
 #include <cmath>

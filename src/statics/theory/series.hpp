@@ -1,7 +1,7 @@
 #pragma once
 /// One series at one state: its Jacobian, Hessian and residuals, and its condensation to the end's wrench. The same code
 /// serves a chain between base and platform and a branch between the two frames of a group. EQUATIONS.md, sections 2-4.
-#include "counterflex/statics/configuration.hpp"
+#include "counterflex/statics/mechanism.hpp"
 #include "statics/model/units.hpp"
 #include "statics/theory/decompositions.hpp"
 

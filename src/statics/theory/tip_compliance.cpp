@@ -1,4 +1,4 @@
-#include "counterflex/statics/tip_compliance.hpp"
+#include "counterflex/statics/tip_stiffness.hpp"
 
 #include <Eigen/LU>
 #include <cmath>

@@ -1,6 +1,8 @@
 #pragma once
-/// The linear theory of non-perfect chains (10)-(16): one step from the perfect nominal configuration.
+/// The paper's own schemes, the checks on `solve_target`: the linear theory of non-perfect chains (10)-(16), one step from the
+/// perfect nominal configuration; and the nested iteration, outer (23), inner (20)-(21), chains by (2).
 #include <optional>
+#include <vector>
 
 #include "counterflex/statics/equilibrium.hpp"
 
@@ -30,5 +32,11 @@ std::vector<std::optional<Vector6>> chain_eps(const Model& model, const Configur
 
 /// The linear target: `X_MT` with `dt_T` taken from its controlled components.
 Pose linear_target(const Model& model, const Pose& X_MT, const LinearResult& linear);
+
+/// Target correction by (23): t0F <- t0F - alpha (t - t0), alpha = 1, halved when the error grows; t by (20)-(21) with the
+/// loaded stiffness (3), each chain by (2) without Hessians. Every level is solved to the residual of `solve_target`.
+/// `nominal` stands at `X_MT`. A machine with a chain that has no stiffness of its own takes `solve_forward`'s steps inside.
+Equilibrium solve_target_nested(const Model& model, const Configuration& nominal, const Pose& X_MT, const Load& load,
+                                const Stage& goal, StaticsWork& work);
 
 }  // namespace counterflex
