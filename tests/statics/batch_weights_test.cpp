@@ -1,6 +1,7 @@
 /// Machines with weights in batches.
 #include "batch_support.hpp"
 #include "laws_weights.hpp"
+#include "statics/model/home.hpp"
 
 using namespace counterflex;
 using namespace counterflex::laws;

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "laws_weights.hpp"
-#include "model/part_pose.hpp"
+#include "model/part.hpp"
 
 using namespace counterflex;
 using namespace counterflex::laws;

@@ -64,7 +64,7 @@ TEST_CASE("with actuators unknown and a target, the whole system's solution is t
     const Problem problem{load, {}, &X_MT};
     for (int i = 0; i < 12; ++i) {
       evaluate_all(model, c, {}, work.impl());
-      const auto target = to_controlled(tip_equations(model.mechanism, c.X_MP, X_MT), model.mechanism, units);
+      const auto target = tip_equations(model.mechanism, c.X_MP, X_MT, units);
       apply(model.mechanism, solve_whole(whole_system(model, c, problem, work.impl()), target, units), units,
             c);
     }

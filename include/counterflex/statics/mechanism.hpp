@@ -73,11 +73,6 @@ struct Mechanism {
 /// The series of `machine`, without home: `prepare` in nominal.hpp also finds the home configuration.
 Mechanism compile(const Machine& machine);
 
-/// What the controller adds to the commanded values while weights act (m, rad; by actuator): not zero where its zero was set
-/// under the machine's own weight.
-Eigen::VectorXd zero_offsets(const Mechanism& mechanism);
-void set_zero_offsets(const Eigen::VectorXd& offsets, Mechanism& mechanism);
-
 /// Whether weights act, or a zero set at home (against preloads alone, too): only then does Stage::gravity change anything.
 bool has_weight(const Mechanism& mechanism);
 

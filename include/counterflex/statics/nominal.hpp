@@ -37,9 +37,6 @@ struct Model {
 /// components of its tip at home's pose. They act where gravity does; configurations keep the commanded values. Source: MODEL section 2, "Nominal kinematics".
 Model prepare(const Machine& machine);
 
-/// Fills what is relative to home in a compiled model whose home configuration is known.
-void settle_at_home(Model& model);
-
 struct NominalResult {
   Status status = Status::unreachable;
   Configuration configuration;  ///< x_nominal equals x throughout

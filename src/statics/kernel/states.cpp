@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "counterflex/geometry/rotation.hpp"
-#include "statics/model/part_pose.hpp"
+#include "statics/model/part.hpp"
 #include "work.hpp"
 
 namespace counterflex::kernel {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "statics/model/home.hpp"
+
 namespace counterflex {
 namespace {
 
@@ -93,15 +95,6 @@ Series compile_series(const Branch& branch, bool weighs, bool turns, Numbering& 
   return series;
 }
 
-// Calls visit(part) for every actuator in a series and in its groups.
-template <class Series, class Visit>
-void for_each_actuator_part(Series& series, const Visit& visit) {
-  for (auto& part : series.parts)
-    if (part.kind == PartKind::actuator) visit(part);
-  for (auto& group : series.groups)
-    for (auto& branch : group.branches) for_each_actuator_part(branch, visit);
-}
-
 }  // namespace
 
 Mechanism compile(const Machine& machine) {
@@ -119,18 +112,6 @@ Mechanism compile(const Machine& machine) {
   const std::vector<std::string> names = actuator_names(machine);
   for (std::size_t i = 0; i < names.size(); ++i) mechanism.travel[i].name = names[i];
   return mechanism;
-}
-
-Eigen::VectorXd zero_offsets(const Mechanism& mechanism) {
-  Eigen::VectorXd offsets(static_cast<Eigen::Index>(mechanism.travel.size()));
-  for (const Series& chain : mechanism.chains)
-    for_each_actuator_part(chain, [&](const Part& part) { offsets[part.actuator] = part.offset; });
-  return offsets;
-}
-
-void set_zero_offsets(const Eigen::VectorXd& offsets, Mechanism& mechanism) {
-  for (Series& chain : mechanism.chains)
-    for_each_actuator_part(chain, [&](Part& part) { part.offset = offsets[part.actuator]; });
 }
 
 namespace {

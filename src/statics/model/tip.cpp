@@ -1,9 +1,10 @@
-#include <Eigen/Geometry>
-
 #include "statics/model/tip.hpp"
 
-namespace counterflex {
+#include <Eigen/Geometry>
 
+#include "counterflex/statics/nominal.hpp"
+
+namespace counterflex {
 namespace {
 
 int count_fixed(const Mechanism& mechanism) {
@@ -22,30 +23,29 @@ std::vector<int> fixed_components(const Mechanism& mechanism) {
   return list;
 }
 
-TipEquations tip_equations(const Mechanism& mechanism, const Pose& X_MP, const Pose& X_MT) {
-  const Vector6 error = difference(X_MP * mechanism.X_PT, X_MT);
+Matrix6 tip_from_platform(const Mechanism& mechanism, const Pose& X_MP) {
+  Matrix6 T = Matrix6::Identity();
+  T.topRightCorner<3, 3>() = -skew(X_MP.R * mechanism.X_PT.p);
+  return T;
+}
+
+Controlled tip_equations(const Mechanism& mechanism, const Pose& X_MP, const Pose& X_MT, const Units& units) {
+  const Vector6 error = difference(X_MP * mechanism.X_PT, X_MT), pose = units.of_pose();
   // p_T = p_P + r:  dp_T = v - [r]x w;   Log(Exp(w) R_actual R_target') = phi + J_l(phi)^-1 w
-  Matrix6 all = Matrix6::Identity();
-  all.topRightCorner<3, 3>() = -skew(X_MP.R * mechanism.X_PT.p);
+  Matrix6 all = tip_from_platform(mechanism, X_MP);
   all.bottomRightCorner<3, 3>() = left_jacobian_inverse(error.tail<3>());
   const int count = count_fixed(mechanism);
-  TipEquations tip{ControlledRows(count, 6), ControlledValues(count)};
+  Controlled tip{decltype(Controlled::rows)(count, 6), decltype(Controlled::rhs)(count)};
   for (int i = 0; i < count; ++i) {
-    tip.rows.row(i) = all.row(fixed_component(mechanism, i));
-    tip.error[i] = error[fixed_component(mechanism, i)];
+    const int c = fixed_component(mechanism, i);
+    tip.rows.row(i) = ((1 / pose[c]) * all.row(c)).cwiseProduct(pose.transpose());
+    tip.rhs[i] = -error[c] / pose[c];
   }
   return tip;
 }
 
-Controlled to_controlled(const TipEquations& tip, const Mechanism& mechanism, const Units& units) {
-  const Vector6 pose = units.of_pose();
-  Controlled controlled{tip.rows, -tip.error};
-  for (int i = 0; i < count_fixed(mechanism); ++i) {
-    const double unit = pose[fixed_component(mechanism, i)];
-    controlled.rows.row(i) = ((1 / unit) * tip.rows.row(i)).cwiseProduct(pose.transpose());
-    controlled.rhs[i] /= unit;
-  }
-  return controlled;
+Pose tip(const Mechanism& mechanism, const Configuration& configuration) {
+  return configuration.X_MP * mechanism.X_PT;
 }
 
 Vector6 deviation(const Pose& actual, const Pose& wanted) { return difference(actual, wanted); }

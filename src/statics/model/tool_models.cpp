@@ -1,6 +1,7 @@
 #include "counterflex/statics/nominal.hpp"
 
 #include "counterflex/machine/tool.hpp"
+#include "statics/model/home.hpp"
 
 namespace counterflex {
 namespace {

@@ -1,18 +1,12 @@
 #include "statics/solve/continuation.hpp"
 
-#include <algorithm>
 #include <optional>
+
+#include "statics/model/tolerances.hpp"
+#include "statics/solve/by_parts.hpp"
 
 namespace counterflex {
 namespace {
-
-constexpr double first_step = 0.25, smallest_step = 1.0 / 1024;
-
-Stage between(const Stage& from, const Stage& goal, double s) {
-  const auto at = [s](double a, double b) { return a + s * (b - a); };
-  return {at(from.errors, goal.errors), at(from.load, goal.load), at(from.preload, goal.preload),
-          at(from.gravity, goal.gravity)};
-}
 
 // From `before` through `now`, `ratio` times as far again.
 void extrapolate(const SeriesState& before, double ratio, SeriesState& now) {
@@ -89,6 +83,12 @@ void report(const Model& model, const Problem& problem, const Stability& form, S
 
 }  // namespace
 
+Stage between(const Stage& from, const Stage& goal, double s) {
+  const auto at = [s](double a, double b) { return a + s * (b - a); };
+  return {at(from.errors, goal.errors), at(from.load, goal.load), at(from.preload, goal.preload),
+          at(from.gravity, goal.gravity)};
+}
+
 Equilibrium refine(const Model& model, const Configuration& start, const Problem& problem, const EquilibriumSolver& solve,
                    StaticsWork::Impl& work) {
   Equilibrium result;
@@ -106,27 +106,22 @@ Equilibrium continue_from(const Model& model, const Configuration& start, const 
   EquilibriumFollower follower{model, solve, work};
   std::optional<Followed> before;
   Followed now{0, start, {true, false}};
-  double step = first_step;
-  while (now.s < 1) {
-    Followed next{std::min(1.0, now.s + step), {}};
+  const bool arrived = by_parts(first_part, smallest_part, [&](double, double s) {
+    if (!now.form.stable) return true;  // the way ended there
+    Followed next{s, {}};
     Configuration half = now.configuration;
     problem.stage = between(from, goal, (now.s + next.s) / 2);
     const bool begins = watch == Watch::equilibria || follower.solves(problem, half);
     problem.stage = between(from, goal, next.s);
-    if (!begins || !follower.advances(problem, before, now, next) ||
-        (watch == Watch::ways && bends(model.mechanism, now, half, next))) {
-      if ((step /= 2) >= smallest_step) continue;
-      result.configuration = std::move(now.configuration);
-      result.iterations = follower.iterations;
-      return result;
-    }
+    if (!begins || !follower.advances(problem, before, now, next)) return false;
+    if (watch == Watch::ways && bends(model.mechanism, now, half, next)) return false;
     before = std::move(now);
     now = std::move(next);
-    if (!now.form.stable) break;
-  }
+    return true;
+  });
   result.configuration = std::move(now.configuration);
   result.iterations = follower.iterations;
-  report(model, problem, now.form, work, result);
+  if (arrived) report(model, problem, now.form, work, result);
   return result;
 }
 

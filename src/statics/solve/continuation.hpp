@@ -14,6 +14,9 @@ using EquilibriumSolver =
 /// step that is long enough passes over a limit point to another stable branch.
 enum class Watch { equilibria, ways };
 
+/// Of every share, the part `s` of the way from one stage to another.
+Stage between(const Stage& from, const Stage& goal, double s);
+
 /// From the equilibrium `start` of stage `from` to the stage of `problem`, in at least four steps, smaller where one does not
 /// converge.
 Equilibrium continue_from(const Model& model, const Configuration& start, const Stage& from, Problem problem,

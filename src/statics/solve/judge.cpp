@@ -1,11 +1,11 @@
 #include "statics/solve/judge.hpp"
 
+#include "statics/model/tolerances.hpp"
 #include "statics/solve/newton.hpp"
 
 namespace counterflex {
 namespace {
 
-constexpr double largest_condition = 1e10;
 constexpr double proving_ratio =
     1e6;  // of pivots: what elimination may hide is far below the largest condition
 constexpr double unit_stiffness = 1e6;     // N/m: of closures in the whole system

@@ -8,8 +8,6 @@
 namespace counterflex {
 namespace {
 
-constexpr int most_whole_steps = 40;
-
 struct Place {
   Pose X_MP;
   Eigen::VectorXd rho;
@@ -34,7 +32,7 @@ bool is_elsewhere(const Mechanism& mechanism, const Place& start, const Place& f
   const Eigen::VectorXd way = travelled(mechanism, start, found),
                         predicted = travelled(mechanism, start, foreseen);
   const double surplus = (way - predicted).norm();
-  return surplus > jump_floor && surplus > 0.5 * predicted.norm();
+  return surplus > jump_floor && surplus > same_way * predicted.norm();
 }
 
 }  // namespace
@@ -53,7 +51,7 @@ NewtonResult newton_of_whole_system(const Model& model, const Problem& problem, 
   Place predicted = start;
   NewtonResult result;
   double step = std::numeric_limits<double>::infinity();
-  for (; result.iterations < most_whole_steps; ++result.iterations) {
+  for (; result.iterations < most_newton_steps; ++result.iterations) {
     evaluate_all(model, configuration, problem.stage, work);
     const Residual residual = residual_of(model, configuration, problem, work);
     if (!std::isfinite(residual.closure + residual.force)) return result;
@@ -64,7 +62,7 @@ NewtonResult newton_of_whole_system(const Model& model, const Problem& problem, 
     }
     std::optional<Controlled> tip;
     if (problem.X_MT)
-      tip = to_controlled(tip_equations(mechanism, configuration.X_MP, *problem.X_MT), mechanism, units);
+      tip = tip_equations(mechanism, configuration.X_MP, *problem.X_MT, units);
     const WholeStep whole = solve_whole(whole_system(model, configuration, problem, work), tip, units);
     step = apply(mechanism, whole, units, configuration);
     if (result.iterations == 0) predicted = place_of(mechanism, configuration);

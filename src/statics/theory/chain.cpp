@@ -5,21 +5,18 @@
 
 #include "statics/model/tolerances.hpp"
 #include "statics/theory/manipulator.hpp"
-#include "statics/model/part_pose.hpp"
+#include "statics/model/part.hpp"
 
 namespace counterflex {
 namespace {
 
-constexpr int most_chain_steps = 200;  // the paper's iteration converges linearly
-
 double part_energy(const Part& part, const SeriesState& state, const Stage& stage) {
   if (part.kind == PartKind::spring) {
-    const Vector6 theta = state.x.segment<6>(part.column) - stage.preload * part.theta_0;
+    const Vector6 theta = spring_deflection(part, state, stage);
     return 0.5 * theta.dot(part.K * theta);
   }
   if (part.kind != PartKind::passive && part.kind != PartKind::compliance) return 0;
-  const double q_nominal = part.kind == PartKind::passive ? state.x_nominal[part.column] : 0;
-  const double q = state.x[part.column] - q_nominal - stage.preload * (part.rest - q_nominal);
+  const double q = joint_deflection(part, state, stage);
   return 0.5 * part.k * q * q;
 }
 
@@ -33,7 +30,7 @@ ChainEquilibrium solve_chain(const Model& model, std::size_t i, const Pose& X_MP
   SeriesWork& chain = work.impl().chains[i];
   ChainEquilibrium result;
   double step = std::numeric_limits<double>::infinity();
-  for (; result.iterations < most_chain_steps; ++result.iterations) {
+  for (; result.iterations < most_linear_steps; ++result.iterations) {
     evaluate(series, state, X_MP, stage, acting_gravity(model.mechanism, stage), hessians, chain);
     Residual residual;
     add_residual(series, state, chain, units, residual);
@@ -63,18 +60,15 @@ ChainStiffness chain_stiffness(const Model& model, std::size_t i, const SeriesSt
   result.available = condense(series, units, chain);
   if (!result.available) return result;
   result.K_C = chain.K;
-  const auto append = [&](Eigen::Matrix<double, Eigen::Dynamic, 6>& rows, std::size_t row) {
-    rows.conservativeResize(rows.rows() + 1, Eigen::NoChange);
-    rows.bottomRows<1>() =
-        units.of_column(series.angular[series.free[row]]) * chain.solution.block<1, 6>(6 + row, 1);
-  };
-  std::size_t row = 0;
+  Eigen::Index row = 6;  // of the solution: below the wrench's, one for each free column
   for (const Part& part : series.parts) {
-    if (part.kind == PartKind::passive) append(result.K_Cq, row++);
-    if (part.kind == PartKind::compliance) append(result.K_Ctheta, row++);
-    if (part.kind == PartKind::group) row += 6;
-    if (part.kind == PartKind::spring)
-      for (int k = 0; k < 6; ++k) append(result.K_Ctheta, row++);
+    if (part.kind == PartKind::actuator) continue;
+    for (int k = 0; k < columns_of(part); ++k, ++row) {
+      if (part.kind == PartKind::group) continue;
+      auto& rows = part.kind == PartKind::passive ? result.K_Cq : result.K_Ctheta;
+      rows.conservativeResize(rows.rows() + 1, Eigen::NoChange);
+      rows.bottomRows<1>() = units.of_column(series.angular[part.column + k]) * chain.solution.block<1, 6>(row, 1);
+    }
   }
   return result;
 }

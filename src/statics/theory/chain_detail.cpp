@@ -1,6 +1,7 @@
 #include "counterflex/statics/chain.hpp"
 
 #include "counterflex/statics/theory.hpp"
+#include "statics/model/part.hpp"
 
 namespace counterflex {
 namespace {
@@ -40,7 +41,7 @@ struct Collector {
   }
 
   void spring(const Part& part, const SeriesState& state, const std::string& element) {
-    const Vector6 theta = state.x.segment<6>(part.column), tau = part.K * (theta - part.theta_0);
+    const Vector6 theta = state.x.segment<6>(part.column), tau = part.K * spring_deflection(part, state, everything);
     for (int k = 0; k < 6; ++k)
       detail.coordinates.push_back({element, part.kind, k, k >= 3, theta[k], theta[k], tau[k]});
   }
@@ -49,8 +50,7 @@ struct Collector {
     const double x = state.x[part.column];
     CoordinateDetail joint{element, part.kind, -1, part.joint.kind == JointKind::revolute, x,
                            x - state.x_nominal[part.column]};
-    if (part.kind == PartKind::passive) joint.load = part.k * (x - part.rest);
-    if (part.kind == PartKind::compliance) joint.load = part.k * x;
+    if (part.kind != PartKind::actuator) joint.load = part.k * joint_deflection(part, state, everything);
     detail.coordinates.push_back(joint);
   }
 };

@@ -2,12 +2,12 @@
 
 #include <Eigen/Geometry>
 
+#include "statics/model/part.hpp"
+#include "statics/model/tolerances.hpp"
 #include "statics/theory/weights.hpp"
 
 namespace counterflex {
 namespace {
-
-constexpr double smallest_pivot_ratio = 1e-12;
 
 // What a group's branches add to its six columns: stiffness and corrected wrench.
 struct GroupTerms {
@@ -97,7 +97,7 @@ void finish_lean(const Series& series, const Units& units, SeriesWork& work) {
 bool factor(SeriesWork& work) {
   work.lu.compute(work.bordered);
   const auto pivots = work.lu.matrixLU().diagonal().cwiseAbs();
-  return pivots.minCoeff() > smallest_pivot_ratio * pivots.maxCoeff();
+  return pivots.minCoeff() > rounding_threshold * pivots.maxCoeff();
 }
 
 }  // namespace
@@ -131,7 +131,7 @@ double take_step(const Series& series, const Vector6& dxi, const Vector3& dw, co
   std::size_t i = 0;
   for (const Part& part : series.parts) {
     if (part.column < 0 || part.kind == PartKind::actuator) continue;
-    const int size = part.kind == PartKind::spring || part.kind == PartKind::group ? 6 : 1;
+    const int size = columns_of(part);
     Vector6 step = Vector6::Zero();
     for (int k = 0; k < size; ++k, ++i) {
       step[k] = units.of_column(series.angular[series.free[i]]) * along(static_cast<int>(6 + i));

@@ -3,18 +3,16 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <tuple>
 
 #include "statics/model/tolerances.hpp"
+#include "statics/solve/by_parts.hpp"
 #include "statics/solve/judge.hpp"
+#include "statics/solve/newton.hpp"
 
 namespace counterflex {
 namespace {
 
-constexpr int most_iterations = 25;
-constexpr double smallest_part = 1.0 / 4096;  // of the way between two points
-constexpr double bracket = 1e-9;              // of the displacement of a critical state
-constexpr double force_unit = 1e6;            // N for a unit step of the force's variable
+constexpr double bracket = 1e-9;  // of the displacement of a critical state
 
 // An equilibrium with the tip at a displacement, and the step of everything per metre of it.
 struct State {
@@ -24,49 +22,6 @@ struct State {
   double stiffness = 0;
 };
 
-// The whole system with actuators held and the force as one more unknown, before the platform's variables.
-struct Augmented {
-  WholeSystem system;
-  std::vector<int> kept;  // by variable before the force: its number in the whole system
-  int all = 0;            // variables of the whole system
-};
-
-Augmented augmented(const WholeSystem& whole, const Vector6& along, const Units& units) {
-  Augmented result;
-  result.all = static_cast<int>(whole.variables.size());
-  std::vector<int> from, to;
-  for (int i = 0; i < result.all; ++i) {
-    if (whole.variables[i].actuator >= 0) continue;
-    to.push_back(static_cast<int>(from.size()) + (i < whole.pose ? 0 : 1));
-    from.push_back(i);
-    if (i < whole.pose) result.kept.push_back(i);
-  }
-  const auto force = static_cast<int>(result.kept.size()), n = force + 7;
-  WholeSystem& system = result.system;
-  system.pose = force + 1;
-  system.variables.resize(n);
-  system.A.setZero(n, n);
-  system.C.setZero(whole.C.rows(), n);
-  system.gradient.setZero(n);
-  system.gap = whole.gap;
-  for (std::size_t i = 0; i < from.size(); ++i) system.variables[to[i]] = whole.variables[from[i]];
-  system.A(to, to) = whole.A(from, from);
-  system.C(Eigen::all, to) = whole.C(Eigen::all, from);
-  system.gradient(to) = whole.gradient(from);
-  system.variables[force] = {false, false, 0};  // no stationarity: the displacement is given in its place
-  system.A.block<6, 1>(system.pose, force) =
-      -along.cwiseProduct(units.of_pose()) * force_unit * units.length / units.energy();
-  return result;
-}
-
-// A step of the augmented system as one of the whole system, and of the force (N).
-std::pair<WholeStep, double> split(const WholeStep& step, const Augmented& of) {
-  WholeStep whole{Eigen::VectorXd::Zero(of.all), step.wrenches, step.redundant};
-  for (std::size_t i = 0; i < of.kept.size(); ++i) whole.variables[of.kept[i]] = step.variables[static_cast<Eigen::Index>(i)];
-  whole.variables.tail<6>() = step.variables.tail<6>();
-  return {whole, force_unit * step.variables[of.system.pose - 1]};
-}
-
 class Follower {
  public:
   Follower(const Model& model, const CurveRequest& request, const Vector3& p_free, StaticsWork::Impl& work)
@@ -75,37 +30,37 @@ class Follower {
   // Newton's method from a state near the solution; fills tangent and stiffness.
   bool solve(State& state) const {
     double last = std::numeric_limits<double>::infinity();
-    for (int i = 0; i < most_iterations; ++i) {
+    for (int i = 0; i < most_newton_steps; ++i) {
       evaluate_all(model_, state.configuration, Stage{}, work_);
-      const Vector6 along = direction_at_platform(state.configuration.X_MP);
-      Augmented equations = augmented(whole_system(model_, state.configuration, problem(state), work_), along, units_);
+      WholeSystem system = whole_system(model_, state.configuration, problem(state), work_);
       const double missing = state.displacement - displacement_of(state.configuration);
       if (last <= step_tolerance && is_solved(state, missing)) {
-        equations.system.gradient.setZero();
-        equations.system.gap.setZero();
-        std::tie(state.tangent, state.stiffness) = split(solve_whole(equations.system, along_tip(along, 1), units_), equations);
+        system.gradient.setZero();
+        system.gap.setZero();
+        state.tangent = solve_whole(system, along_tip(state.configuration.X_MP, 1), units_);
+        state.stiffness = state.tangent.forces[0];
         return true;
       }
-      const auto [step, force] = split(solve_whole(equations.system, along_tip(along, missing), units_), equations);
-      state.force += force;
+      const WholeStep step = solve_whole(system, along_tip(state.configuration.X_MP, missing), units_);
+      state.force += step.forces[0];
       last = apply(model_.mechanism, step, units_, state.configuration);
       if (!std::isfinite(last)) return false;
     }
     return false;
   }
 
-  // From a state along its tangent to another displacement.
+  // From a state along its tangent to another displacement; nothing where that ends on another branch.
   std::optional<State> advanced(const State& from, double displacement) const {
     const double way = displacement - from.displacement;
     State next{displacement, from.force + from.stiffness * way, from.configuration, {}, 0};
     WholeStep step = from.tangent;
     step.variables *= way;
     step.wrenches *= way;
-    const double foreseen = apply(model_.mechanism, step, units_, next.configuration);
-    const Pose X_foreseen = next.configuration.X_MP;
-    if (!std::isfinite(foreseen) || !solve(next)) return std::nullopt;
-    const Vector6 surplus = difference(next.configuration.X_MP, X_foreseen).cwiseQuotient(units_.of_pose());
-    if (surplus.norm() > jump_floor && surplus.norm() * units_.length > 0.5 * foreseen) return std::nullopt;  // another branch
+    const double size = apply(model_.mechanism, step, units_, next.configuration);
+    const Configuration foreseen = next.configuration;
+    if (!std::isfinite(size) || !solve(next) ||
+        ends_elsewhere(model_.mechanism, from.configuration, foreseen, next.configuration))
+      return std::nullopt;
     return next;
   }
 
@@ -124,17 +79,12 @@ class Follower {
     return {load, Stage{}, nullptr};
   }
 
-  // The unit force at the tip as a wrench at the reference point; also d(displacement) per twist of that point.
-  Vector6 direction_at_platform(const Pose& X_MP) const {
-    Vector6 along = Vector6::Zero();
-    along.head<3>() = request_.direction;
-    return wrench_at(along, X_MP.R * model_.mechanism.X_PT.p);
-  }
-
-  Controlled along_tip(const Vector6& along, double missing) const {
-    Controlled controlled{ControlledRows(1, 6), ControlledValues(1)};
-    controlled.rows.row(0) = along.cwiseProduct(units_.of_pose()).transpose() / units_.length;
-    controlled.rhs[0] = missing / units_.length;
+  // d'T dxi = missing, met by a force along d at the tip: its wrench at the reference point is T'd.
+  Controlled along_tip(const Pose& X_MP, double missing) const {
+    const Vector6 along = tip_from_platform(model_.mechanism, X_MP).topRows<3>().transpose() * request_.direction;
+    Controlled controlled{.by_forces = true};
+    controlled.rows = along.cwiseProduct(units_.of_pose()).transpose() / units_.length;
+    controlled.rhs.setConstant(1, missing / units_.length);
     return controlled;
   }
 
@@ -157,17 +107,13 @@ class Follower {
 
 // The next state, in smaller parts of the way where it is not found at once.
 std::optional<State> followed(const Follower& follower, State now, double displacement) {
-  const double way = displacement - now.displacement;
-  double part = 1;
-  while (now.displacement != displacement) {
-    const double left = displacement - now.displacement;
-    const bool last = std::abs(part * way) >= std::abs(left);
-    if (auto next = follower.advanced(now, last ? displacement : now.displacement + part * way))
-      now = std::move(*next);
-    else if ((part /= 2) < smallest_part)
-      return std::nullopt;
-  }
-  return now;
+  const double start = now.displacement;
+  const bool arrived = by_parts(1, smallest_part, [&](double, double to) {
+    auto next = follower.advanced(now, to < 1 ? start + to * (displacement - start) : displacement);
+    if (next) now = std::move(*next);
+    return next.has_value();
+  });
+  return arrived ? std::optional(std::move(now)) : std::nullopt;
 }
 
 // Halves the way from a stable to an unstable state.

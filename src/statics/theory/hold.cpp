@@ -1,31 +1,27 @@
 #include "counterflex/statics/chain.hpp"
 
-#include <algorithm>
+#include "statics/model/tolerances.hpp"
+#include "statics/solve/by_parts.hpp"
+#include "statics/solve/continuation.hpp"
 
 namespace counterflex {
 namespace {
-
-constexpr double first_hold_step = 0.25, smallest_hold_step = 1.0 / 1024;
 
 // One chain, from the nominal configuration to the held pose.
 Status hold_chain(const Model& model, std::size_t i, const Pose& nominal, const Pose& held, const Stage& goal,
                   SeriesState& state, StaticsWork& work) {
   const Vector6 way = difference(held, nominal);
-  double s = 0, step = first_hold_step;
-  while (s < 1) {
-    const double next = std::min(1.0, s + step);
-    const Stage stage{next * goal.errors, next * goal.load, next * goal.preload, next * goal.gravity};
+  Status status = Status::converged;
+  by_parts(first_part, smallest_part, [&](double, double s) {
     SeriesState tried = state;
-    const Status status =
-        solve_chain(model, i, next < 1 ? moved(nominal, next * way) : held, stage, ChainMethod::newton, tried, work).status;
-    if (status != Status::converged) {
-      if ((step /= 2) < smallest_hold_step) return status;
-      continue;
-    }
+    status = solve_chain(model, i, s < 1 ? moved(nominal, s * way) : held, between(nominal_stage, goal, s),
+                         ChainMethod::newton, tried, work)
+                 .status;
+    if (status != Status::converged) return false;
     state = std::move(tried);
-    s = next;
-  }
-  return Status::converged;
+    return true;
+  });
+  return status;
 }
 
 }  // namespace

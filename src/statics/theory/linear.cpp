@@ -4,7 +4,7 @@
 
 #include "statics/model/tolerances.hpp"
 #include "statics/theory/manipulator.hpp"
-#include "statics/model/part_pose.hpp"
+#include "statics/model/part.hpp"
 
 namespace counterflex {
 namespace {
@@ -72,7 +72,7 @@ bool uncondensed(const Model& model, const Configuration& nominal, const Vector6
                  const Units& units, StaticsWork::Impl& work, LinearResult& result) {
   evaluate_linear(model, nominal, stage, work);
   const WholeSystem system = assemble_whole(model.mechanism, work.chains, {-F, Matrix6::Zero()}, units);
-  if (!(condition(system, units).value < 1e10)) return false;
+  if (!(condition(system, units).value < largest_condition)) return false;
   const WholeStep step = solve_whole(system, std::nullopt, units);
   result.dt_P = step.variables.tail<6>();
   result.configuration = nominal;
@@ -107,7 +107,7 @@ std::optional<Vector6> group_eps(const std::vector<Series>& branches, const Unit
   }
   const Vector6 pose = units.of_pose();
   Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> decomposition;
-  decomposition.setThreshold(1e-11);
+  decomposition.setThreshold(rank_threshold);
   decomposition.compute(pose.asDiagonal() * K * pose.asDiagonal() / units.energy());
   const Eigen::VectorXd x = solved(decomposition, Eigen::VectorXd(pose.cwiseProduct(F) / units.energy()));
   return pose.cwiseProduct(Vector6(x));
@@ -136,8 +136,7 @@ LinearResult linear_deviation(const Model& model, const Configuration& nominal, 
                           uncondensed(model, nominal, F, stage, units, work.impl(), result)
                       ? Status::converged
                       : Status::singular;
-  result.dt_T = result.dt_P;
-  result.dt_T.head<3>() += result.dt_P.tail<3>().cross(nominal.X_MP.R * model.mechanism.X_PT.p);
+  result.dt_T = tip_from_platform(model.mechanism, nominal.X_MP) * result.dt_P;
   return result;
 }
 

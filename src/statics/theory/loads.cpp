@@ -4,7 +4,7 @@
 #include <cmath>
 #include <optional>
 
-#include "statics/model/part_pose.hpp"
+#include "statics/model/part.hpp"
 
 namespace counterflex {
 namespace {
@@ -29,7 +29,7 @@ std::optional<Matrix3> first_spring_axes(const Series& series, const SeriesState
 
 void add_spring(const Part& part, const SeriesState& state, const Stage& stage, ChainLoads& loads) {
   const Vector6 theta = state.x.segment<6>(part.column);
-  const Vector6 tau = part.K * (theta - stage.preload * part.theta_0);
+  const Vector6 tau = part.K * spring_deflection(part, state, stage);
   raise(loads.spring_translation_max, largest(theta.head<3>()));
   raise(loads.spring_rotation_max, largest(theta.tail<3>()));
   raise(loads.spring_force_max, largest(tau.head<3>()));

@@ -43,9 +43,8 @@ Residual residual_of(const Model& model, const Configuration& configuration, con
       std::max(residual.force, wrench_size(platform_terms(model, configuration, problem).gradient, units));
   residual.largest = std::max(residual.largest, wrench_size(problem.load.F, units) * problem.stage.load);
   if (!problem.X_MT) return residual;
-  const TipEquations tip = tip_equations(model.mechanism, configuration.X_MP, *problem.X_MT);
-  residual.closure = std::max(
-      residual.closure, to_controlled(tip, model.mechanism, units).rhs.cwiseAbs().maxCoeff() * units.length);
+  const Controlled tip = tip_equations(model.mechanism, configuration.X_MP, *problem.X_MT, units);
+  residual.closure = std::max(residual.closure, tip.rhs.cwiseAbs().maxCoeff() * units.length);
   return residual;
 }
 

@@ -10,8 +10,6 @@
 namespace counterflex {
 namespace {
 
-constexpr int most_outer = 100, most_inner = 60;
-
 // (2) for every chain at the platform's pose; false where one has no solution of its own.
 bool solve_chains(const Model& model, const Stage& stage, Configuration& configuration, StaticsWork& work,
                   NewtonResult& result) {
@@ -38,7 +36,7 @@ NewtonResult equilibrium_by_chains(const Model& model, const Problem& problem, C
   const Configuration start = configuration;
   NewtonResult result;
   double step = std::numeric_limits<double>::infinity();
-  for (int iteration = 0; iteration < most_inner; ++iteration) {
+  for (int iteration = 0; iteration < most_newton_steps; ++iteration) {
     Matrix6 K;
     if (!solve_chains(model, problem.stage, configuration, work, result) ||
         !sum_stiffness(model, problem.stage, configuration, work, K)) {
@@ -89,7 +87,7 @@ Equilibrium solve_target_nested(const Model& model, const Configuration& nominal
   Configuration commanded = nominal;
   Pose X_t0F = tip(model.mechanism, nominal);
   double error = std::numeric_limits<double>::infinity(), alpha = 1;
-  for (int outer = 0; outer < most_outer; ++outer) {
+  for (int outer = 0; outer < most_linear_steps; ++outer) {
     if (result.status != Status::converged) return result;
     const Vector6 d = controlled_part(model.mechanism, deviation(tip(model.mechanism, result.configuration), X_MT));
     const double size = size_of(d, units);

@@ -1,5 +1,6 @@
 #include <Eigen/Geometry>
 
+#include "statics/model/part.hpp"
 #include "statics/theory/weights.hpp"
 
 #include <algorithm>
@@ -7,44 +8,22 @@
 namespace counterflex {
 namespace {
 
-Pose error_pose(const Part& part, double s) { return {exp_so3(s * part.log_R), s * part.X.p}; }
-
-void translate_columns(const Part& part, const Pose& X, SeriesWork& work) {
-  work.v.middleCols<3>(part.column) = X.R;
-  work.w.middleCols<3>(part.column).setZero();
-}
-
-void rotate_columns(const Part& part, const Matrix3& axes, const Vector3& at, SeriesWork& work) {
-  work.w.middleCols<3>(part.column + 3) = axes;
-  work.point.middleCols<3>(part.column + 3).colwise() = at;
-}
-
-void place_joint(const Part& part, double value, Pose& X, SeriesWork& work) {
-  const Vector3 axis = X.R * part.joint.axis;
-  if (part.joint.kind == JointKind::prismatic) {
-    work.v.col(part.column) = axis;
-    work.w.col(part.column).setZero();
-    X.p += value * axis;
+// Axes of the columns of a part between the frames `X` and `X_after`, and where they pass.
+void place_columns(const Part& part, const SeriesState& state, const Pose& X, const Pose& X_after, SeriesWork& work) {
+  const int c = part.column;
+  if (columns_of(part) == 6) {
+    const bool spring = part.kind == PartKind::spring;
+    work.v.middleCols<3>(c) = X.R;
+    work.w.middleCols<3>(c).setZero();
+    work.w.middleCols<3>(c + 3) = spring ? Matrix3(X.R * left_jacobian(state.x.segment<3>(c + 3))) : X.R;
+    work.point.middleCols<3>(c + 3).colwise() = X_after.p;
+  } else if (part.joint.kind == JointKind::prismatic) {
+    work.v.col(c) = X.R * part.joint.axis;
+    work.w.col(c).setZero();
   } else {
-    work.w.col(part.column) = axis;
-    work.point.col(part.column) = X.p;
-    X.R *= exp_so3(value * part.joint.axis);
+    work.w.col(c) = X.R * part.joint.axis;
+    work.point.col(c) = X.p;
   }
-}
-
-void place_spring(const Part& part, const SeriesState& state, Pose& X, SeriesWork& work) {
-  const Vector3 p = state.x.segment<3>(part.column), phi = state.x.segment<3>(part.column + 3);
-  translate_columns(part, X, work);
-  X.p += X.R * p;
-  rotate_columns(part, X.R * left_jacobian(phi), X.p, work);
-  X.R *= exp_so3(phi);
-}
-
-void place_group(const Part& part, const Pose& X_group, Pose& X, SeriesWork& work) {
-  translate_columns(part, X, work);
-  X.p += X.R * X_group.p;
-  rotate_columns(part, X.R, X.p, work);
-  X.R *= X_group.R;
 }
 
 // Frames from start to end: axes and points of all columns, and where the end is.
@@ -52,16 +31,10 @@ void place(const Series& series, const SeriesState& state, const Stage& stage, S
   Pose X;
   int mass = 0;
   for (const Part& part : series.parts) {
-    switch (part.kind) {
-      case PartKind::fixed: X = X * part.X; break;
-      case PartKind::error: X = X * error_pose(part, stage.errors); break;
-      case PartKind::actuator:
-      case PartKind::passive:
-      case PartKind::compliance: place_joint(part, state.x[part.column] + stage.gravity * part.offset, X, work); break;
-      case PartKind::spring: place_spring(part, state, X, work); break;
-      case PartKind::group: place_group(part, state.groups[part.group].X, X, work); break;
-      case PartKind::mass: work.masses.point.col(mass++) = X.p + X.R * part.X.p; break;
-    }
+    if (part.kind == PartKind::mass) work.masses.point.col(mass++) = X * part.X.p;
+    const Pose X_after = X * part_pose(part, state, stage);
+    if (part.column >= 0) place_columns(part, state, X, X_after, work);
+    X = X_after;
   }
   work.end = X;
   for (int c = 0; c < series.columns; ++c)  // v = w x (p_E - o)
@@ -72,12 +45,10 @@ void place(const Series& series, const SeriesState& state, const Stage& stage, S
 void add_energy(const Part& part, const SeriesState& state, const Stage& stage, SeriesWork& work) {
   const int c = part.column;
   if (part.kind == PartKind::passive || part.kind == PartKind::compliance) {
-    const double q_nominal = part.kind == PartKind::passive ? state.x_nominal[c] : 0;
-    const double rest = q_nominal + stage.preload * (part.rest - q_nominal);
-    work.gradient[c] += part.k * (state.x[c] - rest);
+    work.gradient[c] += part.k * joint_deflection(part, state, stage);
     work.A(c, c) += part.k;
   } else if (part.kind == PartKind::spring) {
-    work.gradient.segment<6>(c).noalias() += part.K * (state.x.segment<6>(c) - stage.preload * part.theta_0);
+    work.gradient.segment<6>(c).noalias() += part.K * spring_deflection(part, state, stage);
     work.A.block<6, 6>(c, c) += part.K;
   }
 }

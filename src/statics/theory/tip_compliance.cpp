@@ -4,20 +4,13 @@
 #include <cmath>
 #include <limits>
 
+#include "statics/model/tolerances.hpp"
 #include "statics/theory/manipulator.hpp"
 
 namespace counterflex {
 namespace {
 
 constexpr double rigid_compliance = 1e-15;  // m/N: less is rounding
-constexpr double rigid_ratio = 1e-12;       // of the compliances' largest, without unit
-
-// Twist of the tip per twist of the reference point.
-Matrix6 tip_from_platform(const Mechanism& mechanism, const Pose& X_MP) {
-  Matrix6 T = Matrix6::Identity();
-  T.topRightCorner<3, 3>() = -skew(X_MP.R * mechanism.X_PT.p);
-  return T;
-}
 
 }  // namespace
 
@@ -48,7 +41,7 @@ std::optional<Matrix6> inverse_compliance(const Matrix6& compliance, double leng
   const Vector6 pose = Units{length}.of_pose();
   const Matrix6 scaled = pose.cwiseInverse().asDiagonal() * compliance * pose.cwiseInverse().asDiagonal();
   Eigen::FullPivLU<Matrix6> lu(scaled);
-  lu.setThreshold(rigid_ratio);
+  lu.setThreshold(rounding_threshold);
   if (!lu.isInvertible()) return std::nullopt;
   return pose.cwiseInverse().asDiagonal() * lu.inverse() * pose.cwiseInverse().asDiagonal();
 }

@@ -1,5 +1,6 @@
 #include <Eigen/Geometry>
 
+#include "statics/model/part.hpp"
 #include "statics/theory/weights.hpp"
 
 namespace counterflex {
@@ -36,11 +37,6 @@ void add_branches(const Series& series, const SeriesState& state, const Part& gr
   for (std::size_t b = 0; b < branches.size(); ++b)
     if (branches[b].mass > 0)
       after.add(branches[b].mass, branches[b].mass * p + R * work.groups[group.group][b].masses.moment);
-}
-
-int columns_of(const Part& part) {
-  if (part.column < 0) return 0;
-  return part.kind == PartKind::spring || part.kind == PartKind::group ? 6 : 1;
 }
 
 }  // namespace

@@ -5,13 +5,13 @@
 #include <limits>
 
 #include "counterflex/geometry/spectrum.hpp"
+#include "statics/model/part.hpp"
+#include "statics/model/tolerances.hpp"
 
 namespace counterflex {
 namespace {
 
-constexpr double zero_singular_value = 1e-13;  // relative: below it is rounding
-constexpr double moves_platform = 1e-6;        // share of a zero mode that lies in the platform's pose
-constexpr double stiff_enough = 1e3;           // without unit: 1e9 N/m
+constexpr double stiff_enough = 1e3;  // without unit: 1e9 N/m
 
 int count_columns(const Series& series) {
   int count = series.columns;
@@ -89,10 +89,8 @@ struct Assembler {
 
   void describe(const Series& series, int v0) {
     for (const Part& part : series.parts) {
-      if (part.column < 0) continue;
       const bool elastic = part.kind == PartKind::spring || part.kind == PartKind::compliance;
-      const int size = part.kind == PartKind::spring || part.kind == PartKind::group ? 6 : 1;
-      for (int k = 0; k < size; ++k)
+      for (int k = 0; k < columns_of(part); ++k)
         system.variables[v0 + part.column + k] = {series.angular[part.column + k], elastic, part.actuator};
     }
   }
@@ -150,8 +148,7 @@ struct StepApplier {
     for (const Part& part : series.parts) {
       if (part.column < 0) continue;
       if (part.kind != PartKind::group) {
-        const int size = part.kind == PartKind::spring ? 6 : 1;
-        state.x.segment(part.column, size) += step.variables.segment(v0 + part.column, size);
+        state.x.segment(part.column, columns_of(part)) += step.variables.segment(v0 + part.column, columns_of(part));
         continue;
       }
       GroupState& group = state.groups[part.group];
@@ -188,21 +185,23 @@ WholeSystem assemble_whole(const Mechanism& mechanism, const std::vector<SeriesW
 }
 
 WholeStep solve_whole(const WholeSystem& system, const std::optional<Controlled>& controlled, const Units& units) {
-  const auto columns = unknowns(system, controlled.has_value()), rows = unknowns(system, false);
-  const auto closures = system.C.rows();
+  const auto columns = unknowns(system, controlled && !controlled->by_forces), rows = unknowns(system, false);
+  const auto closures = system.C.rows(), pose = static_cast<Eigen::Index>(columns.size()) - 6;
   Eigen::MatrixXd B = bordered(system, columns, rows);
   Eigen::VectorXd rhs(B.rows());
   rhs << -system.gradient(rows), system.gap;
   if (controlled) {
-    const auto n = controlled->rows.rows(), m = B.rows();
-    B.conservativeResize(m + n, Eigen::NoChange);
+    const auto n = controlled->rows.rows(), forces = controlled->by_forces ? n : 0, size = B.rows(), width = B.cols();
+    B.conservativeResize(size + n, width + forces);
     B.bottomRows(n).setZero();
-    B.block(m, static_cast<Eigen::Index>(columns.size()) - 6, n, 6) = controlled->rows;
-    rhs.conservativeResize(m + n);
+    B.rightCols(forces).setZero();
+    B.block(size, pose, n, 6) = controlled->rows;
+    if (forces > 0) B.block(pose, width, 6, n) = -controlled->rows.transpose();
+    rhs.conservativeResize(size + n);
     rhs.tail(n) = controlled->rhs;
   }
   Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> decomposition;
-  decomposition.setThreshold(zero_singular_value);
+  decomposition.setThreshold(rounding_threshold);
   decomposition.compute(B);
   const Eigen::VectorXd x = solved(decomposition, rhs);
   WholeStep step;
@@ -210,8 +209,9 @@ WholeStep solve_whole(const WholeSystem& system, const std::optional<Controlled>
   step.variables.setZero(static_cast<Eigen::Index>(system.variables.size()));
   for (std::size_t i = 0; i < columns.size(); ++i)
     step.variables[columns[i]] = x[i] * units.of_column(system.variables[columns[i]].angular);
-  step.wrenches = x.tail(closures);
+  step.wrenches = x.segment(pose + 6, closures);
   for (Eigen::Index c = 0; c < closures; ++c) step.wrenches[c] *= units.energy() / units.of_pose()[c % 6];
+  step.forces = x.tail(x.size() - pose - 6 - closures) * units.energy() / units.length;
   return step;
 }
 
@@ -232,7 +232,7 @@ Condition condition(const WholeSystem& system, const Units& units) {
   const auto& sigma = svd.singularValues();
   const auto n = sigma.size(), pose = static_cast<Eigen::Index>(columns.size()) - 6;
   Eigen::Index rank = n;
-  while (rank > 1 && sigma[rank - 1] <= zero_singular_value * sigma[0]) --rank;
+  while (rank > 1 && sigma[rank - 1] <= rounding_threshold * sigma[0]) --rank;
   Condition result;
   const auto twist = [&](Eigen::Index i) { return Vector6(svd.matrixV().block<6, 1>(pose, i)); };
   result.weakest = twist(rank - 1);
@@ -261,7 +261,7 @@ double least_scaled_eigenvalue(const WholeSystem& system) {
   const Eigen::VectorXd scale = A.diagonal().cwiseAbs().cwiseMax(system.wrench).cwiseSqrt().cwiseInverse();
   C = C * scale.asDiagonal();
   A = scale.asDiagonal() * A * scale.asDiagonal();
-  const Eigen::MatrixXd Z = null_space(C, 1e-11);
+  const Eigen::MatrixXd Z = null_space(C, rank_threshold);
   if (Z.cols() == 0) return 0;
   const Eigen::MatrixXd symmetric = 0.5 * (A + A.transpose()), Z_A = Z.transpose() * symmetric;
   const double least = eigenvalues(Z_A * Z)[0];

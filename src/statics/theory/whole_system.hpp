@@ -41,10 +41,11 @@ WholeSystem assemble_whole(const Mechanism& mechanism, const std::vector<SeriesW
 /// A step of variables and wrenches, in SI, in the order of `WholeSystem`.
 struct WholeStep {
   Eigen::VectorXd variables, wrenches;
+  Eigen::VectorXd forces;  ///< along the controlled rows, where these are met by forces (N)
   bool redundant = false;  ///< the minimum-norm choice among several
 };
 
-/// Minimum-norm solution. Actuators are held, unless `controlled` is given: then they are unknowns.
+/// Minimum-norm solution. Actuators are held, unless `controlled` is given: then they are unknowns, or forces are.
 WholeStep solve_whole(const WholeSystem& system, const std::optional<Controlled>& controlled, const Units& units);
 
 /// Adds a step to a configuration; returns its largest entry (m, rad times l).

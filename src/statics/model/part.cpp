@@ -1,4 +1,4 @@
-#include "statics/model/part_pose.hpp"
+#include "statics/model/part.hpp"
 
 namespace counterflex {
 
@@ -14,6 +14,20 @@ Pose part_pose(const Part& part, const SeriesState& state, const Stage& stage) {
   }
   const Vector3 motion = (state.x[part.column] + stage.gravity * part.offset) * part.joint.axis;
   return part.joint.kind == JointKind::prismatic ? translation(motion) : rotation(exp_so3(motion));
+}
+
+int columns_of(const Part& part) {
+  if (part.column < 0) return 0;
+  return part.kind == PartKind::spring || part.kind == PartKind::group ? 6 : 1;
+}
+
+Vector6 spring_deflection(const Part& spring, const SeriesState& state, const Stage& stage) {
+  return state.x.segment<6>(spring.column) - stage.preload * spring.theta_0;
+}
+
+double joint_deflection(const Part& joint, const SeriesState& state, const Stage& stage) {
+  const double q_nom = joint.kind == PartKind::passive ? state.x_nominal[joint.column] : 0;
+  return state.x[joint.column] - (q_nom + stage.preload * (joint.rest - q_nom));
 }
 
 }  // namespace counterflex
