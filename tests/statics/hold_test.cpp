@@ -1,6 +1,6 @@
 #include "counterflex/statics/chain.hpp"
 
-#include "laws_support.hpp"
+#include "laws_weights.hpp"
 
 using namespace counterflex;
 using namespace counterflex::laws;

@@ -3,6 +3,7 @@
 #include <Eigen/LU>
 
 #include "laws_states.hpp"
+#include "model/part.hpp"
 #include "theory/manipulator.hpp"
 
 namespace counterflex::laws {
@@ -26,6 +27,23 @@ inline Machine heavy(Machine machine, double kg, unsigned seed = 5) {
   for (Chain& chain : machine.chains) add_masses(chain.elements, kg, random);
   machine.gravity.g = tilted_gravity;
   return machine;
+}
+
+/// Energy of the weights of a series (J), zero where its start frame is: -sum m g . p. `g` (m/s2) in axes of that frame.
+inline double weight_energy(const Series& series, const SeriesState& state, const Stage& stage, const Vector3& g) {
+  double energy = 0;
+  Pose X;
+  for (const Part& part : series.parts) {
+    if (part.kind == PartKind::mass) energy -= part.mass * g.dot(X * part.X.p);
+    if (part.kind == PartKind::group)
+      for (std::size_t b = 0; b < series.groups[part.group].branches.size(); ++b) {
+        const Series& branch = series.groups[part.group].branches[b];
+        energy += weight_energy(branch, state.groups[part.group].branches[b], stage, X.R.transpose() * g) -
+                  branch.mass * g.dot(X.p);
+      }
+    X = X * part_pose(part, state, stage);
+  }
+  return energy;
 }
 
 inline Model heavy_model_of(const std::string& name, double kg = 1, unsigned seed = 5) {

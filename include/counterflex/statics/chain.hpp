@@ -43,9 +43,6 @@ ChainStiffness chain_stiffness(const Model& model, std::size_t i, const SeriesSt
 /// Elastic energy of a series (J): springs, compliances, passive joints with springs, groups' branches.
 double elastic_energy(const Series& series, const SeriesState& state, const Stage& stage);
 
-/// Energy of the weights of a series (J), zero where its start frame is: -sum m g . p. `g` (m/s2) in axes of that frame.
-double weight_energy(const Series& series, const SeriesState& state, const Stage& stage, const Vector3& g);
-
 /// Spatial twist of the end per column of the chain (6 x columns; m, rad, axes of M), at P's origin.
 Eigen::MatrixXd chain_jacobian(const Model& model, std::size_t i, const SeriesState& state, const Stage& stage,
                                StaticsWork& work);

@@ -117,10 +117,6 @@ struct Stage {
 };
 inline constexpr Stage nominal_stage{0, 0, 0, 0};
 
-inline bool everything_acts(const Stage& stage) {
-  return stage == Stage{};
-}
-
 /// An actuator that has a limit: its value, how far the nearer limit is (m or rad; negative: outside), and
 /// that as a share of the travel (of 1 m or 1 rad where there is one limit only).
 struct AxisPlace {

@@ -9,8 +9,6 @@
 namespace counterflex {
 namespace {
 
-constexpr double home_tolerance = 1e-7;
-
 // Calls visit(part) for every actuator in a series and in its groups.
 template <class Series, class Visit>
 void for_each_actuator_part(Series& series, const Visit& visit) {

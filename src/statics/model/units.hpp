@@ -6,8 +6,9 @@
 namespace counterflex {
 
 struct Units {
+  static constexpr double stiffness = 1e6;  ///< k, N/m
   double length = 1;
-  double energy() const { return 1e6 * length * length; }
+  double energy() const { return stiffness * length * length; }
   double of_column(bool angular) const { return angular ? 1.0 : length; }
   /// Of the rows of a closure (m m m rad rad rad); a wrench times this, divided by energy(), is without unit.
   Vector6 of_pose() const { return (Vector6() << length, length, length, 1, 1, 1).finished(); }

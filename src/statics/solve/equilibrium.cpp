@@ -1,5 +1,6 @@
 #include "counterflex/statics/equilibrium.hpp"
 
+#include "statics/model/tolerances.hpp"
 #include "statics/solve/continuation.hpp"
 
 namespace counterflex {
@@ -23,7 +24,6 @@ Equilibrium refine_forward(const Model& model, const Configuration& start, const
 
 bool is_reached_by_load_alone(const Model& model, const Configuration& nominal, const Load& load, const Stage& goal,
                               const Equilibrium& loaded, StaticsWork& work) {
-  constexpr double same_place = 1e-6;  // units of length
   Stage unloaded = goal;
   unloaded.load = 0;
   const Equilibrium rest = solve_forward(model, nominal, load, unloaded, work);
@@ -48,19 +48,13 @@ Equilibrium refine_target(const Model& model, const Configuration& start, const 
 ManipulatorStiffness stiffness(const Model& model, const Configuration& configuration, const Stage& stage,
                                StaticsWork& work) {
   evaluate_all(model, configuration, stage, work.impl());
-  ManipulatorStiffness result;
-  for (std::size_t i = 0; i < model.mechanism.chains.size(); ++i) {
-    SeriesWork& chain = work.impl().chains[i];
-    if (!condense(model.mechanism.chains[i], {model.mechanism.length}, chain)) return {Matrix6::Zero(), false};
-    result.K += chain.K;
-  }
-  return result;
+  const auto sum = aggregate(model.mechanism.chains, {model.mechanism.length}, work.impl().chains);
+  return sum ? ManipulatorStiffness{sum->K, true} : ManipulatorStiffness{Matrix6::Zero(), false};
 }
 
 double stability(const Model& model, const Configuration& configuration, const Load& load, const Stage& stage,
                  StaticsWork& work) {
-  evaluate_all(model, configuration, stage, work.impl());
-  return least_scaled_eigenvalue(whole_system(model, configuration, {load, stage, nullptr}, work.impl()));
+  return least_eigenvalue(model, configuration, {load, stage, nullptr}, work.impl());
 }
 
 double static_condition(const Model& model, const Configuration& configuration, const Load& load, const Stage& stage,

@@ -6,25 +6,20 @@
 namespace counterflex {
 namespace {
 
-constexpr double proving_ratio =
-    1e6;  // of pivots: what elimination may hide is far below the largest condition
-constexpr double unit_stiffness = 1e6;     // N/m: of closures in the whole system
-constexpr double clear_eigenvalue = 1e-3;  // further from zero than the errors of any solution
-
 bool pivots_prove(const Model& model, const Configuration& configuration, const Problem& problem,
                   StaticsWork::Impl& work) {
   const auto pivots = work.kernel.pivots(model.mechanism, problem, configuration);
   return pivots && pivots->unstable_directions == 0 &&
-         std::max(pivots->largest, unit_stiffness) < proving_ratio * pivots->least;
+         std::max(pivots->largest, Units::stiffness) < proving_ratio * pivots->least;
 }
+
+}  // namespace
 
 double least_eigenvalue(const Model& model, const Configuration& configuration, const Problem& problem,
                         StaticsWork::Impl& work) {
   evaluate_all(model, configuration, problem.stage, work);
   return least_scaled_eigenvalue(whole_system(model, configuration, problem, work));
 }
-
-}  // namespace
 
 Stability judge_stability(const Model& model, const Configuration& configuration, const Problem& problem,
                           StaticsWork::Impl& work) {

@@ -13,6 +13,10 @@ struct Stability {
 Stability judge_stability(const Model& model, const Configuration& configuration, const Problem& problem,
                           StaticsWork::Impl& work);
 
+/// The least scaled eigenvalue of the whole system at a configuration.
+double least_eigenvalue(const Model& model, const Configuration& configuration, const Problem& problem,
+                        StaticsWork::Impl& work);
+
 /// The status of a stable equilibrium, `converged` or `singular`, into `result`.
 void judge_condition(const Model& model, const Problem& problem, StaticsWork::Impl& work,
                      Equilibrium& result);

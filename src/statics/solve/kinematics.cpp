@@ -5,7 +5,6 @@
 namespace counterflex {
 namespace {
 
-constexpr double slow_contraction = 0.1;
 const Units kinematic_units{1.0};  // angles scaled by 1 m
 
 }  // namespace
@@ -80,7 +79,7 @@ double Kinematics::solve(const Pose* X_MT, Configuration& configuration) {
       moved_by = step(damping * x, now.closures, configuration);
       then = equations(X_MT, configuration);
       next = then.errors().norm();
-      if (next < size || next < closure_tolerance || !fresh || damping < 1e-3) break;
+      if (next < size || next < closure_tolerance || !fresh || damping < smallest_part) break;
     }
     // An old linearisation that no longer contracts is thrown away, and so is its step if that made things worse.
     is_linearised_ = next <= slow_contraction * size || next < closure_tolerance;
@@ -90,7 +89,7 @@ double Kinematics::solve(const Pose* X_MT, Configuration& configuration) {
     }
     now = std::move(then);
     size = next;
-    if ((size < closure_tolerance && moved_by < step_tolerance) || moved_by < 1e-15 || !std::isfinite(size)) break;
+    if (moved_by < step_tolerance || !std::isfinite(size)) break;
   }
   return size;
 }

@@ -11,10 +11,6 @@
 namespace counterflex {
 namespace {
 
-constexpr double largest_jacobian_condition = 1e6;
-constexpr double largest_step =
-    0.5;  // of an actuator at once, in units of l or rad: two folds lie further apart
-
 Pose between(const Pose& from, const Pose& to, double fraction) {
   return moved(from, fraction * difference(to, from));
 }

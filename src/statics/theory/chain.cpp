@@ -82,22 +82,6 @@ double elastic_energy(const Series& series, const SeriesState& state, const Stag
   return energy;
 }
 
-double weight_energy(const Series& series, const SeriesState& state, const Stage& stage, const Vector3& g) {
-  double energy = 0;
-  Pose X;
-  for (const Part& part : series.parts) {
-    if (part.kind == PartKind::mass) energy -= part.mass * g.dot(X * part.X.p);
-    if (part.kind == PartKind::group)
-      for (std::size_t b = 0; b < series.groups[part.group].branches.size(); ++b) {
-        const Series& branch = series.groups[part.group].branches[b];
-        energy += weight_energy(branch, state.groups[part.group].branches[b], stage, X.R.transpose() * g) -
-                  branch.mass * g.dot(X.p);
-      }
-    X = X * part_pose(part, state, stage);
-  }
-  return energy;
-}
-
 Eigen::MatrixXd chain_jacobian(const Model& model, std::size_t i, const SeriesState& state, const Stage& stage,
                                StaticsWork& work) {
   SeriesWork& chain = work.impl().chains[i];

@@ -19,10 +19,9 @@ struct Collector {
       if (part.kind == PartKind::group) group(series, part, state, element);
       if (part.column < 0 || part.kind == PartKind::group) continue;
       if (path.empty()) list_row(part);
-      if (part.kind == PartKind::spring)
-        spring(part, state, element);
-      else
-        joint(part, state, element);
+      visit_coordinates(part, state, everything, [&](const Coordinate& c) {
+        detail.coordinates.push_back({element, part.kind, c.component, c.angular, c.value, c.change, c.load});
+      });
     }
   }
 
@@ -38,20 +37,6 @@ struct Collector {
     if (part.kind == PartKind::passive) detail.passive.push_back(next);
     if (part.kind == PartKind::compliance) detail.elastic.push_back(next);
     for (std::size_t k = 0; part.kind == PartKind::spring && k < 6; ++k) detail.elastic.push_back(next + k);
-  }
-
-  void spring(const Part& part, const SeriesState& state, const std::string& element) {
-    const Vector6 theta = state.x.segment<6>(part.column), tau = part.K * spring_deflection(part, state, everything);
-    for (int k = 0; k < 6; ++k)
-      detail.coordinates.push_back({element, part.kind, k, k >= 3, theta[k], theta[k], tau[k]});
-  }
-
-  void joint(const Part& part, const SeriesState& state, const std::string& element) {
-    const double x = state.x[part.column];
-    CoordinateDetail joint{element, part.kind, -1, part.joint.kind == JointKind::revolute, x,
-                           x - state.x_nominal[part.column]};
-    if (part.kind != PartKind::actuator) joint.load = part.k * joint_deflection(part, state, everything);
-    detail.coordinates.push_back(joint);
   }
 };
 

@@ -9,39 +9,19 @@
 namespace counterflex {
 namespace {
 
-// What a group's branches add to its six columns: stiffness and corrected wrench.
-struct GroupTerms {
-  Matrix6 K = Matrix6::Zero();
-  Vector6 dF = Vector6::Zero();
-};
-
-bool condense_branches(const Series& series, const Units& units, SeriesWork& work) {
-  for (std::size_t g = 0; g < series.groups.size(); ++g)
-    for (std::size_t b = 0; b < series.groups[g].branches.size(); ++b)
-      if (!condense(series.groups[g].branches[b], units, work.groups[g][b])) return false;
-  return true;
-}
-
-GroupTerms sum_branches(const std::vector<SeriesWork>& branches) {
-  GroupTerms sum;
-  for (const SeriesWork& branch : branches) {
-    sum.K += branch.K;
-    sum.dF += branch.dF;
-  }
-  return sum;
-}
-
-// Adds the group's terms to A and gradient: it enters as a spring with six coordinates.
-void enter_groups(const Series& series, SeriesWork& work) {
+// Condenses the groups and adds their terms to A and gradient: a group enters as a spring with six coordinates.
+bool enter_groups(const Series& series, const Units& units, SeriesWork& work) {
   for (const Part& part : series.parts) {
     if (part.kind != PartKind::group) continue;
-    const GroupTerms terms = sum_branches(work.groups[part.group]);
-    work.A.block<6, 6>(part.column, part.column) += terms.K;
-    work.gradient.segment<6>(part.column) += terms.dF;
     const auto& branches = series.groups[part.group].branches;
+    const auto sum = aggregate(branches, units, work.groups[part.group]);
+    if (!sum) return false;
+    work.A.block<6, 6>(part.column, part.column) += sum->K;
+    work.gradient.segment<6>(part.column) += sum->dF;
     for (std::size_t b = 0; b < branches.size(); ++b)
       if (branches[b].leans) enter_lean(series, part, work.groups[part.group][b], work);
   }
+  return true;
 }
 
 //     [ 0    J  ] [ dF ]   [ gap + dxi ]
@@ -103,8 +83,7 @@ bool factor(SeriesWork& work) {
 }  // namespace
 
 bool condense(const Series& series, const Units& units, SeriesWork& work) {
-  if (!condense_branches(series, units, work)) return false;
-  enter_groups(series, work);
+  if (!enter_groups(series, units, work)) return false;
   assemble_bordered(series, units, work);
   if (!factor(work)) return false;
   assemble_constant_and_pose_columns(series, units, work);
@@ -115,6 +94,16 @@ bool condense(const Series& series, const Units& units, SeriesWork& work) {
   work.K = to_wrench.asDiagonal() * work.solution.block<6, 6>(0, 1);
   if (series.leans) finish_lean(series, units, work);
   return true;
+}
+
+std::optional<Aggregate> aggregate(const std::vector<Series>& all, const Units& units, std::vector<SeriesWork>& works) {
+  Aggregate sum;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (!condense(all[i], units, works[i])) return std::nullopt;
+    sum.K += works[i].K;
+    sum.dF += works[i].dF;
+  }
+  return sum;
 }
 
 double take_step(const Series& series, const Vector6& dxi, const Vector3& dw, const Units& units,

@@ -1,7 +1,8 @@
 #include "statics/theory/decompositions.hpp"
 
+#include "statics/model/tolerances.hpp"
+
 template void Eigen::PartialPivLU<Eigen::MatrixXd>::compute();
-template void Eigen::FullPivLU<Eigen::MatrixXd>::computeInPlace();
 template void Eigen::ColPivHouseholderQR<Eigen::MatrixXd>::computeInPlace();
 template void Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd>::computeInPlace();
 
@@ -27,8 +28,11 @@ Eigen::VectorXd solved(const Eigen::CompleteOrthogonalDecomposition<Eigen::Matri
   return A.solve(b);
 }
 
-Eigen::VectorXd solved(const Eigen::FullPivLU<Eigen::MatrixXd>& A, const Eigen::VectorXd& b) {
-  return A.solve(b);
+std::optional<Matrix6> inverse_in_units(const Matrix6& M, const Vector6& units) {
+  Eigen::FullPivLU<Matrix6> lu(units.asDiagonal() * M * units.asDiagonal());
+  lu.setThreshold(rounding_threshold);
+  if (!lu.isInvertible()) return std::nullopt;
+  return units.asDiagonal() * lu.inverse() * units.asDiagonal();
 }
 
 }  // namespace counterflex

@@ -12,8 +12,6 @@
 namespace counterflex {
 namespace {
 
-constexpr double bracket = 1e-9;  // of the displacement of a critical state
-
 // An equilibrium with the tip at a displacement, and the step of everything per metre of it.
 struct State {
   double displacement = 0, force = 0;

@@ -50,17 +50,10 @@ void evaluate_linear(const Model& model, const Configuration& nominal, const Sta
 
 bool condensed(const Model& model, const Vector6& F, const Units& units, StaticsWork::Impl& work, LinearResult& result) {
   const Mechanism& mechanism = model.mechanism;
-  Matrix6 K = Matrix6::Zero();
-  Vector6 rhs = F;
-  for (std::size_t i = 0; i < work.chains.size(); ++i) {
-    if (!condense(mechanism.chains[i], units, work.chains[i])) return false;
-    K += work.chains[i].K;
-    rhs -= work.chains[i].dF;
-  }
-  const Vector6 pose = units.of_pose();
-  const Eigen::FullPivLU<Eigen::MatrixXd> lu(Matrix6(pose.asDiagonal() * K * pose.asDiagonal() / units.energy()));
-  if (!lu.isInvertible()) return false;
-  result.dt_P = pose.cwiseProduct(Vector6(solved(lu, pose.cwiseProduct(rhs) / units.energy())));
+  const auto sum = aggregate(mechanism.chains, units, work.chains);
+  const auto compliance = sum ? inverse_in_units(sum->K, units.of_pose()) : std::nullopt;
+  if (!compliance) return false;
+  result.dt_P = *compliance * (F - sum->dF);
   for (std::size_t i = 0; i < work.chains.size(); ++i)
     take_step(mechanism.chains[i], result.dt_P, Vector3::Zero(), units, work.chains[i], result.configuration.chains[i]);
   result.configuration.X_MP = moved(result.configuration.X_MP, result.dt_P);
@@ -98,18 +91,13 @@ std::optional<Vector6> series_eps(const Series& series, const SeriesState& nomin
 }
 
 std::optional<Vector6> group_eps(const std::vector<Series>& branches, const Units& units, std::vector<SeriesWork>& works) {
-  Matrix6 K = Matrix6::Zero();
-  Vector6 F = Vector6::Zero();
-  for (std::size_t b = 0; b < branches.size(); ++b) {
-    if (!condense(branches[b], units, works[b])) return std::nullopt;
-    K += works[b].K;
-    F -= works[b].dF;
-  }
+  const auto sum = aggregate(branches, units, works);
+  if (!sum) return std::nullopt;
   const Vector6 pose = units.of_pose();
   Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> decomposition;
   decomposition.setThreshold(rank_threshold);
-  decomposition.compute(pose.asDiagonal() * K * pose.asDiagonal() / units.energy());
-  const Eigen::VectorXd x = solved(decomposition, Eigen::VectorXd(pose.cwiseProduct(F) / units.energy()));
+  decomposition.compute(pose.asDiagonal() * sum->K * pose.asDiagonal() / units.energy());
+  const Eigen::VectorXd x = solved(decomposition, Eigen::VectorXd(-pose.cwiseProduct(sum->dF) / units.energy()));
   return pose.cwiseProduct(Vector6(x));
 }
 

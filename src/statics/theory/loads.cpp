@@ -27,20 +27,11 @@ std::optional<Matrix3> first_spring_axes(const Series& series, const SeriesState
   return std::nullopt;
 }
 
-void add_spring(const Part& part, const SeriesState& state, const Stage& stage, ChainLoads& loads) {
-  const Vector6 theta = state.x.segment<6>(part.column);
-  const Vector6 tau = part.K * spring_deflection(part, state, stage);
-  raise(loads.spring_translation_max, largest(theta.head<3>()));
-  raise(loads.spring_rotation_max, largest(theta.tail<3>()));
-  raise(loads.spring_force_max, largest(tau.head<3>()));
-  raise(loads.spring_torque_max, largest(tau.tail<3>()));
-}
-
-void add_compliance(const Part& part, const SeriesState& state, ChainLoads& loads) {
-  const double theta = state.x[part.column];
-  const bool turns = part.joint.kind == JointKind::revolute;
-  raise(turns ? loads.spring_rotation_max : loads.spring_translation_max, theta);
-  raise(turns ? loads.spring_torque_max : loads.spring_force_max, part.k * theta);
+void add_coordinate(PartKind kind, const Coordinate& c, ChainLoads& loads) {
+  if (kind == PartKind::passive && c.angular) raise(loads.passive_change_max, c.change);
+  if (kind != PartKind::spring && kind != PartKind::compliance) return;
+  raise(c.angular ? loads.spring_rotation_max : loads.spring_translation_max, c.value);
+  raise(c.angular ? loads.spring_torque_max : loads.spring_force_max, c.load);
 }
 
 void add_group(const SeriesGroup& group, const GroupState& state, const Stage& stage, ChainLoads& loads) {
@@ -56,10 +47,7 @@ void add_series(const Series& series, int columns, const SeriesState& state, con
                 ChainLoads& loads) {
   for (const Part& part : series.parts) {
     if (part.column >= columns) continue;
-    if (part.kind == PartKind::spring) add_spring(part, state, stage, loads);
-    if (part.kind == PartKind::compliance) add_compliance(part, state, loads);
-    if (part.kind == PartKind::passive && part.joint.kind == JointKind::revolute)
-      raise(loads.passive_change_max, state.x[part.column] - state.x_nominal[part.column]);
+    visit_coordinates(part, state, stage, [&](const Coordinate& c) { add_coordinate(part.kind, c, loads); });
     if (part.kind != PartKind::group) continue;
     add_group(series.groups[part.group], state.groups[part.group], stage, loads);
     for (std::size_t b = 0; b < state.groups[part.group].branches.size(); ++b) {

@@ -65,6 +65,17 @@ void evaluate(const Series& series, const SeriesState& state, const Pose& X_end,
 /// then only the whole system can decide.
 bool condense(const Series& series, const Units& units, SeriesWork& work);
 
+/// Series in parallel, whose ends move together: F_new = F + dF + K dxi of the sum of their wrenches.
+///
+///     K = sum K_i                                                             (7), (18)
+struct Aggregate {
+  Matrix6 K = Matrix6::Zero();
+  Vector6 dF = Vector6::Zero();
+};
+
+/// Condenses and sums evaluated series; empty where one of them cannot be condensed.
+std::optional<Aggregate> aggregate(const std::vector<Series>& all, const Units& units, std::vector<SeriesWork>& works);
+
 /// Adds to the state the step that belongs to a step `dxi` of the end and to a turn `dw` of its start frame (start axes),
 /// actuators held; returns the largest of its entries (m, rad times l).
 double take_step(const Series& series, const Vector6& dxi, const Vector3& dw, const Units& units, const SeriesWork& work,

@@ -1,6 +1,5 @@
 #include "counterflex/statics/tip_stiffness.hpp"
 
-#include <Eigen/LU>
 #include <cmath>
 #include <limits>
 
@@ -8,11 +7,6 @@
 #include "statics/theory/manipulator.hpp"
 
 namespace counterflex {
-namespace {
-
-constexpr double rigid_compliance = 1e-15;  // m/N: less is rounding
-
-}  // namespace
 
 std::optional<Matrix6> compliance_at_tip(const Model& model, const Configuration& configuration, const Load& load,
                                          const Stage& stage, StaticsWork& work) {
@@ -38,12 +32,7 @@ double stiffness_along(const Matrix6& compliance, const Vector3& direction) {
 }
 
 std::optional<Matrix6> inverse_compliance(const Matrix6& compliance, double length) {
-  const Vector6 pose = Units{length}.of_pose();
-  const Matrix6 scaled = pose.cwiseInverse().asDiagonal() * compliance * pose.cwiseInverse().asDiagonal();
-  Eigen::FullPivLU<Matrix6> lu(scaled);
-  lu.setThreshold(rounding_threshold);
-  if (!lu.isInvertible()) return std::nullopt;
-  return pose.cwiseInverse().asDiagonal() * lu.inverse() * pose.cwiseInverse().asDiagonal();
+  return inverse_in_units(compliance, Units{length}.of_pose().cwiseInverse());
 }
 
 }  // namespace counterflex

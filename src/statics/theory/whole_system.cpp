@@ -11,8 +11,6 @@
 namespace counterflex {
 namespace {
 
-constexpr double stiff_enough = 1e3;  // without unit: 1e9 N/m
-
 int count_columns(const Series& series) {
   int count = series.columns;
   for (const SeriesGroup& group : series.groups)
@@ -117,12 +115,13 @@ Eigen::MatrixXd bordered(const WholeSystem& system, const std::vector<int>& colu
 
 // Divides rows and columns of variables that are stiffer than `stiff_enough` until they are as stiff as that.
 void soften(const WholeSystem& system, const std::vector<int>& columns, Eigen::MatrixXd& B) {
+  constexpr double limit = stiff_enough / Units::stiffness;
   for (std::size_t i = 0; i < columns.size(); ++i) {
     const double stiffness = std::abs(system.A(columns[i], columns[i]));
-    if (stiffness <= stiff_enough) continue;
+    if (stiffness <= limit) continue;
     const auto at = static_cast<Eigen::Index>(i);
-    B.row(at) *= std::sqrt(stiff_enough / stiffness);
-    B.col(at) *= std::sqrt(stiff_enough / stiffness);
+    B.row(at) *= std::sqrt(limit / stiffness);
+    B.col(at) *= std::sqrt(limit / stiffness);
   }
 }
 
