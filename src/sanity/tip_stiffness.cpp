@@ -1,10 +1,11 @@
+#include "counterflex/statics/tip_stiffness.hpp"
+
 #include <fmt/format.h>
 
 #include <cmath>
 
 #include "counterflex/geometry/units.hpp"
 #include "counterflex/sanity/machine_checks.hpp"
-#include "counterflex/statics/tip_stiffness.hpp"
 
 namespace counterflex {
 namespace {

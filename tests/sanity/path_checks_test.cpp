@@ -7,8 +7,8 @@
 
 #include "counterflex/geometry/units.hpp"
 #include "counterflex/machine/read_machine.hpp"
-#include "counterflex/statics/nominal.hpp"
 #include "counterflex/statics/mechanism.hpp"
+#include "counterflex/statics/nominal.hpp"
 
 using namespace counterflex;
 

@@ -29,8 +29,10 @@ inline Machine heavy(Machine machine, double kg, unsigned seed = 5) {
   return machine;
 }
 
-/// Energy of the weights of a series (J), zero where its start frame is: -sum m g . p. `g` (m/s2) in axes of that frame.
-inline double weight_energy(const Series& series, const SeriesState& state, const Stage& stage, const Vector3& g) {
+/// Energy of the weights of a series (J), zero where its start frame is: -sum m g . p. `g` (m/s2) in axes of
+/// that frame.
+inline double weight_energy(const Series& series, const SeriesState& state, const Stage& stage,
+                            const Vector3& g) {
   double energy = 0;
   Pose X;
   for (const Part& part : series.parts) {

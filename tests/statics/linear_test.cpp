@@ -1,9 +1,8 @@
 /// The linear theory of non-perfect chains (10)-(16).
-#include "counterflex/statics/theory.hpp"
-
 #include <Eigen/LU>
 
 #include "counterflex/statics/chain.hpp"
+#include "counterflex/statics/theory.hpp"
 #include "laws_weights.hpp"
 
 using namespace counterflex;

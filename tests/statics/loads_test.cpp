@@ -1,6 +1,5 @@
 /// Loads in joints and springs, in the frames that the header promises.
 #include "counterflex/statics/chain.hpp"
-
 #include "laws_support.hpp"
 
 using namespace counterflex;

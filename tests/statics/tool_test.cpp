@@ -7,10 +7,10 @@
 #include "counterflex/files/files.hpp"
 #include "counterflex/geometry/rotation.hpp"
 #include "counterflex/machine/read_machine.hpp"
-#include "counterflex/statics/equilibrium.hpp"
-#include "counterflex/statics/theory.hpp"
 #include "counterflex/statics/chain.hpp"
+#include "counterflex/statics/equilibrium.hpp"
 #include "counterflex/statics/nominal.hpp"
+#include "counterflex/statics/theory.hpp"
 
 using namespace counterflex;
 

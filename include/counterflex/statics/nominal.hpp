@@ -1,6 +1,6 @@
 #pragma once
-/// Models, and nominal kinematics: the rigid, perfect machine of which the controller knows. Springs, compliances and errors
-/// are identities, passive joints are free. EQUATIONS.md, section 1.
+/// Models, and nominal kinematics: the rigid, perfect machine of which the controller knows. Springs,
+/// compliances and errors are identities, passive joints are free. EQUATIONS.md, section 1.
 #include <map>
 #include <memory>
 #include <optional>
@@ -28,13 +28,15 @@ struct Model {
   Configuration home;
   Status home_status = Status::not_converged;  ///< unreachable: home misses its closures by `home_gap`
   double home_gap = 0;                         ///< m and rad
-  Status gravity_status = Status::converged;   ///< else: why no offsets hold the tip at home under the machine's weight
+  Status gravity_status =
+      Status::converged;  ///< else: why no offsets hold the tip at home under the machine's weight
 };
 
-/// Compiles `machine`, finds its home configuration, and fills what is relative to it: rest values of passive springs that
-/// are relaxed at home, the machine's length l, and, where the controller's zero was set under the machine's own weight at
-/// home, the actuators' offsets: those with which the perfect, preloaded machine without a load has the controlled
-/// components of its tip at home's pose. They act where gravity does; configurations keep the commanded values. Source: MODEL section 2, "Nominal kinematics".
+/// Compiles `machine`, finds its home configuration, and fills what is relative to it: rest values of passive
+/// springs that are relaxed at home, the machine's length l, and, where the controller's zero was set under
+/// the machine's own weight at home, the actuators' offsets: those with which the perfect, preloaded machine
+/// without a load has the controlled components of its tip at home's pose. They act where gravity does;
+/// configurations keep the commanded values. Source: MODEL section 2, "Nominal kinematics".
 Model prepare(const Machine& machine);
 
 struct NominalResult {
@@ -42,14 +44,15 @@ struct NominalResult {
   Configuration configuration;  ///< x_nominal equals x throughout
 };
 
-/// Inverse kinematics: the nominal configuration whose tip has the controlled components of `X_MT` (all six where the machine
-/// controls none), on the branch of `from`: the straight segment from there is followed, halved on failure and where an
-/// actuator step differs from its prediction by more than half. `unreachable` where closures cannot be met, `singular` at
-/// a branch jump or where the matrix from actuators to controlled components has a condition above 1e6.
+/// Inverse kinematics: the nominal configuration whose tip has the controlled components of `X_MT` (all six
+/// where the machine controls none), on the branch of `from`: the straight segment from there is followed,
+/// halved on failure and where an actuator step differs from its prediction by more than half. `unreachable`
+/// where closures cannot be met, `singular` at a branch jump or where the matrix from actuators to controlled
+/// components has a condition above 1e6.
 NominalResult follow(const Model& model, const Configuration& from, const Pose& X_MT);
 
-/// The same from target to target; it keeps what it learned at the last one. Where a target is not reached the
-/// configuration stays.
+/// The same from target to target; it keeps what it learned at the last one. Where a target is not reached
+/// the configuration stays.
 class NominalPath {
  public:
   NominalPath(const Model& model, Configuration start);
@@ -74,25 +77,27 @@ Pose tip(const Mechanism& mechanism, const Configuration& configuration);
 /// Whether every actuator is in its range.
 bool within_travel(const Mechanism& mechanism, const Eigen::VectorXd& rho);
 
-/// The matrix from actuator steps to steps of the controlled components (SI), at a nominal configuration, and its condition
-/// (lengths in units of l; infinite where a zero mode of the closures moves the platform).
+/// The matrix from actuator steps to steps of the controlled components (SI), at a nominal configuration, and
+/// its condition (lengths in units of l; infinite where a zero mode of the closures moves the platform).
 struct ActuatorJacobian {
   Eigen::MatrixXd J;
   double condition = 0;
 };
 ActuatorJacobian actuator_jacobian(const Model& model, const Configuration& nominal);
 
-/// Deviation of a pose from a wanted one: position (m), rotation vector of R_actual R_target' (rad), axes of M.
+/// Deviation of a pose from a wanted one: position (m), rotation vector of R_actual R_target' (rad), axes of
+/// M.
 Vector6 deviation(const Pose& actual, const Pose& wanted);
 
 /// By tool number. A tool that is not in it leaves the machine as it is with [tool].
 using ToolModels = std::map<long, Model>;
 
-/// The model of `machine` with `tool` in its spindle; its home is that of `base`, the model of `machine`: the same joints,
-/// on the same branch.
+/// The model of `machine` with `tool` in its spindle; its home is that of `base`, the model of `machine`: the
+/// same joints, on the same branch.
 Model prepare_with_tool(const Machine& machine, const Model& base, const Tool& tool);
 
-/// Of those of `numbers` that are in [tools] and change the model. Number 0 stands for no known tool, and has none.
+/// Of those of `numbers` that are in [tools] and change the model. Number 0 stands for no known tool, and has
+/// none.
 ToolModels prepare_tools(const Machine& machine, const Model& base, const std::vector<long>& numbers);
 
 /// A nominal configuration, and the model that it is one of.
@@ -104,8 +109,8 @@ struct NominalPlace {
 /// Where inverse kinematics of `model` starts.
 NominalPlace home_of(const Model& model);
 
-/// The nominal path of a machine whose tools change: it begins anew at home where the model does, and its tip is asked for
-/// the orientation that it has at that home.
+/// The nominal path of a machine whose tools change: it begins anew at home where the model does, and its tip
+/// is asked for the orientation that it has at that home.
 class NominalToolPath {
  public:
   explicit NominalToolPath(const NominalPlace& start);

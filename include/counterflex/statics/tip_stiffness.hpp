@@ -1,6 +1,6 @@
 #pragma once
-/// What a force at the tool tip meets, the tool's lever and its bending included: the compliance there, and the force over
-/// displacement, whose displacement is prescribed so that the curve passes limit points.
+/// What a force at the tool tip meets, the tool's lever and its bending included: the compliance there, and
+/// the force over displacement, whose displacement is prescribed so that the curve passes limit points.
 #include <optional>
 #include <vector>
 
@@ -8,18 +8,19 @@
 
 namespace counterflex {
 
-/// Twist of the tip (m, rad; axes of M) per wrench at the tip (N, N m; axes of M), actuators held, at a configuration in
-/// equilibrium under `load`:
+/// Twist of the tip (m, rad; axes of M) per wrench at the tip (N, N m; axes of M), actuators held, at a
+/// configuration in equilibrium under `load`:
 ///
 ///     C_T = T (K - K_load)^-1 T'        T = [ I  -[r]x ; 0  I ],  r from the reference point to the tip
 ///
-/// The whole static system is solved, so that a machine has a compliance whether its chains have a stiffness of their own or
-/// not. Rigid directions have compliance zero. Empty where some wrench moves the platform without resistance.
-/// EQUATIONS.md, section 5.
-std::optional<Matrix6> compliance_at_tip(const Model& model, const Configuration& configuration, const Load& load,
-                                         const Stage& stage, StaticsWork& work);
+/// The whole static system is solved, so that a machine has a compliance whether its chains have a stiffness
+/// of their own or not. Rigid directions have compliance zero. Empty where some wrench moves the platform
+/// without resistance. EQUATIONS.md, section 5.
+std::optional<Matrix6> compliance_at_tip(const Model& model, const Configuration& configuration,
+                                         const Load& load, const Stage& stage, StaticsWork& work);
 
-/// Force over motion along the unit vector `direction` for a force in that direction (N/m); infinite in a rigid one.
+/// Force over motion along the unit vector `direction` for a force in that direction (N/m); infinite in a
+/// rigid one.
 double stiffness_along(const Matrix6& compliance, const Vector3& direction);
 
 /// The inverse, with lengths in units of `length` (m); empty where the machine is rigid in some direction.
@@ -42,15 +43,17 @@ struct CurvePoint {
 };
 
 struct ForceCurve {
-  Status status = Status::not_converged;  ///< of the state without the force, then of the first point that was not found
-  std::vector<CurvePoint> points;         ///< by displacement; those that were found
-  /// The last stable state before the first unstable one, on the way from displacement 0 to either side: a limit point
-  /// (stiffness zero) or a bifurcation. Its displacement is known to 1e-9 of itself.
+  Status status =
+      Status::not_converged;  ///< of the state without the force, then of the first point that was not found
+  std::vector<CurvePoint> points;  ///< by displacement; those that were found
+  /// The last stable state before the first unstable one, on the way from displacement 0 to either side: a
+  /// limit point (stiffness zero) or a bifurcation. Its displacement is known to 1e-9 of itself.
   std::vector<CurvePoint> critical;
 };
 
-/// Follows the equilibrium from the nominal configuration to the state under `request.load`, and from there along the
-/// displacement, in smaller steps where one does not converge.
-ForceCurve force_curve(const Model& model, const Configuration& nominal, const CurveRequest& request, StaticsWork& work);
+/// Follows the equilibrium from the nominal configuration to the state under `request.load`, and from there
+/// along the displacement, in smaller steps where one does not converge.
+ForceCurve force_curve(const Model& model, const Configuration& nominal, const CurveRequest& request,
+                       StaticsWork& work);
 
 }  // namespace counterflex

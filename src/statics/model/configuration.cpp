@@ -42,7 +42,8 @@ Eigen::VectorXd actuator_values(const Mechanism& mechanism, const Configuration&
   return rho;
 }
 
-void set_actuator_values(const Mechanism& mechanism, const Eigen::VectorXd& rho, Configuration& configuration) {
+void set_actuator_values(const Mechanism& mechanism, const Eigen::VectorXd& rho,
+                         Configuration& configuration) {
   for (std::size_t i = 0; i < mechanism.chains.size(); ++i)
     for_each_actuator(mechanism.chains[i], configuration.chains[i],
                       [&](const Part& part, double& value) { value = rho[part.actuator]; });

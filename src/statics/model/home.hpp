@@ -7,8 +7,8 @@ namespace counterflex {
 /// Fills what is relative to home in a compiled model whose home configuration is known.
 void settle_at_home(Model& model);
 
-/// What the controller adds to the commanded values while weights act (m, rad; by actuator): not zero where its zero was set
-/// under the machine's own weight.
+/// What the controller adds to the commanded values while weights act (m, rad; by actuator): not zero where
+/// its zero was set under the machine's own weight.
 Eigen::VectorXd zero_offsets(const Mechanism& mechanism);
 void set_zero_offsets(const Eigen::VectorXd& offsets, Mechanism& mechanism);
 

@@ -13,7 +13,8 @@ int columns_of(const Part& part);
 /// How far a spring is from its rest: theta - s theta_0.
 Vector6 spring_deflection(const Part& spring, const SeriesState& state, const Stage& stage);
 
-/// How far a passive joint or a compliance is from its rest: q - q_nom - s (q_rest - q_nom). Both are zero for a compliance.
+/// How far a passive joint or a compliance is from its rest: q - q_nom - s (q_rest - q_nom). Both are zero
+/// for a compliance.
 double joint_deflection(const Part& joint, const SeriesState& state, const Stage& stage);
 
 /// One coordinate of a part (m or rad; N or N m).
@@ -29,7 +30,8 @@ struct Coordinate {
 template <class Visit>
 void visit_coordinates(const Part& part, const SeriesState& state, const Stage& stage, const Visit& visit) {
   if (part.kind == PartKind::spring) {
-    const Vector6 theta = state.x.segment<6>(part.column), tau = part.K * spring_deflection(part, state, stage);
+    const Vector6 theta = state.x.segment<6>(part.column),
+                  tau = part.K * spring_deflection(part, state, stage);
     for (int k = 0; k < 6; ++k) visit(Coordinate{k, k >= 3, theta[k], theta[k], tau[k]});
   } else if (part.column >= 0 && part.kind != PartKind::group) {
     const double x = state.x[part.column];

@@ -12,7 +12,8 @@ int count_fixed(const Mechanism& mechanism) {
 }
 
 int fixed_component(const Mechanism& mechanism, int i) {
-  return mechanism.controlled.empty() ? i : static_cast<int>(mechanism.controlled[static_cast<std::size_t>(i)]);
+  return mechanism.controlled.empty() ? i
+                                      : static_cast<int>(mechanism.controlled[static_cast<std::size_t>(i)]);
 }
 
 }  // namespace
@@ -48,6 +49,8 @@ Pose tip(const Mechanism& mechanism, const Configuration& configuration) {
   return configuration.X_MP * mechanism.X_PT;
 }
 
-Vector6 deviation(const Pose& actual, const Pose& wanted) { return difference(actual, wanted); }
+Vector6 deviation(const Pose& actual, const Pose& wanted) {
+  return difference(actual, wanted);
+}
 
 }  // namespace counterflex

@@ -1,6 +1,5 @@
-#include "counterflex/statics/nominal.hpp"
-
 #include "counterflex/machine/tool.hpp"
+#include "counterflex/statics/nominal.hpp"
 #include "statics/model/home.hpp"
 
 namespace counterflex {
@@ -55,9 +54,13 @@ ToolModels prepare_tools(const Machine& machine, const Model& base, const std::v
   return models;
 }
 
-NominalPlace home_of(const Model& model) { return {&model, model.home}; }
+NominalPlace home_of(const Model& model) {
+  return {&model, model.home};
+}
 
-NominalToolPath::NominalToolPath(const NominalPlace& start) { begin(*start.model, start.configuration); }
+NominalToolPath::NominalToolPath(const NominalPlace& start) {
+  begin(*start.model, start.configuration);
+}
 
 void NominalToolPath::begin(const Model& model, const Configuration& start) {
   model_ = &model;
@@ -70,6 +73,8 @@ Status NominalToolPath::go_to(const Model& model, const Vector3& p_MT) {
   return path_->go_to({R_home_, p_MT});
 }
 
-Matrix3 NominalToolPath::orientation() const { return tip(model_->mechanism, configuration()).R; }
+Matrix3 NominalToolPath::orientation() const {
+  return tip(model_->mechanism, configuration()).R;
+}
 
 }  // namespace counterflex

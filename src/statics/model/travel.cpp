@@ -1,5 +1,3 @@
-#include "counterflex/statics/mechanism.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,12 +5,17 @@
 
 #include "counterflex/files/numbers.hpp"
 #include "counterflex/geometry/units.hpp"
+#include "counterflex/statics/mechanism.hpp"
 
 namespace counterflex {
 namespace {
 
-double unit_of(const Travel& travel) { return travel.kind == JointKind::prismatic ? mm : deg; }
-const char* unit_name(const Travel& travel) { return travel.kind == JointKind::prismatic ? "mm" : "deg"; }
+double unit_of(const Travel& travel) {
+  return travel.kind == JointKind::prismatic ? mm : deg;
+}
+const char* unit_name(const Travel& travel) {
+  return travel.kind == JointKind::prismatic ? "mm" : "deg";
+}
 
 // What a margin is compared with; a travel of one limit counts as 1 m or 1 rad.
 double span_of(const Travel& travel) {

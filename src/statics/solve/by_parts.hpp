@@ -4,8 +4,8 @@
 
 namespace counterflex {
 
-/// Goes a way from 0 to 1: `advance(from, to)` returns whether it arrived at `to`. The first part is `first`. A part that fails
-/// is halved; false where one of `smallest` fails.
+/// Goes a way from 0 to 1: `advance(from, to)` returns whether it arrived at `to`. The first part is `first`.
+/// A part that fails is halved; false where one of `smallest` fails.
 template <class Advance>
 bool by_parts(double first, double smallest, const Advance& advance) {
   double done = 0, part = first;

@@ -36,7 +36,8 @@ struct Followed {
 
 // Whether the state under half of a step is not about half of the way: then a limit point may lie between.
 bool bends(const Mechanism& mechanism, const Followed& now, const Configuration& half, const Followed& next) {
-  return ends_elsewhere(mechanism, now.configuration, extrapolated(now.configuration, next.configuration, -0.5), half);
+  return ends_elsewhere(mechanism, now.configuration,
+                        extrapolated(now.configuration, next.configuration, -0.5), half);
 }
 
 // Solves and judges the equilibria of one continuation.
@@ -49,12 +50,14 @@ struct EquilibriumFollower {
   bool solves(const Problem& problem, Configuration& next) {
     const NewtonResult solved = solve(model, problem, work, next);
     iterations += solved.iterations;
-    return solved.converged && !solved.jumped;  // a jump: past a limit point, to an equilibrium on another branch
+    return solved.converged &&
+           !solved.jumped;  // a jump: past a limit point, to an equilibrium on another branch
   }
 
-  // The next equilibrium, from where the last two point to. What is found there counts only if it is stable and where they
-  // point to: the last equilibrium decides otherwise.
-  bool steps_straight_on(const Problem& problem, const Followed& before, const Followed& now, Followed& next) {
+  // The next equilibrium, from where the last two point to. What is found there counts only if it is stable
+  // and where they point to: the last equilibrium decides otherwise.
+  bool steps_straight_on(const Problem& problem, const Followed& before, const Followed& now,
+                         Followed& next) {
     const double ratio = (next.s - now.s) / (now.s - before.s);
     const Configuration foreseen = extrapolated(before.configuration, now.configuration, ratio);
     next.configuration = foreseen;
@@ -65,7 +68,8 @@ struct EquilibriumFollower {
     return next.form.stable;
   }
 
-  bool advances(const Problem& problem, const std::optional<Followed>& before, const Followed& now, Followed& next) {
+  bool advances(const Problem& problem, const std::optional<Followed>& before, const Followed& now,
+                Followed& next) {
     if (before && steps_straight_on(problem, *before, now, next)) return true;
     next.configuration = now.configuration;
     if (!solves(problem, next.configuration)) return false;
@@ -89,13 +93,14 @@ Stage between(const Stage& from, const Stage& goal, double s) {
           at(from.gravity, goal.gravity)};
 }
 
-Equilibrium refine(const Model& model, const Configuration& start, const Problem& problem, const EquilibriumSolver& solve,
-                   StaticsWork::Impl& work) {
+Equilibrium refine(const Model& model, const Configuration& start, const Problem& problem,
+                   const EquilibriumSolver& solve, StaticsWork::Impl& work) {
   Equilibrium result;
   result.configuration = start;
   const NewtonResult solved = solve(model, problem, work, result.configuration);
   result.iterations = solved.iterations;
-  if (solved.converged) report(model, problem, judge_stability(model, result.configuration, problem, work), work, result);
+  if (solved.converged)
+    report(model, problem, judge_stability(model, result.configuration, problem, work), work, result);
   return result;
 }
 

@@ -12,24 +12,24 @@ StaticsWork::StaticsWork(const Mechanism& mechanism)
 StaticsWork::~StaticsWork() = default;
 StaticsWork::StaticsWork(StaticsWork&&) noexcept = default;
 
-Equilibrium solve_forward(const Model& model, const Configuration& nominal, const Load& load, const Stage& goal,
-                          StaticsWork& work) {
+Equilibrium solve_forward(const Model& model, const Configuration& nominal, const Load& load,
+                          const Stage& goal, StaticsWork& work) {
   return continue_from(model, nominal, nominal_stage, {load, goal, nullptr}, newton, work.impl());
 }
 
-Equilibrium refine_forward(const Model& model, const Configuration& start, const Load& load, const Stage& goal,
-                           StaticsWork& work) {
+Equilibrium refine_forward(const Model& model, const Configuration& start, const Load& load,
+                           const Stage& goal, StaticsWork& work) {
   return refine(model, start, {load, goal, nullptr}, newton, work.impl());
 }
 
-bool is_reached_by_load_alone(const Model& model, const Configuration& nominal, const Load& load, const Stage& goal,
-                              const Equilibrium& loaded, StaticsWork& work) {
+bool is_reached_by_load_alone(const Model& model, const Configuration& nominal, const Load& load,
+                              const Stage& goal, const Equilibrium& loaded, StaticsWork& work) {
   Stage unloaded = goal;
   unloaded.load = 0;
   const Equilibrium rest = solve_forward(model, nominal, load, unloaded, work);
   if (rest.status != Status::converged) return true;
-  const Equilibrium found =
-      continue_from(model, rest.configuration, unloaded, {load, goal, nullptr}, newton, work.impl(), Watch::ways);
+  const Equilibrium found = continue_from(model, rest.configuration, unloaded, {load, goal, nullptr}, newton,
+                                          work.impl(), Watch::ways);
   const Vector6 apart = difference(found.configuration.X_MP, loaded.configuration.X_MP);
   return found.status == Status::converged &&
          apart.cwiseQuotient(Units{model.mechanism.length}.of_pose()).norm() <= same_place;
@@ -57,10 +57,11 @@ double stability(const Model& model, const Configuration& configuration, const L
   return least_eigenvalue(model, configuration, {load, stage, nullptr}, work.impl());
 }
 
-double static_condition(const Model& model, const Configuration& configuration, const Load& load, const Stage& stage,
-                        StaticsWork& work) {
+double static_condition(const Model& model, const Configuration& configuration, const Load& load,
+                        const Stage& stage, StaticsWork& work) {
   evaluate_all(model, configuration, stage, work.impl());
-  return condition(whole_system(model, configuration, {load, stage, nullptr}, work.impl()), {model.mechanism.length})
+  return condition(whole_system(model, configuration, {load, stage, nullptr}, work.impl()),
+                   {model.mechanism.length})
       .value;
 }
 

@@ -16,8 +16,8 @@ Kinematics::Kinematics(const Mechanism& mechanism, Moving moving) : mechanism_(m
 
 WholeSystem Kinematics::closures(const Configuration& configuration, const Units& units) {
   for (std::size_t i = 0; i < works_.size(); ++i)
-    evaluate(mechanism_.chains[i], configuration.chains[i], configuration.X_MP, nominal_stage, Vector3::Zero(),
-             Hessians::no, works_[i]);
+    evaluate(mechanism_.chains[i], configuration.chains[i], configuration.X_MP, nominal_stage,
+             Vector3::Zero(), Hessians::no, works_[i]);
   return assemble_whole(mechanism_, works_, {}, units);
 }
 
@@ -25,7 +25,8 @@ std::vector<int> Kinematics::columns(const WholeSystem& system) const {
   std::vector<int> list;
   for (int i = 0; i < static_cast<int>(system.variables.size()); ++i) {
     const Variable& variable = system.variables[i];
-    if (i >= system.pose ? moving_.platform : !variable.elastic && (moving_.actuators || variable.actuator < 0))
+    if (i >= system.pose ? moving_.platform
+                         : !variable.elastic && (moving_.actuators || variable.actuator < 0))
       list.push_back(i);
   }
   return list;
@@ -55,7 +56,8 @@ void Kinematics::linearise(const Equations& equations) {
   is_linearised_ = true;
 }
 
-double Kinematics::step(const Eigen::VectorXd& x, const WholeSystem& system, Configuration& configuration) const {
+double Kinematics::step(const Eigen::VectorXd& x, const WholeSystem& system,
+                        Configuration& configuration) const {
   WholeStep whole;
   whole.variables.setZero(static_cast<Eigen::Index>(system.variables.size()));
   whole.variables(columns(system)) = x;
@@ -81,7 +83,8 @@ double Kinematics::solve(const Pose* X_MT, Configuration& configuration) {
       next = then.errors().norm();
       if (next < size || next < closure_tolerance || !fresh || damping < smallest_part) break;
     }
-    // An old linearisation that no longer contracts is thrown away, and so is its step if that made things worse.
+    // An old linearisation that no longer contracts is thrown away, and so is its step if that made things
+    // worse.
     is_linearised_ = next <= slow_contraction * size || next < closure_tolerance;
     if (!fresh && !(next < size) && next >= closure_tolerance) {
       configuration = before;

@@ -1,5 +1,6 @@
 #pragma once
-/// Closures of the nominal machine, linearised and solved: Gauss-Newton with steps of minimum norm. EQUATIONS.md, section 1.
+/// Closures of the nominal machine, linearised and solved: Gauss-Newton with steps of minimum norm.
+/// EQUATIONS.md, section 1.
 #include "statics/model/tolerances.hpp"
 #include "statics/theory/whole_system.hpp"
 
@@ -15,8 +16,8 @@ class Kinematics {
  public:
   Kinematics(const Mechanism& mechanism, Moving moving);
 
-  /// Moves `configuration` until its closures close and, where `X_MT` is given, its tip is there; begins with the last
-  /// linearisation while that contracts. Returns the final norm of what is left (m and rad).
+  /// Moves `configuration` until its closures close and, where `X_MT` is given, its tip is there; begins with
+  /// the last linearisation while that contracts. Returns the final norm of what is left (m and rad).
   double solve(const Pose* X_MT, Configuration& configuration);
 
   /// The closures (C and gap) of the nominal machine; the rest of the system is not that of an equilibrium.

@@ -61,8 +61,7 @@ NewtonResult newton_of_whole_system(const Model& model, const Problem& problem, 
       return result;
     }
     std::optional<Controlled> tip;
-    if (problem.X_MT)
-      tip = tip_equations(mechanism, configuration.X_MP, *problem.X_MT, units);
+    if (problem.X_MT) tip = tip_equations(mechanism, configuration.X_MP, *problem.X_MT, units);
     const WholeStep whole = solve_whole(whole_system(model, configuration, problem, work), tip, units);
     step = apply(mechanism, whole, units, configuration);
     if (result.iterations == 0) predicted = place_of(mechanism, configuration);

@@ -128,7 +128,8 @@ struct NominalPath::Impl {
     const Eigen::VectorXd drho = actuator_values(mechanism, next) - actuator_values(mechanism, configuration);
     if (is_jump(mechanism, *jacobian, drho, now, goal)) return false;
     ActuatorJacobian there = jacobian_of(mechanism, held, next);
-    if (determinant_is_positive(there) != determinant_is_positive(*jacobian)) return false;  // a singularity was crossed
+    if (determinant_is_positive(there) != determinant_is_positive(*jacobian))
+      return false;  // a singularity was crossed
     jacobian = std::move(there);
     configuration = std::move(next);
     return true;
@@ -136,8 +137,8 @@ struct NominalPath::Impl {
 };
 
 NominalPath::NominalPath(const Model& model, Configuration start)
-    : impl_(std::make_unique<Impl>(
-          Impl{model, Kinematics(model.mechanism, {true, true}), Kinematics(model.mechanism, {false, true}), {}})),
+    : impl_(std::make_unique<Impl>(Impl{
+          model, Kinematics(model.mechanism, {true, true}), Kinematics(model.mechanism, {false, true}), {}})),
       configuration_(std::move(start)) {}
 NominalPath::~NominalPath() = default;
 NominalPath::NominalPath(NominalPath&&) noexcept = default;
@@ -157,7 +158,8 @@ Status NominalPath::go_to(const Pose& X_MT) {
   mark_nominal(reached);
   configuration_ = std::move(reached);
   const bool judged = !mechanism.controlled.empty() && !mechanism.travel.empty();
-  return judged && impl_->jacobian->condition > largest_jacobian_condition ? Status::singular : Status::converged;
+  return judged && impl_->jacobian->condition > largest_jacobian_condition ? Status::singular
+                                                                           : Status::converged;
 }
 
 NominalResult follow(const Model& model, const Configuration& from, const Pose& X_MT) {

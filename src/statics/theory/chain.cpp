@@ -3,9 +3,9 @@
 #include <cmath>
 #include <limits>
 
+#include "statics/model/part.hpp"
 #include "statics/model/tolerances.hpp"
 #include "statics/theory/manipulator.hpp"
-#include "statics/model/part.hpp"
 
 namespace counterflex {
 namespace {
@@ -22,8 +22,8 @@ double part_energy(const Part& part, const SeriesState& state, const Stage& stag
 
 }  // namespace
 
-ChainEquilibrium solve_chain(const Model& model, std::size_t i, const Pose& X_MP, const Stage& stage, ChainMethod method,
-                             SeriesState& state, StaticsWork& work) {
+ChainEquilibrium solve_chain(const Model& model, std::size_t i, const Pose& X_MP, const Stage& stage,
+                             ChainMethod method, SeriesState& state, StaticsWork& work) {
   const Series& series = model.mechanism.chains[i];
   const Units units{model.mechanism.length};
   const Hessians hessians = method == ChainMethod::newton ? Hessians::yes : Hessians::no;
@@ -49,8 +49,8 @@ ChainEquilibrium solve_chain(const Model& model, std::size_t i, const Pose& X_MP
   return result;
 }
 
-ChainStiffness chain_stiffness(const Model& model, std::size_t i, const SeriesState& state, const Stage& stage,
-                               StaticsWork& work) {
+ChainStiffness chain_stiffness(const Model& model, std::size_t i, const SeriesState& state,
+                               const Stage& stage, StaticsWork& work) {
   const Series& series = model.mechanism.chains[i];
   const Units units{model.mechanism.length};
   SeriesWork& chain = work.impl().chains[i];
@@ -67,7 +67,8 @@ ChainStiffness chain_stiffness(const Model& model, std::size_t i, const SeriesSt
       if (part.kind == PartKind::group) continue;
       auto& rows = part.kind == PartKind::passive ? result.K_Cq : result.K_Ctheta;
       rows.conservativeResize(rows.rows() + 1, Eigen::NoChange);
-      rows.bottomRows<1>() = units.of_column(series.angular[part.column + k]) * chain.solution.block<1, 6>(row, 1);
+      rows.bottomRows<1>() =
+          units.of_column(series.angular[part.column + k]) * chain.solution.block<1, 6>(row, 1);
     }
   }
   return result;
@@ -82,10 +83,11 @@ double elastic_energy(const Series& series, const SeriesState& state, const Stag
   return energy;
 }
 
-Eigen::MatrixXd chain_jacobian(const Model& model, std::size_t i, const SeriesState& state, const Stage& stage,
-                               StaticsWork& work) {
+Eigen::MatrixXd chain_jacobian(const Model& model, std::size_t i, const SeriesState& state,
+                               const Stage& stage, StaticsWork& work) {
   SeriesWork& chain = work.impl().chains[i];
-  evaluate(model.mechanism.chains[i], state, {}, stage, acting_gravity(model.mechanism, stage), Hessians::no, chain);
+  evaluate(model.mechanism.chains[i], state, {}, stage, acting_gravity(model.mechanism, stage), Hessians::no,
+           chain);
   Eigen::MatrixXd J(6, chain.v.cols());
   J << chain.v, chain.w;
   return J;
@@ -94,15 +96,19 @@ Eigen::MatrixXd chain_jacobian(const Model& model, std::size_t i, const SeriesSt
 Eigen::MatrixXd chain_hessian(const Model& model, std::size_t i, const SeriesState& state, const Stage& stage,
                               StaticsWork& work) {
   SeriesWork& chain = work.impl().chains[i];
-  evaluate(model.mechanism.chains[i], state, {}, stage, acting_gravity(model.mechanism, stage), Hessians::no, chain);
+  evaluate(model.mechanism.chains[i], state, {}, stage, acting_gravity(model.mechanism, stage), Hessians::no,
+           chain);
   const Eigen::MatrixXd K = chain.A;
-  evaluate(model.mechanism.chains[i], state, {}, stage, acting_gravity(model.mechanism, stage), Hessians::yes, chain);
+  evaluate(model.mechanism.chains[i], state, {}, stage, acting_gravity(model.mechanism, stage), Hessians::yes,
+           chain);
   return K - chain.A;
 }
 
-Pose chain_end(const Model& model, std::size_t i, const SeriesState& state, const Stage& stage, StaticsWork& work) {
+Pose chain_end(const Model& model, std::size_t i, const SeriesState& state, const Stage& stage,
+               StaticsWork& work) {
   SeriesWork& chain = work.impl().chains[i];
-  evaluate(model.mechanism.chains[i], state, {}, stage, acting_gravity(model.mechanism, stage), Hessians::no, chain);
+  evaluate(model.mechanism.chains[i], state, {}, stage, acting_gravity(model.mechanism, stage), Hessians::no,
+           chain);
   return chain.end;
 }
 

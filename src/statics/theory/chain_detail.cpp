@@ -1,5 +1,4 @@
 #include "counterflex/statics/chain.hpp"
-
 #include "counterflex/statics/theory.hpp"
 #include "statics/model/part.hpp"
 
@@ -42,8 +41,9 @@ struct Collector {
 
 }  // namespace
 
-std::vector<ChainDetail> chain_details(const Model& model, const Configuration& nominal, const Configuration& loaded,
-                                       const Vector6& dt_P, const StiffnessPlace& stiff, StaticsWork& work) {
+std::vector<ChainDetail> chain_details(const Model& model, const Configuration& nominal,
+                                       const Configuration& loaded, const Vector6& dt_P,
+                                       const StiffnessPlace& stiff, StaticsWork& work) {
   const auto eps = chain_eps(model, nominal, everything, work);
   std::vector<ChainDetail> all;
   for (std::size_t i = 0; i < model.mechanism.chains.size(); ++i) {

@@ -1,6 +1,5 @@
-#include <algorithm>
-
 #include <Eigen/Geometry>
+#include <algorithm>
 
 #include "statics/model/part.hpp"
 #include "statics/model/tolerances.hpp"
@@ -9,7 +8,8 @@
 namespace counterflex {
 namespace {
 
-// Condenses the groups and adds their terms to A and gradient: a group enters as a spring with six coordinates.
+// Condenses the groups and adds their terms to A and gradient: a group enters as a spring with six
+// coordinates.
 bool enter_groups(const Series& series, const Units& units, SeriesWork& work) {
   for (const Part& part : series.parts) {
     if (part.kind != PartKind::group) continue;
@@ -59,18 +59,22 @@ void assemble_constant_and_pose_columns(const Series& series, const Units& units
 void assemble_lean(const Series& series, const Units& units, SeriesWork& work) {
   for (std::size_t i = 0; i < series.free.size(); ++i) {
     const int c = series.free[i];
-    work.rhs.rightCols<3>().row(6 + i) = units.of_column(series.angular[c]) / units.energy() * work.lean.A_w.row(c);
+    work.rhs.rightCols<3>().row(6 + i) =
+        units.of_column(series.angular[c]) / units.energy() * work.lean.A_w.row(c);
   }
 }
 
-//     G_w and N: what the turn of the start does to F, and what all steps do to the weights' torque about the start
+//     G_w and N: what the turn of the start does to F, and what all steps do to the weights' torque about the
+//     start
 void finish_lean(const Series& series, const Units& units, SeriesWork& work) {
   LeanWork& lean = work.lean;
-  lean.G_w = units.of_pose().cwiseInverse().asDiagonal() * work.solution.topRightCorner<6, 3>() * units.energy();
+  lean.G_w =
+      units.of_pose().cwiseInverse().asDiagonal() * work.solution.topRightCorner<6, 3>() * units.energy();
   for (std::size_t i = 0; i < series.free.size(); ++i) {
     const int c = series.free[i];
     const Vector3 N_x = units.of_column(series.angular[c]) * lean.N_x.col(c);
-    for (Eigen::Index side = 0; side < work.solution.cols(); ++side) lean.N.col(side) += N_x * work.solution(6 + i, side);
+    for (Eigen::Index side = 0; side < work.solution.cols(); ++side)
+      lean.N.col(side) += N_x * work.solution(6 + i, side);
   }
 }
 
@@ -96,7 +100,8 @@ bool condense(const Series& series, const Units& units, SeriesWork& work) {
   return true;
 }
 
-std::optional<Aggregate> aggregate(const std::vector<Series>& all, const Units& units, std::vector<SeriesWork>& works) {
+std::optional<Aggregate> aggregate(const std::vector<Series>& all, const Units& units,
+                                   std::vector<SeriesWork>& works) {
   Aggregate sum;
   for (std::size_t i = 0; i < all.size(); ++i) {
     if (!condense(all[i], units, works[i])) return std::nullopt;

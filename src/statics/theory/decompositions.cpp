@@ -20,11 +20,13 @@ Eigen::MatrixXd null_space(const Eigen::MatrixXd& C, double threshold) {
   return Z;
 }
 
-Eigen::MatrixXd solved(const Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd>& A, const Eigen::MatrixXd& B) {
+Eigen::MatrixXd solved(const Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd>& A,
+                       const Eigen::MatrixXd& B) {
   return A.solve(B);
 }
 
-Eigen::VectorXd solved(const Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd>& A, const Eigen::VectorXd& b) {
+Eigen::VectorXd solved(const Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd>& A,
+                       const Eigen::VectorXd& b) {
   return A.solve(b);
 }
 

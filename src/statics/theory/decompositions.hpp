@@ -1,5 +1,6 @@
 #pragma once
-/// Eigen's decompositions of matrices of any size, compiled once for the module: each costs seconds wherever it is used.
+/// Eigen's decompositions of matrices of any size, compiled once for the module: each costs seconds wherever
+/// it is used.
 #include <Eigen/LU>
 #include <Eigen/QR>
 #include <Eigen/SVD>
@@ -10,18 +11,23 @@
 extern template void Eigen::PartialPivLU<Eigen::MatrixXd>::compute();
 extern template void Eigen::ColPivHouseholderQR<Eigen::MatrixXd>::computeInPlace();
 extern template void Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd>::computeInPlace();
-extern template Eigen::JacobiSVD<Eigen::MatrixXd>& Eigen::JacobiSVD<Eigen::MatrixXd>::compute(const Eigen::MatrixXd&, unsigned);
+extern template Eigen::JacobiSVD<Eigen::MatrixXd>& Eigen::JacobiSVD<Eigen::MatrixXd>::compute(
+    const Eigen::MatrixXd&, unsigned);
 
 namespace counterflex {
 
-/// An orthonormal basis, as columns, of the vectors x with C x = 0; what is zero is judged as in Eigen's QR of C'.
+/// An orthonormal basis, as columns, of the vectors x with C x = 0; what is zero is judged as in Eigen's QR
+/// of C'.
 Eigen::MatrixXd null_space(const Eigen::MatrixXd& C, double threshold);
 
 /// Solutions of minimum norm: calls of Eigen's own `solve`.
-Eigen::MatrixXd solved(const Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd>& A, const Eigen::MatrixXd& B);
-Eigen::VectorXd solved(const Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd>& A, const Eigen::VectorXd& b);
+Eigen::MatrixXd solved(const Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd>& A,
+                       const Eigen::MatrixXd& B);
+Eigen::VectorXd solved(const Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd>& A,
+                       const Eigen::VectorXd& b);
 
-/// The inverse of a stiffness or a compliance M; empty where D M D has a pivot of zero, D the diagonal matrix of `units`.
+/// The inverse of a stiffness or a compliance M; empty where D M D has a pivot of zero, D the diagonal matrix
+/// of `units`.
 std::optional<Matrix6> inverse_in_units(const Matrix6& M, const Vector6& units);
 
 }  // namespace counterflex

@@ -1,9 +1,8 @@
-#include "counterflex/statics/tip_stiffness.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "counterflex/statics/tip_stiffness.hpp"
 #include "statics/model/tolerances.hpp"
 #include "statics/solve/by_parts.hpp"
 #include "statics/solve/judge.hpp"
@@ -67,7 +66,8 @@ class Follower {
   }
 
   CurvePoint point(const State& state) const {
-    return {state.displacement, state.force, state.stiffness, is_stable(state), tip(model_.mechanism, state.configuration)};
+    return {state.displacement, state.force, state.stiffness, is_stable(state),
+            tip(model_.mechanism, state.configuration)};
   }
 
  private:
@@ -79,7 +79,8 @@ class Follower {
 
   // d'T dxi = missing, met by a force along d at the tip: its wrench at the reference point is T'd.
   Controlled along_tip(const Pose& X_MP, double missing) const {
-    const Vector6 along = tip_from_platform(model_.mechanism, X_MP).topRows<3>().transpose() * request_.direction;
+    const Vector6 along =
+        tip_from_platform(model_.mechanism, X_MP).topRows<3>().transpose() * request_.direction;
     Controlled controlled{.by_forces = true};
     controlled.rows = along.cwiseProduct(units_.of_pose()).transpose() / units_.length;
     controlled.rhs.setConstant(1, missing / units_.length);
@@ -126,7 +127,8 @@ State critical_between(const Follower& follower, State stable, State unstable) {
 }
 
 // From the state without the force through `displacements`, which grow in size. Whether all were found.
-bool follow_side(const Follower& follower, const State& free, const std::vector<double>& displacements, ForceCurve& curve) {
+bool follow_side(const Follower& follower, const State& free, const std::vector<double>& displacements,
+                 ForceCurve& curve) {
   State now = free;
   bool stable = true;
   for (const double displacement : displacements) {
@@ -144,7 +146,8 @@ bool follow_side(const Follower& follower, const State& free, const std::vector<
 
 }  // namespace
 
-ForceCurve force_curve(const Model& model, const Configuration& nominal, const CurveRequest& request, StaticsWork& work) {
+ForceCurve force_curve(const Model& model, const Configuration& nominal, const CurveRequest& request,
+                       StaticsWork& work) {
   ForceCurve curve;
   const Equilibrium loaded = solve_forward(model, nominal, request.load, Stage{}, work);
   curve.status = loaded.status;
@@ -158,9 +161,12 @@ ForceCurve force_curve(const Model& model, const Configuration& nominal, const C
   std::vector<double> below, above;
   bool with_free = false;
   for (int i = 0; i <= request.steps; ++i) {
-    const double d = i == request.steps ? request.to : request.from + i * (request.to - request.from) / request.steps;
-    if (d == 0) with_free = true;
-    else (d < 0 ? below : above).push_back(d);
+    const double d =
+        i == request.steps ? request.to : request.from + i * (request.to - request.from) / request.steps;
+    if (d == 0)
+      with_free = true;
+    else
+      (d < 0 ? below : above).push_back(d);
   }
   for (auto* side : {&below, &above})
     std::sort(side->begin(), side->end(), [](double a, double b) { return std::abs(a) < std::abs(b); });

@@ -1,5 +1,4 @@
 #include "counterflex/statics/chain.hpp"
-
 #include "statics/model/tolerances.hpp"
 #include "statics/solve/by_parts.hpp"
 #include "statics/solve/continuation.hpp"
@@ -26,8 +25,8 @@ Status hold_chain(const Model& model, std::size_t i, const Pose& nominal, const 
 
 }  // namespace
 
-HeldPlatform hold_platform(const Model& model, const Configuration& nominal, const Pose& X_MP, const Stage& goal,
-                           StaticsWork& work) {
+HeldPlatform hold_platform(const Model& model, const Configuration& nominal, const Pose& X_MP,
+                           const Stage& goal, StaticsWork& work) {
   HeldPlatform held{Status::converged, 0, nominal};
   held.configuration.X_MP = X_MP;
   for (std::size_t i = 0; i < nominal.chains.size(); ++i) {

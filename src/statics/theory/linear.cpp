@@ -1,17 +1,17 @@
-#include "counterflex/statics/theory.hpp"
-
 #include <Eigen/Geometry>
 
+#include "counterflex/statics/theory.hpp"
+#include "statics/model/part.hpp"
 #include "statics/model/tolerances.hpp"
 #include "statics/theory/manipulator.hpp"
-#include "statics/model/part.hpp"
 
 namespace counterflex {
 namespace {
 
-// eps of a series by its own errors: each error's (p, Log R), carried to the end by the nominal frames. What the
-// controller's zero holds against the weights moves the end likewise.
-Vector6 own_eps(const Series& series, const SeriesState& nominal, const Stage& stage, const SeriesWork& work) {
+// eps of a series by its own errors: each error's (p, Log R), carried to the end by the nominal frames. What
+// the controller's zero holds against the weights moves the end likewise.
+Vector6 own_eps(const Series& series, const SeriesState& nominal, const Stage& stage,
+                const SeriesWork& work) {
   const Pose& end = work.end;
   const double factor = stage.errors;
   Vector6 eps = Vector6::Zero();
@@ -39,23 +39,27 @@ void open_gaps(const Series& series, const SeriesState& nominal, const Stage& st
       open_gaps(series.groups[g].branches[b], nominal.groups[g].branches[b], stage, work.groups[g][b]);
 }
 
-void evaluate_linear(const Model& model, const Configuration& nominal, const Stage& stage, StaticsWork::Impl& work) {
+void evaluate_linear(const Model& model, const Configuration& nominal, const Stage& stage,
+                     StaticsWork::Impl& work) {
   const Stage in_place{0, stage.load, stage.preload, 0};  // errors and offsets enter as gaps
   const Vector3 g = acting_gravity(model.mechanism, stage);
   for (std::size_t i = 0; i < nominal.chains.size(); ++i) {
-    evaluate(model.mechanism.chains[i], nominal.chains[i], nominal.X_MP, in_place, g, Hessians::no, work.chains[i]);
+    evaluate(model.mechanism.chains[i], nominal.chains[i], nominal.X_MP, in_place, g, Hessians::no,
+             work.chains[i]);
     open_gaps(model.mechanism.chains[i], nominal.chains[i], stage, work.chains[i]);
   }
 }
 
-bool condensed(const Model& model, const Vector6& F, const Units& units, StaticsWork::Impl& work, LinearResult& result) {
+bool condensed(const Model& model, const Vector6& F, const Units& units, StaticsWork::Impl& work,
+               LinearResult& result) {
   const Mechanism& mechanism = model.mechanism;
   const auto sum = aggregate(mechanism.chains, units, work.chains);
   const auto compliance = sum ? inverse_in_units(sum->K, units.of_pose()) : std::nullopt;
   if (!compliance) return false;
   result.dt_P = *compliance * (F - sum->dF);
   for (std::size_t i = 0; i < work.chains.size(); ++i)
-    take_step(mechanism.chains[i], result.dt_P, Vector3::Zero(), units, work.chains[i], result.configuration.chains[i]);
+    take_step(mechanism.chains[i], result.dt_P, Vector3::Zero(), units, work.chains[i],
+              result.configuration.chains[i]);
   result.configuration.X_MP = moved(result.configuration.X_MP, result.dt_P);
   return true;
 }
@@ -74,11 +78,12 @@ bool uncondensed(const Model& model, const Configuration& nominal, const Vector6
 }
 
 //     x = (sum K_b)^-1 sum K_b eps_b: where branches that end eps_b apart meet without a load
-std::optional<Vector6> group_eps(const std::vector<Series>& branches, const Units& units, std::vector<SeriesWork>& works);
+std::optional<Vector6> group_eps(const std::vector<Series>& branches, const Units& units,
+                                 std::vector<SeriesWork>& works);
 
 // A group's own part of eps is added to the branches' gaps, innermost groups first.
-std::optional<Vector6> series_eps(const Series& series, const SeriesState& nominal, const Stage& stage, const Units& units,
-                                  SeriesWork& work) {
+std::optional<Vector6> series_eps(const Series& series, const SeriesState& nominal, const Stage& stage,
+                                  const Units& units, SeriesWork& work) {
   Vector6 eps = own_eps(series, nominal, stage, work);
   for (const Part& part : series.parts) {
     if (part.kind != PartKind::group) continue;
@@ -90,21 +95,23 @@ std::optional<Vector6> series_eps(const Series& series, const SeriesState& nomin
   return eps;
 }
 
-std::optional<Vector6> group_eps(const std::vector<Series>& branches, const Units& units, std::vector<SeriesWork>& works) {
+std::optional<Vector6> group_eps(const std::vector<Series>& branches, const Units& units,
+                                 std::vector<SeriesWork>& works) {
   const auto sum = aggregate(branches, units, works);
   if (!sum) return std::nullopt;
   const Vector6 pose = units.of_pose();
   Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> decomposition;
   decomposition.setThreshold(rank_threshold);
   decomposition.compute(pose.asDiagonal() * sum->K * pose.asDiagonal() / units.energy());
-  const Eigen::VectorXd x = solved(decomposition, Eigen::VectorXd(-pose.cwiseProduct(sum->dF) / units.energy()));
+  const Eigen::VectorXd x =
+      solved(decomposition, Eigen::VectorXd(-pose.cwiseProduct(sum->dF) / units.energy()));
   return pose.cwiseProduct(Vector6(x));
 }
 
 }  // namespace
 
-std::vector<std::optional<Vector6>> chain_eps(const Model& model, const Configuration& nominal, const Stage& stage,
-                                              StaticsWork& work) {
+std::vector<std::optional<Vector6>> chain_eps(const Model& model, const Configuration& nominal,
+                                              const Stage& stage, StaticsWork& work) {
   evaluate_linear(model, nominal, {stage.errors, 0, 0, 0}, work.impl());
   std::vector<std::optional<Vector6>> all;
   for (std::size_t i = 0; i < nominal.chains.size(); ++i)
@@ -113,8 +120,8 @@ std::vector<std::optional<Vector6>> chain_eps(const Model& model, const Configur
   return all;
 }
 
-LinearResult linear_deviation(const Model& model, const Configuration& nominal, const Load& load, const Stage& stage,
-                              StaticsWork& work) {
+LinearResult linear_deviation(const Model& model, const Configuration& nominal, const Load& load,
+                              const Stage& stage, StaticsWork& work) {
   const Units units{model.mechanism.length};
   const Vector6 F = applied_wrench(model.mechanism, nominal.X_MP, load, stage.load).F;
   LinearResult result;

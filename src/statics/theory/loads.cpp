@@ -1,9 +1,8 @@
-#include "counterflex/statics/chain.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
+#include "counterflex/statics/chain.hpp"
 #include "statics/model/part.hpp"
 
 namespace counterflex {
@@ -107,10 +106,9 @@ std::vector<ChainLoads> loads_without_tool(const Mechanism& base, const Model& m
   if (base.chains.size() == chains.size()) {  // a tool's parts follow those of its chain
     std::vector<ChainLoads> all;
     for (std::size_t i = 0; i < chains.size(); ++i)
-      all.push_back(chain_loads(chains[i], base.chains[i].columns, configuration.chains[i],
-                                arm_to_part(chains[i], base.chains[i].parts.size(),
-                                            configuration.chains[i], stage),
-                                stage));
+      all.push_back(chain_loads(
+          chains[i], base.chains[i].columns, configuration.chains[i],
+          arm_to_part(chains[i], base.chains[i].parts.size(), configuration.chains[i], stage), stage));
     return all;
   }
   const std::vector<Series>& branches = chains.front().groups.front().branches;

@@ -1,11 +1,10 @@
-#include "counterflex/statics/theory.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "statics/solve/continuation.hpp"
 #include "counterflex/statics/chain.hpp"
+#include "counterflex/statics/theory.hpp"
+#include "statics/solve/continuation.hpp"
 
 namespace counterflex {
 namespace {
@@ -14,7 +13,8 @@ namespace {
 bool solve_chains(const Model& model, const Stage& stage, Configuration& configuration, StaticsWork& work,
                   NewtonResult& result) {
   for (std::size_t i = 0; i < configuration.chains.size(); ++i) {
-    const auto chain = solve_chain(model, i, configuration.X_MP, stage, ChainMethod::paper, configuration.chains[i], work);
+    const auto chain =
+        solve_chain(model, i, configuration.X_MP, stage, ChainMethod::paper, configuration.chains[i], work);
     result.iterations += chain.iterations;
     if (chain.status != Status::converged) return false;
   }
@@ -22,8 +22,8 @@ bool solve_chains(const Model& model, const Stage& stage, Configuration& configu
 }
 
 // (18): sum of the chains' loaded stiffnesses.
-bool sum_stiffness(const Model& model, const Stage& stage, const Configuration& configuration, StaticsWork& work,
-                   Matrix6& K) {
+bool sum_stiffness(const Model& model, const Stage& stage, const Configuration& configuration,
+                   StaticsWork& work, Matrix6& K) {
   const ManipulatorStiffness sum = stiffness(model, configuration, stage, work);
   K = sum.K;
   return sum.available;
@@ -46,7 +46,8 @@ NewtonResult equilibrium_by_chains(const Model& model, const Problem& problem, C
     const PlatformTerms terms = platform_terms(model, configuration, problem);
     double largest = wrench_size(problem.load.F, units);
     for (std::size_t i = 0; i < configuration.chains.size(); ++i)
-      largest = std::max({largest, wrench_size(configuration.chains[i].F, units), work.impl().chains[i].weight});
+      largest =
+          std::max({largest, wrench_size(configuration.chains[i].F, units), work.impl().chains[i].weight});
     const double tolerance = force_tolerance(model.mechanism, configuration.X_MP, largest);
     result.converged = step <= step_tolerance && wrench_size(terms.gradient, units) <= tolerance;
     if (result.converged) break;
@@ -76,11 +77,12 @@ double size_of(const Vector6& deviation, const Units& units) {
 
 }  // namespace
 
-Equilibrium solve_target_nested(const Model& model, const Configuration& nominal, const Pose& X_MT, const Load& load,
-                                const Stage& goal, StaticsWork& work) {
+Equilibrium solve_target_nested(const Model& model, const Configuration& nominal, const Pose& X_MT,
+                                const Load& load, const Stage& goal, StaticsWork& work) {
   const Units units{model.mechanism.length};
   const Problem problem{load, goal, nullptr};
-  const EquilibriumSolver by_chains = [&](const Model&, const Problem& p, StaticsWork::Impl&, Configuration& c) {
+  const EquilibriumSolver by_chains = [&](const Model&, const Problem& p, StaticsWork::Impl&,
+                                          Configuration& c) {
     return equilibrium_by_chains(model, p, c, work);
   };
   Equilibrium result = continue_from(model, nominal, nominal_stage, problem, by_chains, work.impl());
@@ -89,7 +91,8 @@ Equilibrium solve_target_nested(const Model& model, const Configuration& nominal
   double error = std::numeric_limits<double>::infinity(), alpha = 1;
   for (int outer = 0; outer < most_linear_steps; ++outer) {
     if (result.status != Status::converged) return result;
-    const Vector6 d = controlled_part(model.mechanism, deviation(tip(model.mechanism, result.configuration), X_MT));
+    const Vector6 d =
+        controlled_part(model.mechanism, deviation(tip(model.mechanism, result.configuration), X_MT));
     const double size = size_of(d, units);
     if (size <= closure_tolerance) return result;
     if (size > error) alpha /= 2;
@@ -102,7 +105,8 @@ Equilibrium solve_target_nested(const Model& model, const Configuration& nominal
     }
     commanded = next.configuration;
     const int iterations = result.iterations;
-    result = refine(model, with_actuators_of(model, commanded, result.configuration), problem, by_chains, work.impl());
+    result = refine(model, with_actuators_of(model, commanded, result.configuration), problem, by_chains,
+                    work.impl());
     result.iterations += iterations;
   }
   result.status = Status::not_converged;

@@ -1,15 +1,15 @@
 #include <Eigen/Geometry>
+#include <algorithm>
 
 #include "statics/model/part.hpp"
 #include "statics/theory/weights.hpp"
-
-#include <algorithm>
 
 namespace counterflex {
 namespace {
 
 // Axes of the columns of a part between the frames `X` and `X_after`, and where they pass.
-void place_columns(const Part& part, const SeriesState& state, const Pose& X, const Pose& X_after, SeriesWork& work) {
+void place_columns(const Part& part, const SeriesState& state, const Pose& X, const Pose& X_after,
+                   SeriesWork& work) {
   const int c = part.column;
   if (columns_of(part) == 6) {
     const bool spring = part.kind == PartKind::spring;
@@ -63,7 +63,8 @@ void set_triple(const Part& part, const SeriesState& state, const Vector6& F, co
   Matrix3 H = work.S.block<3, 3>(c, c).transpose();
   if (part.kind == PartKind::spring) {
     const auto D = left_jacobian_derivatives(state.x.segment<3>(c));
-    const Vector3 M_before = work.v.middleCols<3>(part.column).transpose() * M;  // axes of the frame before the spring
+    const Vector3 M_before =
+        work.v.middleCols<3>(part.column).transpose() * M;  // axes of the frame before the spring
     for (int k = 0; k < 3; ++k) H.col(k) += D[k].transpose() * M_before;
   }
   work.A.block<3, 3>(c, c) -= H;
@@ -92,9 +93,12 @@ void mend_triples(const Series& series, const SeriesState& state, const Vector3&
   for (const Part& part : series.parts) {
     if (part.kind != PartKind::spring && part.kind != PartKind::group) continue;
     const int c = part.column + 3;
-    if (part.kind == PartKind::spring) work.A.block<3, 3>(c, c) = part.K.bottomRightCorner<3, 3>();
-    else work.A.block<3, 3>(c, c).setZero();
-    const Vector3 weights_moment = work.weight > 0 ? Vector3(work.masses.arm.col(c).cross(g)) : Vector3::Zero();
+    if (part.kind == PartKind::spring)
+      work.A.block<3, 3>(c, c) = part.K.bottomRightCorner<3, 3>();
+    else
+      work.A.block<3, 3>(c, c).setZero();
+    const Vector3 weights_moment =
+        work.weight > 0 ? Vector3(work.masses.arm.col(c).cross(g)) : Vector3::Zero();
     set_triple(part, state, state.F, weights_moment, work);
   }
 }
@@ -104,7 +108,8 @@ void evaluate_branches(const Series& series, const SeriesState& state, const Sta
   for (const Part& part : series.parts) {
     if (part.kind != PartKind::group) continue;
     const GroupState& group = state.groups[part.group];
-    const Vector3 g_group = work.v.middleCols<3>(part.column).transpose() * g;  // axes of the frame where branches start
+    const Vector3 g_group =
+        work.v.middleCols<3>(part.column).transpose() * g;  // axes of the frame where branches start
     for (std::size_t b = 0; b < group.branches.size(); ++b) {
       evaluate(series.groups[part.group].branches[b], group.branches[b], group.X, stage, g_group, hessians,
                work.groups[part.group][b]);
@@ -138,8 +143,8 @@ SeriesWork make_work(const Series& series) {
   return work;
 }
 
-void evaluate(const Series& series, const SeriesState& state, const Pose& X_end, const Stage& stage, const Vector3& g,
-              Hessians hessians, SeriesWork& work) {
+void evaluate(const Series& series, const SeriesState& state, const Pose& X_end, const Stage& stage,
+              const Vector3& g, Hessians hessians, SeriesWork& work) {
   place(series, state, stage, work);
   work.gap = difference(X_end, work.end);
   work.weight = series.mass * g.norm();
@@ -162,14 +167,16 @@ double wrench_size(const Vector6& F, const Units& units) {
 
 void add_residual(const Series& series, const SeriesState& state, const SeriesWork& work, const Units& units,
                   Residual& residual) {
-  residual.closure = std::max({residual.closure, work.gap.head<3>().norm(), work.gap.tail<3>().norm() * units.length});
+  residual.closure =
+      std::max({residual.closure, work.gap.head<3>().norm(), work.gap.tail<3>().norm() * units.length});
   for (int c : series.free)
     residual.force =
         std::max(residual.force, std::abs(work.gradient[c]) / (series.angular[c] ? units.length : 1.0));
   residual.largest = std::max({residual.largest, wrench_size(state.F, units), work.weight});
   for (std::size_t g = 0; g < series.groups.size(); ++g)
     for (std::size_t b = 0; b < series.groups[g].branches.size(); ++b)
-      add_residual(series.groups[g].branches[b], state.groups[g].branches[b], work.groups[g][b], units, residual);
+      add_residual(series.groups[g].branches[b], state.groups[g].branches[b], work.groups[g][b], units,
+                   residual);
 }
 
 }  // namespace counterflex

@@ -1,6 +1,7 @@
 #pragma once
-/// One series at one state: its Jacobian, Hessian and residuals, and its condensation to the end's wrench. The same code
-/// serves a chain between base and platform and a branch between the two frames of a group. EQUATIONS.md, sections 2-4.
+/// One series at one state: its Jacobian, Hessian and residuals, and its condensation to the end's wrench.
+/// The same code serves a chain between base and platform and a branch between the two frames of a group.
+/// EQUATIONS.md, sections 2-4.
 #include "counterflex/statics/mechanism.hpp"
 #include "statics/model/units.hpp"
 #include "statics/theory/decompositions.hpp"
@@ -15,12 +16,12 @@ struct MassWork {
   Eigen::Matrix<double, 3, Eigen::Dynamic> point;  ///< of its own masses
   Vector3 moment;                                  ///< sum of m p, branches' masses included
   Eigen::Matrix<double, 3, Eigen::Dynamic> arm;    ///< by column: sum of m (p - o) over the masses after it
-  Eigen::Matrix<double, 3, Eigen::Dynamic> V;      ///< by column: sum of m v, v the velocity of a mass after it
+  Eigen::Matrix<double, 3, Eigen::Dynamic> V;  ///< by column: sum of m v, v the velocity of a mass after it
   Eigen::Matrix<double, 3, Eigen::Dynamic> g_x_w;
 };
 
-/// What a turn w of its start frame (start axes) does to a branch that leans, and the torque N that its weights exert on
-/// that frame. EQUATIONS.md, section 10.
+/// What a turn w of its start frame (start axes) does to a branch that leans, and the torque N that its
+/// weights exert on that frame. EQUATIONS.md, section 10.
 struct LeanWork {
   Eigen::Matrix<double, Eigen::Dynamic, 3> A_w;  ///< d gradient / dw
   Eigen::Matrix<double, 3, Eigen::Dynamic> N_x;  ///< dN/dx
@@ -29,12 +30,15 @@ struct LeanWork {
 };
 
 /// What pulls at masses at a stage (m/s2, axes of M).
-inline Vector3 acting_gravity(const Mechanism& mechanism, const Stage& stage) { return stage.gravity * mechanism.gravity; }
+inline Vector3 acting_gravity(const Mechanism& mechanism, const Stage& stage) {
+  return stage.gravity * mechanism.gravity;
+}
 
 struct SeriesWork {
-  Pose end;                                      ///< of the end frame in the start frame
-  Eigen::Matrix<double, 3, Eigen::Dynamic> v, w;  ///< twist of the end per column: translation, rotation (start axes)
-  Eigen::Matrix<double, 3, Eigen::Dynamic> point; ///< where a column's axis passes
+  Pose end;  ///< of the end frame in the start frame
+  Eigen::Matrix<double, 3, Eigen::Dynamic> v,
+      w;  ///< twist of the end per column: translation, rotation (start axes)
+  Eigen::Matrix<double, 3, Eigen::Dynamic> point;  ///< where a column's axis passes
   Eigen::Matrix<double, 3, Eigen::Dynamic> f_x_w;
   Eigen::MatrixXd S;
   Eigen::MatrixXd A;         ///< K - H over all columns; a group's own stiffness is not in it
@@ -44,9 +48,9 @@ struct SeriesWork {
   MassWork masses;
   LeanWork lean;
 
-  Eigen::MatrixXd bordered, rhs, solution;       ///< of condense(), in units of `Units`
+  Eigen::MatrixXd bordered, rhs, solution;  ///< of condense(), in units of `Units`
   Eigen::PartialPivLU<Eigen::MatrixXd> lu;
-  Vector6 dF;                                    ///< F_new = F + dF + K dxi
+  Vector6 dF;  ///< F_new = F + dF + K dxi
   Matrix6 K;
   std::vector<std::vector<SeriesWork>> groups;
 };
@@ -56,10 +60,10 @@ SeriesWork make_work(const Series& series);
 /// Whether the second derivatives of (3)-(5) are used; the paper's (2) goes without.
 enum class Hessians { no, yes };
 
-/// Fills frames, Jacobian, A, gradient and gap of a series whose end should be at `X_end`. `g` is the gravity that acts
-/// (m/s2, start axes).
-void evaluate(const Series& series, const SeriesState& state, const Pose& X_end, const Stage& stage, const Vector3& g,
-              Hessians hessians, SeriesWork& work);
+/// Fills frames, Jacobian, A, gradient and gap of a series whose end should be at `X_end`. `g` is the gravity
+/// that acts (m/s2, start axes).
+void evaluate(const Series& series, const SeriesState& state, const Pose& X_end, const Stage& stage,
+              const Vector3& g, Hessians hessians, SeriesWork& work);
 
 /// Eliminates everything inside the series: fills dF and K. False where the bordered matrix is singular:
 /// then only the whole system can decide.
@@ -74,12 +78,13 @@ struct Aggregate {
 };
 
 /// Condenses and sums evaluated series; empty where one of them cannot be condensed.
-std::optional<Aggregate> aggregate(const std::vector<Series>& all, const Units& units, std::vector<SeriesWork>& works);
+std::optional<Aggregate> aggregate(const std::vector<Series>& all, const Units& units,
+                                   std::vector<SeriesWork>& works);
 
-/// Adds to the state the step that belongs to a step `dxi` of the end and to a turn `dw` of its start frame (start axes),
-/// actuators held; returns the largest of its entries (m, rad times l).
-double take_step(const Series& series, const Vector6& dxi, const Vector3& dw, const Units& units, const SeriesWork& work,
-                 SeriesState& state);
+/// Adds to the state the step that belongs to a step `dxi` of the end and to a turn `dw` of its start frame
+/// (start axes), actuators held; returns the largest of its entries (m, rad times l).
+double take_step(const Series& series, const Vector6& dxi, const Vector3& dw, const Units& units,
+                 const SeriesWork& work, SeriesState& state);
 
 /// The largest residuals of a series and its branches.
 struct Residual {

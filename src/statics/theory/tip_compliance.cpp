@@ -1,15 +1,14 @@
-#include "counterflex/statics/tip_stiffness.hpp"
-
 #include <cmath>
 #include <limits>
 
+#include "counterflex/statics/tip_stiffness.hpp"
 #include "statics/model/tolerances.hpp"
 #include "statics/theory/manipulator.hpp"
 
 namespace counterflex {
 
-std::optional<Matrix6> compliance_at_tip(const Model& model, const Configuration& configuration, const Load& load,
-                                         const Stage& stage, StaticsWork& work) {
+std::optional<Matrix6> compliance_at_tip(const Model& model, const Configuration& configuration,
+                                         const Load& load, const Stage& stage, StaticsWork& work) {
   const Units units{model.mechanism.length};
   evaluate_all(model, configuration, stage, work.impl());
   WholeSystem system = whole_system(model, configuration, {load, stage, nullptr}, work.impl());

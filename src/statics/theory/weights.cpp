@@ -1,7 +1,8 @@
+#include "statics/theory/weights.hpp"
+
 #include <Eigen/Geometry>
 
 #include "statics/model/part.hpp"
-#include "statics/theory/weights.hpp"
 
 namespace counterflex {
 namespace {

@@ -1,6 +1,6 @@
 #pragma once
-/// The weights of a series' masses: how they move with its columns, and how a branch feels that its start frame turns.
-/// EQUATIONS.md, section 10.
+/// The weights of a series' masses: how they move with its columns, and how a branch feels that its start
+/// frame turns. EQUATIONS.md, section 10.
 #include "statics/theory/series.hpp"
 
 namespace counterflex {
@@ -17,8 +17,9 @@ void add_second_moments(const Vector3& g, SeriesWork& work);
 /// Begins the lean of a branch: how its own gradient turns with its start frame. Zero without Hessians.
 void lean(const Vector3& g, Hessians hessians, SeriesWork& work);
 
-/// Adds what the turning of a group's start frame does to a condensed branch that leans, and what the branch's weights do
-/// to that frame, to the rows and columns of the series before the group (and to its own lean, if it has one).
+/// Adds what the turning of a group's start frame does to a condensed branch that leans, and what the
+/// branch's weights do to that frame, to the rows and columns of the series before the group (and to its own
+/// lean, if it has one).
 void enter_lean(const Series& series, const Part& group, const SeriesWork& branch, SeriesWork& work);
 
 }  // namespace counterflex

@@ -25,7 +25,8 @@ int count_closures(const Series& series) {
   return count;
 }
 
-// A column before the point that the walk has reached, and the rotation that it causes there (axes of that frame).
+// A column before the point that the walk has reached, and the rotation that it causes there (axes of that
+// frame).
 struct Turning {
   int variable;
   Vector3 w;
@@ -37,7 +38,8 @@ struct Assembler {
   WholeSystem& system;
   int variable = 0, closure = 0;
 
-  void series(const Series& series, const SeriesWork& work, int end_variable, const std::vector<Turning>& outside) {
+  void series(const Series& series, const SeriesWork& work, int end_variable,
+              const std::vector<Turning>& outside) {
     const int v0 = variable, c0 = closure;
     variable += series.columns;
     closure += 6;
@@ -59,7 +61,8 @@ struct Assembler {
       if (part.kind != PartKind::group) continue;
       const auto turnings = turnings_before(series, part, work, v0, outside);
       for (std::size_t b = 0; b < series.groups[part.group].branches.size(); ++b)
-        this->series(series.groups[part.group].branches[b], work.groups[part.group][b], v0 + part.column, turnings);
+        this->series(series.groups[part.group].branches[b], work.groups[part.group][b], v0 + part.column,
+                     turnings);
     }
   }
 
@@ -68,14 +71,15 @@ struct Assembler {
     for (const Turning& turning : outside)
       for (int j = 0; j < work.lean.A_w.rows(); ++j) {
         const int row = v0 + j;
-        const double entry = units.of_column(system.variables[row].angular) / units.energy() * work.lean.A_w.row(j).dot(turning.w);
+        const double entry = units.of_column(system.variables[row].angular) / units.energy() *
+                             work.lean.A_w.row(j).dot(turning.w);
         system.A(row, turning.variable) = entry;
         system.A(turning.variable, row) = entry;
       }
   }
 
-  static std::vector<Turning> turnings_before(const Series& series, const Part& group, const SeriesWork& work, int v0,
-                                              const std::vector<Turning>& outside) {
+  static std::vector<Turning> turnings_before(const Series& series, const Part& group, const SeriesWork& work,
+                                              int v0, const std::vector<Turning>& outside) {
     if (series.mass == 0) return {};
     const Matrix3 R = work.v.middleCols<3>(group.column);
     std::vector<Turning> list;
@@ -103,7 +107,8 @@ std::vector<int> unknowns(const WholeSystem& system, bool with_actuators) {
 }
 
 // The bordered matrix over unknown variables and closures; stationarity rows only of what is not an actuator.
-Eigen::MatrixXd bordered(const WholeSystem& system, const std::vector<int>& columns, const std::vector<int>& rows) {
+Eigen::MatrixXd bordered(const WholeSystem& system, const std::vector<int>& columns,
+                         const std::vector<int>& rows) {
   const auto n = static_cast<int>(columns.size()), m = static_cast<int>(rows.size());
   const auto closures = static_cast<int>(system.C.rows());
   Eigen::MatrixXd B = Eigen::MatrixXd::Zero(m + closures, n + closures);
@@ -143,11 +148,13 @@ struct StepApplier {
     state.F += step.wrenches.segment<6>(closure);
     closure += 6;
     for (int j = 0; j < series.columns; ++j)
-      largest = std::max(largest, std::abs(step.variables[v0 + j]) * (series.angular[j] ? units.length : 1.0));
+      largest =
+          std::max(largest, std::abs(step.variables[v0 + j]) * (series.angular[j] ? units.length : 1.0));
     for (const Part& part : series.parts) {
       if (part.column < 0) continue;
       if (part.kind != PartKind::group) {
-        state.x.segment(part.column, columns_of(part)) += step.variables.segment(v0 + part.column, columns_of(part));
+        state.x.segment(part.column, columns_of(part)) +=
+            step.variables.segment(v0 + part.column, columns_of(part));
         continue;
       }
       GroupState& group = state.groups[part.group];
@@ -160,8 +167,8 @@ struct StepApplier {
 
 }  // namespace
 
-WholeSystem assemble_whole(const Mechanism& mechanism, const std::vector<SeriesWork>& works, const PlatformTerms& platform,
-                           const Units& units) {
+WholeSystem assemble_whole(const Mechanism& mechanism, const std::vector<SeriesWork>& works,
+                           const PlatformTerms& platform, const Units& units) {
   WholeSystem system;
   int variables = 6, closures = 0;
   for (const Series& chain : mechanism.chains) {
@@ -175,7 +182,8 @@ WholeSystem assemble_whole(const Mechanism& mechanism, const std::vector<SeriesW
   system.gradient.setZero(variables);
   system.gap.setZero(closures);
   Assembler assembler{units, system};
-  for (std::size_t i = 0; i < works.size(); ++i) assembler.series(mechanism.chains[i], works[i], system.pose, {});
+  for (std::size_t i = 0; i < works.size(); ++i)
+    assembler.series(mechanism.chains[i], works[i], system.pose, {});
   const Vector6 pose = units.of_pose();
   for (int k = 3; k < 6; ++k) system.variables[system.pose + k].angular = true;
   system.gradient.tail<6>() = platform.gradient.cwiseProduct(pose) / units.energy();
@@ -183,14 +191,16 @@ WholeSystem assemble_whole(const Mechanism& mechanism, const std::vector<SeriesW
   return system;
 }
 
-WholeStep solve_whole(const WholeSystem& system, const std::optional<Controlled>& controlled, const Units& units) {
+WholeStep solve_whole(const WholeSystem& system, const std::optional<Controlled>& controlled,
+                      const Units& units) {
   const auto columns = unknowns(system, controlled && !controlled->by_forces), rows = unknowns(system, false);
   const auto closures = system.C.rows(), pose = static_cast<Eigen::Index>(columns.size()) - 6;
   Eigen::MatrixXd B = bordered(system, columns, rows);
   Eigen::VectorXd rhs(B.rows());
   rhs << -system.gradient(rows), system.gap;
   if (controlled) {
-    const auto n = controlled->rows.rows(), forces = controlled->by_forces ? n : 0, size = B.rows(), width = B.cols();
+    const auto n = controlled->rows.rows(), forces = controlled->by_forces ? n : 0, size = B.rows(),
+               width = B.cols();
     B.conservativeResize(size + n, width + forces);
     B.bottomRows(n).setZero();
     B.rightCols(forces).setZero();
@@ -214,7 +224,8 @@ WholeStep solve_whole(const WholeSystem& system, const std::optional<Controlled>
   return step;
 }
 
-double apply(const Mechanism& mechanism, const WholeStep& step, const Units& units, Configuration& configuration) {
+double apply(const Mechanism& mechanism, const WholeStep& step, const Units& units,
+             Configuration& configuration) {
   StepApplier applier{step, units};
   for (std::size_t i = 0; i < mechanism.chains.size(); ++i)
     applier.series(mechanism.chains[i], configuration.chains[i]);

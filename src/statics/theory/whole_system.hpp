@@ -1,7 +1,8 @@
 #pragma once
-/// The whole static system, uncondensed: all coordinates of all chains and branches, the platform's pose, and the wrenches
-/// of all closures. It decides what the condensed form cannot: `singular`, `unstable`, and steps of chains that are
-/// singular on their own. Nominal kinematics takes its closures from it. EQUATIONS.md, section 6.
+/// The whole static system, uncondensed: all coordinates of all chains and branches, the platform's pose, and
+/// the wrenches of all closures. It decides what the condensed form cannot: `singular`, `unstable`, and steps
+/// of chains that are singular on their own. Nominal kinematics takes its closures from it. EQUATIONS.md,
+/// section 6.
 #include <optional>
 #include <vector>
 
@@ -18,14 +19,16 @@ struct Variable {
 };
 
 ///     [ A  -C' ] [ dv      ]   [ -gradient ]
-///     [ C   0  ] [ dlambda ] = [  gap      ]        v: variables, lambda: wrenches of closures, all without unit
+///     [ C   0  ] [ dlambda ] = [  gap      ]        v: variables, lambda: wrenches of closures, all without
+///     unit
 struct WholeSystem {
   std::vector<Variable> variables;
   Eigen::MatrixXd A, C;
   Eigen::VectorXd gradient, gap;
-  int pose = 0;            ///< first of the platform's variables
-  double wrench = 0;       ///< largest that acts or is carried, at least 1 N; without unit
-  double force_error = 0;  ///< how far the forces are from balance, at most what a solution may miss; without unit
+  int pose = 0;       ///< first of the platform's variables
+  double wrench = 0;  ///< largest that acts or is carried, at least 1 N; without unit
+  double force_error =
+      0;  ///< how far the forces are from balance, at most what a solution may miss; without unit
 };
 
 /// The platform's balance: sum of chain wrenches minus applied wrench, and the applied wrench's tangent.
@@ -35,8 +38,8 @@ struct PlatformTerms {
 };
 
 /// From evaluated works (not condensed ones).
-WholeSystem assemble_whole(const Mechanism& mechanism, const std::vector<SeriesWork>& works, const PlatformTerms& platform,
-                           const Units& units);
+WholeSystem assemble_whole(const Mechanism& mechanism, const std::vector<SeriesWork>& works,
+                           const PlatformTerms& platform, const Units& units);
 
 /// A step of variables and wrenches, in SI, in the order of `WholeSystem`.
 struct WholeStep {
@@ -45,15 +48,19 @@ struct WholeStep {
   bool redundant = false;  ///< the minimum-norm choice among several
 };
 
-/// Minimum-norm solution. Actuators are held, unless `controlled` is given: then they are unknowns, or forces are.
-WholeStep solve_whole(const WholeSystem& system, const std::optional<Controlled>& controlled, const Units& units);
+/// Minimum-norm solution. Actuators are held, unless `controlled` is given: then they are unknowns, or forces
+/// are.
+WholeStep solve_whole(const WholeSystem& system, const std::optional<Controlled>& controlled,
+                      const Units& units);
 
 /// Adds a step to a configuration; returns its largest entry (m, rad times l).
-double apply(const Mechanism& mechanism, const WholeStep& step, const Units& units, Configuration& configuration);
+double apply(const Mechanism& mechanism, const WholeStep& step, const Units& units,
+             Configuration& configuration);
 
-/// Condition of the system with actuators held, redundant closures and zero modes that move no platform taken out;
-/// infinite where a zero mode moves the platform. A coordinate that is stiffer than 1e9 N/m counts as one of 1e9 N/m: a
-/// stiff spring alone makes no machine singular. `weakest` is the platform's twist (m, rad; norm 1 without unit).
+/// Condition of the system with actuators held, redundant closures and zero modes that move no platform taken
+/// out; infinite where a zero mode moves the platform. A coordinate that is stiffer than 1e9 N/m counts as
+/// one of 1e9 N/m: a stiff spring alone makes no machine singular. `weakest` is the platform's twist (m, rad;
+/// norm 1 without unit).
 struct Condition {
   double value = 0;
   Vector6 weakest = Vector6::Zero();
@@ -64,8 +71,8 @@ Condition condition(const WholeSystem& system, const Units& units);
 /// The condition is at most this; infinite where the system has zero modes.
 double condition_bound(const WholeSystem& system);
 
-/// Least eigenvalue of the symmetric part of A on the null space of C, actuators held, every coordinate scaled by its own
-/// stiffness first. A negative one within its rounding error is 0. EQUATIONS.md, section 6.
+/// Least eigenvalue of the symmetric part of A on the null space of C, actuators held, every coordinate
+/// scaled by its own stiffness first. A negative one within its rounding error is 0. EQUATIONS.md, section 6.
 double least_scaled_eigenvalue(const WholeSystem& system);
 
 }  // namespace counterflex
