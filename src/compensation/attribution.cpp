@@ -74,35 +74,6 @@ void add_sources(const Solved& at) {
   }
 }
 
-// The emitted target under another force, where one acts.
-template <typename Wants>
-void add_other_force(const Solved& at, double factor, OtherForce Causes::*result, const Wants& wants) {
-  ask(
-      at, StopAt::end, [&](const Waypoint& w) { return wants(w) && !w.wrench.isZero(0); },
-      [&](const ForwardPlace& place) {
-        return ForwardRequest{place.model, place.emitted, factor * place.F};
-      },
-      [&](Waypoint& w, const ForwardPlace& place, const ForwardAnswer& answer) {
-        OtherForce& other = (*w.causes).*result;
-        other.status = answer.status;
-        if (answer.status == Status::converged) other.deviation = deviation(answer.X_MT, place.wanted);
-      });
-  for (Waypoint& w : at.waypoints)
-    if (wants(w) && w.wrench.isZero(0)) (*w.causes).*result = {w.after, Status::converged};
-}
-
-// Between ends, where only the largest deviation counts, the lower force is taken to do the opposite of the
-// higher one: half of the time for what differs in second order.
-void add_other_forces(const Solved& at) {
-  add_other_force(at, 1 + force_change, &Causes::higher, [](const Waypoint&) { return true; });
-  const auto mirrors = [](const Waypoint& w) {
-    return w.between && w.causes->higher.status == Status::converged;
-  };
-  for (Waypoint& w : at.waypoints)
-    if (mirrors(w)) w.causes->lower.deviation = 2 * w.after - w.causes->higher.deviation;
-  add_other_force(at, 1 - force_change, &Causes::lower, [&](const Waypoint& w) { return !mirrors(w); });
-}
-
 }  // namespace
 
 void add_before(PlaceSolver& solver, std::span<const ForwardPlace> places, std::span<Waypoint> waypoints) {
@@ -111,8 +82,8 @@ void add_before(PlaceSolver& solver, std::span<const ForwardPlace> places, std::
 }
 
 void add_causes(PlaceSolver& solver, std::span<const ForwardPlace> places, std::span<Waypoint> waypoints) {
-  for (Waypoint& w : waypoints) w.causes.emplace();
-  add_other_forces({solver, places, waypoints});
+  for (Waypoint& w : waypoints)
+    if (knows_before(w)) w.causes.emplace();
   add_sources({solver, places, waypoints});
 }
 

@@ -18,9 +18,8 @@ struct ForwardPlace {
 /// Fills `before` at the ends of pieces and at places; a status that is not converged goes to the waypoint.
 void add_before(PlaceSolver& solver, std::span<const ForwardPlace> places, std::span<Waypoint> waypoints);
 
-/// Fills all causes. Geometry, load, gravity, superposition and air are those of the ends of pieces and of
-/// places, where trouble is a status of the waypoint. The shift of a datum that was touched off is part of
-/// geometry alone. A force under which the machine is unstable is no failure of a run: it does not act.
+/// Fills the causes at the ends of pieces and at places. The shift of a datum that was touched off is part of
+/// geometry alone.
 void add_causes(PlaceSolver& solver, std::span<const ForwardPlace> places, std::span<Waypoint> waypoints);
 
 }  // namespace counterflex

@@ -27,7 +27,7 @@ bool is_larger(double value, double than) {
 LoadPlace LoadPlaces::place_of(const Job& job, const Waypoint& w) const {
   const Segment& segment = job.path.segments[w.segment];
   const Vector3 target = original_command(job, segment.frame, w.p_MT) + w.correction.head<3>();
-  return {count_, w.s, w.line, target, {w.wrench, job.forces.at_platform()}, &model_of(job, segment)};
+  return {count_, w, target, {w.wrench, job.forces.at_platform()}, &model_of(job, segment)};
 }
 
 void LoadPlaces::add(const Job& job, const std::vector<Waypoint>& waypoints) {
@@ -44,8 +44,11 @@ void LoadPlaces::add_to_stretch(const Job& job, const Waypoint& w) {
     if (stretches_.size() == most_load_stretches) merge_neighbours();
     stretches_.push_back(place_of(job, w));
     in_last_ = 0;
-  } else if (is_larger(w.wrench.head<3>().norm(), force_of(stretches_.back()))) {
-    stretches_.back() = place_of(job, w);
+  } else {
+    LoadPlace& kept = stretches_.back();
+    const double weight = kept.at.weight + w.weight;
+    if (is_larger(w.wrench.head<3>().norm(), force_of(kept))) kept = place_of(job, w);
+    kept.at.weight = weight;
   }
   ++in_last_;
 }
@@ -53,7 +56,9 @@ void LoadPlaces::add_to_stretch(const Job& job, const Waypoint& w) {
 void LoadPlaces::merge_neighbours() {
   for (std::size_t i = 0; i < most_load_stretches / 2; ++i) {
     const LoadPlace &first = stretches_[2 * i], &second = stretches_[2 * i + 1];
+    const double weight = first.at.weight + second.at.weight;
     stretches_[i] = LoadPlace(is_larger(force_of(second), force_of(first)) ? second : first);
+    stretches_[i].at.weight = weight;
   }
   stretches_.resize(most_load_stretches / 2);
   per_stretch_ *= 2;
@@ -62,7 +67,9 @@ void LoadPlaces::merge_neighbours() {
 // The deviation before counts at the places of the original path.
 void LoadPlaces::add_peaks(const Job& job, const Waypoint& w) {
   const auto raise = [&](Peak& peak, double value) {
-    if (is_larger(value, peak.value)) peak = {value, place_of(job, w)};
+    if (!is_larger(value, peak.value)) return;
+    peak = {value, place_of(job, w)};
+    peak.place->at.weight = 0;  // its stretch has it
   };
   raise(force_, w.wrench.head<3>().norm());
   raise(moment_, w.wrench.tail<3>().norm());
@@ -75,7 +82,7 @@ std::vector<LoadPlace> LoadPlaces::places() const {
     if (peak->place) all.push_back(*peak->place);
   const auto before = [](const LoadPlace& a, const LoadPlace& b) { return a.number < b.number; };
   const auto same = [](const LoadPlace& a, const LoadPlace& b) { return a.number == b.number; };
-  std::sort(all.begin(), all.end(), before);
+  std::stable_sort(all.begin(), all.end(), before);
   all.erase(std::unique(all.begin(), all.end(), same), all.end());
   return all;
 }
@@ -84,16 +91,16 @@ LoadsAlong solve_loads(const Model& base, const std::vector<LoadPlace>& places, 
                        const StartTables* starts) {
   std::vector<LoadsAtPlace> solved(places.size());
   for_each_index(slice_count(places.size()), threads, [&](std::size_t slice) {
-    const std::size_t end = std::min(places.size(), (slice + 1) * slice_size);
-    for (std::size_t i = slice * slice_size; i < end; ++i) {
+    const std::size_t begin = slice * slice_size, end = std::min(places.size(), begin + slice_size);
+    PlaceSolver solver(starts, places[begin].load.at_platform);
+    for (std::size_t i = begin; i < end; ++i) {
       const LoadPlace& place = places[i];
-      PlaceSolver solver(starts, place.load.at_platform);
       const NominalResult commanded = solver.nominal(*place.model, place.target);
       if (commanded.status != Status::converged) continue;
       StaticsWork work(place.model->mechanism);
       const Equilibrium loaded = solve_forward(*place.model, commanded.configuration, place.load, {}, work);
       if (loaded.status == Status::converged)
-        solved[i] = {place.s, place.line,
+        solved[i] = {place.at.s, place.at.line,
                      loads_without_tool(base.mechanism, *place.model, loaded.configuration, {})};
     }
   });
@@ -102,6 +109,33 @@ LoadsAlong solve_loads(const Model& base, const std::vector<LoadPlace>& places, 
     if (!at.chains.empty()) along.places.push_back(std::move(at));
   along.unsolved = places.size() - along.places.size();
   return along;
+}
+
+std::vector<OtherForce> solve_other_force(const std::vector<LoadPlace>& places, double factor, int threads,
+                                          const StartTables* starts) {
+  std::vector<OtherForce> all(places.size());
+  for_each_index(slice_count(places.size()), threads, [&](std::size_t slice) {
+    const std::size_t begin = slice * slice_size, count = std::min(places.size() - begin, slice_size);
+    std::vector<TipPosition> positions;
+    std::vector<ForwardRequest> requests;
+    for (const LoadPlace& place : std::span(places).subspan(begin, count)) {
+      positions.push_back({place.model, place.at.p_MT});
+      requests.push_back({place.model, place.target, factor * place.load.F});
+    }
+    std::vector<WantedPose> wanted(count);
+    std::vector<ForwardAnswer> answers(count);
+    PlaceSolver solver(starts, places[begin].load.at_platform);
+    solver.wanted(positions, wanted, StopAt::end);
+    solver.forwards(requests, answers, StopAt::end);
+    for (std::size_t i = 0; i < count; ++i) {
+      OtherForce& other = all[begin + i];
+      if (places[begin + i].at.wrench.isZero(0))
+        other.deviation = places[begin + i].at.after;
+      else if (other.status = answers[i].status; other.status == Status::converged)
+        other.deviation = deviation(answers[i].X_MT, wanted[i].X_MT);
+    }
+  });
+  return all;
 }
 
 }  // namespace counterflex

@@ -60,13 +60,6 @@ bool before_line(const WorstRow& row, int line) {
   return row.line < line;
 }
 
-void add_other(OtherForceTally& tally, const Waypoint& w, const OtherForce& other, double weight) {
-  if (other.status == Status::converged) return tally.deviation.add(sample(w, other.deviation, weight));
-  if (tally.unsolved++ > 0) return;
-  tally.first_line = w.line;
-  tally.status = other.status;
-}
-
 }  // namespace
 
 // Nearly all lines come in order: the one asked for is the last one, or behind it.
@@ -152,10 +145,6 @@ void PathTally::add_cutting(const Waypoint& w, std::int32_t operation, const Mov
   keep_worst(row.after_mm, row.at_after, w, w.after, operation);
   piece_weight_ += w.weight;
   piece_missed_ = piece_missed_ || !is_within;
-  if (w.causes) {
-    add_other(m_.higher, w, w.causes->higher, w.weight);
-    add_other(m_.lower, w, w.causes->lower, w.weight);
-  }
   if (!w.between) close_piece(w, operation);
   place_weight_ += w.weight;
   if (w.place) add_place(w, operation, facts);

@@ -41,10 +41,6 @@ Capped<Remark> all_warnings(const RunContext& context, const RunTally& tally, co
   for (const Remark& warning : context.facts.warnings) list(all, warning);
   for (const Remark& remark : context.program.remarks) list(all, remark);
   list(all, tally.force_notes());
-  if (report.sensitivity) {
-    list_unsolved(report.sensitivity->higher, "higher", all);
-    list_unsolved(report.sensitivity->lower, "lower", all);
-  }
   list_tilted(report, all);
   for (const Remark& warning : control_warnings(report.control, report.correction)) list(all, warning);
   return all;
@@ -76,13 +72,20 @@ Sources sources(const Measures& measures, bool weights) {
   return result;
 }
 
-UnderOtherForce under_other_force(const OtherForceTally& tally) {
-  return {tally.deviation.statistics(), tally.unsolved, tally.first_line, tally.status};
-}
-
-Sensitivity sensitivity(const Measures& measures) {
-  return {under_other_force(measures.higher), under_other_force(measures.lower),
-          measures.without_force.statistics()};
+UnderOtherForce under_other_force(const std::vector<LoadPlace>& places,
+                                  const std::vector<OtherForce>& deviations) {
+  UnderOtherForce result;
+  DeviationTally tally;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const Waypoint& w = places[i].at;
+    const OtherForce& other = deviations[i];
+    if (other.status == Status::converged)
+      tally.add({other.deviation, w.direction, w.tool_axis, w.weight, w.line});
+    else if (result.unsolved++ == 0)
+      result.first_line = w.line, result.status = other.status;
+  }
+  result.deviation = tally.statistics();
+  return result;
 }
 
 std::optional<double> percent_of(double part, double all) {
@@ -147,7 +150,7 @@ RunReport common(const RunContext& context, const RunTally& tally, const Measure
   report.text_before = {context.program.blocks, context.program.bytes};
   report.forces = force_summary(tally, measures);
   const bool acts = report.forces.largest_N > 0 || report.forces.largest_Nm > 0;
-  if (report.sources && acts) report.sensitivity = sensitivity(measures);
+  if (report.sources && acts) report.sensitivity = {.without = measures.without_force.statistics()};
   report.control = control_facts(context.program, tally);
   report.work = work_in_words(context.machine, context.frames);
   report.datum = datum_in_words(context.machine, context.frames);
@@ -283,6 +286,15 @@ RunReport report_verification(const RunContext& context, const RunTally& tally, 
   report.warnings = all_warnings(context, tally, report);
   add_verdict(report, tally);
   return report;
+}
+
+void add_sensitivity(RunReport& report, const std::vector<LoadPlace>& places,
+                     const std::vector<OtherForce>& higher, const std::vector<OtherForce>& lower) {
+  if (!report.sensitivity) return;
+  report.sensitivity->higher = under_other_force(places, higher);
+  report.sensitivity->lower = under_other_force(places, lower);
+  list_unsolved(report.sensitivity->higher, "higher", report.warnings);
+  list_unsolved(report.sensitivity->lower, "lower", report.warnings);
 }
 
 }  // namespace counterflex

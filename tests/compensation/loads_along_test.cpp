@@ -47,7 +47,7 @@ std::vector<LoadPlace> kept(const std::vector<Waypoint>& waypoints, std::size_t 
 
 std::vector<int> kept_lines(const std::vector<LoadPlace>& places) {
   std::vector<int> lines;
-  for (const LoadPlace& place : places) lines.push_back(place.line);
+  for (const LoadPlace& place : places) lines.push_back(place.at.line);
   return lines;
 }
 
@@ -112,6 +112,21 @@ TEST_CASE("the largest moment and the largest deviation before are kept where th
   CHECK_FALSE(has_line(places, 3 + 4'003));
 }
 
+TEST_CASE("places weigh what the waypoints weigh that they stand for") {
+  for (const int count : {10, 5'000}) {
+    std::vector<Waypoint> waypoints = equal_waypoints(count);
+    double sum = 0, kept_sum = 0;
+    for (int i = 0; i < count; ++i) {
+      Waypoint& w = waypoints[static_cast<std::size_t>(i)];
+      w.weight = (1 + i % 3) * mm;
+      w.wrench[0] += i % 7;
+      sum += w.weight;
+    }
+    for (const LoadPlace& place : kept(waypoints)) kept_sum += place.at.weight;
+    CHECK(kept_sum == doctest::Approx(sum));
+  }
+}
+
 TEST_CASE("which places are kept does not depend on where the path is cut into windows") {
   auto waypoints = equal_waypoints(6'000);
   for (std::size_t i = 0; i < waypoints.size(); ++i) {
@@ -173,13 +188,13 @@ TEST_CASE("loads at a place are those of the machine that is told to go there, u
     REQUIRE(alone.status == Status::converged);
     // The command puts the tip where it is wanted: no other command's loads are meant.
     const auto found = std::find_if(result.waypoints.begin(), result.waypoints.end(), [&](const Waypoint& w) {
-      return w.cutting && w.s == places[i].s &&
+      return w.cutting && w.s == places[i].at.s &&
              (w.p_MT - tip(shop.model.mechanism, alone.configuration).p).norm() < 5e-6;
     });
     CHECK(found != result.waypoints.end());
     const auto expected = loads(shop.model, alone.configuration, {});
     REQUIRE(along.places[i].chains.size() == 3);
-    CHECK(along.places[i].line == places[i].line);
+    CHECK(along.places[i].line == places[i].at.line);
     for (std::size_t c = 0; c < 3; ++c) {
       CHECK(along.places[i].chains[c].name == expected[c].name);
       for (const LoadKind kind : load_kinds)

@@ -474,9 +474,9 @@ TEST_CASE("the summary of a prediction shows no residual") {
 
 TEST_CASE("where more force makes the machine give way, the summary, a warning and the JSON say so") {
   const MadeUpRun run;
-  Compensation c = small_compensation();
-  c.waypoints[0].causes->higher.status = Status::unstable;
-  const RunReport report = compensated(run, c);
+  const Compensation c = small_compensation();
+  RunReport report = compensated(run, c);
+  add_made_up_sensitivity(report, c.waypoints, Status::unstable);
   const std::string text = summary_text(report, false);
   CAPTURE(text);
   CHECK(

@@ -54,11 +54,30 @@ struct MadeUpRun {
   }
 };
 
+/// What the waypoints' feed moves become where 30 % more or less force adds or takes 30 % of the load's
+/// deviation. `status`: of the first one under more force.
+inline void add_made_up_sensitivity(RunReport& report, const std::vector<Waypoint>& waypoints,
+                                    Status status = Status::converged) {
+  std::vector<LoadPlace> places;
+  std::vector<OtherForce> higher, lower;
+  for (const Waypoint& w : waypoints) {
+    if (!w.cutting) continue;
+    const Vector6 change = w.causes ? Vector6(force_change * w.causes->load) : Vector6(Vector6::Zero());
+    places.push_back({.number = places.size(), .at = w});
+    higher.push_back({w.after + change});
+    lower.push_back({w.after - change});
+  }
+  if (!higher.empty()) higher.front().status = status;
+  add_sensitivity(report, places, higher, lower);
+}
+
 /// The reports of runs that come as one window.
 inline RunReport predicted(const MadeUpRun& run, const std::vector<Waypoint>& waypoints,
                            const std::optional<Failure>& failure = {}) {
   const Overview overview = overview_of(run.program);
-  return report_prediction(run.context(overview), run.tally(waypoints), failure);
+  RunReport report = report_prediction(run.context(overview), run.tally(waypoints), failure);
+  add_made_up_sensitivity(report, waypoints);
+  return report;
 }
 
 inline RunReport compensated(const MadeUpRun& run, const Compensation& compensation) {
@@ -69,7 +88,9 @@ inline RunReport compensated(const MadeUpRun& run, const Compensation& compensat
   read.dialect = run.program.dialect;
   if (!compensation.text.empty())
     tally.add_corrected(read_program(compensation.text, "made_up.comp.ngc", read));
-  return report_compensation(run.context(overview), tally, compensation.failure);
+  RunReport report = report_compensation(run.context(overview), tally, compensation.failure);
+  add_made_up_sensitivity(report, compensation.waypoints);
+  return report;
 }
 
 inline RunReport verified(const MadeUpRun& run, const Program& corrected,
@@ -77,7 +98,9 @@ inline RunReport verified(const MadeUpRun& run, const Program& corrected,
   const Overview overview = overview_of(run.program);
   RunTally tally = run.tally(waypoints);
   tally.add_corrected(corrected);
-  return report_verification(run.context(overview), tally, overview_of(corrected), {});
+  RunReport report = report_verification(run.context(overview), tally, overview_of(corrected), {});
+  add_made_up_sensitivity(report, waypoints);
+  return report;
 }
 
 /// A waypoint of a feed move with a position deviation before (mm), a hundredth of it after.
@@ -96,8 +119,6 @@ inline Waypoint cut(std::size_t segment, int line, double weight_mm, const Vecto
   w.causes->load = w.before / 2;
   w.causes->superposition = w.causes->geometry + w.causes->load;
   w.causes->air = -w.causes->load;
-  w.causes->higher.deviation = w.after + force_change * w.causes->load;
-  w.causes->lower.deviation = w.after - force_change * w.causes->load;
   w.correction = -w.before;
   w.iterations = 7;
   return w;

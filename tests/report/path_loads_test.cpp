@@ -147,9 +147,11 @@ TEST_CASE("loads along a path are those that analyze says of the commanded targe
       prepare(load_machine(COUNTERFLEX_SOURCE_DIR "/tests/statics/data/orthoglide_case_b.toml"));
   const Load load{(Vector6() << 215, -10, -25, 1, 21.5, 0).finished(), false};
   std::vector<LoadPlace> places;
-  for (int i = 0; i < 8; ++i)
-    places.push_back(
-        {static_cast<std::size_t>(i), i * mm, 10 + i, Vector3(12 * i, -9 * i, 5 * i) * mm, load, &model});
+  for (std::size_t i = 0; i < 8; ++i)
+    places.push_back({.number = i,
+                      .target = static_cast<double>(i) * Vector3(12, -9, 5) * mm,
+                      .load = load,
+                      .model = &model});
   const LoadsAlong along = solve_loads(model, places, 1);
   REQUIRE(along.places.size() == places.size());
   const Matrix3 R = tip(model.mechanism, model.home).R;

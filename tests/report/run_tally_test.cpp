@@ -41,8 +41,6 @@ Waypoint random_waypoint(Thousandths& random, std::size_t segment, int line) {
   w.causes->load = random_deviation(random);
   w.causes->gravity = random_deviation(random);
   w.causes->air = random_deviation(random);
-  w.causes->higher = {random_deviation(random), random.below(30) == 0 ? Status::unstable : Status::converged};
-  w.causes->lower.deviation = random_deviation(random);
   w.correction = random.below(3) == 0 ? Vector6(Vector6::Zero()) : random_deviation(random);
   w.wrench = 1e5 * random_deviation(random);
   return w;

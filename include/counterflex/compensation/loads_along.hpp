@@ -1,5 +1,6 @@
 #pragma once
-/// Loads in joints and springs along a path of any length, at a bounded number of places.
+/// Loads in joints and springs along a path of any length, and its deviation under other forces: at a bounded
+/// number of places.
 #include <optional>
 #include <vector>
 
@@ -11,8 +12,7 @@ namespace counterflex {
 /// A place of a feed move, what is commanded and what acts there.
 struct LoadPlace {
   std::size_t number = 0;            ///< of its waypoint, counted from the beginning
-  double s = 0;                      ///< cutting path length (m)
-  int line = 0;                      ///< of the original program
+  Waypoint at;                       ///< it weighs what those weigh that it stands for
   Vector3 target = Vector3::Zero();  ///< the written one, or the original where nothing was corrected; M (m)
   Load load;
   const Model* model = nullptr;  ///< with the tool in the spindle
@@ -63,5 +63,18 @@ struct LoadsAlong {
 /// `starts`: as for a job. The result does not depend on `threads`.
 LoadsAlong solve_loads(const Model& base, const std::vector<LoadPlace>& places, int threads,
                        const StartTables* starts = nullptr);
+
+/// By how much the force of a sensitivity is higher or lower than the given one: wear, overrides.
+inline constexpr double force_change = 0.3;
+
+/// The target of a place solved forward under another force than the given one, as for a waypoint.
+struct OtherForce {
+  Vector6 deviation = Vector6::Zero();
+  Status status = Status::converged;  ///< only then does the deviation mean something
+};
+
+/// Under `factor` times the force; by place. Where no force acts, it is that of the waypoint.
+std::vector<OtherForce> solve_other_force(const std::vector<LoadPlace>& places, double factor, int threads,
+                                          const StartTables* starts = nullptr);
 
 }  // namespace counterflex

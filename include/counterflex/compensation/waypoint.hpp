@@ -32,24 +32,13 @@ struct Piece {
   std::int32_t tool = 0;    ///< in the spindle, where there is no segment
 };
 
-/// By how much the force of a sensitivity is higher or lower than the given one: wear, overrides.
-inline constexpr double force_change = 0.3;
-
-/// The emitted target solved forward under another force than the given one.
-struct OtherForce {
-  Vector6 deviation = Vector6::Zero();
-  Status status = Status::converged;  ///< only then does the deviation mean something
-};
-
-/// Where a deviation comes from, and what it becomes under other forces; as for a waypoint.
+/// Where a deviation comes from, and what it becomes without the force; as for a waypoint.
 struct Causes {
   Vector6 geometry = Vector6::Zero();       ///< before, assembly errors alone: no force, no weight
   Vector6 load = Vector6::Zero();           ///< before, forces alone: perfect assembly, no weight
   Vector6 gravity = Vector6::Zero();        ///< before, weights alone; zero for a machine without masses
   Vector6 superposition = Vector6::Zero();  ///< sum of the three, what preloads do alone counted once
   Vector6 air = Vector6::Zero();            ///< the emitted target without force
-  OtherForce higher, lower;  ///< the emitted target under 1.3 and 0.7 times the force; between the ends of a
-                             ///< piece `lower` is mirrored from `higher`: right to second order
 };
 
 /// Six-vectors: position (m), rotation vector (rad), axes of M, actual minus wanted.
@@ -71,14 +60,13 @@ struct Waypoint {
   Vector6 after = Vector6::Zero();       ///< the emitted target, solved forward
   Vector6 correction = Vector6::Zero();  ///< emitted target minus the original program's
   Eigen::VectorXd rho;                   ///< actuators of the emitted target (m, rad)
-  Rare<Causes> causes;                   ///< where they were asked for
+  Rare<Causes> causes;                   ///< where they were asked for and `before` is known
   Status status = Status::converged;
   int iterations = 0;
   int corrected_line = 0;  ///< of the corrected program; 0: none
 };
 
-/// Whether `before` and all causes are known. At other samples only `after` and the causes `higher` and
-/// `lower` are.
+/// Whether `before` is known, and the causes where they were asked for. At other samples only `after` is.
 inline bool knows_before(const Waypoint& w) {
   return w.place || !w.between;
 }

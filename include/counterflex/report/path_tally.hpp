@@ -12,14 +12,6 @@
 
 namespace counterflex {
 
-/// The path under another force than the given one, known between the ends of pieces, too.
-struct OtherForceTally {
-  DeviationTally deviation;
-  std::size_t unsolved = 0;  ///< places where the machine has no stable equilibrium
-  int first_line = 0;        ///< of them
-  Status status = Status::converged;
-};
-
 /// What is known of the feed move of a waypoint besides its path.
 struct MoveFacts {
   Vector3 common_shift = Vector3::Zero();  ///< of its work offset where no datum is stated (m)
@@ -39,7 +31,6 @@ struct Measures {
   DeviationTally preloads;
   DeviationTally without_force;
   std::optional<SourcesAtWorst> at_worst;  ///< where `before` is largest
-  OtherForceTally higher, lower;
   Largest air, correction;
   double largest_N = 0, largest_Nm = 0;
   double path_mm = 0;
@@ -117,7 +108,7 @@ class PathTally {
   bool piece_missed_ = false;  ///< somewhere the piece under way misses the tolerance
   double piece_weight_ = 0;    ///< of the piece under way
   double place_weight_ = 0;  ///< of the way since the last place of the original path: all means but those of
-                             ///< `after`, `higher` and `lower` are over these places
+                             ///< `after` are over these places
   std::optional<End> end_;  ///< the last one
   std::vector<OperationTally> operations_;
 };

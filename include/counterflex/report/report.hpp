@@ -255,6 +255,11 @@ struct RunContext {
 /// Adds the loads along the run's path, and a warning for every limit of `machine` that they exceed.
 void add_loads(RunReport& report, LoadsAlong along, const Machine& machine);
 
+/// Fills what `places` become under the other forces of a sensitivity, and warns where the machine has no
+/// stable equilibrium. `higher`, `lower`: by place.
+void add_sensitivity(RunReport& report, const std::vector<LoadPlace>& places,
+                     const std::vector<OtherForce>& higher, const std::vector<OtherForce>& lower);
+
 /// Why a run without a failure of its own ends with another status than `done`: the verdict, and what to do.
 std::optional<Failure> refusal_of(const RunReport& report);
 

@@ -291,7 +291,12 @@ RunTally tally_for(const Options& options, const Run& run) {
 RunEnd finish_run(const Options& options, Run& run, RunReport report, const RunTally& tally,
                   RunFiles& files) {
   const MachineInput& on = run.machine;
-  const LoadsAlong loads = solve_loads(on.model, run.load_places.places(), run.options.threads, &*run.starts);
+  const std::vector<LoadPlace> places = run.load_places.places();
+  const LoadsAlong loads = solve_loads(on.model, places, run.options.threads, &*run.starts);
+  const auto under = [&](double factor) {
+    return solve_other_force(places, factor, run.options.threads, &*run.starts);
+  };
+  if (report.sensitivity) add_sensitivity(report, places, under(1 + force_change), under(1 - force_change));
   run.starts.reset();  // nothing else is solved; the report takes their memory
   report.sanity = run_sanity(run, report, tally);
   add_loads(report, loads, on.machine);
