@@ -12,22 +12,6 @@ struct Solved {
   std::span<Waypoint> waypoints;
 };
 
-// One question to the waypoints that `wants`.
-template <typename Wants, typename Request, typename Take>
-void ask(const Solved& at, StopAt stop, const Wants& wants, const Request& request, const Take& take) {
-  std::vector<std::size_t> asked;
-  std::vector<ForwardRequest> requests;
-  for (std::size_t i = 0; i < at.waypoints.size(); ++i) {
-    if (!wants(at.waypoints[i])) continue;
-    asked.push_back(i);
-    requests.push_back(request(at.places[i]));
-  }
-  std::vector<ForwardAnswer> answers(requests.size());
-  at.solver.forwards(requests, answers, stop);
-  for (std::size_t k = 0; k < asked.size(); ++k)
-    take(at.waypoints[asked[k]], at.places[asked[k]], answers[k]);
-}
-
 // The perfect machine is compared with the command: the shift of a datum is a deviation of the real one.
 Pose reference(const ForwardPlace& place, const Stage& stage) {
   return stage.errors == 0 ? Pose{place.wanted.R, place.original} : place.wanted;
@@ -36,18 +20,23 @@ Pose reference(const ForwardPlace& place, const Stage& stage) {
 // The deviation under `stage` of a command, where `before` is known.
 template <typename Result>  // Vector6&(Waypoint&)
 void deviations(const Solved& at, Vector3 ForwardPlace::*command, const Stage& stage, const Result& result) {
-  ask(
-      at, StopAt::first_failure, knows_before,
-      [&](const ForwardPlace& place) {
-        return ForwardRequest{place.model, place.*command, place.F, stage};
-      },
-      [&](Waypoint& w, const ForwardPlace& place, const ForwardAnswer& answer) {
-        w.iterations += answer.iterations;
-        if (answer.status == Status::converged)
-          result(w) = deviation(answer.X_MT, reference(place, stage));
-        else if (w.status == Status::converged)
-          w.status = answer.status;
-      });
+  std::vector<std::size_t> asked;
+  std::vector<ForwardRequest> requests;
+  for (std::size_t i = 0; i < at.waypoints.size(); ++i) {
+    if (!knows_before(at.waypoints[i])) continue;
+    asked.push_back(i);
+    requests.push_back({at.places[i].model, at.places[i].*command, at.places[i].F, stage});
+  }
+  std::vector<ForwardAnswer> answers(requests.size());
+  at.solver.forwards(requests, answers);
+  for (std::size_t k = 0; k < asked.size(); ++k) {
+    Waypoint& w = at.waypoints[asked[k]];
+    w.iterations += answers[k].iterations;
+    if (answers[k].status == Status::converged)
+      result(w) = deviation(answers[k].X_MT, reference(at.places[asked[k]], stage));
+    else if (w.status == Status::converged)
+      w.status = answers[k].status;
+  }
 }
 
 void add_sources(const Solved& at) {
@@ -57,8 +46,8 @@ void add_sources(const Solved& at) {
   add(&ForwardPlace::original, {.load = 0, .gravity = 0}, &Causes::geometry);
   add(&ForwardPlace::original, {.errors = 0, .gravity = 0}, &Causes::load);
   add(&ForwardPlace::emitted, {.load = 0}, &Causes::air);
-  const auto preloads = [](const ForwardPlace& place) { return has_preload(place.model->mechanism); };
-  if (std::ranges::any_of(at.places, preloads))
+  const auto has_preloads = [](const ForwardPlace& place) { return has_preload(place.model->mechanism); };
+  if (std::ranges::any_of(at.places, has_preloads))
     add(&ForwardPlace::original, {.errors = 0, .load = 0, .gravity = 0}, &Causes::superposition);
   const auto weighs = [](const ForwardPlace& place) { return has_weight(place.model->mechanism); };
   const bool weight = std::ranges::any_of(at.places, weighs);

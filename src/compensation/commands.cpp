@@ -38,4 +38,44 @@ Vector3 bottom_of(const Move& move) {
   return {move.end_mm.x(), move.end_mm.y(), move.cycle->bottom_mm};
 }
 
+namespace {
+
+Piece piece_of_end(const Move& original, const Vector3& commanded, const Vector3& wanted) {
+  return {.segment = no_segment,
+          .line = original.line,
+          .frame = original.frame,
+          .commanded = {commanded, commanded, {}},
+          .wanted = wanted,
+          .end_only = true,
+          .tool = original.tool};
+}
+
+}  // namespace
+
+Piece piece_of_hole(const Job& job, const Move& original, const Move& found) {
+  const WorkFrame& frame = job.path.frames[original.frame];
+  return piece_of_end(original, frame.X_MW * (bottom_of(found) * mm),
+                      wanted_frame(frame) * (bottom_of(original) * mm));
+}
+
+Piece piece_of_position(const Job& job, const Move& original, const Move& found) {
+  return piece_of_end(original, target_of(job, found), wanted_of(job, original));
+}
+
+std::array<bool, 3> lost_axes(const Program& program, std::size_t m) {
+  std::array<bool, 3> lost{};
+  const Move &move = program.moves[m], *last = move_before(program, m);
+  if (last == nullptr || last->block_delete || last->frame != move.frame) return lost;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    lost[axis] = last->known_end[axis] && !move.known_start[axis] && !move.stands[axis];
+  return lost;
+}
+
+bool leaves_doubt(const Move& move, bool doubtful) {
+  if (move.block_delete || (doubtful && !all_known(move.known_end))) return true;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    if (move.fixed[axis] || (move.known_start[axis] && !move.known_end[axis])) return true;
+  return false;
+}
+
 }  // namespace counterflex

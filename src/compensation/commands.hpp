@@ -1,6 +1,6 @@
 #pragma once
-/// Positions in the words of a program, and what they command.
-#include "counterflex/compensation/options.hpp"
+/// Positions in the words of a program, what they command, and where they are lost.
+#include "counterflex/compensation/waypoint.hpp"
 
 namespace counterflex {
 
@@ -25,5 +25,21 @@ Vector3 wanted_of(const Job& job, const Move& move);
 
 /// The bottom of a cycle's hole in program coordinates (mm).
 Vector3 bottom_of(const Move& move);
+
+/// The piece of the hole of `original`, whose bottom is that of `found`: the same move, or the one that was
+/// written for it.
+Piece piece_of_hole(const Job& job, const Move& original, const Move& found);
+
+/// The piece of a position that is reached from one that is not known.
+Piece piece_of_position(const Job& job, const Move& original, const Move& found);
+
+/// By axis, whether the program has lost its position before move `m` (machine positions, tool changes): no
+/// correction holds there any more. Where only '/', another work offset or what is not followed makes a
+/// position unknown it does.
+std::array<bool, 3> lost_axes(const Program& program, std::size_t m);
+
+/// Whether the start of what follows may not be known: '/' may skip the block, or it is not followed.
+/// `doubtful`: whether that of the block was not.
+bool leaves_doubt(const Move& move, bool doubtful);
 
 }  // namespace counterflex

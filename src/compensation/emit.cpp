@@ -15,10 +15,11 @@ Emission Emitter::run() {
   for (std::size_t m = 0; m < job_.program.moves.size() && !out_.failure; ++m) {
     const bool has_segment =
         next_segment_ < job_.path.segments.size() && job_.path.segments[next_segment_].move == m;
-    forget_lost_axes(m);
+    const std::array<bool, 3> lost = lost_axes(job_.program, m);
+    for (std::size_t axis = 0; axis < 3; ++axis) state_.holds[axis] = state_.holds[axis] && !lost[axis];
     emit_move(m, has_segment ? Index(next_segment_) : std::nullopt);
     if (has_segment) ++next_segment_;
-    note_doubt(job_.program.moves[m]);
+    state_.doubtful = leaves_doubt(job_.program.moves[m], state_.doubtful);
   }
   leave_pending_alone();
   return std::move(out_);
@@ -82,7 +83,7 @@ bool Emitter::put_jump(const Segment& segment, const PlannedSegment& planned, Em
   else if (!segment.cutting && last != nullptr && stays_flat(*last))
     step = without_height(frame(move), last->arc->normal, step);
   jump = planned.starts_anywhere || !state_.correction_known ? 0 : step.norm();
-  const bool jumps = jump > emitted_jump_share * job_.options.tolerance;
+  const bool jumps = jump > jump_share * job_.options.tolerance;
   if (jumps || segment.wanted.arc) piece_held_ = before(move);
   if (!jumps) return false;
   if (!move.may_jump && !move.may_split) return true;

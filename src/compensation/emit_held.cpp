@@ -38,23 +38,6 @@ bool Emitter::rounds_to_nothing(const Move& move, std::size_t axis, double shift
   return std::abs(shift_mm) <= 0.5 * std::pow(10.0, -decimals) * unit * (1 + 1e-9);
 }
 
-// An axis that the program has lost (machine positions, tool changes) carries nothing any more; where only
-// '/', another work offset or what is not followed makes it unknown it does.
-void Emitter::forget_lost_axes(std::size_t m) {
-  const Move& move = job_.program.moves[m];
-  const Move* last = move_before(job_.program, m);
-  if (last == nullptr || last->block_delete || last->frame != move.frame) return;
-  for (std::size_t axis = 0; axis < 3; ++axis)
-    if (last->known_end[axis] && !move.known_start[axis] && !move.stands[axis]) state_.holds[axis] = false;
-}
-
-void Emitter::note_doubt(const Move& move) {
-  bool lost = move.block_delete;
-  for (std::size_t axis = 0; axis < 3; ++axis)
-    lost = lost || move.fixed[axis] || (move.known_start[axis] && !move.known_end[axis]);
-  state_.doubtful = lost || (state_.doubtful && !all_known(move.known_end));
-}
-
 // Why the block is not followed, as the reader notes it at the first of a run of such blocks.
 std::string Emitter::why_fixed(const Move& move) const {
   std::string why = "the block is not followed";

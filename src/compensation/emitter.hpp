@@ -8,8 +8,6 @@
 
 namespace counterflex {
 
-inline constexpr double emitted_jump_share = 0.1;  // of the tolerance
-
 /// The motion that a contour group makes in the plane: a turn about Z, and a shift (program coordinates, mm).
 struct GroupMotion {
   Vector3 about = Vector3::Zero(), shift = Vector3::Zero();
@@ -62,8 +60,6 @@ class Emitter {
   void keep_standing_axes(const Move& move, MoveEdit& edit);
   void emit_doubtful(std::size_t m);
   void leave_pending_alone();
-  void forget_lost_axes(std::size_t m);
-  void note_doubt(const Move& move);
 
   // emit_group.cpp
   void emit_group(std::size_t m, Index s);

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
@@ -14,15 +13,11 @@
 namespace counterflex {
 namespace {
 
-// The last digit of so many behind the point. It is needed for every move.
+// The last digit of so many behind the point. It is needed for every move, and much faster than std::pow.
 double last_digit(int decimals) {
-  static const auto common = [] {
-    std::array<double, 10> digits{};
-    for (std::size_t i = 0; i < digits.size(); ++i) digits[i] = std::pow(10.0, -static_cast<int>(i));
-    return digits;
-  }();
-  const auto i = static_cast<std::size_t>(decimals);  // beyond all where it is negative
-  return i < common.size() ? common[i] : std::pow(10.0, -decimals);
+  double power = 1;
+  for (int i = 0; i < std::abs(decimals); ++i) power *= 10;
+  return decimals < 0 ? power : 1 / power;
 }
 
 double rounding_of(LengthUnit unit, int decimals) {

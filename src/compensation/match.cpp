@@ -9,18 +9,10 @@
 #include "commands.hpp"
 #include "counterflex/compensation/compensate.hpp"
 #include "counterflex/geometry/units.hpp"
-#include "match_kind.hpp"
 #include "match_pieces.hpp"
 
 namespace counterflex {
 namespace {
-
-bool makes_doubtful(const Move& move) {
-  bool lost = move.block_delete;
-  for (std::size_t axis = 0; axis < 3; ++axis)
-    lost = lost || move.fixed[axis] || (move.known_start[axis] && !move.known_end[axis]);
-  return lost;
-}
 
 // Whether the move's height is a word of a block before it: Q203 of a cycle's definition, MCALL.
 bool takes_surface(const Move& move) {
@@ -43,7 +35,7 @@ std::string without_heights(const CalledCycle& cycle) {
 class WindowMatcher {
  public:
   WindowMatcher(const Job& job, const PlannedWays& ways, CorrectedMoves& found)
-      : job_(job), found_(found), finder_(job, ways, found), maker_(job, ways) {}
+      : job_(job), ways_(ways), found_(found), finder_(job, ways, found) {}
 
   // The drafts of the window's pieces, up to a failure.
   std::optional<Failure> run(const std::vector<std::size_t>& others) {
@@ -72,12 +64,12 @@ class WindowMatcher {
     if (auto failure = contour_failure(matched, m)) return failure;
     if (auto failure = corner_failure(matched)) return failure;
     if (auto failure = words_failure(job_, matched)) return failure;
-    if (segment && !original.cycle) maker_.add(matched, drafts);
+    if (segment && !original.cycle) add_pieces(job_, ways_, matched, drafts);
     add_hole(matched);
     add_position(matched);
     last_line_ = matched.found.back().move->line;
     found_.drop(matched.found.size());
-    skipped_ = makes_doubtful(original) || (skipped_ && !all_known(original.known_end));
+    skipped_ = leaves_doubt(original, skipped_);
     return std::nullopt;
   }
 
@@ -194,14 +186,11 @@ class WindowMatcher {
   }
 
   void forget_lost_axes(std::size_t m) {
-    const Move& move = job_.program.moves[m];
-    const Move* last = move_before(job_.program, m);
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const bool lost = last != nullptr && !last->block_delete && last->known_end[axis] &&
-                        !move.known_start[axis] && !move.stands[axis];
-      if (lost || (last != nullptr && last->frame != move.frame) || move.fixed[axis])
-        shifts_mm_[axis].reset();
-    }
+    const Move &move = job_.program.moves[m], *last = move_before(job_.program, m);
+    const bool moved_frame = last != nullptr && last->frame != move.frame;
+    const std::array<bool, 3> lost = lost_axes(job_.program, m);
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      if (lost[axis] || moved_frame || move.fixed[axis]) shifts_mm_[axis].reset();
   }
 
   // Both programs must set the coordinates of their moves alike.
@@ -238,18 +227,11 @@ class WindowMatcher {
   void add_hole(const MatchedMoves& matched) {
     const Move &original = matched.original, &found = *matched.found.back().move;
     if (!original.cycle || !original.known_end[0] || !original.known_end[1]) return;
-    const WorkFrame& frame = job_.path.frames[original.frame];
-    const Vector3 bottom = frame.X_MW * (bottom_of(found) * mm);
+    Piece piece = piece_of_hole(job_, original, found);
+    piece.corrected_line = found.line;
     const bool takes_z = original.cycle->bottom_word || original.cycle->may_insert_bottom;
-    drafts.push_back({{.segment = no_segment,
-                       .line = original.line,
-                       .corrected_line = found.line,
-                       .frame = original.frame,
-                       .commanded = {bottom, bottom, {}},
-                       .wanted = wanted_frame(frame) * (bottom_of(original) * mm),
-                       .end_only = true,
-                       .exempt_end = original.handling != Handling::own || !takes_z,
-                       .tool = original.tool}});
+    piece.exempt_end = original.handling != Handling::own || !takes_z;
+    drafts.push_back({std::move(piece)});
   }
 
   // The end of a move from a position that is not known.
@@ -257,23 +239,18 @@ class WindowMatcher {
     const Move& original = matched.original;
     const bool known = all_known(original.known_end) && !all_known(original.known_start);
     if (!known || matched.segment || original.cycle) return;
-    const Vector3 end = target_of(job_, *matched.found.back().move);
-    drafts.push_back({{.segment = no_segment,
-                       .line = original.line,
-                       .corrected_line = matched.found.back().move->line,
-                       .frame = original.frame,
-                       .commanded = {end, end, {}},
-                       .wanted = wanted_of(job_, original),
-                       .end_only = true,
-                       .exempt_end = original.handling != Handling::own || !takes_all_words(original) ||
-                                     (skipped_ && original.motion == Motion::feed),
-                       .tool = original.tool}});
+    const Move& found = *matched.found.back().move;
+    Piece piece = piece_of_position(job_, original, found);
+    piece.corrected_line = found.line;
+    piece.exempt_end = original.handling != Handling::own || !takes_all_words(original) ||
+                       (skipped_ && original.motion == Motion::feed);
+    drafts.push_back({std::move(piece)});
   }
 
   const Job& job_;
+  const PlannedWays& ways_;
   CorrectedMoves& found_;
   MoveFinder finder_;
-  PieceMaker maker_;
   std::size_t next_segment_ = 0;
   int last_line_ = 1;                                 // of the corrected program
   std::array<std::optional<double>, 3> shifts_mm_{};  // by axis, of the last word in these coordinates

@@ -1,5 +1,4 @@
-#include "match_kind.hpp"
-
+// Whether matched moves go as the original: rapid, line or arc, in its plane, sense and number of turns.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -8,6 +7,7 @@
 #include "arc_angles.hpp"
 #include "counterflex/compensation/compensate.hpp"
 #include "counterflex/geometry/units.hpp"
+#include "match_moves.hpp"
 
 namespace counterflex {
 namespace {

@@ -28,73 +28,77 @@ double fraction_on_arc(const Curve& arc, const Vector3& p, double expected) {
   return (angle + turn * std::round((expected - angle) / turn)) / arc.arc->sweep;
 }
 
-double length_of(const Job& job, const Piece& piece) {
-  return (piece.u1 - piece.u0) * length(job.path.segments[piece.segment].wanted);
-}
+// A move of the corrected program, and the fraction at which it ends.
+struct Step {
+  Curve way;
+  int line = 0;
+  double u = -1;  // not yet known
+  bool settled = false;
+  bool jump = false;
+};
 
-}  // namespace
-
-void PieceMaker::read_ways(const MatchedMoves& matched) {
-  steps_.clear();
-  Vector3 from = job_.path.segments[*matched.segment].wanted.start;
+std::vector<Step> steps_of(const Job& job, const MatchedMoves& matched) {
+  std::vector<Step> steps;
+  Vector3 from = job.path.segments[*matched.segment].wanted.start;
   for (const CorrectedMove& found : matched.found) {
     const Move& move = *found.move;
-    Step& step = steps_.emplace_back();
-    step.way = all_known(move.known_start) ? command_of(job_, move) : Curve{from, target_of(job_, move), {}};
+    Step& step = steps.emplace_back();
+    step.way = all_known(move.known_start) ? command_of(job, move) : Curve{from, target_of(job, move), {}};
     step.line = move.line;
     from = step.way.end;
   }
-  steps_.back().u = 1;
-  steps_.back().settled = true;
+  steps.back().u = 1;
+  steps.back().settled = true;
+  return steps;
 }
 
-// Points that were inserted where the plan has a knot belong to its fraction. Where the force steps, one move
-// ends on this side of the step and the next one on the other.
-void PieceMaker::find_knots(std::span<const Knot> knots) {
-  std::size_t next = 0;  // step
-  const Knot* last = nullptr;
-  for (const Knot& knot : knots) {
-    if (next + 1 >= steps_.size()) return;
-    const bool behind = last != nullptr && last->u == knot.u;
-    if (behind ? find_jump(knot, next) : find_knot(knot, next))
-      last = &knot;
-    else
-      last = nullptr;
-  }
-}
-
-bool PieceMaker::find_knot(const Knot& knot, std::size_t& next) {
-  std::size_t best = steps_.size();
-  double best_miss = job_.options.tolerance;
-  for (std::size_t j = next; j + 1 < steps_.size(); ++j) {
-    const double miss = (steps_[j].way.end - knot.target).norm();
+// Whether a step from `next` on ends at a knot; `next` goes behind it.
+bool find_knot(const Knot& knot, double tolerance, std::vector<Step>& steps, std::size_t& next) {
+  std::size_t best = steps.size();
+  double best_miss = tolerance;
+  for (std::size_t j = next; j + 1 < steps.size(); ++j) {
+    const double miss = (steps[j].way.end - knot.target).norm();
     if (miss >= best_miss) continue;
     best = j;
     best_miss = miss;
   }
-  if (best == steps_.size()) return false;
-  steps_[best].u = knot.u;
-  steps_[best].settled = true;
+  if (best == steps.size()) return false;
+  steps[best].u = knot.u;
+  steps[best].settled = true;
   next = best + 1;
   return true;
 }
 
-bool PieceMaker::find_jump(const Knot& knot, std::size_t& next) {
-  const Vector3 end = steps_[next].way.end;
-  if ((end - knot.target).norm() > job_.options.tolerance) return false;
+bool find_jump(const Knot& knot, double tolerance, std::vector<Step>& steps, std::size_t& next) {
+  const Vector3 end = steps[next].way.end;
+  if ((end - knot.target).norm() > tolerance) return false;
   // What is left of the way behind the jump may be less than a digit.
-  if (next + 1 == steps_.size()) steps_.push_back({{end, end, {}}, steps_.back().line, 1, true});
-  steps_[next].u = knot.u;
-  steps_[next].settled = steps_[next].jump = true;
+  if (next + 1 == steps.size()) steps.push_back({{end, end, {}}, steps.back().line, 1, true});
+  steps[next].u = knot.u;
+  steps[next].settled = steps[next].jump = true;
   ++next;
   return true;
 }
 
+// Points that were inserted where the plan has a knot belong to its fraction. Where the force steps, one move
+// ends on this side of the step and the next one on the other.
+void find_knots(std::span<const Knot> knots, double tolerance, std::vector<Step>& steps) {
+  std::size_t next = 0;  // step
+  const Knot* last = nullptr;
+  for (const Knot& knot : knots) {
+    if (next + 1 >= steps.size()) return;
+    const bool behind = last != nullptr && last->u == knot.u;
+    const bool found =
+        behind ? find_jump(knot, tolerance, steps, next) : find_knot(knot, tolerance, steps, next);
+    last = found ? &knot : nullptr;
+  }
+}
+
 // The correction changes evenly enough from one end of the segment to the other for a first guess.
-void PieceMaker::project(const Curve& wanted) {
-  const Vector3 c0 = steps_.front().way.start - wanted.start, c1 = steps_.back().way.end - wanted.end;
+void project(const Curve& wanted, std::vector<Step>& steps) {
+  const Vector3 c0 = steps.front().way.start - wanted.start, c1 = steps.back().way.end - wanted.end;
   double last = 0;  // fraction
-  for (Step& step : steps_) {
+  for (Step& step : steps) {
     if (step.u < 0) {
       double expected = 0;
       if (wanted.arc) {
@@ -113,29 +117,32 @@ void PieceMaker::project(const Curve& wanted) {
   }
 }
 
-void PieceMaker::add(const MatchedMoves& matched, std::vector<DraftPiece>& pieces) {
+}  // namespace
+
+void add_pieces(const Job& job, const PlannedWays& ways, const MatchedMoves& matched,
+                std::vector<DraftPiece>& pieces) {
   const std::size_t s = *matched.segment;
-  const Segment& segment = job_.path.segments[s];
+  const Segment& segment = job.path.segments[s];
   const Move& original = matched.original;
   const bool own = original.handling == Handling::own;
-  read_ways(matched);
-  if (s < ways_.size()) find_knots(ways_[s].inner);
-  if (steps_.size() > 1) project(segment.wanted);
+  std::vector<Step> steps = steps_of(job, matched);
+  if (s < ways.size()) find_knots(ways[s].inner, job.options.tolerance, steps);
+  if (steps.size() > 1) project(segment.wanted, steps);
   double u0 = 0;
-  for (const Step& step : steps_) {
+  for (const Step& step : steps) {
     if (!step.jump)
-      pieces.push_back({{.segment = s,
-                         .line = segment.line,
-                         .corrected_line = step.line,
-                         .u0 = u0,
-                         .u1 = step.u,
-                         .frame = segment.frame,
-                         .commanded = step.way,
-                         .end_only = !segment.cutting,
-                         .exempt = !own || !original.may_split,
-                         .exempt_end = !own || !takes_all_words(original) ||
-                                       (original.corners && &step != &steps_.back())},
-                        step.settled});
+      pieces.push_back(
+          {{.segment = s,
+            .line = segment.line,
+            .corrected_line = step.line,
+            .u0 = u0,
+            .u1 = step.u,
+            .frame = segment.frame,
+            .commanded = step.way,
+            .end_only = !segment.cutting,
+            .exempt = !own || !original.may_split,
+            .exempt_end = !own || !takes_all_words(original) || (original.corners && &step != &steps.back())},
+           step.settled});
     u0 = step.u;
   }
 }
@@ -172,7 +179,8 @@ bool is_jump(const Job& job, const Piece& piece) {
   if (piece.u1 <= piece.u0) return true;
   if (piece.u0 > 0 || piece.u1 == 1) return false;
   const Move& move = job.program.moves[job.path.segments[piece.segment].move];
-  return length_of(job, piece) < jump_length * rounding_allowance(move, job.options.write);
+  const double way = (piece.u1 - piece.u0) * length(job.path.segments[piece.segment].wanted);
+  return way < jump_length * rounding_allowance(move, job.options.write);
 }
 
 }  // namespace

@@ -1,7 +1,5 @@
 // The original program as pieces of its own path.
 #include "commands.hpp"
-#include "counterflex/compensation/waypoint.hpp"
-#include "counterflex/geometry/units.hpp"
 #include "places.hpp"
 
 namespace counterflex {
@@ -12,33 +10,8 @@ bool is_known_hole(const Move& move) {
   return move.cycle && move.handling == Handling::own && !fixed[0] && !fixed[1] && !fixed[2];
 }
 
-// The bottom of a hole of the original program.
-Piece piece_of_hole(const Job& job, const Move& move) {
-  const WorkFrame& frame = job.path.frames[move.frame];
-  const Vector3 commanded = frame.X_MW * (bottom_of(move) * mm);
-  return {.segment = no_segment,
-          .line = move.line,
-          .frame = move.frame,
-          .commanded = {commanded, commanded, {}},
-          .wanted = wanted_frame(frame) * (bottom_of(move) * mm),
-          .end_only = true,
-          .tool = move.tool};
-}
-
 bool is_first_known(const Move& move) {
   return all_known(move.known_end) && !all_known(move.known_start) && !move.cycle;
-}
-
-// The end of a move from a position that is not known, of the original program.
-Piece piece_of_position(const Job& job, const Move& move) {
-  const Vector3 commanded = target_of(job, move);
-  return {.segment = no_segment,
-          .line = move.line,
-          .frame = move.frame,
-          .commanded = {commanded, commanded, {}},
-          .wanted = wanted_of(job, move),
-          .end_only = true,
-          .tool = move.tool};
 }
 
 }  // namespace
@@ -51,8 +24,8 @@ std::vector<Piece> original_pieces(const Job& job) {
   const auto add_ends_before = [&](std::size_t end) {
     for (; next_move < end; ++next_move) {
       const Move& move = job.program.moves[next_move];
-      if (is_known_hole(move)) pieces.push_back(piece_of_hole(job, move));
-      if (is_first_known(move)) pieces.push_back(piece_of_position(job, move));
+      if (is_known_hole(move)) pieces.push_back(piece_of_hole(job, move, move));
+      if (is_first_known(move)) pieces.push_back(piece_of_position(job, move, move));
     }
   };
   for (std::size_t s = 0; s < job.path.segments.size(); ++s) {

@@ -13,7 +13,6 @@
 namespace counterflex {
 namespace {
 
-constexpr double jump_share = 0.1;    // of the tolerance: larger steps of the correction are jumped
 constexpr double curve_share = 0.01;  // of the tolerance: accuracy of the sampled curve
 constexpr double bend_share = 0.25;   // of the room for knots: a line that bends less is not sampled
 constexpr double sampled_angle = std::numbers::pi / 2;  // a wave of the correction around an arc is no line
