@@ -88,8 +88,8 @@ struct ForwardRun {
   std::optional<Failure> failure;   ///< the first waypoint that could not be solved
 };
 
-/// Solves the machine forward along `pieces` (guarantee 2 of DESIGN): every end, and samples inside feed
-/// pieces. `command`: where the piece before them ended (M, m).
+/// Solves the machine forward along `pieces` (programs/guide/safety.md, "What a run guarantees"): every
+/// end, and samples inside feed pieces. `command`: where the piece before them ended (M, m).
 ///
 /// The places of the original path are the ends of its segments, the starts of feed runs (see PathForces)
 /// and, along feed moves, the corners of the force and equal steps of at most 5 mm (a 64th of a longer move)

@@ -95,8 +95,8 @@ struct AnalysisReport {
 AnalysisReport analyze(const Model& model, const std::vector<Pose>& poses, const Load& load, Method method,
                        const std::string& version, const AnalysisExtras& extras = {});
 
-/// "counterflex-analysis 1" of DESIGN, indented by two spaces, one newline at the end. What was not computed
-/// is null.
+/// "counterflex-analysis 1" (programs/guide/report.md), indented by two spaces, one newline at the end.
+/// Values that were not computed are null.
 std::string to_json(const AnalysisReport& report);
 
 /// Tables for people: deviations of all poses, loads by chain, actuators, corrected targets, stiffness.

@@ -11,8 +11,9 @@
 
 namespace counterflex {
 
-/// "counterflex-report 1" of DESIGN, indented by two spaces, one newline at the end. Lengths are rounded to
-/// 1e-7 mm, angles to 1e-7 deg. What was not computed is null (`summary.after` of a prediction).
+/// "counterflex-report 1" (programs/guide/report.md), indented by two spaces, one newline at the end. Lengths
+/// are rounded to 1e-7 mm, angles to 1e-7 deg. Values that were not computed are null (`summary.after` of a
+/// prediction).
 std::string to_json(const RunReport& report);
 
 /// The document of a run that ended before it had a report: with the verdict FAILED, and `failure`.

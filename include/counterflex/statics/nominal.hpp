@@ -36,7 +36,7 @@ struct Model {
 /// springs that are relaxed at home, the machine's length l, and, where the controller's zero was set under
 /// the machine's own weight at home, the actuators' offsets: those with which the perfect, preloaded machine
 /// without a load has the controlled components of its tip at home's pose. They act where gravity does;
-/// configurations keep the commanded values. Source: MODEL section 2, "Nominal kinematics".
+/// configurations keep the commanded values. Source: src/statics/EQUATIONS.md, sections 1 and 10.
 Model prepare(const Machine& machine);
 
 struct NominalResult {

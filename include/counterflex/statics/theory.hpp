@@ -16,7 +16,7 @@ namespace counterflex {
 ///
 /// with `eps_i` the first-order displacement of a chain's unloaded end by its errors (groups condensed) and
 /// K_i its stiffness without Hessians, both at the nominal configuration. Source: Klimchik, Pashkevich,
-/// Chablat, eqs. (10)-(16); paper.md's traps 1 and 2 apply.
+/// Chablat, eqs. (10)-(16), with the corrections of src/statics/EQUATIONS.md, "Where the print misleads".
 struct LinearResult {
   Status status = Status::not_converged;  ///< converged or singular
   Vector6 dt_P = Vector6::Zero();         ///< at the reference point (m, rad; axes of M)
