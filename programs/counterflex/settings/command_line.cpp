@@ -20,9 +20,9 @@ namespace {
 
 void describe_program(CLI::App& app) {
   app.description(
-      "Bends a machining program against the errors and the deflection of its machine, and reports the "
-      "deviation\n"
-      "before and after. counterflex PROGRAM is counterflex compensate PROGRAM.");
+      "Corrects machining programs for the errors of assembly and the deflection of their machine, and "
+      "reports the\n"
+      "deviation before and after. counterflex PROGRAM is counterflex compensate PROGRAM.");
   app.footer(
       "Exit status: 0 done, 1 internal error, 2 usage, 3 program text, 4 machine, force, job or project "
       "file,\n"

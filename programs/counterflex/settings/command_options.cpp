@@ -51,17 +51,18 @@ void add_reading(CLI::App& app, Options& options) {
 }
 
 void add_config(CLI::App& app, Options& options) {
-  value_option(app, "--config", "FILE", "The project file; counterflex.toml beside the program or above",
+  value_option(app, "--config", "FILE",
+               "The project file (default: counterflex.toml beside the program or above)",
                [&](const std::string& file) { options.sources.config = file; });
-  app.add_flag("--no-config", options.sources.no_config, "Take nothing from a project file");
+  app.add_flag("--no-config", options.sources.no_config, "Ignore project files");
   app.add_flag("--print-config", options.print_config,
-               "Print what is in force, and where it is from, as a project file");
+               "Print the settings that apply and the origin of each, as a project file");
 }
 
 void add_output(CLI::App& app, Options& options) {
   app.add_flag("--json", options.json, "One JSON document on standard output and nothing else");
-  app.add_flag("-q,--quiet", options.quiet, "Errors only on standard error");
-  app.add_flag("-v,--verbose", options.verbose, "More about what is done");
+  app.add_flag("-q,--quiet", options.quiet, "Print only errors on standard error");
+  app.add_flag("-v,--verbose", options.verbose, "Print more details");
 }
 
 CLI::Option* add_file(CLI::App& app, const std::string& name, std::string& file, const std::string& help) {
@@ -88,8 +89,8 @@ CLI::App& add_command(CLI::App& app, Options& options, const std::string& name, 
 }
 
 void add_compensate(CLI::App& app, Options& options) {
-  CLI::App& command = add_command(app, options, "compensate", Command::compensate,
-                                  "Write the program whose execution follows the path of the original");
+  CLI::App& command =
+      add_command(app, options, "compensate", Command::compensate, "Write the corrected program, verified");
   add_file(command, "PROGRAM", options.program, "The machining program; - is standard input");
   add_settings(command, options, {"output", "number-pieces"});
   add_run(command, options);
@@ -97,16 +98,16 @@ void add_compensate(CLI::App& app, Options& options) {
 
 void add_predict(CLI::App& app, Options& options) {
   CLI::App& command = add_command(app, options, "predict", Command::predict,
-                                  "Show the deviation of a program and what causes it; write no program");
+                                  "Show the deviation of a program and its causes; write no program");
   add_file(command, "PROGRAM", options.program, "The machining program; - is standard input");
   add_run(command, options);
 }
 
 void add_verify(CLI::App& app, Options& options) {
-  CLI::App& command = add_command(app, options, "verify", Command::verify,
-                                  "Solve a corrected program forward against the path of the original");
-  add_file(command, "ORIGINAL", options.program, "The program that says what is wanted");
-  add_file(command, "CORRECTED", options.verify.corrected, "The program that is to be judged");
+  CLI::App& command =
+      add_command(app, options, "verify", Command::verify, "Check a corrected program against its original");
+  add_file(command, "ORIGINAL", options.program, "The original program");
+  add_file(command, "CORRECTED", options.verify.corrected, "The corrected program");
   add_run(command, options);
 }
 
@@ -121,7 +122,7 @@ void add_compare(CLI::App& app, Options& options) {
       ->type_name("");
   command
       .add_option("--name", options.compare.names,
-                  "What a run is called; given twice, in the order of the reports")
+                  "The name of a run; given twice, in the order of the reports")
       ->type_name("NAME")
       ->allow_extra_args(false);
   value_option(command, "--report", "STEM", "Write STEM.json and STEM.html, a page of both runs",
@@ -141,21 +142,22 @@ void add_analyze(CLI::App& app, Options& options) {
       ->type_name("X,Y,Z[,R,P,Y]")
       ->allow_extra_args(false)
       ->required();
-  value_option(command, "--tool", "T3", "The tool of the machine file in the spindle; [tool], rigid",
+  value_option(command, "--tool", "T3",
+               "The tool of the machine file in the spindle (default: [tool], rigid)",
                [&](const std::string& text) { options.analyze.tool = text; });
   value_option(command, "--force", "FX,FY,FZ[,MX,MY,MZ]",
-               "A constant wrench on the tool at its tip in feed moves: N and N m, machine frame",
+               "A wrench on the tool at its tip: N and N m, machine frame",
                [&](const std::string& text) { options.analyze.force = parse_force(text); });
   add_setting(command, options, "method");
   command.add_flag("--full", options.analyze.full,
-                   "Every chain in full: stiffness, energy, each joint and spring by name");
+                   "Every chain in detail: stiffness, energy, each joint and spring by name");
   value_option(command, "--hold", "X,Y,Z[,R,P,Y]",
-               "Hold the tip at this pose, the actuators commanded for --at: the wrenches of the chains",
+               "The wrenches that hold the tip at this pose while the actuators are commanded for --at",
                [&](const std::string& text) { options.analyze.hold = text; });
   value_option(command, "--curve", "DIRECTION=FROM:TO:STEPS",
                "Force over displacement of the tip, mm, along x, y, z or a vector 1,0,1; the critical load",
                [&](const std::string& text) { options.analyze.curve = text; });
-  value_option(command, "-o,--output", "OUTPUT", "A table (.csv) of the points of --curve to write",
+  value_option(command, "-o,--output", "OUTPUT", "Write the points of --curve as a table (.csv)",
                [&](const std::string& text) { options.output = text; });
   add_setting(command, options, "force-overwrite");
   add_config(command, options);
@@ -167,12 +169,13 @@ void add_show_forces(CLI::App& app, Options& options) {
                                   "Show the wrench of every feed move, or write it as a force profile");
   command.add_option("PROGRAM", options.program, "The machining program; - is standard input")->type_name("");
   add_setting(command, options, "machine",
-              "The machine on which the program runs; the tool stands along z of the program without one");
-  value_option(command, "-o,--output", "OUTPUT", "A force profile (.csv) to write; - takes the table's place",
+              "The machine on which the program runs (without it the tool is along z of the program)");
+  value_option(command, "-o,--output", "OUTPUT",
+               "Write a force profile (.csv); -: to standard output, instead of the table",
                [&](const std::string& text) { options.output = text; });
   add_setting(command, options, "force-overwrite");
   command.add_flag("--materials", options.forces_table.materials,
-                   "List the cutting coefficients that a cutting model can name, with their sources");
+                   "List the built-in cutting coefficients with their sources");
   add_forces(command, options);
   add_reading(command, options);
   add_config(command, options);
@@ -182,44 +185,45 @@ void add_show_forces(CLI::App& app, Options& options) {
 void add_check(CLI::App& app, Options& options) {
   CLI::App& command =
       add_command(app, options, "check", Command::check,
-                  "Read machine files (.toml) and programs, say what was understood, find mistakes");
+                  "Read machine files (.toml) and programs, show what was understood, find mistakes");
   command.add_option("FILE", options.check.files, "Machine files and programs")->required()->type_name("");
-  add_setting(command, options, "machine", "A machine that is to reach the programs' points");
+  add_setting(command, options, "machine",
+              "The machine on which the programs run: is every point in its travel?");
   add_reading(command, options);
   add_config(command, options);
   add_output(command, options);
 }
 
 void add_batch(CLI::App& app, Options& options) {
-  CLI::App& command =
-      add_command(app, options, "batch", Command::batch,
-                  "Compensate all programs of a list of jobs, and sum up what became of them");
+  CLI::App& command = add_command(app, options, "batch", Command::batch,
+                                  "Correct all programs of a list of jobs and write a summary");
   add_file(command, "JOBS", options.batch.jobs, "The jobs file (.toml)");
-  command.add_flag("--resume", options.batch.resume, "Do only what is not proven done by the last run");
+  command.add_flag("--resume", options.batch.resume,
+                   "Skip jobs whose options, inputs and outputs have not changed since the last run");
   value_option(command, "--shard", "I/N",
-               "Do the jobs of shard I of N; other processes or computers do the others",
+               "Run the jobs of shard I of N; other processes or computers run the others",
                [&](const std::string& text) { options.batch.shard = read_shard(text); });
-  command.add_flag("--merge", options.batch.merge, "Sum up the results of all shards");
+  command.add_flag("--merge", options.batch.merge, "Write the summary of all shards");
   command.add_flag("--estimate", options.batch.estimate,
-                   "Say how long the jobs would take on one processor, by trying some of them");
-  add_setting(command, options, "threads",
-              "Processors to use; the result does not depend on it; all of them");
+                   "Print how long the jobs would take on one processor, by trying some of them");
+  add_setting(command, options, "threads", "Processors; the output does not depend on it (default: all)");
   add_setting(command, options, "force-overwrite");
   add_output(command, options);
 }
 
 void add_watch(CLI::App& app, Options& options) {
   CLI::App& command = add_command(app, options, "watch", Command::watch,
-                                  "Compensate the programs that a post-processor drops into a folder");
+                                  "Correct the programs that a post-processor writes into a folder");
   add_file(command, "DIR", options.watch.folder, "The folder");
   command
       .add_option("--pattern", options.watch.patterns,
-                  "Only files whose names match, as in a shell; all programs; may be repeated")
+                  "Only files whose names match, as in a shell (default: all programs); may be repeated")
       ->type_name("'*.ngc'")
       ->allow_extra_args(false);
-  command.add_flag("--once", options.watch.once, "Do what is there and not yet done, and end");
-  add_setting(command, options, "output",
-              "The folder of the corrected programs, or a pattern; NAME.comp.EXT beside each program");
+  command.add_flag("--once", options.watch.once, "Process the programs that are not yet done, then end");
+  add_setting(
+      command, options, "output",
+      "The folder of the corrected programs, or a pattern (default: NAME.comp.EXT beside each program)");
   add_setting(command, options, "number-pieces");
   add_run(command, options);
 }

@@ -68,80 +68,83 @@ void take_report(const std::string& name, const std::string& text, Options& opti
 using Text = const std::string&;
 
 const std::array option_table{
-    SettingOption{"machine", "-m,--machine", "MACHINE", "The machine file; the project file's", "", false,
-                  [](Text, Text text, Options& options) { options.machine = text; }},
+    SettingOption{"machine", "-m,--machine", "MACHINE", "The machine file (default: from the project file)",
+                  "", false, [](Text, Text text, Options& options) { options.machine = text; }},
     SettingOption{"forces", "-f,--forces", "FORCES",
                   "Forces by place, tool or operation (.csv), cutting models (.toml); may be repeated", "",
                   true, [](Text, Text text, Options& options) { options.forces.push_back(text); }},
     SettingOption{
         "force", "--force", "[T3=]FX,FY,FZ[,MX,MY,MZ]",
-        "A constant wrench on the tool at its tip in feed moves, or in those of a tool: N and N m, machine "
+        "A constant wrench on the tool at its tip in all feed moves, or in those of a tool: N and N m, "
+        "machine "
         "frame; may be repeated",
         "", true,
         [](Text, Text text, Options& options) { options.force_rules.push_back(parse_force_rule(text)); }},
     SettingOption{
-        "load-scale", "--load-scale", "SCALE", "Multiplies all cutting forces [1]; 0 corrects geometry only",
-        "1", false,
+        "load-scale", "--load-scale", "SCALE",
+        "Multiplies all cutting forces (default 1); 0 corrects geometry and weight only", "1", false,
         [](Text name, Text text, Options& options) { options.load_scale = number_of(name, text, {0}); }},
     SettingOption{
-        "air-above", "--air-above", "Z", "Feed moves wholly above this Z of the program carry no force, mm",
+        "air-above", "--air-above", "Z", "Feed moves entirely above this Z of the program (mm) have no force",
         "", false,
         [](Text name, Text text, Options& options) { options.air_above_mm = number_of(name, text); }},
-    SettingOption{"blend-mm", "--blend-mm", "LENGTH",
-                  "A step of the force acts as a ramp over this length [2]; 0: as a jump", "2", false,
-                  [](Text name, Text text, Options& options) {
-                    constexpr double least_mm = 0.01;  // words have hardly finer digits
-                    const double blend_mm = number_of(name, text, {0});
-                    if (blend_mm > 0 && blend_mm < least_mm)
-                      throw InputError(Exit::usage, {},
-                                       fmt::format("{} is '{}', must be 0 for jumps, or at least {}", name,
-                                                   text, least_mm));
-                    options.blend = blend_mm * mm;
-                  }},
     SettingOption{
-        "dialect", "--dialect", "NAME",
-        "auto, linuxcnc, grbl, fanuc, haas, mach3, siemens or heidenhain; the machine file's, or auto", "",
-        false, take_dialect},
+        "blend-mm", "--blend-mm", "LENGTH",
+        "A step of the force acts as a ramp over this length in mm (default 2); 0: as a jump", "2", false,
+        [](Text name, Text text, Options& options) {
+          constexpr double least_mm = 0.01;  // words have hardly finer digits
+          const double blend_mm = number_of(name, text, {0});
+          if (blend_mm > 0 && blend_mm < least_mm)
+            throw InputError(
+                Exit::usage, {},
+                fmt::format("{} is '{}', must be 0 for jumps, or at least {}", name, text, least_mm));
+          options.blend = blend_mm * mm;
+        }},
+    SettingOption{"dialect", "--dialect", "NAME",
+                  "auto, linuxcnc, grbl, fanuc, haas, mach3, siemens or heidenhain (default: of the machine "
+                  "file, or auto)",
+                  "", false, take_dialect},
     SettingOption{"units", "--units", "mm|inch", "Units before the program states its own", "", false,
                   take_units},
     SettingOption{"integer-words", "--integer-words", "units|increments",
-                  "What length words without a point mean to a fanuc or haas control", "", false,
+                  "The meaning of length words without a point on fanuc and haas controls", "", false,
                   take_integer_words},
-    SettingOption{"arc-centres", "--arc-centres", "incremental|absolute",
-                  "What I, J and K of arcs are before the program says it: distances from the start, or "
-                  "coordinates; the "
-                  "machine file's, or incremental",
-                  "", false, take_arc_centres},
+    SettingOption{
+        "arc-centres", "--arc-centres", "incremental|absolute",
+        "I, J and K of arcs before G90.1 or G91.1: distances from the start, or coordinates (default: of the "
+        "machine file, or incremental)",
+        "", false, take_arc_centres},
     SettingOption{"evaluate", "--evaluate", "",
-                  "Work out variables that the program sets to constants, and expressions of them", "false",
+                  "Compute variables that the program sets to constants, and expressions of them", "false",
                   false,
                   [](Text name, Text text, Options& options) { options.evaluate = truth_of(name, text); }},
     SettingOption{
         "expand-subprograms", "--expand-subprograms", "",
-        "Put the bodies of subprograms in the place of calls with plain numbers, and execute loops, "
-        "conditions and jumps of "
-        "constants",
+        "Replace calls of subprograms by their bodies, and loops, conditions and jumps of constants by what "
+        "they execute",
         "false", false,
         [](Text name, Text text, Options& options) { options.expand_subprograms = truth_of(name, text); }},
     SettingOption{
         "work", "--work", "G54=X,Y,Z[,RX,RY,RZ][/DATUM]",
-        "A work offset in the machine frame, mm and degrees, and how it was found: DATUM is machine "
-        "or touched=X,Y,Z; may be repeated. Or machine: program coordinates are machine coordinates",
+        "A work offset in the machine frame, mm and degrees. DATUM is how it was found: machine or "
+        "touched=X,Y,Z. May be repeated. --work machine: program coordinates are machine coordinates",
         "", true, take_work},
-    SettingOption{"tool-table", "--tool-table", "FILE", "Tool lengths as LinuxCNC keeps them, mm", "", false,
+    SettingOption{"tool-table", "--tool-table", "FILE", "Tool lengths in mm, in LinuxCNC's format", "", false,
                   [](Text, Text text, Options& options) { options.tool_table = text; }},
     SettingOption{"tool-length", "--tool-length", "T1=LENGTH",
-                  "A tool's length in mm, before that of table and machine file; may be repeated", "", true,
-                  take_tool_length},
-    SettingOption{"method", "--method", "NAME", "How targets are solved: direct, nested or linear [direct]",
-                  "direct", false, take_method},
+                  "The length of a tool in mm; overrides tool table and machine file; may be repeated", "",
+                  true, take_tool_length},
+    SettingOption{"method", "--method", "NAME",
+                  "How targets are solved: direct, nested or linear (default direct)", "direct", false,
+                  take_method},
     SettingOption{"tolerance-mm", "--tolerance-mm", "LENGTH",
-                  "The largest deviation of the tip to leave [0.005]", "0.005", false,
+                  "The largest deviation of the tip that may remain, in mm (default 0.005)", "0.005", false,
                   [](Text name, Text text, Options& options) {
                     options.tolerance = number_of(name, text, {0, true}) * mm;
                   }},
     SettingOption{"max-correction-mm", "--max-correction-mm", "LENGTH",
-                  "The largest correction to accept; the machine file's limit, or 1", "", false,
+                  "The largest correction that is accepted, in mm (default: of the machine file, or 1)", "",
+                  false,
                   [](Text name, Text text, Options& options) {
                     options.max_correction = number_of(name, text, {0, true}) * mm;
                   }},
@@ -150,19 +153,19 @@ const std::array option_table{
         "Accept the verdict PARTLY: write the program though some feed moves miss the tolerance", "false",
         false, [](Text name, Text text, Options& options) { options.accept_partial = truth_of(name, text); }},
     SettingOption{
-        "decimals", "--decimals", "N", "Digits after the point in corrected words; each word's own", "",
-        false,
+        "decimals", "--decimals", "N", "Decimals in corrected words (default: as in the program)", "", false,
         [](Text name, Text text, Options& options) { options.decimals = integer_of(name, text, 0, 9); }},
     SettingOption{
         "number-pieces", "--number-pieces", "",
         "Give the pieces of a split block Nn the numbers Nn+1, Nn+2 ..., if they are free", "", false,
         [](Text name, Text text, Options& options) { options.number_pieces = truth_of(name, text); }},
     SettingOption{
-        "threads", "--threads", "N", "Threads to use; the result does not depend on it; one a processor", "",
-        false,
+        "threads", "--threads", "N", "Threads; the output does not depend on it (default: all processors)",
+        "", false,
         [](Text name, Text text, Options& options) { options.threads = integer_of(name, text, 1, 1024); }},
     SettingOption{
-        "min-block-ms", "--min-block-ms", "TIME", "Feed moves that take less are warned of [2]", "2", false,
+        "min-block-ms", "--min-block-ms", "TIME", "Shorter feed moves produce a warning, in ms (default 2)",
+        "2", false,
         [](Text name, Text text, Options& options) { options.min_block_ms = number_of(name, text, {0}); }},
     SettingOption{"report", "--report", "STEM", "Write STEM.html, STEM.json and STEM.csv", "", false,
                   take_report},
@@ -172,13 +175,14 @@ const std::array option_table{
         "force-overwrite", "--force-overwrite", "", "Replace existing files that counterflex did not write",
         "", false,
         [](Text name, Text text, Options& options) { options.force_overwrite = truth_of(name, text); }},
-    SettingOption{"output", "-o,--output", "OUTPUT",
-                  "The corrected program, a folder for it (DIR/) or a pattern ({name}_CF{ext}); "
-                  "NAME.comp.EXT beside the input; - is standard output",
-                  "", false, [](Text name, Text text, Options& options) {
-                    check_pattern(name, text);
-                    options.output = text;
-                  }}};
+    SettingOption{
+        "output", "-o,--output", "OUTPUT",
+        "The corrected program, a folder for it (DIR/) or a pattern ({name}_CF{ext}); - is standard output "
+        "(default: NAME.comp.EXT beside the input)",
+        "", false, [](Text name, Text text, Options& options) {
+          check_pattern(name, text);
+          options.output = text;
+        }}};
 
 bool is_among(std::string_view option, std::initializer_list<std::string_view> list) {
   return std::find(list.begin(), list.end(), option) != list.end();
