@@ -3,7 +3,8 @@
 # In a page
 #   - a block ```console holds commands, lines that begin with "$ ", each followed by what it prints;
 #   - a block after the line <!-- file PATH --> holds that file, from the top folder.
-# Everything else is left as it is. Commands run one after another in a copy of the samples, in the page's own folder.
+# Everything else is left as it is. Commands run one after another in a copy of the samples: those of README.md in the top folder,
+# those of a sample in its own. A page of the guide has a copy of its own, so that it does not depend on another page.
 set -uo pipefail
 counterflex=$(realpath "$1")
 [ -x "$counterflex" ] || { echo "$1 is not there" >&2; exit 1; }
@@ -12,7 +13,7 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 cp -r "$top/samples" "$work/samples"
 mkdir "$work/.bin" && ln -s "$counterflex" "$work/.bin/counterflex"
-pages=(README.md samples/*/README.md)
+pages=(README.md programs/guide/*.md samples/*/README.md)
 picture=samples/orthoglide-groove/deviation.svg  # of the first page; a page of these draws it
 rm "$work/$picture"
 
@@ -25,6 +26,10 @@ run_command() (
 regenerated() {
   local page=$1 folder line inside='' file=''
   folder=$(dirname "$page")
+  if [ "$folder" = programs/guide ]; then
+    folder=.guide/$(basename "$page" .md)
+    mkdir -p "$work/$folder" && cp -r "$top/samples" "$work/$folder/samples"
+  fi
   while IFS= read -r line; do
     case "$inside:$line" in
       ':<!-- file '*' -->') file=${line#'<!-- file '} file=${file%' -->'} ;;
