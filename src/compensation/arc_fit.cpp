@@ -209,7 +209,7 @@ FittedArc fit_arc(const ArcTask& task, const ArcPiece& piece) {
   return PieceFit(task, piece).run();
 }
 
-FittedArc fit_polar_arc(const ArcTask& task, const HeldPosition& from) {
+FittedArc fit_polar_arc(const ArcTask& task, const TextPosition& from) {
   return PieceFit(task, {0, 1, true, from}).run_polar();
 }
 

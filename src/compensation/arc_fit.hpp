@@ -23,7 +23,7 @@ struct ArcTask {
 struct ArcPiece {
   double u0 = 0, u1 = 1;
   bool is_end = true;  ///< it ends with the move's own end
-  HeldPosition from;
+  TextPosition from;
 };
 
 /// An arc that could be written for a piece. Where the block takes no word along the normal of its plane the
@@ -43,7 +43,7 @@ struct FittedArc {
 FittedArc fit_arc(const ArcTask& task, const ArcPiece& piece);
 
 /// The whole of an arc of polar coordinates, which keeps them: only its pole is shifted with its start.
-FittedArc fit_polar_arc(const ArcTask& task, const HeldPosition& from);
+FittedArc fit_polar_arc(const ArcTask& task, const TextPosition& from);
 
 /// Whether nothing in the block's words changes when it is written as `fit`.
 bool keeps_words(const ArcTask& task, const ArcPiece& piece, const FittedArc& fit);

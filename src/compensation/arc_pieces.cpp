@@ -18,7 +18,7 @@ constexpr double sliver_mm = 0.1;      // at most
 // Divides from the start on; what follows a piece begins where the text holds the tool behind it.
 class ArcDivider {
  public:
-  ArcDivider(const ArcTask& task, const HeldPosition& from)
+  ArcDivider(const ArcTask& task, const TextPosition& from)
       : task_(task), length_mm_(length(task.source)), held_(from) {}
 
   ArcPieces run(double u0, double u1) {
@@ -32,7 +32,7 @@ class ArcDivider {
   // Of a piece that no arc fits yet, from where it begins.
   struct Chords {
     double u0;
-    HeldPosition from;
+    TextPosition from;
   };
 
   struct Division {
@@ -58,7 +58,7 @@ class ArcDivider {
     if (auto fit = fitting_from(held_, u0, u1)) return fit;
     if (!task_.move.arc->flat) return std::nullopt;
     const Vector3 step_mm = middle_height(u0, u1);
-    HeldPosition raised = held_;
+    TextPosition raised = held_;
     const Curve step = as_written(task_.move, held_, {step_mm}, false, task_.options);
     const auto normal = task_.move.arc->normal;
     raised[static_cast<std::size_t>(normal)] = step.end[normal];
@@ -90,7 +90,7 @@ class ArcDivider {
     return p;
   }
 
-  std::optional<FittedArc> fitting_from(const HeldPosition& from, double u0, double u1) const {
+  std::optional<FittedArc> fitting_from(const TextPosition& from, double u0, double u1) const {
     const ArcPiece piece{u0, u1, u1 == 1, from};
     FittedArc fit = fit_arc(task_, piece);
     if (!fit.sound || fit.miss_mm > task_.tolerance_mm) return std::nullopt;
@@ -184,14 +184,14 @@ class ArcDivider {
 
   const ArcTask& task_;
   double length_mm_;
-  HeldPosition held_;
+  TextPosition held_;
   std::optional<Chords> chords_;  // not yet put: the piece behind them may be left to chords, too
   ArcPieces result_;
 };
 
 }  // namespace
 
-ArcPieces divide_arc(const ArcTask& task, double u0, double u1, const HeldPosition& from) {
+ArcPieces divide_arc(const ArcTask& task, double u0, double u1, const TextPosition& from) {
   return ArcDivider(task, from).run(u0, u1);
 }
 

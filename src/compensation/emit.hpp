@@ -33,7 +33,7 @@ struct EmitterState {
   std::array<bool, 3> holds{};  ///< program axes that carry it
   bool doubtful = false;  ///< a block made a position unknown that carries the correction, and it still is
   int group = 0;          ///< contour group that is being emitted
-  HeldPosition held{};    ///< of the emitted text
+  TextPosition held{};    ///< of the emitted text
 };
 
 /// Edits for all moves: segments as planned; moves that go nowhere keep the correction that holds there;

@@ -50,7 +50,7 @@ double Emitter::corner_height_mm(std::size_t s, const EndHeights& heights) const
 double Emitter::set_height_inside(std::size_t s, const Vector3& end_mm, MoveEdit& edit) {
   const Move& move = job_.program.moves[job_.path.segments[s].move];
   if (!changes_height_inside(move) || !edit.inserted.empty()) return 0;
-  const HeldPosition from = before(move);
+  const TextPosition from = before(move);
   const auto heights = end_heights(s);
   if (!from[0] || !from[1] || !from[2] || !heights) return 0;
   const Vector3 start_mm(*from[0], *from[1], *from[2]), way_mm = end_mm - start_mm;

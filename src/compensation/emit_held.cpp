@@ -162,20 +162,21 @@ void Emitter::refuse(const Move& move, std::string what) {
 void Emitter::come_to(const Move& move) {
   const auto m = static_cast<std::size_t>(&move - job_.program.moves.data());
   if (held_for_ && m <= *held_for_) return;
-  if (const Move* last = move_before(job_.program, m)) state_.held = held_between(*last, move, state_.held);
+  if (const Move* last = move_before(job_.program, m))
+    state_.held = text_position_between(*last, move, state_.held);
   held_for_ = m;
 }
 
 // Axes without a correction may have no position in the text: they take that of the original.
-HeldPosition Emitter::before(const Move& move) {
+TextPosition Emitter::before(const Move& move) {
   come_to(move);
-  HeldPosition held = state_.held;
+  TextPosition held = state_.held;
   for (std::size_t axis = 0; axis < 3; ++axis)
     if (!held[axis]) held[axis] = move.start_mm[static_cast<Eigen::Index>(axis)];
   return held;
 }
 
-void Emitter::go_through(const Move& move, const Via& via, HeldPosition& held) const {
+void Emitter::go_through(const Move& move, const Via& via, TextPosition& held) const {
   const Curve read = as_written(move, held, via, false, job_.options.write);
   for (Eigen::Index axis = 0; axis < 3; ++axis) held[static_cast<std::size_t>(axis)] = read.end[axis];
 }
@@ -191,7 +192,7 @@ void Emitter::take_in(const MoveEdit& edit) {
   if (edit.jump_mm || !edit.inserted.empty()) state_.held = before(move);
   if (edit.jump_mm) go_through(move, {*edit.jump_mm}, state_.held);
   for (const Via& via : edit.inserted) go_through(move, via, state_.held);
-  state_.held = held_after(move, state_.held, edit.end_mm, job_.options.write);
+  state_.held = text_position_after(move, state_.held, edit.end_mm, job_.options.write);
 }
 
 void Emitter::pass(const Move& move) {
@@ -203,7 +204,7 @@ void Emitter::pass(const Move& move) {
       end[k] = *state_.held[axis] + move.end_mm[k] - move.start_mm[k];
     if (state_.held[axis] && !move.words[axis] && !(move.cycle && axis == 2)) end[k] = *state_.held[axis];
   }
-  state_.held = held_after(move, state_.held, end, job_.options.write);
+  state_.held = text_position_after(move, state_.held, end, job_.options.write);
 }
 
 }  // namespace counterflex

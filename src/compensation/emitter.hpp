@@ -93,8 +93,8 @@ class Emitter {
 
   // The text's position, before and after a move.
   void come_to(const Move& move);
-  HeldPosition before(const Move& move);
-  void go_through(const Move& move, const Via& via, HeldPosition& held) const;
+  TextPosition before(const Move& move);
+  void go_through(const Move& move, const Via& via, TextPosition& held) const;
   void put(EmittedMove emitted);       ///< the next edit
   void take_in(const MoveEdit& edit);  ///< what the text holds behind it
   void pass(const Move& move);         ///< a move without an edit
@@ -114,7 +114,7 @@ class Emitter {
   std::optional<std::size_t> held_for_;      // the move in whose coordinates the held position is
   bool group_in_xy_ = false;                 // the contour group that is being emitted
   std::optional<GroupMotion> group_motion_;  // none: it holds the correction with which it was entered
-  HeldPosition piece_held_{};                // where the pieces of the move that is being fitted have come
+  TextPosition piece_held_{};                // where the pieces of the move that is being fitted have come
   PlaceSolver solver_;
 };
 

@@ -69,7 +69,7 @@ std::optional<Failure> decimals_failure(const Program& program, const Toolpath& 
 
 Failure status_failure(const Job& job, Status status, const CommandedPlace& at, int line) {
   if (status == Status::outside_travel) {
-    if (const auto word = integer_word_in_doubt(job.program, line))
+    if (const auto word = ambiguous_integer_word(job.program, line))
       return {Exit::program_text, word->line, word->what};
     return {Exit::limit, line, outside_travel_words(job.model.mechanism, at), 0, status};
   }
@@ -86,7 +86,7 @@ Failure status_failure(const Job& job, Status status, const Segment& segment, co
 std::optional<Failure> limit_failure(const Job& job, const Vector3& correction, int line) {
   const double size = correction.norm();
   if (size <= job.options.max_correction) return std::nullopt;
-  if (const auto word = integer_word_in_doubt(job.program, line)) return Failure{Exit::program_text, word->line, word->what};
+  if (const auto word = ambiguous_integer_word(job.program, line)) return Failure{Exit::program_text, word->line, word->what};
   return Failure{Exit::limit, line,
                  fmt::format("the correction would be {:.3f} mm, more than the limit of {:.3f} mm", size / mm,
                              job.options.max_correction / mm)};

@@ -4,9 +4,9 @@
 #include <utility>
 
 #include "counterflex/program/program_reader.hpp"
-#include "program/klartext/reader.hpp"
 #include "program/gcode/line_reader.hpp"
 #include "program/gcode/remarks.hpp"
+#include "program/klartext/reader.hpp"
 
 namespace counterflex {
 namespace {
@@ -21,13 +21,17 @@ Program begun(const std::string& file, const ReadOptions& options, const Dialect
 
 }  // namespace
 
-BlockReader::BlockReader(const std::string& file, const ReadOptions& options, const Dialect& dialect, Outline outline)
-    : options_(options), dialect_(dialect), outline_(std::move(outline)), program_(begun(file, options, dialect)) {}
+BlockReader::BlockReader(const std::string& file, const ReadOptions& options, const Dialect& dialect,
+                         Outline outline)
+    : options_(options),
+      dialect_(dialect),
+      outline_(std::move(outline)),
+      program_(begun(file, options, dialect)) {}
 
 void BlockReader::read_plain(std::size_t) {}
 
 void BlockReader::read_all() {
-  // Growing step by step would copy every move several times; room that is used again is large enough.
+  // Growing step by step would copy every move several times. Reused memory is large enough.
   if (program_.moves.capacity() == 0) {
     const auto newlines = std::count(program_.text.begin(), program_.text.end(), '\n');
     program_.moves.reserve(static_cast<std::size_t>(newlines) + 1);
@@ -40,19 +44,19 @@ void BlockReader::read_all() {
 // A second program behind the end of the first is not corrected.
 void BlockReader::remark_rest(std::string_view text) {
   if (end_line() > 0 && text.find_first_not_of("% \t\r\n") != std::string_view::npos)
-    add_remark(program_, end_line(), "what stands behind the end of the program stays as it is");
+    add_remark(program_, end_line(), "the text behind the end of the program is not changed");
 }
 
 void BlockReader::begin_window(std::size_t read, std::optional<Move> first) {
   if (!program_.moves.empty()) program_.before = std::move(program_.moves.back());
-  program_.moves.clear();  // the room is used again
+  program_.moves.clear();  // keeps the memory
   if (first) {
-    first->operation = 0;  // what stood last before the window
+    first->operation = 0;  // the operation before the window
     program_.moves.push_back(std::move(*first));
   }
   program_.left_alone.clear();
   program_.text.clear();
-  go_on_behind(read);
+  resume_behind(read);
 }
 
 void BlockReader::take_window(Program& to) {
@@ -75,8 +79,8 @@ void BlockReader::take_window(Program& to) {
   if (!to.moves.empty()) program_.before = to.moves.back();
 }
 
-std::unique_ptr<BlockReader> make_reader(const std::string& file, const ReadOptions& options, const Dialect& dialect,
-                                         Outline outline) {
+std::unique_ptr<BlockReader> make_reader(const std::string& file, const ReadOptions& options,
+                                         const Dialect& dialect, Outline outline) {
   if (dialect.name == klartext_name)
     return std::make_unique<KlartextReader>(file, options, dialect, std::move(outline));
   return std::make_unique<LineReader>(file, options, dialect, std::move(outline));

@@ -1,5 +1,5 @@
 #pragma once
-/// Reads the blocks of a text that grows, one after the other, into one program.
+/// Reads the blocks of a growing text, one after the other, into one program.
 #include <memory>
 #include <string>
 #include <string_view>
@@ -24,46 +24,47 @@ class BlockReader {
   const Dialect& dialect() const { return dialect_; }
   const Outline& outline() const { return outline_; }
 
-  /// Reads the next block of the program's text. False at the end of the text and behind the end of the program.
+  /// Reads the next block of the program's text. False at the end of the text and behind the end of the
+  /// program.
   virtual bool read_block() = 0;
 
-  /// Reads on while blocks are plain, until the program has `most_moves`: much faster than block by block. May do
-  /// nothing.
+  /// Reads plain blocks until the program has `most_moves` or a block is not plain. Much faster than block by
+  /// block. May read no block.
   virtual void read_plain(std::size_t most_moves);
 
   /// Reads all blocks of the program's text.
   void read_all();
 
-  /// Behind the last block that was read.
+  /// Position behind the last block that was read.
   virtual std::size_t position() const = 0;
 
   virtual bool has_ended() const = 0;
 
-  /// Whether a window may end before the block that was read last, which the one move `last` is of. `anywhere`: also
+  /// Whether a window may end before the last block that was read, whose move is `last`. `anywhere`: also
   /// before a line along Z.
   virtual bool may_end_before(const Move& last, bool anywhere) const = 0;
 
-  /// Whether the text can only be read as a whole.
+  /// Whether the text can only be read as one window.
   bool is_read_whole() const { return options_.expand_subprograms || !outline_.klartext.poles.empty(); }
 
-  /// Says, once, what `text` behind the program's end means.
+  /// Adds a remark, once, if `text` behind the program's end is not empty.
   void remark_rest(std::string_view text);
 
-  /// Begins the next window: clears text, moves and blocks left alone. The first `read` bytes of the next text have
-  /// been read already and gave the move `first`.
+  /// Begins the next window: clears text, moves and uncorrected blocks. The first `read` bytes of the next
+  /// text were read already; their move is `first`.
   void begin_window(std::size_t read, std::optional<Move> first);
 
-  /// Moves text, moves and blocks left alone of the window into `to`. Copies the rest except the remarks. The memory
-  /// of `to` is used for the next window.
+  /// Moves text, moves and uncorrected blocks of the window into `to`. Copies the rest except the remarks.
+  /// Reuses the memory of `to` for the next window.
   void take_window(Program& to);
 
  protected:
-  /// Line of the block that ends the program; 0 where none has been read.
+  /// Line of the block that ends the program; 0 if it was not read yet.
   virtual int end_line() const = 0;
 
  private:
   /// Continues behind the first `read` bytes of a new window.
-  virtual void go_on_behind(std::size_t read) = 0;
+  virtual void resume_behind(std::size_t read) = 0;
 
   const ReadOptions options_;
   const Dialect& dialect_;
@@ -71,8 +72,8 @@ class BlockReader {
   Program program_;
 };
 
-/// The reader of the dialect. `outline` is that of the text, or of the text of which it is a correction.
-std::unique_ptr<BlockReader> make_reader(const std::string& file, const ReadOptions& options, const Dialect& dialect,
-                                         Outline outline);
+/// The reader of the dialect. `outline` describes the text, or the text of which it is a correction.
+std::unique_ptr<BlockReader> make_reader(const std::string& file, const ReadOptions& options,
+                                         const Dialect& dialect, Outline outline);
 
 }  // namespace counterflex

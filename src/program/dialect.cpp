@@ -29,9 +29,9 @@ constexpr Dialect shop_control(std::string_view name, unsigned family) {
           .semicolon_comments = false,
           .motion_ends_with_g80 = false,
           .tool_change_moves_axes = true,
-          .integer_words_doubtful = true,
+          .integer_words_ambiguous = true,
           .g61_is_exact_stop = true,
-          .h_and_d_stand_alone = true,
+          .h_and_d_are_modal = true,
           .dwell_takes_axis_words = true,
           .block_delete_numbers = true,
           .reference_beside_motion = true,
@@ -49,7 +49,7 @@ constexpr Dialect mach3{.name = "mach3",
                         .motion_ends_with_g80 = false,
                         .tool_change_moves_axes = true,
                         .g61_is_exact_stop = true,
-                        .h_and_d_stand_alone = true,
+                        .h_and_d_are_modal = true,
                         .reference_beside_motion = true,
                         .parentheses_nest = true,
                         .comments_may_stay_open = true};
@@ -59,7 +59,7 @@ constexpr Dialect siemens{.name = "siemens",
                           .line_limit = 512,
                           .motion_ends_with_g80 = false,
                           .tool_change_moves_axes = true,
-                          .h_and_d_stand_alone = true,
+                          .h_and_d_are_modal = true,
                           .dwell_takes_axis_words = true,
                           .reference_beside_motion = true,
                           .sinumerik_words = true,
@@ -67,8 +67,8 @@ constexpr Dialect siemens{.name = "siemens",
                           .radius_room = {0.01},
                           .radius_room_inch = {0.01}};
 
-/// Spelt otherwise than G-code, and read on its own.
-// Of the iTNC 530: "input tolerance up to 0.016 mm" of the start and end of an arc.
+/// Klartext, which has its own reader.
+// iTNC 530: "input tolerance up to 0.016 mm" for the start and end of an arc.
 constexpr Dialect heidenhain{.name = klartext_name,
                              .tool_change_moves_axes = true,
                              .radius_room = {0.016},

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 
-#include "program/text/scanner.hpp"
 #include "program/siemens/signs.hpp"
+#include "program/text/scanner.hpp"
 
 namespace counterflex {
 namespace {
 
-/// Whether `at` stands in a comment of its line.
+/// Whether `at` is in a comment of its line.
 bool in_comment(std::string_view text, std::size_t at) {
   for (std::size_t i = at; i-- > 0 && text[i] != '\n';) {
     if (text[i] == comment_close) return false;
@@ -51,7 +51,7 @@ bool is_number_at(std::string_view text, std::size_t o) {
   return o + 1 < text.size() && is_digit(text[o + 1]) && begins_line(text, o);
 }
 
-/// Where lines begin with an O-number, in order.
+/// Lines that begin with an O-number, in order.
 std::vector<std::size_t> numbers_in(std::string_view lines) {
   std::vector<std::size_t> numbers;
   for (std::size_t at = 0; (at = find_either(lines, 'O', 'o', at)) != std::string_view::npos; ++at)
@@ -105,7 +105,7 @@ void OutlineScan::add_numbered(std::string_view lines) {
 }
 
 Outline OutlineScan::finish() {
-  // A single program that ends with M99 runs over and over: it is no subprogram.
+  // A single program that ends with M99 repeats itself. It is not a subprogram.
   if (outline_.subprograms.size() < 2) outline_.subprograms.assign(outline_.subprograms.size(), false);
   outline_.klartext = klartext_.finish();
   return std::move(outline_);

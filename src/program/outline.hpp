@@ -1,5 +1,5 @@
 #pragma once
-/// What a program shows only when looked at as a whole.
+/// Properties of a program that depend on its whole text.
 #include <cstddef>
 #include <string_view>
 #include <vector>
@@ -10,17 +10,18 @@
 namespace counterflex {
 
 struct Outline {
-  bool jumps = false;             ///< GOTO stands in it
-  std::vector<bool> subprograms;  ///< of each line that begins with an O-number: whether M99 ends it
+  bool jumps = false;  ///< it has GOTO
+  /// For each line that begins with an O-number: whether M99 ends its program.
+  std::vector<bool> subprograms;
   KlartextOutline klartext{};
 };
 
-/// Looks through a text once, in portions of whole blocks; finds nothing in dialects of G-code without numbered
+/// Scans a text once, in portions of whole blocks. Finds nothing in dialects of G-code without numbered
 /// programs.
 class OutlineScan {
  public:
   explicit OutlineScan(const Dialect& dialect) : dialect_(dialect) {}
-  /// Whether programs in the dialect can show anything.
+  /// Whether programs in the dialect can have such properties.
   bool may_find() const;
   void add(std::string_view blocks);
   Outline finish();
@@ -32,7 +33,7 @@ class OutlineScan {
   bool begun_ = false;
   Outline outline_;
   KlartextScan klartext_;
-  std::size_t open_ = 0;  ///< numbers at the end of the list whose program has not ended yet
+  std::size_t open_ = 0;  ///< number of programs at the end of the list that have not ended yet
 };
 
 Outline outline_of(std::string_view text, const Dialect& dialect);

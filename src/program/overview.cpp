@@ -16,7 +16,7 @@ void add_tool(std::vector<long>& tools, long tool) {
   if (at == tools.end() || *at != tool) tools.insert(at, tool);
 }
 
-/// Most moves share the tool and the offset of the one before.
+/// Fast path: most moves have the tool and the offset of the move before.
 void add_tools_and_offsets(Overview& overview, const std::vector<Move>& moves) {
   const Move* before = nullptr;
   for (const Move& move : moves) {

@@ -16,30 +16,31 @@ constexpr std::size_t bytes_at_once = 1 << 18;
 constexpr double way_of_a_place = 5;  // mm
 constexpr std::size_t places_of_a_line = 64, places_of_a_turn = 16;
 
-/// A window of long moves or of many turns is as large as one of many short moves.
+/// Long moves or many turns fill a window as many short moves do.
 std::size_t size_of(const Move& move) {
   if (move.arc) return places_of_a_turn * (static_cast<std::size_t>(move.arc->turns) + 1);
   if (move.motion == Motion::rapid || !all_known(move.known_start) || !all_known(move.known_end)) return 1;
   const double places = std::ceil((move.end_mm - move.start_mm).norm() / way_of_a_place);
-  return places < places_of_a_line ? std::max(static_cast<std::size_t>(places), std::size_t{1}) : places_of_a_line;
+  return places < places_of_a_line ? std::max(static_cast<std::size_t>(places), std::size_t{1})
+                                   : places_of_a_line;
 }
 
-/// A window so many times as large as it must be may end before a move along Z: the memory of a program that never
-/// moves across is limited, too.
+/// A window of this multiple of the required size may end before a move along Z. This limits the memory of a
+/// program without moves across.
 constexpr std::size_t largest_along_z = 2;
 
-/// Where the last whole block of `text` ends that ends behind byte `from`; 0 where none does.
+/// End of the last whole block of `text` that ends behind byte `from`; 0 if there is no such block.
 std::size_t end_of_blocks(std::string_view text, std::size_t from, const Dialect& dialect) {
   for (std::size_t end = text.size(); end > from;) {
     const std::size_t newline = text.rfind('\n', end - 1);
     if (newline == std::string_view::npos || newline < from) return 0;
-    if (dialect.name != klartext_name || !goes_on_behind(text, newline)) return newline + 1;
+    if (dialect.name != klartext_name || !continues_behind(text, newline)) return newline + 1;
     end = newline;
   }
   return 0;
 }
 
-/// Moves the spans of `move` by so many bytes.
+/// Shifts the spans of `move`.
 void shift_spans(Move& move, std::ptrdiff_t bytes) {
   const auto shift = [bytes](Span& span) {
     span.begin += static_cast<std::size_t>(bytes);
@@ -70,16 +71,17 @@ struct Overall {
   Outline outline{};
 };
 
-/// What `auto` looks at.
+/// Number of bytes that are needed to detect the dialect and other languages.
 const Dialect& dialect_of(FileReader& bytes, const std::string& file, const ReadOptions& options) {
   std::string text;
-  const std::size_t needed = options.dialect == "auto" ? bytes_of_dialect : 1;  // a robot's language is seen at once
+  const std::size_t needed =
+      options.dialect == "auto" ? bytes_of_dialect : 1;  // a robot language is detected in the first bytes
   while (text.size() < needed && bytes.append(text, bytes_at_once) > 0) {
   }
   return choose_dialect(text, file, options);
 }
 
-/// Looks through as much of the file as is needed, which is at its beginning afterwards.
+/// Scans as much of the file as is needed, then rewinds it.
 Overall look_through(FileReader& bytes, const std::string& file, const ReadOptions& options) {
   bytes.rewind();
   const Dialect& dialect = dialect_of(bytes, file, options);
@@ -115,14 +117,14 @@ struct ProgramReader::State {
   FileReader& bytes;
   std::size_t least_moves;
   std::unique_ptr<BlockReader> blocks;
-  bool begun = false;           ///< an empty program is one window, too
-  bool all_read = false;        ///< the bytes have come to their end
-  std::size_t whole = 0;        ///< bytes of the text that are whole lines
+  bool begun = false;           ///< a window was read; an empty program is one window, too
+  bool all_read = false;        ///< the end of the file was reached
+  std::size_t whole = 0;        ///< number of bytes of the text in whole lines
   std::string behind;           ///< text behind the window
-  std::size_t behind_read = 0;  ///< bytes of it that have been read: the line of `Program::after`
+  std::size_t behind_read = 0;  ///< number of bytes of it that were read: the line of `Program::after`
 
-  std::size_t counted = 0;  ///< moves of the window that are in `size`
-  std::size_t size = 0;     ///< of these moves
+  std::size_t counted = 0;  ///< number of moves of the window that are counted in `size`
+  std::size_t size = 0;     ///< size of these moves
 
   Program& program() { return blocks->program(); }
 
@@ -155,7 +157,7 @@ struct ProgramReader::State {
     return blocks->read_block();
   }
 
-  /// Reads plain lines until the window has `least` or the next line is not plain.
+  /// Reads plain lines until the window has the size `least` or the next line is not plain.
   void read_plain(std::size_t least) {
     for (std::size_t now = size_so_far(), before = 0; now < least; now = size_so_far()) {
       before = program().moves.size();
@@ -164,7 +166,7 @@ struct ProgramReader::State {
     }
   }
 
-  /// Reads on until the window is larger than `least` and may end.
+  /// Reads blocks until the window is larger than `least` and may end.
   void read_until_end(std::size_t least) {
     for (;;) {
       read_plain(least);
@@ -173,7 +175,8 @@ struct ProgramReader::State {
       const std::size_t now = program().moves.size();
       const bool one = now == before + 1 && size_so_far() > least;
       const bool is_large = size_so_far() / largest_along_z > least;
-      if (one && !blocks->has_ended() && blocks->may_end_before(program().moves.back(), is_large)) return end_before_last();
+      if (one && !blocks->has_ended() && blocks->may_end_before(program().moves.back(), is_large))
+        return end_before_last();
     }
     while (least_moves == whole_program && append()) {
     }
@@ -181,7 +184,7 @@ struct ProgramReader::State {
     end_here(whole);
   }
 
-  /// The last move and all text from its line on belong to the next window.
+  /// Moves the last move and all text from its line on to the next window.
   void end_before_last() {
     Program& p = program();
     const std::size_t end = p.moves.back().block.begin;
@@ -197,7 +200,7 @@ struct ProgramReader::State {
     program().text.resize(end);
   }
 
-  /// What is behind the end of the program, a portion at a time.
+  /// Reads the text behind the end of the program, in portions.
   bool read_rest() {
     append();
     whole = program().text.size();

@@ -11,7 +11,7 @@ class ProgramWriter {
  public:
   virtual ~ProgramWriter() = default;
 
-  /// As `Rewriter::write`. The text of the first window has the header.
+  /// As `Rewriter::write`. The text of the first window includes the header.
   virtual Rewritten write(const Program& window, const std::vector<MoveEdit>& edits) = 0;
 };
 

@@ -13,9 +13,10 @@ Program read_program(std::string text, const std::string& file, const ReadOption
   const Dialect& dialect = choose_dialect(text, file, options);
   Expansion expansion;
   if (options.expand_subprograms)
-    expansion = dialect.name == klartext_name ? expand_klartext(text, file) : expand_subprograms(text, file, dialect);
+    expansion =
+        dialect.name == klartext_name ? expand_klartext(text, file) : expand_subprograms(text, file, dialect);
   Outline outline = outline_of(text, dialect);
-  // What is left of jumps stands where no block of the program itself runs.
+  // Blocks behind jumps that were executed never run as part of the program.
   if (expansion.in_order) outline.jumps = false;
   const auto reader = make_reader(file, options, dialect, std::move(outline));
   Program& program = reader->program();

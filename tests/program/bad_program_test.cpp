@@ -21,7 +21,7 @@ std::vector<std::filesystem::path> bad_programs() {
   return paths;
 }
 
-/// What stands in the comment "(expect: ...)" of the first line.
+/// Text of the comment "(expect: ...)" in the first line.
 std::string expectation(const std::string& text) {
   const std::string mark = "(expect: ";
   const std::size_t begin = text.find(mark);
@@ -31,7 +31,7 @@ std::string expectation(const std::string& text) {
   return text.substr(begin + mark.size(), end - begin - mark.size());
 }
 
-/// As controls read it whose dialect "(dialect: ...)" names on the first line; else whose it looks like.
+/// The dialect of the comment "(dialect: ...)" in the first line; else auto.
 ReadOptions options_of(const std::string& text) {
   ReadOptions options;
   const std::string line = text.substr(0, text.find('\n')), mark = "(dialect: ";

@@ -10,10 +10,13 @@
 using namespace counterflex;
 using namespace counterflex::test;
 
-TEST_CASE("every program of a folder of real ones is refused at a place or comes back byte for byte") {
+TEST_CASE(
+    "every program of a folder of real programs is refused with a position or is reproduced byte for byte") {
   const char* folder = std::getenv("COUNTERFLEX_PROGRAMS");
   if (folder == nullptr) {
-    std::puts("skipped: the environment variable COUNTERFLEX_PROGRAMS names no folder of programs");  // for ctest
+    std::puts(
+        "skipped: the environment variable COUNTERFLEX_PROGRAMS does not name a folder of programs");  // for
+                                                                                                       // ctest
     return;
   }
   int read_back = 0;

@@ -3,8 +3,8 @@
 #include <doctest/doctest.h>
 
 #include "program/reading.hpp"
-#include "support/windows.hpp"
 #include "program/synthetic_program.hpp"
+#include "support/windows.hpp"
 
 using namespace counterflex;
 using namespace counterflex::test;
@@ -64,7 +64,7 @@ Overview in_windows(const Program& program, int lines_each) {
 
 }  // namespace
 
-TEST_CASE("an overview says what the whole program holds") {
+TEST_CASE("an overview summarises the whole program") {
   const Program program = read(varied_program);
   const Overview overview = overview_of(program);
   CHECK(overview.file == "p.ngc");
@@ -74,7 +74,7 @@ TEST_CASE("an overview says what the whole program holds") {
   CHECK(overview.bytes == program.text.size());
   CHECK(overview.lines == 15);
   CHECK(overview.plunges == 2);
-  CHECK(overview.rapids == 4);  // holes are come to by rapids
+  CHECK(overview.rapids == 4);  // the path to a hole is a rapid
   CHECK(overview.last_block_number == 50);
   CHECK(overview.frames == std::vector<ProgramFrame>{{}, {.work_offset = "G54"}, {.work_offset = "G56"}});
   CHECK(overview.frames_used == std::vector<bool>{false, true, true});
@@ -88,12 +88,12 @@ TEST_CASE("an overview says what the whole program holds") {
   CHECK(overview.first_cycle_line == 11);
 }
 
-TEST_CASE("an overview says where a feed move has no tool with a number; rapids need none") {
+TEST_CASE("an overview has the first feed move without a tool number; rapids need no tool") {
   CHECK(overview_of(read("G21 G90 G0 X0 Y0 Z0\nG1 X1 F100\nT1 M6\nG1 X2\n")).first_feed_without_tool == 2);
   CHECK_FALSE(overview_of(read("G21 G90 G0 X0 Y0 Z0\nT1 M6\nG1 X2 F100\n")).first_feed_without_tool);
 }
 
-TEST_CASE("a program without forces, cycles or text has an overview that says so") {
+TEST_CASE("the overview of a program without forces, cycles or text has none of them") {
   const Overview overview = overview_of(read("G21 G90 (FORCE OFF)\nG0 X0\n"));
   CHECK_FALSE(overview.first_force_line);
   CHECK_FALSE(overview.commented_force);
@@ -102,7 +102,7 @@ TEST_CASE("a program without forces, cycles or text has an overview that says so
   CHECK(overview_of(read("")).lines == 0);
 }
 
-TEST_CASE("an overview gathered in windows is that of the whole program") {
+TEST_CASE("an overview gathered in windows equals that of the whole program") {
   for (const char* const text : {varied_program, "\n\nG21\n", "G21 G90\r\nG0 X1\r\n"})
     for (int lines_each = 1; lines_each <= 5; ++lines_each) {
       CAPTURE(text);
@@ -112,7 +112,7 @@ TEST_CASE("an overview gathered in windows is that of the whole program") {
     }
 }
 
-TEST_CASE("overviews of made-up programs do not depend on the windows") {
+TEST_CASE("overviews of synthetic programs do not depend on the windows") {
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {
     CAPTURE(seed);
     const Program program = read(SyntheticProgram(seed).text(60));
@@ -121,7 +121,7 @@ TEST_CASE("overviews of made-up programs do not depend on the windows") {
   }
 }
 
-TEST_CASE("of more rows than a capped list shows the first by line stay, those of one line as they came") {
+TEST_CASE("a capped list keeps its first rows by line, and rows of one line in their order") {
   std::vector<Remark> all;
   for (int i = 0; i < 350; ++i) all.push_back({i * 37 % 90, std::to_string(i)});
   Capped<Remark> capped, first, second;
@@ -139,7 +139,7 @@ TEST_CASE("of more rows than a capped list shows the first by line stay, those o
   }
 }
 
-TEST_CASE("an overview lists the tools in the spindle for a move, each once and in order") {
+TEST_CASE("an overview lists the tools in the spindle during moves, each once and in order") {
   const Program program =
       read_program("G21 G90\nG0 X1 Y1 Z1\nT7 M6\nX2\nT3 M6\nX3\nT7 M6\nX4\nT9\nX5\nM30\n", "t.ngc", {});
   const std::vector<long> expected{0, 3, 7};

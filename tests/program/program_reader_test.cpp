@@ -14,7 +14,7 @@ namespace {
 
 const Vector3 window_shift{0.125, -0.0625, 0.5};
 
-/// Every move shifted, with its centre and the heights of its cycle.
+/// All moves shifted, with their centres and the heights of their cycles.
 std::vector<MoveEdit> rigidly_shifted(const Program& program) {
   std::vector<MoveEdit> edits = shifted(program, window_shift);
   for (MoveEdit& edit : edits) {
@@ -29,8 +29,8 @@ std::string number_text(const Program& program, const PackedAxisWord& word) {
   return word ? program.text.substr(word->number.begin, word->number.end - word->number.begin) : "-";
 }
 
-/// What a move says, as text.
-std::string said(const Program& program, const Move& move) {
+/// The members of a move as text.
+std::string description(const Program& program, const Move& move) {
   std::string text =
       fmt::format("line {} block {} '{}' handling {} group {} from {} {} {} to {} {} {}", move.line,
                   move.block_index, program.text.substr(move.block.begin, move.block.end - move.block.begin),
@@ -45,13 +45,13 @@ std::string said(const Program& program, const Move& move) {
                             program.operations[move.operation]);
 }
 
-std::vector<std::string> said(const Program& program) {
+std::vector<std::string> description(const Program& program) {
   std::vector<std::string> all;
-  for (const Move& move : program.moves) all.push_back(said(program, move));
+  for (const Move& move : program.moves) all.push_back(description(program, move));
   return all;
 }
 
-/// The first line in which both differ, of either; empty where none does.
+/// The first line that differs between `a` and `b`, of both; empty if they are equal.
 std::string difference(const std::vector<std::string>& a, const std::vector<std::string>& b) {
   for (std::size_t i = 0; i < std::max(a.size(), b.size()); ++i) {
     const std::string of_a = i < a.size() ? a[i] : "none", of_b = i < b.size() ? b[i] : "none";
@@ -60,7 +60,7 @@ std::string difference(const std::vector<std::string>& a, const std::vector<std:
   return {};
 }
 
-/// What comes of a program that is read and shifted in windows.
+/// Result of reading and shifting a program in windows.
 struct InWindows {
   std::string text, shifted;
   std::vector<std::string> moves, corrected_moves;
@@ -71,7 +71,7 @@ struct InWindows {
 
 InWindows in_windows(const std::string& text, std::size_t least_moves, int extended = 0, bool taken = false) {
   InWindows all;
-  Program window_taken, corrected_taken;
+  Program window_taken, taken_correction;
   FileReader bytes = FileReader::of_bytes(text);
   ProgramReader reader(bytes, "p.ngc", {}, least_moves);
   TextReader again(reader);
@@ -82,13 +82,14 @@ InWindows in_windows(const std::string& text, std::size_t least_moves, int exten
     const Program& window = taken ? window_taken : reader.window();
     ++all.count;
     all.text += window.text;
-    for (const std::string& move : said(window)) all.moves.push_back(move);
+    for (const std::string& move : description(window)) all.moves.push_back(move);
     all.left_alone += window.left_alone.size();
     const std::string written = rewriter.write(window, rigidly_shifted(window)).text;
     all.shifted += written;
     const Program& read = again.read(written);
-    if (taken) again.take_window(corrected_taken);
-    for (const std::string& move : said(taken ? corrected_taken : read)) all.corrected_moves.push_back(move);
+    if (taken) again.take_window(taken_correction);
+    for (const std::string& move : description(taken ? taken_correction : read))
+      all.corrected_moves.push_back(move);
     all.last = window;
   }
   return all;
@@ -109,17 +110,17 @@ void check_windows(const std::string& text, std::size_t least_moves, int extende
     CAPTURE(taken);
     const InWindows all = in_windows(text, least_moves, extended, taken);
     CHECK(all.text == text);
-    CHECK(difference(all.moves, said(whole)) == "");
+    CHECK(difference(all.moves, description(whole)) == "");
     CHECK(all.left_alone == whole.left_alone.size());
     CHECK(all.last.block_count == whole.block_count);
     CHECK(all.last.frames == whole.frames);
     CHECK(all.last.remarks.size() == (taken ? 0 : whole.remarks.size()));
     CHECK(all.shifted == corrected);
-    CHECK(difference(all.corrected_moves, said(read(corrected))) == "");
+    CHECK(difference(all.corrected_moves, description(read(corrected))) == "");
   }
 }
 
-/// Lines of a pocket, `count` moves long, of which all are known.
+/// Lines of a pocket of `count` moves with known positions.
 std::string pocket(int count) {
   std::string text = "%\nO1001 (POCKET)\nG21 G90 G17\nG0 X0 Y0\nZ5.\nG1 Z-1. F200\n";
   for (int i = 0; i < count; ++i) text += fmt::format("X{}.5 Y{}.\n", i % 40, i / 40);
@@ -128,21 +129,21 @@ std::string pocket(int count) {
 
 }  // namespace
 
-TEST_CASE("a program read in windows is the program") {
+TEST_CASE("a program read in windows equals the whole program") {
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {
     check_windows(SyntheticProgram(seed).text(60), 1 + seed % 7);
     check_windows(SyntheticArcs(seed).text(60), 1 + seed % 7);
   }
 }
 
-TEST_CASE("windows are as long as they must be, and no longer than they may") {
+TEST_CASE("windows reach the minimum size, and end at the next possible move") {
   const std::string text = pocket(1000) + "G0 Z5.\nM30\n%\n";
   check_windows(text, 100);
   CHECK(in_windows(text, 100).count == 12);  // each of the 25 ways back to the first column counts as 8 moves
   CHECK(in_windows(text, whole_program).count == 1);
 }
 
-TEST_CASE("windows of long moves, of turns and of moves along Z alone hold few moves") {
+TEST_CASE("windows of long moves, of turns and of moves along Z have few moves") {
   const std::string begin = "G21 G90 G17\nG0 X0 Y0 Z0\nG1 X1 F100\n";
   const auto windows_of = [&](const std::string& block, int count) {
     std::string text = begin;
@@ -155,7 +156,7 @@ TEST_CASE("windows of long moves, of turns and of moves along Z alone hold few m
   CHECK(windows_of("Z{}\n", 100) >= 9);
 }
 
-TEST_CASE("a window that is extended goes to the next place where it may end") {
+TEST_CASE("an extended window ends at the next possible place") {
   const std::string text = pocket(100) + "G0 Z5.\nM30\n%\n";
   FileReader bytes = FileReader::of_bytes(text);
   ProgramReader reader(bytes, "p.ngc", {}, 10);
@@ -174,7 +175,7 @@ TEST_CASE("a window that is extended goes to the next place where it may end") {
   check_windows(text, 10, 3);
 }
 
-TEST_CASE("a window that is taken uses the room of the one that it takes the place of") {
+TEST_CASE("take_window reuses the memory of the window that it replaces") {
   FileReader bytes = FileReader::of_bytes(pocket(1000));
   ProgramReader reader(bytes, "p.ngc", {}, 100);
   Program window;
@@ -188,7 +189,7 @@ TEST_CASE("a window that is taken uses the room of the one that it takes the pla
   for (std::size_t i = 4; i < rooms.size(); ++i) CHECK(rooms[i] == rooms[i - 2]);
 }
 
-TEST_CASE("windows end neither in contours, nor in cycles, nor in bodies, nor where an axis is unknown") {
+TEST_CASE("windows do not end in contours, in cycles, in bodies, or at an axis with an unknown position") {
   const std::string approach = "G21 G90 G17\nT1 M6\nG0 X0 Y0\nG43 H1 Z5\n";
   for (const std::string inside :
        {"G41 D1 G1 X1 Y1 F100\nX9\nY9\nG40 X0 Y0\n", "G98 G81 X1 Y1 Z-5 R2 F50\nX2\nX3\nG80\n",
@@ -202,8 +203,9 @@ TEST_CASE("windows end neither in contours, nor in cycles, nor in bodies, nor wh
   }
 }
 
-TEST_CASE("a full circle is no move along Z: a contour behind it takes the same moves in windows") {
-  const std::string text = "G21 G90 G17\nG0 X0 Y0 Z5\nG1 X1 F100\nX2\nG2 I5\nG1 Z1\nZ2\nG41 D1 X9 Y9\nX12\nG40 X0\nG0 X5\nM30\n";
+TEST_CASE("a full circle is not a move along Z: a contour behind it includes the same moves in windows") {
+  const std::string text =
+      "G21 G90 G17\nG0 X0 Y0 Z5\nG1 X1 F100\nX2\nG2 I5\nG1 Z1\nZ2\nG41 D1 X9 Y9\nX12\nG40 X0\nG0 X5\nM30\n";
   for (const std::size_t least : {1U, 8U, 17U}) check_windows(text, least);
 }
 
@@ -214,7 +216,7 @@ TEST_CASE("subprograms and their calls are known in every window") {
   check_windows(text, 5);
 }
 
-TEST_CASE("what stands behind the end comes in windows, too") {
+TEST_CASE("text behind the end is read in windows, too") {
   const std::string text =
       pocket(20) + "G0 Z5.\nX3. M30\n%\n" + std::string(600000, 'x') + "\nO7 (NEXT)\nX1\n";
   check_windows(text, 5);
@@ -223,27 +225,27 @@ TEST_CASE("what stands behind the end comes in windows, too") {
   CHECK(in_windows("G21 G90 G0 X1 Y1 Z1\nM30\n%", whole_program).count == 1);
 }
 
-TEST_CASE("a program without a line end at its end, an empty one, and one without moves are windows") {
+TEST_CASE("a program without a line end, an empty one, and one without moves are windows") {
   check_windows("G21 G90 G0 X1 Y1 Z1\nX2\nX3", 1);
   check_windows("", 1);
   check_windows("(NOTHING)\n\n", 1);
   check_windows("G21\nG0 X1", 1);
 }
 
-TEST_CASE("mistakes far behind are refused at their place") {
+TEST_CASE("errors far behind are refused with their position") {
   const std::string text = pocket(20000) + "X1. Y*\n";
   CHECK(diagnostic_of([&] { in_windows(text, 100); }) == diagnostic_of([&] { read(text); }));
   CHECK(diagnostic_of([&] { in_windows(text, 100); }).starts_with("p.ngc:20007:5: error: "));
 }
 
-TEST_CASE("Klartext read in windows is the program") {
+TEST_CASE("Klartext read in windows equals the whole program") {
   for (std::uint64_t seed = 1; seed <= 300; ++seed) {
     CAPTURE(seed);
     check_windows(SyntheticKlartext(seed).text(60), 1 + seed % 7, seed % 3 == 0 ? 1 : 0);
   }
 }
 
-TEST_CASE("windows of Klartext end outside of contours and bodies, and hold a CC with its arc") {
+TEST_CASE("windows of Klartext end outside of contours and bodies, and include a CC with its arc") {
   const auto count = [](const std::string& statements) {
     return in_windows("BEGIN PGM A MM\nL X+0 Y+0 Z+5 R0 FMAX\n" + statements + "END PGM A MM\n", 1).count;
   };
@@ -251,5 +253,6 @@ TEST_CASE("windows of Klartext end outside of contours and bodies, and hold a CC
   CHECK(count("L X+1 RL F9\nL X+2\nL X+3\nL X+4 R0\n") == 1);
   CHECK(count("CC X+1 Y+0\nL X+1\nL X+2\nL X+2 Y+1\nC X+0 Y+1 DR+\nL X+4\n") == 2);
   CHECK(count("LBL 1\nL X+1\nL X+2\nLBL 0\nCALL LBL 1\n") == 1);
-  CHECK(count("CC X+1 Y+0\nCTP PA+30\nL X+1 Y+0\nL X+2\nL X+3\n") == 1);  // the text that uses the CC may be far behind
+  CHECK(count("CC X+1 Y+0\nCTP PA+30\nL X+1 Y+0\nL X+2\nL X+3\n") ==
+        1);  // the block that uses the CC may be far behind
 }

@@ -39,7 +39,7 @@ TEST_CASE("motion, units, feed, spindle, offset and block number are modal") {
   CHECK(program.block_count == 5);
 }
 
-TEST_CASE("spans hold the number's characters, blanks inside included, and count its decimals") {
+TEST_CASE("spans include blanks inside the number, and its decimals are counted") {
   const Program program = read("g21\ng1 x 1 0. 5 0y-.25 Z+3\n");
   const Move& move = program.moves.at(0);
   CHECK(number_text(program, move, 0) == "1 0. 5 0");
@@ -60,7 +60,7 @@ TEST_CASE("an axis is unknown until it is programmed") {
   CHECK(program.moves[2].block_index == 2);
 }
 
-TEST_CASE("machine positions are left alone with their reason and make their axes unknown") {
+TEST_CASE("machine positions are not corrected, with their reason, and make their axes unknown") {
   const Program program = read("G21 G0 X1 Y2 Z3\nG53 Z0\nX5\nG28 X1\nY5\nG30\nX1\n");
   REQUIRE(program.moves.size() == 4);
   CHECK(program.moves[1].known_start == Known{true, true, false});
@@ -72,7 +72,7 @@ TEST_CASE("machine positions are left alone with their reason and make their axe
   CHECK(program.left_alone[2].why == "G30 moves to a position of the machine");
 }
 
-TEST_CASE("a tool change moves no axis in linuxcnc, all in fanuc, and otherwise those that are named") {
+TEST_CASE("a tool change makes no axis unknown in linuxcnc, all in fanuc, and otherwise the given ones") {
   const std::string text = "G21 G0 X1. Y2. Z3.\nT2 M6\nX5.\n";
   CHECK(read(text).moves[1].known_start == Known{true, true, true});
   CHECK(read("O1\n" + text).moves[1].known_start == Known{false, false, false});
@@ -99,14 +99,15 @@ TEST_CASE("a skippable end of program does not end it, any other does") {
   CHECK(read("%\nG21 G0 X1\n%\nwhatever [#\n").moves.size() == 1);
 }
 
-TEST_CASE("a work offset that changes makes every axis unknown") {
+TEST_CASE("a change of work offset makes every axis unknown") {
   const Program program = read("G21 G54 G0 X1 Y2 Z3\nG54 X2\nG55 X3\n");
   CHECK(program.moves[1].known_start == Known{true, true, true});
   CHECK(program.moves[2].known_start == Known{false, false, false});
   CHECK(program.frames[program.moves[2].frame].work_offset == "G55");
 }
 
-TEST_CASE("a tool length that changes without Z makes Z unknown; with Z the tip is where the program says") {
+TEST_CASE(
+    "a tool length that changes without Z makes Z unknown; with Z the tip is at the programmed position") {
   const Program unknown = read("G21 G0 X1 Y2 Z3\nG43 H1\nX2\nG49\nX3\n");
   CHECK(unknown.moves[1].known_start == Known{true, true, false});
   CHECK(unknown.moves[2].known_start == Known{true, true, false});
@@ -121,7 +122,7 @@ TEST_CASE("a tool length that changes without Z makes Z unknown; with Z the tip 
         "--tool-table, or length_mm in [tools.T1])");
 }
 
-TEST_CASE("where lengths are given the remark is about the tool that has none") {
+TEST_CASE("with given tool lengths the remark is about a tool without a length") {
   ReadOptions options;
   options.tool_lengths_mm = {{1, 50.0}};
   const Program program = read_program("G21 G0 X1 Y2\nG43 Z15 H1\nG43 Z15 H7\n", "part.ngc", options);
@@ -130,25 +131,25 @@ TEST_CASE("where lengths are given the remark is about the tool that has none") 
   CHECK(program.remarks[0].what.starts_with("G43: the length of T7 is not known"));
 }
 
-TEST_CASE("after G80 fanuc and haas fall back to G0, linuxcnc and grbl need a motion") {
+TEST_CASE("after G80 fanuc and haas return to G0, linuxcnc and grbl need a motion word") {
   const std::string text = "G21 G1 X1. F100\nG80\nX2.\n";
   CHECK(read(text, "fanuc").moves[1].motion == Motion::rapid);
   CHECK(read(text, "haas").moves[1].motion == Motion::rapid);
   CHECK(diagnostic_of([&] { read(text, "linuxcnc"); }) ==
-        "p.ngc:3:1: error: X without a motion: G80 ended it, and linuxcnc needs G0 or G1 anew");
+        "p.ngc:3:1: error: X without a motion: after G80, linuxcnc needs G0 or G1 again");
   CHECK(diagnostic_of([&] { read(text, "grbl"); }) ==
-        "p.ngc:3:1: error: X without a motion: G80 ended it, and grbl needs G0 or G1 anew");
+        "p.ngc:3:1: error: X without a motion: after G80, grbl needs G0 or G1 again");
   CHECK(read("G21 G0 G80 X1\n").moves.size() == 1);
 }
 
-TEST_CASE("words of a dwell are not axes") {
+TEST_CASE("words of a dwell are not axis words") {
   const Program program = read("O1\nG21 G0 X1. Y1. Z1.\nG4 X1.5\nG4 P500\nY2.\n");
   REQUIRE(program.moves.size() == 2);
   CHECK(program.moves[1].start_mm == Vector3(1, 1, 1));
   CHECK(read("G21 G0 X1 Y1 Z1\nG4 P.5\nX2\n").moves.size() == 2);
 }
 
-TEST_CASE("the unit may come from outside, and the program's own goes before it") {
+TEST_CASE("the option sets the unit, and a unit in the program overrides it") {
   ReadOptions options;
   options.unit = LengthUnit::inches;
   CHECK(read_program("G0 X1\n", "", options).moves[0].end_mm.x() == doctest::Approx(25.4));
@@ -157,30 +158,31 @@ TEST_CASE("the unit may come from outside, and the program's own goes before it"
   CHECK(read("G1 G21 X1\n").moves[0].feed_mm_min == 0);
 }
 
-TEST_CASE("feed per turn is multiplied by the spindle's speed") {
+TEST_CASE("feed per turn is multiplied by the spindle speed") {
   const Program program = read("G21 G95 S1000 M3\nG1 X1 F.2\nG94 X2\nX3 F50\n");
   CHECK(program.moves[0].feed_mm_min == doctest::Approx(200));
   CHECK(program.moves[1].feed_mm_min == 0);
   CHECK(program.moves[2].feed_mm_min == 50);
 }
 
-TEST_CASE("linuxcnc forgets F at any feed mode, and reads F beside a unit in the unit before") {
+TEST_CASE("linuxcnc resets F at any feed mode, and reads F beside a unit in the unit before") {
   CHECK(read("G21 F100\nG94 G1 X1.\n").moves[0].feed_mm_min == 0);
   CHECK(read("G21 F100\nG94 G1 X1.\n", "grbl").moves[0].feed_mm_min == 100);
   CHECK(read("G21\nG20 F10\nG1 X1.\n").moves[0].feed_mm_min == 10);
   CHECK(read("G21\nG20 F10\nG1 X1.\n", "fanuc").moves[0].feed_mm_min == doctest::Approx(254));
 }
 
-TEST_CASE("an O-number means fanuc, else the program is linuxcnc's") {
+TEST_CASE("an O-number means fanuc, other programs are linuxcnc") {
   CHECK(read("%\n(HEAD)\nO1001 (PART)\nG21 G0 X1.\n").dialect == "fanuc");
   CHECK(read("%\n(O1001)\nG21 G0 X1.\nM30\nO1001\n").dialect == "linuxcnc");
   CHECK(read("O0001;\nG21;\nG0 X1.;\n").dialect == "fanuc");
   CHECK(diagnostic_of([] { read("G21\n", "siemens5"); }) ==
-        "p.ngc: error: dialect 'siemens5' is not known: auto, linuxcnc, grbl, fanuc, haas, mach3, siemens, "
-        "heidenhain are");
+        "p.ngc: error: unknown dialect 'siemens5'; use one of auto, linuxcnc, grbl, fanuc, haas, mach3, "
+        "siemens, "
+        "heidenhain");
 }
 
-TEST_CASE("integer words are units unless increments are asked for") {
+TEST_CASE("integer words are in units by default, and increments with the option") {
   ReadOptions options;
   const std::string text = "O1\nG21 G0 X5 Y5. Z-20\nG20 X5\n";
   CHECK(read_program(text, "", options).moves[0].end_mm == Vector3(5, 5, -20));
@@ -189,7 +191,7 @@ TEST_CASE("integer words are units unless increments are asked for") {
   CHECK(read_program(text, "", options).moves[1].end_mm.x() == doctest::Approx(0.0005 * 25.4));
 }
 
-TEST_CASE("only a feed move without exact stop or words that act at its end may be split") {
+TEST_CASE("only a feed move without an exact stop and without words that act at its end may be split") {
   const auto may_split = [](const std::string& block, const std::string& dialect = "linuxcnc") {
     return read("G21 G0 X0. Y0. Z0.\nG1 F100\n" + block + "\n", dialect).moves.back().may_split;
   };
@@ -212,14 +214,14 @@ TEST_CASE("only a feed move without exact stop or words that act at its end may 
   CHECK(may_split("G61\nG64\nX1.", "fanuc"));
 }
 
-TEST_CASE("a feed move may go before a block only where start and feed are known") {
+TEST_CASE("a feed move may be inserted before a block only if start and feed are known") {
   const Program program = read("G21 G0 X1 Y1\nZ1\nX2\nG1 X3 F100\nG0 Z5\nG0 G54 Z6\nG61.1 G0 X1 Y1 Z1\n");
   std::vector<bool> may_jump;
   for (const Move& move : program.moves) may_jump.push_back(move.may_jump);
   CHECK(may_jump == std::vector<bool>{false, false, false, true, true, false, false});
 }
 
-TEST_CASE("G64 is remarked with its tolerance in mm, once for each") {
+TEST_CASE("G64 gets a remark with its tolerance in mm, once for each tolerance") {
   const Program program = read("G64\nG20\nG64 P0.004 Q0.002\nG64 P0.004 Q0.002\nG21 G64 P.1\n");
   REQUIRE(program.remarks.size() == 3);
   CHECK(program.remarks[0].what == "G64 without P: the control may leave the path by any distance");
@@ -234,23 +236,23 @@ TEST_CASE("G64 is remarked with its tolerance in mm, once for each") {
       "corrections can vanish");
 }
 
-TEST_CASE("lines near or over the control's limit are remarked") {
+TEST_CASE("lines near or over the control's limit get a remark") {
   const std::string start = "G21 G0 X1 ";
   CHECK(read(start + "(" + std::string(200, 'c') + ")\n").remarks.empty());
   CHECK(read(start + "(" + std::string(238, 'c') + ")\n").remarks.at(0).what ==
-        "the line has 250 of the 255 characters that linuxcnc reads: little room for corrections");
+        "the line has 250 of the 255 characters that linuxcnc reads: little space for corrections");
   CHECK(read(start + "(" + std::string(300, 'c') + ")\n").remarks.at(0).what ==
         "the line has 312 characters; linuxcnc reads 255");
   CHECK(read(start + "(" + std::string(300, 'c') + ")\n", "grbl").remarks.empty());
 }
 
-TEST_CASE("builders' M codes are remarked, rotary words at zero are ignored") {
+TEST_CASE("M codes of machine builders get a remark, rotary words at zero are ignored") {
   const Program program = read("G21 G0 X1 A0. M88\n");
-  CHECK(program.remarks.at(0).what == "M88: set by the machine's builder; taken as moving no axis");
+  CHECK(program.remarks.at(0).what == "M88: defined by the machine builder; assumed not to move an axis");
   CHECK(program.moves.size() == 1);
 }
 
-TEST_CASE("a header of an earlier run is recognised, and nothing else") {
+TEST_CASE("the header of an earlier run is recognised, and no other comment") {
   CHECK(is_corrected(read("(COUNTERFLEX 1 METHOD DIRECT)\nG21\n")));
   CHECK(is_corrected(read("%\nO1001\n(PART)\n( COUNTERFLEX 1)\nG21\n")));
   CHECK(is_corrected(read("; COUNTERFLEX 1\n")));

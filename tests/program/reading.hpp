@@ -1,5 +1,5 @@
 #pragma once
-/// Short ways for tests to read a program and to edit it.
+/// Helpers of tests to read a program and to edit it.
 #include <string>
 
 #include "counterflex/files/input_error.hpp"
@@ -14,7 +14,7 @@ inline Program read(const std::string& text, const std::string& dialect = "auto"
   return read_program(text, "p.ngc", options);
 }
 
-/// The diagnostic with which `action` is refused, or "none".
+/// The diagnostic of `action`, or "none".
 template <typename Action>
 std::string diagnostic_of(Action action) {
   try {
@@ -25,7 +25,7 @@ std::string diagnostic_of(Action action) {
   return "none";
 }
 
-/// Every move sent to where the program already sends it.
+/// Edits of all moves to their original ends.
 inline std::vector<MoveEdit> edits_to_original(const Program& program) {
   std::vector<MoveEdit> edits;
   for (std::size_t i = 0; i < program.moves.size(); ++i) {
@@ -37,14 +37,14 @@ inline std::vector<MoveEdit> edits_to_original(const Program& program) {
   return edits;
 }
 
-/// Every move shifted by `d_mm`.
+/// Edits that shift all moves by `d_mm`.
 inline std::vector<MoveEdit> shifted(const Program& program, const Vector3& d_mm) {
   std::vector<MoveEdit> edits = edits_to_original(program);
   for (MoveEdit& edit : edits) edit.end_mm += d_mm;
   return edits;
 }
 
-/// The text of `program` with every move that has coordinates shifted by `d_mm`, arcs with their centres.
+/// The text of `program` with all moves that have coordinates shifted by `d_mm`, arcs with their centres.
 inline std::string shifted_text(const Program& program, const Vector3& d_mm,
                                 const WriteOptions& options = {}) {
   std::vector<MoveEdit> edits = shifted(program, d_mm);

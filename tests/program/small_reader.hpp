@@ -1,6 +1,6 @@
 #pragma once
-/// A reader of plain G-code for tests, written without the product's: what it reads back from corrected text
-/// does not share a mistake with the writer. No comments, no offsets; everything is known once programmed.
+/// An independent reader of plain G-code for tests: it shares no code, and so no errors, with the writer. No
+/// comments, no offsets; every position is known once it is programmed.
 #include <cmath>
 #include <map>
 #include <numbers>
@@ -58,7 +58,7 @@ inline void small_modes(const std::multimap<char, SmallWord>& words, SmallState&
   if (const auto f = words.find('F'); f != words.end()) s.feed = f->second.value;
 }
 
-/// The centre by turning from the chord's direction, as LinuxCNC's interpreter does.
+/// The centre by rotating the direction of the chord, as LinuxCNC's interpreter does.
 inline Vector3 small_centre(const Vector3& start, const Vector3& end, double radius, const ArcMove& arc) {
   const int a = (arc.normal + 1) % 3, b = (arc.normal + 2) % 3;
   const double u = end[a] - start[a], v = end[b] - start[b];
@@ -162,7 +162,7 @@ inline Program read_small(const std::string& text, const std::string& dialect = 
   return program;
 }
 
-/// The way that a move goes.
+/// The path of a move.
 inline Curve way_of(const Move& move) {
   Curve curve{move.start_mm, move.end_mm, {}};
   if (!move.arc) return curve;

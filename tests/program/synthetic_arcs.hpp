@@ -1,6 +1,6 @@
 #pragma once
-/// Random programs of lines and arcs in every format that a control reads: planes, I J K or R, absolute
-/// centres, omitted words, helices, full circles, relative words, inches, G93.
+/// Random programs of lines and arcs in all formats: planes, I J K or R, absolute centres, omitted words,
+/// helices, full circles, relative words, inches, G93.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -17,7 +17,7 @@ class SyntheticArcs {
   explicit SyntheticArcs(std::uint64_t seed, double smallest = 2, double largest = 15)
       : bits_(seed), smallest_(smallest), largest_(largest) {}
 
-  /// A program of `blocks` moves; every arc of it is one that a control accepts.
+  /// A program of `blocks` moves. All its arcs are valid for a control.
   std::string text(int blocks);
 
  private:
@@ -36,7 +36,7 @@ class SyntheticArcs {
   double smallest_, largest_;  ///< radii, in the program's unit
   std::string text_, block_;
   Vector3 at_ = Vector3::Zero();  ///< as read back
-  int decimals_ = 3, normal_ = 2, said_motion_ = -1;
+  int decimals_ = 3, normal_ = 2, written_motion_ = -1;
   bool relative_ = false, absolute_centre_ = false, dense_ = false, lower_ = false, timed_ = false;
 };
 
@@ -46,7 +46,7 @@ inline void SyntheticArcs::word(char letter, double value) {
   block_ += format_fixed(value, decimals_);
 }
 
-/// The words of `end`, which is on the grid; those that say nothing new only where `all`.
+/// The words of `end`, which is on the grid. Unchanged coordinates are written only if `all`.
 inline void SyntheticArcs::end_words(const Vector3& end, bool all) {
   for (int axis = 0; axis < 3; ++axis) {
     const double value = grid(relative_ ? end[axis] - at_[axis] : end[axis]);
@@ -67,13 +67,13 @@ inline void SyntheticArcs::finish() {
 
 inline void SyntheticArcs::line() {
   block_ = chance(3) ? "/" : "";
-  if (block_.empty() && (said_motion_ != 1 || chance(30))) block_ = "G1", said_motion_ = 1;
-  if (said_motion_ != 1) block_ += "G1";
+  if (block_.empty() && (written_motion_ != 1 || chance(30))) block_ = "G1", written_motion_ = 1;
+  if (written_motion_ != 1) block_ += "G1";
   Vector3 end = at_;
   for (int axis = 0; axis < 3; ++axis)
     if (chance(60)) end[axis] = grid(between(-20, 20));
   end[0] = grid(end[0] + 1);
-  // Behind a block that may be skipped everything is programmed anew, absolute.
+  // After a skippable block all coordinates are programmed again, absolute.
   const bool skippable = block_.starts_with('/');
   if (skippable && relative_) text_ += "G90\n", relative_ = false;
   end_words(end, false);
@@ -81,15 +81,15 @@ inline void SyntheticArcs::line() {
   if (!skippable) return;
   text_ += fmt::format("G1 X{} Y{} Z{} F30.\n", format_fixed(at_.x(), decimals_),
                        format_fixed(at_.y(), decimals_), format_fixed(at_.z(), decimals_));
-  said_motion_ = 1;
+  written_motion_ = 1;
 }
 
 inline void SyntheticArcs::arc() {
   const bool clockwise = chance(50), full = chance(10), by_radius = !full && chance(30);
   const int motion = clockwise ? 2 : 3;
   block_.clear();
-  if (said_motion_ != motion || chance(50)) block_ = fmt::format("{}{}", lower_ ? "g0" : "G", motion);
-  said_motion_ = motion;
+  if (written_motion_ != motion || chance(50)) block_ = fmt::format("{}{}", lower_ ? "g0" : "G", motion);
+  written_motion_ = motion;
   const int a = (normal_ + 1) % 3, b = (normal_ + 2) % 3;
   const double angle = between(0, 6.28), size = between(smallest_, largest_);
   double sweep = (clockwise ? -1 : 1) * between(0.2, by_radius ? 2.5 : 5.5);
@@ -130,7 +130,7 @@ inline std::string SyntheticArcs::text(int blocks) {
   decimals_ = (inch ? 4 : 3) + below(2);
   at_.setZero();
   normal_ = 2;
-  said_motion_ = 1;
+  written_motion_ = 1;
   relative_ = absolute_centre_ = timed_ = false;
   text_ = inch ? "G20\n" : "G21\n";
   text_ += "G90 G17 G40\nG1 X0. Y0. Z0. F200.\n";

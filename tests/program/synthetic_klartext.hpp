@@ -1,6 +1,6 @@
 #pragma once
-/// Random Klartext: lines, arcs about CC and by radius, polar blocks, contours, holes, labels and jumps, shifted and
-/// turned coordinates, blocks of several lines, with numbers or without.
+/// Random Klartext: lines, arcs about CC and by radius, polar blocks, contours, holes, labels and jumps,
+/// shifted and rotated coordinates, blocks of several lines, with numbers or without.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -39,7 +39,9 @@ class SyntheticKlartext {
     text_ += statement + "\n";
   }
 
-  std::string place(char axis, int size = 60) { return fmt::format(" {}{:+.2f}", axis, (below(2 * size) - size) / 4.0); }
+  std::string place(char axis, int size = 60) {
+    return fmt::format(" {}{:+.2f}", axis, (below(2 * size) - size) / 4.0);
+  }
 
   void line() {
     std::string words;
@@ -55,7 +57,8 @@ class SyntheticKlartext {
     const int x = below(40) - 20, y = below(40) - 20;
     if (chance(30)) {
       add(fmt::format("L X{:+d} Y{:+d}", x, y));
-      return add(fmt::format("CR X{:+d} Y{:+d} R{}10 DR{}", x + 8, y + 6, chance(50) ? "+" : "-", chance(50) ? "+" : "-"));
+      return add(fmt::format("CR X{:+d} Y{:+d} R{}10 DR{}", x + 8, y + 6, chance(50) ? "+" : "-",
+                             chance(50) ? "+" : "-"));
     }
     const bool behind = chance(50);  // of the CC
     if (!behind) add(fmt::format("L X{:+d} Y{:+d}", x + 5, y));
@@ -66,7 +69,8 @@ class SyntheticKlartext {
     }
     if (chance(20)) return add(fmt::format("CP IPA+{} IZ-1 DR+", 90 * (1 + below(8))));
     for (int i = 1 + below(3); i > 0; --i)
-      add(fmt::format("C X{:+d} Y{:+d} DR{}", i % 2 == 1 ? x : x + 5, i % 2 == 1 ? y + 5 : y, chance(50) ? "+" : "-"));
+      add(fmt::format("C X{:+d} Y{:+d} DR{}", i % 2 == 1 ? x : x + 5, i % 2 == 1 ? y + 5 : y,
+                      chance(50) ? "+" : "-"));
     if (chance(20)) add(fmt::format("LP PR+{} PA{:+d}", 2 + below(9), 10 * (below(36) - 18)));
     if (poles_ && chance(10)) add("CTP PA+30");
   }
@@ -79,7 +83,8 @@ class SyntheticKlartext {
 
   void holes() {
     if (contour_) return line();
-    add(fmt::format("CYCL DEF 200 DRILLING ~\n  Q200=2 ~\n  Q201=-10 ~\n  Q203={:+d} ~\n  Q204=50", below(3)));
+    add(fmt::format("CYCL DEF 200 DRILLING ~\n  Q200=2 ~\n  Q201=-10 ~\n  Q203={:+d} ~\n  Q204=50",
+                    below(3)));
     for (int i = below(3); i > 0; --i) line();
     for (int i = 1 + below(3); i > 0; --i) add("L" + place('X') + place('Y') + " R0 FMAX M99");
     add("L Z+40 FMAX");
@@ -101,7 +106,8 @@ class SyntheticKlartext {
     if (!labels_ || contour_) return line();
     if (chance(15)) return add("FN 9: IF +Q1 EQU +1 GOTO LBL " + std::to_string(1 + below(label_ + 1)));
     if (open_) return open_ = false, add("LBL 0");
-    if (label_ > 0 && chance(30)) return add("CALL LBL " + std::to_string(1 + below(label_)) + (chance(40) ? " REP 2" : ""));
+    if (label_ > 0 && chance(30))
+      return add("CALL LBL " + std::to_string(1 + below(label_)) + (chance(40) ? " REP 2" : ""));
     open_ = true;
     add("LBL " + std::to_string(++label_));
   }

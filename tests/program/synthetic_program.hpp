@@ -1,18 +1,17 @@
 #pragma once
-/// Programs made up at random in the styles that real ones are written in.
+/// Random programs in the styles of real ones.
 #include <cstdint>
 #include <random>
 #include <string>
 
 namespace counterflex::test {
 
-/// A generator that gives the same programs with every standard library: only raw bits of the engine are
-/// used.
+/// A generator of the same programs with every standard library: it uses only raw bits of the engine.
 class SyntheticProgram {
  public:
   explicit SyntheticProgram(std::uint64_t seed) : bits_(seed) {}
 
-  /// A program of about `blocks` blocks that this project reads.
+  /// A supported program of about `blocks` blocks.
   std::string text(int blocks);
 
  private:

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "counterflex/compensation/options.hpp"
-#include "counterflex/program/rare.hpp"
-#include "counterflex/statics/nominal.hpp"
+#include "counterflex/program/boxed_optional.hpp"
+#include "counterflex/statics/status.hpp"
 
 namespace counterflex {
 

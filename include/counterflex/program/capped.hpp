@@ -1,5 +1,5 @@
 #pragma once
-/// Lists of things that stand in lines, of which a report shows the first ones.
+/// Lists with line numbers that are limited in length: a report shows the first rows.
 #include <algorithm>
 #include <cstddef>
 #include <utility>
@@ -7,18 +7,18 @@
 
 namespace counterflex {
 
-/// What is listed of blocks left alone and of warnings.
+/// Largest number of rows in the lists of uncorrected blocks and of warnings.
 inline constexpr std::size_t listed_at_most = 100;
 
-/// A list that is capped; `count` is what it would hold otherwise.
+/// A list of limited length. `count` is the number of rows without the limit.
 template <typename T>
 struct Capped {
   std::vector<T> rows;
   std::size_t count = 0;
 };
 
-/// Adds `row` where its `line` puts it: what has none (0) comes first, rows of one line stay in the order in
-/// which they came. Of more than `listed_at_most` rows the last goes.
+/// Inserts `row` in the order of lines. Rows without a line (0) come first, rows of one line keep their
+/// order. If there are more than `listed_at_most` rows, the last one is dropped.
 template <typename T>
 void list(Capped<T>& capped, T row) {
   ++capped.count;
@@ -30,7 +30,7 @@ void list(Capped<T>& capped, T row) {
   if (rows.size() > listed_at_most) rows.pop_back();
 }
 
-/// As if all that `later` has counted had come after what `capped` has.
+/// Appends the rows of `later` and adds its count.
 template <typename T>
 void list(Capped<T>& capped, const Capped<T>& later) {
   const std::size_t count = capped.count + later.count;

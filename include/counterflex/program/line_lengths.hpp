@@ -1,24 +1,24 @@
 #pragma once
-/// How long the lines of a program are, beside what its control reads.
+/// Lengths of the lines of a program, compared with the limit of the control.
 #include <cstddef>
 #include <string_view>
 
 namespace counterflex {
 
 struct LineLengths {
-  std::size_t limit = 0;    ///< characters that the dialect's control reads of a line; 0: none known
-  std::size_t longest = 0;  ///< characters that count towards it, of the longest line
+  std::size_t limit = 0;    ///< characters of a line that the control reads; 0: no limit is known
+  std::size_t longest = 0;  ///< length of the longest line, counted as the control counts it
   int longest_line = 0;
-  std::size_t near = 0;  ///< lines with more than 90 % of the limit
+  std::size_t near = 0;  ///< number of lines longer than 90 % of the limit
   int first_near = 0;
-  int lines = 0;  ///< measured so far
+  int lines = 0;  ///< number of lines measured so far
 };
 
-/// Measures the next lines of a text, written in the dialect of that name; counts nothing for a dialect
-/// without a limit. `text` is whole lines: only the last of all may lack a line end. Does not allocate.
+/// Measures the next lines of a text in `dialect`. Counts nothing for a dialect without a limit. `text` is
+/// whole lines; only the last line of the program may lack a line end. Does not allocate.
 void add_lines(LineLengths& lengths, std::string_view text, std::string_view dialect);
 
-/// Of the whole text.
+/// Measures a whole text.
 LineLengths line_lengths(std::string_view text, std::string_view dialect);
 
 }  // namespace counterflex

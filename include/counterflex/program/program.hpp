@@ -1,7 +1,6 @@
 #pragma once
-/// A machining program: its bytes, and the moves found in them with the spans of the words that hold
-/// coordinates. This module knows text and nothing of machines. Coordinates are those of the program,
-/// converted to mm.
+/// A machining program: its bytes, and its moves with the spans of the words that hold coordinates. This
+/// module knows text and no machines. Coordinates are program coordinates in mm.
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -12,7 +11,7 @@
 
 #include "counterflex/geometry/pose.hpp"
 #include "counterflex/geometry/types.hpp"
-#include "counterflex/program/rare.hpp"
+#include "counterflex/program/boxed_optional.hpp"
 
 namespace counterflex {
 
@@ -24,19 +23,19 @@ struct Span {
 
 enum class LengthUnit : std::uint8_t { millimetres, inches };
 
-/// What a length word without a point means: `unsaid` reads it in units, but a block that holds such a word
-/// and must be rewritten is refused where the dialect knows both readings; `increments` are 0.001 mm or
-/// 0.0001 inch.
-enum class IntegerWords { unsaid, units, increments };
+/// Meaning of a length word without a decimal point. `units`: the unit of the program. `increments`: 0.001 mm
+/// or 0.0001 inch. `unspecified`: read as units, but if the dialect allows both meanings, a block with such a
+/// word is not rewritten; the program is refused.
+enum class IntegerWords { unspecified, units, increments };
 
-/// One word of a move that holds a length, as the text holds it.
+/// A length word of a move, as it is in the text.
 struct AxisWord {
-  Span number;       ///< the number's characters, without the letter
-  int decimals = 0;  ///< digits after the point
+  Span number;       ///< characters of the number, without the letter
+  int decimals = 0;  ///< digits after the decimal point
 };
 
-/// An `AxisWord` or nothing, as `std::optional`, in half the room: every move has three of them, and an arc
-/// four.
+/// An optional `AxisWord` of half the size of `std::optional<AxisWord>`: each move has three of them, each
+/// arc four.
 class PackedAxisWord {
  public:
   PackedAxisWord() = default;
@@ -51,7 +50,7 @@ class PackedAxisWord {
     const AxisWord* operator->() const { return &word; }
   };
 
-  bool has_value() const { return length_ != 0; }  ///< a number has a digit
+  bool has_value() const { return length_ != 0; }  ///< a number has at least one digit
   explicit operator bool() const { return has_value(); }
   AxisWord operator*() const { return {{begin_, begin_ + length_}, decimals_}; }
   Pointer operator->() const { return {**this}; }
@@ -63,151 +62,162 @@ class PackedAxisWord {
   std::int32_t decimals_ = 0;
 };
 
-/// How a move goes: a feed move is a line unless it holds an arc.
+/// Kind of motion. A feed move is a line unless it has an arc.
 enum class Motion : std::uint8_t { rapid, feed };
 
-/// What F means: a length a minute (turns of the spindle are converted), or G93, moves a minute.
+/// Meaning of F: length per minute (feed per turn is converted), or moves per minute (G93).
 enum class FeedMode : std::uint8_t { length, inverse_time };
 
-/// How a block of polar coordinates gives the end of its arc: CP IPA, CP PA of Klartext.
+/// How a block in polar coordinates gives the end of its arc: CP IPA, CP PA of Klartext.
 enum class PolarEnd : std::uint8_t { none, by_angle, in_direction };
 
-/// The arc of a feed move under G2 or G3, in program coordinates, mm. Start and end are the move's.
+/// The arc of a feed move under G2 or G3, in program coordinates (mm). It begins and ends where the move
+/// does.
 struct ArcMove {
-  int normal = 2;                       ///< axis that the plane's normal is: 2 G17, 1 G18, 0 G19
-  bool clockwise = false;               ///< G2: seen against the normal
+  int normal = 2;                       ///< axis normal to the plane: 2 G17, 1 G18, 0 G19
+  bool clockwise = false;               ///< G2: clockwise when viewed against the normal
   Vector3 centre_mm = Vector3::Zero();  ///< at the height of the start
-  int turns = 0;                        ///< full turns besides the way from start to end
-  bool absolute_centre = false;         ///< G90.1: I J K are coordinates, else they count from the start
-  bool flat = false;  ///< the block takes no word of the axis `normal` (C and CR of Klartext)
+  int turns = 0;                        ///< full turns in addition to the sweep from start to end
+  bool absolute_centre = false;         ///< G90.1: I J K are coordinates; otherwise they count from the start
+  bool flat = false;  ///< the block must not have a word of the axis `normal` (C and CR of Klartext)
   PolarEnd polar = PolarEnd::none;
-  std::array<PackedAxisWord, 3> centre_words;  ///< I, J, K where the block has them
-  PackedAxisWord radius_word;                  ///< R or CR=: then there are no I J K
+  std::array<PackedAxisWord, 3> centre_words;  ///< I, J, K of the block
+  PackedAxisWord radius_word;                  ///< R or CR=; such an arc has no I J K
   double radius_mm = 0;                        ///< as written: negative for more than half a turn
 };
 
-/// Unit normal about which the arc goes counter-clockwise, program coordinates.
+/// Unit normal about which the arc turns counter-clockwise, program coordinates.
 inline Vector3 normal_of(const ArcMove& arc) {
   return (arc.clockwise ? -1 : 1) * Vector3::Unit(arc.normal);
 }
 
-/// A hole: a move under G73, G76, G81 to G89. The move's X and Y words and end are those of the hole; its
-/// end's Z is where the cycle leaves the tool. Coordinates as for the move.
+/// A hole: a move under G73, G76, G81 to G89. X and Y of the move's words and of its end are those of the
+/// hole. Z of its end is the height at which the cycle leaves the tool. Coordinates as for the move.
 struct CycleMove {
-  double bottom_mm = 0;   ///< Z of the bottom and R of the retract plane that act here, sticky from earlier
-  double retract_mm = 0;  ///< holes or programmed, as absolute coordinates
-  PackedAxisWord bottom_word, retract_word;  ///< Z and R where the block has them
-  bool may_insert_bottom = true;             ///< an absolute Z may be added to a block that omits it
-  bool first = false;                        ///< programs the cycle: those that follow repeat it
-  bool begins_series = false;  ///< the first hole since another motion: G98 comes back to where it begins
-  double initial_mm = 0;  ///< Z where the series of this hole began; means something where its end is known
-  bool returns_to_retract = false;  ///< G99: the cycle leaves the tool at `retract_mm`, else where it began
-  int repeats = 1;                  ///< L or K
+  double bottom_mm = 0;   ///< absolute Z of the bottom; modal: from this block or an earlier hole
+  double retract_mm = 0;  ///< absolute Z of the retract plane (R); modal, too
+  PackedAxisWord bottom_word, retract_word;  ///< Z and R of the block
+  bool may_insert_bottom = true;             ///< an absolute Z may be inserted into a block without one
+  bool first = false;                        ///< the block programs the cycle; later holes repeat it
+  /// First hole after another motion: G98 returns to the height at which it begins.
+  bool begins_series = false;
+  double initial_mm = 0;  ///< Z at which the series of this hole began; valid only if the end is known
+  /// G99: the cycle leaves the tool at `retract_mm`; otherwise where the series began.
+  bool returns_to_retract = false;
+  int repeats = 1;  ///< L or K
 };
 
-/// A drilling cycle of a Sinumerik, called in the block, or by every block with a position (MCALL). Its heights are
-/// absolute and go along with the hole.
+/// A drilling cycle of a Sinumerik, called in the block or by every block with a position (MCALL). Its
+/// heights are absolute and shift with the hole.
 struct CalledCycle {
-  std::string modal;  ///< MCALL with its call, without N and comment; empty: the block itself calls
-  int line = 0;       ///< of the call or MCALL, in the file
-  std::array<PackedAxisWord, 4> heights;  ///< RFP, RTP, DP, FDEP where they are given; spans in Program::text, else in `modal`
+  std::string modal;  ///< MCALL with its call, without N and comment; empty: the block itself calls the cycle
+  int line = 0;       ///< line of the call or of MCALL, in the file
+  /// RFP, RTP, DP, FDEP; spans in `modal`, or in Program::text if `modal` is empty.
+  std::array<PackedAxisWord, 4> heights;
   std::array<double, 4> heights_mm{};
 };
 
-/// What a control takes off a line for the corners that it rounds or breaks (mm along the line). These parts stay at one
-/// height: both sides of a corner lie in one plane.
+/// Length (mm) by which a control shortens a line for rounded or chamfered corners at its ends. These parts
+/// of a line stay at one height, because both sides of a corner lie in one plane.
 struct CornerEnds {
   double begin_mm = 0, end_mm = 0;
 };
 
 /// How a move is corrected.
 enum class Handling : std::uint8_t {
-  own,    ///< by the correction of its own end
-  held,   ///< it keeps the correction with which it is entered: a rigid shift of its absolute words
-  group,  ///< by the one motion of its contour group under G41 or G42
+  own,    ///< by the correction at its own end
+  held,   ///< it keeps the correction at its start: its absolute words are shifted rigidly
+  group,  ///< by the common shift of its contour group under G41 or G42
 };
 
-/// Whether a position is known on all three axes.
+/// Whether the position is known on all three axes.
 inline bool all_known(const std::array<bool, 3>& known) {
   return known[0] && known[1] && known[2];
 }
 
 /// A move: a block that changes or repeats the position of the tool under G0 to G3 or a cycle, or that moves
-/// it in a way that this reader does not follow: then all it says is `fixed` and what is unknown afterwards.
+/// the tool in a way that this reader does not follow. Of a move that is not followed only `fixed` and the
+/// unknown axes are set.
 struct Move {
-  Move() noexcept {}                    // a defaulted one would set every byte to zero first
-  int line = 0;                         ///< of the file
-  int text_line = 0;                    ///< of Program::text, where calls were expanded in it; 0: `line`
-  int group = 0;                        ///< number of its contour group, from 1; 0: none
-  std::array<bool, 3> stands{};         ///< of a block that is not followed: axes that only the program has
-                                        ///< moved since the move before, though their place may be unknown
-  std::size_t block_index = 0;          ///< counts the program's blocks with words, from 0
-  Span block;                           ///< the whole line, without its line end
-  std::array<PackedAxisWord, 3> words;  ///< X, Y, Z where the block has them
+  Move() noexcept {}  // a defaulted constructor would set every byte to zero first
+  int line = 0;       ///< line of the file
+  int text_line = 0;  ///< line of Program::text, if calls were expanded in it; 0: `line`
+  int group = 0;      ///< number of its contour group, from 1; 0: it belongs to no group
+  /// For a block that is not followed: axes that the machine has not moved by itself since the move before,
+  /// though their position may be unknown.
+  std::array<bool, 3> moved_only_by_program{};
+  std::size_t block_index = 0;          ///< index among the program's blocks with words, from 0
+  Span block;                           ///< the whole line without its line end
+  std::array<PackedAxisWord, 3> words;  ///< X, Y, Z of the block
   Vector3 start_mm = Vector3::Zero();
   Vector3 end_mm = Vector3::Zero();
-  Rare<ArcMove> arc;
-  Rare<CycleMove> cycle;
-  Rare<CalledCycle> called;          ///< then the word of Z is its first height
-  Rare<CornerEnds> corners;          ///< of a move beside corners; infinite where a size is unknown
-  Rare<Vector6> force;               ///< modal (FORCE ...) comment, (N, N m) on the tool, machine frame; none
-                                     ///< after (FORCE OFF); a comment acts from the block that holds it
-  double feed_mm_min = 0;            ///< modal F; 0 where none has been programmed
-  double feed_per_min = 0;           ///< F of a G93 move: 1/min
-  double spindle_rpm = 0;            ///< modal S
+  BoxedOptional<ArcMove> arc;
+  BoxedOptional<CycleMove> cycle;
+  BoxedOptional<CalledCycle> called;  ///< if set, the word of Z is its first height
+  BoxedOptional<CornerEnds> corners;  ///< corners at its ends; infinite if a size is unknown
+  BoxedOptional<Vector6> force;  ///< of the modal comment (FORCE ...): (N, N m) on the tool, machine frame;
+                                 ///< empty after (FORCE OFF). A comment applies from its own block on
+  double feed_mm_min = 0;        ///< modal F; 0 before the first F
+  double feed_per_min = 0;       ///< F of a G93 move: 1/min
+  double spindle_rpm = 0;        ///< modal S
   std::optional<long> block_number;  ///< N
   std::uint32_t frame = 0;           ///< index into Program::frames
-  std::int32_t tool = 0;             ///< T in the spindle, else H of G43; 0: none known
+  std::int32_t tool = 0;             ///< T in the spindle, else H of G43; 0: unknown
   std::uint32_t operation = 0;       ///< index into Program::operations
   Motion motion = Motion::rapid;
   LengthUnit unit = LengthUnit::millimetres;
   FeedMode feed_mode = FeedMode::length;
   Handling handling = Handling::own;
   std::array<bool, 3> known_start{};  ///< whether the position before the move is known, by axis
-  std::array<bool, 3> known_end{};    ///< and after it
-  std::array<bool, 3> ignored{};      ///< axes that nobody corrects: no word is inserted for them
-  std::array<bool, 3> fixed{};  ///< axes that the block sets to a place of its own which no edit can shift
-                                ///< (an expression, a subprogram): a correction that holds there must be zero
-  bool relative = false;        ///< G91: words are differences from the start
-  std::uint8_t incremental : 3 = 0;  ///< bit of an axis: its word alone is a difference from the start
-  bool polar : 1 = false;            ///< LP, CP of Klartext: two of the words are one polar word
-  bool takes_no_z : 1 = false;       ///< no word of Z may be inserted: beside a corner, in the holes of a Klartext cycle
-  bool makes_hole : 1 = false;  ///< of Klartext and Sinumerik: a cycle that goes along with the tool is called at its end
-  bool mills_at_end : 1 = false;  ///< a cycle mills about its end, and goes along with that point as a whole: what it cuts is
-                                  ///< not corrected each on its own
-  bool repeats_surface : 1 = false;  ///< its Z is the surface of a Klartext cycle, as an earlier hole has said it
-  bool may_position : 1 = false;  ///< of a called cycle: a rapid to its place in X and Y may be inserted before it
-  std::uint8_t angle_axis : 2 = 0;  ///< 1 X, 2 Y: its word is ANG=, the direction of the line; the other axis has one
-  bool stays_whole : 1 = false;  ///< a word of the block acts at its begin or end: not even a line beside corners is divided
-  bool block_delete : 1 = false;  ///< a '/' block: what it sets is unknown to the blocks after it
-  bool exact_stop : 1 = false;  ///< the control stops at the end (G9, G61 of Fanuc, G61.1 of LinuxCNC)
-  bool may_split : 1 =
-      false;  ///< points may be inserted: a feed move, no exact stop, no word that acts at its end
-  bool may_jump : 1 = false;  ///< a feed move may be inserted before it: start and feed are known, no exact stop
-  bool may_insert_words : 1 = true;  ///< axis words may be inserted; not into a block with G43, G44 or G49
+  std::array<bool, 3> known_end{};    ///< whether the position after the move is known, by axis
+  std::array<bool, 3> ignored{};      ///< axes that are not corrected: no word is inserted for them
+  std::array<bool, 3> fixed{};        ///< axes that the block moves to a position that no edit can shift (an
+                                ///< expression, a subprogram): the correction at that place must be zero
+  bool relative = false;             ///< G91: words are differences from the start
+  std::uint8_t incremental : 3 = 0;  ///< bit of an axis: only its word is a difference from the start
+  bool polar : 1 = false;       ///< LP, CP of Klartext: two coordinates come from one pair of polar words
+  bool takes_no_z : 1 = false;  ///< no Z word may be inserted: beside a corner, in holes of a Klartext cycle
+  /// Klartext and Sinumerik: a cycle that moves with the tool is called at its end.
+  bool makes_hole : 1 = false;
+  bool mills_at_end : 1 = false;     ///< a cycle mills around its end and shifts with it as a whole; its own
+                                     ///< motions are not corrected
+  bool repeats_surface : 1 = false;  ///< its Z is the surface of a Klartext cycle, given by an earlier hole
+  bool may_position : 1 = false;     ///< of a called cycle: a rapid to its X and Y may be inserted before it
+  /// 1 X, 2 Y: its word is ANG=, the direction of the line; the other axis has a word. 0: no ANG=.
+  std::uint8_t angle_axis : 2 = 0;
+  /// A word of the block acts at its start or end: a line between corners is not split, either.
+  bool stays_whole : 1 = false;
+  bool block_delete : 1 = false;  ///< a '/' block: states that it sets are unknown afterwards
+  bool exact_stop : 1 = false;    ///< the control stops at the end (G9, G61 of Fanuc, G61.1 of LinuxCNC)
+  bool may_split : 1 = false;  ///< points may be inserted: a feed move without exact stop and without a word
+                               ///< that acts at its end
+  /// A feed move may be inserted before it: start and feed are known, no exact stop.
+  bool may_jump : 1 = false;
+  bool may_insert_words : 1 = true;  ///< axis words may be inserted; false for a block with G43, G44 or G49
 };
 static_assert(sizeof(Move) <= 248, "programs have millions of moves");
 
-/// Whether the block of an arc stays at the height of its start: neither has it a word of the axis across its
-/// plane nor does it take one.
+/// Whether the block of an arc stays at the height of its start: it has no word of the axis normal to its
+/// plane and must not get one.
 inline bool stays_flat(const Move& move) {
   return move.arc && move.arc->flat && !move.words[static_cast<std::size_t>(move.arc->normal)];
 }
 
-/// How much of a line stays flat beside a corner (mm).
+/// Length of the part of a line beside a corner that stays flat (mm).
 inline double flat_part_mm(double taken_mm) {
   return taken_mm > 0 ? 1.02 * taken_mm + 0.02 : 0;
 }
 
-/// Whether the height of a line beside corners may change between their parts, by points that are inserted there.
+/// Whether points may be inserted between the corners of a line, at which its height changes.
 inline bool changes_height_inside(const Move& move) {
   constexpr double most_flat = 0.9;  // of the line
-  if (!move.corners || move.arc || move.stays_whole || move.exact_stop || !move.may_insert_words) return false;
+  if (!move.corners || move.arc || move.stays_whole || move.exact_stop || !move.may_insert_words)
+    return false;
   const double flat_mm = flat_part_mm(move.corners->begin_mm) + flat_part_mm(move.corners->end_mm);
   return move.handling != Handling::held && flat_mm < most_flat * (move.end_mm - move.start_mm).norm();
 }
 
-/// Whether a word of `axis` says the way from the move's start.
+/// Whether a word of `axis` is a difference from the move's start.
 inline bool is_relative(const Move& move, std::size_t axis) {
   return move.relative || (move.incremental >> axis & 1) != 0;
 }
@@ -222,16 +232,16 @@ inline bool takes_all_words(const Move& move) {
   return move.may_insert_words && (move.words[2] || !move.takes_no_z || changes_height_inside(move));
 }
 
-/// A block that is not corrected, and why.
+/// A block that is not corrected, and the reason.
 struct LeftAlone {
   int line = 0;
   std::string why;
-  bool machine_position =
-      false;          ///< the block moves axes to a place that the machine knows: no move of the program
-  int text_line = 0;  ///< as for a move
+  bool machine_position = false;  ///< the block moves axes to a position in machine coordinates, so it is not
+                                  ///< a move of the program
+  int text_line = 0;              ///< as in Move
 };
 
-/// The line of Program::text, in whose order moves and blocks left alone stand.
+/// Line of Program::text of a move or of an uncorrected block. Both are sorted by it.
 template <typename Placed>
 int line_in_text(const Placed& placed) {
   return placed.text_line > 0 ? placed.text_line : placed.line;
@@ -243,87 +253,89 @@ struct Remark {
   std::string what;
 };
 
-/// How far a control is allowed to leave the path from a block on: G64 P Q.
+/// Distance by which a control may deviate from the path, from a block on: G64 P Q.
 struct PathTolerance {
   int line = 0;
-  std::optional<double> path_mm;   ///< P; none: any distance
-  std::optional<double> merge_mm;  ///< Q: moves that are this near to a line become one
+  std::optional<double> path_mm;   ///< P; empty: any distance
+  std::optional<double> merge_mm;  ///< Q: moves that deviate from a line by less are merged
 };
 
-/// Lines of a text in which calls were expanded, from `text_line` on: they are those of the file from `line`
-/// on.
+/// Lines of a text in which calls were expanded. From `text_line` on they are the lines of the file from
+/// `line` on.
 struct LineRun {
   int text_line = 1;
   int line = 1;
-  int called_from = 0;  ///< line of the file that calls what these lines are copied from; 0: no copies
+  /// Line of the file with the call, if these lines are copies of a body; 0: not copied.
+  int called_from = 0;
 };
 
 /// A call that was not expanded, or a loop, a condition or a jump that was not executed.
 struct CallLeft {
   int text_line = 0;
   std::string why;
-  bool is_flow = false;  ///< no call
+  bool is_flow = false;  ///< a loop, a condition or a jump
 };
 
-/// What became of calls of subprograms, loops, conditions and jumps where they were to be expanded.
+/// Result of expanding calls of subprograms and of executing loops, conditions and jumps.
 struct Expansion {
-  std::vector<LineRun> lines;  ///< none: the text is the file's
+  std::vector<LineRun> lines;  ///< empty: the text is the file's
   int file_lines = 0;
-  std::size_t calls = 0;  ///< replaced, each repeat and each call in a copy too
-  int first_call = 0;     ///< line of the file
-  std::size_t executed = 0;  ///< loops, conditions and jumps, each pass
+  std::size_t calls = 0;     ///< number of replaced calls; each repeat and each call in a copy counts
+  int first_call = 0;        ///< line of the file
+  std::size_t executed = 0;  ///< number of executed loops, conditions and jumps; each pass counts
   int first_executed = 0;    ///< line of the file
-  bool in_order = false;     ///< the text holds the blocks of the program itself in the order in which they run
-  std::vector<CallLeft> calls_left;  ///< by lines
-  std::vector<Span> unused;  ///< definitions in the text that nothing calls any more: nothing in them runs
+  bool in_order = false;     ///< the text has the blocks of the main program in the order in which they run
+  std::vector<CallLeft> calls_left;  ///< sorted by line
+  std::vector<Span> unused;  ///< definitions in the text that are no longer called: their blocks do not run
 };
 
-/// The line of the file that line `text_line` of Program::text comes from.
+/// The line of the file from which line `text_line` of Program::text comes.
 int line_of_file(const Expansion& expansion, int text_line);
 
-/// Coordinates in which moves are programmed: those of a work offset, shifted and turned about Z by plain numbers of the
-/// program (G10, G52, G92, G68, TRANS, ROT).
+/// A coordinate system of moves: a work offset, shifted and rotated about Z by plain numbers of the program
+/// (G10, G52, G92, G68, TRANS, ROT).
 struct ProgramFrame {
-  std::string work_offset{};              ///< "G54", "G54.1 P3", ...; empty: none selected yet
-  Vector3 origin_mm = Vector3::Zero();    ///< in the coordinates of the offset
-  double turn_rad = 0;                    ///< about Z, counter-clockwise
-  std::array<std::optional<double>, 3> set_mm{};  ///< by axis: the offset's place in machine coordinates, where the
-                                                  ///< program has set it (G10 L2)
+  std::string work_offset{};            ///< "G54", "G54.1 P3", ...; empty: no offset was selected yet
+  Vector3 origin_mm = Vector3::Zero();  ///< in coordinates of the offset
+  double turn_rad = 0;                  ///< about Z, counter-clockwise
+  std::array<std::optional<double>, 3> set_mm{};  ///< by axis: position of the offset in machine coordinates,
+                                                  ///< if the program sets it (G10 L2)
 
   bool operator==(const ProgramFrame&) const = default;
 };
 
-/// Whether the program itself sets the place of the frame's work offset (G10 L2).
+/// Whether the program itself sets the position of the frame's work offset (G10 L2).
 inline bool is_set(const ProgramFrame& frame) {
   return frame.set_mm[0] || frame.set_mm[1] || frame.set_mm[2];
 }
 
-/// The place of `frame` in the coordinates of its work offset (mm).
+/// The pose of `frame` in the coordinates of its work offset (mm).
 Pose in_offset(const ProgramFrame& frame);
 
-/// A program, or a window of one: then `text` holds some of its lines, `moves` and `left_alone` are those of
-/// these lines, and all else is what has been found from the program's first line on.
+/// A program, or a window of one. In a window, `text` is some lines of the program, and `moves` and
+/// `left_alone` belong to these lines. The other members describe the program from its first line to the end
+/// of the window.
 struct Program {
   std::string file;
-  std::string text;     ///< every byte of the input, with calls replaced where that was asked for
-  std::string dialect;  ///< the one that was read, never "auto"
-  IntegerWords integer_words = IntegerWords::unsaid;
+  std::string text;     ///< every byte of the input; with ReadOptions::expand_subprograms, calls are replaced
+  std::string dialect;  ///< the dialect that was read, never "auto"
+  IntegerWords integer_words = IntegerWords::unspecified;
   std::vector<Move> moves;
-  std::optional<Move>
-      before{};                 ///< of a window: the last move of the one before it, and the first one of the
-  std::optional<Move> after{};  ///< next; the spans of both lie in other texts
-  std::vector<ProgramFrame> frames{{}};        ///< in which moves are programmed; the first: no offset selected yet
-  std::vector<std::string> operations{""};    ///< texts of comments that stand alone in their lines, of this
-                                              ///< window; the first: the one that stood last before it
+  std::optional<Move> before{};  ///< of a window: last move of the window before it, and first move of the
+  std::optional<Move> after{};   ///< next window; their spans refer to other texts
+  /// Coordinate systems of the moves; the first: no offset was selected yet.
+  std::vector<ProgramFrame> frames{{}};
+  std::vector<std::string> operations{""};  ///< comments that are alone in their lines, of this
+                                            ///< window; the first: the last one before the window
   std::vector<LeftAlone> left_alone;
   std::vector<Remark> remarks;
   std::vector<PathTolerance> path_tolerances;  ///< each different one once
   std::size_t block_count = 0;                 ///< lines with at least one word
-  std::size_t evaluated = 0;                   ///< words that were variables or expressions and are their values
+  std::size_t evaluated = 0;  ///< number of words that were variables or expressions and were evaluated
   Expansion expansion{};
 };
 
-/// The move before `moves[index]`, of this window or the one before it; null where there is none.
+/// The move before `moves[index]`, in this window or the one before it; null if there is no such move.
 inline const Move* move_before(const Program& program, std::size_t index) {
   if (index > 0) return &program.moves[index - 1];
   return program.before ? &*program.before : nullptr;

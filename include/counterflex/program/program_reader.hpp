@@ -1,5 +1,5 @@
 #pragma once
-/// Reads programs of any size in windows: runs of whole lines, each a `Program` of its own.
+/// Reads programs of any size in windows. A window is a run of whole lines, and a `Program` of its own.
 #include <memory>
 #include <string>
 
@@ -8,42 +8,43 @@
 
 namespace counterflex {
 
-/// The size of a window: a rapid counts as 1, a line as 1 for each 5 mm that it begins (64 at most), an arc as 16 for
-/// each turn that it begins. These are about as many as the places at which it is solved.
+/// The size of a window, about the number of places at which it is solved. A rapid counts 1, a line 1 for
+/// each started 5 mm (at most 64), an arc 16 for each started turn.
 std::size_t window_size(const Program& window);
 
-/// The least size after which a window ends.
+/// Smallest size at which a window ends.
 inline constexpr std::size_t window_moves = 2048;
-/// Windows without an end.
+/// Reads the whole program as one window.
 inline constexpr std::size_t whole_program = static_cast<std::size_t>(-1);
 
-/// A program of a file, window by window. A window ends before a move along X or Y, or an arc, whose start is
-/// known in all axes, outside of contours, cycles, bodies and doubts, so that it can be corrected without
-/// looking back; it grows until there is such a place, or to twice its size until there is such a move along Z
-/// behind others. Its moves and all that has been found are those of `read_program`. A program whose subprograms
-/// are expanded, and Klartext whose polar blocks cannot all be followed, is one window, whatever its size.
+/// A program of a file, read window by window. A window ends before a move along X or Y, or before an arc, if
+/// the move can be corrected without the moves before it: its start is known in all axes, it is outside of
+/// contours, cycles and bodies, and all modal states are known. A window grows until there is such a move; at
+/// twice its size it may also end before such a move along Z that follows others. The moves of all windows
+/// are those of `read_program`. A program whose subprograms are expanded is one window, and so is Klartext
+/// with polar blocks that cannot be followed.
 class ProgramReader {
  public:
-  /// `bytes` is read from its beginning, where its dialect needs it once to see the program as a whole, then
-  /// window by window; it outlives the reader. `least_moves` of each window but the last. Throws `InputError`
-  /// as `read_program` does, where the dialect is not known.
+  /// Reads `bytes` from the beginning: once to find what depends on the whole program, if the dialect needs
+  /// it, then window by window. `bytes` must outlive the reader. Each window but the last has a size of at
+  /// least `least_moves`. Throws `InputError` as `read_program` does if the dialect is unknown.
   ProgramReader(FileReader& bytes, const std::string& file, const ReadOptions& options,
                 std::size_t least_moves = window_moves);
   ~ProgramReader();
   ProgramReader(ProgramReader&&) noexcept;
 
-  /// Reads the next window; false, and an empty one, when the program has been given out. Throws
+  /// Reads the next window. At the end of the program, returns false and sets an empty window. Throws
   /// `InputError` as `read_program` does.
   bool next();
 
-  /// Makes the window longer, to the next place where it may end; false when there is nothing more.
+  /// Extends the window to the next place at which it may end. False at the end of the program.
   bool extend();
 
   const Program& window() const;
   Program& window();
 
-  /// Gives the window away, without `remarks` and `path_tolerances`: it stands on its own and stays as it is
-  /// while others are read. What `to` held is used again.
+  /// Moves the window into `to`, without `remarks` and `path_tolerances`. It does not change while other
+  /// windows are read. Reuses the memory of `to`.
   void take_window(Program& to);
 
  private:
@@ -52,20 +53,20 @@ class ProgramReader {
   std::unique_ptr<State> state_;
 };
 
-/// A program whose text comes in portions of whole lines, as it is written.
+/// Reads a program whose text arrives in portions of whole lines.
 class TextReader {
  public:
-  /// Reads in the way in which `original` is read, of which the text is a correction.
+  /// Reads with the options and states of `original`. The text is a correction of it.
   TextReader(const ProgramReader& original);
   /// For a program of one portion, the correction of `original`.
   TextReader(const Program& original, const ReadOptions& options);
   ~TextReader();
   TextReader(TextReader&&) noexcept;
 
-  /// The window of the next portion, until the next call. Throws `InputError` as `read_program` does.
+  /// The window of the next portion, valid until the next call. Throws `InputError` as `read_program` does.
   const Program& read(std::string text);
 
-  /// Gives that window away, as a ProgramReader does.
+  /// Moves that window into `to`, as in ProgramReader.
   void take_window(Program& to);
 
  private:

@@ -1,6 +1,6 @@
 #pragma once
-/// Writes a corrected program: the input's bytes with changed coordinate words and inserted moves, nothing
-/// else.
+/// Writes a corrected program: the bytes of the input with changed coordinate words and inserted moves. All
+/// other bytes stay.
 #include <array>
 #include <memory>
 #include <optional>
@@ -14,16 +14,16 @@
 namespace counterflex {
 
 struct WriteOptions {
-  int decimals = -1;  ///< digits after the point of changed and inserted words; -1: the word's own, at least
-                      ///< the dialect's resolution
+  int decimals = -1;  ///< digits after the decimal point of changed and inserted words; -1: as in
+                      ///< the word, at least the dialect's resolution
   std::vector<std::string> header;  ///< texts of the header's comments, without comment characters
-  const BlockNumbers* number_pieces = nullptr;  ///< of the program: the pieces of a block Nn but the first
-                                                ///< become Nn+1, Nn+2 ... where these are free; null: they
-                                                ///< have no N
+  const BlockNumbers* number_pieces = nullptr;  ///< numbers of the program: the pieces of a block Nn after
+                                                ///< the first become Nn+1, Nn+2 ... if these are free. Null:
+                                                ///< they have no N
 };
 
-/// A point on the way of a move, and how it is come to: straight, or about a centre in the move's own plane
-/// and sense.
+/// A point on the path of a move. The tool reaches it on a line, or on an arc about a centre in the move's
+/// own plane and direction.
 struct Via {
   Vector3 end_mm = Vector3::Zero();
   std::optional<Vector3> centre_mm{};
@@ -32,53 +32,51 @@ struct Via {
 /// New end of one move, and moves inserted before it, in program coordinates, mm.
 struct MoveEdit {
   std::size_t move = 0;  ///< index into Program::moves
-  std::optional<Vector3>
-      jump_mm{};  ///< a feed move to this point goes first, also before a rapid; needs `may_jump`
-  std::vector<Via> inserted{};  ///< points on the way, same motion and feed; need `may_split`; G93 shares the
-                                ///< block's time among them by length
+  /// Inserts a feed move to this point first, also before a rapid; needs `may_jump`.
+  std::optional<Vector3> jump_mm{};
+  std::vector<Via> inserted{};  ///< points on the path, same motion and feed; need `may_split`; under G93
+                                ///< they share the block's time by length
   Vector3 end_mm = Vector3::Zero();
-  std::optional<Vector3> centre_mm{};  ///< of an arc's last piece; none where the move is an arc: it is
-                                       ///< written as chords through the inserted points, under G1
+  std::optional<Vector3> centre_mm{};  ///< of an arc's last piece; empty for an arc: it is written
+                                       ///< as chords through the inserted points, under G1
   std::optional<double> bottom_mm{}, retract_mm{};  ///< of a cycle: its Z and R as absolute coordinates
 };
 
-/// Digits after the point with which the end of `move` is written, by axis, and those of points inserted
-/// before it.
+/// Digits after the decimal point at the end of `move`, by axis, and in points inserted before it.
 struct Decimals {
   std::array<int, 3> end;
   int inserted;
 };
 Decimals decimals_of(const Move& move, const WriteOptions& options);
 
-/// A point in program coordinates (mm) as it is read back from text with `decimals` digits in the move's
-/// unit.
+/// A point in program coordinates (mm), rounded to `decimals` digits in the move's unit.
 Vector3 as_written_mm(const Vector3& p_mm, LengthUnit unit, const std::array<int, 3>& decimals);
 
-/// Where the emitted text holds the tool, in program coordinates (mm); nothing for an axis that is unknown.
-struct HeldPosition : std::array<std::optional<double>, 3> {
-  std::optional<double> cycle_initial_mm{};  ///< Z where the series of cycles that acts has begun
+/// Position of the tool in the written text, in program coordinates (mm). Empty for an axis whose position is
+/// unknown.
+struct TextPosition : std::array<std::optional<double>, 3> {
+  std::optional<double> cycle_initial_mm{};  ///< Z at which the active series of cycles began
 };
 
-/// The position that the emitted text holds after `move`, given the one before it, when its end is edited to
-/// `end_mm`: a word that is within half its last digit of its original stays, a word that is absent is
-/// inserted only where the held position is further away than that, and where it may be; under G91 a word
-/// says the way from the held position. `before` is what the last inserted point leaves (`as_written`). Of a
-/// cycle that leaves the tool at the plane that its R says, the Z of `end_mm` is that plane as it is edited.
-/// `rewrite` follows exactly this, word by word.
-HeldPosition held_after(const Move& move, const HeldPosition& before, const Vector3& end_mm,
-                        const WriteOptions& options);
+/// The position in the written text after `move`, whose end is edited to `end_mm`. `before` is the position
+/// before the move, or after the last inserted point (`as_written`). A word is unchanged if the new value
+/// rounds to it. A missing word is inserted only if the position differs by more than half a digit and the
+/// block may get the word. Under G91 a word is the difference from `before`. If a cycle leaves the tool at
+/// the plane of its R word, Z of `end_mm` is that plane. `rewrite` follows the same rules for each word.
+TextPosition text_position_after(const Move& move, const TextPosition& before, const Vector3& end_mm,
+                                 const WriteOptions& options);
 
-/// The position that the text holds after `last`, in the coordinates of the move that follows it: a change of
-/// the tool's length moves the coordinates while the machine stands still.
-HeldPosition held_between(const Move& last, const Move& next, const HeldPosition& held);
+/// The position in the written text after `last`, in the coordinates of `next`. A change of tool length
+/// shifts the coordinates while the machine does not move.
+TextPosition text_position_between(const Move& last, const Move& next, const TextPosition& position);
 
-/// What a control reads of a piece of a move that is written to go from `before` to `via`, in words rounded
-/// to their digits: start, end, and for an arc the centre that I J K or R then give. `is_end`: the piece ends
-/// at the move's own end, whose words may have digits of their own, and makes the arc's full turns. A piece
-/// of an arc that the digits make a point, or would turn into a full circle, comes back without an arc: it is
-/// not written, or at the move's end as G1. Needs all of `before`. In a block that is itself the first piece
-/// of its move (it holds other words) axis words may keep a digit more.
-Curve as_written(const Move& move, const HeldPosition& before, const Via& via, bool is_end,
+/// The curve that a control reads for a piece of a move from `before` to `via`, with words rounded to their
+/// digits: start, end, and for an arc the centre that I J K or R give. `is_end`: the piece ends at the move's
+/// own end, whose words may have other digits, and makes the arc's full turns. If rounding makes a piece of
+/// an arc a point or a full circle, the result has no arc: the piece is not written, or at the move's end it
+/// is written as G1. All axes of `before` must be known. If the block itself is the first piece of its move
+/// (it has other words), its axis words may have one digit more.
+Curve as_written(const Move& move, const TextPosition& before, const Via& via, bool is_end,
                  const WriteOptions& options);
 
 struct Rewritten {
@@ -86,9 +84,11 @@ struct Rewritten {
   std::size_t changed_words = 0;
   std::size_t inserted_words = 0;  ///< in blocks of the input
   std::size_t inserted_blocks = 0;
-  std::vector<std::size_t> blocks_of_edit;  ///< blocks inserted for each edit: its jump and its points
-  std::size_t unnumbered_pieces = 0;        ///< for which `WriteOptions::number_pieces` had no room
-  int first_unnumbered_line = 0;            ///< line of the first block with such pieces; 0: none
+  /// Number of blocks inserted for each edit: its jump and its points.
+  std::vector<std::size_t> blocks_of_edit;
+  /// Pieces without N, because `WriteOptions::number_pieces` has no free numbers.
+  std::size_t unnumbered_pieces = 0;
+  int first_unnumbered_line = 0;  ///< line of the first block with such pieces; 0: there are no such pieces
 };
 
 class ProgramWriter;
@@ -100,20 +100,20 @@ class Rewriter {
   ~Rewriter();
   Rewriter(Rewriter&&) noexcept;
 
-  /// The text of the next window with `edits` of its moves, as `rewrite` has it.
+  /// The text of the next window with `edits` of its moves, as written by `rewrite`.
   Rewritten write(const Program& window, const std::vector<MoveEdit>& edits);
 
  private:
   WriteOptions options_;
-  std::unique_ptr<ProgramWriter> writer_;  ///< none before the first window
+  std::unique_ptr<ProgramWriter> writer_;  ///< null before the first window
 };
 
-/// Applies `edits`, in the order of moves, at most one a move. The N of a block is that of its first piece. A
-/// move without an edit keeps its text, but a block that relies on the modal motion says it behind an edit
-/// that left another; an axis that is unknown at a move's end and has no word there is left alone, and so is
-/// a fixed one. Inserted points that the resolution cannot tell from the one before give no block. Throws
-/// `InputError` (Exit::program_text) for an integer word in a block that must be rewritten (see IntegerWords)
-/// and for a block that would be longer than the control reads.
+/// Applies `edits`, sorted by move, at most one per move. The first piece of a block gets its N. A move
+/// without an edit keeps its text; but if a block relies on the modal motion and an edit before it has
+/// changed that motion, the block gets a motion word. A fixed axis is not changed, and neither is an axis
+/// without a word whose position is unknown at the move's end. Inserted points that round to the point before
+/// them give no block. Throws `InputError` (Exit::program_text) for an integer word in a block that must be
+/// rewritten (see IntegerWords), and for a block that would be longer than the control reads.
 Rewritten rewrite(const Program& program, const std::vector<MoveEdit>& edits, const WriteOptions& options);
 
 }  // namespace counterflex

@@ -169,8 +169,7 @@ std::optional<Failure> go_to(NominalToolPath& nominal, const Model& base, const 
                    status};
   if (within_travel(at.model.mechanism, actuator_values(at.model.mechanism, nominal.configuration())))
     return std::nullopt;
-  if (const auto word = integer_word_in_doubt(window, line))
-    return Failure{Exit::program_text, word->line, word->what};
+  if (const auto word = ambiguous_integer_word(window, line)) return Failure{Exit::program_text, word->line, word->what};
   return Failure{Exit::limit, line, outside_travel_words(base.mechanism, at), 0, Status::outside_travel};
 }
 

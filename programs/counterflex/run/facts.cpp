@@ -23,7 +23,7 @@ std::vector<OptionValue> reading_options(const Options& options, const Run& run)
   std::vector<OptionValue> values{{"dialect", run.program.dialect}};
   if (options.units)
     values.push_back({"units", std::string(*options.units == LengthUnit::millimetres ? "mm" : "inch")});
-  if (options.integer_words != IntegerWords::unsaid)
+  if (options.integer_words != IntegerWords::unspecified)
     values.push_back({"integer-words",
                       std::string(options.integer_words == IntegerWords::units ? "units" : "increments")});
   if (options.absolute_centres)

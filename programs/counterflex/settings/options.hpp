@@ -83,7 +83,7 @@ struct Options {
 
   std::optional<std::string> dialect;
   std::optional<LengthUnit> units;
-  IntegerWords integer_words = IntegerWords::unsaid;
+  IntegerWords integer_words = IntegerWords::unspecified;
   std::optional<bool> absolute_centres;  ///< of arcs; none: the machine file's, or incremental
   bool evaluate = false;
   bool expand_subprograms = false;

@@ -13,7 +13,7 @@
 namespace counterflex {
 namespace {
 
-/// Whole lines, so that no comment loses its end.
+/// Whole lines, so that each comment is complete.
 std::string_view beginning(std::string_view text) {
   if (text.size() < bytes_of_dialect) return text;
   text = text.substr(0, bytes_of_dialect);
@@ -26,7 +26,7 @@ bool ends_in(std::string_view file, std::string_view ending) {
                     [](char a, char b) { return a == std::tolower(static_cast<unsigned char>(b)); });
 }
 
-/// The ending of the file's name decides where the text does not show Klartext.
+/// If the text is not Klartext, the extension of the file name decides.
 const Dialect& detect_dialect_of_file(std::string_view text, std::string_view file) {
   if (ends_in(file, ".h") && begins_like_klartext(text)) return *find_dialect(klartext_name);
   const Dialect& detected = detect_dialect(text);
@@ -38,22 +38,26 @@ const Dialect& detect_dialect_of_file(std::string_view text, std::string_view fi
 
 std::optional<std::string> unknown_dialect(const std::string& dialect) {
   if (dialect == "auto" || find_dialect(dialect) != nullptr) return std::nullopt;
-  return fmt::format("dialect '{}' is not known: {} are", dialect, dialect_names());
+  return fmt::format("unknown dialect '{}'; use one of {}", dialect, dialect_names());
 }
 
 const Dialect& choose_dialect(std::string_view text, const std::string& file, const ReadOptions& options) {
   if (const std::string_view language = robot_language(text); !language.empty())
-    throw InputError(Exit::program_text, {file, 1, 1},
-                     fmt::format("this is a program in {}, which is not read yet; G-code, Siemens and Heidenhain "
-                                 "programs are: post the job as one of them",
-                                 language));
+    throw InputError(
+        Exit::program_text, {file, 1, 1},
+        fmt::format("this is a program in {}, which is not supported; post the job as G-code, Siemens or "
+                    "Heidenhain program",
+                    language));
   if (const std::string machine = other_machine(text); !machine.empty())
-    throw InputError(Exit::program_text, {file, 1, 1},
-                     fmt::format("this is {}, which is not read: milling programs for Fanuc, Haas, LinuxCNC, GRBL, "
-                                 "Mach3, Siemens and Heidenhain are",
-                                 machine));
+    throw InputError(
+        Exit::program_text, {file, 1, 1},
+        fmt::format(
+            "this is {}, which is not supported; use a milling program for Fanuc, Haas, LinuxCNC, GRBL, "
+            "Mach3, Siemens or Heidenhain",
+            machine));
   if (options.dialect == "auto") return detect_dialect_of_file(beginning(text), file);
-  if (const auto problem = unknown_dialect(options.dialect)) throw UnknownDialect(Exit::usage, {file}, *problem);
+  if (const auto problem = unknown_dialect(options.dialect))
+    throw UnknownDialect(Exit::usage, {file}, *problem);
   return *find_dialect(options.dialect);
 }
 

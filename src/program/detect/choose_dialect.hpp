@@ -1,5 +1,5 @@
 #pragma once
-/// Which dialect a program is read in.
+/// Chooses the dialect in which a program is read.
 #include <array>
 #include <string>
 #include <string_view>
@@ -9,15 +9,15 @@
 
 namespace counterflex {
 
-/// A dialect shows at the beginning of a program: bytes of it.
+/// Number of bytes at the beginning of a program in which its dialect is searched.
 inline constexpr std::size_t bytes_of_dialect = 1 << 20;
 
-/// The dialect of `options`, or the one that `text`, of which only the beginning counts, and the ending of
-/// the file's name show: .mpf and .spf are Siemens programs, .h is one of Klartext if it begins like one.
-/// Throws `UnknownDialect` if no dialect has that name.
+/// The dialect of `options`. For auto, the beginning of `text` and the extension of the file name decide:
+/// .mpf and .spf are Siemens programs, .h is Klartext if the text begins like Klartext. Throws
+/// `UnknownDialect` if the dialect does not exist.
 const Dialect& choose_dialect(std::string_view text, const std::string& file, const ReadOptions& options);
 
-/// Axes that are unknown after a tool change.
+/// Axes whose position is unknown after a tool change.
 std::array<bool, 3> axes_of_tool_change(const Dialect& dialect, const ReadOptions& options);
 
 }  // namespace counterflex

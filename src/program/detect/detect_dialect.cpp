@@ -12,7 +12,8 @@ const Dialect& named(std::string_view name) {
   return *find_dialect(name);
 }
 
-/// Behind the comment that begins `line`, in which brackets may stand in pairs; nothing where it stays open.
+/// Position behind the comment that begins `line`, which may contain pairs of brackets. Empty if the comment
+/// is not closed.
 std::string_view behind_comment(std::string_view line) {
   int depth = 0;
   for (std::size_t at = 0; at < line.size(); ++at) {
@@ -26,7 +27,7 @@ std::string_view behind_comment(std::string_view line) {
 /// `line` without leading blanks and comments.
 std::string_view first_words(std::string_view line) {
   while (!line.empty()) {
-    if (is_blank(line.front()) || says_nothing(line.front())) {
+    if (is_blank(line.front()) || is_ignored(line.front())) {
       line.remove_prefix(1);
     } else if (line.front() == comment_open) {
       line = behind_comment(line);
@@ -42,8 +43,8 @@ std::string_view without_digits(std::string_view text) {
   return text;
 }
 
-/// "O1001" or ":1001", with N before it or words and comments behind it; LinuxCNC's "O100 sub" is no number
-/// of a program.
+/// "O1001" or ":1001", with N before it or words and comments behind it. LinuxCNC's "O100 sub" is not a
+/// program number.
 bool is_program_number(std::string_view line) {
   line = first_words(line);
   if (!line.empty() && upper(line.front()) == 'N') line = first_words(without_digits(line.substr(1)));
@@ -54,7 +55,7 @@ bool is_program_number(std::string_view line) {
   return rest.size() < 2 || !is_letter(rest[0]) || !is_letter(rest[1]);
 }
 
-/// What stands behind the '%' of a line may be the program's number.
+/// Text behind the '%' of a line, which may be the number of the program.
 std::string_view without_percent(std::string_view line) {
   line = first_words(line);
   return line.empty() || line.front() != '%' ? line : line.substr(1);
@@ -66,7 +67,7 @@ bool is_percent_name(std::string_view line) {
   return line.size() > 1 && line.front() == '%' && (is_letter(line[1]) || is_digit(line[1]));
 }
 
-/// "<PART-1>" or "O<PART-1>", the name of a program; LinuxCNC's "o<name> sub" is none.
+/// "<PART-1>" or "O<PART-1>", the name of a program; LinuxCNC's "o<name> sub" is not a name.
 bool is_part_name(std::string_view line) {
   line = first_words(line);
   if (!line.empty() && upper(line.front()) == 'O') line.remove_prefix(1);
@@ -75,7 +76,7 @@ bool is_part_name(std::string_view line) {
   return rest.empty() || rest.front() == ';';
 }
 
-bool says_nothing(std::string_view line) {
+bool is_ignored(std::string_view line) {
   line = first_words(line);
   return line.empty() || line.front() == ';' || line.front() == '%';
 }
@@ -86,7 +87,7 @@ const Dialect& detect_shop_control(std::string_view text) {
   return named(needs_haas ? "haas" : "fanuc");
 }
 
-/// Of programs without a number: what LinuxCNC refuses may be plain to others.
+/// For programs without a number. Text that LinuxCNC refuses may be valid for other controls.
 const Dialect& detect_hobby_control(std::string_view text) {
   if (names_grbl(text) && knows_codes(text, named("grbl"))) return named("grbl");
   const bool others = !knows_codes(text, named("linuxcnc")) || has_loose_comments(text);
@@ -104,7 +105,7 @@ const Dialect& detect_dialect(std::string_view text) {
     const std::string_view line = rest.substr(0, end);
     if (is_program_number(without_percent(line)) || is_part_name(line) || is_percent_name(line))
       return detect_shop_control(text);
-    if (!says_nothing(line)) break;
+    if (!is_ignored(line)) break;
     if (end == std::string_view::npos) break;
     rest.remove_prefix(end + 1);
   }

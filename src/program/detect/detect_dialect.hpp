@@ -1,13 +1,13 @@
 #pragma once
-/// The dialect that the text of a program shows.
+/// Detects the dialect of a program from its text.
 #include <string_view>
 
 #include "program/dialect.hpp"
 
 namespace counterflex {
 
-/// What "auto" means for `text`: heidenhain where it begins with BEGIN PGM, fanuc where the first line that
-/// says anything holds an O-number, siemens where there are words that only a Sinumerik reads, else linuxcnc.
+/// The dialect of `text` for "auto": heidenhain if it begins with BEGIN PGM, fanuc if the first line with
+/// words has an O-number, siemens if it has words that only a Sinumerik reads, else linuxcnc.
 const Dialect& detect_dialect(std::string_view text);
 
 }  // namespace counterflex

@@ -8,13 +8,13 @@
 namespace counterflex {
 namespace {
 
-/// Where the line that begins at `at` ends.
+/// End of the line that begins at `at`.
 std::size_t end_of_line(std::string_view text, std::size_t at) {
   return std::min(text.find('\n', at), text.size());
 }
 
-/// Behind the comment or name that begins at `at`; `at` where none does.
-std::size_t behind_aside(std::string_view text, std::size_t at) {
+/// Position behind the comment or name that begins at `at`; `at` if there is neither.
+std::size_t behind_comment_or_name(std::string_view text, std::size_t at) {
   const std::size_t end = end_of_line(text, at);
   const char close = text[at] == comment_open ? comment_close : '>';
   if (text[at] == ';' || text[at] == '%') return end;
@@ -22,7 +22,7 @@ std::size_t behind_aside(std::string_view text, std::size_t at) {
   return std::min(text.find(close, at), end);
 }
 
-/// Tenths of the number at `at`; nothing where none stands there, or one with more digits.
+/// Tenths of the number at `at`. Empty if there is no number, or if it has more digits.
 std::optional<int> tenths_at(std::string_view text, std::size_t at) {
   while (at < text.size() && is_blank(text[at])) ++at;
   int value = 0, digits = 0;
@@ -34,7 +34,7 @@ std::optional<int> tenths_at(std::string_view text, std::size_t at) {
   return value;
 }
 
-/// Whether a code or an aside may begin with the character.
+/// Whether a code, a comment or a name may begin with the character.
 bool begins_something(char c) {
   return c == 'G' || c == 'g' || c == ';' || c == '%' || c == comment_open || c == '<';
 }
@@ -48,7 +48,7 @@ bool begins_word(std::string_view text, std::size_t at) {
 bool knows_codes(std::string_view text, const Dialect& dialect) {
   for (std::size_t at = 0; at < text.size(); ++at) {
     if (!begins_something(text[at])) continue;
-    at = behind_aside(text, at);
+    at = behind_comment_or_name(text, at);
     if (at == text.size()) break;
     if (upper(text[at]) != 'G' || !begins_word(text, at)) continue;
     const std::optional<int> tenths = tenths_at(text, at + 1);
@@ -71,7 +71,7 @@ bool has_loose_comments(std::string_view text) {
   return false;
 }
 
-/// The header of a corrected program names the machine, which tells nothing of the dialect.
+/// The header of a corrected program names the machine, which does not indicate the dialect.
 bool is_in_header(std::string_view text, std::size_t at) {
   const std::size_t begin = text.find_last_of('\n', at) + 1;  // 0 in the first line
   return text.substr(begin, at - begin).find("COUNTERFLEX 1 ") != std::string_view::npos;
@@ -79,8 +79,8 @@ bool is_in_header(std::string_view text, std::size_t at) {
 
 bool names_grbl(std::string_view text) {
   constexpr std::string_view name = "GRBL";
-  constexpr std::size_t looked_at = 4096;
-  text = text.substr(0, looked_at);
+  constexpr std::size_t scanned = 4096;
+  text = text.substr(0, scanned);
   for (std::size_t at = 0; (at = find_either(text, 'G', 'g', at)) != std::string_view::npos; ++at)
     if (is_word(text.substr(at, name.size()), name) && !is_in_header(text, at)) return true;
   return false;

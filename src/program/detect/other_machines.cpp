@@ -12,7 +12,7 @@
 namespace counterflex {
 namespace {
 
-bool holds_word(std::string_view text, std::string_view word) {
+bool has_word(std::string_view text, std::string_view word) {
   const auto same = [](char a, char b) { return upper(a) == b; };
   for (auto at = text.begin();; ++at) {
     at = std::search(at, text.end(), word.begin(), word.end(), same);
@@ -22,16 +22,16 @@ bool holds_word(std::string_view text, std::string_view word) {
   }
 }
 
-/// What stands in a program, without an eye for its dialect.
+/// Signs of the machine in a program, independent of the dialect.
 struct Signs {
   std::array<std::size_t, 26> words{};  ///< by letter
   std::set<int> g_codes{};
   std::size_t beam_switches = 0;  ///< M3, M4 and M5
-  bool long_tool_number = false;  ///< T0101: tool and its offset
+  bool long_tool_number = false;  ///< T0101: tool number and its offset
   bool changes_tool = false;      ///< M6
   bool spindle_limit = false;     ///< G50 or G92 with S in one line
   bool heats = false;             ///< M104, M109, M140 or M190
-  bool says_laser = false, says_laser_on = false, says_plasma = false;
+  bool has_laser_comment = false, has_laser_on_comment = false, has_plasma_comment = false;
 
   std::size_t count(char letter) const { return words[static_cast<std::size_t>(letter - 'A')]; }
 };
@@ -58,9 +58,10 @@ void take_word(char letter, std::string_view digits, Signs& signs, LineSigns& li
 }
 
 void take_comment(std::string_view comment, Signs& signs) {
-  signs.says_laser = signs.says_laser || holds_word(comment, "LASER");
-  signs.says_laser_on = signs.says_laser_on || (holds_word(comment, "LASER") && holds_word(comment, "ON"));
-  signs.says_plasma = signs.says_plasma || holds_word(comment, "PLASMA");
+  signs.has_laser_comment = signs.has_laser_comment || has_word(comment, "LASER");
+  signs.has_laser_on_comment =
+      signs.has_laser_on_comment || (has_word(comment, "LASER") && has_word(comment, "ON"));
+  signs.has_plasma_comment = signs.has_plasma_comment || has_word(comment, "PLASMA");
 }
 
 void take_line(std::string_view line, Signs& signs) {
@@ -73,7 +74,8 @@ void take_line(std::string_view line, Signs& signs) {
       i = end + 1;
     } else if (is_letter(line[i])) {
       std::size_t end = i + 1;
-      while (end < line.size() && std::string_view("0123456789.+-").find(line[end]) != std::string_view::npos) ++end;
+      while (end < line.size() && std::string_view("0123456789.+-").find(line[end]) != std::string_view::npos)
+        ++end;
       const bool name = end < line.size() && is_letter(line[end]) && end == i + 1;
       if (!name && end > i + 1) take_word(upper(line[i]), line.substr(i + 1, end - i - 1), signs, of_line);
       while (name && end < line.size() && is_letter(line[end])) ++end;
@@ -92,15 +94,17 @@ std::string lathe(const Signs& s) {
   if (s.long_tool_number && !s.changes_tool) return "a lathe program (T with four digits and no Y)";
   if (s.spindle_limit && s.g_codes.contains(50)) return "a lathe program (G50 S and no Y)";
   const bool arcs = s.g_codes.contains(2) || s.g_codes.contains(3);
-  if (arcs && s.count('K') > 0 && !s.g_codes.contains(18)) return "a lathe program (arcs with K, no G18 and no Y)";
+  if (arcs && s.count('K') > 0 && !s.g_codes.contains(18))
+    return "a lathe program (arcs with K, no G18 and no Y)";
   return {};
 }
 
 std::string beam(const Signs& s) {
-  constexpr std::size_t many = 6;  // a spindle is switched once or twice for a tool
+  constexpr std::size_t many = 6;  // a milling spindle is switched once or twice per tool
   const bool switched = s.beam_switches >= many && !s.changes_tool;
-  if (s.says_laser_on || (s.says_laser && (switched || s.count('Z') == 0))) return "a laser program (comments say so)";
-  if (s.says_plasma && (switched || s.count('Z') == 0)) return "a plasma program (comments say so)";
+  if (s.has_laser_on_comment || (s.has_laser_comment && (switched || s.count('Z') == 0)))
+    return "a laser program (named in comments)";
+  if (s.has_plasma_comment && (switched || s.count('Z') == 0)) return "a plasma program (named in comments)";
   const bool flat = s.count('X') > 0 && s.count('Y') > 0 && s.count('Z') == 0;
   if (flat && switched) return "a laser or plasma program (M3 and M5 for each cut, and no Z)";
   return {};
@@ -110,13 +114,14 @@ std::string printer(const Signs& s) {
   return s.heats && s.count('E') > 0 ? "a program of a 3D printer (it heats, and E feeds the filament)" : "";
 }
 
-/// By what it begins with.
+/// Recognises programs by their beginning.
 std::string other_control(std::string_view text) {
   const std::string_view line = text.substr(0, text.find('\n'));
   if (line.starts_with('$') && line.find('%') != std::string_view::npos)
     return "an Okuma program ($...% at its beginning)";
   const std::string_view next = text.substr(std::min(line.size() + 1, text.size()));
-  if (line.starts_with("%PM") && next.starts_with("N9")) return "a Philips program (%PM and N9... at its beginning)";
+  if (line.starts_with("%PM") && next.starts_with("N9"))
+    return "a Philips program (%PM and N9... at its beginning)";
   return {};
 }
 

@@ -1,13 +1,13 @@
 #pragma once
-/// Programs of machines that do not mill, and of controls whose programs are not read: recognised so that the error
-/// names them.
+/// Recognises programs of other machines, such as lathes, and of controls that are not supported, so that the
+/// error can name them.
 #include <string>
 #include <string_view>
 
 namespace counterflex {
 
-/// What the program is, and by what it shows: "a lathe program (G96 and no Y)". Empty where nothing shows. `text` is
-/// its beginning.
+/// The kind of program and the signs of it: "a lathe program (G96 and no Y)". Empty if there are no such
+/// signs. `text` is the beginning of the program.
 std::string other_machine(std::string_view text);
 
 }  // namespace counterflex

@@ -16,7 +16,7 @@ std::string_view without_blanks(std::string_view text) {
   return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
 }
 
-/// Whether `line` is `word`, blanks and more; in any case of letters where `any_case`.
+/// Whether `line` is `word`, a blank and more text. `any_case`: upper and lower case.
 bool begins_with(std::string_view line, std::string_view word, bool any_case) {
   if (line.size() < word.size()) return false;
   const auto same = [&](char a, char b) {
@@ -26,7 +26,8 @@ bool begins_with(std::string_view line, std::string_view word, bool any_case) {
          (line.size() == word.size() || !is_name(line[word.size()]));
 }
 
-/// `NAME ( ... )` and `end`, as programs are defined; Siemens defines variables as `DEF REAL NAME`.
+/// `NAME ( ... )` and `end`: the definition of a program. In Siemens programs `DEF REAL NAME` defines a
+/// variable.
 bool is_definition(std::string_view line, std::string_view end) {
   const auto named =
       static_cast<std::size_t>(std::find_if_not(line.begin(), line.end(), is_name) - line.begin());

@@ -1,5 +1,5 @@
 #pragma once
-/// Robot programs, which are recognised so that the error names them.
+/// Recognises robot programs, so that the error can name the language.
 #include <string_view>
 
 namespace counterflex {

@@ -20,15 +20,15 @@ struct ComparisonName {
   Relation comparison;
 };
 constexpr std::array word_comparisons{
-    ComparisonName{"eq", Relation::equal},        ComparisonName{"ne", Relation::unequal},
-    ComparisonName{"lt", Relation::less},         ComparisonName{"le", Relation::less_equal},
-    ComparisonName{"gt", Relation::greater},      ComparisonName{"ge", Relation::greater_equal}};
+    ComparisonName{"eq", Relation::equal},   ComparisonName{"ne", Relation::unequal},
+    ComparisonName{"lt", Relation::less},    ComparisonName{"le", Relation::less_equal},
+    ComparisonName{"gt", Relation::greater}, ComparisonName{"ge", Relation::greater_equal}};
 constexpr std::array sign_comparisons{
-    ComparisonName{"==", Relation::equal},        ComparisonName{"<>", Relation::unequal},
-    ComparisonName{"<=", Relation::less_equal},   ComparisonName{">=", Relation::greater_equal},
-    ComparisonName{"<", Relation::less},          ComparisonName{">", Relation::greater}};
+    ComparisonName{"==", Relation::equal},      ComparisonName{"<>", Relation::unequal},
+    ComparisonName{"<=", Relation::less_equal}, ComparisonName{">=", Relation::greater_equal},
+    ComparisonName{"<", Relation::less},        ComparisonName{">", Relation::greater}};
 
-/// Lower case without blanks. On a Sinumerik one blank stays between two names.
+/// Lower case without blanks. On a Sinumerik one blank remains between two names.
 std::string dense_text(std::string_view expression, ExpressionSyntax syntax) {
   std::string dense;
   bool blank = false;
@@ -45,7 +45,7 @@ std::string dense_text(std::string_view expression, ExpressionSyntax syntax) {
   return dense;
 }
 
-/// Reads conditions of sums of products of powers of factors from dense text.
+/// Recursive descent parser of text without blanks: conditions, sums, products, powers, factors.
 class Evaluation {
  public:
   Evaluation(std::string text, ExpressionSyntax syntax, const ValueOf& value_of)
@@ -71,7 +71,7 @@ class Evaluation {
     return true;
   }
 
-  /// An operator that is a word; on a Sinumerik no letter or digit may follow it.
+  /// An operator that is a name. On a Sinumerik no letter or digit may follow it.
   bool take_word(std::string_view word) {
     const std::size_t begin = at_;
     take(" ");
@@ -82,17 +82,22 @@ class Evaluation {
   }
 
   std::string_view take_one_of(std::initializer_list<std::string_view> words) {
-    const auto found = std::find_if(words.begin(), words.end(), [&](std::string_view word) { return take_word(word); });
+    const auto found =
+        std::find_if(words.begin(), words.end(), [&](std::string_view word) { return take_word(word); });
     return found == words.end() ? std::string_view() : *found;
   }
 
-  /// The operators that bind loosest.
+  /// The operators of lowest precedence.
   Value condition() {
     switch (syntax_) {
-      case ExpressionSyntax::linuxcnc: return logic({"and", "or", "xor"}, &Evaluation::comparison);
-      case ExpressionSyntax::macro: return comparison();
-      case ExpressionSyntax::parentheses: return logic({"or"}, &Evaluation::exclusive);
-      default: return sum();
+      case ExpressionSyntax::linuxcnc:
+        return logic({"and", "or", "xor"}, &Evaluation::comparison);
+      case ExpressionSyntax::macro:
+        return comparison();
+      case ExpressionSyntax::parentheses:
+        return logic({"or"}, &Evaluation::exclusive);
+      default:
+        return sum();
     }
   }
   Value exclusive() { return logic({"xor"}, &Evaluation::conjunction); }
@@ -108,7 +113,7 @@ class Evaluation {
     return value;
   }
 
-  /// Only LinuxCNC takes other values than 0 and 1 for truth values; Fanuc works with their bits.
+  /// LinuxCNC accepts other values than 0 and 1 as truth values; Fanuc combines their bits.
   Value logic_of(double a, std::string_view name, Value b) const {
     const auto is_truth = [&](double x) { return syntax_ == ExpressionSyntax::linuxcnc || x == 0 || x == 1; };
     if (!b || !is_truth(a) || !is_truth(*b)) return std::nullopt;
@@ -126,7 +131,8 @@ class Evaluation {
   Value comparison() {
     Value value = sum();
     while (value) {
-      const auto comparison = has_brackets() ? take_comparison(word_comparisons) : take_comparison(sign_comparisons);
+      const auto comparison =
+          has_brackets() ? take_comparison(word_comparisons) : take_comparison(sign_comparisons);
       if (!comparison) break;
       const Value other = sum();
       if (!other) return std::nullopt;
@@ -138,7 +144,8 @@ class Evaluation {
 
   template <typename Names>
   std::optional<Relation> take_comparison(const Names& names) {
-    const auto found = std::find_if(names.begin(), names.end(), [&](auto& known) { return take(known.name); });
+    const auto found =
+        std::find_if(names.begin(), names.end(), [&](auto& known) { return take(known.name); });
     return found == names.end() ? std::nullopt : std::optional(found->comparison);
   }
 
@@ -169,7 +176,7 @@ class Evaluation {
       if (times || over) ++at_;
       const Value other = power();
       if (!other || (!times && *other == 0)) return std::nullopt;
-      if (modulo && (*value < 0 || *other < 0)) return std::nullopt;  // controls differ
+      if (modulo && (*value < 0 || *other < 0)) return std::nullopt;  // the result depends on the control
       value = times ? *value * *other : modulo ? std::fmod(*value, *other) : *value / *other;
       if (divides) value = std::trunc(*value);
     }
@@ -202,7 +209,7 @@ class Evaluation {
 
   Value bracket() { return up_to(close_); }
 
-  /// The condition behind the bracket that stands here, which `close` ends.
+  /// The condition behind an opening bracket, up to `close`.
   Value up_to(char close) {
     ++at_;
     if (++depth_ > deepest) return std::nullopt;
@@ -274,14 +281,16 @@ class Evaluation {
 
 }  // namespace
 
-ConstantValue evaluate_expression(std::string_view expression, ExpressionSyntax syntax, const ValueOf& value_of) {
+ConstantValue evaluate_expression(std::string_view expression, ExpressionSyntax syntax,
+                                  const ValueOf& value_of) {
   constexpr double beyond = 1e9;
   ConstantValue result = Evaluation(dense_text(expression, syntax), syntax, value_of).run();
   if (result.value && !(std::abs(*result.value) < beyond)) result.value.reset();
   return result;
 }
 
-std::optional<double> constant_value(std::string_view expression, ExpressionSyntax syntax, const ValueOf& value_of) {
+std::optional<double> constant_value(std::string_view expression, ExpressionSyntax syntax,
+                                     const ValueOf& value_of) {
   return evaluate_expression(expression, syntax, value_of).value;
 }
 

@@ -8,7 +8,7 @@ namespace counterflex {
 namespace {
 
 constexpr double closeness = 1e-6;
-constexpr double widest_closeness = 1.001e-4;  // of LinuxCNC 2.9; its manual has 1e-6
+constexpr double widest_closeness = 1.001e-4;  // of LinuxCNC 2.9; 1e-6 in its manual
 
 }  // namespace
 
@@ -41,12 +41,18 @@ std::optional<double> compared(double a, Relation comparison, double b, bool equ
   if (equal_if_close && tests_equality && !close && difference < widest_closeness) return std::nullopt;
   const bool equal = a == b || (equal_if_close && close);
   switch (comparison) {
-    case Relation::equal: return equal;
-    case Relation::unequal: return !equal;
-    case Relation::less: return a < b;
-    case Relation::less_equal: return a <= b;
-    case Relation::greater: return a > b;
-    case Relation::greater_equal: return a >= b;
+    case Relation::equal:
+      return equal;
+    case Relation::unequal:
+      return !equal;
+    case Relation::less:
+      return a < b;
+    case Relation::less_equal:
+      return a <= b;
+    case Relation::greater:
+      return a > b;
+    case Relation::greater_equal:
+      return a >= b;
   }
   return std::nullopt;
 }

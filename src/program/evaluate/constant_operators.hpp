@@ -5,17 +5,18 @@
 
 namespace counterflex {
 
-/// A function of one argument. It has no value where controls differ: below zero some round and turn otherwise.
+/// A function of one argument. Empty if controls differ: some round negative values in another direction.
 std::optional<double> value_of_function(std::string_view name, double x);
 
 enum class Relation { equal, unequal, less, less_equal, greater, greater_equal };
 
-/// 1 or 0. LinuxCNC (`equal_if_close`) takes values for equal that differ by less than 1e-6. There is no value where the
-/// result depends on the control: on LinuxCNC whether values are equal that differ by 1e-6 to 1e-4, since versions
-/// differ; on others any comparison of values that differ by less than 1e-6 and are not equal.
+/// 1 or 0. LinuxCNC (`equal_if_close`) treats values as equal that differ by less than 1e-6. The result is
+/// empty if it depends on the control: on LinuxCNC for equality of values that differ by 1e-6 to 1e-4,
+/// because versions differ; on other controls for any comparison of different values that differ by less than
+/// 1e-6.
 std::optional<double> compared(double a, Relation comparison, double b, bool equal_if_close);
 
-/// AND, OR, XOR by their lower case names, of truth values.
+/// AND, OR, XOR of truth values. The names are in lower case.
 double joined(bool a, std::string_view name, bool b);
 
 }  // namespace counterflex

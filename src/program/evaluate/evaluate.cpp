@@ -31,16 +31,16 @@ bool has_too_many_digits(double value) {
   return std::abs(value * digits - std::round(value * digits)) > rounding;
 }
 
-void note_worked_out(Program& program, int line) {
+void count_evaluated(Program& program, int line) {
   if (++program.evaluated == 1)
-    add_remark(program, line, "from here on variables and expressions are worked out (--evaluate)");
+    add_remark(program, line, "from here on variables and expressions are evaluated (--evaluate)");
 }
 
 void evaluate_words(Block& block, Reading& r) {
   if (!r.options.evaluate || !runs_once(r)) return;
   const bool relative = counts_from_position(block, r);
   for (Word& word : block.words) {
-    // A Sinumerik or a shop control may set the variable before or after it is used in the same block.
+    // Sinumerik and shop controls may set the variable before or after they read it in the same block.
     const bool in_order = !r.dialect.sinumerik_words && !r.dialect.macro_words;
     if (word.literal || (!in_order && !block.assignments.empty())) continue;
     const std::optional<double> value = value_in(r, word.number);
@@ -48,7 +48,7 @@ void evaluate_words(Block& block, Reading& r) {
     word.literal = word.point = true;
     word.value = *value;
     word.decimals = 0;
-    note_worked_out(r.program, block.line);
+    count_evaluated(r.program, block.line);
   }
 }
 

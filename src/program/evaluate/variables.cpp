@@ -10,7 +10,7 @@
 namespace counterflex {
 namespace {
 
-constexpr std::size_t highest_variable = 999;  // of those that mean nothing to the control
+constexpr std::size_t highest_variable = 999;  // the highest variable without a meaning for the control
 constexpr double highest_local = 30;
 
 std::string normal(std::string_view name) {
@@ -34,18 +34,21 @@ std::string variable_name(const Dialect& dialect, std::string_view spelt) {
   const bool numbered = name.size() > 1 && (name[0] == '#' || name[0] == 'r') && digits == 1;
   if (numbered && name.find_first_not_of("0123456789", 1) == std::string::npos)
     return name.size() <= 4 && std::stoul(name.substr(1)) <= highest_variable && name[1] != '0' ? name : "";
-  const bool named = name.starts_with("#<") || (dialect.sinumerik_words && name.find('[') == std::string::npos);
+  const bool named =
+      name.starts_with("#<") || (dialect.sinumerik_words && name.find('[') == std::string::npos);
   return named ? name : "";
 }
 
-ConstantValue value_of_expression(std::string_view expression, const Dialect& dialect, const Variables& variables) {
+ConstantValue value_of_expression(std::string_view expression, const Dialect& dialect,
+                                  const Variables& variables) {
   return evaluate_expression(expression, syntax_of(dialect), [&](const std::string& name) {
     const auto found = variables.find(name);
     return found == variables.end() ? std::nullopt : std::optional<double>(found->second);
   });
 }
 
-void assign(const Block& block, std::string_view text, const Dialect& dialect, bool known, Variables& variables) {
+void assign(const Block& block, std::string_view text, const Dialect& dialect, bool known,
+            Variables& variables) {
   std::vector<std::pair<std::string, std::optional<double>>> assigned;
   for (const Assignment& assignment : block.assignments) {
     const std::string name = variable_name(dialect, part(text, assignment.variable));
@@ -58,7 +61,7 @@ void assign(const Block& block, std::string_view text, const Dialect& dialect, b
     if (dialect.sinumerik_words && value && !name.empty()) variables[name] = *value;
   }
   for (const auto& [name, value] : assigned) {
-    if (name.empty()) variables.clear();  // any may have been set
+    if (name.empty()) variables.clear();  // the block may set any variable
     variables.erase(name);
     if (value && !name.empty()) variables[name] = *value;
   }

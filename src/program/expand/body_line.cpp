@@ -38,28 +38,34 @@ std::string replaced(std::string_view text, const Block& block, std::vector<Repl
 
 }  // namespace
 
-BodyLine line_of_body(std::string_view text, const Dialect& dialect, const Block& block, const Variables& variables) {
+BodyLine line_of_body(std::string_view text, const Dialect& dialect, const Block& block,
+                      const Variables& variables) {
   std::vector<Replacement> replacements;
   for (const Word& word : block.words) {
     if (word.literal) continue;
     const auto value = value_of_expression(part(text, word.number), dialect, variables).value;
     if (!value)
-      return {{}, fmt::format("{}{} in line {} of its body is no number that the call gives", word.letter,
-                              part(text, word.number), block.line)};
+      return {{},
+              fmt::format("{}{} in line {} of its body is not a number given by the call", word.letter,
+                          part(text, word.number), block.line)};
     replacements.push_back({word.number, shortest_text(*value)});
   }
   for (const Assignment& assignment : block.assignments) {
     const std::string_view spelt = part(text, assignment.variable);
     const std::string name = variable_name(dialect, spelt);
     if (name.empty())
-      return {{}, fmt::format("{} in line {} of its body is worked out, or the control's own", spelt, block.line)};
+      return {{},
+              fmt::format("{} in line {} of its body is an expression or a variable of the control", spelt,
+                          block.line)};
     if (is_local(name)) {
       replacements.push_back({{assignment.variable.begin, assignment.value.end}, {}});
       continue;
     }
     const auto value = value_of_expression(part(text, assignment.value), dialect, variables).value;
     if (!value)
-      return {{}, fmt::format("the value of {} in line {} of its body is not known from the text", spelt, block.line)};
+      return {{},
+              fmt::format("the value of {} in line {} of its body is not known from the text", spelt,
+                          block.line)};
     replacements.push_back({assignment.value, shortest_text(*value, decimals_of_variables)});
   }
   return {replaced(text, block, std::move(replacements)), {}};

@@ -1,5 +1,5 @@
 #pragma once
-/// Lines of the body of an O-word, whose variables are its own.
+/// Lines of the body of an O-word, which has its own variables.
 #include <string>
 #include <string_view>
 
@@ -8,12 +8,13 @@
 namespace counterflex {
 
 struct BodyLine {
-  std::string text{};     ///< with its line end; empty where nothing is left to write
-  std::string why_not{};  ///< a value is not known
+  std::string text{};     ///< with its line end; empty if no line is written
+  std::string why_not{};  ///< set if a value is unknown
 };
 
-/// The line of `block` with values in the place of expressions. Assignments to local variables are left out; those to
-/// global variables hold the value.
-BodyLine line_of_body(std::string_view text, const Dialect& dialect, const Block& block, const Variables& variables);
+/// The line of `block` with values in place of expressions. Assignments to local variables are left out;
+/// assignments to global variables get the value.
+BodyLine line_of_body(std::string_view text, const Dialect& dialect, const Block& block,
+                      const Variables& variables);
 
 }  // namespace counterflex

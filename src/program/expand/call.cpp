@@ -14,15 +14,15 @@ namespace {
 
 constexpr double largest_count = 1e9;
 
-/// -1 where it is no plain whole number.
+/// -1 if it is not a plain integer.
 long whole(const Word& word) {
   if (!word.literal || word.value < 0 || word.value > largest_count || word.value != std::floor(word.value))
     return -1;
   return static_cast<long>(word.value);
 }
 
-/// Codes whose blocks give no meaning of their own to P and L.
-bool may_stand_beside(const Word& word, const Dialect& dialect) {
+/// Codes whose blocks do not use P and L for themselves.
+bool may_be_beside(const Word& word, const Dialect& dialect) {
   constexpr std::array actions{Action::rapid,
                                Action::feed,
                                Action::arc,
@@ -62,9 +62,9 @@ std::string check_words(const Block& block, const Dialect& dialect, const Subpro
   if (!empty(block.block_delete)) return "'/' may skip it";
   if (block.assigns) return "its block sets a variable";
   for (const Word& word : block.words) {
-    const bool of_call = word.letter == 'P' || counts(word, dialect) || word.span.begin == call.said.begin;
-    if (!of_call && (dialect.o_words ? word.letter != 'N' : !may_stand_beside(word, dialect)))
-      return fmt::format("{} stands beside it", word.letter);
+    const bool of_call = word.letter == 'P' || counts(word, dialect) || word.span.begin == call.span.begin;
+    if (!of_call && (dialect.o_words ? word.letter != 'N' : !may_be_beside(word, dialect)))
+      return fmt::format("its block has the word {}", word.letter);
   }
   return {};
 }
@@ -75,7 +75,7 @@ void read_numbers(const Block& block, const Dialect& dialect, SubprogramCall& ca
   for (const Word& word : block.words) {
     if (word.letter != 'P' && !counts(word, dialect)) continue;
     const Word*& known = word.letter == 'P' ? p : count;
-    if (known != nullptr) call.why_not = fmt::format("{} stands twice", word.letter);
+    if (known != nullptr) call.why_not = fmt::format("{} occurs twice", word.letter);
     known = &word;
     call.dropped.push_back(word.span);
   }
@@ -83,8 +83,8 @@ void read_numbers(const Block& block, const Dialect& dialect, SubprogramCall& ca
   if (!call.why_not.empty()) return;
   const long number = whole(*p);
   if (count != nullptr) call.repeats = whole(*count);
-  if (number < 0) call.why_not = "its P is no plain number";
-  if (call.repeats < 1) call.why_not = fmt::format("its {} is no count from 1", count->letter);
+  if (number < 0) call.why_not = "its P is not a plain number";
+  if (call.repeats < 1) call.why_not = fmt::format("its {} is not a count from 1", count->letter);
   call.name.name = fmt::format("{}", number);
   if (count != nullptr || dialect.family != fanuc_family || number <= 9999) return;
   call.other_reading = {call.name.kind, fmt::format("{}", number % 10000)};
@@ -94,14 +94,14 @@ void read_numbers(const Block& block, const Dialect& dialect, SubprogramCall& ca
 SubprogramCall call_by_number(const Word& m, NameKind kind, const Block& block, const Dialect& dialect) {
   SubprogramCall call;
   call.name.kind = kind;
-  call.said = m.span;
+  call.span = m.span;
   call.dropped.push_back(m.span);
   call.why_not = check_words(block, dialect, call);
   read_numbers(block, dialect, call);
   return call;
 }
 
-/// "[1.5] [#2*[3-1]]" as "1.5" and "#2*[3-1]"; false where something else stands there.
+/// Splits "[1.5] [#2*[3-1]]" into "1.5" and "#2*[3-1]"; false for other text.
 bool read_arguments(std::string_view text, SubprogramCall& call) {
   while (true) {
     text.remove_prefix(std::min(text.find_first_not_of(" \t"), text.size()));
@@ -118,7 +118,7 @@ bool read_arguments(std::string_view text, SubprogramCall& call) {
   }
 }
 
-/// Where the O of an O-word stands.
+/// Position of the O of an O-word.
 std::size_t letter_before(std::string_view text, std::size_t at) {
   while (at > 0 && upper(text[at]) != 'O') --at;
   return at;
@@ -129,14 +129,14 @@ SubprogramCall call_by_word(std::string_view text, const Block& block) {
   call.name = {NameKind::word, normal_name(part(text, block.flow_name))};
   std::size_t end = block.flow_keyword.end;
   while (end < block.span.end && text[end] != comment_open && text[end] != ';') ++end;
-  call.said = {letter_before(text, block.flow_name.begin - 1), end};
-  call.dropped.push_back(call.said);
+  call.span = {letter_before(text, block.flow_name.begin - 1), end};
+  call.dropped.push_back(call.span);
   if (!empty(block.block_delete)) call.why_not = "'/' may skip it";
-  if (!block.comments.empty() && block.comments[0].begin < call.said.begin)
-    call.why_not = "a comment stands before it";
+  if (!block.comments.empty() && block.comments[0].begin < call.span.begin)
+    call.why_not = "a comment is before it";
   if (call.name.name.empty()) call.why_not = "its name is a variable or an expression";
   if (!read_arguments(text.substr(block.flow_keyword.end, end - block.flow_keyword.end), call))
-    call.why_not = "its arguments do not stand in brackets";
+    call.why_not = "its arguments are not in brackets";
   return call;
 }
 

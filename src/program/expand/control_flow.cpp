@@ -21,16 +21,21 @@ bool closes_structure(FlowKind kind) {
 
 bool ends_structure(FlowKind end, FlowKind begin) {
   switch (end) {
-    case FlowKind::end_if: return begin == FlowKind::begin_if;
-    case FlowKind::end_loop: return begin == FlowKind::begin_while || begin == FlowKind::begin_loop;
+    case FlowKind::end_if:
+      return begin == FlowKind::begin_if;
+    case FlowKind::end_loop:
+      return begin == FlowKind::begin_while || begin == FlowKind::begin_loop;
     case FlowKind::loop_while:
-    case FlowKind::loop_until: return begin == FlowKind::begin_loop;
-    case FlowKind::end_repeat: return begin == FlowKind::begin_repeat;
-    default: return begin == FlowKind::begin_for;
+    case FlowKind::loop_until:
+      return begin == FlowKind::begin_loop;
+    case FlowKind::end_repeat:
+      return begin == FlowKind::begin_repeat;
+    default:
+      return begin == FlowKind::begin_for;
   }
 }
 
-/// Joins lines from first to last.
+/// Finds the partners of lines, from first to last.
 class Joining {
  public:
   explicit Joining(std::vector<ControlLine>& lines) : lines_(lines) {}
@@ -38,28 +43,33 @@ class Joining {
   void run() {
     for (std::size_t at = 0; at < lines_.size(); ++at) {
       ControlLine& line = lines_[at];
-      if (line.kind == FlowKind::either_while) line.kind = closes_do(line) ? FlowKind::loop_while : FlowKind::begin_while;
+      if (line.kind == FlowKind::either_while)
+        line.kind = closes_do(line) ? FlowKind::loop_while : FlowKind::begin_while;
       if (opens_structure(line.kind)) open_.push_back(at);
       if (closes_structure(line.kind)) close(at);
       if (line.kind == FlowKind::else_if || line.kind == FlowKind::otherwise) branch(at);
-      if (line.kind == FlowKind::leave_loop || line.kind == FlowKind::next_pass) line.partner = loop_around(line);
+      if (line.kind == FlowKind::leave_loop || line.kind == FlowKind::next_pass)
+        line.partner = loop_around(line);
     }
     if (!open_.empty())
-      throw UnknownFlow{lines_[open_.back()].begin.line, fmt::format("{} has no end", lines_[open_.back()].keyword)};
+      throw UnknownFlow{lines_[open_.back()].begin.line,
+                        fmt::format("{} has no end", lines_[open_.back()].keyword)};
   }
 
  private:
   [[noreturn]] static void refuse_end(const ControlLine& line) {
-    throw UnknownFlow{line.begin.line, fmt::format("{} ends nothing", line.keyword)};
+    throw UnknownFlow{line.begin.line, fmt::format("{} has no beginning", line.keyword)};
   }
 
   bool closes_do(const ControlLine& line) const {
-    return !open_.empty() && lines_[open_.back()].kind == FlowKind::begin_loop && lines_[open_.back()].name == line.name;
+    return !open_.empty() && lines_[open_.back()].kind == FlowKind::begin_loop &&
+           lines_[open_.back()].name == line.name;
   }
 
   void close(std::size_t at) {
     ControlLine& line = lines_[at];
-    if (open_.empty() || !ends_structure(line.kind, lines_[open_.back()].kind) || lines_[open_.back()].name != line.name)
+    if (open_.empty() || !ends_structure(line.kind, lines_[open_.back()].kind) ||
+        lines_[open_.back()].name != line.name)
       refuse_end(line);
     const std::size_t begin = open_.back();
     open_.pop_back();
@@ -69,8 +79,8 @@ class Joining {
   }
 
   void branch(std::size_t at) {
-    const bool stands_in_if = !open_.empty() && lines_[open_.back()].kind == FlowKind::begin_if;
-    if (!stands_in_if || lines_[open_.back()].name != lines_[at].name) refuse_end(lines_[at]);
+    const bool is_in_if = !open_.empty() && lines_[open_.back()].kind == FlowKind::begin_if;
+    if (!is_in_if || lines_[open_.back()].name != lines_[at].name) refuse_end(lines_[at]);
     lines_[last_branch(open_.back())].next_branch = at;
   }
 
@@ -91,7 +101,8 @@ class Joining {
       const FlowKind kind = lines_[at].kind;
       return (kind == FlowKind::begin_while || kind == FlowKind::begin_loop) && lines_[at].name == line.name;
     });
-    if (around == open_.rend()) throw UnknownFlow{line.begin.line, fmt::format("{} stands in no while or do loop", line.keyword)};
+    if (around == open_.rend())
+      throw UnknownFlow{line.begin.line, fmt::format("{} is not in a while or do loop", line.keyword)};
     return *around;
   }
 
@@ -101,7 +112,8 @@ class Joining {
 
 }  // namespace
 
-void add_flow(std::string_view text, const Dialect& dialect, const Block& block, bool jumps, ControlFlow& flow) {
+void add_flow(std::string_view text, const Dialect& dialect, const Block& block, bool jumps,
+              ControlFlow& flow) {
   const std::size_t before = flow.lines.size();
   if (dialect.sinumerik_words) return add_siemens_flow(text, block, flow);
   if (dialect.o_words)
@@ -109,7 +121,7 @@ void add_flow(std::string_view text, const Dialect& dialect, const Block& block,
   else
     add_macro_word(text, block, jumps, flow);
   if (flow.lines.size() > before && !empty(block.block_delete))
-    throw UnknownFlow{block.line, "a jump or a loop stands in a block that '/' may skip"};
+    throw UnknownFlow{block.line, "a jump or a loop is in a block that '/' may skip"};
 }
 
 void join_structures(ControlFlow& flow) {
@@ -117,8 +129,9 @@ void join_structures(ControlFlow& flow) {
 }
 
 const ControlLine* flow_line_at(const ControlFlow& flow, const Block& block) {
-  const auto found = std::lower_bound(flow.lines.begin(), flow.lines.end(), block.text_line,
-                                      [](const ControlLine& line, int number) { return line.begin.line < number; });
+  const auto found =
+      std::lower_bound(flow.lines.begin(), flow.lines.end(), block.text_line,
+                       [](const ControlLine& line, int number) { return line.begin.line < number; });
   return found != flow.lines.end() && found->begin.line == block.text_line ? &*found : nullptr;
 }
 

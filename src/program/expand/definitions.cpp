@@ -9,7 +9,8 @@
 namespace counterflex {
 namespace {
 
-/// The letter that a line begins with, behind blanks and, of an O line, its N; 0 where it begins otherwise.
+/// The first letter of a line, behind blanks and the N of an O line; 0 if the line begins with another
+/// character.
 char first_letter(std::string_view line) {
   std::size_t at = 0;
   const auto skip = [&](auto of_kind) {
@@ -29,7 +30,7 @@ std::string number_text(const Word& word) {
   return word.literal ? fmt::format("{}", count_of(word)) : std::string();
 }
 
-/// Goes through a text's lines and notes those that subprograms may begin with.
+/// Finds the lines of a text at which subprograms may begin.
 class Finder {
  public:
   Finder(std::string_view text, const std::string& file, const Dialect& dialect)
@@ -45,10 +46,10 @@ class Finder {
       const std::string_view line = part(text_, block.span);
       const char first = first_letter(line);
       if (first == '%') {
-        if (said_) break;
-        said_ = true;
+        if (has_words_) break;
+        has_words_ = true;
       }
-      said_ = said_ || (first != '\0' && first != comment_open && first != ';');
+      has_words_ = has_words_ || (first != '\0' && first != comment_open && first != ';');
       if (first == 'O' || first == 'N' || !ended_) note(block);
     }
     return std::move(found_);
@@ -76,7 +77,7 @@ class Finder {
   const std::string& file_;
   const Dialect& dialect_;
   const bool blocks_are_called_;
-  bool said_ = false, ended_ = false;
+  bool has_words_ = false, ended_ = false;
   Definitions found_;
 };
 
@@ -94,32 +95,32 @@ bool is_m(const Word& word, int code) {
   return word.letter == 'M' && word.literal && word.value == code;
 }
 
-/// What in a block of the body keeps it from being copied.
+/// Notes why a block of the body prevents copying it.
 void look_at_words(const Block& block, bool by_word, const Dialect& dialect, Definition& d) {
   if (block.assigns && dialect.o_words && !by_word) forbid(d, "its body sets variables");
   for (const Word& word : block.words) {
-    if (is_m(word, 73)) forbid(d, "M73 in its body brings states back");
+    if (is_m(word, 73)) forbid(d, "M73 in its body restores modal states");
     if (word.literal) continue;
     if (word.letter == 'G' || word.letter == 'M')
       forbid(d, "a code in its body is a variable or an expression");
-    if (dialect.o_words && !by_word) forbid(d, "its body holds variables or expressions");
+    if (dialect.o_words && !by_word) forbid(d, "its body has variables or expressions");
   }
 }
 
 /// Whether M99 ends the body here.
-bool comes_back(const Block& block, Definition& d) {
+bool is_return(const Block& block, Definition& d) {
   if (find_m(block, 99) == nullptr) return false;
   if (!empty(block.block_delete)) {
     forbid(d, "'/' may skip the M99 in its body");
     return false;
   }
   if (find_letter(block, 'P') == nullptr) return true;
-  forbid(d, "its M99 goes to a block number");
+  forbid(d, "its M99 jumps to a block number");
   d.seeks_numbers = true;
   return true;
 }
 
-/// Of a line of flow: whether it ends the body.
+/// Whether a line of flow ends the body.
 bool ends_sub(std::string_view text, const Block& block, const SubprogramName& name, Definition& d) {
   const std::string_view keyword = part(text, block.flow_keyword);
   if (name.kind == NameKind::word && is_word(keyword, "ENDSUB") &&
@@ -127,23 +128,24 @@ bool ends_sub(std::string_view text, const Block& block, const SubprogramName& n
     const std::string_view rest =
         text.substr(block.flow_keyword.end, block.span.end - block.flow_keyword.end);
     if (rest.substr(0, rest.find_first_of("(;")).find('[') != std::string_view::npos)
-      forbid(d, "its endsub gives a value back");
+      forbid(d, "its endsub returns a value");
     return true;
   }
-  if (is_word(keyword, "SUB") || is_word(keyword, "ENDSUB")) forbid(d, "another subprogram is defined in its body");
+  if (is_word(keyword, "SUB") || is_word(keyword, "ENDSUB"))
+    forbid(d, "another subprogram is defined in its body");
   return false;
 }
 
-void add_to_flow(std::string_view text, const Block& block, const Dialect& dialect, const SubprogramName& name,
-                 Definition& d) {
+void add_to_flow(std::string_view text, const Block& block, const Dialect& dialect,
+                 const SubprogramName& name, Definition& d) {
   try {
     add_flow(text, dialect, block, true, d.flow);
   } catch (const UnknownFlow& unknown) {
     forbid(d, unknown.why);
   }
-  // The variables of such a body are not followed.
+  // The variables of such a body are not known.
   if (dialect.o_words && name.kind != NameKind::word && !d.flow.lines.empty())
-    forbid(d, "its body holds a condition, a loop, a jump or a return");
+    forbid(d, "its body has a condition, a loop, a jump or a return");
 }
 
 void join_flow(Definition& d) {
@@ -154,9 +156,9 @@ void join_flow(Definition& d) {
   }
 }
 
-/// Reads the lines of the body, up to the line that ends it. Behind jumps that is the last M99.
-void read_body(std::string_view text, const std::string& file, const Dialect& dialect, const SubprogramName& name,
-               Definition& d) {
+/// Reads the lines of the body, up to the line that ends it: with jumps, the last M99.
+void read_body(std::string_view text, const std::string& file, const Dialect& dialect,
+               const SubprogramName& name, Definition& d) {
   const bool by_word = name.kind == NameKind::word;
   Block block = before(d.body);
   while (next_line(text, block)) {
@@ -170,7 +172,7 @@ void read_body(std::string_view text, const std::string& file, const Dialect& di
     add_to_flow(text, block, dialect, name, d);
     if (!empty(block.flow_keyword)) continue;
     look_at_words(block, by_word, dialect, d);
-    if (by_word || !comes_back(block, d)) continue;
+    if (by_word || !is_return(block, d)) continue;
     end_at(block, d);
     if (!has_jumps(d.flow)) return;
   }
@@ -233,7 +235,7 @@ Definition read_definition(std::string_view text, const std::string& file, const
     next_line(text, block);
     lex(text, file, dialect, block);
     const auto names = [](const Word& word) { return word.letter == 'O' || word.letter == 'N'; };
-    if (!std::all_of(block.words.begin(), block.words.end(), names)) forbid(d, "words stand beside its O");
+    if (!std::all_of(block.words.begin(), block.words.end(), names)) forbid(d, "its O line has other words");
     if (!empty(block.block_delete)) forbid(d, "'/' may skip its O");
     d.body = {block.line_end.end, block.line + 1};
   }

@@ -1,5 +1,5 @@
 #pragma once
-/// The subprograms that stand in a text.
+/// Subprograms that are defined in a text.
 #include <map>
 #include <string>
 #include <string_view>
@@ -10,7 +10,7 @@
 
 namespace counterflex {
 
-/// How a subprogram is named: by its O-number, by the number of its first block (M97), by an O-word.
+/// Name of a subprogram: its O-number, the number of its first block (M97), or its O-word.
 enum class NameKind { program, block, word };
 
 struct SubprogramName {
@@ -21,40 +21,40 @@ struct SubprogramName {
 
 struct Definition {
   LinePlace begin;             ///< its O line
-  LinePlace body;              ///< the line behind; of a block number the same line
-  bool ends = false;           ///< by M99 or endsub, before the program does
-  LinePlace end;               ///< then this line
-  LinePlace after;             ///< and the one behind
+  LinePlace body;              ///< the line behind it; of a block number the same line
+  bool ends = false;           ///< by M99 or endsub, before the end of the program
+  LinePlace end;               ///< the line that ends it, if `ends`
+  LinePlace after;             ///< the line behind `end`
   ControlFlow flow;            ///< of its body
-  std::string why_not;         ///< its body cannot be copied
+  std::string why_not;         ///< why its body cannot be copied; empty: it can
   bool seeks_numbers = false;  ///< M99 with P
 };
 
-/// By name. Two with the same name say nothing.
+/// By name. Two definitions with the same name are ambiguous.
 using Definitions = std::map<SubprogramName, std::vector<LinePlace>>;
 
-/// Lines that define a subprogram or may, up to the '%' that ends the file. Numbers of programs that stand
-/// before the end of a LinuxCNC's program are the program's own.
+/// Lines that define a subprogram or may define one, up to the '%' that ends the file. In LinuxCNC, numbers
+/// before the end of the program belong to the program itself.
 Definitions find_definitions(std::string_view text, const std::string& file, const Dialect& dialect);
 
-/// Whether the line is G-code: what stands behind the end of a program need not be.
+/// Whether the line is G-code. Text behind the end of a program need not be.
 bool lexes(std::string_view text, const std::string& file, const Dialect& dialect, Block& block);
 
-/// Reads the body that begins at `begin`. Throws `InputError` for what is no G-code.
+/// Reads the body that begins at `begin`. Throws `InputError` for text that is not G-code.
 Definition read_definition(std::string_view text, const std::string& file, const Dialect& dialect,
                            const SubprogramName& name, LinePlace begin);
 
-/// A Block before the line at `place`.
+/// A block before the line at `place`.
 Block before(LinePlace place);
 
-/// M with that number, or nullptr.
+/// The word M with that number, or nullptr.
 const Word* find_m(const Block& block, int code);
 const Word* find_letter(const Block& block, char letter);
 
-/// Whether M2 or M30 stands in it.
+/// Whether the block has M2 or M30.
 bool ends_program(const Block& block);
 
-/// "100" of "0100", "<pocket>" of "< Pocket >"; empty where it is an expression.
+/// "100" of "0100", "<pocket>" of "< Pocket >"; empty for an expression.
 std::string normal_name(std::string_view name);
 
 }  // namespace counterflex

@@ -5,13 +5,13 @@
 #include <algorithm>
 
 #include "program/expand/text.hpp"
-#include "program/klartext/lex.hpp"
 #include "program/gcode/remarks.hpp"
+#include "program/klartext/lex.hpp"
 
 namespace counterflex {
 namespace {
 
-/// The run of lines that `text_line` stands in; nothing was expanded where there is none.
+/// The run of lines of `text_line`; null if nothing was expanded.
 const LineRun* run_of(const Expansion& expansion, int text_line) {
   const auto& runs = expansion.lines;
   const auto behind = std::upper_bound(runs.begin(), runs.end(), text_line,
@@ -36,7 +36,7 @@ Expansion expand_subprograms(std::string& text, const std::string& file, const D
   const auto replaced = [&] { return expanded.expansion.calls > 0 || expanded.expansion.executed > 0; };
   if (expanded.seeks_numbers && replaced())
     expanded = expand_text(text, file, dialect,
-                           "M97 or M99 with P looks for a block number, which copies would repeat");
+                           "M97 or M99 with P searches a block number, which copies would repeat");
   if (replaced())
     text = std::move(expanded.text);
   else
@@ -56,7 +56,7 @@ void place_in_file(const Expansion& expansion, Block& block) {
   block.called_from = run->called_from;
 }
 
-bool stands_unused(const Expansion& expansion, std::size_t at) {
+bool is_unused(const Expansion& expansion, std::size_t at) {
   const auto& unused = expansion.unused;
   const auto behind = std::upper_bound(unused.begin(), unused.end(), at,
                                        [](std::size_t place, Span span) { return place < span.begin; });
@@ -73,19 +73,22 @@ std::string_view why_not_expanded(const Expansion& expansion, int text_line) {
 
 namespace {
 
-/// Says what was executed, or why not. False where nothing was to be executed.
+/// Adds remarks on executed lines, or on the reason why they were not executed. False if nothing was to be
+/// executed.
 bool remark_execution(Program& program) {
   const Expansion& expansion = program.expansion;
   if (expansion.executed > 0)
-    add_remark(program, expansion.first_executed,
-               fmt::format("loops, conditions and jumps are replaced by the blocks that they execute, {} of them; this "
-                           "is the first",
-                           expansion.executed));
+    add_remark(
+        program, expansion.first_executed,
+        fmt::format(
+            "loops, conditions and jumps are replaced by the blocks that they execute, {} of them; this "
+            "is the first",
+            expansion.executed));
   const auto& left = expansion.calls_left;
   const auto flow = std::find_if(left.begin(), left.end(), [](const CallLeft& one) { return one.is_flow; });
   if (flow != left.end())
     add_remark(program, line_of_file(expansion, flow->text_line),
-               "loops, conditions and jumps are left as they are: " + flow->why);
+               "loops, conditions and jumps are not executed:  " + flow->why);
   return expansion.executed > 0 || flow != left.end();
 }
 
@@ -96,13 +99,15 @@ void remark_expansion(Program& program) {
   const bool flow = remark_execution(program);
   const Expansion& expansion = program.expansion;
   if (expansion.calls > 0)
-    return add_remark(program, expansion.first_call,
-                      fmt::format("{} of subprograms replaced by the bodies; this is the first",
-                                  expansion.calls == 1 ? "one call" : fmt::format("{} calls", expansion.calls)));
+    return add_remark(
+        program, expansion.first_call,
+        fmt::format("{} of subprograms replaced by the bodies; this is the first",
+                    expansion.calls == 1 ? "one call" : fmt::format("{} calls", expansion.calls)));
   if (flow || !expansion.calls_left.empty()) return;
   add_remark(program, 1,
-             sinumerik ? "no loop, condition or jump stands in the program: nothing is expanded"
-                       : "no call by M98 or an O-word and no CALL LBL stands in the program itself: nothing is expanded");
+             sinumerik
+                 ? "the program has no loop, condition or jump: nothing is expanded"
+                 : "the program itself has no call by M98 or an O-word and no CALL LBL: nothing is expanded");
 }
 
 }  // namespace counterflex

@@ -1,5 +1,5 @@
 #pragma once
-/// Puts the bodies of subprograms in the place of their calls, before a program is read.
+/// Replaces calls of subprograms by their bodies, before a program is read.
 #include <algorithm>
 #include <string>
 
@@ -9,16 +9,17 @@
 
 namespace counterflex {
 
-/// Replaces calls in `text` that say all in plain numbers (M98, M97 of a Haas, LinuxCNC's O-words) by copies
-/// of the bodies that stand in the same text, L of M98 times, and calls in these copies likewise. Copies hold
-/// every byte of a body but its O, M99, sub and endsub lines; in those of an O-word the arguments stand for
-/// #1 to #30, and local variables are replaced by their values. A call block keeps its other words, its N and its
-/// comments. Definitions stay where they are; calls that cannot be replaced stay too, with the reason.
-/// Loops, conditions and jumps of the program and of these bodies are replaced by the lines that they execute:
-/// FOR, WHILE, LOOP, REPEAT, IF and GOTO of a Sinumerik, the O-words of LinuxCNC, WHILE, DO, IF and GOTO of shop
-/// controls. Those of the program all stay, with the reason, where a condition is not known from the text, or where
-/// more than 150 000 lines would run again. The calls of a Sinumerik are not replaced.
-/// Throws `InputError` (Exit::program_text) for what is no G-code, for a subprogram that always calls itself, and where
+/// Replaces calls in `text` whose words are plain numbers (M98, M97 of a Haas, LinuxCNC's O-words) by copies
+/// of the bodies in the same text, L of M98 times. Calls in the copies are replaced, too. A copy has every
+/// byte of a body except its O, M99, sub and endsub lines. In the body of an O-word the arguments replace #1
+/// to #30, and values replace local variables. The block of a call keeps its other words, its N and its
+/// comments. Definitions stay. Calls that cannot be replaced stay, too, with the reason.
+/// Loops, conditions and jumps of the program and of these bodies are replaced by the lines that they
+/// execute: FOR, WHILE, LOOP, REPEAT, IF and GOTO of a Sinumerik, the O-words of LinuxCNC, WHILE, DO, IF and
+/// GOTO of shop controls. If a condition of the program is not known from the text, or if more than 150 000
+/// lines would run again, all of them stay, with the reason. Calls of a Sinumerik are not replaced.
+/// Throws `InputError` (Exit::program_text) for text that is not G-code, for a subprogram that always calls
+/// itself, and if calls expand to more than `largest_expansion` bytes.
 /// calls make more than `largest_expansion` bytes.
 Expansion expand_subprograms(std::string& text, const std::string& file, const Dialect& dialect);
 
@@ -28,22 +29,23 @@ bool may_expand(const Dialect& dialect);
 /// Whether loops, conditions and jumps of the dialect can be executed.
 bool may_execute(const Dialect& dialect);
 
-/// Bytes that a program of `bytes` may become: it is one window, whose moves need a thousand times as much memory.
+/// Limit of the expanded size of a program of `bytes`. The result is one window, whose moves need a thousand
+/// times as much memory.
 constexpr std::size_t largest_expansion(std::size_t bytes) {
   return std::max(std::size_t{250'000}, 4 * bytes);
 }
 constexpr std::size_t most_expanded_calls = 1'000'000;
 
-/// Sets `block`'s line to the one of the file that the line of the text comes from.
+/// Sets the line of `block` to the line of the file from which the line of the text comes.
 void place_in_file(const Expansion& expansion, Block& block);
 
-/// Whether the line that begins at byte `at` of the text belongs to a definition that nothing calls any more.
-bool stands_unused(const Expansion& expansion, std::size_t at);
+/// Whether the line at byte `at` of the text belongs to a definition that is no longer called.
+bool is_unused(const Expansion& expansion, std::size_t at);
 
-/// Why the call in line `text_line` of the text was not replaced; empty where nothing was asked.
+/// Why the call in line `text_line` of the text was not replaced; empty if expansion was off.
 std::string_view why_not_expanded(const Expansion& expansion, int text_line);
 
-/// Remarks on what was done.
+/// Adds remarks on the expansion.
 void remark_expansion(Program& program);
 
 }  // namespace counterflex

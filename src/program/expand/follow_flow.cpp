@@ -17,24 +17,41 @@ class Follower {
 
   FlowStep step(const ControlLine& line) {
     switch (line.kind) {
-      case FlowKind::jump: return {line.condition.empty() || holds(line) ? target_of(line) : line.behind};
-      case FlowKind::begin_if: return {branch_of(line)};
+      case FlowKind::jump:
+        return {line.condition.empty() || is_true(line) ? target_of(line) : line.behind};
+      case FlowKind::begin_if:
+        return {branch_of(line)};
       case FlowKind::else_if:
-      case FlowKind::otherwise: return {partner(line).behind};
-      case FlowKind::begin_while: return {holds(line) ? line.behind : partner(line).behind};
-      case FlowKind::end_loop: return {pass_again(partner(line))};
-      case FlowKind::loop_while: return {holds(line) ? partner(line).behind : line.behind};
-      case FlowKind::loop_until: return {holds(line) ? line.behind : partner(line).behind};
-      case FlowKind::begin_repeat: return {begin_repeat(line)};
-      case FlowKind::end_repeat: return {repeat(line)};
-      case FlowKind::begin_for: return begin_count(line);
-      case FlowKind::end_for: return count_on(line);
-      case FlowKind::leave_loop: return {partner(partner(line)).behind};
-      case FlowKind::next_pass: return {partner(partner(line)).begin};
-      case FlowKind::leave_body: return leave_body(line);
-      case FlowKind::assign_if: return {line.behind, {}, holds(line) ? line.rest : Span{}};
-      case FlowKind::not_followed: refuse(line, fmt::format("{} is not followed", line.keyword));
-      default: return {line.behind};
+      case FlowKind::otherwise:
+        return {partner(line).behind};
+      case FlowKind::begin_while:
+        return {is_true(line) ? line.behind : partner(line).behind};
+      case FlowKind::end_loop:
+        return {repeat_or_leave(partner(line))};
+      case FlowKind::loop_while:
+        return {is_true(line) ? partner(line).behind : line.behind};
+      case FlowKind::loop_until:
+        return {is_true(line) ? line.behind : partner(line).behind};
+      case FlowKind::begin_repeat:
+        return {begin_repeat(line)};
+      case FlowKind::end_repeat:
+        return {repeat(line)};
+      case FlowKind::begin_for:
+        return begin_count(line);
+      case FlowKind::end_for:
+        return count_on(line);
+      case FlowKind::leave_loop:
+        return {partner(partner(line)).behind};
+      case FlowKind::next_pass:
+        return {partner(partner(line)).begin};
+      case FlowKind::leave_body:
+        return leave_body(line);
+      case FlowKind::assign_if:
+        return {line.behind, {}, is_true(line) ? line.rest : Span{}};
+      case FlowKind::not_followed:
+        refuse(line, fmt::format("{} is not supported", line.keyword));
+      default:
+        return {line.behind};
     }
   }
 
@@ -49,7 +66,7 @@ class Follower {
     return value_of_expression(expression, dialect_, variables_);
   }
 
-  bool holds(const ControlLine& line) const {
+  bool is_true(const ControlLine& line) const {
     const ConstantValue truth = value_of(line.condition);
     if (truth.depends_on_rounding)
       refuse(line, fmt::format("the condition {} depends on how the control rounds", line.condition));
@@ -60,20 +77,20 @@ class Follower {
 
   LinePlace branch_of(const ControlLine& first) const {
     const ControlLine* line = &first;
-    while (line->kind != FlowKind::end_if && line->kind != FlowKind::otherwise && !holds(*line))
+    while (line->kind != FlowKind::end_if && line->kind != FlowKind::otherwise && !is_true(*line))
       line = &flow_.lines[line->next_branch];
     return line->behind;
   }
 
   /// A condition at the beginning is tested again.
-  static LinePlace pass_again(const ControlLine& begin) {
+  static LinePlace repeat_or_leave(const ControlLine& begin) {
     return begin.kind == FlowKind::begin_while ? begin.begin : begin.behind;
   }
 
   LinePlace begin_repeat(const ControlLine& line) {
     const auto count = value_of(line.condition).value;
     if (!count || *count != std::round(*count))
-      refuse(line, fmt::format("the count {} is no whole number that the text shows", line.condition));
+      refuse(line, fmt::format("the count {} is not an integer known from the text", line.condition));
     if (*count < 1) return partner(line).behind;
     passes_[line.partner] = static_cast<long>(*count);
     return line.behind;
@@ -85,7 +102,7 @@ class Follower {
   }
 
   FlowStep leave_body(const ControlLine& line) const {
-    if (!line.condition.empty()) refuse(line, "its return gives a value back");
+    if (!line.condition.empty()) refuse(line, "its return has a value");
     FlowStep step{line.behind};
     step.leaves = true;
     return step;
@@ -95,27 +112,32 @@ class Follower {
     if (dialect_.sinumerik_words) return label_of(line);
     const auto number = value_of(line.target).value;
     const bool whole = number && *number >= 0 && *number == std::round(*number);
-    if (!whole) refuse(line, fmt::format("the target {} of the jump is no number that the text shows", line.target));
+    if (!whole)
+      refuse(line, fmt::format("the target {} of the jump is not a number known from the text", line.target));
     const auto found = flow_.labels.find(fmt::format("{:.0f}", *number));
-    if (found == flow_.labels.end()) refuse(line, fmt::format("N{:.0f}, the target of the jump, is not found", *number));
-    if (found->second.size() > 1) refuse(line, fmt::format("N{:.0f}, the target of the jump, stands more than once", *number));
+    if (found == flow_.labels.end())
+      refuse(line, fmt::format("N{:.0f}, the target of the jump, is not found", *number));
+    if (found->second.size() > 1)
+      refuse(line, fmt::format("N{:.0f}, the target of the jump, occurs more than once", *number));
     return found->second.front();
   }
 
   LinePlace label_of(const ControlLine& line) const {
     const std::size_t blank = std::min(line.target.find(' '), line.target.size());
-    const std::string direction = line.target.substr(0, blank), name(trimmed_text(std::string_view(line.target).substr(blank)));
+    const std::string direction = line.target.substr(0, blank),
+                      name(trimmed_text(std::string_view(line.target).substr(blank)));
     const auto found = flow_.labels.find(name);
     if (found == flow_.labels.end()) refuse(line, fmt::format("the label {} of the jump is not found", name));
     const std::vector<LinePlace>& places = found->second;
-    const auto behind = std::upper_bound(places.begin(), places.end(), line.begin.at,
-                                         [](std::size_t at, const LinePlace& place) { return at < place.at; });
+    const auto behind =
+        std::upper_bound(places.begin(), places.end(), line.begin.at,
+                         [](std::size_t at, const LinePlace& place) { return at < place.at; });
     if (direction != "GOTOB" && behind != places.end()) return *behind;
     if (direction != "GOTOF" && behind != places.begin()) return *std::prev(behind);
     refuse(line, fmt::format("the label {} of the jump is not found in its direction", name));
   }
 
-  /// FOR R1=1 TO 5: the variable is set before each time, and the loop ends behind the last value.
+  /// FOR R1=1 TO 5: sets the variable before each pass. The loop ends behind the last value.
   FlowStep begin_count(const ControlLine& line) {
     const auto first = value_of(read_counted_loop(line).first).value;
     if (!first) refuse(line, fmt::format("the begin of FOR {} is not known from the text", line.condition));
@@ -131,7 +153,7 @@ class Follower {
 
   std::string counter_of(const ControlLine& line) const {
     const std::string name = variable_name(dialect_, read_counted_loop(line).counter);
-    if (name.empty()) refuse(line, "the variable of FOR is worked out, or the control's own");
+    if (name.empty()) refuse(line, "the variable of FOR is an expression or belongs to the control");
     return name;
   }
 
@@ -140,7 +162,8 @@ class Follower {
     const auto last = value_of(loop.last).value;
     if (!last) refuse(line, fmt::format("the end of FOR {} is not known from the text", line.condition));
     variables_[counter_of(line)] = value;
-    return {value > *last ? partner(line).behind : line.behind, fmt::format("{}={}", loop.counter, shortest_text(value))};
+    return {value > *last ? partner(line).behind : line.behind,
+            fmt::format("{}={}", loop.counter, shortest_text(value))};
   }
 
   const ControlFlow& flow_;

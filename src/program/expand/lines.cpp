@@ -10,16 +10,16 @@ void ExpandedLines::append(std::string_view line, int line_of_file, int called_f
   if (!text.empty() && text.back() != '\n') text += line_end;
   text += line;
   ++count;
-  const bool goes_on = !runs.empty() && runs.back().called_from == called_from &&
-                       runs.back().line + (count - runs.back().text_line) == line_of_file;
-  if (!goes_on) runs.push_back({count, line_of_file, called_from});
+  const bool continues = !runs.empty() && runs.back().called_from == called_from &&
+                         runs.back().line + (count - runs.back().text_line) == line_of_file;
+  if (!continues) runs.push_back({count, line_of_file, called_from});
 }
 
 LinesMark mark_of(const ExpandedLines& lines) {
   return {lines.text.size(), lines.runs.size(), lines.count};
 }
 
-void take_back(const LinesMark& mark, ExpandedLines& lines) {
+void truncate_to(const LinesMark& mark, ExpandedLines& lines) {
   lines.text.resize(mark.text);
   lines.runs.resize(mark.runs);
   lines.count = mark.count;
@@ -51,8 +51,8 @@ std::string line_without(std::string_view text, const Dialect& dialect, const Bl
   }
   line.append(text, copied, block.span.end - copied);
   line.erase(line.find_last_not_of(" \t") + 1);
-  const std::string_view says_nothing = dialect.semicolon_comments ? " \t" : " \t;";
-  if (line.find_first_not_of(says_nothing) == std::string::npos) return {};
+  const std::string_view is_ignored = dialect.semicolon_comments ? " \t" : " \t;";
+  if (line.find_first_not_of(is_ignored) == std::string::npos) return {};
   return line.append(part(text, block.line_end));
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-/// A text that is put together of lines of a file, and where they come from.
+/// A text composed of lines of a file, and the origin of these lines.
 #include <string>
 #include <string_view>
 #include <vector>
@@ -10,7 +10,7 @@ namespace counterflex {
 
 struct ExpandedLines {
   std::string text;
-  std::string line_end;  ///< for lines that have none, as soon as another follows
+  std::string line_end;  ///< appended to a line without a line end, if another line follows
   int count = 0;
   std::vector<LineRun> runs{};
 
@@ -18,21 +18,21 @@ struct ExpandedLines {
   void append(std::string_view line, int line_of_file, int called_from);
 };
 
-/// How far the lines had come.
+/// A position in the composed text, to which it can be reset.
 struct LinesMark {
   std::size_t text, runs;
   int count;
 };
 LinesMark mark_of(const ExpandedLines& lines);
-void take_back(const LinesMark& mark, ExpandedLines& lines);
+void truncate_to(const LinesMark& mark, ExpandedLines& lines);
 
-/// The lines of `text` from `at` on, up to the line that begins at `end`, as they are.
+/// The lines of `text` from `at` to the line that begins at `end`, unchanged.
 void append_lines(std::string_view text, std::size_t at, int line, std::size_t end, ExpandedLines& lines);
 
-/// "\r\n" where the first line ends so, else "\n".
+/// "\r\n" if the first line ends with it, else "\n".
 std::string line_end_of(std::string_view text);
 
-/// The block without these bytes and the blanks behind them, with its line end; empty where nothing is left.
+/// The block without these bytes and the blanks behind them, with its line end; empty if only blanks remain.
 std::string line_without(std::string_view text, const Dialect& dialect, const Block& block,
                          std::vector<Span> dropped);
 

@@ -16,20 +16,20 @@ struct OWordKind {
   FlowKind kind;
 };
 constexpr std::array o_word_kinds{
-    OWordKind{"IF", FlowKind::begin_if},         OWordKind{"ELSEIF", FlowKind::else_if},
-    OWordKind{"ELSE", FlowKind::otherwise},      OWordKind{"ENDIF", FlowKind::end_if},
-    OWordKind{"WHILE", FlowKind::either_while},  OWordKind{"ENDWHILE", FlowKind::end_loop},
-    OWordKind{"DO", FlowKind::begin_loop},       OWordKind{"REPEAT", FlowKind::begin_repeat},
+    OWordKind{"IF", FlowKind::begin_if},          OWordKind{"ELSEIF", FlowKind::else_if},
+    OWordKind{"ELSE", FlowKind::otherwise},       OWordKind{"ENDIF", FlowKind::end_if},
+    OWordKind{"WHILE", FlowKind::either_while},   OWordKind{"ENDWHILE", FlowKind::end_loop},
+    OWordKind{"DO", FlowKind::begin_loop},        OWordKind{"REPEAT", FlowKind::begin_repeat},
     OWordKind{"ENDREPEAT", FlowKind::end_repeat}, OWordKind{"BREAK", FlowKind::leave_loop},
-    OWordKind{"CONTINUE", FlowKind::next_pass},  OWordKind{"RETURN", FlowKind::leave_body}};
+    OWordKind{"CONTINUE", FlowKind::next_pass},   OWordKind{"RETURN", FlowKind::leave_body}};
 
-/// What stands behind the keyword, up to a comment.
+/// The text behind the keyword, up to a comment.
 std::string_view behind_keyword(std::string_view text, const Block& block) {
   const std::string_view rest = text.substr(block.flow_keyword.end, block.span.end - block.flow_keyword.end);
   return trimmed_text(rest.substr(0, rest.find_first_of("(;")));
 }
 
-/// Where `word` stands in `text` outside brackets, npos where it does not.
+/// Position of `word` in `text` outside brackets, or npos.
 std::size_t find_outside(std::string_view text, std::string_view word) {
   int depth = 0;
   for (std::size_t at = 0; at + word.size() <= text.size(); ++at) {
@@ -81,7 +81,8 @@ void add_o_word(std::string_view text, const Block& block, ControlFlow& flow) {
   line.keyword = keyword;
   line.name = normal_name(part(text, block.flow_name));
   line.condition = behind_keyword(text, block);
-  if (line.name.empty()) throw UnknownFlow{block.line, fmt::format("the name of {} is worked out", keyword)};
+  if (line.name.empty())
+    throw UnknownFlow{block.line, fmt::format("the name of {} is an expression", keyword)};
   flow.lines.push_back(std::move(line));
 }
 

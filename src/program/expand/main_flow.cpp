@@ -9,7 +9,7 @@
 namespace counterflex {
 namespace {
 
-/// A Sinumerik's program ends by RET, M2, M17 and M30, with or without '/'.
+/// A Sinumerik's program ends with RET, M2, M17 or M30, with or without '/'.
 bool ends_sinumerik(const Block& block) {
   return block.statement == Statement::end || ends_program(block) || find_m(block, 17) != nullptr;
 }
@@ -34,18 +34,19 @@ MainFlow read_main_flow(const ProgramText& program) {
   const auto& [text, file, dialect, numbered_programs] = program;
   MainFlow main;
   if (!may_execute(dialect)) return main;
-  const bool jumps = text.find("GOTO") != std::string_view::npos || text.find("goto") != std::string_view::npos ||
+  const bool jumps = text.find("GOTO") != std::string_view::npos ||
+                     text.find("goto") != std::string_view::npos ||
                      text.find("Goto") != std::string_view::npos;
   Block block;
   Structures structures;
-  bool said = false, ended = false;
+  bool has_text = false, ended = false;
   while (next_line(text, block)) {
     if (!ended)
       lex(text, file, dialect, block);
     else if (!lexes(text, file, dialect, block))
       break;
     const bool other_program = dialect.macro_words && is_program_number(block);
-    if ((said && block.percent) || (ended && other_program)) break;
+    if ((has_text && block.percent) || (ended && other_program)) break;
     if (const auto definition = definition_at(program, block)) {
       if (!structures.open.empty())
         throw UnknownFlow{block.line, "a subprogram is defined in a condition or a loop"};
@@ -53,8 +54,8 @@ MainFlow read_main_flow(const ProgramText& program) {
       main.end = definition->after.at;
       continue;
     }
-    if (said && other_program) break;
-    said = said || block.percent || !block.words.empty();
+    if (has_text && other_program) break;
+    has_text = has_text || block.percent || !block.words.empty();
     add_flow(text, dialect, block, jumps, main.flow);
     follow_structures(text, dialect, block, structures);
     main.end = block.line_end.end;

@@ -9,10 +9,10 @@
 namespace counterflex {
 
 struct Structures {
-  std::vector<std::string> open;  ///< names; of a DO with " do" behind
+  std::vector<std::string> open;  ///< names of open structures; a DO has " do" behind its name
 };
 
-/// Opens or closes what `block` says.
+/// Opens or closes the structure of `block`.
 void follow_structures(std::string_view text, const Dialect& dialect, const Block& block,
                        Structures& structures);
 

@@ -8,28 +8,28 @@
 #include "counterflex/program/called_cycle.hpp"
 #include "program/expand/body_line.hpp"
 #include "program/expand/call.hpp"
-#include "program/expand/lines.hpp"
-#include "program/expand/structures.hpp"
 #include "program/expand/follow_flow.hpp"
+#include "program/expand/lines.hpp"
 #include "program/expand/main_flow.hpp"
+#include "program/expand/structures.hpp"
 #include "program/outline.hpp"
 #include "program/text/scanner.hpp"
 
 namespace counterflex {
 namespace {
 
-constexpr std::size_t arguments_of_call = 30;  // those that are not given are zero
+constexpr std::size_t arguments_of_call = 30;  // missing arguments are zero
 constexpr std::size_t deepest_calls = 100;
-constexpr std::size_t most_lines = 150'000;  // that run again
+constexpr std::size_t most_lines = 150'000;  // limit of lines that run again
 constexpr std::size_t most_bytes_of_sinumerik = 16'000'000;
 
-/// The program itself, or a body, while it is executed.
+/// The program itself, or a body that is being executed.
 struct Frame {
   const ControlFlow& flow;
   Variables& variables;
-  bool flows = false;                      ///< it holds loops, conditions or jumps
+  bool flows = false;                      ///< it has loops, conditions or jumps
   const Definition* definition = nullptr;  ///< of a body
-  bool writes_values = false;              ///< the body of an O-word: its variables are its own
+  bool writes_values = false;              ///< the body of an O-word, which has its own variables
   int called_from = 0;
   PassesLeft passes{};
   bool left = false;  ///< by RETURN
@@ -39,7 +39,7 @@ std::string_view whole_line(std::string_view text, const Block& block) {
   return text.substr(block.span.begin, block.line_end.end - block.span.begin);
 }
 
-/// Executes a program, or copies it where its flow is not known, and puts bodies in the place of calls.
+/// Executes a program, or copies it if its flow is unknown, and replaces calls by the bodies.
 class Expander {
  public:
   Expander(std::string_view text, const std::string& file, const Dialect& dialect, std::string_view why_none)
@@ -48,19 +48,19 @@ class Expander {
         dialect_(dialect),
         why_none_(why_none),
         definitions_(may_expand(dialect) ? find_definitions(text, file, dialect) : Definitions{}),
-        program_{text, file, dialect, std::count_if(definitions_.begin(), definitions_.end(), [](const auto& named) {
-                   return named.first.kind == NameKind::program;
-                 })},
+        program_{text, file, dialect,
+                 std::count_if(definitions_.begin(), definitions_.end(),
+                               [](const auto& named) { return named.first.kind == NameKind::program; })},
         lines_{{}, line_end_of(text)} {
     reads_results_ = text.find("<_value") != std::string_view::npos;
     expansion_.file_lines = static_cast<int>(std::count(text.begin(), text.end(), '\n'));
     if (!text.empty() && text.back() != '\n') ++expansion_.file_lines;
   }
 
-  /// Throws `UnknownFlow` where a loop, a condition or a jump of the program cannot be executed.
+  /// Throws `UnknownFlow` if a loop, a condition or a jump of the program cannot be executed.
   ExpandedText execute() {
     const MainFlow main = read_main_flow(program_);
-    // The calls of a Sinumerik stay: without flow, nothing changes.
+    // Calls of a Sinumerik stay: without flow, the text does not change.
     if (!main.any && !may_expand(dialect_)) return {};
     follows_ = true;
     was_executed_.resize(static_cast<std::size_t>(expansion_.file_lines) + 1);
@@ -68,11 +68,12 @@ class Expander {
     return finish(copy_program(main));
   }
 
-  /// Leaves loops, conditions and jumps of the program as they are.
+  /// Copies loops, conditions and jumps of the program unchanged.
   ExpandedText copy(std::optional<UnknownFlow> unknown) {
     unknown_ = std::move(unknown);
     const LinePlace rest = copy_program({});
-    if (unknown_) expansion_.calls_left.push_back({lines_.count + 1 + unknown_->line - rest.line, unknown_->why, true});
+    if (unknown_)
+      expansion_.calls_left.push_back({lines_.count + 1 + unknown_->line - rest.line, unknown_->why, true});
     return finish(rest);
   }
 
@@ -80,32 +81,32 @@ class Expander {
   ExpandedText finish(LinePlace rest) {
     if (rest.at < text_.size()) lines_.append(text_.substr(rest.at), rest.line, 0);
     expansion_.lines = std::move(lines_.runs);
-    // Where nothing outside them moves, definitions may be the program (M99 runs it over and over), or be
+    // If no block outside of definitions moves, a definition may be the program (M99 repeats it), or may be
     // called from other files.
     if (!other_calls_ && moves_) expansion_.unused = std::move(kept_);
     return {std::move(lines_.text), std::move(expansion_), seeks_numbers_};
   }
 
-  /// Everything up to the end of the program, definitions as they stand. Returns where the rest begins.
+  /// Copies everything up to the end of the program, definitions included. Returns the begin of the rest.
   LinePlace copy_program(const MainFlow& main) {
     Variables variables;
     Frame frame{main.flow, variables, main.any};
     Block block;
-    bool opened = false, said = false;
+    bool opened = false, has_words = false;
     while (next_line(text_, block)) {
       lex(text_, file_, dialect_, block);
-      if (block.percent && (opened || said)) return {block.span.begin, block.line};
+      if (block.percent && (opened || has_words)) return {block.span.begin, block.line};
       opened = opened || block.percent;
-      said = said || !block.words.empty();
+      has_words = has_words || !block.words.empty();
       if (const auto definition = definition_at(program_, block)) {
         keep(*definition);
         block = before(definition->after);
         continue;
       }
       if (main.any && block.span.begin >= main.end)
-        throw UnknownFlow{block.line, "the program runs into another"};
+        throw UnknownFlow{block.line, "the program continues into another program"};
       const bool ends = ends_main(block, dialect_);
-      // The line of a Sinumerik that ends the program stays as it is.
+      // The line that ends a Sinumerik program is not changed.
       if (ends && dialect_.sinumerik_words) return {block.span.begin, block.line};
       run_main_line(block, frame);
       if (ends && structures_.open.empty()) break;
@@ -137,7 +138,8 @@ class Expander {
     kept_.push_back({begin, lines_.text.size()});
   }
 
-  /// Executes a line and sets `block` before the one that follows. Returns why the copy of a body cannot go on.
+  /// Executes a line and sets `block` before the next one. Returns why the copy of a body cannot continue;
+  /// empty if it can.
   std::string run_line(Block& block, Frame& frame) {
     count_line(frame);
     const ControlLine* line = flow_line_at(frame.flow, block);
@@ -157,11 +159,12 @@ class Expander {
 
   void count_line(const Frame& frame) {
     if (!frame.flows) return;
-    const std::size_t most_bytes = dialect_.sinumerik_words ? most_bytes_of_sinumerik : largest_expansion(text_.size());
+    const std::size_t most_bytes =
+        dialect_.sinumerik_words ? most_bytes_of_sinumerik : largest_expansion(text_.size());
     if (++run_lines_ > most_lines + was_executed_.size())
       throw UnknownFlow{jumped_from_, fmt::format("more than {} lines would be executed", most_lines)};
     if (lines_.text.size() > most_bytes)
-      throw UnknownFlow{jumped_from_, fmt::format("the lines that it executes make more than {} bytes", most_bytes)};
+      throw UnknownFlow{jumped_from_, fmt::format("the executed lines are longer than {} bytes", most_bytes)};
   }
 
   /// "#1=5" of "IF [...] THEN #1=5".
@@ -171,15 +174,16 @@ class Expander {
     assignment.text_line = block.text_line;
     assignment.span = rest;
     assignment.line_end = block.line_end;
-    const bool is_one = lexes(text_, file_, dialect_, assignment) && assignment.words.empty() && assignment.assigns &&
-                        empty(assignment.flow_keyword) && assignment.statement == Statement::none;
-    if (!is_one) throw UnknownFlow{block.line, "THEN is followed by more than an assignment"};
+    const bool is_one = lexes(text_, file_, dialect_, assignment) && assignment.words.empty() &&
+                        assignment.assigns && empty(assignment.flow_keyword) &&
+                        assignment.statement == Statement::none;
+    if (!is_one) throw UnknownFlow{block.line, "THEN needs exactly one assignment behind it"};
     lines_.append(line_without(text_, dialect_, block, {{block.flow_keyword.begin, rest.begin}}), block.line,
                   origin(block, frame));
     assign_block(assignment, frame);
   }
 
-  /// The line that a copy comes from; 0 where a line of the program is executed for the first time.
+  /// The line from which a copy comes; 0 if a line of the program is executed for the first time.
   int origin(const Block& block, const Frame& frame) {
     if (frame.definition != nullptr || !frame.flows || !follows_) return frame.called_from;
     const auto index = static_cast<std::size_t>(block.text_line);
@@ -188,13 +192,14 @@ class Expander {
     return again ? jumped_from_ : 0;
   }
 
-  /// Copies a block, or what it calls. Says why the copy of a body cannot go on.
+  /// Copies a block, or the body that it calls. Returns why the copy of a body cannot continue; empty if it
+  /// can.
   std::string copy_block(const Block& block, Frame& frame, Span label) {
     note_moves(block);
     const auto call = may_expand(dialect_) ? call_in(text_, dialect_, block) : std::nullopt;
     if (!call) return copy_words(block, frame, label);
     const std::string why = expand(*call, block, frame);
-    // What a call in a body of LinuxCNC says would count otherwise in another place.
+    // A call in a body of LinuxCNC would be read differently at another place.
     if (why.empty() || (frame.definition != nullptr && dialect_.o_words)) return why;
     other_calls_ = true;
     seeks_numbers_ = seeks_numbers_ || call->name.kind == NameKind::block;
@@ -204,7 +209,7 @@ class Expander {
     return {};
   }
 
-  /// A block without a call, with the values of its expressions in the body of an O-word.
+  /// A block without a call; in the body of an O-word, with the values of its expressions.
   std::string copy_words(const Block& block, Frame& frame, Span label) {
     if (may_expand(dialect_)) other_calls_ = other_calls_ || may_call(block, dialect_);
     seeks_numbers_ = seeks_numbers_ || (find_m(block, 99) != nullptr && find_letter(block, 'P') != nullptr);
@@ -222,14 +227,15 @@ class Expander {
     return {};
   }
 
-  /// Subprograms may set any variable, and so may a macro that every position calls.
+  /// A subprogram may set any variable, and so may a macro that every position calls.
   void assign_block(const Block& block, Frame& frame) {
     const bool sinumerik = dialect_.sinumerik_words;
     if (block.statement == Statement::modal_call)
       calls_macro_ =
           !block.statement_is_bare && !modal_drilling_cycle(trimmed_text(part(text_, block.statement_text)));
     calls_macro_ = calls_macro_ || std::any_of(block.words.begin(), block.words.end(), [&](const Word& word) {
-                     return dialect_.macro_words && word.letter == 'G' && word.literal && word.value >= 66 && word.value < 67;
+                     return dialect_.macro_words && word.letter == 'G' && word.literal && word.value >= 66 &&
+                            word.value < 67;
                    });
     const bool calls = block.statement == Statement::call || (!sinumerik && may_call(block, dialect_));
     if (calls_macro_ || calls) frame.variables.clear();
@@ -237,11 +243,11 @@ class Expander {
     assign(block, text_, dialect_, known, frame.variables);
   }
 
-  /// Puts the bodies in the place of the call, or says why not and leaves nothing behind.
+  /// Replaces the call by the bodies. If this fails, restores the text and returns the reason.
   std::string expand(const SubprogramCall& call, const Block& block, Frame& caller) {
     if (!why_none_.empty()) return std::string(why_none_);
     if (!call.why_not.empty()) return call.why_not;
-    if (!structures_.open.empty()) return "it stands in a condition or a loop";
+    if (!structures_.open.empty()) return "it is in a condition or a loop";
     long repeats = call.repeats;
     const auto [definition, why] = find(call, repeats);
     if (definition == nullptr) return why;
@@ -250,22 +256,24 @@ class Expander {
     if (std::string unknown = read_arguments(call, caller, arguments); !unknown.empty()) return unknown;
     const bool by_word = call.name.kind == NameKind::word;
     Variables own = by_word ? variables_of_body(caller.variables, arguments) : Variables{};
-    Frame body{definition->flow, by_word ? own : caller.variables, has_flow(definition->flow), definition, by_word, block.line};
+    Frame body{
+        definition->flow, by_word ? own : caller.variables, has_flow(definition->flow), definition, by_word,
+        block.line};
 
     const LinesMark mark = mark_of(lines_);
     const Expansion before_call = counts();
-    // What else the block says is done first.
+    // The other words of the block are executed first.
     if (const std::string rest = line_without(text_, dialect_, block, call.dropped); !rest.empty())
       lines_.append(rest, block.line, origin(block, caller));
     const std::string failed = copy_bodies(body, repeats, call, block);
     if (by_word) take_globals(own, caller.variables);
     if (failed.empty()) return {};
-    take_back(mark, lines_);
+    truncate_to(mark, lines_);
     restore(before_call);
     return failed;
   }
 
-  /// What is counted, without the lines.
+  /// The counts, without the lines.
   Expansion counts() const {
     Expansion counted;
     counted.calls = expansion_.calls;
@@ -301,15 +309,15 @@ class Expander {
     body.left = false;
     while (!body.left && next_line(text_, block)) {
       lex(text_, file_, dialect_, block);
-      const bool comes_back = !body.writes_values && find_m(block, 99) != nullptr && empty(block.block_delete);
-      if (comes_back || block.span.begin >= body.definition->end.at) break;
+      const bool is_return = !body.writes_values && find_m(block, 99) != nullptr && empty(block.block_delete);
+      if (is_return || block.span.begin >= body.definition->end.at) break;
       if (std::string why = run_line(block, body); !why.empty()) return why;
     }
     if (!body.left) copy_last_block(block, body);
     return {};
   }
 
-  /// Words beside M99 are done before it comes back.
+  /// Words beside M99 are executed before it returns.
   void copy_last_block(const Block& block, const Frame& body) {
     const Word* m99 = find_m(block, 99);
     const auto counts_word = [&](const Word& word) { return word.letter != 'N' && &word != m99; };
@@ -334,8 +342,9 @@ class Expander {
       repeats = call.other_repeats;
       places = definitions_.find(call.other_reading);
     }
-    if (places == definitions_.end()) return {nullptr, "the subprogram does not stand in this file: put it behind the end of the program"};
-    if (places->second.size() > 1) return {nullptr, "the subprogram stands in this file more than once"};
+    if (places == definitions_.end())
+      return {nullptr, "the subprogram is not in this file: append it behind the end of the program"};
+    if (places->second.size() > 1) return {nullptr, "this file defines the subprogram more than once"};
     auto known = read_.find(places->first);
     if (known == read_.end())
       known = read_
@@ -349,27 +358,28 @@ class Expander {
     return {&d, {}};
   }
 
-  /// A condition may end calls of a subprogram by itself.
+  /// A condition may end the recursion of a subprogram.
   std::string refuse_depth(const Definition& d, const SubprogramCall& call, const Block& block) const {
     const bool may_end = has_flow(d.flow);
     if (!may_end && std::find(stack_.begin(), stack_.end(), &d) != stack_.end())
-      refuse(file_, block, call.said.begin, "the subprogram calls itself: its expansion has no end");
+      refuse(file_, block, call.span.begin, "the subprogram calls itself: its expansion does not end");
     if (stack_.size() < deepest_calls) return {};
     std::string why = fmt::format("calls are nested more than {} deep", deepest_calls);
-    if (!may_end) refuse(file_, block, call.said.begin, why);
+    if (!may_end) refuse(file_, block, call.span.begin, why);
     return why;
   }
 
-  /// Arguments are worked out with the variables of the caller.
-  std::string read_arguments(const SubprogramCall& call, const Frame& caller, std::vector<double>& arguments) const {
+  /// Evaluates arguments with the variables of the caller.
+  std::string read_arguments(const SubprogramCall& call, const Frame& caller,
+                             std::vector<double>& arguments) const {
     if (call.name.kind != NameKind::word) return {};
-    if (reads_results_) return "the program reads what calls give back";
+    if (reads_results_) return "the program reads values returned by calls";
     if (call.arguments.size() > arguments_of_call)
-      return fmt::format("it has {} arguments, at most {} are read", call.arguments.size(),
+      return fmt::format("it has {} arguments, at most {} are allowed", call.arguments.size(),
                          arguments_of_call);
     for (const std::string& argument : call.arguments) {
       const auto value = value_of_expression(argument, dialect_, caller.variables).value;
-      if (!value) return fmt::format("its argument [{}] is no plain number", argument);
+      if (!value) return fmt::format("its argument [{}] is not a plain number", argument);
       arguments.push_back(*value);
     }
     arguments.resize(arguments_of_call, 0);
@@ -381,11 +391,12 @@ class Expander {
     const std::size_t most = largest_expansion(text_.size());
     if (lines_.text.size() <= most && expansion_.calls <= most_expanded_calls) return;
     if (expansion_.executed > 0)
-      throw UnknownFlow{block.line, fmt::format("the lines that it executes make more than {} bytes", most)};
-    refuse(file_, block, call.said.begin,
-           fmt::format("{}: the expanded calls make more than {} bytes, or are more than {}; repeat it less often, "
-                       "or leave out --expand-subprograms",
-                       part(text_, call.said), most, most_expanded_calls));
+      throw UnknownFlow{block.line, fmt::format("the executed lines are longer than {} bytes", most)};
+    refuse(file_, block, call.span.begin,
+           fmt::format(
+               "{}: the expanded calls are longer than {} bytes, or more than {} calls; reduce the repeats, "
+               "or leave out --expand-subprograms",
+               part(text_, call.span), most, most_expanded_calls));
   }
 
   std::string_view text_;
@@ -396,24 +407,24 @@ class Expander {
   ProgramText program_;
   ExpandedLines lines_;
   Expansion expansion_{};
-  bool follows_ = false;                     ///< the program itself is executed
-  std::optional<UnknownFlow> unknown_{};     ///< why it is not
-  Structures structures_{};                  ///< of a program that is not executed
-  std::vector<bool> was_executed_{};         ///< by lines of the program
+  bool follows_ = false;                  ///< the program itself is executed
+  std::optional<UnknownFlow> unknown_{};  ///< why it is not executed
+  Structures structures_{};               ///< of a program that is not executed
+  std::vector<bool> was_executed_{};      ///< by lines of the program
   std::size_t run_lines_ = 0;
   int jumped_from_ = 0;
   bool calls_macro_ = false;
   std::map<SubprogramName, Definition> read_{};
   std::vector<const Definition*> stack_{};  ///< bodies that are being copied
-  std::vector<Span> kept_{};                ///< definitions that stand in the program
+  std::vector<Span> kept_{};                ///< definitions in the program
   bool reads_results_ = false;              ///< #<_value> of LinuxCNC
-  bool other_calls_ = false;                ///< a call is left, which may run any definition
+  bool other_calls_ = false;                ///< a call stays that may run any definition
   bool seeks_numbers_ = false;
-  bool moves_ = false;  ///< there are axis words outside definitions
+  bool moves_ = false;  ///< axis words occur outside of definitions
 };
 
-/// A Sinumerik's text changes only if it is executed.
-ExpandedText left_as_it_is(const UnknownFlow& unknown) {
+/// The text of a Sinumerik changes only if it is executed.
+ExpandedText unexpanded(const UnknownFlow& unknown) {
   ExpandedText left;
   left.expansion.calls_left.push_back({unknown.line, unknown.why, true});
   return left;
@@ -427,8 +438,8 @@ ExpandedText expand_text(std::string_view text, const std::string& file, const D
   try {
     return Expander(text, file, dialect, {}).execute();
   } catch (const UnknownFlow& unknown) {
-    if (!may_expand(dialect)) return left_as_it_is(unknown);
-    // Copies repeat block numbers: a jump to one of them would go to another place.
+    if (!may_expand(dialect)) return unexpanded(unknown);
+    // Copies repeat block numbers: a jump to one of them would reach another block.
     const bool jumps = outline_of(text, dialect).jumps;
     return Expander(text, file, dialect, jumps ? "the program jumps to block numbers" : "").copy(unknown);
   }

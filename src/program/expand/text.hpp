@@ -1,5 +1,5 @@
 #pragma once
-/// The text with its calls replaced.
+/// Composes the text with its calls replaced.
 #include <string>
 #include <string_view>
 
@@ -10,10 +10,10 @@ namespace counterflex {
 struct ExpandedText {
   std::string text;
   Expansion expansion;
-  bool seeks_numbers = false;  ///< a block is left that looks for a block by its number: M97, M99 P
+  bool seeks_numbers = false;  ///< a block remains that searches a block number: M97, M99 P
 };
 
-/// As `expand_subprograms`. With a reason `why_none` nothing is replaced and nothing is executed.
+/// As `expand_subprograms`. If `why_none` is a reason, no call is replaced and no line is executed.
 ExpandedText expand_text(std::string_view text, const std::string& file, const Dialect& dialect,
                          std::string_view why_none);
 

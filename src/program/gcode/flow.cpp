@@ -15,22 +15,22 @@ namespace {
 constexpr std::string_view subprogram_by_number = "O";
 
 std::uint16_t differences(const ModalState& a, const ModalState& b) {
-  std::uint16_t found = a.doubts | b.doubts;
-  if (a.motion != b.motion) found |= doubtful_motion;
-  if (a.relative != b.relative) found |= doubtful_distance;
-  if (a.normal != b.normal) found |= doubtful_plane;
-  if (a.unit != b.unit) found |= doubtful_unit;
-  if (a.frame != b.frame) found |= doubtful_offset;
-  if (a.absolute_centres != b.absolute_centres) found |= doubtful_centres;
-  if (a.returns_to_retract != b.returns_to_retract) found |= doubtful_level;
-  if (a.contour != b.contour) found |= doubtful_cutter;
+  std::uint16_t found = a.unknown_modes | b.unknown_modes;
+  if (a.motion != b.motion) found |= unknown_motion;
+  if (a.relative != b.relative) found |= unknown_distance;
+  if (a.normal != b.normal) found |= unknown_plane;
+  if (a.unit != b.unit) found |= unknown_unit;
+  if (a.frame != b.frame) found |= unknown_offset;
+  if (a.absolute_centres != b.absolute_centres) found |= unknown_centres;
+  if (a.returns_to_retract != b.returns_to_retract) found |= unknown_level;
+  if (a.contour != b.contour) found |= unknown_cutter;
   return found;
 }
 
-/// What any state may be at the begin of a subprogram.
+/// Modal states that may have any value at the begin of a subprogram.
 void forget_state(ModalState& state) {
   state.known.fill(false);
-  state.doubts = all_doubts;
+  state.unknown_modes = all_unknown_modes;
   state.displaced = 0;
   state.feed = 0;
 }
@@ -39,7 +39,7 @@ void open_body(Reading& r, std::string name) {
   if (r.body.open.empty()) {
     end_contour(r);
     r.body.before = r.state;
-    r.body.doubts = 0;
+    r.body.unknown_modes = 0;
   }
   r.body.open.push_back(std::move(name));
   r.state.known.fill(false);
@@ -50,7 +50,7 @@ void open_subprogram(Reading& r, std::string name) {
   open_body(r, std::move(name));
   if (!outermost) return;
   r.body.subprogram = true;
-  r.taken_away.fill(true);
+  r.moved_by_machine.fill(true);
   forget_state(r.state);
 }
 
@@ -62,14 +62,14 @@ void close_body(Reading& r) {
     r.body.subprogram = false;
     return;
   }
-  doubt_differences(r.body.before, r.state);
-  r.state.doubts |= r.body.doubts;
+  mark_differences_unknown(r.body.before, r.state);
+  r.state.unknown_modes |= r.body.unknown_modes;
   r.state.known.fill(false);
 }
 
-/// A way through the body leaves it here, or begins anew.
+/// A path through the body leaves it here, or starts again.
 void note_differences(Reading& r) {
-  if (!r.body.open.empty()) r.body.doubts |= differences(r.body.before, r.state);
+  if (!r.body.open.empty()) r.body.unknown_modes |= differences(r.body.before, r.state);
 }
 
 void call(const Block& block, Reading& r) {
@@ -93,7 +93,7 @@ bool closes(const FlowLine& line) {
 }
 
 [[noreturn]] void refuse_end(const Block& block, const Reading& r, const FlowLine& line) {
-  refuse(r.program.file, block, block.flow_keyword.begin, fmt::format("'{}' ends nothing", line.keyword));
+  refuse(r.program.file, block, block.flow_keyword.begin, fmt::format("'{}' has no beginning", line.keyword));
 }
 
 void read_o_word(const Block& block, Reading& r, const FlowLine& line) {
@@ -109,7 +109,7 @@ void read_o_word(const Block& block, Reading& r, const FlowLine& line) {
   note_differences(r);
 }
 
-/// IF jumps or assigns, and jumps make the whole program a body.
+/// IF jumps or assigns. Jumps make the whole program a body.
 void read_macro_word(const Block& block, Reading& r, const FlowLine& line) {
   if (line.is("WHILE") || line.is("DO")) return open_body(r, "DO");
   if (!line.is("END")) return;
@@ -151,12 +151,13 @@ void read_program_number(const Block& block, Reading& r) {
       !begins_with_program_number(block) || (!subprogram && r.program.block_count > 1 && !r.after_subprogram);
   if (misplaced || !r.body.open.empty())
     refuse_word(block, r, *o,
-                fmt::format("O{}: a program's number stands alone, first or behind a program that has ended",
+                fmt::format("O{}: a program number must be alone in its line, first in the file or behind "
+                            "the end of a program",
                             o->value));
   if (subprogram) open_subprogram(r, std::string(subprogram_by_number));
 }
 
-void come_back(Reading& r) {
+void return_from_call(Reading& r) {
   if (r.body.subprogram && r.body.open.size() == 1) {
     close_body(r);
     r.after_subprogram = true;
@@ -167,8 +168,8 @@ void come_back(Reading& r) {
   }
 }
 
-void doubt_differences(const ModalState& before, ModalState& now) {
-  now.doubts |= differences(before, now);
+void mark_differences_unknown(const ModalState& before, ModalState& now) {
+  now.unknown_modes |= differences(before, now);
   now.displaced |= before.displaced;
   now.offsets_set |= before.offsets_set;
   if (now.tool_length != before.tool_length) {

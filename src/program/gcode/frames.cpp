@@ -34,7 +34,7 @@ const ProgramFrame& current(const Reading& r) {
   return r.program.frames[r.state.frame];
 }
 
-/// The shifts have changed under the offset that acts.
+/// Selects the frame again after the shifts of the active offset have changed.
 void change_frame(Reading& r) {
   end_contour(r);
   r.state.cycle.initial.reset();
@@ -45,10 +45,10 @@ const Word* axis_word(const Reading& r, std::size_t axis) {
   return r.sorted.word(letters_of_axes[axis]);
 }
 
-/// Whether the block runs once, where all is known, and its words are plain numbers of X, Y, Z and `more`. Zero needs no
-/// unit.
+/// Whether the block runs exactly once, all states are known, and its words are plain numbers of X, Y, Z and
+/// `more`. Zero needs no unit.
 bool is_plain(const Block& block, const Reading& r, std::string_view more) {
-  if (r.in_body() || r.state.displaced != 0 || r.state.doubts != 0) return false;
+  if (r.in_body() || r.state.displaced != 0 || r.state.unknown_modes != 0) return false;
   for (char letter = 'A'; letter <= 'Z'; ++letter) {
     const Word* word = r.sorted.word(letter);
     if (word == nullptr || letter == 'N') continue;
@@ -59,7 +59,7 @@ bool is_plain(const Block& block, const Reading& r, std::string_view more) {
   return true;
 }
 
-/// LinuxCNC and Mach3 keep G52 and G92 in one place.
+/// LinuxCNC and Mach3 store G52 and G92 in the same place.
 bool shift_locally(const Block& block, Reading& r) {
   if (!is_plain(block, r, "") || r.state.relative || r.state.shifts.turn_rad != 0) return false;
   const bool one_place = (r.dialect.family & (linuxcnc_family | mach3_family)) != 0;
@@ -70,15 +70,15 @@ bool shift_locally(const Block& block, Reading& r) {
   return true;
 }
 
-/// Digits of the word that has placed the axis last.
+/// Digits of the last word that set the axis.
 int decimals_of_position(const Program& program, std::size_t axis) {
   for (auto move = program.moves.rbegin(); move != program.moves.rend(); ++move)
     if (move->words[axis]) return move->words[axis]->decimals;
   return program.before && program.before->words[axis] ? program.before->words[axis]->decimals : 0;
 }
 
-/// G92 where the tool has come: its words go along with the correction that holds, so that the coordinates
-/// stay.
+/// G92 at a position that the tool has reached: its words are shifted by the correction at this place, so
+/// that the coordinates do not change.
 void add_set_position(const Block& block, Reading& r) {
   std::array<int, 3> decimals{};
   for (std::size_t axis = 0; axis < 3; ++axis)
@@ -94,13 +94,13 @@ void add_set_position(const Block& block, Reading& r) {
   move.may_insert_words = false;
 }
 
-/// Before anything has moved the tool, G92 says where the operator has put it.
+/// Before the first move, G92 gives the position at which the operator has placed the tool.
 bool begins(const Reading& r) {
-  const auto& taken = r.taken_away;
+  const auto& taken = r.moved_by_machine;
   return r.program.moves.empty() && !r.program.before && !taken[0] && !taken[1] && !taken[2];
 }
 
-/// The words say where the tool stands: `zero_mm` moves so that they are right.
+/// The words give the position of the tool: moves `zero_mm` so that they are right.
 bool move_zero(const Block& block, Reading& r, Vector3& zero_mm) {
   if (r.state.shifts.turn_rad != 0) return false;
   const bool first = begins(r);
@@ -152,10 +152,11 @@ double value_of(const Block& block, char letter) {
   return 0;
 }
 
-/// Plain numbers; ROT and AROT turn about Z alone, RPL in the plane X Y.
+/// Plain numbers only; ROT and AROT about Z only, RPL in the plane X Y.
 bool is_plain_frame(const Block& block, const Reading& r, bool turns) {
   const auto displaced = static_cast<std::uint16_t>(r.state.displaced & ~framed);
-  if (r.in_body() || displaced != 0 || r.state.doubts != 0 || !r.state.unit || !empty(block.block_delete))
+  if (r.in_body() || displaced != 0 || r.state.unknown_modes != 0 || !r.state.unit ||
+      !empty(block.block_delete))
     return false;
   for (const Word& word : block.words) {
     const bool known = std::string_view("NXYZR").find(word.letter) != std::string_view::npos;
@@ -215,9 +216,11 @@ void enter_frame(Reading& r, const std::string& work_offset) {
 }
 
 bool set_work_offset(const Block& block, Reading& r) {
-  constexpr std::array<const char*, 9> names{"G54", "G55", "G56", "G57", "G58", "G59", "G59.1", "G59.2", "G59.3"};
+  constexpr std::array<const char*, 9> names{"G54", "G55",   "G56",   "G57",  "G58",
+                                             "G59", "G59.1", "G59.2", "G59.3"};
   const Word *l = r.sorted.word('L'), *p = r.sorted.word('P'), *turn = r.sorted.word('R');
-  if (!is_plain(block, r, "LPR") || l == nullptr || p == nullptr || (turn != nullptr && turn->value != 0)) return false;
+  if (!is_plain(block, r, "LPR") || l == nullptr || p == nullptr || (turn != nullptr && turn->value != 0))
+    return false;
   if (r.state.relative || !empty(block.block_delete) || p->value < 0 || p->value > 9) return false;
   const std::string acting = name_of(current(r).work_offset);
   const bool acts = p->value == 0 && (r.dialect.family & (linuxcnc_family | grbl_family)) != 0;

@@ -6,21 +6,21 @@
 
 #include "program/gcode/contour.hpp"
 #include "program/gcode/flow.hpp"
-#include "program/text/force_comment.hpp"
-#include "program/gcode/words/modal_words.hpp"
 #include "program/gcode/offsets.hpp"
 #include "program/gcode/other_moves.hpp"
 #include "program/gcode/read_arc.hpp"
 #include "program/gcode/read_cycle.hpp"
 #include "program/gcode/read_move.hpp"
 #include "program/gcode/remarks.hpp"
+#include "program/gcode/words/modal_words.hpp"
 #include "program/siemens/cycles.hpp"
 #include "program/siemens/statements.hpp"
+#include "program/text/force_comment.hpp"
 
 namespace counterflex {
 namespace {
 
-/// Of several comments alone in a line the first that names something is the operation.
+/// If several comments are alone in a line, the first one with a name is the operation.
 void apply_comments(const Block& block, Reading& r) {
   if (block.comments.empty()) return;
   const std::string_view text = r.program.text;
@@ -37,7 +37,7 @@ constexpr std::uint64_t bit_of(Action action) {
   return std::uint64_t{1} << static_cast<unsigned>(action);
 }
 
-/// Whether codes besides G0 to G3 stand in the block.
+/// Whether the block has codes other than G0 to G3.
 bool has_other_codes(const SortedBlock& sorted) {
   constexpr std::uint64_t motions = bit_of(Action::rapid) | bit_of(Action::feed) | bit_of(Action::arc);
   return (sorted.actions & ~motions) != 0 || !sorted.m.empty();
@@ -48,10 +48,9 @@ void check_can_move(const Block& block, const Reading& r) {
   const auto fail = [&](const std::string& message) { refuse_word(block, r, word, message); };
   if (!why_not_followed(r).empty()) return;
   if (r.state.motion == MotionMode::none)
-    fail(fmt::format("{} without a motion: no G0 or G1 stands before it", word.letter));
+    fail(fmt::format("{} without a motion: program G0 or G1 before it", word.letter));
   if (r.state.motion == MotionMode::cancelled)
-    fail(fmt::format("{} without a motion: G80 ended it, and {} needs G0 or G1 anew", word.letter,
-                     r.dialect.name));
+    fail(fmt::format("{} without a motion: after G80, {} needs G0 or G1 again", word.letter, r.dialect.name));
   demand_unit(block, r, word);
 }
 
@@ -61,13 +60,14 @@ void read_line(const Block& block, Reading& r, Motion motion) {
   place_words(block, r, move);
   if (hole) place_modal_hole(r, move);
   finish_move(r, move);
-  if (hole) leave_called_hole(r);
+  if (hole) end_called_hole(r);
 }
 
-/// The move of a block under the motion that acts.
+/// The move of a block under the active motion.
 void read_modal_move(const Block& block, Reading& r) {
   check_can_move(block, r);
-  if (r.called && r.state.motion != MotionMode::rapid && r.state.motion != MotionMode::feed) takes_modal_hole(block, r);
+  if (r.called && r.state.motion != MotionMode::rapid && r.state.motion != MotionMode::feed)
+    takes_modal_hole(block, r);
   switch (r.state.motion) {
     case MotionMode::clockwise:
     case MotionMode::counter_clockwise:
@@ -85,7 +85,7 @@ void read_modal_move(const Block& block, Reading& r) {
   }
 }
 
-/// Whether the words of the block move the tool under the motion that acts.
+/// Whether the words of the block move the tool under the active motion.
 bool has_words_of_motion(const Reading& r) {
   if (has_axis_word(r.sorted)) return true;
   switch (r.state.motion) {
@@ -129,10 +129,10 @@ void check_reference(const Block& block, const Reading& r, const FoundG& referen
   const bool other = r.sorted.has(Action::rapid) || r.sorted.has(Action::feed);
   if (r.sorted.has(Action::machine_move) || (other && !r.dialect.reference_beside_motion))
     refuse_word(block, r, *reference.word,
-                fmt::format("G{} stands beside another motion", reference.word->value));
+                fmt::format("G{} is in a block with another motion", reference.word->value));
 }
 
-/// Gives the axis words to the code that uses them.
+/// Passes the axis words to the code that uses them.
 void apply_axis_words(const Block& block, Reading& r) {
   if (!has_other_codes(r.sorted)) {
     if (!r.state.entering_data && has_words_of_motion(r)) read_modal_move(block, r);
@@ -140,43 +140,43 @@ void apply_axis_words(const Block& block, Reading& r) {
   }
   if (const FoundG* reference = r.sorted.find(Action::reference_move)) {
     check_reference(block, r, *reference);
-    return leave_machine_move(block, r, *reference);
+    return add_machine_move(block, r, *reference);
   }
   if (const FoundG* machine = r.sorted.find(Action::machine_move))
-    return leave_machine_move(block, r, *machine);
+    return add_machine_move(block, r, *machine);
   if (const FoundG* own = find_own_motion(r.sorted)) return read_own_motion(block, r, *own);
   if (r.sorted.has(MAction::call)) return read_call(block, r);
   if (!has_words_of_motion(r) || takes_axis_words(r)) return;
   if (const FoundG* dwell = r.sorted.find(Action::dwell)) {
     if (r.dialect.dwell_takes_axis_words) return;
-    refuse_word(block, r, *dwell->word, "axis words stand beside a dwell");
+    refuse_word(block, r, *dwell->word, "axis words in a block with a dwell");
   }
   if (const FoundG* smooth = r.sorted.find(Action::smooth))
-    refuse_word(block, r, *smooth->word, fmt::format("axis words stand beside G{}", smooth->word->value));
+    refuse_word(block, r, *smooth->word, fmt::format("axis words in a block with G{}", smooth->word->value));
   read_modal_move(block, r);
 }
 
-void end_doubtful_cutter(Reading& r) {
+void end_unknown_cutter(Reading& r) {
   if (r.sorted.has(Action::cutter) || r.sorted.has(Action::no_cutter))
-    r.state.doubts &= static_cast<std::uint16_t>(~doubtful_cutter);
+    r.state.unknown_modes &= static_cast<std::uint16_t>(~unknown_cutter);
 }
 
-/// In the order in which controls act on them.
+/// In the order in which controls execute them.
 void apply_codes(const Block& block, Reading& r) {
   apply_feed_and_tool(r);
-  end_doubtful_cutter(r);
+  end_unknown_cutter(r);
   apply_modes(block, r);
   apply_cutter(r);
   apply_work_offset(block, r);
   apply_tool_length(block, r);
   apply_displacements(block, r);
   apply_set_data(block, r);
-  if (r.sorted.has(MAction::restore)) r.state.doubts = all_doubts;
+  if (r.sorted.has(MAction::restore)) r.state.unknown_modes = all_unknown_modes;
   remark_machine_codes(block, r);
 }
 
 Context context_of(const Reading& r) {
-  const bool open = r.in_body() || r.state.doubts != 0 || r.state.entering_data;
+  const bool open = r.in_body() || r.state.unknown_modes != 0 || r.state.entering_data;
   if (open || (r.state.displaced & modal_macro) != 0) return Context::unknown;
   switch (r.state.motion) {
     case MotionMode::clockwise:
@@ -208,25 +208,25 @@ void apply_words(const Block& block, Reading& r) {
   if (r.sorted.unknown_code)
     read_anything(block, r, "the number of a code is a variable or an expression");
   else if (r.angle && !has_axis_word(r.sorted))
-    read_anything(block, r, "ANG= is followed beside one of X and Y alone, in a line of G17");
+    read_anything(block, r, "ANG= needs exactly one of X and Y, in a line under G17");
   else
     apply_axis_words(block, r);
   if (r.program.moves.size() > moves) join_contour(r);
-  if (r.sorted.has(MAction::retract)) leave_retract(block, r);
+  if (r.sorted.has(MAction::retract)) apply_retract(block, r);
 }
 
 void read_words(const Block& block, Reading& r) {
   if (empty(block.block_delete)) return apply_words(block, r);
-  // What a block that may be skipped has set is in doubt afterwards.
+  // States that a skippable block sets are unknown afterwards.
   const ModalState before = r.state;
   apply_words(block, r);
-  doubt_differences(before, r.state);
+  mark_differences_unknown(before, r.state);
   for (std::size_t axis = 0; axis < 3; ++axis)
     if (r.sorted.word(letters_of_axes[axis]) != nullptr) r.state.known[axis] = false;
 }
 
 void end_program(Reading& r) {
-  if (r.sorted.has(MAction::come_back)) come_back(r);
+  if (r.sorted.has(MAction::return_from_call)) return_from_call(r);
   if (r.sorted.has(MAction::end) && (r.body.jumps || r.body.open.empty())) r.ended = true;
 }
 
@@ -237,7 +237,7 @@ void read_with_senses(const Block& block, Reading& r) {
   r.relative_axes = 0;
 }
 
-/// A line of a Sinumerik that says more than words.
+/// A line of a Sinumerik with a statement.
 void read_statement(const Block& block, Reading& r) {
   ++r.program.block_count;
   begin_statement(block, r);
@@ -252,15 +252,14 @@ void read_statement(const Block& block, Reading& r) {
 void interpret(const Block& block, Reading& r) {
   apply_comments(block, r);
   remark_length(block, r);
-  if (!says_something(block)) return;
+  if (!has_content(block)) return;
   if (!empty(block.flow_keyword)) {
     if (block.words.empty() || block.words.front().letter == 'N') {
       read_flow(block, r);
       if (block.statement != Statement::none) end_statement(block, r);
       return;
     }
-    refuse(r.program.file, block, block.flow_keyword.begin,
-           "words stand before a condition, a loop or a call");
+    refuse(r.program.file, block, block.flow_keyword.begin, "words before a condition, a loop or a call");
   }
   if (block.statement != Statement::none) return read_statement(block, r);
   if (block.words.empty()) return;

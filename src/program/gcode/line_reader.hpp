@@ -17,7 +17,7 @@ class LineReader final : public BlockReader {
 
  private:
   int end_line() const override { return reading_.ended ? block_.line : 0; }
-  void go_on_behind(std::size_t read) override;
+  void resume_behind(std::size_t read) override;
   bool read_any_line();
 
   Reading reading_;

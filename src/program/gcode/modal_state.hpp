@@ -1,5 +1,5 @@
 #pragma once
-/// What a control remembers from block to block, as far as the way of the tool needs it.
+/// The modal state of a control that determines the path of the tool.
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -10,7 +10,7 @@
 namespace counterflex {
 
 enum class MotionMode : std::uint8_t {
-  none,  ///< nothing programmed yet
+  none,  ///< no motion was programmed yet
   rapid,
   feed,
   clockwise,
@@ -19,57 +19,57 @@ enum class MotionMode : std::uint8_t {
   probe,
   spline,
   thread,
-  cancelled  ///< after G80, where that leaves no motion
+  cancelled  ///< after G80 on controls without a motion afterwards
 };
 
 enum class FeedUnit : std::uint8_t { per_minute, per_turn, inverse_time };
 
-/// States that may be what the text says or not: a block that '/' may skip, a condition or a subprogram that
-/// was called has set them. A block that sets them anew ends the doubt.
-enum Doubt : std::uint16_t {
-  doubtful_motion = 1,
-  doubtful_distance = 2,
-  doubtful_plane = 4,
-  doubtful_unit = 8,
-  doubtful_offset = 16,
-  doubtful_centres = 32,
-  doubtful_level = 64,
-  doubtful_cutter = 128,
-  all_doubts = 255
+/// Modal states whose value is unknown: set in a block that '/' may skip, in a condition or in a called
+/// subprogram. A block that sets the state makes it known again.
+enum UnknownMode : std::uint16_t {
+  unknown_motion = 1,
+  unknown_distance = 2,
+  unknown_plane = 4,
+  unknown_unit = 8,
+  unknown_offset = 16,
+  unknown_centres = 32,
+  unknown_level = 64,
+  unknown_cutter = 128,
+  all_unknown_modes = 255
 };
 
-/// Sticky words of a canned cycle, in mm, absolute or differences as they were programmed.
+/// Sticky words of a canned cycle (mm), absolute or differences as programmed.
 struct CycleState {
   std::optional<double> bottom, retract;
-  std::optional<double> initial;  ///< Z where the series of cycles began
+  std::optional<double> initial;  ///< Z at which the series of cycles began
   bool relative = false;          ///< the sticky words are differences
   bool begun = false;
-  bool left_at_retract = false;  ///< the tool stands at the retract plane: the last hole has left it there,
-                                 ///< or the series begins, whose plane is there unless R says another
-  bool bottom_in_doubt = false;  ///< Z was programmed in a hole that is not followed or may be skipped: what
-                                 ///< a Z that is put into a later hole replaces is not known
+  bool left_at_retract = false;  ///< the tool is at the retract plane: after a hole with G99, or at the begin
+                                 ///< of a series without R
+  bool bottom_unknown = false;   ///< Z was programmed in a hole that is not followed or may be skipped: the Z
+                                 ///< that an inserted word would replace is unknown
 };
 
-/// By how much plain numbers shift and turn the coordinates of a work offset.
+/// Shift and rotation of the coordinates of a work offset by plain numbers.
 struct FrameShifts {
   Vector3 set_mm = Vector3::Zero();          ///< by G92
   Vector3 local_mm = Vector3::Zero();        ///< by G52
-  Vector3 turn_centre_mm = Vector3::Zero();  ///< of G68, in coordinates that are shifted
+  Vector3 turn_centre_mm = Vector3::Zero();  ///< of G68, in shifted coordinates
   double turn_rad = 0;                       ///< about Z, counter-clockwise
 };
 
-/// What G10 has made of a work offset.
+/// A work offset changed by G10.
 struct SetOffset {
-  std::array<std::optional<double>, 3> set_mm{};  ///< its place in machine coordinates, by axis: L2
-  Vector3 moved_mm = Vector3::Zero();             ///< from its place: L20
+  std::array<std::optional<double>, 3> set_mm{};  ///< position in machine coordinates, by axis: L2
+  Vector3 moved_mm = Vector3::Zero();             ///< shift from its position: L20
 };
 
-/// Where the moves stand to a contour under G41 or G42.
+/// Position of the current move relative to a contour under G41 or G42.
 enum class Contour : std::uint8_t {
   none,
-  inside,      ///< G41 or G42 acts
-  taking_off,  ///< after G40, until the next move: a feed move takes the compensation off
-  leaving      ///< after that move, until the next one along X or Y
+  inside,      ///< G41 or G42 is active
+  taking_off,  ///< after G40, until the next move: a feed move ends the compensation
+  leaving      ///< after that move, until the next move along X or Y
 };
 
 struct ModalState {
@@ -81,26 +81,26 @@ struct ModalState {
   std::optional<LengthUnit> feed_unit;  ///< the unit when it was programmed
   FeedUnit feed_mode = FeedUnit::per_minute;
   double spindle_rpm = 0;
-  int normal = 2;         ///< axis that the plane's normal is
+  int normal = 2;         ///< axis normal to the plane
   bool relative = false;  ///< G91
   bool absolute_centres = false;
   bool returns_to_retract = false;  ///< G99
   CycleState cycle;
-  std::size_t frame = 0;        ///< index into Program::frames
-  FrameShifts shifts{};         ///< of which it is made
+  std::size_t frame = 0;  ///< index into Program::frames
+  FrameShifts shifts{};   ///< shifts of that frame
   bool exact_stop = false;
-  std::optional<double> tool_length;     ///< number of H; 0: off; none: not known
-  std::optional<double> tool_length_mm;  ///< where it is known
+  std::optional<double> tool_length;     ///< number of H; 0: off; empty: unknown
+  std::optional<double> tool_length_mm;  ///< empty: unknown
   long tool_chosen = 0;                  ///< T
   long tool = 0;                         ///< in the spindle
   std::optional<Vector6> force;
-  std::uint16_t doubts = 0;
+  std::uint16_t unknown_modes = 0;
   std::uint16_t displaced = 0;    ///< bits of Displacement
   std::uint16_t offsets_set = 0;  ///< by G10: a bit for each of G54 to G59.3, the highest for others
-  bool entering_data = false;     ///< between G10 L50 and G11 blocks hold parameters
+  bool entering_data = false;     ///< between G10 L50 and G11, where blocks are parameters
   Contour contour = Contour::none;
-  int group = 0;  ///< of the contour
-  bool beside_contour = false;  ///< inside, the cutter has come to its side by a move across
+  int group = 0;                ///< number of the contour
+  bool beside_contour = false;  ///< in a contour: a move across has brought the cutter to its side
 };
 
 }  // namespace counterflex

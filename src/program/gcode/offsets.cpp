@@ -18,7 +18,7 @@ const std::string& offset_that_acts(const Reading& r) {
   return r.program.frames[r.state.frame].work_offset;
 }
 
-/// "G54", "G59.3", "G54.1 P3", which G154 P3 and G112 of Haas name too, and G54 P3 of Fanuc.
+/// "G54", "G59.3", "G54.1 P3" (G154 P3 and G112 of Haas, G54 P3 of Fanuc).
 std::optional<std::string> offset_name(const Reading& r, const FoundG& offset) {
   const Word* p = r.sorted.word('P');
   if (offset.code->tenths >= 1100 && offset.code->tenths <= 1290)
@@ -35,7 +35,7 @@ void add_displacement(const Block& block, Reading& r, std::uint16_t bit) {
   r.state.displaced |= bit;
   r.state.known.fill(false);
   end_contour(r);
-  leave_alone(block, r, why_not_followed(r));
+  note_uncorrected(block, r, why_not_followed(r));
 }
 
 /// The bit of an offset in ModalState::offsets_set.
@@ -53,7 +53,7 @@ void displace_by_data(Reading& r) {
   r.state.displaced = set ? static_cast<std::uint16_t>(others | data) : others;
 }
 
-/// The number of H that G43 takes, and its length where the options hold it.
+/// The number of H that G43 uses, and its length if the options have it.
 void find_length(const Reading& r, std::optional<double>& number, std::optional<double>& length_mm) {
   const Word* h = r.sorted.word('H');
   if (h != nullptr && !h->literal) return;
@@ -96,17 +96,17 @@ void apply_work_offset(const Block& block, Reading& r) {
   if (offset == nullptr) return;
   const std::optional<std::string> name = offset_name(r, *offset);
   if (!name) {
-    r.state.doubts |= doubtful_offset;
+    r.state.unknown_modes |= unknown_offset;
     r.state.known.fill(false);
-    return leave_alone(block, r, why_not_followed(r));
+    return note_uncorrected(block, r, why_not_followed(r));
   }
   if (*name != offset_that_acts(r)) {
     end_contour(r);
-    // Whether a local shift acts in the other offset, too, differs between controls.
+    // Controls differ in whether a local shift also applies in the other offset.
     if (!r.state.shifts.local_mm.isZero(0) && !r.dialect.sinumerik_words) add_displacement(block, r, shifted);
     enter_frame(r, *name);
   }
-  r.state.doubts &= static_cast<std::uint16_t>(~doubtful_offset);
+  r.state.unknown_modes &= static_cast<std::uint16_t>(~unknown_offset);
   displace_by_data(r);
 }
 
@@ -120,7 +120,7 @@ void apply_tool_length(const Block& block, Reading& r) {
   const bool dynamic = on && found->code->tenths != 430 && found->code->tenths != 440;
   if (on && !dynamic) find_length(r, number, length_mm);
   if (length_mm && on && found->code->tenths == 440) *length_mm = -*length_mm;
-  // Shop controls add relative Z to the position that the program has reached, whatever the length.
+  // Shop controls add relative Z to the programmed position, independent of the length.
   const bool counts_on = r.dialect.macro_words && state.relative && r.sorted.word('Z') != nullptr;
   if (length_mm && state.tool_length_mm)
     state.position_mm.z() += *state.tool_length_mm - *length_mm;
@@ -172,7 +172,7 @@ void apply_set_data(const Block& block, Reading& r) {
   const Word* l = r.sorted.word('L');
   r.state.entering_data = r.dialect.macro_words && l != nullptr && l->value >= 50;
   if (sets_offset(l) && set_work_offset(block, r)) return;
-  leave_alone(block, r, "G10 sets offsets or tools");
+  note_uncorrected(block, r, "G10 sets offsets or tools");
   if (sets_tools(l)) {
     r.state.tool_length.reset();
     r.state.tool_length_mm.reset();

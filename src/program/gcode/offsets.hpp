@@ -1,25 +1,26 @@
 #pragma once
-/// Work offsets, tool lengths, and states that put programmed positions elsewhere.
+/// Work offsets, tool lengths, and states that displace programmed positions.
 #include "program/gcode/interpret.hpp"
 
 namespace counterflex {
 
 void apply_work_offset(const Block& block, Reading& reading);
 
-/// A change of the length shifts Z of the program while the machine stands still: by the difference where
-/// both lengths are known, else Z is unknown.
+/// Reads the tool length. A change of the length shifts Z of the program while the machine does not move. Z
+/// stays known if both lengths are known; else it becomes unknown.
 void apply_tool_length(const Block& block, Reading& reading);
 
 /// G52, G68, G51, G16, G66, G92, tool centre point control, and other axes.
 void apply_displacements(const Block& block, Reading& reading);
 
-/// A, B, C, U, V, W: those that stay zero are nothing, the first other one displaces all that follows.
+/// A, B, C, U, V, W: words of axes that stay at zero are ignored. The first other word displaces all
+/// following moves.
 void watch_other_axes(const Block& block, Reading& reading);
 
 /// G10.
 void apply_set_data(const Block& block, Reading& reading);
 
-/// Whether axis words of the block belong to such a code, so that it does not move.
+/// Whether axis words of the block belong to such a code, so that the block does not move the tool.
 bool takes_axis_words(const Reading& reading);
 
 }  // namespace counterflex

@@ -2,31 +2,31 @@
 
 #include <fmt/format.h>
 
-#include "program/gcode/contour.hpp"
 #include "program/expand/expand.hpp"
+#include "program/gcode/contour.hpp"
 #include "program/gcode/read_move.hpp"
 #include "program/gcode/remarks.hpp"
 
 namespace counterflex {
 
-void leave_machine_move(const Block& block, Reading& r, const FoundG& found) {
+void add_machine_move(const Block& block, Reading& r, const FoundG& found) {
   const bool reference = found.code->action == Action::reference_move;
   if (!reference && !has_axis_word(r.sorted) && !r.sorted.has_any("ABCUVW") && !r.in_body())
     refuse_word(block, r, *found.word, "G53 has no axis word");
   const bool all = !has_axis_word(r.sorted);
   for (std::size_t axis = 0; axis < 3; ++axis)
-    if (all || r.sorted.word(letters_of_axes[axis]) != nullptr) take_away(r, axis);
+    if (all || r.sorted.word(letters_of_axes[axis]) != nullptr) move_by_machine(r, axis);
   end_contour(r);
   r.run_begin = r.program.moves.size();
   r.last_reason = fmt::format("G{} moves to a position of the machine", found.word->value);
   r.program.left_alone.push_back({block.line, r.last_reason, true, block.text_line});
 }
 
-void leave_retract(const Block& block, Reading& r) {
-  take_away(r, 2);
+void apply_retract(const Block& block, Reading& r) {
+  move_by_machine(r, 2);
   end_contour(r);
   r.run_begin = r.program.moves.size();
-  r.last_reason = "M25 may take Z to a position of the machine";
+  r.last_reason = "M25 may move Z to a position of the machine";
   r.program.left_alone.push_back({block.line, r.last_reason, true, block.text_line});
 }
 
@@ -38,7 +38,7 @@ void read_held(const Block& block, Reading& r, std::string_view what, bool end_k
   if (!end_known)
     for (std::size_t axis = 0; axis < 3; ++axis)
       if (r.sorted.word(letters_of_axes[axis]) != nullptr) r.state.known[axis] = false;
-  if (why_not_followed(r).empty()) leave_alone(block, r, what);
+  if (why_not_followed(r).empty()) note_uncorrected(block, r, what);
   finish_move(r, move);
 }
 
@@ -46,9 +46,9 @@ void read_own_way(const Block& block, Reading& r, const FoundG& found) {
   Move& move = start_move(block, r, Motion::feed);
   for (std::size_t axis = 0; axis < 3; ++axis) fix_axis(r, move, axis);
   const bool known = found.code->bit != unknown;
-  leave_alone(block, r,
-              known ? fmt::format("G{} moves in a way of the control's own", found.word->value)
-                    : fmt::format("G{} is not known in dialect {}", found.word->value, r.dialect.name));
+  note_uncorrected(block, r,
+                   known ? fmt::format("G{} has a motion defined by the control", found.word->value)
+                         : fmt::format("G{} is not known in dialect {}", found.word->value, r.dialect.name));
   finish_move(r, move);
 }
 
@@ -68,10 +68,10 @@ void read_engraving(const Block& block, Reading& r, const FoundG& found) {
   text.retract_word = AxisWord{plane->number, plane->decimals};
   text.may_insert_bottom = false;
   move.words[2].reset();
-  // Where the text ends is not followed, nor what is left of the words of a cycle that it interrupts.
+  // The end of the text is unknown, and so are the words of an interrupted cycle.
   r.state.known.fill(false);
   r.state.cycle = {};
-  leave_alone(block, r, "the control engraves text");
+  note_uncorrected(block, r, "the control engraves text");
   finish_move(r, move);
 }
 
@@ -80,7 +80,7 @@ void read_pocket(const Block& block, Reading& r) {
   place_words(block, r, move);
   move.handling = Handling::held;
   move.may_insert_words = false;
-  if (why_not_followed(r).empty()) leave_alone(block, r, "the control cuts a round pocket");
+  if (why_not_followed(r).empty()) note_uncorrected(block, r, "the control cuts a round pocket");
   finish_move(r, move);
 }
 
@@ -91,22 +91,24 @@ void read_call(const Block& block, Reading& r) {
   move.relative = false;
   std::string why(why_not_expanded(r.program.expansion, block.text_line));
   if (!why.empty()) why = ", not expanded: " + why;
-  if (!r.options.expand_subprograms && may_expand(r.dialect)) why = " (--expand-subprograms puts its text in its place)";
-  leave_alone(block, r, "a subprogram is called" + why);
+  if (!r.options.expand_subprograms && may_expand(r.dialect))
+    why = " (--expand-subprograms puts its text in its place)";
+  note_uncorrected(block, r, "a subprogram is called" + why);
   finish_move(r, move);
   end_contour(r);
-  r.state.doubts |= doubtful_motion | doubtful_distance | doubtful_plane | doubtful_centres | doubtful_level;
+  r.state.unknown_modes |=
+      unknown_motion | unknown_distance | unknown_plane | unknown_centres | unknown_level;
   add_remark(
       r.program, block.line,
       "subprograms are taken to leave the unit, the work offset, the tool length and G40 to G42 as they are");
 }
 
 void read_anything(const Block& block, Reading& r, std::string_view why) {
-  r.state.doubts = all_doubts;
+  r.state.unknown_modes = all_unknown_modes;
   r.variables.clear();
   Move& move = start_move(block, r, Motion::rapid);
   for (std::size_t axis = 0; axis < 3; ++axis) fix_axis(r, move, axis);
-  leave_alone(block, r, why);
+  note_uncorrected(block, r, why);
   finish_move(r, move);
 }
 

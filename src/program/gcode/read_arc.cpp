@@ -6,18 +6,19 @@
 #include <cmath>
 #include <numbers>
 
-#include "program/text/arc_radius.hpp"
 #include "program/gcode/read_move.hpp"
+#include "program/text/arc_radius.hpp"
 
 namespace counterflex {
 namespace {
 
 constexpr std::array<char, 3> letters_of_centre{'I', 'J', 'K'};
-constexpr double most_turns = 100;  // of one arc: each turn is sampled, and what is found is kept
-constexpr std::size_t more_turns_than_blocks = 10000;  // of a program: time is proportional to its turns
-constexpr double most_turned_mm = 1e6;                 // of all full turns of a program, and to their way
+constexpr double most_turns = 100;  // of one arc; each turn is sampled, and the results are stored
+constexpr std::size_t more_turns_than_blocks =
+    10000;                              // limit for a program: computing time is proportional to its turns
+constexpr double most_turned_mm = 1e6;  // limit for the length of all full turns of a program
 
-/// Axes of the plane: from the first to the second is counter-clockwise about the normal.
+/// Axes of the plane. From the first to the second is counter-clockwise about the normal.
 struct Plane {
   std::size_t first, second;
 };
@@ -40,7 +41,7 @@ bool words_are_plain(const SortedBlock& sorted) {
   return true;
 }
 
-/// What no control would make an arc of.
+/// Refuses words that are an arc on no control.
 void check_words(const Block& block, const Reading& r) {
   const bool centre = r.sorted.has_any("IJK");
   const Plane plane = plane_of(r.state.normal);
@@ -54,15 +55,15 @@ void check_words(const Block& block, const Reading& r) {
                 fmt::format("the arc has neither {} nor {}, which give its centre in the plane that acts",
                             std::min(first, second), std::max(first, second)));
   const Word* across = r.sorted.word(letters_of_centre[static_cast<std::size_t>(r.state.normal)]);
-  // Some posts put half the rise of a helix there, and controls for hobbyists do not look at it.
+  // Some post processors write half the rise of a helix there, and hobby controls ignore it.
   const bool ignored = (r.dialect.family & (grbl_family | mach3_family)) != 0;
   if (across != nullptr && across->literal && across->value != 0 && !ignored)
     refuse_word(block, r, *across,
-                fmt::format("{} is no part of an arc's centre in the plane that acts", across->letter));
+                fmt::format("{} is not a centre word of an arc in the active plane", across->letter));
   const Word* turns = r.sorted.word('P');
   if (turns != nullptr && turns->literal && (turns->value < 1 || turns->value != std::floor(turns->value)))
     refuse_word(block, r, *turns,
-                fmt::format("P{} is no number of turns: whole numbers from 1 are", turns->value));
+                fmt::format("P{} is not a number of turns: expected an integer from 1", turns->value));
   if (turns != nullptr && turns->literal && turns->value > most_turns)
     refuse_word(
         block, r, *turns,
@@ -70,7 +71,7 @@ void check_words(const Block& block, const Reading& r) {
                     turns->value, most_turns));
 }
 
-/// Whether I, J and K are coordinates: by G90.1, or because they say so themselves ("I=AC(5)").
+/// Whether I, J and K are coordinates: by G90.1, or by their own form ("I=AC(5)").
 bool centre_is_absolute(const Reading& r) {
   if (r.state.absolute_centres) return true;
   for (const char letter : letters_of_centre)
@@ -79,7 +80,7 @@ bool centre_is_absolute(const Reading& r) {
   return false;
 }
 
-/// Whether one coordinate of the centre says that it is absolute, and another does not.
+/// Whether one coordinate of the centre is marked as absolute and another is not.
 bool centre_is_mixed(const Reading& r, const Plane& plane) {
   const Word *first = r.sorted.word(letters_of_centre[plane.first]),
              *second = r.sorted.word(letters_of_centre[plane.second]);
@@ -125,7 +126,7 @@ bool agree(const Radii& radii, const Reading& r) {
   return radii_agree(inch ? r.dialect.radius_room_inch : r.dialect.radius_room, radii.start, radii.end);
 }
 
-/// The words of the centre in the plane, as they stand in the text: "I-24.273 J0.025".
+/// The centre words of the plane, as they are in the text: "I-24.273 J0.025".
 std::string centre_text(const Reading& r, const Plane& plane) {
   std::string text;
   for (const std::size_t axis : {std::min(plane.first, plane.second), std::max(plane.first, plane.second)})
@@ -134,16 +135,16 @@ std::string centre_text(const Reading& r, const Plane& plane) {
   return text;
 }
 
-/// What helps where the other reading of the centre's words fits.
+/// The cure if the words fit when they are read the other way.
 std::string cure_of_centres(const Reading& r, bool absolute) {
   const std::string fits =
       fmt::format("read as {} the words fit: ", absolute ? "distances from the start" : "coordinates");
-  if (absolute != r.options.absolute_centres)  // the option acts up to the code
-    return fits + (absolute ? "G90.1 acts, which may be wrong" : "G91.1 acts, which may be wrong");
+  if (absolute != r.options.absolute_centres)  // the option applies up to the code
+    return fits + (absolute ? "G90.1 is active, which may be wrong" : "G91.1 is active, which may be wrong");
   return fits + fmt::format("give --arc-centres {}", absolute ? "incremental" : "absolute");
 }
 
-/// A centre that is not equally far from both ends makes no arc on any control.
+/// Refuses a centre that is not equally far from both ends: on no control this is an arc.
 void check_radii(const Block& block, const Reading& r, const Plane& plane, const Move& move,
                  const ArcMove& arc) {
   const Vector3 &start = move.start_mm, &end = r.state.position_mm;
@@ -166,8 +167,8 @@ void check_radii(const Block& block, const Reading& r, const Plane& plane, const
           centre_text(r, plane), radii.start, radii.end, r.dialect.name, cure));
 }
 
-/// Centre by R, as LinuxCNC finds it: the chord may be 0.05 mm longer than twice the radius. False where the
-/// end is the start.
+/// Centre by R, as in LinuxCNC: the chord may be 0.05 mm longer than twice the radius. False if the end is
+/// the start.
 bool set_centre_of_radius(const Block& block, const Reading& r, const Plane& plane, const Vector3& end,
                           const Move& move, ArcMove& arc) {
   const Word& word = *r.sorted.word('R');
@@ -187,7 +188,7 @@ bool set_centre_of_radius(const Block& block, const Reading& r, const Plane& pla
   return true;
 }
 
-/// The arc of `move`, whose words are placed; nothing where it is a way of no length.
+/// The arc of `move`, whose words were read. Empty if the arc has no length.
 std::optional<ArcMove> arc_of(const Block& block, const Reading& r, const Move& move) {
   ArcMove arc;
   arc.normal = r.state.normal;
@@ -204,8 +205,8 @@ std::optional<ArcMove> arc_of(const Block& block, const Reading& r, const Move& 
   return arc;
 }
 
-/// An arc that cannot be followed: its plane's positions stay as they are, or where all of it counts from its
-/// start it goes along with that.
+/// An arc that cannot be followed. Its positions in the plane are fixed; if all its words are relative, the
+/// arc is held.
 void hold_arc(Reading& r, Move& move, const Plane& plane, bool start_known) {
   move.may_insert_words = false;
   move.handling = Handling::held;
@@ -215,7 +216,8 @@ void hold_arc(Reading& r, Move& move, const Plane& plane, bool start_known) {
     if (r.sorted.word(letters_of_axes[axis]) != nullptr) fix_axis(r, move, axis);
 }
 
-/// A short program must not turn for hours. Throws at P, without which the turns are fewer than the blocks.
+/// Limits the computing time of a short program. Reports the error at P, because without P there are fewer
+/// turns than blocks.
 void count_turns(const Block& block, Reading& r, const ArcMove& arc, const Vector3& start_mm) {
   r.turns += static_cast<std::size_t>(arc.turns) + 1;
   if (arc.turns == 0) return;
@@ -223,10 +225,12 @@ void count_turns(const Block& block, Reading& r, const ArcMove& arc, const Vecto
   arm[arc.normal] = 0;
   r.turned_mm += 2 * std::numbers::pi * arm.norm() * arc.turns;
   if (r.turned_mm > most_turned_mm)
-    refuse_word(block, r, *r.sorted.word('P'),
-                fmt::format("the full turns of arcs to here go {:.0f} m: at most {:.0f} m are allowed; write each turn as "
-                            "a block",
-                            r.turned_mm / 1000, most_turned_mm / 1000));
+    refuse_word(
+        block, r, *r.sorted.word('P'),
+        fmt::format(
+            "the full turns of arcs to here go {:.0f} m: at most {:.0f} m are allowed; write each turn as "
+            "a block",
+            r.turned_mm / 1000, most_turned_mm / 1000));
   if (r.turns <= r.program.block_count + more_turns_than_blocks) return;
   refuse_word(
       block, r, *r.sorted.word('P'),
@@ -253,7 +257,7 @@ void read_arc(const Block& block, Reading& r) {
   if (!move.arc) {
     hold_arc(r, move, plane, start_known);
     if (followed)
-      leave_alone(block, r, start_known ? "the arc is not known" : "the start of the arc is not known");
+      note_uncorrected(block, r, start_known ? "the arc is not known" : "the start of the arc is not known");
   }
   finish_move(r, move);
 }

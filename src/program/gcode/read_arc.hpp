@@ -4,8 +4,8 @@
 
 namespace counterflex {
 
-/// Adds the arc of a block that holds axis or centre words. An arc whose start is not known in its plane, or
-/// whose centre is an expression, is held or fixed.
+/// Adds the arc of a block with axis or centre words. An arc is held or fixed if its start is unknown in its
+/// plane, or if its centre is an expression.
 void read_arc(const Block& block, Reading& reading);
 
 }  // namespace counterflex

@@ -21,7 +21,7 @@ void keep_sticky(const Reading& r, const Word* word, std::optional<double>& valu
   if (word->literal) value = length_mm(r, *word);
 }
 
-/// L, or K of shop controls; 1 where there is none.
+/// L, or K of shop controls; 1 without such a word.
 int repeats_of(const Reading& r) {
   const Word* word = r.sorted.word('L');
   if (word == nullptr && r.dialect.macro_words) word = r.sorted.word('K');
@@ -35,7 +35,7 @@ bool plain_words(const Reading& r) {
   return true;
 }
 
-/// Z of the retract plane and of the bottom. Without R the tool comes back to where it began.
+/// Z of the retract plane and of the bottom. Without R the tool returns to the height at which it began.
 void set_levels(const ModalState& state, CycleMove& hole) {
   const CycleState& cycle = state.cycle;
   const double initial = cycle.initial.value_or(0);
@@ -43,13 +43,13 @@ void set_levels(const ModalState& state, CycleMove& hole) {
   hole.bottom_mm = cycle.bottom.value_or(hole.retract_mm) + (cycle.relative ? hole.retract_mm : 0);
 }
 
-/// Where the cycle leaves the tool along Z. A plane that this hole does not say is known, also in a corrected
-/// text, where the tool stands there already.
-void leave_hole(ModalState& state, const CycleMove& hole) {
+/// The height at which the cycle leaves the tool. If this hole has no R, the plane is known only if the tool
+/// is already there, also in the corrected text.
+void set_height_after_hole(ModalState& state, const CycleMove& hole) {
   CycleState& cycle = state.cycle;
-  const bool says_retract = hole.retract_word && (!cycle.relative || cycle.initial);
+  const bool has_retract = hole.retract_word && (!cycle.relative || cycle.initial);
   const bool stays = state.known[2] && cycle.left_at_retract && state.position_mm.z() == hole.retract_mm;
-  const bool retract_known = says_retract || stays;
+  const bool retract_known = has_retract || stays;
   const bool at_retract = hole.returns_to_retract || (cycle.initial && hole.retract_mm >= *cycle.initial);
   if (at_retract) {
     state.known[2] = retract_known && (hole.returns_to_retract || cycle.initial);
@@ -61,7 +61,7 @@ void leave_hole(ModalState& state, const CycleMove& hole) {
   cycle.left_at_retract = at_retract;
 }
 
-/// X and Y; relative ones are repeated.
+/// X and Y. Relative words apply again in each repeat.
 void place_hole(Reading& r, Move& move, int repeats, bool followed) {
   ModalState& state = r.state;
   for (std::size_t axis = 0; axis < 2; ++axis) {
@@ -82,8 +82,8 @@ bool is_first(const Reading& r) {
   return r.sorted.has(Action::cycle);
 }
 
-/// Whether the series begins. Where a hole that is not followed or another work offset has lost the height,
-/// that of the beginning is lost as well.
+/// Whether the series begins. If the initial height was lost (by a hole that is not followed, or by another
+/// work offset), it stays unknown.
 bool begins_series(ModalState& state) {
   CycleState& cycle = state.cycle;
   if (!state.known[2]) cycle.initial.reset();
@@ -93,18 +93,18 @@ bool begins_series(ModalState& state) {
   return true;
 }
 
-/// Holes that come back to where the series began leave the height unknown from here on.
+/// After a hole that returns to the initial height of the series, the height is unknown.
 void forget_initial(ModalState& state) {
   state.cycle.initial.reset();
   state.cycle.left_at_retract = false;
 }
 
-/// Says under which of G90 and G91 the cycle's Z and R count in this hole. True where numbers that an earlier
-/// hole has left count otherwise than they did there: then a shift of theirs is none of this hole's.
+/// Reads whether Z and R of the cycle are under G90 or G91 in this hole. True if numbers of an earlier hole
+/// have another meaning here: then their shift does not apply to this hole.
 bool turns_sticky_numbers(Reading& r, bool begins) {
   CycleState& cycle = r.state.cycle;
   const bool before = cycle.relative;
-  // Shop controls keep the depth that was programmed under G90 also where G91 moves on to further holes.
+  // Shop controls keep a depth that was programmed under G90 when G91 moves to further holes.
   if (is_first(r) || r.sorted.has_any("ZR") || !r.dialect.macro_words) cycle.relative = r.state.relative;
   if (begins || cycle.relative == before) return false;
   const bool keeps_bottom = cycle.bottom && r.sorted.word('Z') == nullptr;
@@ -112,7 +112,7 @@ bool turns_sticky_numbers(Reading& r, bool begins) {
   return keeps_bottom || keeps_retract;
 }
 
-/// A hole that stays as the text has it.
+/// A hole that is not changed.
 void fix_hole(Reading& r, Move& move, bool turned) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const bool depth = axis == 2 && (!r.state.relative || turned);
@@ -123,7 +123,7 @@ void fix_hole(Reading& r, Move& move, bool turned) {
 }
 
 std::string_view why_hole_stays(bool turned) {
-  return turned ? "Z and R of an earlier hole count as differences under G91 and as places under G90"
+  return turned ? "Z and R of an earlier hole are differences under G91 and coordinates under G90"
                 : "the cycle's words are not all plain numbers in G17";
 }
 
@@ -149,17 +149,17 @@ void read_cycle(const Block& block, Reading& r) {
   set_levels(state, hole);
   if (hole.repeats > 0) place_hole(r, move, hole.repeats, why.empty());
   const bool followed = why.empty() && plain_words(r) && state.normal == 2 && state.cycle.bottom && !turned;
-  if (hole.repeats > 0) leave_hole(state, hole);
+  if (hole.repeats > 0) set_height_after_hole(state, hole);
   if (hole.bottom_word || r.sorted.word('Z') != nullptr)
-    state.cycle.bottom_in_doubt = !followed || !empty(block.block_delete);
+    state.cycle.bottom_unknown = !followed || !empty(block.block_delete);
   hole.may_insert_bottom =
-      followed && !state.relative && !state.cycle.relative && !state.cycle.bottom_in_doubt;
+      followed && !state.relative && !state.cycle.relative && !state.cycle.bottom_unknown;
   move.cycle = hole;
   const bool own = !state.relative && state.known[0] && state.known[1] && hole.repeats > 0;
   if (!own) move.handling = Handling::held;
   if (!followed) {
     fix_hole(r, move, turned);
-    leave_alone(block, r, why.empty() ? why_hole_stays(turned) : why);
+    note_uncorrected(block, r, why.empty() ? why_hole_stays(turned) : why);
   }
   finish_move(r, move);
   if (move.block_delete) forget_initial(state);

@@ -4,7 +4,7 @@
 
 namespace counterflex {
 
-/// Adds the hole of a block, and keeps its sticky words.
+/// Adds the hole of a block, and stores its sticky words.
 void read_cycle(const Block& block, Reading& reading);
 
 }  // namespace counterflex

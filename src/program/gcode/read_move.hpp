@@ -1,5 +1,5 @@
 #pragma once
-/// The parts of which every kind of move is put together.
+/// The parts of reading that all kinds of moves share.
 #include <string>
 
 #include "program/gcode/interpret.hpp"
@@ -13,43 +13,42 @@ const Word& first_axis_word(const Block& block);
 
 bool has_axis_word(const SortedBlock& sorted);
 
-/// Why no move can be followed now, or empty: a condition, a state that puts positions elsewhere, a state
-/// that is in doubt.
+/// Why moves cannot be followed now: a condition, a displacement, an unknown state. Empty if they can.
 std::string_view why_not_followed(const Reading& reading);
 
-/// Adds a move to the program that begins where the tool is, with what is modal alone.
+/// Adds a move to the program that begins at the tool's position, with the modal states.
 Move& begin_move(const Block& block, Reading& reading, Motion motion);
 
-/// The same with what the block says besides its places, in place of another move of the block.
+/// The same with the other words of the block, in place of another move of the block.
 Move& start_move(const Block& block, Reading& reading, Motion motion);
 
-/// Takes the block's X, Y and Z into the move and the state; those that cannot be followed are fixed, their
-/// axes unknown.
+/// Reads X, Y and Z of the block into the move and the state. A word that cannot be followed makes its axis
+/// fixed and unknown.
 void place_words(const Block& block, Reading& reading, Move& move);
 
-/// The machine moves the axis by itself: nobody knows where to.
-void take_away(Reading& reading, std::size_t axis);
+/// The machine moves the axis by itself: its position is unknown.
+void move_by_machine(Reading& reading, std::size_t axis);
 
-/// The axis goes to a place of the block's own which the program does not show.
+/// The block moves the axis to a position that is not known from the program.
 void fix_axis(Reading& reading, Move& move, std::size_t axis);
 
-/// Decides what may be changed of a move that `takes_plain_lines` lets be read, as `finish_move` does.
+/// Sets what may be changed of a move read by `takes_plain_lines`, with the result of `finish_move`.
 void allow_plain_changes(Move& move);
 
-/// Sets the end, and decides what may be changed.
+/// Sets the end of the move, and what may be changed.
 void finish_move(Reading& reading, Move& move);
 
 /// `word` as a length (mm).
 double length_mm(const Reading& reading, const Word& word);
 
-/// Notes a block that is not corrected; one for a run of blocks with the same reason.
-void leave_alone(const Block& block, Reading& reading, std::string_view why);
+/// Adds an uncorrected block. Of a run of blocks with the same reason only the first is added.
+void note_uncorrected(const Block& block, Reading& reading, std::string_view why);
 
-/// Refuses the block at `word` or, where it has none, at its begin.
+/// Refuses the block at `word` or, if that is null, at its begin.
 [[noreturn]] void refuse_word(const Block& block, const Reading& reading, const Word& word,
                               const std::string& message);
 
-/// Refuses the block at `word`, a length, where no unit is known for it.
+/// Refuses the block at the length `word` if its unit is unknown.
 void demand_unit(const Block& block, const Reading& reading, const Word& word);
 
 inline double& coordinate(Vector3& v, std::size_t axis) {

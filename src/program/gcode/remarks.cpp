@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t most_remarks = 1000;
 
-/// "0.0039 inch = 0.09906 mm", or the bare number where the unit is not known yet.
+/// "0.0039 inch = 0.09906 mm", or the number without a unit if the unit is unknown.
 std::string length_text(double value, const ModalState& state) {
   if (!state.unit) return fmt::format("{} in the program's unit", value);
   if (*state.unit == LengthUnit::millimetres) return fmt::format("{} mm", value);
@@ -86,7 +86,7 @@ void remark_machine_codes(const Block& block, Reading& reading) {
   for (const FoundM& m : reading.sorted.m)
     if (m.action == MAction::machine)
       add_remark(reading.program, block.line,
-                 fmt::format("M{}: set by the machine's builder; taken as moving no axis", m.code));
+                 fmt::format("M{}: defined by the machine builder; assumed not to move an axis", m.code));
 }
 
 void remark_length(const Block& block, Reading& reading) {
@@ -99,7 +99,7 @@ void remark_length(const Block& block, Reading& reading) {
                fmt::format("the line has {} characters; {} reads {}", length, reading.dialect.name, limit));
   } else if (length + room_for_words > limit) {
     add_remark(reading.program, block.line,
-               fmt::format("the line has {} of the {} characters that {} reads: little room for corrections",
+               fmt::format("the line has {} of the {} characters that {} reads: little space for corrections",
                            length, limit, reading.dialect.name));
   }
 }

@@ -1,5 +1,5 @@
 #pragma once
-/// Remarks for the report: what in a program may undo small corrections or needs an assumption.
+/// Remarks for the report: words of a program that may cancel small corrections, and assumptions.
 #include <string>
 #include <string_view>
 
@@ -7,23 +7,23 @@
 
 namespace counterflex {
 
-/// Of pockets and slots about one point (Move::mills_at_end): why they are not wholly corrected.
+/// For pockets and slots about one point (Move::mills_at_end): why they are not fully corrected.
 constexpr std::string_view milled_as_a_whole =
-    "what the cycle mills goes along with its centre as a whole; turn and tilt across it are not corrected";
+    "the cycle is shifted as a whole with its centre; rotation and tilt across it are not corrected";
 
 /// Adds a remark, once for each text.
 void add_remark(Program& program, int line, std::string what);
 
-/// What G64, G5.1 and G187 let the control do with the path.
+/// Deviation from the path that G64, G5.1 and G187 allow the control.
 void remark_path_mode(const Block& block, Reading& reading);
 
-/// That the tool length of a G43 or G44 is not known here.
+/// The tool length of a G43 or G44 is unknown.
 void remark_tool_length(const Block& block, Reading& reading);
 
-/// Codes of which only the machine's builder knows what they do.
+/// Codes that the machine builder defines.
 void remark_machine_codes(const Block& block, Reading& reading);
 
-/// That a line is longer than the control reads.
+/// A line is longer than the control reads.
 void remark_length(const Block& block, Reading& reading);
 
 }  // namespace counterflex

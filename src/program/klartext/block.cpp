@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::string_view axis_names = "XYZ";
 
-/// A block being rewritten, read again, and where its changes go.
+/// A block being rewritten, lexed again, and its changes.
 struct KlartextBlockWriter {
   const Program& program;
   const KlartextStyle& style;
@@ -41,7 +41,7 @@ void sort_changes(std::vector<KlartextChange>& changes) {
   });
 }
 
-/// Whether polar words say the coordinate.
+/// Whether polar words give the coordinate.
 bool is_polar_axis(const Move& move, std::size_t axis) {
   if (!move.polar || !move.words[axis]) return false;
   const std::size_t begin = move.words[axis]->number.begin;
@@ -55,17 +55,17 @@ bool has_own_pole(const Move& move) {
   return move.arc && move.arc->centre_words[move.arc->normal == 0 ? 1 : 0];
 }
 
-/// Where the CC of the arc puts its pole, with the tool at `held` before it.
-Vector3 own_pole_mm(const Move& move, const HeldPosition& held) {
+/// Position of the pole of the arc's CC, with the tool at `position` before it.
+Vector3 own_pole_mm(const Move& move, const TextPosition& position) {
   Vector3 pole = move.arc->centre_mm;
   for (std::size_t axis = 0; axis < 3; ++axis)
-    if (!move.arc->absolute_centre && held[axis])
-      pole[static_cast<Eigen::Index>(axis)] += *held[axis] - component(move.start_mm, axis);
+    if (!move.arc->absolute_centre && position[axis])
+      pole[static_cast<Eigen::Index>(axis)] += *position[axis] - component(move.start_mm, axis);
   return pole;
 }
 
-/// Whether the block does something at its beginning that its pieces must not forestall.
-bool acts_itself(const KlartextBlockWriter& w) {
+/// Whether a word of the block acts at its beginning, so that no piece may be inserted before it.
+bool is_first_piece(const KlartextBlockWriter& w) {
   Block place;
   place.line = w.block.line;
   place.span = w.block.span;
@@ -84,7 +84,7 @@ std::string klartext_word(const KlartextBlockWriter& w, std::size_t axis, const 
                      klartext_number(w.style, number.value, number.decimals));
 }
 
-/// The number of a word of the block, changed.
+/// The changed number of a word of the block.
 std::string changed_klartext(const KlartextBlockWriter& w, const AxisWord& word, const WordNumber& number) {
   std::string original(part(w.program.text, word.number));
   const bool comma =
@@ -117,7 +117,7 @@ std::string sense_of(const Move& move) {
   return move.arc->clockwise ? " DR-" : " DR+";
 }
 
-/// CC for the centre of `arc`, where the text does not hold it already.
+/// CC for the centre of `arc`, if the text has another one.
 void set_pole(KlartextBlockWriter& w, const ArcWords& arc, std::vector<std::string>& statements) {
   bool there = w.state.pole.centre_mm.has_value();
   std::string text = "CC";
@@ -125,8 +125,8 @@ void set_pole(KlartextBlockWriter& w, const ArcWords& arc, std::vector<std::stri
     if (!in_plane(*w.move.arc, axis)) continue;
     const WordNumber& number = arc.centre[axis];
     const double centre = component(arc.curve.arc->centre, axis);
-    there =
-        there && rounds_to(component(*w.state.pole.centre_mm, axis) / w.unit(), centre / w.unit(), number.decimals);
+    there = there && rounds_to(component(*w.state.pole.centre_mm, axis) / w.unit(), centre / w.unit(),
+                               number.decimals);
     text += fmt::format(" {}{}{}", w.move.arc->absolute_centre ? "" : "I", axis_names[axis],
                         klartext_number(w.style, number.value, number.decimals));
   }
@@ -136,7 +136,7 @@ void set_pole(KlartextBlockWriter& w, const ArcWords& arc, std::vector<std::stri
   w.state.pole.differs = true;
 }
 
-/// The words of the CC before the block, changed in place.
+/// Changes the words of the CC before the block in place.
 void change_pole(KlartextBlockWriter& w, const ArcWords& arc) {
   std::vector<KlartextChange> changes;
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -171,24 +171,25 @@ void insert_step(KlartextBlockWriter& w, const Step& step, bool states_feed,
   statements.push_back(head + coordinates + tail + (states_feed ? feed_of(w, step) : ""));
 }
 
-/// The statement that holds byte `at`, with the lines that continue it and without its number.
+/// The statement at byte `at`, with the lines that continue it, without its number.
 Span statement_around(const KlartextBlockWriter& w, std::size_t at) {
   const std::string_view text = w.program.text;
   const auto begin_of_line = [&](std::size_t in) { return in == 0 ? 0 : text.rfind('\n', in - 1) + 1; };
   std::size_t begin = begin_of_line(at);
-  while (begin > 0 && goes_on_behind(text, begin - 1)) begin = begin_of_line(begin - 1);
+  while (begin > 0 && continues_behind(text, begin - 1)) begin = begin_of_line(begin - 1);
   KlartextBlock statement;
   statement.line_end = {begin, begin};
   next_klartext_block(text, statement);
   return {statement.parts[0].begin, statement.span.end};
 }
 
-/// The height of the surface from which the hole counts: changed where the text says it, or written again before the block.
+/// The height of the surface of the hole: changed in the text if possible, or written again before the block.
 void state_surface(KlartextBlockWriter& w, const WordNumber& number) {
   const AxisWord& word = *w.move.words[2];
   const double wanted = number.write ? number.value : component(w.move.end_mm, 2) / w.unit();
   const bool there = w.move.repeats_surface
-                         ? rounds_to(w.state.surface.value_or(component(w.move.end_mm, 2) / w.unit()), wanted, number.decimals)
+                         ? rounds_to(w.state.surface.value_or(component(w.move.end_mm, 2) / w.unit()), wanted,
+                                     number.decimals)
                          : !number.write;
   w.state.surface = wanted;
   if (there) return;
@@ -202,7 +203,7 @@ void state_surface(KlartextBlockWriter& w, const WordNumber& number) {
                      std::string(part(w.program.text, {word.number.end, lines.end})));
 }
 
-/// Whether the word of an axis stands before the block.
+/// Whether the word of an axis is written before the block.
 bool is_of_surface(const KlartextBlockWriter& w, std::size_t axis) {
   return axis == 2 && w.move.words[2] && w.move.words[2]->number.begin < w.block.span.begin;
 }
@@ -236,21 +237,21 @@ void change_head(KlartextBlockWriter& w, const char* head) {
   w.own.push_back({{begin, begin + w.block.head.size()}, head});
 }
 
-/// Takes a word out with the blanks before it.
+/// Removes a word and the blanks before it.
 void drop_word(KlartextBlockWriter& w, const KlartextWord& word) {
   std::size_t begin = word.span.begin;
   while (begin > w.block.span.begin && w.program.text[begin - 1] == ' ') --begin;
   w.own.push_back({{begin, word.span.end}, ""});
 }
 
-/// An arc that goes on as chords: its last piece is a line.
+/// An arc that is written as chords: its last piece is a line.
 void make_line(KlartextBlockWriter& w) {
   change_head(w, "L");
   for (const KlartextWord& word : w.words)
     if (word.key == "DR" || (word.key == "R" && w.block.head == "CR")) drop_word(w, word);
 }
 
-/// Whether polar words stay: they need the pole that the original has, or one that moves with the arc.
+/// Whether polar words stay: they need the pole of the original, or a pole that moves with the arc.
 bool keeps_polar(const KlartextBlockWriter& w, const Step& step) {
   bool writes = false;
   for (std::size_t axis = 0; axis < 3; ++axis)
@@ -258,7 +259,7 @@ bool keeps_polar(const KlartextBlockWriter& w, const Step& step) {
   return !writes && (step.arc || !w.state.pole.differs);
 }
 
-/// Cartesian words in the place of polar ones: these cannot hold a correction.
+/// Replaces polar words that cannot hold a correction by Cartesian ones.
 void replace_polar(KlartextBlockWriter& w, const Step& step, const Vector3& wanted_mm) {
   if (step.arc || !w.move.arc) change_head(w, step.arc ? "C" : "L");
   std::string coordinates;
@@ -268,7 +269,7 @@ void replace_polar(KlartextBlockWriter& w, const Step& step, const Vector3& want
     if (!number.write) number.value = rounded(component(wanted_mm, axis) / w.unit(), number.decimals);
     coordinates += klartext_word(w, axis, number);
     ++w.out.changed_words;
-    w.state.held[axis] = number.value * w.unit();
+    w.state.position[axis] = number.value * w.unit();
   }
   for (const KlartextWord& word : w.words) {
     if (!word.key.ends_with("PA") && !word.key.ends_with("PR")) continue;
@@ -277,8 +278,8 @@ void replace_polar(KlartextBlockWriter& w, const Step& step, const Vector3& want
   }
 }
 
-/// CT follows from what is before it: where that or its end changes, a C about the same centre says the arc. True where the
-/// block stays.
+/// CT depends on the move before it. If that move or the end of the arc changes, a C about the same centre
+/// replaces it. True if the block stays.
 bool keeps_tangent(const KlartextBlockWriter& w, const Step& step) {
   bool stays = true;
   for (std::size_t axis = 0; axis < 3; ++axis)
@@ -295,7 +296,7 @@ void make_arc_of_tangent(KlartextBlockWriter& w, const ArcWords& arc) {
   w.own.push_back({{behind, behind}, sense_of(w.move)});
 }
 
-/// The block's own coordinates, and centre or radius of an arc.
+/// The coordinates of the block, and centre or radius of an arc.
 void change_block(KlartextBlockWriter& w, const Step& step, const Vector3& wanted_mm, bool pole_is_own) {
   change_coordinates(w, step);
   if (w.move.polar && !keeps_polar(w, step)) replace_polar(w, step, wanted_mm);
@@ -314,7 +315,7 @@ void change_block(KlartextBlockWriter& w, const Step& step, const Vector3& wante
   ++w.out.changed_words;
 }
 
-/// Puts what belongs before, into and behind the block into the list of changes.
+/// Appends the changes before, in and behind the block to the list of changes.
 void emit(KlartextBlockWriter& w) {
   std::string text;
   for (const std::string& statement : w.before) text += inserted_line(w, statement) + w.style.line_end;
@@ -327,7 +328,7 @@ void emit(KlartextBlockWriter& w) {
   w.out.inserted_blocks += w.before.size() + w.behind.size();
 }
 
-/// A point of an edit, and how it is come to.
+/// A point of an edit, and the curve to it.
 struct KlartextStop {
   Via via;
   int motion;
@@ -343,18 +344,18 @@ std::vector<KlartextStop> stops_of(const Move& move, const MoveEdit& edit) {
 
 void write_edit(KlartextBlockWriter& w, const MoveEdit& edit) {
   const std::vector<KlartextStop> stops = stops_of(w.move, edit);
-  const bool own_first = stops.size() > 1 && w.move.motion == Motion::feed && acts_itself(w);
+  const bool own_first = stops.size() > 1 && w.move.motion == Motion::feed && is_first_piece(w);
   const std::size_t own = own_first ? 0 : stops.size() - 1;
   const bool has_pole = has_own_pole(w.move);
-  if (has_pole) w.state.pole.centre_mm = own_pole_mm(w.move, w.state.held);
+  if (has_pole) w.state.pole.centre_mm = own_pole_mm(w.move, w.state.position);
   for (std::size_t i = 0; i < stops.size(); ++i) {
     const bool end = i + 1 == stops.size();
     const Place place = end ? Place::end : i == own ? Place::own_inside : Place::inside;
-    const Step step = settle_step(w.move, w.state.held, stops[i].via, stops[i].motion, place, w.options);
-    w.state.held = step.after;
+    const Step step = round_step(w.move, w.state.position, stops[i].via, stops[i].motion, place, w.options);
+    w.state.position = step.after;
     if (i == own)
       change_block(w, step, stops[i].via.end_mm, has_pole && w.before.empty());
-    else if (!is_there(step))
+    else if (!equals_text_position(step))
       insert_step(w, step, i < own, i < own ? w.before : w.behind);
   }
   emit(w);
@@ -407,20 +408,20 @@ void rewrite_klartext_block(const Program& program, const KlartextStyle& style, 
   const Move& move = program.moves[edit.move];
   assert(edit.inserted.empty() || move.may_split || changes_height_inside(move));
   if (!has_words(move)) {
-    state.held = held_after_original(move, state.held);
+    state.position = text_position_after_original(move, state.position);
     return;
   }
   KlartextBlockWriter w{program, style, move, options, state, changes, out};
   w.block.line_end = {move.block.begin, move.block.begin};
   w.block.last_line = move.line - 1;
   next_klartext_block(program.text, w.block);
-  // CYCL CALL and M99 alone have no coordinates: the word of theirs stands in the cycle's definition.
+  // CYCL CALL or M99 without coordinates: the word is in the cycle's definition.
   const bool calls_cycle = w.block.head == "CYCL" || w.block.head.starts_with('M');
   if (!calls_cycle) lex_klartext_words(program.text, program.file, w.block, w.words);
-  state.held = held_at_start(move, state.held);
-  const HeldPosition before = state.held;
+  state.position = known_text_position(move, state.position);
+  const TextPosition before = state.position;
   write_edit(w, edit);
-  doubt_skippable(move, before, state.held);
+  forget_skippable(move, before, state.position);
 }
 
 }  // namespace counterflex

@@ -1,5 +1,5 @@
 #pragma once
-/// The new text of one edited Klartext block, and of those that are put around it.
+/// The new text of an edited Klartext block, and of the blocks inserted around it.
 #include <optional>
 #include <string>
 
@@ -9,9 +9,9 @@
 
 namespace counterflex {
 
-/// How a program writes what is inserted.
+/// Style of inserted text in a program.
 struct KlartextStyle {
-  bool comma = false;     ///< decimals stand behind a comma
+  bool comma = false;     ///< decimal comma
   bool plus = false;      ///< "X+1"
   bool numbered = false;  ///< blocks begin with numbers
   bool n_words = false;   ///< "N5" instead of "5"
@@ -19,32 +19,32 @@ struct KlartextStyle {
 };
 
 /// The last CC of the written text.
-struct HeldPole {
-  std::optional<Vector3> centre_mm{};  ///< none where it counts from a position
-  bool differs = false;                ///< it is not that of the original
+struct WrittenPole {
+  std::optional<Vector3> centre_mm{};  ///< empty if it is relative to a position
+  bool differs = false;                ///< it is not the CC of the original
 };
 
-/// What the text written so far leaves to the blocks that follow.
+/// State of the written text that affects later blocks.
 struct KlartextTextState {
-  HeldPosition held{};
-  HeldPole pole{};
-  std::optional<double> surface{};  ///< of the cycle that acts, as the text says it; none: as the original does
+  TextPosition position{};
+  WrittenPole pole{};
+  std::optional<double> surface{};  ///< surface of the active cycle in the text; empty: as in the original
   WrittenNumbers numbers{};
 };
 
 KlartextStyle klartext_style(const Program& program);
 
-/// `value` as `style` writes it.
+/// `value` in `style`.
 std::string klartext_number(const KlartextStyle& style, double value, int decimals);
 
-/// Characters put in place of a span of the program.
+/// Characters that replace a span of the program.
 struct KlartextChange {
   Span span;
   std::string text;
 };
 
-/// Appends to `changes` what `edit` asks for, in the order of the text, moves `state` on and counts in `out`. Inserted
-/// lines of a numbered program begin with the number 0.
+/// Appends the changes of `edit` to `changes` in the order of the text, updates `state` and counts in `out`.
+/// In a numbered program inserted lines begin with the number 0.
 void rewrite_klartext_block(const Program& program, const KlartextStyle& style, const MoveEdit& edit,
                             const WriteOptions& options, KlartextTextState& state,
                             std::vector<KlartextChange>& changes, Rewritten& out);

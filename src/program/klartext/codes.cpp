@@ -24,20 +24,20 @@ void read_code(int code, const KlartextBlock& block, KlartextReading& r, Klartex
   codes.acts_after = codes.acts_after || std::find(after.begin(), after.end(), code) != after.end();
   if (code == 136 || code == 137) r.state.feed_per_turn = code == 136, r.state.feed_mm_min = 0;
   if (code == 128 || code == 114 || code == 144)
-    r.state.elsewhere[128] = fmt::format("M{} moves the linear axes with the rotary ones", code);
-  if (code == 129 || code == 115 || code == 145) r.state.elsewhere.erase(128);
+    r.state.displacements[128] = fmt::format("M{} moves the linear axes with the rotary axes", code);
+  if (code == 129 || code == 115 || code == 145) r.state.displacements.erase(128);
   if (code == 124)
     add_remark(r.program, line_of_file(r.program.expansion, block.line),
-               "M124: the control leaves out points that lie closer than it says");
+               "M124: the control skips points that are closer than its limit");
   else if (std::find(quiet.begin(), quiet.end(), code) == quiet.end())
     add_remark(r.program, line_of_file(r.program.expansion, block.line),
-               fmt::format("M{}: taken as moving no axis", code));
+               fmt::format("M{}: assumed not to move an axis", code));
 }
 
 int code_of(const KlartextWord& word, const KlartextBlock& block, const KlartextReading& r) {
   if (word.value < 0 || word.value > 99999 || word.value != std::floor(word.value))
     refuse_klartext(r.program.text, r.program.file, block, word.span.begin,
-                    fmt::format("M{} is not a code: whole numbers from 0 to 99999 are", word.value));
+                    fmt::format("M{} is not a code: expected an integer from 0 to 99999", word.value));
   return static_cast<int>(word.value);
 }
 

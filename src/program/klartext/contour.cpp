@@ -1,8 +1,9 @@
 // Contours under RL and RR, with the blocks that approach and leave them.
+#include "program/gcode/contour.hpp"
+
 #include <algorithm>
 #include <array>
 
-#include "program/gcode/contour.hpp"
 #include "program/klartext/read.hpp"
 #include "program/text/lex.hpp"
 
@@ -15,17 +16,17 @@ void join_contour(Move& move, int group) {
   move.may_split = move.may_jump = false;
 }
 
-/// Moves before a contour that already end another one belong to that.
+/// Moves before a contour that are the end of another contour belong to that one.
 void begin_contour(KlartextReading& r) {
   std::vector<Move>& moves = r.program.moves;
   std::size_t first = first_before_contour(r.program, r.state.run_begin);
-  const bool goes_on = first < moves.size() && moves[first].group != 0;
-  if (!goes_on) ++r.state.groups;
+  const bool continues = first < moves.size() && moves[first].group != 0;
+  if (!continues) ++r.state.groups;
   for (; first < moves.size(); ++first) join_contour(moves[first], r.state.groups);
 }
 
-/// The words behind the kind of APPR and DEP; nothing where the kind is polar or none of these, or a word is
-/// not read.
+/// The words behind the kind of APPR and DEP. Empty if the kind is polar or unknown, or if a word is not
+/// supported.
 std::optional<std::string> lex_approach(const KlartextBlock& block, KlartextReading& r) {
   const std::string_view text = r.program.text;
   KlartextBlock words = block;
@@ -43,7 +44,7 @@ std::optional<std::string> lex_approach(const KlartextBlock& block, KlartextRead
   return std::nullopt;
 }
 
-/// Whether X and Y are there, and they and Z are plain numbers and no differences.
+/// Whether X and Y are there, and X, Y and Z are plain absolute numbers.
 bool has_plain_point(const KlartextReading& r) {
   for (const std::string_view axis : {"X", "Y", "Z"}) {
     const KlartextWord* word = find_word(r.words, axis);
@@ -53,15 +54,14 @@ bool has_plain_point(const KlartextReading& r) {
   return true;
 }
 
-void leave_unknown(const KlartextBlock& block, KlartextReading& r) {
-  add_unfollowed_move(block, r,
-                      block.head + " is followed with plain numbers of X and Y only; the contour stays");
-  r.state.elsewhere.erase(0);
-  if (block.head == "APPR") r.state.elsewhere[0] = "a contour that APPR has entered is not corrected";
+void add_unfollowed_approach(const KlartextBlock& block, KlartextReading& r) {
+  add_unfollowed_move(block, r, block.head + " needs X and Y as plain numbers; the contour is not corrected");
+  r.state.displacements.erase(0);
+  if (block.head == "APPR") r.state.displacements[0] = "a contour entered by this APPR is not corrected";
 }
 
-/// APPR and DEP go along with their contour. Their way between is not followed, nor is where DEP ends without
-/// a point.
+/// APPR and DEP are shifted with their contour. The path between their points is not followed, nor is the end
+/// of a DEP without a point.
 void place_approach(const KlartextBlock& block, KlartextReading& r) {
   constexpr std::array<std::string_view, 3> axes{"X", "Y", "Z"};
   Move move = begin_klartext_move(block, r);
@@ -76,7 +76,7 @@ void place_approach(const KlartextBlock& block, KlartextReading& r) {
     if (axis < 2) move.known_start[axis] = false;
     r.state.known[axis] = word != nullptr || (axis == 2 ? r.state.known[2] : to_point);
   }
-  move.stands.fill(true);
+  move.moved_only_by_program.fill(true);
   move.may_insert_words = block.head == "APPR";
   move.end_mm = r.state.position_mm;
   move.known_end = r.state.known;
@@ -87,7 +87,7 @@ void place_approach(const KlartextBlock& block, KlartextReading& r) {
   r.state.corner.reset();
   r.state.pole.reset();
   add_move(r, std::move(move));
-  leave_alone(r, block.line, block.head + " goes along with its contour; its way is not measured");
+  note_uncorrected(r, block.line, block.head + " is shifted with its contour; its path is not computed");
 }
 
 }  // namespace
@@ -97,7 +97,7 @@ void follow_contour(const KlartextBlock& block, KlartextReading& r, Move& move) 
   const bool line = block.head == "L";
   const KlartextWord* off = line ? find_word(r.words, "R") : nullptr;
   const bool on = find_word(r.words, "RL") != nullptr || find_word(r.words, "RR") != nullptr;
-  if (state.after_contour && !goes_along_z(move)) state.after_contour = false;
+  if (state.after_contour && !is_along_z(move)) state.after_contour = false;
   if (on && !state.contour) begin_contour(r);
   if (on) state.contour = true, state.after_contour = state.beside_contour = false;
   const bool divides = move.arc && move.may_split && state.contour && state.beside_contour;
@@ -107,7 +107,7 @@ void follow_contour(const KlartextBlock& block, KlartextReading& r, Move& move) 
     state.contour = state.beside_contour = false;
     state.after_contour = true;
   }
-  if (state.contour && !goes_along_z(move)) state.beside_contour = true;
+  if (state.contour && !is_along_z(move)) state.beside_contour = true;
 }
 
 void read_klartext_approach(const KlartextBlock& block, KlartextReading& r) {
@@ -118,9 +118,9 @@ void read_klartext_approach(const KlartextBlock& block, KlartextReading& r) {
   const bool contour = find_word(r.words, "RL") != nullptr || find_word(r.words, "RR") != nullptr;
   const bool words_fit = enters ? point && contour && !r.state.contour
                                 : kind && r.state.contour && (*kind == "LCT" ? point : no_point);
-  const bool here = r.state.elsewhere.empty() && !in_doubt(r) && empty(block.block_delete);
+  const bool here = r.state.displacements.empty() && !may_skip_or_repeat(r) && empty(block.block_delete);
   if (!words_fit || !here || !r.state.tool_along_z || !r.state.unit || find_word(r.words, "M") != nullptr)
-    return leave_unknown(block, r);
+    return add_unfollowed_approach(block, r);
   read_klartext_feed(r);
   place_approach(block, r);
 }

@@ -1,20 +1,20 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <utility>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "counterflex/files/numbers.hpp"
 #include "program/dialect.hpp"
+#include "program/gcode/remarks.hpp"
 #include "program/klartext/read.hpp"
 #include "program/text/lex.hpp"
-#include "program/gcode/remarks.hpp"
 
 namespace counterflex {
 namespace {
 
-/// "7.1" of CYCL DEF 7.1 and where it ends; 0.0 where there is no number.
+/// "7.1" of CYCL DEF 7.1 and the position behind it; 0.0 without a number.
 struct CycleNumber {
   int cycle = 0;
   int line = 0;
@@ -39,37 +39,38 @@ CycleNumber number_of(std::string_view text, const KlartextBlock& block) {
   return number;
 }
 
-/// Cycles that stay above or in the point where they are called: holes, taps, pockets about the point.
-bool acts_where_called(int cycle) {
+/// Cycles that stay above or in the point at which they are called: holes, taps, pockets about the point.
+bool stays_where_called(int cycle) {
   constexpr std::array in_place{1,   2,   17,  18,  240, 241, 251, 252, 253,
                                 254, 256, 257, 262, 263, 264, 265, 267};
   return std::find(in_place.begin(), in_place.end(), cycle) != in_place.end() ||
          (cycle >= 200 && cycle <= 215);
 }
 
-/// Cycles of older controls, which count from the height where the tool stands.
+/// Cycles of older controls, which start from the height of the tool.
 bool counts_from_tool(int cycle) {
   return (cycle >= 1 && cycle <= 5) || cycle == 17 || cycle == 18;
 }
 
-/// Drilling and tapping come back to where they have begun; where slots and pockets end is not followed.
+/// Drilling and tapping return to the start. The end of slots and pockets is not followed.
 bool returns_to_start(int cycle) {
   return cycle == 1 || cycle == 2 || cycle == 17;
 }
 
-/// Cycles whose heights and depths all count from their surface, and that take no other place.
+/// Cycles whose heights and depths are all relative to their surface, without a position of their own.
 bool counts_from_surface(int cycle) {
   return (cycle >= 200 && cycle <= 209) || cycle == 240 || cycle == 241;
 }
 
-/// A parameter that is a plain number of mm.
+/// A parameter that is a plain number in mm.
 struct ParameterWord {
   double value_mm;
   AxisWord word;
 };
 
-/// What the block gives the parameter `name`; nothing where that is no plain number.
-std::optional<ParameterWord> parameter_of(std::string_view name, const KlartextBlock& block, const KlartextReading& r) {
+/// The value of the parameter `name` in the block; empty if it is not a plain number.
+std::optional<ParameterWord> parameter_of(std::string_view name, const KlartextBlock& block,
+                                          const KlartextReading& r) {
   const std::string_view text = r.program.text;
   for (const Span& line : block.parts) {
     const std::size_t found = part(text, line).find(name);
@@ -97,7 +98,7 @@ std::optional<KlartextSurface> surface_of(const KlartextBlock& block, const Klar
   return KlartextSurface{found->value_mm, found->word, true};
 }
 
-/// Q200 and Q204, where the block has them.
+/// Q200 and Q204 of the block.
 void read_clearances(const KlartextBlock& block, KlartextReading& r, bool followed) {
   const auto read = [&](std::string_view name, std::optional<double>& clearance_mm) {
     const bool named = std::any_of(block.parts.begin(), block.parts.end(), [&](const Span& line) {
@@ -111,7 +112,7 @@ void read_clearances(const KlartextBlock& block, KlartextReading& r, bool follow
   read("Q204", r.state.second_clearance_mm);
 }
 
-/// The words behind the number of an old cycle's line; nothing where one of them is not known.
+/// The words behind the number in the line of an old cycle. Empty if one of them is unknown.
 bool lex_cycle_words(const KlartextBlock& block, std::size_t begin, KlartextReading& r) {
   KlartextBlock words = block;
   words.head.clear();
@@ -125,14 +126,14 @@ bool is_scale_of_one(std::string_view rest) {
   return read_number(rest.substr(digit)) == 1.0;
 }
 
-/// Mirror, scale, tilt: what they say acts unless it is neutral.
+/// Mirror, scale, tilt: active unless the words are neutral.
 void turn_coordinates(const KlartextBlock& block, const CycleNumber& number, KlartextReading& r) {
   const std::string rest = squeezed(part(r.program.text, {number.end, block.parts[0].end}));
   if (number.cycle == 10) return turn_frame(block, rest, r);
   bool acts = rest.find_first_of("Q123456789") != std::string::npos;
   if (number.cycle == 8 || number.cycle == 26) acts = !rest.empty();
   if (number.cycle == 11) acts = !is_scale_of_one(rest);
-  set_elsewhere(r, number.cycle, acts, "mirrored, scaled or tilted coordinates");
+  set_displacement(r, number.cycle, acts, "mirrored, scaled or tilted coordinates");
 }
 
 void select_preset(const KlartextBlock& block, KlartextReading& r) {
@@ -149,7 +150,7 @@ void select_preset(const KlartextBlock& block, KlartextReading& r) {
                fmt::format("CYCL DEF 247 selects preset {}", preset));
     return;
   }
-  set_elsewhere(r, 247, preset != r.state.preset || preset == "?", "another preset is selected");
+  set_displacement(r, 247, preset != r.state.preset || preset == "?", "another preset is selected");
 }
 
 void define_cycle(const KlartextBlock& block, KlartextReading& r) {
@@ -160,7 +161,7 @@ void define_cycle(const KlartextBlock& block, KlartextReading& r) {
     return turn_coordinates(block, number, r);
   if (cycle == 247) return select_preset(block, r);
   if (cycle == 220 || cycle == 221)
-    return add_unfollowed_move(block, r, "patterns of cycles are left as they are");
+    return add_unfollowed_move(block, r, "patterns of cycles are not corrected");
   if (cycle == 32 && number.line == 1)
     add_remark(r.program, line_of_file(r.program.expansion, block.line),
                fmt::format("CYCL DEF 32{}: the control smooths the path; corrections smaller than its "
@@ -170,9 +171,9 @@ void define_cycle(const KlartextBlock& block, KlartextReading& r) {
                           cycle == 13 || cycle == 19 || cycle == 26 || cycle == 32;
   if (state_only || number.line != 0) return;
   r.state.calls_each = false;  // a new cycle ends M89
-  r.state.cycle_acts_here = acts_where_called(cycle);
+  r.state.cycle_acts_here = stays_where_called(cycle);
   r.state.surface.reset();
-  const bool runs_once = empty(block.block_delete) && !in_doubt(r);
+  const bool runs_once = empty(block.block_delete) && !may_skip_or_repeat(r);
   r.state.cycle_is_relative = counts_from_tool(cycle) && r.state.tool_along_z && runs_once;
   r.state.cycle_returns = returns_to_start(cycle);
   r.state.takes_surface = counts_from_surface(cycle) && runs_once;
@@ -188,8 +189,8 @@ void define_cycle(const KlartextBlock& block, KlartextReading& r) {
 
 bool take_hole(KlartextReading& r, Move& move) {
   KlartextState& state = r.state;
-  const bool rigid = state.surface && state.tool_along_z && !move.block_delete && !move.arc && move.group == 0 &&
-                     !move.words[2] && !move.fixed[0] && !move.fixed[1] && !move.fixed[2];
+  const bool rigid = state.surface && state.tool_along_z && !move.block_delete && !move.arc &&
+                     move.group == 0 && !move.words[2] && !move.fixed[0] && !move.fixed[1] && !move.fixed[2];
   if (!rigid) {
     state.surface.reset();
     return false;
@@ -198,10 +199,11 @@ bool take_hole(KlartextReading& r, Move& move) {
   const bool end_is_known = state.clearance_mm && state.second_clearance_mm;
   move.may_split = move.may_jump = false;
   move.makes_hole = move.takes_no_z = true;
-  move.motion = Motion::rapid;  // the way to a hole is no cut, as with the cycles of G-code
+  move.motion = Motion::rapid;  // the path to a hole is a rapid, as with the cycles of G-code
   if (!end_is_known) move.handling = Handling::held;
   const bool first = std::exchange(surface.just_set, false);
-  // The whole definition can be repeated before a hole, but it would end M89, and set its other parameters again.
+  // The whole definition could be repeated before a hole, but it would end M89 and set its other parameters
+  // again.
   if (first || !surface.of_definition || (surface.repeatable && !state.calls_each)) {
     // The word of the surface is absolute.
     for (std::size_t axis = 0; axis < 2; ++axis)
@@ -212,12 +214,14 @@ bool take_hole(KlartextReading& r, Move& move) {
   }
   move.end_mm.z() = surface.z_mm;
   move.known_end[2] = state.known[2] = end_is_known;
-  if (end_is_known) state.position_mm.z() = surface.z_mm + std::max(*state.clearance_mm, *state.second_clearance_mm);
+  if (end_is_known)
+    state.position_mm.z() = surface.z_mm + std::max(*state.clearance_mm, *state.second_clearance_mm);
   return true;
 }
 
 void read_cycle_parameter(const KlartextBlock& block, KlartextReading& r) {
-  const bool followed = r.state.takes_surface && empty(block.block_delete) && !in_doubt(r) && r.state.elsewhere.empty();
+  const bool followed = r.state.takes_surface && empty(block.block_delete) && !may_skip_or_repeat(r) &&
+                        r.state.displacements.empty();
   read_clearances(block, r, followed);
   if (part(r.program.text, block.parts[0]).find("203") == std::string_view::npos) return;
   r.state.surface = followed ? surface_of(block, r) : std::nullopt;
@@ -228,7 +232,7 @@ void read_klartext_cycle(const KlartextBlock& block, KlartextReading& r) {
   if (rest.starts_with("DEF")) return define_cycle(block, r);
   const bool here = rest == "CALL" || (rest.starts_with("CALLM") && rest.size() > 5);
   if (here) return add_cycle_call(block, r);
-  add_unfollowed_move(block, r, "cycles are left as they are");
+  add_unfollowed_move(block, r, "cycles are not corrected");
 }
 
 }  // namespace counterflex

@@ -1,18 +1,19 @@
-// Q parameters whose values the text shows, where that was asked for.
+// Evaluates Q parameters whose values are known from the text, with ReadOptions::evaluate.
+#include "program/evaluate/evaluate.hpp"
+
 #include <algorithm>
 #include <charconv>
 
 #include "program/evaluate/constant_expression.hpp"
-#include "program/evaluate/evaluate.hpp"
 #include "program/klartext/read.hpp"
 #include "program/text/scanner.hpp"
 
 namespace counterflex {
 namespace {
 
-constexpr std::size_t most_digits = 2;  // Q0 to Q99: the others belong to the control and to its cycles
+constexpr std::size_t most_digits = 2;  // Q0 to Q99; the others belong to the control and to its cycles
 
-/// "q5" of "Q5" at the beginning of `text` (squeezed); empty where another name stands there.
+/// "q5" of "Q5" at the beginning of `text` (squeezed); empty for other names.
 std::string parameter_at(std::string_view text) {
   if (!text.starts_with('Q')) return {};
   std::size_t end = 1;
@@ -29,7 +30,7 @@ std::optional<double> value_of(const KlartextReading& r, std::string expression)
   });
 }
 
-/// FN 0 to FN 4 as an expression: "+Q2-+5"; empty for any other.
+/// FN 0 to FN 4 as an expression: "+Q2-+5"; empty for other functions.
 std::string expression_of(int function, std::string text) {
   if (const std::size_t comment = text.find(';'); comment != std::string::npos) text.erase(comment);
   if (function == 4) {
@@ -45,8 +46,8 @@ void forget_all_in(std::string_view text, KlartextReading& r) {
     if (const std::string name = parameter_at(text.substr(at)); !name.empty()) r.variables.erase(name);
 }
 
-/// A difference with more digits than words have leaves a place that is not known, and "DR", "M" and "R" are no places.
-bool may_be_worked_out(const KlartextWord& word, double value) {
+/// A difference with too many digits gives an unknown position. "DR", "M" and "R" are not positions.
+bool can_be_evaluated(const KlartextWord& word, double value) {
   const std::string_view places = "X Y Z CX CY PR PA F R";
   const bool place = places.find(word.key) != std::string_view::npos;
   return place && !(word.incremental && has_too_many_digits(value));
@@ -56,18 +57,18 @@ bool may_be_worked_out(const KlartextWord& word, double value) {
 
 bool read_words(const KlartextBlock& block, KlartextReading& r) {
   if (!lex_klartext_words(r.program.text, r.program.file, block, r.words)) return false;
-  if (!r.options.evaluate || in_doubt(r)) return true;
+  if (!r.options.evaluate || may_skip_or_repeat(r)) return true;
   for (KlartextWord& word : r.words) {
     if (word.literal || word.key.empty()) continue;
     const std::size_t begin = word.span.begin + word.key.size() + (word.incremental ? 1 : 0);
     const std::string expression = squeezed(part(r.program.text, {begin, word.span.end}));
     if (expression.find('Q') == std::string::npos) continue;
     const std::optional<double> value = value_of(r, expression);
-    if (!value || !may_be_worked_out(word, *value)) continue;
+    if (!value || !can_be_evaluated(word, *value)) continue;
     word.literal = true;
     word.value = *value;
     word.number = {begin, word.span.end};
-    note_worked_out(r.program, block.line);
+    count_evaluated(r.program, block.line);
   }
   return true;
 }
@@ -76,7 +77,7 @@ void take_parameter(const KlartextBlock& block, KlartextReading& r) {
   if (!r.options.evaluate) return;
   std::string text = block.head == "Q" ? "Q" : "";
   text += squeezed(after_head(r.program.text, block));
-  int function = 0;  // "Q1 = 5" is as FN 0
+  int function = 0;  // "Q1 = 5" is FN 0
   if (block.head == "FN") {
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), function);
     const std::size_t colon = static_cast<std::size_t>(end - text.data());
@@ -86,7 +87,7 @@ void take_parameter(const KlartextBlock& block, KlartextReading& r) {
   const std::string name = parameter_at(text);
   const bool assigns = !name.empty() && text.size() > name.size() && text[name.size()] == '=';
   if (!assigns) return forget_all_in(text, r);
-  const bool runs_once = !in_doubt(r) && empty(block.block_delete) && block.parts.size() == 1;
+  const bool runs_once = !may_skip_or_repeat(r) && empty(block.block_delete) && block.parts.size() == 1;
   const std::string expression = runs_once ? expression_of(function, text.substr(name.size() + 1)) : "";
   const std::optional<double> value = expression.empty() ? std::nullopt : value_of(r, expression);
   r.variables.erase(name);

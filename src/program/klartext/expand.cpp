@@ -19,7 +19,7 @@ namespace {
 
 enum class Role { other, label, call, repeat, end };
 
-/// A block, and what it is to the flow of the program.
+/// A block, and its role in the flow of the program.
 struct FlowBlock {
   Role role = Role::other;
   Span bytes{};  ///< with its line end
@@ -28,7 +28,7 @@ struct FlowBlock {
   int repeats = 1;
 };
 
-/// Whether M2 or M30 stands among the words.
+/// Whether the words include M2 or M30.
 bool has_end_code(std::string_view words) {
   for (std::size_t at = words.find('M'); at != std::string_view::npos; at = words.find('M', at + 1)) {
     int code = -1;
@@ -38,7 +38,7 @@ bool has_end_code(std::string_view words) {
   return false;
 }
 
-/// "REP 3", "REP 3/3" behind the label; 0 where it is no plain number.
+/// "REP 3", "REP 3/3" behind the label; 0 if it is not a plain number.
 int repeats_in(std::string_view rest) {
   int count = 0;
   std::from_chars(rest.data() + rest.find("REP") + 3, rest.data() + rest.size(), count);
@@ -82,7 +82,7 @@ class KlartextExpander {
       if (flow.role == Role::repeat) flow.repeats = repeats_in(rest);
       if (calls && flow.name == "Q") refuse(block.line, "the label is a Q parameter");
       if (calls && !empty(block.block_delete)) refuse(block.line, "'/' may skip the call");
-      if (flow.repeats < 1) refuse(block.line, "REP has no plain number from 1");
+      if (flow.repeats < 1) refuse(block.line, "REP needs an integer from 1");
     } else if (block.head == "END" || has_end_code(words_of(block, rest))) {
       flow.role = Role::end;
     } else if (rest.find("GOTOLBL") != std::string::npos) {
@@ -100,14 +100,15 @@ class KlartextExpander {
     if (why_not_.empty()) why_not_ = fmt::format("line {}: {}", line, why);
   }
 
-  /// Where the label stands, before `end`.
+  /// Position of the label, before `end`.
   std::optional<std::size_t> find_label(const std::string& name, std::size_t begin, std::size_t end) const {
     for (std::size_t i = begin; i < end; ++i)
       if (blocks_[i].role == Role::label && blocks_[i].name == name) return i;
     return std::nullopt;
   }
 
-  /// Blocks from `begin` to `end`; `called_from`: line of the call in the program, 0 for the program itself.
+  /// Copies the blocks from `begin` to `end`. `called_from`: line of the call in the program, 0 for the
+  /// program itself.
   void put(std::size_t begin, std::size_t end, int called_from) {
     for (std::size_t i = begin; i < end && why_not_.empty(); ++i) {
       const FlowBlock& block = blocks_[i];
@@ -139,7 +140,7 @@ class KlartextExpander {
   void put_repeats(std::size_t repeat, std::size_t begin, int from) {
     const FlowBlock& call = blocks_[repeat];
     const auto label = find_label(call.name, begin, repeat);
-    if (!label) return refuse(call.line, fmt::format("LBL {} does not stand before its REP", call.name));
+    if (!label) return refuse(call.line, fmt::format("LBL {} is not before its REP", call.name));
     for (int k = 0; k < call.repeats && why_not_.empty(); ++k) {
       count_call(call);
       put(*label + 1, repeat, from);
@@ -152,9 +153,10 @@ class KlartextExpander {
     if (lines_.text.size() > most || expansion_.calls > most_expanded_calls)
       throw InputError(
           Exit::program_text, {file_, call.line, 1},
-          fmt::format("CALL LBL {}: the expanded calls make more than {} bytes, or are more than {}; repeat "
-                      "it less often, or leave out --expand-subprograms",
-                      call.name, most, most_expanded_calls));
+          fmt::format(
+              "CALL LBL {}: the expanded calls are longer than {} bytes, or more than {} calls; reduce "
+              "the repeats, or leave out --expand-subprograms",
+              call.name, most, most_expanded_calls));
   }
 
   void append(const FlowBlock& block, int called_from) {
@@ -178,7 +180,7 @@ class KlartextExpander {
   const std::string& text_;
   const std::string& file_;
   std::vector<FlowBlock> blocks_{};
-  std::vector<std::size_t> called_{};  // labels of the bodies that are being put
+  std::vector<std::size_t> called_{};  // labels of the bodies that are being copied
   std::string why_not_{};
   bool numbered_ = false;
   ExpandedLines lines_{};

@@ -1,17 +1,16 @@
 #pragma once
-/// Puts the bodies of Klartext subprograms, and the parts of a program that are repeated, in the place of
-/// CALL LBL.
+/// Replaces CALL LBL by the bodies of Klartext subprograms and by repeated parts of the program.
 #include <string>
 
 #include "counterflex/program/program.hpp"
 
 namespace counterflex {
 
-/// Replaces every CALL LBL in `text` by copies of the blocks that it calls, REP as often as it repeats, and
-/// the calls in these copies likewise. Copies have no LBL. Where one call cannot be replaced all stay, with
-/// the reason: a jump, a label by a Q parameter, one that is missing or calls itself. Numbered blocks are
-/// renumbered. Throws `InputError` (Exit::program_text) where more than `largest_expansion` bytes would
-/// come out.
+/// Replaces every CALL LBL in `text` by copies of the blocks that it calls, repeated as REP gives. Calls in
+/// these copies are replaced, too. Copies have no LBL. If one call cannot be replaced, all calls stay, with
+/// the reason: a jump, a Q parameter as label, a missing label, or a label that calls itself. Numbered blocks
+/// are renumbered. Throws `InputError` (Exit::program_text) if the result would be longer than
+/// `largest_expansion` bytes.
 Expansion expand_klartext(std::string& text, const std::string& file);
 
 }  // namespace counterflex

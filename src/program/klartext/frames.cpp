@@ -1,11 +1,12 @@
-// Shifts (CYCL DEF 7) and turns about Z (CYCL DEF 10) of the coordinates.
+// Shifts (CYCL DEF 7) and rotations about Z (CYCL DEF 10) of the coordinates.
+#include "program/gcode/frames.hpp"
+
 #include <algorithm>
 
 #include "counterflex/files/numbers.hpp"
 #include "counterflex/geometry/pose.hpp"
 #include "counterflex/geometry/units.hpp"
 #include "program/dialect.hpp"
-#include "program/gcode/frames.hpp"
 #include "program/klartext/read.hpp"
 #include "program/text/lex.hpp"
 
@@ -14,7 +15,7 @@ namespace {
 
 constexpr std::string_view shifted_axes = "XYZABCUVW";
 
-/// The coordinates have changed: a known position goes along with a shift, a turn leaves X and Y unknown.
+/// Converts a known position after a shift of the coordinates. After a rotation X and Y are unknown.
 void enter_frame(KlartextReading& r) {
   KlartextState& state = r.state;
   const ProgramFrame before = r.program.frames[state.frame],
@@ -28,17 +29,17 @@ void enter_frame(KlartextReading& r) {
   state.run_begin = r.program.moves.size();
 }
 
-/// A cycle that a jump may pass over or repeat, or that '/' skips.
+/// A cycle that a jump may skip or repeat, or that '/' may skip.
 bool may_not_run(const KlartextBlock& block, const KlartextReading& r) {
-  return !empty(block.block_delete) || in_doubt(r);
+  return !empty(block.block_delete) || may_skip_or_repeat(r);
 }
 
 }  // namespace
 
-void set_elsewhere(KlartextReading& r, int number, bool acts, const char* why) {
-  const bool acted = r.state.elsewhere.contains(number);
-  if (acts) r.state.elsewhere[number] = why;
-  if (!acts) r.state.elsewhere.erase(number);
+void set_displacement(KlartextReading& r, int number, bool acts, const char* why) {
+  const bool acted = r.state.displacements.contains(number);
+  if (acts) r.state.displacements[number] = why;
+  if (!acts) r.state.displacements.erase(number);
   if (acts || acted) r.state.known.fill(false), r.state.run_begin = r.program.moves.size();
 }
 
@@ -60,14 +61,16 @@ void shift_datum(const KlartextBlock& block, bool lexed, KlartextReading& r) {
     double& shift = state.shift_mm[static_cast<Eigen::Index>(axis)];
     shift = word.value * unit + (word.incremental ? shift : 0);
   }
-  // A second equal shift does not make the first one followed.
-  const bool shifts_turned = state.turn_rad != 0 && (state.shift_mm != before || state.elsewhere.contains(7));
+  // A second equal shift does not make the first one known.
+  const bool shifts_turned =
+      state.turn_rad != 0 && (state.shift_mm != before || state.displacements.contains(7));
   const auto& unfollowed = state.unfollowed_shift;
   const bool acts = !lexed || shifts_turned ||
                     std::any_of(unfollowed.begin(), unfollowed.end(), [](bool on) { return on; });
-  set_elsewhere(r, 7, acts,
-                shifts_turned ? "CYCL DEF 7 shifts coordinates that CYCL DEF 10 has turned; shift them before"
-                              : "CYCL DEF 7 shifts coordinates by more than plain numbers of X, Y and Z");
+  set_displacement(r, 7, acts,
+                   shifts_turned
+                       ? "CYCL DEF 7 shifts coordinates that CYCL DEF 10 has turned; shift them before"
+                       : "CYCL DEF 7 shifts coordinates by more than plain numbers of X, Y and Z");
   enter_frame(r);
 }
 
@@ -78,12 +81,13 @@ void turn_frame(const KlartextBlock& block, std::string_view rest, KlartextReadi
   std::replace(number.begin(), number.end(), ',', '.');
   if (number.starts_with('+')) number.erase(0, 1);
   const std::optional<double> angle = read_number(number);
-  const bool followed = angle && r.state.tool_along_z && !may_not_run(block, r) && r.state.elsewhere.empty();
+  const bool followed =
+      angle && r.state.tool_along_z && !may_not_run(block, r) && r.state.displacements.empty();
   if (!followed && angle != 0.0) {
-    set_elsewhere(r, 10, true, "CYCL DEF 10 turns coordinates by more than a plain number about Z");
+    set_displacement(r, 10, true, "CYCL DEF 10 turns coordinates by more than a plain number about Z");
     return;
   }
-  set_elsewhere(r, 10, false, "");
+  set_displacement(r, 10, false, "");
   r.state.turn_rad = *angle * deg + (incremental ? r.state.turn_rad : 0);
   enter_frame(r);
 }

@@ -39,7 +39,7 @@ int next_place(int place, const KlartextBlock& block) {
   return concerns_labels(block) ? between + 1 : between;
 }
 
-bool holds(const std::vector<PlaceStretch>& stretches, int place) {
+bool contains_place(const std::vector<PlaceStretch>& stretches, int place) {
   const auto after = std::upper_bound(stretches.begin(), stretches.end(), place,
                                       [](int wanted, const PlaceStretch& s) { return wanted < s.first; });
   return after != stretches.begin() && (after - 1)->last >= place;
@@ -70,7 +70,7 @@ void KlartextScan::take_label(std::string_view text) {
   }
 }
 
-/// Notes where a block counts from the pole in a way that is not followed, or not in doubt.
+/// Notes whether a block uses the pole without being followed, and whether it may be skipped or repeated.
 void KlartextScan::take_pole(std::string_view text) {
   constexpr std::array<std::string_view, 6> unfollowed{"CTP", "FPOL", "FL", "FC", "FLT", "FCT"};
   const std::string& head = block_.head;
@@ -95,7 +95,7 @@ void KlartextScan::add_body(int first, std::vector<PlaceStretch>& stretches) con
   stretches.push_back({first, last});
 }
 
-std::vector<PlaceStretch> KlartextScan::doubtful() const {
+std::vector<PlaceStretch> KlartextScan::uncertain() const {
   std::vector<PlaceStretch> stretches;
   for (const auto& [name, label] : labels_) {
     const std::vector<int>&set = label.set, &from = label.jumped_to;
@@ -110,10 +110,11 @@ std::vector<PlaceStretch> KlartextScan::doubtful() const {
 }
 
 KlartextOutline KlartextScan::finish() const {
-  KlartextOutline outline{doubtful(), {}};
+  KlartextOutline outline{uncertain(), {}};
   for (const PoleUse& use : pole_uses_) {
-    const bool followed = use.plain && !holds(outline.doubtful, use.place);
-    if (!followed && (outline.poles.empty() || outline.poles.back() != use.line)) outline.poles.push_back(use.line);
+    const bool followed = use.plain && !contains_place(outline.uncertain, use.place);
+    if (!followed && (outline.poles.empty() || outline.poles.back() != use.line))
+      outline.poles.push_back(use.line);
   }
   return outline;
 }

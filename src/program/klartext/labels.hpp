@@ -1,7 +1,7 @@
 #pragma once
-/// Labels of Klartext, and the stretches of a program that jumps and repetitions put in doubt. Places are counted
-/// by the blocks that set, call or jump to labels, which a corrected program has, too: the n-th of them (from 0) is
-/// at 2 n + 1, the blocks before it at 2 n, those behind it at 2 n + 2.
+/// Labels of Klartext, and the parts of a program that jumps and repetitions may skip or repeat. A place is
+/// counted by the blocks that set, call or jump to labels, because a corrected program has the same ones. The
+/// n-th of these blocks (from 0) is at place 2 n + 1, blocks before it at 2 n, blocks behind it at 2 n + 2.
 #include <map>
 #include <string>
 #include <string_view>
@@ -17,39 +17,41 @@ struct PlaceStretch {
   int last = 0;
 };
 
-/// The name that `text` (squeezed) begins with: quoted, or digits; "Q" stands for any.
+/// The label name at the beginning of `text` (squeezed): quoted, or digits; "Q" means any label.
 std::string label_name(std::string_view text);
 
-/// The place of `block`, of the one behind `place`.
+/// The place of `block`, where the block before it is at `place`.
 int next_place(int place, const KlartextBlock& block);
 
-/// Whether one of `stretches`, in order and apart, holds `place`.
-bool holds(const std::vector<PlaceStretch>& stretches, int place);
+/// Whether one of `stretches`, which are sorted and disjoint, contains `place`.
+bool contains_place(const std::vector<PlaceStretch>& stretches, int place);
 
-/// What a Klartext program shows only when looked at as a whole.
+/// Properties of a Klartext program that depend on its whole text.
 struct KlartextOutline {
-  std::vector<PlaceStretch> doubtful;  ///< blocks that may run often or not at all: bodies of subprograms that are called,
-                                  ///< parts that are repeated, and what a jump passes over; in order and apart
-  std::vector<int> poles;         ///< lines of the CC whose pole blocks use that are not followed, so that it cannot
-                                  ///< be moved with the arcs about it; in order
+  /// Blocks that may run never or several times: bodies of called subprograms, repeated parts, and blocks
+  /// skipped by a jump; sorted and disjoint.
+  std::vector<PlaceStretch> uncertain;
+  std::vector<int> poles;  ///< lines of the CC whose pole is used by blocks that are not followed, so that
+                           ///< it cannot move with the arcs about it; sorted
 };
 
-/// Looks through a text once, in portions of whole blocks.
+/// Scans a text once, in portions of whole blocks.
 class KlartextScan {
  public:
   void add(std::string_view blocks);
   KlartextOutline finish() const;
 
  private:
-  /// What of one name stands at which places.
+  /// The uses of a label name, with their places.
   struct Label {
     std::vector<int> set{};
     std::vector<int> jumped_to{};  ///< by jumps and repetitions
     bool called = false;           ///< as a subprogram
   };
+  /// Of the CC.
   struct PoleUse {
-    int line;   ///< of the CC
-    int place;  ///< of a polar block, which is followed outside of doubts
+    int line;
+    int place;  ///< of a polar block, which is followed outside of `uncertain` stretches
     bool plain;
 
     bool operator==(const PoleUse&) const = default;
@@ -58,7 +60,7 @@ class KlartextScan {
   void take_label(std::string_view text);
   void take_pole(std::string_view text);
   void add_body(int first, std::vector<PlaceStretch>& stretches) const;
-  std::vector<PlaceStretch> doubtful() const;
+  std::vector<PlaceStretch> uncertain() const;
 
   KlartextBlock block_;
   int place_ = 0;

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double largest_klartext_number = 99999.9999;
 
-// Longer keys before those that they begin with.
+// Longer keys before their own prefixes.
 constexpr std::array<std::string_view, 37> klartext_keys{
     "LEN", "CCA", "IPA", "IPR", "PA", "PR", "FMAX", "FAUTO", "DR", "RL", "RR", "IX", "IY",
     "IZ",  "IA",  "IB",  "IC",  "IU", "IV", "IW",   "FU",    "FZ", "FT", "X",  "Y",  "Z",
@@ -45,7 +45,7 @@ bool is_comment_line(std::string_view line) {
          (line.starts_with("--") && line.find_first_not_of("- \t\r") == std::string_view::npos);
 }
 
-/// Where the comment of [begin, end) begins, or `end`.
+/// Position of the comment in [begin, end), or `end`.
 std::size_t comment_begin(std::string_view text, std::size_t begin, std::size_t end, bool first) {
   const std::size_t start = skip_blanks(text, begin, end);
   if (first && is_comment_line(part(text, {start, end}))) return start;
@@ -74,7 +74,7 @@ std::size_t lex_start(std::string_view text, KlartextBlock& block, std::size_t a
   return skip_blanks(text, at, end);
 }
 
-/// Whether the line goes on in the next; `end` is brought before its '~'.
+/// Whether the line continues in the next line; moves `end` before its '~'.
 bool cut_continuation(std::string_view text, std::size_t begin, std::size_t& end) {
   std::size_t last = end;
   while (last > begin && klartext_blank(text[last - 1])) --last;
@@ -83,7 +83,7 @@ bool cut_continuation(std::string_view text, std::size_t begin, std::size_t& end
   return true;
 }
 
-/// One word being read: `at` moves behind what has been taken of [at, end).
+/// A word being read: `at` is behind the consumed part of [at, end).
 struct WordScanner {
   std::string_view text;
   const std::string& file;
@@ -147,7 +147,7 @@ bool take_digits(WordScanner& s, KlartextWord& word, bool negative) {
   const auto value = read_number(dense);
   if (!value || std::abs(*value) > 1e12)
     refuse_klartext(s.text, s.file, s.block, word.span.begin,
-                    fmt::format("{}: a number of {} digits is beyond what can be held", word.key, digits));
+                    fmt::format("{}: a number of {} digits is too long", word.key, digits));
   word.value = *value;
   word.literal = true;
   return true;
@@ -205,7 +205,7 @@ bool take_word(WordScanner& s, std::vector<KlartextWord>& words) {
   return true;
 }
 
-/// The first block with a statement. If there is none, the block has no parts.
+/// The first block with a statement. If there is no such block, the result has no parts.
 KlartextBlock first_statement(std::string_view text) {
   KlartextBlock block;
   while (next_klartext_block(text, block))
@@ -249,12 +249,12 @@ bool next_klartext_block(std::string_view text, KlartextBlock& block) {
     while (end > begin && text[end - 1] == '\r') --end;
     block.span.end = end;
     block.line_end = {end, std::min(newline + 1, text.size())};
-    const bool goes_on = cut_continuation(text, begin, end) && block.line_end.end < text.size();
+    const bool continues = cut_continuation(text, begin, end) && block.line_end.end < text.size();
     const std::size_t start = first ? lex_start(text, block, begin, end) : skip_blanks(text, begin, end);
     const std::size_t comment = comment_begin(text, start, end, first);
     if (comment > start) block.parts.push_back({start, comment});
     if (comment < end) block.comments.push_back({comment + 1, end});
-    if (!goes_on) break;
+    if (!continues) break;
     begin = block.line_end.end;
   }
   if (!block.parts.empty())
@@ -263,7 +263,7 @@ bool next_klartext_block(std::string_view text, KlartextBlock& block) {
   return true;
 }
 
-bool goes_on_behind(std::string_view text, std::size_t newline) {
+bool continues_behind(std::string_view text, std::size_t newline) {
   std::size_t end = newline;
   while (end > 0 && text[end - 1] == '\r') --end;
   return cut_continuation(text, 0, end);

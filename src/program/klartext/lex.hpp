@@ -1,6 +1,6 @@
 #pragma once
-/// Blocks of Heidenhain Klartext and the words in them, as spans of the text. A block is a line with those
-/// that continue it: a line that ends in '~' continues in the next.
+/// Blocks of Heidenhain Klartext and their words, as spans of the text. A line that ends with '~' continues
+/// in the next line; both belong to one block.
 #include <string>
 #include <string_view>
 #include <vector>
@@ -14,54 +14,54 @@ struct KlartextWord {
   std::string key;           ///< in upper case, without the I of an incremental coordinate
   bool incremental = false;  ///< "IX"
   Span span;
-  Span number;  ///< with its sign; of "DR-" the sign; empty where there is none
+  Span number;  ///< with its sign; of "DR-" the sign; empty without a number
   double value = 0;
   int decimals = 0;
-  bool literal = false;  ///< a plain number; else an expression, or nothing
+  bool literal = false;  ///< a plain number; else an expression, or no number
 };
 
 /// One block. Its vectors are reused from block to block.
 struct KlartextBlock {
   int line = 0;       ///< of its first line, from 1
   int last_line = 0;  ///< of its last
-  int file_line = 0;  ///< of the file, where calls were expanded; 0: `line`
-  Span span;          ///< without the last line's end
+  int file_line = 0;  ///< of the file, if calls were expanded; 0: `line`
+  Span span;          ///< without the last line end
   Span line_end;
-  Span block_delete;           ///< '/'; empty where there is none
+  Span block_delete;           ///< '/'; empty without '/'
   Span number;                 ///< digits of the block's number; empty if it has none
-  std::string head;            ///< the letters that the statement begins with, in upper case
+  std::string head;            ///< letters at the begin of the statement, in upper case
   std::vector<Span> parts;     ///< the statement, line by line, without comments and '~'
-  std::vector<Span> comments;  ///< what stands behind ';' or '*', or in a line that begins with '(' or "--"
+  std::vector<Span> comments;  ///< text behind ';' or '*', or in a line that begins with '(' or "--"
 };
 
 /// Whether `text` is Klartext: its first statement, behind comments, is BEGIN PGM.
 bool is_klartext(std::string_view text);
 
-/// Whether the first statement of `text` is one of Klartext; for files whose name ends in ".h".
+/// Whether the first statement of `text` is Klartext; used for files with the extension ".h".
 bool begins_like_klartext(std::string_view text);
 
-/// Advances `block` to the block after `block.line_end`; false at the end of `text`. A default block stands
-/// before the first. A blank line is a block without parts.
+/// Moves `block` to the block after `block.line_end`; false at the end of `text`. A default block is before
+/// the first block. A blank line is a block without parts.
 bool next_klartext_block(std::string_view text, KlartextBlock& block);
 
 /// Whether the block whose line ends at `newline` continues in the next line.
-bool goes_on_behind(std::string_view text, std::size_t newline);
+bool continues_behind(std::string_view text, std::size_t newline);
 
 /// The statement's text after its head: on the first line, or the whole of a later one.
 std::string_view after_head(std::string_view text, const KlartextBlock& block);
 
-/// The words behind the head of a block that moves. False where there is one that is not known. Throws
-/// `InputError` for a coordinate without a number and for a number that no control reads.
+/// The words behind the head of a block that moves the tool. False if a word is unknown. Throws `InputError`
+/// for a coordinate without a number and for a number that no control reads.
 bool lex_klartext_words(std::string_view text, const std::string& file, const KlartextBlock& block,
                         std::vector<KlartextWord>& words);
 
 /// The word with that key, or nullptr.
 const KlartextWord* find_word(const std::vector<KlartextWord>& words, std::string_view key);
 
-/// `text` without blanks and in upper case, as statements are told apart.
+/// `text` without blanks and in upper case, for comparing statements.
 std::string squeezed(std::string_view text);
 
-/// Throws an `InputError` that points at byte `at`.
+/// Throws an `InputError` at byte `at`.
 [[noreturn]] void refuse_klartext(std::string_view text, const std::string& file, const KlartextBlock& block,
                                   std::size_t at, const std::string& message);
 

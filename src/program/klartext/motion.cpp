@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "program/text/arc_radius.hpp"
-#include "program/gcode/contour.hpp"
 #include "program/dialect.hpp"
+#include "program/gcode/contour.hpp"
 #include "program/klartext/codes.hpp"
 #include "program/klartext/read.hpp"
+#include "program/text/arc_radius.hpp"
 #include "program/text/lex.hpp"
 
 namespace counterflex {
@@ -23,14 +23,14 @@ void watch_rotary_axes(KlartextReading& r) {
   for (const KlartextWord& word : r.words)
     if (word.key.size() == 1 && std::string_view("ABCUVW").find(word.key[0]) != std::string_view::npos &&
         (!word.literal || word.value != 0))
-      r.state.elsewhere[1] = "a rotary or further axis is not at zero";
+      r.state.displacements[1] = "a rotary or further axis is not at zero";
 }
 
 void check_unit(const KlartextBlock& block, const KlartextReading& r) {
   if (!r.state.unit)
-    refuse_klartext(
-        r.program.text, r.program.file, block, block.parts[0].begin,
-        "a move before the unit is known: write MM or INCH behind BEGIN PGM, or give --units mm or --units inch");
+    refuse_klartext(r.program.text, r.program.file, block, block.parts[0].begin,
+                    "a move before the unit is known: write MM or INCH behind BEGIN PGM, or give --units mm "
+                    "or --units inch");
 }
 
 bool is_polar(const KlartextBlock& block) {
@@ -49,22 +49,21 @@ bool all_incremental(const KlartextReading& r) {
   });
 }
 
-std::string why_elsewhere(const KlartextReading& r) {
-  if (!r.state.elsewhere.empty()) return r.state.elsewhere.begin()->second;
-  return in_doubt(r)
-             ? "a jump, a repetition or a call may run the block often or not at all"
-             : "";
+std::string displacement_reason(const KlartextReading& r) {
+  if (!r.state.displacements.empty()) return r.state.displacements.begin()->second;
+  return may_skip_or_repeat(r) ? "a jump, a repetition or a call may run the block never or several times"
+                               : "";
 }
 
-/// One coordinate: a word that may be changed, or one that is not known.
-void place_coordinate(const KlartextWord& word, std::size_t axis, bool doubtful, KlartextReading& r,
+/// A coordinate: a word that may be changed, or an unknown one.
+void place_coordinate(const KlartextWord& word, std::size_t axis, bool uncertain, KlartextReading& r,
                       Move& move) {
   KlartextState& state = r.state;
   const auto i = static_cast<Eigen::Index>(axis);
   const bool known_before = state.known[axis];
   state.known[axis] = false;
-  if (doubtful || !word.literal || (word.incremental && !known_before)) {
-    move.fixed[axis] = !word.incremental || (word.literal && !doubtful);
+  if (uncertain || !word.literal || (word.incremental && !known_before)) {
+    move.fixed[axis] = !word.incremental || (word.literal && !uncertain);
     return;
   }
   if (word.incremental) {
@@ -78,26 +77,25 @@ void place_coordinate(const KlartextWord& word, std::size_t axis, bool doubtful,
 }
 
 void place_coordinates(const KlartextBlock& block, KlartextReading& r, Move& move) {
-  const std::string elsewhere = why_elsewhere(r);
+  const std::string displacement = displacement_reason(r);
   move.relative = !is_polar(block) && all_incremental(r);
   bool expression = false;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const KlartextWord* word = find_word(r.words, klartext_axes[axis]);
     if (word == nullptr) continue;
     expression = expression || !word->literal;
-    place_coordinate(*word, axis, !elsewhere.empty(), r, move);
+    place_coordinate(*word, axis, !displacement.empty(), r, move);
   }
-  if (!elsewhere.empty()) {
+  if (!displacement.empty()) {
     r.state.known.fill(false);
-    leave_alone(r, block.line, elsewhere);
+    note_uncorrected(r, block.line, displacement);
   } else if (expression) {
     const char* cure = r.options.evaluate ? "" : " (--evaluate works out constants)";
-    leave_alone(r, block.line, fmt::format("a Q parameter gives the position{}", cure));
+    note_uncorrected(r, block.line, fmt::format("a Q parameter gives the position{}", cure));
   }
 }
 
-/// The centre of an arc of given radius; nothing where its ends are the same or further apart than it
-/// reaches.
+/// The centre of an arc of given radius; empty if its ends coincide or are too far apart.
 std::optional<Vector3> centre_of_radius(const Move& move, double radius, bool clockwise) {
   const double half = 0.5 * (move.end_mm - move.start_mm).head<2>().norm();
   if (half == 0 || half > std::abs(radius) * 1.001) return std::nullopt;
@@ -131,7 +129,7 @@ bool has_known_ends(const KlartextReading& r, const Move& move, std::size_t norm
   return known;
 }
 
-/// A pole that is not equally far from both ends makes no arc.
+/// Refuses a pole that is not equally far from both ends: this is not an arc.
 void check_radii(const KlartextBlock& block, const KlartextReading& r, const Move& move) {
   const auto radius_at = [&](Vector3 p) {
     p -= move.arc->centre_mm;
@@ -141,7 +139,8 @@ void check_radii(const KlartextBlock& block, const KlartextReading& r, const Mov
   const double start = radius_at(move.start_mm), end = radius_at(move.end_mm);
   if (radii_agree(find_dialect(klartext_name)->radius_room, start, end)) return;
   refuse_klartext(r.program.text, r.program.file, block, r.words.front().span.begin,
-                  fmt::format("the radius about CC is {:.4f} mm at the arc's start and {:.4f} mm at its end, which differ by more "
+                  fmt::format("the radius about CC is {:.4f} mm at the arc's start and {:.4f} mm at its end, "
+                              "which differ by more "
                               "than a heidenhain control accepts; correct the end of the arc or its CC",
                               start, end));
 }
@@ -164,14 +163,15 @@ void read_arc(const KlartextBlock& block, KlartextReading& r, Move& move) {
     r.state.known[axis] = false;
   }
   move.incremental = 0;
-  leave_alone(r, block.line, block.head + ": an arc whose start or centre is not known");
+  note_uncorrected(r, block.line, block.head + ": the start or the centre of the arc is unknown");
 }
 
-constexpr double straight = 1e-6;  // rad: an arc that turns by less is a line
+constexpr double straight = 1e-6;  // rad: an arc with a smaller sweep is a line
 
-/// The way that a move goes at its end, across Z; zero where it is not known.
+/// The direction of a move at its end, across Z; zero if it is unknown.
 Vector3 direction_at_end(const Move& move) {
-  if (!all_known(move.known_start) || !all_known(move.known_end) || move.motion == Motion::rapid) return Vector3::Zero();
+  if (!all_known(move.known_start) || !all_known(move.known_end) || move.motion == Motion::rapid)
+    return Vector3::Zero();
   Vector3 way = move.end_mm - move.start_mm;
   if (move.arc) {
     if (move.arc->normal != 2) return Vector3::Zero();
@@ -181,11 +181,13 @@ Vector3 direction_at_end(const Move& move) {
   return way.isZero(0) ? way : Vector3(way.normalized());
 }
 
-/// CT between known ends: the arc tangent to the move before it. False where it is not known, is a line, or goes nowhere.
+/// CT between known ends: the arc tangent to the move before it. False if the arc is unknown, is a line, or
+/// has no length.
 bool read_tangent_arc(KlartextReading& r, Move& move) {
   const auto& moves = r.program.moves;
   if (moves.empty() || r.state.corner || !has_known_ends(r, move, 2) || !move.known_start[2]) return false;
-  const Vector3 way = direction_at_end(moves.back()), chord = move.end_mm - move.start_mm, side(-way.y(), way.x(), 0);
+  const Vector3 way = direction_at_end(moves.back()), chord = move.end_mm - move.start_mm,
+                side(-way.y(), way.x(), 0);
   const double across = side.dot(chord);
   if (std::abs(across) <= straight * chord.norm() || moves.back().end_mm != move.start_mm) return false;
   ArcMove arc;
@@ -204,8 +206,8 @@ void allow_klartext_changes(const KlartextCodes& codes, bool held, KlartextReadi
   move.stays_whole = codes.acts_after || find_word(r.words, "M") != nullptr;
 }
 
-/// M89 calls the cycle at the end of the blocks that follow, too, until M99. Its own block and that of M99 call the cycle
-/// themselves: there its definition may be written again.
+/// Under M89 the following blocks, too, call the cycle at their end, until M99. The block of M89 and that of
+/// M99 call the cycle themselves: before these its definition may be repeated.
 template <typename Call>
 void call_cycle(const KlartextCodes& codes, KlartextReading& r, Call&& call) {
   if (codes.cycle_call) r.state.calls_each = false;
@@ -213,55 +215,55 @@ void call_cycle(const KlartextCodes& codes, KlartextReading& r, Call&& call) {
   if (codes.cycle_call) r.state.calls_each = codes.calls_each;
 }
 
-/// A cycle of an older control goes along with the position where it is called.
-bool goes_along(const KlartextReading& r, const Move& move) {
+/// A cycle of an older control is shifted with the position at which it is called.
+bool shifts_with_call(const KlartextReading& r, const Move& move) {
   return r.state.cycle_is_relative && !move.block_delete && move.group == 0 && !move.fixed[0] &&
          !move.fixed[1] && !move.fixed[2];
 }
 
 void call_cycle_after(const KlartextBlock& block, KlartextReading& r, Move& move) {
-  if (why_elsewhere(r).empty() && goes_along(r, move)) {
+  if (displacement_reason(r).empty() && shifts_with_call(r, move)) {
     move.known_end = r.state.known;
     return call_relative_cycle(block, r, move);
   }
   r.state.known[2] = false;
-  if (why_elsewhere(r).empty() && r.state.cycle_acts_here && take_hole(r, move)) {
-    if (move.handling == Handling::held) leave_alone(r, block.line, "holes are held");
+  if (displacement_reason(r).empty() && r.state.cycle_acts_here && take_hole(r, move)) {
+    if (move.handling == Handling::held) note_uncorrected(r, block.line, "holes are held");
     return;
   }
   r.state.surface.reset();
   move.fixed[2] = true;
   move.words[2].reset();
   if (!r.state.cycle_acts_here) move.fixed.fill(true), move.words.fill({}), r.state.known.fill(false);
-  leave_alone(r, block.line, "cycles are left as they are");
+  note_uncorrected(r, block.line, "cycles are not corrected");
 }
 
-void leave_machine_position(const KlartextBlock& block, KlartextReading& r) {
+void add_machine_position(const KlartextBlock& block, KlartextReading& r) {
   for (std::size_t axis = 0; axis < 3; ++axis)
-    if (find_word(r.words, klartext_axes[axis]) != nullptr) take_away(r, axis);
+    if (find_word(r.words, klartext_axes[axis]) != nullptr) move_by_machine(r, axis);
   r.state.run_begin = r.program.moves.size();
   r.state.contour = r.state.after_contour = false;
-  add_left_alone(r, {block.line, "M91 or M92: a position of the machine", true});
+  add_uncorrected(r, {block.line, "M91 or M92: a position of the machine", true});
 }
 
-/// How far M140 goes depends on the machine: a word put into the next block would go back.
-void leave_retract(const KlartextBlock& block, KlartextReading& r) {
+/// The distance of M140 depends on the machine: an inserted word in the next block would move back.
+void apply_retract(const KlartextBlock& block, KlartextReading& r) {
   for (std::size_t axis = 0; axis < 3; ++axis)
-    if (axis == 2 || !r.state.tool_along_z) take_away(r, axis);
+    if (axis == 2 || !r.state.tool_along_z) move_by_machine(r, axis);
   r.state.run_begin = r.program.moves.size();
   r.state.contour = r.state.after_contour = false;
-  add_left_alone(r, {block.line, "M140 leaves the part along the tool", true});
+  add_uncorrected(r, {block.line, "M140 retracts from the part along the tool", true});
 }
 
-/// After a block that may be skipped its axes are in doubt.
-void doubt_klartext_skippable(const KlartextBlock& block, KlartextReading& r, const Move& move) {
+/// After a block that may be skipped its axes are unknown.
+void forget_klartext_skippable(const KlartextBlock& block, KlartextReading& r, const Move& move) {
   if (empty(block.block_delete)) return;
   for (std::size_t axis = 0; axis < 3; ++axis)
     if (move.words[axis]) r.state.known[axis] = false;
 }
 
-/// The arc about a pole has the words of its CC, and those that follow it find the pole where it has left it.
-/// One that stays as it is, or may be skipped, leaves the CC to nobody.
+/// The arc about a pole may change the words of its CC. Later arcs use the pole as the arc has left it. If
+/// the arc is not changed, or may be skipped, the CC must not be edited.
 void use_pole(KlartextReading& r, const Move& move) {
   const bool taken = move.arc && (move.words[0] || move.words[1] || move.words[2]) && !move.block_delete;
   if (!taken) return r.state.pole.reset();
@@ -275,10 +277,10 @@ void add_klartext_move(const KlartextBlock& block, const KlartextCodes& codes, K
   move.motion = rapid ? Motion::rapid : Motion::feed;
   place_coordinates(block, r, move);
   if (is_polar(block)) {
-    std::string why = why_elsewhere(r);
+    std::string why = displacement_reason(r);
     if (why.empty()) why = place_polar_end(block, r, move);
     if (!why.empty()) return add_unfollowed_move(block, r, why);
-  } else if (r.state.pole && !goes_along_z(move)) {
+  } else if (r.state.pole && !is_along_z(move)) {
     r.state.pole->radius_mm.reset();
     r.state.pole->angle.reset();
   }
@@ -301,7 +303,7 @@ void add_klartext_move(const KlartextBlock& block, const KlartextCodes& codes, K
     if (!r.program.moves.empty()) place_corner(*r.state.corner, r.program.moves.back(), move);
     r.state.corner.reset();
   }
-  doubt_klartext_skippable(block, r, move);
+  forget_klartext_skippable(block, r, move);
   if ((block.head == "C" || block.head == "CP") && r.state.pole) use_pole(r, move);
   add_move(r, std::move(move));
 }
@@ -312,7 +314,7 @@ double klartext_length_mm(const KlartextReading& r, const KlartextWord& word) {
   return word.value * mm_per_unit(r);
 }
 
-/// F: mm/min, in inch programs tenths of an inch/min; expressions and feeds a tooth are not known.
+/// F: mm/min, in inch programs tenths of an inch/min; expressions and feeds per tooth are unknown.
 void read_klartext_feed(KlartextReading& r) {
   KlartextState& state = r.state;
   const double tenths = state.unit == LengthUnit::inches && !state.feed_per_turn ? 0.1 : 1.0;
@@ -334,9 +336,9 @@ Move begin_klartext_move(const KlartextBlock& block, KlartextReading& r) {
   move.unit = state.unit.value_or(LengthUnit::millimetres);
   move.known_start = state.known;
   move.frame = static_cast<std::uint32_t>(state.frame);
-  if (!why_elsewhere(r).empty())
+  if (!displacement_reason(r).empty())
     for (std::size_t axis = 0; axis < 3; ++axis)
-      move.stands[axis] = state.taken_away[axis] != r.moves_read + 1;
+      move.moved_only_by_program[axis] = state.moved_by_machine[axis] != r.moves_read + 1;
   move.start_mm = move.end_mm = state.position_mm;
   move.feed_mm_min = state.feed_mm_min * (state.feed_per_turn ? state.spindle_rpm : 1.0);
   move.spindle_rpm = state.spindle_rpm;
@@ -353,14 +355,15 @@ Move begin_klartext_move(const KlartextBlock& block, KlartextReading& r) {
   return move;
 }
 
-void take_away(KlartextReading& r, std::size_t axis) {
+void move_by_machine(KlartextReading& r, std::size_t axis) {
   r.state.known[axis] = false;
-  r.state.taken_away[axis] = r.moves_read + 1;
+  r.state.moved_by_machine[axis] = r.moves_read + 1;
 }
 
 void read_klartext_motion(const KlartextBlock& block, KlartextReading& r) {
   if (!read_words(block, r))
-    return add_unfollowed_move(block, r, fmt::format("the block {} has words that are not read", block.head));
+    return add_unfollowed_move(block, r,
+                               fmt::format("the block {} has words that are not supported", block.head));
   const KlartextCodes codes = read_klartext_m(block, r);
   read_klartext_feed(r);
   watch_rotary_axes(r);
@@ -369,7 +372,7 @@ void read_klartext_motion(const KlartextBlock& block, KlartextReading& r) {
   } else if (is_polar(block)) {
     add_klartext_move(block, codes, r);
   } else if (codes.machine_position && programs_axis(r)) {
-    leave_machine_position(block, r);
+    add_machine_position(block, r);
   } else if (programs_axis(r)) {
     add_klartext_move(block, codes, r);
   } else if (codes.cycle_call) {
@@ -378,7 +381,7 @@ void read_klartext_motion(const KlartextBlock& block, KlartextReading& r) {
     r.state.contour = false;
     r.state.after_contour = true;
   }
-  if (codes.retracts) leave_retract(block, r);
+  if (codes.retracts) apply_retract(block, r);
   r.ended = r.ended || codes.ends;
 }
 
@@ -386,11 +389,11 @@ void read_klartext_codes(const KlartextBlock& block, KlartextReading& r) {
   KlartextBlock codes = block;
   codes.head.clear();
   if (!read_words(codes, r))
-    return add_unfollowed_move(block, r, "the block M has words that are not read");
+    return add_unfollowed_move(block, r, "the block M has words that are not supported");
   const KlartextCodes found = read_klartext_m(block, r);
-  if (programs_axis(r)) return add_unfollowed_move(block, r, "axes without L are not read");
+  if (programs_axis(r)) return add_unfollowed_move(block, r, "axes without L are not supported");
   if (found.cycle_call) call_cycle(found, r, [&] { add_cycle_call(block, r); });
-  if (found.retracts) leave_retract(block, r);
+  if (found.retracts) apply_retract(block, r);
   r.ended = r.ended || found.ends;
 }
 

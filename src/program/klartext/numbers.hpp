@@ -1,19 +1,20 @@
 #pragma once
-/// The numbers of Klartext blocks.
+/// Numbers of Klartext blocks.
 #include <optional>
 #include <string>
 
 namespace counterflex {
 
-/// The numbers of the written blocks.
+/// State of the numbers of the written blocks.
 struct WrittenNumbers {
   std::optional<unsigned long> last{};
-  bool renumbers = false;  ///< a block was inserted: those behind it count on from `last`
-  bool ended = false;      ///< END PGM: what follows is another program
+  bool renumbers = false;  ///< a block was inserted: the blocks behind it are numbered from `last` on
+  bool ended = false;      ///< END PGM was written: the following text is another program
 };
 
-/// `text`, which follows blocks with `numbers`, up to END PGM numbered on from the last of them, or from its first
-/// number on, where `numbers` says so; else as it is. Moves `numbers` on.
+/// Renumbers `text`, which follows the blocks of `numbers`, up to END PGM. If `numbers.renumbers`, the
+/// numbers continue from the last block, or start with the first number of the text; else the text does not
+/// change. Updates `numbers`.
 std::string renumbered_klartext(const std::string& text, WrittenNumbers& numbers);
 
 }  // namespace counterflex

@@ -1,4 +1,4 @@
-// The pole (CC), and the moves whose ends are given about it: LP and CP.
+// The pole (CC), and moves whose ends are polar coordinates: LP and CP.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -16,7 +16,7 @@ double mm_per_word(const KlartextReading& r) {
   return r.state.unit ? mm_per(*r.state.unit) : 1.0;
 }
 
-/// The axes of the plane: angles count from the first to the second.
+/// Axes of the plane. Angles are measured from the first to the second.
 std::array<std::size_t, 2> plane_axes(int normal) {
   const auto n = static_cast<std::size_t>(normal);
   return {(n + 1) % 3, (n + 2) % 3};
@@ -27,7 +27,7 @@ double angle_of(const Vector3& arm, int normal) {
   return std::atan2(arm[static_cast<Eigen::Index>(b)], arm[static_cast<Eigen::Index>(a)]);
 }
 
-/// The place at `angle` (rad) and `radius` about the pole; its height is that of `at`.
+/// The point at `angle` (rad) and `radius` about the pole, at the height of `at`.
 Vector3 polar_place(const KlartextPole& pole, double radius, double angle, Vector3 at) {
   const auto [a, b] = plane_axes(pole.normal);
   const auto i = static_cast<Eigen::Index>(a), k = static_cast<Eigen::Index>(b);
@@ -40,13 +40,13 @@ double radians(double degrees) {
   return degrees * std::numbers::pi / 180;
 }
 
-/// Words of polar coordinates; those that the block omits are null.
+/// Words of polar coordinates; a missing word is null.
 struct PolarWords {
   const KlartextWord *radius, *more_radius, *angle, *more_angle;
-  const KlartextWord* first;  ///< of them in the block
+  const KlartextWord* first;  ///< the first of them in the block
 };
 
-/// Nothing where one of them is no plain number, or both of a kind are there.
+/// Empty if a word is not a plain number, or if both words of a kind are there.
 std::optional<PolarWords> polar_words(const KlartextReading& r) {
   PolarWords words{find_word(r.words, "PR"), find_word(r.words, "IPR"), find_word(r.words, "PA"),
                    find_word(r.words, "IPA"), nullptr};
@@ -60,7 +60,7 @@ std::optional<PolarWords> polar_words(const KlartextReading& r) {
   return words;
 }
 
-/// What `word` says, or `more` adds to the last value; nothing where that is not known.
+/// The value of `word`, or the last value plus `more`; empty if it is unknown.
 std::optional<double> sum_of(const KlartextWord* word, const KlartextWord* more, double unit,
                              const std::optional<double>& last) {
   if (word != nullptr) return word->value * unit;
@@ -73,22 +73,22 @@ std::string place_line(const PolarWords& words, KlartextReading& r) {
   const auto radius = sum_of(words.radius, words.more_radius, mm_per_word(r), pole.radius_mm);
   const auto angle = sum_of(words.angle, words.more_angle, radians(1), pole.angle);
   if (!radius || !angle)
-    return "LP counts from the polar coordinates of the block before it, which has none about this CC: give "
-           "PR and "
-           "PA";
+    return "LP is relative to the polar coordinates of the block before it, which has no polar coordinates "
+           "about "
+           "this CC: give PR and PA";
   pole.radius_mm = *radius;
   pole.angle = *angle;
   r.state.position_mm = polar_place(pole, *radius, *angle, r.state.position_mm);
   return {};
 }
 
-/// The end about the pole; `arc` gets its full turns.
+/// The end about the pole. `arc` gets its full turns.
 std::string place_arc(const PolarWords& words, KlartextReading& r, const Move& move, ArcMove& arc) {
   KlartextPole& pole = *r.state.pole;
   Vector3 arm = move.start_mm - pole.centre_mm;
   arm[pole.normal] = 0;
   const double radius = arm.norm(), begin = angle_of(arm, pole.normal);
-  if (words.radius || words.more_radius) return "CP with PR is not followed: give the angle only";
+  if (words.radius || words.more_radius) return "CP with PR is not supported: give the angle only";
   if (!(radius > 0)) return "CP begins at its own pole";
   double end = 0;
   Vector3 place = move.start_mm;
@@ -115,12 +115,12 @@ std::string place_arc(const PolarWords& words, KlartextReading& r, const Move& m
 std::string place_circle(const PolarWords& words, KlartextReading& r, Move& move) {
   const KlartextPole& pole = *r.state.pole;
   const KlartextWord* sense = find_word(r.words, "DR");
-  if (!r.state.tool_along_z) return "CP with a tool that is not along Z is not followed";
-  if (sense == nullptr || empty(sense->number)) return "CP does not say DR+ or DR-";
+  if (!r.state.tool_along_z) return "CP with a tool that is not along Z is not supported";
+  if (sense == nullptr || empty(sense->number)) return "CP has no DR+ or DR-";
   for (const std::size_t axis : plane_axes(pole.normal))
-    if (!move.known_start[axis]) return "CP begins where the position is not known";
+    if (!move.known_start[axis]) return "the start of CP is not known";
   const auto normal = static_cast<std::size_t>(pole.normal);
-  if (!move.known_start[normal] && move.words[normal]) return "a helix begins at a height that is not known";
+  if (!move.known_start[normal] && move.words[normal]) return "the start height of a helix is not known";
   ArcMove arc;
   arc.clockwise = r.program.text[sense->number.begin] == '-';
   arc.flat = true;
@@ -150,14 +150,13 @@ std::string place_polar_end(const KlartextBlock& block, KlartextReading& r, Move
   KlartextState& state = r.state;
   const auto words = polar_words(r);
   if (!words) return block.head + " has no angle or radius of plain numbers";
-  if (!state.pole)
-    return block.head + " counts from a pole that is not known: give CC with plain numbers before it";
+  if (!state.pole) return block.head + " needs a known pole: give CC with plain numbers before it";
   const auto axes = plane_axes(state.pole->normal);
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (find_word(r.words, axis_keys[axis]) == nullptr) continue;
     if (axis == axes[0] || axis == axes[1])
-      return block.head + " with both polar and Cartesian coordinates in its plane is not followed";
-    if (!state.known[axis]) return block.head + " goes to a height that is not known";
+      return block.head + " with both polar and Cartesian coordinates in its plane is not supported";
+    if (!state.known[axis]) return block.head + " ends at a height that is not known";
   }
   std::string why = block.head == "LP" ? place_line(*words, r) : place_circle(*words, r, move);
   if (!why.empty()) return why;
@@ -194,7 +193,7 @@ void read_klartext_pole(const KlartextBlock& block, KlartextReading& r) {
   }
   if (axes != 2) return;
   const bool mixed = r.words[0].incremental != r.words[1].incremental;
-  if (mixed) pole.just_set = pole.incremental = false;  // known, but not a pole that moves with its words
+  if (mixed) pole.just_set = pole.incremental = false;  // known, but not a pole whose words can move it
   r.state.pole = pole;
 }
 

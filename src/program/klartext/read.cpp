@@ -10,13 +10,13 @@
 #include "counterflex/files/numbers.hpp"
 #include "program/dialect.hpp"
 #include "program/expand/expand.hpp"
-#include "program/text/force_comment.hpp"
 #include "program/gcode/remarks.hpp"
+#include "program/text/force_comment.hpp"
 
 namespace counterflex {
 namespace {
 
-/// The number behind `key` in `squeezed_text`, where it is plain.
+/// The plain number behind `key` in `squeezed_text`.
 std::optional<double> number_behind(std::string_view squeezed_text, char key) {
   for (std::size_t at = 0; at + 1 < squeezed_text.size(); ++at) {
     if (squeezed_text[at] != key) continue;
@@ -37,7 +37,7 @@ void read_begin(const KlartextBlock& block, KlartextReading& r) {
   if (rest.ends_with("INCH")) r.state.unit = LengthUnit::inches;
 }
 
-/// `TOOL CALL 5 Z S3000 F500`, `TOOL CALL "MILL" Z S3000`, `TOOL CALL S500` of the speed alone.
+/// `TOOL CALL 5 Z S3000 F500`, `TOOL CALL "MILL" Z S3000`, and `TOOL CALL S500`, which sets only the speed.
 void read_tool_call(const KlartextBlock& block, KlartextReading& r) {
   std::string rest = squeezed(after_head(r.program.text, block));
   if (!rest.starts_with("CALL")) return;
@@ -55,7 +55,7 @@ void read_tool_call(const KlartextBlock& block, KlartextReading& r) {
     state.tool = 0;
     std::from_chars(rest.data(), rest.data() + end, state.tool);
     for (std::size_t axis = 0; axis < 3; ++axis)
-      if (r.tool_change_axes[axis]) take_away(r, axis);
+      if (r.tool_change_axes[axis]) move_by_machine(r, axis);
     state.run_begin = r.program.moves.size();
     state.contour = state.after_contour = false;
     rest.erase(0, end);
@@ -66,11 +66,12 @@ void read_tool_call(const KlartextBlock& block, KlartextReading& r) {
   if (const auto feed = number_behind(rest, 'F')) state.tool_feed_mm_min = state.feed_mm_min = *feed * unit;
 }
 
-/// A corner that RND or CHF makes of the end of one move and the beginning of the next, which lie in one plane.
+/// A corner by RND or CHF between the end of one move and the beginning of the next, which lie in one plane.
 void read_corner(const KlartextBlock& block, KlartextReading& r) {
   const std::string rest = squeezed(after_head(r.program.text, block));
   const CornerKind kind = block.head == "RND" ? CornerKind::round : CornerKind::side;
-  const std::optional<double> size = kind == CornerKind::round ? number_behind(rest, 'R') : number_behind('=' + rest, '=');
+  const std::optional<double> size =
+      kind == CornerKind::round ? number_behind(rest, 'R') : number_behind('=' + rest, '=');
   const double unit = mm_per(r.state.unit.value_or(LengthUnit::millimetres));
   r.state.corner = CornerSize{size.value_or(NAN) * unit, kind};
   if (r.program.moves.empty()) return;
@@ -92,17 +93,18 @@ void read_call(const KlartextBlock& block, KlartextReading& r) {
 void read_plane(const KlartextBlock& block, KlartextReading& r) {
   const std::string rest = squeezed(after_head(r.program.text, block));
   const bool resets = rest.starts_with("RESET");
-  // Without MOVE rotary axes alone turn back, if any.
+  // Without MOVE only rotary axes turn back.
   if (!resets || rest.find("MOVE") != std::string::npos)
     add_unfollowed_move(block, r, "PLANE turns coordinates");
-  if (r.state.elsewhere.erase(19) > 0) r.state.known.fill(false), r.state.run_begin = r.program.moves.size();
-  if (!resets) r.state.elsewhere[19] = "coordinates are tilted";
+  if (r.state.displacements.erase(19) > 0)
+    r.state.known.fill(false), r.state.run_begin = r.program.moves.size();
+  if (!resets) r.state.displacements[19] = "coordinates are tilted";
 }
 
-/// FN9 to FN12 jump, the others calculate, print or read; none moves an axis.
+/// FN9 to FN12 jump, the others compute, print or read. They do not move an axis.
 void read_nothing(const KlartextBlock&, KlartextReading&) {}
 
-/// The words of a cycle are parameters: one that is calculated is no longer what its definition says.
+/// The words of a cycle are parameters: if one is computed, it differs from its definition.
 void read_parameter(const KlartextBlock& block, KlartextReading& r) {
   take_parameter(block, r);
   if (block.head == "Q") return read_cycle_parameter(block, r);
@@ -159,7 +161,7 @@ void refuse_conflict_marker(const KlartextBlock& block, const KlartextReading& r
                       fmt::format("'{}' is a conflict marker of a version control system", marker));
 }
 
-/// A comment that stands alone names the operation; so does the text of a structure line, "* - POCKET".
+/// A comment alone in its line names the operation, and so does a structure line, "* - POCKET".
 void read_comments(const KlartextBlock& block, KlartextReading& r) {
   Block place;
   place.line = block.line;
@@ -174,9 +176,10 @@ void read_comments(const KlartextBlock& block, KlartextReading& r) {
 
 }  // namespace
 
-/// Whatever is neither a move nor a cycle may set parameters of the cycle that is defined.
-void doubt_definition(const KlartextBlock& block, KlartextReading& r) {
-  constexpr std::array<std::string_view, 11> harmless{"L", "LP", "C", "CP", "CR", "CT", "CC", "RND", "CHF", "CYCL", "M"};
+/// A block that is neither a move nor a cycle may set parameters of the defined cycle.
+void mark_definition_changed(const KlartextBlock& block, KlartextReading& r) {
+  constexpr std::array<std::string_view, 11> harmless{"L",  "LP",  "C",   "CP",   "CR", "CT",
+                                                      "CC", "RND", "CHF", "CYCL", "M"};
   if (r.state.surface && std::find(harmless.begin(), harmless.end(), block.head) == harmless.end())
     r.state.surface->repeatable = false;
 }
@@ -187,14 +190,15 @@ void read_statement(const KlartextBlock& block, KlartextReading& r) {
   ++r.program.block_count;
   const auto known = std::find_if(statements.begin(), statements.end(),
                                   [&](const KnownStatement& s) { return s.head == block.head; });
-  doubt_definition(block, r);
+  mark_definition_changed(block, r);
   if (known != statements.end()) return known->read(block, r);
   refuse_conflict_marker(block, r);
-  add_unfollowed_move(block, r, fmt::format("{} is not read", block.head.empty() ? "the block" : block.head));
+  add_unfollowed_move(block, r,
+                      fmt::format("{} is not supported", block.head.empty() ? "the block" : block.head));
 }
 
-bool in_doubt(const KlartextReading& r) {
-  return holds(r.outline.doubtful, r.place);
+bool may_skip_or_repeat(const KlartextReading& r) {
+  return contains_place(r.outline.uncertain, r.place);
 }
 
 void add_move(KlartextReading& r, Move move) {
@@ -202,11 +206,11 @@ void add_move(KlartextReading& r, Move move) {
   ++r.moves_read;
 }
 
-void leave_alone(KlartextReading& r, int line, std::string why) {
-  if (r.last_reason != why) add_left_alone(r, {.line = line, .why = std::move(why)});
+void note_uncorrected(KlartextReading& r, int line, std::string why) {
+  if (r.last_reason != why) add_uncorrected(r, {.line = line, .why = std::move(why)});
 }
 
-void add_left_alone(KlartextReading& r, LeftAlone left) {
+void add_uncorrected(KlartextReading& r, LeftAlone left) {
   if (!r.program.expansion.lines.empty()) left.text_line = left.line;
   left.line = line_of_file(r.program.expansion, left.line);
   r.last_reason = left.why;
@@ -220,31 +224,30 @@ void add_unfollowed_move(const KlartextBlock& block, KlartextReading& r, std::st
   r.state.contour = r.state.after_contour = false;
   r.state.pole.reset();
   r.state.surface.reset();
-  r.variables.clear();  // whatever it is, it may set them
+  r.variables.clear();  // the unknown block may set them
   add_move(r, std::move(move));
   r.state.run_begin = r.program.moves.size();
-  leave_alone(r, block.line, std::move(why));
+  note_uncorrected(r, block.line, std::move(why));
 }
 
 void call_relative_cycle(const KlartextBlock& block, KlartextReading& r, Move& move) {
   if (r.state.cycle_returns) {
     move.makes_hole = true;
-    return leave_alone(r, block.line, "holes are held");
+    return note_uncorrected(r, block.line, "holes are held");
   }
   move.mills_at_end = true;
   r.state.known.fill(false);
-  leave_alone(r, block.line, std::string(milled_as_a_whole));
+  note_uncorrected(r, block.line, std::string(milled_as_a_whole));
 }
 
 void add_cycle_call(const KlartextBlock& block, KlartextReading& r) {
-  const bool followed =
-      r.state.elsewhere.empty() && !in_doubt(r) && empty(block.block_delete);
+  const bool followed = r.state.displacements.empty() && !may_skip_or_repeat(r) && empty(block.block_delete);
   if (r.state.cycle_is_relative && followed) {
     if (!r.program.moves.empty()) call_relative_cycle(block, r, r.program.moves.back());
     return;
   }
-  if (!r.state.cycle_acts_here || !r.state.elsewhere.empty() || in_doubt(r))
-    return add_unfollowed_move(block, r, "cycles are left as they are");
+  if (!r.state.cycle_acts_here || !r.state.displacements.empty() || may_skip_or_repeat(r))
+    return add_unfollowed_move(block, r, "cycles are not corrected");
   Move move = begin_klartext_move(block, r);
   r.state.known[2] = false;
   move.fixed[2] = !take_hole(r, move);
@@ -252,8 +255,8 @@ void add_cycle_call(const KlartextBlock& block, KlartextReading& r) {
   move.known_end = r.state.known;
   add_move(r, move);
   r.state.run_begin = r.program.moves.size();
-  if (move.fixed[2]) leave_alone(r, block.line, "cycles are left as they are");
-  if (move.handling == Handling::held) leave_alone(r, block.line, "holes are held");
+  if (move.fixed[2]) note_uncorrected(r, block.line, "cycles are not corrected");
+  if (move.handling == Handling::held) note_uncorrected(r, block.line, "holes are held");
 }
 
 }  // namespace counterflex

@@ -3,8 +3,8 @@
 #include <utility>
 
 #include "program/detect/choose_dialect.hpp"
-#include "program/gcode/contour.hpp"
 #include "program/expand/expand.hpp"
+#include "program/gcode/contour.hpp"
 
 namespace counterflex {
 
@@ -25,17 +25,18 @@ bool KlartextReader::read_block() {
 
 bool KlartextReader::may_end_before(const Move& last, bool anywhere) const {
   const KlartextState& state = reading_.state;
-  const bool across = !goes_along_z(last) || (anywhere && ends_along_z(program()));
+  const bool across = !is_along_z(last) || (anywhere && ends_along_z(program()));
   const bool followed = !last.fixed[0] && !last.fixed[1] && !last.fixed[2] && !last.block_delete;
-  const bool alone = followed && !last.takes_no_z && last.group == 0 && !last.arc && !last.polar && last.handling == Handling::own;
-  const bool clear = !state.contour && state.elsewhere.empty() && !in_doubt(reading_);
-  // A move that takes words of a block before it has that block in its window.
-  const bool words_wait =
+  const bool alone = followed && !last.takes_no_z && last.group == 0 && !last.arc && !last.polar &&
+                     last.handling == Handling::own;
+  const bool clear = !state.contour && state.displacements.empty() && !may_skip_or_repeat(reading_);
+  // A move that uses words of a block before it needs that block in its window.
+  const bool words_pending =
       (state.pole && has_own_words(*state.pole, reading_)) || (state.surface && state.surface->just_set);
-  return across && alone && clear && !words_wait && all_known(last.known_start);
+  return across && alone && clear && !words_pending && all_known(last.known_start);
 }
 
-void KlartextReader::go_on_behind(std::size_t read) {
+void KlartextReader::resume_behind(std::size_t read) {
   reading_.operation.begin_window(program());
   reading_.state.run_begin = 0;
   block_.line_end = {read, read};

@@ -7,7 +7,8 @@ namespace counterflex {
 
 class KlartextReader final : public BlockReader {
  public:
-  KlartextReader(const std::string& file, const ReadOptions& options, const Dialect& dialect, Outline outline);
+  KlartextReader(const std::string& file, const ReadOptions& options, const Dialect& dialect,
+                 Outline outline);
 
   bool read_block() override;
   std::size_t position() const override { return block_.line_end.end; }
@@ -16,13 +17,13 @@ class KlartextReader final : public BlockReader {
 
  private:
   int end_line() const override { return block_.head == "END" ? block_.line : 0; }
-  void go_on_behind(std::size_t read) override;
+  void resume_behind(std::size_t read) override;
 
   KlartextReading reading_;
   KlartextBlock block_;
 };
 
-/// Whether the header of a corrected program stands in `text`.
+/// Whether `text` has the header of a corrected program.
 bool is_corrected_klartext(std::string_view text);
 
 }  // namespace counterflex

@@ -4,15 +4,15 @@
 #include <cassert>
 
 #include "program/dialect.hpp"
-#include "program/write/held_position.hpp"
 #include "program/klartext/block.hpp"
 #include "program/klartext/numbers.hpp"
 #include "program/text/lex.hpp"
+#include "program/write/text_position.hpp"
 
 namespace counterflex {
 namespace {
 
-/// Behind BEGIN PGM, else the beginning.
+/// Position behind BEGIN PGM, else the beginning.
 std::size_t klartext_header_position(const Program& program) {
   KlartextBlock block;
   while (next_klartext_block(program.text, block)) {
@@ -31,7 +31,7 @@ std::string klartext_comment(const std::string& text) {
   return safe;
 }
 
-/// Its lines carry no number: what follows keeps its own where nothing else is inserted.
+/// Header lines have no number: later blocks keep their own if nothing else is inserted.
 std::string klartext_header(const KlartextStyle& style, const WriteOptions& options) {
   std::string text;
   for (const std::string& line : options.header) text += "; " + klartext_comment(line) + style.line_end;
@@ -50,19 +50,19 @@ std::string with_changes(const std::string& text, const std::vector<KlartextChan
   return result.append(text, copied);
 }
 
-/// A move that is not edited keeps its text; an arc needs the centre that it had.
-void pass_over(const Move& move, KlartextTextState& state) {
-  state.held = held_after_original(move, state.held);
+/// A move that is not edited keeps its text. An arc needs its original centre.
+void keep_move(const Move& move, KlartextTextState& state) {
+  state.position = text_position_after_original(move, state.position);
   if (move.arc && move.arc->absolute_centre) state.pole.centre_mm = move.arc->centre_mm;
   if (move.makes_hole && move.words[2]) state.surface.reset();
 }
 
-/// Whether an earlier hole has left another surface than the original has here.
-bool has_lost_surface(const Move& move, const KlartextTextState& state) {
+/// Whether an earlier hole has left another surface in the text than in the original.
+bool surface_differs(const Move& move, const KlartextTextState& state) {
   return move.repeats_surface && state.surface && *state.surface * mm_per(move.unit) != move.end_mm.z();
 }
 
-bool has_lost_pole(const Move& move, const HeldPole& pole) {
+bool pole_differs(const Move& move, const WrittenPole& pole) {
   if (move.polar && !move.arc) return pole.differs;
   if (!move.arc || !move.arc->absolute_centre || move.arc->centre_words[move.arc->normal == 0 ? 1 : 0])
     return false;
@@ -72,8 +72,9 @@ bool has_lost_pole(const Move& move, const HeldPole& pole) {
   return off.norm() > 1e-9;
 }
 
-/// The pole after a CC as it stands in the original; one of its words may count from where the text holds the tool.
-HeldPole pole_of(const Program& program, const KlartextBlock& block, LengthUnit unit, const HeldPosition& held) {
+/// The pole after an unchanged CC. One of its words may be relative to the position in the text.
+WrittenPole pole_of(const Program& program, const KlartextBlock& block, LengthUnit unit,
+                    const TextPosition& position) {
   std::vector<KlartextWord> words;
   if (!lex_klartext_words(program.text, program.file, block, words) || words.size() != 2) return {};
   if (words[0].incremental && words[1].incremental) return {};
@@ -81,41 +82,42 @@ HeldPole pole_of(const Program& program, const KlartextBlock& block, LengthUnit 
   for (const KlartextWord& word : words) {
     const std::size_t axis =
         word.key.size() == 1 ? std::string_view("XYZ").find(word.key[0]) : std::string_view::npos;
-    if (axis == std::string_view::npos || !word.literal || (word.incremental && !held[axis])) return {};
-    pole[static_cast<Eigen::Index>(axis)] = word.value * mm_per(unit) + (word.incremental ? *held[axis] : 0);
+    if (axis == std::string_view::npos || !word.literal || (word.incremental && !position[axis])) return {};
+    pole[static_cast<Eigen::Index>(axis)] =
+        word.value * mm_per(unit) + (word.incremental ? *position[axis] : 0);
   }
   return {pole};
 }
 
-/// A window being written, from move to move.
+/// A window being written, move by move.
 struct KlartextOutput {
   const Program& program;
   const KlartextStyle& style;
   const WriteOptions& options;
   KlartextTextState& state;
   std::size_t next = 0;                  ///< move
-  std::optional<std::size_t> reached{};  ///< move, to which all between has been taken in
-  KlartextBlock looked_at{};             ///< the last block of it
+  std::optional<std::size_t> reached{};  ///< last move up to which all blocks were handled
+  KlartextBlock scanned{};               ///< its last block that was handled
   std::vector<KlartextChange> changes{};
   Rewritten out{};
 };
 
 /// The last CC before byte `end`.
-void look_until(KlartextOutput& o, std::size_t end, LengthUnit unit) {
-  while (o.looked_at.line_end.end < end && next_klartext_block(o.program.text, o.looked_at))
-    if (o.looked_at.head == "CC") o.state.pole = pole_of(o.program, o.looked_at, unit, o.state.held);
+void scan_until(KlartextOutput& o, std::size_t end, LengthUnit unit) {
+  while (o.scanned.line_end.end < end && next_klartext_block(o.program.text, o.scanned))
+    if (o.scanned.head == "CC") o.state.pole = pole_of(o.program, o.scanned, unit, o.state.position);
 }
 
-/// What lies between the move and the one before it: CC, and shifts of the coordinates.
+/// Handles the blocks between the move and the one before it: CC, and shifts of the coordinates.
 void come_to(KlartextOutput& o, std::size_t index) {
   const Move& move = o.program.moves[index];
   if (o.reached && *o.reached == index) return;
   o.reached = index;
   if (const Move* last = move_before(o.program, index)) {
-    o.state.held = held_between(*last, move, o.state.held);
+    o.state.position = text_position_between(*last, move, o.state.position);
     if (last->frame != move.frame) o.state.pole.centre_mm.reset();
   }
-  look_until(o, move.block.begin, move.unit);
+  scan_until(o, move.block.begin, move.unit);
 }
 
 void write_move(KlartextOutput& o, const MoveEdit& edit) {
@@ -125,16 +127,16 @@ void write_move(KlartextOutput& o, const MoveEdit& edit) {
 }
 
 /// Moves up to `end` that are not edited.
-void pass_until(KlartextOutput& o, std::size_t end) {
+void keep_moves_until(KlartextOutput& o, std::size_t end) {
   while (o.next < end) {
     const Move& move = o.program.moves[o.next];
     come_to(o, o.next);
-    if (has_lost_pole(move, o.state.pole) || has_lost_surface(move, o.state))
+    if (pole_differs(move, o.state.pole) || surface_differs(move, o.state))
       write_move(o, {.move = o.next,
                      .end_mm = move.end_mm,
                      .centre_mm = move.arc ? std::optional(move.arc->centre_mm) : std::nullopt});
     else
-      pass_over(move, o.state), ++o.next;
+      keep_move(move, o.state), ++o.next;
   }
 }
 
@@ -153,14 +155,14 @@ Rewritten KlartextWriter::write(const Program& window, const std::vector<MoveEdi
   if (!begun_) add_header(o);
   begun_ = true;
   for (const MoveEdit& edit : edits) {
-    pass_until(o, edit.move);
+    keep_moves_until(o, edit.move);
     const std::size_t inserted = o.out.inserted_blocks;
     write_move(o, edit);
     o.out.blocks_of_edit.push_back(o.out.inserted_blocks - inserted);
   }
-  pass_until(o, window.moves.size());
-  if (!window.moves.empty()) look_until(o, window.text.size(), window.moves.back().unit);
-  // The CC of an arc may stand before other moves.
+  keep_moves_until(o, window.moves.size());
+  if (!window.moves.empty()) scan_until(o, window.text.size(), window.moves.back().unit);
+  // The CC of an arc may be before other moves.
   std::stable_sort(o.changes.begin(), o.changes.end(), [](const KlartextChange& a, const KlartextChange& b) {
     return a.span.begin < b.span.begin;
   });

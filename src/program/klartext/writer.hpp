@@ -7,9 +7,11 @@ namespace counterflex {
 
 class KlartextWriter final : public ProgramWriter {
  public:
-  KlartextWriter(const Program& window, const WriteOptions& options) : options_(options), style_(klartext_style(window)) {}
+  KlartextWriter(const Program& window, const WriteOptions& options)
+      : options_(options), style_(klartext_style(window)) {}
 
-  /// Where the blocks are numbered and one is inserted, those from the window's begin on are numbered without gaps.
+  /// Renumbers the blocks without gaps from the begin of the window on, if they have numbers and one was
+  /// inserted.
   Rewritten write(const Program& window, const std::vector<MoveEdit>& edits) override;
 
  private:

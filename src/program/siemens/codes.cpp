@@ -6,10 +6,10 @@
 namespace counterflex {
 namespace {
 
-constexpr std::string_view iso = "the control's ISO language is not read here: choose that dialect";
+constexpr std::string_view iso = "the ISO mode of the control is not supported: give --dialect fanuc";
 constexpr std::string_view a_cycle = "a cycle";
 
-// In the order of their numbers.
+// Sorted by number.
 constexpr std::array siemens_codes{
     GCode{0, Action::rapid, CodeGroup::motion},
     GCode{10, Action::feed, CodeGroup::motion},

@@ -1,5 +1,5 @@
 #pragma once
-/// What G and M codes mean to a Sinumerik.
+/// Meanings of G and M codes on a Sinumerik.
 #include "program/gcode/words/codes.hpp"
 
 namespace counterflex {

@@ -14,8 +14,8 @@ constexpr std::array<std::string_view, 10> drilling_cycles{"CYCLE81", "CYCLE82",
                                                            "CYCLE85", "CYCLE86", "CYCLE87", "CYCLE88",
                                                            "CYCLE89", "CYCLE840"};
 
-/// A cycle that mills about a place of its own: where its centre stands in the list, and how many arguments it
-/// has. Longer lists are those of newer versions, whose last arguments may say that the depth is a difference.
+/// A cycle that mills around a centre: the index of the centre in the argument list, and the number of
+/// arguments. Newer versions have longer lists, whose last arguments may make the depth a difference.
 struct MillingCycle {
   std::string_view name;
   std::size_t centre, arguments;
@@ -31,7 +31,7 @@ constexpr std::array<MillingCycle, 10> milling_cycles{{{"POCKET1", 8, 20},
                                                        {"CYCLE76", 8, 20},
                                                        {"CYCLE77", 6, 16}}};
 
-// Places in the list of arguments.
+// Indices in the argument list.
 constexpr std::size_t retract_plane = 0, reference_plane = 1, final_depth = 3, first_depth = 5;
 
 /// The name of a call and the spans of its arguments, without blanks.
@@ -46,7 +46,7 @@ Span trimmed(std::string_view text, Span span) {
   return span;
 }
 
-/// "CYCLE81(50, 0, 2, -20)" from `at` on; none where the brackets are not those of one plain list.
+/// "CYCLE81(50, 0, 2, -20)" from `at` on; empty if the brackets do not enclose a plain list.
 std::optional<ArgumentList> call_at(std::string_view text, std::size_t at, std::size_t end) {
   const std::size_t open = text.find('(', at), close = text.find(')', at);
   if (open >= end || close >= end) return std::nullopt;
@@ -74,7 +74,7 @@ struct Argument {
   double value;
 };
 
-/// The argument at `place`; none where it is no plain number.
+/// The argument at `place`; empty if it is not a plain number.
 std::optional<Argument> number_at(std::string_view text, const ArgumentList& call, std::size_t place) {
   const Span span = call.arguments[place];
   const std::string_view number = part(text, span);
@@ -84,7 +84,7 @@ std::optional<Argument> number_at(std::string_view text, const ArgumentList& cal
   return Argument{{span, decimals}, *read_number(number)};
 }
 
-/// Fills `cycle` from the arguments; false where a height is no plain number.
+/// Fills `cycle` from the arguments; false if a height is not a plain number.
 bool take_heights(std::string_view text, const ArgumentList& call, CalledCycle& cycle) {
   const bool pecks = is_word(call.name, "CYCLE83");
   std::size_t i = 0;
@@ -114,13 +114,13 @@ std::optional<CalledCycle> drilling_at(std::string_view text, Span span) {
   return cycle;
 }
 
-/// Whether holes are drilled along Z of coordinates that are known.
+/// Whether holes are drilled along Z in known coordinates.
 bool drills_along_z(const Block& block, const Reading& r) {
   return empty(block.block_delete) && why_not_followed(r).empty() && r.state.normal == 2 &&
          r.state.unit == LengthUnit::millimetres && r.state.contour == Contour::none;
 }
 
-void give_up(Reading& r) {
+void stop_modal_cycle(Reading& r) {
   r.called.reset();
   r.state.displaced |= modal_macro;
 }
@@ -128,12 +128,12 @@ void give_up(Reading& r) {
 void make_hole(const CalledCycle& cycle, Reading& r, Move& move) {
   move.called = cycle;
   move.makes_hole = move.takes_no_z = true;
-  move.motion = Motion::rapid;  // the way to a hole is no cut, as with the cycles of G-code
-  // The heights are absolute, under G91 too.
+  move.motion = Motion::rapid;  // the path to a hole is a rapid, as with the cycles of G-code
+  // The heights are absolute, also under G91.
   if (move.relative) move.incremental = 3;
   move.relative = false;
   move.words[2] = cycle.heights[0];
-  if (!cycle.modal.empty())  // no number of this block: its place there means nothing
+  if (!cycle.modal.empty())  // the number is not in this block, so it has no position here
     move.words[2] = AxisWord{{move.block.begin, move.block.begin + 1}, cycle.heights[0]->decimals};
   r.state.position_mm.z() = cycle.heights_mm[0];
   r.state.known[2] = true;
@@ -176,8 +176,8 @@ std::optional<MillingCall> milling_call(const Block& block, const Reading& r) {
   return milling;
 }
 
-/// Makes the call a move to the cycle's centre. What it mills about the centre is not corrected each on its own,
-/// and where it ends in X and Y is not followed.
+/// Makes the call a move to the cycle's centre. The motions of the cycle about the centre are not corrected.
+/// Its end in X and Y is not followed.
 void mill(const MillingCall& milling, const Block& block, Reading& r) {
   Move& move = start_call(milling.cycle, block, r);
   move.makes_hole = false;
@@ -190,7 +190,7 @@ void mill(const MillingCall& milling, const Block& block, Reading& r) {
   }
   end_call(milling.cycle, r, move);
   r.state.known[0] = r.state.known[1] = false;
-  leave_alone(block, r, milled_as_a_whole);
+  note_uncorrected(block, r, milled_as_a_whole);
 }
 
 }  // namespace
@@ -221,8 +221,8 @@ std::optional<CalledCycle> modal_drilling_cycle(std::string_view statement) {
 
 bool read_called_cycle(const Block& block, Reading& r) {
   if (r.called || !drills_along_z(block, r)) return false;
-  const bool stands = r.state.known[0] && r.state.known[1];
-  if (const auto cycle = drilling_cycle(block, r); cycle && stands) {
+  const bool position_known = r.state.known[0] && r.state.known[1];
+  if (const auto cycle = drilling_cycle(block, r); cycle && position_known) {
     Move& move = start_call(*cycle, block, r);
     move.may_position = r.state.motion == MotionMode::rapid && !r.state.relative;
     end_call(*cycle, r, move);
@@ -243,13 +243,13 @@ bool begin_modal_cycle(const Block& block, Reading& r) {
 bool takes_modal_hole(const Block& block, Reading& r) {
   const Word *x = r.sorted.word('X'), *y = r.sorted.word('Y');
   const auto comes_to = [&](const Word* word, std::size_t axis) {
-    const bool said = word != nullptr && word->literal && !r.relative();
-    return said || (r.state.known[axis] && (word == nullptr || word->literal));
+    const bool given = word != nullptr && word->literal && !r.relative();
+    return given || (r.state.known[axis] && (word == nullptr || word->literal));
   };
   const bool line = r.state.motion == MotionMode::rapid || r.state.motion == MotionMode::feed;
   const bool follows = drills_along_z(block, r) && line && r.sorted.word('Z') == nullptr &&
                        (x != nullptr || y != nullptr) && comes_to(x, 0) && comes_to(y, 1);
-  if (!follows) give_up(r);
+  if (!follows) stop_modal_cycle(r);
   return follows;
 }
 
@@ -257,7 +257,7 @@ void place_modal_hole(Reading& r, Move& move) {
   make_hole(*r.called, r, move);
 }
 
-void leave_called_hole(Reading& r) {
+void end_called_hole(Reading& r) {
   Move& move = r.program.moves.back();
   move.may_jump = move.may_split = false;
   r.state.position_mm.z() = r.called->heights_mm[1];

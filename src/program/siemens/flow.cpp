@@ -10,7 +10,7 @@
 namespace counterflex {
 namespace {
 
-/// Takes the name at the begin of `text` off, with the blanks behind it.
+/// Removes the name at the begin of `text`, with the blanks behind it.
 std::string take_name(std::string_view& text) {
   std::size_t end = 0;
   while (end < text.size() && is_identifier_character(text[end])) ++end;
@@ -19,7 +19,8 @@ std::string take_name(std::string_view& text) {
   return name;
 }
 
-/// "IF R1<3 GOTOB BEGIN": the place of the word GOTO, GOTOB, GOTOF or GOTOC; npos if the line has no such word.
+/// "IF R1<3 GOTOB BEGIN": position of the word GOTO, GOTOB, GOTOF or GOTOC; npos if the line has no such
+/// word.
 std::size_t jump_in(const std::string& line) {
   for (std::size_t at = line.find("GOTO"); at != std::string::npos; at = line.find("GOTO", at + 1))
     if (at == 0 || is_blank(line[at - 1]) || line[at - 1] == ')') return at;
@@ -34,19 +35,24 @@ std::size_t comment_at(std::string_view line) {
   return at;
 }
 
-/// A keyword, and the name of the structure that it belongs to.
+/// A keyword, and the name of its structure.
 struct SiemensKeyword {
   std::string_view keyword, structure;
   FlowKind kind;
 };
-constexpr std::array siemens_keywords{
-    SiemensKeyword{"IF", "IF", FlowKind::begin_if},          SiemensKeyword{"ELSE", "IF", FlowKind::otherwise},
-    SiemensKeyword{"ENDIF", "IF", FlowKind::end_if},         SiemensKeyword{"FOR", "FOR", FlowKind::begin_for},
-    SiemensKeyword{"ENDFOR", "FOR", FlowKind::end_for},      SiemensKeyword{"WHILE", "WHILE", FlowKind::begin_while},
-    SiemensKeyword{"ENDWHILE", "WHILE", FlowKind::end_loop}, SiemensKeyword{"LOOP", "LOOP", FlowKind::begin_loop},
-    SiemensKeyword{"ENDLOOP", "LOOP", FlowKind::end_loop},   SiemensKeyword{"REPEAT", "REPEAT", FlowKind::begin_loop},
-    SiemensKeyword{"UNTIL", "REPEAT", FlowKind::loop_until}, SiemensKeyword{"REPEATB", "", FlowKind::not_followed},
-    SiemensKeyword{"CASE", "", FlowKind::not_followed}};
+constexpr std::array siemens_keywords{SiemensKeyword{"IF", "IF", FlowKind::begin_if},
+                                      SiemensKeyword{"ELSE", "IF", FlowKind::otherwise},
+                                      SiemensKeyword{"ENDIF", "IF", FlowKind::end_if},
+                                      SiemensKeyword{"FOR", "FOR", FlowKind::begin_for},
+                                      SiemensKeyword{"ENDFOR", "FOR", FlowKind::end_for},
+                                      SiemensKeyword{"WHILE", "WHILE", FlowKind::begin_while},
+                                      SiemensKeyword{"ENDWHILE", "WHILE", FlowKind::end_loop},
+                                      SiemensKeyword{"LOOP", "LOOP", FlowKind::begin_loop},
+                                      SiemensKeyword{"ENDLOOP", "LOOP", FlowKind::end_loop},
+                                      SiemensKeyword{"REPEAT", "REPEAT", FlowKind::begin_loop},
+                                      SiemensKeyword{"UNTIL", "REPEAT", FlowKind::loop_until},
+                                      SiemensKeyword{"REPEATB", "", FlowKind::not_followed},
+                                      SiemensKeyword{"CASE", "", FlowKind::not_followed}};
 
 void read_jump(std::string_view words, ControlLine& line) {
   line.kind = FlowKind::jump;
@@ -62,14 +68,15 @@ void read_siemens_keyword(std::string_view rest, ControlLine& line) {
   line.keyword = name;
   if (jump != std::string::npos) {
     if (jump == 0 || name == "IF") read_jump(std::string_view(statement).substr(jump), line);
-    if (line.kind != FlowKind::jump) line.kind = FlowKind::not_followed, line.keyword = "GOTO behind other words";
+    if (line.kind != FlowKind::jump)
+      line.kind = FlowKind::not_followed, line.keyword = "GOTO behind other words";
     if (name == "IF") line.condition = trimmed_text(std::string_view(statement).substr(2, jump - 2));
   } else if (name == "REPEAT" && !after.empty()) {
     line.kind = FlowKind::not_followed;
     line.keyword = "REPEATB";
   } else {
-    const auto known =
-        std::find_if(siemens_keywords.begin(), siemens_keywords.end(), [&](const SiemensKeyword& one) { return one.keyword == name; });
+    const auto known = std::find_if(siemens_keywords.begin(), siemens_keywords.end(),
+                                    [&](const SiemensKeyword& one) { return one.keyword == name; });
     if (known == siemens_keywords.end()) return;
     line.kind = known->kind;
     line.name = known->structure;
@@ -97,7 +104,7 @@ void add_siemens_flow(std::string_view text, const Block& block, ControlFlow& fl
   }
   read_siemens_keyword(rest, line);
   if (skipped && line.kind != FlowKind::label)
-    throw UnknownFlow{block.line, "a jump or a loop stands in a block that '/' may skip"};
+    throw UnknownFlow{block.line, "a jump or a loop is in a block that '/' may skip"};
   if (line.kind != FlowKind::label || !empty(line.label)) flow.lines.push_back(std::move(line));
 }
 
@@ -105,11 +112,13 @@ CountedLoop read_counted_loop(const ControlLine& line) {
   const std::string_view text = line.condition;
   const std::size_t equals = std::min(text.find('='), text.size());
   for (std::size_t to = equals; (to = text.find("TO", to)) != std::string_view::npos; ++to) {
-    const bool stands_alone = !is_identifier_character(text[to - 1]) && (to + 2 == text.size() || !is_identifier_character(text[to + 2]));
-    if (stands_alone)
-      return {trimmed_text(text.substr(0, equals)), text.substr(equals + 1, to - equals - 1), text.substr(to + 2)};
+    const bool is_alone = !is_identifier_character(text[to - 1]) &&
+                          (to + 2 == text.size() || !is_identifier_character(text[to + 2]));
+    if (is_alone)
+      return {trimmed_text(text.substr(0, equals)), text.substr(equals + 1, to - equals - 1),
+              text.substr(to + 2)};
   }
-  throw UnknownFlow{line.begin.line, "FOR is written otherwise than FOR variable = begin TO end"};
+  throw UnknownFlow{line.begin.line, "FOR needs the form FOR variable = begin TO end"};
 }
 
 }  // namespace counterflex

@@ -11,13 +11,13 @@
 namespace counterflex {
 namespace {
 
-/// What a name at the beginning of a statement does to the moves that follow.
+/// Effect of a name at the beginning of a statement on later moves.
 struct SiemensName {
   std::string_view name;
   Statement statement;
 };
 
-// Names that are not listed are taken for subprograms or cycles.
+// Names that are not listed are subprograms or cycles.
 constexpr std::array siemens_names{
     SiemensName{"TRANS", Statement::shift},
     SiemensName{"ROT", Statement::turn},
@@ -52,28 +52,27 @@ constexpr std::array siemens_names{
     SiemensName{"RET", Statement::end},
 };
 
-// Neither move an axis nor change where moves go.
+// Names that neither move an axis nor affect moves.
 constexpr std::array harmless_names{
-    "MSG",       "STOPRE",   "FFWON",     "FFWOF",   "SOFT",    "BRISK",       "DRIVE",     "CUT2D",
-    "CUT2DF",    "COMPOF",   "NORM",      "KONT",    "KONTC",   "KONTT",       "FGROUP",    "FGREF",
-    "FTOCON",    "FTOCOF",   "WORKPIECE", "SPOS",    "SPCON",   "SPCOF",       "SETMS",     "DISPLOF",
-    "DISPLON",   "SAVE",     "SBLOF",     "SBLON",   "UPATH",   "SPATH",       "CFC",       "CFTCP",
-    "CFIN",      "FIFOCTRL", "WALIMON",   "WALIMOF", "DYNNORM", "DYNPOS",      "DYNROUGH",  "DYNSEMIFIN",
-    "DYNFINISH", "DYNPREC",  "ORISOF",    "ORISON",  "ORIWKS",  "ORIMKS",      "ORIAXES",   "ORIVECT",
-    "CTOL",      "OTOL",     "ATOL",      "OVR",     "OVRA",    "OVRRAP",      "FL",        "FA",
-    "FRC",       "FRCM",     "FB",        "FZ",      "SCC",     "SVC",
-    "ADIS",      "ADISPOS",  "DISC",      "ACC",     "LIMS",    "VELOLIM",     "JERKLIM",   "RTLION",
-    "RTLIOF",    "DEF",      "DEFINE",    "EXTERN",  "PROC",    "GROUP_BEGIN", "GROUP_END", "GOTO",
-    "GOTOF",     "GOTOB",    "GOTOC",     "GOTOS",   "CASE",    "SPINDLE",     "SYNFCT",    "STOPREC",
+    "MSG",       "STOPRE",   "FFWON",     "FFWOF",       "SOFT",      "BRISK",   "DRIVE",    "CUT2D",
+    "CUT2DF",    "COMPOF",   "NORM",      "KONT",        "KONTC",     "KONTT",   "FGROUP",   "FGREF",
+    "FTOCON",    "FTOCOF",   "WORKPIECE", "SPOS",        "SPCON",     "SPCOF",   "SETMS",    "DISPLOF",
+    "DISPLON",   "SAVE",     "SBLOF",     "SBLON",       "UPATH",     "SPATH",   "CFC",      "CFTCP",
+    "CFIN",      "FIFOCTRL", "WALIMON",   "WALIMOF",     "DYNNORM",   "DYNPOS",  "DYNROUGH", "DYNSEMIFIN",
+    "DYNFINISH", "DYNPREC",  "ORISOF",    "ORISON",      "ORIWKS",    "ORIMKS",  "ORIAXES",  "ORIVECT",
+    "CTOL",      "OTOL",     "ATOL",      "OVR",         "OVRA",      "OVRRAP",  "FL",       "FA",
+    "FRC",       "FRCM",     "FB",        "FZ",          "SCC",       "SVC",     "ADIS",     "ADISPOS",
+    "DISC",      "ACC",      "LIMS",      "VELOLIM",     "JERKLIM",   "RTLION",  "RTLIOF",   "DEF",
+    "DEFINE",    "EXTERN",   "PROC",      "GROUP_BEGIN", "GROUP_END", "GOTO",    "GOTOF",    "GOTOB",
+    "GOTOC",     "GOTOS",    "CASE",      "SPINDLE",     "SYNFCT",    "STOPREC",
 };
 
 constexpr std::array<std::string_view, 13> structures{"IF",    "ELSE",    "ENDIF", "WHILE",   "ENDWHILE",
                                                       "FOR",   "ENDFOR",  "LOOP",  "ENDLOOP", "REPEAT",
                                                       "UNTIL", "REPEATB", "PROC"};
 
-// Say where a move goes; other names before '=' are variables.
-constexpr std::array position_names{"AP",   "RP",  "AR",   "OFFN",
-                                    "RNDM", "DISR", "DISCL", "POS", "POSA", "FP"};
+// Names that affect moves; other names before '=' are variables.
+constexpr std::array position_names{"AP", "RP", "AR", "OFFN", "RNDM", "DISR", "DISCL", "POS", "POSA", "FP"};
 
 bool is_name_character(char c) {
   return is_letter(c) || is_digit(c) || c == '_' || c == '$';
@@ -89,14 +88,14 @@ bool has_digit_behind_letter(std::string_view name) {
   return name.size() > 1 && std::all_of(name.begin() + 1, name.end(), is_digit);
 }
 
-/// Up to the comment.
+/// Skips to the comment.
 void skip_siemens_rest(Scanner& s) {
   bool quoted = false;
   for (; s.at < s.end && (quoted || s.peek() != ';'); ++s.at)
     if (s.peek() == '"') quoted = !quoted;
 }
 
-/// A value: up to a blank, outside brackets and quotes.
+/// A value, up to a blank outside of brackets and quotes.
 void skip_value(Scanner& s) {
   int depth = 0;
   bool quoted = false;
@@ -113,18 +112,19 @@ void skip_value(Scanner& s) {
 constexpr std::array<std::string_view, 9> operators{"DIV",   "MOD",  "AND",   "OR", "XOR",
                                                     "B_AND", "B_OR", "B_XOR", "NOT"};
 
-/// Passes over an operator; false if none stands at the scanner.
+/// Skips an operator; false if there is no operator at the scanner.
 bool skip_operator(Scanner& s) {
   const std::size_t begin = s.at;
   while (s.at < s.end && std::string_view("+-*/<>=").find(s.peek()) != std::string_view::npos) ++s.at;
   if (s.at > begin) return true;
   const std::string_view name = name_at(s);
-  const bool found = std::any_of(operators.begin(), operators.end(), [&](auto known) { return is_word(name, known); });
+  const bool found =
+      std::any_of(operators.begin(), operators.end(), [&](auto known) { return is_word(name, known); });
   if (found) s.at += name.size();
   return found;
 }
 
-/// What is assigned: values with operators between them.
+/// An assigned expression: values with operators between them.
 void skip_assigned(Scanner& s) {
   for (bool more = true; more; more = skip_operator(s)) {
     s.skip_blanks();
@@ -143,7 +143,7 @@ void skip_index(Scanner& s) {
   } while (depth > 0 && s.at < s.end);
 }
 
-/// The value behind the '=' at the scanner is that of `variable`.
+/// Assigns the value behind the '=' at the scanner to `variable`.
 void take_assigned(Scanner& s, Span variable) {
   const std::size_t value = ++s.at;
   skip_assigned(s);
@@ -159,14 +159,13 @@ std::optional<double> plain_number(std::string_view text) {
   return text.find_first_not_of("+-.0123456789") == std::string_view::npos ? read_number(text) : std::nullopt;
 }
 
-/// "12.5", "AC(12.5)", "IC(-3)" of a word whose '=' has been passed; anything else is the control's to work
-/// out.
+/// "12.5", "AC(12.5)", "IC(-3)" behind the '=' of a word. Any other value is an expression.
 void read_siemens_value(Scanner& s, Word& word) {
   s.skip_blanks();
   Span value{s.at, s.at};
   skip_value(s);
   word.span.end = value.end = s.at;
-  if (empty(value)) s.refuse_at(s.at - 1, fmt::format("{}= is followed by no value", word.letter));
+  if (empty(value)) s.refuse_at(s.at - 1, fmt::format("{}= has no value", word.letter));
   const std::string_view text = part(s.text, value);
   const bool absolute = is_word(text.substr(0, 3), "AC("), relative = is_word(text.substr(0, 3), "IC(");
   if ((absolute || relative) && text.back() == ')') {
@@ -182,7 +181,7 @@ void read_siemens_value(Scanner& s, Word& word) {
   word.decimals = decimals_in_plain(part(s.text, value));
 }
 
-/// "CR=4." is the radius of an arc, "TURN=2" its turns besides the way to its end.
+/// "CR=4." is the radius of an arc, "TURN=2" its additional full turns.
 void read_named_word(Scanner& s, char letter, std::size_t name_length) {
   Word& word = s.block.words.emplace_back();
   word.letter = letter;
@@ -215,7 +214,8 @@ void lex_frame(Scanner& s) {
     } else if (letter >= 'X' && letter <= 'Z' && (name.size() == 1 || is_digit(name[1]))) {
       lex_letter(s);
     } else {
-      const bool added = s.block.statement == Statement::added_shift || s.block.statement == Statement::added_turn;
+      const bool added =
+          s.block.statement == Statement::added_shift || s.block.statement == Statement::added_turn;
       s.block.statement = added ? Statement::added_frame : Statement::frame;
       return skip_siemens_rest(s);
     }
@@ -250,13 +250,13 @@ bool lex_structure(Scanner& s, std::string_view name) {
   const std::size_t rest = s.at;
   skip_siemens_rest(s);
   const bool jump = s.text.substr(rest, s.at - rest).find("GOTO") != std::string_view::npos;
-  // A part that is repeated by its labels makes the whole program a body, as jumps do.
+  // A part that is repeated by labels makes the whole program a body, as jumps do.
   const bool repeats_part = *found == "REPEATB" || (*found == "REPEAT" && !alone);
   if (!jump && !repeats_part && *found != "PROC") s.block.flow_keyword = keyword;
   return true;
 }
 
-/// "DEF REAL DEPTH=-2.5, WIDTH": each sets its variable; without a value it is zero.
+/// "DEF REAL DEPTH=-2.5, WIDTH": each variable is set; without a value it is zero.
 void lex_declaration(Scanner& s) {
   s.at += name_at(s).size();
   s.skip_blanks();
@@ -298,17 +298,18 @@ void skip_harmless(Scanner& s, std::string_view name) {
   skip_value(s);
 }
 
-/// G74 and G75 go to positions of the machine, whose axes have other names: "G74 X1=0 Z1=0".
-bool goes_to_machine_position(const Block& block) {
+/// G74 and G75 move to machine positions, whose axes have other names: "G74 X1=0 Z1=0".
+bool moves_to_machine_position(const Block& block) {
   return std::any_of(block.words.begin(), block.words.end(), [](const Word& word) {
     return word.letter == 'G' && (word.value == 74 || word.value == 75);
   });
 }
 
-/// Letters of words that carry a number of their own before '=': "R1=", "M3=", "S2=", and axes "X1=", "A3=".
+/// Letters of words with a number of their own before '=': "R1=", "M3=", "S2=", and axes "X1=", "A3=".
 void skip_numbered_assignment(Scanner& s, std::string_view name) {
   const char letter = upper(name[0]);
-  if (letter != 'R' && may_move(letter) && !goes_to_machine_position(s.block)) return state(s, Statement::call);
+  if (letter != 'R' && may_move(letter) && !moves_to_machine_position(s.block))
+    return state(s, Statement::call);
   s.block.assigns = true;
   const std::size_t begin = s.at;
   s.at += name.size();
@@ -316,7 +317,8 @@ void skip_numbered_assignment(Scanner& s, std::string_view name) {
   take_assigned(s, {begin, begin + name.size()});
 }
 
-/// "_DEPTH=5", "MEAS=1", "$AC_TIMER[1]=0": a variable or a word of the control. What the block does besides is not known.
+/// "_DEPTH=5", "MEAS=1", "$AC_TIMER[1]=0": a variable or a word of the control. Other effects of the block
+/// are unknown.
 void skip_named_assignment(Scanner& s, std::string_view name) {
   s.block.assigns = s.block.assigns_by_name = true;
   const std::size_t begin = s.at;
@@ -342,10 +344,10 @@ void lex_letter(Scanner& s) {
   read_named_word(s, letter, 1);
   Word& word = s.block.words[words];
   if (letter == 'P') word.value -= 1;
-  // An M or S by a value: nothing that the moves depend on. A tool by its name is one without a number.
+  // An M or S with an expression does not affect moves. A tool with a name has no number.
   if (!word.literal && (letter == 'M' || letter == 'S' || letter == 'H' || letter == 'D'))
     s.block.words.pop_back();
-  // A centre that the control works out makes no arc that is followed.
+  // An arc whose centre is an expression is not followed.
   if (letter >= 'I' && letter <= 'K' && !word.literal) s.block.statement = Statement::arc_not_read;
 }
 
@@ -357,7 +359,8 @@ bool lex_corner(Scanner& s, std::string_view name) {
   };
   constexpr std::array corners{Corner{"RND", CornerKind::round}, Corner{"CHR", CornerKind::side},
                                Corner{"CHF", CornerKind::chamfer}};
-  const auto found = std::find_if(corners.begin(), corners.end(), [&](const Corner& c) { return is_word(name, c.name); });
+  const auto found =
+      std::find_if(corners.begin(), corners.end(), [&](const Corner& c) { return is_word(name, c.name); });
   if (found == corners.end() || !equals_follows(s, name.size())) return false;
   read_named_word(s, 'R', name.size());
   const Word word = s.block.words.back();
@@ -366,7 +369,7 @@ bool lex_corner(Scanner& s, std::string_view name) {
   return true;
 }
 
-/// "ANG=30": the direction of a line in the plane, from its first axis.
+/// "ANG=30": the direction of a line in the plane, measured from its first axis.
 void lex_angle(Scanner& s) {
   read_named_word(s, 'R', 3);
   s.block.angle = s.block.words.back();
@@ -396,7 +399,8 @@ void lex_name(Scanner& s, std::string_view name) {
   for (const std::string_view family : {"CYCLE", "POCKET", "HOLES", "SLOT", "LONGHOLE"})
     if (is_word(name.substr(0, family.size()), family)) return state(s, Statement::cycle);
   if (name.starts_with('$')) s.block.statement = Statement::data;
-  if (name.starts_with('$') || equals_follows(s, name.size()) || s.text.substr(s.at + name.size(), 1) == "[") {
+  if (name.starts_with('$') || equals_follows(s, name.size()) ||
+      s.text.substr(s.at + name.size(), 1) == "[") {
     const bool position = std::any_of(position_names.begin(), position_names.end(),
                                       [&](auto known) { return is_word(name, known); });
     return position ? state(s, Statement::call) : skip_named_assignment(s, name);
@@ -408,7 +412,7 @@ bool is_modal_of_several_letters(std::string_view name) {
   return name.size() > 1 && !has_digit_behind_letter(name) && is_letter(name[1]);
 }
 
-/// Letters in a row that are one word and the next: "G1X5Y2" is no name.
+/// Letters in a row that are a word and the begin of the next one: "G1X5Y2" is not a name.
 bool is_run_of_words(std::string_view name) {
   return name.size() > 1 && is_digit(name[1]) && std::any_of(name.begin() + 1, name.end(), is_letter);
 }

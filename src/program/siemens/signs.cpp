@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::size_t searched = 1 << 16;  // bytes
 
-/// The part of a line before its comment, without what stands in round brackets.
+/// The part of a line before its comment, without text in round brackets.
 std::string statements_of(std::string_view line) {
   std::string kept;
   int depth = 0;
@@ -23,8 +23,8 @@ std::string statements_of(std::string_view line) {
   return kept;
 }
 
-/// Whether two letters stand side by side, or a G5 that may be G500: most lines of G-code hold neither.
-bool may_hold_names(std::string_view line) {
+/// Quick test: two letters in a row, or a G5 that may be G500. Most lines of G-code have neither.
+bool may_have_names(std::string_view line) {
   char before = ' ';
   for (const char c : line) {
     if (is_letter(before) && (is_letter(c) || (c == '5' && upper(before) == 'G'))) return true;
@@ -41,7 +41,7 @@ bool is_siemens(std::string_view text) {
     const std::size_t end = std::min(text.find('\n'), text.size());
     const std::string_view line = text.substr(0, end);
     if (line.starts_with("%_N_") || line.starts_with(";%_N_") || line.starts_with(";$PATH=")) return true;
-    if (may_hold_names(line) && line.find_first_of("#<") == std::string_view::npos) {
+    if (may_have_names(line) && line.find_first_of("#<") == std::string_view::npos) {
       const std::string words = statements_of(line);
       for (const std::string_view only :
            {"CR=", "MSG(", "SUPA", "STOPRE", "MCALL", "CYCLE8", "GOTOF", "GOTOB", "TRAORI", "WORKPIECE(",

@@ -1,10 +1,10 @@
 #pragma once
-/// What tells a program of a Sinumerik, and its jumps, before any line of it is read.
+/// Signs of a Sinumerik program, and of jumps in it, found before the program is read.
 #include <string_view>
 
 namespace counterflex {
 
-/// Whether `text` shows words that only a Sinumerik reads, looked for at its beginning.
+/// Whether the beginning of `text` has words that only a Sinumerik reads.
 bool is_siemens(std::string_view text);
 
 /// Whether the program jumps or repeats parts of itself.

@@ -16,7 +16,7 @@ bool is_length_word(const Word& word) {
   return word.letter >= 'X' && word.letter <= 'Z';
 }
 
-/// Starts or ends a state that places programmed coordinates elsewhere.
+/// Begins or ends a displacement of programmed coordinates.
 void displace_by_statement(const Block& block, Reading& r, std::uint16_t bit, bool acts) {
   const bool acted = (r.state.displaced & bit) != 0;
   const auto others = static_cast<std::uint16_t>(r.state.displaced & ~bit);
@@ -24,7 +24,7 @@ void displace_by_statement(const Block& block, Reading& r, std::uint16_t bit, bo
   if (!acts && !acted) return;
   r.state.known.fill(false);
   end_contour(r);
-  if (acts) leave_alone(block, r, why_not_followed(r));
+  if (acts) note_uncorrected(block, r, why_not_followed(r));
 }
 
 void call_subprogram(const Block& block, Reading& r) {
@@ -32,16 +32,18 @@ void call_subprogram(const Block& block, Reading& r) {
   read_call(block, r);
 }
 
-/// Cycles move as their arguments say, and restore what is modal.
+/// Cycles move according to their arguments and restore modal states.
 void run_cycle(const Block& block, Reading& r) {
   const std::string_view why = why_not_followed(r);
   r.sorted = {};
   Move& move = start_move(block, r, Motion::feed);
   for (std::size_t axis = 0; axis < 3; ++axis) fix_axis(r, move, axis);
-  leave_alone(block, r, why.empty() ? "a cycle of the control is called; followed in G17 and mm are CYCLE81 to CYCLE89, CYCLE840, "
-                                      "POCKET1 to POCKET4, SLOT1, SLOT2, LONGHOLE, CYCLE71, CYCLE76 and CYCLE77, "
-                                      "with plain numbers for heights and centre"
-                                    : why);
+  note_uncorrected(block, r,
+                   why.empty() ? "this cycle of the control is not supported; supported in G17 and mm: "
+                                 "CYCLE81 to CYCLE89, CYCLE840,  "
+                                 "POCKET1 to POCKET4, SLOT1, SLOT2, LONGHOLE, CYCLE71, CYCLE76 and CYCLE77, "
+                                 "with plain numbers for heights and centre"
+                               : why);
   finish_move(r, move);
   r.run_begin = r.program.moves.size();
 }
@@ -49,13 +51,15 @@ void run_cycle(const Block& block, Reading& r) {
 }  // namespace
 
 void begin_statement(const Block& block, Reading& r) {
-  if (block.statement == Statement::curve) r.state.doubts |= doubtful_motion;
+  if (block.statement == Statement::curve) r.state.unknown_modes |= unknown_motion;
 }
 
 bool has_words_of_its_own(const Block& block, const Reading&) {
   if (block.statement == Statement::curve || block.statement == Statement::smoothed) return true;
   const bool is_frame = block.statement >= Statement::shift && block.statement <= Statement::added_turn;
-  const auto of_frame = [](const Word& word) { return std::string_view("NXYZR").find(word.letter) != std::string_view::npos; };
+  const auto of_frame = [](const Word& word) {
+    return std::string_view("NXYZR").find(word.letter) != std::string_view::npos;
+  };
   if (is_frame && std::all_of(block.words.begin(), block.words.end(), of_frame)) return false;
   return std::none_of(block.words.begin(), block.words.end(), is_length_word);
 }
@@ -67,7 +71,7 @@ void end_statement(const Block& block, Reading& r) {
       return call_subprogram(block, r);
     case Statement::not_read:
       r.sorted = {};
-      return read_anything(block, r, "axis words or G codes stand in a part of the block that is not read");
+      return read_anything(block, r, "a part of the block that is not supported has axis words or G codes");
     case Statement::cycle:
       r.sorted = {};
       if (read_called_cycle(block, r)) return;
@@ -97,9 +101,9 @@ void end_statement(const Block& block, Reading& r) {
       return add_remark(r.program, block.line,
                         "the control smooths the path; corrections smaller than its tolerance can vanish");
     case Statement::data:
-      r.state.doubts |= doubtful_offset;
+      r.state.unknown_modes |= unknown_offset;
       r.state.known.fill(false);
-      return leave_alone(block, r, "a variable of the control is set");
+      return note_uncorrected(block, r, "a variable of the control is set");
     case Statement::end:
       r.ended = true;
       return;
@@ -125,7 +129,7 @@ Block with_senses(const Block& block, Reading& r) {
   }
   if (all_relative != modal) r.block_relative = all_relative;
   if (all_relative || all_absolute) return result;
-  // Each axis of a line counts for itself; of an arc this is not followed.
+  // In a line each axis has its own mode. An arc with different modes is not followed.
   const bool arc = std::any_of(block.words.begin(), block.words.end(), [](const Word& word) {
     return std::string_view("IJKRP").find(word.letter) != std::string_view::npos;
   });

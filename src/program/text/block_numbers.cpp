@@ -7,11 +7,11 @@
 namespace counterflex {
 namespace {
 
-constexpr std::uint32_t four_digits = 9999, five_digits = 99999;  // what controls read
+constexpr std::uint32_t four_digits = 9999, five_digits = 99999;  // limits of controls
 constexpr std::uint32_t largest = 999999999;
 
-/// Whether only blanks, '/' and its digit stand before byte `at` of its line.
-bool stands_first_in_line(std::string_view text, std::size_t at) {
+/// Whether only blanks, '/' and its digit are before byte `at` of its line.
+bool is_first_in_line(std::string_view text, std::size_t at) {
   while (at > 0 && text[at - 1] != '\n') {
     const char c = text[--at];
     const bool of_switch = is_digit(c) && at > 0 && text[at - 1] == '/';
@@ -33,7 +33,7 @@ void BlockNumbers::add(std::string_view lines) {
       number = number * 10 + static_cast<std::uint32_t>(lines[digit] - '0');
     if (digit == begin || number >= largest) continue;
     used_.push_back(number);
-    if (stands_first_in_line(lines, at)) repeated_.push_back(number);
+    if (is_first_in_line(lines, at)) repeated_.push_back(number);
   }
 }
 
@@ -51,8 +51,8 @@ bool BlockNumbers::has_room_after(long number, std::size_t count) const {
   if (number < 0 || number >= largest || count > five_digits) return false;
   const auto own = static_cast<std::uint32_t>(number);
   if (std::binary_search(repeated_.begin(), repeated_.end(), own)) return false;
-  const std::uint32_t limit = used_.empty() || used_.back() <= four_digits ? four_digits
-                              : std::max(used_.back(), five_digits);
+  const std::uint32_t limit =
+      used_.empty() || used_.back() <= four_digits ? four_digits : std::max(used_.back(), five_digits);
   const auto next = std::upper_bound(used_.begin(), used_.end(), own);
   const std::uint32_t end = next == used_.end() ? limit + 1 : *next;
   return own + count < end;

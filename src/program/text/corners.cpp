@@ -8,7 +8,7 @@ namespace counterflex {
 namespace {
 
 constexpr double sharpest =
-    170.0 / 180 * std::numbers::pi;  // rad: a round corner takes more than it is worth
+    170.0 / 180 * std::numbers::pi;  // rad: a rounding of a sharper corner is too long
 
 bool is_flat_line(const Move& move) {
   return move.motion == Motion::feed && !move.arc && !move.cycle && !move.words[2] &&
@@ -42,7 +42,7 @@ void place_corner(const CornerSize& size, Move& before, Move& after) {
   if (size.kind == CornerKind::round) taken *= std::tan(turn / 2);
   if (size.kind == CornerKind::chamfer) taken /= 2 * std::cos(turn / 2);
   ends_of(before).end_mm = ends_of(after).begin_mm = taken;
-  // Behind its first part, which is flat, the block may say another height.
+  // Behind its first, flat part the block may have another height.
   if (after.corners->end_mm == 0) after.takes_no_z = !changes_height_inside(after);
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-/// Corners that a control rounds or breaks: RND and CHF of Klartext, ",R" and ",C" of shop controls, RND=,
+/// Corners that a control rounds or chamfers: RND and CHF of Klartext, ",R" and ",C" of shop controls, RND=,
 /// CHR= and CHF= of Sinumerik.
 #include "counterflex/program/program.hpp"
 
@@ -7,7 +7,7 @@ namespace counterflex {
 
 enum class CornerKind {
   round,    ///< by its radius
-  side,     ///< a chamfer by what it takes off both sides
+  side,     ///< a chamfer by the length removed from both sides
   chamfer,  ///< a chamfer by its own length
 };
 
@@ -16,11 +16,11 @@ struct CornerSize {
   CornerKind kind = CornerKind::round;
 };
 
-/// A corner follows the move, one precedes it. How much they take off is not known yet.
+/// Marks a corner behind or before the move. Its length is unknown yet.
 void expect_corner_behind(Move& move);
 void expect_corner_before(Move& move);
 
-/// Says to two moves, one right after the other, what the corner between them takes off, where both are lines
+/// Sets the length that the corner between two consecutive moves removes from each of them, if both are lines
 /// in a plane across Z and the size is a number.
 void place_corner(const CornerSize& size, Move& before, Move& after);
 

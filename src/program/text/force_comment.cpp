@@ -49,7 +49,7 @@ std::optional<ForceComment> read_force_comment(std::string_view text, const std:
   Vector6 force = Vector6::Zero();
   std::array<bool, keys.size()> given{};
   Token token = next_token(text, at, comment.end);
-  if (token.text.empty()) fail(first.at, "FORCE says nothing: OFF or FX= FY= FZ= MX= MY= MZ= must follow");
+  if (token.text.empty()) fail(first.at, "FORCE has no value: OFF or FX= FY= FZ= MX= MY= MZ= must follow");
   if (same_letters(token.text, "OFF")) {
     token = next_token(text, at, comment.end);
     if (!token.text.empty()) fail(token.at, fmt::format("'{}' follows FORCE OFF", token.text));
@@ -60,11 +60,11 @@ std::optional<ForceComment> read_force_comment(std::string_view text, const std:
     const std::size_t key = key_index(token.text.substr(0, equals));
     if (equals == std::string_view::npos || key == keys.size())
       fail(token.at,
-           fmt::format("'{}' is no part of FORCE: OFF or FX= FY= FZ= MX= MY= MZ= may follow", token.text));
+           fmt::format("'{}' is not a word of FORCE: use OFF or FX= FY= FZ= MX= MY= MZ=", token.text));
     if (given[key]) fail(token.at, fmt::format("{} is given twice", keys[key]));
     const std::string_view number = token.text.substr(equals + 1);
     const auto value = read_number(number);
-    if (!value) fail(token.at + equals + 1, fmt::format("'{}' is no number for {}", number, keys[key]));
+    if (!value) fail(token.at + equals + 1, fmt::format("'{}' is not a number for {}", number, keys[key]));
     given[key] = true;
     force[static_cast<Eigen::Index>(key)] = *value;
   }

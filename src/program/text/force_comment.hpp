@@ -8,11 +8,11 @@
 namespace counterflex {
 
 struct ForceComment {
-  std::optional<Vector6> F;  ///< N, N m; zero for components that are not named; none: OFF
+  std::optional<Vector6> F;  ///< N, N m; zero for components that are not given; empty: OFF
 };
 
-/// What `comment` of `block` states; nothing where its first word is not FORCE. Throws `InputError`
-/// (Exit::machine_or_force) where it is malformed.
+/// The force of `comment` of `block`; empty if its first word is not FORCE. Throws `InputError`
+/// (Exit::machine_or_force) if it is malformed.
 std::optional<ForceComment> read_force_comment(std::string_view text, const std::string& file,
                                                const Block& block, Span comment);
 

@@ -8,7 +8,7 @@
 namespace counterflex {
 namespace {
 
-/// The axis word of the move that is a number without a point, as in the text; empty if there is no such word.
+/// The axis word of the move that has no decimal point, as in the text; empty if there is no such word.
 std::string integer_word_of(const Program& program, const Move& move) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (!move.words[axis]) continue;
@@ -22,17 +22,19 @@ std::string integer_word_of(const Program& program, const Move& move) {
 
 }  // namespace
 
-bool may_doubt_integers(const Program& program, const Dialect& dialect) {
-  return dialect.integer_words_doubtful && program.integer_words == IntegerWords::unsaid;
+bool integers_may_be_ambiguous(const Program& program, const Dialect& dialect) {
+  return dialect.integer_words_ambiguous && program.integer_words == IntegerWords::unspecified;
 }
 
 std::string integer_question(std::string_view word) {
-  return fmt::format("{} has no point: it may mean units or increments; say which with --integer-words units|increments",
-                     word);
+  return fmt::format(
+      "{} has no decimal point: it may mean units or increments; give --integer-words units or "
+      "--integer-words increments",
+      word);
 }
 
-std::optional<Remark> integer_word_in_doubt(const Program& window, int line) {
-  if (!may_doubt_integers(window, *find_dialect(window.dialect))) return std::nullopt;
+std::optional<Remark> ambiguous_integer_word(const Program& window, int line) {
+  if (!integers_may_be_ambiguous(window, *find_dialect(window.dialect))) return std::nullopt;
   for (const Move& move : window.moves) {
     if (move.line > line) break;
     if (const std::string word = integer_word_of(window, move); !word.empty())

@@ -1,5 +1,5 @@
 #pragma once
-/// Words without a point, which mean units on some controls and increments on others.
+/// Words without a decimal point, which mean units on some controls and increments on others.
 #include <string>
 #include <string_view>
 
@@ -8,10 +8,10 @@
 
 namespace counterflex {
 
-/// Whether the dialect knows both meanings and neither the options nor the machine file choose one.
-bool may_doubt_integers(const Program& program, const Dialect& dialect);
+/// Whether the dialect allows both meanings and neither the options nor the machine file select one.
+bool integers_may_be_ambiguous(const Program& program, const Dialect& dialect);
 
-/// "X5000 has no point: it may mean units or increments; say which ...". `word` as it stands in the text.
+/// "X5000 has no decimal point: it may mean units or increments; give ...". `word` as it is in the text.
 std::string integer_question(std::string_view word);
 
 }  // namespace counterflex

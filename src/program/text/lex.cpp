@@ -7,8 +7,8 @@
 #include <cmath>
 
 #include "counterflex/files/numbers.hpp"
-#include "program/text/scanner.hpp"
 #include "program/siemens/lex.hpp"
+#include "program/text/scanner.hpp"
 
 namespace counterflex {
 namespace {
@@ -22,22 +22,21 @@ constexpr std::array powers_of_ten{1e0, 1e1, 1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
                                    1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15};
 
 constexpr int whole_digits = 12;
-constexpr double largest_number = 1e12;  // beyond it a thousandth cannot be held
+constexpr double largest_number = 1e12;  // a double cannot hold thousandths of larger numbers
 
-/// The value of a word with too many digits for exact products of integers, or for this reader.
+/// The value of a word with too many digits for exact products of integers. Refuses too large numbers.
 double value_of_many_digits(const Scanner& s, const Word& word, int digits) {
   std::string dense;
   for (const char c : part(s.text, word.number))
     if (!is_blank(c)) dense += c;
   const std::optional<double> value = read_number(dense);
   if (!value || std::abs(*value) > largest_number)
-    s.refuse_at(word.span.begin,
-                fmt::format("{}: a number of {} digits is beyond what can be held", word.letter, digits));
+    s.refuse_at(word.span.begin, fmt::format("{}: a number of {} digits is too long", word.letter, digits));
   return *value;
 }
 
-/// A number begins at `at`; blanks inside it belong to it. Leaves `at` behind its last character. False where
-/// there is no digit.
+/// Scans a number at `at`, blanks inside included. Moves `at` behind its last character. False if it has no
+/// digit.
 bool read_number_word(Scanner& s, Word& word) {
   const char* const text = s.text.data();
   const std::size_t begin = s.at, end = s.end;
@@ -81,7 +80,7 @@ bool read_number_word(Scanner& s, Word& word) {
   s.at = word.span.begin + 1;
   s.skip_blanks();
   const char next = s.peek();
-  if (next == '=') s.refuse_at(s.at, fmt::format("'{}=': assignments are not read", word.letter));
+  if (next == '=') s.refuse_at(s.at, fmt::format("'{}=': assignments are not supported", word.letter));
   std::size_t stop = s.at;
   while (stop < s.end && is_letter(s.text[stop])) ++stop;
   const std::string_view instead = s.text.substr(s.at, stop - s.at);
@@ -97,7 +96,7 @@ bool at_corner(const Scanner& s) {
   return letter == 'R' || letter == 'C';
 }
 
-/// An exponent or a second number right behind the number of a word.
+/// Refuses an exponent or a second number directly behind the number of a word.
 void check_after_number(const Scanner& s, const Word& word) {
   const char next = s.peek();
   if ((next == 'e' || next == 'E') && s.at + 1 < s.end) {
@@ -106,10 +105,10 @@ void check_after_number(const Scanner& s, const Word& word) {
       s.refuse_at(s.at, fmt::format("{}{}{}{}: a number has no exponent here", word.letter,
                                     part(s.text, word.number), next, after));
   }
-  if (next == ',' && !at_corner(s)) s.refuse_at(s.at, "',': decimals follow a point");
+  if (next == ',' && !at_corner(s)) s.refuse_at(s.at, "',': write decimals with a point");
 }
 
-/// A value that the control works out.
+/// An expression as value.
 void read_expression_word(Scanner& s, Word& word) {
   word.literal = false;
   const std::size_t begin = s.at;
@@ -138,8 +137,8 @@ void lex_word(Scanner& s) {
 
 namespace {
 
-/// The ')' of the comment at the scanner where its brackets are closed in pairs, or the end: a control that
-/// reads them otherwise would find a ')' outside comments, and stop.
+/// Position of the ')' that closes the comment at the scanner, with brackets in pairs, or the end. A control
+/// without nested comments would find a ')' outside comments, and stop.
 std::size_t end_of_nested_comment(const Scanner& s) {
   int depth = 0;
   for (std::size_t at = s.at; at < s.end; ++at) {
@@ -155,7 +154,7 @@ void lex_comment(Scanner& s) {
     s.at = end - 1;
   for (++s.at; s.at < s.end && s.text[s.at] != comment_close; ++s.at)
     if (s.text[s.at] == comment_open && !s.dialect.parentheses_nest)
-      s.refuse_at(s.at, "a comment stands inside a comment");
+      s.refuse_at(s.at, "a comment is inside a comment");
   if (s.at == s.end && !s.dialect.comments_may_stay_open)
     s.refuse_at(open, "the comment is not closed on its line");
   s.block.comments.push_back({open + 1, s.at});
@@ -165,11 +164,11 @@ void lex_comment(Scanner& s) {
 void lex_semicolon(Scanner& s) {
   const std::size_t begin = s.at + 1;
   const std::string_view rest = s.text.substr(begin, s.end - begin);
-  const std::size_t said = rest.find_first_not_of(" \t;");
-  const bool comment = said != std::string_view::npos && rest[said] == comment_open &&
-                       rest.find(comment_close, said) + 1 == rest.size();
-  if (!s.dialect.semicolon_comments && said != std::string_view::npos && !comment)
-    s.refuse_at(s.at, fmt::format("';' ends a block in dialect {}; a comment stands in round brackets",
+  const std::size_t text_begin = rest.find_first_not_of(" \t;");
+  const bool comment = text_begin != std::string_view::npos && rest[text_begin] == comment_open &&
+                       rest.find(comment_close, text_begin) + 1 == rest.size();
+  if (!s.dialect.semicolon_comments && text_begin != std::string_view::npos && !comment)
+    s.refuse_at(s.at, fmt::format("';' ends a block in dialect {}; write comments in round brackets",
                                   s.dialect.name));
   s.block.comments.push_back({begin, s.end});
   s.at = s.end;
@@ -180,7 +179,7 @@ void lex_block_delete(Scanner& s) {
   const bool after_number =
       s.block.words.size() == 1 && s.block.words[0].letter == 'N' && s.dialect.block_delete_numbers;
   if (!empty(s.block.block_delete) || !(s.block.words.empty() || after_number))
-    s.refuse_at(begin, "'/' may only stand at the beginning of a block");
+    s.refuse_at(begin, "'/' is only allowed at the beginning of a block");
   ++s.at;
   if (s.dialect.block_delete_numbers && is_digit(s.peek())) ++s.at;
   s.block.block_delete = {begin, s.at};
@@ -198,28 +197,34 @@ void refuse_character(const Scanner& s) {
   const char c = s.peek();
   refuse_conflict_marker(s);
   if (c == '*')
-    s.refuse_at(s.at, "'*' begins a checksum, which a corrected block would break: write without checksums");
+    s.refuse_at(s.at,
+                "'*' begins a checksum, which would be wrong in a corrected block: post the program without "
+                "checksums");
   if (c == '\r')
     s.refuse_at(s.at, "byte 0x0D is not allowed here: lines end with LF or CR LF, not with CR alone");
   if (c == '{' || c == '}')
-    s.refuse_at(s.at, fmt::format("{} is not allowed here: text in braces is for a preprocessor; run it first, and "
-                                  "correct the program that it writes",
-                                  shown(c)));
-  s.refuse_at(s.at, fmt::format("{} is not allowed here: a block has letters with one number each, and comments", shown(c)));
+    s.refuse_at(s.at,
+                fmt::format("{} is not allowed here: text in braces is for a preprocessor; run it first, and "
+                            "correct its output",
+                            shown(c)));
+  s.refuse_at(s.at,
+              fmt::format("{} is not allowed here: a block has letters with one number each, and comments",
+                          shown(c)));
 }
 
 namespace {
 
-/// Its size is no position: no word that corrections change.
+/// The size of a corner is not a position. Corrections do not change it.
 void lex_corner(Scanner& s) {
   ++s.at;
   lex_word(s);
   const Word& word = s.block.words.back();
-  s.block.corner = CornerSize{word.literal ? word.value : NAN, word.letter == 'R' ? CornerKind::round : CornerKind::side};
+  s.block.corner =
+      CornerSize{word.literal ? word.value : NAN, word.letter == 'R' ? CornerKind::round : CornerKind::side};
   s.block.words.pop_back();
 }
 
-/// ":1001" is the number of a program; before other words it numbers the block, as N does.
+/// ":1001" is a program number; before other words it is a block number, as N.
 void lex_colon(Scanner& s) {
   const bool first = s.block.words.empty();
   if (!first || s.at + 1 >= s.end || !is_digit(s.text[s.at + 1])) refuse_character(s);
@@ -237,7 +242,7 @@ bool is_part_name_at(const Scanner& s) {
          s.text.substr(s.at, s.end - s.at).find('>') != std::string_view::npos;
 }
 
-/// A program's name is no word, and stands where its number would.
+/// The name of a program is not a word. It replaces the program number.
 void lex_part_name(Scanner& s) {
   s.at = s.text.find('>', s.at) + 1;
   s.block.part_name = true;
@@ -249,9 +254,9 @@ void lex_percent(Scanner& s) {
   s.block.percent = true;
   const std::string_view rest = s.text.substr(s.at, s.end - s.at);
   const bool ends = rest.find_first_not_of("; \t") == std::string_view::npos;
-  // What Fagor's controls begin with: their cycles are others.
+  // Programs of Fagor controls begin like this; their cycles differ.
   s.block.part_name = !ends && s.dialect.percent_names && rest.find(',') == std::string_view::npos;
-  if (!ends && !s.block.part_name) s.refuse_at(s.at, "a '%' stands alone on its line");
+  if (!ends && !s.block.part_name) s.refuse_at(s.at, "a '%' must be alone in its line");
 }
 
 }  // namespace
@@ -294,11 +299,11 @@ void lex(std::string_view text, const std::string& file, const Dialect& dialect,
   block.flow_keyword = block.flow_name = {};
   block.statement = Statement::none;
   block.statement_is_bare = block.has_sense = false;
-  // The mark of UTF-8 stands before the first block.
+  // The UTF-8 byte order mark is before the first block.
   if (block.text_line == 1 && block.span.begin == 0) block.span.begin += byte_order_mark(text);
   Scanner s{block.span.end, text, file, dialect, block, block.span.begin};
-  while (s.at < s.end && says_nothing(text[s.at])) ++s.at;
-  while (s.at < s.end && says_nothing(text[s.end - 1])) --s.end;
+  while (s.at < s.end && is_ignored(text[s.at])) ++s.at;
+  while (s.at < s.end && is_ignored(text[s.end - 1])) --s.end;
   if (dialect.sinumerik_words) return lex_siemens(s);
   s.skip_blanks();
   if (s.peek() == '%') return lex_percent(s);

@@ -52,20 +52,21 @@ void skip_variable(Scanner& s) {
     s.at = close + 1;
     return;
   }
-  if (!is_digit(s.peek())) s.refuse_at(begin, "'#' names no variable: a number, <name> or [...] must follow");
+  if (!is_digit(s.peek())) s.refuse_at(begin, "'#' has no variable: a number, <name> or [...] must follow");
   while (is_digit(s.peek())) ++s.at;
 }
 
-/// A name, an operator, or a word: one letter before its value. THEN may stand right before a word.
+/// A name, an operator, or a word: one letter before its value. THEN may be directly before a word.
 void skip_letters_of_rest(Scanner& s) {
   std::string_view letters = letters_at(s, s.at);
-  if (letters.size() > then.size() && is_word(letters.substr(0, then.size()), then)) letters.remove_prefix(then.size());
+  if (letters.size() > then.size() && is_word(letters.substr(0, then.size()), then))
+    letters.remove_prefix(then.size());
   s.skip_letters();
   if (letters.size() == 1 && may_move(letters[0])) s.block.statement = Statement::not_read;
 }
 
-/// What stands up to a comment, or to the ';' that ends a block. Axis words or G codes in it make the block one that is
-/// not read.
+/// Skips text up to a comment, or to the ';' that ends a block. If it has axis words or G codes, the block is
+/// not supported.
 void skip_rest(Scanner& s) {
   while (s.at < s.end && s.text[s.at] != comment_open && s.text[s.at] != ';') {
     if (s.text[s.at] == '[') {
@@ -78,7 +79,7 @@ void skip_rest(Scanner& s) {
   }
 }
 
-/// Up to the next assignment, to a comment, or to the ';' that ends a block.
+/// Skips text up to the next assignment, to a comment, or to the ';' that ends a block.
 void skip_macro_value(Scanner& s) {
   const std::string_view line = s.text.substr(0, s.end);
   std::size_t next = line.find('=', s.at);
@@ -96,7 +97,7 @@ void skip_number(Scanner& s) {
   if (s.peek() == '-' || s.peek() == '+') ++s.at;
   const std::size_t digits = s.at;
   while (is_digit(s.peek()) || s.peek() == '.') ++s.at;
-  if (s.at == digits) s.refuse_at(begin, "'=' is not followed by a value");
+  if (s.at == digits) s.refuse_at(begin, "'=' has no value");
 }
 
 void note_flow(Scanner& s, Span name, Span keyword) {
@@ -125,12 +126,10 @@ bool lex_o_word(Scanner& s) {
   const std::string_view keyword = letters_at(ahead, ahead.at);
   if (keyword.empty()) {
     if (!empty(named) && is_digit(s.text[name])) return false;
-    s.refuse_at(s.at, fmt::format("O{} is followed by no keyword: sub, call, if, while, ... are",
-                                  part(s.text, named)));
+    s.refuse_at(s.at, fmt::format("O{} has no keyword; use sub, call, if, while, ...", part(s.text, named)));
   }
   if (!is_one_of(keyword, o_keywords))
-    s.refuse_at(ahead.at,
-                fmt::format("'{}' is no keyword of an O-word: sub, call, if, while, ... are", keyword));
+    s.refuse_at(ahead.at, fmt::format("unknown O-word keyword '{}'; use sub, call, if, while, ...", keyword));
   note_flow(s, named, {ahead.at, ahead.at + keyword.size()});
   return true;
 }
@@ -171,7 +170,7 @@ void skip_expression(Scanner& s) {
   if (!two_brackets || s.peek() != '/') return;
   ++s.at;
   s.skip_blanks();
-  if (s.peek() != '[') s.refuse_at(s.at, "ATAN[...]/ is followed by no '['");
+  if (s.peek() != '[') s.refuse_at(s.at, "ATAN[...]/ needs a second argument in [...]");
   skip_bracket(s);
 }
 
@@ -181,10 +180,10 @@ void skip_assignment(Scanner& s) {
   skip_variable(s);
   const Span variable{begin, s.at};
   s.skip_blanks();
-  if (s.peek() != '=') s.refuse_at(s.at, "a variable at the beginning of a block is not followed by '='");
+  if (s.peek() != '=') s.refuse_at(s.at, "a variable at the beginning of a block needs '=' and a value");
   ++s.at;
   s.skip_blanks();
-  if (s.at == s.end || s.peek() == comment_open) s.refuse_at(s.at - 1, "'=' is not followed by a value");
+  if (s.at == s.end || s.peek() == comment_open) s.refuse_at(s.at - 1, "'=' has no value");
   const std::size_t value = s.at;
   if (s.dialect.macro_words)
     skip_macro_value(s);

@@ -1,12 +1,12 @@
 #pragma once
-/// How long a control finds a line.
+/// Length of a line as the control counts it.
 #include <string_view>
 
 #include "program/dialect.hpp"
 
 namespace counterflex {
 
-/// What an inserted word or two may need.
+/// Space that an inserted word or two may need.
 inline constexpr std::size_t room_for_words = 10;
 
 /// Characters of `line` that count towards `dialect.line_limit`.

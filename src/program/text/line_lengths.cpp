@@ -16,7 +16,7 @@ bool is_near(std::size_t length, std::size_t limit) {
 void add_line(LineLengths& lengths, const Dialect& control, std::string_view bytes) {
   if (bytes.ends_with('\r')) bytes.remove_suffix(1);
   const int line = ++lengths.lines;
-  // Only what is long with its comments can be long without them.
+  // A line that is short with its comments is short without them.
   if (bytes.size() <= lengths.longest && !is_near(bytes.size(), lengths.limit)) return;
   const std::size_t length = counted_length(control, bytes);
   if (length > lengths.longest) lengths.longest = length, lengths.longest_line = line;

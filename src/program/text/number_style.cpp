@@ -7,7 +7,7 @@
 namespace counterflex {
 namespace {
 
-/// How a number is written.
+/// Style of a number.
 struct NumberStyle {
   int decimals = 0;
   bool leading_zero = true;
@@ -30,7 +30,7 @@ NumberStyle read_style(std::string_view number) {
   return style;
 }
 
-/// A number's characters, with room for a sign before them.
+/// The characters of a number, with space for a sign before them.
 struct NumberText {
   std::array<char, 400> buffer;
   char* begin = buffer.data() + 1;
@@ -39,14 +39,14 @@ struct NumberText {
   std::string_view view() const { return {begin, static_cast<std::size_t>(end - begin)}; }
 };
 
-/// The nearest whole number, as `std::round`, of one that 64 bits hold.
+/// The nearest integer, as `std::round`, of a value that fits in 64 bits.
 std::int64_t nearest(double value) {
   const auto whole = static_cast<std::int64_t>(value);
   const double rest = value - static_cast<double>(whole);
   return rest >= 0.5 ? whole + 1 : rest <= -0.5 ? whole - 1 : whole;
 }
 
-/// `value` with `decimals` digits after the point, which it always has.
+/// `value` with `decimals` digits after the decimal point, which is always written.
 void put_number(double value, int decimals, NumberText& text) {
   constexpr double whole_numbers_of_64_bits = 1e15;
   const double scaled = decimals >= 0 && decimals < 10 ? value * power_of_ten(decimals) : 2e15;
@@ -59,7 +59,7 @@ void put_number(double value, int decimals, NumberText& text) {
   if (decimals == 0) *text.end++ = '.';
 }
 
-/// Drops zeros from the end until `least` digits after the point are left.
+/// Removes zeros at the end, but keeps `least` digits after the decimal point.
 void drop_zeros(NumberText& text, int least) {
   const char* point = std::find(text.begin, text.end, '.');
   while (text.end[-1] == '0' && text.end - point - 1 > least) --text.end;
@@ -87,7 +87,7 @@ constexpr std::array<std::uint64_t, 20> whole_powers_of_ten = [] {
   return powers;
 }();
 
-/// The last `count` digits of `number`, in front of `end`.
+/// Writes the last `count` digits of `number` before `end`.
 void put_digits(std::uint64_t number, int count, char* end) {
   static constexpr auto pairs = [] {
     std::array<char, 200> digits{};

@@ -1,5 +1,5 @@
 #pragma once
-/// How coordinates are written.
+/// Writes coordinates.
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -10,20 +10,20 @@
 namespace counterflex {
 
 /// Appends `value` in the style of the number `original`: its sign style ("+1"), its leading zero or none
-/// (".5"), its decimals or as many more, up to `decimals`, as the value needs; always with a point.
+/// (".5"), its decimals or more, up to `decimals`, if the value needs them. Always with a decimal point.
 void append_changed_number(std::string_view original, double value, int decimals, std::string& text);
 
-/// The same as a text of its own.
+/// The same as a string.
 std::string changed_number(std::string_view original, double value, int decimals);
 
-/// `value` with `decimals` digits after the point, which it always has.
+/// `value` with `decimals` digits after the decimal point, which is always written.
 std::string inserted_number(double value, int decimals);
 
-/// Writes `whole` over ten to the power of `decimals` at `to`, with a point; the end of it. It has at most 24
+/// Writes `whole` / 10^`decimals` at `to`, with a decimal point, and returns the end. It has at most 24
 /// characters for up to 9 decimals.
 char* put_steps(std::int64_t whole, int decimals, char* to);
 
-/// 10 to the power of `digits`, from 0 to 9 at least.
+/// 10^`digits`, at least for 0 to 9.
 inline double power_of_ten(int digits) {
   const auto i = static_cast<std::size_t>(digits);
   return digits >= 0 && i < small_powers_of_ten.size() ? small_powers_of_ten[i] : std::pow(10.0, digits);
@@ -40,10 +40,10 @@ inline double half_of_last(int decimals) {
   return decimals >= 0 && i < halves.size() ? halves[i] : 0.5 / power_of_ten(decimals);
 }
 
-/// Whether `wanted` is within half a unit of the last of `decimals` digits of `original`, so that writing it
-/// anew would be no more exact; also where they differ by no more than arithmetic does, 1e-10.
+/// Whether `wanted` is within half a unit of the last of `decimals` digits of `original`, so that the word
+/// stays. Also true if they differ by rounding errors only (1e-10).
 inline bool rounds_to(double original, double wanted, int decimals) {
-  constexpr double least = 1e-10;  // digits beyond what a double of some metres holds are no correction
+  constexpr double least = 1e-10;  // below the resolution of a double of some metres
   return std::abs(wanted - original) <= std::max(half_of_last(decimals), least);
 }
 

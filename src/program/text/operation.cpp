@@ -18,7 +18,7 @@ std::string_view without_marks(std::string_view text) {
   return text.substr(begin, text.find_last_not_of(marks_around) + 1 - begin);
 }
 
-/// Case aside, as LinuxCNC reads them.
+/// Ignores case, as LinuxCNC does.
 bool begins_so(std::string_view text, std::string_view capitals) {
   const auto same = [](char c, char capital) {
     return (c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c) == capital;
@@ -27,7 +27,7 @@ bool begins_so(std::string_view text, std::string_view capitals) {
                                                       [&](char a, char b) { return same(b, a); });
 }
 
-/// Whether a comment is an order to LinuxCNC: to show a text, to log, or to run a script.
+/// Whether a comment is a command for LinuxCNC: it shows a text, logs, or runs a script.
 bool is_active(std::string_view comment) {
   constexpr std::array<std::string_view, 10> orders = {
       "MSG,", "DEBUG,", "PRINT,", "LOG,", "LOGOPEN,", "LOGAPPEND,", "PROBEOPEN ", "PY,", "PYRUN,", "ABORT,"};
@@ -48,19 +48,19 @@ bool is_header_comment(std::string_view comment) {
 bool has_comments_alone(std::string_view text, const Block& block) {
   if (block.comments.empty() || block.percent || block.part_name) return false;
   const bool numbered = block.words.size() == 1 && block.words[0].letter == 'N';
-  if (numbered ? block.assigns || !empty(block.flow_keyword) : says_something(block)) return false;
+  if (numbered ? block.assigns || !empty(block.flow_keyword) : has_content(block)) return false;
   if (block.statement != Statement::none) return false;
-  // Names that say nothing about moves have left no word.
+  // Names without an effect on moves have no word.
   const std::string_view before = part(text, {block.span.begin, block.comments[0].begin - 1});
   return std::all_of(before.begin(), before.end(), [](char c) {
-    return is_blank(c) || is_digit(c) || c == 'N' || c == 'n' || c == '/' || says_nothing(c);
+    return is_blank(c) || is_digit(c) || c == 'N' || c == 'n' || c == '/' || is_ignored(c);
   });
 }
 
 std::string_view operation_name(std::string_view comment) {
   if (is_header_comment(comment)) return {};
   std::string_view name = without_marks(comment);
-  // "; (POCKET)" is one comment of two forms.
+  // "; (POCKET)" is one comment in two forms.
   if (name.starts_with(comment_open) && name.find(comment_close) + 1 == name.size())
     name = without_marks(name.substr(1, name.size() - 2));
   return is_active(name) ? std::string_view{} : name;

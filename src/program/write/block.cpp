@@ -18,7 +18,7 @@ struct Stop {
   int motion;
 };
 
-/// The points of an edit in order, and which of them the block itself moves to.
+/// The points of an edit in order, and the point to which the block itself moves.
 struct Plan {
   std::vector<Stop> stops;
   std::size_t own = 0;
@@ -29,7 +29,7 @@ Plan plan(const Original& o, const MoveEdit& edit, int motion) {
   if (edit.jump_mm) plan.stops.push_back({{*edit.jump_mm}, 1});
   for (const Via& via : edit.inserted) plan.stops.push_back({via, motion});
   plan.stops.push_back({{edit.end_mm, edit.centre_mm}, motion});
-  const bool first = o.acts_itself && o.move.motion == Motion::feed && !o.block.corner;
+  const bool first = o.is_first_piece && o.move.motion == Motion::feed && !o.block.corner;
   plan.own = first ? 0 : plan.stops.size() - 1;
   return plan;
 }
@@ -41,21 +41,21 @@ struct PlannedStep {
   std::optional<double> feed_per_min{};
 };
 
-/// The steps that are written: a point that the text holds already gets no block.
-std::vector<PlannedStep> settle_steps(const Original& o, const Plan& plan, HeldPosition held,
-                                      const WriteOptions& options) {
+/// The steps to write. A point that equals the position in the text gets no block.
+std::vector<PlannedStep> round_steps(const Original& o, const Plan& plan, TextPosition position,
+                                     const WriteOptions& options) {
   std::vector<PlannedStep> steps;
   for (std::size_t i = 0; i < plan.stops.size(); ++i) {
     const bool own = i == plan.own, end = i + 1 == plan.stops.size();
     const Place place = end ? Place::end : own ? Place::own_inside : Place::inside;
-    const Step step = settle_step(o.move, held, plan.stops[i].via, plan.stops[i].motion, place, options);
-    held = step.after;
-    if (own || !is_there(step)) steps.push_back({step, own});
+    const Step step = round_step(o.move, position, plan.stops[i].via, plan.stops[i].motion, place, options);
+    position = step.after;
+    if (own || !equals_text_position(step)) steps.push_back({step, own});
   }
   return steps;
 }
 
-/// G93: the time of the block is shared by its pieces as their lengths are.
+/// G93: the pieces of a block share its time by their lengths.
 void share_time(const Move& move, std::vector<PlannedStep>& steps) {
   if (move.feed_mode != FeedMode::inverse_time || move.feed_per_min <= 0 || steps.size() < 2) return;
   double whole = 0;
@@ -70,43 +70,44 @@ bool is_length(const Word& word, const Move& move) {
 }
 
 void check_integer_words(const Original& o) {
-  if (!may_doubt_integers(o.program, o.dialect)) return;
+  if (!integers_may_be_ambiguous(o.program, o.dialect)) return;
   for (const Word& word : o.block.words)
     if (is_length(word, o.move) && word.literal && !word.point && word.value != 0)
-      refuse(o.program.file, o.block, word.span.begin, integer_question(fmt::format("{}{}", word.letter, word.value)));
+      refuse(o.program.file, o.block, word.span.begin,
+             integer_question(fmt::format("{}{}", word.letter, word.value)));
 }
 
-/// The motion that is modal between the pieces of one block.
+/// The modal motion between the pieces of a block.
 struct ModalMotion {
   int own = 0;                 ///< that of the block in the original
-  bool relies = false;         ///< the block does not say it
-  std::optional<int> written;  ///< that of the text before the next piece
+  bool relies = false;         ///< the block has no motion word
+  std::optional<int> written;  ///< motion of the text before the next piece
 };
 
 ModalMotion modal_motion(const Original& o, std::optional<int> restate) {
   const auto& words = o.block.words;
   ModalMotion modal{motion_of(o.move), false, {}};
-  modal.relies = !o.move.cycle &&
-                 std::none_of(words.begin(), words.end(), [&](auto& w) { return says_motion(w, o.dialect); });
+  modal.relies = !o.move.cycle && std::none_of(words.begin(), words.end(),
+                                               [&](auto& w) { return is_motion_word(w, o.dialect); });
   if (modal.relies && restate) modal.own = *restate;
   if (!restate) modal.written = modal.own;
   return modal;
 }
 
-/// Whether a piece that moves under `motion` must say so, where its own kind does not anyway.
+/// Whether a piece with `motion` needs a motion word, beyond what its kind requires.
 bool must_state(int motion, ModalMotion& modal) {
   const bool must = modal.relies && modal.written != motion;
   modal.written = motion;
   return must;
 }
 
-/// What a block that relies on the modal motion must say behind this one, given what it had to say before.
+/// The motion that later blocks without a motion word must state, given the value before this block.
 std::optional<int> restated_after(const Move& move, std::optional<int> before, const ModalMotion& modal) {
   if (!move.cycle && modal.written != modal.own) return modal.own;
   return move.block_delete ? before : std::nullopt;
 }
 
-/// The N of each piece of a block that is split: the first one has the block's own.
+/// The N of each piece of a split block. The first piece has the block's own.
 class PieceNumbers {
  public:
   PieceNumbers(const Original& o, std::size_t pieces, const WriteOptions& options, Rewritten& out) : o_(o) {
@@ -136,7 +137,7 @@ std::string text_of(const Original& o, const std::vector<PlannedStep>& steps, co
                     double call_shift_mm, const WriteOptions& options, ModalMotion& modal, Rewritten& out) {
   const PieceNumbers numbers(o, steps.size(), options, out);
   std::string text;
-  bool own_is_past = false;
+  bool own_is_written = false;
   for (std::size_t i = 0; i < steps.size(); ++i) {
     const PlannedStep& piece = steps[i];
     const BesidesPoint besides{must_state(piece.step.motion, modal), piece.feed_per_min, cycle, call_shift_mm,
@@ -145,38 +146,39 @@ std::string text_of(const Original& o, const std::vector<PlannedStep>& steps, co
       text += own_block(o, piece.step, besides, out);
     } else {
       const std::string line = inserted_block(o, piece.step, besides);
-      text += own_is_past ? o.line_end + line : line + o.line_end;
+      text += own_is_written ? o.line_end + line : line + o.line_end;
       ++out.inserted_blocks;
     }
-    own_is_past = own_is_past || piece.own;
+    own_is_written = own_is_written || piece.own;
   }
   return text;
 }
 
-/// Writes the block without reading it again, where no more than numbers change; then moves `state` on.
-bool is_written_alone(const Program& program, const MoveEdit& edit, const HeldPosition& before,
-                      const CycleWords& cycle, const WriteOptions& options, TextState& state,
-                      Rewritten& out) {
+/// Writes the block without lexing it again if only numbers change; then updates `state`.
+bool changes_numbers_only(const Program& program, const MoveEdit& edit, const TextPosition& before,
+                          const CycleWords& cycle, const WriteOptions& options, TextState& state,
+                          Rewritten& out) {
   const Move& move = program.moves[edit.move];
-  if (edit.jump_mm || !edit.inserted.empty() || state.restate_motion || move.called || move.angle_axis != 0) return false;
+  if (edit.jump_mm || !edit.inserted.empty() || state.restate_motion || move.called || move.angle_axis != 0)
+    return false;
   const int motion = motion_of(move);
-  const Step step = settle_step(move, before, {edit.end_mm, edit.centre_mm}, motion, Place::end, options);
+  const Step step = round_step(move, before, {edit.end_mm, edit.centre_mm}, motion, Place::end, options);
   if (step.motion != motion) return false;
   std::size_t line_limit = 0;
-  if (says_anew(step) || cycle.bottom.write || cycle.retract.write) {
+  if (writes_words(step) || cycle.bottom.write || cycle.retract.write) {
     const Dialect& dialect = *find_dialect(program.dialect);
-    if (may_doubt_integers(program, dialect)) return false;
+    if (integers_may_be_ambiguous(program, dialect)) return false;
     line_limit = dialect.line_limit;
   }
   if (!append_with_numbers(program, move, step, cycle, line_limit, out)) return false;
-  assign(state.held, step.after);
-  doubt_skippable(move, before, state.held);
+  assign(state.position, step.after);
+  forget_skippable(move, before, state.position);
   return true;
 }
 
-/// How far the heights of the cycle that is called at `move` are shifted, as they are written.
+/// Shift of the heights of the cycle called at `move`, as they are written.
 double height_shift(const Move& move, const Step& step) {
-  return step.axes[2].held_mm.value_or(move.end_mm.z()) - move.end_mm.z();
+  return step.axes[2].position_mm.value_or(move.end_mm.z()) - move.end_mm.z();
 }
 
 /// A block that calls a subprogram or macro: its words are arguments.
@@ -195,51 +197,50 @@ void rewrite_block(const Program& program, const ProgramStyle& style, const Move
   const Move& move = program.moves[edit.move];
   assert(edit.inserted.empty() || move.may_split || move.may_position || changes_height_inside(move));
   assert(!edit.jump_mm || move.may_jump);
-  const HeldPosition before = held_at_start(move, state.held);
+  const TextPosition before = known_text_position(move, state.position);
   CycleWords cycle;
-  if (move.cycle)
-    cycle = settle_cycle(move, before[2], edit.bottom_mm, edit.retract_mm, state.cycle, options);
-  if (is_written_alone(program, edit, before, cycle, options, state, out)) return;
+  if (move.cycle) cycle = round_cycle(move, before[2], edit.bottom_mm, edit.retract_mm, state.cycle, options);
+  if (changes_numbers_only(program, edit, before, cycle, options, state, out)) return;
   const Original o = lex_again(program, move, style);
   ModalMotion modal = modal_motion(o, state.restate_motion);
-  std::vector<PlannedStep> steps = settle_steps(o, plan(o, edit, modal.own), before, options);
+  std::vector<PlannedStep> steps = round_steps(o, plan(o, edit, modal.own), before, options);
   share_time(move, steps);
   const double call_shift_mm = move.called ? height_shift(move, steps.back().step) : 0;
   std::string text = text_of(o, steps, cycle, call_shift_mm, options, modal, out);
-  if (move.called && !holds_call(move, call_shift_mm, state)) {
+  if (move.called && !has_call(move, call_shift_mm, state)) {
     text.insert(0, restated_call(move, call_shift_mm) + o.line_end);
     ++out.changed_words;
     state.call = {move.called->line, call_shift_mm};
   }
   if (text != o.text(o.block.span)) check_integer_words(o);
-  state.held = steps.back().step.after;
-  doubt_skippable(move, before, state.held);
+  state.position = steps.back().step.after;
+  forget_skippable(move, before, state.position);
   state.restate_motion = restated_after(move, state.restate_motion, modal);
   out.text += text;
 }
 
-bool holds_call(const Move& move, double shift_mm, const TextState& state) {
+bool has_call(const Move& move, double shift_mm, const TextState& state) {
   if (!move.called || move.called->modal.empty()) return true;
   return shift_mm == (state.call.line == move.called->line ? state.call.shift_mm : 0);
 }
 
-void pass_block(const Move& move, TextState& state) {
-  if (move.cycle) pass_cycle(*move.cycle, state.cycle);
-  state.held = held_after_original(move, state.held);
+void keep_block(const Move& move, TextState& state) {
+  if (move.cycle) keep_cycle(*move.cycle, state.cycle);
+  state.position = text_position_after_original(move, state.position);
 }
 
 void copy_block(const Program& program, const ProgramStyle& style, const Move& move, TextState& state,
                 Rewritten& out) {
-  pass_block(move, state);
+  keep_block(move, state);
   const Original o = lex_again(program, move, style);
   if (is_call(o.block)) {
     out.text += o.text(move.block);
     return;
   }
   ModalMotion modal = modal_motion(o, state.restate_motion);
-  Step as_it_stands;
-  as_it_stands.motion = modal.own;
-  out.text += own_block(o, as_it_stands, {must_state(modal.own, modal)}, out);
+  Step unchanged;
+  unchanged.motion = modal.own;
+  out.text += own_block(o, unchanged, {must_state(modal.own, modal)}, out);
   state.restate_motion = restated_after(move, state.restate_motion, modal);
 }
 
@@ -249,8 +250,8 @@ bool ends_motion(const Block& block, const Dialect& dialect) {
       std::any_of(block.words.begin(), block.words.end(), [](const Word& word) {
         return word.letter == 'M' && (word.value == 2 || word.value == 30 || word.value == 99);
       });
-  const bool says =
-      std::any_of(block.words.begin(), block.words.end(), [&](auto& w) { return says_motion(w, dialect); });
+  const bool says = std::any_of(block.words.begin(), block.words.end(),
+                                [&](auto& w) { return is_motion_word(w, dialect); });
   return ends_program || (says && empty(block.block_delete));
 }
 

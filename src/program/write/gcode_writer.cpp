@@ -3,15 +3,15 @@
 #include <cassert>
 
 #include "program/expand/expand.hpp"
+#include "program/text/scanner.hpp"
 #include "program/write/block.hpp"
 #include "program/write/plain.hpp"
-#include "program/text/scanner.hpp"
 
 namespace counterflex {
 namespace {
 
-/// Behind the line of '%' and that of the program's number, whichever comes last; else the beginning,
-/// behind the mark of UTF-8 and the line that it begins where that says nothing.
+/// Position behind the lines of '%' and of the program number; else the beginning, behind the UTF-8 byte
+/// order mark and the rest of its line if that has no words.
 std::size_t header_position(const Program& program) {
   const Dialect& dialect = *find_dialect(program.dialect);
   std::size_t position = byte_order_mark(program.text);
@@ -24,7 +24,7 @@ std::size_t header_position(const Program& program) {
     if ((block.percent && opened) || (!block.words.empty() && !number)) break;
     opened = opened || block.percent;
     const bool path =
-        part(program.text, block.span).starts_with(";$PATH");  // belongs below a Sinumerik's '%'
+        part(program.text, block.span).starts_with(";$PATH");  // must follow the '%' of a Sinumerik
     const bool marked = block.text_line == 1 && position > 0 && block.words.empty();
     if (block.percent || number || marked || (path && opened)) position = block.line_end.end;
     if (number) break;
@@ -32,7 +32,7 @@ std::size_t header_position(const Program& program) {
   return position;
 }
 
-/// A comment's text in upper-case ASCII without comment characters.
+/// The text of a comment in upper-case ASCII without comment characters.
 std::string comment_text(const std::string& text) {
   std::string safe;
   for (const char c : text) {
@@ -59,7 +59,7 @@ std::string header_text(const Program& program, const ProgramStyle& style, std::
   return text;
 }
 
-/// The text being written: everything before byte `copied` of the input is in `out`.
+/// The text being written: `out` has everything before byte `copied` of the input.
 struct Writing {
   const Program& program;
   const ProgramStyle& style;
@@ -69,51 +69,51 @@ struct Writing {
   Rewritten out{};
 };
 
-/// A motion word or the end of a program before byte `end` ends the doubt about the modal motion.
-void end_doubt_until(std::size_t end, Writing& w) {
+/// After a motion word or the end of a program before byte `end`, the modal motion is known.
+void find_motion_until(std::size_t end, Writing& w) {
   const Dialect& dialect = *find_dialect(w.program.dialect);
   Block block;
   block.line_end.end = w.copied;
   while (w.state.restate_motion && block.line_end.end < end && next_line(w.program.text, block)) {
-    if (stands_unused(w.program.expansion, block.span.begin)) continue;
+    if (is_unused(w.program.expansion, block.span.begin)) continue;
     lex(w.program.text, w.program.file, dialect, block);
     if (block.span.begin < end && ends_motion(block, dialect)) w.state.restate_motion.reset();
   }
 }
 
-/// Copies what stands before byte `end`, where no move is.
+/// Copies the text before byte `end`, which has no moves.
 void copy_until(std::size_t end, Writing& w) {
-  if (w.state.restate_motion) end_doubt_until(end, w);
+  if (w.state.restate_motion) find_motion_until(end, w);
   w.out.text.append(w.program.text, w.copied, end - w.copied);
   w.copied = end;
 }
 
-/// The move that is written next, and what the text holds before it.
+/// The next move to write, and the position in the text before it.
 const Move& come_to(std::size_t index, Writing& w) {
   const Move& move = w.program.moves[index];
   const Move* last = move_before(w.program, index);
   if (last != nullptr && last->end_mm != move.start_mm)
-    w.state.held = held_between(*last, move, w.state.held);
+    w.state.position = text_position_between(*last, move, w.state.position);
   return move;
 }
 
-void pass_over(std::size_t index, const WriteOptions& options, Writing& w) {
+void keep_move(std::size_t index, const WriteOptions& options, Writing& w) {
   const Move& move = come_to(index, w);
-  if (!holds_call(move, 0, w.state)) {
+  if (!has_call(move, 0, w.state)) {
     copy_until(move.block.begin, w);
     rewrite_block(w.program, w.style, {.move = index, .end_mm = move.end_mm}, options, w.state, w.out);
     w.copied = move.block.end;
     return;
   }
   if (w.state.restate_motion) copy_until(move.block.begin, w);
-  if (!w.state.restate_motion) return pass_block(move, w.state);
+  if (!w.state.restate_motion) return keep_block(move, w.state);
   copy_block(w.program, w.style, move, w.state, w.out);
   w.copied = move.block.end;
 }
 
 void apply(const MoveEdit& edit, const WriteOptions& options, Writing& w) {
   const Span block = come_to(edit.move, w).block;
-  if (!w.state.restate_motion && append_plain_block(w.common, edit, w.copied, w.state.held, w.out)) {
+  if (!w.state.restate_motion && append_plain_block(w.common, edit, w.copied, w.state.position, w.out)) {
     w.out.blocks_of_edit.push_back(0);
     w.copied = block.end;
     return;
@@ -125,7 +125,7 @@ void apply(const MoveEdit& edit, const WriteOptions& options, Writing& w) {
   w.copied = block.end;
 }
 
-/// The header goes behind what a program must begin with.
+/// The header follows the lines that must be first in a program.
 void begin(const WriteOptions& options, Writing& w) {
   w.copied = header_position(w.program);
   w.out.text.append(w.program.text, 0, w.copied).append(header_text(w.program, w.style, w.copied, options));
@@ -142,11 +142,11 @@ Rewritten GcodeWriter::write(const Program& window, const std::vector<MoveEdit>&
   std::size_t next = 0;
   for (const MoveEdit& edit : edits) {
     assert(edit.move >= next && edit.move < window.moves.size());
-    for (; next < edit.move; ++next) pass_over(next, options_, w);
+    for (; next < edit.move; ++next) keep_move(next, options_, w);
     apply(edit, options_, w);
     ++next;
   }
-  for (; next < window.moves.size(); ++next) pass_over(next, options_, w);
+  for (; next < window.moves.size(); ++next) keep_move(next, options_, w);
   copy_until(window.text.size(), w);
   return std::move(w.out);
 }

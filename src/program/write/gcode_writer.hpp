@@ -1,5 +1,5 @@
 #pragma once
-/// Writes G-code, that of a Sinumerik, too.
+/// Writes G-code, also for a Sinumerik.
 #include "program/program_writer.hpp"
 #include "program/write/original_block.hpp"
 #include "program/write/text_state.hpp"
@@ -8,7 +8,8 @@ namespace counterflex {
 
 class GcodeWriter final : public ProgramWriter {
  public:
-  GcodeWriter(const Program& window, const WriteOptions& options) : options_(options), style_(style_of(window)) {}
+  GcodeWriter(const Program& window, const WriteOptions& options)
+      : options_(options), style_(style_of(window)) {}
 
   Rewritten write(const Program& window, const std::vector<MoveEdit>& edits) override;
 

@@ -6,7 +6,7 @@
 namespace counterflex {
 namespace {
 
-/// Numbers of a block that change, in the order of the text; they live in the step and the cycle's words.
+/// The changed numbers of a block, in the order of the text; they point into the step and the cycle's words.
 struct NumberChanges {
   struct One {
     std::size_t begin, end;

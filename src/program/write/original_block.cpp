@@ -20,7 +20,7 @@ bool is_motion(const Word& word) {
   return word.letter == 'G' && word.literal &&
          (word.value == 0 || word.value == 1 || word.value == 2 || word.value == 3);
 }
-bool says_motion(const Word& word, const Dialect& dialect) {
+bool is_motion_word(const Word& word, const Dialect& dialect) {
   if (word.letter != 'G' || !word.literal) return false;
   const GCode* code = find_g_code(static_cast<int>(std::lround(word.value * 10)), dialect);
   return is_motion(word) || (code != nullptr && code->group == CodeGroup::motion);
@@ -38,14 +38,14 @@ bool is_lower(char c) {
   return c >= 'a' && c <= 'z';
 }
 
-/// The last axis word; without one the last word; nullptr where there is none.
+/// The last axis word; without axis words the last word; nullptr if there is no word.
 const Word* word_that_shows_style(const Block& block) {
   const auto last = std::find_if(block.words.rbegin(), block.words.rend(), is_axis);
   if (last != block.words.rend()) return &*last;
   return block.words.empty() ? nullptr : &block.words.back();
 }
 
-/// What stands before that word, where that is blanks or nothing behind another word.
+/// The text before that word, if it is blanks or nothing behind another word.
 std::string separator_of(const Original& o, const std::string& otherwise) {
   const Word* last = word_that_shows_style(o.block);
   if (last == nullptr || last == o.block.words.data()) return otherwise;
@@ -63,9 +63,9 @@ bool begins_with_label(const Original& o) {
   return o.text({o.block.span.begin, first->span.begin}).find(':') != std::string_view::npos;
 }
 
-/// Whether the block holds other words than those of the move itself, F and N, begins with a label, or sets
-/// the force: it acts from its beginning.
-bool acts_itself(const Original& o) {
+/// Whether the block has words other than those of the move, F and N, begins with a label, or sets the force.
+/// These act at its beginning.
+bool is_first_piece(const Original& o) {
   const bool arc = o.move.arc.has_value();
   return begins_with_label(o) ||
          std::any_of(o.block.words.begin(), o.block.words.end(),
@@ -78,7 +78,7 @@ bool acts_itself(const Original& o) {
          });
 }
 
-/// `number` of a G0 to G3 turned into `motion`, with its leading zero.
+/// `number` of a G0 to G3 changed to `motion`, with its leading zero.
 std::string motion_number(std::string_view number, int motion) {
   const bool two_digits = number.size() == 2 && number.front() == '0';
   return fmt::format("{}{}", two_digits ? "0" : "", motion);
@@ -98,7 +98,7 @@ Original lex_again(const Program& program, const Move& move, const ProgramStyle&
   o.separator = separator_of(o, style.separator);
   const Word* shown = word_that_shows_style(o.block);
   o.lower_case = shown != nullptr && is_lower(program.text[shown->span.begin]);
-  o.acts_itself = acts_itself(o);
+  o.is_first_piece = is_first_piece(o);
   return o;
 }
 

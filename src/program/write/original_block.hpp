@@ -1,12 +1,12 @@
 #pragma once
-/// A block that is rewritten, and the style in which it and its program are written.
+/// A block to be rewritten, and the style of it and of its program.
 #include <string>
 
 #include "program/text/lex.hpp"
 
 namespace counterflex {
 
-/// The style of a program, for blocks that do not show one.
+/// The style of a program, for blocks that do not show a style.
 struct ProgramStyle {
   std::string separator;  ///< between words
   std::string line_end;
@@ -14,7 +14,7 @@ struct ProgramStyle {
 
 ProgramStyle style_of(const Program& program);
 
-/// The block being rewritten, lexed again, and what the copies of it share.
+/// The block being rewritten, lexed again, and the style of its copies.
 struct Original {
   const Program& program;
   const Dialect& dialect;
@@ -23,8 +23,8 @@ struct Original {
   std::string separator{};
   std::string line_end{};
   bool lower_case = false;
-  bool acts_itself =
-      false;  ///< other words than motion, axes, centre, F and N: it is the first piece of its own split
+  /// It has words other than motion, axes, centre, F and N: it is its own first piece.
+  bool is_first_piece = false;
 
   std::string_view text(Span span) const { return part(program.text, span); }
 };
@@ -39,8 +39,8 @@ bool is_centre(const Word& word);
 /// G0, G1, G2 or G3.
 bool is_motion(const Word& word);
 
-/// A G code that says how the block moves.
-bool says_motion(const Word& word, const Dialect& dialect);
+/// A G code of a motion.
+bool is_motion_word(const Word& word, const Dialect& dialect);
 
 /// The block's word `upper`, or nullptr.
 const Word* find_word(const Block& block, char upper);
@@ -48,16 +48,16 @@ const Word* find_word(const Block& block, char upper);
 /// `upper` in the case of the block.
 char letter_of(const Original& original, char upper);
 
-/// G`motion`, as the block itself writes it where it does.
+/// G`motion`, in the spelling of the block.
 std::string motion_text(const Original& original, int motion);
 
-/// The F word of a feed move; empty where there is none.
+/// The F word of a feed move; empty without one.
 std::string feed_text(const Original& original);
 
-/// '/' with the blanks that follow it; empty where there is none.
+/// '/' with the blanks behind it; empty without '/'.
 std::string block_delete_text(const Original& original);
 
-/// Whether ';' ends the block, on controls where that is no comment.
+/// Whether ';' ends the block, on controls without ';' comments.
 bool ends_in_semicolon(const Original& original);
 
 }  // namespace counterflex

@@ -1,29 +1,28 @@
 #pragma once
-/// What written G-code leaves to the blocks that follow.
+/// State of written G-code that affects later blocks.
 #include <optional>
 
 #include "counterflex/program/rewrite.hpp"
 
 namespace counterflex {
 
-/// How far (mm) the sticky Z and R of canned cycles in the written text lie from those that the original
-/// repeats.
-struct HeldCycle {
+/// Shift (mm) of the sticky Z and R of canned cycles in the written text, relative to those of the original.
+struct WrittenCycle {
   double bottom_change_mm = 0, retract_change_mm = 0;
 };
 
 /// The modal cycle of a Sinumerik in the written text.
-struct HeldCall {
-  int line = 0;         ///< of its MCALL in the original; 0: none
+struct WrittenCall {
+  int line = 0;         ///< line of its MCALL in the original; 0: no cycle
   double shift_mm = 0;  ///< of its heights
 };
 
 struct TextState {
-  HeldPosition held{};
-  HeldCycle cycle{};
-  std::optional<int> restate_motion{};  ///< what a block that relies on the modal motion must say: that of
-                                        ///< the original, where inserted text may have left another
-  HeldCall call{};
+  TextPosition position{};
+  WrittenCycle cycle{};
+  std::optional<int> restate_motion{};  ///< motion that a block without a motion word must state: that of the
+                                        ///< original, if inserted text may have changed it
+  WrittenCall call{};
 };
 
 }  // namespace counterflex

@@ -14,13 +14,13 @@ namespace {
 
 constexpr std::string_view axis_letters = "XYZ", centre_letters = "IJK";
 
-/// Characters put in place of a span of the block.
+/// Characters that replace a span of the block.
 struct Change {
   Span span;
   std::string text;
 };
 
-/// The changes of a block, and how many words they count for.
+/// The changes of a block, and their number of words.
 struct Changes {
   std::vector<Change> list;
   std::size_t changed = 0, inserted = 0;
@@ -30,10 +30,12 @@ std::string word_text(const Original& o, char letter, const WordNumber& number) 
   return fmt::format("{}{}", letter_of(o, letter), inserted_number(number.value, number.decimals));
 }
 
-/// In an inserted block: an axis that the original's block gives as a difference, beside others as places, says so itself.
+/// In an inserted block: an axis that is relative in the original's block, beside absolute ones, gets its
+/// mode.
 std::string point_text(const Original& o, std::size_t axis, const WordNumber& number) {
   if (o.move.relative || !is_relative(o.move, axis)) return word_text(o, axis_letters[axis], number);
-  return fmt::format("{}=IC({})", letter_of(o, axis_letters[axis]), inserted_number(number.value, number.decimals));
+  return fmt::format("{}=IC({})", letter_of(o, axis_letters[axis]),
+                     inserted_number(number.value, number.decimals));
 }
 
 std::string radius_text(const Original& o, const WordNumber& number) {
@@ -41,7 +43,7 @@ std::string radius_text(const Original& o, const WordNumber& number) {
   return fmt::format("{}{}", o.dialect.radius_name, inserted_number(number.value, number.decimals));
 }
 
-/// A Sinumerik has no G90.1: absolute centres say so themselves.
+/// A Sinumerik has no G90.1: absolute centres are marked word by word.
 std::string centre_text(const Original& o, std::size_t axis, const WordNumber& number) {
   if (!o.dialect.sinumerik_words || !o.move.arc->absolute_centre)
     return word_text(o, centre_letters[axis], number);
@@ -54,8 +56,8 @@ void change_word(const Original& o, const AxisWord& word, const WordNumber& numb
   ++changes.changed;
 }
 
-/// Behind the last of the words that `belongs` names, else behind the one before the first that `follows`
-/// names, which may itself be dropped with its blanks.
+/// Position behind the last word for which `belongs`, else behind the word before the first one for which
+/// `follows`. That word may itself be removed with its blanks.
 void insert_words(const Original& o, const std::vector<std::string>& texts, bool (*belongs)(const Word&),
                   bool (*follows)(const Word&), Changes& changes) {
   if (texts.empty()) return;
@@ -82,11 +84,13 @@ void drop_word(const Original& o, const Word& word, Changes& changes) {
   changes.list.push_back({span, {}});
 }
 
-/// A height of a called cycle, shifted by what was rounded to the digits of its first one.
+/// A height of a called cycle, shifted by the rounded shift of its first one.
 WordNumber shifted_height(const Move& move, std::size_t height, double shift_mm) {
   const AxisWord word = *move.called->heights[height];
-  const int decimals = std::max(word.decimals, std::max((*move.called->heights[0]).decimals, resolution_decimals(move.unit)));
-  return {true, rounded((move.called->heights_mm[height] + shift_mm) / mm_per(move.unit), decimals), decimals};
+  const int decimals =
+      std::max(word.decimals, std::max((*move.called->heights[0]).decimals, resolution_decimals(move.unit)));
+  return {true, rounded((move.called->heights_mm[height] + shift_mm) / mm_per(move.unit), decimals),
+          decimals};
 }
 
 void axis_changes(const Original& o, const Step& step, const BesidesPoint& besides, Changes& changes) {
@@ -94,8 +98,9 @@ void axis_changes(const Original& o, const Step& step, const BesidesPoint& besid
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const WordNumber& number = step.axes[axis].number;
     if (!number.write || (o.move.called && axis == 2)) continue;
-    if (axis + 1 == o.move.angle_axis)  // the coordinate in the place of the direction
-      changes.list.push_back({o.block.angle->span, word_text(o, axis_letters[axis], number)}), ++changes.changed;
+    if (axis + 1 == o.move.angle_axis)  // the coordinate replaces the direction
+      changes.list.push_back({o.block.angle->span, word_text(o, axis_letters[axis], number)}),
+          ++changes.changed;
     else if (const auto& word = o.move.words[axis])
       change_word(o, *word, number, changes);
     else
@@ -130,7 +135,7 @@ void centre_changes(const Original& o, const ArcWords& arc, Changes& changes) {
   if (arc.radius.write) change_word(o, *o.move.arc->radius_word, arc.radius, changes);
 }
 
-/// The word of an arc that says its turns; nullptr where it has none.
+/// The word of an arc that gives its turns; nullptr without such a word.
 const Word* turns_word(const Original& o) {
   const bool path_mode = std::any_of(o.block.words.begin(), o.block.words.end(), [](const Word& word) {
     return word.letter == 'G' && (word.value == 64 || word.value == 4);
@@ -138,7 +143,7 @@ const Word* turns_word(const Original& o) {
   return path_mode ? nullptr : find_word(o.block, 'P');
 }
 
-/// A chord has no centre, no radius and no turns; of an arc the last piece makes the turns.
+/// A chord has no centre, radius or turns. The last piece of an arc makes the turns.
 void drop_arc_words(const Original& o, const Step& step, Changes& changes) {
   const bool chord = step.motion == 1;
   const Word* turns = turns_word(o);
@@ -151,13 +156,13 @@ void motion_changes(const Original& o, int motion, bool state_motion, Changes& c
   const auto& words = o.block.words;
   const auto word = std::find_if(words.begin(), words.end(), is_motion);
   if (word != words.end()) {
-    // An arc that is not followed is no arc to `motion_of`, and stays what it is.
+    // An arc that is not followed has no arc for `motion_of`. It is not changed.
     if (motion != motion_of(o.move)) changes.list.push_back({word->span, motion_text(o, motion)});
     return;
   }
-  const bool said =
-      std::any_of(words.begin(), words.end(), [&](auto& w) { return says_motion(w, o.dialect); });
-  if (!state_motion || said) return;
+  const bool has_motion =
+      std::any_of(words.begin(), words.end(), [&](auto& w) { return is_motion_word(w, o.dialect); });
+  if (!state_motion || has_motion) return;
   const auto first =
       std::find_if(words.begin(), words.end(), [](auto& w) { return is_axis(w) || is_centre(w); });
   if (first == words.end()) return;
@@ -165,7 +170,7 @@ void motion_changes(const Original& o, int motion, bool state_motion, Changes& c
   ++changes.inserted;
 }
 
-/// A word at the beginning of the block goes with the blanks behind it.
+/// A word at the beginning of the block is removed with the blanks behind it.
 void block_number_changes(const Original& o, const std::string& number, Changes& changes) {
   const Word* word = find_word(o.block, 'N');
   if (word == nullptr) return;
@@ -177,7 +182,7 @@ void block_number_changes(const Original& o, const std::string& number, Changes&
   changes.list.push_back({span, {}});
 }
 
-/// As many digits as leave the time of a piece exact to a millionth.
+/// Digits for which the time of a piece is exact to a millionth.
 int feed_decimals(double feed) {
   return feed > 0 ? std::clamp(6 - static_cast<int>(std::floor(std::log10(feed))), 1, 9) : 1;
 }
@@ -218,8 +223,8 @@ void append(const Original& o, const std::string& word, std::string& line) {
   line += word;
 }
 
-/// A centre word of an inserted block: those that say zero stand where the block itself has them.
-bool stands(const ArcMove& arc, std::size_t axis, const WordNumber& number) {
+/// A centre word of an inserted block. A zero is written if the block itself has the word.
+bool is_written(const ArcMove& arc, std::size_t axis, const WordNumber& number) {
   return in_plane(arc, axis) && (arc.absolute_centre || arc.centre_words[axis] || number.value != 0);
 }
 
@@ -227,7 +232,7 @@ void append_centre(const Original& o, const ArcWords& words, std::string& line) 
   const ArcMove& arc = *o.move.arc;
   if (arc.radius_word) return append(o, radius_text(o, words.radius), line);
   for (std::size_t axis = 0; axis < 3; ++axis)
-    if (stands(arc, axis, words.centre[axis])) append(o, centre_text(o, axis, words.centre[axis]), line);
+    if (is_written(arc, axis, words.centre[axis])) append(o, centre_text(o, axis, words.centre[axis]), line);
 }
 
 }  // namespace
@@ -254,7 +259,8 @@ std::string restated_call(const Move& move, double shift_mm) {
   for (std::size_t i = 0; i < cycle.heights.size(); ++i)
     if (cycle.heights[i]) order.push_back(i);
   const auto begin_of = [&](std::size_t i) { return cycle.heights[i]->number.begin; };
-  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return begin_of(a) < begin_of(b); });
+  std::sort(order.begin(), order.end(),
+            [&](std::size_t a, std::size_t b) { return begin_of(a) < begin_of(b); });
   std::string line;
   std::size_t at = 0;
   for (const std::size_t i : order) {

@@ -1,27 +1,28 @@
 #pragma once
-/// The text of one edited block, and of the blocks inserted around it, word by word.
+/// The text of an edited block, and of the blocks inserted around it, word by word.
 #include <string>
 
-#include "program/write/held_cycle.hpp"
 #include "program/write/original_block.hpp"
 #include "program/write/step.hpp"
+#include "program/write/text_cycle.hpp"
 
 namespace counterflex {
 
-/// What a block says besides the point it moves to.
+/// Other contents of a block than its point.
 struct BesidesPoint {
-  bool state_motion = false;             ///< a block without a motion word must say it
+  bool state_motion = false;             ///< a block without a motion word gets one
   std::optional<double> feed_per_min{};  ///< G93: F of this piece
   CycleWords cycle{};
-  double call_shift_mm = 0;  ///< of the heights of a drilling cycle that the block calls
-  std::optional<std::string> number{};  ///< N in place of the block's own, empty: no N; none: its own
+  double call_shift_mm = 0;  ///< shift of the heights of a drilling cycle called by the block
+  /// N that replaces the block's own, an empty string: no N; not set: its own.
+  std::optional<std::string> number{};
 };
 
-/// The block of `o` itself, moving by `step`, without its line end. Throws `InputError` where it would be
-/// longer than the control reads.
+/// The block of `o` itself, moving by `step`, without its line end. Throws `InputError` if it would be longer
+/// than the control reads.
 std::string own_block(const Original& o, const Step& step, const BesidesPoint& besides, Rewritten& out);
 
-/// MCALL with the cycle that is called at `move`, its heights shifted.
+/// MCALL with the cycle called at `move`, with shifted heights.
 std::string restated_call(const Move& move, double shift_mm);
 
 /// An inserted block that moves by `step`.

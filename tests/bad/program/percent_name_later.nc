@@ -1,4 +1,4 @@
-(expect: 4:1: error: a '%' stands alone on its line)
+(expect: 4:1: error: a '%' must be alone in its line)
 O1
 G21 G90
 %PART

@@ -18,7 +18,7 @@ std::string with_header(const std::string& text) {
 
 }  // namespace
 
-TEST_CASE("a program's number shows a shop control, however it is spelt") {
+TEST_CASE("a program number indicates a shop control in all spellings") {
   for (const char* number :
        {"O1001\n", "%\nO1001(PART)\n", "%O1001\n", ":1001\n", "%\n:0001 (PART)\n", "O0001 G21 G90\n",
         "N1 O1001\n", "%;\nO0007 (PART);\n", "(PART)\no7\n", "%\n<PART-1>(NAMED)\n", "%\nO<PART 1>\n"}) {
@@ -28,7 +28,7 @@ TEST_CASE("a program's number shows a shop control, however it is spelt") {
   CHECK(dialect_of("o100 sub\no100 endsub\nG21 G0 X1\n") == "linuxcnc");
 }
 
-TEST_CASE("codes that one control alone knows show that one") {
+TEST_CASE("codes that only one control has indicate that control") {
   const std::string begin = "%\nO1001\nG21 G90\n", end = "G0 X1. Y2. Z3.\nM30\n%\n";
   CHECK(dialect_of(begin + "G110\n" + end) == "haas");
   CHECK(dialect_of(begin + "(G110)\n" + end) == "fanuc");
@@ -40,16 +40,17 @@ TEST_CASE("codes that one control alone knows show that one") {
   CHECK(dialect_of("G21 G90 (G71)\n#<g71>=1 ; G71\n" + end) == "linuxcnc");
 }
 
-TEST_CASE("a name behind '%' is that of a shop control's program, of a Sinumerik's where it says MPF or SPF") {
+TEST_CASE("a name behind '%' indicates a shop control, with MPF or SPF a Sinumerik") {
   const std::string moves = "N10 G21 G90 G00 X1. Y2. Z3.\nM30\n";
   CHECK(dialect_of("(SAMPLE)\n\n%123\n" + moves) == "fanuc");
   CHECK(dialect_of("(A (B) C)\n%123\n" + moves) == "fanuc");
   CHECK(dialect_of("%PM (PART)\n" + moves) == "fanuc");
   CHECK(dialect_of("%MPF 90\nN10 G71 G90 G0 X1 Y2 Z3\nM30\n") == "siemens");
-  CHECK(read_program("(SAMPLE)\n\n%123\n" + moves, "p.nc", {.unit = LengthUnit::millimetres}).moves.size() == 1);
+  CHECK(read_program("(SAMPLE)\n\n%123\n" + moves, "p.nc", {.unit = LengthUnit::millimetres}).moves.size() ==
+        1);
 }
 
-TEST_CASE("comments in comments, and comments without an end, are read where LinuxCNC does not read them") {
+TEST_CASE("nested and unclosed comments are read in dialects other than LinuxCNC") {
   const std::string text = "G21 G90 (tool (flat) 6 mm)\nG0 X1 Y2 Z3 (start\nG1 X5 F100\n";
   CHECK(dialect_of(text) == "mach3");
   CHECK(read(text).moves.size() == 2);
@@ -58,15 +59,15 @@ TEST_CASE("comments in comments, and comments without an end, are read where Lin
   CHECK(read(shop).moves[0].end_mm.x() == 1);
 }
 
-TEST_CASE("a comment that stands where a control is no longer looked for is no sign of one") {
+TEST_CASE("a comment behind the searched beginning is not a sign of a control") {
   std::string text = "G21 G90\nG0 X1 Y2 Z3\n";
-  while (text.size() < 2 << 20) text += "(a remark that is a little longer than most, and stands often)\n";
+  while (text.size() < 2 << 20) text += "(a remark that is a little longer than most, and repeated often)\n";
   CHECK(dialect_of(text) == "linuxcnc");
   text.insert(text.find("G0"), "(open\n");
   CHECK(dialect_of(text) == "mach3");
 }
 
-TEST_CASE("the header goes behind the mark of UTF-8 and behind the program's number") {
+TEST_CASE("the header follows the UTF-8 byte order mark and the program number") {
   const std::string moves = "G21 G90\nG0 X1. Y2. Z3.\n", header = "(COUNTERFLEX 1)\n";
   for (const char* begin : {"\xef\xbb\xbf", "%O1001\n", ":1001\n", "%\nO0001 G54\n", "%PART\nO1\n",
                             "\xef\xbb\xbf(PART)\n", "%\n<PART-1>\n"}) {
@@ -75,7 +76,7 @@ TEST_CASE("the header goes behind the mark of UTF-8 and behind the program's num
   }
 }
 
-TEST_CASE("characters of transmissions at the edges of lines mean nothing") {
+TEST_CASE("control characters at both ends of a line are ignored") {
   const std::string nul(3, '\0');
   for (const std::string& text :
        {nul + "%\nO1\nG21 G90\nG0 X1. Y2. Z3.\nM30\n%\n\x1a" + nul,
@@ -88,12 +89,13 @@ TEST_CASE("characters of transmissions at the edges of lines mean nothing") {
   }
 }
 
-TEST_CASE("what a spindle, a length's end or a length takes besides is no error") {
+TEST_CASE("additional words of a spindle, of G49 and of G43 are not errors") {
   CHECK(read("G21 G90 G49 H0\nM3 P100\nG43 H1 D1\nG0 X1 Y2 Z3\n").moves.size() == 1);
 }
 
 TEST_CASE(
-    "a mark of UTF-8 belongs to no block: one behind it is edited, refused and numbered as without it") {
+    "a UTF-8 byte order mark belongs to no block: the first block is edited, refused and numbered as without "
+    "it") {
   const std::string mark = "\xef\xbb\xbf", moving = "G0 X1. Y2. Z3.\nM30\n";
   ReadOptions options;
   options.unit = LengthUnit::millimetres;

@@ -22,7 +22,7 @@ std::string refusal_of_robot(const std::string& text, const std::string& dialect
 
 }  // namespace
 
-TEST_CASE("a robot's program is refused by the name of its language, whatever dialect is asked for") {
+TEST_CASE("a robot program is refused with the name of its language, in any dialect option") {
   const std::pair<const char*, const char*> programs[] = {
       {"&ACCESS RVO1\r\nDEF Test1 ( )\r\n", "KUKA KRL"},
       {"\n;FOLD\nDEF Test1()\nPTP HOME\n", "KUKA KRL"},

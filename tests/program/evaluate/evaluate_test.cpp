@@ -11,13 +11,13 @@ using namespace counterflex::test;
 
 namespace {
 
-std::optional<double> bracketed(const std::string& text, ExpressionSyntax syntax = ExpressionSyntax::linuxcnc) {
-  return constant_value(text, syntax,
-                        [](const std::string& name) -> std::optional<double> {
-                          if (name == "#1") return 2;
-                          if (name == "#2") return 1;
-                          return name == "#<depth>" ? std::optional<double>(-3) : std::nullopt;
-                        });
+std::optional<double> bracketed(const std::string& text,
+                                ExpressionSyntax syntax = ExpressionSyntax::linuxcnc) {
+  return constant_value(text, syntax, [](const std::string& name) -> std::optional<double> {
+    if (name == "#1") return 2;
+    if (name == "#2") return 1;
+    return name == "#<depth>" ? std::optional<double>(-3) : std::nullopt;
+  });
 }
 
 std::optional<double> sinumerik(const std::string& text) {
@@ -38,7 +38,7 @@ Program evaluated(const std::string& text, const std::string& dialect = "linuxcn
 
 const std::string start = "G21 G90 G17 G54 F100\nG0 X0. Y0. Z5.\n";
 
-/// End of the last move, all of whose position is known.
+/// End of the last move, whose position must be known.
 Vector3 end_of(const std::string& blocks, const std::string& dialect = "linuxcnc") {
   const std::string siemens_start = "G71 G90 G17 G54 F100\nG0 X0 Y0 Z5\n";
   const Program program = evaluated((dialect == "siemens" ? siemens_start : start) + blocks, dialect);
@@ -61,7 +61,7 @@ std::string moved(const Program& program) {
 
 }  // namespace
 
-TEST_CASE("expressions have the values that LinuxCNC gives them") {
+TEST_CASE("expressions have the values that LinuxCNC computes") {
   CHECK(bracketed("[1 + 2 * 3]") == 7);
   CHECK(bracketed("[[1 + 2] * 3 - #1 / 4]") == 8.5);
   CHECK(bracketed("-#1") == -2);
@@ -85,7 +85,7 @@ TEST_CASE("expressions of a Sinumerik are in round brackets, with its functions"
   CHECK(std::abs(*sinumerik("ATAN2(1, 1)") - 45) < 1e-12);
 }
 
-TEST_CASE("comparisons and logic are 1 or 0, and bind as the control has it") {
+TEST_CASE("comparisons and logic have the values 1 or 0, with the precedence of the control") {
   CHECK(bracketed("[#1 GT 1]") == 1);
   CHECK(bracketed("[[1 + 1] GT 1 AND 3 LT 2 + 2]") == 1);
   CHECK(bracketed("[1 OR 0 AND 0]") == 0);
@@ -100,7 +100,8 @@ TEST_CASE("comparisons and logic are 1 or 0, and bind as the control has it") {
   CHECK(bracketed("[[#1 EQ 2] AND [#2 LT 3]]", macro) == 1);
   CHECK(bracketed("[1 OR 0 AND 0]", macro) == 1);
   CHECK(bracketed("[#1 NE 2]", macro) == 0);
-  for (const char* const text : {"[2 AND 4]", "[#1 EQ 2 AND #2 LT 3]", "[0.1 + 0.2 EQ 0.3]", "[0.1 + 0.2 GT 0.3]"})
+  for (const char* const text :
+       {"[2 AND 4]", "[#1 EQ 2 AND #2 LT 3]", "[0.1 + 0.2 EQ 0.3]", "[0.1 + 0.2 GT 0.3]"})
     CHECK_FALSE(bracketed(text, macro).has_value());
   CHECK(evaluate_expression("[0.1 + 0.2 LE 0.3]", macro, nullptr).depends_on_rounding);
   CHECK_FALSE(bracketed("[1 GT 0]", ExpressionSyntax::brackets).has_value());
@@ -111,20 +112,20 @@ TEST_CASE("comparisons and logic are 1 or 0, and bind as the control has it") {
   CHECK_FALSE(sinumerik("R1 ANDY 1").has_value());
 }
 
-TEST_CASE("what controls work out differently, or the text does not show, has no value") {
-  for (const char* const text :
-       {"#3", "[1 / 0]", "FIX[-2.8]", "ROUND[-0.5]", "ATAN[-1]/[1]", "[-7 MOD 4]", "SQRT[-1]",
-        "ASIN[2]", "#<other>", "FOO[1]", "[1 + ", "#[1.5]", "[1 2]2"})
+TEST_CASE(
+    "expressions that controls evaluate differently, or that the text does not determine, have no value") {
+  for (const char* const text : {"#3", "[1 / 0]", "FIX[-2.8]", "ROUND[-0.5]", "ATAN[-1]/[1]", "[-7 MOD 4]",
+                                 "SQRT[-1]", "ASIN[2]", "#<other>", "FOO[1]", "[1 + ", "#[1.5]", "[1 2]2"})
     CHECK_FALSE(bracketed(text).has_value());
   for (const char* const text : {"R2", "R1 +", "MINVAL(1,2)", "$P_EP[X]", "(1"})
     CHECK_FALSE(sinumerik(text).has_value());
 }
 
-TEST_CASE("constants and expressions of them are positions that are known, with --evaluate alone") {
+TEST_CASE("constants and expressions of constants are known positions only with --evaluate") {
   CHECK(end_of("#1=5\nG1 X#1 Y[#1 * 2 + 1]\n") == Vector3(5, 11, 5));
   CHECK(end_of("#<depth>=-2.5 (down)\n#1=[#<depth> * 2]\nG1 Z#<depth> X#1\n") == Vector3(-5, 0, -2.5));
   CHECK(end_of("#1=5\n#1=[#1+1]\nG1 X#1\n") == Vector3(6, 0, 5));
-  CHECK(end_of("#1=5\n#1=7 G1 X#1\n") == Vector3(5, 0, 5));  // set behind the block
+  CHECK(end_of("#1=5\n#1=7 G1 X#1\n") == Vector3(5, 0, 5));                // set behind the block
   CHECK(end_of("#2=3\n#2=5 #3=#2 G1 X#2\nG1 Y#3\n") == Vector3(3, 3, 5));  // all values are read first
   CHECK(end_of("#100=5 (A)\nG1 X#100 Y-#100\n", "fanuc") == Vector3(5, -5, 5));
   CHECK(end_of("#101=1#102=2\nG1 X#102 Y#101\n", "fanuc") == Vector3(2, 1, 5));
@@ -134,7 +135,7 @@ TEST_CASE("constants and expressions of them are positions that are known, with 
   CHECK_FALSE(all_known(read(start + "#1=5\nG1 X#1\n").moves.back().known_end));
 }
 
-TEST_CASE("variables that the text does not show are not known") {
+TEST_CASE("variables that the text does not determine are unknown") {
   CHECK_FALSE(last_is_known("G1 X#1\n"));
   CHECK_FALSE(last_is_known("#1=#5021\nG1 X#1\n"));
   CHECK_FALSE(last_is_known("#1=5\n/#1=6\nG1 X#1\n"));
@@ -149,8 +150,7 @@ TEST_CASE("variables that the text does not show are not known") {
   CHECK_FALSE(last_is_known("#1=[1/3]\nG91 G1 X#1\n"));
 }
 
-TEST_CASE(
-    "a word that is worked out becomes a number where it changes, and stays as it is where it does not") {
+TEST_CASE("an evaluated word becomes a number if it changes, and stays as it is if it does not") {
   const Program program = evaluated(start + "#1=5\nG1 X#1 Y[#1 * 2]\nG2 X[2*#1] Y#1 I0 J-5\n");
   CHECK(moved(program).find("#1=5\nG1 X6. Y[#1 * 2]\n") != std::string::npos);
   const Program words = evaluated("G71 G90 G17 G54 F100\nG0 X0 Y0 Z5\nR1=5\nG1 X=R1*2 Y=R1\n", "siemens");

@@ -1,5 +1,5 @@
 #pragma once
-/// Programs whose loops, conditions and jumps have been executed, for tests.
+/// Programs whose loops, conditions and jumps were executed, for tests.
 #include <string>
 
 #include "program/dialect.hpp"

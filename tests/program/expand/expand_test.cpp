@@ -17,7 +17,7 @@ Program expanded(const std::string& text, const std::string& dialect = "auto") {
   return read_program(text, "p.nc", options);
 }
 
-/// Moves that a program makes, whatever their lines: the same text gives the same.
+/// The moves of a program, without their lines: equal text means equal moves.
 std::string path_of(const Program& program) {
   std::string path;
   for (const Move& move : program.moves)
@@ -34,7 +34,7 @@ struct Expanding {
   std::string dialect, before, calls, bodies, after;
 };
 
-/// `calls` stands for `bodies`; a definition stands before the program or behind it.
+/// `calls` is replaced by `bodies`; a definition is before the program or behind it.
 void check_same(const Expanding& e) {
   CAPTURE(e.before);
   CAPTURE(e.calls);
@@ -49,7 +49,7 @@ void check_same(const Expanding& e) {
 
 }  // namespace
 
-TEST_CASE("a program without calls that are expanded is the same bytes, lines and moves") {
+TEST_CASE("a program without expanded calls has the same bytes, lines and moves") {
   for (const std::string& text : {go + "G1 X1\nX2", fanuc_go + "N5 G1 X1.\r\n(M98 P2)\r\nM30\n%\nwhatever {",
                                   "%\n" + go + "%\nM98 P3\n", go + "o1 if [#1 GT 2]\nX1\no1 endif\nX3 Y#2\n",
                                   "O1\nG21\nM99\nO2\n" + go + "M30\n", std::string(), std::string("\n\n")}) {
@@ -62,7 +62,7 @@ TEST_CASE("a program without calls that are expanded is the same bytes, lines an
   }
 }
 
-TEST_CASE("a call by M98 is its body, in the place of the call") {
+TEST_CASE("a call by M98 is replaced by its body") {
   const std::string end = "M30\nO1001 (SLOT)\nG91 G1 X1.\nG90 Y2. (CUT)\nM99\n";
   const std::string body = "G91 G1 X1.\nG90 Y2. (CUT)\n";
   for (const std::string dialect : {"fanuc", "haas"}) {
@@ -87,17 +87,17 @@ TEST_CASE("M97 calls the blocks from its number on") {
       {"haas", fanuc_go, "M97 P100 L2\n", "N100 X1.\nY1.\nN100 X1.\nY1.\n", "M30\nN100 X1.\nY1.\nM99\n"});
 }
 
-TEST_CASE("what stands beside M99 is done before the subprogram comes back") {
+TEST_CASE("other words in the block of M99 are executed before the return") {
   check_same(
       {"fanuc", fanuc_go, "M98 P2\nX9.\n", "X1.\nN4 Y3. (LAST)\nX9.\n", "M30\nO2\nX1.\nN4 Y3. M99 (LAST)\n"});
 }
 
-TEST_CASE("calls in a body are expanded where they stand, in every copy") {
+TEST_CASE("calls in a body are expanded in every copy") {
   check_same({"fanuc", fanuc_go, "M98 P2 L2\n", "X1.\nY5.\nX2.\nX1.\nY5.\nX2.\n",
               "M30\nO2\nX1.\nM98 P3\nX2.\nM99\nO3\nY5.\nM99\n"});
 }
 
-TEST_CASE("the arguments of an O-word stand for #1 to #30 in its body") {
+TEST_CASE("the arguments of an O-word replace #1 to #30 in its body") {
   const std::string body = "M2\no<a_b> sub\nG1 X#1 Y[#2*2+1] (#1)\nZ-[#3/4] F-#4\no<a_b> endsub (end)\n";
   check_same(
       {"linuxcnc", go, "o<a_b> call [1.5] [-2] [3-1] [-[60+40]]\n", "G1 X1.5 Y-3 (#1)\nZ-0.5 F100\n", body});
@@ -115,7 +115,7 @@ TEST_CASE("values are written with the digits they have, at most six") {
     check_same({"linuxcnc", go, "o1 call [" + argument + "]\n", "X" + number + "\n", sub});
 }
 
-TEST_CASE("line ends are those of the file, and a last line without one gets one") {
+TEST_CASE("line ends are those of the file, and a last line without a line end gets one") {
   const Program program =
       expanded("O1\r\nG21 G0 X0. Y0. Z0.\r\nM98 P2\r\nM30\r\nO2\r\nX1.\r\nY2. M99", "fanuc");
   CHECK(program.text == "O1\r\nG21 G0 X0. Y0. Z0.\r\nX1.\r\nY2.\r\nM30\r\nO2\r\nX1.\r\nY2. M99");
@@ -123,7 +123,7 @@ TEST_CASE("line ends are those of the file, and a last line without one gets one
         "O2\nX1.\nM99\nO1\n" + go + "X4.\nX1.\n");
 }
 
-TEST_CASE("moves of a copy have the lines of the body, and no two of a repeated block are taken for one") {
+TEST_CASE("moves of a copy have the lines of the body, and repeated blocks are different moves") {
   const Program program = expanded(fanuc_go + "M98 P2 L3\nX9.\nM30\nO2\nX1. Y1.\nM99\n", "fanuc");
   std::vector<int> lines;
   for (const Move& move : program.moves) lines.push_back(move.line);
@@ -134,64 +134,67 @@ TEST_CASE("moves of a copy have the lines of the body, and no two of a repeated 
   CHECK(line_of_file(program.expansion, 8) == 6);
 }
 
-TEST_CASE("what is wrong in a copy is said at its line, with the line of the call") {
+TEST_CASE("an error in a copy is reported at its line, with the line of the call") {
   CHECK(diagnostic_of([] { expanded("O1\nG21 G90\nM98 P2\nM30\nO2\n  X1.\nM99\n", "fanuc"); }) ==
-        "p.nc:6:3: error: X without a motion: no G0 or G1 stands before it (called from line 3)");
+        "p.nc:6:3: error: X without a motion: program G0 or G1 before it (called from line 3)");
 }
 
-TEST_CASE("a call that does not say all in plain numbers is left as it is, with the reason") {
+TEST_CASE("a call that is not all plain numbers is not expanded, with the reason") {
   struct Left {
     std::string dialect, call, definition, why;
   };
   const std::string plain = "O2\nX1.\nM99\n", word = "o<a> sub\nX#1\no<a> endsub\n";
   for (const Left& l : std::vector<Left>{
-           {"fanuc", "M98 P#1", plain, "its P is no plain number"},
-           {"fanuc", "M98 P2.5", plain, "its P is no plain number"},
+           {"fanuc", "M98 P#1", plain, "its P is not a plain number"},
+           {"fanuc", "M98 P2.5", plain, "its P is not a plain number"},
            {"fanuc", "M98 L2", plain, "it has no P"},
-           {"fanuc", "M98 P2 L0", plain, "its L is no count from 1"},
-           {"fanuc", "M98 P2 L#1", plain, "its L is no count from 1"},
+           {"fanuc", "M98 P2 L0", plain, "its L is not a count from 1"},
+           {"fanuc", "M98 P2 L#1", plain, "its L is not a count from 1"},
            {"fanuc", "/M98 P2", plain, "'/' may skip it"},
-           {"fanuc", "G4 M98 P2", plain, "G stands beside it"},
-           {"fanuc", "M30 M98 P2", plain, "M stands beside it"},
-           {"fanuc", "M98 P3", plain, "the subprogram does not stand in this file: put it behind the end of the program"},
-           {"fanuc", "M98 P2", plain + plain, "the subprogram stands in this file more than once"},
+           {"fanuc", "G4 M98 P2", plain, "its block has the word G"},
+           {"fanuc", "M30 M98 P2", plain, "its block has the word M"},
+           {"fanuc", "M98 P3", plain,
+            "the subprogram is not in this file: append it behind the end of the program"},
+           {"fanuc", "M98 P2", plain + plain, "this file defines the subprogram more than once"},
            {"fanuc", "M98 P2", "O2\nX1.\nM30\n", "its body does not end with M99 or endsub"},
            {"fanuc", "M98 P2", "O2\nX1.\nO3\nM99\n", "its body does not end with M99 or endsub"},
            {"fanuc", "M98 P2", "O2\nX1.\n/M99\nM99\n", "'/' may skip the M99 in its body"},
            {"fanuc", "M98 P2", "O2\nWHILE [#1 LT 2] DO1\nX1.\nEND1\nM99\n",
             "the condition [#1 LT 2] is not known from the text"},
-           {"fanuc", "M98 P2", "O2\nX1.\nM99 P10\n", "its M99 goes to a block number"},
+           {"fanuc", "M98 P2", "O2\nX1.\nM99 P10\n", "its M99 jumps to a block number"},
            {"fanuc", "M98 P2", "O2\nG#1 X1.\nM99\n", "a code in its body is a variable or an expression"},
-           {"fanuc", "M98 P2", "O2 G0\nX1.\nM99\n", "words stand beside its O"},
-           {"linuxcnc", "o<a> call [1]", word + "(#<_value>)\n", "the program reads what calls give back"},
-           {"linuxcnc", "X1 M98 P2", plain, "X stands beside it"},
-           {"linuxcnc", "M98 P2", "O2\nX#1\nM99\n", "its body holds variables or expressions"},
-           {"linuxcnc", "o<a> call [#5]", word, "its argument [#5] is no plain number"},
-           {"linuxcnc", "o<a> call [1/0]", word, "its argument [1/0] is no plain number"},
-           {"linuxcnc", "o<a> call 5", word, "its arguments do not stand in brackets"},
+           {"fanuc", "M98 P2", "O2 G0\nX1.\nM99\n", "its O line has other words"},
+           {"linuxcnc", "o<a> call [1]", word + "(#<_value>)\n",
+            "the program reads values returned by calls"},
+           {"linuxcnc", "X1 M98 P2", plain, "its block has the word X"},
+           {"linuxcnc", "M98 P2", "O2\nX#1\nM99\n", "its body has variables or expressions"},
+           {"linuxcnc", "o<a> call [#5]", word, "its argument [#5] is not a plain number"},
+           {"linuxcnc", "o<a> call [1/0]", word, "its argument [1/0] is not a plain number"},
+           {"linuxcnc", "o<a> call 5", word, "its arguments are not in brackets"},
            {"linuxcnc", "o<a> call [1", word, ""},
            {"linuxcnc", "o#3 call [1]", word, "its name is a variable or an expression"},
-           {"linuxcnc", "o<b> call [1]", word, "the subprogram does not stand in this file: put it behind the end of the program"},
-           {"linuxcnc", "o<a> call [1] (and) o<a> call [2]", word, "a comment stands before it"},
+           {"linuxcnc", "o<b> call [1]", word,
+            "the subprogram is not in this file: append it behind the end of the program"},
+           {"linuxcnc", "o<a> call [1] (and) o<a> call [2]", word, "a comment is before it"},
            {"linuxcnc", "/o<a> call [1]", word, "'/' may skip it"},
            {"linuxcnc", "o<a> call [1]", "o<a> sub\n#5221=2\nX#1\no<a> endsub\n",
-            "#5221 in line 6 of its body is worked out, or the control's own"},
+            "#5221 in line 6 of its body is an expression or a variable of the control"},
            {"linuxcnc", "o<a> call [1]", "o<a> sub\n#100=#5061\nX#1\no<a> endsub\n",
             "the value of #100 in line 6 of its body is not known from the text"},
            {"linuxcnc", "M98 P2", "O2\n#1=2\nX1\nM99\n", "its body sets variables"},
            {"linuxcnc", "o<a> call [1]", "o<a> sub\nX#<wide>\no<a> endsub\n",
-            "X#<wide> in line 6 of its body is no number that the call gives"},
+            "X#<wide> in line 6 of its body is not a number given by the call"},
            {"linuxcnc", "o<a> call [1]", "o<a> sub\nX1\no<a> return [3]\nX2\no<a> endsub\n",
-            "its return gives a value back"},
+            "its return has a value"},
            {"linuxcnc", "o<a> call [1]", "o<a> sub\no1 while [1]\nX1\no1 endwhile\no<a> endsub\n",
             "more than 150000 lines would be executed"},
            {"linuxcnc", "o<a> call [1]", "o<a> sub\no1 if [#5061 GT 0]\nX1\no1 endif\no<a> endsub\n",
             "the condition [#5061 GT 0] is not known from the text"},
-           {"linuxcnc", "o<a> call [1]", "o<a> sub\nX1\no<a> endsub [3]\n", "its endsub gives a value back"},
+           {"linuxcnc", "o<a> call [1]", "o<a> sub\nX1\no<a> endsub [3]\n", "its endsub returns a value"},
            {"linuxcnc", "o<a> call [1]", "o<a> sub\nM73\nX1\no<a> endsub\n",
-            "M73 in its body brings states back"},
+            "M73 in its body restores modal states"},
            {"linuxcnc", "o<a> call [1]", "o<a> sub\no<c> call\no<a> endsub\n",
-            "the subprogram does not stand in this file: put it behind the end of the program"}}) {
+            "the subprogram is not in this file: append it behind the end of the program"}}) {
     CAPTURE(l.call);
     CAPTURE(l.definition);
     const std::string text = (l.dialect == "fanuc" ? fanuc_go : go) + l.call + "\nM30\n" + l.definition;
@@ -210,7 +213,7 @@ TEST_CASE("a call that does not say all in plain numbers is left as it is, with 
   }
 }
 
-TEST_CASE("a call in a condition or a loop is left as it is") {
+TEST_CASE("a call in a condition or a loop is not expanded") {
   for (const auto& [before, after] :
        std::vector<std::pair<std::string, std::string>>{{"o1 if [#1 GT 2]\n", "o1 endif\n"},
                                                         {"o1 repeat [#1]\n", "o1 endrepeat\n"},
@@ -223,7 +226,7 @@ TEST_CASE("a call in a condition or a loop is left as it is") {
   }
 }
 
-TEST_CASE("nothing is copied where block numbers are looked for") {
+TEST_CASE("nothing is copied if the program searches block numbers") {
   const std::string sub = "M30\nO2\nN10 X1.\nM99\n";
   for (const std::string seeking : {"GOTO 10\n", "/M97 P10\n", "M99 P10\n"}) {
     CAPTURE(seeking);
@@ -233,7 +236,7 @@ TEST_CASE("nothing is copied where block numbers are looked for") {
   }
 }
 
-TEST_CASE("a copy that fails half way leaves nothing behind") {
+TEST_CASE("a copy that fails half way has no effect on the text") {
   const std::string text = go +
                            "o1 call [1]\no2 call [2]\nM2\no1 sub\no2 call [#1]\nX#5\nY#<y>\no1 endsub\n"
                            "o2 sub\nX#1\no2 endsub\n";
@@ -243,21 +246,22 @@ TEST_CASE("a copy that fails half way leaves nothing behind") {
   CHECK(program.moves.back().line == 12);
 }
 
-TEST_CASE("a subprogram that calls itself has no expansion, and repeats are limited") {
+TEST_CASE("a subprogram that always calls itself is refused, and repeats are limited") {
   CHECK(diagnostic_of([] {
           expanded(fanuc_go + "M98 P2\nM30\nO2\nX1.\nM98 P3\nM99\nO3\n N5 M98 P2\nM99\n", "fanuc");
-        }) == "p.nc:11:5: error: the subprogram calls itself: its expansion has no end (called from line 8)");
+        }) ==
+        "p.nc:11:5: error: the subprogram calls itself: its expansion does not end (called from line 8)");
   const std::string nested = fanuc_go + "M98 P2 L9999\nM30\nO2\nM98 P3 L9000\nM99\nO3\nX1.\nM99\n";
   CHECK(diagnostic_of([&] {
           expanded(nested, "fanuc");
-        }).find("p.nc:7:1: error: M98: the expanded calls make more than") == 0);
+        }).find("p.nc:7:1: error: M98: the expanded calls are longer than") == 0);
   const std::string body(200'000, ' ');
   CHECK(diagnostic_of([&] {
           expanded(fanuc_go + "M98 P2 L9999\nM30\nO2\n(" + body + ")\nM99\n", "fanuc");
-        }).find("p.nc:4:1: error: M98: the expanded calls make more than") == 0);
+        }).find("p.nc:4:1: error: M98: the expanded calls are longer than") == 0);
 }
 
-TEST_CASE("nothing in a definition runs when all calls are expanded, but it stays in the text") {
+TEST_CASE("blocks in a definition do not run when all calls are expanded, but they stay in the text") {
   const std::string subs = "o1 sub\nG1 X7\no1 endsub\n";
   const Program program = expanded(go + subs + "o1 call\nX3\nM2\n");
   CHECK(program.text == go + subs + "G1 X7\nX3\nM2\n");
@@ -273,7 +277,7 @@ TEST_CASE("nothing in a definition runs when all calls are expanded, but it stay
   CHECK(expanded("O2\n" + go + "M98 P3\nM99\nO3\nX1.\nM99\n", "fanuc").moves.size() == 3);
 }
 
-TEST_CASE("what was expanded is remarked, and where there is nothing to expand too") {
+TEST_CASE("remarks report the expansion, or that there is nothing to expand") {
   const Program program = expanded(go + "o1 call\no1 call\nM2\no1 sub\nX1\no1 endsub\n");
   const auto says = [](const Program& p, int line, std::string_view what) {
     return std::any_of(p.remarks.begin(), p.remarks.end(), [&](const Remark& r) {
@@ -283,11 +287,11 @@ TEST_CASE("what was expanded is remarked, and where there is nothing to expand t
   CHECK(says(program, 3, "2 calls of subprograms replaced by the bodies"));
   for (const std::string dialect : {"grbl", "linuxcnc"})
     CHECK(says(expanded("G90\nM5\n", dialect), 1, "no call by M98 or an O-word"));
-  CHECK(says(expanded("G90\nM5\n", "siemens"), 1, "no loop, condition or jump stands in the program"));
+  CHECK(says(expanded("G90\nM5\n", "siemens"), 1, "the program has no loop, condition or jump"));
   CHECK(says(expanded("BEGIN PGM A MM\nL X+1 R0 FMAX\nEND PGM A MM\n"), 1, "no call by M98 or an O-word"));
 }
 
-TEST_CASE("each call is rewritten on its own") {
+TEST_CASE("each copy of a call is rewritten separately") {
   const std::string subs = "M2\no1 sub\nG1 X#1\nY2\no1 endsub\n";
   const Program program = expanded(go + "o1 call [1]\no1 call [2]\n" + subs);
   std::vector<MoveEdit> edits = edits_to_original(program);
@@ -296,7 +300,8 @@ TEST_CASE("each call is rewritten on its own") {
         "G21 G90 G17 F100\nG0 X0. Y0. Z5.\nG1 X1.1\nY2 X1.200\nG1 X2.3\nY2 X2.400\n" + subs);
 }
 
-TEST_CASE("the motion is said again behind a definition that says it too, because nothing there runs") {
+TEST_CASE(
+    "the motion word is repeated behind a definition that has one, because the definition does not run") {
   const Program program = expanded(go + "G2 X10 I5\no1 sub\nG2 X1 I2\no1 endsub\nX0 I-5\nM2\n");
   REQUIRE(program.moves.size() == 3);
   const MoveEdit chord{.move = 1, .end_mm = {10, 0.5, 5}};

@@ -1,4 +1,4 @@
-/// Loops, conditions and jumps of a Sinumerik, executed as their constants say.
+/// Execution of loops, conditions and jumps of a Sinumerik with constants.
 #include <doctest/doctest.h>
 
 #include "program/expand/executed.hpp"
@@ -28,7 +28,7 @@ void check_left(const std::string& text, int line, std::string_view why) {
 
 }  // namespace
 
-TEST_CASE("siemens: FOR sets its variable before each time") {
+TEST_CASE("siemens: FOR sets its variable before each pass") {
   check_executed("FOR R1=1 TO 2\nX=R1\nENDFOR\nM30\n", "R1=1\nX=R1\nR1=2\nX=R1\nR1=3\nM30\n");
   check_executed("DEF INT I, LAST=1\nFOR I=LAST TO LAST+1\nX=I\nENDFOR\nM30\n",
                  "DEF INT I, LAST=1\nI=1\nX=I\nI=2\nX=I\nI=3\nM30\n");
@@ -49,7 +49,7 @@ TEST_CASE("siemens: WHILE, REPEAT, LOOP, IF and jumps to labels are followed") {
   check_executed("GOTO B\nX1\nB: X2\nGOTOF B\nX3\nb: X4\nM30\n", "X2\nX4\nM30\n");
 }
 
-TEST_CASE("siemens: copies of a line say from where they come, and what stands behind the end stays") {
+TEST_CASE("siemens: copies of a line have the line of their origin, and text behind the end stays") {
   const Executed e = executed("R1=0\nA: X1\nR1=R1+1\nIF R1<2 GOTOB A\nM30\nIF R9==1 GOTOF A\n", "siemens");
   CHECK(e.text == "R1=0\nX1\nR1=R1+1\nX1\nR1=R1+1\nM30\nIF R9==1 GOTOF A\n");
   CHECK(line_of_file(e.expansion, 4) == 2);
@@ -59,29 +59,31 @@ TEST_CASE("siemens: copies of a line say from where they come, and what stands b
   CHECK(e.expansion.executed == 2);
 }
 
-TEST_CASE("siemens: what is not known from the text leaves the program as it is") {
+TEST_CASE("siemens: a flow that is not known from the text leaves the program unchanged") {
   check_left("IF R1==1 GOTOF A\nX1\nA: M30\n", 1, "the condition R1==1 is not known from the text");
   check_left("WHILE $AC_TIMER[1]<5\nX1\nENDWHILE\nM30\n", 1,
              "the condition $AC_TIMER[1]<5 is not known from the text");
-  check_left("R1=0.1+0.2\nIF R1==0.3 GOTOF A\nX1\nA: M30\n", 2, "the condition R1==0.3 depends on how the control rounds");
+  check_left("R1=0.1+0.2\nIF R1==0.3 GOTOF A\nX1\nA: M30\n", 2,
+             "the condition R1==0.3 depends on how the control rounds");
   check_left("A: X1\nGOTOB A\nM30\n", 2, "more than 150000 lines would be executed");
   check_left("R1=1\nIF R1==1 GOTOB A\nX1\nA: M30\n", 2,
              "the label A of the jump is not found in its direction");
   check_left("GOTOF NOWHERE\nM30\n", 1, "the label NOWHERE of the jump is not found");
   check_left("FOR R1=1 TO R2\nX1\nENDFOR\nM30\n", 1, "the end of FOR R1=1 TO R2 is not known from the text");
-  check_left("R1=1\nL100\nIF R1==1 GOTOF A\nX1\nA: M30\n", 3, "the condition R1==1 is not known from the text");
+  check_left("R1=1\nL100\nIF R1==1 GOTOF A\nX1\nA: M30\n", 3,
+             "the condition R1==1 is not known from the text");
   check_left("R1=1\nMCALL MY_HOLE(1)\nX1\nIF R1==1 GOTOF A\nX2\nA: M30\n", 4,
              "the condition R1==1 is not known from the text");
-  check_left("R1=1 R2=1\n_A[R2]=5\nIF R1==1 GOTOF A\nX1\nA: M30\n", 3, "the condition R1==1 is not known from the text");
-  check_left("X1 GOTOF A\nX2\nA: M30\n", 1, "GOTO behind other words is not followed");
-  check_left("A: X1\nREPEATB A P=3\nM30\n", 2, "REPEATB is not followed");
-  check_left("X1\nENDIF\nM30\n", 2, "ENDIF ends nothing");
+  check_left("R1=1 R2=1\n_A[R2]=5\nIF R1==1 GOTOF A\nX1\nA: M30\n", 3,
+             "the condition R1==1 is not known from the text");
+  check_left("X1 GOTOF A\nX2\nA: M30\n", 1, "GOTO behind other words is not supported");
+  check_left("A: X1\nREPEATB A P=3\nM30\n", 2, "REPEATB is not supported");
+  check_left("X1\nENDIF\nM30\n", 2, "ENDIF has no beginning");
   check_left("X1\nLOOP\nM30\n", 2, "LOOP has no end");
-  check_left("R1=1\n/IF R1==1 GOTOF A\nX1\nA: M30\n", 2,
-             "a jump or a loop stands in a block that '/' may skip");
+  check_left("R1=1\n/IF R1==1 GOTOF A\nX1\nA: M30\n", 2, "a jump or a loop is in a block that '/' may skip");
 }
 
-TEST_CASE("siemens: a program without loops and jumps stays as it is") {
+TEST_CASE("siemens: a program without loops and jumps is not changed") {
   const Executed e = executed("G0 X1\nMSG(\"IF THEN\") ; GOTOB A\nM30\n", "siemens");
   CHECK(e.expansion.lines.empty());
   CHECK(e.expansion.calls_left.empty());

@@ -16,7 +16,7 @@ const ProgramFrame& frame_of_last(const Program& program) {
 
 const std::string siemens_start = "G71 G90 G17 G54 F100\nG0 X10 Y20 Z5\n";
 
-/// Where the last move ends, in the coordinates of the work offset (mm).
+/// End of the last move, in the coordinates of the work offset (mm).
 Vector3 end_in_offset(const Program& program) {
   return in_offset(frame_of_last(program)) * program.moves.back().end_mm;
 }
@@ -44,7 +44,8 @@ TEST_CASE("G52 shifts the coordinates of the offset by plain numbers, axis by ax
 }
 
 TEST_CASE(
-    "G92 shifts the coordinates so that the tool stands where its words say; its words go along with "
+    "G92 shifts the coordinates so that its words are the tool's position; its words are shifted with the "
+    "correction"
     "corrections") {
   for (const char* const dialect : {"fanuc", "linuxcnc", "grbl"}) {
     CAPTURE(dialect);
@@ -64,7 +65,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("G92 before any move says where the operator has put the tool") {
+TEST_CASE("G92 before any move gives the position set by the operator") {
   const Program program = read("G21 G90\nG92 X5. Y8.\nG0 Z2.\nG1 X1. F100\n");
   CHECK(program.moves.size() == 2);
   CHECK(followed(program));
@@ -76,7 +77,7 @@ TEST_CASE("G92 of zeros needs no unit") {
   CHECK(followed(read("G92 X0 Y0 Z0\nG21 G90\nG0 X1. Y2. Z3.\nG1 X2. F100\n", "grbl")));
 }
 
-TEST_CASE("in LinuxCNC and Mach3 G52 takes the place of G92, on other controls it adds to it") {
+TEST_CASE("in LinuxCNC and Mach3 G52 replaces G92, on other controls it is added to G92") {
   const std::string text = start + "G92 X0. Y0.\nG52 X3. Y4.\nG1 X1. Y1.\n";
   for (const char* const dialect : {"linuxcnc", "mach3"})
     CHECK((end_in_offset(read(text, dialect)) - Vector3(4, 5, 5)).norm() < 1e-12);
@@ -84,7 +85,8 @@ TEST_CASE("in LinuxCNC and Mach3 G52 takes the place of G92, on other controls i
 }
 
 TEST_CASE(
-    "G68 turns the coordinates about its centre; X and Y are unknown until they are programmed, G69 ends "
+    "G68 rotates the coordinates about its centre; X and Y are unknown until they are programmed, and after "
+    "G69"
     "it") {
   const Program program = read(start + "G68 X10. Y0. R90.\nG1 X20. Y0.\nG1 X30.\n", "fanuc");
   CHECK(followed(program));
@@ -97,7 +99,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "what cannot be worked out is no frame: conditions, variables, unknown positions, turns without a "
+    "conditions, variables, unknown positions and rotations without a plain angle give no frame"
     "centre") {
   for (const char* const block :
        {"G52 X[1]", "G92 X#1", "G68 R30.", "G68 X0. Y0. Z0. R30.", "G18 G68 X0. Y0. R30.", "G91 G52 X1.",
@@ -113,7 +115,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "TRANS, ATRANS, ROT and AROT of a Sinumerik shift and turn about Z by plain numbers, and end each "
+    "TRANS, ATRANS, ROT and AROT of a Sinumerik shift and rotate about Z by plain numbers, and end each other"
     "other") {
   const auto end_of = [](const std::string& blocks) {
     const Program program = read(siemens_start + blocks, "siemens");
@@ -132,7 +134,7 @@ TEST_CASE(
   CHECK((end_of("TRANS X5\nAROT RPL=30\nROT\nG1 X1 Y0\n") - Vector3(1, 0, 5)).norm() < 1e-12);
 }
 
-TEST_CASE("a shift of turned coordinates leaves the tool where it stands") {
+TEST_CASE("a shift of rotated coordinates does not move the tool") {
   const Program program = read(siemens_start + "AROT Z30\nG1 X10 Y0\nATRANS X5 Y2\nG1 Z1\n", "siemens");
   CHECK(followed(program));
   const Move &before = program.moves[1], &last = program.moves.back();
@@ -152,7 +154,9 @@ TEST_CASE("after a Sinumerik frame that is not followed, moves are unknown until
   }
 }
 
-TEST_CASE("G10 L2 sets the place of an offset, axis by axis, and its positions are unknown until they are programmed") {
+TEST_CASE(
+    "G10 L2 sets the position of an offset, axis by axis, and positions in it are unknown until they are "
+    "programmed") {
   const Program program = read(start + "G10 L2 P1 X7. Z-3.\nG1 Y1.\nG0 X2. Z4.\n");
   CHECK(followed(program));
   CHECK(program.left_alone.empty());
@@ -166,7 +170,9 @@ TEST_CASE("G10 L2 sets the place of an offset, axis by axis, and its positions a
   CHECK(is_set(frame_of_last(other)));
 }
 
-TEST_CASE("G10 L20 moves the zero of the offset that acts to where the tool stands, and goes along with it") {
+TEST_CASE(
+    "G10 L20 moves the zero of the active offset to the tool's position, and its words are shifted with the "
+    "correction") {
   const Program program = read(start + "G10 L20 P1 X0\nG1 X5.\n");
   CHECK(followed(program));
   CHECK((end_in_offset(program) - Vector3(15, 20, 5)).norm() < 1e-12);
@@ -178,8 +184,11 @@ TEST_CASE("G10 L20 moves the zero of the offset that acts to where the tool stan
   CHECK((end_in_offset(first) - Vector3(5, 0, 5)).norm() < 1e-12);
 }
 
-TEST_CASE("G10 that turns an offset, counts on from it, or sets another one by the tool's place is not followed") {
-  for (const char* block : {"G10 L2 P1 X1. R30.", "G91 G10 L2 P1 X1.", "G10 L20 P2 X0", "/G10 L2 P1 X1.", "G10 L2 P1 X#1"}) {
+TEST_CASE(
+    "G10 that rotates an offset, is incremental, or sets another offset by the tool's position is not "
+    "followed") {
+  for (const char* block :
+       {"G10 L2 P1 X1. R30.", "G91 G10 L2 P1 X1.", "G10 L20 P2 X0", "/G10 L2 P1 X1.", "G10 L2 P1 X#1"}) {
     CAPTURE(block);
     CHECK_FALSE(read(start + block + "\nG90 G55 G1 X1. Y1. Z1.\nG54 X1. Y1. Z1.\n").left_alone.empty());
   }

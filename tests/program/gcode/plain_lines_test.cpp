@@ -11,7 +11,7 @@ using namespace counterflex::test;
 
 namespace {
 
-/// Lines of common words in any state, now and then with what is not common, or wrong.
+/// Random lines of common words in any state, sometimes with uncommon or invalid words.
 class RandomLines {
  public:
   explicit RandomLines(std::uint64_t seed) : bits_(seed) {}
@@ -99,13 +99,13 @@ class RandomLines {
   bool siemens_ = false;
 };
 
-/// The lines as a text, with `comment` behind all that say anything: no line of words is plain then.
+/// The lines as a text, with `comment` behind all lines with words, so that no line is plain.
 std::string lines_text(const std::vector<std::string>& lines, const std::string& comment,
                        const std::string& line_end) {
   std::string text;
   for (const std::string& line : lines) {
-    const bool ends_otherwise = line.find_first_of(";(%\x7f") != std::string::npos;
-    const bool says = line.find_first_not_of(" \t") != std::string::npos && !ends_otherwise;
+    const bool has_other_characters = line.find_first_of(";(%\x7f") != std::string::npos;
+    const bool says = line.find_first_not_of(" \t") != std::string::npos && !has_other_characters;
     text += line + (says ? comment : "") + line_end;
   }
   return text;
@@ -125,7 +125,7 @@ std::string all_of(const Vector3& p) {
   return fmt::format("{:a} {:a} {:a}", p.x(), p.y(), p.z());
 }
 
-/// Everything that a move holds, but for where its line ends; places count from its block.
+/// All members of a move except the end of its line; positions count from its block.
 std::string all_of(const Program& program, const Move& move) {
   std::string text = fmt::format(
       "line {} {} group {} block {} number {} from {} to {} feed {:a} {:a} spindle {:a} offset {} tool {} of "
@@ -134,7 +134,8 @@ std::string all_of(const Program& program, const Move& move) {
       all_of(move.start_mm), all_of(move.end_mm), move.feed_mm_min, move.feed_per_min, move.spindle_rpm,
       move.frame, move.tool, program.operations[move.operation]);
   for (const PackedAxisWord& word : move.words) text += " " + all_of(move, word);
-  for (const auto& axes : {move.stands, move.known_start, move.known_end, move.ignored, move.fixed})
+  for (const auto& axes :
+       {move.moved_only_by_program, move.known_start, move.known_end, move.ignored, move.fixed})
     text += " " + all_of(axes);
   for (const int mode :
        {static_cast<int>(move.motion), static_cast<int>(move.unit), static_cast<int>(move.feed_mode),
@@ -146,7 +147,7 @@ std::string all_of(const Program& program, const Move& move) {
   return text;
 }
 
-/// What is found in the text, or the complaint about it.
+/// The result of reading the text, or the error.
 std::vector<std::string> found_in(const std::string& text, const ReadOptions& options) {
   std::vector<std::string> found;
   const std::string complaint = diagnostic_of([&] {
@@ -164,7 +165,8 @@ std::vector<std::string> found_in(const std::string& text, const ReadOptions& op
 
 }  // namespace
 
-TEST_CASE("a line of common words says the same as with a comment behind it, in every state and dialect") {
+TEST_CASE(
+    "a line of common words has the same meaning with a comment behind it, in every state and dialect") {
   RandomLines source(71);
   std::map<std::string, int> read_to_the_end;
   for (int i = 0; i < 6000; ++i) {
@@ -191,7 +193,7 @@ TEST_CASE("a line of common words says the same as with a comment behind it, in 
   }
 }
 
-TEST_CASE("a line that ends in another way, or not at all, says the same") {
+TEST_CASE("a line with another line end, or without one, has the same meaning") {
   const std::string begin = "G21 G90 G0 X0 Y0 Z0\n";
   const auto moves = found_in(begin + "G1 X1.5 Y-2 F100\nX3\n", {});
   CHECK(moves.back() == "none");
@@ -200,7 +202,7 @@ TEST_CASE("a line that ends in another way, or not at all, says the same") {
     CHECK(found_in(begin + text, {}) == moves);
 }
 
-TEST_CASE("a line of common words is remarked on from ten characters below the limit of its control on") {
+TEST_CASE("a line of common words gets a remark from ten characters below the limit of its control on") {
   constexpr std::size_t limit = 255;
   for (std::size_t length = limit - 20; length <= limit; ++length) {
     CAPTURE(length);

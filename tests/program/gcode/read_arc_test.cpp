@@ -10,7 +10,7 @@ using namespace counterflex::test;
 
 namespace {
 
-/// The arc of the last move of `text`, behind a start at (0, 0, 0).
+/// The arc of the last move of `text`, with the start at (0, 0, 0).
 Move last_arc(const std::string& text, const std::string& dialect = "auto") {
   const Program program = read("G21 G90 F100\nG0 X0. Y0. Z0.\n" + text + "\n", dialect);
   REQUIRE(program.moves.back().arc.has_value());
@@ -26,7 +26,7 @@ constexpr double half_turn = 3.14159265358979323846;
 
 }  // namespace
 
-TEST_CASE("I, J and K count from the start, and those that are omitted are zero") {
+TEST_CASE("I, J and K are relative to the start, and missing ones are zero") {
   const Move move = last_arc("G3 X10. Y10. J10.");
   CHECK(move.motion == Motion::feed);
   CHECK(move.end_mm == Vector3(10, 10, 0));
@@ -37,14 +37,14 @@ TEST_CASE("I, J and K count from the start, and those that are omitted are zero"
   CHECK(sweep_of(move) == doctest::Approx(half_turn / 2));
 }
 
-TEST_CASE("an arc that omits an axis ends where it began along it") {
+TEST_CASE("an arc without a word of an axis ends at its start along that axis") {
   const Move move = last_arc("G2 X10. I5.");
   CHECK(move.end_mm == Vector3(10, 0, 0));
   CHECK(move.arc->centre_mm == Vector3(5, 0, 0));
   CHECK(sweep_of(move) == doctest::Approx(half_turn));
 }
 
-TEST_CASE("centre words without an axis are a full circle, also as a bare modal block") {
+TEST_CASE("centre words without an axis word are a full circle, also in a modal block") {
   const Move circle = last_arc("G3 I -20.");
   CHECK(circle.end_mm == Vector3(0, 0, 0));
   CHECK(circle.arc->centre_mm == Vector3(-20, 0, 0));
@@ -63,7 +63,7 @@ TEST_CASE("G18 goes from Z to X and G19 from Y to Z counter-clockwise") {
   CHECK(sweep_of(yz) == doctest::Approx(half_turn / 2));
 }
 
-TEST_CASE("a helix keeps its height, P counts its turns") {
+TEST_CASE("a helix keeps its height, P is the number of its turns") {
   const Move helix = last_arc("G2 X10. Y0. Z-3. I5. P3");
   CHECK(helix.end_mm.z() == -3);
   CHECK(helix.arc->centre_mm == Vector3(5, 0, 0));
@@ -71,7 +71,7 @@ TEST_CASE("a helix keeps its height, P counts its turns") {
   CHECK(sweep_of(helix) == doctest::Approx(5 * half_turn));
 }
 
-TEST_CASE("under G90.1 centres are coordinates, under G91.1 and G91 they count from the start") {
+TEST_CASE("under G90.1 centres are coordinates, under G91.1 and G91 they are relative to the start") {
   CHECK(last_arc("G1 X5.\nG90.1 G2 X15. Y0 I10. J0").arc->centre_mm == Vector3(10, 0, 0));
   CHECK(last_arc("G1 X5.\nG90.1\nG91.1 G2 X15. Y0 I5. J0").arc->centre_mm == Vector3(10, 0, 0));
   const Move relative = last_arc("G1 X5.\nG91 G2 X10. Y0 I5. J0");
@@ -80,7 +80,7 @@ TEST_CASE("under G90.1 centres are coordinates, under G91.1 and G91 they count f
   CHECK(relative.arc->centre_mm == Vector3(10, 0, 0));
 }
 
-TEST_CASE("R is the shorter arc, negative R the longer, on the side that the sense asks for") {
+TEST_CASE("R is the shorter arc, negative R the longer, on the side given by the direction") {
   for (const std::string g : {"G2", "G3"})
     for (const double r : {8.0, -8.0}) {
       CAPTURE(g);
@@ -105,7 +105,7 @@ TEST_CASE("an arc in inches has its centre in mm") {
   CHECK(move.arc->centre_mm.isApprox(Vector3(12.7, 0, 0)));
 }
 
-TEST_CASE("an arc with an unknown start is fixed on its plane's words and unknown, others stay") {
+TEST_CASE("an arc with an unknown start is fixed on the words of its plane and unknown, other axes are not") {
   const Program program = read("G21 F100 G0 Y1 Z2\nG2 X5 Z3 I2.5\nG1 X0\n");
   const Move& arc = program.moves[1];
   CHECK_FALSE(arc.arc.has_value());
@@ -118,7 +118,7 @@ TEST_CASE("an arc with an unknown start is fixed on its plane's words and unknow
   CHECK(program.moves[2].known_end == std::array<bool, 3>{true, true, true});
 }
 
-TEST_CASE("an arc with an expression as its centre is held, or fixed where the centre is a coordinate") {
+TEST_CASE("an arc with an expression as its centre is held, or fixed if the centre is a coordinate") {
   const Program held = read("G21 F100 G0 X0 Y0 Z0\nG2 X5 I#1\n");
   CHECK(held.moves[1].handling == Handling::held);
   CHECK(held.moves[1].words[0].has_value());
@@ -128,7 +128,7 @@ TEST_CASE("an arc with an expression as its centre is held, or fixed where the c
   CHECK_FALSE(fixed.moves[1].known_end[0]);
 }
 
-TEST_CASE("F of G93 acts on one move: the feed follows from its length") {
+TEST_CASE("F of G93 applies to one move: the feed follows from its length") {
   const Program program = read("G21 G0 X0 Y0 Z0\nG93 G1 X10 F2\nG2 X20 I5 F4\nX30 Y0 R5\nG94 G1 X0 F100\n");
   CHECK(program.moves[1].feed_mode == FeedMode::inverse_time);
   CHECK(program.moves[1].feed_per_min == 2);
@@ -149,7 +149,7 @@ TEST_CASE("a move of G93 whose time is not a plain number is not split") {
   }
 }
 
-TEST_CASE("what stands for a centre across the plane is ignored as GRBL does, and stays") {
+TEST_CASE("a centre word across the plane is ignored as in GRBL, and stays") {
   const std::string text = "G21 G90\nG0 X0. Y0. Z0.\nG2 X10. Y0. Z-1. I5. J0. K-.5 F100\n";
   const Program program = read(text, "grbl");
   REQUIRE(program.moves.at(1).arc);

@@ -22,26 +22,26 @@ using Groups = std::vector<int>;
 
 }  // namespace
 
-TEST_CASE("a contour goes from the last move across before its plunge to the moves up behind G40") {
+TEST_CASE("a contour extends from the last move across before its plunge to the moves up after G40") {
   CHECK(groups_of("G0 X1\nX2\nZ1\nG1 Z0\nG41 D1 X3\nG3 Y2 J1\nG40 G1 X2\nZ1\nG0 Z9\nX0\nZ1\n") ==
         Groups{0, 0, 1, 1, 1, 1, 1, 1, 1, 1, 0, 0});
 }
 
-TEST_CASE("G41 and G40 may stand alone") {
+TEST_CASE("G41 and G40 may be alone in a block") {
   CHECK(groups_of("X2\nZ1\nG41 D1\nG1 X3\nY4\nG40\nG1 X1\nZ1\nX0\n") == Groups{0, 1, 1, 1, 1, 1, 1, 0});
   CHECK(groups_of("X2\nZ1\nG41 D1\nG1 X3\nY4\nG40\nZ1\nX0\n") == Groups{0, 1, 1, 1, 1, 1, 0});
 }
 
-TEST_CASE("contours that share their moves up and down are one, others count on") {
+TEST_CASE("contours that share their moves up and down are one contour, others are numbered") {
   CHECK(groups_of("X2\nG1 Z0\nG42 D1 X3\nG40 X2\nZ-1\nG42 X3\nG40 X2\nZ5\nX9\nZ0\nG41 X3\nG40 X9\n") ==
         Groups{0, 1, 1, 1, 1, 1, 1, 1, 1, 2, 2, 2, 2});
 }
 
-TEST_CASE("a contour does not reach back over a position of the machine or a tool change") {
+TEST_CASE("a contour does not extend back over a machine position or a tool change") {
   CHECK(groups_of("X2\nG53 Z0\nZ1\nG41 D1 X3 Y1\nG40 X2 Y2\n") == Groups{0, 0, 1, 1, 1});
   CHECK(groups_of("X2\nT1 M6\nZ1\nG41 D1 X3 Y1\nG40 X2 Y2\n") == Groups{0, 0, 1, 1, 1});
 }
 
-TEST_CASE("a move that cannot be followed is no part of a contour") {
+TEST_CASE("a move that cannot be followed is not part of a contour") {
   CHECK(groups_of("X2\nG1 Z0\nG41 D1 X3\nX#1\nX4\nG40 X2\n") == Groups{0, 1, 1, 1, 0, 1, 1});
 }

@@ -5,7 +5,7 @@
 using namespace counterflex;
 using namespace counterflex::test;
 
-TEST_CASE("a cycle's depth and retract plane are sticky, each block after it is a hole") {
+TEST_CASE("the depth and the retract plane of a cycle are modal, and each block after it is a hole") {
   const Program program = read("G21 G90 G0 X0 Y0 Z10\nG98 G81 X1 Y2 Z-5 R2 F100\nX3\nZ-6 Y4\nG80\nG0 X9\n");
   REQUIRE(program.moves.size() == 5);
   const Move& first = program.moves[1];
@@ -28,7 +28,7 @@ TEST_CASE("a cycle's depth and retract plane are sticky, each block after it is 
   CHECK_FALSE(program.moves[4].cycle.has_value());
 }
 
-TEST_CASE("G99 leaves the tool at R, G98 where the series began, or at R where that is higher") {
+TEST_CASE("G99 leaves the tool at R, G98 at the start of the series, or at R if that is higher") {
   const Program program =
       read("G21 G90 G0 X0 Y0 Z10\nG99 G81 X1 Y2 Z-5 R2 F100\nG98 X3\nG80 G0 Z1\nG98 G82 X5 Z-5 R3 P.5\n");
   CHECK(program.moves[1].end_mm.z() == 2);
@@ -55,13 +55,15 @@ TEST_CASE("relative cycles and repeats are held") {
   CHECK(program.moves[3].end_mm == Vector3(6, -1, 10));
 }
 
-TEST_CASE("in a relative cycle R counts from the beginning and Z from R") {
+TEST_CASE("in a relative cycle R is relative to the start and Z to R") {
   const Program program = read("G21 G90 G0 X0 Y0 Z10\nG91 G81 X1 Z-4 R-7 F100\nG90 G80\n");
   CHECK(program.moves[1].cycle->retract_mm == 3);
   CHECK(program.moves[1].cycle->bottom_mm == -1);
 }
 
-TEST_CASE("depths that turn from places into differences cannot be shifted, unless they are said anew") {
+TEST_CASE(
+    "depths that change from coordinates to differences cannot be shifted, unless they are programmed "
+    "again") {
   const std::string start = "G21 G90 G0 X0 Y0 Z10\n", hole = "G81 X1 Y1 Z-2 R.5 F100\n";
   for (const char* turned : {"G91 X.1 L3\n", "G91 X1 Z-3\n", "G91 X1 R-9\n", "G91 G81 X1 Y1\n"}) {
     CAPTURE(turned);
@@ -75,7 +77,7 @@ TEST_CASE("depths that turn from places into differences cannot be shifted, unle
   CHECK_FALSE(read("O1\n" + start + hole + "G91 X1.\n", "fanuc").moves[2].fixed[2]);
 }
 
-TEST_CASE("a cycle without holes keeps its words and moves nothing") {
+TEST_CASE("a cycle without holes stores its words and does not move") {
   const Program program = read("O1\nG21 G90 G0 X0. Y0. Z10.\nG81 X7. Z-5. R1. F100. L0\nX2.\n");
   CHECK(program.moves[1].end_mm == Vector3(0, 0, 10));
   CHECK(program.moves[2].end_mm.x() == 2);
@@ -90,21 +92,21 @@ TEST_CASE("a cycle with an expression is fixed") {
   CHECK_FALSE(program.moves[2].cycle.has_value());
 }
 
-TEST_CASE("behind a hole that is not followed the height where its series began is not taken for known") {
+TEST_CASE("after a hole that is not followed, the initial height of its series is unknown") {
   const std::string text = "G21 G90\nG0 X0. Y0. Z5.\nG81\nX10. Y0. Z5.\nG80\nX10.\n";
   const Program program = read(text, "fanuc");
   CHECK_FALSE(program.moves.back().known_end[2]);
   CHECK(rewrite(program, edits_to_original(program), {}).text == text);
 }
 
-TEST_CASE("another work offset between holes loses the height where their series began") {
+TEST_CASE("after a change of work offset between holes the initial height of their series is unknown") {
   const std::string text = "G21 G90\nG0 X0. Y0. Z5.\nG81 X10. Z-5. R2.\nX20. G55\nG80\nG0 X10. Y10.\n";
   const Program program = read(text, "grbl");
   CHECK_FALSE(program.moves.back().known_end[2]);
   CHECK(rewrite(program, edits_to_original(program), {}).text == text);
 }
 
-TEST_CASE("a depth that was programmed where it may not act is not repeated in later holes") {
+TEST_CASE("a depth that was programmed in a block that may not run is not repeated in later holes") {
   const std::string start = "G21 G90\nG0 X0. Y0. Z5.\nG81 X10. Z-5. R2.\n", end = "X30.\nX40. Z-7.\nX50.\n";
   for (const std::string hole : {"/ X20. Z-6.\n", "X#1 Z-6.\n"}) {
     const std::string text = start + hole + end;
@@ -117,7 +119,7 @@ TEST_CASE("a depth that was programmed where it may not act is not repeated in l
   }
 }
 
-TEST_CASE("every code of a drilling cycle is one, G76 of linuxcnc is a thread") {
+TEST_CASE("every drilling code is a cycle, G76 of linuxcnc is a thread") {
   for (const char* g : {"G73", "G74", "G76", "G81", "G82", "G83", "G84", "G85", "G86", "G87", "G88", "G89",
                         "G84.2", "G84.3"}) {
     CAPTURE(g);

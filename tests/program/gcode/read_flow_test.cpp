@@ -15,7 +15,7 @@ bool is_fixed(const Move& move) {
   return move.fixed[0] || move.fixed[1] || move.fixed[2];
 }
 
-/// Which moves behind `origin_block` are fixed.
+/// Whether each move behind `origin_block` is fixed.
 std::vector<bool> fixed_moves(const std::string& text, const std::string& dialect = "linuxcnc") {
   std::vector<bool> fixed;
   const Program program = read(origin_block + text, dialect);
@@ -44,19 +44,19 @@ TEST_CASE("an expression or a variable fixes its axis and makes it unknown, unti
   }
 }
 
-TEST_CASE("a relative expression is unknown and not fixed: a shift is carried along") {
+TEST_CASE("a relative expression is unknown and not fixed: a shift applies to later moves, too") {
   const Program program = read(origin_block + "G91 X[1+2]\n");
   CHECK_FALSE(program.moves[1].fixed[0]);
   CHECK_FALSE(program.moves[1].known_end[0]);
 }
 
-TEST_CASE("assignments move nothing, and their values may be cut by a comment") {
+TEST_CASE("assignments do not move, and their values may end at a comment") {
   CHECK(read(origin_block + "#1=5\n#<a_b> = [#1+2] (note)\n#5=-1.5 G1 X1\nN10 #[2]=SIN[30]\n").moves.size() ==
         2);
   CHECK(read("O1\n" + origin_block + "#100=#101+5.*2 (X9)\n#3000=1(ALARM)\n", "fanuc").moves.size() == 1);
 }
 
-TEST_CASE("F, S and T may be variables; a code that is one may do anything") {
+TEST_CASE("F, S and T may be variables; a code that is a variable has an unknown effect") {
   const Program program =
       read(origin_block +
            "G1 X1 F#4 S[5*2]\nT#<tool> M6\nG#5 X2\nX3\nG90 G17 G21 G54 G90.1 G98 G40 G1 X4 Y4 Z4\nX5\n");
@@ -67,7 +67,7 @@ TEST_CASE("F, S and T may be variables; a code that is one may do anything") {
   CHECK_FALSE(is_fixed(program.moves[4]));
 }
 
-TEST_CASE("what stands in conditions and loops of O-words is fixed, and unknown behind them") {
+TEST_CASE("moves in conditions and loops of O-words are fixed, and positions after them are unknown") {
   CHECK(fixed_moves("o1 if [#1 GT 2]\nX1\no1 else\nX2\no1 endif\nX3\n") == Fixed{true, true, false});
   CHECK(fixed_moves("o1 while [#1 LT 2]\nX1\no1 endwhile\nX3\n") == Fixed{true, false});
   CHECK(fixed_moves("o<a> do\nX1\no<a> while [#1 LT 2]\nX3\n") == Fixed{true, false});
@@ -77,14 +77,14 @@ TEST_CASE("what stands in conditions and loops of O-words is fixed, and unknown 
   CHECK(program.moves[2].known_start == std::array<bool, 3>{false, false, false});
 }
 
-TEST_CASE("a state that a condition sets is in doubt behind it, until a plain block sets it") {
+TEST_CASE("a state that a condition sets is unknown afterwards, until a plain block sets it") {
   CHECK(fixed_moves("o1 if [1]\nG91\no1 endif\nX3\nG90 X4\n") == Fixed{true, false});
   CHECK(fixed_moves("o1 if [1]\nG1\no1 endif\nX3\nG0 X4\n") == Fixed{true, false});
   CHECK(fixed_moves("o1 if [1]\nG55\no1 endif\nX3\nG54 X4\n") == Fixed{true, false});
   CHECK(fixed_moves("o1 if [1]\nG20\no1 else\nG21\no1 endif\nX3\nG21 X4\n") == Fixed{true, false});
 }
 
-TEST_CASE("a subprogram's body does not run where it stands, a call may move anywhere") {
+TEST_CASE("the body of a subprogram does not run at its place, and a call may move all axes") {
   const Program body = read("o<cut> sub\nX1\nG1 Z[#1]\no<cut> endsub\n" + origin_block + "X5\n");
   CHECK(is_fixed(body.moves[0]));
   CHECK(is_fixed(body.moves[1]));
@@ -97,7 +97,7 @@ TEST_CASE("a subprogram's body does not run where it stands, a call may move any
   CHECK(fixed_moves("G65 P9010 I1. J2. I3.\nG90 G17 G98 G40 G0 X6.\n", "fanuc") == Fixed{true, false});
 }
 
-TEST_CASE("subprograms by number that stand behind or before a program end at M99") {
+TEST_CASE("numbered subprograms before or behind a program end at M99") {
   const std::string main = origin_block + "M98 P2\nM30\n", sub = "G1 X5.\nM99\n";
   CHECK(read("O1\n" + main + "O2\n" + sub).moves.size() == 2);
   const Program before = read("O2\n" + sub + "O1\n" + main);
@@ -105,34 +105,37 @@ TEST_CASE("subprograms by number that stand behind or before a program end at M9
   CHECK(is_fixed(before.moves[0]));
   CHECK_FALSE(is_fixed(before.moves[1]));
   CHECK(is_fixed(before.moves[2]));
-  // A program alone runs over and over.
+  // A single program repeats itself.
   CHECK(fixed_moves("X1.\nM99\n", "fanuc") == Fixed{false});
 }
 
-TEST_CASE("a loop of Macro B is fixed, and GOTO makes the whole program so") {
+TEST_CASE("a loop of Macro B is fixed, and GOTO makes the whole program fixed") {
   CHECK(fixed_moves("WHILE [#1 LT 5] DO1\nX1.\nEND1\nG0 X2.\n", "fanuc") == Fixed{true, false});
   CHECK(fixed_moves("IF [#1 EQ 0] THEN #2=5\nX2.\n", "fanuc") == Fixed{false});
   CHECK(fixed_moves("X1.\nIF [#1 EQ 0] GOTO 10\nX2.\nN10 X3.\n", "haas") == Fixed{true, true, true});
   CHECK(fixed_moves("X1.\n(GOTO WORK)\nX2.\n", "haas") == Fixed{false, false});
 }
 
-TEST_CASE("a second program behind the end stays, and is remarked") {
+TEST_CASE("a second program behind the end is not changed, and gets a remark") {
   const Program program = read(origin_block + "M30\n%\nO2 whatever [\n");
-  CHECK(program.remarks.at(0).what == "what stands behind the end of the program stays as it is");
+  CHECK(program.remarks.at(0).what == "the text behind the end of the program is not changed");
   CHECK(read(origin_block + "M30\n%\n\n").remarks.empty());
 }
 
-TEST_CASE("a block with words behind an assignment or THEN may do anything") {
-  for (const char* const line : {"#1=5 G1 X20", "#1=#2 X20.", "IF[#1EQ1]THEN X20", "IF [#1 EQ 1] THENG1X20", "IF[#1EQ1]THEN #2=1 Y5"}) {
+TEST_CASE("a block with words behind an assignment or THEN has an unknown effect") {
+  for (const char* const line : {"#1=5 G1 X20", "#1=#2 X20.", "IF[#1EQ1]THEN X20", "IF [#1 EQ 1] THENG1X20",
+                                 "IF[#1EQ1]THEN #2=1 Y5"}) {
     CAPTURE(line);
     const Program program = read("O1\nG21 G90\nG0 X0 Y0 Z0\n" + std::string(line) + "\nY50.\n", "fanuc");
     REQUIRE(program.moves.size() == 3);
     CHECK(program.moves[1].fixed == std::array{true, true, true});
     CHECK(program.moves[2].fixed[1]);
   }
-  for (const char* const line : {"#1=#2+SIN[#3]*5", "#1=#2MOD5", "#1=ATAN[1]/[2] (X20)", "IF[#1EQ1]THEN #2=#3AND5", "#1=ROUND[#2]"}) {
+  for (const char* const line :
+       {"#1=#2+SIN[#3]*5", "#1=#2MOD5", "#1=ATAN[1]/[2] (X20)", "IF[#1EQ1]THEN #2=#3AND5", "#1=ROUND[#2]"}) {
     CAPTURE(line);
-    CHECK(read("O1\nG21 G90\nG0 X0 Y0 Z0\n" + std::string(line) + "\nG1 Y50. F100\n", "fanuc").moves.size() == 2);
+    CHECK(read("O1\nG21 G90\nG0 X0 Y0 Z0\n" + std::string(line) + "\nG1 Y50. F100\n", "fanuc").moves.size() ==
+          2);
   }
   const Program linuxcnc = read("G21 G90\nG0 X0 Y0 Z0\n#1=5 G1 X20 F100\n", "linuxcnc");
   CHECK(linuxcnc.moves.back().end_mm.x() == 20);

@@ -25,11 +25,11 @@ TEST_CASE("a relative word on an unknown axis is fixed and leaves it unknown") {
   CHECK(program.moves[1].fixed == Axes{false, false, true});
   CHECK(program.moves[1].known_end == Axes{true, true, false});
   CHECK_FALSE(program.moves[1].words[2].has_value());
-  CHECK(program.left_alone.at(0).why == "a relative position counts from an unknown one");
+  CHECK(program.left_alone.at(0).why == "a relative position starts from an unknown position");
   CHECK(program.moves[2].fixed == Axes{false, false, false});
 }
 
-TEST_CASE("G28 G91 leaves G91 active, and its words are no target") {
+TEST_CASE("G28 G91 leaves G91 active, and its words are not a target") {
   const Program program = read("G21 G90 G0 X1 Y2 Z3\nG28 G91 Z0.\nX5\nG90 Z1\n");
   REQUIRE(program.moves.size() == 3);
   CHECK(program.moves[1].relative);
@@ -38,13 +38,13 @@ TEST_CASE("G28 G91 leaves G91 active, and its words are no target") {
   CHECK_FALSE(program.moves[2].relative);
 }
 
-TEST_CASE("G0 may stand beside G28 on shop controls alone") {
+TEST_CASE("G0 and G28 in one block are allowed on shop controls only") {
   CHECK(read("O1\nG21 G0 X1. Y2. Z3.\nG0 G91 G28 Z0.\n").left_alone.size() == 1);
   CHECK(diagnostic_of([] { read("G21 G0 X1. Y2. Z3.\nG0 G91 G28 Z0.\n"); }) ==
-        "p.ngc:2:8: error: G28 stands beside another motion");
+        "p.ngc:2:8: error: G28 is in a block with another motion");
 }
 
-TEST_CASE("relative Z beside G43 counts from the programmed position on shop controls") {
+TEST_CASE("relative Z in a block with G43 is added to the programmed position on shop controls") {
   const std::string text = "G21 G90 G0 X0. Y0. Z10.\nG91 G43 H2 Z-3.\n";
   const Move shop = read("O1\n" + text).moves.back();
   CHECK(shop.end_mm.z() == 7);
@@ -66,14 +66,16 @@ TEST_CASE("with known tool lengths Z shifts by their difference and stays known"
   CHECK(program.remarks[0].line == 9);
 }
 
-TEST_CASE("T and M6 put a tool into the spindle, T alone does not") {
+TEST_CASE("T and M6 load a tool, T alone does not") {
   const Program program = read("G21 T3 G0 X1\nM6\nX2\nT5\nX3\n");
   CHECK(program.moves[0].tool == 0);
   CHECK(program.moves[1].tool == 3);
   CHECK(program.moves[2].tool == 3);
 }
 
-TEST_CASE("a change between known tool lengths inserts nothing: the held position moves along") {
+TEST_CASE(
+    "a change between known tool lengths inserts no word: the position in the text is shifted with the "
+    "length") {
   ReadOptions options;
   options.tool_lengths_mm = {{1, 50}, {2, 60}};
   const std::string text = "G21 G43 H1 G0 X0 Y0 Z10\nG43 H2\nX1\nX2\nG49\nX3\n";

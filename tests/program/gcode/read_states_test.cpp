@@ -17,7 +17,7 @@ bool stays(const Move& move) {
 
 }  // namespace
 
-TEST_CASE("under a state that puts positions elsewhere moves stay as they are, and behind it not") {
+TEST_CASE("moves under a displacement are fixed, and moves after it are not") {
   struct State {
     const char *on, *off, *dialect, *why;
   };
@@ -27,10 +27,14 @@ TEST_CASE("under a state that puts positions elsewhere moves stay as they are, a
                          State{"G51 X0. Y0. P2.", "G50", "fanuc", "coordinates are scaled"},
                          State{"G51.1 X0.", "G50.1 X0.", "fanuc", "coordinates are mirrored"},
                          State{"G16", "G15", "fanuc", "coordinates are polar"},
-                         State{"G43.4 H1", "G49", "fanuc", "the control follows the tool's centre point"},
+                         State{"G43.4 H1", "G49", "fanuc", "tool centre point control is active"},
                          State{"M428", "", "linuxcnc", "the kinematics were switched"},
-                         State{"A90.", "A0.", "linuxcnc", "a word of A, B, C, U, V or W is not zero: further axes are not followed, and corners are written ,C and ,R"},
-                         State{"U.5", "", "linuxcnc", "a word of A, B, C, U, V or W is not zero: further axes are not followed, and corners are written ,C and ,R"},
+                         State{"A90.", "A0.", "linuxcnc",
+                               "a word of A, B, C, U, V or W is not zero: further axes are not supported; "
+                               "write corners as ,C and ,R"},
+                         State{"U.5", "", "linuxcnc",
+                               "a word of A, B, C, U, V or W is not zero: further axes are not supported; "
+                               "write corners as ,C and ,R"},
                          State{"G10 L2 P1 X#1", "", "linuxcnc", "G10 has set the work offset"},
                          State{"G10 L20 P2 X5\nG55", "", "grbl", "G10 has set the work offset"}}) {
     CAPTURE(s.on);
@@ -47,8 +51,11 @@ TEST_CASE("under a state that puts positions elsewhere moves stay as they are, a
   }
 }
 
-TEST_CASE("the places of holes of a modal macro go along in the plane, its heights and what it leaves do not") {
-  const Program program = read(known_start_block + "G66 P9001 Z-5. R2.\nX1. Y2.\nX3.\nX#1\nG67\nG0 X4. Y5. Z6.\n", "fanuc");
+TEST_CASE(
+    "positions of holes of a modal macro are corrected in the plane, its heights and the position after it "
+    "are not") {
+  const Program program =
+      read(known_start_block + "G66 P9001 Z-5. R2.\nX1. Y2.\nX3.\nX#1\nG67\nG0 X4. Y5. Z6.\n", "fanuc");
   REQUIRE(program.moves.size() == 5);
   const Move &hole = program.moves[1], &next = program.moves[2], &variable = program.moves[3];
   CHECK((hole.words[0] && hole.words[1] && hole.end_mm.head<2>() == Vector3(1, 2, 0).head<2>()));
@@ -57,30 +64,32 @@ TEST_CASE("the places of holes of a modal macro go along in the plane, its heigh
   CHECK((next.words[0] && !next.words[1] && next.fixed[2]));
   CHECK((variable.fixed[0] && !variable.words[0]));
   CHECK(all_known(program.moves[4].known_end));
-  CHECK(program.left_alone.at(0).why == "every move calls a macro, whose heights are not corrected");
+  CHECK(program.left_alone.at(0).why == "every move calls a macro; its heights are not corrected");
 }
 
-TEST_CASE("what is not followed stands where it was, but not on axes that the machine has moved by itself") {
-  const auto stands = [](const std::string& blocks, const char* dialect = "linuxcnc") {
-    return read(known_start_block + blocks + "\n", dialect).moves.back().stands;
+TEST_CASE(
+    "blocks that are not followed move only by program words, except on axes that the machine has moved by "
+    "itself") {
+  const auto moved_only = [](const std::string& blocks, const char* dialect = "linuxcnc") {
+    return read(known_start_block + blocks + "\n", dialect).moves.back().moved_only_by_program;
   };
-  CHECK(stands("X1 A90.\nX2") == std::array<bool, 3>{true, true, true});
-  CHECK(stands("G53 Z0.\nA90.\nX2.") == std::array<bool, 3>{true, true, false});
-  CHECK(stands("G28\nA90.\nX2.") == std::array<bool, 3>{});
-  CHECK(stands("T1 M6\nA90.\nX2.", "haas") == std::array<bool, 3>{});
-  CHECK(stands("T1 M6\nA90.\nX2.") == std::array<bool, 3>{true, true, true});
-  CHECK(stands("o1 if [#1 GT 2]\nX2.") == std::array<bool, 3>{true, true, true});
-  CHECK(stands("o1 sub\nX2.") == std::array<bool, 3>{});
-  CHECK(stands("G53 Z0.\nX2.") == std::array<bool, 3>{});
+  CHECK(moved_only("X1 A90.\nX2") == std::array<bool, 3>{true, true, true});
+  CHECK(moved_only("G53 Z0.\nA90.\nX2.") == std::array<bool, 3>{true, true, false});
+  CHECK(moved_only("G28\nA90.\nX2.") == std::array<bool, 3>{});
+  CHECK(moved_only("T1 M6\nA90.\nX2.", "haas") == std::array<bool, 3>{});
+  CHECK(moved_only("T1 M6\nA90.\nX2.") == std::array<bool, 3>{true, true, true});
+  CHECK(moved_only("o1 if [#1 GT 2]\nX2.") == std::array<bool, 3>{true, true, true});
+  CHECK(moved_only("o1 sub\nX2.") == std::array<bool, 3>{});
+  CHECK(moved_only("G53 Z0.\nX2.") == std::array<bool, 3>{});
 }
 
-TEST_CASE("axes besides X, Y and Z that stay zero are ignored, a shift of nothing is none") {
+TEST_CASE("words of zero for axes other than X, Y and Z are ignored, and a shift of zero is not a shift") {
   const Program program = read(known_start_block + "A0 B0. C-0.0 X1\nG52 X0 Y0\nX2\n");
   CHECK(program.left_alone.empty());
   CHECK(program.moves[2].known_start == std::array<bool, 3>{true, true, true});
 }
 
-TEST_CASE("G10 for another work offset acts when that is selected") {
+TEST_CASE("G10 for another work offset applies when that offset is selected") {
   const Program program = read(known_start_block + "G54 X1 Y1 Z1\nG10 L2 P2 X#1\nX2\nG55 X3\nG54 X4\n");
   CHECK_FALSE(stays(program.moves[2]));
   CHECK(program.moves[2].known_start[0]);
@@ -88,7 +97,7 @@ TEST_CASE("G10 for another work offset acts when that is selected") {
   CHECK_FALSE(stays(program.moves[4]));
 }
 
-TEST_CASE("G10 for tools makes their known lengths void") {
+TEST_CASE("G10 for tools makes their known lengths invalid") {
   ReadOptions options;
   options.tool_lengths_mm = {{1, 50}};
   const Program program =
@@ -96,7 +105,7 @@ TEST_CASE("G10 for tools makes their known lengths void") {
   CHECK_FALSE(program.moves.back().known_start[2]);
 }
 
-TEST_CASE("parameters between G10 L50 and G11 move nothing") {
+TEST_CASE("parameters between G10 L50 and G11 do not move") {
   const Program program = read(known_start_block + "G10 L50\nN1815 P1 R00100000\nN3 R5\nG11\nX1.\n", "fanuc");
   CHECK(program.moves.size() == 2);
 }
@@ -113,7 +122,7 @@ TEST_CASE("additional work offsets have one name in all their spellings") {
   CHECK(name("G59.3", "linuxcnc") == "G59.3");
 }
 
-TEST_CASE("what a skippable block sets is in doubt, and no error") {
+TEST_CASE("states set in a skippable block are unknown, and not an error") {
   for (const char* block : {"/G20", "/G55", "/G1", "/G91"}) {
     CAPTURE(block);
     const Program program = read(known_start_block + block + "\nX1\nG21 G54 G0 G90 X2 Y2 Z2\nX3\n");
@@ -123,7 +132,7 @@ TEST_CASE("what a skippable block sets is in doubt, and no error") {
   }
 }
 
-TEST_CASE("probing, splines and threads are held; where probing ends is unknown") {
+TEST_CASE("probing, splines and threads are held; the position after probing is unknown") {
   for (const char* block : {"G38.2 X5 F10", "G33 X5 K1", "G5 I1 J1 P1 Q1 X5 Y5"}) {
     CAPTURE(block);
     const Program program = read(known_start_block + block + "\n");
@@ -135,7 +144,7 @@ TEST_CASE("probing, splines and threads are held; where probing ends is unknown"
   CHECK(read(known_start_block + "G31 X5. F10.\nX6.\n", "fanuc").moves[2].motion == Motion::rapid);
 }
 
-TEST_CASE("pockets end where they began, ways of the control's own stay") {
+TEST_CASE("pockets end at their start, motions defined by the control are fixed") {
   const Program pocket = read(known_start_block + "G13 Z-2. I5. K10. Q1. D1 F50.\nX1.\n", "haas");
   CHECK(pocket.moves[1].handling == Handling::held);
   CHECK(pocket.moves[1].end_mm == Vector3(0, 0, -2));
@@ -143,7 +152,7 @@ TEST_CASE("pockets end where they began, ways of the control's own stay") {
   CHECK(own.moves[1].fixed == std::array<bool, 3>{true, true, true});
 }
 
-TEST_CASE("engraved text is shifted with its depth and its plane, and ends where nobody knows") {
+TEST_CASE("engraved text is shifted with its depth and its plane, and its end is unknown") {
   const std::string start = known_start_block, text = "G47 P0 (TEXT) X1. Y2. I0. J.1 R.5 Z-.005 F15. E10.\n";
   const Program program = read(start + text + "X3. Y4. Z5.\n", "haas");
   const Move& move = program.moves[1];
@@ -163,26 +172,26 @@ TEST_CASE("engraved text is shifted with its depth and its plane, and ends where
   }
 }
 
-TEST_CASE("mach3 knows G70 and G71 as units, falls back to G0 and reads open comments") {
+TEST_CASE("mach3 reads G70 and G71 as units, returns to G0 after G80 and reads unclosed comments") {
   const Program program = read("G70 G0 X1\nG71 X1 (open\nG81 X2 Z-1 R1\nG80\nX3\n", "mach3");
   CHECK(program.moves[0].end_mm.x() == doctest::Approx(25.4));
   CHECK(program.moves[1].end_mm.x() == 1);
   CHECK(program.moves[3].motion == Motion::rapid);
 }
 
-TEST_CASE("after a code that is not known nothing is followed, and the program comes back as it is") {
+TEST_CASE("after an unknown code no move is followed, and the program is reproduced unchanged") {
   const std::string text = "O1\n" + known_start_block + "G0 X1. Y1.\nG333 X2. P3\nG0 X4. Y5. Z6.\nG1 X7.\n";
   const Program program = read(text);
   REQUIRE(program.moves.size() == 5);
   CHECK(program.moves[2].fixed == std::array<bool, 3>{true, true, true});
-  CHECK(program.moves[2].stands == std::array<bool, 3>{true, true, true});
+  CHECK(program.moves[2].moved_only_by_program == std::array<bool, 3>{true, true, true});
   for (const std::size_t later : {3u, 4u}) CHECK(stays(program.moves[later]));
   CHECK(program.left_alone.at(0).why == "G333 is not known in dialect fanuc");
   CHECK(rewrite(program, edits_to_original(program), {}).text == text);
   CHECK_THROWS_WITH(read(text, "linuxcnc"), doctest::Contains("G333 is not known in dialect linuxcnc"));
 }
 
-TEST_CASE("polar interpolation puts positions elsewhere until it ends") {
+TEST_CASE("polar interpolation displaces positions until it ends") {
   for (const std::string on : {"G112\n", "G12.1\n"}) {
     const Program program = read("O1\n" + known_start_block + on + "G1 X1.\n" +
                                  (on == "G112\n" ? "G113" : "G13.1") + "\nX2. Y2. Z2.\n");
@@ -191,13 +200,13 @@ TEST_CASE("polar interpolation puts positions elsewhere until it ends") {
   }
 }
 
-TEST_CASE("G70 and G71 of shop controls are units where no pattern of holes is said") {
+TEST_CASE("G70 and G71 of shop controls are units if they have no pattern of holes") {
   CHECK(read("O1\nG70 G90\nG0 X1.\n").moves.at(0).end_mm.x() == doctest::Approx(25.4));
   CHECK(read("O1\nG71 G90\nG0 X1.\n").moves.at(0).end_mm.x() == 1);
   CHECK(read("O1\n" + known_start_block + "G70 I5. J0. L6\n", "haas").moves.at(1).fixed[0]);
 }
 
-TEST_CASE("the blocks that make a corner are not divided, but their ends are corrected") {
+TEST_CASE("the blocks of a corner are not split, but their ends are corrected") {
   const std::string text = "O1\n" + known_start_block + "G1 X20.,R3.\nY20. ,C2.\nX0.\nY0.\nZ5.\n";
   const Program program = read(text);
   REQUIRE(program.moves.size() == 6);
@@ -211,24 +220,24 @@ TEST_CASE("the blocks that make a corner are not divided, but their ends are cor
         std::string::npos);
 }
 
-TEST_CASE("after M25 no word of Z goes back to where the tool was") {
+TEST_CASE("after M25 no inserted word of Z moves back to the tool's position before it") {
   const std::string text = known_start_block + "M25\nX300. Y200.\nZ10.\n";
   const Program program = read(text);
   CHECK(program.moves.at(1).known_end == std::array<bool, 3>{true, true, false});
   CHECK(rewrite(program, {{.move = 1, .end_mm = {300, 200, 10.5}}}, {}).text == text);
 }
 
-TEST_CASE("of two tools in a block the first one is changed to") {
+TEST_CASE("of two tools in a block the first one is loaded") {
   CHECK(read("O1\nG21 G90 T3 T4 M6\nG0 X1.\n").moves.at(0).tool == 3);
   CHECK_THROWS(read("G21 G90 T3 T4 M6\nG0 X1.\n"));
 }
 
-TEST_CASE("a code that is said twice is said once on shop controls") {
+TEST_CASE("a repeated code is read once on shop controls") {
   CHECK(read("O1\nG21 G90 G0 G90 G0 X1.\n").moves.size() == 1);
   CHECK_THROWS(read("O1\nG21 G90 G0 G91 X1.\n"));
 }
 
-TEST_CASE("comments nest and N stands anywhere where the control lets them") {
+TEST_CASE("comments may be nested and N may be anywhere if the control allows it") {
   CHECK(read("O1\nG21 G0 X1. (A (B C) N5\nN7 X2.\n").moves.size() == 2);
   CHECK(read("G21 G0 X1 N5 (no end\n", "grbl").moves.at(0).block_number == 5);
 }

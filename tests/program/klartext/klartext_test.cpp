@@ -18,7 +18,7 @@ std::string klartext(const std::vector<std::string>& blocks, const std::string& 
   return text + fmt::format("{} END PGM COVER {}\n", number, unit);
 }
 
-/// With calls replaced by what they call.
+/// With calls replaced by the blocks that they call.
 Program expanded_klartext(const std::string& text) {
   ReadOptions options;
   options.expand_subprograms = true;
@@ -37,7 +37,7 @@ std::string klartext_refusal(const std::vector<std::string>& blocks) {
 
 }  // namespace
 
-TEST_CASE("klartext: M140 takes the tool to a height that nobody knows") {
+TEST_CASE("klartext: after M140 the height of the tool is unknown") {
   for (const char* retract : {"L M140 MB MAX\n", "M140 MB MAX\n", "L X+1 M140 MB50\n"}) {
     CAPTURE(retract);
     const Program program = read("BEGIN PGM A MM\nTOOL CALL 1 Z S1000 F100\nL X+0 Y+0 Z+5 R0 FMAX\n" +
@@ -46,34 +46,35 @@ TEST_CASE("klartext: M140 takes the tool to a height that nobody knows") {
     const Move& across = program.moves.at(program.moves.size() - 2);
     CHECK(across.known_start == std::array<bool, 3>{true, true, false});
     CHECK(across.known_end == std::array<bool, 3>{true, true, false});
-    // No word of Z goes back down.
+    // No inserted word of Z moves back down.
     const MoveEdit edit{.move = program.moves.size() - 2, .end_mm = {300.5, 200.25, 5.125}};
     CHECK(rewrite(program, {edit}, {}).text.find("L X+300.5 Y+200.25 FMAX\n") != std::string::npos);
   }
 }
 
-TEST_CASE("klartext: a reset of planes moves nothing, and what shifts coordinates stands where it was") {
+TEST_CASE(
+    "klartext: a reset of planes does not move, and blocks under a displacement move only by program words") {
   const std::string begin = "BEGIN PGM A MM\nTOOL CALL 1 Z S1000 F100\nL X+0 Y+0 Z+5 R0 FMAX\n",
                     end = "L X+3\nEND PGM A MM\n";
   const Program reset = read(begin + "PLANE RESET STAY\nPLANE RESET TURN FMAX\n" + end, "heidenhain");
   REQUIRE(reset.moves.size() == 2);
   CHECK(all_known(reset.moves[1].known_start));
-  const auto stands = [&](const std::string& blocks) {
-    return read(begin + blocks + end, "heidenhain").moves.back().stands;
+  const auto moved_only = [&](const std::string& blocks) {
+    return read(begin + blocks + end, "heidenhain").moves.back().moved_only_by_program;
   };
-  CHECK(stands("CYCL DEF 8.0 MIRROR\nCYCL DEF 8.1 X\n") == std::array<bool, 3>{true, true, true});
-  CHECK(stands("L Z+0 FMAX M91\nCYCL DEF 8.0 MIRROR\nCYCL DEF 8.1 X\n") ==
+  CHECK(moved_only("CYCL DEF 8.0 MIRROR\nCYCL DEF 8.1 X\n") == std::array<bool, 3>{true, true, true});
+  CHECK(moved_only("L Z+0 FMAX M91\nCYCL DEF 8.0 MIRROR\nCYCL DEF 8.1 X\n") ==
         std::array<bool, 3>{true, true, false});
-  CHECK(stands("") == std::array<bool, 3>{});
+  CHECK(moved_only("") == std::array<bool, 3>{});
 }
 
-TEST_CASE("klartext is known by its first statement") {
+TEST_CASE("klartext is detected by its first statement") {
   CHECK(read("\r\n0 BEGIN PGM A MM\r\n1 END PGM A MM\r\n").dialect == "heidenhain");
   CHECK(read("G21\nG0 X1\n").dialect == "linuxcnc");
   CHECK(read("BEGIN PGM A INCH\nL X+1 FMAX\n").moves.at(0).end_mm.x() == doctest::Approx(25.4));
 }
 
-TEST_CASE("klartext is known by its first statement behind comments of any kind") {
+TEST_CASE("klartext is detected by its first statement behind comments of any kind") {
   for (const char* comments : {"( Sheet\n(   Machine: \"A\"\n(\n( End\n", "; one\n\n * two\n", "-----\r\n",
                                "($Message(\"open\"))\n", "\xEF\xBB\xBF", "0 ; one\n"}) {
     CAPTURE(comments);
@@ -88,7 +89,7 @@ TEST_CASE("klartext is known by its first statement behind comments of any kind"
   CHECK(read("(BEGIN PGM A MM)\nG21\nG0 X1\n").dialect == "linuxcnc");
 }
 
-TEST_CASE("the ending of a file's name shows its dialect where the text does not") {
+TEST_CASE("the extension of a file name decides the dialect if the text does not") {
   const auto dialect_of_file = [](const std::string& text, const std::string& file) {
     ReadOptions options;
     options.unit = LengthUnit::millimetres;
@@ -127,18 +128,19 @@ TEST_CASE("klartext: L moves with modal feed, rapid for one block, points and co
   CHECK(program.moves[4].feed_mm_min == 250);
 }
 
-TEST_CASE("klartext: feeds of an inch program are tenths of an inch a minute") {
+TEST_CASE("klartext: feeds of an inch program are tenths of an inch per minute") {
   const Program program = read(klartext({"L X+1 F100"}, "INCH"));
   CHECK(program.moves.at(0).feed_mm_min == doctest::Approx(254));
 }
 
 TEST_CASE(
-    "klartext: coordinates without a number and numbers that no control reads are refused at their place") {
+    "klartext: coordinates without a number and numbers that no control reads are refused with their "
+    "position") {
   CHECK(klartext_refusal({"L X+1 FMAX", "L Xnan Y1"}) ==
         "p.ngc:3:5: error: X has no number: 'nan' follows it");
   CHECK(klartext_refusal({"L Z nan FMAX"}) == "p.ngc:2:5: error: Z has no number: 'nan' follows it");
   CHECK(klartext_refusal({"L X1 M399999999990"}) ==
-        "p.ngc:2:8: error: M399999999990 is not a code: whole numbers from 0 to 99999 are");
+        "p.ngc:2:8: error: M399999999990 is not a code: expected an integer from 0 to 99999");
   CHECK(klartext_refusal({"L X1e5"}) == "p.ngc:2:7: error: X1e5: a number has no exponent here");
   CHECK(klartext_refusal({"L X100000"}) == "p.ngc:2:5: error: X100000: coordinates are at most 99999.9999");
   CHECK(klartext_refusal({"CYCL DEF 7.1 Xnan"}) == "p.ngc:2:16: error: X has no number: 'nan' follows it");
@@ -148,7 +150,7 @@ TEST_CASE(
         }).starts_with("p.ngc:1:1: error: a move before the unit"));
 }
 
-TEST_CASE("klartext: what is not changed comes back byte for byte") {
+TEST_CASE("klartext: unchanged text is reproduced byte for byte") {
   const std::string text =
       "0 BEGIN PGM 2.5D COVER MM\r\n1 CYCL DEF 247 PRESET ~\r\n    Q339=1 ;NUMBER\r\n\r\n2 * - FACE\r\n"
       "3 TOOL CALL 1 Z S1500\r\n4  L  X+5,25   Y-7 R0 FMAX ; start\r\n5 L Z2 FMAX\r\n6 CC X+10 Y-7\r\n"
@@ -170,7 +172,7 @@ TEST_CASE("klartext: words keep their comma, their sign style and their decimals
         klartext({"L X10.5 Y2.25 Z3.125 FMAX", "L X1.0"}));
 }
 
-TEST_CASE("klartext: a word that the block omits is inserted behind its last coordinate where it is needed") {
+TEST_CASE("klartext: a missing word is inserted behind the last coordinate if it is needed") {
   const Program program = read(klartext({"L X+10 Y+10 Z+5 R0 FMAX", "L X+20 F200 M8"}));
   const auto out =
       rewrite(program, {{.move = 0, .end_mm = {10, 10, 5}}, {.move = 1, .end_mm = {20, 10.01, 5}}}, {});
@@ -178,7 +180,7 @@ TEST_CASE("klartext: a word that the block omits is inserted behind its last coo
   CHECK(out.inserted_words == 1);
 }
 
-TEST_CASE("klartext: incremental words write differences of what the text holds") {
+TEST_CASE("klartext: incremental words are differences of positions in the text") {
   const Program program = read(klartext({"L X+10 Y+10 Z+5 R0 FMAX", "L IX+5 F200", "L IX+5"}));
   const auto out = rewrite(
       program, {{.move = 1, .end_mm = {15.0014, 10, 5}}, {.move = 2, .end_mm = {20.0028, 10.25, 5}}}, {});
@@ -194,7 +196,7 @@ TEST_CASE("klartext: incremental words beside absolute ones are followed, and st
   CHECK(rewrite(program, edits_to_original(program), {}).text == program.text);
   CHECK(klartext_shifted(program) ==
         klartext({"L X+0.5 Y-0.25 Z+5.125 FMAX", "L Z-1.875 F200", "L X+20.5 IY+5", "L X+30.5 IZ+1"}));
-  // Turned a little: the difference of what the text holds, so that rounding never adds up.
+  // With a small rotation: differences of positions in the text, so that rounding errors do not add up.
   const auto out = rewrite(program,
                            {{.move = 0, .end_mm = {0, 0.0004, 5}},
                             {.move = 2, .end_mm = {20, 5.0204, -2}},
@@ -203,7 +205,7 @@ TEST_CASE("klartext: incremental words beside absolute ones are followed, and st
   CHECK(out.text == klartext({"L X+0 Y+0 Z+5 FMAX", "L Z-2 F200", "L X+20 IY+5.02", "L X+30 IZ+1 Y+5.030"}));
 }
 
-TEST_CASE("klartext: blocks are numbered anew without gaps when lines are inserted, and only then") {
+TEST_CASE("klartext: blocks are renumbered without gaps only if lines are inserted") {
   const Program program = read(klartext({"L X+0 Y+0 Z+0 R0 FMAX", "L X+20 F200", "L Y+20"}));
   const std::vector<MoveEdit> edits{{.move = 1, .inserted = {{{10, 0.1, 0}}}, .end_mm = {20, 0, 0}}};
   CHECK(rewrite(program, edits, {}).text ==
@@ -213,7 +215,8 @@ TEST_CASE("klartext: blocks are numbered anew without gaps when lines are insert
         "BEGIN PGM A MM\nL X0 Y0 Z0 FMAX\nL X10.000 Y0.100 F200\nL X20 Y0.000 F200\nEND PGM A MM\n");
 }
 
-TEST_CASE("klartext: the header stands behind BEGIN PGM as comments without numbers and is found there") {
+TEST_CASE(
+    "klartext: the header is written behind BEGIN PGM as comments without numbers, and is found there") {
   const Program program = read(klartext({"L X+0 Y+0 Z+0 R0 FMAX"}));
   const std::string text = rewrite(program, {}, {.header = {"Counterflex 1 made", "~ two"}}).text;
   CHECK(text ==
@@ -223,7 +226,7 @@ TEST_CASE("klartext: the header stands behind BEGIN PGM as comments without numb
 }
 
 TEST_CASE(
-    "klartext: a block that starts a spindle is the first of its pieces, one that stops it is not divided") {
+    "klartext: a block that starts a spindle is the first of its pieces, one that stops it is not split") {
   const Program program = read(klartext({"L X+0 Y+0 Z+0 FMAX", "L X+20 F200 M3", "L X+40 M5"}));
   CHECK(rewrite(program, {{.move = 1, .inserted = {{{10, 0, 0}}}, .end_mm = {20, 0, 0}}}, {}).text ==
         klartext({"L X+0 Y+0 Z+0 FMAX", "L X+10. F200 M3", "L X+20.000", "L X+40 M5"}));
@@ -242,7 +245,7 @@ TEST_CASE("klartext: an arc about CC moves with its centre") {
                                                "C X+20.5 Y-0.25 DR- F300", "C X+0.5 Y-0.25 DR-"}));
 }
 
-TEST_CASE("klartext: an arc that shares its centre gets one of its own where that must differ") {
+TEST_CASE("klartext: an arc that shares its centre gets a CC of its own if the centre must differ") {
   const Program program =
       read(klartext({"L X+0 Y+0 Z+0 FMAX", "CC X+10 Y+0", "C X+20 Y+0 DR- F300", "C X+0 Y+0 DR-"}));
   const std::vector<MoveEdit> edits{{.move = 1, .end_mm = {20, 0, 0}, .centre_mm = Vector3(10, 0.5, 0)}};
@@ -251,7 +254,7 @@ TEST_CASE("klartext: an arc that shares its centre gets one of its own where tha
                   "C X+0 Y+0 DR-"}));
 }
 
-TEST_CASE("klartext: arcs are divided into arcs or lines") {
+TEST_CASE("klartext: arcs are split into arcs or lines") {
   const Program program = read(klartext({"L X+0 Y+0 Z+0 FMAX", "CC X+10 Y+0", "C X+20 Y+0 DR- F300"}));
   MoveEdit edit{.move = 1,
                 .inserted = {{{10, 10, 0}, Vector3(10, 0, 0)}},
@@ -266,7 +269,7 @@ TEST_CASE("klartext: arcs are divided into arcs or lines") {
         klartext({"L X+0 Y+0 Z+0 FMAX", "CC X+10 Y+0", "L X+10.000 Y+10.000 F300", "L X+20 Y+0 F300"}));
 }
 
-TEST_CASE("klartext: CR arcs turn about the centre that their radius and sign give") {
+TEST_CASE("klartext: CR arcs turn about the centre given by their radius and sign") {
   const Program program =
       read(klartext({"L X+0 Y+0 Z+0 FMAX", "CR X+10 Y+10 R+10 DR- F100", "CR X+20 Y+0 R-10 DR+"}));
   REQUIRE(program.moves[1].arc);
@@ -288,7 +291,7 @@ TEST_CASE("klartext: a contour under RL is one group from the move above its plu
   CHECK(program.moves[7].handling == Handling::own);
 }
 
-TEST_CASE("klartext: Q parameters fix their axis, machine positions make theirs unknown") {
+TEST_CASE("klartext: Q parameters fix their axis, machine positions make their axes unknown") {
   const Program program = read(klartext({"L X+0 Y+0 Z+0 FMAX", "L X+Q21 Y+5 F100", "L Z + Q13 FMAX",
                                          "L X+1 IZ-Q2", "L Z-10 FMAX M91", "L X+2"}));
   REQUIRE(program.moves.size() == 5);
@@ -301,7 +304,7 @@ TEST_CASE("klartext: Q parameters fix their axis, machine positions make theirs 
   CHECK(program.moves[4].line == 7);
 }
 
-TEST_CASE("klartext: what is not followed is a move fixed on all axes, with its reason") {
+TEST_CASE("klartext: a block that is not followed is a move fixed on all axes, with its reason") {
   for (const std::string block :
        {"CALL LBL 4", "CALL PGM B.H", "APPR LT X+Q1 Y+2 LEN10 RR F300", "LP PR+10 PA+20",
         "PLANE SPATIAL SPA+10 SPB+0 SPC+0 STAY", "X+5 F100", "TCH PROBE 400", "FUNCTION TCPM F TCP"}) {
@@ -314,7 +317,7 @@ TEST_CASE("klartext: what is not followed is a move fixed on all axes, with its 
   }
 }
 
-TEST_CASE("klartext: blocks that a label repeats, calls or passes over are not corrected") {
+TEST_CASE("klartext: blocks that a label repeats, calls or skips are not corrected") {
   const Program program =
       read(klartext({"L X+0 Y+0 Z+0 FMAX", "LBL 1", "L X+5 F100", "L IX+5", "CALL LBL 1 REP 2",
                      "L X+7 Y+7 Z+7", "FN 9: IF +Q1 EQU +Q2 GOTO LBL 3", "L X+9", "LBL 3", "L X+8"}));
@@ -327,7 +330,7 @@ TEST_CASE("klartext: blocks that a label repeats, calls or passes over are not c
   CHECK_FALSE(program.moves[6].fixed[0]);
 }
 
-TEST_CASE("klartext: shifted, turned and tilted coordinates are fixed until they are set back") {
+TEST_CASE("klartext: moves in shifted, rotated and tilted coordinates are fixed until the reset") {
   for (const auto& [on, off] : {std::pair{"CYCL DEF 7.1 X+Q1", "CYCL DEF 7.1 X+0"},
                                 {"CYCL DEF 7.1 C+10", "CYCL DEF 7.1 C+0"},
                                 {"/CYCL DEF 7.1 X+10", "CYCL DEF 7.1 X+0"},
@@ -344,7 +347,7 @@ TEST_CASE("klartext: shifted, turned and tilted coordinates are fixed until they
   }
 }
 
-TEST_CASE("klartext: a datum shift of plain numbers is a frame, and the words stay in it") {
+TEST_CASE("klartext: a datum shift by plain numbers is a frame, and the words stay in it") {
   const Program program = read(klartext(
       {"L X+1 Y+2 Z+3 FMAX", "CYCL DEF 7.0 DATUM SHIFT", "CYCL DEF 7.1 X+10", "CYCL DEF 7.2 IY-5",
        "L X+0 F100", "CYCL DEF 7.1 IX+1", "L Y+0", "CYCL DEF 7.1 X+0", "CYCL DEF 7.2 Y+0", "L Z+1"}));
@@ -362,7 +365,7 @@ TEST_CASE("klartext: a datum shift of plain numbers is a frame, and the words st
   CHECK(klartext_shifted(program).find("CYCL DEF 7.2 IY-5\n5 L X+0.5 F100\n") != std::string::npos);
 }
 
-TEST_CASE("klartext: a turn about Z is a frame about the shifted datum") {
+TEST_CASE("klartext: a rotation about Z is a frame about the shifted datum") {
   const Program program = read(
       klartext({"L X+1 Y+2 Z+3 FMAX", "CYCL DEF 7.1 X+10", "CYCL DEF 10.0 ROTATION", "CYCL DEF 10.1 ROT+90",
                 "L X+5 Y+1 F100", "CYCL DEF 10.1 IROT-90,0", "L X+3 Y+0", "CYCL DEF 7.1 X+0", "L Y+2"}));
@@ -378,12 +381,12 @@ TEST_CASE("klartext: a turn about Z is a frame about the shifted datum") {
   CHECK(later.moves.back().fixed[0]);
   CHECK(later.left_alone.back().why ==
         "CYCL DEF 7 shifts coordinates that CYCL DEF 10 has turned; shift them before");
-  const Program twice = read(klartext({"L X+1 Y+2 Z+3 FMAX", "CYCL DEF 10.1 ROT+90", "CYCL DEF 7.1 X+10",
-                                       "CYCL DEF 7.1 X+10", "L X+5 Y+1"}));
+  const Program twice = read(klartext(
+      {"L X+1 Y+2 Z+3 FMAX", "CYCL DEF 10.1 ROT+90", "CYCL DEF 7.1 X+10", "CYCL DEF 7.1 X+10", "L X+5 Y+1"}));
   CHECK(twice.moves.back().fixed[0]);
 }
 
-TEST_CASE("klartext: a cycle called in place keeps its hole's position and leaves the height unknown") {
+TEST_CASE("klartext: a cycle called in place keeps the position of its hole and makes the height unknown") {
   const Program program =
       read(klartext({"CYCL DEF 200 DRILLING ~\n    Q200=2 ;CLEARANCE ~\n    Q201=-20 ;DEPTH",
                      "L X+10 Y+10 Z+50 R0 FMAX", "L X+20 FMAX M99", "CYCL CALL", "L X+30 FMAX"}));
@@ -394,18 +397,18 @@ TEST_CASE("klartext: a cycle called in place keeps its hole's position and leave
   CHECK(program.moves[3].known_start == std::array{true, true, false});
 }
 
-TEST_CASE("klartext: forces stand in comments") {
+TEST_CASE("klartext: forces are read from comments") {
   const Program program = read(klartext({"L X+0 Y+0 Z+0 FMAX", "; FORCE FX=-30 FZ=12", "L X+5 F100"}));
   REQUIRE(program.moves[1].force);
   CHECK((*program.moves[1].force)[0] == -30);
 }
 
-TEST_CASE("klartext: corners by RND and CHF leave their moves whole") {
+TEST_CASE("klartext: moves beside corners by RND and CHF are not split") {
   const Program program = read(klartext({"L X+0 Y+0 Z+0 F100", "L X+10", "RND R2", "L Y+10", "L X+0"}));
   CHECK_FALSE(program.moves[1].may_split);
   CHECK_FALSE(program.moves[2].may_split);
   CHECK(program.moves[3].may_split);
-  // Both lie in the plane of the corner. Behind what it takes their heights may change.
+  // Both are in the plane of the corner. Behind the part removed by the corner their heights may change.
   for (const std::size_t m : {1u, 2u}) CHECK(changes_height_inside(program.moves[m]));
   CHECK(program.moves[1].corners->end_mm == doctest::Approx(2));
   CHECK(program.moves[2].corners->begin_mm == doctest::Approx(2));
@@ -419,8 +422,9 @@ TEST_CASE("klartext: corners by RND and CHF leave their moves whole") {
         klartext({"L X+0 Y+0 Z+0 F100", "L X+10", "RND R9.5", "L Y+10", "L X+0 Z+0.030"}));
 }
 
-TEST_CASE("klartext: CT is the arc tangent to the move before it, and C where its words change") {
-  const std::string text = klartext({"L X+0 Y+0 Z+0 F100", "L X+10", "CT X+20 Y+10", "CT X+10 Y+20", "CT Y+30", "L X+0"});
+TEST_CASE("klartext: CT is the arc tangent to the move before it, and becomes C if its words change") {
+  const std::string text =
+      klartext({"L X+0 Y+0 Z+0 F100", "L X+10", "CT X+20 Y+10", "CT X+10 Y+20", "CT Y+30", "L X+0"});
   const Program program = read(text);
   const Move &quarter = program.moves[2], &next = program.moves[3], &half = program.moves[4];
   REQUIRE(quarter.arc.has_value());
@@ -438,11 +442,11 @@ TEST_CASE("klartext: CT is the arc tangent to the move before it, and C where it
     if (edit.centre_mm) edit.centre_mm->x() += 0.5;
   }
   CHECK(rewrite(program, edits, {}).text ==
-        klartext({"L X+0.5 Y+0 Z+0 F100", "L X+10.5", "CC X+10.500 Y+10.000", "C X+20.5 Y+10 DR+", "C X+10.5 Y+20 DR+",
-                  "CC X+10.500 Y+25.000", "C Y+30 DR-", "L X+0.5"}));
+        klartext({"L X+0.5 Y+0 Z+0 F100", "L X+10.5", "CC X+10.500 Y+10.000", "C X+20.5 Y+10 DR+",
+                  "C X+10.5 Y+20 DR+", "CC X+10.500 Y+25.000", "C Y+30 DR-", "L X+0.5"}));
 }
 
-TEST_CASE("klartext: CT with a height, behind an unknown move, straight ahead or to its own start is held") {
+TEST_CASE("klartext: CT is held with a height, after an unknown move, straight ahead or to its own start") {
   for (const char* block : {"CT X+20 Y+10 Z+5", "CT X+20", "CT X+10 Y+0"}) {
     CAPTURE(block);
     const Program program = read(klartext({"L X+0 Y+0 Z+0 F100", "L X+10", block, "L X+0"}));
@@ -462,8 +466,10 @@ TEST_CASE("klartext: an arc whose ends are not equally far from its CC is refuse
   CHECK(what.find("10.0000 mm at the arc's start and 10.0170 mm at its end") != std::string::npos);
 }
 
-TEST_CASE("klartext: a CC with one incremental word is kept, and written again where the tool's position changes") {
-  const std::string text = klartext({"L X+10 Y-2.5 Z+0 FMAX", "CC X+0 IY+0", "C X-10 Y-2.5 DR+ F100", "L X+0"});
+TEST_CASE(
+    "klartext: a CC with one incremental word is kept, and written again if the tool's position changes") {
+  const std::string text =
+      klartext({"L X+10 Y-2.5 Z+0 FMAX", "CC X+0 IY+0", "C X-10 Y-2.5 DR+ F100", "L X+0"});
   const Program program = read(text);
   REQUIRE(program.moves[1].arc.has_value());
   CHECK((program.moves[1].arc->centre_mm - Vector3(0, -2.5, 0)).norm() < 1e-12);
@@ -486,7 +492,7 @@ TEST_CASE("klartext: a helix of turns is followed, and keeps its polar words whe
                   "CP IPA+720 IZ-2 DR+", "L X+12,5 Y+0,75 Z-1,875"}));
 }
 
-TEST_CASE("klartext: a helix becomes lines where no polar words follow its correction") {
+TEST_CASE("klartext: a helix becomes lines if polar words cannot hold its correction") {
   const Program program =
       read(klartext({"L X+10 Y+0 Z+0 F100", "CC X+4 Y+0", "CP IPA+360 IZ-2 DR+ F200 M8", "L X+12"}));
   const MoveEdit edit{.move = 1, .inserted = {{{-2, 0.1, -1}}}, .end_mm = {10, 0.1, -2.1}};
@@ -519,7 +525,7 @@ TEST_CASE("klartext: polar arcs end about their pole, in every plane") {
                   "CP IPA-90 DR-", "CC IY+5 IZ+0", "CP IPA+180 DR+"}));
 }
 
-TEST_CASE("klartext: a polar arc in the plane becomes C where its polar words do not hold the correction") {
+TEST_CASE("klartext: a polar arc in the plane becomes C if its polar words cannot hold the correction") {
   const Program program =
       read(klartext({"L X+10 Y+0 Z+0 F100", "CC X+0 Y+0", "CP  IPA+90 DR+ F50", "L X-1"}));
   const MoveEdit edit{.move = 1, .end_mm = {0, 10.02, 0}, .centre_mm = Vector3(0, 0.01, 0)};
@@ -556,14 +562,14 @@ TEST_CASE("klartext: a line in polar coordinates is rewritten if an arc has move
                                                        "C X+0.000 Y+10.000 DR+", "L X+0.000 Y+20.000"}));
 }
 
-TEST_CASE("klartext: polar coordinates that are not known are fixed, with the construct and its cure") {
+TEST_CASE("klartext: unknown polar coordinates are fixed, with the reason and the cure") {
   for (const auto& [block, why] :
        {std::pair{"LP PR+10 PA+Q5", "LP has no angle"},
-        {"LP IPA+10", "LP counts from the polar coordinates of the block before it"},
+        {"LP IPA+10", "LP is relative to the polar coordinates of the block before it"},
         {"CP IPA+90 DR-", "IPA and DR of CP have different signs"},
-        {"CP IPA+90", "CP does not say DR+ or DR-"},
+        {"CP IPA+90", "CP has no DR+ or DR-"},
         {"LP PR+10 PA+20 X+5", "LP with both polar and Cartesian"},
-        {"CTP PR+10 PA+20", "CTP is not read"}}) {
+        {"CTP PR+10 PA+20", "CTP is not supported"}}) {
     const std::string shown = block;
     CAPTURE(shown);
     const Program program = read(klartext({"L X+10 Y+0 Z+5 FMAX", "CC X+4 Y+0", shown}));
@@ -571,10 +577,10 @@ TEST_CASE("klartext: polar coordinates that are not known are fixed, with the co
     CHECK(program.left_alone.at(0).why.starts_with(why));
   }
   const Program no_pole = read(klartext({"L X+10 Y+0 Z+5 FMAX", "CC X+Q4 Y+0", "CP IPA+90 DR+"}));
-  CHECK(no_pole.left_alone.at(0).why.starts_with("CP counts from a pole that is not known"));
+  CHECK(no_pole.left_alone.at(0).why.starts_with("CP needs a known pole"));
 }
 
-TEST_CASE("klartext: a contour takes its polar arcs along") {
+TEST_CASE("klartext: a contour is shifted with its polar arcs") {
   const Program program = read(
       klartext({"L X+10 Y+0 Z+5 FMAX", "L X+9 RL F100", "CC X+4 Y+0", "CP IPA+90 DR+", "L X+3", "L Y-7 R0"}));
   CHECK(program.moves[2].handling == Handling::group);
@@ -583,7 +589,7 @@ TEST_CASE("klartext: a contour takes its polar arcs along") {
                   "L X+3.5", "L Y-7.25 R0"}));
 }
 
-TEST_CASE("klartext: an arc takes its CC along also where other moves stand between them") {
+TEST_CASE("klartext: an arc moves its CC also if other moves are between them") {
   const Program program =
       read(klartext({"L X+4 Y+0 Z+5 FMAX", "CC X+0 Y+0", "L X+5 F100", "C X-5 Y+0 DR+", "C X+5 Y+0 DR+"}));
   CHECK(rewrite(program, edits_to_original(program), {}).text == program.text);
@@ -591,7 +597,7 @@ TEST_CASE("klartext: an arc takes its CC along also where other moves stand betw
                                                "L X+5.5 F100", "C X-4.5 Y-0.25 DR+", "C X+5.5 Y-0.25 DR+"}));
 }
 
-TEST_CASE("klartext: behind an arc that stays as it is no other is followed about the same CC") {
+TEST_CASE("klartext: after an arc that is not changed no other arc about the same CC is followed") {
   for (const char* arc : {"C X+5", "/C X-5 Y+0 DR+", "C X+Q1 Y+0 DR+"}) {
     const std::string text =
         klartext({"L X+5 Y+0 Z+5 FMAX", "CC X+0 Y+0", arc, "L X+5 Y+0 F100", "C X-5 Y+0 DR+"});
@@ -602,7 +608,8 @@ TEST_CASE("klartext: behind an arc that stays as it is no other is followed abou
   }
 }
 
-TEST_CASE("klartext: each hole of a drilling cycle is corrected in X and Y, and the first one takes the surface along") {
+TEST_CASE(
+    "klartext: each hole of a drilling cycle is corrected in X and Y, and the first one moves the surface") {
   const std::string text =
       klartext({"L X+1 Y+0 Z+50 FMAX",
                 "CYCL DEF 200 DRILLING ~\n  Q200=2 ~\n  Q201=-10 ~\n  Q203=+1.5 ;SURFACE ~\n  Q204=50",
@@ -629,7 +636,8 @@ TEST_CASE("klartext: each hole of a drilling cycle is corrected in X and Y, and 
 }
 
 TEST_CASE("klartext: a hole at another height repeats the statement that has its cycle's surface") {
-  const std::string begin = "L X+1 Y+0 Z+50 FMAX", definition = "CYCL DEF 200 DRILLING ~\n  Q200=2 ~\n  Q203=";
+  const std::string begin = "L X+1 Y+0 Z+50 FMAX",
+                    definition = "CYCL DEF 200 DRILLING ~\n  Q200=2 ~\n  Q203=";
   const std::string rest = " ;SURFACE ~\n  Q204=50";
   const auto with_heights = [](const Program& program, const std::vector<double>& z) {
     std::vector<MoveEdit> edits = edits_to_original(program);
@@ -637,40 +645,47 @@ TEST_CASE("klartext: a hole at another height repeats the statement that has its
     return rewrite(program, edits, {}).text;
   };
   const std::vector<std::string> holes{"L X+2 Y+3 FMAX M99", "L X+4 FMAX M99", "L X+6 FMAX M99", "CYCL CALL"};
-  const Program defined = read(klartext({begin, definition + "+1.5" + rest, holes[0], holes[1], holes[2], holes[3]}));
+  const Program defined =
+      read(klartext({begin, definition + "+1.5" + rest, holes[0], holes[1], holes[2], holes[3]}));
   CHECK(with_heights(defined, {0, 0.02, 0.02, 0}) ==
-        klartext({begin, definition + "+1.5" + rest, holes[0], definition + "+1.52" + rest, holes[1], holes[2],
-                  definition + "+1.5" + rest, holes[3]}));
-  const std::string line = "Q203 = +1.5", definitions = "CYCL DEF 200 DRILLING", clearances = "Q200=2\nQ204=50";
-  const Program assigned = read("0 BEGIN PGM COVER MM\n" + begin + "\n" + definitions + "\n" + line + " ;SURFACE\n" + clearances + "\n" +
-                                holes[0] + "\n" + holes[1] + "\n");
-  CHECK(with_heights(assigned, {0.01, 0.03}).find(holes[0] + "\nQ203 = +1.53 ;SURFACE\n") != std::string::npos);
+        klartext({begin, definition + "+1.5" + rest, holes[0], definition + "+1.52" + rest, holes[1],
+                  holes[2], definition + "+1.5" + rest, holes[3]}));
+  const std::string line = "Q203 = +1.5", definitions = "CYCL DEF 200 DRILLING",
+                    clearances = "Q200=2\nQ204=50";
+  const Program assigned = read("0 BEGIN PGM COVER MM\n" + begin + "\n" + definitions + "\n" + line +
+                                " ;SURFACE\n" + clearances + "\n" + holes[0] + "\n" + holes[1] + "\n");
+  CHECK(with_heights(assigned, {0.01, 0.03}).find(holes[0] + "\nQ203 = +1.53 ;SURFACE\n") !=
+        std::string::npos);
 }
 
-TEST_CASE("klartext: under M89 a definition is not repeated, since it would end it") {
+TEST_CASE("klartext: under M89 a definition is not repeated, because it would end M89") {
   const Program program =
-      read(klartext({"L X+1 Y+0 Z+50 FMAX", "CYCL DEF 200 ~\n  Q200=2 ~\n  Q203=+1.5 ~\n  Q204=50", "L X+2 Y+3 FMAX M89",
-                     "L X+4 FMAX", "L X+6 FMAX M99", "CYCL DEF 200 ~\n  Q200=2 ~\n  Q203=+1.5 ~\n  Q204=50", "L X+8 FMAX"}));
+      read(klartext({"L X+1 Y+0 Z+50 FMAX", "CYCL DEF 200 ~\n  Q200=2 ~\n  Q203=+1.5 ~\n  Q204=50",
+                     "L X+2 Y+3 FMAX M89", "L X+4 FMAX", "L X+6 FMAX M99",
+                     "CYCL DEF 200 ~\n  Q200=2 ~\n  Q203=+1.5 ~\n  Q204=50", "L X+8 FMAX"}));
   CHECK_FALSE(program.moves[2].words[2].has_value());
   CHECK(program.moves[2].makes_hole);
   CHECK(program.moves[3].makes_hole);
   CHECK_FALSE(program.moves[4].makes_hole);
 }
 
-TEST_CASE("klartext: a definition is not repeated where the program may have changed its parameters since") {
+TEST_CASE("klartext: a definition is not repeated if the program may have changed its parameters since") {
   const std::string definition = "CYCL DEF 200 ~\n  Q200=2 ~\n  Q201=-10 ~\n  Q203=+1.5 ~\n  Q204=50";
   for (const char* between : {"Q201 = -20", "FN 0: Q201 = -20", "LBL 1", "STOP"}) {
     CAPTURE(between);
-    const Program program = read(klartext({"L X+1 Y+0 Z+50 FMAX", definition, "L X+2 Y+3 FMAX M99", between, "L X+4 FMAX M99"}));
-    for (std::size_t hole = 2; hole < program.moves.size(); ++hole) CHECK_FALSE(program.moves[hole].words[2].has_value());
+    const Program program =
+        read(klartext({"L X+1 Y+0 Z+50 FMAX", definition, "L X+2 Y+3 FMAX M99", between, "L X+4 FMAX M99"}));
+    for (std::size_t hole = 2; hole < program.moves.size(); ++hole)
+      CHECK_FALSE(program.moves[hole].words[2].has_value());
   }
 }
 
-TEST_CASE("klartext: holes are held where the height at which a cycle leaves the tool is not known") {
+TEST_CASE("klartext: holes are held if the height at which a cycle leaves the tool is unknown") {
   for (const char* clearances : {"Q200=2", "Q204=50", "Q200=2 ~\n  Q204=Q9"}) {
     CAPTURE(clearances);
-    const Program program = read(klartext({"L X+1 Y+0 Z+50 FMAX", fmt::format("CYCL DEF 200 ~\n  Q203=+1.5 ~\n  {}", clearances),
-                                           "L X+2 Y+3 FMAX M99", "L X+4 FMAX M99"}));
+    const Program program =
+        read(klartext({"L X+1 Y+0 Z+50 FMAX", fmt::format("CYCL DEF 200 ~\n  Q203=+1.5 ~\n  {}", clearances),
+                       "L X+2 Y+3 FMAX M99", "L X+4 FMAX M99"}));
     REQUIRE(program.moves.size() == 3);
     for (const std::size_t hole : {1U, 2U}) {
       CHECK(program.moves[hole].handling == Handling::held);
@@ -693,7 +708,7 @@ TEST_CASE("klartext: the first call of a cycle may be a block without coordinate
   }
 }
 
-TEST_CASE("klartext: holes are fixed where their surface is not a plain number that counts for them alone") {
+TEST_CASE("klartext: holes are fixed if their surface is not a plain number used by them alone") {
   for (const char* surface :
        {"CYCL DEF 200 Q203=+Q5", "CYCL DEF 200 Q201=-5", "/CYCL DEF 200 Q203=+1", "CYCL DEF 252 Q203=+1"}) {
     CAPTURE(surface);
@@ -708,7 +723,7 @@ TEST_CASE("klartext: holes are fixed where their surface is not a plain number t
   }
 }
 
-TEST_CASE("klartext: arcs take no Z word, the lines around them do") {
+TEST_CASE("klartext: arcs get no Z word, the lines around them do") {
   const Program program = read(
       klartext({"L X+0 Y+0 Z+0 FMAX", "CC X+10 Y+0", "C X+20 Y+0 DR- F300", "CR X+0 Y+0 R+10 DR-", "L X-5"}));
   const std::vector<MoveEdit> edits{{.move = 0, .end_mm = {0, 0, 0}},
@@ -739,7 +754,7 @@ TEST_CASE("klartext: incremental holes and a surface in a line of its own are he
                   "L X+0.5 Y-0.25 Z+50.125 FMAX"}));
 }
 
-TEST_CASE("klartext: holes of the cycles that count from the tool go along with their positions") {
+TEST_CASE("klartext: holes of cycles that are relative to the tool are shifted with their positions") {
   const Program program = read(
       klartext({"L X+1 Y+0 Z+2 FMAX", "CYCL DEF 1.0 PECKING", "CYCL DEF 1.1 DIST 2", "CYCL DEF 1.2 DEPTH -10",
                 "L FMAX M99", "L X+5 FMAX M99", "CYCL CALL", "L IX+5 M89", "L Y+7", "L X+0 M99", "L Y+9"}));
@@ -754,7 +769,7 @@ TEST_CASE("klartext: holes of the cycles that count from the tool go along with 
   CHECK(all_known(pocket.moves[1].known_start));
   CHECK(pocket.moves[1].mills_at_end);
   REQUIRE(pocket.left_alone.size() == 1);
-  CHECK(pocket.left_alone[0].why.starts_with("what the cycle mills"));
+  CHECK(pocket.left_alone[0].why.starts_with("the cycle is shifted as a whole"));
   CHECK(pocket.moves[2].known_start == std::array<bool, 3>{});
 }
 
@@ -766,7 +781,7 @@ TEST_CASE("klartext: M89 calls the cycle at the end of all moves up to M99") {
   CHECK(held == std::vector<bool>{false, true, true, true, false});
 }
 
-TEST_CASE("klartext: APPR and DEP go along with the contour between them") {
+TEST_CASE("klartext: APPR and DEP are shifted with the contour between them") {
   const std::string text =
       klartext({"L X+120 Y+0 Z+1 R0 FMAX", "L Z-10 F100", "APPR LCT X+45 Y+0 R20 RL F220", "L X+45 Y-18",
                 "RND R4", "L X+18 Y-45", "DEP LCT X+120 Y+0 R20", "L Z+1 R0 FMAX", "L X+150 FMAX"});
@@ -780,7 +795,7 @@ TEST_CASE("klartext: APPR and DEP go along with the contour between them") {
   CHECK_FALSE(all_known(program.moves[2].known_start));
   CHECK(all_known(program.moves[3].known_start));
   CHECK(program.moves[6].start_mm == Vector3(120, 0, -10));
-  CHECK(program.left_alone.at(0).why == "APPR goes along with its contour; its way is not measured");
+  CHECK(program.left_alone.at(0).why == "APPR is shifted with its contour; its path is not computed");
   CHECK(rewrite(program, edits_to_original(program), {}).text == text);
   CHECK(klartext_shifted(program) ==
         klartext({"L X+120.5 Y-0.25 Z+1.125 R0 FMAX", "L Z-9.875 F100", "APPR LCT X+45.5 Y-0.25 R20 RL F220",
@@ -788,7 +803,7 @@ TEST_CASE("klartext: APPR and DEP go along with the contour between them") {
                   "L Z+1.125 R0 FMAX", "L X+150.5 FMAX"}));
 }
 
-TEST_CASE("klartext: where DEP ends without a point is not known, the contour before it is") {
+TEST_CASE("klartext: the end of a DEP without a point is unknown, the contour before it is known") {
   const Program program = read(klartext({"L X+20 Y+0 Z+1 FMAX", "APPR LT X+45 Y+0 Z-5 LEN10 RL F220",
                                          "L X+60", "DEP LT LEN10", "L Z+1 FMAX", "L X+0 Y+0 FMAX"}));
   REQUIRE(program.moves.size() == 6);
@@ -798,19 +813,18 @@ TEST_CASE("klartext: where DEP ends without a point is not known, the contour be
   CHECK(all_known(program.moves[5].known_end));
 }
 
-TEST_CASE("klartext: APPR and DEP that are not followed are named") {
+TEST_CASE("klartext: the reason for APPR and DEP that are not followed names the block") {
   for (const char* block :
        {"APPR LT X+Q1 Y+2 LEN10 RR", "APPR PLT PR+5 PA+3 LEN10 RL", "APPR LT IX+1 Y+2 LEN10 RR",
         "APPR LT X+1 Y+2 LEN10", "DEP LT LEN10", "APPR LN X+1 Y+2 LEN+2 RL M3"}) {
     CAPTURE(block);
     const Program program = read(klartext({"L X+20 Y+0 Z+1 FMAX", block, "L X+60 Y+0"}));
     CHECK(program.moves[1].fixed[0]);
-    CHECK(program.left_alone.at(0).why.find("is followed with plain numbers of X and Y only") !=
-          std::string::npos);
+    CHECK(program.left_alone.at(0).why.find("needs X and Y as plain numbers") != std::string::npos);
   }
 }
 
-TEST_CASE("klartext: repeated parts and subprograms stand in the place of their calls") {
+TEST_CASE("klartext: repeated parts and subprograms replace their calls") {
   const Program program = expanded_klartext(
       klartext({"L X+0 Y+0 Z+5 FMAX", "LBL 5", "L IX+10 F100", "CALL LBL \"HOLE\"", "L IY+1",
                 "CALL LBL 5 REP 2/2", "L Z+9", "M30", "LBL \"HOLE\"", "L IZ-1 ~\nF50 ; down", "LBL 0"}));
@@ -832,7 +846,7 @@ TEST_CASE("klartext: calls that cannot be replaced stay, with the reason") {
         {"CALL LBL 1", "line 6: LBL 1 calls itself"},
         {"CALL LBL Q1", "line 3: the label is a Q parameter"},
         {"/CALL LBL 2", "line 3: '/' may skip the call"},
-        {"CALL LBL 2 REP 3", "line 3: LBL 2 does not stand before its REP"},
+        {"CALL LBL 2 REP 3", "line 3: LBL 2 is not before its REP"},
         {"CALL LBL 3", "line 12: a subprogram ends the program"},
         {"CALL LBL 2\nFN 9: IF +Q1 EQU +1 GOTO LBL 2", "line 4: the program jumps to a label"}}) {
     const std::string shown = call;
@@ -851,11 +865,12 @@ TEST_CASE("klartext: calls that cannot be replaced stay, with the reason") {
   }
   CHECK(diagnostic_of([&] {
           expanded_klartext(klartext({"LBL 1", "L IX+1", "CALL LBL 1 REP 900000000"}));
-        }).find("the expanded calls make more than") != std::string::npos);
+        }).find("the expanded calls are longer than") != std::string::npos);
 }
 
-TEST_CASE("Q parameters that the program sets to constants are their values where that is asked for") {
-  const std::string begin = "BEGIN PGM A MM\nL X+0 Y+0 Z+5 FMAX\nFN 0: Q1 = +12,5\nQ2 = Q1 * 2 - 5\nFN 4: Q3 = +Q2 DIV +8\n";
+TEST_CASE("Q parameters set to constants are evaluated with --evaluate") {
+  const std::string begin =
+      "BEGIN PGM A MM\nL X+0 Y+0 Z+5 FMAX\nFN 0: Q1 = +12,5\nQ2 = Q1 * 2 - 5\nFN 4: Q3 = +Q2 DIV +8\n";
   ReadOptions options{.dialect = "heidenhain", .evaluate = true};
   const auto last = [&](const std::string& statements) {
     return read_program(begin + statements + "END PGM A MM\n", "p.h", options).moves.back();
@@ -864,8 +879,10 @@ TEST_CASE("Q parameters that the program sets to constants are their values wher
   CHECK(all_known(line.known_end));
   CHECK((line.end_mm - Vector3(12.5, -2.5, 5)).norm() < 1e-12);
   CHECK(last("CC X+Q1 Y+0\nL X+0 Y+0\nC X+25 Y+0 DR-\n").arc);
-  for (const char* doubt : {"FN 18: SYSREAD Q1 = ID270 NR1 IDX3\n", "/ Q1 = 5\n", "CALL PGM OTHER\nL X+0 Y+0 Z+5\n", "Q1 = SIN Q9\n", "FN #0: Q1 = +5\n",
-                            "LBL 1\nQ1 = Q1 + 1\nCALL LBL 1 REP 3\nL X+0 Y+0 Z+5\n", "FN 5: Q1 = SQRT +4\n"}) {
+  for (const char* doubt :
+       {"FN 18: SYSREAD Q1 = ID270 NR1 IDX3\n", "/ Q1 = 5\n", "CALL PGM OTHER\nL X+0 Y+0 Z+5\n",
+        "Q1 = SIN Q9\n", "FN #0: Q1 = +5\n", "LBL 1\nQ1 = Q1 + 1\nCALL LBL 1 REP 3\nL X+0 Y+0 Z+5\n",
+        "FN 5: Q1 = SQRT +4\n"}) {
     CAPTURE(doubt);
     CHECK_FALSE(last(std::string(doubt) + "L X+Q1 F200\n").known_end[0]);
   }

@@ -1,4 +1,4 @@
-/// Drilling cycles of a Sinumerik: their heights go along with the holes.
+/// Drilling cycles of a Sinumerik: their heights are shifted with the holes.
 #include <doctest/doctest.h>
 
 #include "counterflex/program/called_cycle.hpp"
@@ -23,7 +23,7 @@ std::string shifted_lines(const std::string& lines) {
   return text.substr(text.find('\n', text.find("G0 ")) + 1);
 }
 
-// Whether the last move goes to a place of its own.
+// Whether the last move gets a position of its own.
 bool is_fixed(const std::string& lines) {
   const Move move = drilled(lines).moves.back();
   return move.fixed[0] || move.fixed[2];
@@ -53,20 +53,20 @@ TEST_CASE("siemens: a called cycle leaves the tool at its retract plane") {
   CHECK(all_known(program.moves[2].known_start));
 }
 
-TEST_CASE("siemens: MCALL is written again where the heights of a hole are others than the text holds") {
+TEST_CASE("siemens: MCALL is written again if the heights of a hole differ from those in the text") {
   CHECK(shifted_lines("MCALL CYCLE81(50,0,2,-20) ; all\nX20 Y10\nX30\nMCALL\nG0 Z99\n") ==
         "MCALL CYCLE81(50,0,2,-20) ; all\nMCALL CYCLE81(50.125,0.125,2,-19.875)\nX20.5 "
         "Y9.75\nX30.5\nMCALL\nG0 Z99.125\n");
   const Program program = drilled("N5 MCALL CYCLE81(50,0,2,-20)\nX20 Y10\nX30\nMCALL\n");
   REQUIRE(program.moves.size() == 3);
   const std::vector<MoveEdit> edits{{.move = 1, .end_mm = {20, 10, 0.2}}};
-  // The second hole is not edited: it gets the heights of the original back.
+  // The second hole is not edited: it gets the heights of the original.
   CHECK(rewrite(program, edits, {})
             .text.ends_with("N5 MCALL CYCLE81(50,0,2,-20)\nMCALL CYCLE81(50.2,0.2,2,-19.8)\nX20 Y10\n"
                             "MCALL CYCLE81(50,0,2,-20)\nX30\nMCALL\n"));
 }
 
-TEST_CASE("siemens: holes of G91 count from the hole before, their heights do not") {
+TEST_CASE("siemens: under G91 holes are relative to the hole before, their heights are not") {
   const Program program = drilled("MCALL CYCLE81(50,0,2,-20)\nX20 Y10\nG91 X5\nG90 MCALL\n");
   REQUIRE(program.moves.size() == 3);
   CHECK(program.moves[2].end_mm == Vector3(25, 10, 0));
@@ -86,7 +86,7 @@ TEST_CASE("siemens: a milling cycle is shifted with its centre and its absolute 
         "CYCLE71(10.125,0.125,2,-10.875,100.5,99.75,60,40,10,6,10,5,0,4000,31,2)\n");
 }
 
-TEST_CASE("siemens: a milling cycle leaves X and Y unknown, and says that it is not corrected wholly") {
+TEST_CASE("siemens: a milling cycle makes X and Y unknown, and is reported as not fully corrected") {
   const Program program = drilled("POCKET4(50,0,2,-10,25,60,40,4)\nG0 X60\n");
   REQUIRE(program.moves.size() == 3);
   CHECK(program.moves[1].end_mm == Vector3(60, 40, 0));
@@ -97,15 +97,17 @@ TEST_CASE("siemens: a milling cycle leaves X and Y unknown, and says that it is 
   CHECK(program.left_alone[0].line == 4);
 }
 
-TEST_CASE("siemens: cycles that are not followed are refused as before") {
+TEST_CASE("siemens: the reason for a cycle that is not followed names the supported ones") {
   for (const std::string lines :
-       {"CYCLE81(R1,0,2,-20)\n", "CYCLE81(50,,2,-20)\n", "POCKET4(50,0,2,-10,25,R1,40)\n", "POCKET4(50,0,2,-10,25,60)\n", "SLOT3(50,0,2,-20,0,0,100,50,0)\n",
-        "POCKET4(50,0,2,-10,25,60,40,4,0,0,500,200,0,11,5,9,8,5,3,0,1,2,1100,111,111)\n", "CYCLE81(50,0,2,-20+1)\n", "/CYCLE81(50,0,2,-20)\n",
-        "CYCLE72(50,0,2,-20,0,0,100,50,0)\n", "G18\nCYCLE81(50,0,2,-20)\n", "G70\nCYCLE81(50,0,2,-20)\n",
-        "IF R1==1\nCYCLE81(50,0,2,-20)\nENDIF\n", "ROT Z30 X10\nCYCLE81(50,0,2,-20)\n",
-        "MCALL CYCLE81(R1,0,2,-20)\nX5\n", "MCALL CYCLE81(50,0,2,-20)\nX5 Z10\n",
-        "MCALL CYCLE81(50,0,2,-20)\nG2 X20 Y10 CR=8\n", "MCALL CYCLE81(50,0,2,-20)\nZ10\nX5\n",
-        "/MCALL CYCLE81(50,0,2,-20)\nX5\n", "MCALL MY_HOLE(50,0,2,-20)\nX5\n"}) {
+       {"CYCLE81(R1,0,2,-20)\n", "CYCLE81(50,,2,-20)\n", "POCKET4(50,0,2,-10,25,R1,40)\n",
+        "POCKET4(50,0,2,-10,25,60)\n", "SLOT3(50,0,2,-20,0,0,100,50,0)\n",
+        "POCKET4(50,0,2,-10,25,60,40,4,0,0,500,200,0,11,5,9,8,5,3,0,1,2,1100,111,111)\n",
+        "CYCLE81(50,0,2,-20+1)\n", "/CYCLE81(50,0,2,-20)\n", "CYCLE72(50,0,2,-20,0,0,100,50,0)\n",
+        "G18\nCYCLE81(50,0,2,-20)\n", "G70\nCYCLE81(50,0,2,-20)\n", "IF R1==1\nCYCLE81(50,0,2,-20)\nENDIF\n",
+        "ROT Z30 X10\nCYCLE81(50,0,2,-20)\n", "MCALL CYCLE81(R1,0,2,-20)\nX5\n",
+        "MCALL CYCLE81(50,0,2,-20)\nX5 Z10\n", "MCALL CYCLE81(50,0,2,-20)\nG2 X20 Y10 CR=8\n",
+        "MCALL CYCLE81(50,0,2,-20)\nZ10\nX5\n", "/MCALL CYCLE81(50,0,2,-20)\nX5\n",
+        "MCALL MY_HOLE(50,0,2,-20)\nX5\n"}) {
     CAPTURE(lines);
     CHECK(is_fixed(lines));
   }

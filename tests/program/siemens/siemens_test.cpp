@@ -25,7 +25,8 @@ constexpr std::string_view siemens_start = "G90 G17 G71\nT=\"MILL_10\" M6\nG0 X0
 
 }  // namespace
 
-TEST_CASE("siemens: words that only a Sinumerik reads tell the dialect, but not in comments of others") {
+TEST_CASE(
+    "siemens: words that only a Sinumerik reads decide the dialect, but not in comments of other dialects") {
   CHECK(read("N10 G90 G71\nN20 G2 X1. Y0. CR=4.\n").dialect == "siemens");
   CHECK(read("%_N_COVER_MPF\n;$PATH=/_N_MPF_DIR\nG71 G0 X1\n").dialect == "siemens");
   CHECK(read("G71\nMSG(\"ROUGH\")\nG0 X1\n").dialect == "siemens");
@@ -33,7 +34,7 @@ TEST_CASE("siemens: words that only a Sinumerik reads tell the dialect, but not 
   CHECK(read("O0001\nG21 G0 X1.\n(SUPA)\n").dialect == "fanuc");
 }
 
-TEST_CASE("siemens: centres that say that they are absolute are coordinates") {
+TEST_CASE("siemens: centres marked as absolute are coordinates") {
   const std::string start = std::string(siemens_start) + "G1 Z0 F100\n";
   const std::string text =
       start + "G2 X10 Y0 I=AC(5) J=AC(0)\nG3 I=AC(5.) J=AC(0.)\nG3 X10 Y0 I=IC(-5) J=IC(0)\n";
@@ -44,18 +45,18 @@ TEST_CASE("siemens: centres that say that they are absolute are coordinates") {
     CHECK(program.moves[m].may_split);
   }
   CHECK(siemens_shifted(text).find("G2 X10.5 Y-0.25 I=AC(5.5) J=AC(-0.25)\n") != std::string::npos);
-  // A divided circle says the same form again.
+  // The pieces of a split circle have the same form.
   const MoveEdit halves{.move = 3,
                         .inserted = {{.end_mm = {0, 0, 0}, .centre_mm = Vector3(5, 0, 0)}},
                         .end_mm = {10, 0, 0},
                         .centre_mm = Vector3(5, 0, 0)};
   CHECK(rewrite(program, {halves}, {}).text.find("X0.000 I=AC(5.000) J=AC(0.000)") != std::string::npos);
-  // Of one that is half relative nothing is said about what it would be.
+  // If only one coordinate is absolute, the error has no hint.
   CHECK_FALSE(siemens(start + "G2 X10 Y0 I=AC(5) J0\n").moves.back().arc);
   CHECK_FALSE(siemens(start + "G2 X10 Y0 I=AC(5)\n").moves.back().arc);
 }
 
-TEST_CASE("siemens: lines come back byte for byte, whatever they hold") {
+TEST_CASE("siemens: unchanged lines are reproduced byte for byte") {
   const std::string text =
       "%_N_COVER_MPF\n;$PATH=/_N_MPF_DIR\nN10 G17 G90 G71 G500 ;start\nDEF REAL "
       "_DEPTH=5.5\nWORKPIECE(,\"\",,\"BOX\",112)\n"
@@ -84,7 +85,7 @@ TEST_CASE("siemens: values behind '=' are read and changed in place") {
         "G1 X=13.0 Y=AC(6.75) F500\nZ=-2.125\n");
 }
 
-TEST_CASE("siemens: a block of incremental words is relative, in a mixed one each axis counts for itself") {
+TEST_CASE("siemens: a block of incremental words is relative, in a mixed block each axis has its own mode") {
   const Program program =
       siemens(std::string(siemens_start) + "G1 X=IC(5) Y=IC(-1) F500\nX10 Y=IC(2)\nG91\nX=AC(3) Y=AC(4)\n");
   REQUIRE(program.moves.size() == 4);
@@ -123,7 +124,7 @@ TEST_CASE("siemens: CR= arcs move with their ends and keep their form in pieces"
             .text.ends_with("G3 X7.071 Y2.929 CR=10.000 F200\nG3 X10. Y10. CR=10. F200\n"));
 }
 
-TEST_CASE("siemens: TURN counts turns besides the way to the end") {
+TEST_CASE("siemens: TURN is the number of additional full turns") {
   const Program program = siemens(std::string(siemens_start) + "G3 X0 Y0 Z-2 I10 J0 TURN=2 F200\n");
   REQUIRE(program.moves.back().arc);
   CHECK(program.moves.back().arc->turns == 2);
@@ -159,7 +160,7 @@ TEST_CASE("siemens: frames, cycles and subprograms are not corrected, with their
   CHECK(siemens(std::string(siemens_start) + "L100\n").left_alone.at(0).why == "a subprogram is called");
 }
 
-TEST_CASE("siemens: ANG= says the coordinate that a line has no word for") {
+TEST_CASE("siemens: ANG= gives the coordinate of a line that has no word for it") {
   const std::string text = std::string(siemens_start) + "G1 X40 ANG=45 F100\nY0 ANG=90\nY-20 ANG=-135\n";
   const Program program = siemens(text);
   REQUIRE(program.moves.size() == 4);
@@ -167,10 +168,10 @@ TEST_CASE("siemens: ANG= says the coordinate that a line has no word for") {
   CHECK((program.moves[2].end_mm - Vector3(40, 0, 50)).norm() < 1e-9);
   CHECK((program.moves[3].end_mm - Vector3(20, -20, 50)).norm() < 1e-9);
   CHECK(rewrite(program, edits_to_original(program), {}).text == text);
-  // The direction stays where the whole line is shifted by nothing; else the coordinate is written.
+  // The direction stays if the whole line has the same shift; otherwise the coordinate is written.
   CHECK(siemens_shifted(text).ends_with("G1 X40.5 Y39.750 F100\nY-0.25 X40.500\nY-20.25 X20.500\n"));
-  for (const std::string lines : {"G1 ANG=45 F100\n", "G1 X5 Y5 ANG=45 F100\n", "G1 X5 ANG=90 F100\n", "G1 X5 ANG=R1 F100\n",
-                                  "G18\nG1 X5 ANG=30 F100\n"}) {
+  for (const std::string lines : {"G1 ANG=45 F100\n", "G1 X5 Y5 ANG=45 F100\n", "G1 X5 ANG=90 F100\n",
+                                  "G1 X5 ANG=R1 F100\n", "G18\nG1 X5 ANG=30 F100\n"}) {
     CAPTURE(lines);
     const Program left = siemens(std::string(siemens_start) + lines);
     CHECK((left.moves.back().fixed[0] || left.moves.size() == 1));
@@ -185,21 +186,22 @@ TEST_CASE("siemens: G60 is an exact stop and G64 ends it") {
   CHECK_FALSE(program.moves[3].exact_stop);
 }
 
-TEST_CASE("siemens: another edge of the tool makes the height unknown, the first acts after a change") {
+TEST_CASE(
+    "siemens: another edge of the tool makes the height unknown, a tool change selects the first edge") {
   const Program program = siemens(std::string(siemens_start) + "G1 X5 D01 F100\nX6 D2\nX7\n");
   REQUIRE(program.moves.size() == 4);
   CHECK(program.moves[1].known_end[2]);
   CHECK_FALSE(program.moves[3].known_start[2]);
 }
 
-TEST_CASE("siemens: the header stands in comments below the lines that must come first") {
+TEST_CASE("siemens: the header is written as comments below the lines that must be first") {
   const Program program = siemens("%_N_COVER_MPF\n;$PATH=/_N_MPF_DIR\nG71 G0 X1 SUPA\n");
   const std::string text = rewrite(program, {}, {.header = {"Counterflex 1 made"}}).text;
   CHECK(text == "%_N_COVER_MPF\n;$PATH=/_N_MPF_DIR\n;COUNTERFLEX 1 MADE\nG71 G0 X1 SUPA\n");
   CHECK(is_corrected(read(text)));
 }
 
-TEST_CASE("siemens: the header stands before the first move, whatever follows that looks like a beginning") {
+TEST_CASE("siemens: the header is written before the first move, also if later lines look like a beginning") {
   const std::string text = "L100\n%_N_COVER_MPF\nG71 G0 X1\n";
   const Program program = siemens(text);
   REQUIRE(!program.moves.empty());
@@ -207,11 +209,11 @@ TEST_CASE("siemens: the header stands before the first move, whatever follows th
   CHECK(rewrite(program, {}, {.header = {"Counterflex 1 made"}}).text == ";COUNTERFLEX 1 MADE\n" + text);
 }
 
-TEST_CASE("siemens: a name that is a sign alone is no letter of a word") {
+TEST_CASE("siemens: a name of one special character is not a letter of a word") {
   CHECK(siemens("G71 G90\nG1 X1 F1 $=5\n$\n_\n").dialect == "siemens");
 }
 
-TEST_CASE("siemens: RND=, CHR= and CHF= take their parts of two lines") {
+TEST_CASE("siemens: RND=, CHR= and CHF= shorten the lines beside the corner") {
   const Program program =
       siemens(std::string(siemens_start) + "G1 Z0 F100\nX30 RND=4\nY30 CHR=5\nX0 CHF=4\nY15 RND=R1\nX10\n");
   const auto ends = [&](std::size_t m) {
@@ -224,13 +226,13 @@ TEST_CASE("siemens: RND=, CHR= and CHF= take their parts of two lines") {
   CHECK(ends(4).end_mm == doctest::Approx(4 / std::sqrt(2)));
   CHECK(changes_height_inside(program.moves[4]));
   CHECK(program.moves[2].takes_no_z);
-  // A radius that the control works out may take the whole line.
+  // A radius that is an expression may remove the whole line.
   CHECK_FALSE(changes_height_inside(program.moves[5]));
   CHECK_FALSE(program.moves[5].fixed[0]);
   CHECK(siemens(std::string(siemens_start) + "G1 X5 RNDM=2 F100\n").moves.back().fixed[0]);
 }
 
-TEST_CASE("siemens: a call beside words is one move that is not followed") {
+TEST_CASE("siemens: a call with other words in its block is a move that is not followed") {
   const std::string text = "G71 G90 G1 X1 Y1 Z1 F100\nG1 X2 POCKETS\nX3\n";
   const Program program = siemens(text);
   REQUIRE(program.moves.size() == 3);
@@ -238,32 +240,34 @@ TEST_CASE("siemens: a call beside words is one move that is not followed") {
   CHECK(rewrite(program, edits_to_original(program), {}).text == text);
 }
 
-TEST_CASE("siemens: what is no program is refused at its place") {
+TEST_CASE("siemens: text that is not a program is refused with its position") {
   CHECK(diagnostic_of([] { siemens("G71\nG0 X\n"); }) == "p.mpf:2:4: error: X has no number");
   CHECK(diagnostic_of([] { siemens("G71\nG0 X1e5\n"); }).starts_with("p.mpf:2:6: error: X1e5"));
   CHECK(diagnostic_of([] { siemens("G71\n<<<<<<< mine\n"); }).starts_with("p.mpf:2:1: error: '<<<<<<<'"));
   CHECK(diagnostic_of([] { siemens("G71\nG291\n"); }).starts_with("p.mpf:2:1: error: G291"));
-  CHECK(diagnostic_of([] {
-          siemens("G71\nG0 X=\n");
-        }).starts_with("p.mpf:2:5: error: X= is followed by no value"));
+  CHECK(diagnostic_of([] { siemens("G71\nG0 X=\n"); }).starts_with("p.mpf:2:5: error: X= has no value"));
 }
 
-TEST_CASE("siemens: a block with an unknown assignment beside words is not followed, nor is what it leaves") {
-  for (const char* const line :
-       {"MEAS=1 G1 X20", "G1 X20 MEAW=-1", "_VAR=5 G1 X20 Y50", "$AC_TIMER[1]=0 X20", "LIMIT[2]=4 X=R1", "_A=R1 + 5 X20"}) {
+TEST_CASE(
+    "siemens: a block with an unknown assignment and words is not followed, and the position after it is "
+    "unknown") {
+  for (const char* const line : {"MEAS=1 G1 X20", "G1 X20 MEAW=-1", "_VAR=5 G1 X20 Y50", "$AC_TIMER[1]=0 X20",
+                                 "LIMIT[2]=4 X=R1", "_A=R1 + 5 X20"}) {
     CAPTURE(line);
     const Program program = siemens(std::string(siemens_start) + line + "\nY50\n");
     REQUIRE(program.moves.size() == 3);
     CHECK(program.moves[1].fixed == std::array{true, true, true});
     CHECK(program.moves[2].fixed[1]);
     REQUIRE(!program.left_alone.empty());
-    CHECK(program.left_alone.front().why.find("part of the block that is not read") != std::string::npos);
+    CHECK(program.left_alone.front().why.find("part of the block that is not supported") !=
+          std::string::npos);
   }
 }
 
 TEST_CASE("siemens: words behind a value that moves no axis are read") {
-  for (const char* const line : {"CTOL=0.01 G1 X20 F100", "FL[X]=1000 G1 X20 F100", "OVRA[X]=50 G1 X20 F100", "FRC=100 G1 X20 F100",
-                                 "R5=R1 + 5 G1 X20 F100", "R5=2 R6=R5*3 G1 X20 F100"}) {
+  for (const char* const line :
+       {"CTOL=0.01 G1 X20 F100", "FL[X]=1000 G1 X20 F100", "OVRA[X]=50 G1 X20 F100", "FRC=100 G1 X20 F100",
+        "R5=R1 + 5 G1 X20 F100", "R5=2 R6=R5*3 G1 X20 F100"}) {
     CAPTURE(line);
     const Program program = siemens(std::string(siemens_start) + line + "\n");
     REQUIRE(program.moves.size() == 2);
@@ -272,7 +276,7 @@ TEST_CASE("siemens: words behind a value that moves no axis are read") {
   }
 }
 
-TEST_CASE("siemens: assignments alone move nothing, and an axis with a number is not followed") {
+TEST_CASE("siemens: assignments alone do not move, and an axis with a number is not followed") {
   for (const char* const line : {"_VAR=5", "_A=5 _B=R1 * (2 + R3) M8", "_S=\"X20 G1\"", "R1=SIN(30) DIV 2"}) {
     CAPTURE(line);
     const Program program = siemens(std::string(siemens_start) + line + "\nG1 X5 F100\n");

@@ -20,22 +20,22 @@ TEST_CASE("a FORCE comment acts from its own block until the next one") {
   CHECK_FALSE(program.moves[4].force.has_value());
 }
 
-TEST_CASE("a FORCE comment of zeros is a force, OFF is none") {
+TEST_CASE("a FORCE comment of zeros is a force, OFF is not") {
   const Program program = read("G21 G0 X1 (FORCE FX=0)\nX2 (FORCE OFF)\n");
   CHECK(program.moves[0].force == Vector6(Vector6::Zero()));
   CHECK_FALSE(program.moves[1].force.has_value());
 }
 
-TEST_CASE("comments that only begin like FORCE are comments") {
+TEST_CASE("comments that only begin like FORCE are ordinary comments") {
   CHECK_FALSE(read("(FORCES FX=1)\n(NO FORCE)\nG21 G0 X1\n").moves[0].force.has_value());
 }
 
-TEST_CASE("a malformed FORCE comment asks for the exit status of forces") {
+TEST_CASE("a malformed FORCE comment has the exit status of forces") {
   try {
     read("G21\nG0 X1 (FORCE FX=215N)\n");
     FAIL("was read");
   } catch (const InputError& error) {
     CHECK(error.exit() == Exit::machine_or_force);
-    CHECK(std::string(error.what()) == "p.ngc:2:17: error: '215N' is no number for FX");
+    CHECK(std::string(error.what()) == "p.ngc:2:17: error: '215N' is not a number for FX");
   }
 }

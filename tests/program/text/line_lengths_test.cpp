@@ -6,7 +6,7 @@
 
 using namespace counterflex;
 
-TEST_CASE("lines above nine tenths of what the control reads are near its limit") {
+TEST_CASE("lines above nine tenths of the control's limit are near it") {
   const std::string text = "G1 X1\r\n" + std::string(229, 'X') + "\r\n" + std::string(230, 'X') + "\n" +
                            std::string(240, 'X') + "\n" + std::string(231, 'X');
   const LineLengths lengths = line_lengths(text, "linuxcnc");
@@ -17,7 +17,7 @@ TEST_CASE("lines above nine tenths of what the control reads are near its limit"
   CHECK(lengths.first_near == 3);
 }
 
-TEST_CASE("what the control drops does not count") {
+TEST_CASE("characters that the control drops are not counted") {
   const std::string text = "(" + std::string(200, 'c') + ")\nG1 X1 Y1 ;" + std::string(200, 'c') + "\n";
   const LineLengths lengths = line_lengths(text, "grbl");
   CHECK(lengths.limit == 80);
@@ -31,7 +31,7 @@ TEST_CASE("a control without a limit has no lines near it") {
   CHECK(line_lengths(std::string(1000, 'X'), "fanuc").longest == 0);
 }
 
-TEST_CASE("lines that are measured in portions are those of the whole text") {
+TEST_CASE("lines measured in portions equal those of the whole text") {
   const std::string text = "G1 X1\r\n" + std::string(231, 'X') + "\r\n\n" + std::string(240, 'X') +
                            "\n(comment)\n" + std::string(240, 'Y');
   const LineLengths whole = line_lengths(text, "linuxcnc");

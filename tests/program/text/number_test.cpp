@@ -9,7 +9,7 @@
 using namespace counterflex;
 using namespace counterflex::test;
 
-TEST_CASE("a rounded value is to the last bit the one that its text is read as, ties and -0 included") {
+TEST_CASE("a rounded value is to the last bit the one read from its text, ties and -0 included") {
   std::mt19937_64 bits(31);
   for (int i = 0; i < 200000; ++i) {
     const int decimals = static_cast<int>(bits() % 11);
@@ -24,7 +24,7 @@ TEST_CASE("a rounded value is to the last bit the one that its text is read as, 
   }
 }
 
-TEST_CASE("a written number is the text of its rounded value, whatever its size") {
+TEST_CASE("a written number is the text of its rounded value, for any magnitude") {
   std::mt19937_64 bits(32);
   for (int i = 0; i < 20000; ++i) {
     const double size = std::pow(10.0, static_cast<double>(bits() % 9) - 3);
@@ -36,7 +36,8 @@ TEST_CASE("a written number is the text of its rounded value, whatever its size"
 }
 
 TEST_CASE(
-    "a changed number keeps the sign and the zero that the original shows, and as many digits as it needs") {
+    "a changed number keeps the sign style and the leading zero of the original, with as many digits as it "
+    "needs") {
   struct Row {
     std::string original;
     double wanted;
@@ -54,7 +55,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("a number reads the same with blanks in it, wherever it ends") {
+TEST_CASE("a number with blanks in it has the same value, wherever the line ends") {
   for (const std::string number : {"12.75", "-12.75", "+0.125", ".5", "-.5", "7.", "1234567890.125"}) {
     std::string spaced;
     for (const char c : number) spaced.append(1, c).append(" \t");

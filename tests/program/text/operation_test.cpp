@@ -25,7 +25,7 @@ Names operations_in(const std::string& text, const std::string& dialect = "auto"
   return operations_in(read(text, dialect));
 }
 
-/// The operation after a line that holds `line` alone, where OLD acts before it.
+/// The operation after `line`, with OLD as the operation before it.
 std::string named_by(const std::string& line, const std::string& dialect = "fanuc") {
   const std::string begin = dialect == "siemens" ? ";OLD\n" : "(OLD)\n";
   return operations_in((dialect == "siemens" ? "G71 G90\n" : "G21 G90\n") + begin + line + "\nG0 X1.\n",
@@ -47,7 +47,7 @@ TEST_CASE("a comment alone in its line names the moves after it, until the next 
         Names{"", "POCKET1", "POCKET1", "Drill 4 mm", "Drill 4 mm"});
 }
 
-TEST_CASE("a block number and '/' leave a comment alone, words do not") {
+TEST_CASE("a comment with only a block number or '/' in its line is alone, one with words is not") {
   for (const char* const line : {"N10 (NEW)", "/ (NEW)", "/2 N10 (NEW)", "N10 / (NEW) ;", "(NEW) (SECOND)",
                                  "(FORCE FX=1) (NEW)", "( ) (NEW)"}) {
     CAPTURE(line);
@@ -60,7 +60,7 @@ TEST_CASE("a block number and '/' leave a comment alone, words do not") {
   }
 }
 
-TEST_CASE("an order to the control in a comment names no operation") {
+TEST_CASE("a comment with a command for the control is not an operation") {
   for (const char* const line :
        {"(MSG, change the clamps)", "(msg,)", "(DEBUG, #5)", "(PRINT,x)", "(LOG, #1)", "(LOGOPEN,a.txt)",
         "(LOGAPPEND,a.txt)", "(LOGCLOSE)", "(PROBEOPEN a.txt)", "(probeclose)", "( MSG,a)"}) {
@@ -74,13 +74,13 @@ TEST_CASE("an order to the control in a comment names no operation") {
   }
 }
 
-TEST_CASE("the name of a program is no operation") {
+TEST_CASE("the name of a program is not an operation") {
   CHECK(operations_in("%\nO1001 (BRACKET)\nG21 G90\nG0 X1.\n(FACE)\nX2.\n%\n") == Names{"", "FACE"});
   CHECK(operations_in("<BRACKET> (PART)\nG21 G90\nG0 X1.\n", "fanuc") == Names{""});
   CHECK(operations_in("% (PART)\nG21 G90\nG0 X1.\n", "fanuc") == Names{""});
 }
 
-TEST_CASE("marks and blanks around a name are not of it") {
+TEST_CASE("marks and blanks around a name do not belong to it") {
   CHECK(named_by("( --- POCKET-2 *** )") == "POCKET-2");
   CHECK(named_by("(=== 2D # 1 ===)") == "2D # 1");
   CHECK(named_by("; (POCKET)") == "POCKET");
@@ -90,7 +90,7 @@ TEST_CASE("marks and blanks around a name are not of it") {
   CHECK(named_by("(COUNTERFLEX 12)") == "COUNTERFLEX 12");
 }
 
-TEST_CASE("a Sinumerik's comments name operations, beside none of its statements") {
+TEST_CASE("comments of a Sinumerik name operations, except in lines with statements") {
   CHECK(named_by("; *** SLOT ***", "siemens") == "SLOT");
   CHECK(named_by("N30 ;SLOT", "siemens") == "SLOT");
   for (const char* const line : {"STOPRE ;SLOT", "LABEL1: ;SLOT", "R1=5 ;SLOT", "MSG(\"A\") ;SLOT",
@@ -109,7 +109,7 @@ TEST_CASE("Klartext's comments and structure lines name operations") {
   CHECK_FALSE(program.moves[3].force.has_value());
 }
 
-TEST_CASE("a subprogram's comments name the moves that a call puts in its place") {
+TEST_CASE("comments of a subprogram name the moves that replace its call") {
   ReadOptions options;
   options.expand_subprograms = true;
   const Program program = read_program(
@@ -119,13 +119,13 @@ TEST_CASE("a subprogram's comments name the moves that a call puts in its place"
   CHECK(operations_in(program) == Names{"", "A", "HOLE", "B", "HOLE", "HOLE"});
 }
 
-TEST_CASE("operations of moves alone are kept, each time that another one begins") {
+TEST_CASE("only operations with moves are kept, again each time that one begins") {
   const Program program = read("G21 G0 X0\n(A)\n(B)\nX1\n(C)\n(B)\nX2\n(A)\nX3\n(D)\n");
   CHECK(program.operations == Names{"", "B", "A"});
   CHECK(operations_in(program) == Names{"", "B", "B", "A"});
 }
 
-TEST_CASE("a window holds its own operations, whatever came before it") {
+TEST_CASE("a window has its own operations, independent of the windows before it") {
   std::string text = "(FIRST)\nG21 G90 G17\nG0 X0 Y0 Z5\nG1 Z-1 F100\n";
   for (int i = 0; i < 3000; ++i)
     text += fmt::format("{}X{} Y{}\n", i % 3 == 1 ? fmt::format("(OP {})\n", i / 9) : "", i % 50, i / 50);
@@ -149,7 +149,7 @@ TEST_CASE("a window holds its own operations, whatever came before it") {
   }
 }
 
-TEST_CASE("where no tool has been changed to, the length that G43 takes says which it is") {
+TEST_CASE("without a tool change, the tool of G43's length is the active one") {
   using Tools = std::vector<std::int32_t>;
   CHECK(tools_in("G0 X1\nG43 H3 Z5\nX2\nT4 M6\nX3\nG43 H5 Z5\nX4\n") == Tools{0, 3, 3, 4, 4, 4});
   CHECK(tools_in("G0 G43 H3 Z5\nG49\nX1\n") == Tools{3, 0});
@@ -157,7 +157,7 @@ TEST_CASE("where no tool has been changed to, the length that G43 takes says whi
   CHECK(tools_in("T5 D1\nG0 X1\nT7 M6\nX2\nT=\"MILL\" M6\nX3\n", "siemens") == Tools{0, 7, 0});
 }
 
-TEST_CASE("a tool whose number is beyond all tables is not known") {
+TEST_CASE("a tool number outside of all tables is unknown") {
   using Tools = std::vector<std::int32_t>;
   CHECK(tools_in("T2147483647 M6\nG0 X1\nT2147483648 M6\nX2\nT4294967297 M6\nX3\n") ==
         Tools{2147483647, 0, 0});

@@ -17,14 +17,14 @@ namespace {
 
 constexpr char arc_start[] = "G21 G90 G17 G1 X10. Y0. Z0. F100.\n";
 
-/// The text behind `arc_start` when the last move of `blocks` is edited.
+/// The text behind `arc_start` after an edit of the last move of `blocks`.
 std::string arc_rewritten(const std::string& blocks, MoveEdit edit, const std::string& dialect = "linuxcnc") {
   const Program program = read_small(arc_start + blocks, dialect);
   edit.move = program.moves.size() - 1;
   return rewrite(program, {edit}, {}).text.substr(sizeof arc_start - 1);
 }
 
-/// The last move of `blocks` and all before it moved by `d`.
+/// Edits that move the last move of `blocks` and all moves before it by `d`.
 std::string arc_moved(const std::string& blocks, const Vector3& d) {
   const Program program = read_small(arc_start + blocks);
   std::vector<MoveEdit> edits;
@@ -38,7 +38,7 @@ std::string arc_moved(const std::string& blocks, const Vector3& d) {
 
 }  // namespace
 
-TEST_CASE("an arc's own end and centre are written, and a word that rounds to what it was stays") {
+TEST_CASE("an arc's own end and centre are written, and a word that rounds to its original value stays") {
   const std::string quarter = "G3 X0. Y10. I-10. J0. F50.\n";
   CHECK(arc_rewritten(quarter, {.end_mm = {0, 10, 0}, .centre_mm = Vector3::Zero()}) == quarter);
   CHECK(arc_rewritten(quarter, {.end_mm = {0.0004, 10, 0}, .centre_mm = Vector3(0.0003, 0, 0)}) == quarter);
@@ -48,7 +48,7 @@ TEST_CASE("an arc's own end and centre are written, and a word that rounds to wh
         "G3 X0. Y10. Z0.250 I-10. J0. F50.\n");
 }
 
-TEST_CASE("moving everything moves an arc's end and leaves its I and J") {
+TEST_CASE("a common shift moves an arc's end and keeps its I and J") {
   CHECK(arc_moved("G3 X0. Y10. I-10. J0.\n", {0.5, -0.25, 0}) == "G3 X0.5 Y9.75 I-10. J0.\n");
   CHECK(arc_moved("G3 X0. Y10. R10.\n", {0.5, -0.25, 0}) == "G3 X0.5 Y9.75 R10.\n");
   CHECK(arc_moved("G2 I-10.\n", {0.5, -0.25, 0.125}) == "G2 I-10.\n");
@@ -56,7 +56,7 @@ TEST_CASE("moving everything moves an arc's end and leaves its I and J") {
   CHECK(arc_moved("G90.1\nG3 X0. Y10. I0 J0\n", {0.5, -0.25, 0}) == "G90.1\nG3 X0.5 Y9.75 I0.5 J-0.25\n");
 }
 
-TEST_CASE("a word that an arc omits is inserted only where the correction asks for it") {
+TEST_CASE("a missing word of an arc is inserted only if the correction needs it") {
   const MoveEdit edit{.end_mm = {-10, 0.02, 0}, .centre_mm = Vector3(0, 0.01, 0)};
   CHECK(arc_rewritten("G3 X-10. I-10.\n", edit) == "G3 X-10. Y0.020 I-10. J0.010\n");
   CHECK(arc_rewritten("G3 X-10. J0. I-10.\n", {.end_mm = {-10, 0, 0}, .centre_mm = Vector3::Zero()}) ==
@@ -101,13 +101,13 @@ TEST_CASE("chords of an arc are G1 without I, J, K, R and P, and keep F") {
   CHECK(arc_rewritten("g3x0.y10.i-10.\n", edit) == "g1x7.071y7.071\ng1x0.y10.\n");
 }
 
-TEST_CASE("chords of an arc without axis words end in words of their own") {
+TEST_CASE("chords of an arc without axis words have axis words") {
   const MoveEdit edit{.inserted = {{{-10, 0, 0}}}, .end_mm = {10, 0.5, 0}};
   CHECK(arc_rewritten("g3 i-10. (round)\n", edit) == "g1 x-10.000\ng1 x10.000 y0.500 (round)\n");
   CHECK(arc_rewritten("G3 I-10. F50.\n", edit) == "G1 X-10.000 F50.\nG1 X10.000 Y0.500 F50.\n");
 }
 
-TEST_CASE("the full turns of an arc stand in its last piece, whichever block that is") {
+TEST_CASE("the full turns of an arc are in its last piece, whichever block that is") {
   MoveEdit edit{
       .inserted = {{{-10, 0, 0}, Vector3::Zero()}}, .end_mm = {10, 0, -3}, .centre_mm = Vector3::Zero()};
   CHECK(arc_rewritten("G3 X10. Z-3. I-10. J0. P3\n", edit) ==
@@ -129,20 +129,23 @@ TEST_CASE("half a turn keeps the sign of its radius when its ends are rounded") 
   const Vector3 shift{-0.4844, 0.2604, 0};
   for (const char* radius : {"R10.", "R-10."}) {
     CAPTURE(radius);
-    const Program program = read(fmt::format("G21 G90 G17\nG0 X-114. Y-10. Z0\nG1 F100 X-114.\nG2 X-114. Y10. {}\nM30\n", radius));
+    const Program program = read(
+        fmt::format("G21 G90 G17\nG0 X-114. Y-10. Z0\nG1 F100 X-114.\nG2 X-114. Y10. {}\nM30\n", radius));
     const std::string text = shifted_text(program, shift);
     CAPTURE(text);
     CHECK(contains(text, fmt::format("\nG2 X-114.484 Y10.26 {}\n", radius)));
   }
 }
 
-TEST_CASE("digits beyond what arithmetic holds do not change a word") {
+TEST_CASE("digits below the rounding errors do not change a word") {
   const std::string text = "G21 G90 G17\nG0 X5 Y-5.5 Z0\nG2 X15 Y-5. R-5.999999999999995 F100\n";
   const Program program = read(text);
   CHECK(rewrite(program, edits_to_original(program), {}).text == text);
 }
 
-TEST_CASE("a block that relies on the arc before it says its motion behind chords, and only that block") {
+TEST_CASE(
+    "a block that relies on the motion of the arc before it gets a motion word behind chords; later blocks "
+    "do not") {
   const std::string blocks = "G3 X0. Y10. I-10.\nX-10. Y0. J-10.\n";
   const auto chorded = [](const std::string& text, std::size_t move) {
     const Program program = read_small(arc_start + text);
@@ -157,7 +160,7 @@ TEST_CASE("a block that relies on the arc before it says its motion behind chord
         "G1 X0. Y10.\n/G3 X-10. Y0. J-10.\nG3 X0. Y-10. I10.\n");
 }
 
-TEST_CASE("a piece whose end falls on its start is no full circle") {
+TEST_CASE("a piece that ends at its start is not a full circle") {
   MoveEdit edit{.inserted = {{{9.9999, 0.0003, 0}, Vector3::Zero()}},
                 .end_mm = {0, 10, 0},
                 .centre_mm = Vector3::Zero()};
@@ -180,7 +183,7 @@ TEST_CASE("the pieces of a G93 move share its time by their lengths") {
             .find("F20.00000\n") != std::string::npos);
 }
 
-TEST_CASE("an arc that is not followed keeps its motion word and its centre when its shift is held") {
+TEST_CASE("an arc that is not followed keeps its motion word and its centre when it is held") {
   const Program program =
       read("G21 G90 G17 G0 X0. Y0. Z0.\nG91\n#1=5\nG3 X[#1] Y1. I1. J0. F100\nX1. Y1. I0.5\n");
   REQUIRE(program.moves.size() == 3);
@@ -191,7 +194,7 @@ TEST_CASE("an arc that is not followed keeps its motion word and its centre when
         "G21 G90 G17 G0 X0. Y0.5 Z0.\nG91\n#1=5\nG3 X[#1] Y1. I1. J0. F100\nX1. Y1. I0.5\n");
 }
 
-TEST_CASE("behind chords a call keeps its words, and a program's end leaves no motion to restate") {
+TEST_CASE("behind chords a call keeps its words, and after the end of a program no motion word is needed") {
   const std::string start = "G21 G90 G17 G1 X10. Y0. Z0. F100.\nG3 X0. Y10. I-10.\n";
   const auto chorded = [&](const std::string& rest) {
     const Program program = read(start + rest, "fanuc");
@@ -203,7 +206,7 @@ TEST_CASE("behind chords a call keeps its words, and a program's end leaves no m
   CHECK(chorded("X-10. Y0. J-10.\nM30\n") == "G3 X-10. Y0. J-10.\nM30\n");
 }
 
-TEST_CASE("an R that is a little too short for its ends stays where nothing moves") {
+TEST_CASE("an R that is slightly too short for its ends stays if the arc does not move") {
   const std::string text = "G21 G90 G17 F100\nG0 X10. Y13.5 Z0.\nG2 X30. Y10. R10.15\n";
   const Program program = read(text);
   REQUIRE(program.moves[1].arc);

@@ -21,7 +21,7 @@ MoveEdit hole(std::size_t move, const Vector3& end_mm, double bottom_mm, double 
 
 }  // namespace
 
-TEST_CASE("each hole of a cycle has a place of its own, and its depth where it changes") {
+TEST_CASE("each hole of a cycle has its own position, and a depth if it changes") {
   const std::string holes = "G98 G81 X1. Y1. Z-5. R2. F100\nX2.\nX3. Y2.\nX4.\nG80\n";
   CHECK(
       cycle_rewritten(holes, {hole(1, {1.01, 1, 10}, -5.02, 1.98), hole(2, {2.01, 1, 10}, -5.02, 1.98),
@@ -34,7 +34,8 @@ TEST_CASE("each hole of a cycle has a place of its own, and its depth where it c
         "G99G83X1.Y1.Z-4.5R2.5Q1.F100\nY2. X1.010 Z-4.600\n");
 }
 
-TEST_CASE("a hole that is not edited repeats the depth that the text holds, and the next one knows") {
+TEST_CASE(
+    "a hole that is not edited repeats the depth in the text, and the next hole takes this into account") {
   const std::string holes = "G81 X1. Y1. Z-5. R2. F100\nX2.\nX3.\n";
   CHECK(cycle_rewritten(holes, {hole(1, {1, 1, 10}, -5.5, 2), hole(3, {3, 1, 10}, -5.5, 2)}) ==
         "G81 X1. Y1. Z-5.5 R2. F100\nX2.\nX3.\n");
@@ -42,24 +43,24 @@ TEST_CASE("a hole that is not edited repeats the depth that the text holds, and 
         "G81 X1. Y1. Z-5.5 R2. F100\nX2.\nX3. Z-5.000\n");
 }
 
-TEST_CASE("under G91 a shift of the first hole is carried along") {
+TEST_CASE("under G91 a shift of the first hole applies to the next ones") {
   const std::string holes = "G91\nG81 X1. Y1. Z-7. R-8. F100\nX1.\nX1.\n";
   CHECK(cycle_rewritten(holes, {hole(1, {1.5, 1, 10}, -4.5, 2.25), hole(2, {2.5, 1, 10}, -4.5, 2.25),
                                 hole(3, {3.5, 1, 10}, -4.5, 2.25)}) ==
         "G91\nG81 X1.5 Y1. Z-6.75 R-7.75 F100\nX1.\nX1.\n");
 }
 
-TEST_CASE("where a cycle leaves Z is known to the moves behind it") {
+TEST_CASE("the height at which a cycle leaves Z is known to later moves") {
   const std::string text = std::string(cycle_start) + "G99 G81 X1. Y1. Z-5. R2. F100\nG80\nG0 X5.\n";
   const Program program = read_small(text);
-  const HeldPosition held = held_after(program.moves[1], {0.0, 0.0, 10.0}, {1, 1, 2.5}, {});
-  CHECK(held == HeldPosition{1.0, 1.0, 2.5});
+  const TextPosition position = text_position_after(program.moves[1], {0.0, 0.0, 10.0}, {1, 1, 2.5}, {});
+  CHECK(position == TextPosition{1.0, 1.0, 2.5});
   const std::vector<MoveEdit> edits{hole(1, {1, 1, 2.5}, -4.5, 2.5), {.move = 2, .end_mm = {5, 1, 2}}};
   CHECK(rewrite(program, edits, {}).text ==
         std::string(cycle_start) + "G99 G81 X1. Y1. Z-4.5 R2.5 F100\nG80\nG0 X5. Z2.000\n");
 }
 
-TEST_CASE("the height to which a series comes back is known after holes that leave the tool at R") {
+TEST_CASE("the initial height of a series is known after holes that leave the tool at R") {
   const std::string text =
       std::string(cycle_start) + "G99 G81 X1. Y1. Z-5. R2. F100\nX2.\nG98 X3.\nG80\nG0 X5.\nX6. Z12.\n";
   const Program program = read(text);
@@ -70,7 +71,7 @@ TEST_CASE("the height to which a series comes back is known after holes that lea
         "G21 G90 G17 G0 X0. Y0. Z10.25\n" + text.substr(sizeof cycle_start - 1));
 }
 
-TEST_CASE("a plane that a hole of G99 does not say itself is known where the tool stands there") {
+TEST_CASE("the plane of a G99 hole without R is known if the tool is at that plane") {
   const std::string stays = std::string(cycle_start) + "G99 G81 X1. Y1. Z-5. R2.\nX2.\n";
   CHECK(read(stays).moves.back().known_end[2]);
   const std::string text = std::string(cycle_start) + "G98 G81 X1. Y1. Z-5. R2.\nG99 X2.\nG80\nG0 X5.\n";
@@ -79,7 +80,7 @@ TEST_CASE("a plane that a hole of G99 does not say itself is known where the too
   CHECK(rewrite(program, edits_to_original(program), {}).text == text);
 }
 
-TEST_CASE("a depth first said behind a hole that is not followed is repeated without a word") {
+TEST_CASE("a depth first programmed behind a hole that is not followed is repeated without a word") {
   const std::string text = "O1\nG21 G90 G0 X0. Y0. Z2.\nG81\nZ-5.\nX3.\nZ-6. R1.\nX4.\nG80\nX5.\n";
   const Program program = read(text);
   CHECK(rewrite(program, edits_to_original(program), {}).text == text);

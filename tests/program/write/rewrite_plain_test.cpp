@@ -10,7 +10,7 @@ using namespace counterflex::test;
 
 namespace {
 
-/// Blocks of coordinates in many styles, and where their moves are to go.
+/// Blocks of coordinates in many styles, and the targets of their moves.
 class RandomEdits {
  public:
   explicit RandomEdits(std::uint64_t seed) : bits_(seed) {}
@@ -62,7 +62,7 @@ class RandomEdits {
   std::mt19937_64 bits_;
 };
 
-/// So long that no block with it is short.
+/// Long enough that no block with it is short.
 const std::string long_comment = "(" + std::string(300, 'a') + ")";
 
 std::string joined(const std::vector<std::string>& lines, const std::string& behind) {
@@ -79,7 +79,7 @@ std::string without_comment(std::string text) {
 
 }  // namespace
 
-TEST_CASE("a short line is rewritten as a long one is, whatever its words and their style") {
+TEST_CASE("a short line is rewritten as a long one, with all words and styles") {
   RandomEdits source(81);
   for (int i = 0; i < 3000; ++i) {
     const std::vector<std::string> lines = source.lines(12);
@@ -98,7 +98,7 @@ TEST_CASE("a short line is rewritten as a long one is, whatever its words and th
   }
 }
 
-TEST_CASE("a line that its new numbers make longer than the control reads is refused, a short one is not") {
+TEST_CASE("a line whose new numbers exceed the control's limit is refused, a short one is not") {
   ReadOptions options;
   options.dialect = "linuxcnc";
   const std::string begin = "G21 G90 G1 F900 X0 Y0 Z0\n";

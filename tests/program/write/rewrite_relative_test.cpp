@@ -19,7 +19,7 @@ std::string relative_rewritten(const std::string& blocks, std::vector<MoveEdit> 
 
 }  // namespace
 
-TEST_CASE("a relative word is the way from where the text holds the tool to where it is wanted") {
+TEST_CASE("a relative word is the difference between the position in the text and the target") {
   const std::string blocks = "X1.\nX1.\nX1.\n";
   CHECK(relative_rewritten(blocks, {{.move = 1, .end_mm = {1.5, 0, 0}},
                                     {.move = 2, .end_mm = {2.5, 0.25, 0}},
@@ -28,7 +28,7 @@ TEST_CASE("a relative word is the way from where the text holds the tool to wher
   CHECK(relative_rewritten(blocks, {{.move = 2, .end_mm = {2.0004, -0.0004, 0}}}) == blocks);
 }
 
-TEST_CASE("the pieces of a relative move are relative, and the block goes the rest of the way") {
+TEST_CASE("the pieces of a relative move are relative, and the block has the last one") {
   CHECK(
       relative_rewritten("N4 X3. F50.\n",
                          {{.move = 1, .inserted = {{{1, 0.25, 0}}, {{2, 0.25, 0}}}, .end_mm = {3, 0, 0}}}) ==
@@ -39,13 +39,13 @@ TEST_CASE("the pieces of a relative move are relative, and the block goes the re
       "G1 X1. Y0.250 M8\nG1 X2.000 Y-0.250\nX1.\n");
 }
 
-TEST_CASE("an arc's centre under G91 counts from where the text holds its start") {
+TEST_CASE("an arc's centre under G91 is relative to its start in the text") {
   CHECK(relative_rewritten("G3 X-10. Y10. I-10. J0.\n",
                            {{.move = 1, .end_mm = {-10, 10.5, 0}, .centre_mm = Vector3(-10, 0.25, 0)}}) ==
         "G3 X-10. Y10.5 I-10. J0.25\n");
 }
 
-TEST_CASE("rounding of relative words never adds up over a thousand moves") {
+TEST_CASE("rounding errors of relative words do not add up over a thousand moves") {
   std::string blocks;
   std::vector<MoveEdit> edits;
   for (std::size_t i = 1; i <= 1000; ++i) {
@@ -59,11 +59,11 @@ TEST_CASE("rounding of relative words never adds up over a thousand moves") {
     CHECK((again.moves[i].end_mm - edits[i - 1].end_mm).cwiseAbs().maxCoeff() <= 0.5e-3 + 1e-9);
 }
 
-TEST_CASE("a relative word on an axis whose place is unknown stays, and so does the doubt") {
+TEST_CASE("a relative word on an axis with an unknown position stays, and the position remains unknown") {
   const Program program = read_small("G21 G91 G1 X1. F100.\nX1.\n");
   Program unknown = program;
   for (Move& move : unknown.moves) move.known_start = move.known_end = {}, move.fixed = {true, false, false};
   const std::vector<MoveEdit> edits{{.move = 0, .end_mm = {5, 5, 5}}, {.move = 1, .end_mm = {6, 6, 6}}};
   CHECK(rewrite(unknown, edits, {}).text == program.text);
-  CHECK(held_after(unknown.moves[1], {1.0, 2.0, 3.0}, {6, 6, 6}, {}) == HeldPosition{});
+  CHECK(text_position_after(unknown.moves[1], {1.0, 2.0, 3.0}, {6, 6, 6}, {}) == TextPosition{});
 }

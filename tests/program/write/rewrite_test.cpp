@@ -11,7 +11,7 @@ namespace {
 
 constexpr char start[] = "G21 G0 X0. Y0. Z0.\n";
 
-/// The last block of `start` and `block` when its end is edited to `end_mm`.
+/// The last block of `start` and `block` after its end was edited to `end_mm`.
 std::string rewritten(const std::string& block, const Vector3& end_mm, const std::string& dialect = "auto") {
   const std::string text = with_last_move(start + block, {.end_mm = end_mm}, dialect);
   return text.substr(sizeof start - 1);
@@ -19,7 +19,7 @@ std::string rewritten(const std::string& block, const Vector3& end_mm, const std
 
 }  // namespace
 
-TEST_CASE("a changed word keeps its decimals, sign style and leading zero, and always has a point") {
+TEST_CASE("a changed word keeps its decimals, sign style and leading zero, and always has a decimal point") {
   CHECK(rewritten("G0 X10.0000\n", {10.25, 0, 0}) == "G0 X10.2500\n");
   CHECK(rewritten("G0 X10.0000\n", {10.12345678, 0, 0}) == "G0 X10.1235\n");
   CHECK(rewritten("G0 X10.\n", {11, 0, 0}) == "G0 X11.\n");
@@ -36,7 +36,7 @@ TEST_CASE("a changed word keeps its decimals, sign style and leading zero, and a
   CHECK(rewritten("G20 X1.\n", {25.4 * 1.00012, 0, 0}) == "G20 X1.0001\n");
 }
 
-TEST_CASE("a word whose new value rounds to its original stays as it is") {
+TEST_CASE("a word whose new value rounds to its original value stays") {
   CHECK(rewritten("G0 X10\n", {10.0004, 0, 0}) == "G0 X10\n");
   CHECK(rewritten("G0 X-0.000\n", {-0.0004, 0, 0}) == "G0 X-0.000\n");
   CHECK(rewritten("G0 X1.23456\n", {1.234564, 0, 0}) == "G0 X1.23456\n");
@@ -57,7 +57,7 @@ TEST_CASE("a missing word is inserted behind the last axis word in the block's s
   CHECK(with_last_move("G21G0X0.Y0.Z0.\nX1.\n", {.end_mm = {1, 0.002, 0}}) == "G21G0X0.Y0.Z0.\nX1.Y0.002\n");
 }
 
-TEST_CASE("a word is inserted only where the held position differs, and again where it must go back") {
+TEST_CASE("a word is inserted only if the position in the text differs, and again to move back") {
   const Program program = read("G21 G0 X0. Y0. Z0.\nG1 X1. F100\nX2.\nX3.\n");
   const std::vector<MoveEdit> edits{{.move = 1, .end_mm = {1, 0.002, 0}},
                                     {.move = 2, .end_mm = {2, 0.002, 0}},
@@ -78,7 +78,7 @@ TEST_CASE("no word is inserted for an axis that is unknown, nor into a block wit
   CHECK(rewrite(length, edits, {}).text == "G21 G0 X1. Y1.\nG43 H1 Z5.25\nZ6. X1.500\n");
 }
 
-TEST_CASE("what a skippable block inserts is unknown afterwards and programmed anew") {
+TEST_CASE("an axis with a word inserted into a skippable block is unknown afterwards and programmed again") {
   const Program program = read("G21 G0 X0. Y0. Z0.\n/ X1.\nX2.\nX3.\n");
   const std::vector<MoveEdit> edits{{.move = 1, .end_mm = {1, 0.5, 0}},
                                     {.move = 2, .end_mm = {2, 0.5, 0}},
@@ -86,8 +86,7 @@ TEST_CASE("what a skippable block inserts is unknown afterwards and programmed a
   CHECK(rewrite(program, edits, {}).text == "G21 G0 X0. Y0. Z0.\n/ X1. Y0.500\nX2. Y0.500\nX3.\n");
 }
 
-TEST_CASE(
-    "pieces of a split move precede it and copy motion, feed and block delete, but no comment") {
+TEST_CASE("pieces of a split move precede it and copy motion, feed and block delete, but no comment") {
   const MoveEdit edit{.inserted = {{{1, 0.25, 0}}, {{2, 0.25, 0}}}, .end_mm = {3, 0, 0}};
   CHECK(rewritten("N10 G01 X3. F100. (edge)\n", {3, 0, 0}) == "N10 G01 X3. F100. (edge)\n");
   CHECK(with_last_move(std::string(start) + "N10 G01 X3. F100. (edge)\r\n", edit) ==
@@ -114,7 +113,7 @@ TEST_CASE("the first piece of a split block has its N, so that a restart there r
         fed + "N50 G1 Y1.000\nG0 Z5.\n");
 }
 
-TEST_CASE("the other pieces are numbered where the program leaves numbers free, and counted where not") {
+TEST_CASE("the other pieces are numbered if the program has free numbers, and counted otherwise") {
   const auto split = [](const std::string& text) {
     const Program program = read(text, "mach3");
     BlockNumbers numbers;
@@ -139,7 +138,7 @@ TEST_CASE("the other pieces are numbered where the program leaves numbers free, 
   CHECK(split(head + "G1 X3. F9\n").unnumbered_pieces == 0);
 }
 
-TEST_CASE("a last line without a line end gets none, and its pieces the file's") {
+TEST_CASE("a last line without a line end gets none, and its pieces have the line end of the file") {
   const MoveEdit edit{.inserted = {{{1, 0, 0.5}}}, .end_mm = {2, 0, 0}};
   CHECK(with_last_move("G21 G0 X0. Y0. Z0.\r\nG1 X2. F100", edit) ==
         "G21 G0 X0. Y0. Z0.\r\nG1 X1.000 Z0.500 F100\r\nG1 X2. Z0.000 F100");
@@ -160,7 +159,7 @@ TEST_CASE("a block that sets the force is itself the first piece") {
         std::string(start) + "G1 X1. Y0.250 F100 (FORCE FX=5)\nG1 X3.000 Y0.000 F100\n");
 }
 
-TEST_CASE("points that the resolution cannot tell apart give no block") {
+TEST_CASE("points that round to the point before them give no block") {
   const MoveEdit edit{.inserted = {{{0.0001, 0, 0}}, {{1, 0, 0}}, {{1.0002, 0, 0}}}, .end_mm = {3, 0, 0}};
   const Program program = read(std::string(start) + "G1 X3. F100\n");
   const Rewritten out = rewrite(program, {{.move = 1, .inserted = edit.inserted, .end_mm = edit.end_mm}}, {});
@@ -168,7 +167,7 @@ TEST_CASE("points that the resolution cannot tell apart give no block") {
   CHECK(out.inserted_blocks == 1);
 }
 
-TEST_CASE("a feed move before a rapid is a G1, and the rapid says G0 itself") {
+TEST_CASE("a feed move before a rapid is a G1, and the rapid gets a G0") {
   const std::string text = std::string(start) + "G1 X1. F100\nG0\nZ5.\n";
   const MoveEdit edit{.jump_mm = Vector3(1, 0.25, 0), .end_mm = {1, 0, 5}};
   CHECK(with_last_move(text, edit) == std::string(start) + "G1 X1. F100\nG0\nG1 Y0.250\nG0 Z5. Y0.000\n");
@@ -179,7 +178,7 @@ TEST_CASE("a feed move before a rapid is a G1, and the rapid says G0 itself") {
         std::string(start) + "G1 X1. F100\nY0.250\nX2.\n");
 }
 
-TEST_CASE("a doubtful integer word in a block that must be rewritten is refused") {
+TEST_CASE("an ambiguous integer word in a block that must be rewritten is refused") {
   const std::string text = "O1\nG21 G0 X5 Y0 Z1.\n";
   const auto shift = [&](const Vector3& d, IntegerWords words) {
     ReadOptions options;
@@ -187,18 +186,18 @@ TEST_CASE("a doubtful integer word in a block that must be rewritten is refused"
     const Program program = read_program(text, "p.nc", options);
     return rewrite(program, shifted(program, d), {}).text;
   };
-  CHECK(shift({0, 0, 0}, IntegerWords::unsaid) == text);
+  CHECK(shift({0, 0, 0}, IntegerWords::unspecified) == text);
   CHECK(diagnostic_of([&] {
-          shift({0, 0, 0.5}, IntegerWords::unsaid);
+          shift({0, 0, 0.5}, IntegerWords::unspecified);
         }) ==
-        "p.nc:2:8: error: X5 has no point: it may mean units or increments; say "
-        "which with --integer-words units|increments");
+        "p.nc:2:8: error: X5 has no decimal point: it may mean units or increments; give "
+        "--integer-words units or --integer-words increments");
   CHECK(shift({0.5, 0, 0}, IntegerWords::units) == "O1\nG21 G0 X5.5 Y0 Z1.\n");
   CHECK(shift({0.5, 0, 0}, IntegerWords::increments) == "O1\nG21 G0 X0.505 Y0 Z1.\n");
   CHECK(with_last_move("G21 G0 X5 Y0 Z1.\n", {.end_mm = {5, 0, 2}}) == "G21 G0 X5 Y0 Z2.\n");
 }
 
-TEST_CASE("a block that would grow beyond what the control reads is refused") {
+TEST_CASE("a block that would be longer than the control reads is refused") {
   const std::string comment(230, 'c');
   const std::string text = std::string(start) + "G1 X1. F100 (" + comment + ")\n";
   CHECK(diagnostic_of([&] {
@@ -207,7 +206,7 @@ TEST_CASE("a block that would grow beyond what the control reads is refused") {
   CHECK(with_last_move(text, {.end_mm = {1, 0.5, 0.5}}, "grbl").size() > text.size());
 }
 
-TEST_CASE("the header stands behind '%' and the O line, in upper case, with the file's line end") {
+TEST_CASE("the header is written behind '%' and the O line, in upper case, with the line end of the file") {
   const WriteOptions options{.header = {"counterflex 1 (0.1.0)", "input 0123"}};
   const auto with_header = [&](const std::string& text) { return rewrite(read(text), {}, options).text; };
   CHECK(with_header("G21\n") == "(COUNTERFLEX 1  0.1.0 )\n(INPUT 0123)\nG21\n");
@@ -219,12 +218,14 @@ TEST_CASE("the header stands behind '%' and the O line, in upper case, with the 
   CHECK(is_corrected(read(with_header("%\nO1001\nG21\n"))));
 }
 
-TEST_CASE("where the text holds the tool is known before it is written") {
+TEST_CASE("the position in the text is known before it is written") {
   const Program program = read("G21 G0 X0.12345 Y0. Z0.\nG1 X1. F100\n");
-  const HeldPosition start_held{0.12345, 0.0, 0.0};
-  const HeldPosition held = held_after(program.moves[1], start_held, {1.00024, 0.00049, 0.0127}, {});
-  CHECK(held == HeldPosition{1.0, 0.0, 0.013});
-  CHECK(held_after(program.moves[0], {}, {0.1234549, 0.0006, 0}, {}) == HeldPosition{0.12345, 0.001, 0.0});
+  const TextPosition start_held{0.12345, 0.0, 0.0};
+  const TextPosition position =
+      text_position_after(program.moves[1], start_held, {1.00024, 0.00049, 0.0127}, {});
+  CHECK(position == TextPosition{1.0, 0.0, 0.013});
+  CHECK(text_position_after(program.moves[0], {}, {0.1234549, 0.0006, 0}, {}) ==
+        TextPosition{0.12345, 0.001, 0.0});
   CHECK(as_written_mm({1.23456, -0.0004, 2}, LengthUnit::millimetres, {4, 3, 3}) == Vector3(1.2346, 0, 2));
   CHECK(as_written_mm({25.4, 12.7127, 0}, LengthUnit::inches, {4, 4, 4})
             .isApprox(Vector3(25.4, 0.5005 * 25.4, 0)));

@@ -18,7 +18,7 @@ namespace {
 constexpr int arc_programs = 300;
 constexpr int arc_blocks = 60;
 
-/// A smooth correction of about 0.2 mm, which changes so little along an arc that it stays one.
+/// A smooth correction of about 0.2 mm, almost constant along an arc, so that the arc remains one.
 constexpr double little = 0.02;
 Vector3 arc_correction(const Vector3& p_mm, double variation = little) {
   return Vector3(0.2, -0.1, 0.05) + variation * Vector3(0.2 * std::sin(p_mm.y() / 30),
@@ -26,16 +26,16 @@ Vector3 arc_correction(const Vector3& p_mm, double variation = little) {
                                                         0.05 * std::sin(p_mm.x() / 7 + p_mm.z()));
 }
 
-/// Whether the block of `move` holds M or G90: such a block is itself the first piece.
+/// Whether the block of `move` has M or G90: such a block is itself the first piece.
 bool acts_from_its_beginning(const Program& program, const Move& move) {
   const std::string_view block =
       std::string_view(program.text).substr(move.block.begin, move.block.end - move.block.begin);
   return block.find('M') != std::string_view::npos || block.find("G90") != std::string_view::npos;
 }
 
-/// Edits that move every end by its correction, in `pieces` pieces where a block may be split and does not
-/// act from its beginning (or `also_acting`); arcs about a centre that goes with them, but one of `chorded`
-/// without (0: none).
+/// Edits that move every end by its correction, in `pieces` pieces if the block may be split and has no word
+/// that acts at its beginning (or `also_acting`). Arcs have a centre that moves with them. If `chorded`
+/// is not 0, every `chorded`-th arc has no centre and becomes chords.
 std::vector<MoveEdit> arc_edits(const Program& program, int pieces, std::size_t chorded = 0,
                                 bool also_acting = false, double variation = little) {
   std::vector<MoveEdit> edits;
@@ -62,39 +62,40 @@ std::vector<MoveEdit> arc_edits(const Program& program, int pieces, std::size_t 
   return edits;
 }
 
-/// The curves that `as_written` says for the pieces of `edit`, without those that move nothing; moves `held`
-/// to the last inserted point.
-std::vector<Curve> foretold(const Move& move, const MoveEdit& edit, HeldPosition& held) {
+/// The curves that `as_written` gives for the pieces of `edit`, without those that do not move. Sets
+/// `position` to the last inserted point.
+std::vector<Curve> predicted(const Move& move, const MoveEdit& edit, TextPosition& position) {
   std::vector<Curve> curves;
   for (const Via& via : edit.inserted) {
-    const Curve curve = as_written(move, held, via, false, {});
-    held = {curve.end.x(), curve.end.y(), curve.end.z()};
+    const Curve curve = as_written(move, position, via, false, {});
+    position = {curve.end.x(), curve.end.y(), curve.end.z()};
     if (curve.end != curve.start) curves.push_back(curve);
   }
-  curves.push_back(as_written(move, held, {edit.end_mm, edit.centre_mm}, true, {}));
+  curves.push_back(as_written(move, position, {edit.end_mm, edit.centre_mm}, true, {}));
   return curves;
 }
 
-void check_same(const Curve& read, const Curve& told) {
-  CHECK((read.start - told.start).norm() < 1e-9);
-  CHECK((read.end - told.end).norm() < 1e-9);
-  REQUIRE(read.arc.has_value() == told.arc.has_value());
+void check_same(const Curve& read, const Curve& expected) {
+  CHECK((read.start - expected.start).norm() < 1e-9);
+  CHECK((read.end - expected.end).norm() < 1e-9);
+  REQUIRE(read.arc.has_value() == expected.arc.has_value());
   if (!read.arc) return;
-  CHECK((read.arc->centre - told.arc->centre).norm() < 1e-7);
-  CHECK(std::abs(read.arc->sweep - told.arc->sweep) < 1e-7);
-  CHECK(read.arc->normal == told.arc->normal);
+  CHECK((read.arc->centre - expected.arc->centre).norm() < 1e-7);
+  CHECK(std::abs(read.arc->sweep - expected.arc->sweep) < 1e-7);
+  CHECK(read.arc->normal == expected.arc->normal);
 }
 
-/// A line without blanks, with masked numbers of the words that hold a place, and without such words where
-/// `original` has none of that letter.
+/// A line without blanks, with masked numbers of its position words, and without position words that
+/// `original` does not have.
 std::string masked(const std::string& line, const std::string& original, bool timed) {
   std::string kept;
   for (std::size_t i = 0; i < line.size(); ++i) {
     const char upper = static_cast<char>(line[i] & ~0x20);
     if (line[i] == ' ') continue;
     const bool place = std::string_view("XYZIJKR").find(upper) != std::string_view::npos;
-    const bool stands = original.find_first_of({upper, static_cast<char>(upper | 0x20)}) != std::string::npos;
-    if (stands || !place) kept += line[i];
+    const bool in_original =
+        original.find_first_of({upper, static_cast<char>(upper | 0x20)}) != std::string::npos;
+    if (in_original || !place) kept += line[i];
     if (!place && !(timed && upper == 'F')) continue;
     while (i + 1 < line.size() &&
            std::string_view("+-.0123456789").find(line[i + 1]) != std::string_view::npos)
@@ -103,7 +104,7 @@ std::string masked(const std::string& line, const std::string& original, bool ti
   return kept;
 }
 
-/// Every line but the inserted ones is the original's, but for the numbers and words that hold a place.
+/// Every line except the inserted ones is the original's, apart from the position words.
 void check_masked(const Program& program, const std::vector<MoveEdit>& edits) {
   const Rewritten out = rewrite(program, edits, {});
   const std::vector<std::string> before = lines_of(program.text), after = lines_of(out.text);
@@ -125,30 +126,31 @@ void check_read_back(const Program& program, const std::vector<MoveEdit>& edits)
   for (std::size_t m = 0; m < again.moves.size(); ++m)
     if (all_known(again.moves[m].known_start))
       check_same(way_of(again_here.moves[m]), way_of(again.moves[m]));
-  HeldPosition held{};
+  TextPosition position{};
   std::size_t next = 0;
   for (std::size_t m = 0; m < program.moves.size(); ++m) {
     const Move& move = program.moves[m];
     CAPTURE(move.line);
     if (move.known_start == std::array{true, true, true}) {
-      for (const Curve& told : foretold(move, edits[m], held)) {
+      for (const Curve& expected : predicted(move, edits[m], position)) {
         REQUIRE(next < again.moves.size());
-        check_same(way_of(again.moves[next++]), told);
+        check_same(way_of(again.moves[next++]), expected);
       }
     } else {
       ++next;
     }
-    held = held_after(move, held, edits[m].end_mm, {});
+    position = text_position_after(move, position, edits[m].end_mm, {});
     for (std::size_t axis = 0; axis < 3; ++axis)
-      if (held[axis])
-        CHECK(std::abs(again.moves[next - 1].end_mm[static_cast<Eigen::Index>(axis)] - *held[axis]) < 1e-9);
+      if (position[axis])
+        CHECK(std::abs(again.moves[next - 1].end_mm[static_cast<Eigen::Index>(axis)] - *position[axis]) <
+              1e-9);
   }
   CHECK(next == again.moves.size());
 }
 
 }  // namespace
 
-TEST_CASE("arcs and relative moves that are sent to where they go give back every byte") {
+TEST_CASE("edits of arcs and relative moves to their own ends reproduce every byte") {
   SyntheticArcs source(21);
   for (int i = 0; i < arc_programs; ++i) {
     const std::string text = source.text(arc_blocks);
@@ -163,7 +165,7 @@ TEST_CASE("arcs and relative moves that are sent to where they go give back ever
   }
 }
 
-TEST_CASE("a corrected arc is read back as as_written foretells, start, end, centre and sweep") {
+TEST_CASE("a corrected arc is read back as as_written predicts: start, end, centre and sweep") {
   SyntheticArcs source(22);
   for (int i = 0; i < arc_programs; ++i) {
     const Program program = read_small(source.text(arc_blocks));
@@ -172,7 +174,7 @@ TEST_CASE("a corrected arc is read back as as_written foretells, start, end, cen
   }
 }
 
-TEST_CASE("the pieces of split lines and arcs are read back as as_written foretells") {
+TEST_CASE("the pieces of split lines and arcs are read back as as_written predicts") {
   SyntheticArcs source(23);
   for (int i = 0; i < arc_programs; ++i) {
     const Program program = read_small(source.text(arc_blocks));
@@ -181,7 +183,7 @@ TEST_CASE("the pieces of split lines and arcs are read back as as_written forete
   }
 }
 
-TEST_CASE("chords and arcs between each other are read back as as_written foretells") {
+TEST_CASE("chords and arcs in alternation are read back as as_written predicts") {
   SyntheticArcs source(24);
   for (int i = 0; i < arc_programs; ++i) {
     const Program program = read_small(source.text(arc_blocks));
@@ -190,7 +192,7 @@ TEST_CASE("chords and arcs between each other are read back as as_written forete
   }
 }
 
-TEST_CASE("a block that is not edited moves as it did, also behind chords") {
+TEST_CASE("a block that is not edited moves as before, also behind chords") {
   const auto is_chorded = [](const Move& move, std::size_t m) {
     return move.arc && m % 4 == 0 && (move.end_mm - move.start_mm).norm() > 0.1;
   };
@@ -213,7 +215,7 @@ TEST_CASE("a block that is not edited moves as it did, also behind chords") {
   }
 }
 
-TEST_CASE("all but the numbers of places, and what is inserted, stays byte for byte around arcs") {
+TEST_CASE("around arcs, all bytes except position words and insertions are the original's") {
   SyntheticArcs source(26);
   for (int i = 0; i < arc_programs; ++i) {
     const Program program = read_small(source.text(arc_blocks));
@@ -222,7 +224,7 @@ TEST_CASE("all but the numbers of places, and what is inserted, stays byte for b
   }
 }
 
-TEST_CASE("a block that is itself the first piece of its split ends where it was told, too") {
+TEST_CASE("a block that is itself the first piece of its split ends at its target, too") {
   SyntheticArcs source(27);
   for (int i = 0; i < arc_programs; ++i) {
     const Program program = read_small(source.text(arc_blocks));
@@ -245,7 +247,7 @@ TEST_CASE("a block that is itself the first piece of its split ends where it was
   }
 }
 
-TEST_CASE("no piece of an arc of a few digits becomes a turn that was not there") {
+TEST_CASE("no piece of an arc with few digits becomes an additional turn") {
   SyntheticArcs source(28, 0.002, 0.03);
   std::size_t arcs = 0, lines = 0;
   for (int i = 0; i < arc_programs; ++i) {

@@ -14,7 +14,7 @@ namespace {
 constexpr int programs = 400;
 constexpr int blocks = 120;
 
-/// A correction as a machine would ask for it: smooth, up to 0.2 mm.
+/// A smooth correction like that of a machine, up to 0.2 mm.
 Vector3 correction(const Vector3& p_mm) {
   return {0.2 * std::sin(p_mm.y() / 30), 0.1 * std::cos(p_mm.x() / 20),
           0.05 * std::sin(p_mm.x() / 7 + p_mm.z())};
@@ -26,7 +26,7 @@ std::vector<MoveEdit> corrected(const Program& program) {
   return edits;
 }
 
-/// The same with points on the way wherever they may be.
+/// The same with inserted points in all moves that may be split.
 std::vector<MoveEdit> split(const Program& program) {
   std::vector<MoveEdit> edits = corrected(program);
   for (MoveEdit& edit : edits) {
@@ -40,7 +40,7 @@ std::vector<MoveEdit> split(const Program& program) {
   return edits;
 }
 
-/// `text` without axis words, G words and blanks: what rewriting may not touch.
+/// `text` without axis words, G words and blanks: rewriting must not change it.
 std::string untouchable(const std::string& text) {
   std::string kept;
   for (std::size_t i = 0; i < text.size(); ++i) {
@@ -60,14 +60,14 @@ std::string untouchable(const std::string& text) {
   return kept;
 }
 
-/// The moves of `program` that end what was one move: those that no piece of a split follows.
+/// The moves of `program` that are the last pieces of original moves.
 std::size_t lines_in(const std::string& text) {
   return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
 }
 
 }  // namespace
 
-TEST_CASE("rewriting without edits, or with edits that change nothing, gives back every byte") {
+TEST_CASE("rewriting without edits, or with edits that change nothing, reproduces every byte") {
   SyntheticProgram source(11);
   for (int i = 0; i < programs; ++i) {
     const std::string text = source.text(blocks);
@@ -81,7 +81,7 @@ TEST_CASE("rewriting without edits, or with edits that change nothing, gives bac
   }
 }
 
-TEST_CASE("the corrected text moves to where it was told, as held_after says to the last bit") {
+TEST_CASE("the corrected text moves to its targets, to the last bit as text_position_after predicts") {
   SyntheticProgram source(12);
   for (int i = 0; i < programs; ++i) {
     const Program program = read(source.text(blocks));
@@ -89,16 +89,16 @@ TEST_CASE("the corrected text moves to where it was told, as held_after says to 
     const std::vector<MoveEdit> edits = corrected(program);
     const Program again = read(rewrite(program, edits, {}).text);
     REQUIRE(again.moves.size() == program.moves.size());
-    HeldPosition held{};
+    TextPosition position{};
     for (std::size_t m = 0; m < program.moves.size(); ++m) {
       const Move& move = program.moves[m];
-      const HeldPosition before = held;
-      held = held_after(move, before, edits[m].end_mm, {});
+      const TextPosition before = position;
+      position = text_position_after(move, before, edits[m].end_mm, {});
       CAPTURE(move.line);
       const double half = move.unit == LengthUnit::millimetres ? 0.5e-3 : 0.5e-4 * 25.4;
       for (std::size_t axis = 0; axis < 3; ++axis) {
         const auto k = static_cast<Eigen::Index>(axis);
-        if (held[axis]) CHECK(again.moves[m].end_mm[k] == *held[axis]);
+        if (position[axis]) CHECK(again.moves[m].end_mm[k] == *position[axis]);
         if (move.known_end[axis])
           CHECK(std::abs(again.moves[m].end_mm[k] - edits[m].end_mm[k]) <= half + 1e-9);
       }
@@ -106,7 +106,7 @@ TEST_CASE("the corrected text moves to where it was told, as held_after says to 
   }
 }
 
-TEST_CASE("pieces of split moves are moves of their own, and everything else stays") {
+TEST_CASE("pieces of split moves are additional moves, and all other moves stay") {
   SyntheticProgram source(13);
   std::size_t inserted = 0;
   for (int i = 0; i < programs; ++i) {
@@ -124,7 +124,7 @@ TEST_CASE("pieces of split moves are moves of their own, and everything else sta
   CHECK(inserted > 10000);
 }
 
-TEST_CASE("a correction without inserted points leaves all but axis words as it was") {
+TEST_CASE("a correction without inserted points changes only axis words") {
   SyntheticProgram source(14);
   for (int i = 0; i < programs; ++i) {
     const Program program = read(source.text(blocks));
@@ -136,7 +136,7 @@ TEST_CASE("a correction without inserted points leaves all but axis words as it 
   }
 }
 
-TEST_CASE("random bytes are read or refused at a place, never worse") {
+TEST_CASE("random bytes are read, or refused with a position") {
   SyntheticProgram source(15);
   std::mt19937_64 bits(16);
   int refused = 0;

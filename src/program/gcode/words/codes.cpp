@@ -14,7 +14,7 @@ constexpr unsigned linux_like = linuxcnc_family | grbl_family;
 constexpr std::string_view points_of_turning = "polar interpolation";
 constexpr std::string_view points = "tool centre point control";
 
-// In the order of their numbers; of two with the same number, the families differ.
+// Sorted by number. Entries with the same number have different families.
 constexpr std::array g_codes{
     GCode{0, Action::rapid, CodeGroup::motion},
     GCode{10, Action::feed, CodeGroup::motion},
@@ -27,7 +27,7 @@ constexpr std::array g_codes{
     GCode{51, Action::smooth, CodeGroup::none, {}, shop_families},
     GCode{52, Action::spline, CodeGroup::motion, {}, linux_like},
     GCode{53, Action::spline, CodeGroup::motion, {}, linux_like},
-    GCode{70, Action::not_read, CodeGroup::none, "diameter programming is not read yet", not_mach},
+    GCode{70, Action::not_read, CodeGroup::none, "diameter programming is not supported", not_mach},
     GCode{80, Action::smooth, CodeGroup::none, {}, shop_families},
     GCode{80, Action::state, CodeGroup::none, {}, linux_like},
     GCode{90, Action::stop_once, CodeGroup::none, {}, shop_families},
@@ -181,7 +181,7 @@ static_assert(in_order());
 constexpr std::size_t table_size = g_codes.back().tenths + 1;
 using FirstOf = std::array<std::uint8_t, table_size>;
 
-/// Place of the first code of a number, plus one; 0 where there is none.
+/// Index of the first code of a number, plus one; 0 if there is no such code.
 constexpr FirstOf first_of = [] {
   FirstOf table{};
   for (std::size_t i = g_codes.size(); i-- > 0;)
@@ -203,7 +203,7 @@ constexpr GCode not_known{0, Action::own_way, CodeGroup::none, "", any_family, u
 
 }  // namespace
 
-const GCode& code_not_known() {
+const GCode& unknown_g_code() {
   return not_known;
 }
 
@@ -223,7 +223,7 @@ MAction action_of_m(int code, const Dialect& dialect) {
   if (code == 6) return MAction::tool_change;
   if (contains(acting_after, code)) return MAction::acts_after;
   if (code == 98 || code == 97 || (code == 198 && dialect.family != linuxcnc_family)) return MAction::call;
-  if (code == 99) return MAction::come_back;
+  if (code == 99) return MAction::return_from_call;
   if (code == 72) return MAction::restore;
   if (code == 25) return MAction::retract;
   if (contains(harmless, code) || contains(with_parameters, code)) return MAction::state;

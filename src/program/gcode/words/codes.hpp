@@ -1,5 +1,5 @@
 #pragma once
-/// What G and M codes mean to this reader, as data.
+/// Meanings of G and M codes, as data.
 #include <cstdint>
 #include <string_view>
 
@@ -12,13 +12,13 @@ enum class Action : std::uint8_t {
   feed,
   arc,         ///< G2, G3
   cycle,       ///< G73, G74, G76, G81 to G89
-  probe,       ///< G31, G38: moves whose end is not known
+  probe,       ///< G31, G38: moves with an unknown end
   spline,      ///< G5 of LinuxCNC: a curve of control points
   thread,      ///< G33, LinuxCNC's G76
   end_motion,  ///< G80
-  pocket,      ///< G12, G13: cuts a round pocket about the place where it stands, and ends there
-  engrave,     ///< G47: writes text from a place on, from R down to Z
-  own_way,     ///< moves in a way of its own: G29, G70 to G72 of Haas, G150
+  pocket,      ///< G12, G13: cuts a round pocket about the tool's position, and ends there
+  engrave,     ///< G47: engraves text from a position on, from R down to Z
+  own_way,     ///< motion defined by the control: G29, G70 to G72 of Haas, G150
   call,        ///< G65: runs a macro
   dwell,
   inch,
@@ -45,14 +45,14 @@ enum class Action : std::uint8_t {
   no_cutter,         ///< G40
   initial_level,     ///< G98
   retract_level,     ///< G99
-  displace,          ///< what it starts puts programmed positions elsewhere: `what` says it
+  displace,          ///< displaces programmed positions; `what` is the reason
   end_displace,      ///< ends a `displace` of the same `bit`
   shift,             ///< G52: displaces unless its words are zero
   set_data,          ///< G10
   end_data,          ///< G11
-  state,             ///< followed by the control, harmless to moves; may own axis words
+  state,             ///< a state of the control without effect on moves; may have axis words
   surface_speed,     ///< G96
-  not_read           ///< known, and refused
+  not_read           ///< known, but not supported
 };
 
 /// Codes of one group exclude each other in a block.
@@ -72,7 +72,7 @@ enum class CodeGroup : std::uint8_t {
   spindle
 };
 
-/// States in which programmed coordinates are not those of the work offset.
+/// States in which program coordinates are not those of the work offset.
 enum Displacement : std::uint16_t {
   shifted = 1,        ///< G52
   set_position = 2,   ///< G92
@@ -82,41 +82,41 @@ enum Displacement : std::uint16_t {
   mirrored = 32,      ///< G101, G51.1
   tool_point = 64,    ///< tool centre point control, dynamic offsets
   modal_macro = 128,  ///< G66: every move calls a macro
-  rotary = 256,       ///< an axis besides X, Y and Z has left zero
+  rotary = 256,       ///< an axis other than X, Y and Z is not at zero
   data = 512,         ///< G10 has changed the work offset
-  kinematics = 1024,  ///< switched
+  kinematics = 1024,  ///< switched kinematics
   framed = 2048,      ///< TRANS, ROT, SCALE, MIRROR of a Sinumerik
   tilted = 4096,      ///< CYCLE800
-  unknown = 8192      ///< a code that is not known has acted: nobody knows what goes on acting
+  unknown = 8192      ///< an unknown code was executed; its effect on later blocks is unknown
 };
 
 struct GCode {
   int tenths = 0;  ///< G59.1 is 591
   Action action = Action::state;
   CodeGroup group = CodeGroup::none;
-  std::string_view what{};         ///< of a code that is not read or displaces: what it starts
-  unsigned families = any_family;  ///< dialects that know it so
+  std::string_view what{};         ///< of a code that is not supported or displaces: the name of its effect
+  unsigned families = any_family;  ///< dialects in which it has this meaning
   std::uint16_t bit = 0;           ///< of a displacement
 };
 
-/// Stands for codes that the dialect does not know: the block moves in a way of its own, and what follows is
-/// not followed.
-const GCode& code_not_known();
+/// Replaces codes that the dialect does not know: the block has an unknown motion, and later blocks are not
+/// followed.
+const GCode& unknown_g_code();
 
 /// The code `tenths` in `dialect`, or nullptr.
 const GCode* find_g_code(int tenths, const Dialect& dialect);
 
 enum class MAction : std::uint8_t {
-  state,       ///< moves nothing, acts with or before the move of its block
-  acts_after,  ///< stops, spindle off, coolant off: a block that holds one is not split
+  state,       ///< moves no axis, acts with or before the move of its block
+  acts_after,  ///< stops, spindle off, coolant off: its block is not split
   tool_change,
-  end,         ///< M2, M30
-  call,        ///< M98: runs a subprogram
-  come_back,   ///< M99
-  restore,     ///< M72: brings saved states back
-  kinematics,  ///< LinuxCNC's M428 to M430
-  retract,     ///< M25: takes Z to its home on Centroid's controls
-  machine      ///< meaning set by the machine's builder: taken as moving nothing, with a remark
+  end,               ///< M2, M30
+  call,              ///< M98: runs a subprogram
+  return_from_call,  ///< M99
+  restore,           ///< M72: restores saved states
+  kinematics,        ///< LinuxCNC's M428 to M430
+  retract,           ///< M25: moves Z to its home on Centroid's controls
+  machine            ///< defined by the machine builder: assumed not to move an axis, with a remark
 };
 
 MAction action_of_m(int code, const Dialect& dialect);

@@ -7,14 +7,14 @@
 namespace counterflex {
 namespace {
 
-void end_doubt(ModalState& state, Doubt doubt) {
-  state.doubts &= static_cast<std::uint16_t>(~doubt);
+void mark_known(ModalState& state, UnknownMode doubt) {
+  state.unknown_modes &= static_cast<std::uint16_t>(~doubt);
 }
 
 void apply_unit(Reading& r) {
   if (!r.sorted.has(Action::inch) && !r.sorted.has(Action::mm)) return;
   r.state.unit = r.sorted.has(Action::inch) ? LengthUnit::inches : LengthUnit::millimetres;
-  end_doubt(r.state, doubtful_unit);
+  mark_known(r.state, unknown_unit);
 }
 
 void apply_feed_mode(Reading& r) {
@@ -34,7 +34,7 @@ void apply_feed_mode(Reading& r) {
 
 void apply_f(Reading& r, std::optional<LengthUnit> unit_before) {
   const Word* f = r.sorted.word('F');
-  // The F of some controls' dwell is a time.
+  // On some controls the F of a dwell is a time.
   if (f == nullptr || r.sorted.has(Action::dwell)) return;
   r.state.feed = f->value;
   r.state.feed_unit = r.dialect.feed_before_unit && unit_before ? unit_before : r.state.unit;
@@ -45,7 +45,7 @@ void apply_tool(Reading& r) {
   if (!r.sorted.has(MAction::tool_change)) return;
   r.state.tool = r.state.tool_chosen;
   for (std::size_t axis = 0; axis < 3; ++axis)
-    if (r.tool_change_axes[axis]) take_away(r, axis);
+    if (r.tool_change_axes[axis]) move_by_machine(r, axis);
   end_contour(r);
   r.run_begin = r.program.moves.size();
 }
@@ -54,21 +54,21 @@ void apply_plane(Reading& r) {
   const FoundG* plane = r.sorted.find(Action::plane);
   if (plane == nullptr) return;
   r.state.normal = (190 - plane->code->tenths) / 10;
-  end_doubt(r.state, doubtful_plane);
+  mark_known(r.state, unknown_plane);
 }
 
 void apply_distance(Reading& r) {
   if (r.sorted.has(Action::relative) || r.sorted.has(Action::absolute)) {
     r.state.relative = r.sorted.has(Action::relative);
-    end_doubt(r.state, doubtful_distance);
+    mark_known(r.state, unknown_distance);
   }
   if (r.sorted.has(Action::relative_centres) || r.sorted.has(Action::absolute_centres)) {
     r.state.absolute_centres = r.sorted.has(Action::absolute_centres);
-    end_doubt(r.state, doubtful_centres);
+    mark_known(r.state, unknown_centres);
   }
   if (r.sorted.has(Action::initial_level) || r.sorted.has(Action::retract_level)) {
     r.state.returns_to_retract = r.sorted.has(Action::retract_level);
-    end_doubt(r.state, doubtful_level);
+    mark_known(r.state, unknown_level);
   }
 }
 
@@ -79,7 +79,7 @@ void apply_path_mode(const Block& block, Reading& r) {
   remark_path_mode(block, r);
 }
 
-/// The motion that a code starts; nothing for a code that starts none.
+/// The motion that a code starts; empty if it starts no motion.
 std::optional<MotionMode> motion_of(const FoundG& g) {
   switch (g.code->action) {
     case Action::rapid:
@@ -95,7 +95,7 @@ std::optional<MotionMode> motion_of(const FoundG& g) {
     case Action::thread:
       return MotionMode::thread;
     case Action::probe:
-      // G31 acts in its own block alone.
+      // G31 acts in its own block only.
       return g.code->group == CodeGroup::motion ? std::optional(MotionMode::probe) : std::nullopt;
     default:
       return std::nullopt;
@@ -105,7 +105,7 @@ std::optional<MotionMode> motion_of(const FoundG& g) {
 void set_motion(ModalState& state, MotionMode motion) {
   if (state.motion == MotionMode::cycle && motion != MotionMode::cycle) state.cycle = {};
   state.motion = motion;
-  end_doubt(state, doubtful_motion);
+  mark_known(state, unknown_motion);
 }
 
 }  // namespace
@@ -122,7 +122,7 @@ void apply_feed_and_tool(Reading& r) {
   apply_unit(r);
   apply_feed_mode(r);
   apply_f(r, unit_before);
-  // The S of some controls' dwell is a number of turns.
+  // On some controls the S of a dwell is a number of turns.
   if (const Word* s = r.sorted.word('S'); s != nullptr && !r.sorted.has(Action::dwell))
     r.state.spindle_rpm = s->value;
   if (r.sorted.has(Action::surface_speed)) r.state.spindle_rpm = 0;

@@ -2,14 +2,14 @@
 
 #include <limits>
 
-#include "program/text/line_length.hpp"
-#include "program/gcode/words/plain_words.hpp"
 #include "program/gcode/read_move.hpp"
+#include "program/gcode/words/plain_words.hpp"
+#include "program/text/line_length.hpp"
 
 namespace counterflex {
 namespace {
 
-/// A line is not near the limit of its control, where remarks begin.
+/// Remarks begin at this length; such lines are not plain.
 std::size_t longest_without_remark(const Dialect& dialect) {
   return dialect.line_limit == 0 ? std::numeric_limits<std::size_t>::max()
                                  : dialect.line_limit - room_for_words;
@@ -23,7 +23,7 @@ bool is_arc(MotionMode motion) {
   return motion == MotionMode::clockwise || motion == MotionMode::counter_clockwise;
 }
 
-/// Takes lines one by one into moves. What blocks have in common is worked out once.
+/// Reads lines one by one into moves. Values that blocks share are computed once.
 class PlainReader {
  public:
   PlainReader(Reading& reading, Block& block)
@@ -33,11 +33,11 @@ class PlainReader {
         longest_(longest_without_remark(reading.dialect)),
         unit_mm_(mm_per(*reading.state.unit)) {}
 
-  /// False, and nothing done, where the next line is not plain.
+  /// Reads the next line. False, without effect, if the line is not plain.
   bool read_line() {
     const std::size_t begin = block_.line_end.end;
     const char* const end = scan_words(text_ + begin, words_);
-    if (end == nullptr || !words_.has_axis() || !is_read_here()) return false;
+    if (end == nullptr || !words_.has_axis() || !is_valid_here()) return false;
     const std::size_t line_end = *end == '\r' ? 1 : 0;
     const Span span{begin, static_cast<std::size_t>(end - text_)};
     if (end[line_end] != '\n' || span.end - span.begin > longest_) return false;
@@ -49,9 +49,9 @@ class PlainReader {
   }
 
  private:
-  /// Behind arcs the line has to say its motion, and under G91 an axis has to be known; a feed below zero is
-  /// an error.
-  bool is_read_here() const {
+  /// Behind arcs the line must have its motion word. Under G91 the axis must be known. A negative feed is an
+  /// error.
+  bool is_valid_here() const {
     if (!words_.has(PlainWord::code) && !is_straight(r_.state.motion)) return false;
     if (words_.has(PlainWord::feed) && *number(PlainWord::feed).begin == '-') return false;
     if (!r_.state.relative || all_known(r_.state.known)) return true;
@@ -83,10 +83,10 @@ class PlainReader {
   }
 
   void place(std::size_t axis, Move& move) {
-    const PlainNumber& said = words_.numbers[axis];
-    const auto begin = static_cast<std::size_t>(said.begin - text_);
-    move.words[axis] = AxisWord{{begin, static_cast<std::size_t>(said.end - text_)}, said.decimals};
-    const double value = said.value * unit_mm_;
+    const PlainNumber& number = words_.numbers[axis];
+    const auto begin = static_cast<std::size_t>(number.begin - text_);
+    move.words[axis] = AxisWord{{begin, static_cast<std::size_t>(number.end - text_)}, number.decimals};
+    const double value = number.value * unit_mm_;
     const double end = r_.state.relative ? coordinate(move.start_mm, axis) + value : value;
     // Stored twice: a copy of all three would wait for the stores.
     coordinate(move.end_mm, axis) = coordinate(r_.state.position_mm, axis) = end;
@@ -106,12 +106,12 @@ class PlainReader {
 bool takes_plain_lines(const Reading& r) {
   const ModalState& state = r.state;
   const bool moves = is_straight(state.motion) || is_arc(state.motion);
-  const bool followed =
-      state.unit && state.doubts == 0 && state.displaced == 0 && !r.in_body() && !state.entering_data && !r.called;
+  const bool followed = state.unit && state.unknown_modes == 0 && state.displaced == 0 && !r.in_body() &&
+                        !state.entering_data && !r.called;
   const bool alone = state.contour == Contour::none && !r.after_corner;
   const bool in_place = r.program.expansion.lines.empty() && r.program.expansion.unused.empty();
   const bool increments =
-      r.options.integer_words == IntegerWords::increments && r.dialect.integer_words_doubtful;
+      r.options.integer_words == IntegerWords::increments && r.dialect.integer_words_ambiguous;
   return moves && followed && alone && in_place && !increments && state.feed_mode != FeedUnit::inverse_time;
 }
 

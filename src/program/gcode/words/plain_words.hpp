@@ -1,5 +1,5 @@
 #pragma once
-/// The words of a line that holds only letters which every dialect reads alike, with plain numbers.
+/// Reads the words of a line whose letters have the same meaning in all dialects and whose numbers are plain.
 #include <array>
 #include <cstdint>
 
@@ -17,7 +17,7 @@ struct PlainNumber {
   int decimals;
 };
 
-/// Numbers of words that are not in `present` mean nothing.
+/// Numbers of words that are not in `present` are undefined.
 struct PlainWords {
   std::array<PlainNumber, 4> numbers;  ///< X, Y, Z, F
   std::int64_t code;                   ///< 0 or 1 of G
@@ -42,9 +42,9 @@ inline PlainWord plain_word_of(char letter) {
   return table[static_cast<unsigned char>(letter)];
 }
 
-// Text ends with a byte 0, as strings do, which no word holds: nobody needs to look for its end.
+// Text ends with a byte 0, as strings do. No word contains it, so its end needs no test.
 
-/// Behind the digits at `at`, whose value is added to `value` as to the digits before them.
+/// Position behind the digits at `at`. Appends the digits to `value`.
 inline const char* scan_digits(const char* at, std::uint64_t& value) {
   const auto digit_at = [](const char* c) {
     return static_cast<unsigned>(static_cast<unsigned char>(*c)) - '0';
@@ -53,8 +53,8 @@ inline const char* scan_digits(const char* at, std::uint64_t& value) {
   return at;
 }
 
-/// Behind the number at `at`; nullptr for one that `lex` does not read so simply. As there, integers below
-/// 10^15 and these powers of ten are exact, so that the quotient is the nearest double.
+/// Position behind the number at `at`; nullptr for a number that `lex` does not read in the same way.
+/// Integers below 10^15 and these powers of ten are exact, so that the quotient is the nearest double.
 inline const char* scan_number(const char* at, PlainNumber& number) {
   static constexpr std::array powers{1e0, 1e1, 1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
                                      1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15};
@@ -79,7 +79,7 @@ inline const char* scan_number(const char* at, PlainNumber& number) {
   return number.end;
 }
 
-/// Behind the digits at `at`, which are the whole number; nullptr where there are none or many.
+/// Position behind the integer at `at`; nullptr for no digits or too many.
 inline const char* scan_whole(const char* at, std::int64_t& number) {
   std::uint64_t value = 0;
   const char* const end = scan_digits(at, value);
@@ -87,7 +87,7 @@ inline const char* scan_whole(const char* at, std::int64_t& number) {
   return end == at || end - at > 12 ? nullptr : end;
 }
 
-/// Behind the word at `at`; nullptr where it is not plain.
+/// Position behind the word at `at`; nullptr if it is not plain.
 inline const char* scan_word(const char* at, PlainWord word, PlainWords& words) {
   if (words.has(word)) return nullptr;
   if (word == PlainWord::number) return words.present == 0 ? scan_whole(at + 1, words.block_number) : nullptr;
@@ -96,8 +96,8 @@ inline const char* scan_word(const char* at, PlainWord word, PlainWords& words) 
   return words.code <= 1 ? end : nullptr;
 }
 
-/// The words of the line at `at`, up to the first character of another kind, which is returned; nullptr where
-/// a word of these letters is not plain.
+/// Reads the words of the line at `at`, up to the first other character, whose position is returned; nullptr
+/// if a word of these letters is not plain.
 inline const char* scan_words(const char* at, PlainWords& words) {
   words.present = 0;
   for (;;) {

@@ -32,8 +32,8 @@ struct Sorter {
   }
 };
 
-/// G70 and G71 without the size of a pattern of holes are units, as they are on older controls.
-bool says_unit(const Sorter& s, int tenths) {
+/// G70 and G71 without the size of a pattern of holes are units, as on older controls.
+bool is_unit_code(const Sorter& s, int tenths) {
   const auto& words = s.block.words;
   return (tenths == 700 || tenths == 710) && s.dialect.macro_words &&
          std::none_of(words.begin(), words.end(), [](const Word& word) { return word.letter == 'I'; });
@@ -41,12 +41,12 @@ bool says_unit(const Sorter& s, int tenths) {
 
 const GCode* code_of(const Sorter& s, const Word& word) {
   const double tenths = word.value * 10;
-  // Who shows a control the code of an option that is not read here knows what it does.
-  const GCode* const otherwise = s.dialect.macro_words ? &code_not_known() : nullptr;
+  // A control with the code of an unsupported option knows its meaning.
+  const GCode* const otherwise = s.dialect.macro_words ? &unknown_g_code() : nullptr;
   if (tenths < 0 || tenths > 10000) return nullptr;
   const int nearest = static_cast<int>(tenths + 0.5);
   if (std::abs(tenths - nearest) >= 1e-6) return nullptr;
-  if (says_unit(s, nearest)) return find_g_code(nearest == 700 ? 200 : 210, s.dialect);
+  if (is_unit_code(s, nearest)) return find_g_code(nearest == 700 ? 200 : 210, s.dialect);
   const GCode* const found = find_g_code(nearest, s.dialect);
   return found != nullptr ? found : otherwise;
 }
@@ -65,7 +65,7 @@ void add_g(const Sorter& s, const Word& word) {
   };
   if (s.dialect.macro_words && code->group != CodeGroup::none &&
       std::any_of(s.sorted.g.begin(), s.sorted.g.end(), same))
-    return;  // said twice
+    return;  // occurs twice
   for (const FoundG& other : s.sorted.g)
     if (code->group != CodeGroup::none && other.code->group == code->group)
       s.fail(word, fmt::format("G{} and G{} exclude each other in one block", other.word->value, word.value));
@@ -79,20 +79,20 @@ void add_m(const Sorter& s, const Word& word) {
     return;
   }
   if (word.value < 0 || word.value > 99999 || word.value != std::floor(word.value))
-    s.fail(word, fmt::format("M{} is not a code: whole numbers from 0 to 99999 are", word.value));
+    s.fail(word, fmt::format("M{} is not a code: expected an integer from 0 to 99999", word.value));
   const int code = static_cast<int>(word.value);
   const MAction action = action_of_m(code, s.dialect);
   s.sorted.m.push_back({action, code, &word});
   s.sorted.m_actions |= 1u << static_cast<unsigned>(action);
 }
 
-/// A macro call may give I, J and K several times.
+/// A macro call may have I, J and K several times.
 void add_letter(const Sorter& s, const Word& word) {
   const bool again = s.sorted.word(word.letter) != nullptr;
-  // Some controls are told the next tool beside the one to change to.
+  // Some controls get the next tool beside the one to change to.
   if (again && word.letter == 'T' && s.dialect.macro_words) return;
   if (again && !s.sorted.has(Action::call))
-    s.fail(word, fmt::format("{} stands twice in the block", word.letter));
+    s.fail(word, fmt::format("{} occurs twice in the block", word.letter));
   const auto i = static_cast<std::size_t>(word.letter - 'A');
   s.sorted.letters[i] = &word;
   s.sorted.present |= 1u << i;
@@ -106,13 +106,13 @@ void check_number(const Sorter& s) {
   if (n->value < 0) s.fail(*n, fmt::format("N{} is negative", n->value));
 }
 
-/// G15 H1 and G56 H1 look like what other controls know, and mean something else.
+/// G15 H1 and G56 H1 have another meaning on other controls.
 void check_okuma(const Sorter& s) {
   const Word* h = s.sorted.word('H');
   if (h == nullptr) return;
   for (const FoundG& g : s.sorted.g)
     if (g.code->tenths == 150)
-      s.fail(*g.word, "G15 with H selects a work offset on Okuma's controls, whose programs are not read");
+      s.fail(*g.word, "G15 with H selects a work offset on Okuma controls, whose programs are not supported");
 }
 
 void check_signs(const Sorter& s) {
@@ -121,7 +121,7 @@ void check_signs(const Sorter& s) {
       s.fail(*word, fmt::format("{}{} is negative", letter, word->value));
   const Word* t = s.sorted.word('T');
   if (t != nullptr && (t->value < 0 || t->value != std::floor(t->value)))
-    s.fail(*t, fmt::format("T{} is not a tool: whole numbers from 0 are", t->value));
+    s.fail(*t, fmt::format("T{} is not a tool: expected an integer from 0", t->value));
 }
 
 [[noreturn]] void refuse_unused(const Sorter& s, const Word& word) {
@@ -130,9 +130,9 @@ void check_signs(const Sorter& s) {
     case 'J':
     case 'K':
     case 'R':
-      s.fail(word, fmt::format("{} belongs to arcs and cycles, and this block has neither", word.letter));
+      s.fail(word, fmt::format("{} belongs to an arc or a cycle, but this block has neither", word.letter));
     default:
-      s.fail(word, fmt::format("{} has no code in its block that uses it", word.letter));
+      s.fail(word, fmt::format("no code in the block uses {}", word.letter));
   }
 }
 

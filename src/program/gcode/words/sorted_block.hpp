@@ -1,5 +1,5 @@
 #pragma once
-/// The words of one block by what they are, checked against each other.
+/// The words of a block sorted by kind, and checked against each other.
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -20,15 +20,15 @@ struct FoundM {
   const Word* word;
 };
 
-/// Points into the `Block` it was sorted from.
+/// Points into the `Block` from which it was sorted.
 struct SortedBlock {
-  std::array<const Word*, 26> letters{};  ///< all but G and M, of those in `present`
+  std::array<const Word*, 26> letters{};  ///< all letters except G and M, valid for those in `present`
   std::uint32_t present = 0;              ///< a bit for each letter
   std::vector<FoundG> g;
   std::vector<FoundM> m;
   std::uint64_t actions = 0;    ///< a bit for each Action in `g`
   std::uint32_t m_actions = 0;  ///< a bit for each MAction in `m`
-  bool unknown_code = false;    ///< holds a G or M whose number the control works out
+  bool unknown_code = false;    ///< has a G or M whose number is an expression
 
   const Word* word(char letter) const {
     const auto i = static_cast<std::size_t>(letter - 'A');
@@ -40,12 +40,12 @@ struct SortedBlock {
   bool has(MAction action) const { return (m_actions >> static_cast<unsigned>(action) & 1) != 0; }
 };
 
-/// Which words a block may hold beside those of its own codes.
+/// Letters that a block may have in addition to those of its codes.
 enum class Context { plain, arc, cycle, unknown };
 
-/// Sorts `block` into `sorted`, whose vectors are reused; `context` is the motion that acts where the block
-/// programs none. Throws `InputError` for words that are not known or not read yet, that stand twice, exclude
-/// each other, or that nothing in the block uses.
+/// Sorts `block` into `sorted` and reuses its vectors. `context` is the active motion if the block programs
+/// no motion. Throws `InputError` for words that are unknown or not supported, occur twice, exclude each
+/// other, or are not used by a code of the block.
 void sort_words(const std::string& file, const Dialect& dialect, const Block& block, Context context,
                 SortedBlock& sorted);
 

@@ -14,7 +14,7 @@ constexpr Letters always = letters("ABCFNOSTUVWXYZ");
 constexpr Letters of_arcs = letters("IJKPR");
 constexpr Letters of_cycles = letters("DEHIJKLPQR");
 
-/// One case an action: this is a table.
+/// One case per action: this is a table.
 Letters used_by(Action action) {
   switch (action) {
     case Action::arc:
@@ -49,7 +49,7 @@ Letters used_by(Action action) {
   }
 }
 
-/// Of codes that are otherwise harmless states.
+/// Letters of codes whose states do not affect moves.
 Letters used_by_state(int tenths) {
   switch (tenths) {
     case 80:    // G8 P1
@@ -64,12 +64,12 @@ Letters used_by_state(int tenths) {
 
 Letters used_by(const FoundM& m) {
   if (m.action == MAction::machine || m.action == MAction::call) return letters("ELPQRHD");
-  if (m.action == MAction::come_back) return letters("LP");
+  if (m.action == MAction::return_from_call) return letters("LP");
   switch (m.code) {
     case 3:
     case 4:
     case 5:
-      return letters("P");  // the power of some spindles and lasers
+      return letters("P");  // power of some spindles and lasers
     case 19:
       return letters("PQR");
     case 50:
@@ -95,7 +95,7 @@ Letters used_by(const FoundM& m) {
 
 Letters used_letters(const SortedBlock& sorted, const Dialect& dialect, Context context) {
   Letters used = always;
-  if (dialect.h_and_d_stand_alone) used |= letters("DH");
+  if (dialect.h_and_d_are_modal) used |= letters("DH");
   if (context == Context::arc) used |= of_arcs;
   if (context == Context::cycle) used |= of_cycles;
   for (const FoundG& g : sorted.g) used |= used_by(g.code->action) | used_by_state(g.code->tenths);

@@ -1,5 +1,5 @@
 #pragma once
-/// Which letters the codes of a block use: a word that nothing uses is an error.
+/// The letters that the codes of a block use. An unused word is an error.
 #include <cstdint>
 #include <string_view>
 
@@ -14,7 +14,7 @@ constexpr Letters letter_bit(char letter) {
   return Letters{1} << (letter - 'A');
 }
 
-/// Letters that mean something in a block with these codes, where `context` is the motion that acts.
+/// Letters with a meaning in a block with these codes. `context` is the active motion.
 Letters used_letters(const SortedBlock& sorted, const Dialect& dialect, Context context);
 
 }  // namespace counterflex

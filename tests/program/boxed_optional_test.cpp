@@ -1,4 +1,4 @@
-#include "counterflex/program/rare.hpp"
+#include "counterflex/program/boxed_optional.hpp"
 
 #include <doctest/doctest.h>
 
@@ -9,13 +9,13 @@
 using namespace counterflex;
 using namespace counterflex::test;
 
-TEST_CASE("a copy of a rare value is a value of its own, and a moved one leaves nothing behind") {
-  Rare<std::string> word = std::string("one");
-  Rare<std::string> copy = word;
+TEST_CASE("a copy of a BoxedOptional has its own value, and a moved one is empty") {
+  BoxedOptional<std::string> word = std::string("one");
+  BoxedOptional<std::string> copy = word;
   copy->append(" more");
   CHECK(*word == "one");
   CHECK(*copy == "one more");
-  const Rare<std::string> taken = std::move(word);
+  const BoxedOptional<std::string> taken = std::move(word);
   CHECK(taken == std::string("one"));
   copy = taken;
   CHECK(*copy == "one");
@@ -25,7 +25,7 @@ TEST_CASE("a copy of a rare value is a value of its own, and a moved one leaves 
   CHECK(copy.value_or("none") == "none");
 }
 
-TEST_CASE("copies of a program's moves have arcs, cycles and forces of their own") {
+TEST_CASE("copies of a program's moves have their own arcs, cycles and forces") {
   Program program = read("(FORCE FX=10)\nG21 G17 G0 X0 Y0 Z5 F100\nG2 X10 Y0 I5 J0\nG81 X3 Y3 Z-1 R1\n");
   REQUIRE(program.moves.size() == 3);
   const std::vector<Move> copies = program.moves;
@@ -38,7 +38,7 @@ TEST_CASE("copies of a program's moves have arcs, cycles and forces of their own
   CHECK_FALSE(copies[0].arc.has_value());
 }
 
-TEST_CASE("a packed word says what was packed, and an empty one nothing") {
+TEST_CASE("a PackedAxisWord returns the word that it was made from, and an empty one has no value") {
   const std::size_t far = std::size_t{5} << 40;
   PackedAxisWord word = AxisWord{{far, far + 7}, 3};
   REQUIRE(word.has_value());

@@ -1,11 +1,11 @@
-#include "program/write/held_arc.hpp"
+#include "program/write/text_arc.hpp"
 
 #include <cmath>
 #include <numbers>
 
 #include "counterflex/files/numbers.hpp"
-#include "program/text/arc_radius.hpp"
 #include "program/dialect.hpp"
+#include "program/text/arc_radius.hpp"
 #include "program/text/number_style.hpp"
 
 namespace counterflex {
@@ -21,31 +21,31 @@ double sweep_of(const ArcMove& arc, const Vector3& start, const Vector3& end, co
   return sweep_between(start, end, centre_mm, normal_of(arc));
 }
 
-/// I, J or K: counted from the start unless G90.1 acts.
-void settle_centre_word(const Move& move, std::size_t axis, const Vector3& start, double wanted_mm,
-                        Place place, const WriteOptions& options, ArcWords& words) {
+/// I, J or K: relative to the start unless G90.1 is active.
+void round_centre_word(const Move& move, std::size_t axis, const Vector3& start, double wanted_mm,
+                       Place place, const WriteOptions& options, ArcWords& words) {
   const ArcMove& arc = *move.arc;
   const double unit = mm_per(move.unit);
   const double from_mm = arc.absolute_centre ? 0 : component(start, axis);
   const double original_mm =
       component(arc.centre_mm, axis) - (arc.absolute_centre ? 0 : component(move.start_mm, axis));
   const auto& word = arc.centre_words[axis];
-  // A word that is absent says zero.
+  // A missing word is zero.
   const double original = word ? shown_number(move, *word, original_mm) : 0;
-  WordNumber number = settle_number(move, word, original, (wanted_mm - from_mm) / unit, place, options);
+  WordNumber number = round_number(move, word, original, (wanted_mm - from_mm) / unit, place, options);
   if (!word && number.value == 0) number.write = false;
   words.centre[axis] = number;
   words.curve.arc->centre[static_cast<Eigen::Index>(axis)] = from_mm + number.value * unit;
 }
 
-/// R: the middle of the distances of both ends, never so short that it does not reach.
-void settle_radius(const Move& move, const Vector3& centre_mm, Place place, const WriteOptions& options,
-                   ArcWords& words) {
+/// R: the mean distance of both ends, at least half the chord.
+void round_radius(const Move& move, const Vector3& centre_mm, Place place, const WriteOptions& options,
+                  ArcWords& words) {
   const ArcMove& arc = *move.arc;
   const Vector3 &start = words.curve.start, &end = words.curve.end;
   const double unit = mm_per(move.unit);
   const double size_mm = 0.5 * (across(start - centre_mm, arc).norm() + across(end - centre_mm, arc).norm());
-  // Half a turn is as long one way as the other: the sign stays, whatever the digits of its ends make of the sweep.
+  // Half a turn is equally long in both directions: the sign stays, independent of the rounded sweep.
   constexpr double digits_of_ends = 2;
   const auto beyond_half_mm = [&](const Vector3& from, const Vector3& to, const Vector3& centre) {
     return size_mm * (sweep_of(arc, from, to, centre) - std::numbers::pi);
@@ -56,11 +56,11 @@ void settle_radius(const Move& move, const Vector3& centre_mm, Place place, cons
                           std::abs(beyond_half_mm(move.start_mm, move.end_mm, arc.centre_mm)) < room_mm;
   const bool longer = stays_half ? arc.radius_mm < 0 : beyond_mm > 0;
   const double wanted = (longer ? -size_mm : size_mm) / unit;
-  // Of an R that hardly reaches from end to end controls take as much as it needs.
+  // Controls lengthen an R that is slightly too short.
   const double reaches_mm =
       std::fmax(std::abs(arc.radius_mm), across(move.end_mm - move.start_mm, arc).norm() / 2);
   const double original = std::copysign(reaches_mm, arc.radius_mm) / unit;
-  WordNumber number = settle_number(move, arc.radius_word, original, wanted, place, options);
+  WordNumber number = round_number(move, arc.radius_word, original, wanted, place, options);
   const double half_chord = across(end - start, arc).norm() / 2 / unit;
   if (number.write && std::abs(number.value) < half_chord) {
     const double digit = 1 / power_of_ten(number.decimals);
@@ -71,8 +71,8 @@ void settle_radius(const Move& move, const Vector3& centre_mm, Place place, cons
   words.curve.arc->centre = centre_from_radius(start, end, number.value * unit, normal_of(arc));
 }
 
-/// The digits have made a piece that hardly moves go around: it turns more than its own move, or, unless it
-/// may be a full circle, more than `via` says.
+/// Rounding has turned a short piece into a full turn: it turns more than its own move or, unless it may be a
+/// full circle, more than `via` gives.
 bool is_turned_around(const Move& move, const Curve& piece, const Via& via, Place place, int decimals) {
   constexpr double digits_that_ends_may_miss = 2, digits_of_a_safe_radius = 1000,
                    angle_that_digits_may_add = 0.5;
@@ -108,18 +108,18 @@ Curve polar_arc(const Move& move, const Vector3& start, const Vector3& centre_mm
   return curve;
 }
 
-std::optional<ArcWords> settle_arc(const Move& move, const Vector3& start, const Vector3& end, const Via& via,
-                                   Place place, const WriteOptions& options) {
+std::optional<ArcWords> round_arc(const Move& move, const Vector3& start, const Vector3& end, const Via& via,
+                                  Place place, const WriteOptions& options) {
   const ArcMove& arc = *move.arc;
   ArcWords words;
   words.curve = {start, end, Arc{start, normal_of(arc), 0}};
   if (arc.radius_word) {
     if (across(end - start, arc).isZero(0)) return std::nullopt;
-    settle_radius(move, *via.centre_mm, place, options, words);
+    round_radius(move, *via.centre_mm, place, options, words);
   } else {
     for (std::size_t axis = 0; axis < 3; ++axis)
       if (in_plane(arc, axis))
-        settle_centre_word(move, axis, start, component(*via.centre_mm, axis), place, options, words);
+        round_centre_word(move, axis, start, component(*via.centre_mm, axis), place, options, words);
   }
   words.curve.arc->sweep = sweep_of(arc, start, end, words.curve.arc->centre);
   if (place == Place::end && arc.turns > 0 && !arc.flat)
