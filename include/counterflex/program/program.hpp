@@ -270,7 +270,7 @@ struct LineRun {
 };
 
 /// A call that was not expanded, or a loop, a condition or a jump that was not executed.
-struct CallLeft {
+struct UnexpandedCall {
   int text_line = 0;
   std::string why;
   bool is_flow = false;  ///< a loop, a condition or a jump
@@ -285,7 +285,7 @@ struct Expansion {
   std::size_t executed = 0;  ///< number of executed loops, conditions and jumps; each pass counts
   int first_executed = 0;    ///< line of the file
   bool in_order = false;     ///< the text has the blocks of the main program in the order in which they run
-  std::vector<CallLeft> calls_left;  ///< sorted by line
+  std::vector<UnexpandedCall> unexpanded_calls;  ///< sorted by line
   std::vector<Span> unused;  ///< definitions in the text that are no longer called: their blocks do not run
 };
 

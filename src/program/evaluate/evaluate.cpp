@@ -44,7 +44,8 @@ void evaluate_words(Block& block, Reading& r) {
     const bool in_order = !r.dialect.sinumerik_words && !r.dialect.macro_words;
     if (word.literal || (!in_order && !block.assignments.empty())) continue;
     const std::optional<double> value = value_in(r, word.number);
-    if (!value || ((relative || word.sense == Sense::relative) && has_too_many_digits(*value))) continue;
+    if (!value || ((relative || word.mode == DistanceMode::relative) && has_too_many_digits(*value)))
+      continue;
     word.literal = word.point = true;
     word.value = *value;
     word.decimals = 0;

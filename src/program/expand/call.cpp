@@ -84,7 +84,7 @@ void read_numbers(const Block& block, const Dialect& dialect, SubprogramCall& ca
   const long number = whole(*p);
   if (count != nullptr) call.repeats = whole(*count);
   if (number < 0) call.why_not = "its P is not a plain number";
-  if (call.repeats < 1) call.why_not = fmt::format("its {} is not a count from 1", count->letter);
+  if (call.repeats < 1) call.why_not = fmt::format("its {} is not an integer from 1", count->letter);
   call.name.name = fmt::format("{}", number);
   if (count != nullptr || dialect.family != fanuc_family || number <= 9999) return;
   call.other_reading = {call.name.kind, fmt::format("{}", number % 10000)};

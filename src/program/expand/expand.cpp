@@ -64,9 +64,9 @@ bool is_unused(const Expansion& expansion, std::size_t at) {
 }
 
 std::string_view why_not_expanded(const Expansion& expansion, int text_line) {
-  const auto& calls = expansion.calls_left;
+  const auto& calls = expansion.unexpanded_calls;
   const auto call = std::lower_bound(calls.begin(), calls.end(), text_line,
-                                     [](const CallLeft& c, int line) { return c.text_line < line; });
+                                     [](const UnexpandedCall& c, int line) { return c.text_line < line; });
   return call != calls.end() && call->text_line == text_line ? std::string_view(call->why)
                                                              : std::string_view();
 }
@@ -84,11 +84,12 @@ bool remark_execution(Program& program) {
             "loops, conditions and jumps are replaced by the blocks that they execute, {} of them; this "
             "is the first",
             expansion.executed));
-  const auto& left = expansion.calls_left;
-  const auto flow = std::find_if(left.begin(), left.end(), [](const CallLeft& one) { return one.is_flow; });
+  const auto& left = expansion.unexpanded_calls;
+  const auto flow =
+      std::find_if(left.begin(), left.end(), [](const UnexpandedCall& one) { return one.is_flow; });
   if (flow != left.end())
     add_remark(program, line_of_file(expansion, flow->text_line),
-               "loops, conditions and jumps are not executed:  " + flow->why);
+               "loops, conditions and jumps are not executed: " + flow->why);
   return expansion.executed > 0 || flow != left.end();
 }
 
@@ -103,7 +104,7 @@ void remark_expansion(Program& program) {
         program, expansion.first_call,
         fmt::format("{} of subprograms replaced by the bodies; this is the first",
                     expansion.calls == 1 ? "one call" : fmt::format("{} calls", expansion.calls)));
-  if (flow || !expansion.calls_left.empty()) return;
+  if (flow || !expansion.unexpanded_calls.empty()) return;
   add_remark(program, 1,
              sinumerik
                  ? "the program has no loop, condition or jump: nothing is expanded"

@@ -73,7 +73,8 @@ class Expander {
     unknown_ = std::move(unknown);
     const LinePlace rest = copy_program({});
     if (unknown_)
-      expansion_.calls_left.push_back({lines_.count + 1 + unknown_->line - rest.line, unknown_->why, true});
+      expansion_.unexpanded_calls.push_back(
+          {lines_.count + 1 + unknown_->line - rest.line, unknown_->why, true});
     return finish(rest);
   }
 
@@ -128,7 +129,7 @@ class Expander {
   /// The line of the text that is not executed, for the remark on it.
   void note_unknown(const Block& block) {
     if (!unknown_ || unknown_->line != block.line) return;
-    expansion_.calls_left.push_back({lines_.count + 1, unknown_->why, true});
+    expansion_.unexpanded_calls.push_back({lines_.count + 1, unknown_->why, true});
     unknown_.reset();
   }
 
@@ -204,7 +205,7 @@ class Expander {
     other_calls_ = true;
     seeks_numbers_ = seeks_numbers_ || call->name.kind == NameKind::block;
     lines_.append(whole_line(text_, block), block.line, origin(block, frame));
-    expansion_.calls_left.push_back({lines_.count, why});
+    expansion_.unexpanded_calls.push_back({lines_.count, why});
     frame.variables.clear();
     return {};
   }
@@ -278,14 +279,14 @@ class Expander {
     Expansion counted;
     counted.calls = expansion_.calls;
     counted.executed = expansion_.executed;
-    counted.calls_left.resize(expansion_.calls_left.size());
+    counted.unexpanded_calls.resize(expansion_.unexpanded_calls.size());
     return counted;
   }
 
   void restore(const Expansion& counted) {
     expansion_.calls = counted.calls;
     expansion_.executed = counted.executed;
-    expansion_.calls_left.resize(counted.calls_left.size());
+    expansion_.unexpanded_calls.resize(counted.unexpanded_calls.size());
   }
 
   std::string copy_bodies(Frame& body, long repeats, const SubprogramCall& call, const Block& block) {
@@ -426,7 +427,7 @@ class Expander {
 /// The text of a Sinumerik changes only if it is executed.
 ExpandedText unexpanded(const UnknownFlow& unknown) {
   ExpandedText left;
-  left.expansion.calls_left.push_back({unknown.line, unknown.why, true});
+  left.expansion.unexpanded_calls.push_back({unknown.line, unknown.why, true});
   return left;
 }
 

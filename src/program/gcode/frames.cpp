@@ -160,7 +160,7 @@ bool is_plain_frame(const Block& block, const Reading& r, bool turns) {
     return false;
   for (const Word& word : block.words) {
     const bool known = std::string_view("NXYZR").find(word.letter) != std::string_view::npos;
-    if (!known || !word.literal || word.sense != Sense::modal) return false;
+    if (!known || !word.literal || word.mode != DistanceMode::modal) return false;
     if (word.letter == 'R' && (!turns || r.state.normal != 2)) return false;
   }
   return !turns || (value_of(block, 'X') == 0 && value_of(block, 'Y') == 0);

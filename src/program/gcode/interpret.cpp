@@ -75,7 +75,7 @@ void read_modal_move(const Block& block, Reading& r) {
     case MotionMode::cycle:
       return read_cycle(block, r);
     case MotionMode::probe:
-      return read_held(block, r, "a probing move ends where it touches", false);
+      return read_held(block, r, "the end of a probing move is not known", false);
     case MotionMode::spline:
       return read_held(block, r, "a spline is not followed", true);
     case MotionMode::thread:
@@ -120,7 +120,7 @@ void read_own_motion(const Block& block, Reading& r, const FoundG& found) {
     case Action::call:
       return read_call(block, r);
     default:
-      return read_held(block, r, "a probing move ends where it touches", false);
+      return read_held(block, r, "the end of a probing move is not known", false);
   }
 }
 
@@ -129,7 +129,7 @@ void check_reference(const Block& block, const Reading& r, const FoundG& referen
   const bool other = r.sorted.has(Action::rapid) || r.sorted.has(Action::feed);
   if (r.sorted.has(Action::machine_move) || (other && !r.dialect.reference_beside_motion))
     refuse_word(block, r, *reference.word,
-                fmt::format("G{} is in a block with another motion", reference.word->value));
+                fmt::format("G{} is not allowed in a block with another motion", reference.word->value));
 }
 
 /// Passes the axis words to the code that uses them.
@@ -149,10 +149,11 @@ void apply_axis_words(const Block& block, Reading& r) {
   if (!has_words_of_motion(r) || takes_axis_words(r)) return;
   if (const FoundG* dwell = r.sorted.find(Action::dwell)) {
     if (r.dialect.dwell_takes_axis_words) return;
-    refuse_word(block, r, *dwell->word, "axis words in a block with a dwell");
+    refuse_word(block, r, *dwell->word, "axis words are not allowed in a block with a dwell");
   }
   if (const FoundG* smooth = r.sorted.find(Action::smooth))
-    refuse_word(block, r, *smooth->word, fmt::format("axis words in a block with G{}", smooth->word->value));
+    refuse_word(block, r, *smooth->word,
+                fmt::format("axis words are not allowed in a block with G{}", smooth->word->value));
   read_modal_move(block, r);
 }
 
@@ -230,9 +231,9 @@ void end_program(Reading& r) {
   if (r.sorted.has(MAction::end) && (r.body.jumps || r.body.open.empty())) r.ended = true;
 }
 
-void read_with_senses(const Block& block, Reading& r) {
-  if (!block.has_sense) return read_words(block, r);
-  read_words(with_senses(block, r), r);
+void read_with_own_modes(const Block& block, Reading& r) {
+  if (!block.has_own_mode) return read_words(block, r);
+  read_words(with_own_modes(block, r), r);
   r.block_relative.reset();
   r.relative_axes = 0;
 }
@@ -242,7 +243,7 @@ void read_statement(const Block& block, Reading& r) {
   ++r.program.block_count;
   begin_statement(block, r);
   const bool words = !block.words.empty() && has_words_of_its_own(block, r);
-  if (words) read_with_senses(block, r);
+  if (words) read_with_own_modes(block, r);
   end_statement(block, r);
   if (words && empty(block.block_delete)) end_program(r);
 }
@@ -259,12 +260,13 @@ void interpret(const Block& block, Reading& r) {
       if (block.statement != Statement::none) end_statement(block, r);
       return;
     }
-    refuse(r.program.file, block, block.flow_keyword.begin, "words before a condition, a loop or a call");
+    refuse(r.program.file, block, block.flow_keyword.begin,
+           "words are not allowed before a condition, a loop or a call");
   }
   if (block.statement != Statement::none) return read_statement(block, r);
   if (block.words.empty()) return;
   ++r.program.block_count;
-  read_with_senses(block, r);
+  read_with_own_modes(block, r);
   if (empty(block.block_delete)) end_program(r);
 }
 

@@ -92,15 +92,14 @@ void read_call(const Block& block, Reading& r) {
   std::string why(why_not_expanded(r.program.expansion, block.text_line));
   if (!why.empty()) why = ", not expanded: " + why;
   if (!r.options.expand_subprograms && may_expand(r.dialect))
-    why = " (--expand-subprograms puts its text in its place)";
+    why = " (--expand-subprograms replaces the call by its text)";
   note_uncorrected(block, r, "a subprogram is called" + why);
   finish_move(r, move);
   end_contour(r);
   r.state.unknown_modes |=
       unknown_motion | unknown_distance | unknown_plane | unknown_centres | unknown_level;
-  add_remark(
-      r.program, block.line,
-      "subprograms are taken to leave the unit, the work offset, the tool length and G40 to G42 as they are");
+  add_remark(r.program, block.line,
+             "assumed: subprograms do not change the unit, the work offset, the tool length and G40 to G42");
 }
 
 void read_anything(const Block& block, Reading& r, std::string_view why) {

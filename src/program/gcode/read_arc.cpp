@@ -52,7 +52,7 @@ void check_words(const Block& block, const Reading& r) {
     refuse_word(block, r, first_axis_word(block), "the arc has neither I, J, K nor R");
   if (centre && !r.sorted.word(first) && !r.sorted.word(second))
     refuse_word(block, r, block.words.front(),
-                fmt::format("the arc has neither {} nor {}, which give its centre in the plane that acts",
+                fmt::format("the arc has neither {} nor {}, which give its centre in the active plane",
                             std::min(first, second), std::max(first, second)));
   const Word* across = r.sorted.word(letters_of_centre[static_cast<std::size_t>(r.state.normal)]);
   // Some post processors write half the rise of a helix there, and hobby controls ignore it.
@@ -75,7 +75,7 @@ void check_words(const Block& block, const Reading& r) {
 bool centre_is_absolute(const Reading& r) {
   if (r.state.absolute_centres) return true;
   for (const char letter : letters_of_centre)
-    if (const Word* word = r.sorted.word(letter); word != nullptr && word->sense == Sense::absolute)
+    if (const Word* word = r.sorted.word(letter); word != nullptr && word->mode == DistanceMode::absolute)
       return true;
   return false;
 }
@@ -84,7 +84,9 @@ bool centre_is_absolute(const Reading& r) {
 bool centre_is_mixed(const Reading& r, const Plane& plane) {
   const Word *first = r.sorted.word(letters_of_centre[plane.first]),
              *second = r.sorted.word(letters_of_centre[plane.second]);
-  const auto absolute = [](const Word* word) { return word != nullptr && word->sense == Sense::absolute; };
+  const auto absolute = [](const Word* word) {
+    return word != nullptr && word->mode == DistanceMode::absolute;
+  };
   return absolute(first) != absolute(second);
 }
 
@@ -155,7 +157,7 @@ void check_radii(const Block& block, const Reading& r, const Plane& plane, const
   const Vector3 otherwise = arc.centre_mm + (arc.absolute_centre ? start : Vector3(-start));
   const bool both =
       r.sorted.word(letters_of_centre[plane.first]) && r.sorted.word(letters_of_centre[plane.second]);
-  const bool others_fit = (both || arc.absolute_centre) && word->sense == Sense::modal &&
+  const bool others_fit = (both || arc.absolute_centre) && word->mode == DistanceMode::modal &&
                           agree(radii_about(otherwise, plane, start, end), r);
   const std::string cure =
       others_fit ? cure_of_centres(r, arc.absolute_centre) : "correct the end or the centre of the arc";
@@ -225,17 +227,16 @@ void count_turns(const Block& block, Reading& r, const ArcMove& arc, const Vecto
   arm[arc.normal] = 0;
   r.turned_mm += 2 * std::numbers::pi * arm.norm() * arc.turns;
   if (r.turned_mm > most_turned_mm)
-    refuse_word(
-        block, r, *r.sorted.word('P'),
-        fmt::format(
-            "the full turns of arcs to here go {:.0f} m: at most {:.0f} m are allowed; write each turn as "
-            "a block",
-            r.turned_mm / 1000, most_turned_mm / 1000));
+    refuse_word(block, r, *r.sorted.word('P'),
+                fmt::format("the full turns of the arcs up to here are {:.0f} m long: at most {:.0f} m are "
+                            "allowed; write each turn as "
+                            "a block",
+                            r.turned_mm / 1000, most_turned_mm / 1000));
   if (r.turns <= r.program.block_count + more_turns_than_blocks) return;
   refuse_word(
       block, r, *r.sorted.word('P'),
       fmt::format(
-          "the arcs to here make {} turns in {} blocks: at most {} turns more than blocks are allowed; "
+          "the arcs up to here have {} turns in {} blocks: at most {} turns more than blocks are allowed; "
           "write each turn as a block",
           r.turns, r.program.block_count, more_turns_than_blocks));
 }

@@ -113,7 +113,7 @@ std::string feed_of(const KlartextBlockWriter& w, const Step& step) {
   return {};
 }
 
-std::string sense_of(const Move& move) {
+std::string direction_text(const Move& move) {
   return move.arc->clockwise ? " DR-" : " DR+";
 }
 
@@ -161,12 +161,12 @@ void insert_step(KlartextBlockWriter& w, const Step& step, bool states_feed,
   std::string head = "L", tail;
   if (step.arc && w.move.arc->radius_word) {
     head = "CR";
-    tail =
-        " R" + klartext_number(w.style, step.arc->radius.value, step.arc->radius.decimals) + sense_of(w.move);
+    tail = " R" + klartext_number(w.style, step.arc->radius.value, step.arc->radius.decimals) +
+           direction_text(w.move);
   } else if (step.arc) {
     set_pole(w, *step.arc, statements);
     head = "C";
-    tail = sense_of(w.move);
+    tail = direction_text(w.move);
   }
   statements.push_back(head + coordinates + tail + (states_feed ? feed_of(w, step) : ""));
 }
@@ -293,7 +293,7 @@ void make_arc_of_tangent(KlartextBlockWriter& w, const ArcWords& arc) {
   std::size_t behind = 0;
   for (const PackedAxisWord& word : w.move.words)
     if (word) behind = std::max(behind, word->number.end);
-  w.own.push_back({{behind, behind}, sense_of(w.move)});
+  w.own.push_back({{behind, behind}, direction_text(w.move)});
 }
 
 /// The coordinates of the block, and centre or radius of an arc.

@@ -13,9 +13,9 @@ namespace {
 
 void read_code(int code, const KlartextBlock& block, KlartextReading& r, KlartextCodes& codes) {
   constexpr std::array after{0, 1, 2, 5, 6, 9, 30, 60, 89, 99, 140};
-  constexpr std::array quiet{0,   1,   2,   3,   4,   5,   6,   8,   9,   13,  14,  30,  60,  89,
-                             90,  91,  92,  94,  97,  98,  99,  101, 102, 103, 107, 108, 109, 110,
-                             111, 116, 117, 118, 120, 126, 127, 136, 137, 140, 141, 148, 149};
+  constexpr std::array without_motion{0,   1,   2,   3,   4,   5,   6,   8,   9,   13,  14,  30,  60,  89,
+                                      90,  91,  92,  94,  97,  98,  99,  101, 102, 103, 107, 108, 109, 110,
+                                      111, 116, 117, 118, 120, 126, 127, 136, 137, 140, 141, 148, 149};
   codes.machine_position = codes.machine_position || code == 91 || code == 92;
   codes.cycle_call = codes.cycle_call || code == 89 || code == 99;
   codes.calls_each = codes.calls_each || code == 89;
@@ -29,7 +29,7 @@ void read_code(int code, const KlartextBlock& block, KlartextReading& r, Klartex
   if (code == 124)
     add_remark(r.program, line_of_file(r.program.expansion, block.line),
                "M124: the control skips points that are closer than its limit");
-  else if (std::find(quiet.begin(), quiet.end(), code) == quiet.end())
+  else if (std::find(without_motion.begin(), without_motion.end(), code) == without_motion.end())
     add_remark(r.program, line_of_file(r.program.expansion, block.line),
                fmt::format("M{}: assumed not to move an axis", code));
 }

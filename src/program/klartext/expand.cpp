@@ -173,7 +173,7 @@ class KlartextExpander {
     Expansion expansion;
     for (const FlowBlock& block : blocks_)
       if (block.role == Role::call || block.role == Role::repeat)
-        expansion.calls_left.push_back({block.line, why_not_});
+        expansion.unexpanded_calls.push_back({block.line, why_not_});
     return expansion;
   }
 

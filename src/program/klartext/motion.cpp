@@ -147,13 +147,13 @@ void check_radii(const KlartextBlock& block, const KlartextReading& r, const Mov
 
 /// C and CR with plain coordinates from a known start: C in the plane of its CC, CR in the plane XY.
 void read_arc(const KlartextBlock& block, KlartextReading& r, Move& move) {
-  const KlartextWord* sense = find_word(r.words, "DR");
-  const bool sense_known = sense != nullptr && !empty(sense->number);
+  const KlartextWord* direction = find_word(r.words, "DR");
+  const bool direction_known = direction != nullptr && !empty(direction->number);
   const bool centre_known = block.head == "CR" || r.state.pole;
   const int normal = block.head == "C" && r.state.pole ? r.state.pole->normal : 2;
   const bool ends_known = has_known_ends(r, move, static_cast<std::size_t>(normal));
-  if (sense_known && centre_known && ends_known)
-    set_arc(block, r, move, r.program.text[sense->number.begin] == '-');
+  if (direction_known && centre_known && ends_known)
+    set_arc(block, r, move, r.program.text[direction->number.begin] == '-');
   if (move.arc && block.head == "C") check_radii(block, r, move);
   if (move.arc) return;
   for (std::size_t axis = 0; axis < 3; ++axis) {

@@ -114,15 +114,15 @@ std::string place_arc(const PolarWords& words, KlartextReading& r, const Move& m
 
 std::string place_circle(const PolarWords& words, KlartextReading& r, Move& move) {
   const KlartextPole& pole = *r.state.pole;
-  const KlartextWord* sense = find_word(r.words, "DR");
+  const KlartextWord* direction = find_word(r.words, "DR");
   if (!r.state.tool_along_z) return "CP with a tool that is not along Z is not supported";
-  if (sense == nullptr || empty(sense->number)) return "CP has no DR+ or DR-";
+  if (direction == nullptr || empty(direction->number)) return "CP has no DR+ or DR-";
   for (const std::size_t axis : plane_axes(pole.normal))
     if (!move.known_start[axis]) return "the start of CP is not known";
   const auto normal = static_cast<std::size_t>(pole.normal);
   if (!move.known_start[normal] && move.words[normal]) return "the start height of a helix is not known";
   ArcMove arc;
-  arc.clockwise = r.program.text[sense->number.begin] == '-';
+  arc.clockwise = r.program.text[direction->number.begin] == '-';
   arc.flat = true;
   set_centre(arc, pole, move, r);
   if (std::string why = place_arc(words, r, move, arc); !why.empty()) return why;

@@ -86,7 +86,7 @@ void read_call(const KlartextBlock& block, KlartextReading& r) {
   if (!why_left.empty())
     why += fmt::format(" and cannot be put in the place of its call: {}", why_left);
   else if (squeezed(after_head(r.program.text, block)).starts_with("LBL"))
-    why += " (--expand-subprograms puts its text in its place)";
+    why += " (--expand-subprograms replaces the call by its text)";
   add_unfollowed_move(block, r, why);
 }
 

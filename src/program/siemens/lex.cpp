@@ -170,8 +170,8 @@ void read_siemens_value(Scanner& s, Word& word) {
   const bool absolute = is_word(text.substr(0, 3), "AC("), relative = is_word(text.substr(0, 3), "IC(");
   if ((absolute || relative) && text.back() == ')') {
     value = {value.begin + 3, value.end - 1};
-    word.sense = absolute ? Sense::absolute : Sense::relative;
-    s.block.has_sense = true;
+    word.mode = absolute ? DistanceMode::absolute : DistanceMode::relative;
+    s.block.has_own_mode = true;
   }
   word.number = value;
   const auto number = plain_number(part(s.text, value));

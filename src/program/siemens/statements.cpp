@@ -40,7 +40,7 @@ void run_cycle(const Block& block, Reading& r) {
   for (std::size_t axis = 0; axis < 3; ++axis) fix_axis(r, move, axis);
   note_uncorrected(block, r,
                    why.empty() ? "this cycle of the control is not supported; supported in G17 and mm: "
-                                 "CYCLE81 to CYCLE89, CYCLE840,  "
+                                 "CYCLE81 to CYCLE89, CYCLE840, "
                                  "POCKET1 to POCKET4, SLOT1, SLOT2, LONGHOLE, CYCLE71, CYCLE76 and CYCLE77, "
                                  "with plain numbers for heights and centre"
                                : why);
@@ -112,7 +112,7 @@ void end_statement(const Block& block, Reading& r) {
   }
 }
 
-Block with_senses(const Block& block, Reading& r) {
+Block with_own_modes(const Block& block, Reading& r) {
   Block result = block;
   bool modal = r.state.relative;
   for (const Word& word : block.words)
@@ -120,7 +120,7 @@ Block with_senses(const Block& block, Reading& r) {
   if (std::none_of(block.words.begin(), block.words.end(), is_length_word)) return result;
   bool all_relative = true, all_absolute = true;
   const auto relative = [&](const Word& word) {
-    return word.sense == Sense::modal ? modal : word.sense == Sense::relative;
+    return word.mode == DistanceMode::modal ? modal : word.mode == DistanceMode::relative;
   };
   for (const Word& word : block.words) {
     if (!is_length_word(word)) continue;

@@ -154,7 +154,7 @@ void lex_comment(Scanner& s) {
     s.at = end - 1;
   for (++s.at; s.at < s.end && s.text[s.at] != comment_close; ++s.at)
     if (s.text[s.at] == comment_open && !s.dialect.parentheses_nest)
-      s.refuse_at(s.at, "a comment is inside a comment");
+      s.refuse_at(s.at, "comments must not be nested");
   if (s.at == s.end && !s.dialect.comments_may_stay_open)
     s.refuse_at(open, "the comment is not closed on its line");
   s.block.comments.push_back({open + 1, s.at});
@@ -298,7 +298,7 @@ void lex(std::string_view text, const std::string& file, const Dialect& dialect,
   block.assigns = block.assigns_by_name = false;
   block.flow_keyword = block.flow_name = {};
   block.statement = Statement::none;
-  block.statement_is_bare = block.has_sense = false;
+  block.statement_is_bare = block.has_own_mode = false;
   // The UTF-8 byte order mark is before the first block.
   if (block.text_line == 1 && block.span.begin == 0) block.span.begin += byte_order_mark(text);
   Scanner s{block.span.end, text, file, dialect, block, block.span.begin};

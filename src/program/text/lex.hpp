@@ -15,7 +15,7 @@
 namespace counterflex {
 
 /// Mode of a coordinate. A Sinumerik may give it for each word.
-enum class Sense : std::uint8_t { modal, absolute, relative };
+enum class DistanceMode : std::uint8_t { modal, absolute, relative };
 
 /// The statement of a Sinumerik line, in addition to its words.
 enum class Statement : std::uint8_t {
@@ -48,7 +48,7 @@ struct Word {
   int decimals = 0;
   bool point = false;
   bool literal = true;  ///< a plain number, else a variable or an expression
-  Sense sense = Sense::modal;
+  DistanceMode mode = DistanceMode::modal;
 };
 
 /// "#5=#1+2", "R1=5", "_DEPTH=-3".
@@ -72,7 +72,7 @@ struct Block {
   Statement statement = Statement::none;
   bool statement_is_bare = false;  ///< nothing is behind its name
   Span statement_text;             ///< of a call, from its name to the comment
-  bool has_sense = false;          ///< a word has a mode of its own
+  bool has_own_mode = false;       ///< a word has a mode of its own
   Span flow_name;                  ///< of an O-word: "100" or "<name>"
   Span flow_keyword;               ///< of a line of flow: "sub", "GOTO"; empty for other lines
   /// Of a Sinumerik: ANG=, the direction of a line of which one coordinate is given.

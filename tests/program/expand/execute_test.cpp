@@ -18,7 +18,7 @@ void check_executed(const std::string& dialect, const std::string& text, const s
   CHECK(e.text == lines);
   CHECK(e.expansion.executed > 0);
   CHECK(e.expansion.in_order);
-  CHECK(e.expansion.calls_left.empty());
+  CHECK(e.expansion.unexpanded_calls.empty());
 }
 
 void check_left(const std::string& dialect, const std::string& text, int line, std::string_view why) {
@@ -26,8 +26,9 @@ void check_left(const std::string& dialect, const std::string& text, int line, s
   const Executed e = executed(text, dialect);
   CHECK(e.text == text);
   CHECK_FALSE(e.expansion.in_order);
-  const auto& left = e.expansion.calls_left;
-  const auto flow = std::find_if(left.begin(), left.end(), [](const CallLeft& one) { return one.is_flow; });
+  const auto& left = e.expansion.unexpanded_calls;
+  const auto flow =
+      std::find_if(left.begin(), left.end(), [](const UnexpandedCall& one) { return one.is_flow; });
   REQUIRE(flow != left.end());
   CHECK(flow->text_line == line);
   CHECK(flow->why == why);

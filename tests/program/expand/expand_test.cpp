@@ -41,7 +41,7 @@ void check_same(const Expanding& e) {
   CAPTURE(e.after);
   const Program program = expanded(e.before + e.calls + e.after, e.dialect);
   CHECK(program.text == e.before + e.bodies + e.after);
-  CHECK(program.expansion.calls_left.empty());
+  CHECK(program.expansion.unexpanded_calls.empty());
   const std::string begin = e.before.substr(e.before.find("G21"));
   CHECK(path_of(program) ==
         path_of(read((e.dialect == "fanuc" ? "O1\n" : "") + begin + e.bodies + "M30\n", e.dialect)));
@@ -148,8 +148,8 @@ TEST_CASE("a call that is not all plain numbers is not expanded, with the reason
            {"fanuc", "M98 P#1", plain, "its P is not a plain number"},
            {"fanuc", "M98 P2.5", plain, "its P is not a plain number"},
            {"fanuc", "M98 L2", plain, "it has no P"},
-           {"fanuc", "M98 P2 L0", plain, "its L is not a count from 1"},
-           {"fanuc", "M98 P2 L#1", plain, "its L is not a count from 1"},
+           {"fanuc", "M98 P2 L0", plain, "its L is not an integer from 1"},
+           {"fanuc", "M98 P2 L#1", plain, "its L is not an integer from 1"},
            {"fanuc", "/M98 P2", plain, "'/' may skip it"},
            {"fanuc", "G4 M98 P2", plain, "its block has the word G"},
            {"fanuc", "M30 M98 P2", plain, "its block has the word M"},
@@ -204,8 +204,8 @@ TEST_CASE("a call that is not all plain numbers is not expanded, with the reason
     }
     const Program program = expanded(text, l.dialect);
     CHECK(program.text == text);
-    REQUIRE(program.expansion.calls_left.size() == 1);
-    CHECK(program.expansion.calls_left[0].why == l.why);
+    REQUIRE(program.expansion.unexpanded_calls.size() == 1);
+    CHECK(program.expansion.unexpanded_calls[0].why == l.why);
     const auto& left = program.left_alone;
     CHECK(std::any_of(left.begin(), left.end(), [&](const LeftAlone& one) {
       return one.why == "a subprogram is called, not expanded: " + l.why;
@@ -232,7 +232,7 @@ TEST_CASE("nothing is copied if the program searches block numbers") {
     CAPTURE(seeking);
     const std::string text = go + "M98 P2\n" + seeking + sub;
     CHECK(expanded(text, "fanuc").text == text);
-    CHECK(expanded(text, "fanuc").expansion.calls_left.size() >= 1);
+    CHECK(expanded(text, "fanuc").expansion.unexpanded_calls.size() >= 1);
   }
 }
 

@@ -21,9 +21,9 @@ void check_left(const std::string& text, int line, std::string_view why) {
   CAPTURE(text);
   const Executed e = executed(text, "siemens");
   CHECK(e.text == text);
-  REQUIRE(e.expansion.calls_left.size() == 1);
-  CHECK(e.expansion.calls_left[0].text_line == line);
-  CHECK(e.expansion.calls_left[0].why == why);
+  REQUIRE(e.expansion.unexpanded_calls.size() == 1);
+  CHECK(e.expansion.unexpanded_calls[0].text_line == line);
+  CHECK(e.expansion.unexpanded_calls[0].why == why);
 }
 
 }  // namespace
@@ -86,5 +86,5 @@ TEST_CASE("siemens: a flow that is not known from the text leaves the program un
 TEST_CASE("siemens: a program without loops and jumps is not changed") {
   const Executed e = executed("G0 X1\nMSG(\"IF THEN\") ; GOTOB A\nM30\n", "siemens");
   CHECK(e.expansion.lines.empty());
-  CHECK(e.expansion.calls_left.empty());
+  CHECK(e.expansion.unexpanded_calls.empty());
 }

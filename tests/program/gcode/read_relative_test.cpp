@@ -41,7 +41,7 @@ TEST_CASE("G28 G91 leaves G91 active, and its words are not a target") {
 TEST_CASE("G0 and G28 in one block are allowed on shop controls only") {
   CHECK(read("O1\nG21 G0 X1. Y2. Z3.\nG0 G91 G28 Z0.\n").left_alone.size() == 1);
   CHECK(diagnostic_of([] { read("G21 G0 X1. Y2. Z3.\nG0 G91 G28 Z0.\n"); }) ==
-        "p.ngc:2:8: error: G28 is in a block with another motion");
+        "p.ngc:2:8: error: G28 is not allowed in a block with another motion");
 }
 
 TEST_CASE("relative Z in a block with G43 is added to the programmed position on shop controls") {
