@@ -43,8 +43,8 @@ void set_levels(const ModalState& state, CycleMove& hole) {
   hole.bottom_mm = cycle.bottom.value_or(hole.retract_mm) + (cycle.relative ? hole.retract_mm : 0);
 }
 
-/// The height at which the cycle leaves the tool. If this hole has no R, the plane is known only if the tool
-/// is already there, also in the corrected text.
+/// The height at which the cycle leaves the tool. The retract plane is known if the hole has R, or if the
+/// tool is already at the plane. It is then known in the corrected text, too.
 void set_height_after_hole(ModalState& state, const CycleMove& hole) {
   CycleState& cycle = state.cycle;
   const bool has_retract = hole.retract_word && (!cycle.relative || cycle.initial);

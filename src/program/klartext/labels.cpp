@@ -70,7 +70,7 @@ void KlartextScan::take_label(std::string_view text) {
   }
 }
 
-/// Notes whether a block uses the pole without being followed, and whether it may be skipped or repeated.
+/// Notes a block that uses the pole. Such a block is plain if it is LP or CP without Q parameters.
 void KlartextScan::take_pole(std::string_view text) {
   constexpr std::array<std::string_view, 6> unfollowed{"CTP", "FPOL", "FL", "FC", "FLT", "FCT"};
   const std::string& head = block_.head;

@@ -250,9 +250,9 @@ bool ends_motion(const Block& block, const Dialect& dialect) {
       std::any_of(block.words.begin(), block.words.end(), [](const Word& word) {
         return word.letter == 'M' && (word.value == 2 || word.value == 30 || word.value == 99);
       });
-  const bool says = std::any_of(block.words.begin(), block.words.end(),
-                                [&](auto& w) { return is_motion_word(w, dialect); });
-  return ends_program || (says && empty(block.block_delete));
+  const bool has_motion = std::any_of(block.words.begin(), block.words.end(),
+                                      [&](auto& w) { return is_motion_word(w, dialect); });
+  return ends_program || (has_motion && empty(block.block_delete));
 }
 
 }  // namespace counterflex

@@ -23,7 +23,7 @@ void keep_block(const Move& move, TextState& state);
 void copy_block(const Program& program, const ProgramStyle& style, const Move& move, TextState& state,
                 Rewritten& out);
 
-/// Whether a later block than `block` cannot depend on the motion that was modal before it.
+/// Whether `block` ends the motion that was modal before it: no later block depends on that motion.
 bool ends_motion(const Block& block, const Dialect& dialect);
 
 }  // namespace counterflex

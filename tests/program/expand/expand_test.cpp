@@ -279,16 +279,17 @@ TEST_CASE("blocks in a definition do not run when all calls are expanded, but th
 
 TEST_CASE("remarks report the expansion, or that there is nothing to expand") {
   const Program program = expanded(go + "o1 call\no1 call\nM2\no1 sub\nX1\no1 endsub\n");
-  const auto says = [](const Program& p, int line, std::string_view what) {
+  const auto has_remark = [](const Program& p, int line, std::string_view what) {
     return std::any_of(p.remarks.begin(), p.remarks.end(), [&](const Remark& r) {
       return r.line == line && r.what.find(what) != std::string::npos;
     });
   };
-  CHECK(says(program, 3, "2 calls of subprograms replaced by the bodies"));
+  CHECK(has_remark(program, 3, "2 calls of subprograms replaced by the bodies"));
   for (const std::string dialect : {"grbl", "linuxcnc"})
-    CHECK(says(expanded("G90\nM5\n", dialect), 1, "no call by M98 or an O-word"));
-  CHECK(says(expanded("G90\nM5\n", "siemens"), 1, "the program has no loop, condition or jump"));
-  CHECK(says(expanded("BEGIN PGM A MM\nL X+1 R0 FMAX\nEND PGM A MM\n"), 1, "no call by M98 or an O-word"));
+    CHECK(has_remark(expanded("G90\nM5\n", dialect), 1, "no call by M98 or an O-word"));
+  CHECK(has_remark(expanded("G90\nM5\n", "siemens"), 1, "the program has no loop, condition or jump"));
+  CHECK(has_remark(expanded("BEGIN PGM A MM\nL X+1 R0 FMAX\nEND PGM A MM\n"), 1,
+                   "no call by M98 or an O-word"));
 }
 
 TEST_CASE("each copy of a call is rewritten separately") {

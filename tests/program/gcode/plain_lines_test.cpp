@@ -105,8 +105,8 @@ std::string lines_text(const std::vector<std::string>& lines, const std::string&
   std::string text;
   for (const std::string& line : lines) {
     const bool has_other_characters = line.find_first_of(";(%\x7f") != std::string::npos;
-    const bool says = line.find_first_not_of(" \t") != std::string::npos && !has_other_characters;
-    text += line + (says ? comment : "") + line_end;
+    const bool has_words = line.find_first_not_of(" \t") != std::string::npos && !has_other_characters;
+    text += line + (has_words ? comment : "") + line_end;
   }
   return text;
 }
