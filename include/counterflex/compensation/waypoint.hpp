@@ -8,7 +8,7 @@
 
 #include "counterflex/compensation/options.hpp"
 #include "counterflex/program/boxed_optional.hpp"
-#include "counterflex/statics/status.hpp"
+#include "counterflex/statics/nominal.hpp"
 
 namespace counterflex {
 
