@@ -11,7 +11,7 @@
 #include <cstring>
 #include <utility>
 
-#include "counterflex/files/folders.hpp"
+#include "counterflex/files/files.hpp"
 
 namespace counterflex {
 namespace {

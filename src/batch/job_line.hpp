@@ -5,8 +5,8 @@
 #include <string_view>
 #include <variant>
 
-#include "counterflex/batch/job_outcome.hpp"
-#include "counterflex/files/utf8.hpp"
+#include "counterflex/batch/manifest.hpp"
+#include "counterflex/files/text.hpp"
 
 namespace counterflex {
 

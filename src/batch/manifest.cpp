@@ -7,7 +7,7 @@
 
 #include "batch/job_line.hpp"
 #include "counterflex/files/files.hpp"
-#include "counterflex/files/numbers.hpp"
+#include "counterflex/files/text.hpp"
 
 namespace counterflex {
 namespace {

@@ -1,4 +1,4 @@
-#include "counterflex/batch/summary.hpp"
+#include "counterflex/batch/manifest.hpp"
 
 #include <fmt/format.h>
 
@@ -8,9 +8,7 @@
 #include <tuple>
 #include <utility>
 
-#include "counterflex/files/numbers.hpp"
-#include "counterflex/files/shown_text.hpp"
-#include "counterflex/files/utf8.hpp"
+#include "counterflex/files/text.hpp"
 
 namespace counterflex {
 namespace {

@@ -6,7 +6,7 @@
 #include <limits>
 #include <numbers>
 
-#include "counterflex/geometry/units.hpp"
+#include "counterflex/geometry/types.hpp"
 
 namespace counterflex {
 namespace {

@@ -2,7 +2,7 @@
 /// What the original program does at the waypoints of the corrected one, and where deviations come from.
 #include <span>
 
-#include "counterflex/compensation/waypoint.hpp"
+#include "counterflex/compensation/options.hpp"
 #include "solver.hpp"
 
 namespace counterflex {

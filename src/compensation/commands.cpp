@@ -1,6 +1,6 @@
 #include "commands.hpp"
 
-#include "counterflex/geometry/units.hpp"
+#include "counterflex/geometry/types.hpp"
 
 namespace counterflex {
 
@@ -67,7 +67,7 @@ std::array<bool, 3> lost_axes(const Program& program, std::size_t m) {
   const Move &move = program.moves[m], *last = move_before(program, m);
   if (last == nullptr || last->block_delete || last->frame != move.frame) return lost;
   for (std::size_t axis = 0; axis < 3; ++axis)
-    lost[axis] = last->known_end[axis] && !move.known_start[axis] && !move.stands[axis];
+    lost[axis] = last->known_end[axis] && !move.known_start[axis] && !move.moved_only_by_program[axis];
   return lost;
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 /// Positions in the words of a program, what they command, and where they are lost.
-#include "counterflex/compensation/waypoint.hpp"
+#include "counterflex/compensation/options.hpp"
 
 namespace counterflex {
 

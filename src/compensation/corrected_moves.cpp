@@ -4,7 +4,7 @@
 #include <string_view>
 #include <utility>
 
-#include "counterflex/program/called_cycle.hpp"
+#include "counterflex/program/program.hpp"
 
 namespace counterflex {
 namespace {

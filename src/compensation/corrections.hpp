@@ -2,7 +2,7 @@
 /// Corrections along segments of a path, solved in rounds: many requests, then all their answers.
 #include <vector>
 
-#include "counterflex/compensation/waypoint.hpp"
+#include "counterflex/compensation/options.hpp"
 #include "curve.hpp"
 #include "solver.hpp"
 

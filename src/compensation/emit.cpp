@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "counterflex/geometry/units.hpp"
+#include "counterflex/geometry/types.hpp"
 #include "emitter.hpp"
 
 namespace counterflex {

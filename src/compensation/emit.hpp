@@ -1,6 +1,6 @@
 #pragma once
 /// From a plan to the edits of a program's text.
-#include "counterflex/compensation/compensate.hpp"
+#include "counterflex/compensation/windows.hpp"
 #include "plan.hpp"
 
 namespace counterflex {

@@ -2,7 +2,7 @@
 #include <algorithm>
 
 #include "arc_pieces.hpp"
-#include "counterflex/geometry/units.hpp"
+#include "counterflex/geometry/types.hpp"
 #include "emitter.hpp"
 
 namespace counterflex {

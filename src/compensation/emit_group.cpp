@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "counterflex/geometry/rotation.hpp"
-#include "counterflex/geometry/units.hpp"
+#include "counterflex/geometry/pose.hpp"
+#include "counterflex/geometry/types.hpp"
 #include "emitter.hpp"
 
 namespace counterflex {

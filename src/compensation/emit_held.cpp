@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "counterflex/geometry/units.hpp"
+#include "counterflex/geometry/types.hpp"
 #include "emitter.hpp"
 
 namespace counterflex {

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "counterflex/geometry/units.hpp"
+#include "counterflex/geometry/types.hpp"
 #include "emitter.hpp"
 #include "failures.hpp"
 

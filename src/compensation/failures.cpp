@@ -6,8 +6,8 @@
 #include <cmath>
 #include <limits>
 
-#include "counterflex/files/numbers.hpp"
-#include "counterflex/geometry/units.hpp"
+#include "counterflex/files/text.hpp"
+#include "counterflex/geometry/types.hpp"
 #include "solver.hpp"
 
 namespace counterflex {

@@ -1,7 +1,7 @@
 #pragma once
 /// Why a window cannot be compensated, with the line and what to do.
-#include "counterflex/compensation/compensate.hpp"
-#include "counterflex/compensation/travel_words.hpp"
+#include "counterflex/compensation/windows.hpp"
+#include "counterflex/compensation/loads_along.hpp"
 
 namespace counterflex {
 

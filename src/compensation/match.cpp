@@ -7,8 +7,8 @@
 #include <cmath>
 
 #include "commands.hpp"
-#include "counterflex/compensation/compensate.hpp"
-#include "counterflex/geometry/units.hpp"
+#include "counterflex/compensation/windows.hpp"
+#include "counterflex/geometry/types.hpp"
 #include "match_pieces.hpp"
 
 namespace counterflex {

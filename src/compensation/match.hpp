@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "corrected_moves.hpp"
-#include "counterflex/compensation/waypoint.hpp"
+#include "counterflex/compensation/options.hpp"
 #include "plan.hpp"
 
 namespace counterflex {

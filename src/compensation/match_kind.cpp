@@ -5,8 +5,8 @@
 #include <numbers>
 
 #include "arc_angles.hpp"
-#include "counterflex/compensation/compensate.hpp"
-#include "counterflex/geometry/units.hpp"
+#include "counterflex/compensation/windows.hpp"
+#include "counterflex/geometry/types.hpp"
 #include "match_moves.hpp"
 
 namespace counterflex {

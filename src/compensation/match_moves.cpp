@@ -7,8 +7,8 @@
 
 #include "arc_angles.hpp"
 #include "commands.hpp"
-#include "counterflex/compensation/compensate.hpp"
-#include "counterflex/geometry/units.hpp"
+#include "counterflex/compensation/windows.hpp"
+#include "counterflex/geometry/types.hpp"
 #include "skeleton.hpp"
 
 namespace counterflex {

@@ -6,7 +6,7 @@
 
 #include "arc_angles.hpp"
 #include "commands.hpp"
-#include "counterflex/compensation/compensate.hpp"
+#include "counterflex/compensation/windows.hpp"
 #include "solver.hpp"
 
 namespace counterflex {

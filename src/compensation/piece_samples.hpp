@@ -2,7 +2,7 @@
 /// Samples of pieces, solved forward: their ends, and as many inside as the tolerance asks for.
 #include <span>
 
-#include "counterflex/compensation/waypoint.hpp"
+#include "counterflex/compensation/options.hpp"
 #include "solver.hpp"
 
 namespace counterflex {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "counterflex/compensation/compensate.hpp"
+#include "counterflex/compensation/windows.hpp"
 #include "intervals.hpp"
 #include "knots.hpp"
 #include "parallel.hpp"

@@ -1,11 +1,11 @@
-#include "counterflex/compensation/travel_words.hpp"
+#include "counterflex/compensation/loads_along.hpp"
 
 #include <fmt/format.h>
 
 #include <cmath>
 
-#include "counterflex/files/numbers.hpp"
-#include "counterflex/geometry/units.hpp"
+#include "counterflex/files/text.hpp"
+#include "counterflex/geometry/types.hpp"
 #include "counterflex/statics/mechanism.hpp"
 
 namespace counterflex {

@@ -1,6 +1,6 @@
-#include "counterflex/compensation/unloaded_deviation.hpp"
+#include "counterflex/compensation/loads_along.hpp"
 
-#include "counterflex/geometry/units.hpp"
+#include "counterflex/geometry/types.hpp"
 #include "counterflex/toolpath/toolpath.hpp"
 #include "solver.hpp"
 

@@ -1,7 +1,7 @@
 #include "window_steps.hpp"
 
 #include "commands.hpp"
-#include "counterflex/geometry/units.hpp"
+#include "counterflex/geometry/types.hpp"
 #include "failures.hpp"
 
 namespace counterflex {

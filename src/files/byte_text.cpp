@@ -2,7 +2,7 @@
 
 #include <charconv>
 
-#include "counterflex/files/utf8.hpp"
+#include "counterflex/files/text.hpp"
 
 namespace counterflex {
 

@@ -10,7 +10,6 @@
 
 #include "counterflex/files/files.hpp"
 #include "counterflex/files/input_error.hpp"
-#include "counterflex/files/sha256.hpp"
 #include "files/descriptor.hpp"
 
 namespace counterflex {

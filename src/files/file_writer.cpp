@@ -14,10 +14,8 @@
 #include <set>
 #include <vector>
 
-#include "counterflex/files/folders.hpp"
+#include "counterflex/files/files.hpp"
 #include "counterflex/files/input_error.hpp"
-#include "counterflex/files/sha256.hpp"
-#include "counterflex/files/temporaries.hpp"
 #include "files/descriptor.hpp"
 
 namespace counterflex {

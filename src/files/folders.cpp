@@ -1,4 +1,4 @@
-#include "counterflex/files/folders.hpp"
+#include "counterflex/files/files.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "counterflex/files/shown_text.hpp"
+#include "counterflex/files/text.hpp"
 
 namespace counterflex {
 namespace {

@@ -1,4 +1,4 @@
-#include "counterflex/files/numbers.hpp"
+#include "counterflex/files/text.hpp"
 
 #include <algorithm>
 #include <charconv>

@@ -1,11 +1,10 @@
-#include "counterflex/files/sha256.hpp"
+#include "counterflex/files/files.hpp"
 
 #include <fmt/format.h>
 #include <openssl/evp.h>
 
 #include <stdexcept>
 
-#include "counterflex/files/files.hpp"
 
 namespace counterflex {
 namespace {

@@ -1,10 +1,9 @@
-#include "counterflex/files/shown_text.hpp"
+#include "counterflex/files/text.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "counterflex/files/utf8.hpp"
 
 namespace counterflex {
 namespace {

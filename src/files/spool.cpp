@@ -1,4 +1,4 @@
-#include "counterflex/files/spool.hpp"
+#include "counterflex/files/files.hpp"
 
 #include <cerrno>
 #include <cstring>

@@ -1,4 +1,4 @@
-#include "counterflex/files/temporaries.hpp"
+#include "counterflex/files/file_writer.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -8,7 +8,7 @@
 #include <map>
 #include <set>
 
-#include "counterflex/files/sha256.hpp"
+#include "counterflex/files/files.hpp"
 #include "files/descriptor.hpp"
 
 namespace counterflex {

@@ -1,4 +1,4 @@
-#include "counterflex/files/utf8.hpp"
+#include "counterflex/files/text.hpp"
 
 #include <algorithm>
 

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <array>
 
-#include "counterflex/files/numbers.hpp"
-#include "counterflex/geometry/units.hpp"
+#include "counterflex/files/text.hpp"
+#include "counterflex/geometry/types.hpp"
 #include "forces/csv_text.hpp"
 
 namespace counterflex::csv {

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "counterflex/forces/cutting_model.hpp"
-#include "counterflex/geometry/units.hpp"
+#include "counterflex/geometry/types.hpp"
 #include "forces/gauss_legendre.hpp"
 
 namespace counterflex {

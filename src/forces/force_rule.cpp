@@ -1,4 +1,4 @@
-#include "counterflex/forces/force_rule.hpp"
+#include "counterflex/forces/cutting_model.hpp"
 
 #include <algorithm>
 

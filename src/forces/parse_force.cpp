@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 
-#include "counterflex/files/numbers.hpp"
+#include "counterflex/files/text.hpp"
 #include "counterflex/forces/forces.hpp"
 #include "forces/csv_text.hpp"
 #include "forces/selector_text.hpp"

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "counterflex/geometry/units.hpp"
+#include "counterflex/geometry/types.hpp"
 #include "forces/alignment.hpp"
 
 namespace counterflex {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "counterflex/geometry/units.hpp"
+#include "counterflex/geometry/types.hpp"
 #include "forces/csv_header.hpp"
 #include "forces/point_log.hpp"
 #include "forces/profile_cover.hpp"

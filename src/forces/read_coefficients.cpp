@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <array>
 
-#include "counterflex/forces/read_cutting_model.hpp"
-#include "counterflex/geometry/units.hpp"
+#include "counterflex/forces/cutting_model.hpp"
+#include "counterflex/geometry/types.hpp"
 
 namespace counterflex {
 namespace force_file {

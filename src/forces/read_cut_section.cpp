@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "counterflex/geometry/units.hpp"
+#include "counterflex/geometry/types.hpp"
 #include "forces/read_selector.hpp"
 #include "toml/suggest.hpp"
 

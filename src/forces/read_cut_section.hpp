@@ -1,6 +1,6 @@
 #pragma once
 /// One section of a file of cutting models.
-#include "counterflex/forces/read_cutting_model.hpp"
+#include "counterflex/forces/cutting_model.hpp"
 #include "forces/read_coefficients.hpp"
 
 namespace counterflex::force_file {

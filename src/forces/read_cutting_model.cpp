@@ -1,4 +1,4 @@
-#include "counterflex/forces/read_cutting_model.hpp"
+#include "counterflex/forces/cutting_model.hpp"
 
 #include <fmt/format.h>
 

@@ -6,9 +6,9 @@
 #include <optional>
 #include <unordered_map>
 
-#include "counterflex/files/numbers.hpp"
+#include "counterflex/files/text.hpp"
 #include "counterflex/forces/forces.hpp"
-#include "counterflex/geometry/units.hpp"
+#include "counterflex/geometry/types.hpp"
 #include "forces/alignment.hpp"
 #include "forces/csv_header.hpp"
 #include "forces/csv_text.hpp"

@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
 #include "counterflex/forces/forces.hpp"
-#include "counterflex/forces/read_cutting_model.hpp"
+#include "counterflex/forces/cutting_model.hpp"
 
 namespace counterflex {
 

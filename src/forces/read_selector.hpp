@@ -1,6 +1,6 @@
 #pragma once
 /// Which moves a rule covers, as a table says it.
-#include "counterflex/forces/force_rule.hpp"
+#include "counterflex/forces/cutting_model.hpp"
 #include "toml/fields.hpp"
 
 namespace counterflex::force_file {

@@ -6,7 +6,7 @@
 #include <array>
 #include <variant>
 
-#include "counterflex/files/numbers.hpp"
+#include "counterflex/files/text.hpp"
 #include "forces/csv_text.hpp"
 
 namespace counterflex {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "counterflex/geometry/rotation.hpp"
+#include "counterflex/geometry/pose.hpp"
 
 namespace counterflex {
 namespace {

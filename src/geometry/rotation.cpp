@@ -1,4 +1,4 @@
-#include "counterflex/geometry/rotation.hpp"
+#include "counterflex/geometry/pose.hpp"
 
 #include <Eigen/Geometry>
 #include <cmath>

@@ -1,12 +1,12 @@
-#include "counterflex/machine/describe.hpp"
+#include "counterflex/machine/read_machine.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "counterflex/geometry/units.hpp"
-#include "counterflex/machine/tool.hpp"
+#include "counterflex/geometry/types.hpp"
+#include "counterflex/machine/machine.hpp"
 #include "describe_elements.hpp"
 #include "phrases.hpp"
 #include "walk.hpp"

@@ -1,6 +1,6 @@
-#include "counterflex/machine/load_limits.hpp"
+#include "counterflex/machine/machine.hpp"
 
-#include "counterflex/geometry/units.hpp"
+#include "counterflex/geometry/types.hpp"
 
 namespace counterflex {
 

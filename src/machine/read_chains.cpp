@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "counterflex/files/shown_text.hpp"
+#include "counterflex/files/text.hpp"
 #include "read_elements.hpp"
 #include "read_transform.hpp"
 #include "toml/suggest.hpp"

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "counterflex/geometry/units.hpp"
+#include "counterflex/geometry/types.hpp"
 #include "read_joint.hpp"
 #include "read_transform.hpp"
 #include "toml/suggest.hpp"

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "counterflex/geometry/units.hpp"
+#include "counterflex/geometry/types.hpp"
 #include "read_spring.hpp"
 
 namespace counterflex::toml_file {

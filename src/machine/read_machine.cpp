@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "counterflex/files/files.hpp"
-#include "counterflex/files/shown_text.hpp"
+#include "counterflex/files/text.hpp"
 #include "read_chains.hpp"
 #include "read_load_limits.hpp"
 #include "read_settings.hpp"

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <array>
 
-#include "counterflex/geometry/units.hpp"
-#include "counterflex/machine/work_names.hpp"
+#include "counterflex/geometry/types.hpp"
+#include "counterflex/machine/machine.hpp"
 #include "read_load_limits.hpp"
 #include "read_transform.hpp"
 #include "toml/suggest.hpp"

@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include "beam.hpp"
-#include "counterflex/geometry/rotation.hpp"
-#include "counterflex/geometry/units.hpp"
+#include "counterflex/geometry/pose.hpp"
+#include "counterflex/geometry/types.hpp"
 #include "definiteness.hpp"
 
 namespace counterflex::toml_file {

@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
-#include "counterflex/files/numbers.hpp"
-#include "counterflex/geometry/units.hpp"
-#include "counterflex/machine/tool.hpp"
+#include "counterflex/files/text.hpp"
+#include "counterflex/geometry/types.hpp"
+#include "counterflex/machine/machine.hpp"
 #include "read_spring.hpp"
 #include "toml/fields.hpp"
 

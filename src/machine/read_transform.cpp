@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "counterflex/geometry/units.hpp"
+#include "counterflex/geometry/types.hpp"
 
 namespace counterflex::toml_file {
 namespace {

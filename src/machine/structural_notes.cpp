@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "counterflex/geometry/spectrum.hpp"
-#include "counterflex/geometry/units.hpp"
-#include "counterflex/machine/describe.hpp"
+#include "counterflex/geometry/types.hpp"
+#include "counterflex/machine/read_machine.hpp"
 #include "phrases.hpp"
 #include "walk.hpp"
 

@@ -1,4 +1,4 @@
-#include "counterflex/machine/tool.hpp"
+#include "counterflex/machine/machine.hpp"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "beam.hpp"
-#include "counterflex/geometry/units.hpp"
+#include "counterflex/geometry/types.hpp"
 #include "definiteness.hpp"
 
 namespace counterflex {

@@ -1,4 +1,4 @@
-#include "counterflex/machine/tool_table.hpp"
+#include "counterflex/machine/read_machine.hpp"
 
 #include <fmt/format.h>
 
@@ -6,8 +6,8 @@
 #include <optional>
 
 #include "counterflex/files/input_error.hpp"
-#include "counterflex/files/numbers.hpp"
-#include "counterflex/geometry/units.hpp"
+#include "counterflex/files/text.hpp"
+#include "counterflex/geometry/types.hpp"
 
 namespace counterflex {
 namespace {

@@ -1,4 +1,4 @@
-#include "counterflex/machine/work_names.hpp"
+#include "counterflex/machine/machine.hpp"
 
 #include <algorithm>
 #include <array>

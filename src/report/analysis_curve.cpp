@@ -1,8 +1,8 @@
 #include <fmt/core.h>
 
 #include "analysis_parts.hpp"
-#include "counterflex/files/numbers.hpp"
-#include "counterflex/geometry/units.hpp"
+#include "counterflex/files/text.hpp"
+#include "counterflex/geometry/types.hpp"
 
 namespace counterflex {
 

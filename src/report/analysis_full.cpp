@@ -3,8 +3,8 @@
 #include <array>
 
 #include "analysis_parts.hpp"
-#include "counterflex/files/numbers.hpp"
-#include "counterflex/geometry/units.hpp"
+#include "counterflex/files/text.hpp"
+#include "counterflex/geometry/types.hpp"
 #include "text_layout.hpp"
 
 namespace counterflex {

@@ -1,7 +1,7 @@
 #include <fmt/core.h>
 
 #include "counterflex/compensation/options.hpp"
-#include "counterflex/geometry/units.hpp"
+#include "counterflex/geometry/types.hpp"
 #include "analysis_parts.hpp"
 #include "json_numbers.hpp"
 #include "names.hpp"

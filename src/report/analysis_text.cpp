@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "counterflex/compensation/options.hpp"
-#include "counterflex/files/numbers.hpp"
-#include "counterflex/geometry/units.hpp"
+#include "counterflex/files/text.hpp"
+#include "counterflex/geometry/types.hpp"
 #include "analysis_parts.hpp"
 #include "counterflex/statics/tip_stiffness.hpp"
 #include "names.hpp"

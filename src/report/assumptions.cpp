@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <vector>
 
-#include "counterflex/files/numbers.hpp"
-#include "counterflex/geometry/units.hpp"
-#include "counterflex/machine/tool.hpp"
+#include "counterflex/files/text.hpp"
+#include "counterflex/geometry/types.hpp"
+#include "counterflex/machine/machine.hpp"
 
 namespace counterflex {
 

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "counterflex/files/shown_text.hpp"
+#include "counterflex/files/text.hpp"
 #include "counterflex/report/comparison.hpp"
 #include "text_layout.hpp"
 

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "counterflex/files/numbers.hpp"
+#include "counterflex/files/text.hpp"
 
 namespace counterflex {
 namespace {

@@ -1,8 +1,8 @@
-#include "counterflex/report/feed_tally.hpp"
+#include "counterflex/report/statistics.hpp"
 
 #include <algorithm>
 
-#include "counterflex/geometry/units.hpp"
+#include "counterflex/geometry/types.hpp"
 
 namespace counterflex {
 namespace {

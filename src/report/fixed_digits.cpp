@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "counterflex/files/numbers.hpp"
+#include "counterflex/files/text.hpp"
 
 namespace counterflex {
 

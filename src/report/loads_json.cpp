@@ -1,6 +1,6 @@
 #include "loads_json.hpp"
 
-#include "counterflex/geometry/units.hpp"
+#include "counterflex/geometry/types.hpp"
 
 namespace counterflex {
 

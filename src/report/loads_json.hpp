@@ -1,6 +1,6 @@
 #pragma once
 /// The largest loads of a run as a part of its report's document.
-#include "counterflex/report/path_loads.hpp"
+#include "counterflex/report/path_curves.hpp"
 #include "json_numbers.hpp"
 
 namespace counterflex {

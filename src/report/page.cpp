@@ -3,7 +3,7 @@
 #include <fmt/core.h>
 
 #include "counterflex/files/files.hpp"
-#include "counterflex/files/shown_text.hpp"
+#include "counterflex/files/text.hpp"
 #include "json_numbers.hpp"
 #include "page_assets.hpp"
 #include "svg.hpp"

@@ -5,7 +5,7 @@
 #include <limits>
 #include <utility>
 
-#include "counterflex/geometry/units.hpp"
+#include "counterflex/geometry/types.hpp"
 #include "counterflex/report/statistics.hpp"
 #include "preloads.hpp"
 

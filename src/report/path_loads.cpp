@@ -1,11 +1,11 @@
-#include "counterflex/report/path_loads.hpp"
+#include "counterflex/report/path_curves.hpp"
 
 #include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "counterflex/files/numbers.hpp"
+#include "counterflex/files/text.hpp"
 #include "counterflex/report/report.hpp"
 
 namespace counterflex {

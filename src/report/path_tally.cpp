@@ -1,10 +1,10 @@
-#include "counterflex/report/path_tally.hpp"
+#include "counterflex/report/run_tally.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include "counterflex/geometry/units.hpp"
+#include "counterflex/geometry/types.hpp"
 #include "preloads.hpp"
 
 namespace counterflex {

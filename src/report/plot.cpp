@@ -1,10 +1,9 @@
-#include "counterflex/report/plot.hpp"
+#include "counterflex/report/page.hpp"
 
 #include <fmt/core.h>
 
-#include "counterflex/files/numbers.hpp"
-#include "counterflex/geometry/units.hpp"
-#include "counterflex/report/page.hpp"
+#include "counterflex/files/text.hpp"
+#include "counterflex/geometry/types.hpp"
 #include "plot_page.hpp"
 #include "svg.hpp"
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "counterflex/report/plot.hpp"
+#include "counterflex/report/page.hpp"
 #include "plot_points.hpp"
 #include "plot_ticks.hpp"
 

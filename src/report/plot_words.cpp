@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "counterflex/files/numbers.hpp"
+#include "counterflex/files/text.hpp"
 #include "plot_page.hpp"
 #include "svg.hpp"
 

@@ -1,6 +1,6 @@
 #pragma once
 /// What preloads do to the perfect, unloaded machine.
-#include "counterflex/compensation/waypoint.hpp"
+#include "counterflex/compensation/options.hpp"
 
 namespace counterflex {
 

@@ -8,7 +8,7 @@
 
 #include "assumptions.hpp"
 #include "control.hpp"
-#include "counterflex/geometry/units.hpp"
+#include "counterflex/geometry/types.hpp"
 #include "counterflex/report/run_tally.hpp"
 #include "tool_words.hpp"
 

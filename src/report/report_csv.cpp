@@ -1,7 +1,7 @@
 #include <array>
 
-#include "counterflex/compensation/waypoint.hpp"
-#include "counterflex/geometry/units.hpp"
+#include "counterflex/compensation/options.hpp"
+#include "counterflex/geometry/types.hpp"
 #include "counterflex/report/formats.hpp"
 #include "fixed_digits.hpp"
 #include "preloads.hpp"

@@ -1,7 +1,7 @@
 #include <fmt/core.h>
 
-#include "counterflex/files/utf8.hpp"
-#include "counterflex/geometry/units.hpp"
+#include "counterflex/files/text.hpp"
+#include "counterflex/geometry/types.hpp"
 #include "counterflex/report/formats.hpp"
 #include "json_numbers.hpp"
 #include "loads_json.hpp"

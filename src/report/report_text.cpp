@@ -2,8 +2,7 @@
 
 #include <algorithm>
 
-#include "counterflex/files/numbers.hpp"
-#include "counterflex/files/shown_text.hpp"
+#include "counterflex/files/text.hpp"
 #include "counterflex/report/formats.hpp"
 #include "force_text.hpp"
 #include "loads_text.hpp"

@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "control.hpp"
-#include "counterflex/files/shown_text.hpp"
-#include "counterflex/geometry/units.hpp"
+#include "counterflex/files/text.hpp"
+#include "counterflex/geometry/types.hpp"
 
 namespace counterflex {
 

@@ -1,6 +1,6 @@
 #pragma once
 /// The sanity block on a terminal.
-#include "counterflex/sanity/check.hpp"
+#include "counterflex/sanity/checks.hpp"
 #include "text_layout.hpp"
 
 namespace counterflex {

@@ -2,7 +2,7 @@
 
 #include <fmt/core.h>
 
-#include "counterflex/files/utf8.hpp"
+#include "counterflex/files/text.hpp"
 #include "fixed_digits.hpp"
 
 namespace counterflex {

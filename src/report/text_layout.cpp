@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "counterflex/files/shown_text.hpp"
+#include "counterflex/files/text.hpp"
 
 namespace counterflex {
 

@@ -1,11 +1,10 @@
-#include "counterflex/report/tool_deviation.hpp"
+#include "counterflex/report/statistics.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
-#include "counterflex/geometry/units.hpp"
-#include "counterflex/report/statistics.hpp"
+#include "counterflex/geometry/types.hpp"
 
 namespace counterflex {
 namespace {

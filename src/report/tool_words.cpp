@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "counterflex/files/numbers.hpp"
-#include "counterflex/geometry/units.hpp"
+#include "counterflex/files/text.hpp"
+#include "counterflex/geometry/types.hpp"
 #include "text_layout.hpp"
 
 namespace counterflex {

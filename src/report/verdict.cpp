@@ -1,10 +1,10 @@
-#include "counterflex/report/verdict.hpp"
+#include "counterflex/report/statistics.hpp"
 
 #include <fmt/format.h>
 
 #include <cmath>
 
-#include "counterflex/files/numbers.hpp"
+#include "counterflex/files/text.hpp"
 #include "text_layout.hpp"
 
 namespace counterflex {

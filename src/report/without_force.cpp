@@ -1,8 +1,8 @@
-#include "counterflex/report/without_force.hpp"
+#include "counterflex/report/statistics.hpp"
 
 #include <algorithm>
 
-#include "counterflex/geometry/units.hpp"
+#include "counterflex/geometry/types.hpp"
 
 namespace counterflex {
 namespace {

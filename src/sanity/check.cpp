@@ -1,4 +1,4 @@
-#include "counterflex/sanity/check.hpp"
+#include "counterflex/sanity/checks.hpp"
 
 namespace counterflex {
 

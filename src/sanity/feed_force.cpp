@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "counterflex/files/numbers.hpp"
-#include "counterflex/sanity/path_checks.hpp"
+#include "counterflex/files/text.hpp"
+#include "counterflex/sanity/checks.hpp"
 
 namespace counterflex {
 namespace {

@@ -4,11 +4,10 @@
 #include <array>
 #include <cmath>
 
-#include "counterflex/files/numbers.hpp"
-#include "counterflex/geometry/units.hpp"
-#include "counterflex/machine/tool.hpp"
-#include "counterflex/sanity/machine_checks.hpp"
-#include "counterflex/sanity/path_checks.hpp"
+#include "counterflex/files/text.hpp"
+#include "counterflex/geometry/types.hpp"
+#include "counterflex/machine/machine.hpp"
+#include "counterflex/sanity/checks.hpp"
 
 namespace counterflex {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "counterflex/sanity/machine_checks.hpp"
+#include "counterflex/sanity/checks.hpp"
 
 namespace counterflex {
 namespace {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "counterflex/geometry/units.hpp"
-#include "counterflex/sanity/machine_checks.hpp"
+#include "counterflex/geometry/types.hpp"
+#include "counterflex/sanity/checks.hpp"
 
 namespace counterflex {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "counterflex/sanity/path_checks.hpp"
+#include "counterflex/sanity/checks.hpp"
 
 namespace counterflex {
 

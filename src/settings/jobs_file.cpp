@@ -4,7 +4,6 @@
 
 #include <algorithm>
 
-#include "counterflex/settings/name_pattern.hpp"
 #include "settings/read_settings.hpp"
 
 namespace counterflex {

@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "counterflex/settings/setting.hpp"
+#include "counterflex/settings/project_file.hpp"
 #include "toml/fields.hpp"
 
 namespace counterflex::setting_file {

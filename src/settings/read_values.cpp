@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "counterflex/files/numbers.hpp"
-#include "counterflex/machine/work_names.hpp"
-#include "counterflex/settings/name_pattern.hpp"
+#include "counterflex/files/text.hpp"
+#include "counterflex/machine/machine.hpp"
+#include "counterflex/settings/jobs_file.hpp"
 #include "settings/number_text.hpp"
 #include "settings/read_settings.hpp"
 

@@ -2,7 +2,7 @@
 /// Values of settings out of TOML nodes, as texts of the command line.
 #include <string>
 
-#include "counterflex/settings/setting.hpp"
+#include "counterflex/settings/project_file.hpp"
 #include "settings/keys.hpp"
 #include "toml/fields.hpp"
 

@@ -1,4 +1,4 @@
-#include "counterflex/settings/setting.hpp"
+#include "counterflex/settings/project_file.hpp"
 
 #include <algorithm>
 

@@ -3,9 +3,8 @@
 #include <algorithm>
 #include <map>
 
-#include "counterflex/files/numbers.hpp"
-#include "counterflex/files/utf8.hpp"
-#include "counterflex/machine/work_names.hpp"
+#include "counterflex/files/text.hpp"
+#include "counterflex/machine/machine.hpp"
 #include "counterflex/settings/project_file.hpp"
 #include "settings/keys.hpp"
 #include "settings/number_text.hpp"

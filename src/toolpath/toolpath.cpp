@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "counterflex/geometry/units.hpp"
+#include "counterflex/geometry/types.hpp"
 
 namespace counterflex {
 namespace {

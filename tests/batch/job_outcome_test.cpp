@@ -1,4 +1,4 @@
-#include "counterflex/batch/job_outcome.hpp"
+#include "counterflex/batch/manifest.hpp"
 
 #include "batch/outcomes.hpp"
 

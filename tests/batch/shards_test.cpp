@@ -1,4 +1,4 @@
-#include "counterflex/batch/shards.hpp"
+#include "counterflex/batch/manifest.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,5 +1,5 @@
 // Runs whose waypoints are solved side by side are the runs whose waypoints are solved one by one.
-#include "counterflex/machine/tool.hpp"
+#include "counterflex/machine/machine.hpp"
 #include "gantry.hpp"
 
 using namespace counterflex;

@@ -1,7 +1,7 @@
 // Loads along a path: which places are kept, and what is solved there.
 #include "counterflex/compensation/loads_along.hpp"
 
-#include "counterflex/machine/tool.hpp"
+#include "counterflex/machine/machine.hpp"
 #include "gantry.hpp"
 
 using namespace counterflex;

@@ -5,9 +5,9 @@
 #include <memory>
 #include <string>
 
-#include "counterflex/compensation/compensate.hpp"
+#include "counterflex/compensation/windows.hpp"
 #include "counterflex/files/files.hpp"
-#include "counterflex/geometry/units.hpp"
+#include "counterflex/geometry/types.hpp"
 #include "counterflex/machine/read_machine.hpp"
 #include "counterflex/program/overview.hpp"
 #include "counterflex/statics/equilibrium.hpp"

@@ -4,7 +4,7 @@
 #include <doctest/doctest.h>
 
 #include "counterflex/compensation/options.hpp"
-#include "counterflex/geometry/units.hpp"
+#include "counterflex/geometry/types.hpp"
 #include "counterflex/machine/read_machine.hpp"
 #include "support/reference_data.hpp"
 

@@ -1,5 +1,5 @@
 // Tools that bend, switched along a program.
-#include "counterflex/machine/tool.hpp"
+#include "counterflex/machine/machine.hpp"
 #include "gantry.hpp"
 
 using namespace counterflex;

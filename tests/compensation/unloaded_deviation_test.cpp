@@ -1,5 +1,5 @@
 // Common shifts: what touching off would remove of the deviation of a path.
-#include "counterflex/compensation/unloaded_deviation.hpp"
+#include "counterflex/compensation/loads_along.hpp"
 
 #include "gantry.hpp"
 #include "judge.hpp"

@@ -4,8 +4,8 @@
 #include "compensation/busy_program.hpp"
 #include "compensation/gantry.hpp"
 #include "compensation/window_run.hpp"
-#include "counterflex/geometry/rotation.hpp"
-#include "counterflex/machine/tool.hpp"
+#include "counterflex/geometry/pose.hpp"
+#include "counterflex/machine/machine.hpp"
 
 using namespace counterflex;
 using namespace counterflex::test;

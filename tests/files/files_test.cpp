@@ -10,7 +10,6 @@
 #include <filesystem>
 
 #include "counterflex/files/input_error.hpp"
-#include "counterflex/files/sha256.hpp"
 #include "files/folder.hpp"
 
 using namespace counterflex;

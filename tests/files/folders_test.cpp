@@ -1,6 +1,5 @@
-#include "counterflex/files/folders.hpp"
-
 #include "counterflex/files/files.hpp"
+
 #include "counterflex/files/input_error.hpp"
 #include "files/folder.hpp"
 

@@ -1,4 +1,4 @@
-#include "counterflex/files/shown_text.hpp"
+#include "counterflex/files/text.hpp"
 
 #include <doctest/doctest.h>
 

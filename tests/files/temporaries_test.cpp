@@ -1,10 +1,9 @@
-#include "counterflex/files/temporaries.hpp"
+#include "counterflex/files/file_writer.hpp"
 
 #include <sys/wait.h>
 
 #include <set>
 
-#include "counterflex/files/file_writer.hpp"
 #include "counterflex/files/files.hpp"
 #include "files/folder.hpp"
 

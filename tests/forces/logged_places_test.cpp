@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <random>
 
-#include "counterflex/geometry/units.hpp"
+#include "counterflex/geometry/types.hpp"
 #include "forces/csv_header.hpp"
 #include "forces/point_grid.hpp"
 #include "forces/visits.hpp"

@@ -1,4 +1,4 @@
-#include "counterflex/forces/move_forces.hpp"
+#include "counterflex/forces/forces.hpp"
 
 #include <doctest/doctest.h>
 

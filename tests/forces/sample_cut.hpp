@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "counterflex/forces/cutting_model.hpp"
-#include "counterflex/geometry/units.hpp"
+#include "counterflex/geometry/types.hpp"
 
 namespace counterflex::test {
 

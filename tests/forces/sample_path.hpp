@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "counterflex/forces/forces.hpp"
-#include "counterflex/geometry/units.hpp"
+#include "counterflex/geometry/types.hpp"
 #include "support/programs.hpp"
 
 namespace counterflex::test {

@@ -1,7 +1,6 @@
 /// Fuzz target for machine files: a text is refused with a place, or becomes a model.
 #include <string>
 
-#include "counterflex/machine/describe.hpp"
 #include "counterflex/machine/read_machine.hpp"
 #include "counterflex/statics/nominal.hpp"
 #include "fuzz.hpp"

@@ -4,7 +4,7 @@
 #include <string>
 #include <utility>
 
-#include "counterflex/compensation/compensate.hpp"
+#include "counterflex/compensation/windows.hpp"
 #include "counterflex/machine/read_machine.hpp"
 #include "dialects.hpp"
 #include "fuzz.hpp"

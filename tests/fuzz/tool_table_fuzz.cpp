@@ -1,7 +1,7 @@
 /// Fuzz target for tool tables.
 #include <cmath>
 
-#include "counterflex/machine/tool_table.hpp"
+#include "counterflex/machine/read_machine.hpp"
 #include "fuzz.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "counterflex/geometry/rotation.hpp"
-#include "counterflex/geometry/units.hpp"
+#include "counterflex/geometry/pose.hpp"
+#include "counterflex/geometry/types.hpp"
 
 using namespace counterflex;
 

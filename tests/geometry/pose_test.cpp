@@ -5,7 +5,7 @@
 #include <Eigen/Geometry>
 #include <random>
 
-#include "counterflex/geometry/units.hpp"
+#include "counterflex/geometry/types.hpp"
 
 using namespace counterflex;
 

@@ -1,4 +1,4 @@
-#include "counterflex/machine/describe.hpp"
+#include "counterflex/machine/read_machine.hpp"
 
 #include <doctest/doctest.h>
 

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "counterflex/geometry/units.hpp"
+#include "counterflex/geometry/types.hpp"
 #include "machine_texts.hpp"
 
 using namespace counterflex;

@@ -1,7 +1,7 @@
 /// Masses, gravity, and when the control's zero was set.
 #include <algorithm>
 
-#include "counterflex/machine/describe.hpp"
+#include "counterflex/machine/read_machine.hpp"
 #include "machine_texts.hpp"
 
 using namespace counterflex;

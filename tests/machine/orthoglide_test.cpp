@@ -3,8 +3,7 @@
 
 #include <Eigen/LU>
 
-#include "counterflex/geometry/units.hpp"
-#include "counterflex/machine/describe.hpp"
+#include "counterflex/geometry/types.hpp"
 #include "counterflex/machine/read_machine.hpp"
 #include "machine_texts.hpp"
 

@@ -1,4 +1,4 @@
-#include "counterflex/machine/tool_table.hpp"
+#include "counterflex/machine/read_machine.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,6 +1,6 @@
 #include <doctest/doctest.h>
 
-#include "counterflex/geometry/units.hpp"
+#include "counterflex/geometry/types.hpp"
 #include "machine_texts.hpp"
 
 using namespace counterflex;

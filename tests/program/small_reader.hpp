@@ -6,7 +6,7 @@
 #include <numbers>
 #include <string>
 
-#include "counterflex/files/numbers.hpp"
+#include "counterflex/files/text.hpp"
 #include "counterflex/geometry/curve.hpp"
 #include "counterflex/program/program.hpp"
 

@@ -7,7 +7,7 @@
 #include <random>
 #include <string>
 
-#include "counterflex/files/numbers.hpp"
+#include "counterflex/files/text.hpp"
 #include "counterflex/geometry/types.hpp"
 
 namespace counterflex::test {

@@ -7,9 +7,9 @@
 #include <cmath>
 #include <sstream>
 
-#include "counterflex/geometry/units.hpp"
+#include "counterflex/geometry/types.hpp"
 #include "counterflex/machine/read_machine.hpp"
-#include "counterflex/machine/tool.hpp"
+#include "counterflex/machine/machine.hpp"
 #include "counterflex/statics/nominal.hpp"
 #include "support/text.hpp"
 

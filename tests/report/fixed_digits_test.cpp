@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-#include "counterflex/files/numbers.hpp"
+#include "counterflex/files/text.hpp"
 
 using namespace counterflex;
 

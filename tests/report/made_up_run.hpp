@@ -1,7 +1,7 @@
 #pragma once
 /// A small run whose numbers are known without solving anything: three feed moves and a rapid, waypoints made
 /// up.
-#include "counterflex/geometry/units.hpp"
+#include "counterflex/geometry/types.hpp"
 #include "counterflex/program/read_program.hpp"
 #include "counterflex/report/run_tally.hpp"
 

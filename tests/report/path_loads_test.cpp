@@ -1,4 +1,4 @@
-#include "counterflex/report/path_loads.hpp"
+#include "counterflex/report/path_curves.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,4 +1,4 @@
-#include "counterflex/report/path_tally.hpp"
+#include "counterflex/report/run_tally.hpp"
 
 #include <doctest/doctest.h>
 

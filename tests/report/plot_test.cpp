@@ -1,4 +1,4 @@
-#include "counterflex/report/plot.hpp"
+#include "counterflex/report/page.hpp"
 
 #include <doctest/doctest.h>
 
@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "counterflex/files/numbers.hpp"
+#include "counterflex/files/text.hpp"
 #include "made_up_run.hpp"
 #include "plot_points.hpp"
 #include "plot_ticks.hpp"

@@ -1,4 +1,4 @@
-#include "counterflex/report/report_file.hpp"
+#include "counterflex/report/report.hpp"
 
 #include <doctest/doctest.h>
 

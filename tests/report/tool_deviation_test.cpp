@@ -1,5 +1,5 @@
 // What the tilt of a tool does at its rim and flank.
-#include "counterflex/report/tool_deviation.hpp"
+#include "counterflex/report/statistics.hpp"
 
 #include <doctest/doctest.h>
 
@@ -7,7 +7,7 @@
 #include <numbers>
 #include <random>
 
-#include "counterflex/geometry/units.hpp"
+#include "counterflex/geometry/types.hpp"
 #include "made_up_run.hpp"
 #include "support/text.hpp"
 

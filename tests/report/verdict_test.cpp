@@ -1,11 +1,10 @@
-#include "counterflex/report/verdict.hpp"
+#include "counterflex/report/statistics.hpp"
 
 #include <doctest/doctest.h>
 
-#include "counterflex/files/utf8.hpp"
-#include "counterflex/geometry/units.hpp"
+#include "counterflex/files/text.hpp"
+#include "counterflex/geometry/types.hpp"
 #include "counterflex/program/read_program.hpp"
-#include "counterflex/report/feed_tally.hpp"
 
 using namespace counterflex;
 

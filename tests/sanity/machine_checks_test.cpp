@@ -1,11 +1,11 @@
-#include "counterflex/sanity/machine_checks.hpp"
+#include "counterflex/sanity/checks.hpp"
 
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "counterflex/geometry/units.hpp"
+#include "counterflex/geometry/types.hpp"
 #include "counterflex/machine/read_machine.hpp"
 
 using namespace counterflex;

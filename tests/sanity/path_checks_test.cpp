@@ -1,11 +1,11 @@
-#include "counterflex/sanity/path_checks.hpp"
+#include "counterflex/sanity/checks.hpp"
 
 #include <doctest/doctest.h>
 
 #include <cmath>
 #include <random>
 
-#include "counterflex/geometry/units.hpp"
+#include "counterflex/geometry/types.hpp"
 #include "counterflex/machine/read_machine.hpp"
 #include "counterflex/statics/mechanism.hpp"
 #include "counterflex/statics/nominal.hpp"

@@ -1,7 +1,6 @@
 #include <doctest/doctest.h>
 
 #include "counterflex/settings/jobs_file.hpp"
-#include "counterflex/settings/name_pattern.hpp"
 #include "setting_texts.hpp"
 
 using namespace counterflex;

@@ -1,4 +1,4 @@
-#include "counterflex/settings/name_pattern.hpp"
+#include "counterflex/settings/jobs_file.hpp"
 
 #include <doctest/doctest.h>
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "counterflex/files/numbers.hpp"
+#include "counterflex/files/text.hpp"
 #include "counterflex/settings/project_file.hpp"
 #include "setting_texts.hpp"
 

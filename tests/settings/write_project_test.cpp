@@ -1,7 +1,7 @@
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
-#include "counterflex/files/numbers.hpp"
+#include "counterflex/files/text.hpp"
 #include "counterflex/settings/project_file.hpp"
 #include "setting_texts.hpp"
 

@@ -1,6 +1,6 @@
 /// Batches against the solver of single waypoints.
 #include "batch_support.hpp"
-#include "counterflex/geometry/rotation.hpp"
+#include "counterflex/geometry/pose.hpp"
 
 using namespace counterflex;
 using namespace counterflex::laws;

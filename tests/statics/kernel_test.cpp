@@ -1,7 +1,7 @@
 /// The kernel beside the solver of single waypoints.
 #include <filesystem>
 
-#include "counterflex/geometry/rotation.hpp"
+#include "counterflex/geometry/pose.hpp"
 #include "kernel_support.hpp"
 
 using namespace counterflex;

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "counterflex/geometry/units.hpp"
+#include "counterflex/geometry/types.hpp"
 #include "counterflex/machine/read_machine.hpp"
 #include "counterflex/statics/chain.hpp"
 #include "counterflex/statics/equilibrium.hpp"

@@ -1,6 +1,6 @@
 /// Cold starts all over the workspaces of the reference and sample machines: errors on, loaded, every pose
 /// solved from its nominal configuration, with nothing known of its neighbours.
-#include "counterflex/machine/tool.hpp"
+#include "counterflex/machine/machine.hpp"
 #include "reference_runs.hpp"
 
 using namespace counterflex;

@@ -3,7 +3,7 @@
 /// mm and degrees or better, and the statuses promise 1e-11 m; the comparison is at 2e-9 mm and degrees.
 #include <doctest/doctest.h>
 
-#include "counterflex/geometry/units.hpp"
+#include "counterflex/geometry/types.hpp"
 #include "counterflex/machine/read_machine.hpp"
 #include "counterflex/statics/equilibrium.hpp"
 #include "support/reference_data.hpp"

@@ -1,7 +1,7 @@
 /// Condition and stability of a configuration, and how pivots and bounds prove them.
 #include <fmt/format.h>
 
-#include "counterflex/machine/tool.hpp"
+#include "counterflex/machine/machine.hpp"
 #include "counterflex/statics/chain.hpp"
 #include "counterflex/statics/nominal.hpp"
 #include "laws_weights.hpp"

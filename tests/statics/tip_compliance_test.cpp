@@ -1,7 +1,7 @@
 #include "counterflex/statics/tip_stiffness.hpp"
 
 #include "counterflex/geometry/spectrum.hpp"
-#include "counterflex/machine/tool.hpp"
+#include "counterflex/machine/machine.hpp"
 #include "counterflex/statics/nominal.hpp"
 #include "laws_support.hpp"
 

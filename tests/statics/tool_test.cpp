@@ -1,11 +1,11 @@
-#include "counterflex/machine/tool.hpp"
+#include "counterflex/machine/machine.hpp"
 
 #include <doctest/doctest.h>
 
 #include <cmath>
 
 #include "counterflex/files/files.hpp"
-#include "counterflex/geometry/rotation.hpp"
+#include "counterflex/geometry/pose.hpp"
 #include "counterflex/machine/read_machine.hpp"
 #include "counterflex/statics/chain.hpp"
 #include "counterflex/statics/equilibrium.hpp"

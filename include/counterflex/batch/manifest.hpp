@@ -13,15 +13,50 @@
 /// of `JobOutcome` by their names, `inputs` and `outputs` as lists of {"path", "sha256"}, null where there is
 /// no number. Paths and diagnostics are bytes, JSON is UTF-8: a byte that is none is written as % and two
 /// hexadecimal digits, % as %25.
+#include <cstddef>
 #include <map>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "counterflex/batch/job_outcome.hpp"
+#include "counterflex/files/input_error.hpp"
 
 namespace counterflex {
+
+// What became of one job of a batch: what the manifest keeps, and the summary shows.
+
+/// A file and the SHA-256 of its bytes (64 lower-case hexadecimal digits).
+struct FileHash {
+  std::string path;
+  std::string sha256;
+  bool operator==(const FileHash&) const = default;
+};
+
+struct JobOutcome {
+  std::string
+      key;  ///< SHA-256 of what decides the outputs besides the bytes of the inputs: version and options
+  std::string program;  ///< path of the original
+  std::string output;   ///< path of the corrected program, which no other job of the batch has
+  Exit exit = Exit::done;
+  std::string verdict = "FAILED";  ///< of the run's report; FAILED where it came to none
+  std::string verdict_reason;      ///< as in the report
+  std::string error;               ///< the first diagnostic of a job that failed
+  std::vector<FileHash> inputs;    ///< as they were read
+  std::vector<FileHash> outputs;   ///< as they were written, the corrected program first where there is one
+  std::optional<double> before_mm,
+      after_mm;  ///< largest deviation of feed moves; none where nothing was solved
+  std::optional<double> corrected_percent;  ///< of the cutting length
+  std::size_t warnings = 0;
+  std::size_t moves = 0;  ///< of the program
+  bool operator==(const JobOutcome&) const = default;
+};
+
+/// A JSON object on one line, without its end; numbers are read back as they were.
+std::string to_json_line(const JobOutcome& outcome);
+
+/// Throws `InputError` (Exit::internal), without a place, where `line` is not what `to_json_line` writes.
+JobOutcome outcome_of(std::string_view line);
 
 struct Manifest {
   std::string version;           ///< of the program that did the jobs
@@ -50,5 +85,60 @@ class FileHashes {
 /// Whether a job need not be done again: it was `done` with the same `key`, and each of its inputs and
 /// outputs, of which there is at least one, is on the disk as it was recorded. Does not throw.
 bool is_proven(const JobOutcome& recorded, const std::string& key, FileHashes& on_disk);
+
+// Which jobs of a batch each of several machines does.
+
+/// "I/N": shard I of N, from 1.
+struct Shard {
+  int index = 1;
+  int count = 1;
+};
+
+inline constexpr int most_shards = 100000;
+
+/// Throws `InputError` (Exit::usage) for anything but two whole numbers of which the first is not larger.
+Shard read_shard(std::string_view text);
+
+/// The jobs of each of `shards` shards, by `work` of the jobs (any unit, positive): the largest first, each
+/// job goes to the shard that has least to do. The result depends on the arguments only. Jobs of a shard are
+/// in ascending order.
+std::vector<std::vector<std::size_t>> plan_shards(const std::vector<double>& work, int shards);
+
+// What a batch has come to: for people, and for programs.
+
+/// Whether a job that ended so would fail again with the same inputs: it was understood and refused.
+bool fails_again(Exit exit);
+
+/// The outcomes, worst first: those that failed, those whose verdict PARTLY was accepted, then by the
+/// deviation that is left, then by the one before, the largest first; equal ones by the path of the program.
+std::vector<JobOutcome> worst_first(std::vector<JobOutcome> outcomes);
+
+/// "done", or what failed, in a few words: "not within tolerance".
+std::string_view status_text(Exit exit);
+
+/// The same; of a job whose verdict is PARTLY or NOTHING CORRECTED, that.
+std::string_view status_text(const JobOutcome& outcome);
+
+/// The status of a batch: 0 where all are done; 75 where one may succeed if it is tried again; else the
+/// smallest of those that failed.
+Exit exit_of(const std::vector<JobOutcome>& outcomes);
+
+/// One table of at most `most_rows` jobs, worst first, with what is to be known of the others, and the
+/// diagnostics of these that failed. Lengths in mm.
+std::string summary_table(const std::vector<JobOutcome>& outcomes, std::size_t most_rows);
+
+/// {"schema": "counterflex-batch 1", "tool", "counts": {"jobs", "done", "partly", "failed"},
+/// "exit_status", "jobs": [{"program", "output", "verdict", "verdict_reason", "status", "exit_status",
+/// "error", "before_mm", "after_mm", "corrected_percent", "warnings", "moves", "inputs": [{"path",
+/// "sha256"}], "outputs": [...]}]}, worst first. `version` is the tool's.
+std::string summary_json(const std::vector<JobOutcome>& outcomes, std::string_view version);
+
+/// The first row of the table of jobs.
+inline constexpr std::string_view summary_columns =
+    "program,output,status,exit_status,before_mm,after_mm,corrected_percent,warnings,moves,error,verdict,"
+    "verdict_reason";
+
+/// The same jobs as rows of `summary_columns`; fields quoted as RFC 4180 has it.
+std::string summary_csv(const std::vector<JobOutcome>& outcomes);
 
 }  // namespace counterflex

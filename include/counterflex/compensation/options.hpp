@@ -1,10 +1,16 @@
 #pragma once
 /// What a run is asked to do, and the data that all stages of compensation read.
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "counterflex/files/input_error.hpp"
 #include "counterflex/forces/forces.hpp"
+#include "counterflex/program/boxed_optional.hpp"
 #include "counterflex/program/read_program.hpp"
 #include "counterflex/program/rewrite.hpp"
 #include "counterflex/statics/batch_solver.hpp"
@@ -62,5 +68,114 @@ struct Failure {
   int corrected_line = 0;
   Status status = Status::converged;  ///< of the machine, where that is the reason
 };
+
+// Places on the path, with the deviations of the tip there.
+
+inline constexpr std::size_t no_segment = static_cast<std::size_t>(-1);
+
+/// One line or arc of what is written into a program, and the part [u0, u1] of a wanted segment that it
+/// should follow. Positions of targets in M (m). A rapid, or a move whose start is unknown, is judged at its
+/// end alone.
+struct Piece {
+  std::size_t segment =
+      0;         ///< index into Toolpath::segments; no_segment for a position reached from an unknown one
+  int line = 0;  ///< of the original program
+  int corrected_line = 0;  ///< of the corrected one; 0: none
+  double u0 = 0, u1 = 1;
+  std::size_t frame = 0;  ///< index into Toolpath::frames
+  Curve commanded;
+  Vector3 wanted = Vector3::Zero();  ///< wanted position where there is no segment, M (m)
+  bool end_only = false;
+  bool exempt = false;      ///< listed as not split: its inside may miss the tolerance
+  bool exempt_end = false;  ///< listed as not written in all axes: its end may miss it, too
+  std::int32_t tool = 0;    ///< in the spindle, where there is no segment
+};
+
+/// Where a deviation comes from, and what it becomes without the force; as for a waypoint.
+struct Causes {
+  Vector6 geometry = Vector6::Zero();       ///< before, assembly errors alone: no force, no weight
+  Vector6 load = Vector6::Zero();           ///< before, forces alone: perfect assembly, no weight
+  Vector6 gravity = Vector6::Zero();        ///< before, weights alone; zero for a machine without masses
+  Vector6 superposition = Vector6::Zero();  ///< sum of the three, what preloads do alone counted once
+  Vector6 air = Vector6::Zero();            ///< the emitted target without force
+};
+
+/// Six-vectors: position (m), rotation vector (rad), axes of M, actual minus wanted.
+struct Waypoint {
+  std::size_t segment = 0;  ///< or no_segment
+  double fraction = 1;
+  int line = 0;
+  bool cutting = false;
+  bool between = false;  ///< a sample inside a piece
+  bool place = true;     ///< of the original path: statistics of `before` and of its causes are over these
+  bool exempt = false;
+  double weight = 0;                     ///< of the cutting length: the way from the waypoint before (m)
+  double s = 0;                          ///< cutting path length (m)
+  Vector3 p_MT = Vector3::Zero();        ///< wanted tip
+  Vector3 direction = Vector3::Zero();   ///< unit vector of the path, zero where it has none
+  Vector3 tool_axis = Vector3::UnitZ();  ///< unit, from tip to spindle
+  Vector6 wrench = Vector6::Zero();      ///< acting, axes of M
+  Vector6 before = Vector6::Zero();      ///< the original program's target, solved forward
+  Vector6 after = Vector6::Zero();       ///< the emitted target, solved forward
+  Vector6 correction = Vector6::Zero();  ///< emitted target minus the original program's
+  Eigen::VectorXd rho;                   ///< actuators of the emitted target (m, rad)
+  BoxedOptional<Causes> causes;                   ///< where they were asked for and `before` is known
+  Status status = Status::converged;
+  int iterations = 0;
+  int corrected_line = 0;  ///< of the corrected program; 0: none
+};
+
+/// Whether `before` is known, and the causes where they were asked for. At other samples only `after` is.
+inline bool knows_before(const Waypoint& w) {
+  return w.place || !w.between;
+}
+
+/// Whether it is the start of a feed run, under the force that acts there.
+inline bool begins_feed_run(const Waypoint& w) {
+  return w.place && w.between && w.fraction == 0;
+}
+
+/// What is solved besides `after`.
+struct Questions {
+  bool before = true;
+  bool attribution = false;  ///< the causes
+  bool inside = true;        ///< samples between the ends of feed pieces
+};
+
+struct ForwardRun {
+  std::vector<Waypoint> waypoints;  ///< in order of pieces; samples between precede their piece's end
+  std::optional<Failure> failure;   ///< the first waypoint that could not be solved
+};
+
+/// Solves the machine forward along `pieces` (programs/guide/safety.md, "What a run guarantees"): every
+/// end, and samples inside feed pieces. `command`: where the piece before them ended (M, m).
+///
+/// The places of the original path are the ends of its segments, the starts of feed runs (see PathForces)
+/// and, along feed moves, the corners of the force and equal steps of at most 5 mm (a 64th of a longer move)
+/// and 22.5 degrees of an arc, on all of its turns. They do not depend on the pieces. `before` and its causes
+/// count there: all runs over one program agree on them.
+///
+/// A feed piece is sampled at the places inside it. Between neighbouring places of a line the deviation is at
+/// most that at the larger of both, and what the tip bends by the bound of its cell. If that is within 0.8 of
+/// the tolerance, nothing is solved between them. Otherwise the middle is sampled: a short line in its
+/// middle, an arc at least every 11.25 degrees. Where the middle is off the line between the deviations
+/// beside it by more than a tenth of the tolerance, or where less than a fifth of the tolerance is left, the
+/// odd sixteenths between the two places are sampled, too. No piece is inferred from its neighbours.
+///
+/// What differs from the wanted path is a matter for the caller; only a status other than converged is a
+/// failure here.
+ForwardRun solve_pieces(const Job& job, std::span<const Piece> pieces, const Questions& questions,
+                        const std::optional<Vector3>& command = {});
+
+/// Takes waypoints in order, in one portion or more.
+using WaypointTaker = std::function<void(std::vector<Waypoint>&&)>;
+
+/// The same for many pieces: gives their waypoints out in portions. Returns the failure of the last waypoint.
+std::optional<Failure> solve_in_portions(const Job& job, std::span<const Piece> pieces,
+                                         const Questions& questions, const std::optional<Vector3>& command,
+                                         const WaypointTaker& take);
+
+/// The pieces of the original program itself, one for each place of its path.
+std::vector<Piece> original_pieces(const Job& job);
 
 }  // namespace counterflex

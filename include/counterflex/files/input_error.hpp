@@ -25,7 +25,8 @@ struct Location {
   int column = 0;
 };
 
-/// Bad input: `what()` is `file:line:column: error: message`, the message with the value seen and what is allowed.
+/// Bad input: `what()` is `file:line:column: error: message`, the message with the value seen and what is
+/// allowed.
 class InputError : public std::runtime_error {
  public:
   InputError(Exit exit, const Location& where, const std::string& message);

@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include "counterflex/files/spool.hpp"
+#include "counterflex/files/files.hpp"
 #include "counterflex/geometry/types.hpp"
 
 namespace counterflex {

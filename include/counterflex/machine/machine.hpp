@@ -3,18 +3,59 @@
 /// chains of elements between them; each element is a transform from the frame before it to the frame after
 /// it. Frames: machine M (the base), platform P (its origin is the reference point), tool tip T, work frame
 /// W.
+#include <array>
+#include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
 #include "counterflex/files/input_error.hpp"
 #include "counterflex/geometry/pose.hpp"
-#include "counterflex/machine/load_limits.hpp"
 
 namespace counterflex {
+
+// What joints, springs and ends of chains may bear, as a machine file says it, and what the kinds of load
+// are called.
+
+/// Of one chain; largest absolute components, as `ChainLoads` has them.
+enum class LoadKind : std::uint8_t {
+  moment,              ///< that the platform exerts on the chain's end
+  spring_translation,  ///< of springs and prismatic compliances
+  spring_rotation,     ///< of springs and revolute compliances
+  spring_force,
+  spring_torque,
+  group_moment,    ///< that branches side by side transmit at their common end
+  passive_change,  ///< of a revolute passive joint's angle from its nominal value
+};
+inline constexpr std::size_t load_kind_count = static_cast<std::size_t>(LoadKind::passive_change) + 1;
+inline constexpr std::array<LoadKind, load_kind_count> load_kinds = {
+    LoadKind::moment,        LoadKind::spring_translation, LoadKind::spring_rotation, LoadKind::spring_force,
+    LoadKind::spring_torque, LoadKind::group_moment,       LoadKind::passive_change};
+
+/// How files and people name a kind of load.
+struct LoadName {
+  std::string_view key;    ///< "moment_max_Nm": in machine files and JSON documents
+  std::string_view words;  ///< "moment at the end"
+  std::string_view unit;   ///< of the key's values: "N m"
+  double si = 1;           ///< that unit in SI
+};
+const LoadName& name_of(LoadKind kind);
+
+/// SI, positive; none: no limit is known.
+struct LoadLimits {
+  std::array<std::optional<double>, load_kind_count> most{};
+
+  std::optional<double>& operator[](LoadKind kind) { return most[static_cast<std::size_t>(kind)]; }
+  const std::optional<double>& operator[](LoadKind kind) const {
+    return most[static_cast<std::size_t>(kind)];
+  }
+  bool operator==(const LoadLimits&) const = default;
+};
 
 enum class JointKind { prismatic, revolute };
 
@@ -186,5 +227,50 @@ std::vector<std::string> actuator_names(const Machine& machine);
 
 /// Whether an actuator turns: a robot's do, and those of a machine with rotary drives.
 bool turns_joints(const Machine& machine);
+
+// Tools that bend: the machine with one of them in its spindle, and what such a tool is.
+
+/// Two compliances along the tip's x and y of stiffness `k` (N/m, positive): axially and in tilt the tool is
+/// rigid.
+std::vector<Element> radial_tool(double k);
+
+/// The bending of what sticks out of the holder: a cantilever of 0.8 of the diameter, along -z of the tip's
+/// axes. `diameter` and `stickout` in m, positive.
+///
+/// Carbide: E 600 GPa, Poisson's ratio 0.22 (K10 to K20 grades, 6 to 10 % Co: 580 to 630 GPa in makers' data
+/// sheets). Steel, HSS too: E 210 GPa, 0.3. The 0.8 is the usual equivalent diameter of a fluted end mill.
+/// Source: Kops, Vo, "Determination of the equivalent diameter of an end mill based on its compliance", CIRP
+/// Annals 39 (1990).
+Spring cantilever_tool(double diameter, double stickout, ToolMaterial material);
+
+/// Force over displacement at the tip (N/m) in the direction of x or y in which it yields most; infinite for
+/// a rigid tool.
+double radial_stiffness(const Tool& tool);
+
+/// The tool's tip in the platform frame: [spindle] moved by the tool's length along -z; [tool] where one of
+/// them is missing.
+Pose tip_of(const Machine& machine, const Tool& tool);
+
+/// Whether the machine with this tool is another than the machine with [tool].
+bool changes_model(const Machine& machine, const Tool& tool);
+
+/// The machine with `tool` in its spindle: its tip, and what yields as the last elements before it. A machine
+/// of several chains becomes one chain that begins with a group of them; actuators keep their numbers, the
+/// platform is then the tip.
+Machine with_tool(const Machine& machine, const Tool& tool);
+
+/// "stiffness from a carbide cantilever of 0.8 diameter core, 25 mm long: 12.3 N/um at its tip"; what else
+/// it is from; "rigid".
+std::string stiffness_phrase(const Tool& tool);
+
+// Names of work offsets.
+
+/// The name as programs' offsets have it ("G54", "G59.1", "G54.1 P3", "G154 P12", "G505"), of one that may be
+/// in lower case, lack the blank before P or have zeros before the number; none where it is no work offset.
+std::optional<std::string> work_offset_name(std::string_view text);
+
+/// What `work_offset_name` takes, for diagnostics.
+inline constexpr std::string_view work_offset_names =
+    "G54 to G59, G59.1 to G59.3, G54.1 P1 to P300, G154 P1 to P99 and G500 to G599";
 
 }  // namespace counterflex

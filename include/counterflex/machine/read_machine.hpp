@@ -1,7 +1,9 @@
 #pragma once
 /// Reads `machine.toml`, format "counterflex-machine 1".
+#include <map>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "counterflex/machine/machine.hpp"
 
@@ -15,5 +17,31 @@ Machine read_machine(std::string_view text, const std::string& file);
 
 /// The same, from a file. Throws `InputError` where it cannot be read.
 Machine load_machine(const std::string& file);
+
+// A machine in words, for an engineer who wants to know what was understood of a machine file.
+
+/// How many coordinates of each kind a chain has, branches of groups included.
+struct Freedoms {
+  int actuators = 0;
+  int passives = 0;  ///< sprung ones too
+  int elastic = 0;   ///< six a spring, one a compliance
+};
+
+Freedoms freedoms(const Chain& chain);
+
+/// A page of text, lines ended by "\n": settings, chains with one element a line, springs, actuators with
+/// their travel, assembly errors. Lengths in mm, angles in degrees, stiffness in N/m and N m/rad.
+std::string describe(const Machine& machine);
+
+/// What is unusual, but not wrong, as far as the data show it (no kinematics is solved); one sentence each.
+std::vector<std::string> structural_notes(const Machine& machine);
+
+// Tool lengths as LinuxCNC keeps them.
+
+/// Lengths of tools (m) by number. Each line of the table is words `T1 P1 Z50.0 D6`, blank, or a comment
+/// after
+/// `;`; lengths are Z, in mm, 0 where there is none. Throws `InputError` (Exit::machine_or_force) with line
+/// and column for words that a table does not have, a line without T, and a tool that stands there twice.
+std::map<long, double> read_tool_table(std::string_view text, const std::string& file);
 
 }  // namespace counterflex

@@ -37,10 +37,11 @@ struct HeldPose {
 
 /// What `analyze` computes besides the standard tables.
 struct AnalysisExtras {
-  const Mechanism* machine = nullptr;  ///< without the tool that the model has; null: the model has no tool of its own
-  bool full = false;                   ///< details of every chain
-  std::optional<Pose> hold;            ///< X_MT
-  std::optional<CurveRequest> curve;   ///< its load is the analysis's own
+  const Mechanism* machine =
+      nullptr;               ///< without the tool that the model has; null: the model has no tool of its own
+  bool full = false;         ///< details of every chain
+  std::optional<Pose> hold;  ///< X_MT
+  std::optional<CurveRequest> curve;  ///< its load is the analysis's own
 };
 
 struct PoseAnalysis {
@@ -54,17 +55,16 @@ struct PoseAnalysis {
       Vector6::Zero();          ///< position (m), rotation vector of R_actual R_target' (rad), axes of M
   Matrix6 K = Matrix6::Zero();  ///< SI, at the reference point; at the nominal pose for `linear`, else at the
                                 ///< loaded one
-  std::optional<Matrix6> tip_compliance;  ///< `compliance_at_tip`, at the same pose
-  std::optional<Matrix6> tip_stiffness;   ///< its inverse; none where the machine is rigid in a direction
+  std::optional<Matrix6> tip_compliance;     ///< `compliance_at_tip`, at the same pose
+  std::optional<Matrix6> tip_stiffness;      ///< its inverse; none where the machine is rigid in a direction
   bool stiffness_available = false;          ///< every chain has a stiffness of its own
   Eigen::VectorXd rho;                       ///< nominal actuator values of the wanted pose (m, rad)
   std::optional<CorrectedTarget> corrected;  ///< none where the machine controls nothing
   std::vector<ChainLoads> chains;
   Vector6 weakest =
       Vector6::Zero();  ///< the twist of least stiffness (unit norm, lengths in units of l); zero: unknown
-  double weakest_stiffness = 0;  ///< in that direction (N/m); 0: not computed
-  Vector3 softest =
-      Vector3::Zero();           ///< direction (M) in which a force at the tip moves the tip furthest
+  double weakest_stiffness = 0;       ///< in that direction (N/m); 0: not computed
+  Vector3 softest = Vector3::Zero();  ///< direction (M) in which a force at the tip moves the tip furthest
   double softest_stiffness = 0;  ///< force over motion in that direction (N/m); 0: not computed, or rigid
   bool indeterminate =
       false;             ///< redundant rigid closures: the chains' wrenches are the minimum-norm ones of many

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "counterflex/report/report_file.hpp"
+#include "counterflex/report/report.hpp"
 
 namespace counterflex {
 

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "counterflex/compensation/waypoint.hpp"
+#include "counterflex/compensation/options.hpp"
 #include "counterflex/report/report.hpp"
 
 namespace counterflex {
@@ -24,8 +24,9 @@ std::string to_json(const SanityChecks& checks);
 
 /// Which columns of the CSV were computed; the others keep their place and are empty.
 struct CsvColumns {
-  bool attribution = true;  ///< geometry_, load_, gravity_, preloads_, superposition_; with `corrected` also air_
-  bool corrected = true;    ///< after_, correction_: not for a prediction
+  bool attribution =
+      true;  ///< geometry_, load_, gravity_, preloads_, superposition_; with `corrected` also air_
+  bool corrected = true;  ///< after_, correction_: not for a prediction
 };
 
 /// The names of the columns, in a line.

@@ -42,8 +42,9 @@ struct MotionPlan {
   std::size_t grouped = 0;        ///< in contour groups
   std::size_t not_corrected = 0;  ///< machine positions, unknown places, blocks that are not followed
   CutLength corrected_cut, held_cut, grouped_cut, left_cut;
-  std::vector<PlanRow> held_rows, left_rows;  ///< the most costly first: by length, by moves of unknown length, by blocks
-  std::vector<PlanRow> other_rows;            ///< blocks without motion that are not followed
+  std::vector<PlanRow> held_rows,
+      left_rows;  ///< the most costly first: by length, by moves of unknown length, by blocks
+  std::vector<PlanRow> other_rows;  ///< blocks without motion that are not followed
   std::vector<PlanGroup> groups;
   std::array<std::size_t, 3> arcs{};  ///< in the planes XY, XZ, YZ
   std::size_t cycles = 0, relative = 0, inverse_time = 0;

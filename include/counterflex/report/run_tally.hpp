@@ -1,16 +1,122 @@
 #pragma once
 /// What a run did, gathered window by window in memory that does not grow with the program.
+#include <cstdint>
+#include <map>
 #include <optional>
+#include <utility>
 #include <vector>
 
-#include "counterflex/compensation/compensate.hpp"
-#include "counterflex/report/feed_tally.hpp"
+#include "counterflex/compensation/options.hpp"
+#include "counterflex/compensation/windows.hpp"
 #include "counterflex/report/path_curves.hpp"
-#include "counterflex/report/path_tally.hpp"
 #include "counterflex/report/report.hpp"
-#include "counterflex/sanity/path_checks.hpp"
+#include "counterflex/report/statistics.hpp"
+#include "counterflex/sanity/checks.hpp"
 
 namespace counterflex {
+
+// From waypoints to numbers, waypoint by waypoint, in memory that does not grow with their number.
+
+/// What is known of the feed move of a waypoint besides its path.
+struct MoveFacts {
+  Vector3 common_shift = Vector3::Zero();  ///< of its work offset where no datum is stated (m)
+  ToolSize tool;
+};
+
+/// The deviations of one tool.
+struct ToolTally {
+  ToolSize size;
+  ToolDeviationTally before, after;
+};
+
+struct Measures {
+  DeviationTally before, after, geometry, load, gravity, superposition;
+  DeviationTally rest;              ///< before, without the common shift
+  std::map<long, ToolTally> tools;  ///< by number
+  DeviationTally preloads;
+  DeviationTally without_force;
+  std::optional<SourcesAtWorst> at_worst;  ///< where `before` is largest
+  Largest air, correction;
+  double largest_N = 0, largest_Nm = 0;
+  double path_mm = 0;
+  double corrected_mm = 0;           ///< of it, pieces that are within the tolerance everywhere
+  std::size_t segments_changed = 0;  ///< feed moves and rapids whose target is not the original one
+};
+
+/// The moves of a tool and an operation, wherever they are in the program.
+struct OperationTally {
+  DeviationTally before, after;
+  int first_line = 0, last_line = 0;
+  std::size_t moves = 0;
+  double length_mm = 0, corrected_mm = 0;  ///< of feed moves, and of these whole pieces within the tolerance
+  std::optional<std::pair<std::size_t, int>> last_move;  ///< segment and line
+};
+
+/// Rows by line, one a line, of which the worst are wanted. From the 4096th line on all are forgotten now and
+/// then but the worst and the two asked for last: lines that come in order lose nothing, and one that comes
+/// back much later (a subprogram called again) begins anew.
+class WorstLines {
+ public:
+  /// The row of `line`, made where there is none.
+  WorstRow& row(int line);
+
+  /// At most ten rows, the largest `key` first; of equal ones the smaller line.
+  std::vector<WorstRow> worst(double WorstRow::*key) const;
+
+ private:
+  void keep_the_worst();
+
+  std::vector<WorstRow> rows_;  ///< by line
+  int last_ = 0, last_but_one_ = 0;
+};
+
+/// Waypoints that were not solved are passed over. Feed moves alone, but for `correction` and
+/// `segments_changed`. They come in the order of the path; a segment is known by its number and line, so that
+/// numbers may begin anew with every window.
+class PathTally {
+ public:
+  /// `operation` counts from 0, as the caller does; `no_operation`: it is not known.
+  static constexpr std::int32_t no_operation = -1;
+  /// `facts`: of a feed move. `is_within`: the tolerance, what the tip's controlled position misses there.
+  void add(const Waypoint& w, std::int32_t operation = no_operation, const MoveFacts& facts = {},
+           bool is_within = true);
+
+  /// Of all waypoints so far, the last of which ends the path.
+  Measures measures() const;
+  std::vector<WorstRow> worst(double WorstRow::*key) const;
+  std::vector<OperationTally> operations() const;  ///< by their numbers; one that has no feed move is empty
+
+ private:
+  /// A place of the original path, and what it weighs so far, in all and in its own operation.
+  struct End {
+    Waypoint at;
+    std::int32_t operation = no_operation;
+    double weight = 0, weight_there = 0;
+    MoveFacts facts{};
+  };
+
+  void add_target(const Waypoint& w);
+  void add_cutting(const Waypoint& w, std::int32_t operation, const MoveFacts& facts, bool is_within);
+  void add_to_operation(const Waypoint& w, std::int32_t operation);
+  void close_piece(const Waypoint& w, std::int32_t operation);
+  void add_place(const Waypoint& w, std::int32_t operation, const MoveFacts& facts);
+  void share_piece(const Waypoint& w, std::int32_t operation, double share);
+  ToolTally& tally_of(const ToolSize& tool);
+  OperationTally* tally_of(std::int32_t operation);
+  void finish_end();
+  void measure_end(const End& end);
+  void measure_causes(const Waypoint& w, const Causes& causes, double weight);
+
+  Measures m_;
+  WorstLines lines_;
+  std::optional<std::pair<std::size_t, int>> last_changed_;  ///< segment and line
+  bool piece_missed_ = false;  ///< somewhere the piece under way misses the tolerance
+  double piece_weight_ = 0;    ///< of the piece under way
+  double place_weight_ = 0;  ///< of the way since the last place of the original path: all means but those of
+                             ///< `after` are over these places
+  std::optional<End> end_;   ///< the last one
+  std::vector<OperationTally> operations_;
+};
 
 /// The tools and operations of a program as they are met, at most `listed_at_most`: the last one stands for
 /// all others then.

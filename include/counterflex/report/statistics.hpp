@@ -2,9 +2,15 @@
 /// How far the tip is off along a path, in a few numbers. Lengths in mm and angles in degrees, as reports
 /// show them.
 #include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
 #include <vector>
 
+#include "counterflex/compensation/options.hpp"
+#include "counterflex/forces/forces.hpp"
 #include "counterflex/geometry/types.hpp"
+#include "counterflex/program/boxed_optional.hpp"
 
 namespace counterflex {
 
@@ -86,5 +92,141 @@ class DeviationTally {
   Histogram weight_by_bin_;
   std::size_t samples_ = 0;
 };
+
+// What the tilt of a tool does beside its tip: at the rim of the cutter, and along its flank.
+
+/// How large a tool is (m); what is not known is empty.
+struct ToolSize {
+  long number = 0;  ///< in the program; 0: none known
+  std::optional<double> diameter{};
+  std::optional<double> flute{};  ///< length of the cutting edges, from the tip along the axis
+};
+
+/// The largest displacement (m) of a circle of `radius` around the tool's axis, `height` above the tip
+/// towards the spindle, where the tip's deviation is (d, phi):
+///
+///     max over alpha of |d + phi x r|,   r = height a + radius (cos(alpha) u + sin(alpha) v)
+///
+/// a, u and v unit vectors, u and v square to the axis a. A turn of the tool about its own axis is left out:
+/// it moves no point of the surface that the turning cutter sweeps. With phi square to a the second part of
+/// phi x r lies along a and reaches radius |phi| on either side, so that the maximum is
+///
+///     sqrt(|b - (d.a) a|^2 + (|d.a| + radius |phi|)^2),   b = d + height phi x a
+double largest_on_circle(const Vector6& deviation, const Vector3& axis, double radius, double height);
+
+/// The largest deviations of a tool along a path: of its tip, of the rim at its tip, and of its flank where
+/// the cutting edges end. Lengths in mm, angles in degrees; rim and flank are empty where the tool's size is
+/// not known.
+struct ToolDeviation {
+  double tip_mm = 0;
+  std::optional<double> rim_mm{}, flank_mm{};
+  double tilt_deg = 0;  ///< of the tool's axis
+  int line = 0;         ///< where the largest of tip, rim and flank is; the first such line
+
+  double largest_mm() const;
+};
+
+/// Collects the deviations of one tool.
+class ToolDeviationTally {
+ public:
+  void add(const ToolSize& size, const Vector6& deviation, const Vector3& axis, int line);
+
+  /// Empty before the first one.
+  const std::optional<ToolDeviation>& largest() const { return largest_; }
+
+ private:
+  std::optional<ToolDeviation> largest_;
+};
+
+// The verdict of a run: one word for all feed moves of a program, and what it is derived from.
+
+enum class Verdict {
+  ok,                 ///< every feed move that was read is within the tolerance (`predict`: was solved)
+  partly,             ///< some feed moves miss the tolerance, or their deviation is unknown
+  nothing_corrected,  ///< no feed move was corrected, or the program has no move
+  failed,             ///< the run stopped: a target was not solved, a limit exceeded, a corrected move missed
+};
+
+/// "OK", "PARTLY", "NOTHING CORRECTED", "FAILED".
+std::string_view to_string(Verdict verdict);
+
+/// The feed moves of a program, by what a run knows of them: lines, arcs, holes of cycles (which
+/// have no length) and blocks that are not followed and may cut, as calls that are not expanded. A move that
+/// goes nowhere does not count.
+struct FeedMoves {
+  std::size_t count = 0;           ///< all that were read
+  std::size_t within = 0;          ///< every place that was solved is within the tolerance
+  std::size_t missed = 0;          ///< some place is not
+  std::size_t unknown = 0;         ///< the deviation is not known
+  std::size_t unknown_length = 0;  ///< of `unknown`: the length is not known either
+  std::size_t known_ends = 0;      ///< of `unknown`: the end was corrected
+  double length_mm = 0;            ///< of all moves whose length is known
+  double within_mm = 0;            ///< of it, pieces that are within the tolerance everywhere
+  double worst_mm = 0;             ///< largest deviation of the controlled position
+  int worst_line = 0;              ///< 0: nothing was solved
+  std::size_t rapid_ends = 0;      ///< ends of rapids that were solved
+};
+
+/// Of a run that did not fail.
+Verdict verdict_of(const FeedMoves& moves);
+
+/// "54 % of the cutting length, worst 0.0095 mm > 0.005, 12 feed moves of unknown length": why a run is
+/// `partly`.
+std::string partly_reason(const FeedMoves& moves, double tolerance_mm);
+
+/// "OK", or "PARTLY (REASON)".
+std::string verdict_text(Verdict verdict, std::string_view reason);
+
+// Counts the feed moves of a program by what a run knows of them, window by window.
+
+class FeedTally {
+ public:
+  /// The moves of the next window.
+  void add_window(const Job& window);
+
+  /// A waypoint of that window; waypoints come in the order of its moves. `miss`: see `position_miss` (m).
+  void add(const Waypoint& w, double miss, const Job& window);
+
+  /// Without `within_mm`: pieces of lines and arcs are measured elsewhere.
+  FeedMoves moves() const;
+
+ private:
+  const Move* move_without_segment(const Waypoint& w, const Program& program);
+  void add_measured(bool is_within);
+
+  FeedMoves moves_;
+  std::size_t known_lengths_ = 0;
+  std::optional<std::size_t> segment_;  ///< of the last waypoint of a feed move
+  bool missed_ = false;                 ///< that move misses the tolerance
+  std::size_t next_ = 0;                ///< moves before it have no more waypoints
+};
+
+// Feed moves that are cut without a force, gathered in memory that does not grow with their number.
+
+/// All of one reason.
+struct WithoutForceReason {
+  std::string why;
+  std::size_t moves = 0;
+  double length_mm = 0;
+  int first_line = 0;  ///< the least
+};
+
+/// One of them.
+struct WithoutForceRow {
+  int line = 0;
+  double length_mm = 0;
+  std::string why;
+};
+
+struct WithoutForce {
+  std::size_t moves = 0;
+  double length_mm = 0;
+  std::vector<WithoutForceReason> reasons;  ///< as they were first met; where there are more than
+                                            ///< `listed_at_most` the last one stands for all others
+  Capped<WithoutForceRow> rows;
+};
+
+/// Adds the next one of the program.
+void add_unforced(WithoutForce& without, const Unforced& move);
 
 }  // namespace counterflex

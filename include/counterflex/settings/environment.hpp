@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "counterflex/settings/setting.hpp"
+#include "counterflex/settings/project_file.hpp"
 
 namespace counterflex {
 

@@ -1,6 +1,6 @@
 #pragma once
-/// Waypoints solved by the kernel, many at once. Each answer depends on the model and its own request alone: not on other
-/// requests, their order, the thread or the number of lanes. EQUATIONS.md, section 11.
+/// Waypoints solved by the kernel, many at once. Each answer depends on the model and its own request alone:
+/// not on other requests, their order, the thread or the number of lanes. EQUATIONS.md, section 11.
 #include <memory>
 #include <span>
 
@@ -8,20 +8,21 @@
 
 namespace counterflex {
 
-/// A position of the tip (M, m), the wrench there (N, N m; axes of M), and the rotation vector of the commanded orientation against
-/// home's (rad, axes of M). Machines that control no orientation ignore the last one.
+/// A position of the tip (M, m), the wrench there (N, N m; axes of M), and the rotation vector of the
+/// commanded orientation against home's (rad, axes of M). Machines that control no orientation ignore the
+/// last one.
 struct BatchRequest {
   Vector3 p = Vector3::Zero();
   Vector6 F = Vector6::Zero();
   Vector3 turn = Vector3::Zero();
 };
 
-/// Forward: where the tip stands when `p` is commanded. Target: what has to be commanded for the tip to be at `p`. Orientations
-/// that the machine controls are commanded.
+/// Forward: where the tip stands when `p` is commanded. Target: what has to be commanded for the tip to be at
+/// `p`. Orientations that the machine controls are commanded.
 enum class BatchQuestion { forward, target };
 
-/// If `solved` is true, `solve_forward` and `solve_target` would converge to the same equilibrium, and the actuators are in
-/// their ranges. If it is false, ask them: the rest means nothing.
+/// If `solved` is true, `solve_forward` and `solve_target` would converge to the same equilibrium, and the
+/// actuators are in their ranges. If it is false, ask them: the rest means nothing.
 struct BatchAnswer {
   bool solved = false;
   Vector3 command = Vector3::Zero();  ///< commanded position of the nominal tip, M (m)
@@ -36,8 +37,8 @@ struct NominalAnswer {
   Pose X_MT;
 };
 
-/// A short straight way, and the load along it: between `F0` and `F1` it changes evenly, but for the differences `dF` that
-/// it has at some places.
+/// A short straight way, and the load along it: between `F0` and `F1` it changes evenly, but for the
+/// differences `dF` that it has at some places.
 struct BatchLine {
   Vector3 p0 = Vector3::Zero(), p1 = Vector3::Zero();  ///< M (m)
   Vector6 F0 = Vector6::Zero(), F1 = Vector6::Zero();  ///< at the ends (N, N m)
@@ -47,12 +48,12 @@ struct BatchLine {
 /// Bounds of what happens between the ends of a line. Infinite where they are not known: solve inside.
 struct LineBend {
   double command;  ///< m: from the command to its chord, if the tip goes straight from p0 to p1
-  double gain;     ///< m/m: of the tip for a change of the command; gain times command: from the tip to its chord, if the
-                   ///< command goes straight
+  double gain;     ///< m/m: of the tip for a change of the command; gain times command: from the tip to its
+                ///< chord, if the command goes straight
 };
 
-/// The cells of a model in which the kernel starts. Each is made when it is first needed, from its place alone. Threads may
-/// share a table. The model must outlive it.
+/// The cells of a model in which the kernel starts. Each is made when it is first needed, from its place
+/// alone. Threads may share a table. The model must outlive it.
 class StartTable {
  public:
   /// `at_platform`: where loads act, as in `Load`.
@@ -66,7 +67,8 @@ class StartTable {
   std::unique_ptr<Impl> impl_;
 };
 
-/// The tables of a run, one for each model and place of loads. The models must outlive it. Threads may share it.
+/// The tables of a run, one for each model and place of loads. The models must outlive it. Threads may share
+/// it.
 class StartTables {
  public:
   StartTables();
@@ -90,24 +92,24 @@ class BatchSolver {
   ~BatchSolver();
   BatchSolver(BatchSolver&&) noexcept;
 
-  /// `answers` is as long as `requests`. `stage.load` is ignored: F acts. Not solved are machines that do not control x, y
-  /// and z, and stages with a part of errors, weights or preloads.
+  /// `answers` is as long as `requests`. `stage.load` is ignored: F acts. Not solved are machines that do not
+  /// control x, y and z, and stages with a part of errors, weights or preloads.
   void solve(BatchQuestion question, const Stage& stage, std::span<const BatchRequest> requests,
              std::span<BatchAnswer> answers);
 
   /// `answers` is as long as `p` (M, m).
   void nominal_tips(std::span<const Vector3> p, std::span<NominalAnswer> answers);
 
-  /// Bounds from the second-order expansion of the cell in the middle of the line, and its measured remainder. EQUATIONS.md,
-  /// section 11.
+  /// Bounds from the second-order expansion of the cell in the middle of the line, and its measured
+  /// remainder. EQUATIONS.md, section 11.
   LineBend bend_along(const BatchLine& line);
 
-  /// The nominal configuration at the centre of the cell that holds `p` (M, m); null if no cell can be made. It is valid until
-  /// the next call.
+  /// The nominal configuration at the centre of the cell that holds `p` (M, m); null if no cell can be made.
+  /// It is valid until the next call.
   const Configuration* nominal_near(const Vector3& p);
 
-  /// Whether the straight way between two positions (M, m) stays on one branch of the nominal kinematics. False also where one
-  /// of them has no cell.
+  /// Whether the straight way between two positions (M, m) stays on one branch of the nominal kinematics.
+  /// False also where one of them has no cell.
   bool joins(const Vector3& from, const Vector3& to);
 
  private:

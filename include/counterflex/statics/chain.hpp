@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "counterflex/machine/load_limits.hpp"
+#include "counterflex/machine/machine.hpp"
 #include "counterflex/statics/equilibrium.hpp"
 
 namespace counterflex {

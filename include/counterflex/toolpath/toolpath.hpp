@@ -78,8 +78,8 @@ Extent extent_of(const Move& move);
 std::vector<Vector3> points_along(const Curve& curve);
 
 /// Builds the path of `program` in the machine frame; `frames` are those of its work offsets. Moves with an
-/// axis that is not known at start and end give no segment; a move of no length gives none either. `start`: of
-/// a window, where the path of the one before it ended.
+/// axis that is not known at start and end give no segment; a move of no length gives none either. `start`:
+/// of a window, where the path of the one before it ended.
 Toolpath build_toolpath(const Program& program, const std::vector<WorkFrame>& frames,
                         const PathEnd& start = {});
 

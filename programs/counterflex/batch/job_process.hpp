@@ -4,7 +4,7 @@
 #include <string_view>
 
 #include "batch/jobs.hpp"
-#include "counterflex/batch/job_outcome.hpp"
+#include "counterflex/batch/manifest.hpp"
 #include "process/workers.hpp"
 
 namespace counterflex::cli {

@@ -5,7 +5,7 @@
 #include <map>
 #include <utility>
 
-#include "counterflex/batch/summary.hpp"
+#include "counterflex/batch/manifest.hpp"
 #include "counterflex/files/files.hpp"
 #include "counterflex/files/input_error.hpp"
 #include "process/version.hpp"

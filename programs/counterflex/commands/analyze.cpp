@@ -1,8 +1,8 @@
 #include <fmt/format.h>
 
 #include "commands/commands.hpp"
-#include "counterflex/files/numbers.hpp"
-#include "counterflex/machine/tool.hpp"
+#include "counterflex/files/text.hpp"
+#include "counterflex/machine/machine.hpp"
 #include "counterflex/report/analysis.hpp"
 #include "counterflex/statics/nominal.hpp"
 #include "process/standard_output.hpp"

@@ -13,7 +13,7 @@
 #include "batch/run.hpp"
 #include "batch/shards.hpp"
 #include "commands/commands.hpp"
-#include "counterflex/batch/summary.hpp"
+#include "counterflex/batch/manifest.hpp"
 #include "counterflex/files/file_writer.hpp"
 #include "counterflex/files/files.hpp"
 #include "counterflex/settings/project_file.hpp"

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "commands/commands.hpp"
-#include "counterflex/files/shown_text.hpp"
+#include "counterflex/files/text.hpp"
 #include "counterflex/report/formats.hpp"
 #include "process/standard_output.hpp"
 #include "run/outputs.hpp"

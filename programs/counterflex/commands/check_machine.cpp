@@ -3,12 +3,11 @@
 #include <cmath>
 
 #include "commands/check.hpp"
-#include "counterflex/files/numbers.hpp"
+#include "counterflex/files/text.hpp"
 #include "counterflex/geometry/spectrum.hpp"
-#include "counterflex/geometry/units.hpp"
-#include "counterflex/machine/describe.hpp"
+#include "counterflex/geometry/types.hpp"
 #include "counterflex/machine/read_machine.hpp"
-#include "counterflex/machine/tool.hpp"
+#include "counterflex/machine/machine.hpp"
 #include "counterflex/statics/chain.hpp"
 #include "run/sanity.hpp"
 

@@ -6,9 +6,9 @@
 
 #include "commands/check.hpp"
 #include "commands/check_plan.hpp"
-#include "counterflex/compensation/travel_words.hpp"
-#include "counterflex/geometry/units.hpp"
-#include "counterflex/sanity/path_checks.hpp"
+#include "counterflex/compensation/loads_along.hpp"
+#include "counterflex/geometry/types.hpp"
+#include "counterflex/sanity/checks.hpp"
 #include "run/sanity.hpp"
 #include "run/work.hpp"
 

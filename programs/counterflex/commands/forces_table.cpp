@@ -5,8 +5,8 @@
 #include <nlohmann/json.hpp>
 
 #include "counterflex/files/input_error.hpp"
-#include "counterflex/files/numbers.hpp"
-#include "counterflex/geometry/units.hpp"
+#include "counterflex/files/text.hpp"
+#include "counterflex/geometry/types.hpp"
 
 namespace counterflex::cli {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "counterflex/forces/move_forces.hpp"
+#include "counterflex/forces/forces.hpp"
 
 namespace counterflex::cli {
 

@@ -4,9 +4,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include "counterflex/files/numbers.hpp"
-#include "counterflex/forces/read_cutting_model.hpp"
-#include "counterflex/geometry/units.hpp"
+#include "counterflex/files/text.hpp"
+#include "counterflex/forces/cutting_model.hpp"
+#include "counterflex/geometry/types.hpp"
 
 namespace counterflex::cli {
 namespace {

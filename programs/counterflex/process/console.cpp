@@ -8,7 +8,7 @@
 #include <cstdlib>
 #include <utility>
 
-#include "counterflex/files/shown_text.hpp"
+#include "counterflex/files/text.hpp"
 
 namespace counterflex::cli {
 namespace {

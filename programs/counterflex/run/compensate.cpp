@@ -5,7 +5,7 @@
 #include <mutex>
 
 #include "counterflex/compensation/windows.hpp"
-#include "counterflex/files/shown_text.hpp"
+#include "counterflex/files/text.hpp"
 
 namespace counterflex::cli {
 namespace {

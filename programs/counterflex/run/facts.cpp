@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "counterflex/files/shown_text.hpp"
-#include "counterflex/geometry/units.hpp"
+#include "counterflex/files/text.hpp"
+#include "counterflex/geometry/types.hpp"
 #include "process/version.hpp"
 #include "run/header.hpp"
 

@@ -7,8 +7,8 @@
 #include <cctype>
 #include <filesystem>
 
-#include "counterflex/geometry/rotation.hpp"
-#include "counterflex/geometry/units.hpp"
+#include "counterflex/geometry/pose.hpp"
+#include "counterflex/geometry/types.hpp"
 #include "process/version.hpp"
 
 namespace counterflex::cli {

@@ -6,9 +6,8 @@
 #include <filesystem>
 
 #include "counterflex/files/files.hpp"
-#include "counterflex/geometry/units.hpp"
+#include "counterflex/geometry/types.hpp"
 #include "counterflex/machine/read_machine.hpp"
-#include "counterflex/machine/tool_table.hpp"
 #include "settings/values.hpp"
 
 namespace counterflex::cli {

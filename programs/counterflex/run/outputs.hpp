@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "counterflex/batch/job_outcome.hpp"
+#include "counterflex/batch/manifest.hpp"
 #include "counterflex/files/file_writer.hpp"
 #include "counterflex/report/formats.hpp"
 #include "counterflex/report/page.hpp"

@@ -7,9 +7,9 @@
 #include <set>
 #include <string>
 
-#include "counterflex/files/numbers.hpp"
-#include "counterflex/geometry/units.hpp"
-#include "counterflex/machine/tool.hpp"
+#include "counterflex/files/text.hpp"
+#include "counterflex/geometry/types.hpp"
+#include "counterflex/machine/machine.hpp"
 #include "counterflex/report/formats.hpp"
 #include "process/standard_output.hpp"
 #include "run/facts.hpp"

@@ -4,9 +4,8 @@
 
 #include <algorithm>
 
-#include "counterflex/geometry/units.hpp"
-#include "counterflex/sanity/machine_checks.hpp"
-#include "counterflex/sanity/path_checks.hpp"
+#include "counterflex/geometry/types.hpp"
+#include "counterflex/sanity/checks.hpp"
 
 namespace counterflex::cli {
 namespace {

@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <map>
 
-#include "counterflex/compensation/unloaded_deviation.hpp"
+#include "counterflex/compensation/loads_along.hpp"
 #include "counterflex/files/input_error.hpp"
-#include "counterflex/geometry/units.hpp"
+#include "counterflex/geometry/types.hpp"
 #include "settings/values.hpp"
 
 namespace counterflex::cli {

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "counterflex/compensation/unloaded_deviation.hpp"
+#include "counterflex/compensation/loads_along.hpp"
 #include "counterflex/program/overview.hpp"
 #include "counterflex/statics/equilibrium.hpp"
 #include "counterflex/toolpath/toolpath.hpp"

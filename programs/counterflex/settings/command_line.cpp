@@ -8,7 +8,7 @@
 #include <cstdio>
 #include <filesystem>
 
-#include "counterflex/files/shown_text.hpp"
+#include "counterflex/files/text.hpp"
 #include "counterflex/settings/environment.hpp"
 #include "process/standard_output.hpp"
 #include "process/version.hpp"

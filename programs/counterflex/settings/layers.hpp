@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "counterflex/settings/setting.hpp"
+#include "counterflex/settings/project_file.hpp"
 #include "settings/options.hpp"
 
 namespace counterflex::cli {

@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "counterflex/batch/shards.hpp"
+#include "counterflex/batch/manifest.hpp"
 #include "counterflex/compensation/options.hpp"
 #include "counterflex/program/program.hpp"
-#include "counterflex/settings/setting.hpp"
+#include "counterflex/settings/project_file.hpp"
 
 namespace counterflex::cli {
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "counterflex/settings/name_pattern.hpp"
+#include "counterflex/settings/jobs_file.hpp"
 #include "settings/setting_options.hpp"
 
 namespace counterflex::cli {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <array>
 
-#include "counterflex/geometry/units.hpp"
+#include "counterflex/geometry/types.hpp"
 #include "counterflex/program/read_program.hpp"
 #include "settings/output_names.hpp"
 #include "settings/values.hpp"

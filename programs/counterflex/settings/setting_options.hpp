@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "counterflex/settings/setting.hpp"
+#include "counterflex/settings/project_file.hpp"
 #include "settings/options.hpp"
 
 namespace counterflex::cli {

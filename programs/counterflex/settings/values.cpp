@@ -7,9 +7,9 @@
 #include <charconv>
 
 #include "counterflex/files/input_error.hpp"
-#include "counterflex/files/numbers.hpp"
-#include "counterflex/geometry/units.hpp"
-#include "counterflex/machine/work_names.hpp"
+#include "counterflex/files/text.hpp"
+#include "counterflex/geometry/types.hpp"
+#include "counterflex/machine/machine.hpp"
 
 namespace counterflex::cli {
 namespace {

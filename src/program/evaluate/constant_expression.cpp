@@ -5,8 +5,8 @@
 #include <cmath>
 #include <initializer_list>
 
-#include "counterflex/files/numbers.hpp"
-#include "counterflex/geometry/units.hpp"
+#include "counterflex/files/text.hpp"
+#include "counterflex/geometry/types.hpp"
 #include "program/evaluate/constant_operators.hpp"
 #include "program/text/scanner.hpp"
 

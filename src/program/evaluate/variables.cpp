@@ -4,7 +4,7 @@
 
 #include <utility>
 
-#include "counterflex/files/numbers.hpp"
+#include "counterflex/files/text.hpp"
 #include "program/text/scanner.hpp"
 
 namespace counterflex {

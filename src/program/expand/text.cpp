@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <optional>
 
-#include "counterflex/program/called_cycle.hpp"
+#include "counterflex/program/program.hpp"
 #include "program/expand/body_line.hpp"
 #include "program/expand/call.hpp"
 #include "program/expand/follow_flow.hpp"

@@ -3,8 +3,7 @@
 #include <algorithm>
 
 #include "counterflex/geometry/pose.hpp"
-#include "counterflex/geometry/rotation.hpp"
-#include "counterflex/geometry/units.hpp"
+#include "counterflex/geometry/types.hpp"
 #include "program/gcode/contour.hpp"
 #include "program/gcode/read_move.hpp"
 

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <utility>
 
-#include "counterflex/files/numbers.hpp"
+#include "counterflex/files/text.hpp"
 #include "program/dialect.hpp"
 #include "program/text/force_comment.hpp"
 #include "program/text/number_style.hpp"

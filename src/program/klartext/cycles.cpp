@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "counterflex/files/numbers.hpp"
+#include "counterflex/files/text.hpp"
 #include "program/dialect.hpp"
 #include "program/gcode/remarks.hpp"
 #include "program/klartext/read.hpp"

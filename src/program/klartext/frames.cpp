@@ -3,9 +3,9 @@
 
 #include <algorithm>
 
-#include "counterflex/files/numbers.hpp"
+#include "counterflex/files/text.hpp"
 #include "counterflex/geometry/pose.hpp"
-#include "counterflex/geometry/units.hpp"
+#include "counterflex/geometry/types.hpp"
 #include "program/dialect.hpp"
 #include "program/klartext/read.hpp"
 #include "program/text/lex.hpp"

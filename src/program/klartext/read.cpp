@@ -7,7 +7,7 @@
 #include <charconv>
 #include <cmath>
 
-#include "counterflex/files/numbers.hpp"
+#include "counterflex/files/text.hpp"
 #include "program/dialect.hpp"
 #include "program/expand/expand.hpp"
 #include "program/gcode/remarks.hpp"

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "counterflex/files/numbers.hpp"
+#include "counterflex/files/text.hpp"
 #include "program/gcode/read_move.hpp"
 #include "program/gcode/remarks.hpp"
 #include "program/text/scanner.hpp"

@@ -1,7 +1,7 @@
 #pragma once
 /// Cycles of a Sinumerik whose heights are plain numbers. CYCLE81 to CYCLE89 and CYCLE840 drill at the tool's
 /// position. Pockets, slots, spigots and CYCLE71 mill around a centre in their argument list.
-#include "counterflex/program/called_cycle.hpp"
+#include "counterflex/program/program.hpp"
 #include "program/gcode/interpret.hpp"
 
 namespace counterflex {

@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-#include "counterflex/files/numbers.hpp"
+#include "counterflex/files/text.hpp"
 
 namespace counterflex {
 namespace {

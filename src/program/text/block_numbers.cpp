@@ -1,4 +1,4 @@
-#include "counterflex/program/block_numbers.hpp"
+#include "counterflex/program/rewrite.hpp"
 
 #include <algorithm>
 

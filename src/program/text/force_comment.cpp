@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <array>
 
-#include "counterflex/files/numbers.hpp"
+#include "counterflex/files/text.hpp"
 
 namespace counterflex {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "counterflex/files/numbers.hpp"
+#include "counterflex/files/text.hpp"
 
 namespace counterflex {
 

@@ -1,6 +1,6 @@
 #include "program/write/step.hpp"
 
-#include "counterflex/files/numbers.hpp"
+#include "counterflex/files/text.hpp"
 #include "program/dialect.hpp"
 #include "program/text/number_style.hpp"
 #include "program/write/text_cycle.hpp"

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "counterflex/files/numbers.hpp"
+#include "counterflex/files/text.hpp"
 #include "program/dialect.hpp"
 #include "program/text/arc_radius.hpp"
 #include "program/text/number_style.hpp"

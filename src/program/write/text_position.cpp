@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "counterflex/files/numbers.hpp"
+#include "counterflex/files/text.hpp"
 #include "program/dialect.hpp"
 #include "program/text/number_style.hpp"
 #include "program/write/step.hpp"

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "counterflex/geometry/rotation.hpp"
+#include "counterflex/geometry/pose.hpp"
 #include "work.hpp"
 
 namespace counterflex::kernel {

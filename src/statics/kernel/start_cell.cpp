@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "counterflex/geometry/rotation.hpp"
+#include "counterflex/geometry/pose.hpp"
 #include "offset_bounds.hpp"
 
 namespace counterflex::kernel {

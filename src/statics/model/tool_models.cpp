@@ -1,4 +1,4 @@
-#include "counterflex/machine/tool.hpp"
+#include "counterflex/machine/machine.hpp"
 #include "counterflex/statics/nominal.hpp"
 #include "statics/model/home.hpp"
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "counterflex/files/numbers.hpp"
-#include "counterflex/geometry/units.hpp"
+#include "counterflex/files/text.hpp"
+#include "counterflex/geometry/types.hpp"
 #include "counterflex/statics/mechanism.hpp"
 
 namespace counterflex {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "counterflex/geometry/rotation.hpp"
+#include "counterflex/geometry/pose.hpp"
 #include "statics/kernel/offset_bounds.hpp"
 #include "statics/solve/start_table.hpp"
 

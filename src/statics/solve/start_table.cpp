@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "counterflex/geometry/rotation.hpp"
+#include "counterflex/geometry/pose.hpp"
 
 namespace counterflex {
 namespace {

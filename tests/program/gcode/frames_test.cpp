@@ -1,6 +1,6 @@
 #include <doctest/doctest.h>
 
-#include "counterflex/geometry/units.hpp"
+#include "counterflex/geometry/types.hpp"
 #include "program/reading.hpp"
 
 using namespace counterflex;

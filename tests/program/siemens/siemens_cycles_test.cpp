@@ -1,7 +1,7 @@
 /// Drilling cycles of a Sinumerik: their heights are shifted with the holes.
 #include <doctest/doctest.h>
 
-#include "counterflex/program/called_cycle.hpp"
+#include "counterflex/program/program.hpp"
 #include "program/reading.hpp"
 
 using namespace counterflex;

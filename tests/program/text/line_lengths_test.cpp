@@ -1,4 +1,4 @@
-#include "counterflex/program/line_lengths.hpp"
+#include "counterflex/program/overview.hpp"
 
 #include <doctest/doctest.h>
 

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <random>
 
-#include "counterflex/files/numbers.hpp"
+#include "counterflex/files/text.hpp"
 #include "program/reading.hpp"
 
 using namespace counterflex;

@@ -1,5 +1,5 @@
 #pragma once
-/// Numbers in text: read with from_chars, written with to_chars; never locale, never exponent, never "-0".
+/// Numbers in text, and text that is fit to be shown.
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -8,6 +8,8 @@
 #include <string_view>
 
 namespace counterflex {
+
+// Numbers in text: read with from_chars, written with to_chars; never locale, never exponent, never "-0".
 
 /// The whole of `text` as a finite number; a leading "+" is allowed. Nothing where it is anything else
 /// (empty, "nan", trailing characters).
@@ -44,5 +46,27 @@ inline double value_of_steps(double whole, int decimals) {
 
 /// `value` rounded to `decimals` digits, as the text of `format_fixed` would be read.
 double rounded(double value, int decimals);
+
+// Text of inputs (names of files, comments, values) as it is shown.
+
+/// `text` with every control character replaced by its code: those of ASCII and of U+0080 to U+009F, line
+/// ends among them, and those that turn the direction of text or break lines (U+202E ...). A terminal or a
+/// page cannot be changed by the result, and it is one line. Other bytes stay, tabs become blanks.
+std::string without_controls(std::string_view text);
+
+/// The same for each line of `text`: its line ends stay.
+std::string lines_without_controls(std::string_view text);
+
+// Characters of text that need not be UTF-8, as the names of files and the comments of programs.
+
+/// The character of UTF-8 at the beginning of `text`, which is not empty; its first byte, 0x80 or above,
+/// where none begins there.
+std::string_view first_character(std::string_view text);
+
+/// Any bytes as UTF-8: a byte that is none is written as % and two hexadecimal digits, % itself as %25.
+std::string utf8_of_bytes(std::string_view bytes);
+
+/// The bytes that `utf8_of_bytes` was given, for what it writes.
+std::string bytes_of_utf8(std::string_view text);
 
 }  // namespace counterflex

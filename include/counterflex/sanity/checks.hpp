@@ -1,0 +1,115 @@
+#pragma once
+/// Checks of a machine and of a path.
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "counterflex/compensation/options.hpp"
+#include "counterflex/statics/mechanism.hpp"
+#include "counterflex/statics/nominal.hpp"
+#include "counterflex/toolpath/toolpath.hpp"
+
+namespace counterflex {
+
+// One question of the sanity block, which doubts inputs that can be read but that hardly any machine has.
+
+enum class SanityState {
+  ok,
+  doubtful,  ///< the run continues
+  wrong,     ///< the run is refused
+  unknown,   ///< there is nothing to judge by
+};
+std::string_view to_string(SanityState state);
+
+struct SanityCheck {
+  std::string name;  ///< "tool axis"
+  SanityState state = SanityState::unknown;
+  std::string text;  ///< the value found; where it is not ok what is usual, and what to do
+};
+
+using SanityChecks = std::vector<SanityCheck>;
+
+// Checks of a machine and of what a run makes of it, before anything is solved along a path.
+
+/// The largest angle between the tip's z (from the tip to the spindle, at home) of `models` and the z axes of
+/// `frames`, or the machine's z where there are none. Above 90 deg the tool points into the work: wrong,
+/// unless `allowed`. From 45 deg on it is doubtful for machines that turn no joint.
+SanityCheck check_tool_axis(const std::vector<const Model*>& models, const std::vector<WorkFrame>& frames,
+                            bool turns_joints, bool allowed);
+
+/// Stiffness along x, y and z of the machine at its tip (N/m), the force over the displacement that it
+/// causes there; infinite where the tip does not yield. None where the machine has no equilibrium.
+/// `p_MT`: where the tip stands (m); none: home.
+std::optional<Vector3> tip_stiffness(const Model& model, const std::optional<Vector3>& p_MT);
+
+/// `where`: "at home", "at line 12". Doubtful below 0.05 and above 1000 N/um.
+SanityCheck check_tip_stiffness(const std::optional<Vector3>& stiffness, const std::string& where);
+
+/// Lengths by tool number (mm) that are known, of the tools in use (all where `used` is empty): without
+/// [spindle] they do not move the tip, which is doubtful.
+SanityCheck check_tool_lengths(const std::map<long, double>& lengths_mm, const std::vector<long>& used,
+                               bool has_spindle);
+
+/// Whether the offsets that a program selects ("" where it selects none) have a place: `known` says whether
+/// the machine file or --work gives any.
+SanityCheck check_work_offset(const std::vector<std::string>& selected, bool known);
+
+/// Springs, masses, angles and lengths that hardly any machine has, each a doubtful check that names what
+/// holds it; one check that is ok where there is none.
+SanityChecks check_magnitudes(const Machine& machine);
+
+// Checks of a run along its path, gathered waypoint by waypoint in memory that does not grow with it. They
+// depend on the order of the waypoints, not on where the path is cut into windows.
+
+/// The place of a path where an actuator comes nearest to an end of its travel; m or rad.
+struct LeastMargin {
+  std::size_t actuator = 0;
+  double value = 0, margin = 0;
+  int line = 0;
+};
+
+/// The least margin of the commanded targets.
+class TravelTally {
+ public:
+  /// Actuator values at a place (m, rad), and the line of its move.
+  void add(const Mechanism& mechanism, const Eigen::VectorXd& rho, int line);
+
+  /// None: no actuator has a limit, or nothing was added.
+  const std::optional<LeastMargin>& least() const { return tightest_; }
+  std::size_t places() const { return places_; }
+
+ private:
+  std::optional<LeastMargin> tightest_;
+  double share_ = 0;  ///< of the travel, as `AxisPlace` has it
+  std::size_t places_ = 0;
+};
+
+/// `named`: the machine without a tool, whose actuators have names. `failure`: why the path was not followed
+/// to its end.
+SanityCheck check_travel(const Mechanism& named, const TravelTally& tally,
+                         const std::optional<Failure>& failure);
+
+/// The force on the tool beside the direction of its feed, over the cutting path where a force acts.
+struct FeedForceTally {
+  double loaded = 0;                    ///< m
+  double along = 0;                     ///< m: the force pushes along the feed
+  double push = 0;                      ///< N m: integral of its component there
+  Vector3 force = Vector3::Zero();      ///< N m: integral of the force across the tool axis
+  double size = 0;                      ///< N m: integral of its size
+  Vector3 direction = Vector3::Zero();  ///< m: integral of the path's direction
+
+  void add(const Waypoint& w);
+};
+
+/// Doubtful where the force pushes along the feed on more than three quarters of the path, or keeps its
+/// direction in the machine while the feed turns; never where all forces are `computed` from the cut, so that
+/// their sense is not typed.
+SanityCheck check_feed_force(const FeedForceTally& tally, bool computed = false);
+
+/// Forces (N) and the tolerance (mm) that hardly any run has; empty where they are usual.
+SanityChecks check_force_size(double largest_N);
+SanityChecks check_tolerance(double tolerance_mm);
+
+}  // namespace counterflex
