@@ -15,10 +15,10 @@ namespace counterflex {
 
 namespace {
 
-/// Whether another try would find the same, until somebody changes what is named or who may read it.
+/// Whether the error is permanent: it stays until the path, the file or its permissions change.
 bool is_of_path(int error) {
   constexpr std::array lasting{ENOENT,  EACCES, EPERM,        EISDIR,
-                               ENOTDIR, ELOOP,  ENAMETOOLONG, EBADF};  // a standard input that is closed
+                               ENOTDIR, ELOOP,  ENAMETOOLONG, EBADF};  // EBADF: standard input is closed
   return std::find(lasting.begin(), lasting.end(), error) != lasting.end();
 }
 
@@ -32,7 +32,8 @@ void fail_reading(const std::string& path) {
 }
 
 Exit exit_of_writing(int error) {
-  const bool lasting = is_of_path(error) || error == EROFS || error == EEXIST || error == ENXIO;  // no reader
+  const bool lasting =
+      is_of_path(error) || error == EROFS || error == EEXIST || error == ENXIO;  // ENXIO: no reader
   return lasting ? Exit::usage : Exit::transient_io;
 }
 

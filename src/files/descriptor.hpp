@@ -1,5 +1,5 @@
 #pragma once
-/// File descriptors, and what errno says about them.
+/// File descriptors, and errors from errno.
 #include <unistd.h>
 
 #include <string>
@@ -10,18 +10,18 @@
 
 namespace counterflex {
 
-/// Throws `InputError` with the reason in errno: Exit::usage where `path` has to be changed, or what it names
-/// (no folder, a name too long, a file system for reading alone), else Exit::transient_io (a disk that fails).
+/// Throws `InputError` with the reason in errno: Exit::usage if `path` or its file must be changed (missing
+/// folder, name too long, read-only file system), else Exit::transient_io (disk failure).
 [[noreturn]] void fail_reading(const std::string& path);
 [[noreturn]] void fail_writing(const std::string& path);
 
-/// Of `errno` after a call that writes.
+/// Interprets `errno` after a write.
 Exit exit_of_writing(int error);
 
-/// Bytes that are read or written at once.
+/// Size of a read or a write, in bytes.
 inline constexpr std::size_t portion = 1 << 18;
 
-/// Closes on leaving, but for the standard streams; `close` before that to see the error.
+/// Closes its descriptor on destruction, except standard streams. Call `close` before to get errors.
 class Descriptor {
  public:
   explicit Descriptor(int fd = -1) : fd_(fd) {}
@@ -44,11 +44,10 @@ class Descriptor {
 /// Whether all of `bytes` could be written.
 bool write_all(int fd, std::string_view bytes);
 
-/// Up to `most` bytes; -1 with errno where they cannot be read.
+/// Reads up to `most` bytes; returns -1 and sets errno on failure.
 ssize_t read_some(int fd, char* to, std::size_t most);
 
-/// An empty file without a name, in the folder for temporary files. Its number is negative where there is
-/// none.
+/// An empty file without a name, in the folder for temporary files. Its descriptor is negative on failure.
 Descriptor nameless_file();
 
 }  // namespace counterflex

@@ -16,7 +16,7 @@ namespace counterflex {
 
 namespace {
 
-// What comes from a pipe, in a file that can be read again.
+// Copies a pipe to a file that can be read again.
 Descriptor copied(const std::string& path, const Descriptor& pipe) {
   Descriptor file = nameless_file();
   if (file.get() < 0) fail_reading(path);
@@ -34,13 +34,13 @@ Descriptor copied(const std::string& path, const Descriptor& pipe) {
 struct FileReader::State {
   std::string path;
   Descriptor file{};
-  off_t start = 0;                      ///< of what standard input still holds
-  std::optional<struct stat> opened{};  ///< of a file that others may change
+  off_t start = 0;                      ///< of the unread part of standard input
+  std::optional<struct stat> opened{};  ///< state of the file when it was opened, to detect changes
   std::optional<std::string> held{};    ///< instead of a file
-  std::size_t next = 0;                 ///< byte that is read next, from `start` on
+  std::size_t next = 0;                 ///< next byte to read, counted from `start`
   std::optional<Sha256> hash{};
-  std::size_t hashed = 0;  ///< bytes from the beginning that `hash` has
-  std::string digits{};    ///< of the whole, once its end has been read
+  std::size_t hashed = 0;  ///< bytes included in `hash`
+  std::string digits{};    ///< of the hash of the file, after its end has been read
 
   std::size_t append(std::string& bytes, std::size_t most) {
     if (held) {

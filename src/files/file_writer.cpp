@@ -20,14 +20,14 @@
 
 namespace counterflex {
 
-/// Names of temporary files, kept where a signal handler may read them.
+/// Names of temporary files, in memory that a signal handler may read.
 struct UnpublishedName {
   std::atomic<bool> taken{false}, complete{false};
   char path[4096];
 };
 static std::array<UnpublishedName, 16> unpublished;
 
-/// Remembers `path` while it lives, if there is room.
+/// Registers `path` until it is destroyed, if there is room.
 class Unpublished {
  public:
   explicit Unpublished(const std::string& path) {
@@ -53,23 +53,23 @@ class Unpublished {
 
 namespace {
 
-/// A new file beside `path` that nobody else has.
+/// A new file beside `path` with a unique name.
 std::pair<std::string, int> create_beside(const std::string& path) {
   static std::atomic<unsigned> counter{0};
   for (;;) {
     std::string name = temporary_name(path, ::getpid(), counter++);
     const int fd = ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
-    if (fd >= 0) ::flock(fd, LOCK_EX | LOCK_NB);  // shows that its writer lives
+    if (fd >= 0) ::flock(fd, LOCK_EX | LOCK_NB);  // shows that its writer is running
     if (fd >= 0 || errno != EEXIST) return {std::move(name), fd};
   }
 }
 
-/// Devices and pipes have no other name to rename from.
-bool has_no_other_name(mode_t mode) {
+/// Devices and pipes are written directly: they cannot be replaced by renaming.
+bool is_device_or_pipe(mode_t mode) {
   return !S_ISREG(mode) && !S_ISDIR(mode);
 }
 
-/// A pipe that nobody reads would hold the run for ever: it is an error.
+/// A pipe without a reader is an error: opening it would block for ever.
 Descriptor open_stream(const std::string& path) {
   if (path == "-") {
     std::fflush(stdout);
@@ -105,7 +105,7 @@ struct FileWriter::State {
 FileWriter::FileWriter(const std::string& path) : state_(new State{.path = path}) {
   struct stat facts {};
   const bool exists = path != "-" && ::stat(path.c_str(), &facts) == 0;
-  if (path == "-" || (exists && has_no_other_name(facts.st_mode))) {
+  if (path == "-" || (exists && is_device_or_pipe(facts.st_mode))) {
     state_->file = nameless_file();
   } else {
     std::error_code ignored;

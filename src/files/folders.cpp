@@ -20,8 +20,8 @@ namespace {
                    fmt::format("cannot {} the folder: {}", what, std::strerror(errno)));
 }
 
-/// A folder may be written to and not be opened; some file systems know nothing of syncing folders. One that
-/// has become read-only has failed.
+/// Ignores folders that are writable but not readable, and file systems that cannot sync folders. A file
+/// system that has become read-only is an error.
 bool cannot_be_synced(int error) {
   return error == EACCES || error == EPERM || error == EINVAL || error == ENOTSUP || error == ENOSYS;
 }

@@ -8,7 +8,7 @@
 namespace counterflex {
 namespace {
 
-/// Of a character of UTF-8 with one to three bytes, 0 for any other.
+/// The code point of a UTF-8 character of one to three bytes, 0 for any other.
 unsigned code_of(std::string_view character) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(character[i]); };
   if (character.size() == 1) return byte(0);

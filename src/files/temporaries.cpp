@@ -16,20 +16,20 @@ namespace {
 
 constexpr std::string_view temporary_ending = ".tmp";
 
-/// Without the digits at its end, of which there must be one.
+/// Removes the digits at the end; there must be at least one.
 std::string_view without_digits(std::string_view text) {
   const std::size_t last = text.find_last_not_of("0123456789");
   return last == std::string_view::npos || last + 1 == text.size() ? "" : text.substr(0, last + 1);
 }
 
-/// Where a writer puts the temporary file of `path`: beside what a link names.
+/// The place of the temporary file for `path`: beside the target of a link.
 std::filesystem::path written_path(const std::string& path) {
   std::error_code error;
   const std::filesystem::path target = std::filesystem::canonical(path, error);
   return error ? std::filesystem::path(path) : target;
 }
 
-/// Whether no process writes the file: its writer would hold its lock.
+/// Whether no process is writing the file. A writer holds its lock.
 bool is_abandoned(const std::filesystem::path& file) {
   const Descriptor descriptor(::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK));
   return descriptor.get() >= 0 && ::flock(descriptor.get(), LOCK_EX | LOCK_NB) == 0;
@@ -81,7 +81,8 @@ std::size_t sweep(const std::vector<std::string>& paths, bool abandoned_alone) {
   for (const std::string& path : paths) {
     const std::filesystem::path file = written_path(path);
     if (!file.filename().empty())
-      names[file.has_parent_path() ? file.parent_path() : "."].insert(temporary_stem(file.filename().string()));
+      names[file.has_parent_path() ? file.parent_path() : "."].insert(
+          temporary_stem(file.filename().string()));
   }
   std::size_t removed = 0;
   for (const auto& [folder, files] : names) removed += sweep_folder(folder, files, abandoned_alone);

@@ -5,7 +5,8 @@
 namespace counterflex {
 namespace {
 
-/// How many bytes the character at the beginning of `text` has, by its first one; 0: none begins so.
+/// The number of bytes of the character at the beginning of `text`, from its first byte; 0 if that byte is
+/// invalid.
 std::size_t utf8_length(std::string_view text) {
   const auto byte = static_cast<unsigned char>(text.front());
   if (byte < 0x80) return 1;
@@ -14,7 +15,7 @@ std::size_t utf8_length(std::string_view text) {
   return byte >= 0xF0 && byte < 0xF5 ? 4 : 0;
 }
 
-/// Neither a longer form of a shorter character, nor a surrogate, nor beyond the last one.
+/// Refuses overlong forms, surrogates and values beyond U+10FFFF.
 bool allowed_second_byte(std::string_view character) {
   const auto first = static_cast<unsigned char>(character[0]),
              second = static_cast<unsigned char>(character[1]);

@@ -49,7 +49,7 @@ TEST_CASE("a file is read in portions, and again from its beginning") {
   }
 }
 
-TEST_CASE("a hash taken along the way is that of the whole, however the file was read before") {
+TEST_CASE("a hash computed while reading is that of the whole file, after any earlier reads") {
   const std::string bytes = "G1 X1\n" + std::string(100000, 'y') + "\nend";
   for (const std::size_t first : {0, 1, 7, 5000, 200000})
     for (const std::size_t again : {0, 3, 9000, 200000}) {
@@ -79,7 +79,7 @@ TEST_CASE("a hash taken along the way is that of the whole, however the file was
   CHECK(sha256(empty) == sha256(std::string_view()));
 }
 
-TEST_CASE("a file that is changed while it is read is refused, one that is not is not") {
+TEST_CASE("a file that changes while it is read is refused") {
   const Folder folder;
   write_file(folder.file("a.ngc"), "G1 X1\n");
   const FileReader replaced(folder.file("a.ngc"));
@@ -89,7 +89,7 @@ TEST_CASE("a file that is changed while it is read is refused, one that is not i
   CHECK(change_of(replaced) == Exit::transient_io);
 }
 
-TEST_CASE("a file put in the place of the one that is read does not disturb it") {
+TEST_CASE("replacing a file while it is read does not affect the reader") {
   const Folder folder;
   write_file(folder.file("a.ngc"), "G1 X1\n");
   FileReader reader(folder.file("a.ngc"));
@@ -98,7 +98,7 @@ TEST_CASE("a file put in the place of the one that is read does not disturb it")
   CHECK(in_portions(reader, 100) == "G1 X1\n");
 }
 
-TEST_CASE("what is not published can be removed from a signal handler") {
+TEST_CASE("unpublished files can be removed from a signal handler") {
   const Folder folder;
   FileWriter published(folder.file("a.ngc"));
   published.write("G1 X1\n");

@@ -24,7 +24,7 @@ TEST_CASE("a file that is written has its name only once it is published") {
   CHECK(folder.count() == 1);
 }
 
-TEST_CASE("a file that is never published leaves nothing, and the old one as it was") {
+TEST_CASE("a file that is never published leaves no trace, and the old one is unchanged") {
   const Folder folder;
   write_file(folder.file("out.ngc"), "old");
   { FileWriter(folder.file("out.ngc")).write(std::string(1 << 20, 'x')); }
@@ -33,7 +33,7 @@ TEST_CASE("a file that is never published leaves nothing, and the old one as it 
   CHECK(folder.count() == 1);
 }
 
-TEST_CASE("a file that is complete waits for nothing but its name") {
+TEST_CASE("a complete file only needs its name") {
   const Folder folder;
   write_file(folder.file("out.ngc"), "old");
   FileWriter file(folder.file("out.ngc"));
@@ -51,7 +51,7 @@ TEST_CASE("a file that is complete waits for nothing but its name") {
   CHECK(folder.count() == 1);
 }
 
-TEST_CASE("a file that is complete and never published leaves nothing") {
+TEST_CASE("a complete file that is never published leaves no trace") {
   const Folder folder;
   {
     FileWriter file(folder.file("out.ngc"));
@@ -62,7 +62,7 @@ TEST_CASE("a file that is complete and never published leaves nothing") {
   CHECK(folder.count() == 0);
 }
 
-TEST_CASE("a hash taken along the way is that of what was written, in portions of any size") {
+TEST_CASE("a hash computed while writing is that of the written bytes, for portions of any size") {
   const Folder folder;
   FileWriter file(folder.file("out.ngc")), plain(folder.file("plain.ngc"));
   file.hash_along();
@@ -83,7 +83,7 @@ TEST_CASE("a hash taken along the way is that of what was written, in portions o
   CHECK(plain.sha256().empty());
 }
 
-TEST_CASE("files that are published together get their names in order, none behind one that cannot") {
+TEST_CASE("files that are published together get their names in order, up to the first failure") {
   const Folder folder;
   FileWriter a(folder.file("a.ngc")), b(folder.file("b.ngc")), c(folder.file("c.ngc"));
   for (FileWriter* file : {&a, &b, &c}) file->write("new");
@@ -93,7 +93,7 @@ TEST_CASE("files that are published together get their names in order, none behi
   CHECK(!std::filesystem::exists(folder.file("c.ngc")));
 }
 
-TEST_CASE("a device receives nothing before it is published, and its errors show then") {
+TEST_CASE("a device receives no bytes before publication, and its errors appear then") {
   if (!std::filesystem::exists("/dev/full")) return;
   FileWriter full("/dev/full");
   CHECK(full.is_stream());

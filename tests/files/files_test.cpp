@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// A standard stream that is another file while this lives.
+/// Replaces a standard stream by another file until it is destroyed.
 struct Redirected {
   int stream, saved;
   Redirected(int fd, const std::string& path, int flags) : stream(fd), saved(::dup(fd)) {
@@ -50,7 +50,7 @@ bool mentions(const InputError& error, const std::string& text) {
 
 }  // namespace
 
-TEST_CASE("what is written is read back, every byte") {
+TEST_CASE("reading a written file restores every byte") {
   const Folder folder;
   std::string bytes = "G1 X1\r\n\0\xff end without line end";
   bytes += '\0';
@@ -89,7 +89,7 @@ TEST_CASE("a new file has the permissions 0644 less the umask, an old one keeps 
   CHECK(mode() == 0604);
 }
 
-TEST_CASE("a write to a path that names no file is a usage error that names the path and leaves nothing behind") {
+TEST_CASE("a write to a path that is not a file is a usage error with the path, and leaves no trace") {
   const Folder folder;
   const auto no_folder = error_of([&] { write_file(folder.file("none/a"), "1"); });
   CHECK(no_folder.exit() == Exit::usage);
@@ -101,7 +101,7 @@ TEST_CASE("a write to a path that names no file is a usage error that names the 
   CHECK(folder.count() == 1);
 }
 
-TEST_CASE("a folder without write permission is refused and the old file stays as it was") {
+TEST_CASE("a folder without write permission is refused and the old file is unchanged") {
   if (::geteuid() == 0) return;  // root may write anywhere
   const Folder folder;
   write_file(folder.file("a"), "old");
@@ -132,7 +132,7 @@ TEST_CASE("a dash is standard input and standard output") {
   CHECK(read_file("-") == "before bytes\r\n");
 }
 
-TEST_CASE("a standard output that takes no more is an error") {
+TEST_CASE("a standard output that accepts no bytes is an error") {
   std::string what;
   Exit exit = Exit::done;
   {
@@ -146,7 +146,7 @@ TEST_CASE("a standard output that takes no more is an error") {
   CHECK(what == "error: cannot write standard output: No space left on device");
 }
 
-TEST_CASE("writing through a symbolic link replaces what it names and keeps the link") {
+TEST_CASE("writing through a symbolic link replaces its target and keeps the link") {
   const Folder folder;
   write_file(folder.file("real"), "old");
   fs::create_symlink("real", folder.path / "link");
@@ -155,7 +155,7 @@ TEST_CASE("writing through a symbolic link replaces what it names and keeps the 
   CHECK(read_file(folder.file("real")) == "new");
 }
 
-TEST_CASE("a symbolic link that leads nowhere is no output, and stays") {
+TEST_CASE("a broken symbolic link is refused as output and is not changed") {
   const Folder folder;
   fs::create_symlink("missing", folder.path / "link");
   fs::create_symlink("loop", folder.path / "loop");
@@ -195,7 +195,7 @@ TEST_CASE("SHA-256 of portions is that of the whole") {
 }
 
 // RFC 4648, section 10; the digest is that of FIPS 180-2, appendix B.1.
-TEST_CASE("base64 is that of its standard, and integrity that of the digest's bytes") {
+TEST_CASE("base64 follows its standard, and integrity encodes the digest's bytes") {
   CHECK(base64("") == "");
   CHECK(base64("f") == "Zg==");
   CHECK(base64("fo") == "Zm8=");
@@ -203,11 +203,11 @@ TEST_CASE("base64 is that of its standard, and integrity that of the digest's by
   CHECK(integrity("abc") == "sha256-ungWv48Bz+pBQUDeXa4iI7ADYaOWF3qctBD/YfIAFa0=");
 }
 
-TEST_CASE("a file that is not there is the caller's error, one that cannot be read at the moment is not") {
+TEST_CASE("a missing file is a usage error, a read failure is a temporary error") {
   const Folder folder;
   for (const std::string& path : {folder.file("missing"), folder.file("missing/below"), std::string("/")})
     CHECK(error_of([&] { read_file(path); }).exit() == Exit::usage);
-  const InputError error = error_of([] { read_file("/proc/self/mem"); });  // nothing is at its beginning
+  const InputError error = error_of([] { read_file("/proc/self/mem"); });  // reading its beginning fails
   CHECK(error.exit() == Exit::transient_io);
   CHECK(mentions(error, "cannot read the file: Input/output error"));
 }

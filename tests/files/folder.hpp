@@ -1,5 +1,5 @@
 #pragma once
-/// A place for files of a test.
+/// A temporary folder for tests.
 #include <doctest/doctest.h>
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -11,7 +11,7 @@
 
 namespace counterflex::test {
 
-/// An empty folder that vanishes with the test.
+/// An empty folder that is removed with the test.
 struct Folder {
   std::filesystem::path path;
   Folder() {

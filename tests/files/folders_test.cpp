@@ -6,7 +6,7 @@
 using namespace counterflex;
 using namespace counterflex::test;
 
-TEST_CASE("a folder is made with what is missing above it, and left alone where it is there") {
+TEST_CASE("a folder is created with its missing parents, and an existing one is not changed") {
   const Folder folder;
   for (const char* path : {"a/b/c", "a/b/c", "d/", "d/e//f/", "."}) {
     CAPTURE(path);
@@ -15,7 +15,7 @@ TEST_CASE("a folder is made with what is missing above it, and left alone where 
   }
 }
 
-TEST_CASE("a folder that cannot be made is named") {
+TEST_CASE("the error for a folder that cannot be created has its name") {
   const Folder folder;
   write_file(folder.file("file"), "x");
   for (const char* path : {"file", "file/below", "file/far/below"}) {
@@ -31,7 +31,7 @@ TEST_CASE("a folder that cannot be made is named") {
   CHECK(read_file(folder.file("file")) == "x");
 }
 
-TEST_CASE("syncing a folder that is not there is an error") {
+TEST_CASE("syncing a missing folder is an error") {
   const Folder folder;
   CHECK_NOTHROW(sync_folder(folder.path.string()));
   CHECK_THROWS_AS(sync_folder(folder.file("missing")), InputError);

@@ -6,7 +6,7 @@
 
 using namespace counterflex;
 
-TEST_CASE("a diagnostic says where as far as it is known") {
+TEST_CASE("a diagnostic has the known part of the place") {
   const auto text = [](const Location& where) {
     return std::string(InputError(Exit::usage, where, "m").what());
   };

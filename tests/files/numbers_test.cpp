@@ -16,7 +16,7 @@ TEST_CASE("numbers are read whole, with an optional sign") {
   CHECK(read_number("2.2E-14") == 2.2e-14);
 }
 
-TEST_CASE("what is not a finite number and nothing else is not read") {
+TEST_CASE("a text other than one finite number is refused") {
   for (const char* text : {"", "+", "-", ".", " 1", "1 ", "1,5", "nan", "inf", "-inf", "1e999", "0x10", "++1",
                            "+-1", "--1", "1.2.3", "1mm"}) {
     CAPTURE(text);
@@ -24,7 +24,7 @@ TEST_CASE("what is not a finite number and nothing else is not read") {
   }
 }
 
-TEST_CASE("a tool's number is digits behind a T, or alone") {
+TEST_CASE("a tool's number is digits after a T, or only digits") {
   CHECK(read_tool_number("T3") == 3);
   CHECK(read_tool_number("t03") == 3);
   CHECK(read_tool_number("12") == 12);
@@ -37,7 +37,7 @@ TEST_CASE("a tool's number is digits behind a T, or alone") {
   }
 }
 
-TEST_CASE("fixed numbers have exactly the digits asked for, rounded to nearest") {
+TEST_CASE("fixed numbers have exactly the requested digits, rounded to nearest") {
   CHECK(format_fixed(1.23456, 3) == "1.235");
   CHECK(format_fixed(-1.23456, 3) == "-1.235");
   CHECK(format_fixed(0.0005000001, 3) == "0.001");
@@ -64,7 +64,7 @@ TEST_CASE("huge and tiny numbers are written without exponent") {
   CHECK(read_number(largest) == -std::numeric_limits<double>::max());
 }
 
-TEST_CASE("a rounded number is what its text is read as, and rounding twice changes nothing") {
+TEST_CASE("a rounded number equals its text read back, and rounding twice has no further effect") {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> values(-1000, 1000);
   for (int i = 0; i < 1000; ++i) {

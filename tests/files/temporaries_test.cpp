@@ -12,7 +12,7 @@ using namespace counterflex::test;
 
 namespace {
 
-/// Another process does, which is gone then.
+/// Runs in another process, which then ends.
 void begin_and_die(const std::string& path) {
   const pid_t child = ::fork();
   if (child == 0) {
@@ -26,7 +26,7 @@ void begin_and_die(const std::string& path) {
 
 }  // namespace
 
-TEST_CASE("a temporary name says what the file was to become") {
+TEST_CASE("a temporary name contains the final name") {
   CHECK(temporary_name("a/b.ngc", 12, 3) == "a/b.ngc.12-3.tmp");
   for (const char* path : {"b.ngc", "b", "b.1-2.tmp", ".b", "12-3"})
     CHECK(wanted_name(temporary_name(path, 4711, 0)) == path);
@@ -37,7 +37,7 @@ TEST_CASE("a temporary name says what the file was to become") {
   }
 }
 
-TEST_CASE("what killed writers have left is swept, and nothing else") {
+TEST_CASE("only the unfinished files of killed writers are removed") {
   const Folder folder;
   const auto names = [&] {
     std::set<std::string> found;
@@ -75,7 +75,7 @@ TEST_CASE(
   CHECK(read_file(folder.file("real/a.ngc")) == "old");
 }
 
-TEST_CASE("where others may write now, only what no living writer has locked is swept") {
+TEST_CASE("with other writers active only unlocked temporary files are removed") {
   const Folder folder;
   const std::string long_name = folder.file(std::string(255, 'n'));
   begin_and_die(folder.file("a.ngc"));
