@@ -13,8 +13,8 @@ namespace {
 constexpr double parallel = 1 - 1e-9;    // cosine
 constexpr std::size_t least_of_arm = 4;  // rotary actuators in series
 
-/// The letter of an actuator whose axis is parallel to one of the machine's, in the orientation `R` of the
-/// frame before it; 0 for any other.
+/// The letter of an actuator whose axis is parallel to a machine axis, with the orientation `R` of the frame
+/// before it; 0 for any other.
 char letter_of(const Joint& joint, const Matrix3& R) {
   const Vector3 axis = R * joint.axis;
   for (int i = 0; i < 3; ++i)
@@ -40,7 +40,7 @@ std::string letters_of(const Chain& chain) {
   return letters;
 }
 
-/// Names of the actuators of a serial machine that stand in its chain itself; empty: no better than a number.
+/// Names of the actuators of a serial machine directly in its chain; empty if they have only numbers.
 std::vector<std::string> names_in_series(const Chain& chain) {
   const std::string letters = letters_of(chain);
   std::vector<std::string> names;
@@ -48,8 +48,7 @@ std::vector<std::string> names_in_series(const Chain& chain) {
   for (const Element& element : chain.elements)
     if (const auto* actuator = std::get_if<Actuator>(&element))
       rotary.push_back(actuator->joint.kind == JointKind::revolute);
-  const bool arm =
-      static_cast<std::size_t>(std::count(rotary.begin(), rotary.end(), true)) >= least_of_arm;
+  const bool arm = static_cast<std::size_t>(std::count(rotary.begin(), rotary.end(), true)) >= least_of_arm;
   int turning = 0;
   for (std::size_t i = 0; i < rotary.size(); ++i) {
     const bool alone = letters[i] != 0 && std::count(letters.begin(), letters.end(), letters[i]) == 1;

@@ -20,7 +20,7 @@ struct Beam {
 ///                                   c_zz = L³/3EIy   c_ryry = L/EIy   c_z,ry = −L²/2EIy
 Matrix6 tip_compliance(const Beam& beam);
 
-/// The six-by-six `C` of a frame, in the axes in which that frame is turned by `R`.
+/// The six-by-six `C` of a frame, in axes in which that frame is rotated by `R`.
 Matrix6 turned(const Matrix6& C, const Matrix3& R);
 
 }  // namespace counterflex

@@ -64,8 +64,8 @@ std::optional<BadEntry> find_indefiniteness(const Matrix6& A, bool semidefinite)
   constexpr double distinct = 1e-12;
   const double least = semidefinite ? -rounding : distinct;
   if (const auto bad = find_large_coupling(scaled, A, 1 - least)) return bad;
-  // The smallest eigenvalue of the leading blocks only falls as they grow; the first bad one names its last
-  // row.
+  // The smallest eigenvalue of the leading blocks decreases with their size. The last row of the first bad
+  // block is reported.
   for (int k = 0; k < 6; ++k) {
     const double smallest = eigenvalues(scaled.topLeftCorner(k + 1, k + 1))[0];
     if (smallest >= least) continue;

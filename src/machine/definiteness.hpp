@@ -1,5 +1,5 @@
 #pragma once
-/// Whether a 6x6 matrix may be a stiffness or a compliance, and which entry says that it may not.
+/// Checks whether a 6x6 matrix can be a stiffness or a compliance, and finds the entry that prevents it.
 #include <optional>
 #include <string>
 
@@ -7,7 +7,7 @@
 
 namespace counterflex {
 
-/// What is wrong with an entry (row and column from 0).
+/// An entry (row and column from 0) and its error.
 struct BadEntry {
   int row = 0;
   int column = 0;
@@ -15,12 +15,12 @@ struct BadEntry {
 };
 
 /// The first entry that differs from its mirror image by more than 1e-6 of the larger one. Entries that are
-/// nothing beside their diagonals (1e-9 of the geometric mean) may differ: matrices that were computed have
-/// such noise.
+/// negligible beside their diagonals (1e-9 of the geometric mean) may differ: computed matrices have such
+/// noise.
 std::optional<BadEntry> find_asymmetry(const Matrix6& A);
 
-/// The entry that keeps symmetric `A` from being positive definite or, where `semidefinite`, positive
-/// semidefinite: judged on A scaled to a unit diagonal, so that lengths and angles need not be compared.
+/// The entry that prevents symmetric `A` from being positive definite or, if `semidefinite`, positive
+/// semidefinite. Uses A scaled to a unit diagonal, so that lengths and angles are not compared.
 std::optional<BadEntry> find_indefiniteness(const Matrix6& A, bool semidefinite);
 
 /// The inverse of symmetric positive definite `A`, exactly symmetric; scaled before it is inverted.

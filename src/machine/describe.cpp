@@ -25,7 +25,7 @@ std::string controlled_phrase(const Machine& machine) {
 }
 
 std::string home_phrase(const Machine& machine) {
-  if (!machine.home_X_MP) return "where the joints' home values put the platform";
+  if (!machine.home_X_MP) return "at the platform pose of the joints' home values";
   if (is_identity(*machine.home_X_MP)) return "reference point at the machine's origin";
   return "reference point at " + phrase(*machine.home_X_MP);
 }
@@ -44,7 +44,7 @@ bool is_length_alone(const Tool& tool) {
   return tool.length && !tool.diameter && !tool.stickout && !tool.flute && tool.yields.empty();
 }
 
-/// Of the tools that are a length and nothing else.
+/// Lists the tools that have only a length.
 std::string lengths_phrase(const Machine& machine) {
   std::string text;
   for (const auto& [number, tool] : machine.tools)
@@ -73,7 +73,7 @@ std::string tool_change_phrase(const ControlSettings& control) {
 
 std::string gravity_phrase(const Machine& machine) {
   const double kg = total_mass(machine);
-  if (machine.gravity.g.isZero(0)) return "none given: " + phrase_mass(kg) + " without weight";
+  if (machine.gravity.g.isZero(0)) return "not given: " + phrase_mass(kg) + " without weight";
   const Vector3 g = machine.gravity.g.array() + 0.0;  // never "-0"
   return fmt::format("{:.9g} {:.9g} {:.9g} m/s2 on {}; the control's zero was set {}", g.x(), g.y(), g.z(),
                      kg > 0 ? phrase_mass(kg) : "no mass",
@@ -96,7 +96,7 @@ std::string datum_phrase(const Datum& datum) {
   return datum.is_machine ? "datum \"machine\"" : "datum not stated";
 }
 
-/// One line where all chains have the same limits, else one a chain.
+/// One line if all chains have the same limits, else one for each chain.
 void describe_limits(const Machine& machine, std::string& text) {
   const std::vector<LoadLimits>& all = machine.load_limits;
   if (all.empty()) return;
@@ -107,8 +107,8 @@ void describe_limits(const Machine& machine, std::string& text) {
 }
 
 void describe_settings(const Machine& machine, std::string& text) {
-  const auto line = [&](std::string_view what, const std::string& said) {
-    text += fmt::format("{:<12} {}\n", what, said);
+  const auto line = [&](std::string_view label, const std::string& value) {
+    text += fmt::format("{:<12} {}\n", label, value);
   };
   line("machine", machine.name.empty() ? "without a name" : machine.name);
   line("controlled", controlled_phrase(machine));
@@ -129,8 +129,9 @@ void describe_settings(const Machine& machine, std::string& text) {
   else if (machine.work.empty())
     line("work", "no offsets: programs are in the machine frame");
   for (const auto& [name, offset] : machine.work)
-    line("work " + name, fmt::format("{}; {}", is_identity(offset.X_MW) ? "the machine frame" : phrase(offset.X_MW),
-                                     datum_phrase(offset.datum)));
+    line("work " + name,
+         fmt::format("{}; {}", is_identity(offset.X_MW) ? "the machine frame" : phrase(offset.X_MW),
+                     datum_phrase(offset.datum)));
 }
 
 void describe_chains(const Machine& machine, std::string& text) {

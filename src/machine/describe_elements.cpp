@@ -78,7 +78,7 @@ void describe_elements(const std::vector<Element>& elements, int indent, int& ac
   int number = 0;
   for (const Element& element : elements) {
     const Line line = line_of(element, actuator);
-    // A mass stands beside the element before it.
+    // A mass is in the entry of the element before it.
     const std::string place = std::holds_alternative<PointMass>(element) ? "" : fmt::format("{}", ++number);
     text += fmt::format("{:{}}{:>2}  {:<12} {}\n", "", indent, place, line.kind, line.what);
     const auto* group = std::get_if<Group>(&element);

@@ -1,13 +1,13 @@
 #pragma once
-/// A chain's elements, one a line.
+/// The elements of a chain, one in each line.
 #include <string>
 
 #include "counterflex/machine/machine.hpp"
 
 namespace counterflex {
 
-/// Appends one line an element to `text`, indented; branches of groups deeper. `actuator` is the number of
-/// the last actuator before, and is counted on.
+/// Appends one indented line for each element to `text`, with deeper indentation for branches. `actuator` is
+/// the number of the previous actuator, and is increased.
 void describe_elements(const std::vector<Element>& elements, int indent, int& actuator, std::string& text);
 
 }  // namespace counterflex

@@ -22,9 +22,9 @@ void for_each_definition(const toml::table& document, std::string_view kind, con
   for (const auto& [key, value] : entries) add(std::string(key->str()), key, *value);
 }
 
-GivenByName<const toml::node*> read_element_lists(const toml::table& document, std::string_view kind,
-                                                  std::string_view singular, const Source& source) {
-  GivenByName<const toml::node*> lists;
+DefinitionsByName<const toml::node*> read_element_lists(const toml::table& document, std::string_view kind,
+                                                        std::string_view singular, const Source& source) {
+  DefinitionsByName<const toml::node*> lists;
   for_each_definition(document, kind, source,
                       [&](std::string name, const toml::key* key, const toml::node& node) {
                         const std::string owner = fmt::format("{} \"{}\"", singular, name);
@@ -36,7 +36,7 @@ GivenByName<const toml::node*> read_element_lists(const toml::table& document, s
 }
 
 template <class T>
-void check_used(const GivenByName<T>& given, std::string_view singular, const Source& source) {
+void check_used(const DefinitionsByName<T>& given, std::string_view singular, const Source& source) {
   if (const toml::key* unused = first_unused(given))
     source.fail(*unused, fmt::format("no chain uses the {} \"{}\"; remove it", singular, unused->str()));
 }

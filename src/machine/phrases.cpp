@@ -9,7 +9,7 @@
 namespace counterflex {
 namespace {
 
-/// Without the last digits, which conversions leave: 0 instead of 1e-15 or -0.
+/// Removes rounding noise of conversions: 0 instead of 1e-15 or -0.
 double tidy(double value) {
   return std::abs(value) < 1e-9 ? 0.0 : value;
 }

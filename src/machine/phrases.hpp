@@ -10,7 +10,7 @@ namespace counterflex {
 /// `3 actuators`, `1 actuator`, `no actuators`.
 std::string counted(int count, std::string_view singular, std::string_view plural);
 
-/// `xyz 1 0 0 mm, rpy 0 0 90 deg`, leaving out what is zero; `none` for identity.
+/// `xyz 1 0 0 mm, rpy 0 0 90 deg`, without zero parts; `none` for identity.
 std::string phrase(const Pose& X);
 
 /// `prismatic along x`, `revolute about (0 0.6 0.8)`.

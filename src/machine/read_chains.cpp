@@ -13,9 +13,9 @@ namespace {
 /// The entries of the chain's table `kind` (`values`, `transforms`, `errors`), each read by `read(node,
 /// name)`.
 template <class T, class Read>
-GivenByName<T> read_given(const toml::table& chain, std::string_view kind, const Source& source,
-                          const Read& read) {
-  GivenByName<T> given;
+DefinitionsByName<T> read_given(const toml::table& chain, std::string_view kind, const Source& source,
+                                const Read& read) {
+  DefinitionsByName<T> given;
   const toml::node* node = chain.get(kind);
   if (node == nullptr) return given;
   for (const auto& [key, value] : as_table(*node, kind, source)) {
@@ -40,18 +40,18 @@ Fillings read_fillings(const toml::table& chain, std::string name, const toml::n
 }
 
 template <class T>
-void check_used(const GivenByName<T>& given, std::string_view kind, const std::string& chain,
+void check_used(const DefinitionsByName<T>& given, std::string_view kind, const std::string& chain,
                 const Source& source, const std::string& remedy) {
   if (const toml::key* unused = first_unused(given))
     source.fail(*unused,
-                fmt::format("chain \"{}\" has no use for {}.{}{}", chain, kind, unused->str(), remedy));
+                fmt::format("chain \"{}\" does not use {}.{}{}", chain, kind, unused->str(), remedy));
 }
 
 void check_fillings_used(const Expansion& expansion) {
   const Fillings& fillings = expansion.fillings;
   const Source& source = expansion.source;
-  check_used(fillings.values, "values", fillings.chain, source, "; no number of its elements asks for it");
-  check_used(fillings.transforms, "transforms", fillings.chain, source, "; no rigid element asks for it");
+  check_used(fillings.values, "values", fillings.chain, source, "; no number of its elements refers to it");
+  check_used(fillings.transforms, "transforms", fillings.chain, source, "; no rigid element refers to it");
   if (const toml::key* unused = first_unused(fillings.errors)) {
     const std::vector<std::string_view> slots(expansion.slots.begin(), expansion.slots.end());
     check_used(fillings.errors, "errors", fillings.chain, source, hint(unused->str(), slots, "error slots"));

@@ -15,8 +15,8 @@ namespace {
 constexpr std::size_t most_elements = 10000;
 constexpr std::size_t deepest_nesting = 8;
 
-// Solving takes the third power of a chain's coordinates in time, and its wrenches the second of a machine's in memory.
-// Measured: `predict` of six lines takes 5 s with 180 coordinates in one chain.
+// Solving takes the third power of a chain's coordinates in time, and its wrenches the second of a machine's
+// in memory. Measured: `predict` of six lines takes 5 s with 180 coordinates in one chain.
 constexpr std::size_t most_in_chain = 180, most_in_machine = 360;
 
 const std::vector<std::string_view> kinds = {"rigid",  "error",      "actuator", "passive",
@@ -26,10 +26,10 @@ Reading reading_of(Expansion& expansion) {
   return {expansion.source, &expansion.fillings};
 }
 
-/// The entry called `name`, marked as used. Throws at `node` where there is none.
+/// The entry called `name`, marked as used. Throws at `node` if it is undefined.
 template <class T>
-T& use(GivenByName<T>& defined, const std::string& name, std::string_view singular, const toml::node& node,
-       const Source& source) {
+T& use(DefinitionsByName<T>& defined, const std::string& name, std::string_view singular,
+       const toml::node& node, const Source& source) {
   const auto found = defined.find(name);
   if (found == defined.end())
     source.fail(
@@ -46,10 +46,9 @@ Element read_rigid(const toml::table& table, Expansion& expansion) {
   Fillings& fillings = expansion.fillings;
   const auto found = fillings.transforms.find(name);
   if (found == fillings.transforms.end())
-    expansion.source.fail(
-        *fillings.place,
-        fmt::format("chain \"{}\" lacks transforms.{}, which its elements ask for in line {}", fillings.chain,
-                    name, node.source().begin.line));
+    expansion.source.fail(*fillings.place,
+                          fmt::format("chain \"{}\" lacks transforms.{}, which its elements use in line {}",
+                                      fillings.chain, name, node.source().begin.line));
   found->second.used = true;
   return Rigid{found->second.value};
 }
@@ -61,7 +60,7 @@ Element read_error(const toml::table& table, Expansion& expansion) {
   if (!expansion.slots.insert(name).second)
     expansion.source.fail(
         node,
-        fmt::format("chain \"{}\" meets the error slot \"{}\" twice; each slot of a chain needs its own name",
+        fmt::format("chain \"{}\" has the error slot \"{}\" twice; each slot of a chain needs its own name",
                     expansion.fillings.chain, name));
   const auto given = expansion.fillings.errors.find(name);
   if (given == expansion.fillings.errors.end()) return AssemblyError{name, Pose{}};
@@ -84,8 +83,8 @@ Branch read_branch(const toml::node& node, Expansion& expansion) {
     expansion.source.fail(
         node, fmt::format("branch \"{}\" is part of itself: {} > {}", name, fmt::join(open, " > "), name));
   if (open.size() == deepest_nesting)
-    expansion.source.fail(
-        node, fmt::format("branch \"{}\" lies more than {} branches deep", name, deepest_nesting));
+    expansion.source.fail(node,
+                          fmt::format("branch \"{}\" is more than {} branches deep", name, deepest_nesting));
   open.push_back(name);
   count_coordinates(6, node, expansion);
   Branch branch{name, read_elements(list, expansion)};
@@ -97,8 +96,7 @@ Element read_group(const toml::table& table, Expansion& expansion) {
   const toml::node& node = *table.get("parallel");
   check_keys(table, {"parallel", "mass"}, "a parallel element", expansion.source);
   const toml::array& list = as_array(node, "parallel", expansion.source);
-  if (list.empty())
-    expansion.source.fail(node, "parallel is empty; it must name the branches that stand side by side");
+  if (list.empty()) expansion.source.fail(node, "parallel is empty; it must list the branches");
   Group group;
   for (const toml::node& name : list) group.branches.push_back(read_branch(name, expansion));
   return group;
@@ -119,7 +117,7 @@ PointMass read_mass(const toml::node& node, const Reading& reading) {
   check_keys(table, allowed, "an element", source);
   source.fail(table, fmt::format("{} one of {}",
                                  table.empty() ? "an element is empty; it must be"
-                                               : "a mass stands alone; it stands beside",
+                                               : "a mass is alone in its entry; add it to",
                                  fmt::join(kinds, ", ")));
 }
 
@@ -138,7 +136,8 @@ Element read_element(const toml::table& table, Expansion& expansion) {
 
 std::size_t coordinates_of(const Element& element) {
   if (std::holds_alternative<Spring>(element) || std::holds_alternative<Group>(element)) return 6;
-  const bool is_joint = std::holds_alternative<Actuator>(element) || std::holds_alternative<Passive>(element) ||
+  const bool is_joint = std::holds_alternative<Actuator>(element) ||
+                        std::holds_alternative<Passive>(element) ||
                         std::holds_alternative<Compliance>(element);
   return is_joint ? 1 : 0;
 }
@@ -149,7 +148,8 @@ void count_coordinates(std::size_t count, const toml::node& node, Expansion& exp
   const auto limit = [&](std::size_t found, std::string_view whole, std::size_t most) {
     if (found <= most) return;
     expansion.source.fail(
-        node, fmt::format("here, in chain \"{}\", {} has more than {} coordinates (6 a spring, parallel element, branch and "
+        node, fmt::format("here, in chain \"{}\", {} has more than {} coordinates (6 a spring, parallel "
+                          "element, branch and "
                           "chain, 1 a joint); at most {} are allowed: put springs in series into one",
                           expansion.fillings.chain, whole, most, most));
   };
@@ -165,9 +165,11 @@ std::vector<Element> read_elements(const toml::node& node, Expansion& expansion)
   for (const toml::node& element : list) {
     if (++expansion.library.elements > most_elements)
       expansion.source.fail(
-          element, fmt::format("here, in chain \"{}\", the machine has more than {} elements; branches that use branches "
-                               "multiply",
-                               expansion.fillings.chain, most_elements));
+          element,
+          fmt::format(
+              "here, in chain \"{}\", the machine has more than {} elements; branches that use branches "
+              "multiply",
+              expansion.fillings.chain, most_elements));
     const toml::table& table = as_table(element, "an element", expansion.source);
     elements.push_back(read_element(table, expansion));
     count_coordinates(coordinates_of(elements.back()), element, expansion);

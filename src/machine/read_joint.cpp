@@ -8,7 +8,7 @@
 namespace counterflex::toml_file {
 namespace {
 
-/// The keys of a joint's kind, and the unit of its values.
+/// The keys of a kind of joint, and the unit of its values.
 struct JointKeys {
   JointKind kind;
   std::string_view name;
@@ -142,7 +142,7 @@ Compliance read_compliance(const toml::table& table, const Reading& reading) {
   const double value = as_positive(*table.get(form), {form}, reading);
   compliance.stiffness = form == keys.stiffness ? value : 1 / value;
   refuse_too_stiff(compliance.stiffness, owner, unit_of(keys), *table.get(form), reading.source);
-  // In the nominal configuration its coordinate is 0, so that "home" is what it does anyway.
+  // In the nominal configuration its coordinate is 0, so that "home" is the default.
   if (const toml::node* preload = table.get("preload")) check_preload_home(*preload, "", reading.source);
   return compliance;
 }

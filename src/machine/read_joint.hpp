@@ -1,5 +1,5 @@
 #pragma once
-/// Joints and one-coordinate springs as the machine file writes them.
+/// Reads joints and springs of one coordinate from the machine file.
 #include "counterflex/machine/machine.hpp"
 #include "toml/fields.hpp"
 

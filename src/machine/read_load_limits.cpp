@@ -7,7 +7,7 @@
 namespace counterflex::toml_file {
 namespace {
 
-/// Those that `table` gives; of the others what `limits` has stays.
+/// Sets the limits in `table`, and keeps the others in `limits`.
 void read_kinds(const toml::table& table, const Source& source, LoadLimits& limits) {
   for (const LoadKind kind : load_kinds) {
     const LoadName& name = name_of(kind);

@@ -20,13 +20,13 @@ constexpr std::string_view format = "counterflex-machine 1";
 void check_format(const toml::table& document, const Source& source) {
   const toml::node* node = document.get("format");
   if (node == nullptr)
-    source.fail_at_start(fmt::format("no format; a machine file says format = \"{}\"", format));
+    source.fail_at_start(fmt::format("no format; a machine file begins with format = \"{}\"", format));
   const auto* text = node->as_string();
   if (text == nullptr || text->get() != format)
     source.fail(*node, fmt::format("format is {}; it must be \"{}\"", seen(*node), format));
 }
 
-/// As many components as actuators, or none.
+/// Throws unless `controlled` has as many components as there are actuators, or is empty.
 void check_controlled(const toml::table& document, const Source& source, const Machine& machine) {
   const std::size_t count = actuators(machine).size();
   if (machine.controlled.empty() || machine.controlled.size() == count) return;
@@ -34,11 +34,9 @@ void check_controlled(const toml::table& document, const Source& source, const M
   if (count > 6)
     source.fail(node,
                 fmt::format("the machine has {} actuators; with more than 6, controlled must be []", count));
-  source.fail(
-      node,
-      fmt::format("controlled names {} of the tip's components, but the number of actuators is {}; it must "
-                  "name as many, or none",
-                  machine.controlled.size(), count));
+  source.fail(node, fmt::format("controlled names {} of the tip's components, but the number of actuators is "
+                                "{}; it must name as many, or be []",
+                                machine.controlled.size(), count));
 }
 
 void check_home(const toml::table& document, const Source& source, const Machine& machine) {
@@ -58,7 +56,8 @@ Machine read_machine(std::string_view text, const std::string& file) {
               "tools", "work", "program", "limits", "springs", "branches", "templates", "chain"},
              "a machine file", source);
   Machine machine;
-  if (const toml::node* name = document.get("name")) machine.name = without_controls(as_text(*name, "name", source));
+  if (const toml::node* name = document.get("name"))
+    machine.name = without_controls(as_text(*name, "name", source));
   read_controlled(document, source, machine);
   read_home(document, source, machine);
   read_gravity(document, source, machine);

@@ -19,7 +19,7 @@ const std::vector<std::string_view> component_names = {"x", "y", "z", "rx", "ry"
 const std::vector<std::string_view> dialects = {"auto",    "linuxcnc",   "grbl", "fanuc", "haas", "mach3",
                                                 "siemens", "heidenhain", "krl",  "rapid", "ls",   "urscript"};
 
-constexpr double strongest_gravity = 100;  // m/s2: more is likely a wrong unit
+constexpr double strongest_gravity = 100;  // m/s2: larger values probably have a wrong unit
 
 /// "true" is the former spelling of "machine".
 Datum read_datum(const toml::node& node, const Source& source) {
@@ -37,7 +37,7 @@ Datum read_datum(const toml::node& node, const Source& source) {
 std::string read_offset_name(const toml::key& key, const Source& source) {
   const auto name = work_offset_name(key.str());
   if (!name)
-    source.fail(key, fmt::format("\"{}\" is not a work offset; {} are", key.str(), work_offset_names));
+    source.fail(key, fmt::format("\"{}\" is not a work offset; use {}", key.str(), work_offset_names));
   return *name;
 }
 
@@ -93,7 +93,7 @@ void read_gravity(const toml::table& document, const Source& source, Machine& ma
   if (g != nullptr) {
     gravity.g = as_vector3(*g, "gravity_m_s2", {source});
     if (!(gravity.g.norm() > 0))
-      source.fail(*g, "gravity_m_s2 is a zero vector; leave it out where no weights act");
+      source.fail(*g, "gravity_m_s2 is a zero vector; leave it out if there is no weight");
     if (!(gravity.g.norm() <= strongest_gravity))
       source.fail(*g, fmt::format("gravity_m_s2 has the length {:.6g}; it is in m/s2, at most {} is allowed",
                                   gravity.g.norm(), strongest_gravity));
@@ -103,13 +103,13 @@ void read_gravity(const toml::table& document, const Source& source, Machine& ma
   const std::string when = as_choice(*reference, "gravity_reference", {"unloaded", "home"}, source);
   if (g == nullptr)
     source.fail(key_of(document, "gravity_reference"),
-                "gravity_reference needs gravity_m_s2: without it no weights act");
+                "gravity_reference needs gravity_m_s2: without it there is no weight");
   gravity.true_at_home = when == "home";
   gravity.reference_at = source.at(reference->source());
   if (gravity.true_at_home && machine.controlled.empty())
     source.fail(*reference,
-                "gravity_reference is \"home\", but controlled is empty: there is no component of the tip "
-                "that the controller could hold true at home");
+                "gravity_reference is \"home\", but controlled is empty: the control must hold at least one "
+                "component of the tip at home");
 }
 
 void read_tool(const toml::table& document, const Source& source, Machine& machine) {
@@ -140,7 +140,7 @@ void read_work(const toml::table& document, const Source& source, Machine& machi
     WorkOffset offset{read_transform(entry, fmt::format("[work.{}]", key.str()), {source}, {"datum"}), {}};
     if (const toml::node* datum = entry.as_table()->get("datum")) offset.datum = read_datum(*datum, source);
     if (!machine.work.emplace(name, offset).second)
-      source.fail(key, fmt::format("work offset {} stands in the file twice", name));
+      source.fail(key, fmt::format("work offset {} is defined twice", name));
   }
 }
 

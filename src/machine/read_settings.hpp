@@ -5,7 +5,7 @@
 
 namespace counterflex::toml_file {
 
-/// Each reads the table or key of its name from the document, where it is there, into `machine`.
+/// Each reads the optional table or key of its name from the document into `machine`.
 void read_controlled(const toml::table& document, const Source& source, Machine& machine);
 void read_home(const toml::table& document, const Source& source, Machine& machine);
 void read_gravity(const toml::table& document, const Source& source, Machine& machine);

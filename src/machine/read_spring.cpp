@@ -10,8 +10,8 @@
 namespace counterflex::toml_file {
 namespace {
 
-// Found by experiment: parallel machines with bars, guides and struts of 1e14 N/m are solved and judged rightly; from 1e18 on
-// Newton's method does not converge. Three stiff chains side by side become singular above 1e12 N/m.
+// Found by experiment: parallel machines with bars, guides and struts of 1e14 N/m are solved correctly; from
+// 1e18 on Newton's method does not converge. Three stiff parallel chains become singular above 1e12 N/m.
 constexpr double most_stiffness = 1e14, sensible_stiffness = 1e12;
 
 [[noreturn]] void fail_at_entry(const toml::node& matrix, std::string_view name, const BadEntry& bad,
@@ -45,8 +45,8 @@ Vector6 read_diagonal(const toml::node& node, std::string_view name, bool zero_a
   return diagonal;
 }
 
-/// The shortest turn of x to the named axis: about z to "y", about y to "z". EIz thus stays bending about z
-/// in the first, EIy bending about y in the second.
+/// The shortest rotation of x to the named axis: about z for "y", about y for "z". EIz remains bending about
+/// z in the first case, EIy bending about y in the second.
 Matrix3 read_beam_axis(const toml::table& beam, const Source& source) {
   const toml::node* node = beam.get("axis");
   if (node == nullptr) return Matrix3::Identity();
@@ -77,7 +77,8 @@ Matrix6 stiffness_of(const toml::node& node, std::string_view form, const Readin
   return symmetric_inverse(read_beam(node, reading));
 }
 
-Matrix6 read_stiffness(const toml::node& node, std::string_view form, std::string_view owner, const Reading& reading) {
+Matrix6 read_stiffness(const toml::node& node, std::string_view form, std::string_view owner,
+                       const Reading& reading) {
   const Matrix6 K = stiffness_of(node, form, reading);
   refuse_too_stiff(K.diagonal().head<3>().maxCoeff(), owner, "N/m", node, reading.source);
   refuse_too_stiff(K.diagonal().tail<3>().maxCoeff(), owner, "N m/rad", node, reading.source);
@@ -97,9 +98,11 @@ Vector6 read_preload(const toml::table& table, std::string_view owner, const Rea
 void refuse_too_stiff(double stiffness, std::string_view owner, std::string_view unit, const toml::node& node,
                       const Source& source) {
   if (stiffness <= most_stiffness) return;
-  source.fail(node, fmt::format("{}: {:.3g} {} is too stiff to solve in double precision; at most {:g} is allowed. Leave "
-                                "it out where the part is rigid, or use at most {:g}",
-                                owner, stiffness, unit, most_stiffness, sensible_stiffness));
+  source.fail(
+      node,
+      fmt::format("{}: {:.3g} {} is too stiff to solve in double precision; at most {:g} is allowed. Leave "
+                  "it out where the part is rigid, or use at most {:g}",
+                  owner, stiffness, unit, most_stiffness, sensible_stiffness));
 }
 
 Matrix6 read_definite_stiffness(const toml::node& node, std::string_view form, const Source& source) {

@@ -11,9 +11,9 @@
 namespace counterflex::toml_file {
 namespace {
 
-const std::vector<std::string_view> tool_keys = {"length_mm",       "diameter_mm",  "stickout_mm",
-                                                 "flute_mm",        "holder_N_per_um", "stiffness_si",
-                                                 "compliance_si",   "material"};
+const std::vector<std::string_view> tool_keys = {"length_mm",     "diameter_mm",     "stickout_mm",
+                                                 "flute_mm",      "holder_N_per_um", "stiffness_si",
+                                                 "compliance_si", "material"};
 
 /// T3 or 3.
 long number_of(const toml::key& key, const Source& source) {
@@ -55,12 +55,12 @@ void read_stiffness_of(const toml::table& table, const std::string& name, const 
   tool.yields = {Spring{"tool", read_definite_stiffness(node, form, source)}};
 }
 
-/// Moves before any tool is called have number 0: what is said of it would never act. A length alone is for
-/// G43 H0.
+/// Tool number 0 belongs to moves before any tool is called: values other than the length of G43 H0 would
+/// have no effect.
 void refuse_no_tool(const toml::table& table, const std::string& name, const Source& source) {
   for (const auto& [key, unused] : table)
     if (key.str() != "length_mm")
-      source.fail(key, fmt::format("{} has \"{}\", but 0 stands for no known tool, which [tool] describes; "
+      source.fail(key, fmt::format("{} has \"{}\", but tool 0 means no known tool, which [tool] describes; "
                                    "only \"length_mm\" is allowed",
                                    name, key.str()));
 }
@@ -78,9 +78,8 @@ Tool read_one_tool(const toml::node& node, const std::string& name, const Source
   tool.stickout = read_length(table, "stickout_mm", source);
   tool.flute = read_length(table, "flute_mm", source);
   if (tool.flute && tool.stickout && *tool.flute > *tool.stickout)
-    source.fail(*table.get("flute_mm"),
-                fmt::format("flute_mm is {:.6g}, must be at most stickout_mm, {:.6g}", *tool.flute / mm,
-                            *tool.stickout / mm));
+    source.fail(*table.get("flute_mm"), fmt::format("flute_mm is {:.6g}, must be at most stickout_mm, {:.6g}",
+                                                    *tool.flute / mm, *tool.stickout / mm));
   if (const toml::node* material = table.get("material"))
     if (as_choice(*material, "material", {"carbide", "steel"}, source) == "steel")
       tool.material = ToolMaterial::steel;
@@ -99,7 +98,7 @@ void read_tools(const toml::table& document, const Source& source, Machine& mach
     Tool tool = read_one_tool(entry, name, source);
     if (number == 0) refuse_no_tool(*entry.as_table(), name, source);
     if (!machine.tools.emplace(number, std::move(tool)).second)
-      source.fail(key, fmt::format("tool {} stands in the file twice", number));
+      source.fail(key, fmt::format("tool {} is defined twice", number));
   }
 }
 

@@ -5,7 +5,7 @@
 
 namespace counterflex::toml_file {
 
-/// The tables `[tools.T3]`, into `machine`.
+/// Reads the tables `[tools.T3]` into `machine`.
 void read_tools(const toml::table& document, const Source& source, Machine& machine);
 
 }  // namespace counterflex::toml_file

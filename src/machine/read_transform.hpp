@@ -1,13 +1,13 @@
 #pragma once
-/// Transforms as the machine file writes them.
+/// Reads transforms from the machine file.
 #include "counterflex/geometry/pose.hpp"
 #include "toml/fields.hpp"
 
 namespace counterflex::toml_file {
 
 /// `xyz_mm` (translation first) or `xyz_after_mm` (rotation first), and one of `rpy_deg`, `rotvec_deg`,
-/// `quat_wxyz`; what is missing is identity. `name` is what messages call it, `more_keys` are keys that the
-/// caller reads.
+/// `quat_wxyz`; missing parts are identity. `name` is for messages, `more_keys` are keys that the caller
+/// reads.
 Pose read_transform(const toml::node& node, std::string_view name, const Reading& reading,
                     const std::vector<std::string_view>& more_keys = {});
 

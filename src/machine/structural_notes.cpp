@@ -17,7 +17,7 @@ using Notes = std::vector<std::string>;
 constexpr double large_error_length = 10 * mm;
 constexpr double large_error_angle = 5 * deg;
 
-/// How many directions of a spring carry nothing, judged with a unit diagonal.
+/// Number of directions of a spring without stiffness, computed with a unit diagonal.
 int free_directions(const Spring& spring) {
   const Vector6 d = spring.K.diagonal().unaryExpr([](double k) { return k > 0 ? 1 / std::sqrt(k) : 1.0; });
   const Matrix6 scaled = d.asDiagonal() * spring.K * d.asDiagonal();
@@ -28,7 +28,7 @@ void note_springs(const Machine& machine, Notes& notes) {
   for (const Spring* spring : distinct_springs(machine)) {
     if (const int count = free_directions(*spring); count > 0)
       notes.push_back(fmt::format(
-          "spring \"{}\" is only semidefinite: {} not held by it", spring->name,
+          "spring \"{}\" is only semidefinite: {} without stiffness", spring->name,
           count == 1 ? "1 of its 6 directions is" : fmt::format("{} of its 6 directions are", count)));
     if (!spring->theta_0.isZero(0))
       notes.push_back(
@@ -47,7 +47,7 @@ void note_passives(const Machine& machine, Notes& notes) {
         "{} with a spring whose rest is not its home value: the machine is loaded without a force",
         counted(preloaded, "passive joint", "passive joints")));
   if (limited > 0)
-    notes.push_back(fmt::format("{} with limits: only the travel of actuators is watched",
+    notes.push_back(fmt::format("{} with limits: only the travel of actuators is checked",
                                 counted(limited, "passive joint", "passive joints")));
 }
 
@@ -57,7 +57,7 @@ void note_actuators(const Machine& machine, Notes& notes) {
     const std::string who = fmt::format("actuator {} (chain {}, {})", ++number, chain.name, phrase(a.joint));
     if (!std::isfinite(a.min) || !std::isfinite(a.max))
       notes.push_back(
-          fmt::format("{} has {}: leaving its travel cannot be noticed", who,
+          fmt::format("{} has {}: leaving its travel is not detected", who,
                       std::isfinite(a.min) || std::isfinite(a.max) ? "one limit only" : "no limits"));
     if (a.home < a.min || a.home > a.max)
       notes.push_back(fmt::format("{} starts at {}, outside its travel {}", who,
@@ -79,7 +79,7 @@ void note_groups(const Machine& machine, Notes& notes) {
   for_each<Group>(machine, [&](const Chain& chain, const Group& group) {
     if (group.branches.size() == 1)
       notes.push_back(fmt::format(
-          "chain {} has a parallel element of one branch, \"{}\": it could stand in the chain itself",
+          "chain {} has a parallel element with one branch, \"{}\": its elements can be in the chain itself",
           chain.name, group.branches.front().name));
   });
 }
@@ -88,12 +88,12 @@ void note_masses(const Machine& machine, Notes& notes) {
   const double kg = total_mass(machine);
   const bool pulls = !machine.gravity.g.isZero(0);
   if (kg > 0 && !pulls)
-    notes.push_back(fmt::format("masses of {} but no gravity_m_s2: no weights act", phrase_mass(kg)));
-  if (pulls && kg == 0) notes.push_back("gravity_m_s2 but no masses: no weights act");
+    notes.push_back(fmt::format("masses of {} but no gravity_m_s2: there is no weight", phrase_mass(kg)));
+  if (pulls && kg == 0) notes.push_back("gravity_m_s2 but no masses: there is no weight");
 }
 
-/// Whether an element can bear a load of this kind.
-bool bears(const Element& element, LoadKind kind) {
+/// Whether an element can have a load of this kind.
+bool can_have(const Element& element, LoadKind kind) {
   if (kind == LoadKind::group_moment) return std::holds_alternative<Group>(element);
   const auto* passive = std::get_if<Passive>(&element);
   if (kind == LoadKind::passive_change)
@@ -104,23 +104,23 @@ bool bears(const Element& element, LoadKind kind) {
          (compliance != nullptr && (compliance->joint.kind == JointKind::revolute) == turns);
 }
 
-bool bears(const Chain& chain, LoadKind kind) {
+bool can_have(const Chain& chain, LoadKind kind) {
   bool any = kind == LoadKind::moment;
-  for_each_element(chain.elements, [&](const Element& element) { any = any || bears(element, kind); });
+  for_each_element(chain.elements, [&](const Element& element) { any = any || can_have(element, kind); });
   return any;
 }
 
-/// Limits of what is not there: probably another kind of load was meant.
+/// Notes limits of loads that no chain can have: probably another kind of load was meant.
 void note_load_limits(const Machine& machine, Notes& notes) {
   for (const LoadKind kind : load_kinds) {
-    bool given = false, borne = false;
+    bool given = false, possible = false;
     for (std::size_t i = 0; i < machine.load_limits.size(); ++i)
       if (machine.load_limits[i][kind]) {
         given = true;
-        borne = borne || bears(machine.chains[i], kind);
+        possible = possible || can_have(machine.chains[i], kind);
       }
-    if (given && !borne)
-      notes.push_back(fmt::format("{} limits what no chain has: it is never reached", name_of(kind).key));
+    if (given && !possible)
+      notes.push_back(fmt::format("{} limits a load that no chain has: it has no effect", name_of(kind).key));
   }
 }
 
@@ -131,24 +131,24 @@ bool has_errors(const Machine& machine) {
   return any;
 }
 
-/// Elastic parts of chains as a whole: none at all, or chains that cannot yield in every direction.
+/// Notes machines without elastic elements, and chains that cannot deflect in every direction.
 void note_elasticity(const Machine& machine, Notes& notes) {
   int elastic = 0;
   for (const Chain& chain : machine.chains) elastic += freedoms(chain).elastic;
   if (elastic == 0) {
     notes.push_back(has_errors(machine)
-                        ? "no elastic elements: the machine does not yield to forces"
+                        ? "no elastic elements: the machine does not deflect under forces"
                         : "no elastic elements and no errors of assembly: there is nothing to compensate");
     return;
   }
   if (!has_errors(machine))
-    notes.push_back("no errors of assembly are given: the geometry is taken as perfect");
+    notes.push_back("no errors of assembly are given: the geometry is assumed perfect");
   for (const Chain& chain : machine.chains) {
     const Freedoms count = freedoms(chain);
     if (count.elastic == 0)
       notes.push_back(fmt::format("chain {} has no elastic elements: it is rigid", chain.name));
     else if (count.elastic + count.passives < 6)
-      notes.push_back(fmt::format("chain {} has {} and {}: its end cannot yield in every direction",
+      notes.push_back(fmt::format("chain {} has {} and {}: its end cannot deflect in every direction",
                                   chain.name,
                                   counted(count.elastic, "elastic coordinate", "elastic coordinates"),
                                   counted(count.passives, "passive joint", "passive joints")));

@@ -37,7 +37,7 @@ class ToolLine {
       read_word(at, text_.substr(at, end - at));
       at = end;
     }
-    if (any_ && !tool) fail(0, "the line names no tool; each line begins with T and its number");
+    if (any_ && !tool) fail(0, "the line has no tool; each line begins with T and its number");
   }
 
   [[noreturn]] void fail(std::size_t at, const std::string& message) const {
@@ -53,9 +53,10 @@ class ToolLine {
     const auto value = read_number(word.substr(1));
     any_ = true;
     if (word_letters.find(letter) == std::string_view::npos || !value)
-      fail(at, fmt::format("'{}' is no word of a tool table; allowed are T, P, D, X, Y, Z, A, B, C, U, V, W, "
-                           "I, J and Q with a number, and comments after ';'",
-                           word));
+      fail(at,
+           fmt::format("'{}' is not a word of a tool table; allowed are T, P, D, X, Y, Z, A, B, C, U, V, W, "
+                       "I, J and Q with a number, and comments after ';'",
+                       word));
     if (letter == 'Z') length_mm = *value;
     if (letter != 'T') return;
     if (*value < 0 || *value > largest_tool || *value != std::floor(*value))
@@ -78,7 +79,7 @@ std::map<long, double> read_tool_table(std::string_view text, const std::string&
     ToolLine line(text.substr(0, end), file, number);
     line.read();
     if (line.tool && !lengths.emplace(*line.tool, line.length_mm * mm).second)
-      line.fail(0, fmt::format("tool {} stands in the table twice", *line.tool));
+      line.fail(0, fmt::format("tool {} is defined twice", *line.tool));
     if (end == std::string_view::npos) break;
     text.remove_prefix(end + 1);
   }

@@ -23,7 +23,7 @@ void for_each(const Machine& machine, const Visit& visit) {
     });
 }
 
-/// Each spring of the machine once, in the order in which chains meet them.
+/// Each spring of the machine once, in the order of the chains.
 std::vector<const Spring*> distinct_springs(const Machine& machine);
 
 }  // namespace counterflex

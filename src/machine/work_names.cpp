@@ -18,7 +18,7 @@ bool within(std::optional<int> value, int least, int most) {
   return value && *value >= least && *value <= most;
 }
 
-/// Without blanks and in upper case.
+/// Removes blanks and converts to upper case.
 std::string closed_up(std::string_view text) {
   std::string name;
   for (const char c : text)

@@ -8,7 +8,7 @@
 namespace counterflex {
 namespace {
 
-/// The value of the variable `name`; empty where there is none.
+/// The value of the variable `name`, or empty.
 std::string_view value_of_variable(const char* const* variables, const std::string& name) {
   for (; *variables != nullptr; ++variables) {
     const std::string_view variable = *variables;

@@ -15,8 +15,7 @@ std::vector<std::string> read_programs(const toml::node& node, const std::string
                                        const Source& source) {
   const auto one = [&](const toml::node& entry) {
     const std::string path = toml_file::as_text(entry, "program", source);
-    if (path == "-")
-      source.fail(entry, "program is \"-\", standard input, of which there is one; a job must name a file");
+    if (path == "-") source.fail(entry, "program is \"-\", standard input; it must be a file");
     return setting_file::joined_path(folder, path);
   };
   if (node.is_string()) return {one(node)};
@@ -29,7 +28,7 @@ std::vector<std::string> read_programs(const toml::node& node, const std::string
   return programs;
 }
 
-/// A text without a pattern is a folder, whether it exists or not. Nothing goes to standard output.
+/// A text without a pattern is a folder, which may not exist yet. Standard output is not allowed.
 void take_as_folder(std::vector<Setting>& settings, const toml::table& table, const Source& source) {
   for (Setting& setting : settings) {
     if (setting.option != "output") continue;
@@ -40,7 +39,7 @@ void take_as_folder(std::vector<Setting>& settings, const toml::table& table, co
   }
 }
 
-/// A name without a folder stands in the folder of the batch.
+/// A name without a folder is in the folder of the batch.
 void put_in_folder(std::vector<Setting>& settings, const std::string& folder_of_batch) {
   for (Setting& setting : settings)
     if (setting.option == "output" && setting.values.at(0).find('/') == std::string::npos)
@@ -59,19 +58,19 @@ JobEntry read_job(const toml::node& node, const std::string& folder, const std::
   return job;
 }
 
-/// The folder in which the batch keeps its state: of the `output` of all jobs what is before the name.
+/// The folder of the batch: the part of the common `output` before the name.
 std::string folder_of_batch(const JobsFile& jobs, const toml::table& document, const Source& source) {
   const auto found = std::find_if(jobs.defaults.begin(), jobs.defaults.end(),
                                   [](const Setting& setting) { return setting.option == "output"; });
   if (found == jobs.defaults.end())
-    source.fail_at_start("no output; it must name the folder of the batch's results and state");
+    source.fail_at_start("no output; give the folder for results and state of the batch");
   const std::string& text = found->values.at(0);
   const std::size_t slash = text.find_last_of('/');
   const std::string folder =
       slash == std::string::npos ? "" : text.substr(0, std::max<std::size_t>(slash, 1));
   if (folder.empty() || is_pattern(folder))
     source.fail(*document.get("output"),
-                fmt::format("output is \"{}\"; that of all jobs must begin with the folder of the batch",
+                fmt::format("output is \"{}\"; the output of all jobs must begin with a folder",
                             document.get("output")->as_string()->get()));
   return fill(folder, {});
 }
@@ -88,7 +87,7 @@ JobsFile read_jobs(std::string_view text, const std::string& file) {
   take_as_folder(jobs.defaults, document, source);
   jobs.output = folder_of_batch(jobs, document, source);
   const toml::node* list = document.get("job");
-  if (list == nullptr) source.fail_at_start("no job; a jobs file has at least one [[job]]");
+  if (list == nullptr) source.fail_at_start("no job; a jobs file must have at least one [[job]]");
   if (!list->is_array() || list->as_array()->empty())
     source.fail(*list,
                 fmt::format("job must be written [[job]], once or more, not {}", toml_file::seen(*list)));

@@ -1,5 +1,5 @@
 #pragma once
-/// The keys of project and jobs files, and what kind of value each has.
+/// The keys of project and jobs files, and the kinds of their values.
 #include <array>
 #include <string>
 #include <string_view>
@@ -27,25 +27,25 @@ struct Key {
   Kind kind;
 };
 
-inline constexpr std::array keys{Key{"machine", Kind::path},        Key{"forces", Kind::paths},
-                                 Key{"force", Kind::forces},        Key{"load-scale", Kind::number},
-                                 Key{"air-above", Kind::number},    Key{"blend-mm", Kind::number},
-                                 Key{"dialect", Kind::text},        Key{"units", Kind::text},
-                                 Key{"integer-words", Kind::text},  Key{"arc-centres", Kind::text},
-                                 Key{"evaluate", Kind::truth}, Key{"expand-subprograms", Kind::truth},
-                                 Key{"tool-table", Kind::path},     Key{"method", Kind::text},
-                                 Key{"tolerance-mm", Kind::number}, Key{"max-correction-mm", Kind::number},
-                                 Key{"accept-partial", Kind::truth}, Key{"decimals", Kind::whole},      Key{"number-pieces", Kind::truth},
-                                 Key{"threads", Kind::whole},
-                                 Key{"min-block-ms", Kind::number}, Key{"output", Kind::output},
-                                 Key{"report", Kind::report},       Key{"plot", Kind::plot},
-                                 Key{"force-overwrite", Kind::truth},
-                                 Key{"work", Kind::offsets},        Key{"tool-length", Kind::lengths}};
+inline constexpr std::array keys{Key{"machine", Kind::path},          Key{"forces", Kind::paths},
+                                 Key{"force", Kind::forces},          Key{"load-scale", Kind::number},
+                                 Key{"air-above", Kind::number},      Key{"blend-mm", Kind::number},
+                                 Key{"dialect", Kind::text},          Key{"units", Kind::text},
+                                 Key{"integer-words", Kind::text},    Key{"arc-centres", Kind::text},
+                                 Key{"evaluate", Kind::truth},        Key{"expand-subprograms", Kind::truth},
+                                 Key{"tool-table", Kind::path},       Key{"method", Kind::text},
+                                 Key{"tolerance-mm", Kind::number},   Key{"max-correction-mm", Kind::number},
+                                 Key{"accept-partial", Kind::truth},  Key{"decimals", Kind::whole},
+                                 Key{"number-pieces", Kind::truth},   Key{"threads", Kind::whole},
+                                 Key{"min-block-ms", Kind::number},   Key{"output", Kind::output},
+                                 Key{"report", Kind::report},         Key{"plot", Kind::plot},
+                                 Key{"force-overwrite", Kind::truth}, Key{"work", Kind::offsets},
+                                 Key{"tool-length", Kind::lengths}};
 
-/// Of `report = true` and `plot = true`: beside the output.
+/// Names for `report = true` and `plot = true`: beside the output.
 inline constexpr std::string_view report_beside_output = "{output}", plot_beside_output = "{output}.svg";
 
-/// "tolerance-mm" gives "tolerance_mm"; "tool-length" gives "tools", under which lengths stand.
+/// "tolerance-mm" gives "tolerance_mm"; "tool-length" gives "tools", the table with lengths.
 std::string key_of_option(std::string_view option);
 
 /// "tolerance-mm" gives "COUNTERFLEX_TOLERANCE_MM".

@@ -8,10 +8,10 @@
 namespace counterflex {
 namespace {
 
-/// Stands for an opening brace, where a word in braces is meant as such: "{{}name}".
+/// A literal opening brace: "{{}name}".
 constexpr std::string_view brace = "{";
 
-/// A pattern's next word in braces, which may be `brace`.
+/// The next word in braces of a pattern; it may be `brace`.
 struct Placeholder {
   std::size_t begin = std::string_view::npos, end = 0;  ///< its braces included
   std::string_view word;

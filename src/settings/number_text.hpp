@@ -4,8 +4,8 @@
 
 namespace counterflex::setting_file {
 
-/// The shortest text that TOML and the command line read as `value` again, with an exponent below 1e-6 and
-/// from 1e15 on; "0" of both zeros.
+/// The shortest text that TOML and the command line read as `value`, with an exponent below 1e-6 and from
+/// 1e15 on; "0" for both zeros.
 std::string number_text(double value);
 
 }  // namespace counterflex::setting_file

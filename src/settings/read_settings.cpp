@@ -20,7 +20,8 @@ std::string joined_path(const std::string& folder, const std::string& path) {
 void check_format_of(const toml::table& document, std::string_view format, std::string_view what,
                      const toml_file::Source& source) {
   const toml::node* node = document.get("format");
-  if (node == nullptr) source.fail_at_start(fmt::format("no format; {} says format = \"{}\"", what, format));
+  if (node == nullptr)
+    source.fail_at_start(fmt::format("no format; {} begins with format = \"{}\"", what, format));
   const auto* text = node->as_string();
   if (text == nullptr || text->get() != format)
     source.fail(*node, fmt::format("format is {}; it must be \"{}\"", toml_file::seen(*node), format));

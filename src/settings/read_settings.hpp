@@ -1,5 +1,5 @@
 #pragma once
-/// Settings out of TOML.
+/// Reads settings from TOML.
 #include <string>
 #include <string_view>
 #include <vector>
@@ -9,20 +9,20 @@
 
 namespace counterflex::setting_file {
 
-/// Reads every setting of `table`, which is called `owner`; relative paths are of `folder`. Keys that are
-/// neither settings nor among `other_keys` are errors.
+/// Reads all settings of `table`, which messages call `owner`. Relative paths are relative to `folder`. Keys
+/// that are neither settings nor in `other_keys` are errors.
 std::vector<Setting> read_settings(const toml::table& table, std::string_view owner,
                                    const std::string& folder, const std::vector<std::string_view>& other_keys,
                                    const toml_file::Source& source);
 
-/// Throws unless `document` begins with `format`; `what` says what such a file is.
+/// Throws unless `document` has this `format`; `what` is the name of the kind of file.
 void check_format_of(const toml::table& document, std::string_view format, std::string_view what,
                      const toml_file::Source& source);
 
 /// The folder of `file`; empty: the working directory.
 std::string folder_of(const std::string& file);
 
-/// `path` as it is reached from the working directory; "-" and absolute paths stay as they are.
+/// `path` relative to the working directory; "-" and absolute paths are not changed.
 std::string joined_path(const std::string& folder, const std::string& path);
 
 }  // namespace counterflex::setting_file

@@ -66,8 +66,8 @@ void read_paths(const toml::node& node, const ValueContext& context, Setting& se
   for (const toml::node& entry : *node.as_array()) read_path(entry, context, setting);
 }
 
-/// A pattern without a folder stands beside the program, wherever the file is that says so. The text alone is
-/// one: the folder of the file is called as it is called.
+/// An output name. A pattern without a folder is beside the program, not beside the settings file. Only the
+/// text itself is a pattern: braces in the folder of the file are literal.
 void read_output_name(const toml::node& node, const ValueContext& context, Setting& setting) {
   const std::string text = toml_file::as_text(node, context.name, context.source);
   const bool only_a_name = is_pattern(text) && text.find('/') == std::string::npos;
@@ -75,7 +75,7 @@ void read_output_name(const toml::node& node, const ValueContext& context, Setti
             context.source);
 }
 
-/// false leaves the setting without values: none is written.
+/// false gives a setting without values: no file is written.
 void read_report_name(const toml::node& node, std::string_view beside_output, const ValueContext& context,
                       Setting& setting) {
   const auto* truth = node.as_boolean();
@@ -104,15 +104,15 @@ std::string vector_text(const toml::table& table, std::string_view key, const So
   return numbers_text(node, std::string(key), source);
 }
 
-/// Adds NAME=VALUE. Names are spelt in several ways, so that TOML does not see that one is given twice.
+/// Adds NAME=VALUE. Throws if the name is defined twice with different spellings, which TOML does not detect.
 void add_named(const toml::key& key, const std::string& name, const std::string& value, const Source& source,
                Setting& setting) {
   for (const std::string& known : setting.values)
-    if (known.starts_with(name + "=")) source.fail(key, fmt::format("{} stands in the file twice", name));
+    if (known.starts_with(name + "=")) source.fail(key, fmt::format("{} is defined twice", name));
   add_value(setting, name + "=" + value, key.source(), source);
 }
 
-/// To TOML [work.G59.1] is a table "1" of [work.G59].
+/// In TOML [work.G59.1] is a table "1" of [work.G59].
 void refuse_unquoted(const toml::key& key, const toml::table& table, const Source& source) {
   for (const auto& [inner, node] : table) {
     const std::string name = fmt::format("{}.{}", key.str(), inner.str());
@@ -137,7 +137,7 @@ std::string datum_text(const toml::node& node, const Source& source) {
 void read_offset(const toml::key& key, const toml::node& node, const Source& source, Setting& setting) {
   const auto name = work_offset_name(key.str());
   if (!name)
-    source.fail(key, fmt::format("\"{}\" is not a work offset; {} are", key.str(), work_offset_names));
+    source.fail(key, fmt::format("\"{}\" is not a work offset; use {}", key.str(), work_offset_names));
   const std::string owner = fmt::format("[work.{}]", key.str());
   const toml::table& table = toml_file::as_table(node, owner, source);
   refuse_unquoted(key, table, source);
@@ -167,7 +167,7 @@ void read_tables(const toml::node& node, const ValueContext& context, Setting& s
     read(key, entry, context.source, setting);
 }
 
-/// Tables of offsets, or "machine".
+/// Reads tables of offsets, or "machine".
 void read_offsets(const toml::node& node, const ValueContext& context, Setting& setting) {
   if (const auto* text = node.as_string(); text != nullptr && *text == "machine")
     return add_value(setting, "machine", node.source(), context.source);

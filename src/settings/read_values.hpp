@@ -1,5 +1,5 @@
 #pragma once
-/// Values of settings out of TOML nodes, as texts of the command line.
+/// Reads values of settings from TOML nodes as texts of the command line.
 #include <string>
 
 #include "counterflex/settings/project_file.hpp"
@@ -8,15 +8,14 @@
 
 namespace counterflex::setting_file {
 
-/// What a value is read with.
+/// Context of a value.
 struct ValueContext {
-  const std::string& name;    ///< what messages call the value
-  const std::string& folder;  ///< of relative paths
+  const std::string& name;    ///< name of the value in messages
+  const std::string& folder;  ///< base of relative paths
   const toml_file::Source& source;
 };
 
-/// Adds what `node` says to the values of `setting`. Throws `InputError` at the place of what is of another
-/// type.
+/// Adds the values of `node` to `setting`. Throws `InputError` at a value of another type.
 void read_value(const toml::node& node, Kind kind, const ValueContext& context, Setting& setting);
 
 }  // namespace counterflex::setting_file

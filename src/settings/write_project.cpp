@@ -35,7 +35,7 @@ std::string toml_list(const std::vector<std::string>& values) {
   return list.append(1, ']');
 }
 
-/// As TOML writes it; what is no number stays, to be judged by who reads it.
+/// A number as TOML writes it; other texts are not changed: their reader reports the error.
 std::string plain_number(std::string_view text) {
   const auto blank = [](char c) { return c == ' '; };
   while (!text.empty() && blank(text.front())) text.remove_prefix(1);
@@ -59,7 +59,7 @@ bool is_no_character(std::string_view character) {
   return character.size() == 1 && static_cast<unsigned char>(character[0]) >= 0x80;
 }
 
-/// Names of files may hold anything, comments may not.
+/// Removes characters of file names that comments may not contain.
 std::string in_one_line(std::string_view text) {
   std::string line;
   while (!text.empty()) {
@@ -80,7 +80,7 @@ bool is_utf8(std::string_view text) {
   return true;
 }
 
-/// TOML is UTF-8, names of files need not be.
+/// Throws for a file name that is not UTF-8, as TOML requires.
 void refuse_other_bytes(const Setting& setting) {
   for (std::size_t i = 0; i < setting.values.size(); ++i) {
     if (is_utf8(setting.values[i])) continue;
@@ -107,7 +107,7 @@ std::string origin_text(const Setting& setting, std::size_t value = 0) {
   return "default";
 }
 
-/// "1,2,3" of the numbers from `first` on, at most three.
+/// "1,2,3": at most three numbers from `first` on.
 std::string three_numbers(const std::vector<std::string>& numbers, std::size_t first) {
   std::string text = "[";
   for (std::size_t i = first; i < std::min(first + 3, numbers.size()); ++i)
@@ -126,7 +126,7 @@ std::vector<std::string> at_commas(const std::string& text) {
   return parts;
 }
 
-/// In quotation marks where TOML asks for them.
+/// In quotation marks where TOML requires them.
 std::string toml_key(const std::string& name) {
   const bool bare = std::all_of(name.begin(), name.end(), [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
@@ -137,7 +137,8 @@ std::string toml_key(const std::string& name) {
 std::string datum_line(const std::string& datum) {
   const std::size_t equals = datum.find('=');
   if (equals == std::string::npos) return fmt::format("datum = {}\n", toml_text(datum));
-  return fmt::format("datum = {{ touched_at_mm = {} }}\n", three_numbers(at_commas(datum.substr(equals + 1)), 0));
+  return fmt::format("datum = {{ touched_at_mm = {} }}\n",
+                     three_numbers(at_commas(datum.substr(equals + 1)), 0));
 }
 
 std::string offset_table(const std::string& name, const std::string& value) {
@@ -155,7 +156,7 @@ std::string length_table(const std::string& name, const std::string& value) {
                      plain_number(value));
 }
 
-/// Of two values for one name the later one counts, as on the command line. No value is an empty table.
+/// The later of two values for one name counts, as on the command line. Without values the table is empty.
 std::string tables_text(const Setting& setting, Kind kind) {
   if (setting.values.empty())
     return fmt::format("\n# {}\n[{}]\n", origin_text(setting), kind == Kind::offsets ? "work" : "tools");

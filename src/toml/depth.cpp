@@ -9,7 +9,8 @@ namespace {
 
 constexpr int most_parts = 64, most_brackets = 64;
 
-/// The first byte behind the string that begins at `i`. One that is not closed ends with its line, or with the text.
+/// The first byte after the string that begins at `i`. An unclosed string ends with its line, or with the
+/// text.
 std::size_t end_of_string(std::string_view text, std::size_t i) {
   const char quote = text[i];
   const std::string three(3, quote);
@@ -38,9 +39,10 @@ std::optional<TooDeep> find_too_deep(std::string_view text) {
       continue;
     }
     if (c == '.' && ++parts > most_parts)
-      return TooDeep{i, fmt::format("this key has more than {} parts; at most {} are allowed", most_parts, most_parts)};
+      return TooDeep{
+          i, fmt::format("this key has more than {} parts; at most {} are allowed", most_parts, most_parts)};
     if ((c == '[' || c == '{') && ++brackets > most_brackets)
-      return TooDeep{i, fmt::format("more than {} arrays and tables are inside each other; at most {} are allowed",
+      return TooDeep{i, fmt::format("more than {} arrays and tables are nested; at most {} are allowed",
                                     most_brackets, most_brackets)};
     if ((c == ']' || c == '}') && brackets > 0) --brackets;
     if (std::string_view("=,[]{}\n").find(c) != std::string_view::npos) parts = 1;

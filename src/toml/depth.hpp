@@ -1,5 +1,6 @@
 #pragma once
-/// Nesting of a TOML text, looked at before it is parsed: the parser recurses, and deep keys would exhaust the stack.
+/// Checks the nesting of a TOML text before it is parsed: the parser is recursive, and deep nesting would
+/// exhaust the stack.
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -7,7 +8,7 @@
 
 namespace counterflex::toml_file {
 
-/// What nests too deeply, and where it begins to (bytes from the start of the text).
+/// A nesting error and its place (bytes from the start of the text).
 struct TooDeep {
   std::size_t offset = 0;
   std::string what;

@@ -26,13 +26,12 @@ Eigen::Matrix<double, N, 1> as_vector(const toml::node& node, const Label& label
 double value_of(const std::string& reference, const toml::node& node, const Reading& reading) {
   if (reading.fillings == nullptr)
     reading.source.fail(
-        node, fmt::format("\"{}\" stands outside templates and branches, where nothing gives it a value",
-                          reference));
+        node, fmt::format("\"{}\" is outside templates and branches, so it has no value", reference));
   Fillings& fillings = *reading.fillings;
   const auto found = fillings.values.find(std::string_view(reference).substr(1));
   if (found == fillings.values.end())
     reading.source.fail(*fillings.place,
-                        fmt::format("chain \"{}\" lacks values.{}, which its elements ask for in line {}",
+                        fmt::format("chain \"{}\" lacks values.{}, which its elements use in line {}",
                                     fillings.chain, reference.substr(1), node.source().begin.line));
   found->second.used = true;
   return found->second.value;
@@ -62,7 +61,7 @@ std::string filled_by(const toml::node& node, const Reading& reading) {
                           : std::any_of(array->begin(), array->end(),
                                         [](const toml::node& entry) { return entry.is_string(); });
   return filled && reading.fillings != nullptr
-             ? fmt::format(", as chain \"{}\" fills it", reading.fillings->chain)
+             ? fmt::format(", the value of chain \"{}\"", reading.fillings->chain)
              : "";
 }
 

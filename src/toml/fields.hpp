@@ -1,6 +1,6 @@
 #pragma once
-/// Reading typed values out of TOML nodes; every failure is an `InputError` at the value's place that says
-/// what was seen and what is allowed.
+/// Reads typed values from TOML nodes. Every failure is an `InputError` at the value's place with the value
+/// and what is allowed.
 #include <map>
 #include <string>
 #include <string_view>
@@ -11,33 +11,33 @@
 
 namespace counterflex::toml_file {
 
-/// Something that the file defines under a name for others to use.
+/// A named definition of the file, for use in other places.
 template <class T>
-struct Given {
+struct Definition {
   T value{};
   const toml::key* key = nullptr;  ///< where it is defined
   bool used = false;
 };
 
 template <class T>
-using GivenByName = std::map<std::string, Given<T>, std::less<>>;
+using DefinitionsByName = std::map<std::string, Definition<T>, std::less<>>;
 
-/// What a chain fills its template with. `place` is where a missing entry is reported.
+/// The values of a chain for its template. `place` is the place for messages about missing entries.
 struct Fillings {
   std::string chain;
   const toml::node* place = nullptr;
-  GivenByName<double> values;
-  GivenByName<Pose> transforms;
-  GivenByName<Pose> errors;
+  DefinitionsByName<double> values;
+  DefinitionsByName<Pose> transforms;
+  DefinitionsByName<Pose> errors;
 };
 
-/// How nodes are read: the file, and what "$name" stands for (nothing outside templates and branches).
+/// Context of a node: the file, and the values of "$name" (null outside templates and branches).
 struct Reading {
   const Source& source;
   Fillings* fillings = nullptr;
 };
 
-/// What a number is called in messages: `name`, `name[i]` or `name[i][j]`, counted from 1.
+/// The name of a number in messages: `name`, `name[i]` or `name[i][j]`, counted from 1.
 struct Label {
   std::string_view name;
   std::size_t i = 0;
@@ -45,17 +45,18 @@ struct Label {
   std::string text() const;
 };
 
-/// The value as a person would say it: `the string "x"`, `an array of 3`, `12.5`.
+/// The value in words: `the string "x"`, `an array of 3`, `12.5`.
 std::string seen(const toml::node& node);
 
-/// `, as chain "..." fills it` for a value in which a "$name" stands, else empty.
+/// `, the value of chain "..."` for a value with a "$name", else empty.
 std::string filled_by(const toml::node& node, const Reading& reading);
 
-/// Throws at the first key, in the order of the file, that is not `allowed`; `owner` says in what.
+/// Throws at the first key, in the order of the file, that is not `allowed`; `owner` is the name of the
+/// table.
 void check_keys(const toml::table& table, const std::vector<std::string_view>& allowed,
                 std::string_view owner, const Source& source);
 
-/// The node under `key`. Throws at `owner_node` where it is missing.
+/// The node under `key`. Throws at `owner_node` if it is missing.
 const toml::node& required(const toml::table& table, std::string_view key, std::string_view owner,
                            const toml::node& owner_node, const Source& source);
 
@@ -68,7 +69,7 @@ bool as_truth(const toml::node& node, std::string_view name, const Source& sourc
 std::string as_choice(const toml::node& node, std::string_view name,
                       const std::vector<std::string_view>& allowed, const Source& source);
 
-/// A finite number; "$name" where the reading has fillings.
+/// A finite number, or "$name" if the context has values.
 double as_number(const toml::node& node, const Label& label, const Reading& reading);
 double as_positive(const toml::node& node, const Label& label, const Reading& reading);
 double as_not_negative(const toml::node& node, const Label& label, const Reading& reading);
@@ -83,11 +84,11 @@ Eigen::Vector4d as_vector4(const toml::node& node, std::string_view name, const 
 Vector6 as_vector6(const toml::node& node, std::string_view name, const Reading& reading);
 Matrix6 as_matrix6(const toml::node& node, std::string_view name, const Reading& reading);
 
-/// The one key of `keys` that `table` has; empty where it has none. Throws at the second of two.
+/// The only key of `keys` in `table`, or empty. Throws at the second of two.
 std::string_view one_of(const toml::table& table, const std::vector<std::string_view>& keys,
                         std::string_view owner, const Source& source);
 
-/// Throws unless `preload` is "home"; `instead` ends the message with what else may be given.
+/// Throws unless `preload` is "home"; `instead` adds the alternatives to the message.
 void check_preload_home(const toml::node& preload, const std::string& instead, const Source& source);
 
 }  // namespace counterflex::toml_file

@@ -1,5 +1,5 @@
 #pragma once
-/// The text of a TOML file, and where its nodes and keys stand.
+/// The text of a TOML file, and the places of its nodes and keys.
 #include <toml++/toml.h>
 
 #include <cstddef>
@@ -11,8 +11,8 @@
 
 namespace counterflex::toml_file {
 
-/// Turns regions of toml++ (columns in code points) into locations (columns in bytes), and throws with them.
-/// Keeps a view of `text`, which must outlive it.
+/// Converts regions of toml++ (columns in code points) to locations (columns in bytes), and throws errors
+/// there. Keeps a view of `text`, which must outlive it.
 class Source {
  public:
   Source(std::string_view text, std::string file);
@@ -34,10 +34,10 @@ class Source {
   std::vector<std::size_t> line_starts_;
 };
 
-/// Whether `a` stands before `b` in the file.
+/// Whether `a` is before `b` in the file.
 bool before(const toml::source_region& a, const toml::source_region& b);
 
-/// The key of `table` that is spelt `name`; it must be there.
+/// The key `name` of `table`, which must exist.
 const toml::key& key_of(const toml::table& table, std::string_view name);
 
 }  // namespace counterflex::toml_file

@@ -9,7 +9,7 @@
 namespace counterflex::toml_file {
 namespace {
 
-/// Levenshtein's distance.
+/// The Levenshtein distance.
 std::size_t edits(std::string_view a, std::string_view b) {
   std::vector<std::size_t> row(b.size() + 1);
   std::iota(row.begin(), row.end(), std::size_t{0});
@@ -56,7 +56,7 @@ std::string_view nearest(std::string_view name, const std::vector<std::string_vi
 }
 
 std::string hint(std::string_view name, const std::vector<std::string_view>& known, std::string_view kind) {
-  if (known.empty()) return "; there are none";
+  if (known.empty()) return fmt::format("; {}: nothing", kind);
   const std::string_view meant = nearest(name, known);
   const std::string list = fmt::format("{}: {}", kind, fmt::join(known, ", "));
   return meant.empty() ? "; " + list : fmt::format("; did you mean \"{}\"? {}", meant, list);

@@ -1,17 +1,17 @@
 #pragma once
-/// Help for misspelt names.
+/// Suggestions for misspelt names.
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace counterflex::toml_file {
 
-/// The entry of `known` that `name` was probably meant to be, or empty: few letters differ, or only what
-/// follows the first underscore, the unit, does; then the one that begins most like it.
+/// The entry of `known` that `name` probably means, or empty. Few letters differ, or only the part after the
+/// first underscore (the unit); then the entry with the longest common beginning.
 std::string_view nearest(std::string_view name, const std::vector<std::string_view>& known);
 
-/// `; did you mean "..."? KIND: a, b, c`, to follow a message about an unknown name; without known names, `;
-/// there are none`.
+/// `; did you mean "..."? KIND: a, b, c` for the end of a message about an unknown name; without known names
+/// `; KIND: nothing`.
 std::string hint(std::string_view name, const std::vector<std::string_view>& known, std::string_view kind);
 
 }  // namespace counterflex::toml_file

@@ -1,4 +1,4 @@
-/// Every file of tests/bad/machine says in its first line, behind "# expect: ", which diagnostic it must
+/// The first line of every file of tests/bad/machine has, after "# expect: ", the diagnostic that it must
 /// cause, without the name of the file.
 #include <doctest/doctest.h>
 
@@ -27,7 +27,7 @@ TEST_CASE("a machine file that cannot be read is an input error that names it") 
   }
 }
 
-TEST_CASE("columns count bytes, also behind characters of more than one byte, CRLF and a byte order mark") {
+TEST_CASE("columns count bytes, also after characters of more than one byte, CRLF and a byte order mark") {
   const std::string head =
       "\xEF\xBB\xBF"
       "format = \"counterflex-machine 1\"\r\n";

@@ -76,7 +76,7 @@ TEST_CASE("an error slot that a chain does not fill is identity, one inside a br
   CHECK(part<AssemblyError>(first_branch(machine.chains[1], 4), 0).X.p.isZero(0));
 }
 
-TEST_CASE("base stands before the template and platform after it, only where they are given") {
+TEST_CASE("base comes before the template and platform after it, if they are given") {
   const Machine machine = two_legs();
   CHECK(machine.chains[0].elements.size() == 4);
   REQUIRE(machine.chains[1].elements.size() == 6);
@@ -105,13 +105,13 @@ TEST_CASE("the perfect machine has no errors, neither in chains nor in branches,
   CHECK(part<AssemblyError>(first_branch(machine.chains[0], 3), 0).X.p[0] != 0);
 }
 
-TEST_CASE("a chain may list its elements itself, with named values all the same") {
+TEST_CASE("a chain can list its elements itself, also with named values") {
   const Machine machine = read_machine(
       header + chain_text("{ rigid = { xyz_mm = [\"$h\", 0, 0] } }", "values.h = 3\n"), "machine.toml");
   CHECK(part<Rigid>(machine.chains[0], 0).X.p[0] == doctest::Approx(3e-3));
 }
 
-TEST_CASE("one branch may stand twice in a chain, one after the other, but not inside itself") {
+TEST_CASE("a chain can use one branch twice in series, but not inside itself") {
   const std::string branch = "[branches.bar]\nelements = [{ rigid = {} }]\n";
   CHECK_NOTHROW(machine_of("{ parallel = [\"bar\"] }, { parallel = [\"bar\", \"bar\"] }", branch));
   CHECK_THROWS_AS(

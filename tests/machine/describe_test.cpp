@@ -38,11 +38,11 @@ Machine press() {
 
 }  // namespace
 
-TEST_CASE("the description of a machine shows all that was understood") {
+TEST_CASE("the description of a machine shows all of its parts") {
   CHECK(describe(press()) ==
         R"(machine      press
 controlled   z
-home         where the joints' home values put the platform
+home         at the platform pose of the joints' home values
 tool         tip at the reference point
 program      dialect auto, units not stated, a tool change moves all axes
 correction   at most 1 mm
@@ -94,20 +94,20 @@ TEST_CASE("notes name what is unusual in a machine") {
   CHECK(has_note(machine, "errors.mount of chain ram is large"));
 }
 
-TEST_CASE("notes tell a rigid machine from an elastic one, and a perfect from an imperfect one") {
+TEST_CASE("notes distinguish rigid from elastic machines, and perfect from imperfect ones") {
   CHECK(has_note(machine_with(""), "there is nothing to compensate"));
   CHECK(has_note(machine_with(""), "controlled is empty"));
   const std::string sprung =
       x_axis + ", { compliance = \"prismatic\", axis = \"x\", stiffness_N_per_m = 1e7 }";
   CHECK(has_note(machine_of(sprung), "no errors of assembly are given"));
   CHECK(has_note(machine_of(sprung),
-                 "chain arm has 1 elastic coordinate and no passive joints: its end cannot yield"));
+                 "chain arm has 1 elastic coordinate and no passive joints: its end cannot deflect"));
   const std::string two = "home = {}\n" + chain_text(x_axis, "", "stiff");
   CHECK(has_note(machine_of(sprung, two), "chain stiff has no elastic elements"));
   const Machine crooked =
       read_machine(header + chain_text(x_axis + ", { error = \"e\" }", "errors.e = { xyz_mm = [1, 0, 0] }\n"),
                    "machine.toml");
-  CHECK(has_note(crooked, "the machine does not yield to forces"));
+  CHECK(has_note(crooked, "the machine does not deflect under forces"));
 }
 
 TEST_CASE("a passive joint whose spring rests elsewhere than at home is noted") {
@@ -117,10 +117,10 @@ TEST_CASE("a passive joint whose spring rests elsewhere than at home is noted") 
   CHECK_FALSE(has_note(machine_of(joint + "preload = \"home\" }"), "whose rest"));
 }
 
-TEST_CASE("an ordinary machine is noted for nothing but its missing errors") {
+TEST_CASE("the only note for an ordinary machine is about its missing errors") {
   const Machine machine = load_machine(COUNTERFLEX_SOURCE_DIR "/tests/machine/data/orthoglide.toml");
   CHECK(structural_notes(machine) ==
-        std::vector<std::string>{"no errors of assembly are given: the geometry is taken as perfect"});
+        std::vector<std::string>{"no errors of assembly are given: the geometry is assumed perfect"});
 }
 
 TEST_CASE("limits of loads are described once where chains have the same, else by chain") {
@@ -139,7 +139,7 @@ TEST_CASE("limits of loads are described once where chains have the same, else b
 TEST_CASE("a limit of a load that no chain has is noted, as another one was probably meant") {
   const auto noted = [](const std::string& element, const std::string& key) {
     return has_note(machine_of(element, "limits." + key + " = 1\n"),
-                    key + " limits what no chain has: it is never reached");
+                    key + " limits a load that no chain has: it has no effect");
   };
   const std::string slides = "{ compliance = \"prismatic\", axis = \"x\", stiffness_N_per_m = 1e6 }",
                     turns = "{ compliance = \"revolute\", axis = \"x\", stiffness_Nm_per_rad = 1e6 }";

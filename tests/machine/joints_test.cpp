@@ -7,7 +7,7 @@
 
 using namespace counterflex;
 
-TEST_CASE("an axis is a letter or a vector, normalised, also where it is tiny or huge") {
+TEST_CASE("an axis is a letter or a vector, normalised, also if it is tiny or huge") {
   CHECK(read_part<Actuator>("{ actuator = \"revolute\", axis = \"y\" }").joint.axis == Vector3::UnitY());
   const Vector3 expected(0, 0.6, -0.8);
   for (const char* axis : {"[0, 3, -4]", "[0, 3e-200, -4e-200]", "[0, 3e200, -4e200]"}) {

@@ -1,5 +1,5 @@
 #pragma once
-/// Short machine files for tests, and access to what was read of them.
+/// Short machine files for tests, and access to their parts after reading.
 #include <doctest/doctest.h>
 
 #include <string>
@@ -17,7 +17,7 @@ inline std::string chain_text(const std::string& elements, const std::string& mo
   return "[[chain]]\nname = \"" + name + "\"\n" + more + "elements = [" + elements + "]\n";
 }
 
-/// The machine of one chain with these elements; `before` stands between header and chain.
+/// The machine of one chain with these elements; `before` is between header and chain.
 inline Machine machine_of(const std::string& elements, const std::string& before = "") {
   return read_machine(header + before + chain_text(elements), "machine.toml");
 }

@@ -38,7 +38,7 @@ std::vector<std::string> notes_with(const std::string& part, const Machine& mach
 
 }  // namespace
 
-TEST_CASE("a mass stands in the frame after its element, whatever the kind of that element") {
+TEST_CASE("a mass is in the frame after its element, for all kinds of elements") {
   const Machine machine = read_machine(header + every_kind, "machine.toml");
   const Chain& arm = machine.chains.at(0);
   REQUIRE(arm.elements.size() == 14);
@@ -72,14 +72,14 @@ TEST_CASE("a template's masses take each chain's own numbers") {
   CHECK(part<PointMass>(machine.chains[1], 1).at[2] == doctest::Approx(-0.04));
 }
 
-TEST_CASE("gravity is in machine axes, in m/s2, and none where the file gives none") {
+TEST_CASE("gravity is in machine axes, in m/s2, and zero by default") {
   CHECK(machine_of(heavy_axis).gravity.g.isZero(0));
   const Machine machine = machine_of(heavy_axis, "gravity_m_s2 = [1, 2, -9.5]\n");
   CHECK(machine.gravity.g == Vector3(1, 2, -9.5));
   CHECK_FALSE(machine.gravity.true_at_home);
 }
 
-TEST_CASE("the control's zero was set unloaded unless the file says at home, where it says so") {
+TEST_CASE("the control's zero was set unloaded, or at home if the file states it") {
   CHECK_FALSE(machine_of(heavy_axis, pulled + "gravity_reference = \"unloaded\"\n").gravity.true_at_home);
   const Machine machine = machine_of(heavy_axis, pulled + "gravity_reference = \"home\"\n");
   CHECK(machine.gravity.true_at_home);
@@ -87,7 +87,7 @@ TEST_CASE("the control's zero was set unloaded unless the file says at home, whe
   CHECK(machine.gravity.reference_at.column == 21);
 }
 
-TEST_CASE("a description says what each chain weighs, what pulls at it, and when the zero was set") {
+TEST_CASE("a description shows the mass of each chain, gravity, and when the zero was set") {
   const std::string text = describe(machine_of(heavy_axis, pulled + "gravity_reference = \"home\"\n"));
   CHECK(
       text.find(
@@ -98,12 +98,12 @@ TEST_CASE("a description says what each chain weighs, what pulls at it, and when
                   "      mass         12.5 kg at 0 0 0 mm\n") != std::string::npos);
   CHECK(describe(machine_of(heavy_axis, pulled)).find("on 12.5 kg; the control's zero was set unloaded\n") !=
         std::string::npos);
-  CHECK(describe(machine_of(heavy_axis)).find("gravity      none given: 12.5 kg without weight\n") !=
+  CHECK(describe(machine_of(heavy_axis)).find("gravity      not given: 12.5 kg without weight\n") !=
         std::string::npos);
   CHECK(describe(machine_of(x_axis)).find("gravity") == std::string::npos);
 }
 
-TEST_CASE("elements keep their numbers in a description where masses stand between them") {
+TEST_CASE("elements keep their numbers in a description with masses between them") {
   const std::string text = describe(read_machine(header + every_kind, "machine.toml"));
   CHECK(text.find("   7  parallel     2 branches\n") != std::string::npos);
 }

@@ -32,7 +32,7 @@ TEST_CASE("the Orthoglide has three chains, each of base, leg and platform trans
   CHECK(machine.max_correction == doctest::Approx(5e-3));
 }
 
-TEST_CASE("the Orthoglide's chains stand in the order of the template, in metres") {
+TEST_CASE("the Orthoglide's chains have the order of the template, in metres") {
   const Chain& x = orthoglide().chains[0];
   CHECK((part<Rigid>(x, 0).X.p - Vector3(-0.35545, -0.1104, 0)).norm() < 1e-16);
   CHECK(part<AssemblyError>(x, 1).name == "mount");

@@ -6,7 +6,7 @@
 
 using namespace counterflex;
 
-TEST_CASE("a machine file needs no more than its format and a chain, and the rest has defaults") {
+TEST_CASE("a machine file needs only its format and a chain; the rest has defaults") {
   const Machine machine = machine_with("");
   CHECK(machine.name.empty());
   CHECK(machine.controlled.empty());
@@ -19,7 +19,7 @@ TEST_CASE("a machine file needs no more than its format and a chain, and the res
   CHECK(machine.max_correction == 1e-3);
 }
 
-TEST_CASE("controlled components come in the order of six-vectors, whatever the file's order") {
+TEST_CASE("controlled components have the order of six-vectors, for any order in the file") {
   const std::string three = "{ actuator = \"revolute\", axis = \"x\" }, " + x_axis + ", " + x_axis;
   const Machine machine = machine_of(three, "controlled = [\"rz\", \"y\", \"x\"]\n");
   CHECK(machine.controlled == std::vector{Component::x, Component::y, Component::rz});
@@ -72,7 +72,7 @@ TEST_CASE("the control's settings are kept, axes in upper case, and no axis diff
   CHECK(none.tool_change_moves->empty());
 }
 
-TEST_CASE("work offsets have the names that programs select them by, however they are spelt") {
+TEST_CASE("work offsets have the names by which programs select them, in any spelling") {
   const Machine machine =
       machine_with("[work.g55]\n[work.\"G54.1P007\"]\n[work.\"g154 p99\"]\n[work.G505]\n");
   for (const char* name : {"G55", "G54.1 P7", "G154 P99", "G505"}) {
@@ -81,7 +81,7 @@ TEST_CASE("work offsets have the names that programs select them by, however the
   }
 }
 
-TEST_CASE("names that select no work offset are none") {
+TEST_CASE("names that select no work offset are refused") {
   for (const char* name :
        {"", "G", "G53", "G60", "G59.4", "G54.1", "G54.1 P0", "G54.1 P301", "G154 P100", "G54 P1", "G499",
         "G600", "G54x", "54", "G-54", "G54.1 P-1", "G154", "G54.1 P1.5"}) {
@@ -129,7 +129,7 @@ TEST_CASE("every kind of load has its own key, and that key is read as this kind
   }
 }
 
-TEST_CASE("a chain's own limits go before the machine's, kind by kind") {
+TEST_CASE("a chain's own limits override the machine's, kind by kind") {
   const Machine machine = read_machine(
       header +
           "controlled = []\nhome.xyz_mm = [0, 0, 0]\n[limits]\nmoment_max_Nm = 40\nspring_force_max_N = "

@@ -38,7 +38,7 @@ Matrix6 beam_compliance(const std::string& axis) {
 
 }  // namespace
 
-TEST_CASE("stiffness_si is taken as it stands") {
+TEST_CASE("stiffness_si is used unchanged") {
   CHECK((spring("stiffness_si = " + text_of(some_stiffness())).K - some_stiffness()).norm() == 0);
 }
 
@@ -57,7 +57,7 @@ TEST_CASE("an asymmetry within 1e-6 of the entry is averaged away, one beyond is
   CHECK_THROWS(spring("stiffness_si = " + text_of(K)));
 }
 
-TEST_CASE("noise that is nothing beside the diagonal is no asymmetry") {
+TEST_CASE("noise that is negligible beside the diagonal is not an asymmetry") {
   Matrix6 K = some_stiffness();
   K(0, 1) = 1e-3;
   K(1, 0) = -1e-3;
@@ -82,7 +82,7 @@ TEST_CASE("a matrix that is indefinite only as a whole is refused") {
   CHECK_NOTHROW(spring("stiffness_si = " + text_of(K)));
 }
 
-TEST_CASE("six numbers stand for a diagonal") {
+TEST_CASE("six numbers are a diagonal") {
   const Vector6 k(1e6, 2e6, 0, 4, 5, 6);
   CHECK(spring("stiffness_diag_si = [1e6, 2e6, 0, 4, 5, 6]").K == Matrix6(k.asDiagonal()));
   const Matrix6 K = spring("compliance_diag_si = [1e-6, 2e-6, 4e-6, 1, 2, 4]").K;
@@ -121,7 +121,7 @@ TEST_CASE("a beam along z bends about y with EIy, and by the turned EIz about x"
   CHECK(C(y, rx) == doctest::Approx(-0.25 / (2 * 8000.0)));
 }
 
-TEST_CASE("a spring's preload is its rest value, and \"home\" is none") {
+TEST_CASE("a spring's preload is its rest value, and \"home\" means zero") {
   const std::string body = "stiffness_diag_si = [1, 1, 1, 1, 1, 1]\n";
   CHECK(spring(body).theta_0.isZero(0));
   CHECK(spring(body + "preload = \"home\"").theta_0.isZero(0));

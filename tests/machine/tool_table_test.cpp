@@ -6,7 +6,7 @@
 
 using namespace counterflex;
 
-TEST_CASE("a tool table gives lengths by tool number, whatever else its lines say") {
+TEST_CASE("a tool table gives lengths by tool number, with any other words in its lines") {
   const auto lengths = read_tool_table(
       "; tools of the small mill\n"
       "T1 P1 D6.000000 Z+50.5 ;1/4 end mill T9\r\n"
@@ -31,13 +31,14 @@ TEST_CASE("a mistake in a tool table is an error at its place") {
     }
     return std::string("no error");
   };
-  CHECK(diagnostic("T1 Z1\nT1 Z2\n") == "tool.tbl:2:1: error: tool 1 stands in the table twice");
+  CHECK(diagnostic("T1 Z1\nT1 Z2\n") == "tool.tbl:2:1: error: tool 1 is defined twice");
   CHECK(diagnostic("P1 Z1\n") ==
-        "tool.tbl:1:1: error: the line names no tool; each line begins with T and its number");
+        "tool.tbl:1:1: error: the line has no tool; each line begins with T and its number");
   CHECK(diagnostic("T1.5 Z1\n") ==
         "tool.tbl:1:1: error: the tool is 'T1.5', must be a whole number of at least 0");
   const std::string allowed =
-      "is no word of a tool table; allowed are T, P, D, X, Y, Z, A, B, C, U, V, W, I, J and Q with a number, "
+      "is not a word of a tool table; allowed are T, P, D, X, Y, Z, A, B, C, U, V, W, I, J and Q with a "
+      "number, "
       "and "
       "comments after ';'";
   CHECK(diagnostic("T1 H2\n") == "tool.tbl:1:4: error: 'H2' " + allowed);

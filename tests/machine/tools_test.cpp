@@ -30,7 +30,7 @@ TEST_CASE("a tool that is a length alone is rigid") {
   CHECK_FALSE(changes_model(machine, tool_3(machine)));
 }
 
-TEST_CASE("the number 0, which stands for no known tool, can have a length") {
+TEST_CASE("tool number 0, no known tool, can have a length") {
   const Machine machine = machine_with("[spindle]\n[tools.T0]\nlength_mm = 80\n");
   CHECK(machine.tools.at(0).length.value() == doctest::Approx(0.08));
 }
@@ -88,7 +88,7 @@ TEST_CASE("a steel cutter is softer than one of carbide by their moduli") {
   CHECK(carbide / steel == doctest::Approx(600.0 / 210));
 }
 
-TEST_CASE("a stiffness that is given comes before the cantilever, and a diameter alone says nothing of it") {
+TEST_CASE("a given stiffness overrides the cantilever, and a diameter alone defines no stiffness") {
   const Tool given =
       tool_3(machine_with("[tools.T3]\nholder_N_per_um = 20\ndiameter_mm = 10\nstickout_mm = 40\n"));
   CHECK(given.from == ToolStiffness::radial);
@@ -111,7 +111,7 @@ TEST_CASE("a tool's tip is its length below the spindle's gauge line, and [tool]
   CHECK_FALSE(changes_model(turned, turned.tools.at(4)));
 }
 
-TEST_CASE("a tool that yields is the last part of a serial machine, whose platform is then the tip") {
+TEST_CASE("an elastic tool is the last part of a serial machine, whose platform is then the tip") {
   const Machine machine = machine_with(
       "home.xyz_mm = [0, 0, 7]\n[tool]\nxyz_mm = [0, 0, -80]\n[tools.T3]\nholder_N_per_um = 20\n");
   const Machine bent = with_tool(machine, tool_3(machine));
@@ -124,7 +124,7 @@ TEST_CASE("a tool that yields is the last part of a serial machine, whose platfo
   CHECK(bent.p_EP.z() == doctest::Approx(0.08));
 }
 
-TEST_CASE("chains side by side become a group before the tool, and their actuators keep their numbers") {
+TEST_CASE("parallel chains become a group before the tool, and their actuators keep their numbers") {
   Machine machine = machine_with("[tools.T3]\nholder_N_per_um = 20\n");
   machine.chains.push_back(machine.chains[0]);
   std::get<Actuator>(machine.chains[1].elements[0]).max = 7;
@@ -135,7 +135,7 @@ TEST_CASE("chains side by side become a group before the tool, and their actuato
   CHECK(actuators(bent).back().max == 7);
 }
 
-TEST_CASE("a description says where a tool's stiffness is from, of a default too") {
+TEST_CASE("a description shows the source of a tool's stiffness, also of a default") {
   const std::string text =
       describe(machine_with("[spindle]\nxyz_mm = [0, 0, -60]\n[tools.T1]\nlength_mm = "
                             "50\n[tools.T3]\nlength_mm = 60\ndiameter_mm = "

@@ -1,4 +1,4 @@
-/// Every file of tests/bad/settings says in its first line, behind "# expect: ", which diagnostic it must
+/// The first line of every file of tests/bad/settings has, after "# expect: ", the diagnostic that it must
 /// cause, without the name of the file. Names that begin with "jobs" are jobs files, others project files.
 #include <doctest/doctest.h>
 
@@ -29,7 +29,7 @@ TEST_CASE("a bad project or jobs file causes exactly the diagnostic that its fir
   check_bad_files("settings", 30, read_either);
 }
 
-TEST_CASE("a file that breaks off anywhere is read or refused, with a place in it") {
+TEST_CASE("a truncated file is read, or refused with a place in it") {
   const std::string text =
       "format = \"counterflex-jobs 1\"\noutput = \"out\"\nforce = [[1, 2.5, 3], \"T1=1,2,3\"]\nreport = "
       "true\n"

@@ -16,7 +16,7 @@ std::vector<Setting> environment_of(Variables... variables) {
 
 }  // namespace
 
-TEST_CASE("a variable COUNTERFLEX_OPTION is a setting, other variables are none") {
+TEST_CASE("only variables COUNTERFLEX_OPTION are settings") {
   const auto settings = environment_of("PATH=/bin", "COUNTERFLEX_TOLERANCE_MM=0.01", "COUNTERFLEX_FOO=1",
                                        "COUNTERFLEX_MACHINES=no", "counterflex_machine=no");
   REQUIRE(settings.size() == 1);
@@ -26,7 +26,7 @@ TEST_CASE("a variable COUNTERFLEX_OPTION is a setting, other variables are none"
   CHECK(settings[0].where.line == 0);
 }
 
-TEST_CASE("a variable that is nearly a setting is noticed, others are not") {
+TEST_CASE("a variable with a name similar to a setting gives a remark, others do not") {
   const char* const list[] = {"COUNTERFLEX_TOLERANCE=1",
                               "COUNTERFLEX_MACHIN=m",
                               "COUNTERFLEX_MACHINE=m",
@@ -42,15 +42,15 @@ TEST_CASE("a variable that is nearly a setting is noticed, others are not") {
                                           {"COUNTERFLEX_MAX_CORRECTION", "COUNTERFLEX_MAX_CORRECTION_MM"}});
 }
 
-TEST_CASE("an empty variable is none") {
+TEST_CASE("an empty variable is ignored") {
   CHECK(environment_of("COUNTERFLEX_MACHINE=", "COUNTERFLEX_FORCES=").empty());
 }
 
-TEST_CASE("a list without a value in it is none, and hides nothing of a project file") {
+TEST_CASE("a list without values is ignored, and does not override a project file") {
   CHECK(environment_of("COUNTERFLEX_FORCE=:", "COUNTERFLEX_FORCES=::", "COUNTERFLEX_WORK=:").empty());
 }
 
-TEST_CASE("several values stand with colons between them, of options that take several") {
+TEST_CASE("values of options that take several are separated by colons") {
   using Texts = std::vector<std::string>;
   const auto settings = environment_of("COUNTERFLEX_FORCES=a.csv:b.csv", "COUNTERFLEX_FORCE=1,2,3:T3=4,5,6",
                                        "COUNTERFLEX_WORK=:G54=1,2,3:", "COUNTERFLEX_TOOL_LENGTH=T1=50:T2=60",

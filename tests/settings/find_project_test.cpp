@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A folder of its own, which is the working directory as long as this lives.
+/// A new folder that is the working directory until it is destroyed.
 class TemporaryFolder {
  public:
   TemporaryFolder() : before_(fs::current_path()) {
@@ -60,7 +60,7 @@ TEST_CASE("without a program's name the search begins in the working directory")
   CHECK(find_project_file("") == "counterflex.toml");
 }
 
-TEST_CASE("in a folder that has been removed there is no project file, but for a program elsewhere") {
+TEST_CASE("in a removed folder there is no project file, except for a program elsewhere") {
   const TemporaryFolder folder;
   project_in("shop");
   const std::string program = (folder.path() / "shop/a.ngc").string();
@@ -72,14 +72,14 @@ TEST_CASE("in a folder that has been removed there is no project file, but for a
   CHECK(find_project_file(program) == (folder.path() / "shop/counterflex.toml").string());
 }
 
-TEST_CASE("a folder that is called like a project file is none") {
+TEST_CASE("a folder with the name of a project file is ignored") {
   const TemporaryFolder folder;
   project_in("shop");
   fs::create_directory("shop/parts/counterflex.toml");
   CHECK(find_project_file("shop/parts/a.ngc") == "shop/counterflex.toml");
 }
 
-TEST_CASE("a link to nothing is found, to be missed by who reads it; a link to a folder is none") {
+TEST_CASE("a broken link is found and fails when it is read; a link to a folder is ignored") {
   const TemporaryFolder folder;
   project_in("shop");
   fs::create_symlink("nowhere.toml", "shop/parts/counterflex.toml");
@@ -89,7 +89,7 @@ TEST_CASE("a link to nothing is found, to be missed by who reads it; a link to a
   CHECK(find_project_file("shop/parts/a.ngc") == "shop/counterflex.toml");
 }
 
-TEST_CASE("a pipe that is called like a project file is refused") {
+TEST_CASE("a pipe with the name of a project file is refused") {
   const TemporaryFolder folder;
   REQUIRE(mkfifo("shop/counterflex.toml", 0600) == 0);
   CHECK_THROWS_WITH_AS(find_project_file("shop/a.ngc"),

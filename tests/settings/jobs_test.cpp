@@ -44,12 +44,12 @@ TEST_CASE(
   CHECK(test::value(jobs.jobs[2].settings, "output") == "out/{name}2{ext}");
 }
 
-TEST_CASE("a folder of results that is absolute stays so") {
+TEST_CASE("an absolute folder of results is not changed") {
   CHECK(jobs_with("output = \"/tmp/out\"\n[[job]]\nprogram = \"a\"\n", "night/jobs.toml").output ==
         "/tmp/out");
 }
 
-TEST_CASE("braces of the folder in which a jobs file is are no pattern") {
+TEST_CASE("braces in the folder of a jobs file are literal") {
   const JobsFile jobs = jobs_with(
       "output = \"out\"\nreport = \"r/{name}\"\n[[job]]\nprogram = \"a\"\noutput = \"left/{name}2{ext}\"\n",
       "proj{x}/jobs.toml");

@@ -15,7 +15,7 @@ TEST_CASE("words of letters in braces are placeholders, other braces are parts o
   }
 }
 
-TEST_CASE("a pattern is filled with the parts of a name, as often as it asks for them") {
+TEST_CASE("every placeholder of a pattern is replaced") {
   const NameParts parts{"O1001", ".NC", "out/O1001.comp"};
   CHECK(fill("{name}_CF{ext}", parts) == "O1001_CF.NC");
   CHECK(fill("{name}/{name}", parts) == "O1001/O1001");
@@ -23,17 +23,17 @@ TEST_CASE("a pattern is filled with the parts of a name, as often as it asks for
   CHECK(fill("{{name}}", parts) == "{O1001}");
 }
 
-TEST_CASE("what fills a pattern is not looked at again") {
+TEST_CASE("braces in replaced parts are literal") {
   CHECK(fill("{name}{ext}", {"{ext}", ".{name}", {}}) == "{ext}.{name}");
 }
 
-TEST_CASE("a placeholder that nothing fills is named") {
+TEST_CASE("an unknown placeholder is reported") {
   CHECK(unknown_placeholder("{name}_{nmae}{ext}", {"a", "", {}}) == "nmae");
   CHECK(unknown_placeholder("{output}", {"a", "", {}}) == "output");
   CHECK(unknown_placeholder("{output}{name}{ext}", {"a", "", "b"}).empty());
 }
 
-TEST_CASE("a word that was probably meant is known, whatever the size of its letters") {
+TEST_CASE("a similar placeholder is suggested, ignoring case") {
   CHECK(nearest_placeholder("nmae") == "name");
   CHECK(nearest_placeholder("NAME") == "name");
   CHECK(nearest_placeholder("Ext") == "ext");
@@ -41,7 +41,7 @@ TEST_CASE("a word that was probably meant is known, whatever the size of its let
   CHECK(nearest_placeholder("x").empty());
 }
 
-TEST_CASE("a path as a pattern is that path again, whatever braces it has") {
+TEST_CASE("a path written as a pattern restores that path, with any braces") {
   for (const char* path : {"", "a/b", "proj{x}/", "{name}", "{{name}}", "{{{ext}", "{{}", "{{}x}",
                            "{3F2504E0}/{a}{b}", "{", "{a", "}{", "{{}{{}name}}"}) {
     const std::string pattern = as_pattern(path);

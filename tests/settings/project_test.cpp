@@ -10,7 +10,7 @@
 
 using namespace counterflex;
 
-TEST_CASE("a project file needs no more than its format") {
+TEST_CASE("a project file needs only its format") {
   CHECK(read_project("format = \"counterflex-project 1\"\n", "p.toml").empty());
 }
 
@@ -38,7 +38,7 @@ TEST_CASE("a number's text is read as the same number") {
   }
 }
 
-TEST_CASE("paths are joined with the folder of the file that says them, absolute ones are not") {
+TEST_CASE("relative paths are relative to the folder of their file") {
   const auto project = test::project_with(
       "machine = \"machine.toml\"\nforces = [\"a.csv\", \"/tmp/b.csv\"]\ntool_table = \"../tools.tbl\"\n",
       "shop/jobs/counterflex.toml");
@@ -48,7 +48,7 @@ TEST_CASE("paths are joined with the folder of the file that says them, absolute
   CHECK(test::value(test::project_with("machine = \"m.toml\"\n", "counterflex.toml"), "machine") == "m.toml");
 }
 
-TEST_CASE("one path of forces may stand without brackets") {
+TEST_CASE("one path of forces can be without brackets") {
   CHECK(test::value(test::project_with("forces = \"a.csv\"\n"), "forces") == "a.csv");
 }
 
@@ -72,7 +72,7 @@ TEST_CASE("work offsets and tool lengths are tables, as in a machine file") {
   CHECK(test::values(project, "tool-length") == std::vector<std::string>{"T12=62.25", "T1=50"});
 }
 
-TEST_CASE("a work offset may state its datum, and work = machine that there is no offset") {
+TEST_CASE("a work offset can state its datum, and work = \"machine\" means no offset") {
   const auto project = test::project_with(
       "[work.G54]\nxyz_mm = [1, 2, 3]\ndatum = { touched_at_mm = [10, -0.5, 0] }\n"
       "[work.G55]\nxyz_mm = [1, 2, 3]\nrpy_deg = [0, 0, 90]\ndatum = \"machine\"\n"
@@ -83,7 +83,8 @@ TEST_CASE("a work offset may state its datum, and work = machine that there is n
   CHECK(test::value(test::project_with("work = \"machine\"\n"), "work") == "machine");
 }
 
-TEST_CASE("a pattern of a name alone is left to the program's folder, one with a folder is of the file's") {
+TEST_CASE(
+    "a pattern without a folder is for the program's folder, one with a folder is relative to the file") {
   const auto output = [](const std::string& text) {
     return test::value(test::project_with("output = \"" + text + "\"\n", "shop/counterflex.toml"), "output");
   };
@@ -94,7 +95,7 @@ TEST_CASE("a pattern of a name alone is left to the program's folder, one with a
   CHECK(output("-") == "-");
 }
 
-TEST_CASE("true puts reports and plots beside the output, false hides what another file says of them") {
+TEST_CASE("true puts reports and plots beside the output, false overrides another file") {
   const auto both = test::project_with("report = true\nplot = true\n");
   CHECK(test::value(both, "report") == "{output}");
   CHECK(test::value(both, "plot") == "{output}.svg");
@@ -104,7 +105,7 @@ TEST_CASE("true puts reports and plots beside the output, false hides what anoth
   CHECK(test::value(test::project_with("report = \"r/{name}\"\n", "d/p.toml"), "report") == "d/r/{name}");
 }
 
-TEST_CASE("settings and each of their values know their place, in bytes") {
+TEST_CASE("settings and their values have places, in bytes") {
   const auto project = test::project_with("# \xC3\xA4\nforces = [\"\xC3\xA4.csv\", \"b.csv\"]\n", "p.toml");
   const Setting& forces = test::setting(project, "forces");
   CHECK(forces.origin == Origin::file);
@@ -114,7 +115,7 @@ TEST_CASE("settings and each of their values know their place, in bytes") {
   CHECK(place_of(forces, 1).column == 21);
 }
 
-TEST_CASE("an option is called as the one who wrote it knows it") {
+TEST_CASE("messages name an option in the form of its source") {
   CHECK(shown_option("tolerance-mm", Origin::flag) == "--tolerance-mm");
   CHECK(shown_option("tolerance-mm", Origin::environment) == "COUNTERFLEX_TOLERANCE_MM");
   CHECK(shown_option("tolerance-mm", Origin::file) == "tolerance_mm");

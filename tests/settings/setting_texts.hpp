@@ -1,5 +1,5 @@
 #pragma once
-/// What the tests of settings share.
+/// Shared by the tests of settings.
 #include <doctest/doctest.h>
 
 #include <algorithm>

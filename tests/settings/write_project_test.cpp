@@ -15,38 +15,38 @@ Setting flag(const std::string& option, const Texts& values) {
   return {option, values, {}, Origin::flag};
 }
 
-/// What a file in the working directory says that holds `settings`.
+/// The settings read from a file in the working directory with `settings`.
 std::vector<Setting> read_back(const std::vector<Setting>& settings) {
   return read_project(to_project_text(settings), "counterflex.toml");
 }
 
 }  // namespace
 
-TEST_CASE("what is written of settings is read as the same settings") {
-  const std::vector<Setting> settings{flag("machine", {"../shop/mill \"5\" \\ b.toml"}),
-                                      flag("forces", {"a.csv", "/abs/b\n.toml"}),
-                                      flag("force", {"1,2,3", "T3=4,5,6"}),
-                                      flag("load-scale", {"0"}),
-                                      flag("air-above", {"-2.5"}),
-                                      flag("blend-mm", {"0.1"}),
-                                      flag("dialect", {"fanuc"}),
-                                      flag("units", {"inch"}),
-                                      flag("integer-words", {"units"}),
-                                      flag("expand-subprograms", {"true"}),
-                                      flag("tool-table", {"t.tbl"}),
-                                      flag("method", {"nested"}),
-                                      flag("tolerance-mm", {"0.0050000000000000001"}),
-                                      flag("max-correction-mm", {"5"}),
-                                      flag("accept-partial", {"true"}),
-                                      flag("decimals", {"4"}),
-                                      flag("threads", {"3"}),
-                                      flag("min-block-ms", {"0.00001"}),
-                                      flag("output", {"x/{name}_CF{ext}"}),
-                                      flag("report", {"{output}"}),
-                                      flag("plot", {}),
-                                      flag("work", {"G54=1,2.5,-3/touched=0,0.5,-1", "G54.1 P3=0,0,0,0,0,90/machine",
-                                                    "G55=1,2,3"}),
-                                      flag("tool-length", {"T1=50", "T12=62.25"})};
+TEST_CASE("written settings are read as the same settings") {
+  const std::vector<Setting> settings{
+      flag("machine", {"../shop/mill \"5\" \\ b.toml"}),
+      flag("forces", {"a.csv", "/abs/b\n.toml"}),
+      flag("force", {"1,2,3", "T3=4,5,6"}),
+      flag("load-scale", {"0"}),
+      flag("air-above", {"-2.5"}),
+      flag("blend-mm", {"0.1"}),
+      flag("dialect", {"fanuc"}),
+      flag("units", {"inch"}),
+      flag("integer-words", {"units"}),
+      flag("expand-subprograms", {"true"}),
+      flag("tool-table", {"t.tbl"}),
+      flag("method", {"nested"}),
+      flag("tolerance-mm", {"0.0050000000000000001"}),
+      flag("max-correction-mm", {"5"}),
+      flag("accept-partial", {"true"}),
+      flag("decimals", {"4"}),
+      flag("threads", {"3"}),
+      flag("min-block-ms", {"0.00001"}),
+      flag("output", {"x/{name}_CF{ext}"}),
+      flag("report", {"{output}"}),
+      flag("plot", {}),
+      flag("work", {"G54=1,2.5,-3/touched=0,0.5,-1", "G54.1 P3=0,0,0,0,0,90/machine", "G55=1,2,3"}),
+      flag("tool-length", {"T1=50", "T12=62.25"})};
   const auto read = read_back(settings);
   REQUIRE(read.size() == settings.size());
   for (const Setting& setting : settings) {
@@ -69,7 +69,7 @@ TEST_CASE("numbers as the command line takes them become numbers as TOML takes t
   CHECK(test::value(read, "tool-length") == "T1=5");
 }
 
-TEST_CASE("that program coordinates are machine coordinates is one line") {
+TEST_CASE("machine coordinates are written as one line") {
   CHECK(test::value(read_back({flag("work", {"machine"})}), "work") == "machine");
 }
 
@@ -109,21 +109,21 @@ TEST_CASE(
       "# ?\u00E4???.toml:7\n"));
 }
 
-TEST_CASE("of two values for one offset or tool the later one is written, as it is the one in force") {
+TEST_CASE("of two values for one offset or tool the later one is written: it is the one that counts") {
   const auto read =
       read_back({flag("work", {"g54=1,1,1", "G54=2,2,2"}), flag("tool-length", {"T1=5", "1=6"})});
   CHECK(test::value(read, "work") == "G54=2,2,2");
   CHECK(test::value(read, "tool-length") == "T1=6");
 }
 
-TEST_CASE("what is said to be none is written as none") {
+TEST_CASE("explicitly empty settings are written as empty") {
   const auto read =
       read_back({flag("report", {}), flag("force", {}), flag("work", {}), flag("tool-length", {})});
   for (const char* option : {"report", "force", "work", "tool-length"})
     CHECK(test::values(read, option).empty());
 }
 
-TEST_CASE("each line says where its value is from, in one line whatever the file is called") {
+TEST_CASE("each line has the origin of its value, on one line for any name of the file") {
   const std::string text =
       to_project_text({flag("machine", {"m"}),
                        {"method", {"nested"}, {"COUNTERFLEX_METHOD"}, Origin::environment},
