@@ -13,16 +13,16 @@ struct KeySpan {
   double end = 0;
 };
 
-/// The key of every segment, in SI; of rapids it means nothing. `block_number` is N of the moves before, and
-/// then of these. Throws `InputError` (Exit::machine_or_force) where the program has not what the key counts:
-/// a block number, or a feed.
+/// The key of every segment, in SI; meaningless for rapids. `block_number` is N of the previous moves, then
+/// of these. Throws `InputError` (Exit::machine_or_force) if the program lacks the block number or the feed
+/// that the key needs.
 std::vector<KeySpan> align(const ForceProfile& profile, const Program& program, const Toolpath& path,
                            std::optional<long>& block_number);
 
-/// Where a row of a profile, counted from 0, stands.
+/// The place in its file of a row of a profile, counted from 0.
 Location place_of_row(const ForceProfile& profile, std::size_t row);
 
-/// Throws (Exit::machine_or_force) at a row of a profile, counted from 0, and names it.
+/// Throws (Exit::machine_or_force) at a row of a profile, counted from 0. The message names the row.
 [[noreturn]] void fail_row(const ForceProfile& profile, std::size_t row, const std::string& message);
 
 }  // namespace counterflex

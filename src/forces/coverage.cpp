@@ -10,7 +10,7 @@
 namespace counterflex {
 namespace {
 
-// Stretches shorter than this are none (m).
+// Shorter stretches are ignored (m).
 constexpr double shortest_stretch = 1e-9;
 
 /// N of every move, or that of the moves before it.
@@ -24,13 +24,13 @@ std::vector<std::optional<long>> numbers_of(const Program& window, std::optional
   return numbers;
 }
 
-/// Where a rule says what it says of a place: of a profile, the row.
+/// The place in the input that gives the force: the rule, or the row of a profile.
 Location where_of(const ForceRule& rule, std::size_t row) {
   const auto* profile = std::get_if<ForceProfile>(&rule.content);
   return profile != nullptr ? place_of_row(*profile, row) : rule.where;
 }
 
-/// What ends the overlap of two rules of equal rank.
+/// Advice on how to end the overlap of two rules of equal rank.
 std::string_view mended(const ForceRule& a, const ForceRule& b) {
   if (rank(a) != ForceRank::place) return "one of them must be more specific";
   if (is_section(a) && is_section(b)) return "narrow lines or blocks of one of them";
@@ -39,7 +39,8 @@ std::string_view mended(const ForceRule& a, const ForceRule& b) {
   return "end the one that begins first with a row that has its key only";
 }
 
-/// Rules are told of in the order in which they were given; what stands in a file, at its place there.
+/// Rules appear in the message in the order in which they were given. The error is at a place in a file, if
+/// there is one.
 [[noreturn]] void refuse_both(const ForceRule& a, std::size_t row_a, const ForceRule& b, std::size_t row_b,
                               int line) {
   const bool swap = &a > &b;
@@ -75,7 +76,7 @@ Coverage::Coverage(const ForceSource& source, const Program& window, const Toolp
     const auto* profile = std::get_if<ForceProfile>(&rule.content);
     if (profile == nullptr) continue;
     profiles_.push_back(&rule);
-    assert(profile->key != ForceKey::point);  // ForceCover has settled it
+    assert(profile->key != ForceKey::point);  // ForceCover has replaced it
     std::optional<long> n = block_number;
     keys_.push_back(align(*profile, window, path, n));
     if (profile->key == ForceKey::block_number) number = n;
@@ -93,7 +94,7 @@ const std::vector<ForceStretch>& Coverage::stretches(std::size_t i) {
   const ForceRule* rest = by_kind(move);
   claim(i);
   stretches_.clear();
-  if (claims_.size() == 1 && claims_[0].least <= 0 && claims_[0].most >= 1) {  // nearly all there are
+  if (claims_.size() == 1 && claims_[0].least <= 0 && claims_[0].most >= 1) {  // nearly always
     stretches_.push_back({0, 1, claims_[0].rule, claims_[0].rule == nullptr});
     return stretches_;
   }
@@ -110,7 +111,7 @@ const std::vector<ForceStretch>& Coverage::stretches(std::size_t i) {
     done = claim.most;
   }
   fill(1);
-  // What is too short to be a stretch belongs to its neighbour.
+  // A stretch that is too short is added to its neighbour.
   for (std::size_t k = 0; k < stretches_.size(); ++k) stretches_[k].from = k == 0 ? 0 : stretches_[k - 1].to;
   stretches_.back().to = 1;
   return stretches_;
@@ -121,7 +122,7 @@ const KeySpan& Coverage::keys(const ForceRule& profile, std::size_t i) const {
   return keys_[static_cast<std::size_t>(at - profiles_.begin())][i];
 }
 
-// Moves of one tool and operation follow each other.
+// Moves of one tool and operation are usually consecutive.
 const ForceRule* Coverage::by_kind(const Move& move) {
   const std::uint64_t kind = (static_cast<std::uint64_t>(static_cast<std::uint32_t>(move.tool)) << 32) |
                              static_cast<std::uint64_t>(move.operation);
@@ -176,7 +177,7 @@ void Coverage::claim_rows(const ForceRule& rule, std::size_t i) {
       claim.least = fraction(cover.least);
       claim.most = fraction(cover.most);
       claim.rounding = key_margin(profile, span.end) / range;
-      // Rounding is for ends of segments; within one the rows say where the cover ends.
+      // Keys are rounded at ends of segments only; within a segment the rows define the end of the cover.
       if (!profile.within && claim.least > 0) claim.least = claim.from;
       if (!profile.within && claim.most < 1) claim.most = claim.to;
     }
@@ -184,10 +185,9 @@ void Coverage::claim_rows(const ForceRule& rule, std::size_t i) {
   }
 }
 
-// Claims that follow each other meet where the later one begins; of two that overlap by more than rounding
-// none is right.
+// Consecutive claims meet where the later one begins. An overlap larger than rounding is an error.
 void Coverage::settle(int line) {
-  if (claims_.size() < 2) return;  // nearly all moves; a stable sort takes memory even then
+  if (claims_.size() < 2) return;  // nearly all moves; avoids the allocation of a stable sort
   std::stable_sort(claims_.begin(), claims_.end(), [](const Claim& a, const Claim& b) {
     return a.from < b.from || (a.from == b.from && a.to < b.to);
   });

@@ -1,5 +1,5 @@
 #pragma once
-/// Which rule acts where on a segment: the most specific one that covers it.
+/// Finds the rule that acts at each place of a segment: the most specific one that covers it.
 #include <optional>
 #include <unordered_map>
 #include <vector>
@@ -11,22 +11,22 @@
 
 namespace counterflex {
 
-/// A part of a segment between two fractions of its length. Neither rule nor comment: nothing covers it.
+/// A part of a segment between two fractions of its length. Without rule and comment it has no force.
 struct ForceStretch {
   double from = 0, to = 1;
   const ForceRule* rule = nullptr;
   bool comment = false;  ///< the program's FORCE comment acts
 };
 
-/// Of one window of a program. Borrows what it is made of.
+/// The coverage of one window of a program. Keeps references to the arguments.
 class Coverage {
  public:
-  /// `block_number` is N of the moves before, and then of these. Throws `InputError` where the program has
-  /// not what a profile's key counts.
+  /// `block_number` is N of the previous moves, then of these. Throws `InputError` if the program lacks what
+  /// the key of a profile needs.
   Coverage(const ForceSource& source, const Program& window, const Toolpath& path,
            std::optional<long>& block_number);
 
-  /// The stretches of segment i, in order and without gaps, until the next call. Throws `InputError` where
+  /// The stretches of segment i, in order and without gaps; valid until the next call. Throws `InputError` if
   /// two rules of equal rank cover it.
   const std::vector<ForceStretch>& stretches(std::size_t i);
 
@@ -34,12 +34,12 @@ class Coverage {
   const KeySpan& keys(const ForceRule& profile, std::size_t i) const;
 
  private:
-  /// What a rule for places covers of a segment, by fractions: [from, to], and over rounded keys as far as
-  /// [least, most].
+  /// The part of a segment that a rule for places covers, in fractions: [from, to], extended to [least, most]
+  /// for rounded keys.
   struct Claim {
     double from = 0, to = 1, least = 0, most = 1;
     double rounding = 0;
-    const ForceRule* rule = nullptr;  ///< none: a comment
+    const ForceRule* rule = nullptr;  ///< nullptr: a comment
     std::size_t row = 0;
   };
   const ForceRule* by_kind(const Move& move);
@@ -56,8 +56,8 @@ class Coverage {
   RuleIndex index_;
   std::vector<const ForceRule*> profiles_;
   std::vector<std::vector<KeySpan>> keys_;    ///< of each profile
-  std::vector<std::optional<long>> numbers_;  ///< block numbers of the moves, where a rule asks for them
-  std::unordered_map<std::uint64_t, const ForceRule*> kinds_;  ///< what acts by tool and operation
+  std::vector<std::optional<long>> numbers_;  ///< block numbers of the moves, if a rule needs them
+  std::unordered_map<std::uint64_t, const ForceRule*> kinds_;  ///< the rule by tool and operation
   std::optional<std::uint64_t> last_kind_;
   const ForceRule* last_acts_ = nullptr;
   std::optional<std::uint32_t> last_operation_;
@@ -68,7 +68,7 @@ class Coverage {
   std::vector<ForceStretch> stretches_;
 };
 
-/// Whether the move lies wholly above the source's --air-above.
+/// Whether the whole move is above --air-above of the source.
 bool in_air(const ForceSource& source, const Move& move);
 
 }  // namespace counterflex

@@ -45,7 +45,7 @@ Setting parts_of(std::string_view line, int first_column) {
   return {key, value, column(key), column(value.empty() ? rest : value)};
 }
 
-/// The index of the setting's value among those allowed. Throws where it is none of them or is given twice.
+/// The index of the setting's value in `allowed`. Throws if it is not allowed or is given twice.
 template <std::size_t N>
 int choose(const Setting& setting, const Location& where, bool given,
            const std::array<std::string_view, N>& allowed) {
@@ -99,7 +99,7 @@ RowKey key_of_header(const Header& header, const Location& where) {
   return RowKey::point;
 }
 
-// Less is below the rounding of any log, and its cells could not be counted.
+// Smaller values are below the rounding of logs, and would need too many cells.
 constexpr double least_within_mm = 1e-4;
 
 double read_within(const Setting& setting, const Location& where, bool given) {

@@ -9,8 +9,8 @@ bool blank(char c) {
   return c == ' ' || c == '\t';
 }
 
-/// Behind the quotes with which the field at `begin` begins, if it does.
-std::size_t behind_quotes(std::string_view line, std::size_t begin) {
+/// The end of the quotes at `begin`, or `begin` if the field is not quoted.
+std::size_t end_of_quotes(std::string_view line, std::size_t begin) {
   while (begin < line.size() && blank(line[begin])) ++begin;
   if (begin == line.size() || line[begin] != '"') return begin;
   const std::size_t end = line.find('"', begin + 1);
@@ -33,7 +33,7 @@ std::string_view trimmed(std::string_view text) {
 std::vector<Field> split(std::string_view line, int first_column) {
   std::vector<Field> fields;
   for (std::size_t begin = 0;;) {
-    const std::size_t end = std::min(line.find(',', behind_quotes(line, begin)), line.size());
+    const std::size_t end = std::min(line.find(',', end_of_quotes(line, begin)), line.size());
     const std::string_view raw = line.substr(begin, end - begin), text = unquoted(trimmed(raw));
     const std::size_t indent = text.empty() ? 0 : static_cast<std::size_t>(text.data() - raw.data());
     fields.push_back({text, first_column + static_cast<int>(begin + indent)});

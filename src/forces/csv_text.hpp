@@ -1,5 +1,5 @@
 #pragma once
-/// Lines and fields of CSV text, with the places at which they stand.
+/// Lines and fields of CSV text, with their places.
 #include <string>
 #include <string_view>
 #include <vector>
@@ -8,8 +8,7 @@
 
 namespace counterflex::csv {
 
-/// A field without the blanks around it; `column` counts bytes of the line from 1 (of an empty field: where
-/// it would stand).
+/// A field without the blanks around it; `column` counts bytes of the line from 1.
 struct Field {
   std::string_view text;
   int column = 1;
@@ -18,11 +17,11 @@ struct Field {
 /// `text` without blanks and tabs at both ends.
 std::string_view trimmed(std::string_view text);
 
-/// The fields between commas, of which those in double quotes are none; `first_column` is that of the line's
-/// first byte.
+/// The fields between commas. Commas in double quotes do not separate fields. `first_column` is the column of
+/// the line's first byte.
 std::vector<Field> split(std::string_view line, int first_column = 1);
 
-/// Takes the next line off `text`, without its LF or CRLF.
+/// Removes the next line from `text` and returns it without its LF or CRLF.
 std::string_view take_line(std::string_view& text);
 
 /// Throws `InputError` (Exit::machine_or_force).

@@ -11,11 +11,11 @@ namespace {
 
 using Response = Eigen::Matrix<double, 6, 2>;  ///< columns: F_c, F_e
 
-/// Angles closer than this are the same (rad): a tooth at the border of the cut is in it.
+/// Angles closer than this are equal (rad): a tooth at the border of the cut is inside.
 constexpr double same_angle = 1e-9;
 
-/// The wrench at the tip of an element dz at height z and angle phi, by dz, of tangential, radial and axial
-/// force by dz.
+/// The wrench per dz at the tip, for an element dz at height z and angle phi, from tangential, radial and
+/// axial force per dz.
 Vector6 element(double K_t, double K_r, double K_a, double R, double phi, double z) {
   const double s = std::sin(phi), c = std::cos(phi);
   const Vector3 F(-K_t * c - K_r * s, K_t * s - K_r * c, -K_a);
@@ -44,9 +44,9 @@ Response mean_over_revolution(const CuttingModel& model) {
   return model.mill.flutes / (2 * pi) * integrate(0, model.axial_depth, zero, along_angle);
 }
 
-/// What one flute gives, at `phi_0` where it is as high as the wall being made: the mean over all heights of
-/// the wall of what acts on all heights of the flute. Both enter by their distance u = z_w - z only, and so
-/// by the middle z = (a - u) / 2 of the heights that have it:
+/// The response of one flute at `phi_0`, at the height of the wall being cut: the mean over all heights z_w
+/// of the wall of the force on all heights z of the flute. It depends only on u = z_w - z, and is evaluated
+/// at the middle z = (a - u) / 2 of the heights with this u:
 ///
 ///     1/a int_0^a int_0^a dF(z_w - z, z) dz dz_w = 1/a int_-a^a (a - |u|) dF(u, (a - u) / 2) du
 Response flute_at_wall(const CuttingModel& model, double phi_0) {
@@ -67,7 +67,7 @@ Response flute_at_wall(const CuttingModel& model, double phi_0) {
   return sum;
 }
 
-/// The flutes are numbered without end, as often as they come by: a deep helix has more than one turn.
+/// The flutes are numbered without limit, once per pass: a deep helix has more than one turn.
 Response at_wall(const CuttingModel& model, double phi_w) {
   const double pitch = 2 * pi / model.mill.flutes;
   const double twist = 2 * model.axial_depth * std::tan(model.mill.helix) / model.mill.diameter;

@@ -4,7 +4,7 @@
 
 #include "counterflex/forces/forces.hpp"
 #include "forces/coverage.hpp"
-#include "forces/point_log.hpp"
+#include "forces/position_log.hpp"
 #include "forces/profile_ends.hpp"
 #include "forces/program_kinds.hpp"
 #include "forces/rules_in_use.hpp"
@@ -13,7 +13,7 @@
 namespace counterflex {
 namespace {
 
-/// The mean over a step from one to the other would need both places.
+/// Throws if forces act at the platform and at the tip: a mean over a step between them has no single place.
 void refuse_two_places(const std::vector<ForceRule>& rules) {
   const auto find = [&](bool platform) {
     return std::find_if(rules.begin(), rules.end(), [&](const ForceRule& rule) {
@@ -27,7 +27,7 @@ void refuse_two_places(const std::vector<ForceRule>& rules) {
                                    place_of(*tip, tip->where)));
 }
 
-/// Whether all that can be said of the source is said by the rules themselves.
+/// Whether every move is covered: no rules, or one rule for the whole program.
 bool covers_everything(const std::vector<ForceRule>& rules) {
   return rules.empty() || (rules.size() == 1 && rank(rules[0]) == ForceRank::program);
 }
@@ -61,15 +61,15 @@ struct ForceCover::State {
     }
   }
 
-  /// Behind the pass that has gathered where the path comes near the logged positions.
+  /// Called after the pass that has found the places of the path near the logged positions.
   void place_points() {
-    for (PointLog& log : logs)
+    for (PositionLog& log : logs)
       if (!far) far = log.far_point();
     if (far) {
       stage = Stage::far_point;
       return;
     }
-    for (PointLog& log : logs) log.settle();
+    for (PositionLog& log : logs) log.settle();
     logs.clear();
     begin_cover();
   }
@@ -95,7 +95,9 @@ struct ForceCover::State {
     if (!move.force)
       for (std::size_t k = 0; k < profiles.size(); ++k)
         profile_ends[k].add(coverage.keys(*profiles[k], i), segment);
-    const auto nothing = [](const ForceStretch& stretch) { return stretch.rule == nullptr && !stretch.comment; };
+    const auto nothing = [](const ForceStretch& stretch) {
+      return stretch.rule == nullptr && !stretch.comment;
+    };
     const std::vector<ForceStretch>& stretches = coverage.stretches(i);
     if (std::none_of(stretches.begin(), stretches.end(), nothing)) return;
     if (uncovered++ == 0) first_uncovered = segment.line;
@@ -111,9 +113,8 @@ struct ForceCover::State {
     const std::string more = uncovered > 1 ? fmt::format(" and {} more", uncovered - 1) : "";
     throw InputError(
         Exit::machine_or_force, {file, first_uncovered, 1},
-        fmt::format("none of the given forces covers this feed move{}: a row or section for it is "
-                    "required, with zeros where nothing is cut, or --force=0,0,0 for all that "
-                    "nothing else covers",
+        fmt::format("this feed move{} has no force: add a row or section for it, with zeros where nothing is "
+                    "cut, or give --force=0,0,0 for all moves without another force",
                     more));
   }
 
@@ -123,7 +124,7 @@ struct ForceCover::State {
         const auto& range = by_line ? rule.selector.lines : rule.selector.blocks;
         const double last = ends.last(by_line ? ForceKey::line : ForceKey::block_number);
         if (range && static_cast<double>((*range)[0]) > last)
-          fail_rule(rule, fmt::format("{} {} to {} lie beyond the program, which ends at {} {}",
+          fail_rule(rule, fmt::format("{} {} to {} are beyond the end of the program at {} {}",
                                       by_line ? "lines" : "blocks", (*range)[0], (*range)[1],
                                       by_line ? "line" : "block", last));
       }
@@ -131,16 +132,16 @@ struct ForceCover::State {
 
   ForceSource& source;
   Stage stage = Stage::done;
-  std::vector<PointLog> logs;
+  std::vector<PositionLog> logs;
   std::optional<FarPoint> far;
   ProgramKinds kinds;
   RulesInUse in_use;
   ProgramEnds ends;
   std::vector<const ForceRule*> profiles;
   std::vector<ProfileEnds> profile_ends;  ///< of each profile
-  const ForceRule* platform = nullptr;    ///< one that acts there
+  const ForceRule* platform = nullptr;    ///< a rule that acts at the platform
   std::optional<long> block_number;
-  std::size_t uncovered = 0;  ///< feed moves that nothing covers, and the line of the first
+  std::size_t uncovered = 0;  ///< feed moves without a force, and the line of the first
   int first_uncovered = 0;
   std::string file;
 };
@@ -159,7 +160,7 @@ bool ForceCover::needs_pass() const {
 void ForceCover::add(const Program& window, const Toolpath& path) {
   switch (state_->stage) {
     case State::Stage::places_of_points:
-      for (PointLog& log : state_->logs) log.add(window, path);
+      for (PositionLog& log : state_->logs) log.add(window, path);
       break;
     case State::Stage::far_point:
       state_->far->add(window, path);

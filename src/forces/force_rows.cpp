@@ -50,7 +50,7 @@ ForceRow ForceRows::operator[](std::size_t i) const {
           .point = point(i)};
 }
 
-// Most profiles have no moments, and their rows follow each other line by line: half of the bytes.
+// Most profiles have no moments, and their rows are in consecutive lines: this halves the size.
 void ForceRows::spool_recent() {
   Spooled kept{.places = false, .line = recent_[0].line, .column = recent_[0].column};
   if (!kept_.empty()) kept.offset = kept_.back().offset + kept_.back().bytes(recent_most);
@@ -74,7 +74,7 @@ void ForceRows::spool_recent() {
   recent_.clear();
 }
 
-/// The rows behind the `first` of those that are kept so, as many as `records` has.
+/// Reads as many stored rows from `first` on as `records` has.
 void ForceRows::unpack(const Spooled& kept, std::size_t first, std::vector<Record>& records) const {
   numbers_.resize(records.size() * kept.numbers());
   spool_.read(kept.offset + kept.bytes(first), reinterpret_cast<char*>(numbers_.data()),
@@ -100,7 +100,7 @@ const ForceRows::Record& ForceRows::spooled_record(std::size_t i) const {
   Block& block = blocks_[number % blocks_held];
   if (block.number != number) {
     block.records.resize(block_rows);
-    block.number = static_cast<std::size_t>(-1);  // what is half read is no block
+    block.number = static_cast<std::size_t>(-1);  // a partly read block is invalid
     const std::size_t first = number * block_rows;
     unpack(kept_[first / recent_most], first % recent_most, block.records);
     block.number = number;

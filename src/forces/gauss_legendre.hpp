@@ -20,8 +20,8 @@ inline constexpr std::array<GaussPoint, 8> gauss_16 = {{{0.0950125098376374402, 
                                                         {0.9445750230732325761, 0.0622535239386478929},
                                                         {0.9894009349916499326, 0.0271524594117540949}}};
 
-/// int_from^to f(x) dx, exact to rounding for polynomials up to degree 31, and for trigonometric ones over
-/// half a turn. `zero` is what an empty integral gives.
+/// int_from^to f(x) dx, exact to rounding for polynomials up to degree 31, and for trigonometric functions
+/// over half a turn. `zero` is the value of an empty integral.
 template <class Value, class Function>
 Value integrate(double from, double to, Value zero, const Function& f) {
   const double middle = (from + to) / 2, half = (to - from) / 2;

@@ -4,26 +4,27 @@
 #include <array>
 #include <span>
 
-#include "forces/turned.hpp"
-#include "forces/unblended.hpp"
+#include "forces/raw_forces.hpp"
+#include "forces/turning_axes.hpp"
 
 namespace counterflex {
 namespace {
 
 constexpr double middle = 0.5;
 
-// Of a wrench, what may change along a piece that is called constant: the pieces of one that turns are
-// linear to half of this.
+// Relative change along a piece that still counts as constant. Pieces of a turning wrench are linear to half
+// of this.
 constexpr double same_wrench = 2e-4;
 
-// Wrenches of two pieces that are one step.
+// Wrenches of two pieces closer than this are one step.
 constexpr double same_step = 1e-9;
 
-// Pieces shorter than this (m) stand for a flip of the feed frame between two others.
+// A piece shorter than this (m) is a flip of the feed frame between two others.
 constexpr double shortest_part = 2e-7;
 
-// Fractions of a piece at which it is asked whether it is constant; no turns of a helix come back at all.
-constexpr std::array asked{0.0, 0.1458980337503154, 0.3819660112501051, 0.5, 1.0};
+// Fractions of a piece at which it is tested for being constant. No number of turns of a helix returns to the
+// same axes at all of them.
+constexpr std::array tested{0.0, 0.1458980337503154, 0.3819660112501051, 0.5, 1.0};
 
 bool has_models(const ForceSource& source) {
   return std::any_of(source.rules.begin(), source.rules.end(),
@@ -47,23 +48,23 @@ Vector6 value_in_the_middle(const std::vector<ForcePiece>& pieces, const Segment
   return value(piece, std::clamp(s, piece.s0, piece.s1));
 }
 
-/// Of F, in machine axes, what the feed frame can say; `lost` is set where that is not all.
+/// The part of F, in machine axes, that the feed frame can represent. Sets `lost` if there is another part.
 Vector6 in_feed_frame(const Vector6& F, const ForceAxes& axes, bool& lost) {
   Vector6 all;
   all << axes.R_MF.transpose() * F.head<3>(), axes.R_MF.transpose() * F.tail<3>();
   if (!axes.only_z) return all;
-  Vector6 told = all;
-  for (const int i : {0, 1, 3, 4}) told[i] = 0;
-  lost = lost || (all - told).norm() > 1e-9 * all.norm();
-  return told;
+  Vector6 representable = all;
+  for (const int i : {0, 1, 3, 4}) representable[i] = 0;
+  lost = lost || (all - representable).norm() > 1e-9 * all.norm();
+  return representable;
 }
 
-/// Takes a constant wrench from s on as a step, unless it is that of the step before.
+/// Adds a step with a constant wrench from s on, unless it equals the previous step.
 void add_step(double s, const Vector6& F, std::vector<ForceStep>& steps) {
   if (steps.empty() || (steps.back().F - F).norm() > same_step * F.norm()) steps.push_back({s, F});
 }
 
-/// The moves of one window, one after the other.
+/// The moves of one window, in order.
 class MoveForces {
  public:
   MoveForces(const ForceSource& source, const Program& window, const Toolpath& path,
@@ -71,7 +72,7 @@ class MoveForces {
       : source_(source), window_(window), path_(path), R_MT_(R_MT) {
     std::optional<long> n = block_number;
     if (has_models(source)) coverage_.emplace(source, window, path, n);
-    unblended_.emplace(source, window, path, R_MT, block_number);
+    raw_forces_.emplace(source, window, path, R_MT, block_number);
   }
 
   MoveForce of(std::size_t i) {
@@ -81,7 +82,7 @@ class MoveForces {
                      segment.feed_m_s, move.spindle_rpm};
     pieces_.clear();
     ForceRemarks remarks;
-    unblended_->append_to(i, 0, pieces_, remarks);
+    raw_forces_->append_to(i, 0, pieces_, remarks);
     if (!remarks.unforced.empty()) result.why = remarks.unforced.front().why;
     result.comment = move.force.has_value();
     result.comment_altered =
@@ -100,8 +101,8 @@ class MoveForces {
     return {ForceFrame::feed, segment, path_.frames[segment.frame].X_MW.R, R_MT};
   }
 
-  /// The steps of a move, if it has nothing else; its wrench is that of the only one, else that in the
-  /// middle.
+  /// Sets the steps of a move whose wrench is piecewise constant. Its wrench is that of the only step, else
+  /// that in the middle.
   void take_wrenches(const AxesAlong& axes, const Segment& segment, MoveForce& result) const {
     bool constant = true;
     for (const ForcePiece& piece : pieces_) {
@@ -120,7 +121,7 @@ class MoveForces {
                    : result.steps.front().F;
   }
 
-  /// The wrench of a piece in the feed frame, where that is constant.
+  /// The wrench of a piece in the feed frame, if it is constant.
   static std::optional<Vector6> constant_along(const ForcePiece& piece, const AxesAlong& axes,
                                                const Segment& segment, bool& lost) {
     const auto at = [&](double w) {
@@ -130,7 +131,7 @@ class MoveForces {
     };
     const Vector6 F = (at(0) + at(1)) / 2;
     const auto same = [&](double w) { return (at(w) - F).norm() <= same_wrench * F.norm(); };
-    if (std::all_of(asked.begin(), asked.end(), same)) return F;
+    if (std::all_of(tested.begin(), tested.end(), same)) return F;
     return std::nullopt;
   }
 
@@ -149,7 +150,7 @@ class MoveForces {
   const Toolpath& path_;
   const std::vector<Matrix3>& R_MT_;
   std::optional<Coverage> coverage_;
-  std::optional<Unblended> unblended_;
+  std::optional<RawForces> raw_forces_;
   std::vector<ForcePiece> pieces_;
 };
 
@@ -159,7 +160,7 @@ std::vector<MoveForce> move_forces(const ForceSource& source, const Program& win
                                    const std::vector<Matrix3>& R_MT, std::optional<long>& block_number) {
   std::vector<MoveForce> moves;
   if (path.segments.empty()) {
-    Unblended(source, window, path, R_MT, block_number);
+    RawForces(source, window, path, R_MT, block_number);
     return moves;
   }
   MoveForces forces(source, window, path, R_MT, block_number);

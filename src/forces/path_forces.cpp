@@ -6,8 +6,8 @@
 
 #include "counterflex/forces/forces.hpp"
 #include "forces/alignment.hpp"
-#include "forces/turned.hpp"
-#include "forces/unblended.hpp"
+#include "forces/raw_forces.hpp"
+#include "forces/turning_axes.hpp"
 
 namespace counterflex {
 namespace {
@@ -20,14 +20,14 @@ constexpr double rounding = 1e-9;
 // Fractions closer than this to the end of a segment, or to each other, are the same place.
 constexpr double same_fraction = 1e-9;
 
-// Segments whose ends are closer than this join (m), and blends shorter than this are none.
+// Segments whose ends are closer than this join (m). Shorter blends are ignored.
 constexpr double joined_m = 1e-9;
 
 bool moves_rapidly(const Move& move) {
   return move.motion == Motion::rapid && !(all_known(move.known_start) && all_known(move.known_end));
 }
 
-/// Whether a rapid stands among moves [first, end) that gives no segment.
+/// Whether moves [first, end) include a rapid without a segment.
 bool rapid_among(const Program& program, std::size_t first, std::size_t end) {
   const auto moves = program.moves.begin();
   return std::any_of(moves + static_cast<std::ptrdiff_t>(first), moves + static_cast<std::ptrdiff_t>(end),
@@ -38,8 +38,8 @@ bool joins(const Vector3& end, const Segment& segment) {
   return segment.cutting && (segment.wanted.start - end).norm() <= joined_m;
 }
 
-/// Whether cutting goes on from segment i - 1 to segment i, with no rapid between, not even one that gives no
-/// segment.
+/// Whether cutting continues from segment i - 1 to segment i, without a rapid between them, even one without
+/// a segment.
 bool joins_previous(const Program& program, const Toolpath& path, std::size_t i) {
   const Segment& before = path.segments[i - 1];
   const Segment& segment = path.segments[i];
@@ -56,8 +56,8 @@ bool differ(const Vector6& A, const Vector6& B) {
   return (A - B).norm() > rounding * std::max(A.norm(), B.norm());
 }
 
-/// The first index in [first, end) that is not `before` what is looked for, else `end`; `hint` is where it
-/// was the last time.
+/// The first index in [first, end) that is not `before` the wanted place, else `end`; `hint` is the previous
+/// result.
 template <class Before>
 std::size_t first_not(std::size_t hint, std::size_t first, std::size_t end, const Before& before) {
   constexpr int steps_beside = 6;
@@ -77,7 +77,7 @@ std::size_t first_not(std::size_t hint, std::size_t first, std::size_t end, cons
   return first;
 }
 
-/// The piece of the run that holds s; where two meet, the one on `side`.
+/// The piece of the run that contains s. Where two meet, the one on `side`.
 const ForcePiece& piece_at(const std::vector<ForcePiece>& pieces, const FeedRun& run, double s, Side side,
                            std::size_t& hint) {
   const std::size_t last = run.end_piece - 1;
@@ -99,8 +99,8 @@ Vector6 mean(const std::vector<ForcePiece>& pieces, const FeedRun& run, double s
   return (integral(last, s) - integral(first, from)) / run.blend;
 }
 
-/// Whether the feed run of the window before goes on in this one.
-bool goes_on(const std::optional<OpenRun>& before, const Program& window, const Toolpath& path) {
+/// Whether the feed run of the previous window continues in this one.
+bool continues_run(const std::optional<OpenRun>& before, const Program& window, const Toolpath& path) {
   if (!before || path.segments.empty()) return false;
   const Segment& first = path.segments.front();
   return joins(before->end, first) && !rapid_among(window, 0, first.move);
@@ -126,11 +126,11 @@ PathForces::PathForces(const ForceSource& source, const Program& window, const T
     : at_platform_(acts_at_platform(source)) {
   tail_.block_number = before.block_number;
   if (path.segments.empty() && !rapid_among(window, 0, window.moves.size())) tail_.open = before.open;
-  Unblended unblended(source, window, path, R_MT, tail_.block_number);
+  RawForces raw_forces(source, window, path, R_MT, tail_.block_number);
   ForceRemarks remarks;
   places_.reserve(path.segments.size());
   pieces_.reserve(path.segments.size() + (before.open ? before.open->pieces.size() : 0));
-  bool open = goes_on(before.open, window, path);
+  bool open = continues_run(before.open, window, path);
   if (open) take_up(*before.open);
   for (std::size_t i = 0; i < path.segments.size(); ++i) {
     const Segment& segment = path.segments[i];
@@ -143,7 +143,7 @@ PathForces::PathForces(const ForceSource& source, const Program& window, const T
       open = true;
     }
     places_.push_back({segment.s_start, segment.s_end, open ? runs_.size() - 1 : no_run});
-    if (open) unblended.append_to(i, runs_.back().first_piece, pieces_, remarks);
+    if (open) raw_forces.append_to(i, runs_.back().first_piece, pieces_, remarks);
   }
   notes_ = std::move(remarks.notes);
   unforced_ = std::move(remarks.unforced);
@@ -153,7 +153,7 @@ PathForces::PathForces(const ForceSource& source, const Program& window, const T
 }
 
 void PathForces::take_up(const OpenRun& before) {
-  pieces_.assign(before.pieces.begin(), before.pieces.end());  // keeps the room
+  pieces_.assign(before.pieces.begin(), before.pieces.end());  // keeps the capacity
   corners_ = before.corners;
   taken_up_ = pieces_.size();
   runs_.push_back(before.run);
@@ -175,7 +175,7 @@ void PathForces::close_run(double blend) {
   find_corners(run);
 }
 
-// The last run, and whether it can go on: a rapid ends it, even one that gives no segment.
+// The last run, and whether it can continue: a rapid ends it, even one without a segment.
 void PathForces::leave_tail(const Program& window, const Toolpath& path, double blend) {
   const FeedRun& run = runs_.back();
   const Segment& last = path.segments.back();
@@ -195,7 +195,7 @@ void PathForces::leave_tail(const Program& window, const Toolpath& path, double 
 
 void PathForces::find_corners(FeedRun& run) {
   std::size_t& steps = run.blend > 0 ? ramps_ : jumps_;
-  // The pieces of an earlier window have shown their corners there.
+  // Corners of pieces of an earlier window were reported there.
   for (std::size_t i = std::max(run.first_piece, taken_up_); i < run.end_piece; ++i) {
     if (pieces_[i].goes_on) continue;
     const bool entry = i == run.first_piece;
@@ -238,7 +238,7 @@ Vector6 PathForces::at(std::size_t segment, double fraction, Side side, ForceCur
   const double inside = place.s0 + fraction * (place.s1 - place.s0);
   const double s = fraction >= 1 ? place.s1 : std::clamp(inside, place.s0, place.s1);
   if (run.blend > 0) return mean(pieces_, run, s, cursor);
-  // A fraction that `breaks` gave may round to the other side of its step.
+  // A fraction from `breaks` may round to the other side of its step.
   const double margin = (side == Side::before ? -1 : 1) * same_fraction * (place.s1 - place.s0);
   const double beside = std::clamp(s + margin, place.s0, place.s1);
   const ForcePiece& piece = piece_at(pieces_, run, beside, side, cursor.to);
@@ -267,7 +267,7 @@ void PathForces::breaks(std::size_t segment, ForceCursor& cursor, std::vector<do
     for (std::size_t i = hint; i < run.end_corner && corners_[i] + shift < place.s1; ++i)
       add(corners_[i] + shift);
   };
-  // A step at p bends the mean at p and at p + b.
+  // A step at p changes the slope of the mean at p and at p + b.
   add_shifted(0, cursor.corner);
   if (run.blend > 0) add_shifted(run.blend, cursor.ramp_corner);
   if (fractions.size() < 2) return;

@@ -5,7 +5,7 @@
 namespace counterflex {
 namespace {
 
-// Of the distance that is searched: few cells for a piece, few points in a cell.
+// Cell size relative to the searched distance: few cells for a piece, few points in a cell.
 constexpr double cell_per_within = 4;
 
 }  // namespace
@@ -38,7 +38,7 @@ PointGrid::Cell PointGrid::cell_of(const Vector3& p) const {
 const std::vector<std::uint32_t>& PointGrid::near(const Vector3& a, const Vector3& b) {
   const Vector3 least = (a.cwiseMin(b).array() - within_).matrix().cwiseMax(least_),
                 most = (a.cwiseMax(b).array() + within_).matrix().cwiseMin(most_);
-  // Also keeps places that have no cell, far beyond all points, from being asked for one.
+  // Also avoids cells far beyond all points.
   if ((least.array() > most.array()).any()) return nothing_;
   const Cell first = cell_of(least), last = cell_of(most);
   if (first == first_ && last == last_) return found_;

@@ -1,5 +1,5 @@
 #pragma once
-/// Points that are near a piece of a path, found without a look at all of them.
+/// Finds the points near a piece of a path in a grid of cells.
 #include <array>
 #include <cstdint>
 #include <unordered_map>
@@ -12,13 +12,13 @@ namespace counterflex {
 /// Cells of equal size, each with the points in it. Lengths in m.
 class PointGrid {
  public:
-  /// Finds points that lie within `within` of a piece.
+  /// For points within `within` of a piece.
   PointGrid(const std::vector<Vector3>& points, double within);
 
-  /// Pieces should not be longer.
+  /// Recommended largest length of a piece.
   double cell() const { return cell_; }
 
-  /// Indices of points, among them all that are near the line from `a` to `b`; until the next call.
+  /// Indices of points that include all points near the line from `a` to `b`; valid until the next call.
   const std::vector<std::uint32_t>& near(const Vector3& a, const Vector3& b);
 
  private:
@@ -31,7 +31,7 @@ class PointGrid {
   double within_, cell_;
   Vector3 least_, most_;  ///< of all points
   std::unordered_map<Cell, std::vector<std::uint32_t>, Hash> cells_;
-  Cell first_{1, 1, 1}, last_{0, 0, 0};  ///< of the last answer
+  Cell first_{1, 1, 1}, last_{0, 0, 0};  ///< of the last call
   std::vector<std::uint32_t> found_, nothing_;
 };
 

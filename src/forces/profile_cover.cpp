@@ -8,7 +8,7 @@ namespace {
 
 constexpr double unlimited = std::numeric_limits<double>::infinity();
 
-/// The first row from `row` on that ends the cover, or lies behind `key`.
+/// The first row from `row` on that ends the cover, or is after `key`.
 std::size_t end_of_cover(const ForceProfile& profile, std::size_t row, double key) {
   const auto& rows = profile.rows;
   while (row < rows.size() && !rows.ends(row) && rows.key(row) <= key) ++row;

@@ -1,5 +1,5 @@
 #pragma once
-/// What a profile covers of the path.
+/// The parts of the path that a profile covers.
 #include <vector>
 
 #include "counterflex/forces/forces.hpp"
@@ -7,28 +7,28 @@
 
 namespace counterflex {
 
-/// Keys from `start` to `end` that rows of a profile cover. Keys are rounded: the cover reaches over them,
-/// from `least` to `most`, where nothing else acts.
+/// Keys from `start` to `end` that rows of a profile cover. Keys are rounded: without another force the cover
+/// extends from `least` to `most`.
 struct KeyCover {
   double start = 0, end = 0;
   double least = 0, most = 0;
-  std::size_t row = 0;  ///< the first one that acts
+  std::size_t row = 0;  ///< the first row that acts
 };
 
-/// Appends the covers that touch `keys`, in order. `alone`: no other rule is given, so that what lies before
-/// the first row and behind the last one is rounding, or an error that `ForceCover` tells.
+/// Appends the covers that touch `keys`, in order. `alone`: there is no other rule, so that the path before
+/// the first row and after the last one is rounding, or an error that `ForceCover` reports.
 void append_covers(const ForceProfile& profile, const KeySpan& keys, bool alone,
                    std::vector<KeyCover>& found);
 
-/// The row that holds at `key`: the last one that is not beyond it, else the first.
+/// The row that acts at `key`: the last one that is not after it, else the first.
 std::size_t row_at(const ForceProfile& profile, double key);
 
-/// Lengths and times in files are rounded, and sums of rounded ones drift: 1 um or 1 ms, and a millionth of
-/// the whole.
+/// Tolerance of keys: lengths and times in files are rounded, and sums of rounded values drift. 1 µm or 1 ms,
+/// plus a millionth of the whole.
 double key_margin(const ForceProfile& profile, double key);
 
-/// How far before its first row and behind its last one a profile reaches. Logged positions stand for the
-/// path near them.
+/// How far a profile extends before its first and after its last row. Logged positions represent the path
+/// near them.
 double reach(const ForceProfile& profile, double key);
 
 }  // namespace counterflex

@@ -7,7 +7,7 @@
 
 #include "counterflex/geometry/types.hpp"
 #include "forces/csv_header.hpp"
-#include "forces/point_log.hpp"
+#include "forces/position_log.hpp"
 #include "forces/profile_cover.hpp"
 
 namespace counterflex {
@@ -55,7 +55,7 @@ void ProfileEnds::refuse_rows_beyond(const ProgramEnds& program) const {
   const std::size_t row = rows.beyond(last_key + key_margin(profile_, last_key));
   if (row < rows.size())
     fail_row(profile_, row,
-             fmt::format("{} lies beyond the program, which ends at {}", shown_key(profile_, rows.key(row)),
+             fmt::format("{} is beyond the end of the program at {}", shown_key(profile_, rows.key(row)),
                          shown_key(profile_, last_key)));
 }
 
@@ -66,7 +66,7 @@ void ProfileEnds::refuse_missing_ends(const ProgramEnds& program) const {
   const auto row_name = [&](const ForceRow& row) {
     return profile_.within ? shown_point(row.point) : shown_key(profile_, row.key);
   };
-  // A log knows no lengths of path.
+  // A log has no path lengths.
   const auto end_name = [&](const Cut& cut, const ForceRow& row, std::string_view side) {
     return profile_.within ? fmt::format("{:.4g} mm {} it", std::abs(cut.key - row.key) / mm, side)
                            : shown_key(profile_, cut.key);

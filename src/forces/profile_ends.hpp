@@ -1,5 +1,5 @@
 #pragma once
-/// Whether the ends of a profile fit the program, gathered window by window.
+/// Checks the ends of a profile against the program, window by window.
 #include <optional>
 #include <string>
 
@@ -8,32 +8,32 @@
 
 namespace counterflex {
 
-/// How far a program goes, by every key.
+/// The extent of a program, by every key.
 struct ProgramEnds {
   long last_block_number = 0;
   long newlines = 0, last_line = 0;  ///< lines; of the last move
-  long file_lines = 0;               ///< where calls were expanded
+  long file_lines = 0;               ///< if calls were expanded
   bool ends_in_line = false;         ///< the text ends without a line end
   PathEnd path;
 
   void add(const Program& window, const Toolpath& of_window);
 
-  /// The greatest value that a key has.
+  /// The largest value of a key.
   double last(ForceKey key) const;
 };
 
-/// Where the cutting moves begin and end by a profile's key.
+/// First and last key of the cutting moves.
 class ProfileEnds {
  public:
   explicit ProfileEnds(const ForceProfile& profile) : profile_(profile) {}
 
   void add(const KeySpan& keys, const Segment& cut);
 
-  /// Throws `InputError` (Exit::machine_or_force) naming the row whose key lies beyond the program.
+  /// Throws `InputError` (Exit::machine_or_force) at a row whose key is beyond the end of the program.
   void refuse_rows_beyond(const ProgramEnds& program) const;
 
-  /// Throws where the profile, being the only rule, leaves a cutting move without a force: at the first row
-  /// after the first cutting move, or the last of a linear profile before the last.
+  /// Throws if the profile is the only rule and leaves a cutting move without a force: if its first row is
+  /// after the first cutting move, or if it is linear and its last row is before the end of the last.
   void refuse_missing_ends(const ProgramEnds& program) const;
 
  private:

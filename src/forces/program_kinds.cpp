@@ -11,11 +11,11 @@
 namespace counterflex {
 namespace {
 
-// In a message.
+// Longest text in a message.
 constexpr std::size_t named_at_most = 8;
 constexpr std::size_t longest_name = 40;
 
-/// A long one as a selector would say it.
+/// A long text as a selector with "*".
 std::string shortened(const std::string& operation) {
   return operation.size() <= longest_name ? operation : operation.substr(0, longest_name - 1) + "*";
 }
@@ -68,7 +68,7 @@ std::string ProgramKinds::known_tools() const {
 }
 
 std::string ProgramKinds::known_operations() const {
-  if (operations_.empty()) return "no comment that stands alone in its line before a move";
+  if (operations_.empty()) return "no comment alone in its line before a move";
   std::vector<std::string> names;
   for (const std::string& operation : operations_) names.push_back(shortened(operation));
   return fmt::format("'{}'{}", fmt::join(names, "', '"), more_operations_ ? ", ..." : "");

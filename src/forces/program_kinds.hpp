@@ -1,5 +1,5 @@
 #pragma once
-/// Tools and operations of a program, gathered window by window, and whether rules name others.
+/// Collects tools and operations of a program, window by window, and checks the rules against them.
 #include <set>
 #include <string>
 #include <utility>
@@ -11,12 +11,12 @@ namespace counterflex {
 
 class ProgramKinds {
  public:
-  /// Borrows the rules.
+  /// Keeps a reference to the rules.
   explicit ProgramKinds(const std::vector<ForceRule>& rules);
 
   void add(const Program& window);
 
-  /// Throws `InputError` at a rule for a tool or an operation that the program has not.
+  /// Throws `InputError` at a rule for a tool or an operation that the program does not have.
   void refuse_unknown(const std::vector<ForceRule>& rules) const;
 
  private:
@@ -27,7 +27,7 @@ class ProgramKinds {
   std::set<long> tools_;
   std::set<std::string> operations_;  ///< the first ones, for messages
   bool more_operations_ = false;
-  std::vector<std::pair<const ForceRule*, std::string>> unseen_;  ///< rules and the operations they ask for
+  std::vector<std::pair<const ForceRule*, std::string>> unseen_;  ///< rules and their operations
 };
 
 }  // namespace counterflex

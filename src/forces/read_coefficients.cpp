@@ -18,7 +18,7 @@ struct Coefficient {
   std::string_view name, key;
   double CuttingCoefficients::*value;
   double unit;
-  double most;  ///< in that unit; more is a mistake in the unit
+  double most;  ///< in that unit; larger values have a wrong unit
 };
 
 constexpr std::array<Coefficient, 6> coefficients = {

@@ -10,14 +10,14 @@
 
 namespace counterflex::force_file {
 
-/// The coefficients in a table; `others` are keys that it may have besides. Throws where a unit is missing.
+/// The coefficients in a table; `others` are further keys that it may have. Throws if a unit is missing.
 CuttingCoefficients read_coefficients(const toml::node& node, std::string_view owner,
                                       const std::vector<std::string_view>& others,
                                       const toml_file::Source& source);
 
 using Materials = std::map<std::string, CuttingCoefficients, std::less<>>;
 
-/// Those of the table `materials` and, where it has not their names, the published ones.
+/// The coefficients of the table `materials`, and published ones of other names.
 Materials read_materials(const toml::table& document, const toml_file::Source& source);
 
 /// The text of `coefficients.toml`.

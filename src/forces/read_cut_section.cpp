@@ -15,11 +15,12 @@ using namespace toml_file;
 
 constexpr double steepest_helix_deg = 60;
 constexpr long most_flutes = 100;
-// Beyond these, numbers are mistakes.
+// Limits of plausible numbers.
 constexpr double narrowest_mm = 0.001, widest_mm = 1000, slowest_rpm = 1, fastest_rpm = 1e6;
-constexpr double deepest = 100;  // cutter diameters: more is a mistake, and its flutes have no end of turns
+constexpr double deepest =
+    100;  // cutter diameters: larger values are mistakes, and cost time in the sum over turns
 
-/// A section while it is read.
+/// A section and its parts while it is read.
 struct Part {
   const toml::node& node;
   const toml::table& table;
@@ -27,15 +28,15 @@ struct Part {
   const Source& source;
 };
 
-/// The entry of `shelf` that the text under `key` names.
+/// The entry of `library` named by the text under `key`.
 template <class Value>
 const Value& named(const Part& part, std::string_view key,
-                   const std::map<std::string, Value, std::less<>>& shelf, std::string_view kind) {
+                   const std::map<std::string, Value, std::less<>>& library, std::string_view kind) {
   const toml::node& node = required(part.table, key, part.name, part.node, part.source);
   const std::string name = as_text(node, key, part.source);
-  if (const auto found = shelf.find(name); found != shelf.end()) return found->second;
+  if (const auto found = library.find(name); found != library.end()) return found->second;
   std::vector<std::string_view> known;
-  for (const auto& [entry, value] : shelf) known.push_back(entry);
+  for (const auto& [entry, value] : library) known.push_back(entry);
   part.source.fail(node, fmt::format("unknown {} \"{}\"{}", key, name, hint(name, known, kind)));
 }
 
@@ -75,7 +76,7 @@ void check_slot(const Part& part, double D) {
                                         depth_mm, D / mm));
 }
 
-/// The angle of immersion that a radial depth takes.
+/// The angle of immersion for a radial depth.
 double immersion(const Part& part, std::string_view side, double D) {
   const toml::node* node = part.table.get("radial_depth_mm");
   if (node == nullptr)
@@ -93,11 +94,9 @@ double immersion(const Part& part, std::string_view side, double D) {
 void take_side(const Part& part, CuttingModel& model) {
   const toml::node* node = part.table.get("side");
   if (node == nullptr)
-    part.source.fail(
-        part.node,
-        fmt::format("{} has no \"side\"; it must be \"up\", \"down\" or \"slot\", or entry_deg and "
-                    "exit_deg stand instead",
-                    part.name));
+    part.source.fail(part.node, fmt::format("{} has no \"side\"; it must be \"up\", \"down\" or \"slot\"; or "
+                                            "give entry_deg and exit_deg instead",
+                                            part.name));
   const std::string side = as_choice(*node, "side", {"up", "down", "slot"}, part.source);
   const double D = model.mill.diameter;
   model.entry = 0;
@@ -120,7 +119,7 @@ void check_one_engagement(const Part& part) {
       if (part.table.contains(angle) && part.table.contains(depth))
         part.source.fail(
             key_of(part.table, angle),
-            fmt::format("{} has both \"{}\" and \"{}\"; angles stand instead of side and radial depth",
+            fmt::format("{} has both \"{}\" and \"{}\"; give either the angles, or side and radial depth",
                         part.name, depth, angle));
 }
 
@@ -164,7 +163,7 @@ ForceAt read_force_at(const toml::node& node, const Source& source) {
   return text == "mean" ? ForceAt::mean : ForceAt::surface;
 }
 
-CutSection read_cut_section(const toml::node& node, std::size_t number, const Shelf& shelf,
+CutSection read_cut_section(const toml::node& node, std::size_t number, const CutLibrary& library,
                             const Source& source) {
   const std::string counted = fmt::format("section {}", number);
   const toml::table& table = as_table(node, counted, source);
@@ -176,11 +175,11 @@ CutSection read_cut_section(const toml::node& node, std::size_t number, const Sh
   const Part part{node, table, name == nullptr ? counted : as_text(*name, "name", source), source};
   CutSection section{part.name, source.at(node.source()), read_selector(table, source), {}};
   CuttingModel& model = section.model;
-  model.mill = named(part, "cutter", shelf.cutters, "cutters");
-  model.coefficients = named(part, "material", shelf.materials, "materials");
+  model.mill = named(part, "cutter", library.cutters, "cutters");
+  model.coefficients = named(part, "material", library.materials, "materials");
   model.axial_depth = axial_depth(part, model.mill.diameter);
   const toml::node* force_at = table.get("force_at");
-  model.force_at = force_at == nullptr ? shelf.force_at : read_force_at(*force_at, source);
+  model.force_at = force_at == nullptr ? library.force_at : read_force_at(*force_at, source);
   take_engagement(part, model);
   if (const toml::node* rpm = table.get("spindle_rpm"))
     model.spindle_rpm = as_between(*rpm, {"spindle_rpm"}, slowest_rpm, fastest_rpm, source);

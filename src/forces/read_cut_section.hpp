@@ -7,11 +7,11 @@ namespace counterflex::force_file {
 
 using Cutters = std::map<std::string, EndMill, std::less<>>;
 
-/// What sections refer to.
-struct Shelf {
+/// Definitions that sections refer to.
+struct CutLibrary {
   Cutters cutters;
   Materials materials;
-  ForceAt force_at = ForceAt::mean;  ///< of sections that do not say it
+  ForceAt force_at = ForceAt::mean;  ///< of sections without this key
 };
 
 /// The table `cutters`.
@@ -20,8 +20,8 @@ Cutters read_cutters(const toml::table& document, const toml_file::Source& sourc
 /// "mean" or "surface".
 ForceAt read_force_at(const toml::node& node, const toml_file::Source& source);
 
-/// The section that is the `number`th of its file, counted from 1.
-CutSection read_cut_section(const toml::node& node, std::size_t number, const Shelf& shelf,
+/// The section with this number in its file, counted from 1.
+CutSection read_cut_section(const toml::node& node, std::size_t number, const CutLibrary& library,
                             const toml_file::Source& source);
 
 }  // namespace counterflex::force_file

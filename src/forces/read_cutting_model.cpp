@@ -15,7 +15,7 @@ void check_format_of_cuts(const toml::table& document, const Source& source) {
   const toml::node* node = document.get("format");
   if (node == nullptr)
     source.fail_at_start(
-        fmt::format("no format; a file of cutting models says format = \"{}\"", format_of_cuts));
+        fmt::format("no format; a file of cutting models begins with format = \"{}\"", format_of_cuts));
   const auto* text = node->as_string();
   if (text == nullptr || text->get() != format_of_cuts)
     source.fail(*node,
@@ -25,7 +25,7 @@ void check_format_of_cuts(const toml::table& document, const Source& source) {
 const toml::array& sections_of(const toml::table& document, const Source& source) {
   const toml::node* node = document.get("section");
   if (node == nullptr)
-    source.fail_at_start("no [[section]]: the file says of no part of a program how it is cut");
+    source.fail_at_start("no [[section]]; a file of cutting models must have at least one");
   if (!node->is_array_of_tables())
     source.fail(
         *node, fmt::format("section must be tables, each under [[section]], not {}", toml_file::seen(*node)));
@@ -40,13 +40,13 @@ std::vector<CutSection> read_cutting_model(std::string_view text, const std::str
   check_format_of_cuts(document, source);
   toml_file::check_keys(document, {"format", "force_at", "cutters", "materials", "section"},
                         "a file of cutting models", source);
-  force_file::Shelf shelf{
+  force_file::CutLibrary library{
       force_file::read_cutters(document, source), force_file::read_materials(document, source), {}};
   if (const toml::node* force_at = document.get("force_at"))
-    shelf.force_at = force_file::read_force_at(*force_at, source);
+    library.force_at = force_file::read_force_at(*force_at, source);
   std::vector<CutSection> sections;
   for (const toml::node& node : sections_of(document, source))
-    sections.push_back(force_file::read_cut_section(node, sections.size() + 1, shelf, source));
+    sections.push_back(force_file::read_cut_section(node, sections.size() + 1, library, source));
   return sections;
 }
 

@@ -22,18 +22,18 @@ using csv::Field;
 using csv::Header;
 using csv::RowKey;
 
-/// What the reader knows while it goes through the lines.
+/// State of the reader.
 struct Reader {
   std::string file;
   csv::Settings settings;
   std::optional<Header> header;
   Location header_place;
   ForceRows rows;                                      ///< of places
-  double last_key = 0;                                 ///< of the row before
-  std::vector<ForceSelector> selectors;                ///< of the same rows, where the key is no place
+  double last_key = 0;                                 ///< of the previous row
+  std::vector<ForceSelector> selectors;                ///< of the same rows, if the key is not a place
   std::unordered_map<std::string, std::size_t> named;  ///< their tools or operations, and the rows
   int line = 0;
-  int empty_line = 0;  ///< an empty line among the rows, allowed only where no row follows
+  int empty_line = 0;  ///< an empty line after a row; no row may follow
 
   Location at(int column) const { return {file, line, column}; }
 };
@@ -77,7 +77,7 @@ ForceKey place_key(RowKey key) {
   }
 }
 
-/// The key in SI. Throws where it is not one that a program can have, or does not increase.
+/// The key in SI. Throws if a program cannot have it, or if it does not increase.
 double key_of(const Reader& reader, const Field& field) {
   const ForceKey key = place_key(reader.header->key);
   const std::string name = csv::key_name(key);
@@ -91,13 +91,13 @@ double key_of(const Reader& reader, const Field& field) {
   const double value = shown / csv::shown_per_si(key);
   if (!reader.rows.empty() && value <= reader.last_key) {
     fail(reader.at(field.column),
-         fmt::format("{}: {} is {}, must be greater than the {:.12g} of the row before", row_name(reader),
-                     name, field.text, reader.last_key * csv::shown_per_si(key)));
+         fmt::format("{}: {} is {}, must be greater than {:.12g}, the value in the previous row",
+                     row_name(reader), name, field.text, reader.last_key * csv::shown_per_si(key)));
   }
   return value;
 }
 
-/// The tool or operation. Throws where it is none, or an earlier row names it.
+/// The tool or operation. Throws if it is invalid, or if an earlier row has it.
 ForceSelector selector_of(Reader& reader, const Field& field) {
   const bool by_tool = reader.header->key == RowKey::tool;
   ForceSelector selector;
@@ -116,11 +116,11 @@ ForceSelector selector_of(Reader& reader, const Field& field) {
   const auto [same, is_new] = reader.named.insert({name, reader.rows.size() + 1});
   if (!is_new)
     fail(reader.at(field.column),
-         fmt::format("{}: {} is named in row {} already", row_name(reader), shown(selector), same->second));
+         fmt::format("{}: {} is already in row {}", row_name(reader), shown(selector), same->second));
   return selector;
 }
 
-/// Whether a row of a profile gives its key and nothing else.
+/// Whether a row of a profile has only its key.
 bool only_key(const Header& header, const std::vector<Field>& fields) {
   if (header.key == RowKey::tool || header.key == RowKey::operation) return false;
   for (std::size_t i = 0; i < fields.size(); ++i)
@@ -161,8 +161,8 @@ void read_row(std::string_view text, Reader& reader) {
   take(row, reader);
 }
 
-/// A row of a profile as programs write them, plain numbers between commas, taken as `read_row` takes it.
-/// False, and nothing taken, where anything is unusual or wrong: `read_row` says what.
+/// Fast path for rows of plain numbers between commas, with the result of `read_row`. Returns false and
+/// changes nothing for any other row: then `read_row` reads it or reports the error.
 bool read_plain_row(std::string_view text, Reader& reader) {
   const Header& header = *reader.header;
   if (header.key > RowKey::time) return false;
@@ -193,7 +193,7 @@ bool read_plain_row(std::string_view text, Reader& reader) {
 void read_comment(const Field& comment, Reader& reader) {
   if (!csv::is_setting(comment.text)) return;
   const Location where = reader.at(comment.column);
-  if (reader.header) fail(where, "a setting after the header row, it must stand before");
+  if (reader.header) fail(where, "a setting after the header row; settings must be above it");
   csv::read_setting(comment.text, where, reader.settings);
 }
 

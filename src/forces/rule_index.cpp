@@ -52,7 +52,7 @@ RuleIndex::RuleIndex(const std::vector<ForceRule>& rules) {
     if (std::holds_alternative<ForceProfile>(rule.content)) continue;
     const ForceSelector& selector = rule.selector;
     if (rank(selector) == ForceRank::place && selector.operation)
-      asked_.emplace(&rule, folded(*selector.operation));
+      folded_operations_.emplace(&rule, folded(*selector.operation));
     if (selector.lines) {
       lines_.add(*selector.lines, rule);
     } else if (selector.blocks) {
@@ -97,7 +97,7 @@ void RuleIndex::append_by_place(const Move& move, const std::string& operation, 
   const auto other = [&](const ForceRule* rule) {
     const ForceSelector& selector = rule->selector;
     return !holds(selector.blocks, n) || (selector.tool && *selector.tool != move.tool) ||
-           (selector.operation && !names_operation(asked_.at(rule), operation));
+           (selector.operation && !names_operation(folded_operations_.at(rule), operation));
   };
   found.erase(std::remove_if(found.begin() + static_cast<std::ptrdiff_t>(old), found.end(), other),
               found.end());

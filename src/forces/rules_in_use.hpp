@@ -1,5 +1,5 @@
 #pragma once
-/// Which rules cover a feed move at all, gathered window by window.
+/// Finds rules that cover no feed move, window by window.
 #include <optional>
 #include <string>
 #include <unordered_set>
@@ -10,16 +10,16 @@
 
 namespace counterflex {
 
-/// A rule whose conditions no feed move meets is a mistake: what it was written for gets another force.
-/// Profiles are not looked at, nor are rules for the whole program, nor zeros, which change nothing.
+/// A rule without a matching feed move is an error: its moves would get another force. Profiles, rules for
+/// the whole program and zero forces are not checked.
 class RulesInUse {
  public:
-  /// Borrows the rules.
+  /// Keeps a reference to the rules.
   explicit RulesInUse(const std::vector<ForceRule>& rules);
 
   void add(const Program& window, const Toolpath& path);
 
-  /// Throws `InputError` at the first rule that covers no feed move of a program that has some.
+  /// Throws `InputError` at the first rule that covers no feed move, if the program has feed moves.
   void refuse_idle() const;
 
  private:
@@ -27,11 +27,11 @@ class RulesInUse {
 
   RuleIndex index_;
   const std::vector<ForceRule>& rules_;
-  std::vector<bool> idle_;  ///< of each rule: it has to cover a feed move, and has not yet
+  std::vector<bool> idle_;  ///< for each rule: true while no feed move has matched it
   std::size_t idle_count_ = 0;
   bool cuts_ = false;
   std::optional<long> block_number_;
-  std::unordered_set<std::uint64_t> kinds_;  ///< of tool and operation, that this window has had
+  std::unordered_set<std::uint64_t> kinds_;  ///< of tool and operation in this window
   std::optional<std::uint64_t> last_kind_;
   std::string operation_;  ///< its text, folded
   std::vector<const ForceRule*> found_;

@@ -75,9 +75,9 @@ TEST_CASE(
     for (std::size_t i = 0; i < 3; ++i)
       CHECK(forces.at(copy + i, 0.5) == wrench(1 + static_cast<double>(i), 0, 0));
   CHECK_THROWS_WITH_AS(forces_on(program, rows("8,1,0,0\n11,2,0,0\n")),
-                       "forces.csv:5:1: error: row 2: line 11 lies beyond the program, which ends at line 10",
+                       "forces.csv:5:1: error: row 2: line 11 is beyond the end of the program at line 10",
                        InputError);
-  program.moves[4].line = 3;  // a body that stands above the call
+  program.moves[4].line = 3;  // a body above the call
   CHECK_THROWS_WITH_AS(
       forces_on(program, rows("8,1,0,0\n")),
       "forces.csv:4:1: error: row 1: line 8 is the first row, but the program cuts from line 3 on "

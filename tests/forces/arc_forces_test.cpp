@@ -125,7 +125,7 @@ TEST_CASE("a constant force and forces in machine axes do not turn on arcs") {
   CHECK(forces.at(1, 0.7) == wrench(1, 2, 3));
 }
 
-TEST_CASE("a tool that turns along its way takes a force in its frame with it, without corners") {
+TEST_CASE("a force in the tool frame follows a turning tool, without corners") {
   const Program program = ProgramBuilder({0, 0, 0}).feed({10, 0, 0}, 600).feed({20, 0, 0}, 600).program;
   const auto path = build_toolpath(program, one_frame(program, {}));
   std::vector<Matrix3> R_MT;  // 20 degrees on the first move, 40 on the second, evenly

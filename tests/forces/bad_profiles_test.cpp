@@ -12,7 +12,7 @@ namespace {
 
 const std::string folder = COUNTERFLEX_SOURCE_DIR "/tests/bad/forces";
 
-/// What follows `mark` in the line that begins with it; empty where there is none.
+/// The text after `mark` in the line that begins with it, or empty.
 std::string marked(const std::string& text, const std::string& mark) {
   const std::size_t at = text.find(mark);
   if (at == std::string::npos) return "";
@@ -24,14 +24,14 @@ std::vector<ForceRule> rules_in(const std::string& text, const std::string& file
   return file.ends_with(".toml") ? read_force_toml(text, file) : read_force_csv(text, file);
 }
 
-/// What else is given: a file of the folder `with`, or a --force.
+/// Further rules: a file of the folder `with`, or a --force.
 std::vector<ForceRule> others(const std::string& with) {
   if (with.empty()) return {};
   if (!with.ends_with(".csv")) return {parse_force_rule(with)};
   return read_force_csv(read_file(folder + "/with/" + with), with);
 }
 
-/// What reading the profile and laying it along the sample program says.
+/// The diagnostic of reading the profile and applying it to the sample program.
 std::string diagnostic(const std::string& text, const std::string& file) {
   try {
     ForceSource source;
@@ -55,7 +55,7 @@ TEST_CASE("every bad profile is refused with the diagnostic of its first line") 
     CAPTURE(file);
     const std::string expected = marked(text, "# expect: ");
     REQUIRE(text.rfind("# expect: ", 0) == 0);
-    // Only one of another file, or of the program, names it.
+    // Only a diagnostic of another file, or of the program, has its name.
     const bool of_other = expected.find(":") != expected.find_first_not_of("0123456789");
     CHECK(diagnostic(text, file) == (of_other ? expected : fmt::format("{}:{}", file, expected)));
     ++count;

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double c = 0.08 * mm;
 
-/// The model's figures under the names that they have in the formulas.
+/// The model's figures under their names in the formulas.
 struct Letters {
   explicit Letters(const CuttingModel& model)
       : N(model.mill.flutes),
@@ -118,7 +118,7 @@ TEST_CASE("mean forces of half-immersion down milling equal those computed by ha
   }
 }
 
-TEST_CASE("mean wrenches between any two angles equal the textbook's integrals, whatever the helix") {
+TEST_CASE("mean wrenches between any two angles equal the textbook's integrals, for any helix") {
   for (const double helix_deg : {0.0, 12.0, 45.0, 60.0}) {
     for (const auto& [entry, exit] : {std::pair(0.0, 1.0), {0.0, 53.13}, {20.0, 160.0}, {126.9, 180.0}}) {
       CAPTURE(helix_deg);

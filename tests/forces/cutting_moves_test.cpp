@@ -36,7 +36,7 @@ TEST_CASE("forces are affine in the feed") {
   }
 }
 
-TEST_CASE("a model's own spindle speed stands instead of the program's") {
+TEST_CASE("a model's own spindle speed replaces the program's") {
   CuttingModel model = sample_cut();
   model.spindle_rpm = 12000;
   CHECK(cutting_force(model, feed, rpm, 0).feed_per_tooth == doctest::Approx(0.05 * mm));
@@ -51,7 +51,7 @@ TEST_CASE("a ramp is cut with the lateral part of its feed") {
   }
 }
 
-TEST_CASE("a plunge, a retract, no feed and no spindle speed give no force, and say so") {
+TEST_CASE("a plunge, a retract, a missing feed and a missing spindle speed give no force, with the reason") {
   CHECK(why(feed, rpm, -1) == "the feed is along the tool axis (plunge)");
   CHECK(why(feed, rpm, 1) == "the feed is along the tool axis (retract)");
   CHECK(why(feed, rpm, -std::sin(80.01 * deg)) == "the feed is along the tool axis (plunge)");
@@ -62,6 +62,6 @@ TEST_CASE("a plunge, a retract, no feed and no spindle speed give no force, and 
   CHECK(why(feed, 0, 0) == "no spindle speed is programmed");
 }
 
-TEST_CASE("the feed along the tool axis is what a plunge without feed and speed is told for") {
+TEST_CASE("the reason for a plunge without feed and speed is the feed along the tool axis") {
   CHECK(why(0, 0, -1) == "the feed is along the tool axis (plunge)");
 }

@@ -23,7 +23,7 @@ Vector6 tooth_at(const CuttingModel& model, double phi_deg) {
                 R * F_t);
 }
 
-/// Height by height of the wall at `phi_w_deg`, disc by disc, what all teeth do when the wall is made there.
+/// The force of all teeth when the wall at `phi_w_deg` is cut, height by height of the wall and disc by disc.
 Vector6 simulated_at_wall(const CuttingModel& model, double phi_w_deg, int discs) {
   Vector6 sum = Vector6::Zero();
   CuttingModel disc = model;
@@ -33,7 +33,7 @@ Vector6 simulated_at_wall(const CuttingModel& model, double phi_w_deg, int discs
   for (int made = 0; made < discs; ++made) {
     for (int k = 0; k < discs; ++k) {
       for (int tooth = 0; tooth < model.mill.flutes; ++tooth) {
-        // The wall is made between the middles of discs, so that none is at its angle.
+        // The wall is cut between the middles of discs, so that no disc is at its angle.
         const double ahead = (made + 0.5 - k - (made % 2 == 0 ? 0.25 : 0.75)) * disc.axial_depth * twist;
         const double turned = phi_w_deg + ahead / deg + 360.0 * tooth / model.mill.flutes;
         const double phi = turned - 360 * std::floor(turned / 360);
@@ -76,7 +76,7 @@ TEST_CASE("the surface force of straight flutes is the sum of the teeth that cut
   CHECK(agree(at_feed_per_tooth(down, c_surface), tooth_at(down, 180), 1e-12));
 }
 
-TEST_CASE("a tooth that stands at the other end of the cut counts, whatever its angle rounds to") {
+TEST_CASE("a tooth at the other end of the cut counts, for any rounding of its angle") {
   for (int flutes = 3; flutes <= 12; ++flutes) {
     CAPTURE(flutes);
     CuttingModel up = at_wall(between(sample_cut(), 0, 120), Wall::entry);

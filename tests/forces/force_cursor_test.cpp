@@ -1,4 +1,4 @@
-// A cursor makes the reading of forces quicker, and changes nothing that is read.
+// A cursor makes the reading of forces faster and does not change the results.
 #include <doctest/doctest.h>
 
 #include <random>

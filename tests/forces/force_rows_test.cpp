@@ -33,7 +33,7 @@ ForceRows many_rows(int count) {
 
 }  // namespace
 
-TEST_CASE("rows come back as they went in, however many there are and in whatever order they are asked for") {
+TEST_CASE("stored rows are restored, for any number of rows and any order of access") {
   constexpr int count = 50'000;
   const ForceRows rows = many_rows(count);
   REQUIRE(rows.size() == count);
@@ -51,7 +51,7 @@ TEST_CASE("rows come back as they went in, however many there are and in whateve
   }
 }
 
-TEST_CASE("the first row beyond a key is found from wherever the last one was") {
+TEST_CASE("the first row beyond a key is found from any previous position") {
   const ForceRows rows = many_rows(30'000);
   std::mt19937 random(5);
   for (int k = 0; k < 3000; ++k) {
@@ -61,7 +61,7 @@ TEST_CASE("the first row beyond a key is found from wherever the last one was") 
   }
 }
 
-TEST_CASE("a copy of rows is one of its own") {
+TEST_CASE("a copy of rows is independent") {
   const ForceRows rows = many_rows(20'000);
   ForceRows copy = rows;
   copy.push_back(numbered(20'000));
@@ -71,7 +71,7 @@ TEST_CASE("a copy of rows is one of its own") {
   CHECK(copy.back().key == 40'000);
 }
 
-TEST_CASE("rows know whether any has a wrench, and where their points are") {
+TEST_CASE("rows report whether one has a wrench, and the box of their points") {
   ForceRows rows;
   CHECK(rows.all_zero());
   rows.push_back({.key = 1});
@@ -83,7 +83,7 @@ TEST_CASE("rows know whether any has a wrench, and where their points are") {
   CHECK_FALSE(rows.all_zero());
 }
 
-TEST_CASE("a profile of a file is that of its text, where portions of it end in the middle of a row") {
+TEST_CASE("reading a file in portions that end inside rows gives the profile of its text") {
   std::string text = "\xEF\xBB\xBF" + test::on_tool + "line,fx_N,fy_N,fz_N\r\n";
   std::mt19937 random(9);
   std::uniform_real_distribution<double> force(-300, 300);
@@ -102,7 +102,7 @@ TEST_CASE("a profile of a file is that of its text, where portions of it end in 
   }
 }
 
-TEST_CASE("a row of plain numbers is what the same row with blanks around its numbers is") {
+TEST_CASE("a row of plain numbers equals the same row with blanks around its numbers") {
   std::mt19937 random(11);
   const auto number = [&] {
     const double value = std::uniform_real_distribution<double>(-500, 500)(random);

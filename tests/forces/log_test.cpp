@@ -13,7 +13,7 @@ namespace {
 
 const std::string header = on_tool + "x_mm,y_mm,z_mm,fx_N,fy_N,fz_N\n";
 
-/// A row each: point in mm and fx.
+/// One row each: point in mm and fx.
 using Log = std::vector<std::pair<Vector3, double>>;
 
 ForceSource logged(const Log& rows, const std::string& settings = "") {
@@ -34,9 +34,9 @@ std::string refused_log(const Program& program, const ForceSource& source) {
   return "no error";
 }
 
-/// Path lengths of the rows, mm, once the source has been settled.
+/// Path lengths of the rows, mm, after the log was matched with the path.
 std::vector<double> places_mm(const Program& program, ForceSource source) {
-  source.rules.push_back(parse_force_rule("0,0,0"));  // for what the log leaves out
+  source.rules.push_back(parse_force_rule("0,0,0"));  // for moves without a row
   const Toolpath path = build_toolpath(program, one_frame(program, {}));
   ForceCover cover(source);
   while (cover.needs_pass()) {
@@ -68,7 +68,7 @@ TEST_CASE("a row of a log acts from the point of the feed path that is nearest t
   CHECK(forces.at(5, 0.6)[0] == 4);
 }
 
-TEST_CASE("a position on an arc is found where it stands") {
+TEST_CASE("a position on an arc is found at its place") {
   const Program program = ProgramBuilder({10, 0, 0}).arc({-10, 0, 0}, {0, 0, 0}, 600).program;
   Log log;
   std::vector<double> expected;
@@ -79,7 +79,7 @@ TEST_CASE("a position on an arc is found where it stands") {
   check_places(places_mm(program, logged(log)), expected, 1e-2);
 }
 
-TEST_CASE("passes over the same place are told apart by the order of the rows") {
+TEST_CASE("passes over the same place are distinguished by the order of the rows") {
   // there and back, and there again
   ProgramBuilder builder({0, 0, 0});
   builder.feed({20, 0, 0}, 600).feed({0, 0, 0}, 600).feed({20, 0, 0}, 600);
@@ -136,7 +136,7 @@ TEST_CASE("coordinates are the program's, or those of the machine") {
   check(logged(in_machine, "# coordinates = machine\n"));
 }
 
-TEST_CASE("the limit is what within_mm says, and a row beyond it is named with the nearest line") {
+TEST_CASE("within_mm is the limit, and the error for a row beyond it names the nearest line") {
   const Log log{{{0, 0, 0}, 1}, {{5, 2, 0}, 2}};
   const auto program = straight(20, 5);
   CHECK(refused_log(program, logged(log)) ==
@@ -181,7 +181,7 @@ TEST_CASE("a log of a part of the program leaves the rest to other rules") {
   CHECK(forces.at(4, 0.5)[0] == 1);
 }
 
-TEST_CASE("a place that the path passes all the time is refused, so that memory stays bounded") {
+TEST_CASE("a place with too many passes is refused, so that memory stays bounded") {
   ProgramBuilder builder({0, 0, 0});
   for (int i = 0; i < 600; ++i) builder.feed({5, 0, 0}, 600).feed({0, 0, 0}, 600);
   CHECK(refused_log(builder.program, logged({{{2, 0, 0}, 1}})).find("more than 1000 times") !=

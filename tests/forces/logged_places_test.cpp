@@ -5,8 +5,8 @@
 
 #include "counterflex/geometry/types.hpp"
 #include "forces/csv_header.hpp"
+#include "forces/log_matching.hpp"
 #include "forces/point_grid.hpp"
-#include "forces/visits.hpp"
 
 using namespace counterflex;
 
@@ -14,7 +14,7 @@ namespace {
 
 using Rows = std::vector<std::vector<Visit>>;
 
-/// A choice of visits: their sum, then the path lengths by which equal sums are told apart.
+/// A choice of visits: their sum, then path lengths that decide between equal sums.
 struct Choice {
   double sum = 0;
   std::vector<double> s;
@@ -27,7 +27,7 @@ bool is_better(const Choice& a, const Choice& b) {
   return std::lexicographical_compare(b.s.rbegin(), b.s.rend(), a.s.rbegin(), a.s.rend());
 }
 
-/// The best of all choices behind `begun` that stay in order, if there is one.
+/// The best of all ordered choices that begin with `begun`, if any.
 std::optional<Choice> best_of_all(const Rows& rows, const Choice& begun = {}) {
   if (begun.s.size() == rows.size()) return begun;
   std::optional<Choice> best;
@@ -50,7 +50,7 @@ double distance_mm(const Vector3& a, const Vector3& b, const Vector3& p) {
 
 }  // namespace
 
-TEST_CASE("of visits with equal sums those act that end earliest and whose rows follow most closely") {
+TEST_CASE("of visits with equal sums the one is chosen that ends earliest with the closest rows") {
   // one row that the path passes three times; then one that it passes twice, before and after a third
   CHECK(in_order({{{2, 0.25}, {6, 0.25}, {9, 0.25}}}, 1).s == std::vector<double>{2});
   CHECK(in_order({{{2, 0.25}, {6, 0.25}}, {{9, 0}}}, 1).s == std::vector<double>{6, 9});
@@ -59,7 +59,7 @@ TEST_CASE("of visits with equal sums those act that end earliest and whose rows 
   CHECK(in_order({{{2, 0}, {6, 0.25}}, {{4, 0.5}, {9, 0.25}}}, 1).s == std::vector<double>{2, 9});
 }
 
-TEST_CASE("of all visits in order those are chosen that a look at every choice finds") {
+TEST_CASE("the chosen visits equal the result of an exhaustive search") {
   std::mt19937 random(11);
   const auto below = [&](unsigned n) { return static_cast<int>(random() % n); };
   int in_vain = 0;
@@ -79,7 +79,7 @@ TEST_CASE("of all visits in order those are chosen that a look at every choice f
   CHECK(in_vain < 100);
 }
 
-TEST_CASE("among the points of a grid's answer are all that are near, each once") {
+TEST_CASE("the result of a grid includes all near points, each once") {
   std::mt19937 random(4);
   std::uniform_real_distribution<double> within_box(-0.02, 0.02), beside(-0.03, 0.03), step(-1, 1);
   std::vector<Vector3> points;
@@ -117,7 +117,7 @@ TEST_CASE("a point where cells meet, or at the limit, is found from every side")
     }
 }
 
-TEST_CASE("every key of a profile has a name for messages, a logged position, too") {
+TEST_CASE("every key of a profile has a name for messages, also a logged position") {
   CHECK(csv::key_name(ForceKey::line) == "line");
   CHECK(csv::key_name(ForceKey::time) == "t_s");
   CHECK(csv::key_name(ForceKey::point) == "x_mm, y_mm, z_mm");

@@ -39,7 +39,7 @@ ForceSource model(const CuttingModel& cut) {
 
 }  // namespace
 
-TEST_CASE("a machine's wrench is told in the feed frame of every move") {
+TEST_CASE("a wrench in machine axes is listed in the feed frame of every move") {
   const auto moves = moves_of(turning_program(), constant(wrench(10, 2, -5, 1, 2, 3)));
   REQUIRE(moves.size() == 4);
   CHECK(agree(moves[1].F, wrench(10, 2, -5, 1, 2, 3), 1e-12));    // along x
@@ -48,7 +48,7 @@ TEST_CASE("a machine's wrench is told in the feed frame of every move") {
   for (const MoveForce& move : moves) CHECK(move.feed_per_tooth == 0);
 }
 
-TEST_CASE("of a plunge only what is along the tool can be told in the feed frame, and that is said") {
+TEST_CASE("for a plunge only the component along the tool is listed in the feed frame, with a mark") {
   const MoveForce lost = moves_of(turning_program(), constant(wrench(10, 2, -5, 1, 2, 3)))[0];
   CHECK(lost.why.empty());
   CHECK(lost.only_z);
@@ -56,7 +56,7 @@ TEST_CASE("of a plunge only what is along the tool can be told in the feed frame
   CHECK(!moves_of(turning_program(), constant(wrench(0, 0, -5)))[0].only_z);
 }
 
-TEST_CASE("a force that steps within a move is told step by step, and its largest wherever it is") {
+TEST_CASE("a force that steps within a move is listed step by step, with its largest value") {
   const auto moves =
       moves_of(turning_program(), from_csv(on_tool + "s_mm,fx_N,fy_N,fz_N\n0,0,0,-1\n10,1,0,0\n13,0,7,0\n"
                                                      "14,2,0,0\n20,0,0,0\n"));
@@ -106,7 +106,7 @@ TEST_CASE("a model's moves have its feed per tooth, its wrench and its reasons")
   CHECK(moves_of(sample_program(), model(sample_cut()))[1].why == "no spindle speed is programmed");
 }
 
-TEST_CASE("a model's own spindle speed is the one that is told") {
+TEST_CASE("a model's own spindle speed is listed") {
   CuttingModel cut = sample_cut();
   cut.spindle_rpm = 6000;
   const MoveForce move = moves_of(sample_program(), model(cut))[1];
@@ -114,7 +114,7 @@ TEST_CASE("a model's own spindle speed is the one that is told") {
   CHECK(move.feed_per_tooth == doctest::Approx(0.025 * mm));
 }
 
-TEST_CASE("the load scale is in what is told, and what is in the air has no force") {
+TEST_CASE("listed forces include the load scale, and moves in the air have no force") {
   ForceSource source = constant(wrench(10, 0, 0));
   source.scale = 2;
   source.air_above_mm = 4;
@@ -123,12 +123,12 @@ TEST_CASE("the load scale is in what is told, and what is in the air has no forc
   CHECK(moves[2].why == "it is wholly above --air-above");
 }
 
-TEST_CASE("moves without a rule, and a program without moves, are no trouble") {
+TEST_CASE("moves without a rule and programs without moves are accepted") {
   CHECK(moves_of(turning_program(), {})[1].why == "no force is given for it");
   CHECK(moves_of({}, model(sample_cut())).empty());
 }
 
-TEST_CASE("a profile in the feed frame, a row a move, gives what it was made of") {
+TEST_CASE("a profile in the feed frame with one row per move restores the original forces") {
   const auto moves = moves_of(turning_program(), model(sample_cut()));
   ForceProfile profile;
   profile.key = ForceKey::path_length;
@@ -145,7 +145,7 @@ TEST_CASE("a profile in the feed frame, a row a move, gives what it was made of"
   }
 }
 
-TEST_CASE("a scale and a bound of the air alter what a FORCE comment gives, unless that is zero") {
+TEST_CASE("a scale and an air height change the force of a FORCE comment, unless it is zero") {
   Program program = sample_program();
   program.moves[2].force = wrench(1, 0, 0);
   program.moves[4].force = wrench(0, 0, 0);

@@ -116,7 +116,7 @@ TEST_CASE("the blended wrench is the mean of the unblended one over the last str
   }
 }
 
-TEST_CASE("a step inside a segment has two sides, and a break where it stands") {
+TEST_CASE("a step inside a segment has two sides, and a break at its place") {
   const auto forces =
       forces_on(straight(10, 10), from_csv(on_tool + "s_mm,fx_N,fy_N,fz_N\n0,1,0,0\n3,2,0,0\n7,3,0,0\n"));
   const auto breaks = forces.breaks(0);
@@ -131,7 +131,7 @@ TEST_CASE("a step inside a segment has two sides, and a break where it stands") 
   CHECK(forces.at(0, 1, Side::after) == wrench(3, 0, 0));
 }
 
-TEST_CASE("the two sides of every break are those of its step, wherever rounding puts it") {
+TEST_CASE("the two sides of every break are those of its step, for any rounding of its place") {
   std::string text = on_tool + "s_mm,fx_N,fy_N,fz_N\n0,0,0,0\n";
   for (int i = 1; i <= 120; ++i) text += std::to_string(0.7123 * i) + "," + std::to_string(i) + ",0,0\n";
   for (const double block_mm : {9.1, 91.0}) {
@@ -168,7 +168,7 @@ TEST_CASE("between breaks the blended wrench of a stepped profile is a straight 
   CHECK(forces.ramps() == 4);
 }
 
-TEST_CASE("a rapid that gives no segment ends a feed run all the same") {
+TEST_CASE("a rapid without a segment also ends a feed run") {
   ProgramBuilder builder({0, 0, 0});
   builder.feed({10, 0, 0}, 600).rapid({10, 0, 9}).rapid({10, 0, 0}).feed({20, 0, 0}, 600);
   builder.program.moves[1].known_end[2] = builder.program.moves[2].known_start[2] = false;
@@ -187,7 +187,7 @@ TEST_CASE("cuts that do not join are not one run") {
   CHECK(forces.at(1, 0) == Vector6::Zero());
 }
 
-TEST_CASE("a profile that acts at the platform says so, a constant force never does") {
+TEST_CASE("a profile can act at the platform, a constant force acts at the tip") {
   auto source = from_csv(on_tool + "# at = platform\nline,fx_N,fy_N,fz_N\n1,1,0,0\n");
   CHECK(forces_on(sample_program(), source).at_platform());
   CHECK_FALSE(forces_on(sample_program(), constant(wrench(1, 0, 0), 0)).at_platform());
@@ -206,7 +206,7 @@ TEST_CASE("very long runs keep the blended wrench accurate") {
   CHECK(forces.breaks(count - 1).size() == 1);
 }
 
-TEST_CASE("feed moves wholly above the air's height carry no force, others and rapids as ever") {
+TEST_CASE("feed moves wholly above the air height carry no force, other moves are unchanged") {
   ForceSource source = constant(wrench(100, 0, 0), 0);
   source.air_above_mm = 4.9;
   const auto forces = forces_on(sample_program(), source);  // cuts from Z10 to Z0, in Z0, and twice in Z5

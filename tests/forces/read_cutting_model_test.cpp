@@ -90,7 +90,7 @@ TEST_CASE("angles have a wall where they begin at 0 or end at 180") {
   CHECK(inside.exit == doctest::Approx(5 * pi / 6));
 }
 
-TEST_CASE("a section says which moves it covers") {
+TEST_CASE("a section selects the moves that it covers") {
   const CutSection all = section("side = \"slot\"\n");
   CHECK(all.name == "section 1");
   CHECK(all.where.line == 13);
@@ -109,7 +109,7 @@ TEST_CASE("a section says which moves it covers") {
   CHECK(section("side = \"slot\"\ntool = 7\n").selector.tool == 7);
 }
 
-TEST_CASE("a section's force_at stands before the file's") {
+TEST_CASE("a section's force_at overrides the file's") {
   const std::string file = "force_at = \"surface\"\n";
   const std::string text = beginning + "side = \"slot\"\n";
   const std::size_t second_line = text.find('\n') + 1;
@@ -133,7 +133,7 @@ TEST_CASE("sections keep the order of the file") {
   CHECK(sections[1].model.axial_depth == doctest::Approx(0.003));
 }
 
-TEST_CASE("every published material can be named, and says where it is from") {
+TEST_CASE("every published material can be named, and has its source") {
   CHECK(published_coefficients().size() >= 6);
   for (const PublishedCoefficients& published : published_coefficients()) {
     CAPTURE(published.name);
@@ -150,7 +150,7 @@ TEST_CASE("every published material can be named, and says where it is from") {
   }
 }
 
-TEST_CASE("a file's own material stands before the published one of its name") {
+TEST_CASE("a file's own material overrides the published one of its name") {
   std::string text = beginning + "side = \"slot\"\n";
   const std::string published = published_coefficients()[0].name;
   text.replace(text.find("materials.alu"), 13, "materials." + published);

@@ -54,7 +54,7 @@ TEST_CASE("a force on the workpiece is the opposite of that on the tool") {
   CHECK(profile.rows[0].F == wrench(-1, -2, -3, -4, -5, -6));
 }
 
-TEST_CASE("a byte order mark, CRLF, blanks, and empty lines at the end do no harm") {
+TEST_CASE("a byte order mark, CRLF, blanks, and empty lines at the end are accepted") {
   const auto profile = profile_in(
       "\xEF\xBB\xBF# frame = work\r\n\r\n# sense = on_tool\r\nt_s ,\tfx_N,fy_N,fz_N \r\n 0,1, 2 "
       ",3\r\n0.5,4,5,6\r\n\r\n \r\n",

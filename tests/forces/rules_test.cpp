@@ -85,7 +85,7 @@ TEST_CASE("the text of an operation is compared without case and outer blanks, t
   }
 }
 
-TEST_CASE("an operation's name with commas stands in quotes") {
+TEST_CASE("an operation's name with commas is in quotes") {
   Program program = sample_program();
   program.operations[2] = "FINISH, wall 2";
   const auto source = given({"op , " + columns + " \"Finish, Wall 2\" ,5,0,0\n\"rough*\",\"3\",0,0\n"});
@@ -170,7 +170,7 @@ TEST_CASE("a profile whose cover ends within the rounding of its keys leaves a m
   }
 }
 
-TEST_CASE("rules of equal rank that cover one move are refused, whatever they are") {
+TEST_CASE("rules of equal rank that cover one move are refused, for all kinds of rules") {
   const std::string t3 = "tool," + columns + "T3,2,0,0\n";
   CHECK(refused(sample_program(), given({"1,0,0", "2,0,0"})) ==
         "2: error: --force 1,0,0: covers line 2 of the program, which --force 2,0,0 covers too; both are "
@@ -201,7 +201,7 @@ TEST_CASE("a tool that the program never uses is refused at the row or the optio
         "2: error: --force T9=1,0,0: unknown tool T9: the program uses no tool with a number");
 }
 
-TEST_CASE("a rule that covers no feed move is refused where it stands, unless it gives zeros") {
+TEST_CASE("a rule that covers no feed move is refused at its place, unless its force is zero") {
   Program program = sample_program();
   program.moves[0].tool = 7;  // a rapid
   const std::string rows = "tool," + columns + "T3,2,0,0\nT7,";
@@ -261,7 +261,7 @@ TEST_CASE("whether a rule covers a feed move is found in windows of a program as
   }
 }
 
-TEST_CASE("sections of a cutting model cover what meets all of their conditions") {
+TEST_CASE("sections of a cutting model cover moves that meet all of their conditions") {
   Program program = sample_program();
   for (Move& move : program.moves) move.spindle_rpm = 3000;
   const Vector6 cut = cutting_force(sample_cut(), 0.01, 3000, 0).F;
@@ -305,14 +305,14 @@ TEST_CASE("a rule for lines of an operation acts in them whenever that operation
     CHECK(forces.at(i, 0.5)[0] == (i < 9 ? 1 + static_cast<int>(i % 3) : 1));
 }
 
-TEST_CASE("a section for lines or blocks behind the program's end is refused") {
+TEST_CASE("a section for lines or blocks beyond the program's end is refused") {
   ForceSource source = given({"0,0,0"});
   source.rules.push_back(section_for({.lines = {{7, 9}}}));
   CHECK(refused(sample_program(), source) ==
-        "4: cut.toml:9:1: error: section 1: lines 7 to 9 lie beyond the program, which ends at line 6");
+        "4: cut.toml:9:1: error: section 1: lines 7 to 9 are beyond the end of the program at line 6");
   source.rules.back() = section_for({.blocks = {{60, 90}}});
   CHECK(refused(sample_program(), source) ==
-        "4: cut.toml:9:1: error: section 1: blocks 60 to 90 lie beyond the program, which ends at block 50");
+        "4: cut.toml:9:1: error: section 1: blocks 60 to 90 are beyond the end of the program at block 50");
 }
 
 TEST_CASE("wrenches at the platform and at the tip are not mixed, not with a FORCE comment either") {
@@ -378,7 +378,7 @@ TEST_CASE("the tool's axes are needed as soon as one rule's frame turns with the
   }
 }
 
-TEST_CASE("at every place acts what a look at one rule after the other finds") {
+TEST_CASE("the force at every place equals the result of a search through all rules") {
   std::mt19937 random(23);
   const auto below = [&](int n) { return static_cast<int>(random() % static_cast<unsigned>(n)); };
   for (int run = 0; run < 30; ++run) {
@@ -414,7 +414,7 @@ TEST_CASE("at every place acts what a look at one rule after the other finds") {
   }
 }
 
-TEST_CASE("thousands of rules are found without a look at all of them, and none is missed") {
+TEST_CASE("thousands of rules are found fast and completely") {
   const std::size_t count = 3000;
   Program program = straight(static_cast<double>(count), 1);
   std::string rows = "tool," + columns;

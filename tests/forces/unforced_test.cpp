@@ -51,7 +51,7 @@ TEST_CASE("cuts outside all FORCE comments are listed, and those under a zero wi
   check_unforced(forces_on(program, {}), {{2, not_given}, {5, is_zero_force}, {6, not_given}});
 }
 
-TEST_CASE("zeros are a force that is given, and cuts under nothing else are listed") {
+TEST_CASE("zeros count as a given force, and cuts with only zeros are listed") {
   const std::vector<Listed> all{
       {2, is_zero_force}, {3, is_zero_force}, {5, is_zero_force}, {6, is_zero_force}};
   const std::string columns = "line,fx_N,fy_N,fz_N\n";
@@ -68,7 +68,7 @@ TEST_CASE("a cut that has a force on a part of its length is a cut with a force"
                  {{2, is_zero_force}, {5, is_zero_force}, {6, is_zero_force}});
 }
 
-TEST_CASE("a scale of zero leaves no force, but a model's own reasons stand") {
+TEST_CASE("a scale of zero removes all forces, but keeps a model's own reasons") {
   ForceSource scaled = constant(wrench(1, 2, 3), 0);
   scaled.scale = 0;
   check_unforced(forces_on(sample_program(), scaled),
@@ -87,7 +87,8 @@ TEST_CASE("cuts in the air are listed, and need no rule") {
 }
 
 TEST_CASE(
-    "what a cutting model cannot tell is listed with its reason: plunges, retracts, no feed, no speed") {
+    "moves without a force from a cutting model are listed with the reason: plunges, retracts, no feed, no "
+    "speed") {
   Program program = ProgramBuilder({0, 0, 0})
                         .feed({10, 0, 0}, 600)
                         .feed({10, 0, -10}, 600)
@@ -108,7 +109,7 @@ TEST_CASE(
   for (const Unforced& move : forces.unforced()) CHECK(!move.why.empty());
 }
 
-TEST_CASE("a ramp is cut with the feed that is left sideways") {
+TEST_CASE("a ramp is cut with the lateral part of the feed") {
   Program program = ProgramBuilder({0, 0, 0}).feed({8, 0, -6}, 600).program;
   program.moves[0].spindle_rpm = 3000;
   const auto forces = forces_on(program, model());

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double along[] = {0, 1e-3, 0.2, 0.5, 0.77, 1};
 
-/// What acts on the segments of a program that comes in windows.
+/// The forces on the segments of a program read in windows.
 struct Acting {
   std::vector<Vector6> wrenches;
   std::vector<std::vector<double>> breaks;
@@ -122,7 +122,7 @@ TEST_CASE("forces of a program in windows are those of the whole: constant, by l
   check_same_in_windows(commented, comments, 10);
 }
 
-TEST_CASE("a feed run without end comes in windows once it is longer than two blends") {
+TEST_CASE("a feed run of any length is split into windows if it is longer than two blends") {
   std::string text = "G21 G90 G17 G0 X0 Y0 Z0\nG1 F100\n";
   for (int block = 1; block <= 400; ++block) text += fmt::format("X{:.1f}\n", 0.1 * block);
   check_same_in_windows(text, constant(wrench(30, 0, 0), 2e-3), 80);
@@ -178,7 +178,7 @@ TEST_CASE("block numbers count on in the next window") {
   check_same_in_windows(text, from_csv(on_tool + "n,fx_N,fy_N,fz_N\n1,5,0,0\n40,90,0,0\n80,7,0,0\n", 0), 20);
 }
 
-TEST_CASE("the cover of a profile is judged over all windows") {
+TEST_CASE("the cover of a profile is checked over all windows") {
   const std::string text = many_runs();
   for (const std::string rows :
        {"line,fx_N,fy_N,fz_N\n1,5,0,0\n999,0,0,0\n", "line,fx_N,fy_N,fz_N\n50,5,0,0\n",

@@ -1,4 +1,4 @@
-#include "forces/visits.hpp"
+#include "forces/log_matching.hpp"
 
 #include <algorithm>
 #include <cstdint>
@@ -9,16 +9,16 @@ namespace {
 
 constexpr double impossible = std::numeric_limits<double>::infinity();
 
-// Sums that differ by less than this part of the searched distance squared are equal.
+// Sums that differ by less than this fraction of the searched distance squared are equal.
 constexpr double equal_sums = 1e-9;
 
-/// The least sum up to a visit, and the visit of the row above that it goes through.
+/// The least sum up to a visit, and its predecessor: a visit of the row above.
 struct Best {
   double sum = impossible;
   std::uint32_t from = 0;
 };
 
-/// The least sums of the visits of one row behind those of the row above.
+/// The least sums of the visits of one row, from those of the row above.
 class Step {
  public:
   Step(const std::vector<Visit>& above, const std::vector<Best>& best, double within)
@@ -40,7 +40,7 @@ class Step {
  private:
   static std::uint32_t index(std::size_t u) { return static_cast<std::uint32_t>(u); }
 
-  // The latest of equals is the nearest.
+  // The latest of equal ones is the nearest.
   void take(double sum, std::size_t u, Best& best) const {
     if (sum <= best.sum + equal_ && sum < impossible) best = {std::min(sum, best.sum), index(u)};
   }
@@ -75,7 +75,7 @@ std::size_t end_of(const std::vector<Best>& best, double within) {
 OrderedPlaces in_order(const std::vector<std::vector<Visit>>& rows, double within) {
   OrderedPlaces places;
   std::vector<std::vector<Best>> best;
-  best.reserve(rows.size());  // a step looks at the row above
+  best.reserve(rows.size());  // a step reads the row above
   best.push_back(first_row(rows.front()));
   for (std::size_t i = 1; i < rows.size(); ++i) {
     Step step(rows[i - 1], best.back(), within);

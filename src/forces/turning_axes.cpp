@@ -1,4 +1,4 @@
-#include "forces/turned.hpp"
+#include "forces/turning_axes.hpp"
 
 #include <algorithm>
 
@@ -7,19 +7,20 @@
 namespace counterflex {
 namespace {
 
-// Of the wrench, what a linear piece may leave of the turning one.
+// Largest relative error of a linear piece of a turning wrench.
 constexpr double linear_to = 1e-4;
 
-// A turn of the feed between two pieces that is none: tangents of arcs in 3 decimals are no better.
+// Turns of the feed between two pieces below this are ignored: tangents of arcs with 3 decimals are not more
+// accurate.
 constexpr double same_tangent = 1e-3;
 
-// Pieces of a turning wrench are not halved below this length (m): what still differs there is a step.
+// Pieces of a turning wrench are not halved below this length (m): a remaining difference is a step.
 constexpr double shortest_turn = 1e-7;
 
-// Fraction of an arc beside a place where the feed is parallel to the tool.
+// Distance, as a fraction of an arc, from a place where the feed is parallel to the tool.
 constexpr double beside = 1e-4;
 
-// No first piece turns by more than this (rad), so that its middle tells how it curves.
+// Initial pieces turn by at most this (rad), so that the error in the middle shows their curvature.
 constexpr double widest_turn = 0.5;
 
 /// The wrench along `piece` before and after axes are applied; `s` is a place on it.
@@ -103,7 +104,7 @@ void turn_pieces(const ForcePiece& piece, const Segment& segment, const AxesAlon
   const Turning turning(piece, segment, axes);
   pieces.clear();
   if (axes.are_of_machine()) {
-    const Vector6 none = Vector6::Zero();  // added, it leaves no zero with a sign
+    const Vector6 none = Vector6::Zero();  // adding it removes signs of zeros
     pieces.push_back({piece.s0, piece.s1, piece.F0 + none, piece.F1 + none, none});
     return;
   }

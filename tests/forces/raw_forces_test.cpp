@@ -80,7 +80,7 @@ TEST_CASE("a linear profile runs through its rows, in length and in time") {
   }
 }
 
-TEST_CASE("a step in time acts where the tool then is, whatever the feeds") {
+TEST_CASE("a step in time acts at the place of the tool at that time, for any feeds") {
   const Program program =
       ProgramBuilder({0, 0, 0}).feed({10, 0, 0}, 600).feed({20, 0, 0}, 300).program;  // 1 s, 2 s
   const auto forces =
@@ -122,7 +122,7 @@ TEST_CASE("in the feed frame x follows the feed, z is the tool's, and a plunge k
   CHECK(forces.notes()[0].line == 2);
 }
 
-TEST_CASE("the feed frame of a slanted cut stands on the tool's axis, not on the feed") {
+TEST_CASE("the z axis of the feed frame of a slanted cut is the tool's axis") {
   const Program ramp = ProgramBuilder({0, 0, 0}).feed({10, 0, -5}, 600).program;
   const auto forces =
       forces_on(ramp, from_csv("# frame = feed\n# sense = on_tool\nline,fx_N,fy_N,fz_N\n1,1,2,3\n"));

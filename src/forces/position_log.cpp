@@ -1,4 +1,4 @@
-#include "forces/point_log.hpp"
+#include "forces/position_log.hpp"
 
 #include <fmt/format.h>
 
@@ -12,10 +12,10 @@
 namespace counterflex {
 namespace {
 
-// An arc is divided so that its chords are this part of the searched distance away from it.
+// An arc is divided into chords that deviate by this fraction of the searched distance.
 constexpr double flat_per_within = 1e-3;
 
-// The path may come near a point this often, which bounds the memory.
+// Largest number of passes near a point; limits the memory.
 constexpr std::size_t most_visits = 1000;
 
 // Rows closer together than this are at one place (m).
@@ -55,8 +55,8 @@ std::vector<Vector3> points_of(const ForceProfile& log) {
   return points;
 }
 
-/// The rows at their path lengths (m). Rows at one place have the mean of their wrenches; one that ends the
-/// cover does so.
+/// The rows at their path lengths (m). Rows at one place get the mean of their wrenches; if one of them ends
+/// the cover, the result does.
 std::vector<ForceRow> one_a_place(const ForceRows& rows, const std::vector<double>& keys) {
   std::vector<ForceRow> places;
   double count = 0;
@@ -111,17 +111,17 @@ void FarPoint::refuse() const {
                        *log_->within / mm, point, std::sqrt(squared_) / mm, line_));
 }
 
-PointLog::PointLog(ForceProfile& log)
+PositionLog::PositionLog(ForceProfile& log)
     : log_(&log),
       grid_(points_of(log), *log.within),
       visits_(log.rows.size()),
       approaches_(log.rows.size()) {}
 
-void PointLog::add(const Program& window, const Toolpath& path) {
+void PositionLog::add(const Program& window, const Toolpath& path) {
   for (const Segment& segment : path.segments) {
     if (!segment.cutting) continue;
     const Curve curve = logged_curve(*log_, window, segment);
-    if (!end_ || (*end_ - curve.start).norm() > same_place) ++piece_;  // nothing approaches over the gap
+    if (!end_ || (*end_ - curve.start).norm() > same_place) ++piece_;  // a gap separates the passes
     end_ = curve.end;
     const int parts = parts_of(curve, grid_.cell(), flat_per_within * *log_->within);
     const auto s_at = [&](double u) { return segment.s_start + u * (segment.s_end - segment.s_start); };
@@ -135,16 +135,16 @@ void PointLog::add(const Program& window, const Toolpath& path) {
   }
 }
 
-void PointLog::add_piece(const Vector3& a, const Vector3& b, double s0, double s1) {
+void PositionLog::add_piece(const Vector3& a, const Vector3& b, double s0, double s1) {
   ++piece_;
   for (const std::uint32_t row : grid_.near(a, b)) {
     const Vector3 p = log_->rows.point(row);
     const double u = nearest_fraction(a, b, p);
     Approach& approach = approaches_[row];
-    const bool goes_on = approach.piece + 1 == piece_;
-    const bool fell = goes_on && approach.falls, listed = fell && approach.listed;
+    const bool is_next = approach.piece + 1 == piece_;
+    const bool fell = is_next && approach.falls, listed = fell && approach.listed;
     approach = {piece_, u >= 1, false};
-    if (u <= 0 && goes_on) continue;  // it rises: the nearest place was on the piece before
+    if (u <= 0 && is_next) continue;  // the distance grows: the nearest place was on the previous piece
     const Visit here{s0 + u * (s1 - s0), (a + u * (b - a) - p).squaredNorm()};
     if (here.squared > *log_->within * *log_->within) continue;
     visit(row, here, listed);
@@ -152,7 +152,7 @@ void PointLog::add_piece(const Vector3& a, const Vector3& b, double s0, double s
   }
 }
 
-void PointLog::visit(std::size_t row, const Visit& visit, bool replace) {
+void PositionLog::visit(std::size_t row, const Visit& visit, bool replace) {
   std::vector<Visit>& visits = visits_[row];
   if (replace) visits.pop_back();
   visits.push_back(visit);
@@ -163,19 +163,19 @@ void PointLog::visit(std::size_t row, const Visit& visit, bool replace) {
                          *log_->within / mm, shown_point(log_->rows.point(row)), most_visits));
 }
 
-std::optional<FarPoint> PointLog::far_point() const {
+std::optional<FarPoint> PositionLog::far_point() const {
   for (std::size_t row = 0; row < visits_.size(); ++row)
     if (visits_[row].empty()) return FarPoint(*log_, row);
   return std::nullopt;
 }
 
-void PointLog::settle() {
+void PositionLog::settle() {
   const OrderedPlaces places = in_order(visits_, *log_->within);
   if (places.stuck)
-    fail_row(*log_, *places.stuck,
-             fmt::format("the path passes {} only before the rows above it: rows must stand in the order in "
-                         "which they were logged",
-                         shown_point(log_->rows.point(*places.stuck))));
+    fail_row(
+        *log_, *places.stuck,
+        fmt::format("the path passes {} only before the rows above it: rows must be in the order of logging",
+                    shown_point(log_->rows.point(*places.stuck))));
   log_->rows = ForceRows(one_a_place(log_->rows, places.s));
   log_->key = ForceKey::path_length;
 }

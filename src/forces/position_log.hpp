@@ -1,20 +1,19 @@
 #pragma once
-/// Logged positions: where along the path the rows of a log belong.
+/// Logged positions: finds the place on the path of each row of a log.
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "counterflex/forces/forces.hpp"
+#include "forces/log_matching.hpp"
 #include "forces/point_grid.hpp"
-#include "forces/visits.hpp"
 
 namespace counterflex {
 
 /// For messages, in mm.
 std::string shown_point(const Vector3& p);
 
-/// A row whose point no feed move comes near, and the feed move that comes nearest, gathered window by
-/// window.
+/// A row whose point is not near any feed move, and the nearest feed move, found window by window.
 class FarPoint {
  public:
   FarPoint(const ForceProfile& log, std::size_t row) : log_(&log), row_(row) {}
@@ -28,27 +27,27 @@ class FarPoint {
   int line_ = 0;
 };
 
-/// Gathers, window by window, where the path comes near the rows of a log: local minima of the distance along
-/// the path. Memory grows with the rows.
-class PointLog {
+/// Collects, window by window, the places where the path comes near the rows of a log: local minima of the
+/// distance along the path. Memory is proportional to the number of rows.
+class PositionLog {
  public:
   /// `log` has the key `point`, and outlives this.
-  explicit PointLog(ForceProfile& log);
+  explicit PositionLog(ForceProfile& log);
 
   void add(const Program& window, const Toolpath& path);
 
-  /// The first row that the path does not come near, if there is one.
+  /// The first row that is not near the path, if any.
   std::optional<FarPoint> far_point() const;
 
-  /// Turns the log into a profile by path length. Throws `InputError` (Exit::machine_or_force) at a row that
-  /// cannot be in order.
+  /// Converts the log to a profile by path length. Throws `InputError` (Exit::machine_or_force) at a row that
+  /// does not fit the order of the path.
   void settle();
 
  private:
-  /// How the distance of a row's point went on the last piece that was near it.
+  /// How the distance from a row's point changed on the last piece near it.
   struct Approach {
     std::size_t piece = 0;  ///< number of that piece
-    bool falls = false;     ///< it ended nearer than it began
+    bool falls = false;     ///< the distance decreased
     bool listed = false;    ///< the piece's end is the last visit
   };
 

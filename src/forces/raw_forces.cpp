@@ -1,4 +1,4 @@
-#include "forces/unblended.hpp"
+#include "forces/raw_forces.hpp"
 
 #include <fmt/format.h>
 
@@ -8,26 +8,27 @@
 #include <cmath>
 
 #include "forces/profile_cover.hpp"
-#include "forces/turned.hpp"
+#include "forces/turning_axes.hpp"
 
 namespace counterflex {
 namespace {
 
-// Sine of the angle between feed and tool below which the feed has no lateral direction. A direction made of
-// rounded coordinates carries more noise than that.
+// Sine of the angle between feed and tool below which the feed has no lateral direction. The noise of rounded
+// coordinates is larger.
 constexpr double parallel = 1e-6;
 
 constexpr std::string_view no_lateral_direction = "the feed is parallel to the tool axis";
 constexpr std::string_view given_zero = "the force given for it is zero";
 
-// Slopes that are the same to a cutting force, and places an arc's piece at which it is asked for.
+// Slopes closer than this give the same cutting force; number of places per piece of an arc where it is
+// computed.
 constexpr double same_slope = 1e-9;
 constexpr int slopes_per_piece = 10;
 
 // Keys closer than this to the end of a segment act at the end (m).
 constexpr double shortest_piece = 1e-9;
 
-/// The profile at `key`, which lies in the interval that begins with `row`.
+/// The profile at `key`, in the interval that begins with `row`.
 Vector6 value(const ForceProfile& profile, std::size_t row, double key) {
   const ForceRows& rows = profile.rows;
   if (!profile.linear || row + 1 == rows.size() || rows.ends(row + 1)) return rows.wrench(row);
@@ -44,7 +45,7 @@ bool axial(const Vector6& F) {
   return F[2] != 0 || F[5] != 0;
 }
 
-/// Of a force in the feed frame where the feed is parallel to the tool.
+/// For a force in the feed frame where the feed is parallel to the tool.
 bool loses(const ForcePiece& piece) {
   return lateral(piece.F0) || lateral(piece.F1);
 }
@@ -123,7 +124,7 @@ void append(const ForcePiece& piece, std::size_t first, std::vector<ForcePiece>&
   pieces.push_back(piece);
 }
 
-Unblended::Unblended(const ForceSource& source, const Program& program, const Toolpath& path,
+RawForces::RawForces(const ForceSource& source, const Program& program, const Toolpath& path,
                      const std::vector<Matrix3>& R_MT, std::optional<long>& block_number)
     : source_(source),
       program_(program),
@@ -133,19 +134,20 @@ Unblended::Unblended(const ForceSource& source, const Program& program, const To
   assert(R_MT.size() == 1 || (!R_MT.empty() && R_MT.size() % path.segments.size() == 0));
 }
 
-void Unblended::append_to(std::size_t i, std::size_t first_piece, std::vector<ForcePiece>& pieces,
+void RawForces::append_to(std::size_t i, std::size_t first_piece, std::vector<ForcePiece>& pieces,
                           ForceRemarks& remarks) {
   const Segment& segment = path_.segments[i];
   std::string why;
   bool forced = false, lost = false;
   const auto take = [&](const AxesAlong& axes, bool first) {
-    const bool only_z = given_.frame == ForceFrame::feed && axes.at(0.5, 1).only_z;
-    std::string why_none = given_.why;
-    if (why_none.empty() && is_zero(given_)) {
+    const bool only_z = stretch_.frame == ForceFrame::feed && axes.at(0.5, 1).only_z;
+    std::string why_none = stretch_.why;
+    if (why_none.empty() && is_zero(stretch_)) {
       why_none = given_zero;
-    } else if (only_z && std::any_of(given_.pieces.begin(), given_.pieces.end(), loses)) {
+    } else if (only_z && std::any_of(stretch_.pieces.begin(), stretch_.pieces.end(), loses)) {
       lost = true;
-      if (std::none_of(given_.pieces.begin(), given_.pieces.end(), keeps)) why_none = no_lateral_direction;
+      if (std::none_of(stretch_.pieces.begin(), stretch_.pieces.end(), keeps))
+        why_none = no_lateral_direction;
     }
     forced = forced || why_none.empty();
     if (why.empty()) why = why_none;
@@ -156,7 +158,7 @@ void Unblended::append_to(std::size_t i, std::size_t first_piece, std::vector<Fo
   };
   if (in_air(source_, program_.moves[segment.move])) {
     give_same(segment.s_start, segment.s_end, Vector6::Zero(), ForceFrame::machine);
-    given_.why = "it is wholly above --air-above";
+    stretch_.why = "it is wholly above --air-above";
     take(axes_in(ForceFrame::machine), true);
   } else {
     for (const ForceStretch& stretch : coverage_.stretches(i)) {
@@ -172,19 +174,19 @@ void Unblended::append_to(std::size_t i, std::size_t first_piece, std::vector<Fo
   if (!forced) remarks.unforced.push_back({segment.line, segment.s_end - segment.s_start, why});
 }
 
-bool Unblended::is_zero(const Given& given) const {
+bool RawForces::is_zero(const StretchForce& given) const {
   const auto zero = [](const ForcePiece& piece) { return piece.F0.isZero(0) && piece.F1.isZero(0); };
   return source_.scale == 0 || std::all_of(given.pieces.begin(), given.pieces.end(), zero);
 }
 
-void Unblended::give_same(double s0, double s1, const Vector6& F, ForceFrame frame) {
-  given_.pieces.clear();
-  given_.pieces.push_back({s0, s1, F, F, Vector6::Zero()});
-  given_.frame = frame;
-  given_.why.clear();
+void RawForces::give_same(double s0, double s1, const Vector6& F, ForceFrame frame) {
+  stretch_.pieces.clear();
+  stretch_.pieces.push_back({s0, s1, F, F, Vector6::Zero()});
+  stretch_.frame = frame;
+  stretch_.why.clear();
 }
 
-void Unblended::give(const ForceStretch& stretch, std::size_t i, const AxesAlong& axes) {
+void RawForces::give(const ForceStretch& stretch, std::size_t i, const AxesAlong& axes) {
   const Segment& segment = path_.segments[i];
   const double length = segment.s_end - segment.s_start;
   const double s0 = segment.s_start + stretch.from * length,
@@ -193,7 +195,7 @@ void Unblended::give(const ForceStretch& stretch, std::size_t i, const AxesAlong
   if (stretch.comment) return give_same(s0, s1, *program_.moves[segment.move].force, ForceFrame::machine);
   if (rule == nullptr) {
     give_same(s0, s1, Vector6::Zero(), ForceFrame::machine);
-    given_.why = "no force is given for it";
+    stretch_.why = "no force is given for it";
     return;
   }
   if (const auto* force = std::get_if<ConstantForce>(&rule->content))
@@ -205,15 +207,14 @@ void Unblended::give(const ForceStretch& stretch, std::size_t i, const AxesAlong
   const double range = keys.end - keys.start;
   const KeySpan here{stretch.from == 0 ? keys.start : keys.start + stretch.from * range,
                      stretch.to == 1 ? keys.end : keys.start + stretch.to * range};
-  given_.pieces.clear();
-  given_.frame = profile.frame;
-  given_.why.clear();
-  append_profile_pieces(profile, here, s0, s1, given_.pieces);
+  stretch_.pieces.clear();
+  stretch_.frame = profile.frame;
+  stretch_.why.clear();
+  append_profile_pieces(profile, here, s0, s1, stretch_.pieces);
 }
 
-// Where the slope changes along the way, as on an upright arc, the force is linear between places close to
-// each other.
-void Unblended::give_cut(const CutResponse& response, double s0, double s1, std::size_t i,
+// If the slope changes along the segment, as on an upright arc, the force is linear between close places.
+void RawForces::give_cut(const CutResponse& response, double s0, double s1, std::size_t i,
                          const AxesAlong& axes) {
   const Segment& segment = path_.segments[i];
   const double rpm = program_.moves[segment.move].spindle_rpm;
@@ -225,28 +226,28 @@ void Unblended::give_cut(const CutResponse& response, double s0, double s1, std:
   const double middle = slope((s0 + s1) / 2);
   const bool even = std::abs(slope(s0) - middle) < same_slope && std::abs(slope(s1) - middle) < same_slope;
   const int parts = even ? 1 : slopes_per_piece * axes.pieces();
-  given_.pieces.clear();
-  given_.frame = ForceFrame::feed;
-  given_.why = force((s0 + s1) / 2).why;
+  stretch_.pieces.clear();
+  stretch_.frame = ForceFrame::feed;
+  stretch_.why = force((s0 + s1) / 2).why;
   for (int k = 0; k < parts; ++k) {
     const auto at = [&](int end) { return end == parts ? s1 : s0 + (s1 - s0) * end / parts; };
     const CutForce a = force(even ? (s0 + s1) / 2 : at(k)), b = even ? a : force(at(k + 1));
-    if (a.why.empty() || b.why.empty()) given_.why.clear();
-    given_.pieces.push_back({at(k), at(k + 1), a.F, b.F, Vector6::Zero(), k > 0});
+    if (a.why.empty() || b.why.empty()) stretch_.why.clear();
+    stretch_.pieces.push_back({at(k), at(k + 1), a.F, b.F, Vector6::Zero(), k > 0});
   }
 }
 
-void Unblended::append_turned(const Segment& segment, const AxesAlong& axes, std::size_t first_piece,
+void RawForces::append_turned(const Segment& segment, const AxesAlong& axes, std::size_t first_piece,
                               bool first, std::vector<ForcePiece>& pieces) {
-  const bool turns = given_.frame == ForceFrame::feed || given_.frame == ForceFrame::tool;
-  for (const ForcePiece& part : given_.pieces) {
+  const bool turns = stretch_.frame == ForceFrame::feed || stretch_.frame == ForceFrame::tool;
+  for (const ForcePiece& part : stretch_.pieces) {
     bool begins = true;
     turn_pieces(part, segment, axes, turned_);
     for (ForcePiece& piece : turned_) {
       piece.F0 *= source_.scale;
       piece.F1 *= source_.scale;
       if (begins) piece.goes_on = part.goes_on;
-      // as round a tangential junction
+      // as at a tangential junction
       if (first && turns && pieces.size() > first_piece)
         piece.goes_on = nearly_same(pieces.back().F1, piece.F0);
       begins = first = false;
@@ -255,7 +256,7 @@ void Unblended::append_turned(const Segment& segment, const AxesAlong& axes, std
   }
 }
 
-std::span<const Matrix3> Unblended::orientations(std::size_t i) const {
+std::span<const Matrix3> RawForces::orientations(std::size_t i) const {
   if (R_MT_.size() == 1) return R_MT_;
   const std::size_t each = R_MT_.size() / path_.segments.size();
   return std::span(R_MT_).subspan(i * each, each);

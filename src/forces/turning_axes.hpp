@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "forces/unblended.hpp"
+#include "forces/raw_forces.hpp"
 
 namespace counterflex {
 
@@ -18,11 +18,11 @@ class AxesAlong {
   bool turn() const;
   bool are_of_machine() const { return frame_ == ForceFrame::machine; }
 
-  /// Pieces of equal length that are short enough for the middle of each to tell how the axes turn in it.
+  /// Number of equal pieces that are short enough for the error in the middle to show how the axes turn.
   int pieces() const;
 
-  /// At a fraction of the segment's way. Where the feed of an arc is for a moment parallel to the tool, the
-  /// axes of a place a little further `towards` are meant.
+  /// The axes at a fraction of the segment. Where the feed of an arc is parallel to the tool at a single
+  /// place, the axes of a place slightly further `towards` are used.
   ForceAxes at(double fraction, double towards) const;
 
  private:
@@ -34,14 +34,14 @@ class AxesAlong {
   std::span<const Matrix3> R_MT_;
 };
 
-/// `piece` of `segment`, given in the frame of `axes`, in machine axes: one piece, or where the axes turn as
-/// many as keep each linear to within 1e-4 of the wrench. Where they flip, at the place of an arc at which
-/// the feed is parallel to the tool, the wrench steps. Pieces that go on smoothly are marked so, the first
-/// one never. They come into `pieces`, which loses what it held.
+/// Converts `piece` of `segment` from the frame of `axes` to machine axes: to one piece or, if the axes turn,
+/// to as many as keep each linear within 1e-4 of the wrench. The wrench steps where the axes flip: at the
+/// place of an arc where the feed is parallel to the tool. Marks pieces that continue smoothly, never the
+/// first one. Replaces the contents of `pieces`.
 void turn_pieces(const ForcePiece& piece, const Segment& segment, const AxesAlong& axes,
                  std::vector<ForcePiece>& pieces);
 
-/// Whether two wrenches that meet differ by no more than what rounded coordinates turn an arc's tangent.
+/// Whether two adjacent wrenches differ by at most the error of an arc's tangent from rounded coordinates.
 bool nearly_same(const Vector6& A, const Vector6& B);
 
 }  // namespace counterflex
