@@ -16,7 +16,7 @@ namespace {
 
 constexpr Stage everything{};
 
-// What was solved at one pose, whatever the method.
+// The solution at one pose, by any method.
 struct Solved {
   Status status;
   Vector6 deviation;
@@ -112,7 +112,7 @@ void show_largest_positive(Vector& v) {
   if (v[largest] < 0) v = -v;
 }
 
-// The unit twist (lengths in units of `length`) that costs least energy, and its stiffness in N/m.
+// The unit twist (lengths in units of `length`) of least energy, and its stiffness in N/m.
 void find_weakest(const Matrix6& K, double length, PoseAnalysis& result) {
   Vector6 units = Vector6::Ones();
   units.tail<3>().setConstant(1 / length);
@@ -123,7 +123,7 @@ void find_weakest(const Matrix6& K, double length, PoseAnalysis& result) {
   show_largest_positive(result.weakest);
 }
 
-// What a force at the tip meets: the translational block of the compliance there.
+// Stiffness for a force at the tip: from the translational block of the compliance there.
 void find_softest(const Matrix6& compliance, PoseAnalysis& result) {
   const Matrix3 C = compliance.topLeftCorner<3, 3>();
   const Spectrum compliances = spectrum((C + C.transpose()) / 2);
@@ -158,10 +158,11 @@ HeldPose hold(const Model& model, const Configuration& nominal, const Pose& X_MT
       hold_platform(model, nominal, X_MT * inverse(model.mechanism.X_PT), everything, work);
   result.status = held.status;
   if (held.status != Status::converged) {
-    result.why = fmt::format("chain {}: {}", model.mechanism.chains[held.chain].name,
-                             held.status == Status::singular
-                                 ? "it has no stiffness of its own, so that some poses of its end cannot be held"
-                                 : "its equilibrium was not found; choose a pose nearer to the wanted one");
+    result.why =
+        fmt::format("chain {}: {}", model.mechanism.chains[held.chain].name,
+                    held.status == Status::singular
+                        ? "it has no stiffness in some direction, so its end cannot be held at every pose"
+                        : "its equilibrium was not found; choose a pose nearer to the wanted one");
     return result;
   }
   result.chains =

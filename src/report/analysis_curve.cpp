@@ -33,7 +33,7 @@ std::string curve_text(std::size_t index, const ForceCurve& curve) {
                         format_fixed(point.force, 4), format_fixed(point.displacement / mm, 6));
   if (curve.status != Status::converged)
     text += fmt::format("      {}: {}\n", to_string(curve.status),
-                        curve.points.empty() ? "no state without the force was found"
+                        curve.points.empty() ? "the state without the force was not found"
                                              : "the other points were not found");
   return text;
 }
@@ -49,9 +49,9 @@ Json curve_json(const ForceCurve& curve) {
 std::string curves_text(const AnalysisReport& report) {
   if (!report.curve) return "";
   const Vector3& d = report.curve->direction;
-  std::string text = fmt::format(
-      "\nForce over displacement of the tip along ({}, {}, {}), from its place without it\n",
-      format_fixed(d.x(), 3), format_fixed(d.y(), 3), format_fixed(d.z(), 3));
+  std::string text =
+      fmt::format("\nForce over displacement of the tip along ({}, {}, {}), from its place without force\n",
+                  format_fixed(d.x(), 3), format_fixed(d.y(), 3), format_fixed(d.z(), 3));
   text += fmt::format("  {:>3}{:>18}{:>18}{:>18}\n", "", "mm", "N", "tangent, N/um");
   for (std::size_t i = 0; i < report.poses.size(); ++i)
     if (report.poses[i].curve) text += curve_text(i + 1, *report.poses[i].curve);
@@ -64,8 +64,9 @@ std::string to_csv(const AnalysisReport& report) {
     if (!report.poses[i].curve) continue;
     for (const CurvePoint& point : report.poses[i].curve->points) {
       const Vector3 p = point.X_MT.p / mm;
-      text += fmt::format("{},{:.9f},{:.12g},{:.12g},{},{:.9f},{:.9f},{:.9f}\n", i + 1, point.displacement / mm,
-                          point.force, point.stiffness, point.stable ? 1 : 0, p.x(), p.y(), p.z());
+      text +=
+          fmt::format("{},{:.9f},{:.12g},{:.12g},{},{:.9f},{:.9f},{:.9f}\n", i + 1, point.displacement / mm,
+                      point.force, point.stiffness, point.stable ? 1 : 0, p.x(), p.y(), p.z());
     }
   }
   return text;

@@ -33,7 +33,8 @@ double unit_of(const CoordinateDetail& coordinate) {
 Json coordinate_json(const CoordinateDetail& c) {
   return {{"element", c.element},
           {"kind", kind_of(c.kind)},
-          {"component", c.component < 0 ? Json(nullptr) : Json(components[static_cast<std::size_t>(c.component)])},
+          {"component",
+           c.component < 0 ? Json(nullptr) : Json(components[static_cast<std::size_t>(c.component)])},
           {"unit", c.angular ? "deg" : "mm"},
           {"value", number(c.value / unit_of(c), analysis_digits)},
           {"change", number(c.change / unit_of(c), analysis_digits)},
@@ -71,9 +72,10 @@ Json detail_json(const ChainDetail& chain) {
 }
 
 std::string twist_text(const std::optional<Vector6>& twist) {
-  if (!twist) return "not known: a group of it has no stiffness of its own";
+  if (!twist) return "unknown: a group of the chain has no stiffness in some direction";
   const auto three = [](const Vector3& v) {
-    return fmt::format("({}, {}, {})", format_fixed(v.x(), 4), format_fixed(v.y(), 4), format_fixed(v.z(), 4));
+    return fmt::format("({}, {}, {})", format_fixed(v.x(), 4), format_fixed(v.y(), 4),
+                       format_fixed(v.z(), 4));
   };
   return three(twist->head<3>() / mm) + " mm, " + three(twist->tail<3>() / deg) + " deg";
 }
@@ -89,12 +91,12 @@ std::string detail_text(std::size_t index, const ChainDetail& chain) {
   text += "      wrench on its end  " + wrench_text(chain.wrench) + "\n";
   text += fmt::format("      elastic energy     {:.6g} J\n", chain.energy);
   text += "      errors, eps        " + twist_text(chain.eps) + "\n";
-  text += "      motion less eps    " + twist_text(chain.dt) + "\n";
+  text += "      motion minus eps   " + twist_text(chain.dt) + "\n";
   text += fmt::format("      {:<44}{:>14}{:>14}{:>14}\n", "element", "value", "change", "load");
   for (const CoordinateDetail& c : chain.coordinates) {
     const char* const unit = c.angular ? "deg" : "mm";
-    text += fmt::format("      {:<44}{:>10} {:<3}{:>10} ", name_of(c), format_fixed(c.value / unit_of(c), 4), unit,
-                        format_fixed(c.change / unit_of(c), 4));
+    text += fmt::format("      {:<44}{:>10} {:<3}{:>10} ", name_of(c), format_fixed(c.value / unit_of(c), 4),
+                        unit, format_fixed(c.change / unit_of(c), 4));
     if (c.kind == PartKind::actuator)
       text += fmt::format("{}\n", unit);
     else
@@ -119,13 +121,14 @@ Json details_json(const std::vector<ChainDetail>& chains) {
 
 Json held_json(const HeldPose& held) {
   const bool known = held.status == Status::converged;
-  return {{"tip_mm", numbers(Vector3(held.X_MT.p / mm), analysis_digits)},
-          {"tip_rpy_deg", numbers(Vector3(to_rpy(held.X_MT.R) / deg), analysis_digits)},
-          {"status", to_string(held.status)},
-          {"why", held.why.empty() ? Json(nullptr) : Json(held.why)},
-          {"wrench_at_tip_N_Nm", known ? numbers(held.at_tip, analysis_digits) : Json(nullptr)},
-          {"wrench_at_reference_point_N_Nm", known ? numbers(held.at_platform, analysis_digits) : Json(nullptr)},
-          {"chains", details_json(held.chains)}};
+  return {
+      {"tip_mm", numbers(Vector3(held.X_MT.p / mm), analysis_digits)},
+      {"tip_rpy_deg", numbers(Vector3(to_rpy(held.X_MT.R) / deg), analysis_digits)},
+      {"status", to_string(held.status)},
+      {"why", held.why.empty() ? Json(nullptr) : Json(held.why)},
+      {"wrench_at_tip_N_Nm", known ? numbers(held.at_tip, analysis_digits) : Json(nullptr)},
+      {"wrench_at_reference_point_N_Nm", known ? numbers(held.at_platform, analysis_digits) : Json(nullptr)},
+      {"chains", details_json(held.chains)}};
 }
 
 std::string details_text(const AnalysisReport& report) {

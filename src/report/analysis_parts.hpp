@@ -7,7 +7,7 @@
 
 namespace counterflex {
 
-inline constexpr int analysis_digits = 9;              ///< 1e-9 mm, deg, N, N m
+inline constexpr int analysis_digits = 9;  ///< 1e-9 mm, deg, N, N m
 inline constexpr int analysis_significant_digits = 12;
 
 /// `analyze --full`, `--hold` and `--curve`.
@@ -19,7 +19,7 @@ std::string details_text(const AnalysisReport& report);
 std::string held_text(const AnalysisReport& report);
 std::string curves_text(const AnalysisReport& report);
 
-/// "5 spring rx": a coordinate as tables and rows of matrices name it.
+/// "5 spring rx": the name of a coordinate in tables and rows of matrices.
 std::string name_of(const CoordinateDetail& coordinate);
 
 /// A 6x6 matrix, and lists of six numbers.

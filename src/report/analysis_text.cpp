@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 
+#include "analysis_parts.hpp"
 #include "counterflex/compensation/options.hpp"
 #include "counterflex/files/text.hpp"
 #include "counterflex/geometry/types.hpp"
@@ -110,7 +111,7 @@ std::string corrected_targets(const AnalysisReport& report) {
     const PoseAnalysis& pose = report.poses[i];
     if (!pose.corrected) {
       if (has_values(pose.status))
-        text += fmt::format("  {:>3}   none: the machine controls no component of the tip\n", i + 1);
+        text += fmt::format("  {:>3}   undefined: the machine controls no component of the tip\n", i + 1);
       continue;
     }
     text += fmt::format("  {:>3}", i + 1);
@@ -127,7 +128,7 @@ std::string newtons_per_um(double stiffness) {
 
 std::string softest(const PoseAnalysis& pose) {
   const Matrix6& C = *pose.tip_compliance;
-  std::string text = fmt::format("      a force at the tip along x, y, z meets {}, {}, {} N/um",
+  std::string text = fmt::format("      stiffness for a force at the tip along x, y, z: {}, {}, {} N/um",
                                  newtons_per_um(stiffness_along(C, Vector3::UnitX())),
                                  newtons_per_um(stiffness_along(C, Vector3::UnitY())),
                                  newtons_per_um(stiffness_along(C, Vector3::UnitZ())));
@@ -138,7 +139,7 @@ std::string softest(const PoseAnalysis& pose) {
   return text + "\n";
 }
 
-// What is zero but for rounding is shown as zero.
+// Shows values of the size of rounding as zero.
 double clean(const Matrix6& K, int i, int j) {
   const double scale = K.block<3, 3>(i < 3 ? 0 : 3, j < 3 ? 0 : 3).cwiseAbs().maxCoeff();
   return std::abs(K(i, j)) < 1e-9 * scale ? 0.0 : K(i, j);
@@ -167,9 +168,9 @@ std::string matrix_text(std::size_t index, const Matrix6& K, const MatrixLabels&
 
 std::string stiffness_of(std::size_t index, const PoseAnalysis& pose) {
   if (!pose.tip_compliance)
-    return fmt::format("  {:>3} none: some wrench at the tip is not resisted\n", index);
+    return fmt::format("  {:>3} undefined: the machine does not resist some wrench at the tip\n", index);
   if (!pose.tip_stiffness)
-    return fmt::format("  {:>3} none: the machine is rigid in some direction\n", index) + softest(pose);
+    return fmt::format("  {:>3} undefined: the machine is rigid in some direction\n", index) + softest(pose);
   return matrix_text(index, *pose.tip_stiffness, stiffness_labels) + softest(pose);
 }
 

@@ -30,7 +30,7 @@ std::string place(const Pose& X) {
 
 namespace {
 
-// Frames of offsets that were used, each once.
+// Frames of the offsets in use, each once.
 std::vector<const WorkFrame*> named_frames(const std::vector<WorkFrame>& all) {
   std::vector<const WorkFrame*> frames;
   for (const WorkFrame& frame : all) {
@@ -77,7 +77,7 @@ std::string names_of(const std::vector<const WorkFrame*>& frames) {
   return names;
 }
 
-// Offsets that count as true places, `stated` or not.
+// Offsets that count as true poses, with or without a stated datum.
 std::string true_in_words(const std::vector<const WorkFrame*>& frames, bool stated) {
   if (frames.empty()) return "";
   return fmt::format("{} {}{} independently of this machine's errors{}.", names_of(frames),
@@ -103,7 +103,8 @@ std::string datum_in_words(const Machine& machine, const std::vector<WorkFrame>&
   add(true_in_words(stated, true));
   add(true_in_words(assumed, false));
   if (!text.empty() || machine.work_is_machine_frame) return text;
-  return "The machine frame was assumed to be set independently of this machine's errors: no datum is stated.";
+  return "The machine frame was assumed to be set independently of this machine's errors: no datum is "
+         "stated.";
 }
 
 std::vector<UsedTool> used_tools(const Machine& machine, const std::vector<long>& numbers) {
@@ -129,19 +130,19 @@ std::string tools_in_words(const std::vector<UsedTool>& tools, const std::vector
     text += fmt::format("{}T{}, {}", i == 0 ? "" : "; ", tools[i].number, tools[i].stiffness);
   if (tools.size() > most) text += fmt::format("; and {} more", tools.size() - most);
   const bool others = tools.size() < numbers.size();
-  return text + (others ? ". Moves with another tool, or none known, use [tool], rigid." : ".");
+  return text + (others ? ". Moves with another tool, or an unknown one, use [tool], rigid." : ".");
 }
 
 std::vector<std::string> not_modelled(const Machine& machine) {
   const bool arm = turns_joints(machine);
-  return {arm ? "backlash and friction: the tip differs where a joint reverses, on arms by some tenths of a mm"
-              : "backlash and friction: the tip differs where an axis reverses",
-          "heat: growth of spindle and frame, from the first part of the day to the last",
-          "part and fixture: their bending and clamping",
-          "dynamics: following error, rounded corners, chatter",
-          arm ? "the control's own corrections: absolute accuracy, payload data"
-              : "the control's own corrections: pitch, straightness and volumetric tables; what they remove must "
-                "not be in the machine file"};
+  return {
+      arm ? "backlash and friction: the tip differs where a joint reverses, on arms by some tenths of a mm"
+          : "backlash and friction: the tip differs where an axis reverses",
+      "heat: growth of spindle and frame, from the first part of the day to the last",
+      "part and fixture: their bending and clamping", "dynamics: following error, rounded corners, chatter",
+      arm ? "the control's own corrections: absolute accuracy, payload data"
+          : "the control's own corrections: pitch, straightness and volumetric tables; errors that they "
+            "remove must not be in the machine file"};
 }
 
 std::string gravity_in_words(const Machine& machine) {
@@ -149,7 +150,7 @@ std::string gravity_in_words(const Machine& machine) {
   return fmt::format(
       "The machine's {:.6g} kg weigh on it, with and without a cut; the control's zero was set {}.",
       total_mass(machine),
-      machine.gravity.true_at_home ? "under this weight at home, where the perfect machine is true"
+      machine.gravity.true_at_home ? "under this weight at home, where the perfect machine has no deviation"
                                    : "unloaded");
 }
 

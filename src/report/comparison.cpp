@@ -25,7 +25,7 @@ constexpr const char* sources_heading = "Largest deviation by its cause";
 constexpr const char* other_force_heading = "Largest deviation under another force";
 constexpr const char* program_heading = "Program";
 
-/// Of each statistics, below its own key and heading.
+/// Rows of each statistics, relative to its key and heading.
 constexpr NumberRow statistics_rows[] = {
     {"/max_mm", "", "largest"},
     {"/p95_mm", "", "95 % of the length is below"},
@@ -40,7 +40,7 @@ constexpr NumberRow statistics_rows[] = {
     {"/max_rotation_deg", "", "largest rotation, in deg", "deg"},
 };
 
-/// The rows behind them, in their order.
+/// The rows after them, in their order.
 constexpr NumberRow other_rows[] = {
     {"/summary/sources/geometry/max_mm", sources_heading, "geometry: errors of assembly alone"},
     {"/summary/sources/load/max_mm", sources_heading, "load: cutting forces alone"},

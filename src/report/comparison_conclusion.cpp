@@ -33,8 +33,7 @@ TwoValues values_of(const Comparison& comparison, const std::string& key) {
 std::string of_residuals(const Comparison& c, double a, double b, const ShownLength& length) {
   const std::string &name_a = c.runs[0].name, &name_b = c.runs[1].name;
   if (length.alike(a, b))
-    return fmt::format("{} and {} leave the same: a largest model residual of {}.", name_a, name_b,
-                       length(b));
+    return fmt::format("{} and {} have the same largest model residual: {}.", name_a, name_b, length(b));
   return fmt::format("{} leaves {} {} than {}: a largest model residual of {} instead of {}.", name_b,
                      length(std::abs(b - a)), b < a ? "less" : "more", name_a, length(b), length(a));
 }
@@ -42,12 +41,13 @@ std::string of_residuals(const Comparison& c, double a, double b, const ShownLen
 std::string of_deviations(const Comparison& c, double a, double b, const ShownLength& length) {
   const std::string &name_a = c.runs[0].name, &name_b = c.runs[1].name;
   if (length.alike(a, b))
-    return fmt::format("Uncorrected, {} and {} are off alike, by up to {}.", name_a, name_b, length(b));
+    return fmt::format("Uncorrected, {} and {} are off by the same amount, by up to {}.", name_a, name_b,
+                       length(b));
   return fmt::format("Uncorrected, {} is off by up to {}, {} {} than {}.", name_b, length(b),
                      length(std::abs(b - a)), b < a ? "less" : "more", name_a);
 }
 
-/// One of the two has no residual.
+/// For two runs of which one has no residual.
 std::string of_unlike(const Comparison& c, const TwoValues& before, const TwoValues& after,
                       const ShownLength& length) {
   const std::size_t with = after[0] ? 0 : 1, without = 1 - with;
@@ -86,7 +86,7 @@ std::string conclusion_of(const Comparison& comparison) {
   const auto& differences = comparison.differences;
   if (std::any_of(differences.begin(), differences.end(),
                   [](const RunDifference& d) { return d.what == "file: program"; }))
-    text += " The programs are different ones.";
+    text += " The programs are different.";
   return text;
 }
 

@@ -8,7 +8,8 @@ namespace counterflex {
 
 namespace {
 
-/// The keys of an object that one of the reports may lack: those of the first, then others of the second.
+/// The keys of an object that may be missing in one of the reports: those of the first, then others of the
+/// second.
 std::vector<std::string> keys_of_both(const TwoReports& reports, const std::string& pointer) {
   std::vector<std::string> keys;
   for (const JsonSource& report : reports)
@@ -18,7 +19,7 @@ std::vector<std::string> keys_of_both(const TwoReports& reports, const std::stri
   return keys;
 }
 
-/// The pointer to `key`, whatever is in it.
+/// The JSON pointer to `key`, which may have any characters.
 std::string below(const std::string& pointer, std::string key) {
   const auto replace = [&](char wanted, std::string_view with) {
     for (std::size_t i = key.find(wanted); i != std::string::npos; i = key.find(wanted, i + with.size()))

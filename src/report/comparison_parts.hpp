@@ -1,5 +1,5 @@
 #pragma once
-/// The parts that a comparison is made of.
+/// The parts of a comparison.
 #include <array>
 
 #include "counterflex/report/comparison.hpp"
@@ -12,13 +12,13 @@ using TwoReports = std::array<JsonSource, 2>;
 std::vector<ComparedNumber> compared_numbers(const TwoReports& reports);
 std::vector<ComparedOperation> compared_operations(const TwoReports& reports);
 
-/// Of tool, command, machine, inputs, options and what was taken for granted.
+/// Differences of tool, command, machine, inputs, options and assumptions.
 std::vector<RunDifference> run_differences(const TwoReports& reports);
 
-/// Roles of the inputs that have the same bytes in both.
+/// Roles of the inputs with the same bytes in both.
 std::vector<std::string> same_inputs(const TwoReports& reports);
 
-/// What to take home, of a comparison that has all else.
+/// The conclusion of a comparison whose other parts are complete.
 std::string conclusion_of(const Comparison& comparison);
 
 }  // namespace counterflex

@@ -21,7 +21,7 @@ std::string with_sign(double value, int decimals) {
   return value > 0 && text != format_fixed(0, decimals) ? "+" + text : text;
 }
 
-/// Nothing where the change does not show, or is too large for a percentage to help.
+/// The change in percent; empty if it is too small to show or too large to be useful.
 std::string percent_text(const ComparedNumber& number) {
   constexpr double most = 1000;
   const auto percent = number.percent();
@@ -33,7 +33,7 @@ std::string percent_text(const ComparedNumber& number) {
 
 std::string cells(const std::string& label, const std::string& a, const std::string& b, const std::string& c,
                   const std::string& d) {
-  // Words may be longer than their column: then the numbers follow in the next line.
+  // If the words are longer than their column, the numbers are in the next line.
   const std::string shown = without_controls(label);
   std::string text = "  " + shown;
   if (shown.size() >= label_width)
@@ -59,7 +59,8 @@ std::string number_tables(const Comparison& comparison, const Ink& ink) {
     if (number.heading != heading) {
       heading = number.heading;
       const bool deviations = number.label == "largest" || number.key.find("/max_mm") != std::string::npos;
-      text += line_break() + ink.bold(without_controls(heading)) + (deviations ? ", in mm" : "") + line_break();
+      text +=
+          line_break() + ink.bold(without_controls(heading)) + (deviations ? ", in mm" : "") + line_break();
       text += cells("", "A", "B", "B - A", "");
     }
     text += number_cells(number);

@@ -9,10 +9,10 @@
 namespace counterflex {
 namespace {
 
-// Plunges to one rapid, from which on the post has probably turned rapids into feed moves.
+// Ratio of plunges to rapids above which the post has probably turned rapids into feed moves.
 constexpr std::size_t suspicious_plunges = 3;
 
-constexpr double same_time = 1e-9;  // relative: rounding of coordinates; of equal moves the first is named
+constexpr double same_time = 1e-9;  // relative: rounding of coordinates; the first of equal moves is reported
 
 std::string shown(double value, int decimals) {
   return format_fixed(value, decimals);
@@ -37,7 +37,7 @@ Remark long_line_warning(const LineLengths& lines) {
                       lines.longest_line)};
 }
 
-/// What the largest correction is beside a tolerance; the reader's remark says what that lets the control do.
+/// Compares the largest correction with a path tolerance. The reader's remark explains the tolerance.
 Remark tolerance_warning(const PathTolerance& tolerance, double correction_mm) {
   const std::string largest = fmt::format("the largest correction, {} mm,", shown(correction_mm, 4));
   if (!tolerance.path_mm) return {tolerance.line, largest + " may vanish under G64 without P"};
@@ -50,10 +50,9 @@ Remark tolerance_warning(const PathTolerance& tolerance, double correction_mm) {
 }
 
 Remark plunge_warning(const ControlFacts& control) {
-  return {
-      0, fmt::format("{} plunges at feed stand against {} rapids: where the post has turned rapids into feed "
-                     "moves, the cutting force acts in the air, too",
-                     control.plunges, control.rapids)};
+  return {0, fmt::format("{} plunges at feed, but {} rapids: if the post has turned rapids into feed moves, "
+                         "the cutting force acts in the air, too",
+                         control.plunges, control.rapids)};
 }
 
 }  // namespace

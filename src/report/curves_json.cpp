@@ -16,7 +16,7 @@ std::string encoded(const std::vector<T>& values) {
   return base64({reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)});
 }
 
-/// One value of each stretch.
+/// One value for each stretch.
 template <typename Value>
 auto column(const PathCurves& curves, const Value& value) {
   std::vector<decltype(value(curves.stretches().front()))> values;
@@ -32,13 +32,13 @@ std::string vectors(const PathCurves& curves, std::array<float, 3> Stretch::*vec
   return encoded(values);
 }
 
-/// Neither differs from the other but where both are unknown.
+/// Whether all values are equal; two unknown values count as equal.
 bool same(const std::vector<float>& a, const std::vector<float>& b) {
   return std::equal(a.begin(), a.end(), b.begin(),
                     [](float x, float y) { return x == y || (std::isnan(x) && std::isnan(y)); });
 }
 
-/// A JSON object, member by member: there is no second copy of its megabytes.
+/// Writes a JSON object member by member, without a second copy of its megabytes.
 class Members {
  public:
   explicit Members(std::string& text) : text_(text) { text_ += '{'; }

@@ -16,14 +16,14 @@ bool rests(const Move& move) {
          all_known(move.known_end) && move.start_mm == move.end_mm;
 }
 
-// A block that is not followed may cut: a call, or in Klartext a cycle that moves Z. Rapids to three
-// variables look the same and count, too: no cut must be missed.
+// A block whose motion is not computed may cut: a call, or in Klartext a cycle that moves Z. Rapids to three
+// variables look the same and count, too, so that no cut is missed.
 bool may_cut(const Move& move, const Program& program) {
   if (program.dialect == "heidenhain" && move.fixed[2]) return true;
   return move.fixed[0] && move.fixed[1] && move.fixed[2];
 }
 
-// A cycle is called at its end, which is judged.
+// A cycle is called at its end, which is checked.
 bool cuts_at_end(const Move& move) {
   return move.makes_hole || move.mills_at_end;
 }
@@ -35,7 +35,7 @@ bool counts(const Move& move, const Program& program) {
   return !rests(move);
 }
 
-// A hole is solved at its bottom; the cutting length has no part of it.
+// A hole is solved at its bottom; it is not part of the cutting length.
 bool is_known_hole(const Move& move) {
   return move.cycle && move.handling == Handling::own && !any(move.fixed);
 }
@@ -44,7 +44,7 @@ bool is_known_hole(const Move& move) {
 
 void FeedTally::add_window(const Job& window) {
   for (const Move& move : window.program.moves) {
-    if (move.mills_at_end) ++moves_.count;  // what is milled about the end is not measured
+    if (move.mills_at_end) ++moves_.count;  // the length milled around the end is unknown
     if (!counts(move, window.program)) continue;
     ++moves_.count;
     const bool first_known = cuts_at_end(move) && !all_known(move.known_start) && all_known(move.known_end);
@@ -73,9 +73,10 @@ void FeedTally::add(const Waypoint& w, double miss, const Job& window) {
     next_ = window.path.segments[w.segment].move;
     move = &window.program.moves[next_];
   }
-  // Of the way to a hole the end counts, where the cycle is called.
-  const bool hole = move != nullptr && (w.segment == no_segment ? move->cycle || cuts_at_end(*move)
-                                                                 : cuts_at_end(*move) && !w.cutting && w.fraction == 1);
+  // Of the move to a hole only the end counts, where the cycle is called.
+  const bool hole =
+      move != nullptr && (w.segment == no_segment ? move->cycle || cuts_at_end(*move)
+                                                  : cuts_at_end(*move) && !w.cutting && w.fraction == 1);
   if (!w.cutting && !hole) {
     const bool feed = w.segment == no_segment && move != nullptr && move->motion == Motion::feed;
     ++(feed ? moves_.known_ends : moves_.rapid_ends);
@@ -97,7 +98,7 @@ void FeedTally::add(const Waypoint& w, double miss, const Job& window) {
   ++moves_.missed;
 }
 
-// A hole, or the first position that is known: both are solved at their end alone.
+// A hole, or the first known position: both are solved at their end only.
 const Move* FeedTally::move_without_segment(const Waypoint& w, const Program& program) {
   for (std::size_t m = next_; m < program.moves.size(); ++m) {
     const Move& move = program.moves[m];

@@ -21,7 +21,7 @@ void append_fixed(std::string& text, double value, int decimals) {
   const char* end = std::to_chars(buffer, buffer + sizeof buffer, digits / power).ptr;
   text.append(buffer, static_cast<std::size_t>(end - buffer));
   if (decimals == 0) return;
-  // A leading one keeps the zeros behind the point.
+  // A leading one keeps the zeros after the point.
   end = std::to_chars(buffer, buffer + sizeof buffer, power + digits % power).ptr;
   buffer[0] = '.';
   text.append(buffer, static_cast<std::size_t>(end - buffer));

@@ -1,10 +1,10 @@
 #pragma once
-/// Numbers of tables with many cells.
+/// Fast formatting of numbers for tables with many cells.
 #include <string>
 
 namespace counterflex {
 
-/// Appends what `format_fixed` gives, some times faster.
+/// Appends the text of `format_fixed`, several times faster.
 void append_fixed(std::string& text, double value, int decimals);
 
 }  // namespace counterflex

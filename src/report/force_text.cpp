@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t shown_reasons = 4;
 
-// What becomes of `program` where the force is higher or lower than it was said to be.
+// The deviation of `program` if the force is higher or lower than given.
 std::string other_force_text(const UnderOtherForce& other, const char* program) {
   if (other.unsolved > 0)
     return fmt::format("the machine has no stable equilibrium in {}, the first in line {}",
@@ -61,8 +61,9 @@ std::string force_text(const RunReport& report, const Ink& ink) {
   if (!report.before) return "";
   std::string text = line_break() + ink.bold("Cutting force") + "\n";
   if (forces.largest_N == 0 && forces.largest_Nm == 0)
-    return text + (report.gravity.empty() ? "  none: the geometry alone is at work\n"
-                                          : "  none: geometry and weight alone are at work\n");
+    return text + (report.gravity.empty()
+                       ? "  no cutting force given: only geometric errors count\n"
+                       : "  no cutting force given: only geometric errors and weight count\n");
   text += fmt::format("  up to {} N and {} N m on the tool\n", format_fixed(forces.largest_N, 1),
                       format_fixed(forces.largest_Nm, 2));
   if (forces.ramps > 0)

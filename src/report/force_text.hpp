@@ -7,8 +7,8 @@
 
 namespace counterflex {
 
-/// How large the force is, which moves have none, and what becomes of the deviation under another one; empty
-/// where nothing was solved.
+/// The largest force, the moves without a force, and the deviation under other forces; empty if no waypoint
+/// was solved.
 std::string force_text(const RunReport& report, const Ink& ink);
 
 }  // namespace counterflex

@@ -1,5 +1,5 @@
 #pragma once
-/// Values of JSON documents: rounded, so that a last bit does not show, and null where there is no number.
+/// Values of JSON documents: rounded to hide noise, and null without a number.
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -16,7 +16,7 @@ inline Json number(double value, int decimals) {
   return rounded(value, decimals);
 }
 
-/// With that many digits wherever the point is.
+/// With that many significant digits.
 Json significant(double value, int digits);
 
 template <typename Vector>
@@ -26,8 +26,8 @@ Json numbers(const Vector& values, int decimals) {
   return list;
 }
 
-/// The document indented by two spaces, lists of plain values on one line, ending in a newline. Text with
-/// bytes that are no UTF-8 is written with replacement characters.
+/// The document indented by two spaces, lists of plain values on one line, with a newline at the end. Bytes
+/// that are not UTF-8 become replacement characters.
 std::string dump(const Json& document);
 
 }  // namespace counterflex

@@ -10,7 +10,7 @@ namespace {
 
 constexpr int deepest = 100;  // a page's data have seven levels
 
-/// What the parser says behind its own place: "syntax error while parsing value - ...".
+/// The parser's message after its place: "syntax error while parsing value - ...".
 std::string parser_message(const std::string& what) {
   const std::size_t column = what.find("column ");
   const std::size_t colon = what.find(": ", column == std::string::npos ? 0 : column);
@@ -24,8 +24,7 @@ std::size_t end_of_string(std::string_view text, std::size_t quote) {
   return i;
 }
 
-/// Where lists and objects are nested so deep that to go through them again would take all of the stack; the
-/// end of the text where they are not.
+/// The place where lists and objects are nested too deep for the stack, or the end of the text.
 std::size_t too_deep(std::string_view text) {
   int depth = 0;
   for (std::size_t i = 0; i < text.size(); ++i) {
@@ -40,8 +39,8 @@ std::size_t too_deep(std::string_view text) {
   return text.size();
 }
 
-/// Where the number that `what` quotes stands, the parser's "number overflow parsing '1e999'"; it does not
-/// say the byte. The beginning of the text where it quotes none.
+/// The place of the number in the parser's message `what` ("number overflow parsing '1e999'"), which has no
+/// byte offset. Without a number: the beginning of the text.
 std::size_t place_of_number(std::string_view text, std::string_view what) {
   const std::size_t open = what.find('\''), close = what.rfind('\'');
   if (open == close) return 0;
@@ -55,7 +54,7 @@ std::size_t place_of_number(std::string_view text, std::string_view what) {
   return 0;
 }
 
-/// "[json.exception.out_of_range.406] " is for programmers.
+/// Removes "[json.exception.out_of_range.406] ".
 std::string without_tag(const std::string& what) {
   const std::size_t end = what.find("] ");
   return end == std::string::npos ? what : what.substr(end + 2);
@@ -80,8 +79,8 @@ Json parse_json(std::string_view text, std::string_view whole, std::size_t offse
   } catch (const Json::parse_error& error) {
     const std::size_t byte = error.byte > 0 ? error.byte - 1 : 0;  // it counts from 1
     throw InputError(Exit::usage, place_of(whole, offset + byte, file),
-                     "is no JSON: " + parser_message(error.what()));
-  } catch (const Json::exception& error) {  // a number that no double holds
+                     "is not JSON: " + parser_message(error.what()));
+  } catch (const Json::exception& error) {  // a number beyond the range of double
     throw InputError(Exit::usage, place_of(whole, offset + place_of_number(text, error.what()), file),
                      "cannot be read: " + without_tag(error.what()));
   }

@@ -1,6 +1,5 @@
 #pragma once
-/// Values of JSON documents that were written elsewhere: by JSON pointer, of the kind that is wanted, or
-/// none.
+/// Reads values of given types from JSON documents, by JSON pointer. Missing values are empty.
 #include <optional>
 #include <string>
 
@@ -9,16 +8,16 @@
 
 namespace counterflex {
 
-/// A document and the name of its file. The members take the text of a JSON pointer; what is not there, or is
-/// null, is none. They throw `InputError` (Exit::usage), naming the pointer and the value, where there is
-/// something of another kind.
+/// A document and the name of its file. The members take the text of a JSON pointer. Missing values and null
+/// give an empty result. They throw `InputError` (Exit::usage) with the pointer and the value if it has
+/// another type.
 struct JsonSource {
   const Json& document;
   std::string file;
 
-  const Json* find(const std::string& pointer) const;  ///< of any kind; nullptr: none
+  const Json* find(const std::string& pointer) const;  ///< of any type; nullptr if missing
   std::optional<double> number(const std::string& pointer) const;
-  std::string text(const std::string& pointer) const;  ///< empty: none
+  std::string text(const std::string& pointer) const;  ///< empty if missing
   const Json* object(const std::string& pointer) const;
   const Json* list(const std::string& pointer) const;
 
@@ -27,8 +26,8 @@ struct JsonSource {
 };
 
 /// Parses `text`, which begins at byte `offset` of `whole`, the content of `file`. Throws `InputError`
-/// (Exit::usage) with line and column in `file` where it is no JSON, has a number that is too large, or is
-/// nested absurdly deep.
+/// (Exit::usage) with line and column in `file` if it is not JSON, has a number that is too large, or is
+/// nested too deep.
 Json parse_json(std::string_view text, std::string_view whole, std::size_t offset, const std::string& file);
 
 /// The place of a byte of `text`.

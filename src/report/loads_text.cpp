@@ -8,7 +8,7 @@ namespace counterflex {
 
 namespace {
 
-// Of its kinds the one that comes nearest to its limit, or exceeds it most; none without a limit.
+// The kind of load that is nearest to its limit, or exceeds it most; empty without limits.
 std::optional<LoadKind> nearest_limit(const LoadsOfChain& chain) {
   std::optional<LoadKind> nearest;
   for (const LoadKind kind : load_kinds)
@@ -37,7 +37,7 @@ std::string loads_text(const RunReport& report, const Ink& ink) {
   const std::string places = counted(along.places.size(), "place");
   text = line_break() + ink.bold("Loads nearest to their limits") +
          fmt::format(", at {} of the path\n", places) + text;
-  if (along.unsolved > 0) text += fmt::format("  not known at {} more\n", counted(along.unsolved, "place"));
+  if (along.unsolved > 0) text += fmt::format("  unknown at {} more\n", counted(along.unsolved, "place"));
   return text;
 }
 

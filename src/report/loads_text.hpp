@@ -1,5 +1,5 @@
 #pragma once
-/// The part of the summary that is about loads and their limits.
+/// The part of the summary with loads and their limits.
 #include <string>
 
 #include "counterflex/report/report.hpp"
@@ -7,7 +7,7 @@
 
 namespace counterflex {
 
-/// How near each chain comes to a limit of its; empty where no limit is given, or no loads were solved.
+/// How near each chain is to its limits; empty without limits or loads.
 std::string loads_text(const RunReport& report, const Ink& ink);
 
 }  // namespace counterflex

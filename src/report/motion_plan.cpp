@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t look_ahead = 64;  // blocks
 
-enum class Fate { corrected, held, grouped, left };
+enum class MoveHandling { corrected, held, grouped, left };
 
 bool any(const std::array<bool, 3>& axes) {
   return axes[0] || axes[1] || axes[2];
@@ -35,7 +35,7 @@ void put_costly_first(std::vector<PlanRow>& rows) {
 
 }  // namespace
 
-/// Goes through the moves and the list of blocks left alone side by side, both in the order of lines.
+/// Merges the moves with the list of blocks that are not corrected, both in the order of lines.
 class MotionPlanner::Window {
  public:
   Window(const Program& program, MotionPlan& plan, std::optional<LeftAlone>& reason)
@@ -56,7 +56,7 @@ class MotionPlanner::Window {
   }
 
  private:
-  /// For each move the first one from it on that ends at a known place of its own.
+  /// For each move the first one, from it on, that ends at a known position.
   void find_known_ends() {
     next_known_.assign(program_.moves.size(), nullptr);
     const Move* next = nullptr;
@@ -67,7 +67,7 @@ class MotionPlanner::Window {
     }
   }
 
-  /// Blocks of the list up to `line` of the text (0: all) that are no moves; keeps the reason that acts.
+  /// Takes blocks of the list up to `line` of the text (0: all) that are not moves; keeps the last reason.
   void list_other_blocks(int line) {
     for (; next_left_ < left_.size() && (line == 0 || line_in_text(left_[next_left_]) <= line);
          ++next_left_) {
@@ -87,35 +87,35 @@ class MotionPlanner::Window {
     return at != program_.moves.end() && line_in_text(*at) == line;
   }
 
-  Fate fate_of(std::size_t m) const {
+  MoveHandling handling_of(std::size_t m) const {
     const Move& move = program_.moves[m];
-    if (any(move.fixed)) return Fate::left;
-    if (move.handling == Handling::group) return Fate::grouped;
-    if (move.handling == Handling::held) return Fate::held;
-    if (all_known(move.known_end)) return Fate::corrected;
+    if (any(move.fixed)) return MoveHandling::left;
+    if (move.handling == Handling::group) return MoveHandling::grouped;
+    if (move.handling == Handling::held) return MoveHandling::held;
+    if (all_known(move.known_end)) return MoveHandling::corrected;
     const Move* next = next_known_[m];
     const bool near = next != nullptr && next->block_index - move.block_index <= look_ahead;
-    return near && !move.relative ? Fate::corrected : Fate::left;
+    return near && !move.relative ? MoveHandling::corrected : MoveHandling::left;
   }
 
   void add(std::size_t m) {
     const Move& move = program_.moves[m];
-    switch (fate_of(m)) {
-      case Fate::corrected:
+    switch (handling_of(m)) {
+      case MoveHandling::corrected:
         ++plan_.corrected;
         add_length(move, plan_.corrected_cut);
         break;
-      case Fate::held:
+      case MoveHandling::held:
         ++plan_.held;
         add_length(move, plan_.held_cut);
         add_length(move, row_of(plan_.held_rows, why_held(move), move.line, false).cut);
         break;
-      case Fate::grouped:
+      case MoveHandling::grouped:
         ++plan_.grouped;
         add_length(move, plan_.grouped_cut);
         add_to_group(move);
         break;
-      case Fate::left:
+      case MoveHandling::left:
         ++plan_.not_corrected;
         add_length(move, plan_.left_cut);
         add_length(move, row_of(plan_.left_rows, why_left(move), move.line, any(move.fixed)).cut);
@@ -126,24 +126,25 @@ class MotionPlanner::Window {
 
   std::string why_held(const Move& move) const {
     if (move.cycle) return "a cycle in G91 or with repeats holds the shift of its first hole";
-    return reason_at(move).value_or("holds the shift with which it is entered");
+    return reason_at(move).value_or("holds the shift of the block before it");
   }
 
   std::string why_left(const Move& move) const {
-    if (any(move.fixed)) return reason_at(move).value_or("moves to a place that no edit can shift");
+    if (any(move.fixed))
+      return reason_at(move).value_or("moves to a place that an edit of the text cannot shift");
     std::string axes;
     for (std::size_t axis = 0; axis < 3; ++axis)
       if (!move.known_end[axis]) axes += "XYZ"[axis];
-    return "the position in " + axes + " is not known here, and none follows within 64 blocks";
+    return "the position in " + axes + " is unknown here and in the next 64 blocks";
   }
 
-  /// A reason is listed once for a run of moves.
+  /// A reason is listed once for consecutive moves.
   std::optional<std::string> reason_at(const Move& move) const {
     if (!reason_ || line_in_text(*reason_) > line_in_text(move)) return std::nullopt;
     return reason_->why;
   }
 
-  /// The row of the reason, in which the block is counted.
+  /// The row of the reason; counts the block in it.
   PlanRow& row_of(std::vector<PlanRow>& rows, const std::string& why, int line, bool must_be_zero) const {
     const auto same = [&](const PlanRow& row) { return row.why == why && row.must_be_zero == must_be_zero; };
     auto row = std::find_if(rows.begin(), rows.end(), same);

@@ -1,5 +1,5 @@
 #pragma once
-/// Words for enumerations, as reports and the command line have them.
+/// Names of enumerations in reports and on the command line.
 #include <string_view>
 
 #include "counterflex/report/report.hpp"

@@ -13,7 +13,7 @@ namespace {
 
 using Take = std::function<void(std::string_view)>;
 
-/// JSON in which no browser finds the end of its element: all `<` are in strings.
+/// Escapes JSON for a script element: every `<` is in a string.
 void write_json(std::string_view json, const Take& take) {
   for (std::size_t from = 0; from < json.size();) {
     const std::size_t sign = std::min(json.find('<', from), json.size());

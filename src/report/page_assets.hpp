@@ -1,5 +1,5 @@
 #pragma once
-/// What a page is made of, embedded when the program is built: page.cmake says from which files.
+/// The files of the page, embedded when the program is built; page.cmake lists them.
 #include <span>
 #include <string_view>
 

@@ -70,7 +70,7 @@ float& at(Values& values, Quantity first, int offset = 0) {
   return values[static_cast<std::size_t>(first) + static_cast<std::size_t>(offset)];
 }
 
-/// Three components from `first` on, and their norm behind them.
+/// Three components from `first` on, then their norm.
 void set_vector(Values& values, Quantity first, const Vector3& v) {
   for (int i = 0; i < 3; ++i) at(values, first, i) = static_cast<float>(v[i]);
   at(values, first, 3) = static_cast<float>(v.norm());
@@ -131,7 +131,7 @@ Stretch stretch_of(const Waypoint& w, PathCurves::Known known) {
   return stretch;
 }
 
-/// The first where the other is unknown.
+/// Ignores an unknown (NaN) value.
 float lesser(float a, float b) {
   return b < a || std::isnan(a) ? b : a;
 }
@@ -140,7 +140,7 @@ float greater(float a, float b) {
   return b > a || std::isnan(a) ? b : a;
 }
 
-/// Whether the picture of two stretches together is better taken from the second one.
+/// Whether the place drawn for two merged stretches is that of the second one.
 bool shows_more(const Stretch& b, const Stretch& a, Quantity by) {
   const auto i = static_cast<std::size_t>(by);
   return b.largest[i] > a.largest[i] || std::isnan(a.largest[i]);

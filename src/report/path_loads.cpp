@@ -12,12 +12,12 @@ namespace counterflex {
 
 namespace {
 
-// Solvers for different processors agree to less: of loads that differ by less the first is the largest.
+// Results on different processors differ by less than this: the first of such loads counts as the largest.
 constexpr double indistinct_load = 1e-7;
 
 LoadPeak peak_of(const LoadsAlong& along, std::size_t chain, LoadKind kind) {
   LoadPeak peak;
-  double named = 0;  // the value in the line that is named
+  double named = 0;  // the value in the reported line
   for (const LoadsAtPlace& place : along.places) {
     const double value = shown_value(place.chains[chain], kind);
     if (value > named * (1 + indistinct_load)) {

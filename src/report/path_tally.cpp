@@ -20,11 +20,12 @@ DeviationSample sample(const Waypoint& w, const Vector6& deviation, double weigh
 
 void keep(Largest& largest, double length, int line) {
   if (largest.line == 0 || length / mm > largest.mm + indistinct_mm)
-    largest.line = line;  // the first but for rounding
+    largest.line = line;  // the first of equal values
   largest.mm = std::max(largest.mm, length / mm);
 }
 
-/// Whether `deviation` is the largest of its line so far; then it is kept, with its place: the first but for rounding.
+/// Whether `deviation` is the largest of its line so far. Keeps it with its place; keeps the first of equal
+/// values.
 bool keep_worst(double& largest_mm, WorstPlace& place, const Waypoint& w, const Vector6& deviation,
                 std::int32_t operation) {
   const double here_mm = deviation.head<3>().norm() / mm;
@@ -62,7 +63,7 @@ bool before_line(const WorstRow& row, int line) {
 
 }  // namespace
 
-// Nearly all lines come in order: the one asked for is the last one, or behind it.
+// Nearly all lines are in order: the wanted one is the last one, or after it.
 WorstRow& WorstLines::row(int line) {
   const auto place = [&] {
     if (rows_.empty() || rows_.back().line < line) return rows_.end();
@@ -90,7 +91,7 @@ std::vector<WorstRow> WorstLines::worst(double WorstRow::*key) const {
   return rows;
 }
 
-// What is asked for last may still grow: all of a piece but `after` is known at its end.
+// The last line may still grow: everything of a piece except `after` is known at its end.
 void WorstLines::keep_the_worst() {
   std::vector<int> lines{last_, last_but_one_};
   for (const auto key : {&WorstRow::before_mm, &WorstRow::after_mm})
@@ -134,7 +135,8 @@ void PathTally::add_target(const Waypoint& w) {
   ++m_.segments_changed;
 }
 
-void PathTally::add_cutting(const Waypoint& w, std::int32_t operation, const MoveFacts& facts, bool is_within) {
+void PathTally::add_cutting(const Waypoint& w, std::int32_t operation, const MoveFacts& facts,
+                            bool is_within) {
   m_.after.add(sample(w, w.after, w.weight));
   tally_of(facts.tool).after.add(facts.tool, w.after, w.tool_axis, w.line);
   m_.path_mm += w.weight / mm;
@@ -150,8 +152,7 @@ void PathTally::add_cutting(const Waypoint& w, std::int32_t operation, const Mov
   if (w.place) add_place(w, operation, facts);
 }
 
-// A point that the text inserts is no place of the original path: of its causes only those of the emitted
-// target count.
+// An inserted point is not a place of the original path: only the causes at the emitted target count.
 void PathTally::close_piece(const Waypoint& w, std::int32_t operation) {
   const double corrected_mm = std::exchange(piece_missed_, false) ? 0 : piece_weight_ / mm;
   m_.corrected_mm += corrected_mm;
@@ -188,13 +189,13 @@ void PathTally::add_to_operation(const Waypoint& w, std::int32_t operation) {
   ++tally->moves;
 }
 
-// Trapezoids: the way between two places weighs on both, or on the last one alone where the other is not
-// known.
+// Trapezoidal rule: the length between two places counts half for each, or fully for the last one if the
+// other is unknown.
 void PathTally::add_place(const Waypoint& w, std::int32_t operation, const MoveFacts& facts) {
   if (begins_feed_run(w)) {
     finish_end();
     end_ = End{w, operation, 0, 0, facts};
-    return;  // what it weighs is part of the way to the next place
+    return;  // its length is part of the length to the next place
   }
   const double share = end_ ? place_weight_ / 2 : 0;
   if (end_) share_piece(w, operation, share);
@@ -204,7 +205,7 @@ void PathTally::add_place(const Waypoint& w, std::int32_t operation, const MoveF
   place_weight_ = 0;
 }
 
-// Where another operation begins, its first piece starts at the end of the one before.
+// The first piece of an operation starts at the end of the previous one.
 void PathTally::share_piece(const Waypoint& w, std::int32_t operation, double share) {
   end_->weight += share;
   OperationTally* tally = tally_of(operation);

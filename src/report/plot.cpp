@@ -11,11 +11,11 @@ namespace counterflex {
 
 namespace {
 
-constexpr std::size_t most_columns = 704;  // one a px
+constexpr std::size_t most_columns = 704;  // one per px
 constexpr std::size_t title_width = 80;    // characters
 
-// Colours of Okabe and Ito, which colour-blind readers tell apart. The superposition is broad and all acting
-// together thin on it: where they are one, both are seen.
+// Colours of Okabe and Ito, which colour-blind readers can distinguish. The superposition is a broad line
+// below the thin line of all causes together: both are visible where they coincide.
 constexpr PlotStyle superposition_style{"superposition", "#e69f00", 4.2, "5 6", Quantity::superposition_x};
 constexpr PlotStyle geometry_style{"geometry alone", "#0072b2", 1.8, "", Quantity::geometry_x};
 constexpr PlotStyle load_style{"load alone", "#d55e00", 1.8, "9 4", Quantity::load_x};

@@ -1,5 +1,5 @@
 #pragma once
-/// The parts of the plot of a path. Places on the page in px, values in mm unless said otherwise.
+/// The parts of the plot of a path. Places on the page are in px, values in mm unless a unit is stated.
 #include <string>
 #include <vector>
 
@@ -10,9 +10,9 @@
 namespace counterflex {
 
 inline constexpr double plot_left = 78, plot_right = 782;  // of the panels, on a page of 800
-inline constexpr std::size_t most_steps_drawn = 100;       // of the force; more would be a grey ground
+inline constexpr std::size_t most_steps_drawn = 100;       // of the force; more lines would be a grey area
 
-/// How one curve is drawn. Dashes differ as the colours do.
+/// The style of a curve. Each curve has its own dashes and colour.
 struct PlotStyle {
   const char* label;
   const char* colour;
@@ -21,10 +21,10 @@ struct PlotStyle {
   Quantity x;        ///< its component in x; those in y and z follow
 };
 
-/// The attributes that it draws with.
+/// The SVG attributes of a style.
 std::string stroke_of(const PlotStyle& style);
 
-/// Lengths of deviations and of the path in the units that people expect.
+/// Units of deviations and of path lengths, as usual for the program.
 struct PlotUnits {
   const char* deviation;
   double deviation_per_mm;
@@ -42,11 +42,11 @@ struct PlotPage {
   double path_mm = 0;
   std::vector<PlotStyle> styles;  ///< of the upper panels
 
-  /// "4.1 um".
+  /// A length with its unit, as "4.1 µm" or "0.16 mil".
   std::string deviation_text(double value_mm) const;
 };
 
-/// What is drawn, and where it ends on the page.
+/// An SVG fragment, and its lower end on the page.
 struct PlotPart {
   std::string svg;
   double bottom = 0;
@@ -56,13 +56,13 @@ struct PlotPart {
 /// the residual; with the axis of path lengths below.
 PlotPart plot_panels(const PlotPage& page, double top);
 
-/// The label of each curve beside a piece of it.
+/// The label of each curve beside a sample of its line.
 std::string plot_legend(const PlotPage& page, double base_line);
 
-/// What the plot shows, in sentences.
+/// The caption of the plot.
 PlotPart plot_caption(const PlotPage& page, double top);
 
-/// The largest deviations, for those who do not see the plot.
+/// The largest deviations in words, for screen readers.
 std::string plot_description(const PlotPage& page);
 
 }  // namespace counterflex

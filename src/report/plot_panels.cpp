@@ -23,7 +23,7 @@ constexpr std::string_view tolerance_stroke =
 
 constexpr PlotStyle residual_style{"", "#000000", 1.3, "", Quantity::after};
 
-/// One panel: where it stands, and its scale.
+/// One panel: its place and its scale.
 struct PlotPanel {
   double top = 0, height = 0;
   PlotTicks ticks;  ///< in the unit of deviations
@@ -32,7 +32,7 @@ struct PlotPanel {
   double bottom() const { return top + height; }
 };
 
-/// Of values, in mm.
+/// The range of values, in mm.
 struct PlotRange {
   double least = 0, largest = 0;
 };
@@ -48,7 +48,7 @@ Quantity component_of(Quantity x, int axis) {
   return static_cast<Quantity>(static_cast<int>(x) + axis);
 }
 
-/// Of all that the upper panels draw, with zero: one scale lets them be compared.
+/// The range of all upper panels, with zero: one scale makes them comparable.
 PlotRange range_of_components(const PlotPage& page) {
   PlotRange range;
   for (const PlotStyle& style : page.styles)
@@ -60,7 +60,7 @@ PlotRange range_of_components(const PlotPage& page) {
   return range;
 }
 
-/// The residual, and the tolerance unless it is so far above that the residual would be a line at zero.
+/// The range of the residual. Includes the tolerance unless the residual would then be a line at zero.
 PlotRange range_of_residual(const PlotPage& page) {
   constexpr double far = 8;
   double largest = 0;
@@ -87,7 +87,7 @@ PlotTicks path_ticks(const PlotPage& page) {
   return ticks_within(0, page.path_mm * page.units.path_per_mm, most_path_ticks);
 }
 
-/// Round path lengths, and where the force steps.
+/// Marks of round path lengths, and of steps of the force.
 std::string upright_lines(const PlotPage& page, const PlotPanel& panel) {
   std::string svg;
   for (const double s : path_ticks(page).values) {
@@ -101,7 +101,8 @@ std::string upright_lines(const PlotPage& page, const PlotPanel& panel) {
   return svg;
 }
 
-/// A band is filled, that of all together hardly, as it lies on the others; its outline is thin and solid.
+/// A filled band with a thin solid outline. The band of all causes together is nearly transparent, because it
+/// covers the others.
 std::string curve_of(const PlotPage& page, const PlotStyle& style, Quantity quantity, const PlotMap& y) {
   const auto points = plot_points(page.curves, page.columns, quantity);
   if (points.empty()) return "";
@@ -130,7 +131,7 @@ std::string component_panel(const PlotPage& page, const PlotPanel& panel, int ax
   return svg + frame_of(panel);
 }
 
-/// The line that the residual stays below; where it is not in the panel, in words.
+/// The line of the tolerance, or a note if it is outside the panel.
 std::string tolerance_line(const PlotPage& page, const PlotPanel& panel) {
   const std::string text = "tolerance " + page.deviation_text(page.report.tolerance_mm);
   const double y = panel.y(page.report.tolerance_mm), text_x = plot_right - 6;

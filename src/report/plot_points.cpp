@@ -9,7 +9,7 @@ namespace counterflex {
 
 namespace {
 
-/// Columns of equal length; where the path stands still there is no more than one.
+/// Columns of equal length; only one if the path has no length.
 std::vector<PlotColumn> equal_columns(const std::vector<Stretch>& stretches, std::size_t most) {
   std::vector<PlotColumn> columns;
   const double width = stretches.back().s_mm / static_cast<double>(most);
@@ -32,7 +32,7 @@ void append_point(std::string& data, char command, double x, double y) {
   append_px(data, y);
 }
 
-/// A point alone would not be seen: it gets a length, which line caps make a dot.
+/// A single point gets a small length: line caps make it a visible dot.
 std::string line_data(const std::vector<PlotPoint>& points, const PlotMap& x, const PlotMap& y) {
   std::string data;
   for (std::size_t i = 0; i < points.size(); ++i) {

@@ -7,7 +7,7 @@ namespace counterflex {
 
 namespace {
 
-constexpr double tick_slack = 1e-9;  // of an interval: rounding must not cost a tick
+constexpr double tick_slack = 1e-9;  // of an interval: keeps ticks at the ends in spite of rounding
 
 struct TickStep {
   double size = 1;
@@ -44,7 +44,7 @@ PlotTicks ticks_around(double least, double largest, int most) {
   if (!std::isfinite(largest)) largest = 0;
   const double size = std::max(std::abs(least), std::abs(largest));
   const double width = std::max(largest - least, size > 0 ? 1e-6 * size : 1);
-  // Widened, a range may have one interval more than its width asks for.
+  // The widened range may have one interval more than its width needs.
   for (int intervals = most;; --intervals) {
     const TickStep step = tick_step(width, std::max(1, intervals));
     const double first = std::floor(least / step.size + tick_slack);

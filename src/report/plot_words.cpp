@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t caption_width = 112;  // characters
 constexpr double caption_line = 16;         // px
 
-/// The largest distance of all acting together from the superposition.
+/// The largest distance between all causes together and the superposition.
 double largest_discrepancy(const PlotPage& page) {
   constexpr auto norm = static_cast<std::size_t>(Quantity::discrepancy);
   double largest = 0;
@@ -23,7 +23,7 @@ double largest_discrepancy(const PlotPage& page) {
   return largest;
 }
 
-/// To the last digit that is shown, in mm: no limit is quoted too low.
+/// Rounded up to the last digit shown, in mm: a quoted limit is never too low.
 double rounded_up(double value_mm, const PlotUnits& units) {
   const double per_mm =
       units.deviation_per_mm * small_powers_of_ten[static_cast<std::size_t>(units.deviation_decimals)];
@@ -57,7 +57,7 @@ std::string caption_text(const PlotPage& page) {
   return text;
 }
 
-/// How much of `text` fits into a line: to its last blank, or to the first one where a word is longer.
+/// The length of `text` that fits into a line: to its last blank, or to the first one after a longer word.
 std::size_t line_end(std::string_view text) {
   if (text.size() <= caption_width) return text.size();
   const std::size_t last = text.rfind(' ', caption_width);

@@ -16,18 +16,18 @@ namespace counterflex {
 
 namespace {
 
-// The run is right all the same: that force does not act.
+// The run is still valid: that force does not act.
 void list_unsolved(const UnderOtherForce& other, const char* change, Capped<Remark>& all) {
   if (other.unsolved == 0) return;
   const std::string places = other.unsolved == 1 ? "place" : "places";
   list(all, Remark{other.first_line,
                    fmt::format("with the force {} % {} the machine has no stable equilibrium here ({}; {} {} "
-                               "in all): what wears or is overridden may make it give way",
+                               "in all): wear or an override may cause this",
                                std::lround(100 * force_change), change, to_string(other.status),
                                other.unsolved, places)});
 }
 
-// A tilted tool whose tip is within the tolerance, and its rim or flank is not.
+// A tilted tool whose tip is within the tolerance while its rim or flank is not.
 void list_tilted(const RunReport& report, Capped<Remark>& all) {
   for (const ToolReport& tool : report.tools_off) {
     if (!tool.after || tool.after->tip_mm > report.tolerance_mm) continue;
@@ -53,7 +53,7 @@ ForceSummary force_summary(const RunTally& tally, const Measures& measures) {
   return forces;
 }
 
-// What was solved nowhere has no deviation; zeros would look like perfection.
+// Without solved waypoints there is no deviation; zeros would look like perfection.
 std::optional<DeviationStatistics> known(const DeviationTally& tally) {
   if (tally.samples() == 0) return std::nullopt;
   return tally.statistics();
@@ -67,7 +67,8 @@ Sources sources(const Measures& measures, bool weights) {
   Sources result{measures.geometry.statistics(), measures.load.statistics(), std::nullopt,
                  measures.superposition.statistics()};
   if (weights) result.gravity = measures.gravity.statistics();
-  if (const auto preloads = measures.preloads.statistics(); preloads.max_mm > 1e-9) result.preloads = preloads;
+  if (const auto preloads = measures.preloads.statistics(); preloads.max_mm > 1e-9)
+    result.preloads = preloads;
   result.at_worst = measures.at_worst;
   return result;
 }
@@ -128,7 +129,7 @@ std::vector<ToolReport> tools_off(const Measures& measures, bool corrected) {
   return tools;
 }
 
-// What all commands report alike.
+// Parts of the report that all commands have.
 RunReport common(const RunContext& context, const RunTally& tally, const Measures& measures,
                  const std::optional<Failure>& failure) {
   RunReport report;
@@ -169,11 +170,12 @@ void add_residual(RunReport& report, const RunTally& tally, const Measures& meas
 }
 
 std::string nothing_reason(const BlockCounts& blocks) {
-  if (blocks.moves == 0) return "the program has no move that was read";
+  if (blocks.moves == 0) return "the program has no moves";
   const auto& left = blocks.left_alone.rows;
-  const auto first = std::find_if(left.begin(), left.end(), [](const LeftAlone& block) { return !block.machine_position; });
+  const auto first =
+      std::find_if(left.begin(), left.end(), [](const LeftAlone& block) { return !block.machine_position; });
   const std::string cause = first == left.end() ? "" : fmt::format(" (line {}: {})", first->line, first->why);
-  return "no feed move has a position that is known" + cause;
+  return "no feed move has a known position" + cause;
 }
 
 std::string reason_of(const RunReport& report) {
@@ -190,7 +192,7 @@ std::string reason_of(const RunReport& report) {
   return report.failure ? report.failure->what : "";
 }
 
-// A prediction writes no program: what is unknown in it is no reason to fail.
+// A prediction writes no program: unknown positions are not a failure.
 Exit status_of(const RunReport& report) {
   switch (report.verdict) {
     case Verdict::ok:

@@ -12,7 +12,7 @@ namespace {
 
 constexpr int length_digits = 7, angle_digits = 7, path_digits = 6, wrench_digits = 6;
 constexpr std::array deviation_names = {"dx_mm", "dy_mm", "dz_mm", "drx_deg", "dry_deg", "drz_deg"};
-constexpr std::array prefixes = {"before_",        "geometry_",      "load_",  "gravity_",
+constexpr std::array prefixes = {"before_",   "geometry_",      "load_",  "gravity_",
                                  "preloads_", "superposition_", "after_", "air_"};
 
 void add(std::string& row, double value, int digits) {
@@ -29,7 +29,7 @@ void add_deviation(std::string& row, const Vector6& d, bool known) {
   for (int i = 3; i < 6; ++i) add(row, d[i] / deg, angle_digits);
 }
 
-// A waypoint that was not solved has no deviations; zeros would look like perfection.
+// An unsolved waypoint has no deviations; zeros would look like perfection.
 void add_row(std::string& text, std::size_t index, const Waypoint& w, const CsvColumns& columns) {
   const bool solved = w.status == Status::converged;
   const bool attributed = solved && columns.attribution && w.causes;

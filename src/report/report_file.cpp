@@ -18,7 +18,7 @@ constexpr std::string_view page_schema = "counterflex-page 1";
 constexpr std::string_view data_begins = R"(<script type="application/json" id="counterflex-data">)";
 constexpr std::string_view data_ends = "</script>";
 constexpr std::string_view byte_order_mark =
-    "\xEF\xBB\xBF";  // editors leave it; a page's JSON may not have it
+    "\xEF\xBB\xBF";  // editors may add it; the JSON of a page must not have it
 
 std::string display_name(const std::string& path) {
   return path == "-" ? "<stdin>" : path;
@@ -28,23 +28,23 @@ bool is_page(const std::string& path) {
   return path.ends_with(".html");
 }
 
-/// Throws where `document`, which begins at byte `offset` of `whole`, does not say that it is of `schema`.
+/// Throws unless `document`, which begins at byte `offset` of `whole`, has this `schema`.
 void require_schema(const Json& document, std::string_view schema, std::string_view whole, std::size_t offset,
                     const std::string& file) {
-  const auto said = document.is_object() ? document.find("schema") : document.end();
-  if (document.is_object() && said != document.end() && *said == schema) return;
-  const bool any = document.is_object() && said != document.end();
+  const auto found = document.is_object() ? document.find("schema") : document.end();
+  if (document.is_object() && found != document.end() && *found == schema) return;
+  const bool any = document.is_object() && found != document.end();
   const std::size_t key = any ? whole.find("\"schema\"", offset) : offset;
   throw InputError(Exit::usage, place_of(whole, key, file),
                    fmt::format("the document's schema is {}; only \"{}\" can be compared",
-                               any ? said->dump() : "not said", report_schema));
+                               any ? found->dump() : "missing", report_schema));
 }
 
 /// The data of a page that shows one run: {"report", "curves", "loads"}.
 Json run_of_page(std::string_view html, const std::string& file) {
   const std::size_t tag = html.find(data_begins);
   if (tag == std::string_view::npos)
-    throw InputError(Exit::usage, {file, 1, 1}, "is no page of counterflex: it holds no counterflex-data");
+    throw InputError(Exit::usage, {file, 1, 1}, "is not a page of counterflex: it has no counterflex-data");
   const std::size_t begin = tag + data_begins.size();
   const std::string_view data = html.substr(begin, html.find(data_ends, begin) - begin);
   const Json page = parse_json(data, html, begin, file);
@@ -53,7 +53,7 @@ Json run_of_page(std::string_view html, const std::string& file) {
   const std::size_t count = runs == nullptr ? 0 : runs->size();
   if (count != 1)
     throw InputError(Exit::usage, {file},
-                     fmt::format("the page shows {} runs; give one of a single run", count));
+                     fmt::format("the page shows {} runs; give the page of a single run", count));
   return runs->front();
 }
 
@@ -77,12 +77,12 @@ ReportFile read_page(const std::string& path, WithCurves with) {
   return file;
 }
 
-/// Whatever is wrong with the page is no reason not to compare the reports.
+/// Errors of the page become remarks: the reports are compared without its curves.
 void look_beside(const Json& report, ReportFile& file) {
   const std::string page = page_beside(file.path);
   std::error_code ignored;
   if (page.empty() || !fs::exists(page, ignored)) {
-    file.remark = "its page, STEM.html of STEM.json, is not there: its curves are left out";
+    file.remark = "its page STEM.html, beside STEM.json, is missing: the comparison has no curves of it";
     return;
   }
   try {
@@ -91,9 +91,9 @@ void look_beside(const Json& report, ReportFile& file) {
     if (run.contains("report") && nlohmann::json(run["report"]) == nlohmann::json(report))
       take_curves(run, file);
     else
-      file.remark = fmt::format("{} shows another report: its curves are left out", page);
+      file.remark = fmt::format("{} shows another report: the comparison has no curves of it", page);
   } catch (const InputError& error) {
-    file.remark = fmt::format("its curves are left out: {}", error.what());
+    file.remark = fmt::format("the comparison has no curves of it: {}", error.what());
   }
 }
 

@@ -40,7 +40,7 @@ Json inputs_json(const std::vector<InputFile>& inputs) {
   return result;
 }
 
-/// One that is given several times has a list of values.
+/// An option that is given several times has a list of values.
 Json options_json(const std::vector<OptionValue>& options) {
   Json result = Json::object();
   const auto add = [&](const std::string& name, const Json& value) {
@@ -81,7 +81,7 @@ Json sources_json(const std::optional<Sources>& sources) {
           {"at_worst", at_worst_json(*sources)}};
 }
 
-/// Of part of the path nothing is said: its largest value would look harmless.
+/// Null if part of the path is unknown: its largest value would be misleading.
 Json other_force_json(const UnderOtherForce& other) {
   return other.unsolved > 0 ? Json(nullptr) : statistics_json(other.deviation);
 }
@@ -140,7 +140,7 @@ Json summary_json(const RunReport& report) {
           {"tool_deviations", tools_off_json(report.tools_off)}};
 }
 
-/// What is not known is not zero.
+/// Unknown values are null, not zero.
 Json feed_moves_json(const RunReport& report) {
   const FeedMoves& moves = report.feed_moves;
   const bool judged = report.command != Command::predict;
@@ -271,7 +271,7 @@ Json parts_json(const std::optional<DeviationParts>& parts, bool weights, bool p
           {"discrepancy_mm", number(parts->discrepancy_mm, digits)}};
 }
 
-/// The place of a row is that of the deviation by which rows are ordered.
+/// The place of a row is the place of the deviation that orders the rows.
 Json worst_row_json(const RunReport& report, const WorstRow& row) {
   const WorstPlace& place = report.after ? row.at_after : row.at_before;
   const bool weights = report.sources && report.sources->gravity,
@@ -298,7 +298,7 @@ Json worst_json(const RunReport& report) {
   return list;
 }
 
-/// What people of this program and this machine read lengths in.
+/// The usual unit of lengths for this program and machine.
 Json units_json(const ShownUnits& units) {
   const bool inch = units.program == LengthUnit::inches;
   return {{"program", inch ? "inch" : "mm"}, {"shown", inch ? "inch" : units.revolute ? "mm" : "um"}};

@@ -69,7 +69,7 @@ std::string row(const std::string& label, const RunReport& report, double Deviat
 
 std::string axis_row(const char* label, const RunReport& report, int axis) {
   return before_after_row(label, mm4(report.before->max_axis_mm[axis]),
-             report.after ? mm4(report.after->max_axis_mm[axis]) : "");
+                          report.after ? mm4(report.after->max_axis_mm[axis]) : "");
 }
 
 std::string factor(const RunReport& report) {
@@ -86,7 +86,7 @@ std::string deviation_table(const RunReport& report, const Ink& ink) {
   text += before_after_row("", "before", corrected ? "after *" : "");
   text += row("largest", report, &DeviationStatistics::max_mm);
   text += before_after_row("  in program line", std::to_string(report.before->max_line),
-              corrected ? std::to_string(report.after->max_line) : "");
+                           corrected ? std::to_string(report.after->max_line) : "");
   if (const auto& shift = report.common_shift) {
     text += before_after_row("common shift (datum not stated)", mm4(shift->largest_mm()), "");
     text += before_after_row("largest without the common shift", mm4(shift->rest.max_mm), "");
@@ -111,8 +111,8 @@ std::string source_row(const char* label, const DeviationStatistics& s) {
 }
 
 std::string source_row(const char* label, const Vector3& d_mm) {
-  return fmt::format("  {:<34}{:>12}{:>12}{:>12}{:>12}\n", label, mm4(d_mm.x()), mm4(d_mm.y()),
-                     mm4(d_mm.z()), mm4(d_mm.norm()));
+  return fmt::format("  {:<34}{:>12}{:>12}{:>12}{:>12}\n", label, mm4(d_mm.x()), mm4(d_mm.y()), mm4(d_mm.z()),
+                     mm4(d_mm.norm()));
 }
 
 std::string at_worst_text(const Sources& sources, const char* together) {
@@ -127,13 +127,13 @@ std::string at_worst_text(const Sources& sources, const char* together) {
 
 std::string sources_text(const RunReport& report, const Ink& ink) {
   if (report.before && !report.facts.attribution)
-    return line_break() + "Its causes, and what more, less or no force does to it: with --report or --json\n";
+    return line_break() + "For causes and sensitivity to the force add --report NAME or --json.\n";
   if (!report.sources) return "";
   const Sources& sources = *report.sources;
   const bool two = !sources.gravity && !sources.preloads;
   const char* const together = two ? "both acting together" : "all acting together";
   std::string text =
-      line_break() + ink.bold("Where it comes from") + ", in mm; largest values, each at its own place\n";
+      line_break() + ink.bold("Causes of the deviation") + ", in mm; largest values, each at its own place\n";
   text += fmt::format("  {:<34}{:>12}{:>12}{:>12}{:>12}\n", "", "x", "y", "z", "in space");
   text += source_row("geometry: errors of assembly alone", sources.geometry);
   text += source_row("load: cutting forces alone", sources.load);
@@ -150,22 +150,22 @@ std::string worst_text(const RunReport& report, const Ink& ink) {
   for (std::size_t i = 0; i < std::min(shown_worst, report.worst.size()); ++i) {
     const WorstRow& worst = report.worst[i];
     const int corrected = report.command == Command::verify ? worst.at_after.corrected_line : 0;
-    text += before_after_row(fmt::format("line {}", worst.line) +
-                                 (corrected > 0 ? fmt::format(" (corrected {})", corrected) : ""),
-                             mm4(worst.before_mm), report.after ? mm4(worst.after_mm) : "");
+    text += before_after_row(
+        fmt::format("line {}", worst.line) + (corrected > 0 ? fmt::format(" (corrected {})", corrected) : ""),
+        mm4(worst.before_mm), report.after ? mm4(worst.after_mm) : "");
   }
   return text;
 }
 
-// What became of the moves that are not corrected each on its own.
+// The handling of moves that are not corrected individually.
 std::string others_text(const OtherMoves& moves) {
   std::string text;
-  const auto add = [&](std::size_t count, const char* fate) {
-    if (count > 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, fate);
+  const auto add = [&](std::size_t count, const char* handling) {
+    if (count > 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, handling);
   };
-  add(moves.grouped, "with their contour as a whole");
+  add(moves.grouped, "with one shift for their contour");
   add(moves.in_part, "in part");
-  add(moves.held, "holding the correction before them");
+  add(moves.held, "held");
   add(moves.left, "not corrected");
   return text;
 }
@@ -178,7 +178,7 @@ std::string program_text(const RunReport& report, const Ink& ink) {
     return text + fmt::format("  {}, {}\n", counted(blocks.total, "block"), counted(blocks.moves, "move"));
   const std::string others = blocks.others ? others_text(*blocks.others) : "";
   text += fmt::format("  {} of {} corrected{}, {} added\n", blocks.corrected, counted(blocks.moves, "move"),
-                      others.empty() ? "" : " each on its own", counted(blocks.inserted, "point"));
+                      others.empty() ? "" : " individually", counted(blocks.inserted, "point"));
   if (!others.empty()) text += wrapped("  ", others, 2);
   if (report.text_after)
     text += fmt::format("  {} -> {} blocks, {} -> {} bytes\n", report.text_before.blocks,
@@ -204,8 +204,8 @@ std::string left_alone_text(const RunReport& report, const Ink& ink) {
   const std::size_t moves = others.grouped + others.held + others.in_part + others.left;
   const std::string heading =
       moves > 0
-          ? fmt::format("Not corrected each on its own: {}, first lines and reasons", counted(moves, "move"))
-          : "Not corrected, or not wholly: first lines and reasons";
+          ? fmt::format("Not corrected individually: {}, first lines and reasons", counted(moves, "move"))
+          : "Not or partly corrected: first lines and reasons";
   std::string text = line_break() + ink.warning(heading) + "\n";
   const std::size_t shown = std::min(shown_blocks, list.rows.size());
   for (std::size_t i = 0; i < shown; ++i)
@@ -223,7 +223,7 @@ std::string warnings_text(const RunReport& report, const Ink& ink) {
   return text + more(shown, list.count);
 }
 
-// The phrases without what follows their colon: the page has them whole.
+// The phrases up to their colon; the page shows all of them.
 std::string not_modelled_text(const RunReport& report) {
   std::string text;
   for (const std::string& phrase : report.not_modelled)

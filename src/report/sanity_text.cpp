@@ -1,6 +1,5 @@
 #include "sanity_text.hpp"
 
-
 #include "counterflex/report/formats.hpp"
 
 namespace counterflex {
@@ -20,7 +19,7 @@ std::string mark(SanityState state, const Ink& ink) {
   return "";
 }
 
-// Bytes and ANSI sequences of the mark are not columns.
+// The mark has more bytes than columns: UTF-8 and ANSI sequences.
 std::string line(SanityState state, const std::string& text, const Ink& ink) {
   const std::string plain = ink.marks ? "  x " : "  [xx] ";
   const std::string wrapped_text = wrapped(plain, text, plain.size());

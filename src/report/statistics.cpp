@@ -12,7 +12,7 @@ namespace counterflex {
 namespace {
 
 constexpr double bin_ratio = 1.001;
-constexpr double smallest_mm = 1e-12;  // there is no smaller deviation
+constexpr double smallest_mm = 1e-12;  // smaller deviations are rounding
 constexpr int spare_bins = 256;
 constexpr double parallel_sine = 1e-6;
 
@@ -25,7 +25,7 @@ double upper_edge(int bin) {
 }
 
 void keep_maxima(DeviationStatistics& kept, const DeviationStatistics& other) {
-  // The first of lines that differ by rounding is named.
+  // Reports the first of lines that differ by rounding.
   if (kept.max_line == 0 || other.max_mm > kept.max_mm + indistinct_mm) kept.max_line = other.max_line;
   kept.max_mm = std::max(kept.max_mm, other.max_mm);
   kept.max_axis_mm = kept.max_axis_mm.cwiseMax(other.max_axis_mm);

@@ -39,7 +39,7 @@ std::string xml_escaped(std::string_view text) {
 
 std::string shortened(std::string_view text, std::size_t most) {
   std::string result;
-  std::size_t kept = 0, count = 0;  // bytes of the result that stay beside the dots; characters
+  std::size_t kept = 0, count = 0;  // bytes kept before the dots; number of characters
   for (std::string_view rest = text; !rest.empty(); ++count) {
     if (count == most) return result.substr(0, kept) + "...";
     const std::string_view character = first_character(rest);

@@ -1,15 +1,15 @@
 #pragma once
-/// The little of SVG that a plot needs. Coordinates in px, y downwards.
+/// SVG elements of a plot. Coordinates are in px, y downwards.
 #include <string>
 #include <string_view>
 
 namespace counterflex {
 
-/// `text` as the content of an element or an attribute. What is no UTF-8, and what XML does not allow,
-/// becomes U+FFFD.
+/// `text` as the content of an element or an attribute. Bytes that are not UTF-8 and characters that XML does
+/// not allow become U+FFFD.
 std::string xml_escaped(std::string_view text);
 
-/// At most `most` characters of `text`, the last three of them dots where there are more.
+/// At most `most` characters of `text`; a longer text ends in three dots.
 std::string shortened(std::string_view text, std::size_t most);
 
 /// Appends a coordinate, rounded to a tenth.
@@ -17,7 +17,7 @@ void append_px(std::string& svg, double value);
 
 enum class Anchor { start, middle, end };
 
-/// A text with its base line at `y`. `attributes` begin with a blank where there are any.
+/// A text with its base line at `y`. `attributes` begin with a blank or are empty.
 std::string svg_text(double x, double y, Anchor anchor, std::string_view text,
                      std::string_view attributes = "");
 

@@ -9,7 +9,7 @@ namespace counterflex {
 
 inline constexpr std::size_t text_width = 100;
 
-/// ANSI emphasis, or none.
+/// ANSI emphasis, or plain text.
 struct Ink {
   bool colour = false;
   bool marks = false;  ///< the terminal shows UTF-8
@@ -22,21 +22,21 @@ struct Ink {
   std::string paint(std::string_view text, std::string_view code) const;
 };
 
-/// `text` in lines of at most `text_width` bytes after `first`, which stands before the first line; the
-/// others are indented by `indent` blanks. Breaks at blanks; a word that is longer than a line stays whole.
-/// Ends with a newline. Control characters of `text` are shown as their numbers; `first` may have ANSI sequences.
+/// `text` in lines of at most `text_width` bytes. `first` is before the first line, the others are indented
+/// by `indent` blanks. Breaks at blanks; a word longer than a line is not broken. Ends with a newline.
+/// Control characters of `text` are shown as their numbers; `first` may have ANSI sequences.
 std::string wrapped(std::string_view first, std::string_view text, std::size_t indent);
 
 inline std::string line_break() {
   return std::string(1, '\n');
 }
 
-/// Millimetres as summaries show them.
+/// Millimetres in summaries.
 inline std::string mm4(double value) {
   return format_fixed(value, 4);
 }
 
-/// A row of a table: a label, and what was before and after; blank where it is not known.
+/// A row of a table: a label, and the values before and after; blank if unknown.
 std::string before_after_row(const std::string& label, const std::string& before, const std::string& after);
 
 /// "1 move", "2 moves".

@@ -9,7 +9,7 @@
 namespace counterflex {
 namespace {
 
-/// The part of a rotation vector that tilts the axis.
+/// The part of a rotation vector that tilts the tool axis.
 Vector3 tilt_of(const Vector6& deviation, const Vector3& axis) {
   const Vector3 phi = deviation.tail<3>();
   return phi - phi.dot(axis) * axis;
@@ -42,7 +42,7 @@ void ToolDeviationTally::add(const ToolSize& size, const Vector6& deviation, con
     one.flank_mm = largest_on_circle(deviation, axis, *size.diameter / 2, *size.flute) / mm;
   if (!largest_) return void(largest_ = one);
   ToolDeviation& kept = *largest_;
-  // The first of lines that differ by rounding is named.
+  // Reports the first of lines that differ by rounding.
   if (one.largest_mm() > kept.largest_mm() + indistinct_mm) kept.line = line;
   kept.tip_mm = std::max(kept.tip_mm, one.tip_mm);
   keep_larger(kept.rim_mm, one.rim_mm);

@@ -10,8 +10,8 @@
 namespace counterflex {
 namespace {
 
-/// Never "100 %" for less than all, nor "0 %" for more than nothing.
-// Lengths are sums of pieces in another order: a part that differs by rounding is the whole.
+/// Never "100 %" unless it is all, nor "0 %" unless it is zero.
+// Lengths are sums in different orders: a part that differs from the whole by rounding is the whole.
 bool is_whole(double part, double all) {
   return part >= (1 - 1e-9) * all;
 }
@@ -23,7 +23,7 @@ std::string percent_text(double part, double all) {
   return fmt::format("{} %", format_fixed(std::max(std::floor(10 * percent) / 10, 0.1), 1));
 }
 
-/// Enough digits to differ from the tolerance.
+/// With enough digits to differ from the tolerance.
 std::string above_text(double worst_mm, double tolerance_mm) {
   const std::string tolerance = fmt::format("{:.6g}", tolerance_mm);
   return fmt::format("worst {} mm > {}", format_beside(worst_mm, tolerance_mm, 4), tolerance);

@@ -7,7 +7,7 @@
 namespace counterflex {
 namespace {
 
-/// The reason's place; where there are too many of them the last one is for the rest.
+/// The index of the reason; if there are too many, the last one collects the others.
 WithoutForceReason& reason_of(const Unforced& move, std::vector<WithoutForceReason>& reasons) {
   const auto known = std::find_if(reasons.begin(), reasons.end(),
                                   [&](const WithoutForceReason& reason) { return reason.why == move.why; });

@@ -10,12 +10,12 @@ namespace {
 
 constexpr std::size_t longest_text = 200, read_at_once = 1 << 16;  // bytes
 
-/// The lines of a file one after the other.
+/// Reads the lines of a file in order.
 class Lines {
  public:
   explicit Lines(FileReader& file) : file_(file) { file_.rewind(); }
 
-  /// Without its line end; empty behind the last one. Good until the next one.
+  /// The next line without its end; empty after the last one. Valid until the next call.
   std::string_view next() {
     std::size_t end = text_.find('\n', from_);
     while (end == std::string::npos) {

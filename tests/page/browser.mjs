@@ -1,4 +1,4 @@
-// One browser for all tests: opens pages of reports and notes what they complain of.
+// One browser for all tests: opens pages of reports and records their errors.
 import assert from 'node:assert/strict';
 import fs from 'node:fs';
 import path from 'node:path';
@@ -12,7 +12,7 @@ let browser = null;
 async function launched() {
   browser = browser || await chromium.launch({
     executablePath: process.env.COUNTERFLEX_BROWSER,
-    // WebGL in software; what is flat is then drawn without the detour through it.
+    // WebGL in software; flat views are then drawn without it.
     args: ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--disable-accelerated-2d-canvas'],
   });
   return browser;
@@ -22,7 +22,7 @@ export async function close() {
   if (browser) await browser.close();
 }
 
-/** What the browser says of its own software renderer is not the page's. */
+/** Messages of the browser about its software renderer are not errors of the page. */
 const of_the_driver = (text) => /GL Driver Message|GPU stall due to ReadPixels/.test(text);
 
 function watch(page) {
@@ -47,7 +47,7 @@ function without_webgl() {
 }
 
 /**
- * Opens a page, hands it to `check` when it says that it is ready, and fails where it complained of anything meanwhile.
+ * Opens a page, calls `check` when it is ready, and fails if the page reported errors.
  * `options`: {width, scheme, webgl, touch}.
  */
 export async function visit(name, check, {width = 1400, scheme = 'light', webgl = true, touch = false} = {}) {
@@ -87,7 +87,7 @@ export function write_page(name, data, result) {
 
 export const bytes_of = (name) => fs.statSync(path.join(folder, `${name}.html`)).size;
 
-/** Of the pixels of canvases: how many nearly have the colour of the style sheet that is named, or, of null, how many colours they have. */
+/** The number of pixels of canvases with nearly the named colour of the style sheet; for null, the number of colours. */
 function colours_of(page, selector, property) {
   return page.evaluate(([where, then]) => {
     const colours = [];

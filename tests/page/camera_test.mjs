@@ -10,7 +10,7 @@ const box = {low: [-100, 0, 40], high: [300, 50, 60]};
 const near = (actual, expected, tolerance = 1e-9) => expected.forEach((v, i) =>
   assert.ok(Math.abs(actual[i] - v) <= tolerance, `${actual} is not ${expected}`));
 
-test('the axes of the picture are a right-handed orthonormal triad from wherever one looks', () => {
+test('the axes of the picture are a right-handed orthonormal triad for every direction', () => {
   for (const azimuth of [0, 0.3, 2, -4])
     for (const elevation of [-1.5, 0, 0.6, Math.PI / 2]) {
       const {right, up, back} = camera.basis({azimuth, elevation});
@@ -32,7 +32,7 @@ test('an isometric view shows the three axes equally long', () => {
   near([0, 1, 2].map((i) => Math.hypot(right[i], up[i])), [1, 1, 1].map((v) => v * Math.sqrt(2 / 3)));
 });
 
-test('what a camera looks at is in the middle of the picture', () => {
+test('the centre of a camera is in the middle of the picture', () => {
   near(camera.projector(start, size)(...start.centre), [400, 250], 1e-9);
 });
 
@@ -71,7 +71,7 @@ test('panning slides the picture by so many pixels', () => {
   near([after[0] - before[0], after[1] - before[1]], [30, -20]);
 });
 
-test('zooming keeps what is under the pointer, within the limits of the span', () => {
+test('zooming keeps the point under the pointer, within the limits of the span', () => {
   const {right, up} = camera.basis(start);
   const k = camera.scale(start, size);
   const under = start.centre.map((v, i) => v + ((200 - 400) * right[i] - (100 - 250) * up[i]) / k);
@@ -82,7 +82,7 @@ test('zooming keeps what is under the pointer, within the limits of the span', (
   }
 });
 
-test('one cannot turn beyond straight down and straight up', () => {
+test('the elevation stays between straight down and straight up', () => {
   assert.equal(camera.turn(start, 0, 9).elevation, Math.PI / 2);
   assert.equal(camera.turn(start, 0, -9).elevation, -Math.PI / 2);
 });

@@ -33,7 +33,7 @@ test('the smallest deviation is still seen on the ground, the largest plainly', 
   }
 });
 
-test('who sees two primaries only still sees the scale run one way in lightness', () => {
+test('the lightness of the scale is monotonic also for dichromats', () => {
   for (const [name, matrix] of Object.entries(dichromats))
     for (const {dark} of grounds) {
       const seen = fractions.filter((_, i) => i % 10 === 0).map((f) => lightness(seen_by(matrix, colours.at(f, dark))));
@@ -63,4 +63,4 @@ test('colours of style sheets are read, other texts are not', () => {
   for (const text of ['', 'red', '#12', 'var(--x)']) assert.equal(colours.parse(text), null);
 });
 
-test('a colour is written as style sheets want it', () => assert.equal(colours.css([0, 0.2, 1]), 'rgb(0, 51, 255)'));
+test('a colour is written in the form of style sheets', () => assert.equal(colours.css([0, 0.2, 1]), 'rgb(0, 51, 255)'));

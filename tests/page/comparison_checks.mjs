@@ -30,7 +30,7 @@ test('a prediction beside a compensation makes a page, too', () => visit('half_c
   assert.equal(await page.locator('#numbers').isVisible(), true);
 }));
 
-test('what was concluded of two runs is said as it stands in the data', async () => {
+test('the page shows the conclusion of two runs unchanged', async () => {
   const data = {...data_in('compared'), conclusion: 'B is off by <b>less</b> than A.'};
   write_page('compared', data, 'concluded');
   await visit('concluded', async (page) => assert.deepEqual(await texts(page, '#verdict > .verdict'), [data.conclusion]));
@@ -39,7 +39,7 @@ test('what was concluded of two runs is said as it stands in the data', async ()
   await visit('unconcluded', async (page) => assert.deepEqual(await texts(page, '#verdict > .verdict'), []));
 });
 
-test('marks and printed paths say of which run they are', () => visit('compared', async (page) => {
+test('marks and printed paths have the letter of their run', () => visit('compared', async (page) => {
   const title = () => page.innerText('#curves .marks-title');
   await page.click('#worst .stack > :nth-child(1) tbody tr:nth-child(2) a');
   assert.equal(await title(), 'Marks of A');

@@ -4,7 +4,7 @@ import {colours, data_in, pixels, report_of, texts, visit, write_page} from './b
 
 const scene = (page) => page.$eval('#path-view .scene-view', (node) => ({...node.dataset}));
 
-test('a page draws its curves and its path without a complaint or a request', () => visit('groove', async (page) => {
+test('a page draws its curves and its path without errors or requests', () => visit('groove', async (page) => {
   assert.ok(await pixels(page, '.plot.before canvas', '--before') > 300);
   assert.ok(await pixels(page, '.plot.after canvas', '--after') > 300);
   assert.equal((await scene(page)).renderer, 'webgl');
@@ -23,7 +23,7 @@ test('without WebGL everything is drawn flat', () => visit('groove', async (page
 }, {webgl: false}));
 
 for (const name of ['groove', 'pocket', 'predicted', 'face', 'hostile', 'failed', 'bracket', 'large'])
-  test(`the page of the run "${name}" holds the report that is beside it, and says its verdict`, () => visit(name, async (page) => {
+  test(`the page of the run "${name}" has the report beside it, and shows its verdict`, () => visit(name, async (page) => {
     assert.deepEqual(data_in(name).runs[0].report, report_of(name));
     const [verdict] = await texts(page, '.verdict');
     assert.ok(verdict.length > 20 && !/undefined|NaN|null/.test(verdict), verdict);
@@ -31,14 +31,14 @@ for (const name of ['groove', 'pocket', 'predicted', 'face', 'hostile', 'failed'
     assert.doesNotMatch(text, /undefined|NaN|\[object|null/);
   }));
 
-test('a failed run says so, where, and that no program was written', () => visit('failed', async (page) => {
+test('a failed run shows the failure, its place, and that no program was written', () => visit('failed', async (page) => {
   const [verdict] = await texts(page, '.verdict.bad');
   const {failure} = report_of('failed');
   assert.ok(verdict.includes(`Line ${failure.line}`) && verdict.includes(failure.what), verdict);
   assert.match(verdict, /No corrected program was written/);
 }));
 
-test('what stays above the tolerance is said at once, and why blocks are not corrected below', () => visit('bracket', async (page) => {
+test('residuals above the tolerance are at the top, reasons of blocks that are not corrected below', () => visit('bracket', async (page) => {
   const {blocks, warnings} = report_of('bracket');
   const [verdict] = await texts(page, '.verdict.warn');
   assert.match(verdict, /more than the tolerance of 5.0 \u00b5m; [\d.]+ % of the cutting length is held to it/);
@@ -48,20 +48,20 @@ test('what stays above the tolerance is said at once, and why blocks are not cor
   for (const {line, what} of warnings) assert.ok(rows.includes(`${line}${what}`), what);
 }));
 
-test('a prediction shows nothing of a corrected program', () => visit('predicted', async (page) => {
+test('a prediction does not show a corrected program', () => visit('predicted', async (page) => {
   assert.equal(await page.locator('.plot.after').count(), 0);
   assert.equal(await page.locator('[data-card=after]').count(), 0);
   for (const part of ['#verdict', '#worst', '#curves', '#numbers']) assert.doesNotMatch(await page.innerText(part), /residual|[Aa]fter/);
 }));
 
-test('what a file says is text and nothing more', () => visit('hostile', async (page) => {
+test('texts of files are shown as text only', () => visit('hostile', async (page) => {
   assert.equal(await page.locator('main img').count(), 0);
   assert.equal(await page.locator('main td b, main a b, main th b').count(), 0);
   assert.match(await page.innerText('#operations'), /<\/script><img src=x/i);
   assert.match(await page.innerText('#operations'), /FINISH <b>/);
 }));
 
-test('a page without attribution is drawn without what it lacks', async () => {
+test('a page without attribution is drawn without the missing parts', async () => {
   const data = data_in('groove');
   for (const name of Object.keys(data.runs[0].curves.quantities))
     if (/^(geometry|load|gravity|superposition|discrepancy)_/.test(name)) delete data.runs[0].curves.quantities[name];
@@ -75,7 +75,7 @@ test('a page without attribution is drawn without what it lacks', async () => {
   });
 });
 
-test('a report of a version that said less is shown as far as it goes', async () => {
+test('a report of an older version is shown without the missing parts', async () => {
   const data = data_in('groove');
   const {report} = data.runs[0];
   for (const key of ['operations', 'units', 'loads']) delete report[key];
@@ -89,7 +89,7 @@ test('a report of a version that said less is shown as far as it goes', async ()
   });
 });
 
-/** Curves of their first stretch alone. */
+/** Curves with only their first stretch. */
 function first_stretch(curves) {
   const cut = (base64, bytes) => Buffer.from(base64, 'base64').subarray(0, bytes).toString('base64');
   const sizes = {s_mm: 8, first_line: 4, last_line: 4, operation: 4, after_rapid: 1, place_mm: 12, place_before_mm: 12, place_after_mm: 12};
@@ -98,7 +98,7 @@ function first_stretch(curves) {
   return {...curves, ...Object.fromEntries(arrays), quantities: Object.fromEntries(quantities), stretches: 1, waypoints: 1};
 }
 
-test('a path of a single place is drawn, and one of none is left out', async () => {
+test('a path of a single place is drawn, and an empty path is omitted', async () => {
   const data = data_in('groove');
   data.runs[0].curves = first_stretch(data.runs[0].curves);
   write_page('groove', data, 'single');
@@ -111,7 +111,7 @@ test('a path of a single place is drawn, and one of none is left out', async () 
   });
 });
 
-test('data that cannot be read are said to be so', async () => {
+test('unreadable data give a message', async () => {
   write_page('groove', {schema: 'counterflex-page 99', runs: []}, 'unreadable');
   await assert.rejects(visit('unreadable', () => {}), /counterflex-page 99/);
 });

@@ -7,7 +7,7 @@ const {units, summary, facts, curves} =
 const report = {machine: 'mill', command: 'compensate', options: {'tolerance-mm': 0.005},
   control: {path_tolerances: [{line: 3, path_mm: 0.0508}, {line: 9, path_mm: null}]}};
 
-test('tolerances stand in the unit that was chosen', () => {
+test('tolerances are in the chosen unit', () => {
   for (const [unit, own, control] of [['um', '5.0 \u00b5m', '50.8 \u00b5m'], ['mm', '0.0050 mm', '0.0508 mm'], ['inch', '0.000197 in', '0.00200 in']]) {
     const shown = units.create(unit);
     assert.equal(summary.subtitle(report, shown), `on mill, compensate, tolerance ${own}`);
@@ -20,7 +20,7 @@ test('tolerances stand in the unit that was chosen', () => {
 const runs_of = (...mm) => mm.map((tolerance, i) => ({letter: 'AB'[i], report: {options: tolerance === null ? {} : {'tolerance-mm': tolerance}}}));
 const labels = (...mm) => curves.tolerances({runs: runs_of(...mm), units: units.create('um')}).map(({label}) => label);
 
-test('of runs with different tolerances both are drawn, and called by their run', () => {
+test('different tolerances of two runs are both drawn, with their letters', () => {
   assert.deepEqual(plain(labels(0.005)), ['tolerance 5.0 \u00b5m']);
   assert.deepEqual(plain(labels(0.005, 0.005)), ['tolerance 5.0 \u00b5m']);
   assert.deepEqual(plain(labels(0.005, 0.02)), ['tolerance A 5.0 \u00b5m', 'tolerance B 20.0 \u00b5m']);

@@ -2,13 +2,13 @@ import assert from 'node:assert/strict';
 import test from 'node:test';
 import {bytes_of, data_in, pixels, texts, visit, write_page} from './browser.mjs';
 
-test('the page of a long program is small, however long the program', () => {
+test('the page of a long program is small, for any length', () => {
   const {curves} = data_in('large').runs[0];
   assert.ok(curves.waypoints_per_stretch > 1 && curves.stretches > 4096 && curves.stretches <= 8192, `${curves.stretches}`);
   assert.ok(bytes_of('large') < 25e6);
 });
 
-/** When the page says that it is ready, ms after it was asked for: the shortest of three. */
+/** Time until the page is ready, ms: the shortest of three. */
 async function ready_after(name) {
   const times = [];
   for (let i = 0; i < 3; ++i)
@@ -23,12 +23,12 @@ test('the page of a long program is ready a few times later than that of six blo
   assert.ok(long < 6 * short, `ready after ${long} ms, ${short} ms with six blocks`);
 });
 
-test('of merged points least and largest are drawn', () => visit('large', async (page) => {
+test('least and largest values of merged points are drawn', () => visit('large', async (page) => {
   assert.ok(await pixels(page, '.plot.before canvas', '--before') > 2000);
   assert.match(await page.innerText('#curves'), /Each stretch of \d+ points is drawn with its least and its largest value/);
 }));
 
-test('where marks are thinned out a page says so', async () => {
+test('a page with thinned marks has a note', async () => {
   const data = data_in('pocket');
   const {force_steps: steps} = data.runs[0].curves;
   steps.count = 64 * steps.s_mm.length;
@@ -37,7 +37,7 @@ test('where marks are thinned out a page says so', async () => {
   await visit('pocket', async (page) => assert.doesNotMatch(await page.innerText('#curves'), /Of every/));
 });
 
-test('under the mouse stand the lines of a merged stretch and the largest value in them', () => visit('large', async (page) => {
+test('the readout shows the lines of a merged stretch and the largest value in them', () => visit('large', async (page) => {
   await page.locator('.plot.before').scrollIntoViewIfNeeded();
   const box = await page.locator('.plot.before').boundingBox();
   await page.mouse.move(box.x + 0.5 * box.width, box.y + 100);

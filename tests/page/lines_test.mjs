@@ -64,7 +64,7 @@ test('a stretch of several lines is called by the first and the last', () => {
   assert.deepEqual([0, 1].map((i) => lines.words(curves, i)), ['lines 1 to 4', 'line 5']);
 });
 
-test('of a merged stretch the larger value is told, by its size, from either of its rows', () => {
+test('both rows of a merged stretch give its larger absolute value', () => {
   const points = series.places({s_mm: [8, 16], after_rapid: [0, 0], waypoints_per_stretch: 8});
   const values = series.valuesAt(points, {least: [-5, 1], largest: [2, 3]}, 1);
   const {rows, places} = series.tabulate([{run: 0, points, values}], 16, 1);

@@ -17,7 +17,7 @@ function with_loads(data) {
   return data;
 }
 
-test('loads are drawn over the path with their limits, and a load above its limit is said first', async () => {
+test('loads are drawn over the path with their limits, and a load above its limit is listed first', async () => {
   write_page('groove', with_loads(data_in('groove')), 'loads');
   await visit('loads', async (page) => {
     await page.waitForFunction(() => document.querySelectorAll('.plot.loads canvas').length > 0);
@@ -28,13 +28,13 @@ test('loads are drawn over the path with their limits, and a load above its limi
     assert.match(rows[0], /^xMoment at the end9.375 N m97.5 N m125 %: above the limit$/);
     assert.match(rows[1], /^xSpring force40 N9100 N40 %$/);
     assert.match(rows[2], /no limit given$/);
-    assert.match(await page.innerText('#loads caption'), /50 places of the path; not known at 2 more/);
+    assert.match(await page.innerText('#loads caption'), /50 places of the path; unknown at 2 more/);
     await page.check('input[name=load][value=spring_force_max_N]');
     assert.match(await page.innerText('#loads h3'), /Spring force of each chain, in N$/);
   });
 });
 
-test('a run without loads has no section of them', async () => {
+test('a run without loads has no such section', async () => {
   const data = data_in('groove');
   Object.assign(data.runs[0], {loads: null});
   data.runs[0].report.loads = null;

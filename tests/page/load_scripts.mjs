@@ -1,4 +1,4 @@
-// The page's scripts without a browser: pure functions are tested in node alone.
+// The page's scripts without a browser: pure functions are tested in node.
 import fs from 'node:fs';
 import path from 'node:path';
 import {fileURLToPath} from 'node:url';

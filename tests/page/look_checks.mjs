@@ -7,7 +7,7 @@ const brightness = (page) => page.evaluate(() => {
   return (0.2126 * r + 0.7152 * g + 0.0722 * b) / 255;
 });
 
-test('a page is dark where the system is, and the button overrules it', () => visit('groove', async (page) => {
+test('a page is dark if the system is, and the button overrides it', () => visit('groove', async (page) => {
   assert.ok(await brightness(page) < 0.2);
   assert.ok(await pixels(page, '.plot.before canvas', '--before') > 300);
   await page.click('#theme');
@@ -32,7 +32,7 @@ function images_of(pdf) {
   return [...found].map(([, width, bytes]) => ({width: Number(width), bytes: Number(bytes)}));
 }
 
-test('on paper a page is light, whole and without a button', () => visit('groove', async (page) => {
+test('a printed page is light, complete and without buttons', () => visit('groove', async (page) => {
   await page.emulateMedia({media: 'print'});
   await page.waitForFunction(() => document.documentElement.hasAttribute('data-printing'));
   assert.ok(await brightness(page) > 0.99);
@@ -52,7 +52,7 @@ test('on paper a page is light, whole and without a button', () => visit('groove
   assert.ok(await page.$eval('.plot.before', (plot) => plot.offsetWidth) > 700);
 }, {scheme: 'dark'}));
 
-test('paper has the whole path, whatever was zoomed', () => visit('pocket', async (page) => {
+test('a printed page has the whole path, for any zoom', () => visit('pocket', async (page) => {
   const ticks = () => page.$$eval('.plot.before .dygraph-axis-label-x', (nodes) => nodes.map((node) => Number(node.textContent)));
   const range = async () => Math.max(...await ticks()) - Math.min(...await ticks());
   const whole = await range();

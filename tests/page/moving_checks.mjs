@@ -13,7 +13,7 @@ async function drawn_again(page, before) {
   }, before);
 }
 
-/** Follows a row of the worst blocks by `act`, and sees both views and the cause go there. */
+/** Selects a row of the worst blocks by `act`, and checks that both views and the cause show it. */
 async function follows(page, row, act) {
   const {worst} = report_of('pocket');
   const axis_before = await axis(page, 'before'), camera_before = await camera(page);
@@ -29,10 +29,10 @@ async function follows(page, row, act) {
   assert.match(await page.innerText('#place .cause'), /assembly|force/);
 }
 
-test('a click on a worst block takes both views there and says why it is off', () => visit('pocket', (page) =>
+test('a click on a worst block shows it in both views, with the cause', () => visit('pocket', (page) =>
   follows(page, 2, (link) => page.click(link))));
 
-test('so does Enter', () => visit('pocket', (page) => follows(page, 3, async (link) => {
+test('Enter on a worst block does the same', () => visit('pocket', (page) => follows(page, 3, async (link) => {
   await page.focus(link);
   await page.keyboard.press('Enter');
 })));
@@ -85,7 +85,7 @@ test('dragging zooms both plots, and a double click shows all again', () => visi
   assert.deepEqual(await axis(page, 'after'), whole);
 }));
 
-test('under the mouse stand line and values, in both plots', () => visit('pocket', async (page) => {
+test('the readout shows line and values, in both plots', () => visit('pocket', async (page) => {
   await page.locator('.plot.before').scrollIntoViewIfNeeded();
   const box = await page.locator('.plot.before').boundingBox();
   await page.mouse.move(box.x + 0.5 * box.width, box.y + 100);
@@ -94,7 +94,7 @@ test('under the mouse stand line and values, in both plots', () => visit('pocket
   assert.match(after, /line \d+: after [\d.]+ \u00b5m/);
 }));
 
-test('under the mouse stands what is there, also where the curves are zoomed and between the points', () => visit('pocket', async (page) => {
+test('the readout is for the place under the mouse, also in zoomed curves and between points', () => visit('pocket', async (page) => {
   await page.locator('.plot.before').scrollIntoViewIfNeeded();
   const box = await page.locator('.plot.before').boundingBox();
   for (const zooms of [0, 3]) {
@@ -128,7 +128,7 @@ test('components, the logarithm and units redraw the curves', () => visit('pocke
   assert.match(await title(), /x, in inches/);
 }));
 
-test('the line of a remark takes both views there', () => visit('hostile', async (page) => {
+test('the line of a remark shows its place in both views', () => visit('hostile', async (page) => {
   const before = await axis(page, 'before'), camera_before = await camera(page);
   const [link] = await page.$$('#remarks tbody a');
   const line = await link.textContent();
@@ -138,7 +138,7 @@ test('the line of a remark takes both views there', () => visit('hostile', async
   assert.match(await page.innerText('#place h3'), new RegExp(`ine ${line}$`));
 }));
 
-test('two runs that failed stand side by side, too', async () => {
+test('two failed runs are side by side, too', async () => {
   const data = data_in('failed');
   data.runs.push(data_in('failed').runs[0]);
   write_page('failed', data, 'two_failed');
@@ -148,7 +148,7 @@ test('two runs that failed stand side by side, too', async () => {
   });
 });
 
-test('two runs stand side by side, their curves in the same plots', async () => {
+test('two runs are side by side, their curves in the same plots', async () => {
   const data = data_in('pocket');
   data.runs.push(data_in('constant').runs[0]);
   data.runs[0].name = 'forces of each block';
@@ -166,7 +166,7 @@ test('two runs stand side by side, their curves in the same plots', async () => 
   });
 });
 
-test('a curve that is hidden with Enter keeps the focus on its name', () => visit('pocket', async (page) => {
+test('hiding a curve with Enter keeps the focus on its name', () => visit('pocket', async (page) => {
   await page.waitForFunction(() => document.querySelectorAll('.plot.sources canvas').length > 0);
   await page.focus('#sources button.entry:nth-child(2)');
   for (const pressed of ['false', 'true']) {
@@ -187,7 +187,7 @@ test('the line of the largest deviation before is followed from its card and fro
   }
 }));
 
-/** One finger that goes from a place to another. */
+/** One finger that moves from a place to another. */
 async function swipe(page, from, to) {
   const client = await page.context().newCDPSession(page);
   const touch = (type, points) => client.send('Input.dispatchTouchEvent', {type, touchPoints: points});

@@ -52,7 +52,7 @@ test('the table of worst blocks has the rows of the report', () => visit('groove
   });
 }));
 
-test('the statistics and what other forces do are the numbers of the report', () => visit('groove', async (page) => {
+test('the statistics and the deviations under other forces are the numbers of the report', () => visit('groove', async (page) => {
   const {summary} = report_of('groove');
   const column = (selector, n) => texts(page, `${selector} tbody tr td:nth-child(${n})`);
   const expected = (s) => [s.max_mm, s.p95_mm, s.rms_mm, s.mean_mm, ...s.max_axis_mm, s.max_across_mm, s.max_tool_axis_mm, s.max_along_mm];

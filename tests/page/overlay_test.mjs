@@ -14,4 +14,4 @@ test('the numbers of a scale are round, start at zero and stay within it', () =>
   }
 });
 
-test('a scale of nothing has its zero alone', () => assert.deepEqual(plain(overlay.ticks(0, 4)), [0]));
+test('an empty scale has only its zero', () => assert.deepEqual(plain(overlay.ticks(0, 4)), [0]));

@@ -28,13 +28,13 @@ test('a default exaggeration makes the largest deviation about a twentieth of th
     }
 });
 
-test('an exaggeration that is right for a small deviation gives way to the usual one for a large deviation', () => {
+test('an exaggeration chosen for a small deviation is replaced by the usual one for a large deviation', () => {
   assert.equal(pathModel.bearable(5000, 40, 0.0003), 5000);
   assert.equal(pathModel.bearable(5000, 40, 0.08), pathModel.exaggeration(40, 0.08));
   assert.equal(pathModel.bearable(20, 40, 0.08), 20);
 });
 
-test('without a deviation nothing is exaggerated', () => assert.equal(pathModel.exaggeration(100, 0), 1));
+test('without a deviation the exaggeration is 1', () => assert.equal(pathModel.exaggeration(100, 0), 1));
 
 test('the steps of the slider hold the default and reach the smallest of the deviations', () => {
   const steps = pathModel.exaggerations(200, [1.7, 0.004]);
@@ -44,7 +44,7 @@ test('the steps of the slider hold the default and reach the smallest of the dev
   for (const step of steps) assert.match(step.toExponential(), /^[125]e/);
 });
 
-test('the box of a flat path, a line and a point has a size above zero; none is the box of nothing', () => {
+test('the box of a flat path, a line and a point has a size above zero; without places there is no box', () => {
   for (const place_mm of [[0, 0, 5, 9, 9, 5], [0, 0, 0, 0, 0, 4], [1, 2, 3]])
     assert.ok(pathModel.sizeOf(pathModel.bounds([{place_mm: Float32Array.from(place_mm)}])) > 0);
   assert.equal(pathModel.bounds([{place_mm: new Float32Array(0)}]), null);
@@ -60,7 +60,7 @@ test('at the ends of a run of feed moves the nearest known deviation holds', () 
   close(pathModel.build(curves_of([NaN, 0.2, NaN]), 'before', [0, 0, 0], 0.2).fraction, [1, 1, 1]);
 });
 
-test('deviations are not carried across a rapid: what a run does not know stays unknown', () => {
+test('deviations are not carried across a rapid: unknown runs stay unknown', () => {
   const path = pathModel.build(curves_of([0.2, 0.2, NaN, NaN], [1, 0, 1, 0]), 'before', [0, 0, 0], 0.2);
   close(path.fraction, [1, 1, -1, -1]);
   close(path.deviation, [0, 0, 0.2, 0, 0, 0.2, 0, 0, 0, 0, 0, 0]);
@@ -80,7 +80,7 @@ test('a kind without any value is not known, and drawn as wanted', () => {
   close(path.deviation, [0, 0, 0, 0, 0, 0]);
 });
 
-test('the wanted path has no deviation, whatever is known of the others', () => {
+test('the wanted path has no deviation', () => {
   const path = pathModel.build(curves_of([0.1, 0.2]), 'wanted', [0, 0, 0], 0);
   close(path.fraction, [-1, -1]);
   close(path.deviation, [0, 0, 0, 0, 0, 0]);

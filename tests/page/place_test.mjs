@@ -16,27 +16,27 @@ const told = (run, i) => {
   return plain([before_mm, about, causes.load_mm, after_mm]);
 };
 
-test('where a stretch does not know its deviation before, that nearest on its block is said to be about it', () => {
+test('a stretch without a deviation before shows that nearest on its block as "about"', () => {
   const run = run_of([5, 5, 5, 5, 5], [1, NaN, NaN, NaN, 2]);
   assert.deepEqual(told(run, 1), [1, true, 1, 0.001]);
   assert.deepEqual(told(run, 3), [2, true, 2, 0.001]);
   assert.deepEqual(told(run, 4), [2, false, 2, 0.001]);
 });
 
-test('nothing is taken from another block, nor across one', () => {
+test('values of other blocks are not used', () => {
   const run = run_of([5, 6, 7, 6], [1, NaN, 3, 4]);
   assert.deepEqual(told(run, 1), [null, false, null, 0.001]);
   assert.deepEqual(told(run_of([6], [NaN]), 0), [null, false, null, 0.001]);
 });
 
-test('of a run that was not attributed the deviation itself is told', () => {
+test('a run without attribution shows the deviation', () => {
   assert.deepEqual(told(run_of([5, 5], [1, 2], [NaN, NaN]), 1), [2, false, null, 0.001]);
   const run = run_of([5, 5], [1, NaN]);
   delete run.curves.quantities.load_mm;
   assert.deepEqual(told(run, 1), [1, true, null, 0.001]);
 });
 
-test('what was concluded of two runs is a text, or nothing is said', () => {
+test('the conclusion of two runs is a text, or empty', () => {
   assert.equal(data.conclusion({conclusion: 'B is off by less.'}), 'B is off by less.');
   for (const none of [{}, {conclusion: null}, {conclusion: 5}]) assert.equal(data.conclusion(none), '');
 });

@@ -65,15 +65,15 @@ async function pinch(page, from, to) {
 
 const picture = (page) => page.$eval('.scene-canvas', (canvas) => canvas.toDataURL());
 
-/** Clicks on a pixel of the path and sees that the place is chosen, and told beside. */
+/** Clicks on a pixel of the path and checks that the place is selected and announced. */
 async function choose(page, pixel) {
   await page.mouse.click(...await at(page, pixel));
   await settled(page);
-  const [line] = (await page.innerText('.scene-said')).match(/\d+/);
+  const [line] = (await page.innerText('.scene-status')).match(/\d+/);
   assert.equal(await page.innerText('#place h3'), `Line ${line}`);
 }
 
-test('with WebGL and without, the path is in the same place and a click on it chooses that place', async () => {
+test('with WebGL and without, the path is in the same place and a click on it selects that place', async () => {
   const pictures = [];
   for (const webgl of [true, false])
     await visit('pocket', async (page) => {
@@ -142,7 +142,7 @@ test('controls choose the side, the path and the exaggeration', () => visit('poc
   pictures.add(await picture(page));
   assert.equal(pictures.size, 4);
   const back = await changed(page, () => page.check('.scene-view input[value="before"]'));
-  assert.equal(Number(back.factor), usual, 'what is right for the small deviation is absurd for the large one');
+  assert.equal(Number(back.factor), usual, 'a factor for the small deviation is absurd for the large one');
 }));
 
 function keep_context() {
@@ -154,7 +154,7 @@ function keep_context() {
   };
 }
 
-test('where the graphics processor goes away the view is drawn flat', () => visit('pocket', async (page) => {
+test('if the graphics processor is lost the view is drawn flat', () => visit('pocket', async (page) => {
   await page.addInitScript(keep_context);
   await page.reload();
   await page.waitForFunction(() => document.documentElement.dataset.ready);
@@ -163,7 +163,7 @@ test('where the graphics processor goes away the view is drawn flat', () => visi
   assert.ok((await path_pixels(page)).length > 1000);
 }));
 
-test('on dark ground the view is dark, and on paper it is light, before and after', () => visit('pocket', async (page) => {
+test('on a dark background the view is dark, and on paper it is light, before and after', () => visit('pocket', async (page) => {
   const grounds = (selector) => page.$$eval(selector, (canvases) => canvases.map((canvas) =>
     Array.from(canvas.getContext('2d').getImageData(canvas.width - 5, 5, 1, 1).data).slice(0, 3)));
   for (const ground of await grounds('.scene-canvas')) assert.ok(Math.max(...ground) < 60, `${ground}`);

@@ -24,18 +24,18 @@ test('a place is called by its line and deviation', () => {
   assert.equal(scenePicture.words(shown(run_of([0.1, 0.2])), 1, units), 'line 2: 200.0 um');
 });
 
-test('a stretch of several lines says so, and that its deviation is the largest', () => {
+test('a stretch of several lines shows them, and marks its deviation as the largest', () => {
   const several = run_of([0.1, 0.2], [[1, 4], [5, 9]]);
   assert.equal(scenePicture.words(shown(several), 0, units), 'lines 1 to 4: up to 100.0 um');
 });
 
-test('so does one of several waypoints of one line', () => {
+test('a stretch of several waypoints of one line is marked, too', () => {
   const merged = run_of([0.1, 0.2]);
   merged.curves.waypoints_per_stretch = 8;
   assert.equal(scenePicture.words(shown(merged), 1, units), 'line 2: up to 200.0 um');
 });
 
-test('a deviation between known ones is about so large, an unknown one is not told', () => {
+test('an interpolated deviation is marked as "about", an unknown one is not shown', () => {
   assert.equal(scenePicture.words(shown(run_of([0.1, NaN, 0.2])), 1, units), 'line 2: about 150.0 um');
   assert.equal(scenePicture.words(shown(run_of([0.1, 0.2]), 'after'), 0, units), 'line 1');
   assert.equal(scenePicture.words(shown(run_of([0.1, 0.2]), 'wanted'), 0, units), 'line 1');
@@ -68,7 +68,7 @@ const with_after = (run, after) => {
   return run;
 };
 
-test('paper has the path before and after of each run, each with a factor that it bears', () => {
+test('paper has the path before and after of each run, each with a suitable factor', () => {
   const runs = [{...with_after(run_of([0.4, 0.4, 0.4]), [0.001, 0.001, 0.001]), letter: 'A'}, {...run_of([0.1, 0.1]), letter: 'B'}];
   const facts = scenePicture.survey(runs);
   const printed = scenePicture.printed(facts, runs, 900);
@@ -81,7 +81,7 @@ test('paper has the path before and after of each run, each with a factor that i
     ['A: Deviation before, mm', 'A: Model residual after, mm', 'B: Deviation before, mm']);
 });
 
-test('paper has the wanted path of a run without deviations, and nothing of one without a path', () => {
+test('paper has the wanted path of a run without deviations, and no picture of a run without a path', () => {
   const wanted = run_of([NaN, NaN]);
   wanted.curves.quantities = {};
   const runs = [wanted, {curves: null, report: {}}];

@@ -6,7 +6,7 @@ const {data, series} = load_scripts('page_data.js', 'series.js');
 const curves = (s_mm, after_rapid, waypoints_per_stretch) => ({s_mm, after_rapid, waypoints_per_stretch});
 const same = (values) => ({least: values, largest: values});
 
-test('where nothing was merged each stretch is a point, and a rapid breaks the line', () => {
+test('without merging each stretch is a point, and a rapid breaks the line', () => {
   const points = series.places(curves([0, 5, 5, 9], [1, 0, 1, 0], 1));
   assert.deepEqual(plain(points.map(({s, stretch}) => [s, stretch])), [[0, 0], [5, 1], [5, 1], [5, 2], [9, 3]]);
   const values = series.valuesAt(points, same([1, 2, 3, 4]), 10);
@@ -29,7 +29,7 @@ test('a curve that rises or falls steadily is drawn so, merged or not', () => {
   assert.deepEqual(falling.slice(2), [4, 3, 2, 1]);
 });
 
-test('what is unknown is a gap that the line crosses', () => {
+test('an unknown value is a gap that the line crosses', () => {
   const points = series.places(curves([1, 2, 3], [0, 0, 0], 1));
   assert.deepEqual(plain(series.valuesAt(points, same([1, NaN, 3]), 1)), [1, null, 3]);
 });

@@ -13,7 +13,7 @@ test('the largest part is named alone where it is more than twice the next', () 
   assert.equal(words.causeInShort(causes(0.4, 0.5)), 'force, assembly');
 });
 
-test('nothing is said of causes that are unknown or nought', () => {
+test('unknown or zero causes are not mentioned', () => {
   for (const none of [null, causes(null, null, null, null), causes(0, 0)]) {
     assert.equal(words.cause(none), '');
     assert.equal(words.causeInShort(none), '');
@@ -21,7 +21,7 @@ test('nothing is said of causes that are unknown or nought', () => {
   assert.deepEqual(plain(words.parts(causes(1, 2))).map(({key}) => key), ['geometry_mm', 'load_mm', 'discrepancy_mm']);
 });
 
-test('a factor is said where it is one, with a digit where it is small', () => {
+test('a factor is shown if it is meaningful, with a digit if it is small', () => {
   const factor = (before, after) => words.factor({max_mm: before}, {max_mm: after});
   assert.equal(factor(1.7088, 0.0041), '417');
   assert.equal(factor(0.05, 0.01), '5.0');
@@ -38,7 +38,7 @@ test('a deviation has two digits or more in every unit, a length along the path 
   for (const unknown of [null, undefined, NaN, Infinity]) assert.equal(units.create('mm').number(unknown), '\u2013');
 });
 
-test('those who subscribe hear of another unit', () => {
+test('subscribers are called for another unit', () => {
   const shown = units.create('um');
   const heard = [];
   shown.subscribe(() => heard.push(shown.label));
@@ -59,14 +59,14 @@ const report_of = (summary, not_corrected = 0) =>
 const verdict = (...report) => plain(words.verdict(report_of(...report), units.create('um')));
 const of = (max_mm) => ({max_mm, max_line: 3});
 
-test('a run without a feed move is not said to be a good one', () => {
+test('a run without a feed move is not shown as good', () => {
   for (const summary of [{path_mm: 0, before: of(0), after: of(0)}, {path_mm: 0, before: null}])
-    assert.deepEqual(verdict(summary), {text: 'Nothing was solved: no feed move.', kind: 'warn'});
+    assert.deepEqual(verdict(summary), {text: 'No waypoint was solved: the program has no feed move.', kind: 'warn'});
   assert.match(verdict({path_mm: 0, before: null}, 3).text, /no feed move. 3 moves are not corrected/);
   assert.equal(verdict({before: of(0.1), after: of(0.001)}).kind, 'good');
 });
 
-test('how many moves the numbers leave out is said', () => {
+test('the number of moves that are not included is shown', () => {
   const {text, kind} = verdict({before: of(0.1), after: of(0.001)}, 1);
   assert.match(text, /1 move is not corrected, and left out of these numbers/);
   assert.equal(kind, 'warn');
@@ -90,7 +90,7 @@ test('the verdict of the run comes first, and decides the colour', () => {
       {text: 'FAILED. Line 3: too far. No corrected program was written.', kind: 'bad'});
 });
 
-test('moves that are not corrected each on their own are counted as moves', () => {
+test('moves that are not corrected individually are counted as moves', () => {
   assert.equal(words.otherMoves({grouped: 17, held: 0, corrected_in_part: 2, not_corrected: 4684, left_alone_count: 1}), 4703);
   assert.equal(words.otherMoves({grouped: null, held: null, corrected_in_part: null, not_corrected: null}), 0);
 });

@@ -45,7 +45,7 @@ std::vector<std::string> what_differs(const Comparison& comparison) {
 
 }  // namespace
 
-TEST_CASE("a run compared with itself differs in nothing") {
+TEST_CASE("a run compared with itself has no differences") {
   const MadeUpRun run;
   const ReportFile file = report_named("a", made_up_report(1, run));
   const Comparison comparison = compare(file, file, "0.1.0");
@@ -54,7 +54,7 @@ TEST_CASE("a run compared with itself differs in nothing") {
   CHECK(comparison.numbers.size() > 20);
   for (const ComparedNumber& number : comparison.numbers)
     if (number.difference()) CHECK(*number.difference() == 0);
-  CHECK(contains(comparison.conclusion, "a and a leave the same: a largest model residual of 6.0 um."));
+  CHECK(contains(comparison.conclusion, "a and a have the same largest model residual: 6.0 um."));
 }
 
 TEST_CASE("differences are the second run's value minus the first one's, percents are of the first") {
@@ -79,8 +79,7 @@ TEST_CASE("every number of a comparison is the one in the report") {
   const std::string json = made_up_report(1, run);
   const Comparison comparison =
       compare(report_named("a", json), report_named("b", made_up_report(2, run)), "0.1.0");
-  for (const char* key :
-       {"/blocks/moves", "/blocks/not_corrected", "/summary/path_mm", "/forces/largest_N"})
+  for (const char* key : {"/blocks/moves", "/blocks/not_corrected", "/summary/path_mm", "/forces/largest_N"})
     CHECK(number_at(comparison, key).values[0].has_value());
   CHECK(number_at(comparison, "/forces/largest_N").values[0] == 50);
 }
@@ -104,16 +103,16 @@ TEST_CASE("inputs differ by their bytes, not by their names; options differ by n
   CHECK(comparison.differences[3].values == std::array<std::string, 2>{"direct", ""});
 }
 
-TEST_CASE("a run of another program is called one") {
+TEST_CASE("a run of another program is reported as such") {
   MadeUpRun run;
   const std::string a = made_up_report(1, run);
   run.facts.inputs[0].sha256 = std::string(64, 'd');
   const Comparison comparison =
       compare(report_named("a", a), report_named("b", made_up_report(1, run)), "0.1.0");
-  CHECK(contains(comparison.conclusion, "The programs are different ones."));
+  CHECK(contains(comparison.conclusion, "The programs are different."));
 }
 
-TEST_CASE("what a prediction does not have is a dash on the terminal and null in the document") {
+TEST_CASE("missing values of a prediction are a dash on the terminal and null in the document") {
   const MadeUpRun run;
   const std::string prediction = to_json(predicted(run, made_up_waypoints()));
   const Comparison comparison =
@@ -131,13 +130,13 @@ TEST_CASE("what a prediction does not have is a dash on the terminal and null in
   CHECK(contains(comparison.conclusion, "a, which corrects nothing, is off by up to 500.0 um"));
 }
 
-TEST_CASE("two predictions, and runs that solved nothing, have a conclusion, too") {
+TEST_CASE("two predictions, and runs without solved waypoints, also have a conclusion") {
   const MadeUpRun run;
   const ReportFile a = report_named("a", to_json(predicted(run, made_up_waypoints())));
   const ReportFile nothing =
       report_named("b", to_json(predicted(run, {}, Failure{Exit::not_compensated, 4, "no equilibrium"})));
-  CHECK(
-      contains(compare(a, a, "0.1.0").conclusion, "Uncorrected, a and a are off alike, by up to 500.0 um."));
+  CHECK(contains(compare(a, a, "0.1.0").conclusion,
+                 "Uncorrected, a and a are off by the same amount, by up to 500.0 um."));
   const Comparison comparison = compare(a, nothing, "0.1.0");
   CHECK(comparison.runs[1].failure == "line 4: no equilibrium");
   CHECK(comparison.conclusion == "There is no deviation to compare. b failed before anything was solved.");
@@ -182,7 +181,7 @@ TEST_CASE("operations are matched by tool and comment, and one that only the sec
   CHECK(contains(to_text(comparison, false), "  T1 POCKET"));
 }
 
-TEST_CASE("lines of the comparison are at most 100 characters long, and colour adds nothing but colour") {
+TEST_CASE("lines of the comparison are at most 100 characters long, and colour only adds escape sequences") {
   const MadeUpRun run;
   const Comparison comparison =
       compare(report_named("a", made_up_report(1, run)), report_named("b", made_up_report(3, run)), "0.1.0");
@@ -198,7 +197,7 @@ TEST_CASE("lines of the comparison are at most 100 characters long, and colour a
   CHECK(coloured == to_text(comparison, false));
 }
 
-TEST_CASE("a value of another kind than reports have it is an error that names it") {
+TEST_CASE("a value of another type than in reports is an error with its pointer") {
   const ReportFile good = report_named("a", R"({"schema": "counterflex-report 1"})");
   for (const auto& [json, message] :
        {std::pair{R"({"summary": {"before": {"max_mm": "much"}}})",

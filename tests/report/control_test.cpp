@@ -64,7 +64,7 @@ TEST_CASE("the time of a short block is the caller's choice, and without one the
   CHECK(warnings_with(report, "take").empty());
 }
 
-TEST_CASE("lines near what the control reads are counted and warned of") {
+TEST_CASE("lines near the limit of the control are counted and give a warning") {
   const std::string text = start + "G1 X1 F100 (" + std::string(225, 'c') + ")\n";
   const RunReport report = report_on(start, text);
   CHECK(report.control.lines->near == 1);
@@ -72,7 +72,7 @@ TEST_CASE("lines near what the control reads are counted and warned of") {
   CHECK(warnings_with(report_on("G21\n", "G21\n"), "90 %").empty());
 }
 
-TEST_CASE("a path tolerance that swallows the largest correction is warned of with both numbers") {
+TEST_CASE("a path tolerance above the largest correction gives a warning with both numbers") {
   const std::string original = "G21 G90\nG64 P0.05 Q0.02\nG0 X0 Y0 Z0\n";
   const auto warned = [&](double correction_mm, const std::string& what) {
     return warnings_with(report_on(original, original, correction_mm), what).size() == 1;
@@ -93,7 +93,7 @@ TEST_CASE("path tolerances of inch programs are in mm, each different one once")
   CHECK(report.control.tolerances[1].merge_mm == doctest::Approx(0.0254));
 }
 
-TEST_CASE("plunges that outnumber rapids by more than three to one are warned of") {
+TEST_CASE("more than three plunges per rapid give a warning") {
   const auto program = [](int plunges) {
     std::string text = start + "G1 F100\n";
     for (int i = 0; i < plunges; ++i) text += "Z5\nX" + std::to_string(i + 1) + "\nZ-1\n";
@@ -103,5 +103,5 @@ TEST_CASE("plunges that outnumber rapids by more than three to one are warned of
   CHECK(three.control.rapids == 1);
   CHECK(three.control.plunges == 3);
   CHECK(warnings_with(three, "plunges at feed").empty());
-  CHECK(warnings_with(four, "4 plunges at feed stand against 1 rapids").size() == 1);
+  CHECK(warnings_with(four, "4 plunges at feed, but 1 rapids").size() == 1);
 }

@@ -30,7 +30,7 @@ TEST_CASE("cells of tables have the digits that numbers have elsewhere") {
   }
 }
 
-TEST_CASE("cells of ties, of zeros and of what is almost a whole are those of format_fixed") {
+TEST_CASE("cells of ties, zeros and almost whole numbers are those of format_fixed") {
   for (const double value : {0.0, -0.0, 0.5, -0.5, 1.5, 0.125, 0.375, -2.5, 1e-9, -1e-9, 0.9999999, 999.99995,
                              1e12, 123456789.0, -0.00000005})
     for (int decimals = 0; decimals <= 9; ++decimals) {

@@ -281,7 +281,7 @@ TEST_CASE("the JSON of a compensation has every key, in this order") {
   "assumptions": {
     "work": "Program coordinates were taken as machine coordinates: the machine file has no work offsets.",
     "datum": "The machine frame was assumed to be set independently of this machine's errors: no datum is stated.",
-    "not_modelled": ["backlash and friction: the tip differs where an axis reverses", "heat: growth of spindle and frame, from the first part of the day to the last", "part and fixture: their bending and clamping", "dynamics: following error, rounded corners, chatter", "the control's own corrections: pitch, straightness and volumetric tables; what they remove must not be in the machine file"]
+    "not_modelled": ["backlash and friction: the tip differs where an axis reverses", "heat: growth of spindle and frame, from the first part of the day to the last", "part and fixture: their bending and clamping", "dynamics: following error, rounded corners, chatter", "the control's own corrections: pitch, straightness and volumetric tables; errors that they remove must not be in the machine file"]
   },
   "sanity": [],
   "warning_count": 0,
@@ -358,7 +358,7 @@ TEST_CASE("lengths are shown in inches of an inch program, else in mm of a machi
   CHECK(contains(to_json(report), "\"program\": \"inch\",\n    \"shown\": \"inch\""));
 }
 
-TEST_CASE("the JSON of a failure says so, and holds null where nothing was solved") {
+TEST_CASE("the JSON of a failure has the failure, and null for unsolved results") {
   const MadeUpRun run;
   Compensation none;
   none.failure = Failure{Exit::limit, 4, "too far"};
@@ -371,7 +371,7 @@ TEST_CASE("the JSON of a failure says so, and holds null where nothing was solve
   CHECK(contains(json, "\"short_blocks\": null,\n    \"lines\": null"));
 }
 
-TEST_CASE("text that is no UTF-8 does not spoil the JSON") {
+TEST_CASE("text that is not UTF-8 keeps the JSON valid") {
   MadeUpRun run;
   run.facts.warnings = {{1, "comment \xff"}};
   const std::string json = to_json(predicted(run, {}));
@@ -413,7 +413,7 @@ TEST_CASE("the CSV has the documented columns and a row for every waypoint that 
           ",converged,7");
 }
 
-TEST_CASE("rows of a CSV that come in portions are those that come at once") {
+TEST_CASE("rows of a CSV written in portions equal those written at once") {
   std::vector<Waypoint> waypoints = made_up_waypoints();
   const std::string all = csv_of(waypoints, {});
   for (std::size_t cut_at = 0; cut_at <= waypoints.size(); ++cut_at) {
@@ -437,7 +437,7 @@ TEST_CASE("columns that were not computed keep their place and are empty") {
   CHECK(contains(lines[2], ",2.000000" + std::string(55, ',') + "singular,7"));
 }
 
-TEST_CASE("the summary shows before and after, and calls what is left a model residual") {
+TEST_CASE("the summary shows before and after, and calls the remainder a model residual") {
   MadeUpRun run;
   run.facts.warnings = {{0, "a general warning"}, {6, "a warning"}};
   const std::string text = summary_text(compensated(run, small_compensation()), false);
@@ -450,8 +450,8 @@ TEST_CASE("the summary shows before and after, and calls what is left a model re
                  "  load: cutting forces alone              0.0000      0.1500      0.2000      0.2500\n"));
   CHECK(contains(
       text,
-      "  3 of 5 moves corrected each on its own, 2 points added\n  1 with their contour as a whole, 1 "
-      "holding the correction before them\n"));
+      "  3 of 5 moves corrected individually, 2 points added\n  1 with one shift for their contour, 1 "
+      "held\n"));
   CHECK(contains(
       text,
       "  With the force 30 % higher (wear, override) the corrected program is off by up to 0.0800 "
@@ -459,7 +459,7 @@ TEST_CASE("the summary shows before and after, and calls what is left a model re
   CHECK(contains(text, "corrected program is off by up to\n  0.2500 mm, line 4.\n"));
   CHECK(contains(
       text,
-      "Not corrected each on its own: 2 moves, first lines and reasons\n  line 5: exact stop: not split\n"));
+      "Not corrected individually: 2 moves, first lines and reasons\n  line 5: exact stop: not split\n"));
   CHECK(contains(text, "2 warnings\n  a general warning\n  line 6: a warning\n"));
   CHECK(contains(text, "Assumptions\n  Program coordinates were taken as machine coordinates"));
 }
@@ -472,7 +472,7 @@ TEST_CASE("the summary of a prediction shows no residual") {
   CHECK_FALSE(contains(text, "residual"));
 }
 
-TEST_CASE("where more force makes the machine give way, the summary, a warning and the JSON say so") {
+TEST_CASE("a machine that is unstable under more force is reported in summary, warning and JSON") {
   const MadeUpRun run;
   const Compensation c = small_compensation();
   RunReport report = compensated(run, c);
@@ -524,7 +524,7 @@ TEST_CASE("moves without a force are listed by reason, in the summary and the JS
   CHECK(contains(json, "\"rows\": [\n        {\n          \"line\": 12,\n          \"length_mm\": 4.2,"));
 }
 
-TEST_CASE("the summary of a prediction says what more and less force do to the program itself") {
+TEST_CASE("the summary of a prediction shows the effect of more and less force on the program") {
   const MadeUpRun run;
   const std::string text = summary_text(predicted(run, made_up_waypoints()), false);
   CAPTURE(text);
@@ -533,20 +533,19 @@ TEST_CASE("the summary of a prediction says what more and less force do to the p
       contains(text, "Without the force (dry run, spring pass, broken insert) the program is off by up to"));
 }
 
-TEST_CASE("a summary without causes says how to get them") {
+TEST_CASE("a summary without causes names the option for them") {
   MadeUpRun run;
-  const char* const how =
-      "\nIts causes, and what more, less or no force does to it: with --report or --json\n";
+  const char* const how = "\nFor causes and sensitivity to the force add --report NAME or --json.\n";
   CHECK_FALSE(contains(summary_text(compensated(run, small_compensation()), false), how));
   run.facts.attribution = false;
   const std::string text = summary_text(compensated(run, small_compensation()), false);
   CAPTURE(text);
   CHECK(contains(text, how));
-  CHECK_FALSE(contains(text, "Where it comes from"));
+  CHECK_FALSE(contains(text, "Causes of the deviation"));
   CHECK_FALSE(contains(text, "30 %"));
 }
 
-TEST_CASE("the summary of a failure says what failed and shows no numbers that are not known") {
+TEST_CASE("the summary of a failure shows the failure and only known numbers") {
   const MadeUpRun run;
   Compensation none;
   none.failure = Failure{Exit::limit, 4, "the correction is too large"};
@@ -563,7 +562,7 @@ TEST_CASE("long lists are cut short in the summary, with their number") {
   MadeUpRun run;
   for (int line = 1; line <= 30; ++line) run.program.left_alone.push_back({line, "why"});
   const std::string text = summary_text(predicted(run, {}), false);
-  CHECK(contains(text, "Not corrected, or not wholly: first lines and reasons\n  line 1: why\n"));
+  CHECK(contains(text, "Not or partly corrected: first lines and reasons\n  line 1: why\n"));
   CHECK(contains(text, "  line 5: why\n  and 25 more\n"));
 }
 
@@ -582,7 +581,7 @@ TEST_CASE("the summary is at most 100 characters wide and has no trailing blanks
   }
 }
 
-TEST_CASE("colour adds escape sequences and nothing else") {
+TEST_CASE("colour adds only escape sequences") {
   const MadeUpRun run;
   const RunReport report = compensated(run, small_compensation());
   const std::string plain = summary_text(report, false), coloured = summary_text(report, true);

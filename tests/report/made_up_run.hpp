@@ -1,6 +1,5 @@
 #pragma once
-/// A small run whose numbers are known without solving anything: three feed moves and a rapid, waypoints made
-/// up.
+/// A small run with known numbers and made-up waypoints: three feed moves and a rapid.
 #include "counterflex/geometry/types.hpp"
 #include "counterflex/program/read_program.hpp"
 #include "counterflex/report/run_tally.hpp"
@@ -16,7 +15,7 @@ inline const char* const made_up_program =
     "X90 Z-5\n"
     "M30\n";
 
-/// Borrowing made easy: everything that a Job refers to, in one place.
+/// Owns everything that a Job refers to.
 struct MadeUpRun {
   Machine machine;
   Model model;
@@ -71,7 +70,7 @@ inline void add_made_up_sensitivity(RunReport& report, const std::vector<Waypoin
   add_sensitivity(report, places, higher, lower);
 }
 
-/// The reports of runs that come as one window.
+/// The reports of runs of one window.
 inline RunReport predicted(const MadeUpRun& run, const std::vector<Waypoint>& waypoints,
                            const std::optional<Failure>& failure = {}) {
   const Overview overview = overview_of(run.program);

@@ -61,7 +61,7 @@ TEST_CASE("a word before all axes are known is corrected where a known position 
   const MotionPlan far = motion_plan(program);
   CHECK(far.corrected == 2);
   REQUIRE(far.left_rows.size() == 1);
-  CHECK(far.left_rows[0].why == "the position in Z is not known here, and none follows within 64 blocks");
+  CHECK(far.left_rows[0].why == "the position in Z is unknown here and in the next 64 blocks");
 }
 
 TEST_CASE("held moves and contour groups are counted apart") {
@@ -130,7 +130,8 @@ TEST_CASE("of a long run only the first lines are listed") {
 }
 
 TEST_CASE("a plan has shares of the cutting length, and its rows the most costly first") {
-  Program program = ProgramBuilder({0, 0, 0}).feed({10, 0, 0}, 100).feed({10, 1, 0}, 100).feed({10, 1, 5}, 100).program;
+  Program program =
+      ProgramBuilder({0, 0, 0}).feed({10, 0, 0}, 100).feed({10, 1, 0}, 100).feed({10, 1, 5}, 100).program;
   program.moves[1].handling = program.moves[2].handling = Handling::held;
   program.moves[1].line = 4;
   program.moves[2].line = 6;

@@ -77,12 +77,12 @@ TEST_CASE("a page allows the scripts and styles that it holds, and nothing else"
   CHECK(scripts >= 4);
   for (const std::string& style : contents(page, "<style>", "</style>"))
     CHECK(contains(policy, "'" + integrity(style) + "'"));
-  // Not an address to be loaded from, in what is ours: the libraries name their licences'.
+  // Our own scripts have no addresses to load from; the libraries have those of their licences.
   CHECK_FALSE(contains(page, " src="));
   CHECK_FALSE(contains(page, "<link"));
 }
 
-TEST_CASE("the data of a page is what was reported, whatever it holds") {
+TEST_CASE("the data of a page is the report, with any characters") {
   const std::string report = R"({"what": "</script><b>&amp;\u2028"})";
   const std::string page = page_of("a < b & c", {{"A", report, "{\"k\": 1}"}, {"B", "{}"}});
   CHECK(contains(page, "<title>a &lt; b &amp; c</title>"));
@@ -97,7 +97,7 @@ TEST_CASE("the data of a page is what was reported, whatever it holds") {
   CHECK(document["runs"][1]["loads"].is_null());
 }
 
-TEST_CASE("what to take home is told to the page where there is something") {
+TEST_CASE("the page has the conclusion of a comparison, if any") {
   const auto data = [](const std::string& conclusion) {
     return nlohmann::json::parse(
         between(page_of("both", {{"A", "{}"}, {"B", "{}"}}, conclusion), data_begins, "</script>"));
@@ -127,7 +127,7 @@ TEST_CASE("curves are written as the bytes of their numbers") {
   CHECK(array_of<float>(document["place_mm"]).size() == 3 * n);
 }
 
-TEST_CASE("a quantity that is known nowhere has no array") {
+TEST_CASE("a quantity without known values has no array") {
   PathCurves curves(false);
   Waypoint w = cut(1, 4, 75, Vector3(0, 0.3, 0));
   w.causes.reset();
@@ -143,7 +143,7 @@ TEST_CASE("a page is named after program and machine") {
   CHECK(page_title(predicted(run, made_up_waypoints())) == "made_up.ngc on Mill");
 }
 
-TEST_CASE("a page says which files it is about as the summary does, folders aside") {
+TEST_CASE("a page shows the same files as the summary, without folders") {
   MadeUpRun run;
   run.facts.inputs[0].path = "-";
   CHECK(page_title(predicted(run, made_up_waypoints())) == "standard input on Mill");

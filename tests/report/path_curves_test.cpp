@@ -52,8 +52,9 @@ TEST_CASE("a path that fits has a stretch for each waypoint, with its own values
   CHECK(stretch.s_mm == doctest::Approx(4.3));
   CHECK(stretch.first_line == 52);
   CHECK(stretch.last_line == 52);
-  for (std::size_t q = 0; q < quantity_count; ++q)  // a quantity that is not known is no number
-    CHECK((stretch.least[q] == stretch.largest[q] || (std::isnan(stretch.least[q]) && std::isnan(stretch.largest[q]))));
+  for (std::size_t q = 0; q < quantity_count; ++q)  // an unknown quantity is NaN
+    CHECK((stretch.least[q] == stretch.largest[q] ||
+           (std::isnan(stretch.least[q]) && std::isnan(stretch.largest[q]))));
   CHECK(value(stretch.largest, Quantity::before) == doctest::Approx(0.042));
   CHECK(value(stretch.largest, Quantity::before_y) == doctest::Approx(0.042));
   CHECK(value(stretch.largest, Quantity::before_across) == doctest::Approx(0.042));
@@ -97,7 +98,7 @@ TEST_CASE("the least value is kept as well, and the place shown is that of the l
   CHECK(stretch.place[0] == doctest::Approx(0.6));
 }
 
-TEST_CASE("a sample between knows what is after alone, and its peak is kept when it is merged") {
+TEST_CASE("a sample inside a piece has only the deviation after, and its peak is kept when it is merged") {
   PathCurves curves(true);
   for (std::size_t i = 0; i <= PathCurves::most_stretches; ++i) {
     Waypoint w = step(i, 0.1);
@@ -114,7 +115,7 @@ TEST_CASE("a sample between knows what is after alone, and its peak is kept when
   CHECK(value(merged.least, Quantity::before) == doctest::Approx(0.1));
 }
 
-TEST_CASE("the first waypoint behind a rapid is marked, and the rapid is counted") {
+TEST_CASE("the first waypoint after a rapid is marked, and the rapid is counted") {
   PathCurves curves(true);
   Waypoint rapid = step(0, 0.8);
   rapid.cutting = false;
@@ -128,7 +129,7 @@ TEST_CASE("the first waypoint behind a rapid is marked, and the rapid is counted
   CHECK(curves.rapids().count == 1);
 }
 
-TEST_CASE("of a prediction there is nothing after, and waypoints that were not solved are passed over") {
+TEST_CASE("a prediction has no values after, and unsolved waypoints are skipped") {
   PathCurves curves(false);
   curves.add(step(0, 0.5), 0);
   Waypoint unsolved = step(1, 0.5);
@@ -142,7 +143,7 @@ TEST_CASE("of a prediction there is nothing after, and waypoints that were not s
   CHECK(value(stretch.largest, Quantity::before) == doctest::Approx(0.5));
 }
 
-TEST_CASE("gravity has a curve where weights act, and none elsewhere") {
+TEST_CASE("gravity has a curve only if weights act") {
   for (const bool weighs : {false, true}) {
     PathCurves curves(true, weighs);
     curves.add(step(0, 0.5), 0);

@@ -65,7 +65,7 @@ TEST_CASE(
   const LoadsOfChain &left = loads->chains[0], &right = loads->chains[1];
   CHECK(left.name == "left");
   CHECK(left[LoadKind::spring_force].value == doctest::Approx(430.25));
-  CHECK(left[LoadKind::spring_force].line == 4);  // line 5 has as good as the same
+  CHECK(left[LoadKind::spring_force].line == 4);  // line 5 has the same load to within rounding
   CHECK(left[LoadKind::spring_force].limit == 500);
   CHECK(left[LoadKind::spring_rotation].value == doctest::Approx(0.5));
   CHECK(left[LoadKind::spring_rotation].line == 3);
@@ -76,7 +76,7 @@ TEST_CASE(
   CHECK(right[LoadKind::spring_rotation].line == 0);
 }
 
-TEST_CASE("a limit that is exceeded is a warning at its line, and one that is reached is none") {
+TEST_CASE("exceeding a limit is a warning at its line, reaching it is not") {
   const RunReport above = with_loads(limited(400, 39.9));
   CHECK(warnings_of_limits(above) == 2);
   const std::string text = summary_text(above, false);
@@ -92,14 +92,14 @@ TEST_CASE(
   CHECK(contains(summary_text(with_loads(limited(500, 60)), false),
                  "\nLoads nearest to their limits, at 3 places of the path\n"
                  "  chain left: spring force 430.3 N, 86 % of its limit of 500 N, line 4\n"
-                 "  chain right: spring force 40.00 N, 67 % of its limit of 60 N, line 4\n"
-                 "  not known at 2 places more\n"));
+                 "  chain right: spring force 40.00 N, 67 % of its limit of 60 N, line 4\n  unknown at 2 "
+                 "places more\n"));
   CHECK(contains(summary_text(with_loads(limited(5000, 60)), false),
                  "  chain left: spring rotation 0.5000 deg, 25 % of its limit of 2 deg, line 3\n"));
   CHECK_FALSE(contains(summary_text(with_loads(Machine{}), false), "Loads"));
 }
 
-TEST_CASE("a report without loads says null, and none are known where no place was solved") {
+TEST_CASE("a report without loads has null, and loads are unknown without solved places") {
   const MadeUpRun run;
   RunReport report = predicted(run, made_up_waypoints());
   CHECK(contains(to_json(report), "\n  \"loads\": null,\n"));
@@ -130,7 +130,7 @@ TEST_CASE("small loads and limits keep their digits in the report's document") {
   CHECK(contains(json, "\"limit\": 1e-08\n"));
 }
 
-TEST_CASE("the loads over the path are lists of equal length, seven digits a number") {
+TEST_CASE("the loads over the path are lists of equal length with seven digits per number") {
   LoadsAlong along = made_up_along();
   along.places[0].chains[1].spring_force_max = 1.0 / 3e4;
   along.places[2].chains[1].spring_force_max = 123456.789;
@@ -142,7 +142,7 @@ TEST_CASE("the loads over the path are lists of equal length, seven digits a num
     CHECK(contains(json, "\"" + std::string(name_of(kind).key) + "\":["));
 }
 
-TEST_CASE("loads along a path are those that analyze says of the commanded targets") {
+TEST_CASE("loads along a path equal those of analyze at the commanded targets") {
   const Model model =
       prepare(load_machine(COUNTERFLEX_SOURCE_DIR "/tests/statics/data/orthoglide_case_b.toml"));
   const Load load{(Vector6() << 215, -10, -25, 1, 21.5, 0).finished(), false};
@@ -167,7 +167,7 @@ TEST_CASE("loads along a path are those that analyze says of the commanded targe
   }
 }
 
-TEST_CASE("loads are said with four digits, however large they are") {
+TEST_CASE("loads have four digits, for any size") {
   LoadsOfChain chain;
   chain.name = "arm";
   for (const auto& [value, text] : {std::pair{99.99999, "100.0"},

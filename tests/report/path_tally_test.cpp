@@ -26,7 +26,7 @@ WorstRow scattered_row(int line) {
 
 }  // namespace
 
-TEST_CASE("the worst of many thousand lines are those of all, in whatever order the values come") {
+TEST_CASE("the worst of many thousand lines are found for any order of values") {
   WorstLines lines;
   std::vector<WorstRow> all;
   for (int line = 1; line <= many_lines; ++line) {
@@ -50,7 +50,7 @@ TEST_CASE("the worst of many thousand lines are those of all, in whatever order 
   }
 }
 
-TEST_CASE("segments whose numbers begin anew with a window are counted apart") {
+TEST_CASE("segments whose numbers restart with a window are counted separately") {
   const Vector3 d_mm(1, 0, 0);
   const PathTally tally = tally_of({cut(0, 3, 1, d_mm), cut(0, 3, 1, d_mm), cut(0, 5, 1, d_mm)});
   CHECK(tally.measures().segments_changed == 2);
@@ -77,7 +77,7 @@ TEST_CASE("a line that comes back has one row with the largest values of both ti
   CHECK(worst[1].before_mm == doctest::Approx(0.2));
 }
 
-TEST_CASE("of lines that are equally bad the first ten are named") {
+TEST_CASE("the first ten of equally bad lines are listed") {
   PathTally tally;
   for (int line = 6000; line > 5900; --line) tally.add(cut(1, line, 1, Vector3(0.5, 0, 0)));
   for (int line = 1; line <= 5000; ++line) tally.add(cut(1, line, 1, Vector3(0.5, 0, 0)));
@@ -86,7 +86,7 @@ TEST_CASE("of lines that are equally bad the first ten are named") {
   for (int i = 0; i < 10; ++i) CHECK(worst[static_cast<std::size_t>(i)].line == i + 1);
 }
 
-TEST_CASE("thousands of lines later a line that is none of the worst is forgotten, and begins anew") {
+TEST_CASE("a line that is not among the worst is forgotten after thousands of lines") {
   WorstLines lines;
   for (int line = 1; line <= 5000; ++line) {
     const double mm_off = line == 1 ? 0.1 : line == 2 ? 0.9 : 0.2;
@@ -97,7 +97,7 @@ TEST_CASE("thousands of lines later a line that is none of the worst is forgotte
   CHECK(lines.row(2).after_mm == 0.9);
 }
 
-TEST_CASE("a worst line says where its largest deviations are, and what the one before is made of") {
+TEST_CASE("a worst line has the places of its largest deviations and the parts of the deviation before") {
   Waypoint small = cut(0, 5, 1, Vector3(0.1, 0, 0)), large = cut(0, 5, 1, Vector3(0.4, 0, 0)),
            last = cut(0, 5, 1, Vector3(0.2, 0, 0));
   small.s = 1 * mm;

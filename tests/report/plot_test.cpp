@@ -104,7 +104,7 @@ TEST_CASE("ticks around a range hold it between the first and the last, no more 
     }
 }
 
-TEST_CASE("text in XML is escaped, and what is no UTF-8 or not allowed there is replaced") {
+TEST_CASE("text in XML is escaped, and bytes that are invalid there are replaced") {
   CHECK(xml_escaped("a<b & \"c\">") == "a&lt;b &amp; &quot;c&quot;&gt;");
   CHECK(xml_escaped("\u00b5m \u20ac \U0001F600") == "\u00b5m \u20ac \U0001F600");
   const std::string bad = "\uFFFD";
@@ -153,7 +153,7 @@ TEST_CASE("a short path is drawn point by point, with a gap at each rapid") {
   CHECK_FALSE(contains(to_svg(unbroken, report_of_made_up()), "at rapids"));
 }
 
-TEST_CASE("what a sample between does not know is drawn through") {
+TEST_CASE("curves are drawn through samples with unknown values") {
   PathCurves curves(true);
   for (int i = 0; i < 5; ++i) {
     Waypoint w = cut(0, 1, 1, Vector3(0.1, 0, 0));
@@ -168,11 +168,11 @@ TEST_CASE("what a sample between does not know is drawn through") {
   CHECK(plot_points(curves, plot_columns(curves, 100), Quantity::after).size() == 5);
 }
 
-TEST_CASE("a place alone between two rapids is a dot") {
+TEST_CASE("a single place between two rapids is a dot") {
   CHECK(path_data({{.s_mm = 1, .least = 2, .largest = 2, .begins = true}}, true, {}, {}) == "M1.0 2.0h0.1");
 }
 
-TEST_CASE("no spike is lost however long the path is") {
+TEST_CASE("no spike is lost for any length of path") {
   for (const std::size_t count : {500u, 3000u, 20000u, 100000u})
     for (const std::size_t spike : {std::size_t{1}, count / 3, count - 1}) {
       CAPTURE(count);
@@ -192,7 +192,7 @@ TEST_CASE("no spike is lost however long the path is") {
     }
 }
 
-TEST_CASE("the data of a band goes forth along the largest values and back along the least") {
+TEST_CASE("the outline of a band follows the largest values and returns along the least") {
   const std::vector<PlotPoint> points = {{.s_mm = 1, .least = -1, .largest = 2, .begins = true},
                                          {.s_mm = 3, .least = 0, .largest = 4, .begins = false}};
   CHECK(path_data(points, false, {10, 2}, {0, -1}) == "M12.0 -2.0L16.0 -4.0L16.0 0.0L12.0 1.0Z");
@@ -216,7 +216,7 @@ TEST_CASE("the plot has three components with their causes, and the residual bel
   CHECK(svg == to_svg(curves, report));
 }
 
-TEST_CASE("the caption says how far all acting together is from the superposition") {
+TEST_CASE("the caption has the distance between all causes together and the superposition") {
   // Made-up causes add up to three quarters of the deviation.
   const PathCurves curves = path_with(10, [](std::size_t i) { return i == 7 ? 0.4 : 0.1; });
   CHECK(contains(to_svg(curves, report_of_made_up()), "within 100.0 \u00b5m of the superposition"));
@@ -224,7 +224,7 @@ TEST_CASE("the caption says how far all acting together is from the superpositio
   CHECK(contains(to_svg(still, report_of_made_up()), "within 0.1 \u00b5m of the superposition"));
 }
 
-TEST_CASE("a prediction has no residual, a run without causes only what acts together") {
+TEST_CASE("a prediction has no residual, a run without causes only the curve of all together") {
   const MadeUpRun run;
   RunReport report = predicted(run, made_up_waypoints());
   PathCurves curves(false);
@@ -250,7 +250,7 @@ TEST_CASE("lengths are in the units in which reports show them") {
   CHECK(contains(svg, ">0.010</text>"));
 }
 
-TEST_CASE("steps of the force are lines, and told by number where they would hide the curves") {
+TEST_CASE("steps of the force are lines, or a number if they would hide the curves") {
   PathCurves curves = path_with(50, [](std::size_t) { return 0.1; });
   const RunReport report = report_of_made_up();
   CHECK_FALSE(contains(to_svg(curves, report), "stroke-dasharray=\"1 3\""));
@@ -262,7 +262,7 @@ TEST_CASE("steps of the force are lines, and told by number where they would hid
   CHECK(contains(svg, "The force steps 101 times."));
 }
 
-TEST_CASE("nothing solved, nothing off, or a name full of markup still make a plot") {
+TEST_CASE("a plot can be drawn without waypoints, without deviation, and with markup in names") {
   const MadeUpRun run;
   RunReport report = predicted(run, {}, Failure{Exit::not_compensated, 4, "no <equilibrium>"});
   report.machine = "<script>alert(1)</script> & \x01";

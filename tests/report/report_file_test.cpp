@@ -31,7 +31,7 @@ std::string page_run(const std::string& report) {
   return R"({"report": )" + report + R"(, "curves": {"waypoints": 3}, "loads": null})";
 }
 
-/// As pages have it.
+/// Data as in pages.
 std::string without_tags(std::string text) {
   for (std::size_t at = text.find('<'); at != std::string::npos; at = text.find('<'))
     text.replace(at, 1, "\\u003c");
@@ -57,7 +57,7 @@ TEST_CASE("a report comes with the curves of the page beside it, if that shows t
   CHECK(read_report_file(json, WithCurves::no).curves.empty());
 }
 
-TEST_CASE("the order of keys and the blanks of a report do not make it another one") {
+TEST_CASE("order of keys and blanks do not matter for the equality of reports") {
   const Folder folder;
   const std::string json =
       write(folder, "run.json",
@@ -76,10 +76,10 @@ TEST_CASE("a byte order mark before a report does not reach the page") {
   CHECK(file.remark.empty());
   CHECK(file.sha256 == sha256(text));
   CHECK_THROWS_WITH_AS(read_report_file(write(folder, "bad.json", "\xEF\xBB\xBF{\n nix}"), WithCurves::no),
-                       doctest::Contains("bad.json:2:3: error: is no JSON"), InputError);
+                       doctest::Contains("bad.json:2:3: error: is not JSON"), InputError);
 }
 
-TEST_CASE("a page of another report, or one that is broken, costs the curves and no more") {
+TEST_CASE("with a foreign or broken page only the curves are missing") {
   const Folder folder;
   const std::string json = write(folder, "run.json", small_report);
   write(folder, "run.html", page_of(page_run(R"({"schema": "counterflex-report 1"})")));
@@ -95,7 +95,7 @@ TEST_CASE("a page of another report, or one that is broken, costs the curves and
   }
 }
 
-TEST_CASE("a page alone holds its report, and the report is that of the file beside it") {
+TEST_CASE("a page without its JSON file gives the same report") {
   const Folder folder;
   const std::string page = write(folder, "run.html", page_of(page_run(without_tags(small_report))));
   const ReportFile file = read_report_file(page, WithCurves::yes);
@@ -106,7 +106,7 @@ TEST_CASE("a page alone holds its report, and the report is that of the file bes
                        doctest::Contains("the page shows 2 runs"), InputError);
 }
 
-TEST_CASE("what is no report is refused at its place") {
+TEST_CASE("an input that is not a report is refused at its place") {
   const Folder folder;
   const auto refusal = [&](const std::string& name, const std::string& text) -> std::string {
     try {
@@ -117,14 +117,14 @@ TEST_CASE("what is no report is refused at its place") {
     }
     return "";
   };
-  CHECK(
-      contains(refusal("a.json", "{\n  \"schema\": nix\n}"), "a.json:2:14: error: is no JSON: syntax error"));
+  CHECK(contains(refusal("a.json", "{\n  \"schema\": nix\n}"),
+                 "a.json:2:14: error: is not JSON: syntax error"));
   CHECK(refusal("a.json", "{\n  \"schema\": \"counterflex-analysis 1\"\n}") ==
         "a.json:2:3: error: the document's schema is \"counterflex-analysis 1\"; only \"counterflex-report "
         "1\" can "
         "be compared");
-  CHECK(contains(refusal("a.json", "[1, 2]"), "a.json:1:1: error: the document's schema is not said"));
-  CHECK(contains(refusal("a.json", ""), "a.json:1:1: error: is no JSON"));
+  CHECK(contains(refusal("a.json", "[1, 2]"), "a.json:1:1: error: the document's schema is missing"));
+  CHECK(contains(refusal("a.json", ""), "a.json:1:1: error: is not JSON"));
   const std::string deep = "{\"machine\": " + std::string(100000, '[') + std::string(100000, ']') + "}";
   CHECK(refusal("a.json", deep) == "a.json:1:112: error: lists and objects are nested more than 100 deep");
   CHECK(contains(
@@ -134,13 +134,13 @@ TEST_CASE("what is no report is refused at its place") {
         "a.json:2:12: error: cannot be read: number overflow parsing '1e999'");
   CHECK(
       contains(refusal("a.html", page_of("{\"report\": -1e999}")), "a.html:3:108: error: cannot be read: "));
-  CHECK(contains(refusal("a.html", "<html>"), "a.html:1:1: error: is no page of counterflex"));
-  CHECK(contains(refusal("a.html", page_of("{,")), "a.html:3:98: error: is no JSON"));
-  CHECK(contains(refusal("a.html", page_of("{\"report\": null}")), "the document's schema is not said"));
+  CHECK(contains(refusal("a.html", "<html>"), "a.html:1:1: error: is not a page of counterflex"));
+  CHECK(contains(refusal("a.html", page_of("{,")), "a.html:3:98: error: is not JSON"));
+  CHECK(contains(refusal("a.html", page_of("{\"report\": null}")), "the document's schema is missing"));
   CHECK_THROWS_AS(read_report_file(folder.file("missing.json"), WithCurves::no), InputError);
 }
 
-TEST_CASE("runs of one name are told apart by their folders, as far up as these differ") {
+TEST_CASE("runs of one name are distinguished by their folders, up to the first difference") {
   const auto named = [](const std::string& path) { return ReportFile{.name = "run", .path = path}; };
   const auto names = [&](const std::string& path_a, const std::string& path_b) {
     ReportFile a = named(path_a), b = named(path_b);

@@ -26,7 +26,7 @@ Compensation made_up_compensation() {
 
 }  // namespace
 
-TEST_CASE("the deviation before is that of feed moves at the ends of pieces, weighed by trapezoids") {
+TEST_CASE("the deviation before is that of feed moves at the ends of pieces, weighted by trapezoids") {
   const MadeUpRun run;
   const RunReport report = compensated(run, made_up_compensation());
   REQUIRE(report.before);
@@ -50,7 +50,7 @@ TEST_CASE("the model residual counts the samples between the ends") {
   CHECK(report.after->mean_mm == doctest::Approx((75 * 0.006 + 25 * 0.003 + 50 * 0.005) / 160));
 }
 
-TEST_CASE("a compensation reports its counts, sizes, sources and what happens without the force") {
+TEST_CASE("a compensation reports its counts, sizes, causes and the deviation without the force") {
   const MadeUpRun run;
   const RunReport report = compensated(run, made_up_compensation());
   CHECK(report.blocks.total == 6);
@@ -75,7 +75,7 @@ TEST_CASE("a compensation reports its counts, sizes, sources and what happens wi
   CHECK(report.forces.ramps == run.forces.ramps());
 }
 
-TEST_CASE("the worst lines are ordered by the residual, or by the deviation where there is none") {
+TEST_CASE("the worst lines are ordered by the residual, or else by the deviation before") {
   const MadeUpRun run;
   const RunReport corrected = compensated(run, made_up_compensation());
   REQUIRE(corrected.worst.size() == 3);
@@ -112,7 +112,7 @@ TEST_CASE("lists are ordered by line and capped, counts are kept") {
   CHECK(report.warnings.rows.size() == listed_at_most);
 }
 
-TEST_CASE("a plunge that feels no lateral force is among the warnings") {
+TEST_CASE("a plunge without lateral force is among the warnings") {
   MadeUpRun run;
   run.program = read_program("G21 G90 G0 X0 Y0 Z5\nG1 Z0 F100\nX10\n", "p.ngc", {});
   run.path = build_toolpath(run.program, one_frame(run.program, {}));
@@ -127,7 +127,7 @@ TEST_CASE("a plunge that feels no lateral force is among the warnings") {
   CHECK(report.warnings.rows[0].what == run.forces.notes()[0].what);
 }
 
-TEST_CASE("what was not solved gives no deviation: a failed run is not a perfect one") {
+TEST_CASE("unsolved waypoints have no deviation: a failed run is not a perfect one") {
   const MadeUpRun run;
   const Failure failure{Exit::not_compensated, 4, "singular"};
   Compensation none;
@@ -169,13 +169,14 @@ TEST_CASE("a prediction has no residual") {
   CHECK_FALSE(report.text_after);
 }
 
-TEST_CASE("the report says in words where the program's coordinates lie and what the offset means") {
+TEST_CASE("the report describes the work frame and the meaning of the offset in words") {
   MadeUpRun run;
   const auto report = [&] { return predicted(run, {}); };
   CHECK(report().work ==
         "Program coordinates were taken as machine coordinates: the machine file has no work offsets.");
-  CHECK(report().datum ==
-        "The machine frame was assumed to be set independently of this machine's errors: no datum is stated.");
+  CHECK(
+      report().datum ==
+      "The machine frame was assumed to be set independently of this machine's errors: no datum is stated.");
   run.machine.work_is_machine_frame = true;
   CHECK(report().work == "Program coordinates are machine coordinates, as stated.");
   CHECK(report().datum.empty());
@@ -199,7 +200,7 @@ TEST_CASE("the report says in words where the program's coordinates lie and what
   CHECK(report().datum.find("(0.1000, 0.0000, -0.2000) mm in the machine frame") != std::string::npos);
 }
 
-TEST_CASE("what is assumed is said of every offset that the program uses") {
+TEST_CASE("the assumption is stated for every offset that the program uses") {
   MadeUpRun run;
   const auto report = [&] { return predicted(run, {}); };
   run.path.frames = {{"G54", Pose{}}, {"G55", translation({0.1, 0, 0})}, {"G56", translation({0.2, 0, 0})}};
@@ -210,19 +211,21 @@ TEST_CASE("what is assumed is said of every offset that the program uses") {
         "origin at (100.0000, 0.0000, 0.0000) mm in the machine frame. G56 puts the program's origin at "
         "(200.0000, "
         "0.0000, 0.0000) mm in the machine frame.");
-  CHECK(report().datum ==
-        "G54, G55 and G56 were assumed to be set independently of this machine's errors: no datum is stated.");
+  CHECK(
+      report().datum ==
+      "G54, G55 and G56 were assumed to be set independently of this machine's errors: no datum is stated.");
   run.machine.work["G55"].datum.touched_at = Vector3(1, 2, 3) * mm;
   const std::string mixed = report().datum;
   CHECK(mixed.find("in coordinates of G55") != std::string::npos);
-  CHECK(mixed.ends_with("G54 and G56 were assumed to be set independently of this machine's errors: no datum is "
-                        "stated."));
+  CHECK(mixed.ends_with(
+      "G54 and G56 were assumed to be set independently of this machine's errors: no datum is "
+      "stated."));
   run.machine.work["G56"].datum.touched_at = Vector3(1, 2, 3) * mm;
   run.machine.work["G54"].datum.is_machine = true;
   CHECK(report().datum.ends_with(" G54 was set independently of this machine's errors."));
 }
 
-TEST_CASE("worst lines get the text of the program, line ends aside") {
+TEST_CASE("worst lines get the text of the program without line ends") {
   RunReport report;
   report.worst = {{.line = 2}, {.line = 1}, {.line = 4}, {.line = 9}};
   FileReader program = FileReader::of_bytes("G21\r\nG1 X1\n\n" + std::string(300, 'X'));

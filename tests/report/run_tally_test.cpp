@@ -53,7 +53,7 @@ Waypoint start_of(Waypoint w) {
   return w;
 }
 
-/// A path of rapids, and feed moves of up to four pieces with samples between: some not solved, some behind the
+/// A path of rapids, and feed moves of up to four pieces with samples inside: some not solved, some after the
 /// start of a feed run.
 std::vector<Waypoint> random_path(std::uint64_t seed, int moves) {
   Thousandths random(seed);
@@ -80,7 +80,7 @@ std::vector<Waypoint> part(const std::vector<Waypoint>& all, std::size_t first, 
   return {all.begin() + static_cast<std::ptrdiff_t>(first), all.begin() + static_cast<std::ptrdiff_t>(last)};
 }
 
-/// What the three commands report of one tally, byte for byte what people and programs read of it.
+/// All outputs of the three commands for one tally.
 std::string reports_of(const MadeUpRun& run, const RunTally& tally) {
   const Overview overview = overview_of(run.program);
   const RunContext context = run.context(overview);
@@ -98,7 +98,7 @@ std::string reports_of_parts(const MadeUpRun& run, const std::vector<Waypoint>& 
 
 }  // namespace
 
-TEST_CASE("waypoints fed in parts cut anywhere give the report of those fed at once") {
+TEST_CASE("waypoints added in any parts give the same report as added at once") {
   const MadeUpRun run;
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     const std::vector<Waypoint> path = random_path(seed, 30);
@@ -111,7 +111,7 @@ TEST_CASE("waypoints fed in parts cut anywhere give the report of those fed at o
   }
 }
 
-TEST_CASE("a cut behind the start of a feed run loses neither the start nor its weight") {
+TEST_CASE("a division after the start of a feed run loses neither the start nor its weight") {
   Waypoint start = start_of(cut(1, 4, 10, Vector3(0, 0.8, 0))), between = cut(1, 4, 50, Vector3::Zero()),
            feed = cut(1, 4, 40, Vector3(0, 0.4, 0));
   between.between = true;
@@ -132,7 +132,7 @@ TEST_CASE("a feed run does not weigh on the end of the one before it") {
   CHECK(tally.path().measures().before.statistics().mean_mm == doctest::Approx((0.2 * 10 + 0.6 * 30) / 40));
 }
 
-TEST_CASE("asking a tally in the middle of a path changes nothing of what follows") {
+TEST_CASE("reading a tally in the middle of a path does not affect later results") {
   const MadeUpRun run;
   const std::vector<Waypoint> path = random_path(7, 40);
   RunTally asked(2), silent(2);
@@ -144,7 +144,7 @@ TEST_CASE("asking a tally in the middle of a path changes nothing of what follow
   CHECK(reports_of(run, asked) == reports_of(run, silent));
 }
 
-TEST_CASE("a corrected program fed in windows gives the report of the one fed at once") {
+TEST_CASE("a corrected program read in windows gives the same report as read at once") {
   MadeUpRun run;
   // 600 mm/min are 10 mm/s: short blocks of 0.1 to 1.9 ms among others, and lines near the limit
   std::string text = "G21 G90 G94\nG0 X0 Y0 Z0\nG1 F600\n";
@@ -166,7 +166,7 @@ TEST_CASE("a corrected program fed in windows gives the report of the one fed at
   }
 }
 
-TEST_CASE("nothing is said of lines and short blocks where no program was written") {
+TEST_CASE("lines and short blocks are reported only if a program was written") {
   const MadeUpRun run;
   CHECK(contains(reports_of(run, RunTally(2)), "\"short_blocks\": null,\n    \"lines\": null"));
 }
@@ -200,7 +200,7 @@ TEST_CASE("moves without a force are counted, with their length, by reason, and 
   CHECK(without.rows.rows[0].length_mm == doctest::Approx(2));
 }
 
-TEST_CASE("of many different reasons the last stands for the rest") {
+TEST_CASE("with many different reasons the last row collects the rest") {
   WithoutForce without;
   for (int i = 0; i < 300; ++i) add_unforced(without, {i + 1, mm, "reason " + std::to_string(i)});
   REQUIRE(without.reasons.size() == listed_at_most);
@@ -241,7 +241,7 @@ TEST_CASE("compensations of windows add up, and the first of the largest correct
   CHECK(report.blocks.left_alone.rows.back().line == 139);
 }
 
-TEST_CASE("blocks that the program lists stand before the compensation's of the same line") {
+TEST_CASE("blocks listed by the program come before the compensation's of the same line") {
   MadeUpRun run;
   run.program.left_alone = {{7, "first"}, {9, "later"}};
   Compensation c;
@@ -254,7 +254,7 @@ TEST_CASE("blocks that the program lists stand before the compensation's of the 
   CHECK(report.blocks.left_alone.rows[3].why == "later");
 }
 
-TEST_CASE("operations are told apart by tool and comment, and their parts make up the whole") {
+TEST_CASE("operations are distinguished by tool and comment, and their sum is the whole") {
   const std::string text =
       "G21 G90 G0 X0 Y0 Z0\n"
       "(ROUGH)\n"
@@ -300,7 +300,7 @@ TEST_CASE("operations are told apart by tool and comment, and their parts make u
   CHECK(*report.corrected_percent == doctest::Approx(100 * 150 / 160.0));
 }
 
-TEST_CASE("where one operation follows another without a rapid both know the place between them") {
+TEST_CASE("two operations without a rapid between them both include the place between them") {
   MadeUpRun run;
   run.program = read_program("G21 G90 G0 X0 Y0 Z0\n(A)\nG1 X10 F600\n(B)\nY30\nM30\n", "two.ngc", {});
   run.path = build_toolpath(run.program, one_frame(run.program, {}));
@@ -316,7 +316,7 @@ TEST_CASE("where one operation follows another without a rapid both know the pla
   CHECK(tally.path().measures().before.statistics().mean_mm == doctest::Approx((0.1 * 25 + 0.05 * 15) / 40));
 }
 
-TEST_CASE("a piece that misses the tolerance somewhere is no part of what is corrected") {
+TEST_CASE("a piece that misses the tolerance somewhere does not count as corrected") {
   PathTally tally;
   Waypoint inside = cut(0, 3, 5, Vector3(0.1, 0, 0)), end = cut(0, 3, 5, Vector3(0.1, 0, 0)),
            good = cut(1, 4, 30, Vector3(0.1, 0, 0));
@@ -328,7 +328,7 @@ TEST_CASE("a piece that misses the tolerance somewhere is no part of what is cor
   CHECK(tally.operations().at(0).corrected_mm == doctest::Approx(30));
 }
 
-TEST_CASE("a run that failed says no corrected share, and what was solved nowhere has no deviation") {
+TEST_CASE("a failed run has no corrected share, and operations without solved waypoints have no deviation") {
   const MadeUpRun run;
   const Overview overview = overview_of(run.program);
   const RunTally tally = run.tally(made_up_waypoints());
@@ -341,7 +341,7 @@ TEST_CASE("a run that failed says no corrected share, and what was solved nowher
   CHECK_FALSE(none.before);
 }
 
-TEST_CASE("of more operations than are listed the last one stands for all others") {
+TEST_CASE("with too many operations the last row collects all others") {
   std::string text = "G21 G90 G0 X0 Y0 Z0\n";
   for (int i = 1; i <= 150; ++i)
     text += "(PART " + std::to_string(i) + ")\nG1 X" + std::to_string(i) + " F600\n";

@@ -20,7 +20,7 @@ DeviationSample sample(const Vector3& d_mm, double weight, int line) {
 
 }  // namespace
 
-TEST_CASE("mean, rms and p95 weigh every sample by its share of the length") {
+TEST_CASE("mean, rms and p95 weight every sample by its share of the length") {
   DeviationTally tally;
   tally.add(sample({3, 4, 0}, 1, 10));    // 5 mm on 1 m
   tally.add(sample({0, -1, 0}, 99, 20));  // 1 mm on 99 m
@@ -51,7 +51,7 @@ TEST_CASE("p95 is never above the maximum and is zero where nothing deviates") {
   CHECK(none.statistics().p95_mm == 0);
 }
 
-TEST_CASE("a sample without weight counts in the maxima alone") {
+TEST_CASE("a sample without weight counts only in the maxima") {
   DeviationTally tally;
   tally.add(sample({1, 0, 0}, 2, 5));
   tally.add(sample({0, 0, -7}, 0, 6));
@@ -89,7 +89,7 @@ TEST_CASE("a deviation is split along the path, across it and along the tool axi
   CHECK(s.tool_axis == doctest::Approx(5));
 }
 
-TEST_CASE("in a plunge what is square to the tool axis is across") {
+TEST_CASE("in a plunge the part perpendicular to the tool axis is across") {
   const DeviationSplit s = split_deviation({3, 4, -2}, -Vector3::UnitZ(), Vector3::UnitZ());
   CHECK(s.along == doctest::Approx(2));
   CHECK(s.across == doctest::Approx(5));
@@ -97,7 +97,7 @@ TEST_CASE("in a plunge what is square to the tool axis is across") {
   CHECK(split_deviation({3, 4, -2}, Vector3::Zero(), Vector3::UnitZ()).across == doctest::Approx(5));
 }
 
-TEST_CASE("tallies merged in order say what one tally of all samples says") {
+TEST_CASE("tallies merged in order equal one tally of all samples") {
   DeviationTally all, first, second;
   for (int i = 0; i < 100; ++i) {
     const DeviationSample s = sample({std::sin(i), std::cos(3 * i), 0.01 * i}, 0.1 + 0.01 * (i % 7), i + 1);

@@ -1,4 +1,4 @@
-// What the tilt of a tool does at its rim and flank.
+// Deviation at rim and flank of a tilted tool.
 #include "counterflex/report/statistics.hpp"
 
 #include <doctest/doctest.h>
@@ -42,7 +42,8 @@ std::vector<Waypoint> tilted(double tilt) {
   return list;
 }
 
-RunTally tally_with(const MadeUpRun& run, std::vector<ToolSize> sizes, const std::vector<Waypoint>& waypoints) {
+RunTally tally_with(const MadeUpRun& run, std::vector<ToolSize> sizes,
+                    const std::vector<Waypoint>& waypoints) {
   RunTally tally(2, {}, std::move(sizes));
   tally.add_forces(run.forces);
   tally.add_waypoints(waypoints, run.job);
@@ -75,19 +76,21 @@ TEST_CASE("a tilt about the tip lifts the rim by radius times angle, and moves t
   Vector6 deviation = Vector6::Zero();
   deviation[3] = 1e-3;
   CHECK(largest_on_circle(deviation, Vector3::UnitZ(), 0.01, 0) == doctest::Approx(10e-6));
-  CHECK(largest_on_circle(deviation, Vector3::UnitZ(), 0.01, 0.03) == doctest::Approx(std::hypot(30e-6, 10e-6)));
+  CHECK(largest_on_circle(deviation, Vector3::UnitZ(), 0.01, 0.03) ==
+        doctest::Approx(std::hypot(30e-6, 10e-6)));
   deviation[2] = -4e-6;  // the tip is off, too
   CHECK(largest_on_circle(deviation, Vector3::UnitZ(), 0.01, 0) == doctest::Approx(14e-6));
 }
 
-TEST_CASE("a turn of the tool about its own axis moves neither rim nor flank") {
+TEST_CASE("a rotation of the tool about its own axis moves neither rim nor flank") {
   Vector6 deviation = Vector6::Zero();
   deviation[1] = 3e-6;
   deviation[5] = 0.1;
   CHECK(largest_on_circle(deviation, Vector3::UnitZ(), 0.01, 0.02) == doctest::Approx(3e-6));
 }
 
-TEST_CASE("the report has tip, rim and flank of each tool, before and after, and warns where the tip hides them") {
+TEST_CASE(
+    "the report has tip, rim and flank of each tool, before and after, and warns where the tip hides them") {
   const MadeUpRun run;
   const double tilt = 1e-3;
   const RunTally tally = tally_with(run, {{0, 0.02, 0.03}}, tilted(tilt));

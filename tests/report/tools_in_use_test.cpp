@@ -29,7 +29,7 @@ bool contains(const std::string& text, const std::string& part) {
 
 }  // namespace
 
-TEST_CASE("a report lists the tools in use with their stiffness, where one of them bends") {
+TEST_CASE("a report lists the tools in use with their stiffness, if one of them is elastic") {
   const RunReport report =
       with_tools({{1, radial(20e6)}, {2, {.length = 0.05}}, {3, radial(5e6)}}, {0, 1, 2, 7});
   REQUIRE(report.tools.size() == 2);
@@ -47,7 +47,7 @@ TEST_CASE("a report lists the tools in use with their stiffness, where one of th
   CHECK(contains(summary_text(report, false), "  Tools in use: T1, stiffness from"));
 }
 
-TEST_CASE("without a tool in use that makes the machine another one a report says nothing of tools") {
+TEST_CASE("a report does not mention tools unless a tool in use changes the machine") {
   for (const std::vector<long>& numbers : {std::vector<long>{0}, {2}, {0, 2, 9}}) {
     const RunReport report =
         with_tools({{0, radial(1e6)}, {1, radial(20e6)}, {2, {.length = 0.05}}}, numbers);
@@ -57,7 +57,7 @@ TEST_CASE("without a tool in use that makes the machine another one a report say
   }
 }
 
-TEST_CASE("of many tools ten are said in words, and all are in the list") {
+TEST_CASE("of many tools ten are in the sentence, and all are in the list") {
   std::map<long, Tool> tools;
   std::vector<long> numbers;
   for (long number = 1; number <= 13; ++number) {

@@ -68,7 +68,7 @@ TEST_CASE("a verdict is OK only if every feed move is known to be within the tol
   CHECK(verdict_of(some_unknown()) == Verdict::partly);
 }
 
-TEST_CASE("nothing is corrected where no feed move is known, or nothing moves") {
+TEST_CASE("the verdict is NOTHING CORRECTED without known feed moves or without moves") {
   FeedMoves moves;
   CHECK(verdict_of(moves) == Verdict::nothing_corrected);
   moves.count = moves.unknown = moves.unknown_length = 4684;
@@ -79,7 +79,7 @@ TEST_CASE("nothing is corrected where no feed move is known, or nothing moves") 
   CHECK(verdict_of(moves) == Verdict::partly);
 }
 
-TEST_CASE("a program of rapids alone is OK where their ends were corrected") {
+TEST_CASE("a program of rapids is OK if their ends were corrected") {
   FeedMoves moves;
   moves.rapid_ends = 3;
   CHECK(verdict_of(moves) == Verdict::ok);
@@ -98,7 +98,7 @@ TEST_CASE("the reason of PARTLY names share, worst deviation and unknown moves")
   CHECK(verdict_text(Verdict::nothing_corrected, "no move") == "NOTHING CORRECTED");
 }
 
-TEST_CASE("a share and a deviation are never rounded to what would be good") {
+TEST_CASE("a share and a deviation are never rounded to a passing value") {
   FeedMoves moves = half_missed();
   moves.within_mm = 99.999;
   moves.worst_mm = 0.00500004;
@@ -166,7 +166,7 @@ TEST_CASE("a feed move from an unknown position is unknown, but its end is corre
   CHECK(verdict_of(moves) == Verdict::partly);
 }
 
-TEST_CASE("a feed move that goes nowhere does not count") {
+TEST_CASE("a feed move without length does not count") {
   Reading run("G21 G90 G54 G0 X0 Y0 Z5\nG1 X0 F100\nX10\n");
   run.solve(0, 3, 0.001);
   CHECK(run.tally.moves().count == 1);

@@ -1,16 +1,16 @@
 'use strict';
 /**
  * The camera of the path views: parallel projection, z of the machine up. Plain state and pure functions, so that
- * the view with WebGL and the flat one see the same and turn alike.
+ * the WebGL view and the flat view show the same.
  *
- * State: {azimuth, elevation} in radians, of the place from which one looks (azimuth 0: from the front, that is
- * from -y; elevation 90 degrees: from above); `centre`, what is in the middle of the picture, mm; `span`, the mm
- * that the shorter side of the picture shows; `fitted`: whether it shall follow when the window changes.
+ * State: {azimuth, elevation} in radians, the direction to the eye (azimuth 0: from the front, that is
+ * from -y; elevation 90 degrees: from above); `centre`, the point in the middle of the picture, mm; `span`, the mm
+ * that the shorter side of the picture shows; `fitted`: whether it is fitted again when the window changes.
  */
 (() => {
   const quarter = Math.PI / 2;
 
-  /** The views that buttons offer. */
+  /** The views of the buttons. */
   const views = {
     top: {azimuth: 0, elevation: quarter},
     front: {azimuth: 0, elevation: 0},
@@ -20,7 +20,7 @@
 
   const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 
-  /** Unit vectors of the picture, axes of the machine: right, up, and back, which points at the eye. */
+  /** Unit vectors of the picture, axes of the machine: right, up, and back (towards the eye). */
   function basis({azimuth, elevation}) {
     const [c, s, ce, se] = [Math.cos(azimuth), Math.sin(azimuth), Math.cos(elevation), Math.sin(elevation)];
     return {right: [c, s, 0], up: [-s * se, c * se, ce], back: [s * ce, -c * ce, se]};
@@ -47,7 +47,7 @@
 
   /**
    * Seen from the same side, the whole box, with `margin` = [pixels left and right, pixels above and below] left
-   * free. What has no extent in the picture is shown with some of its surroundings, a single point with 10 mm.
+   * free. A box without extent in the picture is shown with some surroundings, a single point with 10 mm.
    */
   function fit(camera, box, size, margin) {
     const {right, up} = basis(camera);
@@ -63,22 +63,22 @@
     return {...camera, centre, span: Math.min(size.width, size.height) / k, fitted: true};
   }
 
-  /** Turned by radians; the elevation stays between straight down and straight up. */
+  /** Rotated by radians; the elevation stays between straight down and straight up. */
   const turn = (camera, byAzimuth, byElevation) => ({...camera, azimuth: camera.azimuth + byAzimuth, fitted: false,
     elevation: Math.min(quarter, Math.max(-quarter, camera.elevation + byElevation))});
 
-  /** Moved so that the picture slides by pixels to the right and down. */
+  /** Moved so that the picture shifts by pixels to the right and down. */
   function pan(camera, size, dx, dy) {
     const {right, up} = basis(camera);
     const k = scale(camera, size);
     return {...camera, centre: camera.centre.map((v, i) => v - (dx * right[i] - dy * up[i]) / k), fitted: false};
   }
 
-  /** Larger by `factor` (smaller below 1); what is at pixel [x, y] stays there. `limits`: of the span, [mm, mm]. */
+  /** Larger by `factor` (smaller below 1); the point at pixel [x, y] stays there. `limits`: of the span, [mm, mm]. */
   function zoom(camera, size, factor, [x, y], limits) {
     const span = Math.min(limits[1], Math.max(limits[0], camera.span / factor));
     const {right, up} = basis(camera);
-    const mm = (1 - span / camera.span) / scale(camera, size);  // by which a pixel off the middle moves
+    const mm = (1 - span / camera.span) / scale(camera, size);  // shift for each pixel from the middle
     const [dx, dy] = [mm * (x - size.width / 2), mm * (y - size.height / 2)];
     return {...camera, centre: camera.centre.map((v, i) => v + dx * right[i] - dy * up[i]), span, fitted: false};
   }

@@ -32,7 +32,7 @@
     return [L, chroma * Math.cos(angle), chroma * Math.sin(angle)];
   }
 
-  /** The colour, sRGB 0..1, of a deviation that is `fraction` of the largest. Beyond 0..1: that of the end. */
+  /** The colour, sRGB 0..1, of a deviation that is `fraction` of the largest. Beyond 0..1: the colour of the end. */
   function at(fraction, dark) {
     const points = dark ? onDark : onLight;
     const x = clamp(fraction);
@@ -47,7 +47,7 @@
   /** "rgb(1, 2, 3)" of sRGB 0..1. */
   const css = (rgb) => `rgb(${rgb.map((v) => Math.round(255 * v)).join(', ')})`;
 
-  /** The scale in `size` steps as bytes r, g, b, 255: a texture, or a table to look up in. */
+  /** The scale in `size` steps as bytes r, g, b, 255: for a texture or a table. */
   function table(size, dark) {
     const bytes = new Uint8Array(4 * size);
     for (let i = 0; i < size; ++i)
@@ -75,7 +75,7 @@
     return rgb ? rgb.slice(1, 4).map((v) => clamp(Number(v) / 255)) : null;
   }
 
-  /** What is drawn on white paper, whatever the theme of the screen. */
+  /** The colours for white paper, for any theme of the screen. */
   const paper = {ground: [1, 1, 1], ink: [0.1, 0.1, 0.1], muted: [0.4, 0.4, 0.4], dark: false};
 
   /** The colours of an element's theme: its properties --ground, --ink, --muted; those of paper where missing. */

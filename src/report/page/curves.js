@@ -3,7 +3,7 @@
   const {el, fill, radios} = counterflex.dom;
   const {series: tables} = counterflex;
 
-  /** What can be shown of a deviation: [part of the quantity's name, label]. */
+  /** Components of a deviation: [part of the quantity's name, label]. */
   const components = [['', 'total'], ['x_', 'x'], ['y_', 'y'], ['z_', 'z'], ['along_', 'along the path'],
     ['across_', 'across it'], ['tool_axis_', 'along the tool axis'], ['rotation_', 'rotation']];
   const axes = components.slice(0, 4);
@@ -12,12 +12,12 @@
 
   const dashes = [null, [7, 4]];
 
-  /** Points of each run's curves, made once: all its quantities share them. */
+  /** Points of each run's curves, computed once for all its quantities. */
   function pointsOf(context) {
     return context.runs.map((run) => (run.curves ? tables.places(run.curves) : []));
   }
 
-  /** Series of quantities: `wanted` are {name, label, colour, dash, width}; of two runs each is there twice. */
+  /** Series of quantities: `wanted` are {name, label, colour, dash, width}; with two runs there are two of each. */
   function seriesOf(context, points, wanted, scale) {
     const result = [];
     context.runs.forEach((run, r) => {
@@ -34,7 +34,7 @@
     return result;
   }
 
-  /** What all plots of quantities along the path have in common. */
+  /** The common parts of all plots of quantities along the path. */
   function describe(context, group, points, wanted, scale, rest) {
     const list = seriesOf(context, points, wanted, scale);
     return {
@@ -50,10 +50,12 @@
   const unitOf = (part, units) => (part === 'rotation_' ? 'degrees' : units.words);
   const scaleOf = (part, units) => (part === 'rotation_' ? 1 : units.scale);
 
-  /** Deviations as text; they are in the unit shown already. */
+  /** Deviations as text; the values are already in the displayed unit. */
   const textIn = (part, units) => (v) => (part === 'rotation_' ? `${v.toFixed(4)} deg` : units.format(v / units.scale));
 
-  /** Tolerances of the runs, each once: [{mm, label}]; where not all have the same one the label says whose it is. */
+  /**
+   * Tolerances of the runs, each once: [{mm, label}]; with different tolerances the label has the letter of the run.
+   */
   function tolerances({runs, units}) {
     const all = runs.map((run) => counterflex.summary.tolerance(run.report));
     const common = all.every((mm) => mm === all[0]);
@@ -71,13 +73,13 @@
     });
   }
 
-  /** The tolerance in the title of a plot, where its line may be out of sight. */
+  /** The tolerance in the title of a plot: its line may be outside the plot. */
   function toleranceText(context, part) {
     return toleranceLevels(context, part, true).map(({label}) => `; ${label}`).join('');
   }
 
   /**
-   * What the plot of the deviation `base` shows. `look`: {title, colour, colours: of two runs, levels: whether the
+   * The contents of the plot of the deviation `base`. `look`: {title, colour, colours: of two runs, levels: whether the
    * tolerance is drawn}.
    */
   function deviation(context, group, points, state, base, look) {
@@ -109,23 +111,23 @@
     });
   }
 
-  const help = 'Drag to zoom, shift and drag to move along, double click for all; click to see the place in space.';
+  const help = 'Drag: zoom. Shift and drag: move. Double click: show all. Click: show the place in space.';
 
-  /** What the marks leave out. */
+  /** A note if not all marks are drawn. */
   function thinnedNote({runs}, {marks}) {
     return marks.map(({thinned: {rapids, steps}}, i) => {
-      const said = [rapids && `${rapids} rapids`, steps && `${steps} steps of the force`].filter(Boolean);
-      const text = `Of every ${said.join(' and of every ')} one is marked.`;
-      return said.length > 0 ? el('p', {class: 'note'}, counterflex.words.ofRun(runs[i], text)) : null;
+      const thinned = [rapids && `${rapids} rapids`, steps && `${steps} steps of the force`].filter(Boolean);
+      const text = `One of every ${thinned.join(' and one of every ')} is marked.`;
+      return thinned.length > 0 ? el('p', {class: 'note'}, counterflex.words.ofRun(runs[i], text)) : null;
     });
   }
 
-  /** How curves of merged waypoints are to be read. */
+  /** A note on curves of merged waypoints. */
   function mergedNote(context) {
     const merged = context.runs.map((run) => (run.curves ? run.curves.waypoints_per_stretch : 1));
     if (Math.max(...merged) === 1) return null;
     const stretches = `Each stretch of ${merged.join(' and ')} points`;
-    return el('p', {class: 'note'}, `${stretches} is drawn with its least and its largest value; no peak is left out.`);
+    return el('p', {class: 'note'}, `${stretches} is drawn with its least and its largest value; all peaks are visible.`);
   }
 
   const looks = {
@@ -167,26 +169,29 @@
     return result;
   }
 
-  /** How well the parts add up, in a sentence; tells why the curve of the sum may hide under that of both. */
+  /**
+   * The difference between the sum of the parts and both together, in a sentence. A small one hides one curve below the
+   * other.
+   */
   function discrepancySentence(context) {
     const known = (run) => Boolean(run.curves && run.curves.quantities.discrepancy_mm);
-    const of = (run) => (known(run) ? context.units.format(largestOf(run, 'discrepancy_mm')) : 'not known');
+    const of = (run) => (known(run) ? context.units.format(largestOf(run, 'discrepancy_mm')) : 'unknown');
     const values = context.runs.map((run) => (run.letter ? `${run.letter} ${of(run)}` : of(run))).join(', ');
     return `Both together differ from the sum of the parts by at most ${values} (discrepancy).`;
   }
 
-  /** Geometry, load, gravity, their sum and what both together do: as in Figs 7 and 8 of the paper. */
+  /** Geometry, load, gravity, their sum and both together: as in Figs 7 and 8 of the paper. */
   function sources(context, group, points) {
     if (!has(context, 'superposition_mm')) return null;
     const state = {part: '', log: false, plots: []};
     const note = el('p', {class: 'note'});
-    const say = () => fill(note, discrepancySentence(context));
+    const update = () => fill(note, discrepancySentence(context));
     const content = () => describe(context, group, points, sourceSeries(state.part), context.units.scale, {
       title: `Sources of the deviation before: ${labelOf(state.part)}, in ${context.units.words}`,
       log: state.log, text: textIn('', context.units)});
     state.plots.push(counterflex.plot.create(context, group, content, 'sources'));
-    context.units.subscribe(say);
-    say();
+    context.units.subscribe(update);
+    update();
     const choice = componentChoice(context, state, 'source-component', axes);
     const controls = el('div', {class: 'controls'}, choice, logBox(state));
     return {plots: state.plots, content: [controls, state.plots[0].node, note]};

@@ -1,6 +1,6 @@
 'use strict';
 (() => {
-  /** Sets attributes; functions listen to the event of their name, true stands for an empty attribute. */
+  /** Sets attributes; functions become listeners of the event of that name, true becomes an empty attribute. */
   function setAttributes(node, attributes) {
     for (const [name, value] of Object.entries(attributes)) {
       if (value === undefined || value === null || value === false) continue;
@@ -9,14 +9,14 @@
     }
   }
 
-  /** Text stays text: nothing of a file is ever read as markup. */
+  /** Text nodes only: texts of files are never interpreted as markup. */
   function append(node, children) {
     for (const child of children.flat(Infinity))
       if (child !== null && child !== undefined && child !== false) node.append(child);
     return node;
   }
 
-  /** An element with attributes and children: nodes, strings, lists of them; what is null is left out. */
+  /** An element with attributes and children: nodes, strings, lists of them; null is ignored. */
   function el(tag, attributes, ...children) {
     const node = document.createElement(tag);
     setAttributes(node, attributes || {});
@@ -29,7 +29,7 @@
     return append(node, children);
   }
 
-  /** Puts `children` in place of what `node` held. */
+  /** Replaces the content of `node` by `children`. */
   function fill(node, ...children) {
     node.textContent = '';
     return append(node, children);
@@ -41,7 +41,7 @@
   }
 
   /**
-   * A table. `columns`: {title, number: digits stand right, class}; `rows`: lists of cells, the first of which names
+   * A table. `columns`: {title, number: aligned right, class}; `rows`: lists of cells, the first cell names
    * the row; a row may have `mark`, a class.
    */
   function table(caption, columns, rows) {
@@ -62,7 +62,7 @@
         svg('rect', {x: 0, y: 0, width: (100 * Math.min(1, share)).toFixed(2), height: 10}));
   }
 
-  /** Choices of which one holds, as radio buttons: `choices` are [value, label]; `change` gets the value. */
+  /** Exclusive choices as radio buttons: `choices` are [value, label]; `change` gets the value. */
   function radios(legend, name, choices, chosen, change) {
     const buttons = choices.map(([value, label]) => el('label', null,
         el('input', {type: 'radio', name, value, checked: value === chosen, change: () => change(value)}),
@@ -70,7 +70,7 @@
     return el('fieldset', {class: 'choice'}, el('legend', null, legend), buttons);
   }
 
-  /** Something that takes the reader to a place of the page: a link, so that it is plain text on paper. */
+  /** A link to a place of the page; it is plain text on paper. */
   function jump(text, target, go, label) {
     return el('a', {href: `#${target}`, 'aria-label': label, click: (event) => {
       event.preventDefault();

@@ -58,9 +58,9 @@
     return el('div', {class: 'stack'}, el('div', {class: 'runs'}, runs.map(assumptions)), inputs(runs), options(runs, units));
   }
 
-  const blockRows = [['Blocks', 'total'], ['Moves', 'moves'], ['Corrected each on its own', 'corrected'],
-    ['Corrected in part', 'corrected_in_part'], ['With their contour as a whole', 'grouped'],
-    ['Holding the correction before them', 'held'], ['Not corrected', 'not_corrected'], ['Points added', 'inserted']];
+  const blockRows = [['Blocks', 'total'], ['Moves', 'moves'], ['Corrected individually', 'corrected'],
+    ['Corrected in part', 'corrected_in_part'], ['With one shift for their contour', 'grouped'],
+    ['Held: with the correction of the block before', 'held'], ['Not corrected', 'not_corrected'], ['Points added', 'inserted']];
 
   const countText = (n) => (known(n) ? String(n) : unknown);
 
@@ -73,7 +73,7 @@
 
   function pathTolerances(report, units) {
     const of = (t) => `${words.inLine(t.line)}: ${known(t.path_mm) ? units.format(t.path_mm) : 'no path tolerance'}`;
-    return report.control.path_tolerances.map(of).join('; ') || 'none stated';
+    return report.control.path_tolerances.map(of).join('; ') || 'not stated';
   }
 
   function longestLine({control: {lines}}) {
@@ -94,7 +94,7 @@
     return [
       of('Blocks of the text, before and after', (r) => `${r.text.blocks_before} / ${countText(r.text.blocks_after)}`),
       of('Bytes, before and after', (r) => `${r.text.bytes_before} / ${countText(r.text.bytes_after)}`),
-      of('Feed moves shorter in time than allowed for', shortBlocks),
+      of('Feed moves with less time than --min-block-ms', shortBlocks),
       of('Longest line', longestLine),
       of('Path tolerance of the control', (r) => pathTolerances(r, units)),
       of('Largest cutting force', largestForce),
@@ -112,7 +112,7 @@
     return table(words.ofRun(run, 'Tools'), columns, rows);
   }
 
-  /** Counts of blocks, what a control may make of them, and tools. */
+  /** Counts of blocks, checks against limits of the control, and tools. */
   function program({runs, units}) {
     const blocks = blockRows.map(([what, key]) => [what, ...runs.map((run) => countText(run.report.blocks[key]))]);
     const counts = compared('Blocks and control', runs, [...blocks, ...controlRows(runs, units)]);

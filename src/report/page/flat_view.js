@@ -1,7 +1,7 @@
 'use strict';
-/** Draws paths on a 2-D canvas: the view of browsers without WebGL. Same camera and colours as the other one. */
+/** Draws paths on a 2-D canvas: the view for browsers without WebGL, with the same camera and colours. */
 (() => {
-  const shades = 48;  // colours in the picture; neighbours of the same shade are one stroke
+  const shades = 48;  // number of colours; neighbours of the same shade are one stroke
 
   /** The shade of a segment, -1 where its deviation is unknown. */
   const shade = (fraction, i) => (fraction[i] < 0 || fraction[i - 1] < 0 ? -1
@@ -14,7 +14,7 @@
     context.stroke();
   }
 
-  /** Strokes segments [i - 1, i] for which `wanted(i)`, those with equal `key(i)` in a row at once. */
+  /** Strokes segments [i - 1, i] for which `wanted(i)`; consecutive ones with equal `key(i)` are one stroke. */
   function strokes(context, points, wanted, key, paint) {
     let open = null;
     for (let i = 1; i < points.x.length; ++i) {
@@ -48,7 +48,7 @@
     if (path.count === 1 && style !== 'rapid') dot(context, points, colourOf(key(0)), width);
   }
 
-  /** A path of one place. */
+  /** A path with only one place. */
   function dot(context, points, colour, width) {
     context.beginPath();
     context.arc(points.x[0], points.y[0], width, 0, 2 * Math.PI);
@@ -70,7 +70,7 @@
     context.globalAlpha = 1;
   }
 
-  /** The view: no canvas of its own; `draw(context, size, picture)` puts the paths on the given one. */
+  /** The view has no canvas; `draw(context, size, picture)` draws the paths on the given one. */
   const create = () => ({name: 'canvas', draw, dispose() {}});
 
   counterflex.flatView = {create};

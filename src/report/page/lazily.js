@@ -2,7 +2,7 @@
 (() => {
   const soon = window.requestIdleCallback || ((work) => setTimeout(work, 20));
 
-  /** Builds plots one after another while the page has nothing else to do. */
+  /** Builds plots one after another while the page is idle. */
   counterflex.lazily = (plots) => {
     const [next, ...rest] = plots;
     if (!next) return;

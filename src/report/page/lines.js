@@ -9,7 +9,10 @@
     return Math.max(Math.abs(q.largest[i]), Math.abs(q.least[i]));
   }
 
-  /** The stretch of a program's line in which a quantity is largest, else the first of the line; -1: none has the line. */
+  /**
+   * The stretch of a program's line in which a quantity is largest, else the first of the line; -1 without such a
+   * stretch.
+   */
   function stretchOf(curves, line, quantity) {
     let best = -1;
     for (let i = 0; curves && i < curves.s_mm.length; ++i)
@@ -17,14 +20,14 @@
     return best;
   }
 
-  /** How far stretch `i` is from path length `s`, and how far its end is, mm; what is within `slack` is no distance. */
+  /** Distances of stretch `i` and of its end from path length `s`, mm; distances within `slack` are 0. */
   function distances(curves, i, s, slack) {
     const begin = i > 0 ? curves.s_mm[i - 1] : 0, end = curves.s_mm[i];
     const outside = Math.max(begin - s, s - end);
     return [outside > slack ? outside : 0, Math.abs(end - s)];
   }
 
-  /** Of stretches [from, to] that hold the line the nearest to `s`; -1: none holds it. */
+  /** The stretch in [from, to] with the line that is nearest to `s`; -1 without such a stretch. */
   function nearest(curves, line, s, [from, to], slack) {
     let best = -1, least = [Infinity, Infinity];
     for (let i = from; i <= to; ++i) {
@@ -36,8 +39,8 @@
   }
 
   /**
-   * The stretch of a program's line nearest to path length `s`, which was written with few digits and so may lie in
-   * the next stretch; without the line the one where `s` lies.
+   * The stretch of a program's line nearest to path length `s`. `s` was written with few digits and may be in the next
+   * stretch. Without the line: the stretch at `s`.
    */
   function stretchNear(curves, line, s) {
     const slack = 1e-6 * Math.max(1, Math.abs(s));
@@ -50,8 +53,8 @@
   }
 
   /**
-   * First and last stretch of an operation; where merged stretches are all of other operations, those of its lines;
-   * [-1, -1]: the path has none.
+   * First and last stretch of an operation. If all merged stretches belong to other operations: the stretches of its
+   * lines. [-1, -1] without such a stretch.
    */
   function ofOperation(curves, index, {first_line: from, last_line: to}) {
     const first = curves.operation.indexOf(index);
@@ -60,14 +63,14 @@
     return begin < 0 ? [-1, -1] : [begin, Math.max(begin, stretchOf(curves, to))];
   }
 
-  /** "line 5", or "lines 5 to 9" of a stretch that holds several. */
+  /** "line 5", or "lines 5 to 9" for a stretch with several lines. */
   function words({first_line: first, last_line: last}, i) {
     return first[i] === last[i] ? `line ${first[i]}` : `lines ${first[i]} to ${last[i]}`;
   }
 
   /**
-   * A line number that takes the views there where the path has the line; a dash where there is no line. `where`:
-   * {s_mm} of the place, or {quantity} that is largest there.
+   * A line number as a link that shows the place in all views; a dash without a line. `where`: {s_mm} of the place, or
+   * {quantity} that is largest there.
    */
   function link(context, run, line, where = {}) {
     if (!(line > 0)) return '\u2013';

@@ -4,7 +4,7 @@
   const {known} = counterflex.units;
   const {series: tables, words} = counterflex;
 
-  /** The loads that chains have: name in the data, words, unit; a null unit is that of deviations. */
+  /** Kinds of loads: name in the data, words, unit; null: the unit of deviations. */
   const quantities = [
     ['moment_max_Nm', 'Moment at the end', 'N m'], ['spring_translation_max_mm', 'Spring deflection', null],
     ['spring_rotation_max_deg', 'Spring rotation', 'deg'], ['spring_force_max_N', 'Spring force', 'N'],
@@ -30,7 +30,7 @@
     return el('span', {class: 'use'}, drawing, `${(100 * share).toFixed(0)} %${exceeds(load) ? ': above the limit' : ''}`);
   }
 
-  /** Where a run's load of a chain is largest: {s_mm}, {} where its places are not known. */
+  /** The place of a chain's largest load in a run: {s_mm}, or {} if unknown. */
   function placeOfLargest(run, chain, name) {
     const values = run.loads && (run.loads.chains.find((one) => one.name === chain.name) || {})[name];
     if (!values) return {};
@@ -64,14 +64,14 @@
     const columns = [{title: 'Chain'}, textColumn('Load'), numberColumn('Largest'), numberColumn('Line'),
       ...(limited ? [numberColumn('Limit'), textColumn('Of the limit')] : [])];
     const caption = [`Largest loads at ${loads.places} places of the path`,
-      loads.unsolved > 0 && `not known at ${loads.unsolved} more`,
+      loads.unsolved > 0 && `unknown at ${loads.unsolved} more`,
       !limited && 'the machine file gives no limits'].filter(Boolean).join('; ');
     return table(words.ofRun(run, caption), columns, rows);
   }
 
   const render = (context) => el('div', {class: 'runs'}, context.runs.map((_, i) => tableOf(context, i)));
 
-  /** Points of a run's loads; their stretches are those of the curves, so that a click selects one. */
+  /** Points of a run's loads. Their stretches are those of the curves, so that a click selects one. */
   function pointsOf(run) {
     const {s_mm: all, line: lines} = run.loads;
     const stretch = (s, line) => (run.curves ? counterflex.lines.stretchNear(run.curves, line, s) : -1);
@@ -98,7 +98,7 @@
     return [...limits].map(([limit, names]) => ({value: limit * scale, label: label(names)}));
   }
 
-  /** Those that some chain has at all. */
+  /** The kinds of loads that some chain has. */
   function present(context) {
     const chains = context.runs.flatMap((run) => (run.loads ? run.loads.chains : []));
     return quantities.filter(([name]) => chains.some((chain) => (chain[name] || []).some((v) => v > 1e-9)));
@@ -118,7 +118,7 @@
     };
   }
 
-  /** Loads over the path; null where none were computed. */
+  /** Loads over the path; null if they were not computed. */
   function plots(context, group) {
     const choices = present(context);
     if (choices.length === 0) return null;

@@ -13,7 +13,7 @@
     canvas.setLineDash([]);
   }
 
-  /** Marks in view: [{x, line}]; where they would stand closer than pixels, one of each pixel. */
+  /** Marks in view: [{x, line}], at most one for each pixel. */
   function inView(marks, toX, area) {
     const result = [];
     let last = -Infinity;
@@ -33,7 +33,7 @@
     canvas.fillText(text, x + 3, y);
   }
 
-  /** Writes the line numbers of marks as far as there is room. */
+  /** Writes the line numbers of marks if there is room. */
   function labels(canvas, marks, y) {
     let free = -Infinity;
     for (const {x, line} of marks) {
@@ -43,7 +43,7 @@
     }
   }
 
-  /** Where blocks end, from the lines of neighbouring stretches; none where a stretch holds several blocks. */
+  /** Ends of blocks, from the lines of neighbouring stretches. A stretch of several blocks has no marks. */
   function blockEnds(curves) {
     const marks = [];
     if (curves.waypoints_per_stretch > 1) return marks;
@@ -54,8 +54,8 @@
   }
 
   /**
-   * Marks of a run in path length: where blocks begin, rapids, steps of the force. `thinned`: of how many rapids and
-   * steps one is marked; 0: all are.
+   * Marks of a run by path length: starts of blocks, rapids, steps of the force. `thinned`: one of that many rapids and
+   * steps is marked; 0: all.
    */
   function of(run) {
     const {curves} = run;
@@ -73,7 +73,7 @@
     labels(canvas, blocks, area.y + 17);
   }
 
-  /** Marks that are too many, or stand for others beside them, are drawn at the edge alone. */
+  /** Whether marks are drawn only at the edge: they are too many, or represent others. */
   const tooMany = (marks, area, thinned) => thinned > 0 || marks.length > area.w / 8;
 
   function drawRapids(canvas, area, rapids, dense) {
@@ -97,7 +97,7 @@
     }
   }
 
-  /** Draws marks under the curves. `toX` takes path length to the canvas, `shown` says which kinds are wanted. */
+  /** Draws marks under the curves. `toX` takes path length to the canvas, `shown` are the kinds to draw. */
   function draw(canvas, area, marks, toX, shown) {
     canvas.save();
     if (shown.blocks) drawBlocks(canvas, area, inView(marks.blocks, toX, area));
@@ -109,7 +109,7 @@
     canvas.restore();
   }
 
-  /** The selected place: a line that stands out. */
+  /** The selected place: a prominent line. */
   function drawSelected(canvas, area, x) {
     if (x < area.x || x > area.x + area.w) return;
     canvas.save();

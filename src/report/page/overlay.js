@@ -1,13 +1,13 @@
 'use strict';
 /**
- * What lies over the path in its views, drawn on a 2-D canvas: the colour scale with its numbers, the axes of the
- * machine, the scale of lengths, the exaggeration, and the label of the selected place.
+ * The overlay of the path views, drawn on a 2-D canvas: the colour scale with its numbers, the axes of the machine, the
+ * scale of lengths, the exaggeration, and the label of the selected place.
  */
 (() => {
   const font = '12px system-ui, sans-serif';
   const edge = 12;
 
-  /** Text with a halo in the ground's colour, legible over lines. */
+  /** Text with a halo in the background colour, legible over lines. */
   function write(context, theme, text, x, y, align = 'left', colour = theme.ink) {
     context.font = font;
     context.textAlign = align;
@@ -35,7 +35,7 @@
     return Array.from({length: Math.floor(most / step) + 1}, (_, i) => Number((i * step).toPrecision(6)));
   }
 
-  /** Ground behind numbers, so that lines do not run through them. */
+  /** Background behind numbers, so that lines do not cross them. */
   function plate(context, theme, x, y, width, height) {
     context.globalAlpha = 0.8;
     context.fillStyle = counterflex.colours.css(theme.ground);
@@ -50,7 +50,7 @@
     }
   }
 
-  /** Round numbers under the scale, as far as they leave room for the largest at its end. */
+  /** Round numbers below the scale, without overlap with the largest value at its end. */
   function scaleNumbers(context, theme, bar, units, x, y, width) {
     const last = String(units.number(bar.most_mm));
     context.font = font;
@@ -67,7 +67,7 @@
     write(context, theme, last, x + width, y + 12, 'center');
   }
 
-  /** A triangle at the tolerance, or beyond the end where all is within it. */
+  /** A triangle at the tolerance, or a note if all deviations are within it. */
   function toleranceMark(context, theme, bar, units, x, y, width) {
     if (!(bar.tolerance_mm > 0)) return;
     const within = bar.tolerance_mm >= bar.most_mm;
@@ -83,7 +83,7 @@
     write(context, theme, `\u25be ${text}`, x, y + 36, 'left', theme.muted);
   }
 
-  /** The scale of colours, upper left: {title, most_mm, tolerance_mm}; without a largest value the title alone. */
+  /** The scale of colours, upper left: {title, most_mm, tolerance_mm}; without a largest value only the title. */
   function colourBar(context, size, theme, bar, units) {
     if (!(bar.most_mm > 0)) return write(context, theme, bar.title, edge, edge + 6);
     const width = Math.round(Math.min(260, 0.6 * size.width));
@@ -95,7 +95,7 @@
     toleranceMark(context, theme, bar, units, edge, y, width);
   }
 
-  /** The axes of the machine, lower left; an axis that points at the eye is a ring. */
+  /** The axes of the machine, lower left; an axis towards the eye is a ring. */
   function triad(context, size, theme, camera) {
     const {right, up, back} = counterflex.camera.basis(camera);
     const [x, y, length] = [edge + 34, size.height - edge - 34, 30];
@@ -150,7 +150,7 @@
     write(context, theme, mark.text, x + 6, y);
   }
 
-  /** All of it: `picture` = {theme, camera, units, bar, notes: [text], marks: [{x, y, text, radius}]}. */
+  /** The whole overlay: `picture` = {theme, camera, units, bar, notes: [text], marks: [{x, y, text, radius}]}. */
   function draw(context, size, picture) {
     const {theme, camera, units} = picture;
     for (const mark of picture.marks) label(context, size, theme, mark, mark.radius);

@@ -16,14 +16,14 @@
     section.focus({preventScroll: true});
   }
 
-  /** What all parts of the page share. */
+  /** Shared by all parts of the page. */
   function contextOf(runs, conclusion) {
     const shown = (runs[0].report.units || {}).shown || 'um';
     const units = counterflex.units.create(shown), selection = counterflex.selection.create();
     return {runs, conclusion, units, selection, scene: null, group: null, plots: []};
   }
 
-  /** Sections of text and tables, which a change of unit writes anew. */
+  /** Sections of text and tables. A change of unit renders them again. */
   function renderTexts(context) {
     const {tables, remarks, facts} = counterflex;
     const sections = {operations: tables.operations, sensitivity: tables.sensitivity, remarks: remarks.render,
@@ -39,14 +39,14 @@
     renderPlace(context);
   }
 
-  /** The card of the selected place: that of a worst block where one was followed, else of the stretch. */
+  /** The card of the selected place: of a worst block if it was selected in the table, else of the stretch. */
   function renderPlace(context) {
     const {selection, runs, row} = context;
     const run = runs[selection.run];
     const chosen = row && row.run === selection.run && row.stretch === selection.stretch ? row.row : null;
     const {place} = counterflex;
     const known = chosen || (run.curves && selection.stretch >= 0 ? place.ofStretch(run, selection.stretch) : null);
-    fill(body('place'), known ? place.card(run, known, context.units) : el('p', null, 'Nothing is selected.'));
+    fill(body('place'), known ? place.card(run, known, context.units) : el('p', null, 'No place is selected.'));
     counterflex.worst.mark(body('worst'), selection.run, chosen ? chosen.line : -1);
   }
 
@@ -59,7 +59,7 @@
     return stretch;
   }
 
-  /** Takes all views to a row of the worst blocks. */
+  /** Shows a row of the worst blocks in all views. */
   function goToRow(context, run, row) {
     const stretch = selectRow(context, run, row);
     document.getElementById('place').scrollIntoView({block: 'nearest'});
@@ -74,7 +74,7 @@
     if (context.scene) context.scene.goTo(run, stretch);
   }
 
-  /** Takes all views to a stretch of the path, the reader to its cause. */
+  /** Shows a stretch of the path in all views, and scrolls to its cause. */
   function goTo(context, run, stretch) {
     showStretch(context, run, stretch);
     goToSection('place');
@@ -151,7 +151,7 @@
     performance.mark('counterflex-ready');
   }
 
-  /** What cannot be drawn is said, not left blank. */
+  /** Shows a message if the page cannot be drawn. */
   function fail(error) {
     root.dataset.ready = 'failed';
     const text = `This report could not be drawn: ${error.message}. The same numbers are in the JSON file beside it.`;

@@ -1,5 +1,5 @@
 'use strict';
-/** The page's only global: each script adds its part to it. */
+/** The only global of the page. Each script adds its part. */
 const counterflex = {};
 
 (() => {
@@ -13,13 +13,13 @@ const counterflex = {};
     return new arrays[kind](bytes.buffer);
   }
 
-  /** Where every waypoint kept its own value, least and largest are one array. */
+  /** Least and largest are the same array if no waypoints were merged. */
   function quantity(q) {
     const largest = typed('F32', q.largest);
     return {least: q.least === undefined ? largest : typed('F32', q.least), largest};
   }
 
-  /** Curves with typed arrays under the names that the data gives them; null without any stretch. */
+  /** Curves with typed arrays under the names of the data; null without stretches. */
   function decodeCurves(c) {
     if (!c || c.stretches === 0) return null;
     const quantities = {};
@@ -38,7 +38,7 @@ const counterflex = {};
     };
   }
 
-  /** One of two runs is called A or B, whatever else its name is. */
+  /** With two runs each has a letter, A or B, besides its name. */
   function decodeRun(run, index, count) {
     const letter = 'AB'[index] || String(index + 1);
     return {
@@ -56,7 +56,7 @@ const counterflex = {};
     return json.runs.map((run, index) => decodeRun(run, index, json.runs.length));
   }
 
-  /** Index of the stretch in which cutting path length `s` lies. */
+  /** Index of the stretch at cutting path length `s`. */
   function stretchAt(curves, s) {
     let low = 0, high = curves.s_mm.length - 1;
     while (low < high) {
@@ -67,7 +67,7 @@ const counterflex = {};
     return low;
   }
 
-  /** What was concluded of two runs, a sentence; '' where none is said. */
+  /** The conclusion for two runs, a sentence, or ''. */
   const conclusion = (json) => (typeof json.conclusion === 'string' ? json.conclusion : '');
 
   counterflex.data = {decode, conclusion, stretchAt};

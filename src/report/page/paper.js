@@ -2,7 +2,7 @@
 (() => {
   let printing = false;
 
-  /** All plots and the view, light and as wide as paper; and back. */
+  /** Draws all plots and the view for paper, light and as wide as the paper, or for the screen again. */
   function set(on, {plots, scene}) {
     if (printing === on) return;
     printing = on;
@@ -13,7 +13,7 @@
     if (scene && !on) scene.resize();
   }
 
-  /** Redraws before and after printing, whoever began it. */
+  /** Redraws before and after printing, for any way to start it. */
   counterflex.paper = (views) => {
     window.addEventListener('beforeprint', () => set(true, views));
     window.addEventListener('afterprint', () => set(false, views));

@@ -1,16 +1,16 @@
 'use strict';
 /**
- * What the path views draw: places of one run, near the origin for the sake of single precision, deviations there
- * and which part of the largest one each is. Pure functions of the decoded curves.
+ * The data of the path views: places of one run relative to an origin nearby (for single precision), deviations there,
+ * and their fractions of the largest one. Pure functions of the decoded curves.
  */
 (() => {
   const kinds = ['wanted', 'before', 'after'];
 
-  /** Whether the curves know a deviation of that kind anywhere. */
+  /** Whether the curves have a known deviation of that kind. */
   const has = (curves, kind) => kind === 'wanted' ||
     (Boolean(curves.quantities[`${kind}_mm`]) && curves[`place_${kind}_mm`].some(Number.isFinite));
 
-  /** The box around the places of all curves, mm in the machine frame; null where there are none. */
+  /** The box around the places of all curves, mm in the machine frame; null without places. */
   function bounds(allCurves) {
     const low = [Infinity, Infinity, Infinity];
     const high = [-Infinity, -Infinity, -Infinity];
@@ -24,7 +24,7 @@
 
   const sizeOf = ({low, high}) => Math.max(...high.map((v, i) => v - low[i])) || 10;
 
-  /** The largest deviation of a kind over all curves, mm; 0 where nothing is known. */
+  /** The largest deviation of a kind over all curves, mm; 0 if all are unknown. */
   function largest(allCurves, kind) {
     let most = 0;
     for (const curves of allCurves)
@@ -32,7 +32,7 @@
     return most;
   }
 
-  /** The number 1, 2 or 5 times a power of ten that is nearest by ratio. */
+  /** The nearest number, by ratio, of the form 1, 2 or 5 times a power of ten. */
   function oneTwoFive(value) {
     const decade = 10 ** Math.floor(Math.log10(value));
     const near = (m) => Math.abs(Math.log(value / (m * decade)));
@@ -44,11 +44,11 @@
   const exaggeration = (size_mm, deviation_mm) =>
     (deviation_mm > 0 ? Math.max(1, oneTwoFive((0.05 * size_mm) / deviation_mm)) : 1);
 
-  /** The factor itself, unless it draws the deviation larger than half the path: then the usual one. */
+  /** The factor, or the usual one if it draws the deviation larger than half the path. */
   const bearable = (factor, size_mm, deviation_mm) =>
     (factor * deviation_mm > 0.5 * size_mm ? exaggeration(size_mm, deviation_mm) : factor);
 
-  /** 1, 2, 5, 10 ... up to what makes the smallest of the largest deviations half as large as the path. */
+  /** 1, 2, 5, 10 ... up to the factor that makes the smallest of the largest deviations half as large as the path. */
   function exaggerations(size_mm, deviations_mm) {
     const known = deviations_mm.filter((v) => v > 0);
     const top = known.length > 0 ? (0.5 * size_mm) / Math.min(...known) : 1;
@@ -58,7 +58,7 @@
     return steps;
   }
 
-  /** Stretches [from, to) without a rapid within. */
+  /** Ranges of stretches [from, to) without a rapid inside. */
   function feedRuns(after_rapid) {
     const runs = [];
     let from = 0;
@@ -71,8 +71,8 @@
   }
 
   /**
-   * Values with gaps filled: in a run of feed moves linear in path length between the known neighbours, at its
-   * ends like the nearest one; where a run knows none they stay NaN. `width` values a stretch.
+   * Values with gaps filled. In a run of feed moves they are linear in path length between known neighbours, and
+   * constant beyond the first and last known one. Without known values they stay NaN. `width` values for each stretch.
    */
   function filled(values, width, s_mm, runs) {
     const result = Float32Array.from(values);
@@ -97,8 +97,8 @@
   }
 
   /**
-   * One run's path of a kind, around `origin` (mm, machine frame): {count, place, deviation (0 where unknown),
-   * fraction (of `most_mm`; -1 where unknown), rapid (1: a rapid leads to here)}.
+   * The path of one run and kind, relative to `origin` (mm, machine frame): {count, place, deviation (0 if unknown),
+   * fraction (of `most_mm`; -1 if unknown), rapid (1: a rapid leads to here)}.
    */
   function build(curves, kind, origin, most_mm) {
     const count = curves.place_mm.length / 3;
@@ -114,11 +114,11 @@
     return path;
   }
 
-  /** Where stretch `i` of a path is drawn: [x, y, z]. */
+  /** The drawn place of stretch `i` of a path: [x, y, z]. */
   const drawnAt = ({place, deviation}, i, factor) =>
     [0, 1, 2].map((k) => place[3 * i + k] + factor * deviation[3 * i + k]);
 
-  /** The box around a path as drawn and as wanted. */
+  /** The box around the drawn path and the wanted path. */
   function boxOf(path, factor) {
     const drawn = path.place.map((v, i) => v + factor * path.deviation[i]);
     return bounds([{place_mm: path.place}, {place_mm: drawn}]);

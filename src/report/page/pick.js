@@ -1,7 +1,7 @@
 'use strict';
-/** Finding the place of a path that is meant by a point of the picture. */
+/** Finds the place of a path at a point of the picture. */
 (() => {
-  /** A path in the picture: pixels x and y, and mm towards the eye, of each stretch. */
+  /** A path in the picture: pixels x and y, and depth in mm towards the eye, for each stretch. */
   function projected(path, factor, project) {
     const [x, y, depth] = [0, 1, 2].map(() => new Float32Array(path.count));
     for (let i = 0; i < path.count; ++i)
@@ -9,14 +9,14 @@
     return {x, y, depth};
   }
 
-  /** How far along the line from (x0, y0) to (x1, y1) the point nearest to (x, y) is: 0..1. */
+  /** The fraction, 0..1, of the line from (x0, y0) to (x1, y1) at the point nearest to (x, y). */
   function nearestOn(x0, y0, x1, y1, x, y) {
     const [dx, dy] = [x1 - x0, y1 - y0];
     const length2 = dx * dx + dy * dy;
     return length2 > 0 ? Math.min(1, Math.max(0, ((x - x0) * dx + (y - y0) * dy) / length2)) : 1;
   }
 
-  /** The feed line to stretch `i` as (x, y) sees it: {stretch: its nearer end, distance, depth} in pixels and mm. */
+  /** The feed line to stretch `i` seen from (x, y): {stretch: its nearer end, distance, depth} in pixels and mm. */
   function candidate({x: xs, y: ys, depth}, rapid, i, x, y) {
     const j = i > 0 && !rapid[i] ? i - 1 : i;
     const t = nearestOn(xs[j], ys[j], xs[i], ys[i], x, y);
@@ -25,8 +25,8 @@
   }
 
   /**
-   * The stretch nearest to pixel (x, y), -1 where none is within `reach` pixels. Of lines that cover each other
-   * (within two pixels) the one nearest to the eye.
+   * The stretch nearest to pixel (x, y), or -1 without one within `reach` pixels. Of overlapping lines (within two
+   * pixels) the one nearest to the eye.
    */
   function nearest(picture, rapid, x, y, reach) {
     const near = [];

@@ -4,7 +4,7 @@
   const {known, fixed} = counterflex.units;
   const words = counterflex.words;
 
-  /** Largest value of a quantity in a stretch, whatever its sign was; null where it is unknown. */
+  /** Largest absolute value of a quantity in a stretch; null if unknown. */
   function at(curves, name, i) {
     const q = curves.quantities[name];
     const value = q ? q.largest[i] : NaN;
@@ -14,10 +14,10 @@
   const partNames = ['geometry', 'load', 'gravity', 'preloads', 'discrepancy'];
 
   /**
-   * The stretch nearest to `i` along the same block that knows its deviation before and the parts of it, which between
-   * the ends of pieces nobody computed; `i` itself where none does.
+   * The stretch of the same block nearest to `i` with a known deviation before and known parts (they are computed only
+   * at ends of pieces); `i` without such a stretch.
    */
-  function told(c, i) {
+  function nearestKnown(c, i) {
     const present = partNames.filter((part) => c.quantities[`${part}_mm`]);
     const attributed = (k) => present.length === 0 || present.some((part) => at(c, `${part}_mm`, k) !== null);
     const knows = (k) => at(c, 'before_mm', k) !== null && attributed(k);
@@ -32,11 +32,11 @@
     return [...search(-1), ...search(1)].sort((a, b) => far(a) - far(b))[0] ?? i;
   }
 
-  /** What is known of a stretch of the path, in the form of a row of the worst blocks. */
+  /** The data of a stretch of the path, in the form of a row of the worst blocks. */
   function ofStretch(run, i) {
     const c = run.curves;
     const operation = (run.report.operations || [])[c.operation[i]];
-    const from = told(c, i);
+    const from = nearestKnown(c, i);
     const causes = Object.fromEntries(partNames.map((part) => [`${part}_mm`, at(c, `${part}_mm`, from)]));
     return {
       line: c.first_line[i], last_line: c.last_line[i], s_mm: c.s_mm[i],
@@ -52,7 +52,7 @@
     return el('div', {class: 'bar'}, el('dt', null, part.name), el('dd', null, drawing, size));
   }
 
-  /** Parts of the deviation before, longest bar full. */
+  /** Parts of the deviation before; the longest bar has full length. */
   function bars(causes, units) {
     const parts = words.parts(causes);
     if (parts.length === 0) return null;
@@ -75,13 +75,13 @@
     const place = (row.place_mm || []).map((x) => units.lengthNumber(x)).join(', ');
     return el('dl', {class: 'facts'},
         known(row.after_mm) && fact('After (model residual)', units.format(row.after_mm)),
-        fact('Cutting force', known(row.force_N) ? `${fixed(row.force_N, 1)} N` : 'not known'),
+        fact('Cutting force', known(row.force_N) ? `${fixed(row.force_N, 1)} N` : 'unknown'),
         fact('Tool', words.toolName(row.tool)), row.operation && fact('Operation', row.operation),
         known(row.s_mm) && fact('Place on the path', units.length(row.s_mm)),
         place && fact('Machine x, y, z', `${place} ${units.lengthLabel}`));
   }
 
-  /** The card of a place: its line, its cause in words and bars, and what acts there. */
+  /** The card of a place: its line, its cause in words and bars, and the force. */
   function card(run, row, units) {
     const lines = row.last_line > row.line ? `Lines ${row.line} to ${row.last_line}` : `Line ${row.line}`;
     return el('div', {class: 'place-card', 'data-line': row.line},

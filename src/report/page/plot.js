@@ -3,10 +3,10 @@
   const {el} = counterflex.dom;
   const {colour} = counterflex.theme;
   const {fillLegend, readout, clearReadout, tick} = counterflex.plotLegend;
-  // Its own legend writes style attributes, which the page's policy forbids.
+  // The legend of dygraphs writes style attributes, which the page's security policy forbids.
   Dygraph.PLUGINS = Dygraph.PLUGINS.filter((plugin) => plugin !== Dygraph.Plugins.Legend);
 
-  const paperWidth = 680;  // px: what fits between the margins of A4 and of letter
+  const paperWidth = 680;  // px: fits between the margins of A4 and of letter
 
   function lowerBound(rows, x) {
     let low = 0, high = rows.length - 1;
@@ -18,7 +18,7 @@
     return low;
   }
 
-  /** Row nearest to `x` that knows something; -1: none. */
+  /** Row nearest to `x` with a known value, or -1. */
   function nearestRow(rows, x) {
     const known = (k) => rows[k] && rows[k].some((v, c) => c > 0 && v !== null && !Number.isNaN(v));
     const start = lowerBound(rows, x);
@@ -30,7 +30,7 @@
     return -1;
   }
 
-  /** Largest size of a value of all rows. */
+  /** Largest absolute value of all rows. */
   function largestOf(rows) {
     let largest = 0;
     for (const row of rows)
@@ -38,21 +38,21 @@
     return largest;
   }
 
-  /** Sizes, for a logarithmic scale of four decades: what is less stands at its bottom. */
+  /** Absolute values for a logarithmic scale of four decades; smaller ones are at its bottom. */
   function magnitudes(rows) {
     const least = largestOf(rows) * 1e-4;
     const size = (v) => (v === null || Number.isNaN(v) ? v : Math.max(Math.abs(v), least) || null);
     return rows.map((row) => row.map((v, c) => (c === 0 ? v : size(v))));
   }
 
-  /** Values that the plot must have room for although no curve reaches them: levels that are not far from the curves. */
+  /** Levels not far from the curves: the range of the plot includes them. */
   function heldLevels({rows, levels}) {
     if (!levels || levels.length === 0) return [];
     const largest = largestOf(rows);
     return levels.map((level) => level.value).filter((value) => Math.abs(value) < 5 * largest);
   }
 
-  /** Rows with a column more for each value held: a series that is not drawn. */
+  /** Rows with one more column for each of these levels: an invisible series. */
   const withLevels = (rows, held) => (held.length === 0 ? rows : rows.map((row) => row.concat(held)));
 
   /** Options of each series by its name; those of levels make them invisible. */
@@ -62,12 +62,12 @@
     return Object.fromEntries([...drawn, ...hidden]);
   }
 
-  /** What is in view, in the unit of the axis; null: all, as always on paper. */
+  /** The visible range in the unit of the axis; null: all, as always on paper. */
   function windowOf({group, context, printing}) {
     return printing || !group.window ? null : group.window.map((s) => s * context.units.lengthScale);
   }
 
-  /** What changes with data, unit, theme and window. */
+  /** Options that depend on data, unit, theme and window. */
   function options(plot) {
     const {series, rows, log} = plot.content;
     const held = heldLevels(plot.content);
@@ -131,7 +131,7 @@
   const fixed = {interactionModel, connectSeparatedPoints: true, pointSize: 2, drawGapEdgePoints: true, highlightCircleSize: 4,
     xRangePad: 4, yRangePad: 12, rightGap: 12, axisLineWidth: 1, gridLineWidth: 1};
 
-  /** Changes the graph without telling the other plots that it was zoomed. */
+  /** Changes the graph without zooming the other plots. */
   function quietly(plot, change) {
     plot.busy = true;
     try {
@@ -166,7 +166,7 @@
     action(plot.group);
   }
 
-  /** A copy of the drawing: what a canvas that was on the screen holds is not sure to be printed. */
+  /** A copy of the drawing: browsers may not print the content of a canvas on the screen. */
   function copyForPaper(plot) {
     const drawn = plot.host.querySelector('canvas');
     const copy = el('canvas', {class: 'paper-copy', width: drawn.width, height: drawn.height});
@@ -176,7 +176,7 @@
     drawn.after(copy);
   }
 
-  /** For paper: sharp, and as wide as the page; and back. */
+  /** Draws for paper, sharp and as wide as the page, or for the screen again. */
   function setPrinting(plot, on) {
     plot.printing = on;
     plot.ensure();
@@ -199,7 +199,7 @@
   }
 
   /**
-   * A plot over the path, built when `ensure` is called first. `describe` gives what it shows now: {title, series:
+   * A plot over the path, built at the first call of `ensure`. `describe` returns its current content: {title, series:
    * [{label, colour, dash, width}], rows, places, levels: [{value, label}], log, text(value), placeText(place),
    * select(place)}.
    */

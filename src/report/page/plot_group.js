@@ -3,8 +3,8 @@
   const {el, fill} = counterflex.dom;
 
   /**
-   * Plots over the same path length: they zoom and pan together and show their values at one place. `context`: {runs,
-   * units, selection}; what is in mm here is in units of the path on the axes.
+   * Plots over the same path length. They zoom and pan together and show their values at one place. `context`: {runs,
+   * units, selection}. Lengths here are in mm; the axes show units of the path.
    */
   function create(context) {
     const {runs, units} = context;
@@ -15,13 +15,13 @@
       window: null,
       frame: 0,
       shown: {blocks: true, rapids: true, steps: true},
-      marks: runs.map((run) => counterflex.marks.of(run)),  // those of the selected run are drawn
+      marks: runs.map((run) => counterflex.marks.of(run)),  // only those of the selected run are drawn
       /** Shows path length `range` (mm) in all plots; null: all of it. */
       setWindow(range) {
         group.window = range && clamped(range, total);
         for (const plot of group.plots) plot.showWindow();
       },
-      /** Zooms by `factor` about the middle, and moves by `share` of what is in view. */
+      /** Zooms by `factor` about the middle, and moves by `share` of the visible range. */
       zoom(factor, share) {
         const [from, to] = group.window || [0, total];
         const middle = (from + to) / 2 + share * (to - from), half = ((to - from) / 2) * factor;
@@ -31,7 +31,7 @@
       hover(s, from) {
         for (const plot of group.plots) if (plot !== from) plot.showValues(s);
       },
-      /** Draws marks anew, once however often it is asked for before the next picture. */
+      /** Draws marks again, once for all calls before the next frame. */
       redraw() {
         cancelAnimationFrame(group.frame);
         group.frame = requestAnimationFrame(() => group.plots.forEach((plot) => plot.redraw()));
@@ -54,14 +54,14 @@
     return run.curves ? run.curves.s_mm[run.curves.s_mm.length - 1] : 0;
   }
 
-  /** The part of the path nearest to `range` that is as long. */
+  /** The range on the path nearest to `range` with the same length. */
   function clamped([from, to], total) {
     const length = Math.min(to - from, total);
     const begin = Math.min(Math.max(from, 0), total - length);
     return [begin, begin + length];
   }
 
-  /** Shows a place with its neighbourhood: its block, where that is long, and at least a fiftieth of the path. */
+  /** Shows a place with its neighbourhood: its block if it is long, and at least a fiftieth of the path. */
   function neighbourhood(group, curves, i) {
     const line = curves.first_line[i];
     let first = i, last = i;
@@ -78,12 +78,12 @@
     return el('button', {type: 'button', 'aria-label': label, title: label, click}, text);
   }
 
-  /** Whose marks are drawn. */
+  /** The run whose marks are drawn. */
   function marksTitle({runs, selection}) {
     const node = el('legend', {class: 'marks-title'});
-    const say = () => fill(node, runs.length > 1 ? `Marks of ${runs[selection.run].letter}` : 'Marks');
-    selection.subscribe(say);
-    say();
+    const update = () => fill(node, runs.length > 1 ? `Marks of ${runs[selection.run].letter}` : 'Marks');
+    selection.subscribe(update);
+    update();
     return node;
   }
 
@@ -96,12 +96,12 @@
     return el('label', null, el('input', {type: 'checkbox', checked: group.shown[key], change}), el('span', null, text));
   }
 
-  /** Buttons that do what the mouse does, for the keyboard and for fingers. */
+  /** Buttons for the actions of the mouse, for keyboard and touch. */
   function controls(context, group) {
     const buttons = [button('+', 'Zoom in', () => group.zoom(0.5, 0)),
       button('\u2212', 'Zoom out', () => group.zoom(2, 0)),
       button('\u25c0', 'Back along the path', () => group.zoom(1, -0.25)),
-      button('\u25b6', 'On along the path', () => group.zoom(1, 0.25)),
+      button('\u25b6', 'Forward along the path', () => group.zoom(1, 0.25)),
       button('All', 'The whole path', () => group.setWindow(null))];
     const boxes = [['blocks', 'blocks'], ['rapids', 'rapids'], ['steps', 'force steps']];
     return el('div', {class: 'controls'},

@@ -6,7 +6,7 @@
   /** A number on an axis, without the noise of binary fractions. */
   const tick = (value) => String(Number(value.toPrecision(6)));
 
-  /** A piece of the line as it is drawn. */
+  /** A sample of the drawn line. */
   function swatch(series) {
     return svg('svg', {class: 'swatch', width: 28, height: 8, 'aria-hidden': 'true'}, svg('line', {
       x1: 0, y1: 4, x2: 28, y2: 4, stroke: colour(series.colour), 'stroke-width': series.width || 2,
@@ -14,12 +14,12 @@
     }));
   }
 
-  /** Says what the curves are at a row. */
+  /** Shows the values of the curves at a row. */
   function readout(plot, k) {
     const {content, context} = plot;
     const row = counterflex.series.largestOfTwo(content.rows[k], content.places[k].twin);
-    const told = (series, v) => v !== null && !Number.isNaN(v) && !plot.hidden.has(series.label);
-    const values = content.series.map((series, i) => [series, row[i + 1]]).filter(([series, v]) => told(series, v))
+    const isShown = (series, v) => v !== null && !Number.isNaN(v) && !plot.hidden.has(series.label);
+    const values = content.series.map((series, i) => [series, row[i + 1]]).filter(([series, v]) => isShown(series, v))
         .map(([series, v]) => `${series.label} ${content.text(v)}`);
     const place = `${tick(Number(row[0].toFixed(3)))} ${context.units.lengthLabel}`;
     const upTo = content.places[k].twin ? 'up to ' : '';
@@ -42,7 +42,7 @@
     return el('button', attributes, swatch(series), series.label);
   }
 
-  /** What the lines are, for the eye; on paper it stays without being a button. */
+  /** The legend. On paper its entries are not buttons. */
   function fillLegend(plot) {
     const {content, legend} = plot;
     fill(legend.title, content.title);

@@ -3,7 +3,7 @@
   const {el, table, textColumn, numberColumn} = counterflex.dom;
   const words = counterflex.words;
 
-  /** Rows of a list that may have been cut short. */
+  /** Rows of a list that may be truncated. */
   function list(run, title, what, rows, count) {
     if (rows.length === 0) return null;
     return [table(words.ofRun(run, title), [{title: 'Line'}, textColumn(what)], rows),
@@ -29,7 +29,7 @@
   function leftAlone(run, link) {
     const {left_alone: rows, left_alone_count: count} = run.report.blocks;
     const moves = words.otherMoves(run.report.blocks);
-    const title = moves > 0 ? `Not corrected each on its own: ${words.counted(moves, 'move')}` : 'Not corrected, or not wholly';
+    const title = moves > 0 ? `Not corrected individually: ${words.counted(moves, 'move')}` : 'Not or partly corrected';
     return list(run, title, 'Why, from this line on',
         rows.map(({line, why}) => [link(line), why]), count);
   }
@@ -50,7 +50,7 @@
       const quantity = run.report.summary.after ? 'after_mm' : 'before_mm';
       const link = (line) => counterflex.lines.link(context, i, line, {quantity});
       const parts = [sanity(run), warnings(run, link), leftAlone(run, link), withoutForce(run, link, context.units)].filter(Boolean);
-      return el('div', {class: 'stack'}, parts.length > 0 ? parts : el('p', null, words.ofRun(run, 'Nothing to tell.')));
+      return el('div', {class: 'stack'}, parts.length > 0 ? parts : el('p', null, words.ofRun(run, 'No warnings.')));
     }));
   }
 

@@ -1,7 +1,7 @@
 'use strict';
 /**
- * Draws paths with WebGL (three.js): ribbons of constant width on the screen, coloured by deviation. The deviation
- * is added in the shader, so that the exaggeration costs nothing.
+ * Draws paths with WebGL (three.js): ribbons of constant width on the screen, coloured by deviation. The shader adds
+ * the deviation, so that a change of exaggeration is fast.
  */
 (() => {
   const vertexShader = `
@@ -50,7 +50,7 @@
 
   const corners = [[0, -1], [1, -1], [1, 1], [0, 1]];
 
-  /** The segments [from, to] of a layer: feeds or rapids; of a path with one place, that place. */
+  /** The segments [from, to] of a layer: feeds or rapids; for a path with one place, that place. */
   function segments(path, rapid) {
     const list = [];
     for (let i = 1; i < path.count; ++i)
@@ -59,7 +59,7 @@
     return list;
   }
 
-  /** A vertex attribute, `width` values of each of four corners; `value(segment, corner, k)`. */
+  /** A vertex attribute, `width` values for each of four corners; `value(segment, corner, k)`. */
   function attribute(list, width, value) {
     const array = new Float32Array(list.length * 4 * width);
     list.forEach((segment, i) => corners.forEach((corner, c) => {
@@ -104,7 +104,10 @@
     return mesh;
   }
 
-  /** The values of a layer for this picture; `place`: its number from the bottom, later ones win where equal. */
+  /**
+   * The values of a layer for this picture; `place`: its number from the bottom, later layers cover earlier ones at
+   * equal depth.
+   */
   function setUniforms(mesh, layer, place, picture, size, scale) {
     const values = {exaggeration: layer.factor, width: layer.width * size.ratio, lift: 2e-4 * place,
       half_size: new THREE.Vector2(0.5 * size.width * size.ratio, 0.5 * size.height * size.ratio), scale,
@@ -115,7 +118,7 @@
     mesh.renderOrder = place;
   }
 
-  /** `reach`: mm from the middle of the picture within which all is. */
+  /** `reach`: radius in mm around the middle of the picture that includes everything. */
   function setCamera(eye, camera, size, reach) {
     const {right, up, back} = counterflex.camera.basis(camera);
     const half = 0.5 / counterflex.camera.scale(camera, size);
@@ -128,7 +131,7 @@
     eye.position.set(...camera.centre.map((v, i) => v + reach * back[i]));
   }
 
-  /** Keeps a mesh for each layer of the last picture; made anew where the layer has another path. */
+  /** Keeps a mesh for each layer of the last picture; builds a new one for another path. */
   function updateMeshes(scene, meshes, layers) {
     layers.forEach((layer, i) => {
       if (meshes[i] && meshes[i].path === layer.path && meshes[i].style === layer.style) return;
@@ -146,8 +149,8 @@
   }
 
   /**
-   * The view, or null where the browser has no WebGL. It draws on a canvas of its own and copies that to the given
-   * one, which thus holds a whole picture at all times. `lost()` is called when the graphics processor goes away.
+   * The view, or null without WebGL. It draws on its own canvas and copies that to the given one, which thus always has
+   * a complete picture. Calls `lost()` when the graphics processor is lost.
    */
   function create(lost) {
     const renderer = makeRenderer();
@@ -175,7 +178,7 @@
     }};
   }
 
-  /** null without WebGL; asked for first, as three.js complains aloud. */
+  /** The context, or null without WebGL. Tested before three.js is used, which would print errors. */
   function makeRenderer() {
     if (typeof THREE === 'undefined') return null;
     const canvas = document.createElement('canvas');

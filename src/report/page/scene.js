@@ -1,8 +1,7 @@
 'use strict';
 /**
  * The path in space, coloured by deviation: `counterflex.scene.create(container, {runs, units, selection})`.
- * It draws on demand, on one 2-D canvas: the path with WebGL where there is any, else flat, and over it what
- * overlay.js draws.
+ * It draws on demand, on one 2-D canvas: the path with WebGL if available, else flat, and the overlay of overlay.js.
  */
 (() => {
   const {el} = counterflex.dom;
@@ -17,14 +16,14 @@
     const canvas = el('canvas', {class: 'scene-canvas'});
     const stage = el('div', {class: 'scene-stage', tabindex: 0, role: 'application',
       'aria-label': `The path in space. ${hint}`}, canvas);
-    const said = el('p', {class: 'scene-said', 'aria-live': 'polite'});
+    const status = el('p', {class: 'scene-status', 'aria-live': 'polite'});
     const paper = el('div', {class: 'scene-print'});
-    const root = el('div', {class: 'scene-view'}, controls, stage, paper, el('p', {class: 'scene-hint'}, hint), said);
+    const root = el('div', {class: 'scene-view'}, controls, stage, paper, el('p', {class: 'scene-hint'}, hint), status);
     container.append(root);
-    return {root, stage, canvas, paper, said};
+    return {root, stage, canvas, paper, status};
   }
 
-  /** The view of runs of which one at least has a path. */
+  /** The view of runs; at least one has a path. */
   class Scene {
     constructor(container, {runs, units, selection}) {
       Object.assign(this, {container, runs, units, selection, hover: -1, frame: 0, points: null});
@@ -47,7 +46,7 @@
         steps: this.facts.steps, usual: this.facts.usual};
     }
 
-    /** What controls, mouse and keys do. */
+    /** Actions of controls, mouse and keys. */
     acts() {
       return {
         show: (kind) => this.show(kind, this.shown.run),
@@ -69,13 +68,13 @@
       if (typeof ResizeObserver !== 'undefined') new ResizeObserver(() => this.schedule()).observe(this.parts.stage);
     }
 
-    /** Where WebGL goes away while the page is open. */
+    /** Called if WebGL is lost while the page is open. */
     fallBack() {
       this.view = counterflex.flatView.create();
       this.schedule();
     }
 
-    /** Shows another path or exaggeration, from the same side. */
+    /** Shows another path or exaggeration with the same camera. */
     present(shown) {
       this.shown = shown;
       this.hover = -1;
@@ -84,7 +83,7 @@
       this.schedule();
     }
 
-    /** Without that run or kind: the run as before, the wanted path. The factor gives way where it were absurd. */
+    /** Without that run or kind: the run as before, or the wanted path. Replaces a factor that would be absurd. */
     show(kind, index) {
       const run = picture.usable(this.runs[index]) ? index : this.shown.run;
       const known = picture.knows(this.runs[run], kind) ? kind : 'wanted';
@@ -148,7 +147,7 @@
       this.selection.set(this.shown.run, to);
     }
 
-    /** Follows the selection: shows its run, and brings its place into the picture where it is outside. */
+    /** Follows the selection: shows its run, and moves its place into the picture. */
     selected() {
       const {run} = this.selection;
       if (run !== this.shown.run && picture.usable(this.runs[run])) this.show(this.shown.kind, run);
@@ -178,12 +177,12 @@
       if (this.frame === 0) this.frame = requestAnimationFrame(() => this.draw());
     }
 
-    /** The camera from where one looks, with the whole path in a picture of that size. */
+    /** The camera with the same direction and the whole path in a picture of that size. */
     whole(size, box = this.shown.box) {
       return counterflex.camera.fit(this.camera, box, size, margin);
     }
 
-    /** The camera for a picture of that size: fitted anew unless it was moved by hand. */
+    /** The camera for a picture of that size: fitted again unless it was moved by hand. */
     fitted(size) {
       return this.camera.fitted && size.width > 0 ? this.whole(size) : this.camera;
     }
@@ -204,14 +203,14 @@
       if (span !== this.camera.span) this.points = null;
       picture.paint(this.view, this.parts.canvas, size, {shown: this.shown, camera: this.camera, units: this.units,
         theme: counterflex.colours.themeOf(this.container), marked: this.marked()});
-      this.tell();
+      this.announce();
     }
 
-    /** For screen readers, and in data attributes of the view for those who test or script it. */
-    tell() {
+    /** State for screen readers, and in data attributes of the view for tests and scripts. */
+    announce() {
       const stretch = this.chosen();
       const text = stretch < 0 ? '' : picture.words(this.shown, stretch, this.units);
-      if (text !== this.parts.said.textContent) this.parts.said.textContent = text;
+      if (text !== this.parts.status.textContent) this.parts.status.textContent = text;
       const centre = this.camera.centre.map((v, i) => (v + this.facts.origin[i]).toFixed(3));
       const degrees = (angle) => Math.round((angle * 180) / Math.PI);
       const {kind, run, factor} = this.shown;
@@ -220,7 +219,7 @@
         azimuth: degrees(this.camera.azimuth), elevation: degrees(this.camera.elevation)});
     }
 
-    /** On paper one cannot turn or switch: the whole path of each run, before and after one below the other. */
+    /** For paper: the whole path of each run, before and after, one below the other. */
     drawForPrint() {
       const size = {width: 960, height: 480, ratio: 2};
       const chosen = this.chosen();
@@ -236,7 +235,7 @@
     }
   }
 
-  /** A sentence where there is nothing to draw. */
+  /** A sentence for a report without curves. */
   function createEmpty(container) {
     container.append(el('p', {class: 'scene-empty'}, 'The path cannot be shown: this report has no curves.'));
     const nothing = () => {};

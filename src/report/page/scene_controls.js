@@ -1,5 +1,5 @@
 'use strict';
-/** The controls of the path view: what is shown, of which run, how much exaggerated, and from where. */
+/** The controls of the path view: kind of path, run, exaggeration and direction. */
 (() => {
   const {el} = counterflex.dom;
 
@@ -24,11 +24,11 @@
     steps.reduce((best, step, i) => (Math.abs(Math.log(step / factor)) < Math.abs(Math.log(steps[best] / factor))
       ? i : best), 0);
 
-  /** The slider of the exaggeration, on `steps`; a double click goes back to `usual`. */
+  /** The slider of the exaggeration, on `steps`; a double click resets it to `usual`. */
   function slider(steps, usual, chosen) {
     const output = el('output', {class: 'scene-factor'});
     const input = el('input', {type: 'range', min: 0, max: steps.length - 1, step: 1, disabled: steps.length < 2,
-      title: 'Double click: as at first', input: () => chosen(steps[Number(input.value)]),
+      title: 'Double click: reset', input: () => chosen(steps[Number(input.value)]),
       dblclick: () => chosen(usual)});
     return {element: el('label', {class: 'scene-slider'}, 'Exaggeration ', input, output), set(factor) {
       input.value = nearestStep(steps, factor);

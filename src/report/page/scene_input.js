@@ -1,19 +1,19 @@
 'use strict';
-/** Mouse, touch and keys of the path view, as acts: turn, pan, zoom, pick, hover, step. */
+/** Translates mouse, touch and keys of the path view to actions: turn, pan, zoom, pick, hover, step. */
 (() => {
-  const still = 4;  // pixels: a press that moves less is a click
+  const still = 4;  // pixels: a press with less movement is a click
 
   const middle = (points) => points.reduce((sum, p) => [sum[0] + p.x / points.length, sum[1] + p.y / points.length],
     [0, 0]);
   const spread = ([a, b]) => (b ? Math.hypot(a.x - b.x, a.y - b.y) : 0);
 
-  /** Where an event is in the element, pixels. */
+  /** The position of an event in the element, pixels. */
   function placeIn(element, event) {
     const box = element.getBoundingClientRect();
     return {x: event.clientX - box.left, y: event.clientY - box.top};
   }
 
-  /** What the fingers or the mouse did from `before` to `now`, lists of {x, y}. */
+  /** The movement of fingers or mouse from `before` to `now`, lists of {x, y}. */
   function drag(act, before, now, panning) {
     const [from, to] = [middle(before), middle(now)];
     const [dx, dy] = [to[0] - from[0], to[1] - from[1]];
@@ -52,7 +52,7 @@
     element.addEventListener('contextmenu', (event) => event.preventDefault());
   }
 
-  /** The wheel zooms only while the view has the focus, so that one can scroll the page past it. */
+  /** The wheel zooms only while the view has the focus, so that the wheel scrolls the page otherwise. */
   function listenToWheel(element, act) {
     element.addEventListener('wheel', (event) => {
       if (document.activeElement !== element && !event.ctrlKey) return;
@@ -65,7 +65,7 @@
 
   const arrows = {ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1]};
 
-  /** The act of a key, null where it has none; `shift` turns, `control` moves the picture. */
+  /** The action of a key, or null; `shift` turns, `control` moves the picture. */
   function actOfKey(act, {key, shiftKey, ctrlKey, metaKey, altKey}) {
     if (altKey || metaKey) return null;
     const arrow = arrows[key];

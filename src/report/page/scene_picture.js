@@ -1,7 +1,7 @@
 'use strict';
 /**
- * One picture of the path view: which path is shown, its layers, its words, and putting all on a canvas. `shown` is
- * {curves, letter, tolerance_mm, kind, run, factor, path, box}: what is to be seen, whatever the camera.
+ * One picture of the path view: the path, its layers, its words, and drawing them on a canvas. `shown` is {curves,
+ * letter, tolerance_mm, kind, run, factor, path, box}: the content, independent of the camera.
  */
 (() => {
   const titles = {wanted: () => 'Wanted path', before: (unit) => `Deviation before, ${unit}`,
@@ -9,13 +9,13 @@
 
   const usable = (run) => Boolean(run && run.curves) && run.curves.place_mm.length > 0;
 
-  /** "A: before calibration", or what there is of it. */
+  /** "A: before calibration", or its known part. */
   const nameOf = ({letter, name}) => [...new Set([letter, name])].filter(Boolean).join(': ');
 
   /** Whether a run has a path of that kind. */
   const knows = (run, kind) => usable(run) && counterflex.pathModel.has(run.curves, kind);
 
-  /** What all pictures share: the runs' common origin and size, and the largest deviations of all runs. */
+  /** Shared by all pictures: the common origin and size of the runs, and the largest deviations of all runs. */
   function survey(runs) {
     const all = runs.filter(usable).map((run) => run.curves);
     const box = counterflex.pathModel.bounds(all);
@@ -28,8 +28,8 @@
   }
 
   /**
-   * What is printed, where one cannot switch: of each run its path before and after, or else the wanted one, each with
-   * `factor` or what it can bear of it.
+   * The pictures for paper: for each run its path before and after, or else the wanted path, each with `factor` or a
+   * smaller one if needed.
    */
   function printed(facts, runs, factor) {
     return runs.flatMap((run, index) => {
@@ -40,10 +40,10 @@
     });
   }
 
-  /** What a picture shows, which of two runs says its letter. */
+  /** The title of a picture, with the letter of the run if there are two. */
   const titleOf = ({kind, letter}, unit) => (letter ? `${letter}: ` : '') + titles[kind](unit);
 
-  /** `shown` of a run's path of a kind, exaggerated by `factor`. */
+  /** `shown` for a run's path of a kind, exaggerated by `factor`. */
   function describe(facts, runs, run, kind, factor) {
     const {curves, report, letter} = runs[run];
     const path = counterflex.pathModel.build(curves, kind, facts.origin, facts.most[kind]);
@@ -55,8 +55,8 @@
     ({...shown, factor, box: counterflex.pathModel.boxOf(shown.path, factor)});
 
   /**
-   * The layers of a picture, from the bottom: rapids, the wanted path, and the one that is shown. What `covers` hides
-   * what is behind it; the wanted path beside another never does.
+   * The layers of a picture, from the bottom: rapids, the wanted path, and the shown path. A layer that `covers` hides
+   * layers behind it; the wanted path beside another path never does.
    */
   function layers({path, kind, factor}, theme) {
     const alone = kind === 'wanted';
@@ -70,8 +70,8 @@
   }
 
   /**
-   * "line 12: 4.1 um" of a stretch: "up to" where it holds several waypoints, "about" where the deviation is taken
-   * from its neighbours; the line alone where it is unknown or not shown.
+   * "line 12: 4.1 µm" for a stretch: "up to" if it has several waypoints, "about" if the deviation is interpolated from
+   * its neighbours; only the line if it is unknown or not shown.
    */
   function words({curves, kind, path, most_mm}, i, units) {
     const [first, last] = [curves.first_line[i], curves.last_line[i]];
@@ -83,10 +83,10 @@
     return `${lines}: ${single ? '' : 'up to '}${units.format(value)}`;
   }
 
-  /** Where a stretch is drawn: [x, y, z], mm from the origin. */
+  /** The drawn place of a stretch: [x, y, z], mm from the origin. */
   const placeOf = ({path, factor}, stretch) => counterflex.pathModel.drawnAt(path, stretch, factor);
 
-  /** The distance from `centre` within which the box lies. */
+  /** The radius around `centre` that includes the box. */
   const reachOf = (centre, {low, high}) =>
     1 + Math.hypot(...centre.map((v, i) => Math.max(Math.abs(low[i] - v), Math.abs(high[i] - v))));
 
@@ -95,7 +95,7 @@
     return {x, y, radius, text: words(shown, stretch, units)};
   }
 
-  /** What the picture needs to be understood, the lowest line first. */
+  /** The notes of the picture, the lowest line first. */
   function notes({kind, factor, path}) {
     const rapids = path.rapid.some((rapid, i) => rapid && i > 0) ? ['dashed: rapids'] : [];
     return kind === 'wanted' ? rapids

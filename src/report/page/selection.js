@@ -1,6 +1,6 @@
 'use strict';
 (() => {
-  /** The selected stretch of a run, shared by all views; -1 where none is. Who subscribes is called after a change. */
+  /** The selected stretch of a run, shared by all views, or -1. Subscribers are called after a change. */
   counterflex.selection = {
     create() {
       const listeners = [];

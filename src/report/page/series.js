@@ -1,18 +1,18 @@
 'use strict';
 (() => {
-  /** Null where nothing is known: lines are drawn through it. */
+  /** Null for unknown values: lines are drawn through them. */
   const orNull = (value) => (Number.isNaN(value) ? null : value);
 
   /**
-   * Order in which least and largest of a stretch are drawn: first the one nearer to where the line comes from, so that
-   * a smooth curve stays smooth and a peak stays a peak.
+   * The order in which least and largest value of a stretch are drawn: first the one nearer to the previous value, so
+   * that a smooth curve stays smooth and a peak stays a peak.
    */
   function pair(least, largest, previous) {
     const falls = previous !== null && Math.abs(previous - largest) < Math.abs(previous - least);
     return falls ? [largest, least] : [least, largest];
   }
 
-  /** Where the points of a curve stand: path length and stretch of each, and where the line is broken by a rapid. */
+  /** The points of a curve: path length and stretch of each, and breaks at rapids. */
   function places(curves) {
     const {s_mm: s, after_rapid: rapid, waypoints_per_stretch: merged} = curves;
     const points = [];
@@ -42,7 +42,7 @@
 
   /**
    * Rows for dygraphs of several series. `series`: {run, points, values}, where series of one run share `points`.
-   * Returns {rows: [[s, value of each series]], places: [{run, stretch, line: of the point where it has one, twin: the
+   * Returns {rows: [[s, value of each series]], places: [{run, stretch, line: of the point, if it has one, twin: the
    * other row of a merged stretch}] of each row}.
    */
   function tabulate(series, total, lengthScale) {
@@ -70,7 +70,7 @@
       ({row: rows[k], run, stretch, line, twin: merged ? rows[second ? k - 1 : k + 1] : undefined}));
   }
 
-  /** A row with the larger values, by size, of the two rows of a merged stretch; the row itself of a single one. */
+  /** A row with the larger absolute values of the two rows of a merged stretch; the row itself for a single one. */
   const largestOfTwo = (row, twin) => (!twin ? row : row.map((v, c) => (c > 0 && Math.abs(twin[c]) > Math.abs(v) ? twin[c] : v)));
 
   counterflex.series = {largestOfTwo, places, valuesAt, tabulate};

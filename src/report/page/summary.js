@@ -4,13 +4,13 @@
   const {percent} = counterflex.units;
   const words = counterflex.words;
 
-  /** A number that matters, with what it is and where. `mark` is 'warn' where the reader should look twice. */
+  /** An important number with its name and place. `mark` is 'warn' for numbers that need attention. */
   function card(key, label, value, note, mark) {
     return el('div', {class: `card ${mark || ''}`, 'data-card': key},
         el('dt', null, label), el('dd', null, el('strong', null, value), el('span', null, note || '')));
   }
 
-  /** "line 12" that leads there: to where the quantity is largest in it; '' without a line. */
+  /** A link "line 12" to the place where the quantity is largest in this line; '' without a line. */
   function lineNote({context, index}, line, quantity) {
     return line > 0 ? ['line ', counterflex.lines.link(context, index, line, {quantity})] : '';
   }
@@ -32,7 +32,7 @@
     const {air} = report.summary;
     const note = [lineNote(place, air.line, 'air_mm'), ': dry run, spring pass, broken insert'];
     const mark = air.max_mm > tolerance(report) ? 'warn' : '';
-    return card('air', 'Overcut if the force is missing', place.context.units.format(air.max_mm), note, mark);
+    return card('air', 'Off without the cutting force', place.context.units.format(air.max_mm), note, mark);
   }
 
   function correctionCard(report, place) {
@@ -41,7 +41,7 @@
     return card('correction', 'Largest correction', place.context.units.format(correction.max_mm), note);
   }
 
-  /** What the tilt of a tool leaves at its rim and flank: of the tool with the largest deviation. */
+  /** The deviation at rim and flank of a tilted tool: of the tool with the largest one. */
   function toolCard(report, units) {
     const tool = (report.summary.tool_deviations || []).find((t) => t.after && typeof t.after.rim_mm === 'number');
     if (!tool) return null;
@@ -51,12 +51,12 @@
     return card('tool', 'After, at rim and flank', units.format(largest), note, mark);
   }
 
-  /** What does harm of a deviation: the part across the path. */
+  /** The harmful part of a deviation: across the path. */
   function acrossCard(s, units) {
-    return card('across', 'Across the path', units.format(s.max_across_mm), 'what is along the path matters at its ends');
+    return card('across', 'Across the path', units.format(s.max_across_mm), 'the part along the path matters only at its ends');
   }
 
-  /** Tolerance in mm; infinite where the run has none. */
+  /** Tolerance in mm; infinite for a run without tolerance. */
   function tolerance(report) {
     const value = report.options['tolerance-mm'];
     return typeof value === 'number' ? value : Infinity;
@@ -65,7 +65,7 @@
   const namesOf = (report) => (report.command === 'predict'
     ? [['before', 'Deviation, as programmed']] : [['before', 'Before'], ['after', 'After (model residual)']]);
 
-  /** Those of a run in which nothing was solved: it has no number to show. */
+  /** The cards of a run without solved waypoints. */
   const emptyCards = (report) => namesOf(report).map(([key, label]) => card(key, label, '\u2013', 'no feed move was solved'));
 
   /** The cards of a run; those without a value are left out. */
@@ -88,15 +88,15 @@
     ].filter(Boolean);
   }
 
-  /** What somebody should look at before the program runs: sentences, each with the section that says more. */
+  /** Points to check before the program runs: sentences, each with the section of its details. */
   function reminders(report, units) {
     const {air} = report.summary;
     const loads = exceeded(report);
     const list = [];
     const add = (text, target) => list.push({text, target});
     const others = words.otherMoves(report.blocks);
-    if (others > 0) add(`${words.counted(others, 'move')} not corrected each on its own`, 'remarks');
-    else if (report.blocks.left_alone_count > 0) add('blocks are not corrected, or not wholly', 'remarks');
+    if (others > 0) add(`${words.counted(others, 'move')} not corrected individually`, 'remarks');
+    else if (report.blocks.left_alone_count > 0) add('some blocks are not or partly corrected', 'remarks');
     for (const {check, state, text} of report.sanity || [])
       if (state === 'doubtful') add(`${check}: ${text}`, 'remarks');
     if (report.warning_count > 0) add(words.counted(report.warning_count, 'warning'), 'remarks');
@@ -104,7 +104,7 @@
     if (report.forces.without_force.moves > 0 && report.forces.largest_N > 0)
       add(`${words.counted(report.forces.without_force.moves, 'feed move')} without a cutting force`, 'remarks');
     if (air && !report.failure && air.max_mm > tolerance(report))
-      add(`without the cutting force it is off by up to ${units.format(air.max_mm)}: no dry run on the finished part`,
+      add(`without the cutting force the program is off by up to ${units.format(air.max_mm)}: no dry run on the finished part`,
           'sensitivity');
     return list;
   }
@@ -121,11 +121,11 @@
     const list = reminders(report, units);
     if (list.length === 0) return null;
     const item = ({text, target}) => el('li', null, jump(text, target, () => counterflex.goToSection(target)));
-    const title = report.failure ? 'Seen so far' : 'Before you run it';
+    const title = report.failure ? 'Found before the failure' : 'Check before you run it';
     return el('div', {class: 'reminders'}, el('h3', null, title), el('ul', null, list.map(item)));
   }
 
-  /** What ran, on what: one line under the title. */
+  /** Command and inputs of the run: one line below the title. */
   function subtitle(report, units) {
     const {options} = report;
     const bits = [`on ${report.machine || 'an unnamed machine'}`, report.command];
@@ -155,7 +155,7 @@
         el('dl', {class: 'cards'}, cards(context, index)), reminderList(run.report, units));
   }
 
-  /** Title, verdict, cards and reminders: of one run, or of two side by side under what was concluded of them. */
+  /** Title, verdict, cards and points to check: of one run, or of two side by side below their conclusion. */
   function render(context) {
     const {runs, conclusion} = context;
     if (runs.length === 1) return runSummary(context, 0);

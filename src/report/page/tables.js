@@ -7,7 +7,7 @@
   const unknown = '\u2013';
   const value = (s, key, axis) => (!s ? null : axis === undefined ? s[key] : s[key][axis]);
 
-  /** [what, key of the statistics, axis]; angles have no unit to choose. */
+  /** [label, key of the statistics, axis]; the unit of angles is fixed. */
   const statistics = [
     ['Largest', 'max_mm'], ['95 % of the length is below', 'p95_mm'], ['Root mean square', 'rms_mm'],
     ['Mean', 'mean_mm'],
@@ -19,7 +19,7 @@
   const show = (key, x, units) => (!known(x) ? unknown : key.endsWith('_deg') ? x.toFixed(4) : units.number(x));
   const signed = (key, x, units) => (known(x) && x > 0 ? `+${show(key, x, units)}` : show(key, x, units));
 
-  /** The cells of one number: of each run, and of two runs what B has more than A. */
+  /** The cells of one number: for each run, and for two runs the difference B - A. */
   function across(values, key, units) {
     const cells = values.map((x) => show(key, x, units));
     if (values.length === 2) cells.push(values.every(known) ? signed(key, values[1] - values[0], units) : unknown);
@@ -35,7 +35,7 @@
   const beforeAndAfter = (runs, corrected) =>
     [...acrossTitles(runs, 'Before'), ...(corrected ? acrossTitles(runs, 'After') : [])];
 
-  /** Of runs whose datum is not stated: what touching off would remove of the deviation before, and the rest. */
+  /** For runs without a stated datum: the part of the deviation before that touching off would remove, and the rest. */
   function shiftRows(runs, units, corrected) {
     const shifts = runs.map((run) => run.report.summary.common_shift);
     const blank = corrected ? acrossTitles(runs, '').map(() => '') : [];
@@ -46,7 +46,7 @@
 
   const toolParts = [['tip', 'tip_mm'], ['rim', 'rim_mm'], ['flank', 'flank_mm'], ['tilt, in degrees', 'tilt_deg']];
 
-  /** What the tilt of each tool does at its rim and flank. */
+  /** The deviation at rim and flank of each tilted tool. */
   function toolDeviations(context, index) {
     const {units} = context;
     const run = context.runs[index];
@@ -80,7 +80,7 @@
     const lengths = runs.map((run) => units.length(run.report.summary.path_mm)).join(' and ');
     return [table('Deviation of the tool tip', columns, rows), runs.map((_, run) => toolDeviations(context, run)),
       el('p', {class: 'note'}, `Over ${lengths} of feed moves, weighted by length. `,
-          corrected ? 'After: model residual, what the model leaves; it is not the accuracy of the part.' : '')];
+          corrected ? 'After: model residual, the deviation that the model leaves. It is not the accuracy of the part.' : '')];
   }
 
   const nameOf = (operation) => operation.operation || (operation.tool > 0 ? '(no name)' : '(the whole program)');
@@ -111,7 +111,7 @@
       ...(corrected ? [shares] : []), ...largest('before'), ...(corrected ? largest('after') : [])];
   }
 
-  /** Each tool and operation with its largest deviations; following one zooms the curves to it. */
+  /** Each tool and operation with its largest deviations. A click on one zooms the curves to it. */
   function operations(context) {
     const {runs, units} = context;
     const rows = aligned(runs);
@@ -124,7 +124,7 @@
     return table(`Largest deviation, in ${units.words}`, columns, cells);
   }
 
-  /** What is said of them, and the quantity of the curves that is largest where they are. */
+  /** Their labels, and the quantity of the curves that is largest at their places. */
   const otherForces = [['force_plus_30', 'Force 30 % higher (wear, override)', 'load_mm'],
     ['force_minus_30', 'Force 30 % lower', 'load_mm'],
     ['without_force', 'Force missing (dry run, spring pass, broken insert)', 'air_mm']];
@@ -148,7 +148,7 @@
     return table(words.ofRun(run, `Deviation of the ${after ? 'corrected' : 'original'} program`), columns, rows);
   }
 
-  /** What the program does under more, less or no force. */
+  /** The deviation of the program under more, less or no force. */
   function sensitivity(context) {
     const tables = context.runs.map((_, i) => sensitivityOf(context, i)).filter(Boolean);
     return tables.length > 0 ? el('div', {class: 'runs'}, tables) : null;

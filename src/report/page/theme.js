@@ -6,7 +6,7 @@
   let chosen = 'auto';
   let printing = false;
 
-  /** Paper is white whatever the screen is. */
+  /** Paper is always white. */
   function apply() {
     const resolved = printing ? 'light' : chosen === 'auto' ? (dark.matches ? 'dark' : 'light') : chosen;
     if (root.dataset.theme === resolved) return;
@@ -17,7 +17,7 @@
   dark.addEventListener('change', apply);
   apply();
 
-  /** A colour of the style sheet, now. */
+  /** The current value of a colour of the style sheet. */
   const colour = (name) => getComputedStyle(root).getPropertyValue(name).trim();
 
   counterflex.theme = {

@@ -7,20 +7,20 @@
     return radios('Unit', 'unit', choices, units.shown, (unit) => units.set(unit));
   }
 
-  /** A button that goes through auto, light and dark and says which it is. */
+  /** A button that switches between auto, light and dark and shows the current choice. */
   function themeButton() {
     const {theme} = counterflex;
     const button = el('button', {type: 'button', id: 'theme', click: () => {
       const next = (theme.names.indexOf(theme.chosen) + 1) % theme.names.length;
       theme.set(theme.names[next]);
-      say();
+      update();
     }});
-    const say = () => fill(button, `Colours: ${theme.chosen}`);
-    say();
+    const update = () => fill(button, `Colours: ${theme.chosen}`);
+    update();
     return button;
   }
 
-  /** Links to the sections that are there. */
+  /** Links to the visible sections. */
   function contents(node) {
     const sections = [...document.querySelectorAll('main section')].filter((section) => !section.hidden);
     fill(node, el('ul', null, sections.map((section) => el('li', null,

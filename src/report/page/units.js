@@ -6,7 +6,7 @@
     inch: {label: 'in', words: 'inches', perMm: 1 / 25.4, length: 'in', lengthPerMm: 1 / 25.4, lengthDigits: 3},
   };
 
-  /** Decimals with which a deviation is shown: about what a shop reads off an instrument, more where it is tiny. */
+  /** Decimals of a deviation: about the resolution of workshop instruments, more for tiny values. */
   function decimals(unit, value) {
     const size = Math.abs(value);
     if (unit === 'um') return size >= 100 ? 0 : size >= 1 || size === 0 ? 1 : 2;
@@ -14,12 +14,12 @@
     return size >= 0.001 || size === 0 ? 5 : 6;
   }
 
-  /** Whether there is a number to show. */
+  /** Whether a value is known. */
   const known = (value) => typeof value === 'number' && Number.isFinite(value);
 
   /**
-   * The unit in which deviations are shown, one of 'um', 'mm', 'inch'. Lengths along the path are in mm with the first
-   * two. Who subscribes is called after each change.
+   * The unit in which deviations are shown, one of 'um', 'mm', 'inch'. Lengths along the path are in mm for the first
+   * two. Subscribers are called after each change.
    */
   function create(shown) {
     const listeners = [];
@@ -42,17 +42,17 @@
         const value = mm * scales[shown].perMm;
         return value.toFixed(decimals(shown, value));
       },
-      format: (mm) => (known(mm) ? `${units.number(mm)} ${units.label}` : 'not known'),
+      format: (mm) => (known(mm) ? `${units.number(mm)} ${units.label}` : 'unknown'),
       lengthNumber: (mm) => (known(mm) ? (mm * units.lengthScale).toFixed(scales[shown].lengthDigits) : '\u2013'),
       length: (mm) => `${units.lengthNumber(mm)} ${units.lengthLabel}`,
     };
     return units;
   }
 
-  /** A number that is no length, with so many decimals. */
+  /** A number with so many decimals, for values other than lengths. */
   const fixed = (value, digits) => (known(value) ? value.toFixed(digits) : '\u2013');
 
-  /** Per cent, rounded down: what is not whole is never called so. */
+  /** Per cent, rounded down: never 100 % unless it is all. */
   function percent(value) {
     return known(value) ? `${(Math.floor(value * 10 + 1e-6) / 10).toFixed(value === 100 ? 0 : 1)} %` : '\u2013';
   }

@@ -5,12 +5,12 @@
   /** "1 move", "2 moves". */
   const counted = (count, what) => `${count} ${what}${count === 1 ? '' : 's'}`;
 
-  /** A heading of something of one run, which of two says its letter. */
+  /** A heading for one run, with its letter if there are two. */
   const ofRun = (run, text) => (run.letter ? `${run.letter}: ${text}` : text);
 
   const inLine = (line) => (line > 0 ? `line ${line}` : '');
 
-  /** How many times smaller the largest deviation became; '' where that is not worth saying. */
+  /** By how many times the largest deviation became smaller; '' if it is not meaningful. */
   function factor(before, after) {
     if (!before || !after || !(after.max_mm > 0)) return '';
     const ratio = before.max_mm / after.max_mm;
@@ -49,7 +49,7 @@
         (times ? `: ${times} times smaller.` : '.');
   }
 
-  /** What somebody who trusts the tolerance has to know: where blocks cannot be corrected more than it remains. */
+  /** A warning if the residual exceeds the tolerance, because some blocks cannot be corrected. */
   function missed({summary, options}, units) {
     const tolerance = options['tolerance-mm'];
     if (!(summary.after.max_mm > tolerance)) return '';
@@ -58,19 +58,19 @@
     return ` That is more than the tolerance of ${units.format(tolerance)}${share}.`;
   }
 
-  /** Whether a run has solved anything: one without a feed move has numbers of nothing. */
+  /** Whether a run has solved a waypoint: without feed moves its numbers are meaningless. */
   const nothingSolved = ({summary}) => summary.path_mm === 0 || !summary.before;
 
-  /** What the numbers do not cover. */
+  /** The moves that the numbers do not include. */
   function leftOut({blocks}) {
     const count = (blocks && blocks.not_corrected) || 0;
     if (count === 0) return '';
-    return ` ${counted(count, 'move')} ${count === 1 ? 'is' : 'are'} not corrected, and left out of these numbers.`;
+    return ` ${counted(count, 'move')} ${count === 1 ? 'is' : 'are'} not corrected and not included in these numbers.`;
   }
 
   const kinds = {OK: 'good', PARTLY: 'warn', 'NOTHING CORRECTED': 'bad', FAILED: 'bad'};
 
-  /** Moves that are not corrected each on its own; 0 where the run does not count them. */
+  /** Moves that are not corrected individually; 0 if the run does not count them. */
   const otherMoves = ({grouped, held, corrected_in_part: inPart, not_corrected: left}) =>
     (grouped || 0) + (held || 0) + (inPart || 0) + (left || 0);
 
@@ -94,8 +94,8 @@
   function sentence(report, units) {
     const {before, after} = report.summary;
     if (report.failure) return {text: failed(report), kind: 'bad'};
-    if (report.summary.path_mm === 0) return {text: `Nothing was solved: no feed move.${leftOut(report)}`, kind: 'warn'};
-    if (!before) return {text: 'Nothing was solved: no feed move has a deviation that could be told.', kind: 'warn'};
+    if (report.summary.path_mm === 0) return {text: `No waypoint was solved: the program has no feed move.${leftOut(report)}`, kind: 'warn'};
+    if (!before) return {text: 'No waypoint was solved: the deviation of all feed moves is unknown.', kind: 'warn'};
     const without = leftOut(report);
     if (!after) return {text: predicted(before, units) + without, kind: without ? 'warn' : 'neutral'};
     const more = missed(report, units) + without;
@@ -114,25 +114,25 @@
     load_mm: 'mostly the cutting force bends the machine',
     gravity_mm: 'mostly the weight of its parts bends the machine',
     preloads_mm: 'mostly preloaded joints and springs bend the machine',
-    discrepancy_mm: 'mostly what assembly and force do together, more than each alone',
+    discrepancy_mm: 'mostly the interaction of assembly errors and force',
   };
 
   const shortNames = {geometry_mm: 'assembly', load_mm: 'force', gravity_mm: 'weight', preloads_mm: 'preloads', discrepancy_mm: 'both together'};
 
-  /** The parts of a deviation that are known: [{key, name, mm}], as they are listed above. */
+  /** The known parts of a deviation: [{key, name, mm}], in the order above. */
   function parts(causes) {
     if (!causes) return [];
     const present = Object.keys(partNames).filter((key) => known(causes[key]));
     return present.map((key) => ({key, name: partNames[key], mm: causes[key]}));
   }
 
-  /** The parts that matter, the largest first: one that is more than twice the next is alone. */
+  /** The relevant parts, the largest first: only one if it is more than twice the next. */
   function leading(causes) {
     const sorted = parts(causes).filter((part) => part.mm > 0).sort((a, b) => b.mm - a.mm);
     return sorted.length > 1 && sorted[0].mm <= 2 * sorted[1].mm ? sorted.slice(0, 2) : sorted.slice(0, 1);
   }
 
-  /** What bends the machine there, in words; '' where that is unknown. */
+  /** The cause of the deviation in words; '' if unknown. */
   function cause(causes) {
     const [first, second] = leading(causes);
     if (!first) return '';

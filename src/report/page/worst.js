@@ -4,7 +4,7 @@
   const {fixed, known} = counterflex.units;
   const words = counterflex.words;
 
-  /** Stretch of a row of the worst blocks. */
+  /** The stretch of a row of the worst blocks. */
   function stretchOf(curves, row) {
     const {lines} = counterflex;
     if (known(row.s_mm)) return lines.stretchNear(curves, row.line, row.s_mm);
@@ -19,7 +19,7 @@
     ];
   }
 
-  /** Comments may be long; the card of the place has the whole. */
+  /** Shortens long comments; the card of the place shows all of it. */
   const clamped = (text) => (text ? el('span', {class: 'clamp', title: text}, text) : '\u2013');
 
   function cells(row, report, units, go) {
@@ -31,7 +31,7 @@
     ];
   }
 
-  /** The rows are targets for the mouse as a whole; for the keyboard, their links. */
+  /** Whole rows are targets for the mouse; their links are targets for the keyboard. */
   function clickable(node, run, rows, go) {
     node.querySelectorAll('tbody tr').forEach((tr, i) => {
       tr.dataset.line = rows[i].line;
@@ -54,7 +54,7 @@
     return clickable(table(caption, columnsOf(report), rows), index, report.worst, go);
   }
 
-  /** Tables of the blocks with the largest deviations; following a row takes all views there. */
+  /** Tables of the blocks with the largest deviations. A click on a row shows the place in all views. */
   function render(context) {
     return el('div', {class: 'stack'}, context.runs.map((run, i) => tableOf(run, i, context)));
   }
