@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::size_t longest_text = 1000;
 
-// A file system for reading alone stays one.
+// A read-only file system is a lasting error.
 [[noreturn]] void fail_locking(const std::string& folder, int error, const std::string& reason) {
   throw InputError(error == EROFS ? Exit::usage : Exit::transient_io, {folder},
                    "cannot lock the folder: " + reason);
@@ -47,12 +47,12 @@ std::string holder(int fd) {
   const std::string text(bytes.data(), static_cast<std::size_t>(std::max<ssize_t>(n, 0)));
   const std::size_t host = text.find(' '), pid = text.find(' ', host + 1);
   if (host == std::string::npos || pid == std::string::npos)
-    return "processes that have not said who they are, such as shards";
+    return "processes without a name, such as shards";
   return one_line(fmt::format("process {} on {} ({})", text.substr(host + 1, pid - host - 1),
                               text.substr(0, host), text.substr(pid + 1, text.find('\n') - pid - 1)));
 }
 
-/// The lock is what counts: a text that cannot be written, as on a full disk, is not missed.
+/// Ignores errors, as on a full disk: the lock works without this text.
 void write_text(int fd, std::string_view text) {
   if (::ftruncate(fd, 0) != 0) return;
   [[maybe_unused]] const ssize_t ignored = ::pwrite(fd, text.data(), text.size(), 0);
@@ -77,7 +77,7 @@ FolderLock::FolderLock(const std::string& folder, LockKind kind, std::string_vie
   if (why_not_.empty()) ::close(std::exchange(fd_, -1));
   if (error == EWOULDBLOCK)
     throw InputError(Exit::transient_io, {folder},
-                     fmt::format("another run is at work in this folder: {}", other));
+                     fmt::format("another run is active in this folder: {}", other));
   if (why_not_.empty()) fail_locking(folder, error, std::strerror(error));
 }
 

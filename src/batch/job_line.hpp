@@ -1,5 +1,5 @@
 #pragma once
-/// The line of a job in a manifest, and what is wrong with one.
+/// The line of a job in a manifest, and its errors.
 #include <cstddef>
 #include <string>
 #include <string_view>
@@ -15,7 +15,8 @@ struct LineTrouble {
   std::string what;
 };
 
-/// Takes only what `to_json_line` writes, byte for byte: whatever is read would be written as it was found.
+/// Accepts only lines as `to_json_line` writes them, byte for byte: writing a line that was read reproduces
+/// it.
 std::variant<JobOutcome, LineTrouble> read_job_line(std::string_view line);
 
 }  // namespace counterflex

@@ -58,7 +58,7 @@ JobOutcome outcome_from(const LineJson& object) {
   return outcome;
 }
 
-/// From 1: where two texts, one of which is no part of the other's beginning, begin to differ.
+/// The first column, from 1, in which two texts differ. Neither text is a prefix of the other.
 std::size_t first_difference(std::string_view a, std::string_view b) {
   const auto shorter = static_cast<std::ptrdiff_t>(std::min(a.size(), b.size()));
   return static_cast<std::size_t>(std::mismatch(a.begin(), a.begin() + shorter, b.begin()).first -
@@ -66,7 +66,7 @@ std::size_t first_difference(std::string_view a, std::string_view b) {
          1;
 }
 
-/// What the library says, without its number and the place, which is said otherwise.
+/// The message of the library without its number and place.
 std::string without_name(const LineJson::exception& error) {
   std::string_view text = error.what();
   for (const std::string_view before : {std::string_view("] "), std::string_view(": syntax error ")})
@@ -103,7 +103,7 @@ std::variant<JobOutcome, LineTrouble> read_job_line(std::string_view line) {
     if (written == line) return outcome;
     return LineTrouble{first_difference(line, written), "the line is not as counterflex writes it"};
   } catch (const LineJson::parse_error& error) {
-    return LineTrouble{std::max<std::size_t>(error.byte, 1), "the line is no JSON: " + without_name(error)};
+    return LineTrouble{std::max<std::size_t>(error.byte, 1), "the line is not JSON: " + without_name(error)};
   } catch (const LineJson::exception& error) {
     return LineTrouble{1, "the line is not that of a job: " + without_name(error)};
   }

@@ -21,12 +21,12 @@ std::string first_line(const std::string& version, const std::string& plan) {
                      quoted(plan));
 }
 
-/// A manifest that is read, line by line.
+/// Reads a manifest line by line.
 class ManifestLines {
  public:
   ManifestLines(std::string_view text, const std::string& file) : rest_(text), file_(file) {}
 
-  /// Without its end, which each line must have.
+  /// The next line without its end, which each line must have.
   std::string_view next() {
     ++line_;
     const std::size_t end = rest_.find('\n');
@@ -42,8 +42,8 @@ class ManifestLines {
   [[noreturn]] void refuse(std::size_t column, const std::string& what) const {
     throw InputError(Exit::machine_or_force, {file_, line_, static_cast<int>(column)},
                      what +
-                         "; nothing was changed; to have the jobs of this manifest done again, remove it "
-                         "or run without --resume");
+                         "; nothing was changed; to run the jobs of this manifest again, remove it or run "
+                         "without --resume");
   }
 
  private:
@@ -54,7 +54,7 @@ class ManifestLines {
 
 void check_format(std::string_view line, const ManifestLines& lines) {
   if (!line.starts_with(beginning))
-    lines.refuse(1, fmt::format("this is no manifest of a batch, which begins with {}", beginning));
+    lines.refuse(1, fmt::format("this is not a manifest of a batch; a manifest begins with {}", beginning));
   const std::string_view format =
       line.substr(beginning.size(), line.find('"', beginning.size()) - beginning.size());
   if (format != known_format)
@@ -85,7 +85,7 @@ JobOutcome read_job(std::string_view line, const ManifestLines& lines) {
   return std::get<JobOutcome>(std::move(read));
 }
 
-/// What a job writes, its corrected program even where it failed.
+/// The outputs of a job, with its corrected program even if it failed.
 std::set<std::string> written_by(const JobOutcome& job) {
   std::set<std::string> paths{job.output};
   for (const FileHash& file : job.outputs) paths.insert(file.path);
@@ -102,7 +102,8 @@ void read_jobs(ManifestLines& lines, Manifest& manifest) {
       if (!written.insert(path).second)
         lines.refuse(1, fmt::format("two jobs write {}", utf8_of_bytes(path)));
   }
-  if (line != end_of_jobs) lines.refuse(1, fmt::format("behind the last job stands {}", end_of_jobs));
+  if (line != end_of_jobs)
+    lines.refuse(1, fmt::format("the line after the last job must be {}", end_of_jobs));
 }
 
 void check_sum(ManifestLines& lines, std::string_view text) {
@@ -116,7 +117,7 @@ void check_sum(ManifestLines& lines, std::string_view text) {
         fmt::format("the manifest was changed: the SHA-256 of the lines before this one is {}", sum));
   if (!lines.rest().empty()) {
     (void)lines.next();
-    lines.refuse(1, "something stands behind the end of the manifest");
+    lines.refuse(1, "there is text after the end of the manifest");
   }
 }
 

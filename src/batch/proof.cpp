@@ -9,7 +9,7 @@ namespace {
 
 std::optional<std::string> hash_of(const std::string& path) {
   std::error_code ignored;
-  // A pipe would be waited for.
+  // Reading a pipe could block.
   if (!std::filesystem::is_regular_file(path, ignored)) return std::nullopt;
   try {
     FileReader file(path);

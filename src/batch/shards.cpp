@@ -39,7 +39,7 @@ std::vector<std::vector<std::size_t>> plan_shards(const std::vector<double>& wor
   std::vector<std::size_t> largest_first(work.size());
   std::iota(largest_first.begin(), largest_first.end(), std::size_t{0});
   std::ranges::stable_sort(largest_first, std::greater<>(), [&](std::size_t job) { return work[job]; });
-  using Load = std::pair<double, int>;  // and the shard that has it
+  using Load = std::pair<double, int>;  // and its shard
   std::priority_queue<Load, std::vector<Load>, std::greater<>> loads;
   for (int shard = 0; shard < shards; ++shard) loads.push({0, shard});
   std::vector<std::vector<std::size_t>> plan(static_cast<std::size_t>(shards));

@@ -13,13 +13,13 @@
 namespace counterflex {
 namespace {
 
-constexpr int shown_digits = 6;  // of a length in mm: no last bits
+constexpr int shown_digits = 6;  // of a length in mm: hides rounding noise
 
 bool is_done(const JobOutcome& outcome) {
   return outcome.exit == Exit::done;
 }
 
-/// Its program is written, and it is not within the tolerance everywhere.
+/// Whether its program was written though it is not within the tolerance everywhere.
 bool is_partly(const JobOutcome& outcome) {
   return is_done(outcome) && outcome.verdict != "OK";
 }
@@ -63,7 +63,7 @@ Document job_of(const JobOutcome& outcome) {
   return job;
 }
 
-/// What RFC 4180 wants in quotes; a text that a spreadsheet would take for a formula begins with an apostrophe.
+/// A CSV field, quoted as in RFC 4180. A text that a spreadsheet would take for a formula gets an apostrophe.
 std::string csv_field(std::string_view field) {
   std::string text = without_controls(field);
   const std::size_t first = text.find_first_not_of(' ');
@@ -160,7 +160,8 @@ std::string summary_table(const std::vector<JobOutcome>& outcomes, std::size_t m
     text += row_of(rows[i]);
     if (!rows[i].verdict_reason.empty()) text += fmt::format("  {}\n", rows[i].verdict_reason);
   }
-  if (shown < rows.size()) text += fmt::format("and {} more, which are no worse\n", rows.size() - shown);
+  if (shown < rows.size())
+    text += fmt::format("and {} more with smaller or equal deviations\n", rows.size() - shown);
   const std::size_t partly = count_partly(rows), written = count_done(rows), failed = rows.size() - written;
   text += fmt::format("\n{} of {} jobs done{}{}\n", written - partly, rows.size(),
                       partly > 0 ? fmt::format(", {} partly", partly) : "",
@@ -189,8 +190,8 @@ std::string summary_csv(const std::vector<JobOutcome>& outcomes) {
   std::string text = std::string(summary_columns) + "\n";
   for (const JobOutcome& outcome : worst_first(outcomes))
     text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{}\n", csv_field(outcome.program),
-                        csv_field(outcome.output), csv_field(status_text(outcome)), static_cast<int>(outcome.exit),
-                        fixed_or(outcome.before_mm, shown_digits, ""),
+                        csv_field(outcome.output), csv_field(status_text(outcome)),
+                        static_cast<int>(outcome.exit), fixed_or(outcome.before_mm, shown_digits, ""),
                         fixed_or(outcome.after_mm, shown_digits, ""),
                         fixed_or(outcome.corrected_percent, 2, ""), outcome.warnings, outcome.moves,
                         csv_field(outcome.error), outcome.verdict, csv_field(outcome.verdict_reason));

@@ -1,7 +1,6 @@
 #include "counterflex/geometry/curve.hpp"
 
 #include <Eigen/Geometry>
-
 #include <cmath>
 #include <numbers>
 
@@ -10,7 +9,8 @@ namespace {
 
 constexpr double two_pi = 2 * std::numbers::pi;
 
-// A point about an axis: its radius, its height, and the directions in which radius and angle grow.
+// A point in cylindrical coordinates about an axis: radius, height, and the directions of increasing radius
+// and angle.
 struct Cylinder {
   double radius, height;
   Vector3 outward, onward;

@@ -12,10 +12,9 @@ namespace {
 //
 //     k_t sin^2 phi / 2 - k_r (2 phi - sin 2 phi) / 4     in climb milling
 //     -k_t sin^2 phi / 2 - k_r (2 phi - sin 2 phi) / 4    in conventional milling
-//
 // With k_r = 0.3 k_t it pushes the tool along its feed in climb milling up to three quarters of the diameter,
-// never in slots, conventional milling and drilling. A program has some of these, and entries; a force of the
-// wrong sense pushes nearly everywhere.
+// never in slots, conventional milling and drilling. Programs contain some of these, and entries. A force of
+// the wrong sense pushes nearly everywhere.
 constexpr double most_along = 0.75;  // share of the path with a force
 
 // A force that is given in the machine's axes keeps its direction while the feed turns: the mean of its

@@ -12,7 +12,7 @@
 namespace counterflex {
 namespace {
 
-// What no machine or run has, each chosen a decade beyond what machines have.
+// Implausible values, each a decade beyond the range of real machines.
 constexpr double softest_spring = 1e5;    // N/m: parts of machines have 1e6 to 1e10
 constexpr double softest_joint = 100;     // N m/rad: gears and bearings of arms have 1e4 to 1e7
 constexpr double heaviest_part_kg = 1e4;  // a table or a beam has up to some tonnes
@@ -68,7 +68,7 @@ struct Seen {
     }
   }
 
-  /// A part that stands in several branches is doubted once.
+  /// Reports a part of several branches once.
   void add(std::string text) {
     const auto same = [&](const SanityCheck& known) { return known.text == text; };
     if (std::none_of(doubts.begin(), doubts.end(), same)) doubts.push_back(doubt(std::move(text)));
@@ -78,11 +78,12 @@ struct Seen {
     const std::string key = fmt::format("errors.{} of {}", e.name, where);
     pose(e.X, key);
     if (const double angle = log_so3(e.X.R).norm(); angle > largest_error_angle)
-      add(fmt::format("{} turns by {} deg; errors of assembly have up to some degrees: is it the geometry itself?", key,
-                      number(angle / deg)));
+      add(fmt::format(
+          "{} turns by {} deg; errors of assembly have up to some degrees: is it the geometry itself?", key,
+          number(angle / deg)));
     if (const double length = e.X.p.norm(); length > largest_error)
-      add(fmt::format("{} is {} mm long; errors of assembly have up to some mm: is it the geometry itself?", key,
-                      number(length / mm)));
+      add(fmt::format("{} is {} mm long; errors of assembly have up to some mm: is it the geometry itself?",
+                      key, number(length / mm)));
   }
   void operator()(const Actuator& e) {
     limits(e.min, e.max, e.joint.kind, fmt::format("an actuator of {}", where));

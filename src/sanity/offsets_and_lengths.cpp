@@ -29,18 +29,18 @@ SanityCheck check_tool_lengths(const std::map<long, double>& lengths_mm, const s
     if (number != 0 && lengths_mm.count(number) == 0) unknown.push_back(fmt::format("T{}", number));
   if (!has_spindle && !known.empty())
     return {"tool lengths", SanityState::doubtful,
-            fmt::format("{} {} known, but without [spindle] in the machine file every tip is that of [tool]: "
-                        "give [spindle], or put the length into [tool]",
-                        named(known), known.size() == 1 ? "is" : "are")};
+            fmt::format(
+                "{} {} known, but without [spindle] in the machine file every tool has the tip of [tool]: "
+                "give [spindle], or put the length into [tool]",
+                named(known), known.size() == 1 ? "is" : "are")};
   if (!has_spindle)
-    return {"tool lengths", SanityState::ok, "no length is given: every tip is that of [tool]"};
+    return {"tool lengths", SanityState::ok, "no length is given: every tool has the tip of [tool]"};
   if (!unknown.empty())
     return {"tool lengths", SanityState::doubtful,
-            fmt::format("the length of {} is unknown: the tip is that of [tool]; give --tool-length {}=MM, "
+            fmt::format("the length of {} is unknown: the tip of [tool] is used; give --tool-length {}=MM, "
                         "--tool-table, or [tools.{}] length_mm",
                         named(unknown), unknown.front(), unknown.front())};
-  if (known.empty())
-    return {"tool lengths", SanityState::ok, "no tool is called by its number: [tool] is used"};
+  if (known.empty()) return {"tool lengths", SanityState::ok, "the program selects no tool: [tool] is used"};
   return {"tool lengths", SanityState::ok, fmt::format("{}, from [spindle] to the tip", named(known))};
 }
 
@@ -53,12 +53,14 @@ SanityCheck check_work_offset(const std::vector<std::string>& selected, bool kno
     return {"work offset", SanityState::ok, named(names)};
   }
   if (names.empty())
-    return {"work offset", SanityState::ok, "the program selects none: its coordinates are the machine's"};
-  return {"work offset", SanityState::doubtful,
-          fmt::format("the program selects {}, but no work offset is given: its coordinates are taken as the "
-                      "machine's; give --work {}=X,Y,Z or [work.{}] in the machine file, or confirm with "
-                      "--work machine",
-                      named(names), names.front(), names.front())};
+    return {"work offset", SanityState::ok,
+            "the program does not select one: its coordinates are machine coordinates"};
+  return {
+      "work offset", SanityState::doubtful,
+      fmt::format("the program selects {}, but no work offset is given: its coordinates are taken as machine "
+                  "coordinates; give --work {}=X,Y,Z or [work.{}] in the machine file, or confirm with "
+                  "--work machine",
+                  named(names), names.front(), names.front())};
 }
 
 }  // namespace counterflex

@@ -27,9 +27,9 @@ std::optional<Vector3> tip_stiffness(const Model& model, const std::optional<Vec
     nominal = there.configuration;
   }
   StaticsWork work(model.mechanism);
-  const Equilibrium stands = solve_forward(model, nominal, Load{}, Stage{}, work);
-  if (stands.status != Status::converged) return std::nullopt;
-  const auto C = compliance_at_tip(model, stands.configuration, Load{}, Stage{}, work);
+  const Equilibrium unloaded = solve_forward(model, nominal, Load{}, Stage{}, work);
+  if (unloaded.status != Status::converged) return std::nullopt;
+  const auto C = compliance_at_tip(model, unloaded.configuration, Load{}, Stage{}, work);
   if (!C) return std::nullopt;
   Vector3 stiffness;
   for (int axis = 0; axis < 3; ++axis) stiffness[axis] = stiffness_along(*C, Vector3::Unit(axis));

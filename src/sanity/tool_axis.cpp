@@ -9,8 +9,8 @@
 namespace counterflex {
 namespace {
 
-constexpr double into_the_work = 90 + 1e-3;  // deg: a tool that lies exactly across the work is not refused
-constexpr double far_from_upright = 45;      // deg: no machine of linear axes holds its tool like that
+constexpr double into_the_work = 90 + 1e-3;  // deg: a tool exactly perpendicular to z is allowed
+constexpr double far_from_upright = 45;      // deg: implausible for a machine of linear axes
 
 double angle_deg(const Vector3& a, const Vector3& b) {
   return std::atan2(a.cross(b).norm(), a.dot(b)) / deg;
@@ -18,7 +18,7 @@ double angle_deg(const Vector3& a, const Vector3& b) {
 
 struct LargestAngle {
   double deg = -1;
-  std::string z;  ///< whose: "G54 z"
+  std::string z;  ///< name of the axis: "G54 z"
 };
 
 LargestAngle largest_angle(const std::vector<const Model*>& models, const std::vector<WorkFrame>& frames) {

@@ -12,18 +12,19 @@ void TravelTally::add(const Mechanism& mechanism, const Eigen::VectorXd& rho, in
   ++places_;
   const auto at = tightest_axis(mechanism, rho);
   if (!at) return;
-  if (tightest_ && at->share >= share_ - 1e-9) return;  // the first but for rounding
+  if (tightest_ && at->share >= share_ - 1e-9) return;  // keeps the first of equal values
   tightest_ = LeastMargin{at->actuator, at->value, at->margin, line};
   share_ = at->share;
 }
 
-SanityCheck check_travel(const Mechanism& named, const TravelTally& tally, const std::optional<Failure>& failure) {
+SanityCheck check_travel(const Mechanism& named, const TravelTally& tally,
+                         const std::optional<Failure>& failure) {
   if (failure && failure->status == Status::outside_travel)
     return {"travel", SanityState::doubtful, fmt::format("line {}: {}", failure->line, failure->what)};
   if (failure)
     return {"travel", SanityState::unknown,
-            failure->line > 0 ? fmt::format("not known behind line {}, where the run ended", failure->line)
-                              : "not known, since the run ended"};
+            failure->line > 0 ? fmt::format("unknown after line {}, where the run ended", failure->line)
+                              : "unknown: the run ended early"};
   const auto least = tally.least();
   if (!least)
     return {"travel", SanityState::unknown,

@@ -17,7 +17,7 @@ Curve scaled(Curve curve, double factor) {
   return curve;
 }
 
-/// `X_MW` is the wanted place of the move's coordinates.
+/// `X_MW` is the pose of the move's coordinates.
 void fill_in(const Move& move, std::size_t index, const Pose& X_MW, Segment& segment) {
   segment.move = index;
   segment.line = move.line;
@@ -31,7 +31,7 @@ void fill_in(const Move& move, std::size_t index, const Pose& X_MW, Segment& seg
   segment.wanted.end = X_MW * Vector3(move.end_mm * mm);
 }
 
-/// Under G93 F says how long the move takes, whatever its length.
+/// Under G93 F defines the duration of the move.
 double feed_m_s(const Move& move, double way) {
   return move.feed_mode == FeedMode::inverse_time ? way * move.feed_per_min / 60 : move.feed_mm_min * mm / 60;
 }
@@ -41,7 +41,8 @@ bool gives_segment(const Move& move) {
          (move.start_mm != move.end_mm || move.arc);
 }
 
-/// Feed moves count, rapids stand still; so does the clock where no feed is programmed.
+/// Advances path length and time for feed moves. Rapids do not count; time does not advance without a
+/// programmed feed.
 void advance(const Move& move, Segment& segment, const PathEnd& start) {
   const double way = segment.cutting ? length(segment.wanted) : 0;
   segment.s_start = start.s;
@@ -55,7 +56,7 @@ void advance(const Move& move, Segment& segment, const PathEnd& start) {
 
 namespace {
 
-// Where the position is unknown it is taken to be the next one programmed, so that nothing seems to move.
+// An unknown position is taken as the next programmed one, so that there is no apparent motion.
 void ignore_axis(Program& program, std::size_t axis) {
   const auto k = static_cast<Eigen::Index>(axis);
   double next_mm = 0;

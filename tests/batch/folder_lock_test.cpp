@@ -14,8 +14,9 @@ using namespace counterflex::test;
 
 namespace {
 
-/// What trying to lock says; "locked" where it can.
-std::string attempt(const std::string& folder, LockKind kind = LockKind::exclusive, Exit exit = Exit::transient_io) {
+/// The message of an attempt to lock, or "locked".
+std::string attempt(const std::string& folder, LockKind kind = LockKind::exclusive,
+                    Exit exit = Exit::transient_io) {
   try {
     const FolderLock lock(folder, kind, "counterflex batch other.toml");
     return lock.locked() ? "locked" : lock.why_not();
@@ -29,7 +30,7 @@ std::string text_in(const std::string& folder) {
   return read_file(folder + "/.counterflex/lock");
 }
 
-/// A process that does `work`, says so, and stays until it is killed.
+/// A process that runs `work`, reports it, and waits until it is killed.
 struct Child {
   pid_t pid = -1;
   template <typename Work>
@@ -58,7 +59,7 @@ struct Child {
 
 }  // namespace
 
-TEST_CASE("a folder is locked for one, who is named to the others, and free when the lock is gone") {
+TEST_CASE("a folder has one lock holder, refusals name the holder, and release frees the folder") {
   const Folder place;
   const std::string folder = place.file("not/yet/there");
   {
@@ -66,7 +67,7 @@ TEST_CASE("a folder is locked for one, who is named to the others, and free when
     CHECK(lock.locked());
     const std::string refused = attempt(folder);
     CAPTURE(refused);
-    CHECK(refused.starts_with(folder + ": error: another run is at work in this folder: process " +
+    CHECK(refused.starts_with(folder + ": error: another run is active in this folder: process " +
                               std::to_string(::getpid()) + " on "));
     CHECK(refused.ends_with("(counterflex batch jobs.toml)"));
     CHECK(attempt(folder, LockKind::shared) == refused);
@@ -76,14 +77,14 @@ TEST_CASE("a folder is locked for one, who is named to the others, and free when
   CHECK(attempt(folder) == "locked");
 }
 
-TEST_CASE("a shared lock is shared, and keeps out whoever wants to be alone") {
+TEST_CASE("a shared lock admits other shared locks and refuses exclusive ones") {
   const Folder place;
   const std::string folder = place.path.string();
   {
     const FolderLock one(folder, LockKind::shared, "counterflex batch jobs.toml --shard 1/2");
     const FolderLock two(folder, LockKind::shared, "counterflex batch jobs.toml --shard 2/2");
     CHECK(two.locked());
-    CHECK(attempt(folder).find("another run is at work in this folder") != std::string::npos);
+    CHECK(attempt(folder).find("another run is active in this folder") != std::string::npos);
     CHECK(text_in(folder).empty());
   }
   CHECK(attempt(folder) == "locked");
@@ -129,7 +130,7 @@ TEST_CASE("a lock that is moved is held once") {
   CHECK(attempt(folder) == "locked");
 }
 
-TEST_CASE("a text that no lock has written is no reason to stop, nor to say what it says in full") {
+TEST_CASE("a foreign text in the lock file does not prevent locking and is not shown in full") {
   const Folder place;
   const std::string folder = place.path.string(), path = folder + "/.counterflex/lock";
   (void)attempt(folder);
@@ -141,17 +142,19 @@ TEST_CASE("a text that no lock has written is no reason to stop, nor to say what
     const std::string refused = attempt(folder);
     CHECK(refused.size() < 2000);
     CHECK(refused.find('\033') == std::string::npos);
-    CHECK(refused.find("another run is at work") != std::string::npos);
+    CHECK(refused.find("another run is active") != std::string::npos);
     ::close(fd);
     CHECK(attempt(folder) == "locked");
     CHECK(text_in(folder).empty());
   }
 }
 
-TEST_CASE("a folder that cannot be made is an error for good, a lock that cannot be made one that may pass") {
+TEST_CASE(
+    "a folder that cannot be created is a permanent error, a lock that cannot be created a temporary one") {
   const Folder place;
   write_file(place.file("file"), "");
-  CHECK(attempt(place.file("file"), LockKind::exclusive, Exit::usage).find("file: error: cannot make the folder: ") != std::string::npos);
+  CHECK(attempt(place.file("file"), LockKind::exclusive, Exit::usage)
+            .find("file: error: cannot make the folder: ") != std::string::npos);
   std::filesystem::create_directories(place.file("out/.counterflex/lock"));
   CHECK(attempt(place.file("out")).find("out: error: cannot lock the folder: ") != std::string::npos);
 }

@@ -19,7 +19,7 @@ double any_number(std::mt19937& random) {
 
 }  // namespace
 
-TEST_CASE("an outcome is read back as it was written") {
+TEST_CASE("reading a written outcome restores it") {
   for (int number = 0; number < 4; ++number)
     for (const JobOutcome& outcome : {made_up_outcome(number), failed_outcome(number), JobOutcome{}}) {
       const std::string line = to_json_line(outcome);
@@ -29,7 +29,7 @@ TEST_CASE("an outcome is read back as it was written") {
     }
 }
 
-TEST_CASE("names and diagnostics of any bytes and numbers of any size are read back as they were") {
+TEST_CASE("reading restores names and diagnostics of any bytes, and numbers of any size") {
   std::mt19937 random(3);
   for (int trial = 0; trial < 2000; ++trial) {
     JobOutcome outcome = failed_outcome(trial);
@@ -45,13 +45,13 @@ TEST_CASE("names and diagnostics of any bytes and numbers of any size are read b
   }
 }
 
-TEST_CASE("a name is written as it is, but for the percent sign and bytes that are no UTF-8") {
+TEST_CASE("a name is written unchanged except for the percent sign and bytes that are not UTF-8") {
   JobOutcome outcome;
   outcome.program = "Fr\xC3\xA4ser 50%/\xFF.ngc";
   CHECK(to_json_line(outcome).find("\"program\":\"Fr\xC3\xA4ser 50%25/%FF.ngc\"") != std::string::npos);
 }
 
-TEST_CASE("what is not written as the line of an outcome is refused") {
+TEST_CASE("a line that differs from the written form of an outcome is refused") {
   const std::string line = to_json_line(made_up_outcome(1));
   for (const std::string& wrong :
        {std::string(), line + " ", line + "}", line.substr(1), "{" + line.substr(1, 20), std::string("{}"),

@@ -8,7 +8,7 @@ using namespace counterflex::test;
 
 namespace {
 
-/// The refusal of `text`, without its advice; "read" where there is none.
+/// The refusal of `text` without its advice, or "read".
 std::string refusal(const std::string& text) {
   try {
     (void)read_manifest(text, "m.json");
@@ -23,7 +23,7 @@ std::string refusal(const std::string& text) {
   }
 }
 
-/// `text` with the sum that it should have, as one would write it who changes a manifest with care.
+/// `text` with a correct sum, as after a deliberate change of a manifest.
 std::string summed(std::string text) {
   text.resize(text.rfind("\"sha256\":\""));
   return text + fmt::format("\"sha256\":\"{}\"}}\n", sha256(text));
@@ -37,7 +37,7 @@ std::string with(std::string text, const std::string& old, const std::string& no
 
 }  // namespace
 
-TEST_CASE("a manifest is read back as it was written, with jobs and without") {
+TEST_CASE("reading a written manifest restores it, with jobs and without") {
   for (const int jobs : {0, 1, 2, 50}) {
     CAPTURE(jobs);
     const Manifest manifest = made_up_manifest(jobs);
@@ -45,13 +45,13 @@ TEST_CASE("a manifest is read back as it was written, with jobs and without") {
   }
 }
 
-TEST_CASE("a manifest has one job a line, between one line before and two behind") {
+TEST_CASE("a manifest has one job per line, between one line before and two after") {
   const std::string text = to_text(made_up_manifest(5));
   CHECK(std::count(text.begin(), text.end(), '\n') == 5 + 3);
   CHECK(text.find('\n' + to_json_line(made_up_outcome(1)) + ",\n") != std::string::npos);
 }
 
-TEST_CASE("a manifest that was cut off anywhere is refused where it ends") {
+TEST_CASE("a truncated manifest is refused at its end") {
   const std::string text = to_text(made_up_manifest(3));
   for (std::size_t size = 0; size < text.size(); ++size) {
     CAPTURE(size);
@@ -63,7 +63,7 @@ TEST_CASE("a manifest that was cut off anywhere is refused where it ends") {
   }
 }
 
-TEST_CASE("a manifest of which a byte was changed, added or lost is refused") {
+TEST_CASE("a manifest with a changed, added or missing byte is refused") {
   const std::string text = to_text(made_up_manifest(4));
   std::mt19937 random(11);
   for (int trial = 0; trial < 3000; ++trial) {
@@ -101,9 +101,9 @@ TEST_CASE("a change with the right sum is refused, too, unless it is a manifest"
   }
 }
 
-TEST_CASE("a refusal names the place and what stands there") {
+TEST_CASE("a refusal names the place and the text there") {
   const std::string text = to_text(made_up_manifest(2));
-  CHECK(refusal("{}\n").starts_with("m.json:1:1: error: this is no manifest of a batch"));
+  CHECK(refusal("{}\n").starts_with("m.json:1:1: error: this is not a manifest of a batch"));
   CHECK(refusal(with(text, "manifest 2", "manifest 1")) ==
         "m.json:1:33: error: the manifest's format is '1', this program reads 2");
   CHECK(refusal(with(text, "\"plan\"", "\"plot\"")) ==
@@ -114,7 +114,7 @@ TEST_CASE("a refusal names the place and what stands there") {
   CHECK(refusal(with(text, "\"exit\":0", "\"exit\":")).starts_with("m.json:2:"));
   CHECK(refusal(with(text, "\"exit\":0", "\"exit\":5"))
             .starts_with("m.json:5:11: error: the manifest was changed: the SHA-256 of the lines before"));
-  CHECK(refusal(text + "\n") == "m.json:6:1: error: something stands behind the end of the manifest");
+  CHECK(refusal(text + "\n") == "m.json:6:1: error: there is text after the end of the manifest");
 }
 
 TEST_CASE("two jobs that write one file are refused at the second") {
@@ -141,7 +141,7 @@ TEST_CASE("the format is the one that is documented") {
 
 namespace {
 
-/// A job of two files each way in a folder, as it was done.
+/// A finished job with two input and two output files in a folder.
 struct DoneJob {
   Folder folder;
   JobOutcome outcome = made_up_outcome(0);
@@ -161,14 +161,14 @@ struct DoneJob {
 
 }  // namespace
 
-TEST_CASE("a job is proven by its key and by all its files as they were") {
+TEST_CASE("a job is unchanged if its key and all its files are") {
   const DoneJob job;
   CHECK(job.proven());
   FileHashes on_disk;
   CHECK(!is_proven(job.outcome, sha256("other options"), on_disk));
 }
 
-TEST_CASE("a job that failed, or whose files are not known, is not proven") {
+TEST_CASE("a job that failed, or whose files are unknown, is not unchanged") {
   for (int what = 0; what < 3; ++what) {
     DoneJob job;
     if (what == 0) job.outcome.exit = Exit::not_compensated;
@@ -179,7 +179,7 @@ TEST_CASE("a job that failed, or whose files are not known, is not proven") {
   }
 }
 
-TEST_CASE("a job of which a file has changed, is missing or is no file is not proven") {
+TEST_CASE("a job with a changed or missing file, or a folder in its place, is not unchanged") {
   for (const char* name : {"a.ngc", "m.toml", "b.ngc", "b.json"}) {
     CAPTURE(name);
     const DoneJob job;
@@ -195,7 +195,7 @@ TEST_CASE("a job of which a file has changed, is missing or is no file is not pr
   }
 }
 
-TEST_CASE("hashes are those of the first look, so that a file shared by jobs is read once") {
+TEST_CASE("a file shared by jobs is hashed only once") {
   const Folder folder;
   write_file(folder.file("m.toml"), "first");
   FileHashes on_disk;

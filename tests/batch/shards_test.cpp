@@ -40,7 +40,7 @@ TEST_CASE("every job is in one shard, in the order of jobs") {
   }
 }
 
-TEST_CASE("no shard has more than its share and one job, whatever the sizes of the jobs") {
+TEST_CASE("no shard has more than its share plus one job, for jobs of any size") {
   for (int shards = 1; shards <= 9; ++shards) {
     CAPTURE(shards);
     const std::vector<double> work = random_work(40, 11);

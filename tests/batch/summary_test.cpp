@@ -28,7 +28,7 @@ std::vector<std::string> programs(const std::vector<JobOutcome>& outcomes) {
 
 }  // namespace
 
-TEST_CASE("jobs that failed come first, then those with the largest deviation left") {
+TEST_CASE("failed jobs come first, then those with the largest remaining deviation") {
   const std::vector<JobOutcome> jobs{job("small", Exit::done, 0.001),    job("none", Exit::done, {}, {}),
                                      job("large", Exit::done, 0.004),    job("b", Exit::program_text, {}, {}),
                                      job("equal", Exit::done, 0.001, 2), job("a", Exit::limit, {}, {})};
@@ -36,7 +36,7 @@ TEST_CASE("jobs that failed come first, then those with the largest deviation le
 }
 
 TEST_CASE(
-    "the status of a batch asks for another try where that may help, else it is the smallest that failed") {
+    "the status of a batch requests another try if that may help, else it is the smallest that failed") {
   CHECK(exit_of({}) == Exit::done);
   CHECK(exit_of({job("a", Exit::done, 0)}) == Exit::done);
   CHECK(exit_of({job("a", Exit::limit, {}), job("b", Exit::program_text, {}), job("c", Exit::done, 0)}) ==
@@ -45,7 +45,7 @@ TEST_CASE(
         Exit::transient_io);
 }
 
-TEST_CASE("the table shows the worst jobs, says how many others there are, and why some failed") {
+TEST_CASE("the table shows the worst jobs, the number of others, and reasons of failures") {
   std::vector<JobOutcome> jobs{job("bad.ngc", Exit::not_compensated, {}, {})};
   for (int i = 0; i < 5; ++i) jobs.push_back(job("part" + std::to_string(i), Exit::done, 0.001 * i));
   const std::string text = summary_table(jobs, 3);
@@ -57,7 +57,7 @@ TEST_CASE("the table shows the worst jobs, says how many others there are, and w
   CHECK(text.find("  bad.ngc:1:1: error: \"no\", it said\n") != std::string::npos);
 }
 
-TEST_CASE("the documents say the same, and are read back whatever stands in names") {
+TEST_CASE("the documents agree, and can be read back with any characters in names") {
   const std::vector<JobOutcome> jobs{job("a, \"b\".ngc", Exit::done, 0.0041),
                                      job("\xff.ngc", Exit::limit, {}, {})};
   const auto document = nlohmann::json::parse(summary_json(jobs, "1.2"));
@@ -93,7 +93,7 @@ TEST_CASE("a job whose verdict is PARTLY is never called done, whether it is acc
   CHECK(document["jobs"][2]["verdict"] == "OK");
 }
 
-TEST_CASE("a job in which nothing was corrected shows no numbers") {
+TEST_CASE("a job without corrections shows no numbers") {
   JobOutcome nothing = job("macro.nc", Exit::program_text, {}, {});
   nothing.verdict = "NOTHING CORRECTED";
   const std::string text = summary_table({nothing}, 3);

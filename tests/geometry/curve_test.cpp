@@ -30,7 +30,7 @@ double numeric_length(const Curve& curve) {
 
 }  // namespace
 
-TEST_CASE("a curve begins and ends where it says, exactly") {
+TEST_CASE("the ends of a curve are exactly its start and end points") {
   for (const Curve& curve : {spiral(), Curve{{1, 2, 3}, {0.1, 0.2, 0.3}, {}}}) {
     CHECK(point_at(curve, 0) == curve.start);
     CHECK(point_at(curve, 1) == curve.end);

@@ -70,7 +70,7 @@ TEST_CASE("moving turns about the pose's own origin, in the axes outside") {
   step << 0.1, 0, 0, 90 * deg, 0, 0;
   const Pose Y = moved(X, step);
   CHECK((Y.p - Vector3(1.1, 2, 3)).norm() < 1e-15);
-  CHECK((Y.R * Vector3::UnitX() - Vector3::UnitZ()).norm() < 1e-15);  // x stood along y, turned about x to z
+  CHECK((Y.R * Vector3::UnitX() - Vector3::UnitZ()).norm() < 1e-15);  // x was along y, turned about x to z
 }
 
 TEST_CASE("a wrench moved to another point gains the moment r x f") {

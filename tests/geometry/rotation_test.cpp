@@ -201,7 +201,7 @@ TEST_CASE("a quaternion is scalar first, normalised, and the same rotation with 
   CHECK((from_quaternion(-3 * q) - exp_so3({0, 0.7, 0})).norm() < 1e-15);
 }
 
-TEST_CASE("the rotation between two orientations leads from one to the other, however small or large it is") {
+TEST_CASE("the rotation between two orientations leads from one to the other, for any angle") {
   const Matrix3 R_from = exp_by_series({0.3, -1.2, 0.7});
   for (const Vector3& u : directions(20, 11))
     for (const double angle : {0.0, 1e-12, 1e-7, 1e-3, 0.00999, 0.0101, 0.1, 1.0, 3.0, pi - 1e-6}) {

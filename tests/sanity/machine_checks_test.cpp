@@ -12,7 +12,7 @@ using namespace counterflex;
 
 namespace {
 
-/// A mill whose head is a spring of `N_per_m`; `head` stands before the chain.
+/// A mill whose head is a spring of `N_per_m`; `head` is the text before the chain.
 Machine mill(const std::string& head = "", double N_per_m = 2e7, const std::string& elements = "") {
   return read_machine(
       fmt::format(
@@ -54,7 +54,8 @@ TEST_CASE("an error of assembly that is larger than any machine's is doubted") {
   const auto with_error = [](const std::string& error) {
     return read_machine(
         "format = \"counterflex-machine 1\"\ncontrolled = [\"x\"]\n[[chain]]\nname = \"c\"\nelements = [\n"
-        "{ actuator = \"prismatic\", axis = \"x\", min_mm = 0, max_mm = 500 },\n{ error = \"e\" },\n]\nerrors.e = { " +
+        "{ actuator = \"prismatic\", axis = \"x\", min_mm = 0, max_mm = 500 },\n{ error = \"e\" "
+        "},\n]\nerrors.e = { " +
             error + " }\n",
         "machine.toml");
   };
@@ -81,7 +82,7 @@ TEST_CASE("the tool is compared with the z of each work offset") {
   CHECK(contains(check.text, "G55 z"));
 }
 
-TEST_CASE("a tool that lies is doubtful on linear axes, not on machines that turn") {
+TEST_CASE("a horizontal tool is doubtful on linear axes, not on machines with rotary axes") {
   const std::string lying = "[tool]\nrpy_deg = [60, 0, 0]";
   CHECK(axis_of(mill(lying)).state == SanityState::doubtful);
   const Model model = prepare(mill(lying));
@@ -89,7 +90,7 @@ TEST_CASE("a tool that lies is doubtful on linear axes, not on machines that tur
   CHECK(axis_of(mill("[tool]\nrpy_deg = [90, 0, 0]")).state == SanityState::doubtful);
 }
 
-TEST_CASE("the stiffness at the tip is that of the spring where nothing levers, and less below it") {
+TEST_CASE("the stiffness at the tip is that of the spring without a lever, and less below it") {
   const auto direct = tip_stiffness(prepare(mill()), {});
   REQUIRE(direct);
   CHECK((*direct - Vector3(2e7, 4e7, 8e7)).norm() < 1);
@@ -131,7 +132,7 @@ TEST_CASE("a length without [spindle] is doubtful, and one that is missing with 
   CHECK(contains(missing.text, "--tool-length T2=MM"));
 }
 
-TEST_CASE("a selected offset without a place is doubtful") {
+TEST_CASE("a selected offset without a pose is doubtful") {
   CHECK(check_work_offset({"G54"}, true).state == SanityState::ok);
   CHECK(check_work_offset({""}, false).state == SanityState::ok);
   const SanityCheck unknown = check_work_offset({"", "G55"}, false);

@@ -45,7 +45,7 @@ TEST_CASE("the work frame places program coordinates in the machine") {
   CHECK(path.frames[segment.frame].X_MW.p == X_MW.p);
 }
 
-TEST_CASE("moves that start or end at an unknown place give no segment") {
+TEST_CASE("moves that start or end at an unknown place have no segment") {
   ProgramBuilder builder({0, 0, 0});
   builder.rapid({0, 0, 5}).feed({0, 0, 1}, 100).feed({0, 0, 0}, 100);
   builder.program.moves[0].known_start = {true, true, false};
@@ -57,7 +57,7 @@ TEST_CASE("moves that start or end at an unknown place give no segment") {
   CHECK(segments[0].s_start == 0);
 }
 
-TEST_CASE("a move of no length gives no segment and keeps the path joined") {
+TEST_CASE("a move without length has no segment and keeps the path joined") {
   const Program program =
       ProgramBuilder({0, 0, 0}).feed({1, 0, 0}, 60).feed({1, 0, 0}, 60).feed({2, 0, 0}, 60).program;
   const auto segments = build_toolpath(program, one_frame(program, {})).segments;
@@ -66,7 +66,7 @@ TEST_CASE("a move of no length gives no segment and keeps the path joined") {
   CHECK(segments[1].s_start == segments[0].s_end);
 }
 
-TEST_CASE("without a programmed feed the clock stands still, the length does not") {
+TEST_CASE("without a programmed feed the length increases, the time does not") {
   const auto segments = build_toolpath(ProgramBuilder({0, 0, 0}).feed({1, 0, 0}, 0).program, {{}}).segments;
   REQUIRE(segments.size() == 1);
   CHECK(segments[0].feed_m_s == 0);
@@ -74,7 +74,7 @@ TEST_CASE("without a programmed feed the clock stands still, the length does not
   CHECK(segments[0].s_end == doctest::Approx(0.001));
 }
 
-TEST_CASE("an axis that is ignored is known throughout and seems to stand still before it is programmed") {
+TEST_CASE("an ignored axis is always known and does not move before it is programmed") {
   Program program =
       ProgramBuilder({0, 0, 0}).rapid({10, 0, 0}).rapid({10, 0, 5}).feed({20, 0, 5}, 100).program;
   for (std::size_t m = 0; m < 2; ++m) program.moves[m].known_start[2] = false;
@@ -88,7 +88,7 @@ TEST_CASE("an axis that is ignored is known throughout and seems to stand still 
     CHECK(move.end_mm.z() == 5);
   }
   CHECK(build_toolpath(program, one_frame(program, {})).segments.size() ==
-        2);  // the move of Z alone goes nowhere
+        2);  // a move of Z only has no length
 }
 
 TEST_CASE("arcs and helices count with their own length, in path and time") {
@@ -107,7 +107,7 @@ TEST_CASE("arcs and helices count with their own length, in path and time") {
   CHECK(segments[2].t_end == doctest::Approx(5 * quarter / 0.01 + half_helix / 0.005));
 }
 
-TEST_CASE("under G93 a move takes a minute over F, whatever its length, and its feed follows") {
+TEST_CASE("under G93 a move takes 1/F minutes for any length, which defines its feed") {
   Program program = ProgramBuilder({10, 0, 0}).feed({0, 0, 0}, 600).feed({0, 30, 0}, 600).program;
   for (Move& move : program.moves) {
     move.feed_mode = FeedMode::inverse_time;
