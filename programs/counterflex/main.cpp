@@ -1,4 +1,4 @@
-/// counterflex: bends a machining program the other way.
+/// counterflex: corrects machining programs for the errors of their machine.
 #include <malloc.h>
 
 #include "commands/commands.hpp"
@@ -13,7 +13,7 @@
 namespace counterflex::cli {
 namespace {
 
-/// A run with a verdict: standard output has one also where inputs could not be read, unless it takes the
+/// Prints the verdict FAILED for a run whose inputs could not be read, unless standard output is for the
 /// program.
 Exit judged(counterflex::Command command, Exit (*run)(const Options&, Console&), const Options& options,
             Console& console) {
@@ -64,8 +64,7 @@ Exit run(int argc, char** argv) {
   });
 }
 
-/// What one window of a program leaves serves the next: given back to the system, every page of it would be
-/// cleared again.
+/// Keeps freed memory for the next window. Memory returned to the system would have to be cleared again.
 void keep_freed_memory() {
 #ifdef M_TRIM_THRESHOLD
   constexpr int trimmed_from = 256 << 20, mapped_from = 32 << 20;  // bytes

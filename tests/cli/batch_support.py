@@ -1,4 +1,4 @@
-"""A batch of small jobs, runs of it that are disturbed, and what its folder must hold at any time."""
+"""A batch of small jobs, disturbed runs of it, and the valid states of its folder."""
 import fcntl
 import os
 import random
@@ -12,7 +12,7 @@ import time
 
 DATA = os.path.join(os.path.dirname(os.path.realpath(__file__)), "data")
 TEMPORARY = re.compile(r".*\.[0-9]+-[0-9]+\.tmp")
-LIMIT = 120  # s, for anything that is waited for
+LIMIT = 120  # s, for every wait
 
 failures = 0
 sentence = ""
@@ -50,20 +50,20 @@ def contents(folder):
             try:
                 with open(path, "rb") as file:
                     found[os.path.relpath(path, folder)] = file.read()
-            except FileNotFoundError:  # somebody is at work
+            except FileNotFoundError:  # another process is writing
                 pass
     return found
 
 
 def program(numbers):
-    """A dozen lines that mill something."""
+    """A short milling program."""
     moves = [f"X{numbers.uniform(0, 80):.3f} Y{numbers.uniform(0, 60):.3f} F600" for _ in range(numbers.randint(4, 10))]
     return "\n".join(["%", "G21 G90 G17 G54", "T1 M6", "S8000 M3", "G0 X0. Y0. Z5.", "G1 Z-1. F200", *moves, "G0 Z20.", "M5",
                       "M30", "%", ""])
 
 
 def memory_disk():
-    """It is all the same to a process that is killed, and soon synced."""
+    """A fast file system: it makes no difference for killed processes."""
     return "/dev/shm" if os.access("/dev/shm", os.W_OK) and shutil.disk_usage("/dev/shm").free > 1 << 28 else None
 
 
@@ -116,7 +116,7 @@ class Batch:
                                 errors="replace", start_new_session=True, **process)
 
     def run(self, *flags, **how):
-        """The exit status, and what was said on standard error."""
+        """The exit status, and the text on standard error."""
         process = self.start(*flags, **how)
         errors = process.communicate(timeout=LIMIT)[1]
         return process.returncode, errors
@@ -134,7 +134,7 @@ class Batch:
         shutil.rmtree(self.folder, ignore_errors=True)
 
     def undisturbed(self):
-        """What the folder holds after a quiet run, and how long that took."""
+        """The contents of the folder after an undisturbed run, and its duration."""
         self.clear()
         begin = time.monotonic()
         status, errors = self.run()
@@ -142,7 +142,7 @@ class Batch:
         return contents(self.out), time.monotonic() - begin
 
     def wait_until_all_are_dead(self):
-        """Who inherited the lock holds it."""
+        """Processes that inherited the lock hold it."""
         path = os.path.join(self.out, ".counterflex/lock")
         if not os.path.exists(path):
             return
@@ -157,7 +157,7 @@ class Batch:
         fail("some process outlives the batch")
 
     def nothing_is_half_written(self, good, where, leftovers=True):
-        """A file is the good one, or not there, or has a temporary name; a manifest is whole. Without `leftovers` a
+        """A file is complete, or missing, or has a temporary name; a manifest is complete. Without `leftovers` a
         temporary file is there only if the disk refused to remove it."""
         refused = [line.partition(" ")[2] for line in self.faults_met() if line.startswith("unlink ")]
         for name, found in contents(self.out).items():
@@ -184,7 +184,7 @@ class Batch:
         self.is_like(good, where)
 
     def identities(self):
-        """What changes when a file is written anew."""
+        """The state of a file that changes when it is written again."""
         return {name: (os.stat(os.path.join(self.out, name)).st_ino, os.stat(os.path.join(self.out, name)).st_mtime_ns)
                 for name in os.listdir(self.out)}
 

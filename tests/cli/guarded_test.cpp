@@ -5,8 +5,7 @@
 using namespace counterflex;
 using namespace counterflex::cli;
 
-TEST_CASE(
-    "memory and threads that there are not enough of ask for another try, what is wrong by itself does not") {
+TEST_CASE("lack of memory or threads has status 75, other exceptions have not") {
   std::string said;
   Console console({}, {.error = [&](std::string_view diagnostic) { said = diagnostic; }});
   const auto thrown = [&](const auto& error) { return guarded(console, [&]() -> Exit { throw error; }); };
@@ -19,7 +18,7 @@ TEST_CASE(
   CHECK(said == "error: internal error: no");
 }
 
-TEST_CASE("a diagnostic that names no file gets the one it is about") {
+TEST_CASE("a diagnostic without a file gets its file") {
   CHECK(with_file("error: no memory", "a.ngc") == "a.ngc: error: no memory");
   CHECK(with_file("b.toml:3:1: error: no", "a.ngc") == "b.toml:3:1: error: no");
 }

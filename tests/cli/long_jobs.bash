@@ -1,4 +1,4 @@
-# What tests of batches share: three short programs a.ngc, b.ngc and c.ngc, one that takes a while (long.ngc), and jobs files. Source it
+# Shared by tests of batches: three short programs a.ngc, b.ngc and c.ngc, one that takes a while (long.ngc), and jobs files. Source it
 # behind support.bash.
 for name in a b c; do sed "s/^M5/X1${#name}\nM5/" part.ngc >"$name.ngc"; done
 for ((i = 0; i < 5000; ++i)); do echo "G1 X$((i % 97)).$((i % 7)) Y$((i % 89)).5 F600"; done |

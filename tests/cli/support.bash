@@ -1,4 +1,4 @@
-# What the tests of the command line share. A test is a script that sources this with the program, the JSON reader and, where it
+# Shared by the tests of the command line. A test is a script that sources this with the program, the JSON reader and, where it
 # has faults, the library that makes them (faulty_io.cpp) as its arguments; it works in a folder of its own, which holds copies of data/.
 set -uo pipefail
 counterflex=$(realpath "$1") json_value=$(realpath "$2")
@@ -8,7 +8,7 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 cp "$inputs"/* "$work"
 cd "$work" || exit 1
-unset "${!COUNTERFLEX_@}"  # settings of whoever runs the tests
+unset "${!COUNTERFLEX_@}"  # settings of the user who runs the tests
 failures=0 sentence=''
 
 it() { sentence=$1; }
@@ -41,7 +41,7 @@ has() {
   [ "$value" = "$3" ] || fail "$2 of $1 is $value instead of $3"
 }
 
-# Nothing but the inputs and what this harness writes.
+# Only the inputs and the files of this harness.
 nothing_written() {
   local extra
   extra=$(ls -A | grep -vxF -e "$(ls "$inputs")" -e out -e err)

@@ -9,7 +9,7 @@ import sys
 import time
 
 STOP, GO_ON = b"\x13", b"\x11"
-LIMIT = 60  # s, for anything that is waited for
+LIMIT = 60  # s, for every wait
 
 
 def fail(message):
@@ -54,14 +54,14 @@ def status_of(process, what):
 
 
 def said(terminal, process):
-    """All that is said until it ends, and its status."""
+    """Its output until it ends, and its status."""
     text, status = b"", None
     end = time.monotonic() + LIMIT
     while time.monotonic() < end:
         if select.select([terminal], [], [], 0.05)[0]:
             try:
                 text += os.read(terminal, 65536)
-            except OSError:  # nobody has the terminal any more
+            except OSError:  # the terminal is closed
                 return text.decode(), status if status is not None else status_of(process, "it ends")
         elif status is not None:
             return text.decode(), status
@@ -75,9 +75,9 @@ def stopped():
     process, terminal = start("--threads", "2")
     os.write(terminal, STOP)
     try:
-        until(lambda: len(glob.glob("done/*.ngc")) >= 3, "the jobs go on")
+        until(lambda: len(glob.glob("done/*.ngc")) >= 3, "the jobs continue")
         os.kill(process, signal.SIGTERM)
-        if (status := status_of(process, "SIGTERM is heard")) != 143:
+        if (status := status_of(process, "SIGTERM is handled")) != 143:
             fail(f"status {status} after SIGTERM")
     finally:
         if ended_now(process) is None:
@@ -94,7 +94,7 @@ def ended_now(process):
 def goes_on():
     process, terminal = start()
     os.write(terminal, STOP)
-    until(lambda: os.path.exists("done/a.ngc") and os.path.exists("done/b.ngc"), "the jobs go on")
+    until(lambda: os.path.exists("done/a.ngc") and os.path.exists("done/b.ngc"), "the jobs continue")
     os.write(terminal, GO_ON)
     text, status = said(terminal, process)
     if status != 2 or "missing.ngc: error: cannot read" not in text.replace("\x1b[1;31m", "").replace("\x1b[0m", ""):

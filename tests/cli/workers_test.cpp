@@ -32,10 +32,10 @@ TEST_CASE("a worker that throws ends alone, with status 1") {
   CHECK(WIFEXITED(status));
   CHECK(WEXITSTATUS(status) == 1);
   CHECK(workers.running() == 1);
-  CHECK(workers.wait(-1, 100).empty());  // the other one has not been told to end
+  CHECK(workers.wait(-1, 100).empty());  // the other one has not received a signal
 }
 
-TEST_CASE("how a worker ended is known whatever the caller of the program ignores") {
+TEST_CASE("the end of a worker is known for any signals that the caller ignores") {
   std::signal(SIGCHLD, SIG_IGN);
   Workers workers;
   workers.start(0, [](const SendLine&) { ::raise(SIGKILL); });

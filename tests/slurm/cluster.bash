@@ -1,10 +1,10 @@
 # A throw-away Slurm cluster of virtual nodes on this host, with authentication, ports and folder of its own: nothing else on the
 # host is touched. To be sourced. Needs root, slurm-wlm and munge.
 
-# Whether nobody listens at the port.
+# Whether the port is free.
 is_free() { ! (exec 3<>"/dev/tcp/127.0.0.1/$1") 2>/dev/null; }
 
-# Prints the first of $1 free ports in a row, below those that the system gives to whoever asks.
+# Prints the first of $1 free ports in a row, below those that the system assigns.
 free_ports() {
   local first i
   for _ in {1..100}; do
@@ -16,7 +16,7 @@ free_ports() {
   return 1
 }
 
-# A lost node is noticed in about ten seconds; what is requeued waits as long as a credential lives, and 5 s is the least.
+# A lost node is noticed in about ten seconds; requeued jobs wait for the lifetime of a credential, at least 5 s.
 write_configuration() {  # $1 number of nodes
   local first i
   first=$(free_ports $(($1 + 1))) || return
@@ -83,7 +83,7 @@ start_cluster() {
 
 daemon_of() { cat "$cluster/slurmd.$1.pid"; }
 
-# The scripts that run on node $1, and whatever they have started.
+# The scripts that run on node $1, and the processes that they have started.
 tasks_on() {
   local pids
   pids=$(pgrep -f "$cluster/spool/$1/job")
@@ -93,7 +93,7 @@ tasks_on() {
   done
 }
 
-# What watches over them, a slurmstepd each.
+# Their supervisors, one slurmstepd each.
 steps_on() {
   local pid
   for pid in $(pgrep -f "$cluster/spool/$1/job"); do ps -o ppid= -p "$pid"; done | sort -u
@@ -101,7 +101,7 @@ steps_on() {
 
 kill_all() { [ $# -lt 2 ] || kill -s "$@" 2>/dev/null; }  # $1 signal, then processes, of which some may be gone
 
-# As a power cut: of the node nothing is left.
+# Like a power cut: kills all processes of the node.
 crash_node() { kill_all KILL $(daemon_of "$1") $(steps_on "$1") $(tasks_on "$1"); }
 
 stop_cluster() {

@@ -21,10 +21,10 @@ namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
 constexpr double longest_try = 2;          // s
-constexpr double least_share = 0.001;      // of a program, below which no time can be told
-constexpr double process_seconds = 0.005;  // that a job takes besides its work
+constexpr double least_share = 0.001;      // of a program: smaller shares give no usable time
+constexpr double process_seconds = 0.005;  // overhead of a job
 
-/// A folder that goes with its content.
+/// A temporary folder, removed with its content.
 class TemporaryFolder {
  public:
   TemporaryFolder() {
@@ -46,7 +46,7 @@ class TemporaryFolder {
   std::string path_;
 };
 
-/// The time that `job` takes, from the part of it that is done in a few seconds. A signal stops it and is
+/// The time for `job`, extrapolated from the part done in a few seconds. A signal stops it and is
 /// returned in `stopped`.
 double tried_seconds(BatchJob job, const AwaitedSignals& signals, std::optional<int>& stopped) {
   const TemporaryFolder folder;
@@ -77,7 +77,7 @@ struct JobKind {
   const BatchJob* largest = nullptr;
 };
 
-/// By machine, method, and whether causes are asked for.
+/// Groups jobs by machine, method and whether causes are computed.
 using JobKinds = std::map<std::tuple<std::string, Method, bool>, JobKind>;
 
 JobKinds kinds_of(const Batch& batch) {
@@ -108,7 +108,7 @@ double seconds_of(const JobKinds& kinds, std::optional<int>& stopped) {
 double estimated_seconds(const Batch& batch) {
   std::optional<int> stopped;
   const double seconds = seconds_of(kinds_of(batch), stopped);
-  if (stopped) end_by(*stopped);  // the temporary folder is gone
+  if (stopped) end_by(*stopped);  // the temporary folder has been removed
   return seconds;
 }
 

@@ -1,13 +1,12 @@
 #pragma once
-/// How long a batch would take.
+/// Estimates the duration of a batch.
 #include "batch/jobs.hpp"
 
 namespace counterflex::cli {
 
-/// Seconds of one processor for all jobs, found by trying: of each kind of job (machine, method, with causes
-/// or without) the largest one is begun for a few seconds and given up. Nothing is written under a final
-/// name; a signal that ends the program leaves nothing behind. Throws `InputError` (Exit::transient_io) where
-/// no process or temporary folder can be made.
+/// Seconds of one processor for all jobs. Runs the largest job of each kind (machine, method, with or without
+/// causes) for a few seconds and extrapolates. Writes no output files, and leaves no temporary files if a
+/// signal ends it. Throws `InputError` (Exit::transient_io) if no process or temporary folder can be made.
 double estimated_seconds(const Batch& batch);
 
 }  // namespace counterflex::cli

@@ -19,7 +19,7 @@ std::string state_folder(const std::string& folder) {
   return (fs::path(folder) / ".counterflex").native();
 }
 
-/// All that results are written to, each by its one name, so that nobody waits for a lock of its own.
+/// All folders that results are written to. Each has one name, so that a run does not wait for its own lock.
 std::set<std::string> make_folders_of(const Batch& batch) {
   std::set<std::string> folders{batch.folder};
   for (const BatchJob& job : batch.jobs)
@@ -40,9 +40,10 @@ BatchFolder::BatchFolder(const Batch& batch, Use use, Console& console)
   for (const std::string& folder : make_folders_of(batch)) {
     locks_.emplace_back(folder, kind, "counterflex batch");
     if (locks_.back().locked()) continue;
-    console.warning(folder, 0,
-                    fmt::format("its file system has no locks ({}): nothing keeps a second run away",
-                                locks_.back().why_not()));
+    console.warning(
+        folder, 0,
+        fmt::format("its file system has no locks ({}): a second run in this folder is not refused",
+                    locks_.back().why_not()));
     alone_ = false;
   }
   for (const char* name : {"manifest.json", "../summary.json", "../summary.csv"})

@@ -1,5 +1,5 @@
 #pragma once
-/// The folder of a batch: its results, its state, and who may work in it.
+/// The folder of a batch: results, state and locks.
 #include <string>
 #include <vector>
 
@@ -12,26 +12,26 @@ namespace counterflex::cli {
 class BatchFolder {
  public:
   enum class Use {
-    alone,   ///< nobody else may write results here
-    shared,  ///< with others that do shards of the same batch
+    alone,   ///< no other run may write results here
+    shared,  ///< other runs may do shards of the same batch
   };
 
-  /// Makes the folders that are missing, and locks those that results are written to while it lives. Warns
-  /// where their file system has no locks. Alone, it removes what runs that were killed have left half
-  /// written. Throws `InputError` (Exit::transient_io) where another run holds one, or it cannot be written.
+  /// Creates missing folders, and locks those that results are written to until it is destroyed. Warns if
+  /// their file system has no locks. With `alone`, removes unfinished files of killed runs. Throws
+  /// `InputError` (Exit::transient_io) if another run holds a lock, or if a folder cannot be written.
   BatchFolder(const Batch& batch, Use use, Console& console);
 
-  /// Makes a folder of the state.
+  /// Creates a folder of the state.
   void make_state(const std::string& name) const;
 
   /// The path of a file of the state.
   std::string state(const std::string& name) const;
 
-  /// The manifests that stand in the state: of the batch, then of shards.
+  /// The manifests in the state folder: first that of the batch, then those of shards.
   std::vector<std::string> manifests() const;
 
-  /// Removes what is half written, of workers that were killed; nobody else may be writing then. Nothing
-  /// where the folder is shared, or there are no locks.
+  /// Removes unfinished files of killed workers. No other process may be writing. Does nothing if the folder
+  /// is shared, or has no locks.
   void sweep() const;
 
  private:

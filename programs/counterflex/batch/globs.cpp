@@ -15,10 +15,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Goes through the folders that the parts of a pattern match, one part a level.
+/// Walks the folders that match the parts of a pattern, one part for each level.
 class Walk {
  public:
-  /// "**" behind "**" adds nothing but time.
+  /// Removes repeated "**", which only cost time.
   explicit Walk(const fs::path& pattern) {
     for (const fs::path& part : pattern)
       if (part != "**" || parts_.empty() || parts_.back() != "**") parts_.push_back(part);
@@ -32,7 +32,7 @@ class Walk {
  private:
   void go(const fs::path& at, std::size_t part) {
     if (!visited_.emplace(at.native(), part).second)
-      return;  // by another way, where "**" stands more than once
+      return;  // already reached, if "**" occurs more than once
     if (part == parts_.size()) return take(at);
     const std::string& name = parts_[part].native();
     if (!is_glob(name)) return go(at / parts_[part], part + 1);
@@ -48,8 +48,8 @@ class Walk {
     }
   }
 
-  /// All of them, before any of them is gone into: the depth of folders needs no descriptors. A folder that
-  /// is not there has none; one that cannot be read might hold programs.
+  /// Lists a folder completely before entering its subfolders, so that depth needs no open descriptors. A
+  /// missing folder is empty. Throws for a folder that cannot be read: it might have programs.
   static std::vector<fs::path> names_in(const fs::path& folder) {
     const fs::path place = folder.empty() ? fs::path(".") : folder;
     std::vector<fs::path> names;
@@ -64,7 +64,7 @@ class Walk {
                      "cannot read the folder: " + error.message());
   }
 
-  /// Pipes and devices are no programs: nothing may ever come out of them.
+  /// Skips pipes and devices: reading them might block for ever.
   void take(const fs::path& path) {
     std::error_code ignored;
     if (fs::is_regular_file(path, ignored)) found_.insert(path.native());

@@ -10,9 +10,8 @@ namespace counterflex::cli {
 bool is_glob(std::string_view text);
 
 /// The regular files that `pattern` matches, sorted by their bytes: * ? [...] within a name, ** for any
-/// number of folders. Hidden files and folders are matched only where the pattern says their dot. Throws
-/// `InputError` naming a folder that cannot be read: Exit::machine_or_force for want of rights, else
-/// Exit::transient_io.
+/// number of folders. Hidden files and folders match only patterns with their dot. Throws `InputError` with a
+/// folder that cannot be read: Exit::machine_or_force without permission, else Exit::transient_io.
 std::vector<std::string> files_matching(const std::string& pattern);
 
 }  // namespace counterflex::cli

@@ -91,7 +91,7 @@ JobOutcome lost_outcome(const BatchJob& job, int status) {
   outcome.exit = broke_down ? Exit::internal : Exit::transient_io;
   outcome.error = fmt::format("{}: error: {}the process of this job {}{}", job.program,
                               broke_down ? "internal error: " : "", ending_text(status),
-                              signal == SIGKILL ? ", perhaps for want of memory" : "");
+                              signal == SIGKILL ? ", perhaps because memory was short" : "");
   return outcome;
 }
 

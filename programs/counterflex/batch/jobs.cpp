@@ -32,7 +32,7 @@ std::vector<std::string> files_read(const Options& options) {
   return files;
 }
 
-/// What the environment says; its files are those that it names where the program was called.
+/// Settings of the environment. Their paths are relative to the working directory.
 std::vector<Setting> environment_of(const std::string& from) {
   std::vector<Setting> settings = read_environment(environ);
   for (Setting& setting : settings)
@@ -42,8 +42,8 @@ std::vector<Setting> environment_of(const std::string& from) {
   return settings;
 }
 
-/// What decides the bytes of the outputs besides those of the inputs: all options, and all paths,
-/// which reports name.
+/// Everything besides the inputs that affects the bytes of the outputs: all options, and all paths (reports
+/// contain them).
 std::string key_of(const Layers& layers, const BatchJob& job) {
   std::string all = fmt::format("counterflex {}\n{}\n{}\n", version, job.program, job.output);
   for (const Setting& setting : effective_settings(Command::compensate, layers)) {
@@ -55,8 +55,8 @@ std::string key_of(const Layers& layers, const BatchJob& job) {
   return sha256(all);
 }
 
-/// Bytes, and what every run takes to begin. Where causes are asked for, or each waypoint is iterated for,
-/// they take longer. It decides what is done first and where, nothing else.
+/// Bytes of the program plus a constant for the start, weighted by method and causes. Affects only the order
+/// of jobs and their assignment to shards.
 double work_of(const BatchJob& job) {
   constexpr double beginning = 4096, causes = 2.5, nested = 500;
   std::error_code missing;
@@ -67,7 +67,7 @@ double work_of(const BatchJob& job) {
   return work;
 }
 
-/// Jobs as they are found, which have to be apart.
+/// The jobs found so far; their outputs must differ.
 class JobList {
  public:
   JobList(const JobsFile& file, const std::vector<Setting>& environment, bool force_overwrite)
@@ -93,13 +93,13 @@ class JobList {
     const fs::file_status found = fs::status(pattern, ignored);
     if (fs::exists(found) && !fs::is_regular_file(found))
       throw InputError(Exit::machine_or_force, entry.where,
-                       fmt::format("'{}' is no file of a program", pattern));
+                       fmt::format("'{}' is not a program file", pattern));
     if (!is_glob(pattern) || fs::exists(found)) return add(pattern, entry);
     std::vector<std::string> programs = files_matching(pattern);
     std::erase_if(programs, has_corrected_header);
     if (programs.empty())
       throw InputError(Exit::machine_or_force, entry.where,
-                       fmt::format("no file, or none that is not corrected already, matches '{}'", pattern));
+                       fmt::format("no uncorrected program matches '{}'", pattern));
     for (const std::string& program : programs) add(program, entry);
   }
 
@@ -114,13 +114,12 @@ class JobList {
     job.work = work_of(job);
     for (const std::string& file : files_read(job.options))
       if (file == "-")
-        throw InputError(
-            Exit::machine_or_force, entry.where,
-            fmt::format("{}: a job cannot read standard input (-), which is not its own", program));
+        throw InputError(Exit::machine_or_force, entry.where,
+                         fmt::format("{}: a job cannot read standard input (-); name a file", program));
     found_.push_back({std::move(job), entry.where});
   }
 
-  /// A machine that nobody names is the fault of the list.
+  /// A missing machine is an error of the jobs file.
   static Options options_for(const std::string& program, const Layers& layers, const JobEntry& entry) {
     try {
       return options_of(Command::compensate, layers, program);
@@ -152,7 +151,8 @@ class JobList {
           refuse(found, path, "an input of this batch, and inputs are never overwritten");
         if (summaries.count(name) > 0) refuse(found, path, "the summary of the batch");
         if (!outputs.insert(name).second)
-          refuse(found, path, "as that of another job is: give one of them another folder or name");
+          refuse(found, path,
+                 "which is also the output of another job: give one of them another folder or name");
       }
   }
 

@@ -1,5 +1,5 @@
 #pragma once
-/// The jobs of a batch, ready to be done.
+/// The jobs of a batch, ready to run.
 #include <string>
 #include <vector>
 
@@ -11,27 +11,26 @@ struct BatchJob {
   std::string program, output;  ///< paths
   Options options;              ///< of `compensate`
   std::string key;              ///< of the outcome: SHA-256 of version, options and paths
-  double work = 0;              ///< of any unit: bytes of the program, weighed by what is done with them
+  double work = 0;              ///< relative cost: bytes of the program, weighted by method and causes
 };
 
 /// All files that a job writes.
 std::vector<std::string> files_written(const BatchJob& job);
 
-/// What a jobs file asks for.
+/// A jobs file, with all its programs found.
 struct Batch {
   std::string folder;          ///< where summary and state are kept
   std::vector<BatchJob> jobs;  ///< in the order of the file, those of a glob by name; no two have one output
   int threads = 1;             ///< for all of them together
-  bool force_overwrite = false;  ///< of the summary, too
+  bool force_overwrite = false;  ///< also replaces a foreign summary
 };
 
-/// Reads `file`, finds the programs, and settles the options of each, in which jobs go before defaults, these
-/// before the environment, and this before the project file of the program. Relative paths of the environment
-/// are those of `from`. A program that is not there is a job, which will fail; a glob without one is an
-/// error, and programs that are corrected already are left out of it. Throws `InputError`:
-/// Exit::machine_or_force, with the place, for what is wrong with the file, and where a job would write a
-/// file that another one reads or writes; as `files_matching`. `flags` go before what environment and file
-/// say of the batch as a whole.
+/// Reads `file`, finds the programs, and resolves the options of each. Priority: job, defaults of the file,
+/// environment, project file of the program. Relative paths of the environment are relative to `from`. A
+/// missing program is a job that fails. A glob without a match is an error; globs skip corrected programs.
+/// `flags` override environment and file for settings of the whole batch. Throws `InputError`:
+/// Exit::machine_or_force, with the place, for errors of the file and for jobs that would write an input or
+/// output of another job; also as `files_matching`.
 Batch read_batch(const std::string& file, const std::string& from, const std::vector<Setting>& flags);
 
 }  // namespace counterflex::cli

@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::chrono::milliseconds between_saves(500);
 
-/// Of this version's manifests, by output.
+/// Outcomes in manifests of this version, by output.
 std::multimap<std::string, JobOutcome> outcomes_in(const std::vector<std::string>& files) {
   std::multimap<std::string, JobOutcome> outcomes;
   for (const std::string& file : files) {
@@ -79,7 +79,7 @@ void BatchManifest::save_sometimes() {
   try {
     save();
   } catch (const InputError&) {
-    saved_ = std::chrono::steady_clock::now();  // not at once again
+    saved_ = std::chrono::steady_clock::now();  // the next save waits
   }
 }
 

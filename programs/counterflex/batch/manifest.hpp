@@ -1,5 +1,5 @@
 #pragma once
-/// Keeps the manifest of a batch, or of a shard, true while jobs end.
+/// Updates the manifest of a batch, or of a shard, as jobs end.
 #include <chrono>
 #include <cstddef>
 #include <optional>
@@ -13,16 +13,16 @@ namespace counterflex::cli {
 
 class BatchManifest {
  public:
-  /// `path` of the file, and what it is the manifest of (`Manifest::plan`).
+  /// `path` of the file, and the plan of its jobs (`Manifest::plan`).
   BatchManifest(std::string path, std::string plan, BatchJobs jobs);
 
-  /// Takes what is proven done by any of `files`, manifests of this batch, whoever wrote them. A file that is
-  /// missing proves nothing. Throws `InputError` (Exit::machine_or_force) where one cannot be trusted;
-  /// nothing has been changed then.
+  /// Takes over outcomes from `files`, manifests of this batch, for jobs whose options, inputs and outputs
+  /// match. Ignores missing files. Throws `InputError` (Exit::machine_or_force) for a damaged manifest, and
+  /// then changes nothing.
   void take_proven(const std::vector<std::string>& files);
 
-  /// If its own file has all jobs, proven done or failed so that they would fail again, takes them and
-  /// returns true. Throws as `take_proven`.
+  /// Takes over the outcomes of its own file and returns true if it has all jobs, each unchanged or sure to
+  /// fail again. Throws as `take_proven`.
   bool take_all_ended();
 
   /// A job has ended.
@@ -32,11 +32,11 @@ class BatchManifest {
   const std::optional<JobOutcome>& outcome(std::size_t job) const { return outcomes_[job]; }
   std::vector<JobOutcome> ended() const;  ///< in the order of jobs
 
-  /// Writes the file if something has changed and it has not been written for a while. What cannot be
-  /// written then may be later.
+  /// Writes the file if an outcome was added and the last write was some time ago. Ignores errors: the next
+  /// call tries again.
   void save_sometimes();
 
-  /// Throws `InputError` (Exit::transient_io) where it cannot be written.
+  /// Throws `InputError` (Exit::transient_io) if it cannot be written.
   void save();
 
  private:

@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Numbers that the names of the shards' manifests end in: "-of-N.json".
+/// The numbers N in names of shard manifests: "-of-N.json".
 std::set<int> counts_of_shards(const BatchFolder& folder) {
   std::set<int> counts;
   for (const std::string& file : files_matching(folder.state("shards/*-of-*.json"))) {
@@ -27,7 +27,7 @@ std::set<int> counts_of_shards(const BatchFolder& folder) {
     const std::size_t of = name.find("-of-");
     try {
       counts.insert(read_shard(name.substr(0, of) + "/" + name.substr(of + 4)).count);
-    } catch (const InputError&) {  // no shard's
+    } catch (const InputError&) {  // not the manifest of a shard
     }
   }
   return counts;
@@ -38,8 +38,8 @@ std::set<int> counts_of_shards(const BatchFolder& folder) {
                    fmt::format("{}; run --shard {}/{} --resume and merge again", why, index, count));
 }
 
-/// The outcomes of all jobs, by output, of `count` shards. Throws `InputError` where one is missing or no
-/// longer as its shard left it.
+/// The outcomes of all jobs of `count` shards, by output. Throws `InputError` if one is missing or has
+/// changed since its shard ended.
 class ShardResults {
  public:
   ShardResults(const Batch& batch, const BatchFolder& folder, int count) : folder_(folder), count_(count) {
@@ -79,7 +79,7 @@ class ShardResults {
   FileHashes on_disk_;
 };
 
-/// Of the shards that stand here, those that are complete: a batch may have been shared out anew.
+/// Of the shards in the state folder those that are complete: a batch may have been divided again.
 ShardResults complete_results(const Batch& batch, const BatchFolder& folder) {
   std::exception_ptr incomplete;
   for (const int count : counts_of_shards(folder)) try {
@@ -105,7 +105,7 @@ void merge_shards(const Batch& batch, const BatchFolder& folder, BatchManifest& 
     manifest.set(job, results.outcome(batch.jobs[job]));
 }
 
-/// First all of it gets another name: half of the shards must never look like all.
+/// Renames the folder first, so that a partly removed set of shards is never taken for a complete one.
 void remove_shards(const BatchFolder& folder) {
   const std::string merged = folder.state("merged");
   std::error_code ignored;

@@ -1,21 +1,21 @@
 #pragma once
-/// Sums up the results of the shards of a batch.
+/// Merges the results of the shards of a batch.
 #include "batch/folder.hpp"
 #include "batch/jobs.hpp"
 #include "batch/manifest.hpp"
 
 namespace counterflex::cli {
 
-/// Fills `manifest`, which has all jobs, with the results of the shards. If the shards were merged before and
-/// none are left, takes the results of that merge. Throws `InputError`, and then nothing is changed:
-/// Exit::transient_io where a shard is missing or its inputs or outputs have changed, Exit::machine_or_force
-/// where its manifest is damaged.
+/// Fills `manifest`, which has all jobs, with the results of the shards. If the shards were merged and
+/// removed before, takes over the results of that merge. Throws `InputError` and changes nothing if a shard
+/// is missing or its inputs or outputs have changed (Exit::transient_io), or if its manifest is damaged
+/// (Exit::machine_or_force).
 void merge_shards(const Batch& batch, const BatchFolder& folder, BatchManifest& manifest);
 
-/// Whether shards have left anything to merge.
+/// Whether there are results of shards to merge.
 bool has_shards(const BatchFolder& folder);
 
-/// Removes what the shards have left in the state.
+/// Removes the results of shards from the state folder.
 void remove_shards(const BatchFolder& folder);
 
 /// The manifest of shard `index` of `count`.

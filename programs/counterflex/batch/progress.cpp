@@ -9,7 +9,7 @@
 namespace counterflex::cli {
 namespace {
 
-constexpr double settled = 2;  // s: before that nobody knows how long it will take
+constexpr double settled = 2;  // s: earlier there is no estimate of the time left
 
 }  // namespace
 

@@ -1,5 +1,5 @@
 #pragma once
-/// How far a batch has come.
+/// Progress of a batch.
 #include <chrono>
 #include <cstddef>
 #include <optional>
@@ -15,7 +15,7 @@ class BatchProgress {
   /// `work` of the jobs, in any unit.
   explicit BatchProgress(std::vector<double> work);
 
-  /// A job has come to this share of its work, and has solved more waypoints.
+  /// A job has done this share of its work, and has solved `waypoints` more.
   void add(std::size_t job, std::optional<double> share, std::size_t waypoints);
 
   /// A job has ended.

@@ -20,9 +20,9 @@ namespace counterflex::cli {
 namespace {
 
 constexpr int tick_ms = 250;
-constexpr int patience_ms = 400;      // for workers that are asked to end
-constexpr int hesitation_ms = 100;    // for a signal that has ended a worker to arrive here, too
-constexpr double large_share = 0.25;  // of what one processor has to do in all
+constexpr int patience_ms = 400;      // for workers after SIGTERM
+constexpr int hesitation_ms = 100;    // until a signal that ended a worker arrives here, too
+constexpr double large_share = 0.25;  // of the work of one processor
 
 using Clock = std::chrono::steady_clock;
 constexpr std::chrono::milliseconds between_progress(250);
@@ -37,7 +37,7 @@ std::vector<std::size_t> missing_jobs(const BatchManifest& manifest) {
   return missing;
 }
 
-/// A task of the workers is a place in `missing_`.
+/// Tasks of the workers are indices into `missing_`.
 class JobsRun {
  public:
   JobsRun(BatchManifest& manifest, int threads, Console& console)
@@ -56,7 +56,7 @@ class JobsRun {
     while (next_ < missing_.size() || workers_.running() > 0) {
       start_some();
       for (const WorkerEvent& event : workers_.wait(signals_.descriptor(), tick_ms)) {
-        hear(event);
+        take(event);
         if (stopped_) break;
       }
       if (!stopped_) stopped_ = signals_.take();
@@ -71,7 +71,7 @@ class JobsRun {
   }
 
  private:
-  /// Nobody reads it faster, and there may be an event of every window of every job.
+  /// Limits the rate: every window of every job may produce an event.
   void show_progress() {
     const auto now = Clock::now();
     if (shown_ && now - *shown_ < between_progress) return;
@@ -91,7 +91,7 @@ class JobsRun {
     }
   }
 
-  /// A system that has no more processes may have some when one of these has ended: false.
+  /// Returns false if the system has no free process but one of ours will end.
   bool start(std::size_t task, int threads) {
     try {
       workers_.start(task, [&](const SendLine& send) { do_job(job(task), threads, send); });
@@ -102,14 +102,14 @@ class JobsRun {
     }
   }
 
-  void hear(const WorkerEvent& event) {
+  void take(const WorkerEvent& event) {
     if (event.ended) return end(event);
     JobNews news = news_of(event.line);
     progress_.add(event.task, news.done, news.waypoints);
     if (news.outcome) outcomes_[event.task] = std::move(news.outcome);
   }
 
-  /// The signal that ends this program may have ended the worker first: nothing is wrong with it then.
+  /// A signal that ends this program may end the worker first. That is not a failure of the job.
   void end(const WorkerEvent& event) {
     std::optional<JobOutcome>& outcome = outcomes_[event.task];
     if (!outcome && (stopped_ = signals_.take(hesitation_ms))) return;

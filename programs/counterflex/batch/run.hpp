@@ -1,5 +1,5 @@
 #pragma once
-/// Does jobs side by side, each in a process of its own.
+/// Runs jobs in parallel, each in its own process.
 #include <optional>
 
 #include "batch/manifest.hpp"
@@ -7,10 +7,10 @@
 
 namespace counterflex::cli {
 
-/// Does the jobs of `manifest` that have no outcome in it, on `threads` processors, the largest first, and
-/// keeps it up to date. A job that is large compared with all others gets all processors. Returns the signal
-/// by which the run was stopped, if any: it stops within a second and gives up the jobs under way. Throws
-/// `InputError` (Exit::transient_io) where no process can be started.
+/// Runs the jobs that have no outcome in `manifest` on `threads` processors, the largest first, and adds
+/// their outcomes to it. A job that is large compared with all others gets all processors. Returns the signal
+/// that stopped the run, if any: it stops within a second and abandons running jobs. Throws `InputError`
+/// (Exit::transient_io) if no process can be started.
 std::optional<int> do_missing(BatchManifest& manifest, int threads, Console& console);
 
 }  // namespace counterflex::cli

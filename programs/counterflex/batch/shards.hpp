@@ -1,5 +1,5 @@
 #pragma once
-/// How the jobs of a batch are shared out.
+/// Divides the jobs of a batch into shards.
 #include <string>
 #include <vector>
 
@@ -7,7 +7,7 @@
 
 namespace counterflex::cli {
 
-/// Some jobs of a batch, which outlives the list.
+/// Some jobs of a batch. The batch outlives the list.
 using BatchJobs = std::vector<const BatchJob*>;
 
 BatchJobs all_jobs(const Batch& batch);
@@ -15,7 +15,7 @@ BatchJobs all_jobs(const Batch& batch);
 /// The jobs of each of `shards` shards.
 std::vector<BatchJobs> jobs_by_shard(const Batch& batch, int shards);
 
-/// SHA-256 of the keys of all jobs and of how they are shared out.
+/// SHA-256 of the keys of all jobs and of their assignment to shards.
 std::string plan_of(const std::vector<BatchJobs>& jobs_by_shard);
 
 }  // namespace counterflex::cli

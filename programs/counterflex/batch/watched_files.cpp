@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Without regard to case.
+/// Ignores case.
 bool ends_with_any(const std::string& name, std::initializer_list<std::string_view> endings) {
   std::string lower = name;
   for (char& c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
@@ -42,7 +42,7 @@ std::int64_t nanoseconds_of(const timespec& time) {
   return std::int64_t{time.tv_sec} * per_second + time.tv_nsec;
 }
 
-/// Nothing where there is no file, or an empty one.
+/// Empty if there is no file, or an empty one.
 std::optional<FileVersion> version_of(const std::string& path) {
   struct stat facts {};
   if (::stat(path.c_str(), &facts) != 0 || !S_ISREG(facts.st_mode) || facts.st_size == 0) return std::nullopt;

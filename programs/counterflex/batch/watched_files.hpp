@@ -1,5 +1,5 @@
 #pragma once
-/// The programs of a folder, found by polling.
+/// Finds the programs of a folder by polling.
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -15,19 +15,19 @@ struct FileVersion {
   bool operator==(const FileVersion&) const = default;
 };
 
-/// Leaves out hidden, temporary and empty files, and files that counterflex reads or writes beside programs.
-/// `patterns` as in a shell: if there are any, a name must match one of them; a pattern may ask for .csv,
-/// .toml, .json, .html and .svg.
+/// Ignores hidden, temporary and empty files, and other files that counterflex reads or writes. With
+/// `patterns`, as in a shell, a name must match one of them; patterns can include .csv, .toml, .json, .html
+/// and .svg.
 class WatchedFiles {
  public:
-  /// Throws `InputError` (Exit::usage) where `folder` is no folder.
+  /// Throws `InputError` (Exit::usage) if `folder` is not a folder.
   WatchedFiles(std::string folder, std::vector<std::string> patterns);
 
-  /// Throws `InputError` (Exit::transient_io) where the folder cannot be read any more.
+  /// Throws `InputError` (Exit::transient_io) if the folder can no longer be read.
   void poll();
 
-  /// Paths, sorted, of files that `set_done` has not been called for since they changed: those that were the
-  /// same at the last two polls, and those that were not.
+  /// Sorted paths of files that have changed since `set_done`: those that were equal at the last two polls,
+  /// and those that were not.
   std::vector<std::string> complete() const { return undone(true); }
   std::vector<std::string> changing() const { return undone(false); }
 

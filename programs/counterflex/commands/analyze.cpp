@@ -14,7 +14,7 @@
 namespace counterflex::cli {
 namespace {
 
-/// The poses asked for; without an orientation, home's.
+/// The poses of `--at`. A pose without an orientation has that of home.
 std::vector<Pose> wanted_poses(const Options& options, const Model& model) {
   const Matrix3 R_home = tip(model.mechanism, model.home).R;
   std::vector<Pose> poses;
@@ -25,19 +25,19 @@ std::vector<Pose> wanted_poses(const Options& options, const Model& model) {
   return poses;
 }
 
-/// What `--at` says of components that the machine does not control, and where it stands instead.
-void warn_of_uncontrolled(const PoseAnalysis& pose, const Pose& asked, const std::string& at,
+/// Values of `--at` for components that the machine does not control, and the values used instead.
+void warn_of_uncontrolled(const PoseAnalysis& pose, const Pose& wanted, const std::string& at,
                           Console& console) {
-  const Vector6 difference = deviation(pose.X_MT, asked);
+  const Vector6 difference = deviation(pose.X_MT, wanted);
   const bool turned = pose_of("--at", at).has_orientation && difference.tail<3>().norm() > 1e-9;
   if (difference.head<3>().norm() < 1e-9 && !turned) return;
-  console.warning(
-      "--at " + at, 0,
-      "the machine does not control all components of this pose; those of the nominal machine are taken");
+  console.warning("--at " + at, 0,
+                  "the machine does not control all components of this pose; the others are those of the "
+                  "nominal machine");
 }
 
-/// Says which poses were not solved; the exit status that they ask for.
-Exit judge(const AnalysisReport& report, const std::vector<Pose>& asked, const Options& options,
+/// Reports the poses that were not solved. Returns the exit status.
+Exit judge(const AnalysisReport& report, const std::vector<Pose>& wanted, const Options& options,
            Console& console) {
   Exit exit = Exit::done;
   for (std::size_t i = 0; i < report.poses.size(); ++i) {
@@ -52,21 +52,21 @@ Exit judge(const AnalysisReport& report, const std::vector<Pose>& asked, const O
       console.error(fmt::format("--at {}: error: no target corrects this pose: {}", options.analyze.at[i],
                                 to_string(status)));
     else
-      warn_of_uncontrolled(pose, asked[i], options.analyze.at[i], console);
+      warn_of_uncontrolled(pose, wanted[i], options.analyze.at[i], console);
     if (status == Status::converged || exit == Exit::not_compensated) continue;
     exit = status == Status::outside_travel ? Exit::limit : Exit::not_compensated;
   }
   return exit;
 }
 
-/// Throws (Exit::usage) naming the tools that there are.
+/// Throws (Exit::usage) with the list of known tools.
 const std::pair<const long, Tool>& tool_named(const std::string& text, const Machine& machine) {
   const std::optional<long> number = read_tool_number(text);
   if (!number)
     throw InputError(Exit::usage, {}, fmt::format("--tool is '{}', must be T and its number, as T3", text));
   std::string known;
   for (const auto& entry : machine.tools) {
-    if (entry.first == 0) continue;  // no known tool: what [tool] says
+    if (entry.first == 0) continue;  // no known tool: [tool]
     if (entry.first == *number) return entry;
     known += fmt::format("{}T{}", known.empty() ? "" : ", ", entry.first);
   }
@@ -75,7 +75,7 @@ const std::pair<const long, Tool>& tool_named(const std::string& text, const Mac
                                known.empty() ? "none" : known));
 }
 
-/// Throws (Exit::usage) where values are wrong or do not belong together; before files are read.
+/// Throws (Exit::usage) for wrong values or combinations, before files are read.
 void check_values(const Options& options) {
   for (const std::string& text : options.analyze.at) pose_of("--at", text);
   if (options.analyze.hold) pose_of("--hold", *options.analyze.hold);
@@ -103,7 +103,7 @@ AnalysisExtras extras_of(const Options& options, const Model& machine, const Mod
   return extras;
 }
 
-/// Says which states of --hold and --curve were not found.
+/// Reports the states of --hold and --curve that were not found.
 Exit judge_extras(const AnalysisReport& report, const Options& options, Console& console) {
   Exit exit = Exit::done;
   const auto fail = [&](const std::string& what) {
@@ -140,13 +140,13 @@ Exit run_analyze(const Options& options, Console& console) {
   const auto* tool = options.analyze.tool ? &tool_named(*options.analyze.tool, input.machine) : nullptr;
   const Model with_tool = tool ? prepare_with_tool(input.machine, input.model, tool->second) : Model{};
   const Model& model = tool ? with_tool : input.model;
-  const std::vector<Pose> asked = wanted_poses(options, model);
+  const std::vector<Pose> wanted = wanted_poses(options, model);
   AnalysisReport report =
-      analyze(model, asked, load, options.method, version, extras_of(options, input.model, model));
+      analyze(model, wanted, load, options.method, version, extras_of(options, input.model, model));
   if (tool) report.tool = fmt::format("tool T{}: {}", tool->first, stiffness_phrase(tool->second));
   write_result(options.json ? to_json(report) : to_text(report));
   write_curve(report, options);
-  const Exit exit = judge(report, asked, options, console), extras = judge_extras(report, options, console);
+  const Exit exit = judge(report, wanted, options, console), extras = judge_extras(report, options, console);
   return exit == Exit::done ? extras : exit;
 }
 

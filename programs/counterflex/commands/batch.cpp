@@ -29,11 +29,13 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t rows_shown = 30;
 
-/// Paths of a jobs file, and so those in reports, are relative to its folder, from wherever it is called.
+/// Paths of a jobs file, and those in reports, are relative to its folder. The working directory has no
+/// effect.
 std::string enter_folder_of(const std::string& file, Console& console) {
   if (file == "-")
-    throw InputError(Exit::usage, {},
-                     "a jobs file has a folder, to which its paths are relative: not standard input");
+    throw InputError(
+        Exit::usage, {},
+        "the jobs file must be a file, not standard input: its paths are relative to its folder");
   refuse_special_file(file);
   const fs::path path(file);
   if (!path.has_parent_path()) return file;
@@ -45,14 +47,14 @@ std::string enter_folder_of(const std::string& file, Console& console) {
 }
 
 void check_flags(const Options& options) {
-  const int asked =
+  const int modes =
       (options.batch.merge ? 1 : 0) + (options.batch.shard ? 1 : 0) + (options.batch.estimate ? 1 : 0);
-  if (asked > 1) throw InputError(Exit::usage, {}, "--shard, --merge and --estimate exclude each other");
+  if (modes > 1) throw InputError(Exit::usage, {}, "--shard, --merge and --estimate exclude each other");
   if (options.batch.resume && (options.batch.merge || options.batch.estimate))
     throw InputError(Exit::usage, {}, "--resume goes with a run or a --shard of it");
 }
 
-/// Before anything is done: what somebody else wrote under the names of a batch stays.
+/// Refuses to replace files that counterflex did not write. Called before any job starts.
 void refuse_foreign_summary(const Batch& batch) {
   if (batch.force_overwrite) return;
   refuse_foreign({marked_file(batch.folder + "/summary.json", "\"counterflex-batch 1\""),
@@ -66,8 +68,7 @@ void write_summary(const Batch& batch, const std::vector<JobOutcome>& outcomes, 
   publish_together({&json_file, &csv_file});
 }
 
-/// From here on until all have ended there is none: the table of an earlier run would be taken for this
-/// one's.
+/// Removes the summary of an earlier run, so that it is not mistaken for the summary of this run.
 void remove_summary(const Batch& batch) {
   for (const char* name : {"/summary.json", "/summary.csv"}) {
     std::error_code error;
@@ -77,15 +78,16 @@ void remove_summary(const Batch& batch) {
   }
 }
 
-/// An older program under the name that a job which failed would have written is no correction of this one.
+/// Warns of corrected programs of earlier runs whose jobs failed in this run.
 void warn_of_older(const std::vector<JobOutcome>& outcomes, Console& console) {
   std::error_code ignored;
   for (const JobOutcome& outcome : outcomes)
     if (outcome.exit != Exit::done && fs::exists(outcome.output, ignored))
-      console.warning(outcome.output, 0, fmt::format("is of an earlier run: {} failed now", outcome.program));
+      console.warning(outcome.output, 0,
+                      fmt::format("not updated: compensation of {} failed", outcome.program));
 }
 
-/// The table is told also where nothing can be written any more: a full disk has no room for it.
+/// Prints the table even if no file can be written, for example on a full disk.
 Exit conclude(const Options& options, const Batch& batch, BatchManifest& manifest, Console& console) {
   const std::vector<JobOutcome> outcomes = manifest.ended();
   const std::string json = summary_json(outcomes, version);
@@ -103,21 +105,22 @@ Exit conclude(const Options& options, const Batch& batch, BatchManifest& manifes
   return exit_of(outcomes);
 }
 
-/// One line that scripts take apart.
+/// One line for scripts.
 Exit say_estimate(const Batch& batch) {
   write_result(fmt::format("work_s={:.1f} jobs={}\n", estimated_seconds(batch), batch.jobs.size()));
   return Exit::done;
 }
 
-/// What need not be done again.
+/// Jobs that are unchanged since the last run.
 void take_proven(const Options& options, const BatchFolder& folder, BatchManifest& manifest,
                  Console& console) {
   if (!options.batch.resume) return;
   manifest.take_proven(folder.manifests());
-  console.detail(fmt::format("{} of {} are proven done", manifest.ended().size(), manifest.jobs().size()));
+  console.detail(fmt::format("{} of {} are unchanged since the last run", manifest.ended().size(),
+                             manifest.jobs().size()));
 }
 
-/// Of a run that was stopped: what it has done is kept.
+/// Keeps the results of a run that was stopped.
 Exit saved(BatchManifest& manifest, int signal) {
   manifest.save();
   return static_cast<Exit>(status_of(signal));
@@ -147,7 +150,7 @@ Exit run_merge(const Options& options, const Batch& batch, Console& console) {
   if (has_shards(folder)) remove_summary(batch);
   merge_shards(batch, folder, manifest);
   const Exit exit = conclude(options, batch, manifest, console);
-  if (exit == Exit::done || fails_again(exit)) remove_shards(folder);  // else another try would want them
+  if (exit == Exit::done || fails_again(exit)) remove_shards(folder);  // otherwise the next try needs them
   return exit;
 }
 
@@ -160,7 +163,7 @@ Exit run_all(const Options& options, const Batch& batch, Console& console) {
   folder.sweep();
   if (stopped) return saved(manifest, *stopped);
   const Exit exit = conclude(options, batch, manifest, console);
-  remove_shards(folder);  // of an earlier try, which nobody will finish
+  remove_shards(folder);  // of an abandoned earlier try
   return exit;
 }
 
@@ -171,7 +174,8 @@ Exit run_batch(const Options& options, Console& console) {
   std::error_code gone;
   const std::string from = fs::current_path(gone).native();
   Batch batch = read_batch(enter_folder_of(options.batch.jobs, console), from, options.sources.flags);
-  for (BatchJob& job : batch.jobs) job.options.quiet = !options.verbose;  // the table counts their warnings
+  for (BatchJob& job : batch.jobs)
+    job.options.quiet = !options.verbose;  // the table shows the number of warnings
   if (options.batch.estimate) return say_estimate(batch);
   refuse_foreign_summary(batch);
   if (options.batch.shard) return run_shard(options, batch, console);

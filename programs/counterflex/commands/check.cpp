@@ -42,8 +42,8 @@ void add_sanity(const SanityChecks& checks, const Machine& machine, Checked& che
   }
 }
 
-std::string row(std::string_view what, std::string_view said) {
-  return fmt::format("{:<12} {}\n", what, said);
+std::string row(std::string_view label, std::string_view text) {
+  return fmt::format("{:<12} {}\n", label, text);
 }
 
 Exit run_check(const Options& options, Console& console) {

@@ -1,5 +1,5 @@
 #pragma once
-/// What `check` finds in one file: a page for people, an object for programs.
+/// Result of `check` for one file: a page of text, and a JSON object.
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -16,17 +16,17 @@ struct Checked {
   Exit exit = Exit::done;
 };
 
-/// A machine file. Throws `InputError` where it cannot be read, or where its home is not fit to start from.
+/// Checks a machine file. Throws `InputError` if it cannot be read, or if its home is not a valid start.
 Checked check_machine(const std::string& path, const Options& options, Console& console);
 
-/// A program, and where there is a `machine`, whether it reaches the program's points. Throws `InputError`.
+/// Checks a program and, with a `machine`, whether the machine reaches its points. Throws `InputError`.
 Checked check_program(const std::string& path, const Options& options, const MachineInput* machine,
                       Console& console);
 
 /// Adds the sanity block of `machine`; a wrong check is an error (Exit::machine_or_force).
 void add_sanity(const SanityChecks& checks, const Machine& machine, Checked& checked, Console& console);
 
-/// A line of a page: a word, and what is said about it.
-std::string row(std::string_view what, std::string_view said);
+/// A line of a page: a label and its text.
+std::string row(std::string_view label, std::string_view text);
 
 }  // namespace counterflex::cli

@@ -19,15 +19,15 @@ struct HomeFacts {
   Eigen::VectorXd rho;
   Pose X_MT;
   double actuator_condition = 0;          ///< 0: no actuators
-  Status status = Status::not_converged;  ///< of the machine as it stands there without load
+  Status status = Status::not_converged;  ///< of the machine at home without load
   Vector6 deviation = Vector6::Zero();    ///< meaningful when converged
   double static_condition = 0, stability = 0;
   std::vector<int>
-      spring_directions;  ///< by chain: of the end's six, how many its springs and compliances span
+      spring_directions;  ///< by chain: how many of the end's six directions its springs and compliances span
 };
 
-/// Columns of what yields under load: springs, compliances, passive joints with springs, and groups that hold
-/// any.
+/// Columns of elements that deflect under load: springs, compliances, passive joints with springs, and groups
+/// with any of these.
 bool yields(const Part& part, const Series& series) {
   if (part.kind == PartKind::spring || part.kind == PartKind::compliance) return true;
   if (part.kind == PartKind::passive) return part.k > 0;
@@ -79,7 +79,7 @@ struct Value {
 
 Value in_unit(double value, JointKind kind) {
   const bool length = kind == JointKind::prismatic;
-  return {rounded(value / (length ? mm : deg), 9), length ? "mm" : "deg"};  // without the noise of solving
+  return {rounded(value / (length ? mm : deg), 9), length ? "mm" : "deg"};  // without numerical noise
 }
 
 std::vector<std::string> notes_of(const Machine& machine, const Model& model, const HomeFacts& home) {
@@ -101,20 +101,20 @@ std::vector<std::string> notes_of(const Machine& machine, const Model& model, co
 }
 
 std::string position_text(const Vector3& p) {
-  const auto shown = [](double x) { return rounded(x / mm, 9); };  // without the noise of solving
+  const auto shown = [](double x) { return rounded(x / mm, 9); };  // without numerical noise
   return fmt::format("{:.6g}, {:.6g}, {:.6g} mm", shown(p.x()), shown(p.y()), shown(p.z()));
 }
 
 std::string weights_text(const Machine& machine) {
   if (!weighs(machine)) return "";
-  return machine.gravity.true_at_home ? ", under its weights, against which the control holds it here"
-                                      : ", under its weights";
+  return machine.gravity.true_at_home ? ", under its weight, with the control's zero set here"
+                                      : ", under its weight";
 }
 
 std::string home_text(const Machine& machine, const Model& model, const HomeFacts& home) {
   std::string text = "\nat home\n";
-  const auto line = [&](std::string_view what, const std::string& said) {
-    text += fmt::format("  {:<20} {}\n", what, said);
+  const auto line = [&](std::string_view label, const std::string& value) {
+    text += fmt::format("  {:<20} {}\n", label, value);
   };
   line("closures", model.mechanism.chains.size() > 1 || model.home_gap > 0
                        ? fmt::format("met within {:.1g} (m and rad)", model.home_gap)

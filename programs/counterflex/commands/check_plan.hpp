@@ -1,5 +1,5 @@
 #pragma once
-/// The plan of a program for people and for programs.
+/// The plan of a program as text and as JSON.
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -7,8 +7,8 @@
 
 namespace counterflex::cli {
 
-/// How many blocks are corrected, hold a shift, or stay as they are, with reasons and first lines; and what
-/// kinds of moves there are.
+/// Numbers of blocks that are corrected, held or not corrected, with reasons and first lines, and the kinds
+/// of moves.
 std::string plan_text(const MotionPlan& plan);
 nlohmann::ordered_json plan_json(const MotionPlan& plan);
 

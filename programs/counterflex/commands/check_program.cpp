@@ -17,7 +17,7 @@ namespace {
 
 constexpr double inf = std::numeric_limits<double>::infinity();
 
-/// What the moves of a program add up to; lengths in mm, program coordinates.
+/// Sums over the moves of a program; lengths in mm, program coordinates.
 struct MoveFacts {
   std::size_t rapids = 0, feeds = 0, without_feed = 0, with_force = 0;
   Vector3 least = Vector3::Constant(inf), most = Vector3::Constant(-inf);
@@ -51,7 +51,7 @@ void add_move(const Program& program, const Move& move, MoveFacts& facts) {
   facts.fastest = std::max(facts.fastest, move.feed_mm_min);
 }
 
-/// What is found of a program, window by window.
+/// Facts of a program, collected window by window.
 struct ProgramFacts {
   Overview overview;
   MoveFacts moves;
@@ -79,7 +79,7 @@ std::string units_text(const MoveFacts& facts) {
     text += text.empty() ? "" : " and ";
     text += unit == LengthUnit::millimetres ? "mm" : "inch";
   }
-  return text.empty() ? "no move says" : text;
+  return text.empty() ? "not stated by any move" : text;
 }
 
 std::string feeds_text(const MoveFacts& facts) {
@@ -158,8 +158,7 @@ nlohmann::ordered_json json_of(const ProgramFacts& facts) {
   return json;
 }
 
-/// What stops the nominal machine from going to a place in a move of `line`. `base`: the machine without a
-/// tool.
+/// Why the nominal machine cannot reach a place in a move of `line`. `base`: the machine without a tool.
 std::optional<Failure> go_to(NominalToolPath& nominal, const Model& base, const CommandedPlace& at,
                              const Program& window, int line) {
   const Status status = nominal.go_to(at.model, at.target);
@@ -169,7 +168,8 @@ std::optional<Failure> go_to(NominalToolPath& nominal, const Model& base, const 
                    status};
   if (within_travel(at.model.mechanism, actuator_values(at.model.mechanism, nominal.configuration())))
     return std::nullopt;
-  if (const auto word = ambiguous_integer_word(window, line)) return Failure{Exit::program_text, word->line, word->what};
+  if (const auto word = ambiguous_integer_word(window, line))
+    return Failure{Exit::program_text, word->line, word->what};
   return Failure{Exit::limit, line, outside_travel_words(base.mechanism, at), 0, Status::outside_travel};
 }
 
@@ -225,10 +225,10 @@ Checked check_program(const std::string& path, const Options& options, const Mac
     Checked checked{text_of(facts), "", json_of(facts), Exit::done};
     if (machine != nullptr)
       check_reach(facts.overview, ProgramReader(file.bytes, name, read), *machine, lengths, checked, console);
-    file.bytes.refuse_change();  // it was read more than once
+    file.bytes.refuse_change();  // the file was read more than once
     return checked;
   } catch (const InputError& error) {
-    file.bytes.refuse_change();  // what is wrong may be half of another program
+    file.bytes.refuse_change();  // a file replaced while it was read has errors of its own
     blame_dialect(error, options, of, name);
   }
 }

@@ -1,6 +1,6 @@
 #pragma once
-/// The commands. Each throws `InputError` for what is wrong with its inputs, before anything is written, and
-/// returns the exit status otherwise.
+/// The commands. Each returns the exit status. Throws `InputError` for errors of its inputs, before any file
+/// is written.
 #include "counterflex/files/input_error.hpp"
 #include "process/console.hpp"
 #include "settings/options.hpp"
@@ -16,7 +16,7 @@ Exit run_forces(const Options& options, Console& console);
 Exit run_check(const Options& options, Console& console);
 Exit run_batch(const Options& options, Console& console);
 
-/// Until it is interrupted: compensates the programs that appear in a folder.
+/// Compensates the programs that appear in a folder, until it is interrupted.
 Exit run_watch(const Options& options, Console& console);
 
 }  // namespace counterflex::cli

@@ -17,7 +17,7 @@ void name_runs(const Options& options, ReportFile& a, ReportFile& b) {
   if (options.compare.names.size() != 2)
     throw InputError(
         Exit::usage, {},
-        fmt::format("--name is given {} times; it is for both runs or for none, in the order of the reports",
+        fmt::format("--name is given {} times; give it twice, in the order of the reports, or not at all",
                     options.compare.names.size()));
   a.name = options.compare.names[0];
   b.name = options.compare.names[1];

@@ -14,18 +14,18 @@
 namespace counterflex::cli {
 namespace {
 
-/// A program and its forces without a machine: the tool stands along z of the program.
+/// A program and its forces without a machine. The tool is parallel to z of the program.
 struct BareRun {
   ToolLengths tools;
   ReadOptions read;
   ProgramFile file;
-  ProgramLook look;
+  ProgramScan scan;
   ForceInput force_input;
   WorkPlace work;
   std::array<bool, 3> ignored{};
 };
 
-/// Whether the way in which the machine's axes lie in the program's changes the forces.
+/// Whether the orientation of the machine's axes in the program affects the forces.
 bool needs_machine_axes(const ForceSource& source, const Overview& program) {
   const auto needs = [](const ForceRule& rule) {
     const auto* profile = std::get_if<ForceProfile>(&rule.content);
@@ -36,7 +36,7 @@ bool needs_machine_axes(const ForceSource& source, const Overview& program) {
 }
 
 void warn_of_bare_run(const BareRun& run, const Options& options, Console& console) {
-  const Overview& program = run.look.program;
+  const Overview& program = run.scan.program;
   warn_of(program, options.command, console);
   if (!run.work.assumption.empty()) console.warning(program.file, 0, run.work.assumption);
   const ForceSource& source = run.force_input.source;
@@ -54,16 +54,16 @@ BareRun prepare_bare_run(const Options& options, Console& console) {
   ToolLengths tools = read_tool_lengths(options, nullptr);
   const ReadOptions read = read_options(options, nullptr, tools);
   BareRun run{std::move(tools), read, open_program("program", options.program), {}, {}, {}};
-  run.look = look_through(options, run.file, run.read, nullptr);
+  run.scan = scan_program(options, run.file, run.read, nullptr);
   run.force_input = read_force_input(options);
-  run.work = place_work(options.work, run.look.program);
-  settle_forces({run.file.bytes, run.look.program.file, run.read, run.work.frames, run.ignored},
+  run.work = place_work(options.work, run.scan.program);
+  settle_forces({run.file.bytes, run.scan.program.file, run.read, run.work.frames, run.ignored},
                 run.force_input.source);
   warn_of_bare_run(run, options, console);
   return run;
 }
 
-/// How the tool stands in the middle of every move.
+/// The tool orientation in the middle of every move.
 class ToolAxes {
  public:
   explicit ToolAxes(const Run* run) : run_(run) {
@@ -76,7 +76,7 @@ class ToolAxes {
     for (const Segment& segment : path.segments) {
       const Model& model =
           model_with(run_->machine.model, &run_->tool_models, window.moves[segment.move].tool);
-      nominal_->go_to(model, point_at(segment.wanted, 0.5));  // one that is not reached is not solved here
+      nominal_->go_to(model, point_at(segment.wanted, 0.5));  // ignores places that are not reached
       R_MT.push_back(nominal_->orientation());
     }
     return R_MT;
@@ -87,7 +87,8 @@ class ToolAxes {
   std::optional<NominalToolPath> nominal_;
 };
 
-/// Feed moves that are no part of the path, because their place is not known: each run of them once.
+/// Reports feed moves with unknown positions: they are not part of the path. One warning for consecutive
+/// moves.
 class Unplaced {
  public:
   void warn(const Program& window, const Toolpath& path, Console& console) {
@@ -99,9 +100,7 @@ class Unplaced {
       const std::string axes = unknown_axes(move);
       const bool is = !placed && !move.cycle && move.motion == Motion::feed && !axes.empty();
       if (is && !before_)
-        console.warning(
-            window.file, move.line,
-            "not on a known path: the position in " + axes + " is not known, and no force is told");
+        console.warning(window.file, move.line, "no force computed: the position in " + axes + " is unknown");
       before_ = is;
     }
   }
@@ -117,37 +116,36 @@ class Unplaced {
   bool before_ = false;
 };
 
-/// Where the moves are told.
-class Told {
+/// Writes the moves.
+class MoveListing {
  public:
-  Told(const Options& options, const std::string& program, bool at_platform)
+  MoveListing(const Options& options, const std::string& program, bool at_platform)
       : program_(program), json_(options.json) {
     if (options.output) profile_.emplace(*options.output);
     if (profile_) profile_->write(profile_head(program, at_platform));
     to_stdout_ = options.output == "-";
     if (!to_stdout_) page_.emplace("-");
-    say(json_ ? json_head(program) : table_head(program));
+    write(json_ ? json_head(program) : table_head(program));
   }
 
   void add(const MoveForce& move) {
-    say(json_ ? json_row(move, is_first_) : table_row(move));
+    write(json_ ? json_row(move, is_first_) : table_row(move));
     is_first_ = false;
     cli::add(move, totals_);
     if (profile_) profile_->write(profile_rows(program_, move));
   }
 
-  /// Throws `InputError` (Exit::program_text) where a profile would have no row.
+  /// Throws `InputError` (Exit::program_text) if a profile would have no row.
   void finish(Console& console) {
     if (profile_ && is_first_)
-      throw InputError(Exit::program_text, {program_},
-                       "has no feed move, so that there is no profile to write");
-    say(json_ ? json_foot(totals_) : table_foot(totals_));
+      throw InputError(Exit::program_text, {program_}, "has no feed move: no force profile can be written");
+    write(json_ ? json_foot(totals_) : table_foot(totals_));
     publish_together({if_any(profile_), if_any(page_)});
     if (to_stdout_) console.note(table_foot(totals_));
   }
 
  private:
-  void say(std::string_view text) {
+  void write(std::string_view text) {
     if (page_) page_->write(text);
   }
 
@@ -157,8 +155,8 @@ class Told {
   std::optional<FileWriter> profile_, page_;
 };
 
-void tell_moves(const PathInput& input, const ForceSource& source, const Run* run, int lines, Told& told,
-                Console& console) {
+void list_moves(const PathInput& input, const ForceSource& source, const Run* run, int lines,
+                MoveListing& listing, Console& console) {
   ProgramReader reader(input.bytes, input.name, input.read);
   ToolAxes tool(run);
   std::optional<long> block_number;
@@ -173,10 +171,10 @@ void tell_moves(const PathInput& input, const ForceSource& source, const Run* ru
       console.progress(fmt::format("line {} of {}", path.segments.front().line, lines));
     const std::vector<Matrix3> R_MT = tool.along(reader.window(), path);
     for (const MoveForce& move : move_forces(source, reader.window(), path, R_MT, block_number))
-      told.add(move);
+      listing.add(move);
   }
   input.bytes.refuse_change();
-  told.finish(console);
+  listing.finish(console);
   console.finish_warnings();
 }
 
@@ -191,15 +189,15 @@ Exit run_forces(const Options& options, Console& console) {
   check_output(options, profile_mark);
   if (options.machine.empty()) {
     BareRun run = prepare_bare_run(options, console);
-    Told told(options, run.look.program.file, acts_at_platform(run.force_input.source));
-    tell_moves({run.file.bytes, run.look.program.file, run.read, run.work.frames, run.ignored},
-               run.force_input.source, nullptr, run.look.program.lines, told, console);
+    MoveListing listing(options, run.scan.program.file, acts_at_platform(run.force_input.source));
+    list_moves({run.file.bytes, run.scan.program.file, run.read, run.work.frames, run.ignored},
+               run.force_input.source, nullptr, run.scan.program.lines, listing, console);
     return Exit::done;
   }
   const auto run = prepare_run(options, console);
-  Told told(options, run->program.file, acts_at_platform(run->force_input.source));
-  tell_moves({run->file.bytes, run->program.file, run->read, run->work.frames, run->ignored},
-             run->force_input.source, run.get(), run->program.lines, told, console);
+  MoveListing listing(options, run->program.file, acts_at_platform(run->force_input.source));
+  list_moves({run->file.bytes, run->program.file, run->read, run->work.frames, run->ignored},
+             run->force_input.source, run.get(), run->program.lines, listing, console);
   return Exit::done;
 }
 

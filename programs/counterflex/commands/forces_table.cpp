@@ -29,29 +29,26 @@ nlohmann::ordered_json number_or_null(double value, int decimals) {
   return rounded(value, decimals);
 }
 
-/// Throws where a profile of steps in the feed frame cannot hold the force of a move.
+/// Throws if a profile of steps in the feed frame cannot represent the force of a move.
 void refuse_move(const std::string& program, const MoveForce& move) {
   const auto refuse = [&](Exit exit, const std::string& why) {
     throw InputError(exit, {program, move.line, 1}, why);
   };
   if (move.comment_altered)
     refuse(Exit::usage,
-           "a FORCE comment covers this move, which the profile leaves to it, with neither --load-scale nor "
-           "--air-above: give these to the command that reads the profile instead");
+           "a FORCE comment gives the force of this move; --load-scale and --air-above cannot change it in a "
+           "profile: give them to the command that reads the profile");
   if (move.comment) return;
-  constexpr std::string_view instead =
-      "give the other commands the forces from which this one has them, or take --json";
+  constexpr std::string_view instead = "give the other commands the same forces as this one, or use --json";
   if (move.only_z)
-    refuse(
-        Exit::machine_or_force,
-        fmt::format("the feed is parallel to the tool axis, and the force of {:.6g} N is not: a profile in "
-                    "the feed frame cannot say it; {}",
-                    move.largest_N, instead));
-  if (move.steps.empty())
     refuse(Exit::machine_or_force,
-           fmt::format("the force, {:.6g} N at most, changes along this move: a profile of steps in the feed "
-                       "frame cannot say it; {}",
+           fmt::format("the feed is parallel to the tool axis, and the force of {:.6g} N is not: a profile "
+                       "in the feed frame cannot represent it; {}",
                        move.largest_N, instead));
+  if (move.steps.empty())
+    refuse(Exit::machine_or_force, fmt::format("the force, {:.6g} N at most, changes along this move: a "
+                                               "profile of steps in the feed frame cannot represent it; {}",
+                                               move.largest_N, instead));
 }
 
 }  // namespace
@@ -102,13 +99,13 @@ std::string table_foot(const ForceTotals& totals) {
     text += fmt::format("  largest force  {:.1f} N, line {}\n", totals.largest_N, totals.largest_line);
   if (totals.only_z > 0)
     text += fmt::format(
-        "  {} of them along the tool: sideways there is no direction, and only what is along the tool "
-        "is shown\n",
+        "  {} of them along the tool: the lateral direction is undefined, and only the component along the "
+        "tool is shown\n",
         totals.only_z);
   if (totals.changing > 0)
     text += fmt::format(
-        "  the force changes along {} of them: what is shown is in the middle, the largest may be "
-        "elsewhere\n",
+        "  the force changes along {} of them: the table shows the force in the middle, which may not be the "
+        "largest\n",
         totals.changing);
   text += fmt::format("without a force  {}\n", moves_text(totals.without));
   for (const auto& [why, sum] : totals.why) text += fmt::format("  {}: {}\n", why, moves_text(sum));

@@ -1,5 +1,5 @@
 #pragma once
-/// The wrench of every feed move: as a table for people, a document for programs, and a force profile.
+/// The wrench of every feed move, as a text table, a JSON document and a force profile.
 #include <map>
 #include <string>
 #include <string_view>
@@ -8,16 +8,16 @@
 
 namespace counterflex::cli {
 
-/// What the moves add up to; lengths in m.
+/// Sums over the moves; lengths in m.
 struct ForceTotals {
   struct Sum {
     std::size_t moves = 0;
     double length = 0;
   };
   Sum with, without;
-  std::map<std::string, Sum> why;  ///< those without, by reason
+  std::map<std::string, Sum> why;  ///< moves without a force, by reason
   std::size_t only_z = 0;          ///< moves of which only the force along the tool is known
-  std::size_t changing = 0;        ///< moves along which the force is not the same
+  std::size_t changing = 0;        ///< moves along which the force changes
   double largest_N = 0;
   int largest_line = 0;
 };
@@ -28,18 +28,19 @@ std::string table_head(const std::string& program);
 std::string table_row(const MoveForce& move);
 std::string table_foot(const ForceTotals& totals);
 
-/// A JSON document in three parts; rows are joined by what `json_row` puts before all but the first.
+/// A JSON document in three parts: begin, rows, end. `json_row` adds the separator before all rows except the
+/// first.
 std::string json_head(const std::string& program);
 std::string json_row(const MoveForce& move, bool first);
 std::string json_foot(const ForceTotals& totals);
 
-/// How a profile begins that counterflex wrote.
+/// First text of profiles written by counterflex.
 inline constexpr std::string_view profile_mark = "# Forces of ";
 
-/// A profile by path length in the feed frame: rows where a move begins and where its force steps, zeros for
-/// one without a force, none for one that a FORCE comment covers. `profile_rows` throws `InputError`
-/// (Exit::machine_or_force) where steps in the feed frame cannot say what acts, and (Exit::usage) where a
-/// scale, or a bound of the air, makes another force of a comment's.
+/// A profile by path length in the feed frame. Rows are at starts of moves and at steps of the force. Moves
+/// without a force have zeros, moves under a FORCE comment have no row. `profile_rows` throws `InputError`:
+/// Exit::machine_or_force if steps in the feed frame cannot represent the force, Exit::usage if --load-scale
+/// or --air-above would change the force of a comment.
 std::string profile_head(const std::string& program, bool at_platform);
 std::string profile_rows(const std::string& program, const MoveForce& move);
 

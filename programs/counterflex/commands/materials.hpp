@@ -1,10 +1,10 @@
 #pragma once
-/// The coefficients that cutting models can name.
+/// Lists the cutting coefficients of known materials.
 #include <string>
 
 namespace counterflex::cli {
 
-/// A page for people, or a document for programs.
+/// As text, or as JSON.
 std::string materials_page(bool json);
 
 }  // namespace counterflex::cli

@@ -6,7 +6,7 @@
 namespace counterflex::cli {
 namespace {
 
-/// Window by window, to the first failure.
+/// Runs window by window, to the first failure.
 std::optional<Failure> predict_all(Run& run, RunTally& tally, RunFiles& files, Console& console) {
   Windows windows(run, console);
   std::mutex speaking;

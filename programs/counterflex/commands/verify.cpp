@@ -9,32 +9,32 @@
 namespace counterflex::cli {
 namespace {
 
-/// What a corrected program holds besides its moves, which are matched later.
-struct CorrectedLook {
+/// Contents of a corrected program except its moves, which are matched later.
+struct CorrectedScan {
   Overview program;
   std::string beginning;  ///< text of the first window, which has the header
 };
 
-CorrectedLook look_through_corrected(const Options& options, const Run& run, const ReadOptions& read,
-                                     ProgramFile& file, RunTally& tally) {
+CorrectedScan scan_corrected(const Options& options, const Run& run, const ReadOptions& read,
+                             ProgramFile& file, RunTally& tally) {
   const std::string name = shown_name(options.verify.corrected);
-  CorrectedLook look;
+  CorrectedScan scan;
   try {
     file.bytes.hash_along();
     ProgramReader reader(file.bytes, name, read);
     bool begun = false;
     while (reader.next()) {
       Program& window = reader.window();
-      if (!std::exchange(begun, true)) look.beginning = window.text;
+      if (!std::exchange(begun, true)) scan.beginning = window.text;
       ignore_axes(window, run.ignored);
-      add_window(look.program, window);
+      add_window(scan.program, window);
       tally.add_corrected(window);
     }
   } catch (const InputError& error) {
     blame_dialect(error, options, &run.machine.machine, name);
   }
   file.file.sha256 = sha256(file.bytes);
-  return look;
+  return scan;
 }
 
 std::optional<Failure> verify_all(Run& run, ProgramReader& corrected, RunTally& tally, RunFiles& files,
@@ -71,18 +71,18 @@ Exit run_verify(const Options& options, Console& console) {
   RunTally tally = tally_for(options, *run);
   ProgramFile corrected = open_program("corrected", options.verify.corrected);
   ReadOptions read = run->read;
-  read.dialect = run->program.dialect;  // the original's, whatever the name of the corrected file
-  const CorrectedLook look = look_through_corrected(options, *run, read, corrected, tally);
+  read.dialect = run->program.dialect;  // that of the original, independent of the name of the corrected file
+  const CorrectedScan scan = scan_corrected(options, *run, read, corrected, tally);
   run->facts.inputs.push_back(corrected.file);
   run->corrected_name = shown_name(options.verify.corrected);
-  for (const std::string& warning : other_inputs_of_header(look.beginning, *run))
+  for (const std::string& warning : other_inputs_of_header(scan.beginning, *run))
     console.warning(run->corrected_name, 0, warning);
   RunFiles files(paths, {});
   corrected.bytes.rewind();
   ProgramReader reader(corrected.bytes, run->corrected_name, read);
   const std::optional<Failure> failure = verify_all(*run, reader, tally, files, console);
   corrected.bytes.refuse_change();
-  return deliver(options, *run, report_verification(run->context(), tally, look.program, failure), tally,
+  return deliver(options, *run, report_verification(run->context(), tally, scan.program, failure), tally,
                  files, console);
 }
 

@@ -33,11 +33,11 @@ namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
 constexpr std::chrono::seconds between_polls{1};
-constexpr std::chrono::seconds retry_after{30};  // of input or output that failed
-constexpr int patience_ms = 700;                 // for a job that is asked to end
-constexpr int hesitation_ms = 100;               // for a signal that ended a job first to arrive here, too
+constexpr std::chrono::seconds retry_after{30};  // after failed input or output
+constexpr int patience_ms = 700;                 // for a job after SIGTERM
+constexpr int hesitation_ms = 100;               // until a signal that ended a job arrives here, too
 
-/// What `compensate` does for `program`. Throws `InputError` for settings that are wrong.
+/// The job `compensate` for `program`. Throws `InputError` for wrong settings.
 BatchJob job_for(const Options& watch, const std::string& program) {
   BatchJob job;
   job.program = program;
@@ -49,14 +49,13 @@ BatchJob job_for(const Options& watch, const std::string& program) {
 }
 
 [[noreturn]] void refuse_shared(const char* option, const std::string& path) {
-  throw InputError(
-      Exit::usage, {},
-      fmt::format("{} of every program would be {}; name a folder, which ends in /, or a pattern, "
-                  "as {{name}}_CF{{ext}}",
-                  option, path));
+  throw InputError(Exit::usage, {},
+                   fmt::format("{} of every program would be {}; give a folder that ends in /, or a pattern "
+                               "such as {{name}}_CF{{ext}}",
+                               option, path));
 }
 
-/// Outputs of different programs must not be one file, nor the program itself.
+/// Throws if outputs of different programs are one file, or replace the program.
 void refuse_shared_outputs(const Options& watch) {
   const BatchJob one = job_for(watch, (fs::path(watch.watch.folder) / "one.nc").string());
   const BatchJob other = job_for(watch, (fs::path(watch.watch.folder) / "other.nc").string());
@@ -66,17 +65,17 @@ void refuse_shared_outputs(const Options& watch) {
   if (one.options.plot && one.options.plot == other.options.plot) refuse_shared("--plot", *one.options.plot);
   if (canonical_name(one.output) == canonical_name(one.program))
     throw InputError(Exit::usage, {watch.watch.folder},
-                     "corrected programs would replace their originals: name another folder with --output");
+                     "corrected programs would replace their originals: give another folder with --output");
 }
 
-/// Reports what is wrong for every program before the first one comes.
+/// Reports errors that affect every program before the first one appears.
 void check_watch(const Options& options) {
   std::vector<std::string> read = options.forces;
   read.push_back(options.machine);
   if (options.tool_table) read.push_back(*options.tool_table);
   if (std::ranges::find(read, "-") != read.end())
     throw InputError(Exit::usage, {},
-                     "standard input (-) can be read once, not for every program of a folder");
+                     "standard input (-) can be read only once, not for every program of a folder");
   refuse_shared_outputs(options);
   const MachineInput machine = read_machine_input(options);
   read_tool_lengths(options, &machine.machine);
@@ -111,7 +110,7 @@ std::string text_line(const JobOutcome& outcome) {
                      mm_text(outcome.before_mm, 3), mm_text(outcome.after_mm, 4));
 }
 
-/// Does the job in a process of its own. A signal ends that process, and then this one.
+/// Runs the job in its own process. A signal ends that process, and then this one.
 JobOutcome outcome_of_process(const BatchJob& job) {
   const AwaitedSignals signals;
   Workers workers;
@@ -133,7 +132,7 @@ JobOutcome outcome_of_process(const BatchJob& job) {
   return *outcome;
 }
 
-/// One program at a time. Outside of jobs a signal ends the process as ever.
+/// Compensates one program at a time. Between jobs a signal ends the process at once.
 class Watch {
  public:
   Watch(const Options& options, Console& console)
@@ -155,12 +154,12 @@ class Watch {
       for (const std::string& path : due()) compensate(path);
     } while (!options_.watch.once);
     for (const std::string& path : files_.changing())
-      console_.note(path + ": it is being written; left for the next time\n");
+      console_.note(path + ": it is being written; the next poll checks again\n");
     return first_failure_;
   }
 
  private:
-  /// Complete programs that are not done, and those whose failure may have passed.
+  /// Complete programs that are not done, and failed ones that may succeed now.
   std::vector<std::string> due() {
     std::vector<std::string> due;
     for (const std::string& path : files_.complete()) {
@@ -175,13 +174,14 @@ class Watch {
     return due;
   }
 
-  /// Whether the watch wrote it: a corrected program is known by its header, without -o also by its name.
+  /// Whether the watch wrote it. A corrected program is recognised by its header, without -o also by its
+  /// name.
   bool is_own(const std::string& path) const {
     const bool named_so = !options_.output && fs::path(path).stem().extension() == ".comp";
     return named_so || has_corrected_header(path);
   }
 
-  /// Whether an earlier watch did it. Settings that are wrong are reported when the program is begun.
+  /// Whether an earlier watch compensated it. Wrong settings are reported when the program starts.
   bool is_done(const std::string& path) {
     if (!files_.is_from_start(path)) return false;
     try {
@@ -194,16 +194,15 @@ class Watch {
     }
   }
 
-  /// Throws `InputError` (Exit::usage) where another program of the folder has one of the outputs.
+  /// Throws `InputError` (Exit::usage) if another program of the folder has one of the outputs.
   void claim_outputs(const BatchJob& job) {
     for (const std::string& file : files_written(job)) {
       const auto owner = owners_.find(canonical_name(file));
       if (owner == owners_.end() || owner->second == job.program || !files_.contains(owner->second)) continue;
-      throw InputError(
-          Exit::usage, {job.program},
-          fmt::format("its output would be {}, as that of {} is: give one of them another name, or "
-                      "name outputs with {{name}}{{ext}}",
-                      file, owner->second));
+      throw InputError(Exit::usage, {job.program},
+                       fmt::format("its output would be {}, which is also the output of {}: give one of them "
+                                   "another name, or name outputs with {{name}}{{ext}}",
+                                   file, owner->second));
     }
     for (const std::string& file : files_written(job)) owners_[canonical_name(file)] = job.program;
   }
@@ -234,7 +233,7 @@ class Watch {
     std::error_code ignored;
     if (outcome.exit != Exit::done && fs::is_regular_file(outcome.output, ignored))
       console_.warning(outcome.output, 0,
-                       fmt::format("is of an earlier run: {} failed now", outcome.program));
+                       fmt::format("not updated: compensation of {} failed", outcome.program));
     console_.finish_warnings();
   }
 
@@ -244,7 +243,7 @@ class Watch {
   FolderLock lock_;
   std::map<std::string, std::string> owners_;  ///< program by output
   std::map<std::string, Clock::time_point>
-      retries_;  ///< programs whose failure may pass, and when to try again
+      retries_;  ///< failed programs that may succeed later, and when to try again
   Exit first_failure_ = Exit::done;
 };
 

@@ -22,7 +22,7 @@ bool colours_on(int descriptor) {
   return ::isatty(descriptor) == 1 && terminal != nullptr && std::string_view(terminal) != "dumb";
 }
 
-/// By the locale that the first of these variables names.
+/// By the locale in the first of these variables that is set.
 bool shows_utf8(int descriptor) {
   if (::isatty(descriptor) != 1) return false;
   for (const char* name : {"LC_ALL", "LC_CTYPE", "LANG"}) {
@@ -34,18 +34,18 @@ bool shows_utf8(int descriptor) {
   return false;
 }
 
-/// Whether standard error takes text now. A terminal that is stopped does not.
+/// Whether standard error accepts text now. A stopped terminal does not.
 bool is_ready() {
   pollfd stream{STDERR_FILENO, POLLOUT, 0};
   return ::poll(&stream, 1, 0) > 0 && (stream.revents & POLLOUT) != 0;
 }
 
-/// What cannot be written to standard error cannot be reported at all: no reason to fail.
-void say(const std::string& text) {
+/// Ignores errors: there is no other place to report them.
+void write_error(const std::string& text) {
   std::fputs(text.c_str(), stderr);
 }
 
-/// `word` of a diagnostic in colour, where it first stands as ": word: ", or at the beginning.
+/// Colours the first ": word: " of a diagnostic, or `word` at its beginning.
 std::string painted(std::string_view diagnostic, std::string_view word, int colour) {
   std::string text(diagnostic);
   const std::string marked = fmt::format("{}: ", word);
@@ -72,7 +72,7 @@ Console::~Console() {
 }
 
 void Console::erase_progress() {
-  if (showing_progress_ && is_ready()) say("\r\033[K");
+  if (showing_progress_ && is_ready()) write_error("\r\033[K");
   showing_progress_ = false;
 }
 
@@ -82,7 +82,7 @@ void Console::warning(const std::string& file, int line, std::string_view what) 
   if (terminal_ && ::isatty(STDOUT_FILENO) == 1) shown_.emplace(what);
   const std::string text = without_controls(line > 0 ? fmt::format("{}:{}: warning: {}", file, line, what)
                                                      : fmt::format("{}: warning: {}", file, what));
-  say((colour_ ? painted(text, "warning", 35) : text) + "\n");
+  write_error((colour_ ? painted(text, "warning", 35) : text) + "\n");
 }
 
 void Console::more_warnings(const std::string& file, std::size_t count) {
@@ -93,21 +93,21 @@ void Console::finish_warnings() {
   erase_progress();
   for (const auto& [file, count] : warnings_)
     if (!quiet_ && count > warnings_shown)
-      say(fmt::format("{}: {} more warnings; a report lists them\n", without_controls(file),
-                      count - warnings_shown));
+      write_error(fmt::format("{}: {} more warnings; a report lists them\n", without_controls(file),
+                              count - warnings_shown));
   warnings_.clear();
 }
 
 void Console::detail(std::string_view what) {
   if (!verbose_) return;
   erase_progress();
-  say(without_controls(what) + "\n");
+  write_error(without_controls(what) + "\n");
 }
 
 void Console::note(std::string_view text) {
   if (quiet_) return;
   erase_progress();
-  say(std::string(text));
+  write_error(std::string(text));
 }
 
 void Console::progress(std::string_view what) {
@@ -117,7 +117,7 @@ void Console::progress(std::string_view what) {
 void Console::progress_line(std::string_view line) {
   if (quiet_ || !terminal_ || !is_ready()) return;
   erase_progress();
-  say(without_controls(line));
+  write_error(without_controls(line));
   showing_progress_ = true;
 }
 
@@ -134,7 +134,7 @@ void Console::error(std::string_view diagnostic) {
   if (listener_.error) return listener_.error(diagnostic);
   erase_progress();
   const std::string text = without_controls(diagnostic);
-  say((colour_ ? painted(text, "error", 31) : text) + "\n");
+  write_error((colour_ ? painted(text, "error", 31) : text) + "\n");
 }
 
 std::string located(const std::string& file, const Failure& failure) {

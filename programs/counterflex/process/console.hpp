@@ -1,5 +1,5 @@
 #pragma once
-/// Standard error: warnings, what is being done, and errors. Results go to standard output, not through here.
+/// Standard error: warnings, progress and errors. Results go to standard output, not through here.
 #include <cstddef>
 #include <functional>
 #include <map>
@@ -12,11 +12,11 @@
 
 namespace counterflex::cli {
 
-/// Hears what a run says of itself, where it has no terminal of its own.
+/// Receives diagnostics and progress of a run without a terminal.
 struct ConsoleListener {
   std::function<void(std::string_view diagnostic)> error{};  ///< instead of standard error
-  std::function<void(int line, int lines)> solving{};        ///< has come to this line of so many
-  std::function<void(std::size_t waypoints)> solved{};       ///< so many more
+  std::function<void(int line, int lines)> solving{};        ///< is at `line` of `lines`
+  std::function<void(std::size_t waypoints)> solved{};  ///< number of waypoints solved since the last call
 };
 
 struct Loudness {
@@ -31,30 +31,30 @@ class Console {
   Console(const Console&) = delete;
   Console& operator=(const Console&) = delete;
 
-  /// "file:line: warning: what"; at most 20 of a file, `finish_warnings` counts the others. Line 0: none.
+  /// "file:line: warning: what", without the line if it is 0. At most 20 for each file; `finish_warnings`
+  /// prints the number of others.
   void warning(const std::string& file, int line, std::string_view what);
-  /// Whether the person at the terminal, who sees standard output too, has read this warning already.
+  /// Whether this warning is already on the terminal that also shows standard output.
   bool has_shown(std::string_view what) const { return shown_.count(what) > 0; }
-  void more_warnings(const std::string& file, std::size_t count);  ///< that nobody needs to see
-  void finish_warnings();  ///< the last word before a result: it clears the line of progress, too
+  void more_warnings(const std::string& file, std::size_t count);  ///< counted, not shown
+  void finish_warnings();  ///< called before a result; clears the line of progress, too
 
-  /// Told with --verbose only.
+  /// Printed with --verbose only.
   void detail(std::string_view what);
 
   /// A text of several lines, unless --quiet.
   void note(std::string_view text);
 
-  /// What the run does at the moment, on one line that the next output replaces. Only on a terminal; while
-  /// the terminal does not take text, as when it is stopped, the line is dropped: progress never blocks a
-  /// run.
+  /// The current activity, on one line that the next output replaces. Only on a terminal. While the terminal
+  /// does not accept text, as when it is stopped, the line is dropped: progress never blocks a run.
   void progress(std::string_view what);
-  void progress_line(std::string_view line);  ///< the same, as it is
+  void progress_line(std::string_view line);  ///< the same, unchanged
 
   /// Progress of a run through its program.
   void solving(int line, int lines);
   void solved(std::size_t waypoints) const;
 
-  /// A diagnostic as `InputError::what()` has it.
+  /// A diagnostic as `InputError::what()` returns it.
   void error(std::string_view diagnostic);
 
   /// Whether text on standard output may hold colours.
@@ -80,7 +80,7 @@ class Console {
 /// "file:line:1: error: what"; without a line "file: error: what".
 std::string located(const std::string& file, const Failure& failure);
 
-/// A diagnostic that names no file, with the one that it is about.
+/// A diagnostic with its file, which it does not name itself.
 std::string with_file(const std::string& diagnostic, const std::string& file);
 
 /// How diagnostics name a file: "-" as "<stdin>".

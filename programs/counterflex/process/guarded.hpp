@@ -1,5 +1,5 @@
 #pragma once
-/// What is thrown, as a diagnostic and an exit status.
+/// Turns exceptions into diagnostics and exit statuses.
 #include <exception>
 #include <new>
 #include <string>
@@ -10,8 +10,8 @@
 
 namespace counterflex::cli {
 
-/// What `run` returns; whatever it throws is said through `console`. Memory, or threads, that there are not
-/// enough of now may be there another time.
+/// Returns the result of `run`, or reports its exception through `console`. Lack of memory or threads may be
+/// temporary.
 template <typename Run>
 Exit guarded(Console& console, const Run& run) {
   try {

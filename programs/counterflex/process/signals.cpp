@@ -17,7 +17,7 @@ namespace {
 
 constexpr int ending_signals[] = {SIGINT, SIGTERM, SIGHUP, SIGQUIT};
 
-/// Without those that are ignored (nohup): a signal that waits is not.
+/// Without ignored signals (nohup): a blocked signal is no longer ignored.
 sigset_t ending_set() {
   sigset_t set;
   ::sigemptyset(&set);
@@ -68,7 +68,7 @@ AwaitedSignals::AwaitedSignals() {
 
 AwaitedSignals::~AwaitedSignals() {
   ::close(descriptor_);
-  hear_signals_again();
+  unblock_signals();
 }
 
 std::optional<int> AwaitedSignals::take(int timeout_ms) const {
@@ -79,9 +79,9 @@ std::optional<int> AwaitedSignals::take(int timeout_ms) const {
   return static_cast<int>(came.ssi_signo);
 }
 
-void hear_signals_again() {
-  const sigset_t heard = ending_set();
-  ::pthread_sigmask(SIG_UNBLOCK, &heard, nullptr);
+void unblock_signals() {
+  const sigset_t ending = ending_set();
+  ::pthread_sigmask(SIG_UNBLOCK, &ending, nullptr);
 }
 
 HeldSignals::HeldSignals() {

@@ -1,43 +1,43 @@
 #pragma once
-/// Interrupts. A run that is interrupted leaves nothing half-written.
+/// Interrupts. An interrupted run leaves no unfinished files.
 #include <csignal>
 #include <optional>
 
 namespace counterflex::cli {
 
-/// The exit status of a program that `signal` has ended, as a shell has it: 130 for SIGINT, 143 for SIGTERM.
+/// The exit status of a program ended by `signal`, as in a shell: 130 for SIGINT, 143 for SIGTERM.
 int status_of(int signal);
 
-/// From here on SIGINT, SIGTERM, SIGHUP and SIGQUIT end the program with their status, unless they were
-/// ignored before; a pipe that nobody reads any more, and a file that would be larger than is allowed, make
-/// writing fail.
+/// Installs handlers: SIGINT, SIGTERM, SIGHUP and SIGQUIT end the program with their status, unless they were
+/// ignored before. Writing to a closed pipe, or beyond the allowed file size, fails with an error instead of
+/// a signal.
 void end_on_signals();
 
-/// Ends the program as `signal` does, one of those that have been waited for.
+/// Ends the program as `signal` does, after it was received by `AwaitedSignals`.
 [[noreturn]] void end_by(int signal);
 
-/// Signals that wait for a process which looks for them when it can: from here on they no longer end it.
+/// Blocks signals, so that they do not end the process. The process polls for them.
 class AwaitedSignals {
  public:
-  /// Throws `InputError` (Exit::transient_io) where the system has no more descriptors.
+  /// Throws `InputError` (Exit::transient_io) if the system has no more descriptors.
   AwaitedSignals();
   ~AwaitedSignals();
   AwaitedSignals(const AwaitedSignals&) = delete;
   AwaitedSignals& operator=(const AwaitedSignals&) = delete;
 
-  int descriptor() const { return descriptor_; }  ///< can be read when one has come
+  int descriptor() const { return descriptor_; }  ///< readable when a signal has arrived
 
-  /// The signal that has come within the time, if any.
+  /// The signal that arrived within the time, if any.
   std::optional<int> take(int timeout_ms = 0) const;
 
  private:
   int descriptor_;
 };
 
-/// In a child process: signals end it again.
-void hear_signals_again();
+/// In a child process: unblocks the signals, so that they end it.
+void unblock_signals();
 
-/// While it lives, these signals wait: for the writing of files that belong together.
+/// Blocks these signals until it is destroyed, while files that belong together are written.
 class HeldSignals {
  public:
   HeldSignals();

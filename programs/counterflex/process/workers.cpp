@@ -31,20 +31,20 @@ void send_line(int pipe, std::string_view line) {
   for (std::string_view rest = text; !rest.empty();) {
     const ssize_t n = ::write(pipe, rest.data(), rest.size());
     if (n < 0 && errno == EINTR) continue;
-    if (n <= 0) ::_exit(status_of(SIGPIPE));  // nobody listens any more
+    if (n <= 0) ::_exit(status_of(SIGPIPE));  // the parent has closed the pipe
     rest.remove_prefix(static_cast<std::size_t>(n));
   }
 }
 
-/// The child's side: what it does not return from.
+/// Runs in the child. Does not return.
 [[noreturn]] void be_worker(pid_t parent, int pipe, const std::function<void(const SendLine&)>& work) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-  if (::getppid() != parent) ::_exit(status_of(SIGKILL));  // it has died meanwhile
-  hear_signals_again();
+  if (::getppid() != parent) ::_exit(status_of(SIGKILL));  // the parent has died meanwhile
+  unblock_signals();
   try {
     work([pipe](std::string_view line) { send_line(pipe, line); });
     std::fflush(nullptr);
-  } catch (...) {  // it would find its way through what is the parent's, and end the other workers
+  } catch (...) {  // an exception must not unwind the parent's objects: it would end the other workers
     ::_exit(1);
   }
   ::_exit(0);
@@ -59,7 +59,7 @@ int end_of(pid_t process) {
 
 }  // namespace
 
-/// Who ignores that its children end, as this program's caller may have, is not told how.
+/// Restores SIGCHLD: if the caller ignores it, `waitpid` gives no status.
 Workers::Workers() {
   std::signal(SIGCHLD, SIG_DFL);
 }
@@ -71,7 +71,7 @@ Workers::~Workers() {
 void Workers::start(std::size_t task, const std::function<void(const SendLine&)>& work) {
   std::array<int, 2> ends{};
   if (::pipe2(ends.data(), O_CLOEXEC) != 0) fail_starting();
-  std::fflush(nullptr);  // or it would be written twice
+  std::fflush(nullptr);  // otherwise the child would write it again
   const pid_t parent = ::getpid();
   const pid_t process = ::fork();
   if (process == 0) {
@@ -89,7 +89,7 @@ void Workers::start(std::size_t task, const std::function<void(const SendLine&)>
   workers_.push_back({process, ends[0], task});
 }
 
-/// What `worker` has written so far; false where it has ended.
+/// Reads the output of `worker`. Returns false if it has ended.
 bool Workers::read_from(Worker& worker, std::vector<WorkerEvent>& events) {
   std::array<char, 65536> bytes;
   const ssize_t n = ::read(worker.pipe, bytes.data(), bytes.size());

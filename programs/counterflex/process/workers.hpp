@@ -1,5 +1,5 @@
 #pragma once
-/// Tasks in processes of their own: one that crashes takes nothing else with it.
+/// Runs tasks in separate processes: a crash affects only its own task.
 #include <sys/types.h>
 
 #include <cstddef>
@@ -10,20 +10,20 @@
 
 namespace counterflex::cli {
 
-/// How a worker tells its parent something: one line, without its end.
+/// Sends one line, without its end, from a worker to its parent.
 using SendLine = std::function<void(std::string_view line)>;
 
-/// What a worker has said, or that it has ended.
+/// A line of a worker, or its end.
 struct WorkerEvent {
   std::size_t task = 0;
   std::string line{};
   bool ended = false;
-  int status = 0;  ///< as `waitpid` gives it; of one that ended
+  int status = 0;  ///< of `waitpid`, for a worker that ended
 };
 
-/// The workers of a process that has no other threads. They die with it, however it ends: none of them
-/// writes anything that nobody waits for. All members throw `InputError` (Exit::transient_io) where the
-/// system has no more processes or pipes.
+/// The workers of a process without other threads. They are killed when it ends for any reason, so that they
+/// do not continue to write. All members throw `InputError` (Exit::transient_io) if the system has no more
+/// processes or pipes.
 class Workers {
  public:
   Workers();
@@ -31,17 +31,17 @@ class Workers {
   Workers(const Workers&) = delete;
   Workers& operator=(const Workers&) = delete;
 
-  /// Forks a process for `work`; it ends when that returns, without cleaning up what is its parent's. There
-  /// signals do what they did when this program began. A `work` that throws ends it with status 1.
+  /// Forks a process for `work`, which ends when `work` returns, without destroying the parent's objects.
+  /// Signals have their original handlers there. If `work` throws, the process ends with status 1.
   void start(std::size_t task, const std::function<void(const SendLine&)>& work);
 
   std::size_t running() const { return workers_.size(); }
 
-  /// Waits until a worker has said something or ended, `other` (a descriptor, or -1) can be read, or the
-  /// time is over; what has been said since, in the order of each worker.
+  /// Waits for a line or the end of a worker, for `other` (a descriptor, or -1) to become readable, or for
+  /// the timeout. Returns the events since the last call, in order for each worker.
   std::vector<WorkerEvent> wait(int other, int timeout_ms);
 
-  /// Asks all to end, and kills those that have not after `patience_ms`.
+  /// Sends SIGTERM to all, and kills those that have not ended after `patience_ms`.
   void end_all(int patience_ms);
 
  private:
@@ -57,7 +57,7 @@ class Workers {
   std::vector<Worker> workers_;
 };
 
-/// How a process ended that `waitpid` says has, in words: "ended with status 3", "was killed by signal 9".
+/// A status of `waitpid` in words: "ended with status 3", "was killed by signal 9".
 std::string ending_text(int status);
 
 }  // namespace counterflex::cli

@@ -36,7 +36,7 @@ struct Unnumbered {
   }
 };
 
-/// Window by window, to the first failure. Windows are read while others are solved.
+/// Runs window by window, to the first failure. Reads windows while others are solved.
 std::optional<Failure> compensate_all(Run& run, RunTally& tally, RunFiles& files, Console& console) {
   Windows windows(run, console);
   std::mutex speaking;
@@ -73,7 +73,7 @@ std::optional<Failure> compensate_all(Run& run, RunTally& tally, RunFiles& files
 
 }  // namespace
 
-Exit compensate_program(const Options& options, Console& console, const TellEnd& tell) {
+Exit compensate_program(const Options& options, Console& console, const ReportEnd& report_end) {
   const OutputPaths paths = output_paths(options);
   refuse_foreign_outputs(paths, options);
   const auto run = prepare_run(options, console);
@@ -82,7 +82,7 @@ Exit compensate_program(const Options& options, Console& console, const TellEnd&
   RunFiles files(paths, {.attribution = run->facts.attribution}, options.hash_outputs);
   RunTally tally = tally_for(options, *run);
   const std::optional<Failure> failure = compensate_all(*run, tally, files, console);
-  run->facts.output = without_controls(paths.program);  // the report forgets it where none is written
+  run->facts.output = without_controls(paths.program);  // the report omits it if no program is written
   if (failure && failure->exit == Exit::usage)
     return exit_of(*run, failure, console);  // no result: an option is wrong
   return tell(*run,

@@ -1,16 +1,16 @@
 #pragma once
-/// Compensates a program, whoever asks for it.
+/// Compensates a program, for the command, a batch or a watch.
 #include <functional>
 
 #include "run/run.hpp"
 
 namespace counterflex::cli {
 
-/// Says what a run has come to whose files have their names; gives its exit status.
-using TellEnd = std::function<Exit(const Run&, const RunEnd&, const RunFiles&)>;
+/// Reports a finished run whose files are published. Returns its exit status.
+using ReportEnd = std::function<Exit(const Run&, const RunEnd&, const RunFiles&)>;
 
-/// Everything that `compensate` does but saying the result, which is left to `tell`. A run that fails before
-/// there is anything to report says so through `console` and does not come to `tell`. Throws `InputError`.
-Exit compensate_program(const Options& options, Console& console, const TellEnd& tell);
+/// Runs `compensate` and calls `report_end` to report the result. A run that fails before it has a result
+/// reports the failure through `console` and does not call `report_end`. Throws `InputError`.
+Exit compensate_program(const Options& options, Console& console, const ReportEnd& report_end);
 
 }  // namespace counterflex::cli

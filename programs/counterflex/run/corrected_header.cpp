@@ -9,7 +9,7 @@
 namespace counterflex::cli {
 namespace {
 
-/// The first bytes of a file, enough for a header; none where it cannot be read.
+/// The first bytes of a file, enough for a header; empty if it cannot be read.
 std::string beginning_of(const std::string& path) {
   constexpr std::size_t enough = 1 << 14;
   std::string bytes;
@@ -21,8 +21,8 @@ std::string beginning_of(const std::string& path) {
   return bytes;
 }
 
-/// The digits of the original's hash in the header of a corrected program, in lower case; empty where the
-/// file has none.
+/// The digits of the original's hash in the header of a corrected program, in lower case; empty if the file
+/// has no header.
 std::string program_digits(const std::string& path) {
   constexpr std::size_t count = 16;
   constexpr std::string_view mark = "COUNTERFLEX 1 PROGRAM ";

@@ -1,13 +1,13 @@
 #pragma once
-/// The header that corrected programs begin with.
+/// Recognises the header of corrected programs.
 #include <string>
 
 namespace counterflex::cli {
 
-/// Whether the file begins as a corrected program.
+/// Whether the file begins with the header of a corrected program.
 bool has_corrected_header(const std::string& path);
 
-/// Whether the header of the corrected program `output` names the bytes of `program`. False where one of them
+/// Whether the header of the corrected program `output` has the hash of `program`. False if one of them
 /// cannot be read.
 bool is_corrected_from(const std::string& output, const std::string& program);
 

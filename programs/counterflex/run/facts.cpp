@@ -14,7 +14,7 @@
 namespace counterflex::cli {
 namespace {
 
-/// Millimetres of what was given in millimetres: 0.005, not 0.0049999999.
+/// Converts to mm without rounding noise: 0.005, not 0.0049999999.
 double in_mm(double length) {
   return std::round(length / mm * 1e12) / 1e12;
 }
@@ -41,7 +41,8 @@ std::vector<OptionValue> reading_options(const Options& options, const Run& run)
 RunFacts facts_of(const Options& options, const Run& run) {
   RunFacts facts;
   facts.version = version;
-  // It takes several times as long as all else of `compensate`, which is not the command that asks for it.
+  // Causes take several times as long as everything else in `compensate`; only the other commands compute
+  // them always.
   facts.attribution =
       options.command != Command::compensate || options.json || options.report || options.plot;
   facts.inputs = {run.file.file, run.machine.file};

@@ -30,8 +30,8 @@ std::string text_of(const Vector6& F) {
   return fmt::format("{},{},{},{},{},{}", F[0], F[1], F[2], F[3], F[4], F[5]);
 }
 
-/// A name in characters that controls allow in comments, each run of others as one blank; its beginning where
-/// it is long.
+/// A name in characters that controls allow in comments. Other characters become one blank each sequence;
+/// long names are cut.
 std::string plain_name(const std::string& name) {
   constexpr std::size_t most = 40;
   std::string plain;

@@ -1,5 +1,5 @@
 #pragma once
-/// The comments that a corrected program begins with.
+/// The comments at the beginning of a corrected program.
 #include <string>
 #include <string_view>
 #include <vector>
@@ -8,12 +8,12 @@
 
 namespace counterflex::cli {
 
-/// Their texts, each beginning "COUNTERFLEX 1": the version, the hashes of the inputs, and in words for the
-/// setter the machine, the work offsets, the tools and the forces for which the program was made. Capital
-/// letters, digits and signs that every control reads in a comment.
+/// Their texts, each beginning with "COUNTERFLEX 1": version, hashes of the inputs and, in words for the
+/// operator, machine, work offsets, tools and forces. Only capital letters, digits and signs that every
+/// control allows in comments.
 std::vector<std::string> header_of(const Options& options, const Run& run);
 
-/// What the text of a program does not say of how it is read: verify needs what compensate had.
+/// Options of reading that the text of a program does not show: `verify` needs those of `compensate`.
 struct ReadingWord {
   bool acts;
   std::string_view in_header, option;

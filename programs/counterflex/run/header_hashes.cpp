@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t least_digits = 8;
 
-/// The last word of at least eight hexadecimal digits, in lower case; empty where there is none.
+/// The last word of at least eight hexadecimal digits, in lower case; empty without such a word.
 std::string hash_in(const std::string& line) {
   std::string found;
   std::istringstream words(line);
@@ -48,20 +48,20 @@ std::string given(const std::string& name, const InputFile& file) {
   return fmt::format("{} (SHA-256 {}...)", name, file.sha256.substr(0, 12));
 }
 
-/// How the header says that the original was read, where that is otherwise than now.
+/// Options with which the original was read according to the header, if they differ from those of this run.
 std::string other_reading(const std::string& text, const ReadOptions& read) {
   const std::string begin = "COUNTERFLEX 1 READ WITH ";
   const std::size_t at = text.find(begin), end = text.find('\n', at);
-  const std::string said =
+  const std::string in_header =
       at == std::string::npos ? "" : text.substr(at + begin.size(), end - at - begin.size());
   std::string missing, more;
   for (const ReadingWord& word : reading_words(read)) {
-    const bool was = said.find(word.in_header) != std::string::npos;
+    const bool was = in_header.find(word.in_header) != std::string::npos;
     std::string& list = was ? missing : more;
     if (was != word.acts) list += fmt::format("{}{}", list.empty() ? "" : " ", word.option);
   }
   if (missing.empty() && more.empty()) return {};
-  std::string words = "the original was read in another way when this program was made:";
+  std::string words = "the original was read with other options when this program was made:";
   if (!missing.empty()) words += fmt::format(" give {} here, too", missing);
   if (!more.empty()) words += fmt::format("{} leave out {}", missing.empty() ? "" : ", and", more);
   return words;

@@ -1,12 +1,11 @@
 #pragma once
-/// Whether a corrected program was made for the inputs of a run.
+/// Compares the header of a corrected program with the inputs of a run.
 #include "run/run.hpp"
 
 namespace counterflex::cli {
 
-/// Warnings about inputs whose hashes in the header of a corrected program, at the beginning of its text, are
-/// not those of this run: its machine, files of forces and table of tools. And of options with which the
-/// original was read.
+/// Warnings for inputs whose hashes in the header of a corrected program differ from those of this run
+/// (machine, force files, tool table), and for different options of reading.
 std::vector<std::string> other_inputs_of_header(const std::string& text, const Run& run);
 
 }  // namespace counterflex::cli

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double largest_condition = 1e6;  // as for waypoints
 
-/// An offset that states no datum keeps that of the machine file.
+/// An offset without a datum keeps the datum of the machine file.
 void override_work(const Options& options, Machine& machine) {
   for (const std::string& text : options.work) {
     const WorkText given = work_of(text);
@@ -50,14 +50,14 @@ std::vector<ForceRule> read_cutting_models(const std::string& role, const std::s
   return read_force_toml(text, shown_name(path));
 }
 
-/// A profile may be as long as the program: it is not held in memory.
+/// Reads a profile without holding it in memory: it may be as long as the program.
 std::vector<ForceRule> read_profile(const std::string& role, const std::string& path,
                                     std::vector<InputFile>& files) {
   refuse_folder(path, Exit::machine_or_force);
   FileReader bytes = or_unreadable(Exit::machine_or_force, [&] { return FileReader(path); });
   files.push_back({role, path, or_unreadable(Exit::machine_or_force, [&] { return sha256(bytes); })});
   std::vector<ForceRule> rules = read_force_csv(bytes, shown_name(path));
-  bytes.refuse_change();  // it was read twice
+  bytes.refuse_change();  // the file was read twice
   return rules;
 }
 
@@ -80,11 +80,10 @@ void refuse_home(const Model& model, const Machine& machine) {
                     "1e6 is allowed; give joints other home values (home_deg, home_mm), or [home]",
                     condition));
   if (model.gravity_status != Status::converged)
-    throw InputError(
-        Exit::machine_or_force, machine.gravity.reference_at,
-        fmt::format("gravity_reference is \"home\", but the perfect machine cannot be held true there under "
-                    "its own weight: it is {}",
-                    to_string(model.gravity_status)));
+    throw InputError(Exit::machine_or_force, machine.gravity.reference_at,
+                     fmt::format("gravity_reference is \"home\", but no actuator values hold the perfect "
+                                 "machine at home under its weight: it is {}",
+                                 to_string(model.gravity_status)));
 }
 
 MachineInput read_machine_input(const Options& options) {
@@ -149,7 +148,7 @@ void blame_dialect(const InputError& error, const Options& options, const Machin
   if (!of_machine) throw;
   throw InputError(
       Exit::program_text, {program},
-      fmt::format("programs in the machine file's dialect, \"{}\", are not read yet; --dialect names another",
+      fmt::format("the machine file's dialect \"{}\" is not supported yet; choose another with --dialect",
                   machine->control.dialect));
 }
 
@@ -170,7 +169,7 @@ ProgramFile open_program(const std::string& role, const std::string& path) {
 }
 
 void warn_of(const Overview& program, Command command, Console& console) {
-  const std::string left = command == Command::forces ? "not on a known path: " : "not corrected: ";
+  const std::string left = command == Command::forces ? "no force computed: " : "not corrected: ";
   for (const Remark& remark : program.remarks) console.warning(program.file, remark.line, remark.what);
   const Capped<LeftAlone>& left_alone = program.left_alone;
   for (const LeftAlone& block : left_alone.rows) console.warning(program.file, block.line, left + block.why);
@@ -180,9 +179,9 @@ void warn_of(const Overview& program, Command command, Console& console) {
 std::optional<Remark> remark_of_cycles(const Overview& program, const ForceSource& source, Command command) {
   const bool forces = !source.rules.empty() || program.commented_force;
   if (!program.first_cycle_line || !forces || source.scale == 0) return std::nullopt;
-  return Remark{*program.first_cycle_line,
-                command == Command::forces ? "holes of cycles have no force, and are not among the feed moves"
-                                           : "holes of cycles are corrected without the cutting force"};
+  return Remark{*program.first_cycle_line, command == Command::forces
+                                               ? "holes of cycles have no force and are not listed"
+                                               : "holes of cycles are corrected without the cutting force"};
 }
 
 ForceInput read_force_input(const Options& options) {

@@ -23,7 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// By file where both exist, else by name.
+/// Compares files if both exist, else names.
 bool same_file(const std::string& a, const std::string& b) {
   if (a == "-" || b == "-") return false;
   std::error_code error;
@@ -49,10 +49,11 @@ void check_place(const std::string& path, const std::vector<std::string>& made =
   const fs::path folder = fs::path(path).parent_path();
   const bool is_made = std::find(made.begin(), made.end(), folder.string()) != made.end();
   if (!folder.empty() && !is_made && !fs::is_directory(folder, ignored))
-    throw InputError(Exit::usage, {path}, "cannot write the file: its folder does not exist; make it");
+    throw InputError(Exit::usage, {path}, "cannot write the file: its folder does not exist; create it");
 }
 
-/// A project file of somebody else is not to make names that write on a terminal. Those of programs stay.
+/// Refuses control characters in names of outputs: a foreign project file must not control the terminal.
+/// Names of programs are not changed.
 void refuse_control_characters(const std::vector<std::string>& outputs, const std::string& program) {
   if (without_controls(program) != program) return;
   for (const std::string& path : outputs)
@@ -69,14 +70,15 @@ void check_paths(const std::vector<std::string>& outputs, const std::vector<std:
     for (const std::string& input : inputs)
       if (same_file(outputs[i], input))
         throw InputError(Exit::usage, {outputs[i]},
-                         fmt::format("is the input {}, which is never overwritten", input));
+                         fmt::format("the output would replace the input {}; give another name", input));
     for (std::size_t k = 0; k < i; ++k)
       if (same_file(outputs[i], outputs[k]))
-        throw InputError(Exit::usage, {outputs[i]}, "is to hold two different outputs");
+        throw InputError(Exit::usage, {outputs[i]},
+                         "two outputs have this name; give one of them another name");
   }
 }
 
-/// Whether `mark` stands in the first bytes of a file.
+/// Whether `mark` is in the first bytes of a file.
 bool begins_with_mark(const std::string& path, std::string_view mark) {
   constexpr std::size_t looked_at = 1 << 14;
   std::string bytes;
@@ -89,7 +91,7 @@ void make_folders(const std::vector<std::string>& folders) {
     if (!folder.empty()) make_folder(folder);
 }
 
-/// What runs that were killed have left of these files.
+/// Removes unfinished files of killed runs.
 void sweep_left(const OutputPaths& paths) {
   std::vector<std::string> files{paths.program, paths.report_json, paths.report_csv, paths.report_page,
                                  paths.plot};
@@ -99,7 +101,7 @@ void sweep_left(const OutputPaths& paths) {
 
 std::string stem_of_report(const Options& options) {
   if (options.report->empty() || *options.report == "-")
-    throw InputError(Exit::usage, {}, "--report takes the stem of the names of files, not standard output");
+    throw InputError(Exit::usage, {}, "--report needs the stem of file names, not standard output (-)");
   return *options.report;
 }
 
@@ -218,7 +220,7 @@ void RunFiles::add_program(std::string_view text) {
 }
 
 void RunFiles::add_waypoints(const std::vector<Waypoint>& waypoints) {
-  constexpr std::size_t at_once = 256;  // a row has half a kilobyte
+  constexpr std::size_t at_once = 256;  // rows; one has half a kilobyte
   if (!csv_) return;
   for (std::span<const Waypoint> rest(waypoints); !rest.empty();) {
     const auto some = rest.first(std::min(at_once, rest.size()));
@@ -252,7 +254,7 @@ FileWriter* if_any(std::optional<FileWriter>& file) {
 void publish_together(std::vector<FileWriter*> files) {
   std::erase(files, nullptr);
   for (FileWriter* file : files) file->complete();
-  // Who reads a stream may break it off, or be slow, so that interrupts must be heard.
+  // The reader of a stream may be slow or close it: interrupts must work meanwhile.
   for (FileWriter* file : files)
     if (file->is_stream()) file->publish();
   std::erase_if(files, [](const FileWriter* file) { return file->is_stream(); });

@@ -8,7 +8,7 @@
 namespace counterflex::cli {
 namespace {
 
-/// Whether the machine moves along all axes of any program: then none of them has to be taken as known.
+/// Whether the machine moves along all axes of any program: then unknown positions of all axes matter.
 bool ignores_no_axis(const Machine& machine) {
   const auto& controlled = machine.controlled;
   const auto controls = [&](Component c) {
@@ -17,7 +17,7 @@ bool ignores_no_axis(const Machine& machine) {
   return controlled.empty() || (controls(Component::x) && controls(Component::y) && controls(Component::z));
 }
 
-/// Logged positions are looked for in space, with more than one pass.
+/// Logged positions are matched in space. This needs more than one pass.
 bool has_logs(const ForceSource& source) {
   return std::any_of(source.rules.begin(), source.rules.end(), [](const ForceRule& rule) {
     const auto* profile = std::get_if<ForceProfile>(&rule.content);
@@ -27,26 +27,26 @@ bool has_logs(const ForceSource& source) {
 
 }  // namespace
 
-ProgramLook look_through(const Options& options, ProgramFile& file, const ReadOptions& read,
+ProgramScan scan_program(const Options& options, ProgramFile& file, const ReadOptions& read,
                          const Machine* machine, const std::function<void(const Program&)>& also) {
   const std::string name = shown_name(options.program);
-  ProgramLook look;
+  ProgramScan scan;
   try {
     file.bytes.hash_along();
     ProgramReader reader(file.bytes, name, read);
     bool begun = false;
     const auto first = [&](const Program& window) {
-      add_window(look.program, window);
-      if (!std::exchange(begun, true)) look.is_corrected = is_corrected(window);
+      add_window(scan.program, window);
+      if (!std::exchange(begun, true)) scan.is_corrected = is_corrected(window);
     };
     for_each_window(
         reader, also ? options.threads : 1, first, also ? also : [](const Program&) {});
   } catch (const InputError& error) {
-    file.bytes.refuse_change();  // what is wrong may be half of another program
+    file.bytes.refuse_change();  // a file replaced while it was read has errors of its own
     blame_dialect(error, options, machine, name);
   }
   file.file.sha256 = sha256(file.bytes);
-  return look;
+  return scan;
 }
 
 void settle_forces(const PathInput& input, ForceSource& source) {
@@ -65,7 +65,7 @@ void settle_forces(const PathInput& input, ForceSource& source) {
 }
 
 template <typename Work>
-void EarlyForces::keep_error(const Work& work) {
+void ForcePrescan::keep_error(const Work& work) {
   try {
     work();
   } catch (const InputError&) {
@@ -73,7 +73,7 @@ void EarlyForces::keep_error(const Work& work) {
   }
 }
 
-EarlyForces::EarlyForces(const Options& options, const Machine& machine, ForceInput& input)
+ForcePrescan::ForcePrescan(const Options& options, const Machine& machine, ForceInput& input)
     : source_(input.source) {
   try {
     input = read_force_input(options);
@@ -84,7 +84,7 @@ EarlyForces::EarlyForces(const Options& options, const Machine& machine, ForceIn
   if (ignores_no_axis(machine) && !has_logs(source_)) keep_error([&] { cover_.emplace(source_); });
 }
 
-void EarlyForces::add(const Program& window) {
+void ForcePrescan::add(const Program& window) {
   if (!cover_ || unsettled_ || !cover_->needs_pass()) return;
   keep_error([&] {
     const Toolpath path = build_toolpath(window, one_frame(window, {}), end_);
@@ -93,11 +93,11 @@ void EarlyForces::add(const Program& window) {
   });
 }
 
-void EarlyForces::refuse_unread() const {
+void ForcePrescan::refuse_unread() const {
   if (unread_) std::rethrow_exception(unread_);
 }
 
-void EarlyForces::settle(const PathInput& input) {
+void ForcePrescan::settle(const PathInput& input) {
   if (unsettled_) std::rethrow_exception(unsettled_);
   if (!cover_) return settle_forces(input, source_);
   if (cover_->needs_pass()) cover_->end_pass();

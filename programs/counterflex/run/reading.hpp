@@ -1,5 +1,5 @@
 #pragma once
-/// Passes over a whole program before anything is made of it.
+/// Reads a whole program, once or more, before it is solved.
 #include <array>
 #include <exception>
 #include <functional>
@@ -11,44 +11,43 @@
 
 namespace counterflex::cli {
 
-/// What a program holds, and that it can be read.
-struct ProgramLook {
+/// The contents of a program that was read without errors.
+struct ProgramScan {
   Overview program;
   bool is_corrected = false;  ///< the program carries the header of a corrected one
 };
 
-/// Reads the program to its end once, and notes its hash; `also` looks at its windows, too, while others are
-/// read. Throws
-/// `InputError`.
-ProgramLook look_through(const Options& options, ProgramFile& file, const ReadOptions& read,
+/// Reads the program to its end once and computes its hash. Calls `also` for each window while the next ones
+/// are read. Throws `InputError`.
+ProgramScan scan_program(const Options& options, ProgramFile& file, const ReadOptions& read,
                          const Machine* machine, const std::function<void(const Program&)>& also = {});
 
-/// A program whose path is built window by window. Borrows all.
+/// A program whose path is built window by window. Keeps references to all arguments.
 struct PathInput {
   FileReader& bytes;
   const std::string& name;
   const ReadOptions& read;
   const std::vector<WorkFrame>& frames;
-  const std::array<bool, 3>& ignored;  ///< program axes that no target needs
+  const std::array<bool, 3>& ignored;  ///< program axes that no target uses
 };
 
-/// Forces have to fit the whole program before any of it is solved. Throws `InputError`.
+/// Checks the forces against the whole program before any of it is solved. Throws `InputError`.
 void settle_forces(const PathInput& input, ForceSource& source);
 
-/// Forces that are read before the program and settled while it is looked through, where they ask for no more
-/// of a path than its moves. What is wrong with them is kept until its turn comes: after the program.
-class EarlyForces {
+/// Forces that are read before the program and resolved during its first pass, if they depend only on its
+/// moves. Keeps errors of the forces until the program has been read: errors of the program come first.
+class ForcePrescan {
  public:
   /// Reads the files of `options` into `input`, which outlives this.
-  EarlyForces(const Options& options, const Machine& machine, ForceInput& input);
+  ForcePrescan(const Options& options, const Machine& machine, ForceInput& input);
 
   /// The next window of the program.
   void add(const Program& window);
 
-  /// Throws what is wrong with the files (InputError).
+  /// Throws the errors of the files (`InputError`).
   void refuse_unread() const;
 
-  /// Throws as `settle_forces`, which it does where nothing has been settled on the way.
+  /// Calls `settle_forces` if the forces were not resolved during the first pass. Throws as it.
   void settle(const PathInput& input);
 
  private:

@@ -25,7 +25,7 @@ bool controls(const Machine& machine, int component) {
   return std::find(list.begin(), list.end(), static_cast<Component>(component)) != list.end();
 }
 
-/// Axes of the program along which the machine has nothing to control.
+/// Axes of the program that the machine does not control.
 std::array<bool, 3> uncontrolled_axes(const Machine& machine, const std::vector<WorkFrame>& frames) {
   std::array<bool, 3> axes{};
   if (machine.controlled.empty()) return axes;
@@ -40,16 +40,16 @@ std::array<bool, 3> uncontrolled_axes(const Machine& machine, const std::vector<
   return axes;
 }
 
-/// Orientations that the machine controls, and that a program of X, Y and Z does not state.
+/// Warns of orientations that the machine controls but a program of X, Y and Z does not state.
 void warn_of_orientation(Run& run) {
   const Machine& machine = run.machine.machine;
   if (std::none_of(machine.controlled.begin(), machine.controlled.end(),
                    [](Component c) { return c > Component::z; }))
     return;
-  run.facts.warnings.push_back({0,
-                                "the machine controls the tool's orientation, which the program does not "
-                                "state: home's is commanded, and its "
-                                "error stays (see the largest rotation)"});
+  run.facts.warnings.push_back(
+      {0,
+       "the machine controls the tool's orientation, but the program does not state it: the orientation at "
+       "home is used and its error is not corrected (see the largest rotation)"});
 }
 
 CompensationOptions compensation_options(const Options& options, const Machine& machine) {
@@ -63,7 +63,7 @@ CompensationOptions compensation_options(const Options& options, const Machine& 
   return result;
 }
 
-/// Stiffness that nobody has given, and tools that the file does not know beside those that it does.
+/// Warns of tools without stiffness, and of tools that are missing in a file with other tools.
 void warn_of_tools(Run& run) {
   const Machine& machine = run.machine.machine;
   const auto& tools = machine.tools;
@@ -73,8 +73,7 @@ void warn_of_tools(Run& run) {
   if (run.program.first_feed_without_tool)
     run.facts.warnings.push_back(
         {*run.program.first_feed_without_tool,
-         "no tool is known here by its number (a T with M6): [tool] is taken, rigid, "
-         "whatever bends in [tools]"});
+         "no tool is selected here (T with M6): [tool] is used, rigid, and [tools] is not used"});
   for (const long number : run.program.tools) {
     if (number == 0) continue;
     const auto found = tools.find(number);
@@ -90,15 +89,15 @@ void warn_of_tools(Run& run) {
   }
 }
 
-/// A datum that is not stated counts as "machine".
+/// Warns of work offsets without a datum. They count as "machine".
 void warn_of_datum(Run& run) {
   std::set<std::string> warnings;  // one offset may have several frames
   for (const WorkFrame& frame : run.work.frames) {
     if (!frame.common_shift || frame.common_shift->norm() <= run.options.tolerance) continue;
     const Vector3 shift_mm = *frame.common_shift / mm;
     const std::string assumed = frame.name.empty()
-                                    ? "no datum is stated, and the machine frame counts"
-                                    : fmt::format("no datum is stated for {}, and it counts", frame.name);
+                                    ? "no datum is stated: the machine frame counts"
+                                    : fmt::format("no datum is stated for {}: it counts", frame.name);
     const std::string cure =
         frame.name.empty()
             ? "give the work offset with its datum, or --work machine"
@@ -115,7 +114,7 @@ void warn_of_datum(Run& run) {
   }
 }
 
-/// The diameter of a tool is that of [tools], else that of the largest cutter whose forces may act on it.
+/// The diameter of a tool: from [tools], else of the largest cutter whose forces may act on it.
 std::vector<ToolSize> tool_sizes(const Run& run) {
   std::vector<ToolSize> sizes;
   for (const long number : run.program.tools) {
@@ -182,15 +181,15 @@ std::unique_ptr<Run> prepare_run(const Options& options, Console& console) {
   run->tools = std::move(tools);
   const Machine& on = run->machine.machine;
   run->read = read_options(options, &on, run->tools);
-  EarlyForces forces(options, on, run->force_input);
+  ForcePrescan forces(options, on, run->force_input);
   PathPlaces places;
-  ProgramLook look = look_through(options, run->file, run->read, &on, [&](const Program& window) {
+  ProgramScan scan = scan_program(options, run->file, run->read, &on, [&](const Program& window) {
     forces.add(window);
     places.add(window);
     if (options.number_pieces) run->numbers.add(window.text);
   });
-  run->program = std::move(look.program);
-  run->is_corrected = look.is_corrected;
+  run->program = std::move(scan.program);
+  run->is_corrected = scan.is_corrected;
   run->tool_models = prepare_tools(on, run->machine.model, run->program.tools);
   forces.refuse_unread();
   run->starts.emplace();
@@ -216,11 +215,11 @@ void refuse_what_cannot_be_compensated(const Run& run) {
   if (run.machine.machine.controlled.empty())
     throw InputError(
         Exit::machine_or_force, {shown_name(run.machine.file.path)},
-        "controlled = [] allows analysis alone; name the components of the tip that the program controls");
+        "controlled = [] allows analyze only; list the components of the tip that the program controls");
   if (run.is_corrected)
     throw InputError(
         Exit::program_text, {run.program.file, 1, 1},
-        "the header says that this program is already corrected (COUNTERFLEX 1); nothing is compensated "
+        "the program has the header of a corrected program (COUNTERFLEX 1); a program is not compensated "
         "twice");
 }
 
@@ -233,7 +232,7 @@ void prepare_writing(const Options& options, Run& run) {
 
 namespace {
 
-/// The corrected program is what is open in front of its reader.
+/// The reader has the corrected program open.
 std::string located_in_corrected(const Run& run, Failure failure) {
   if (failure.corrected_line == 0) return located(run.program.file, failure);
   if (failure.line > 0) failure.what += fmt::format(" (line {} of the original)", failure.line);
@@ -263,7 +262,7 @@ void Windows::warn(const Job& window) {
     console_.warning(run_.program.file, note.line, note.what);
 }
 
-/// A component of the position that the machine does not control has to keep its value.
+/// Throws if a component of the position that the machine does not control changes.
 void Windows::refuse_uncontrolled_moves(const Job& job) {
   const Machine& machine = run_.machine.machine;
   if (machine.controlled.empty() || job.path.segments.empty()) return;
@@ -297,11 +296,11 @@ RunEnd finish_run(const Options& options, Run& run, RunReport report, const RunT
     return solve_other_force(places, factor, run.options.threads, &*run.starts);
   };
   if (report.sensitivity) add_sensitivity(report, places, under(1 + force_change), under(1 - force_change));
-  run.starts.reset();  // nothing else is solved; the report takes their memory
+  run.starts.reset();  // the solvers are done; frees memory for the report
   report.sanity = run_sanity(run, report, tally);
   add_loads(report, loads, on.machine);
   if (options.report || options.json) add_texts(report, run.file.bytes);
-  run.file.bytes.refuse_change();  // it was read more than once
+  run.file.bytes.refuse_change();  // the file was read more than once
   std::string json = to_json(report);
   if (tally.curves()) files.add_report(report, json, *tally.curves());
   files.publish(report.exit == Exit::done);

@@ -1,5 +1,5 @@
 #pragma once
-/// One program on one machine, read and ready: what compensate, predict and verify have in common.
+/// One program on one machine, read and ready. Common to compensate, predict and verify.
 #include <memory>
 #include <optional>
 
@@ -24,37 +24,37 @@ struct Run {
   ToolLengths tools;
   ForceInput force_input;
   WorkPlace work;
-  std::array<bool, 3> ignored{};  ///< program axes along which the machine controls nothing
+  std::array<bool, 3> ignored{};  ///< program axes that the machine does not control
   CompensationOptions options;
-  ReadOptions read;  ///< with which the program is read
+  ReadOptions read;  ///< used for the program
   RunFacts facts;
   ToolModels tool_models;  ///< of the program's tools
   std::optional<StartTables> starts{};
-  LoadPlaces load_places{};  ///< of the path, where loads are asked for
-  SanityChecks sanity{};     ///< known before it runs
+  LoadPlaces load_places{};  ///< of the path, if loads are requested
+  SanityChecks sanity{};     ///< checks before the run
 
   RunInput input() const;
   RunContext context() const;
 };
 
-/// Standard input can be read once. Throws `InputError` (Exit::usage).
+/// Throws `InputError` (Exit::usage) if standard input is used more than once.
 void refuse_stdin_twice(const Options& options);
 
-/// Reads everything, the program to its end, and warns of what was remarked. Throws `InputError`; nothing has
-/// been written then.
+/// Reads all inputs, the program to its end, and prints remarks as warnings. Throws `InputError` before any
+/// file is written.
 std::unique_ptr<Run> prepare_run(const Options& options, Console& console);
 
-/// Refuses a machine that controls nothing (Exit::machine_or_force) and a program that carries the header of
-/// a corrected one (Exit::program_text).
+/// Throws for a machine that controls nothing (Exit::machine_or_force) and for a program with the header of a
+/// corrected one (Exit::program_text).
 void refuse_what_cannot_be_compensated(const Run& run);
 
-/// Whether the loads along the path are asked for: with their causes, or by the limits of the machine.
+/// Whether loads along the path are computed: if causes are requested, or if the machine has load limits.
 bool wants_loads(const Run& run);
 
 /// Sets how the corrected program is written: its header, and the numbers of its pieces.
 void prepare_writing(const Options& options, Run& run);
 
-/// The windows of a run's program, once from its beginning.
+/// The windows of a run's program, read once from the beginning.
 class Windows {
  public:
   Windows(Run& run, Console& console, std::size_t least_moves = window_moves);
@@ -62,10 +62,10 @@ class Windows {
   const ProgramReader& reader() const { return reader_; }
   JobWindows& jobs() { return jobs_; }
 
-  /// Of a window that has been read: shows progress. Throws `InputError` (Exit::program_text) for a move
-  /// along what the machine does not control.
+  /// Called for a window that has been read: shows progress. Throws `InputError` (Exit::program_text) for a
+  /// move along an axis that the machine does not control.
   void check(const Job& window);
-  /// Warns of what is noted of its forces.
+  /// Prints notes on its forces as warnings.
   void warn(const Job& window);
 
  private:
@@ -78,31 +78,30 @@ class Windows {
   std::optional<Vector3> first_;  ///< where the path begins
 };
 
-/// What the run's waypoints and windows are to be added to: with the path's curves where a page is to show
-/// them.
+/// The tally for waypoints and windows of the run. It has the curves of the path if a page is written.
 RunTally tally_for(const Options& options, const Run& run);
 
-/// What a run has come to; its files have their names.
+/// The result of a run whose files are published.
 struct RunEnd {
   RunReport report;
   std::string json;  ///< of the report
 };
 
-/// Completes the report and gives the run's files their names. Throws `InputError` (Exit::transient_io).
+/// Completes the report and publishes the run's files. Throws `InputError` (Exit::transient_io).
 RunEnd finish_run(const Options& options, Run& run, RunReport report, const RunTally& tally, RunFiles& files);
 
-/// Says the failure, if there is one; its exit status.
+/// Prints the failure, if any. Returns its exit status.
 Exit exit_of(const Run& run, const std::optional<Failure>& failure, Console& console);
 
 /// The same for the verdict of a report.
 Exit exit_of(const Run& run, const RunReport& report, Console& console);
 
-/// Says the result: the summary, or the JSON document, on standard output; the summary on standard error
-/// where the corrected program has standard output. Then the failure, if there is one; its exit status.
+/// Prints the result: the summary or the JSON document on standard output, or the summary on standard error
+/// if standard output has the corrected program. Then prints the failure, if any. Returns the exit status.
 Exit tell_result(const Options& options, const Run& run, const RunEnd& end, const RunFiles& files,
                  Console& console);
 
-/// Finishes the run and says its result.
+/// Finishes the run and prints its result.
 Exit deliver(const Options& options, Run& run, RunReport report, const RunTally& tally, RunFiles& files,
              Console& console);
 

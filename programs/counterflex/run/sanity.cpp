@@ -14,7 +14,7 @@ void append(SanityChecks& checks, SanityChecks more) {
   checks.insert(checks.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
 }
 
-/// The frames that moves of a program use, each once.
+/// The frames used by moves of a program, each once.
 std::vector<WorkFrame> frames_in_use(const PlacedProgram& placed) {
   std::vector<WorkFrame> frames;
   const std::vector<bool>& used = placed.program.frames_used;
@@ -35,7 +35,7 @@ std::vector<std::string> selected_offsets(const Overview& program) {
   return names;
 }
 
-/// The machine with [tool] where some move uses it, and with the tools that change it.
+/// The machine with [tool], if some move uses it, and with the tools that change it.
 std::vector<const Model*> models_in_use(const PlacedProgram& placed) {
   std::vector<const Model*> models;
   const auto& numbers = placed.program.tools;
@@ -47,7 +47,7 @@ std::vector<const Model*> models_in_use(const PlacedProgram& placed) {
   return models;
 }
 
-/// Whether all forces are those of cutting models.
+/// Whether all forces come from cutting models.
 bool are_computed(const Run& run) {
   const auto& rules = run.force_input.source.rules;
   return !run.program.commented_force && std::all_of(rules.begin(), rules.end(), [](const ForceRule& rule) {

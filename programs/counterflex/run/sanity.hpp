@@ -16,13 +16,13 @@ struct PlacedProgram {
 /// Checks of a machine file: each of its work offsets may be in use.
 SanityChecks machine_sanity(const Machine& machine, const Model& model);
 
-/// Checks of a machine and of what a program asks of it, before it runs.
+/// Checks of a machine and a program before the run.
 SanityChecks program_sanity(const PlacedProgram& placed);
 
-/// Throws `InputError` (Exit::machine_or_force) at [tool] where the tool points into the work.
+/// Throws `InputError` (Exit::machine_or_force) at [tool] if the tool points into the work.
 void refuse_wrong(const SanityChecks& checks, const Machine& machine);
 
-/// All checks of a run: those before it, and those along the path that `tally` has.
+/// All checks of a run: those before it, and those of the path in `tally`.
 SanityChecks run_sanity(const Run& run, const RunReport& report, const RunTally& tally);
 
 }  // namespace counterflex::cli

@@ -23,7 +23,7 @@ std::string names(const std::map<std::string, Place>& work) {
   return text;
 }
 
-/// Where the unloaded machine's tip stands, relative to where it should, at the touched point.
+/// Deviation of the unloaded machine's tip at the touched point.
 Vector3 deviation_at(const Model& model, const Vector3& p_MT, const std::string& file,
                      const std::string& offset) {
   const auto fail = [&](Status status) {
@@ -39,7 +39,7 @@ Vector3 deviation_at(const Model& model, const Vector3& p_MT, const std::string&
   return touched.d;
 }
 
-/// Offsets in use that nobody has given a place: they cannot all be the machine frame.
+/// Warns of several offsets in use without poses: they cannot all be the machine frame.
 std::string no_table_warning(const Overview& program) {
   std::vector<std::string> in_use;
   for (std::size_t i = 0; i < program.frames_used.size(); ++i) {
@@ -50,26 +50,26 @@ std::string no_table_warning(const Overview& program) {
   }
   if (in_use.size() < 2) return "";
   return fmt::format(
-      "the program uses the offsets {}, and no work offsets are given: all are taken as the machine frame "
-      "(--work, or "
+      "the program uses the offsets {}, but no work offsets are given: all are taken as the machine frame "
+      "(give their poses with --work, or "
       "[work] "
-      "in the machine file, says where they are)",
+      "in the machine file)",
       fmt::join(in_use, ", "));
 }
 
 std::string start_warning(const Overview& program) {
   if (program.frames_used.empty() || !program.frames_used[0]) return "";
-  return "the program selects no work offset at first; G54, which controls start with, is assumed";
+  return "the program does not select a work offset at first; G54, the default of controls, is assumed";
 }
 
-/// The place of `frame` in its offset, in m.
+/// The position of `frame` in its offset, in m.
 Pose placed(const ProgramFrame& frame) {
   Pose pose = in_offset(frame);
   pose.p *= mm;
   return pose;
 }
 
-/// The coordinates of `frame`, of an offset that stands at `offset` where the program has not set it.
+/// The pose of `frame`. Its offset is at `offset`, unless the program sets it.
 WorkFrame place_frame(WorkFrame offset, const ProgramFrame& frame) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (!frame.set_mm[axis]) continue;
@@ -81,7 +81,7 @@ WorkFrame place_frame(WorkFrame offset, const ProgramFrame& frame) {
   return offset;
 }
 
-/// The offset itself; program coordinates may be shifted and turned in it.
+/// The offset; program coordinates may be shifted and rotated in it.
 WorkFrame place_offset(const Machine& machine, const Model& model, const std::string& machine_file,
                        const std::string& selected) {
   const std::string name = selected.empty() ? power_on_offset : selected;
@@ -90,7 +90,7 @@ WorkFrame place_offset(const Machine& machine, const Model& model, const std::st
     throw InputError(
         Exit::machine_or_force, {machine_file},
         fmt::format("no [work.{}], which the program {}; the offsets are {} (--work gives others)", name,
-                    selected.empty() ? "starts with, selecting none" : "selects", names(machine.work)));
+                    selected.empty() ? "starts with" : "selects", names(machine.work)));
   WorkFrame frame{name, found->second.X_MW};
   if (const auto& touched = found->second.datum.touched_at)
     frame.datum_shift = deviation_at(model, frame.X_MW * *touched, machine_file, name);
@@ -113,7 +113,7 @@ WorkPlace place_work(const Machine& machine, const Model& model, const std::stri
     place.assumption = no_table_warning(program);
     return place;
   }
-  std::map<std::string, WorkFrame> offsets;  // solved once, however many frames a program makes of them
+  std::map<std::string, WorkFrame> offsets;  // solved once for all frames of an offset
   for (std::size_t i = 0; i < program.frames_used.size(); ++i) {
     if (!program.frames_used[i]) continue;
     const std::string& selected = program.frames[i].work_offset;
@@ -138,10 +138,9 @@ WorkPlace place_work(const std::vector<std::string>& given, const Overview& prog
     const std::string name = selected.empty() ? power_on_offset : selected;
     const auto found = table.find(name);
     if (found == table.end())
-      throw InputError(
-          Exit::usage, {},
-          fmt::format("--work does not give {}, which the program {}; it gives {}", name,
-                      selected.empty() ? "starts with, selecting none" : "selects", names(table)));
+      throw InputError(Exit::usage, {},
+                       fmt::format("--work does not give {}, which the program {}; it gives {}", name,
+                                   selected.empty() ? "starts with" : "selects", names(table)));
     place.frames[i] = place_frame({name, found->second}, program.frames[i]);
   }
   place.assumption = start_warning(program);
@@ -151,8 +150,7 @@ WorkPlace place_work(const std::vector<std::string>& given, const Overview& prog
 void add_common_shifts(const Machine& machine, const RunModels& models, const PathPlaces& places,
                        const Overview& program, std::vector<WorkFrame>& frames) {
   if (machine.work_is_machine_frame) return;
-  std::map<std::string, std::optional<Vector3>>
-      shifts;  // by offset, however many frames a program makes of it
+  std::map<std::string, std::optional<Vector3>> shifts;  // by offset, for all its frames
   for (std::size_t i = 0; i < frames.size(); ++i) {
     const auto offset = machine.work.find(frames[i].name);
     if ((offset != machine.work.end() && offset->second.datum.stated()) || is_set(program.frames[i]))

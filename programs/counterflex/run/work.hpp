@@ -12,19 +12,19 @@ namespace counterflex::cli {
 
 struct WorkPlace {
   std::vector<WorkFrame>
-      frames;  ///< by index into Program::frames; nameless where the machine has no table of offsets
-  std::string assumption;  ///< worth a warning: moves before any offset is selected, several offsets without
-                           ///< a table; empty: none
+      frames;  ///< by index into Program::frames; without names if the machine has no table of offsets
+  std::string assumption;  ///< for a warning: moves before an offset is selected, several offsets without a
+                           ///< table; or empty
 };
 
-/// The offsets that moves of `program` use, G54 where they select none, and their true places: a datum
-/// touched off lies where the unloaded machine's tip was. Throws `InputError` (Exit::machine_or_force) where
-/// the table does not have one, or where the touched point is not reached.
+/// The true poses of the offsets used by moves of `program`; the default is G54. A datum that was touched off
+/// is at the tip of the unloaded machine. Throws `InputError` (Exit::machine_or_force) if the table lacks an
+/// offset, or if the machine does not reach the touched point.
 WorkPlace place_work(const Machine& machine, const Model& model, const std::string& machine_file,
                      const Overview& program);
 
-/// The same without a machine, by the texts of --work, which may be none: then all offsets are the machine
-/// frame. Throws `InputError` (Exit::usage) where they make no sense or do not give an offset in use.
+/// The same without a machine, from the texts of --work. Without texts all offsets are the machine frame.
+/// Throws `InputError` (Exit::usage) for wrong texts, or if an offset in use is missing.
 WorkPlace place_work(const std::vector<std::string>& given, const Overview& program);
 
 /// The machine of a run with its tools, and where solutions start.
@@ -34,7 +34,7 @@ struct RunModels {
   const StartTables* starts;
 };
 
-/// Fills the common shift of the frames in use whose datum is not stated. `places` are those of the program.
+/// Computes the common shift of the frames in use without a datum. `places` are those of the program.
 void add_common_shifts(const Machine& machine, const RunModels& models, const PathPlaces& places,
                        const Overview& program, std::vector<WorkFrame>& frames);
 

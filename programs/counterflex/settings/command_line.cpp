@@ -33,9 +33,8 @@ void describe_program(CLI::App& app) {
   app.get_formatter()->column_width(38);
 }
 
-/// "--output=" says that a value follows, and CLI11 would take the next word as that, be it another option;
-/// of
-/// "-o=" the sign.
+/// Refuses an option with "=" and no value. CLI11 would take the next word as the value of "--output=", and
+/// "=" as that of "-o=".
 void refuse_no_value(std::string_view word) {
   const bool names_an_option = word.starts_with("--") || (word.size() == 3 && word[0] == '-');
   if (!names_an_option || word.find('=') != word.size() - 1) return;
@@ -43,8 +42,8 @@ void refuse_no_value(std::string_view word) {
   throw InputError(Exit::usage, {}, fmt::format("{} has no value", word));
 }
 
-/// A value that begins with a minus, joined with the option before it: "--at -10,0,0" reads as
-/// "--at=-10,0,0". Throws `InputError` (Exit::usage) for "--at=".
+/// Joins a value that begins with a minus with the option before it: "--at -10,0,0" becomes "--at=-10,0,0".
+/// Throws `InputError` (Exit::usage) for "--at=".
 std::vector<std::string> joined(int argc, const char* const* argv) {
   std::vector<std::string> words;
   bool options_end = false;
@@ -77,7 +76,7 @@ void add_missing_command(std::vector<std::string>& words, const CLI::App& app) {
   words.insert(words.begin(), "compensate");
 }
 
-/// Throws `InputError` (Exit::usage) for --shard with a command that has none.
+/// Throws `InputError` (Exit::usage) for --shard with a command without this option.
 void refuse_shard_of_program(const std::vector<std::string>& words) {
   const auto is_shard = [](const std::string& word) {
     return word == "--shard" || word.starts_with("--shard=");
@@ -99,7 +98,8 @@ Exit leave(const CLI::App& app, const CLI::ParseError& error) {
   return Exit::usage;
 }
 
-/// Whose folder, and those above, may hold the project file: of several files the first program.
+/// The program that decides where the project file is searched: its folder and those above. The first one of
+/// several files.
 std::string placing_program(const Options& options) {
   if (options.command == Command::watch)
     return (std::filesystem::path(options.watch.folder) / "any").string();
@@ -109,7 +109,8 @@ std::string placing_program(const Options& options) {
   return program == options.check.files.end() ? options.check.files.front() : *program;
 }
 
-/// Whether more than flags is asked for. A broken project file is not to hinder the check of machine files.
+/// Whether settings besides flags are read. A broken project file must not prevent the check of machine
+/// files.
 bool reads_sources(const Options& options) {
   if (options.print_config || options.sources.config) return true;
   if (options.command == Command::check) return !placing_program(options).ends_with(".toml");
@@ -122,7 +123,7 @@ std::vector<SettingRemark> remarks_on_environment() {
   for (const auto& [name, meant] : misspelt_variables(environ)) {
     SettingRemark& remark = remarks.emplace_back();
     remark.where.file = name;
-    remark.what = fmt::format("is no setting and does nothing; did you mean {}?", meant);
+    remark.what = fmt::format("is not a setting and has no effect; did you mean {}?", meant);
   }
   return remarks;
 }
@@ -144,16 +145,16 @@ std::variant<Options, Exit> read_command_line(int argc, const char* const* argv)
     return leave(app, error);
   }
   if (options.sources.config && options.sources.no_config)
-    throw InputError(Exit::usage, {}, "--config names a project file, and --no-config wants none");
+    throw InputError(Exit::usage, {}, "--config and --no-config exclude each other");
   options.remarks = remarks_on_environment();
   options.sources.environment = read_environment(environ);
   if (!reads_sources(options)) return with_settings(options, {options.sources.flags});
-  const ProgramLayers said = layers_of(options.sources, placing_program(options));
-  options.project_file = said.project_file;
+  const ProgramLayers found = layers_of(options.sources, placing_program(options));
+  options.project_file = found.project_file;
   const bool print = options.print_config;
-  Options result = with_settings(std::move(options), said.layers);
+  Options result = with_settings(std::move(options), found.layers);
   if (print) {
-    write_result(config_text(result.command, said.layers));
+    write_result(config_text(result.command, found.layers));
     return Exit::done;
   }
   refuse_no_machine(result);

@@ -1,5 +1,5 @@
 #pragma once
-/// Reads the command line. The only place that knows the library for it.
+/// Reads the command line. Only this file and the tables of options use CLI11.
 #include <variant>
 
 #include "counterflex/files/input_error.hpp"
@@ -7,8 +7,8 @@
 
 namespace counterflex::cli {
 
-/// What was asked for, or the status to leave with at once: help and version have been printed, or what is
-/// wrong with the command line.
+/// The options, or the exit status if there is nothing to run: help, version or an error of the command line
+/// has been printed.
 std::variant<Options, Exit> read_command_line(int argc, const char* const* argv);
 
 }  // namespace counterflex::cli

@@ -1,5 +1,5 @@
 #pragma once
-/// The commands and their options, as the library for command lines is told of them.
+/// Declares the commands and their options to CLI11.
 #include "settings/options.hpp"
 
 namespace CLI {
@@ -8,8 +8,8 @@ class App;
 
 namespace counterflex::cli {
 
-/// What is said when `app` parses a command line goes to `options`: flags of settings as they are, to
-/// `Options::sources`, all else to its place.
+/// When `app` parses a command line, flags of settings go to `Options::sources` unchanged, and other values
+/// to their members of `options`.
 void add_commands(CLI::App& app, Options& options);
 
 }  // namespace counterflex::cli

@@ -12,7 +12,7 @@
 namespace counterflex::cli {
 namespace {
 
-/// Options that say one thing in two ways.
+/// Pairs of options for the same setting.
 constexpr std::array<std::array<std::string_view, 2>, 2> alternatives{
     {{"forces", "force"}, {"tool-table", "tool-length"}}};
 

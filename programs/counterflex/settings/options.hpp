@@ -1,5 +1,5 @@
 #pragma once
-/// What the command line says, as plain data. Texts that need a file to make sense of them stay texts.
+/// The options of a run as plain data. Values that need a file to be interpreted stay texts.
 #include <map>
 #include <optional>
 #include <string>
@@ -14,11 +14,11 @@ namespace counterflex::cli {
 
 enum class Command { compensate, predict, verify, compare, analyze, forces, check, batch, watch };
 
-/// Where settings come from besides jobs files.
+/// Sources of settings besides jobs files.
 struct SettingSources {
   std::vector<Setting> flags, environment;
-  std::optional<std::string> config;  ///< the project file that --config names
-  bool no_config = false;             ///< no project file is looked for
+  std::optional<std::string> config;  ///< the project file of --config
+  bool no_config = false;             ///< no project file is searched
 };
 
 /// A warning about a setting.
@@ -38,7 +38,7 @@ struct VerifyOptions {
 
 struct CompareOptions {
   std::vector<std::string> reports;  ///< two
-  std::vector<std::string> names;    ///< of these, or none
+  std::vector<std::string> names;    ///< of the reports; may be empty
 };
 
 struct ForcesOptions {
@@ -68,12 +68,12 @@ struct WatchOptions {
   bool once = false;                  ///< the programs that are there, and no more
 };
 
-/// Options of every command that uses them; those of one command alone have a struct of their own.
+/// Options of every command that uses them; those of a single command are in its own struct.
 struct Options {
   Command command = Command::check;
 
   std::string program;  ///< verify: the original
-  std::string machine;  ///< empty: none, which check and forces alone allow
+  std::string machine;  ///< may be empty for check and forces only
 
   std::vector<std::string> forces;     ///< files
   std::vector<ForceRule> force_rules;  ///< of --force
@@ -84,7 +84,7 @@ struct Options {
   std::optional<std::string> dialect;
   std::optional<LengthUnit> units;
   IntegerWords integer_words = IntegerWords::unspecified;
-  std::optional<bool> absolute_centres;  ///< of arcs; none: the machine file's, or incremental
+  std::optional<bool> absolute_centres;  ///< of arcs; unset: as in the machine file, or incremental
   bool evaluate = false;
   bool expand_subprograms = false;
   std::vector<std::string> work;           ///< "G54=X,Y,Z[,RX,RY,RZ][/DATUM]", or "machine"
@@ -93,9 +93,9 @@ struct Options {
 
   Method method = Method::direct;
   double tolerance = 5e-6;               ///< m
-  std::optional<double> max_correction;  ///< m; none: the machine file's
+  std::optional<double> max_correction;  ///< m; unset: that of the machine file
   bool accept_partial = false;           ///< a program is written though the verdict is PARTLY
-  int decimals = -1;                     ///< -1: each word's own
+  int decimals = -1;                     ///< -1: as in each word
   bool number_pieces = false;
   int threads = 1;
   double min_block_ms = 2;
@@ -104,7 +104,7 @@ struct Options {
   std::vector<std::string> folders;   ///< of outputs: made before anything is written, if they are missing
   std::optional<std::string> report;  ///< stem
   std::optional<std::string> plot;    ///< a file
-  bool force_overwrite = false;       ///< replace files that this program did not write
+  bool force_overwrite = false;       ///< replace files that counterflex did not write
 
   CheckOptions check;
   VerifyOptions verify;
@@ -114,15 +114,15 @@ struct Options {
   BatchOptions batch;
   WatchOptions watch;
 
-  bool hash_outputs = false;  ///< compensate alone, of a batch: for its manifest
+  bool hash_outputs = false;  ///< compensate in a batch only: for its manifest
 
   bool json = false;
   bool quiet = false;
   bool verbose = false;
-  SettingSources sources;    ///< what this command line, and the environment, say of them
-  std::string project_file;  ///< from which settings are, too; empty: none
+  SettingSources sources;    ///< settings of this command line and the environment
+  std::string project_file;  ///< path of the project file that was read, or empty
   bool print_config = false;
-  std::vector<SettingRemark> remarks;  ///< on what is said for this run
+  std::vector<SettingRemark> remarks;  ///< on settings of this run
 };
 
 }  // namespace counterflex::cli

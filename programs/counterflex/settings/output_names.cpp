@@ -21,7 +21,7 @@ std::string without_extension(const std::string& path) {
   return std::filesystem::path(path).replace_extension().string();
 }
 
-/// The path that `text` says, beside the program where it says no folder; nothing where a part is not known.
+/// The path for `text`, beside the program if it has no folder. Empty if a part is unknown.
 std::optional<std::string> filled_path(const std::string& text, const std::string& program,
                                        const NameParts& parts) {
   if (!unknown_placeholder(text, parts).empty()) return std::nullopt;
@@ -42,14 +42,14 @@ struct Naming {
                             name_in_messages(setting), text));
 }
 
-/// What keeps the reports of the other commands apart from those of compensate.
+/// The mark in names of reports of other commands than compensate.
 std::string_view mark_of(Command command) {
   if (command == Command::predict) return ".predict";
   return command == Command::verify ? ".verify" : "";
 }
 
-/// The name of a report or plot with the mark of its command, before the ending of a plot. Flags are said for
-/// this run alone and taken at their word; {output} has the mark already.
+/// The name of a report or plot with the mark of its command, before the extension of a plot. Names in flags
+/// are for this run only and stay unchanged; {output} already has the mark.
 std::string marked(std::string name, const Setting& setting, Command command) {
   const bool own = setting.option == "output" || setting.origin == Origin::flag;
   if (own || name.find("{output}") != std::string::npos) return name;
@@ -57,26 +57,26 @@ std::string marked(std::string name, const Setting& setting, Command command) {
   return name.insert(name.size() - ending, mark_of(command));
 }
 
-/// What `said` is with its words filled in; nothing where it has to be left out. `in_folder` is the name in a
-/// folder that is said alone.
-std::optional<std::string> named(const std::optional<std::string>& said, std::string_view option,
+/// `given` with its words replaced; empty if it has no value here. `in_folder` is the name used if `given` is
+/// only a folder.
+std::optional<std::string> named(const std::optional<std::string>& given, std::string_view option,
                                  std::string_view in_folder, const Naming& naming) {
-  if (!said || *said == "-") return said;
+  if (!given || *given == "-") return given;
   const Setting& setting = *std::find_if(naming.settings.begin(), naming.settings.end(),
                                          [&](const Setting& entry) { return entry.option == option; });
-  const std::string pattern =
-      marked(said->ends_with('/') ? *said + std::string(in_folder) : *said, setting, naming.options.command);
+  const std::string pattern = marked(given->ends_with('/') ? *given + std::string(in_folder) : *given,
+                                     setting, naming.options.command);
   if (!is_pattern(pattern)) return fill(pattern, {});
   const auto path = filled_path(pattern, naming.options.program, naming.parts);
   if (path) {
     naming.options.folders.push_back(std::filesystem::path(*path).parent_path().string());
     return path;
   }
-  if (setting.origin == Origin::flag) refuse_nameless(setting, *said);
+  if (setting.origin == Origin::flag) refuse_nameless(setting, *given);
   return std::nullopt;
 }
 
-/// {output}: of what compensate writes, with the mark of the command.
+/// {output}: the name of the corrected program, with the mark of the command.
 std::optional<std::string> output_stem(const Options& options, const std::optional<std::string>& output) {
   const std::string mark(mark_of(options.command));
   if (options.command == Command::verify) return without_extension(options.verify.corrected) + mark;
@@ -104,8 +104,8 @@ void check_pattern(const std::string& name, const std::string& text) {
   const std::string meant = nearest_placeholder(unknown);
   const bool is_hint = !meant.empty() && meant != unknown;
   throw InputError(Exit::usage, {},
-                   fmt::format("{} is '{}', in which {{{}}} stands for nothing; {{name}}, {{ext}}{} do{}",
-                               name, text, unknown, of_report ? ", {output}" : "",
+                   fmt::format("{} is '{}': unknown word {{{}}}; use {{name}}, {{ext}}{}{}", name, text,
+                               unknown, of_report ? ", {output}" : "",
                                is_hint ? fmt::format("; did you mean {{{}}}?", meant) : ""));
 }
 
@@ -130,7 +130,7 @@ void remark_on_name(const Setting& setting, Options& options) {
   SettingRemark& remark = options.remarks.emplace_back();
   remark.where = setting.where;
   remark.what =
-      fmt::format("{} is '{}' for all programs; a name with {{name}} is one for each, and a folder ends in /",
+      fmt::format("{} is '{}' for all programs; use a pattern with {{name}}, or a folder that ends in /",
                   name_in_messages(setting), fill(text, {}));
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-/// Names of outputs that are said by a folder or a pattern.
+/// Resolves output names that are folders or patterns.
 #include <string>
 #include <vector>
 
@@ -8,21 +8,20 @@
 
 namespace counterflex::cli {
 
-/// An output that is a folder which exists, with the slash of a folder.
+/// Adds a slash to an output that is an existing folder.
 Setting with_folder_marked(Setting output);
 
-/// Throws `InputError` (Exit::usage) for a word in braces that nothing stands for; `name` is the option's.
+/// Throws `InputError` (Exit::usage) for an unknown word in braces; `name` is the name of the option.
 void check_pattern(const std::string& name, const std::string& text);
 
-/// Turns folders and patterns of output, report and plot into the paths for the program of `options`, and
-/// notes in `Options::folders` those folders that may have to be made. Standard input has no name: what a
-/// file or the environment says that needs one is then left out, and a flag throws `InputError`
-/// (Exit::usage). `settings` are those that `options` was made of. Nothing for `watch`, whose programs
-/// are named one by one.
+/// Replaces folders and patterns of output, report and plot by the paths for the program of `options`. Adds
+/// folders that may have to be created to `Options::folders`. Standard input has no name: patterns of a file
+/// or the environment that need one are ignored, those of flags throw `InputError` (Exit::usage). `options`
+/// was made from `settings`. Does nothing for `watch`, which resolves names for each program.
 void name_outputs(Options& options, const std::vector<Setting>& settings);
 
-/// Notes in `options` an output, report or plot of a file that has one name for all programs: each run takes
-/// the place of the one before.
+/// Adds a remark to `options` if output, report or plot of a file have one name for all programs: each run
+/// would replace the files of the previous one.
 void remark_on_name(const Setting& setting, Options& options);
 
 /// "part.ngc" gives "part.comp.ngc".

@@ -30,7 +30,7 @@ std::string offset_name(std::string_view text, std::string_view option) {
   const auto name = work_offset_name(text);
   if (!name)
     throw InputError(Exit::usage, {},
-                     fmt::format("{}: '{}' is not a work offset; {} are", option, text, work_offset_names));
+                     fmt::format("{}: '{}' is not a work offset; use {}", option, text, work_offset_names));
   return *name;
 }
 

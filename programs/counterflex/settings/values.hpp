@@ -1,6 +1,6 @@
 #pragma once
-/// Values inside of command line arguments. All throw `InputError` (Exit::usage) naming the argument and what
-/// is allowed.
+/// Parses values of command line arguments. All throw `InputError` (Exit::usage) with the argument and the
+/// allowed values.
 #include <string>
 #include <string_view>
 #include <utility>
@@ -11,7 +11,7 @@
 
 namespace counterflex::cli {
 
-/// A finite number of at least `least`, or more than it where `open`.
+/// A finite number of at least `least`, or above it if `open`.
 struct Range {
   double least = 0;
   bool open = false;
@@ -24,7 +24,7 @@ double number_of(std::string_view name, std::string_view text);
 /// An integer in [least, most].
 int integer_of(std::string_view name, std::string_view text, int least, int most);
 
-/// "X,Y,Z" or "X,Y,Z,R,P,Y": mm, and roll, pitch, yaw in degrees (identity where they are not given).
+/// "X,Y,Z" or "X,Y,Z,R,P,Y": mm, and roll, pitch, yaw in degrees (default: identity).
 struct PoseText {
   Pose X;
   bool has_orientation = false;
@@ -40,10 +40,10 @@ struct CurveText {
 };
 CurveText curve_of(std::string_view name, std::string_view text);
 
-/// A value of --work: "G54=X,Y,Z[,RX,RY,RZ][/DATUM]", DATUM being "machine" or "touched=X,Y,Z", or "machine"
-/// alone.
+/// A value of --work: "G54=X,Y,Z[,RX,RY,RZ][/DATUM]" with DATUM "machine" or "touched=X,Y,Z", or only
+/// "machine".
 struct WorkText {
-  std::string offset;  ///< as programs name it; empty: program coordinates are machine coordinates
+  std::string offset;  ///< as in programs; empty: program coordinates are machine coordinates
   WorkOffset place;
 };
 WorkText work_of(std::string_view text, std::string_view name = "--work");
@@ -51,7 +51,7 @@ WorkText work_of(std::string_view text, std::string_view name = "--work");
 /// "T1=50": the tool's number and its length in mm.
 std::pair<long, double> tool_length_of(std::string_view name, std::string_view text);
 
-/// Which of `allowed` it is.
+/// The index in `allowed`.
 std::size_t choice_of(std::string_view name, std::string_view text,
                       const std::vector<std::string_view>& allowed);
 
