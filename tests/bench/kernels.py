@@ -1,4 +1,4 @@
-"""What Google Benchmark measured, as lines for people, and the ratio of nested to the other ways of solving a waypoint."""
+"""Results of Google Benchmark as lines of text, and the ratio of nested to the other ways of solving a waypoint."""
 import json
 import re
 import subprocess
@@ -72,7 +72,7 @@ def ratio_lines(kernels):
 
 
 def quoted_speed_ups(text):
-    """What `ratio_lines` said, by machine and way."""
+    """The ratios in the output of `ratio_lines`, by machine and way."""
     lines = text.splitlines()
     at = next(i for i, line in enumerate(lines) if line.startswith(RATIO_TITLE))
     quoted = {}
@@ -97,7 +97,7 @@ def fewer_lanes(kernels, quoted_text, machine, way):
 
 
 def findings(kernels, quoted_text):
-    """What is less than half as fast, compared with nested, as quoted (of shipped: for as many lanes); what failed or is not quoted."""
+    """Kernels that are less than half as fast, compared with nested, as quoted (shipped: for as many lanes); those that failed or are not quoted."""
     wrong = [kernel.line() for kernel in kernels.values() if kernel.failure]
     quoted = quoted_speed_ups(quoted_text)
     if set(quoted) != {(machine, way) for machine in MACHINES for way in WAYS}:

@@ -1,5 +1,5 @@
 #pragma once
-/// Programs made up for timing.
+/// Generated programs for timing.
 #include <fmt/format.h>
 
 #include <iterator>
@@ -7,8 +7,8 @@
 
 namespace counterflex::bench {
 
-/// About `bytes` of what a CAM system writes for a mould: short lines that omit what stays, now and then an
-/// arc, a feed and a retract; in mm, as LinuxCNC and GRBL read it.
+/// About `bytes` of a program as a CAM system writes it for a mould: short lines without unchanged words,
+/// some arcs, a feed and a retract; in mm, as LinuxCNC and GRBL read it.
 inline std::string mould_program(std::size_t bytes) {
   std::string text = "%\n(MOULD)\nG21 G90 G94 G17\nG54 S12000 M3\nG0 X0. Y0. Z5.\nG1 Z0. F300\n";
   text.reserve(bytes + 256);
@@ -27,7 +27,7 @@ inline std::string mould_program(std::size_t bytes) {
   return text + "G0 Z5.\nM30\n%\n";
 }
 
-/// About `bytes` of a finishing program with numbered blocks that say all there is: "N1230 G1 X.. Y.. Z..".
+/// About `bytes` of a finishing program with numbered blocks and all words: "N1230 G1 X.. Y.. Z..".
 inline std::string numbered_program(std::size_t bytes) {
   std::string text =
       "%\n(FINISH)\nN10 G21 G90 G94 G17\nN20 G54 S12000 M3\nN30 G0 X0. Y0. Z5.\nN40 G1 Z0. F1200\n";

@@ -1,4 +1,4 @@
-/// Reading and rewriting program text: what a run does with every word besides solving.
+/// Reading and rewriting program text: the work of a run on every word besides solving.
 #include <benchmark/benchmark.h>
 
 #include "counterflex/program/program_reader.hpp"
@@ -50,7 +50,7 @@ void read_only(benchmark::State& state, const Text& made) {
   count_bytes(state, text);
 }
 
-/// `make_edits` is not timed: where the moves go is a matter of solving.
+/// `make_edits` is not timed: it belongs to solving.
 template <typename MakeEdits>
 void read_and_rewrite(benchmark::State& state, const Text& made, const MakeEdits& make_edits) {
   const std::string text = made.make(megabytes);

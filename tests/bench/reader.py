@@ -10,7 +10,7 @@ from skip import Skip  # noqa: E402
 
 
 class Reader:
-    """`folder` gets the interpreter; `why_not` says why there is none, or is empty."""
+    """`folder` gets the interpreter; `why_not` is the reason why it is missing, or empty."""
 
     def __init__(self, folder, work):
         self.folder, self.work, self.why_not = folder, work, ''

@@ -1,4 +1,4 @@
-/// Waypoints as a run asks for them: in batches, half a millimetre apart, with another force at each.
+/// Waypoints as in a run: in batches, half a millimetre apart, with another force at each.
 #include <benchmark/benchmark.h>
 
 #include <array>
@@ -38,7 +38,7 @@ std::array<std::vector<BatchRequest>, 2> there_and_back(const Case& c, double tu
   return ways;
 }
 
-/// `together`: waypoints of a question. One at a time is solved by the scalar instance of the kernel.
+/// `together`: waypoints of a batch. One at a time is solved by the scalar instance of the kernel.
 void shipped(benchmark::State& state, CaseOf case_of, std::size_t together, double turn) {
   const Case& c = case_of();
   if (!c.failure.empty()) return state.SkipWithError(("no nominal configuration: " + c.failure).c_str());
@@ -52,7 +52,7 @@ void shipped(benchmark::State& state, CaseOf case_of, std::size_t together, doub
                  std::span(solved).subspan(begin, count));
   };
   double iterations = 0;
-  for (way = 0; way < 2; ++way) solve(0, batch);  // cells are made once: that is not timed
+  for (way = 0; way < 2; ++way) solve(0, batch);  // cells are made once and not timed
   way = 0;
   for (auto _ : state) {
     for (std::size_t i = 0; i < batch; i += together) solve(i, together);

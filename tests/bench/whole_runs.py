@@ -39,7 +39,7 @@ class Work:
 
 
 def waypoints(text):
-    """Places written, each solved and verified, as the summary tells them."""
+    """The number of written places in the summary, each solved and verified."""
     corrected, added = re.search(r'(\d+) of \d+ moves corrected(?:, (\d+) points? added)?', text).groups()
     return int(corrected) + int(added or 0)
 

@@ -1,5 +1,4 @@
-/// Fuzz target for `compare`: any bytes in the place of a report are refused as wrong usage, or compared with
-/// themselves.
+/// Fuzz target for `compare`: any bytes as a report are refused as wrong usage, or compared with themselves.
 #include <sys/mman.h>
 #include <unistd.h>
 

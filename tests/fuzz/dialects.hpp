@@ -1,5 +1,5 @@
 #pragma once
-/// The first byte of an input chooses how the program behind it is read, so that one target reaches all
+/// The first byte of an input chooses how the program after it is read, so that one target reaches all
 /// dialects.
 #include <cstdint>
 

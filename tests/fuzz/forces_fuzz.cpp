@@ -1,5 +1,5 @@
 /// Fuzz target for force files. The first byte chooses the kind: a letter in upper case is followed by a
-/// profile (CSV), any other byte by cutting models (TOML). What is read acts on a small program.
+/// profile (CSV), any other byte by cutting models (TOML). The result is applied to a small program.
 #include <cctype>
 
 #include "counterflex/forces/forces.hpp"

@@ -1,5 +1,5 @@
 #pragma once
-/// What all fuzz targets share.
+/// Shared by all fuzz targets.
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>

@@ -1,5 +1,5 @@
-/// Fuzz target for the reader and the rewriter: whatever bytes come, they are refused with a place or come
-/// back unchanged; a shift of every move is written or refused, and never breaks anything.
+/// Fuzz target for the reader and the rewriter: any bytes are refused with a place or returned unchanged; a
+/// shift of every move is written or refused, and never gives an invalid program.
 #include <string>
 
 #include "counterflex/program/rewrite.hpp"
@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t longest = 1 << 14;  // bytes: the time of a run grows with its input
 
-/// Every move sent to where the program sends it, `shift_mm` further.
+/// Every move with its end shifted by `shift_mm`.
 std::vector<MoveEdit> edits_of(const Program& program, const Vector3& shift_mm) {
   std::vector<MoveEdit> edits;
   for (std::size_t i = 0; i < program.moves.size(); ++i) {

@@ -1,4 +1,5 @@
-/// Fuzz target for project files: what is read is printed as a project file that reads the same.
+/// Fuzz target for project files: the settings of a file are printed as a project file with the same
+/// settings.
 #include <string>
 
 #include "counterflex/settings/project_file.hpp"
@@ -14,7 +15,7 @@ std::vector<Setting> read_without_origins(std::string_view text) {
   return settings;
 }
 
-// Whatever this throws is a defect: what is printed can be read.
+// Any exception here is a defect: printed settings can be read.
 void demand_same(const std::vector<Setting>& settings, const std::string& printed) noexcept {
   const auto again = read_without_origins(printed);
   demand(again.size() == settings.size());

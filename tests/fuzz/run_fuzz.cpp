@@ -1,6 +1,7 @@
-/// Fuzz target for whole runs of small programs: `verify` accepts what `compensate` writes. On a machine whose
-/// frame is displaced, where every position is known, all moves are the original ones, shifted. On a machine that
-/// stands turned and whose axes are not square the correction differs from place to place, and moves are split.
+/// Fuzz target for whole runs of small programs: `verify` accepts what `compensate` writes. On a machine
+/// whose frame is displaced, where every position is known, all moves are the original ones, shifted. On a
+/// machine that is rotated and whose axes are not square the correction differs from place to place, and
+/// moves are split.
 #include <string>
 #include <utility>
 
@@ -36,10 +37,11 @@ const Model& displaced() {
   return model;
 }
 
-// By 1 um in a millimetre.
+// By 1 µm per millimetre.
 const Model& turned() {
-  static const Model model = gantry("errors.mount = { xyz_mm = [0.5, -0.25, 0.125], rpy_deg = [0.02, -0.03, 0.05] }\n"
-                                    "errors.y_to_x = { rpy_deg = [0, 0, 0.02] }\n");
+  static const Model model = gantry(
+      "errors.mount = { xyz_mm = [0.5, -0.25, 0.125], rpy_deg = [0.02, -0.03, 0.05] }\n"
+      "errors.y_to_x = { rpy_deg = [0, 0, 0.02] }\n");
   return model;
 }
 
@@ -51,7 +53,7 @@ bool every_position_is_known(const Program& program) {
   return true;
 }
 
-// A displaced frame needs no points: the moves are the same ones elsewhere. Words have at least three
+// A displaced frame needs no points: the moves are the same at another place. Words have at least three
 // decimals.
 void demand_shifted(const Program& original, const Program& corrected) {
   constexpr double rounding_mm = 0.02;  // inches with few digits, and arcs whose centre has to be refitted
@@ -68,7 +70,7 @@ void demand_shifted(const Program& original, const Program& corrected) {
   }
 }
 
-// Whatever these throw is a defect: the text has been written as one that can be read.
+// Any exception here is a defect: written text can be read.
 void verify_written(const Job& job, std::string text, bool is_displaced) noexcept {
   const Program corrected = read_program(std::move(text), "corrected.nc", job.read);
   demand(!verify(job, corrected, false).failure);

@@ -1,4 +1,4 @@
-"""The post-processor for FreeCAD with others that stand in for FreeCAD's own.   freecad_post_test.py WORK_FOLDER
+"""The post-processor for FreeCAD with replacements of FreeCAD's own.   freecad_post_test.py WORK_FOLDER
 
 The working folder is samples/pipeline; WORK_FOLDER/alone has what counterflex makes of its parts.
 """
@@ -22,7 +22,7 @@ def read(path):
 
 
 class FakePost(types.ModuleType):
-    """NAME_post, which makes the program `path`, and keeps what it was asked for."""
+    """NAME_post, which creates the program `path` and records its arguments."""
 
     def __init__(self, name, path, returns=True, writes=False):
         super().__init__(f"{name}_post")

@@ -3,7 +3,7 @@
 #include "counterflex/machine/read_machine.hpp"
 #include "counterflex/statics/equilibrium.hpp"
 
-/// Prints the actuator values that put the loaded, imperfect machine's tip where it is wanted.
+/// Prints the actuator values that move the tip of the loaded, imperfect machine to a wanted pose.
 int main(int, char** arguments) {
   using namespace counterflex;
   const Model model = prepare(load_machine(arguments[1]));

@@ -1,4 +1,4 @@
-# Pages of documentation whose quotations are made by running what they show. To be sourced with the program as argument.
+# Pages of documentation whose quotations are made by running their commands. To be sourced with the program as argument.
 #
 # In a page
 #   - a block ```console holds commands, lines that begin with "$ ", each followed by what it prints;
@@ -22,7 +22,7 @@ run_command() (
   PATH=$work/.bin:$PATH NO_COLOR=1 LC_ALL=C bash -c "$2" </dev/null 2>&1
 )
 
-# Prints page $1, a path from the top folder, with its quotations made anew.
+# Prints page $1, a path from the top folder, with its quotations generated again.
 regenerated() {
   local page=$1 folder line inside='' file=''
   folder=$(dirname "$page")

@@ -1,5 +1,5 @@
 #pragma once
-/// Bad inputs that say themselves what is wrong with them.
+/// Bad inputs with their expected diagnostics.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 
 namespace counterflex {
 
-/// What `read` says of a bad machine, force, job or project file; "none" where it takes it.
+/// The diagnostic of `read` for a bad machine, force, job or project file, or "none".
 template <class Read>
 std::string diagnostic_of(const Read& read, const std::string& text, const std::string& name) {
   try {
@@ -26,8 +26,8 @@ std::string diagnostic_of(const Read& read, const std::string& text, const std::
   return "none";
 }
 
-/// Every .toml file of tests/bad/FOLDER, of which there are at least `least`, says in its first line, behind
-/// "# expect: ", which diagnostic it must cause in `read(text, name)`, without the name of the file.
+/// The first line of every .toml file of tests/bad/FOLDER (at least `least` files) has, after "# expect: ",
+/// the diagnostic that it must cause in `read(text, name)`, without the name of the file.
 template <class Read>
 void check_bad_files(const std::string& folder, std::size_t least, const Read& read) {
   std::vector<std::filesystem::path> files;

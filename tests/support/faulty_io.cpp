@@ -1,10 +1,11 @@
 // A library to be loaded before a program (LD_PRELOAD): a disk that fails, or a process that dies, at a call
-// that writes. Counted are the calls of the program and of all it has forked, together. The environment says:
+// that writes. It counts the calls of the program and of all its forked processes together. The environment
+// variables are:
 //
 // - FAULTY_FOLDER: files in this folder and below, and the folder itself; an absolute path without links
 // - FAULTY_CALLS: which of write, fsync, rename, open (that makes a file), flock, close, mkdir, unlink,
 // truncate (of
-//   the size of a file); all of these unless given; or of calls that write nothing: read, thread
+//   the size of a file); all of these by default; or of calls that write nothing: read, thread
 //   (that is made)
 // - FAULTY_AT: the number of the call that fails, from 1
 // - FAULTY_FROM: or the first of those that fail, as on a disk that is full and stays so
@@ -39,9 +40,9 @@ struct Plan {
   std::string folder, calls, log, trace;
   unsigned long at = 0, from = 0, one_in = 0, seed = 0;
   int error = 0;
-  int kills = 0;                                ///< 1: the process, 2: its group
+  int kills = 0;  ///< 1: the process, 2: its group
   bool empties = false;
-  std::atomic<unsigned long>* count = nullptr;  ///< shared with what is forked
+  std::atomic<unsigned long>* count = nullptr;  ///< shared with forked processes
 };
 
 std::string variable(const char* name) {
@@ -74,7 +75,7 @@ const Plan* made_plan() {
   plan.empties = with == "empty";
   plan.error = error_of(with);
   const bool has_fault = plan.kills > 0 || plan.empties || plan.error != 0;
-  if (!has_fault && (plan.trace.empty() || !with.empty())) refuse_plan("FAULTY_WITH is no error");
+  if (!has_fault && (plan.trace.empty() || !with.empty())) refuse_plan("FAULTY_WITH is not an error");
   void* shared =
       ::mmap(nullptr, sizeof *plan.count, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
   if (shared == MAP_FAILED) refuse_plan("no memory to count in");
@@ -110,7 +111,7 @@ std::string path_of(const char* path) {
   return ::getcwd(folder, sizeof folder) == nullptr ? "" : std::string(folder) + '/' + path;
 }
 
-/// Of a call that takes its path from an open folder.
+/// The path of a call relative to an open folder.
 std::string path_in(int folder, const char* path) {
   if (path[0] == '/' || folder == AT_FDCWD) return path_of(path);
   return path_of(folder).append("/").append(path);
@@ -129,7 +130,7 @@ bool is_listed(const std::string& calls, const std::string& call) {
                        : (',' + calls + ',').find(',' + call + ',') != std::string::npos;
 }
 
-/// Numbers that look like chance, the same for the same call of the same seed.
+/// Pseudo-random numbers, equal for the same call and seed.
 unsigned long mixed(unsigned long x) {
   x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9UL;
   x = (x ^ (x >> 27)) * 0x94d049bb133111ebUL;
@@ -151,7 +152,7 @@ void remember(const std::string& log, const std::string& path, const char* call)
   next<int(int)>("close")(fd);
 }
 
-/// Whether the call is to fail; errno says with what. `from` is where a file is renamed from.
+/// Whether the call fails; sets errno. `from` is the old path of a rename.
 template <typename Place>
 bool fails(const char* call, Place place, const std::string& from = "") {
   const Plan* p = plan();
@@ -184,7 +185,7 @@ extern "C" {
 
 ssize_t write(int fd, const void* bytes, size_t size) {
   static auto* const real = next<ssize_t(int, const void*, size_t)>("write");
-  // Half of it is there before the process dies, so that a name given too early would show.
+  // Half of it is written before the process dies, so that a name given too early is detected.
   const size_t first = kills() && is_within(path_of(fd), plan()->folder) ? size / 2 : 0;
   const ssize_t begun = first > 0 ? real(fd, bytes, first) : 0;
   if (begun < 0 || fails("write", fd)) return -1;
@@ -287,7 +288,7 @@ int flock(int fd, int operation) noexcept {
   return fails("flock", fd) ? -1 : real(fd, operation);
 }
 
-// A descriptor is closed, whatever is said of it.
+// The descriptor is closed in any case.
 int close(int fd) {
   static auto* const real = next<int(int)>("close");
   const bool failed = fails("close", fd);

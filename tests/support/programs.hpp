@@ -1,5 +1,5 @@
 #pragma once
-/// Programs made by hand, for tests of modules that need moves but no text.
+/// Builds programs for tests of modules that need moves but no text.
 #include <optional>
 
 #include "counterflex/program/program.hpp"

@@ -8,7 +8,7 @@
 
 namespace counterflex::test {
 
-/// Where a machine stands at given actuators, as far as a file says.
+/// The state of a machine at given actuators, as far as the file has it.
 struct ExpectedState {
   std::optional<Vector3> dp;            ///< actual minus wanted tip (m)
   std::optional<Vector3> drot;          ///< rotation vector of R_actual R_target' (rad)
@@ -17,7 +17,7 @@ struct ExpectedState {
   std::vector<Vector6> springs;                     ///< theta of all springs in order (m, rad)
 };
 
-/// What puts the tip of the loaded machine on its target.
+/// The actuator values that move the tip of the loaded machine to its target.
 struct ExpectedCompensation {
   Eigen::VectorXd rho;                         ///< m, rad
   std::optional<Vector3> correction;           ///< nominal tip at `rho` minus target (m)
@@ -37,7 +37,7 @@ struct ReferenceCase {
   std::optional<ExpectedCompensation> compensated, compensated_perfect;
 };
 
-/// The cases of `tests/statics/data/NAME.json`. Throws where the file does not hold what it should.
+/// The cases of `tests/statics/data/NAME.json`. Throws if the file is incomplete.
 std::vector<ReferenceCase> reference_cases(const std::string& name);
 
 /// Path of a machine file of the reference.

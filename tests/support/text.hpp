@@ -1,5 +1,5 @@
 #pragma once
-/// What tests ask of texts.
+/// Text functions for tests.
 #include <string>
 #include <string_view>
 #include <vector>

@@ -1,5 +1,5 @@
 #pragma once
-/// A program that has been read, in windows as they come of a file that is read piece by piece.
+/// Divides a program that has been read into windows, as from reading a file in parts.
 #include <algorithm>
 #include <vector>
 
@@ -7,7 +7,7 @@
 
 namespace counterflex::test {
 
-/// Ends of the lines of `text`: behind each line end, and its own end.
+/// Ends of the lines of `text`: after each line end, and the end of the text.
 inline std::vector<std::size_t> line_ends_of(const std::string& text) {
   std::vector<std::size_t> ends;
   for (std::size_t i = 0; i < text.size(); ++i)
