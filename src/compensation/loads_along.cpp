@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "commands.hpp"
-#include "parallel.hpp"
-#include "solver.hpp"
+#include "compensation/solve/commands.hpp"
+#include "compensation/solve/solver.hpp"
+#include "compensation/windows/parallel.hpp"
 
 namespace counterflex {
 namespace {

@@ -1,8 +1,7 @@
+#include "compensation/solve/solver.hpp"
 #include "counterflex/compensation/loads_along.hpp"
-
 #include "counterflex/geometry/types.hpp"
 #include "counterflex/toolpath/toolpath.hpp"
-#include "solver.hpp"
 
 namespace counterflex {
 

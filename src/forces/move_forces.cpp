@@ -1,10 +1,9 @@
-#include "counterflex/forces/forces.hpp"
-
 #include <algorithm>
 #include <array>
 #include <span>
 
-#include "forces/raw_forces.hpp"
+#include "counterflex/forces/forces.hpp"
+#include "forces/path/raw_forces.hpp"
 #include "forces/turning_axes.hpp"
 
 namespace counterflex {

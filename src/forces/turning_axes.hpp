@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "forces/raw_forces.hpp"
+#include "forces/path/raw_forces.hpp"
 
 namespace counterflex {
 

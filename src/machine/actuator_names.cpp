@@ -5,7 +5,7 @@
 
 #include "counterflex/geometry/pose.hpp"
 #include "counterflex/machine/machine.hpp"
-#include "walk.hpp"
+#include "machine/walk.hpp"
 
 namespace counterflex {
 namespace {

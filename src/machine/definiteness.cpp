@@ -1,4 +1,4 @@
-#include "definiteness.hpp"
+#include "machine/definiteness.hpp"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 #include "counterflex/machine/machine.hpp"
 
-#include "walk.hpp"
+#include "machine/walk.hpp"
 
 namespace counterflex {
 namespace {

@@ -1,14 +1,13 @@
-#include "counterflex/machine/machine.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <limits>
 #include <numbers>
 
-#include "beam.hpp"
 #include "counterflex/geometry/types.hpp"
-#include "definiteness.hpp"
+#include "counterflex/machine/machine.hpp"
+#include "machine/definiteness.hpp"
+#include "machine/read/beam.hpp"
 
 namespace counterflex {
 namespace {

@@ -4,9 +4,9 @@
 
 #include "counterflex/files/files.hpp"
 #include "counterflex/files/text.hpp"
-#include "json_numbers.hpp"
-#include "page_assets.hpp"
-#include "svg.hpp"
+#include "report/json/json_numbers.hpp"
+#include "report/page_assets.hpp"
+#include "report/plot/svg.hpp"
 
 namespace counterflex {
 namespace {

@@ -6,11 +6,11 @@
 #include <cmath>
 #include <utility>
 
-#include "assumptions.hpp"
-#include "control.hpp"
 #include "counterflex/geometry/types.hpp"
 #include "counterflex/report/run_tally.hpp"
-#include "tool_words.hpp"
+#include "report/text/assumptions.hpp"
+#include "report/text/control.hpp"
+#include "report/text/tool_words.hpp"
 
 namespace counterflex {
 

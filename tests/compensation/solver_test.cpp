@@ -1,5 +1,5 @@
 /// Targets all over the workspaces of the machines, asked for in one batch, far from one another.
-#include "solver.hpp"
+#include "compensation/solve/solver.hpp"
 
 #include <doctest/doctest.h>
 

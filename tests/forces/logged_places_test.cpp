@@ -4,9 +4,9 @@
 #include <random>
 
 #include "counterflex/geometry/types.hpp"
-#include "forces/csv_header.hpp"
-#include "forces/log_matching.hpp"
-#include "forces/point_grid.hpp"
+#include "forces/path/log_matching.hpp"
+#include "forces/path/point_grid.hpp"
+#include "forces/read/csv_header.hpp"
 
 using namespace counterflex;
 

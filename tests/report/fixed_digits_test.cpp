@@ -1,4 +1,4 @@
-#include "fixed_digits.hpp"
+#include "report/json/fixed_digits.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,5 +1,3 @@
-#include "counterflex/report/page.hpp"
-
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -7,11 +5,12 @@
 #include <limits>
 
 #include "counterflex/files/text.hpp"
+#include "counterflex/report/page.hpp"
 #include "made_up_run.hpp"
-#include "plot_points.hpp"
-#include "plot_ticks.hpp"
+#include "report/plot/plot_points.hpp"
+#include "report/plot/plot_ticks.hpp"
+#include "report/plot/svg.hpp"
 #include "support/text.hpp"
-#include "svg.hpp"
 
 using namespace counterflex;
 using namespace counterflex::test;

@@ -1,0 +1,189 @@
+#include "compensation/emit/emit.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "compensation/emit/emitter.hpp"
+#include "counterflex/geometry/types.hpp"
+
+namespace counterflex {
+
+Emission Emitter::run() {
+  out_.moves.reserve(job_.program.moves.size());
+  for (std::size_t m = 0; m < job_.program.moves.size() && !out_.failure; ++m) {
+    const bool has_segment =
+        next_segment_ < job_.path.segments.size() && job_.path.segments[next_segment_].move == m;
+    const std::array<bool, 3> lost = lost_axes(job_.program, m);
+    for (std::size_t axis = 0; axis < 3; ++axis) state_.holds[axis] = state_.holds[axis] && !lost[axis];
+    emit_move(m, has_segment ? Index(next_segment_) : std::nullopt);
+    if (has_segment) ++next_segment_;
+    state_.doubtful = leaves_doubt(job_.program.moves[m], state_.doubtful);
+  }
+  leave_pending_alone();
+  return std::move(out_);
+}
+
+void Emitter::emit_move(std::size_t m, Index s) {
+  const Move& move = job_.program.moves[m];
+  const bool known = all_known(move.known_start) && all_known(move.known_end);
+  const bool carries = state_.doubtful && state_.correction_known && pending_.empty() &&
+                       (state_.holds[0] || state_.holds[1] || state_.holds[2]);
+  if (move.fixed[0] || move.fixed[1] || move.fixed[2]) return emit_fixed(m);
+  if (move.group != 0) return emit_group(m, s);
+  if (move.handling == Handling::held) return emit_rigid(m, s, Kind::shifted);
+  if (move.cycle) return emit_hole(m);
+  if (s) return emit_segment(*s);
+  if (known) return state_.correction_known ? emit_rigid(m, s, Kind::shifted) : pass(move);
+  if (carries && (move.motion == Motion::feed || !all_known(move.known_end))) return emit_doubtful(m);
+  if (all_known(move.known_end)) return emit_first_known(m);
+  pending_.push_back(m);
+}
+
+void Emitter::emit_segment(std::size_t s) {
+  const Segment& segment = job_.path.segments[s];
+  const PlannedSegment& planned = plan_.segments[s];
+  EmittedMove& emitted = out_.moves.emplace_back();
+  emitted.edit.move = segment.move;
+  emitted.kind = Kind::segment;
+  double unsplit_miss = planned.unsplit_miss, jump = 0;
+  const bool jumps = put_jump(segment, planned, emitted, jump);
+  if (segment.wanted.arc)
+    emit_arc(segment, planned, emitted, unsplit_miss);
+  else
+    emit_line(segment, planned, emitted, unsplit_miss);
+  // A block that must stay one begins where the last one ended.
+  if (jumps && segment.cutting && !job_.program.moves[segment.move].may_split) unsplit_miss += jump;
+  finish_segment(segment, planned, unsplit_miss, emitted);
+}
+
+namespace {
+
+constexpr double flat_share =
+    0.7;  // of the tolerance: what the flat parts beside corners may miss; the rest is for other deviations
+
+Vector3 without_height(const WorkFrame& frame, int axis, const Vector3& step) {
+  const Vector3 normal = frame.X_MW.R.col(axis);
+  return step - step.dot(normal) * normal;
+}
+
+}  // namespace
+
+// Whether the correction steps at the start; a feed move performs the step where one may be inserted.
+bool Emitter::put_jump(const Segment& segment, const PlannedSegment& planned, EmittedMove& emitted,
+                       double& jump) {
+  const Move& move = job_.program.moves[segment.move];
+  const Vector3 start = planned.start_target - segment.wanted.start;
+  Vector3 step = start - state_.correction;
+  // The pieces of such an arc choose their heights themselves; where one has left the tool a rapid may begin.
+  const Move* last = move_before(job_.program, segment.move);
+  if (stays_flat(move))
+    step = without_height(frame(move), move.arc->normal, step);
+  else if (!segment.cutting && last != nullptr && stays_flat(*last))
+    step = without_height(frame(move), last->arc->normal, step);
+  jump = planned.starts_anywhere || !state_.correction_known ? 0 : step.norm();
+  const bool jumps = jump > jump_share * job_.options.tolerance;
+  if (jumps || segment.wanted.arc) piece_held_ = before(move);
+  if (!jumps) return false;
+  if (!move.may_jump && !move.may_split) return true;
+  const Vector3 start_mm = in_words_mm(job_, move, planned.start_target);
+  if (move.may_jump)
+    emitted.edit.jump_mm = start_mm;
+  else
+    emitted.edit.inserted.push_back({start_mm});
+  go_through(move, {start_mm}, piece_held_);
+  return true;
+}
+
+void Emitter::emit_line(const Segment& segment, const PlannedSegment& planned, EmittedMove& emitted,
+                        double& unsplit_miss) {
+  const Move& move = job_.program.moves[segment.move];
+  for (std::size_t k = 0; k + 1 < planned.knots.size(); ++k) {
+    emitted.edit.inserted.push_back({in_words_mm(job_, move, planned.knots[k].target)});
+  }
+  const Vector3& end = planned.end ? *planned.end : planned.knots.back().target;
+  if (move.may_position) {
+    Vector3 above = in_words_mm(job_, move, end);
+    above.z() = before(move)[2].value_or(move.start_mm.z());
+    emitted.edit.inserted.push_back({above});
+  }
+  const double miss_mm = set_height_inside(index_of(segment), in_words_mm(job_, move, end), emitted.edit);
+  if (miss_mm * mm > flat_share * job_.options.tolerance) unsplit_miss = std::max(unsplit_miss, miss_mm * mm);
+}
+
+void Emitter::finish_segment(const Segment& segment, const PlannedSegment& planned, double unsplit_miss,
+                             EmittedMove& emitted) {
+  const Move& move = job_.program.moves[segment.move];
+  const Vector3 correction = (planned.end ? *planned.end : planned.knots.back().target) - segment.wanted.end;
+  Vector3 kept = correction_that_can_be_written(move, correction);
+  emitted.in_part = kept != correction;
+  const bool ends_elsewhere = move.arc && (move.arc->flat || move.polar);
+  if (ends_elsewhere) kept = correction_where_held(move, kept);
+  emitted.edit.end_mm = in_words_mm(job_, move, segment.wanted.end + kept);
+  hold(kept, {true, true, true});
+  if (emitted.in_part)
+    list_held_words(move, correction - kept);
+  else if (unsplit_miss > 0)
+    list(move,
+         fmt::format("not split, its end is corrected: between its ends the deviation may reach {:.4f} mm",
+                     unsplit_miss / mm));
+  take_in(emitted.edit);
+  if (ends_elsewhere && move.polar) {
+    for (std::size_t axis = 0; axis < 3; ++axis) state_.held[axis] = piece_held_[axis];
+  }
+}
+
+// Where no axis words may be inserted, absent axes keep the correction that they have; those that words
+// before the first known position have placed take that of the move.
+Vector3 Emitter::correction_that_can_be_written(const Move& move, const Vector3& correction) const {
+  if (takes_all_words(move) || move.may_position || !state_.correction_known) return correction;
+  const auto is_pending = [&](std::size_t axis) {
+    return std::any_of(pending_.begin(), pending_.end(), [&](std::size_t p) {
+      const Move& earlier = job_.program.moves[p];
+      return earlier.words[axis] && !earlier.relative;
+    });
+  };
+  const Matrix3& R_MW = frame(move).X_MW.R;
+  Vector3 c_W = R_MW.transpose() * correction;
+  const Vector3 held_W = R_MW.transpose() * state_.correction;
+  const double rounding = rounding_allowance(move, job_.options.write);
+  bool all_written = true;
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    const auto a = static_cast<std::size_t>(axis);
+    if (move.words[a] || may_insert_word(move, a) || is_pending(a) ||
+        std::abs(c_W[axis] - held_W[axis]) < rounding)
+      continue;
+    c_W[axis] = held_W[axis];
+    all_written = false;
+  }
+  return all_written ? correction : Vector3(R_MW * c_W);
+}
+
+// The last piece of a flat arc ends at the height of its start, and polar words may lead beside the target.
+Vector3 Emitter::correction_where_held(const Move& move, const Vector3& correction) const {
+  Vector3 shift = shift_mm(move, correction);
+  bool differs = false;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto k = static_cast<Eigen::Index>(axis);
+    const double held = *piece_held_[axis] - move.end_mm[k];
+    if (rounds_to_nothing(move, axis, shift[k] - held)) continue;
+    shift[k] = held;
+    differs = true;
+  }
+  if (!differs) return correction;
+  return frame(move).X_MW.R * (shift * mm) - frame(move).datum_shift;
+}
+
+Emission emit(const Job& job, const Plan& plan, EmitterState& state) {
+  return Emitter(job, plan, state).run();
+}
+
+std::vector<MoveEdit> take_edits(Emission& emission) {
+  std::vector<MoveEdit> edits;
+  edits.reserve(emission.moves.size());
+  for (EmittedMove& move : emission.moves) edits.push_back(std::move(move.edit));
+  return edits;
+}
+
+}  // namespace counterflex

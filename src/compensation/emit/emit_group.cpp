@@ -1,0 +1,259 @@
+// Contour groups under G41 or G42: one rigid motion, so that the setter's offsets of the tool still work.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "compensation/emit/emitter.hpp"
+#include "counterflex/geometry/pose.hpp"
+#include "counterflex/geometry/types.hpp"
+
+namespace counterflex {
+
+namespace {
+
+bool is_in_plane(const Move& move) {
+  return move.words[0] || move.words[1] || move.arc;
+}
+
+}  // namespace
+
+// Whether the arcs of the contour lie in X Y: Z does not touch the radius of the cutter there,
+// and is corrected block by block.
+bool Emitter::is_in_xy(std::size_t m) const {
+  const auto& moves = job_.program.moves;
+  for (const int group = moves[m].group; m < moves.size() && moves[m].group == group; ++m)
+    if (moves[m].arc && moves[m].arc->normal != 2) return false;
+  return true;
+}
+
+// A turned contour is the same contour for the control: it keeps its distance to it. Every end in the plane
+// must be known and written, in words of X and Y.
+bool Emitter::group_may_turn(std::size_t m) const {
+  const auto& moves = job_.program.moves;
+  for (const int group = moves[m].group; m < moves.size() && moves[m].group == group; ++m) {
+    const Move& move = moves[m];
+    if (!is_in_plane(move)) continue;
+    for (const std::size_t axis : {0, 1})
+      if (!move.known_end[axis] || !(move.words[axis] || may_insert_word(move, axis))) return false;
+    if (move.polar || move.cycle) return false;
+  }
+  return group_in_xy_;
+}
+
+namespace {
+
+// Where a contour should move to: program coordinates (mm).
+struct GroupSample {
+  Vector3 p, shift;
+};
+
+// What a turn about Z adds to `v`.
+Vector3 turned(double turn, const Vector3& v) {
+  return turn == 0 ? Vector3::Zero() : Vector3(exp_so3(turn * Vector3::UnitZ()) * v - v);
+}
+
+// Sets the shift: per axis the midpoint of the extremes of what the turn leaves. Returns half of the way
+// between these.
+Vector3 choose_shift(const std::vector<GroupSample>& samples, GroupMotion& motion) {
+  Vector3 low = Vector3::Constant(HUGE_VAL), high = -low;
+  for (const GroupSample& sample : samples) {
+    const Vector3 left = sample.shift - turned(motion.turn, sample.p - motion.about);
+    low = low.cwiseMin(left);
+    high = high.cwiseMax(left);
+  }
+  motion.shift = (low + high) / 2;
+  return (high - low) / 2;
+}
+
+// Turns by the least squares of what is left, about the middle of the samples.
+GroupMotion best_turn(const std::vector<GroupSample>& samples) {
+  Vector3 p = Vector3::Zero(), shift = Vector3::Zero();
+  for (const GroupSample& sample : samples) p += sample.p, shift += sample.shift;
+  p /= static_cast<double>(samples.size());
+  shift /= static_cast<double>(samples.size());
+  double along = 0, square = 0;
+  for (const GroupSample& sample : samples) {
+    const Vector3 d = sample.p - p, across(-d.y(), d.x(), 0);
+    along += across.dot(sample.shift - shift);
+    square += across.squaredNorm();
+  }
+  return {.about = p, .turn = square > 0 ? std::atan2(along, square) : 0};
+}
+
+}  // namespace
+
+Vector3 GroupMotion::shift_at(const Vector3& p_mm) const {
+  return shift + turned(turn, p_mm - about);
+}
+
+// An arc stays an arc: its centre goes along.
+Vector3 Emitter::shifted_centre(const Move& move, const Vector3& shift) const {
+  const bool turns = move.group != 0 && move.group == state_.group && group_motion_;
+  return move.arc->centre_mm + shift +
+         turned(turns ? group_motion_->turn : 0, move.arc->centre_mm - move.end_mm);
+}
+
+// One shift, and one turn about Z where that leaves less than half as much; nothing where no move of the
+// group has a known start and end. What it leaves is listed.
+bool Emitter::find_group_motion(std::size_t m, std::size_t s) {
+  constexpr double worth_a_turn = 0.1;  // of the tolerance: what the shift leaves
+  const Move& first = job_.program.moves[m];
+  std::vector<GroupSample> cuts, others;  // what is beside the contour counts only where there is no cut
+  int last_line = first.line;
+  for (; s < job_.path.segments.size(); ++s) {
+    const Segment& segment = job_.path.segments[s];
+    const Move& move = job_.program.moves[segment.move];
+    if (move.group != first.group) break;
+    last_line = move.line;
+    std::vector<GroupSample>& samples = segment.cutting && is_in_plane(move) ? cuts : others;
+    for (const CurveNode& node : plan_.segments[s].group)
+      samples.push_back(
+          {in_words_mm(job_, move, original_command(job_, segment.frame, point_at(segment.wanted, node.u))),
+           shift_mm(move, node.c)});
+  }
+  group_motion_.reset();
+  const std::vector<GroupSample>& samples = cuts.empty() ? others : cuts;
+  if (samples.empty()) return false;
+  GroupMotion motion;
+  Vector3 residual = choose_shift(samples, motion);
+  if (residual.head<2>().norm() * mm > worth_a_turn * job_.options.tolerance && group_may_turn(m)) {
+    GroupMotion with_turn = best_turn(samples);
+    const Vector3 left = choose_shift(samples, with_turn);
+    if (2 * left.head<2>().norm() < residual.head<2>().norm()) motion = with_turn, residual = left;
+  }
+  group_motion_ = motion;
+  const Vector3& shift = motion.shift;
+  if (group_in_xy_) residual.z() = 0;
+  std::string said = group_in_xy_
+                         ? fmt::format("({:.4f}, {:.4f}) mm in X and Y", shift.x(), shift.y())
+                         : fmt::format("({:.4f}, {:.4f}, {:.4f}) mm", shift.x(), shift.y(), shift.z());
+  if (motion.turn != 0)
+    said += fmt::format(" and one turn by {:.4f} deg about X{:.3f} Y{:.3f}", motion.turn / deg,
+                        motion.about.x(), motion.about.y());
+  said += group_in_xy_ ? " for all, Z block by block" : " for all";
+  list(first, fmt::format("contour group of lines {} to {}: one shift of {}; what remains of its corrections "
+                          "is up to {:.4f} mm",
+                          first.line, last_line, said, residual.norm()));
+  return true;
+}
+
+// The group's first move has to make the step: nothing may be inserted after it.
+void Emitter::check_step(const Move& move, const Vector3& before_mm) {
+  const Vector3 after_mm = shift_mm(move, state_.correction);
+  const bool in_plane = is_in_plane(move);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto k = static_cast<Eigen::Index>(axis);
+    const double step = after_mm[k] - before_mm[k];
+    const bool flat = move.arc && move.arc->flat && static_cast<int>(axis) == move.arc->normal;
+    const bool writes = move.words[axis] || (in_plane && may_insert_word(move, axis) && !flat);
+    if (!move.known_end[axis] || writes || rounds_to_nothing(move, axis, step)) continue;
+    return refuse(
+        move, fmt::format("the shift of this contour group differs by {:.4f} mm in {} from the correction "
+                          "before it, and the block takes no {} word",
+                          step, "XYZ"[axis], "XYZ"[axis]));
+  }
+}
+
+// The shift of Z at the end of a move of the group, of one that stays or comes from an unknown position where
+// the next begins; nothing where Z goes with the group.
+std::optional<double> Emitter::height_shift_mm(const Move& move, Index s) const {
+  const std::size_t next = s.value_or(next_segment_);
+  const bool known = next < plan_.segments.size() && !plan_.segments[next].group.empty() &&
+                     job_.program.moves[job_.path.segments[next].move].group == move.group;
+  if (!group_in_xy_ || !known) return std::nullopt;
+  const std::vector<CurveNode>& nodes = plan_.segments[next].group;
+  return shift_mm(move, s ? nodes.back().c : nodes.front().c).z();
+}
+
+// The shift at the end of a move of the group; `height` where that of Z is not known there.
+Vector3 Emitter::group_shift_mm(const Move& move, Index s, double height) const {
+  Vector3 shift = group_motion_->shift_at(move.end_mm);
+  shift.z() = height_shift_mm(move, s).value_or(height);
+  return shift;
+}
+
+namespace {
+
+// The largest miss of straight lines between every `stride`th node.
+double miss_between(const std::vector<double>& heights, std::size_t stride) {
+  double miss = 0;
+  for (std::size_t k = 0; k < heights.size(); ++k) {
+    const std::size_t begin = std::min(k / stride * stride, heights.size() - 1 - stride);
+    const double share = static_cast<double>(k - begin) / static_cast<double>(stride);
+    miss =
+        std::max(miss, std::abs(heights[k] - (1 - share) * heights[begin] - share * heights[begin + stride]));
+  }
+  return miss;
+}
+
+double middle_of(const std::vector<double>& heights, std::size_t first, std::size_t stride) {
+  const auto [low, high] =
+      std::minmax_element(heights.begin() + static_cast<std::ptrdiff_t>(first),
+                          heights.begin() + static_cast<std::ptrdiff_t>(first + stride) + 1);
+  return (*low + *high) / 2;
+}
+
+// The largest distance of the heights between every `stride`th node from their middle.
+double half_range(const std::vector<double>& heights, std::size_t stride) {
+  double range = 0;
+  for (std::size_t k = 0; k + stride < heights.size(); k += stride)
+    for (std::size_t i = k; i <= k + stride; ++i)
+      range = std::max(range, std::abs(heights[i] - middle_of(heights, k, stride)));
+  return range;
+}
+
+}  // namespace
+
+// The height of a contour's arc need not change in proportion to its angle, and a flat arc has one height: it
+// is divided into 2, 4 or 8 arcs then, which are one in the plane. Lines along Z lead to those that are flat.
+void Emitter::divide_by_height(const Move& move, std::size_t s, MoveEdit& edit) const {
+  constexpr double height_share = 0.3;  // of the tolerance
+  const std::vector<CurveNode>& nodes = plan_.segments[s].group;
+  if (!move.may_split || !group_in_xy_ || nodes.size() < 3 || move.arc->turns > 0) return;
+  const bool flat = stays_flat(move);
+  std::vector<double> heights;
+  for (const CurveNode& node : nodes) heights.push_back(shift_mm(move, node.c).z());
+  const double room_mm = height_share * job_.options.tolerance / mm;
+  std::size_t stride = nodes.size() - 1;
+  while (stride > 1 && (flat ? half_range(heights, stride) : miss_between(heights, stride)) > room_mm)
+    stride /= 2;
+  const Curve curve = curve_of(move);
+  const auto place = [&](std::size_t k, double height) {
+    const Vector3 p = point_at(curve, nodes[k].u);
+    Vector3 shift = group_motion_->shift_at(p);
+    shift.z() = height;
+    return Vector3(p + shift);
+  };
+  const Vector3 centre = shifted_centre(move, group_motion_->shift_at(move.end_mm));
+  for (std::size_t k = 0; k + 1 < nodes.size(); k += stride) {
+    const double middle = flat ? middle_of(heights, k, stride) : heights[k + stride];
+    if (flat && stride + 1 < nodes.size()) edit.inserted.push_back({place(k, middle)});
+    if (k + stride + 1 < nodes.size()) edit.inserted.push_back({place(k + stride, middle), centre});
+    edit.end_mm.z() = place(k + stride, middle).z();
+  }
+}
+
+bool Emitter::begin_group(std::size_t m, Index s) {
+  const Move& move = job_.program.moves[m];
+  state_.group = move.group;
+  group_in_xy_ = is_in_xy(m);
+  if (!find_group_motion(m, s.value_or(next_segment_))) return state_.correction_known;
+  leave_far_pending_alone(move);
+  const Vector3 before_mm = held_shift_mm(move);
+  set_shift(move, group_shift_mm(move, s, group_motion_->shift.z()));
+  state_.holds = {true, true, true};
+  check_step(move, before_mm);
+  give_to_pending();
+  return true;
+}
+
+void Emitter::emit_group(std::size_t m, Index s) {
+  const Move& move = job_.program.moves[m];
+  if (move.group != state_.group && !begin_group(m, s)) return pending_.push_back(m);
+  if (out_.failure) return;
+  if (group_motion_) set_shift(move, group_shift_mm(move, s, held_shift_mm(move).z()));
+  emit_rigid(m, s, Kind::shifted);
+}
+
+}  // namespace counterflex

@@ -1,0 +1,102 @@
+// Positions that are solved by themselves: the first one that is known, and the bottoms of holes.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "compensation/emit/emitter.hpp"
+#include "compensation/solve/failures.hpp"
+#include "counterflex/geometry/types.hpp"
+
+namespace counterflex {
+namespace {
+
+constexpr std::size_t look_ahead = 64;  // blocks
+
+}  // namespace
+
+// The correction at a wanted position without cutting force; the emission fails where there is none.
+std::optional<Vector3> Emitter::solve_position(const Vector3& wanted, const Move& move) {
+  const Model& model = model_with(job_.model, job_.tools, move.tool);
+  const TargetRequest request{&model, wanted};
+  TargetAnswer answer;
+  solver_.targets({&request, 1}, {&answer, 1});
+  if (answer.status != Status::converged) {
+    out_.failure =
+        status_failure(job_, answer.status, {model, frame(move), move.tool, answer.target}, move.line);
+    return std::nullopt;
+  }
+  const Vector3 correction = answer.target - wanted;
+  out_.failure = limit_failure(job_, correction + frame(move).datum_shift, move.line);
+  if (out_.failure) return std::nullopt;
+  return correction;
+}
+
+// Those that are too far before `move` take no correction of its own: to be called before it has one.
+void Emitter::leave_far_pending_alone(const Move& move) {
+  const auto near = std::find_if(pending_.begin(), pending_.end(), [&](std::size_t p) {
+    return move.block_index - job_.program.moves[p].block_index <= look_ahead;
+  });
+  for (auto p = pending_.begin(); p != near; ++p) leave_alone(job_.program.moves[*p]);
+  pending_.erase(pending_.begin(), near);
+}
+
+// Words before the first known position take its correction.
+void Emitter::give_to_pending() {
+  for (std::size_t p : pending_)
+    put({.edit = shifted(p, shift_mm(job_.program.moves[p], state_.correction))});
+  pending_.clear();
+}
+
+// The first position that is known in all axes: its correction serves the words before it as well.
+void Emitter::emit_first_known(std::size_t m) {
+  const Move& move = job_.program.moves[m];
+  const std::optional<Vector3> correction = solve_position(wanted_of(job_, move), move);
+  if (!correction) return;
+  leave_far_pending_alone(move);
+  const Vector3 kept = correction_that_can_be_written(move, *correction);
+  hold(kept, {true, true, true});
+  give_to_pending();
+  if (kept != *correction)
+    list_held_words(move, *correction - kept);
+  else if (move.motion == Motion::feed)
+    list(move, "a feed move from a position that is not known: its end is corrected without cutting force");
+  put({.edit = shifted(m, shift_mm(move, state_.correction)),
+       .kind = Kind::alone,
+       .in_part = kept != *correction || move.motion == Motion::feed});
+}
+
+// A hole is shifted by the correction at its bottom; the tool leaves it there, or at the height where it
+// began.
+void Emitter::emit_hole(std::size_t m) {
+  const Move& move = job_.program.moves[m];
+  const Vector3 bottom = wanted_frame(frame(move)) * (bottom_of(move) * mm);
+  const std::optional<Vector3> correction = solve_position(bottom, move);
+  if (!correction) return;
+  Vector3 shift = shift_mm(move, *correction);
+  const Vector3 entered = held_shift_mm(move);
+  EmittedMove emitted{.edit = {.move = m}, .kind = Kind::alone};
+  if (!move.cycle->bottom_word && !move.cycle->may_insert_bottom) {
+    const double miss = shift.z() - entered.z();
+    if (!rounds_to_nothing(move, 2, miss)) {
+      list(move, fmt::format("the block takes no Z word: the hole's bottom stays off by {:.4f} mm", miss));
+      emitted.in_part = true;
+    }
+    shift.z() = entered.z();
+  }
+  emitted.edit.bottom_mm = move.cycle->bottom_mm + shift.z();
+  emitted.edit.retract_mm = move.cycle->retract_mm + shift.z();
+  emitted.edit.end_mm = move.end_mm + shift;
+  const bool held_z = state_.holds[2];
+  leave_far_pending_alone(move);
+  set_shift(move, shift);
+  state_.holds = {true, true, true};
+  give_to_pending();
+  put(std::move(emitted));
+  // The text determines where the cycle leaves the tool.
+  if (state_.held[2]) shift.z() = *state_.held[2] - move.end_mm.z();
+  if (!move.known_end[2]) shift.z() = entered.z();
+  set_shift(move, shift);
+  state_.holds[2] = state_.held[2] || held_z;
+}
+
+}  // namespace counterflex

@@ -1,0 +1,121 @@
+#pragma once
+/// Goes through the moves of a program in order, keeps the correction that holds where the tool is, and what
+/// the emitted text holds.
+#include "compensation/emit/emit.hpp"
+#include "compensation/plan/arc_fit.hpp"
+#include "compensation/solve/commands.hpp"
+#include "compensation/solve/solver.hpp"
+
+namespace counterflex {
+
+/// The motion that a contour group makes in the plane: a turn about Z, and a shift (program coordinates, mm).
+struct GroupMotion {
+  Vector3 about = Vector3::Zero(), shift = Vector3::Zero();
+  double turn = 0;
+  Vector3 shift_at(const Vector3& p_mm) const;
+};
+
+class Emitter {
+ public:
+  Emitter(const Job& job, const Plan& plan, EmitterState& state)
+      : job_(job), plan_(plan), state_(state), solver_(job) {}
+
+  Emission run();
+
+ private:
+  using Kind = EmittedMove::Kind;
+  using Index = std::optional<std::size_t>;  ///< of a segment, where a move has one
+
+  // emit.cpp
+  void emit_move(std::size_t m, Index s);
+  void emit_segment(std::size_t s);
+  void emit_line(const Segment& segment, const PlannedSegment& planned, EmittedMove& emitted,
+                 double& unsplit_miss);
+  void finish_segment(const Segment& segment, const PlannedSegment& planned, double unsplit_miss,
+                      EmittedMove& emitted);
+  bool put_jump(const Segment& segment, const PlannedSegment& planned, EmittedMove& emitted, double& jump);
+  Vector3 correction_that_can_be_written(const Move& move, const Vector3& correction) const;
+  Vector3 correction_where_held(const Move& move, const Vector3& correction) const;
+
+  // emit_corners.cpp
+  struct EndHeights {
+    double start_mm, end_mm;
+  };
+  double set_height_inside(std::size_t s, const Vector3& end_mm, MoveEdit& edit);
+  std::optional<EndHeights> end_heights(std::size_t s) const;
+  double corner_height_mm(std::size_t s, const EndHeights& heights) const;
+
+  // emit_arc.cpp
+  void emit_arc(const Segment& segment, const PlannedSegment& planned, EmittedMove& emitted,
+                double& unsplit_miss);
+  ArcTask arc_task(const Segment& segment, const PlannedSegment& planned,
+                   const CorrectionCurve& stretch) const;
+  void put_one_arc(const ArcTask& task, EmittedMove& emitted, double& unsplit_miss);
+
+  // emit_held.cpp
+  void emit_fixed(std::size_t m);
+  std::string why_fixed(const Move& move) const;
+  MoveEdit shifted(std::size_t m, const Vector3& shift) const;
+  void emit_rigid(std::size_t m, Index s, Kind otherwise);
+  void keep_standing_axes(const Move& move, MoveEdit& edit);
+  void emit_doubtful(std::size_t m);
+  void leave_pending_alone();
+
+  // emit_group.cpp
+  void emit_group(std::size_t m, Index s);
+  bool begin_group(std::size_t m, Index s);
+  bool is_in_xy(std::size_t m) const;
+  bool group_may_turn(std::size_t m) const;
+  bool find_group_motion(std::size_t m, std::size_t s);
+  Vector3 group_shift_mm(const Move& move, Index s, double height) const;
+  void divide_by_height(const Move& move, std::size_t s, MoveEdit& edit) const;
+  Vector3 shifted_centre(const Move& move, const Vector3& shift) const;
+  std::optional<double> height_shift_mm(const Move& move, Index s) const;
+  void check_step(const Move& move, const Vector3& before_mm);
+
+  // emit_position.cpp
+  void emit_first_known(std::size_t m);
+  void emit_hole(std::size_t m);
+  std::optional<Vector3> solve_position(const Vector3& wanted, const Move& move);
+  void give_to_pending();
+  void leave_far_pending_alone(const Move& move);
+
+  // Corrections as shifts of the text, program coordinates (mm).
+  std::size_t index_of(const Segment& segment) const {
+    return static_cast<std::size_t>(&segment - job_.path.segments.data());
+  }
+  const WorkFrame& frame(const Move& move) const { return job_.path.frames[move.frame]; }
+  Vector3 shift_mm(const Move& move, const Vector3& correction) const;
+  Vector3 held_shift_mm(const Move& move) const;  ///< zero on axes that hold none
+  void set_shift(const Move& move, const Vector3& shift_mm);
+  void hold(const Vector3& correction, const std::array<bool, 3>& axes);
+  bool rounds_to_nothing(const Move& move, std::size_t axis, double shift_mm) const;
+
+  // The text's position, before and after a move.
+  void come_to(const Move& move);
+  TextPosition before(const Move& move);
+  void go_through(const Move& move, const Via& via, TextPosition& held) const;
+  void put(EmittedMove emitted);       ///< the next edit
+  void take_in(const MoveEdit& edit);  ///< what the text holds behind it
+  void pass(const Move& move);         ///< a move without an edit
+
+  void list(const Move& move, std::string why) { out_.left_alone.push_back({move.line, std::move(why)}); }
+  void list_held_words(const Move& move, const Vector3& miss);
+  void leave_alone(const Move& move);
+  bool keeps_correction(const Move& move) const;
+  void refuse(const Move& move, std::string what);
+
+  const Job& job_;
+  const Plan& plan_;
+  Emission out_;
+  std::size_t next_segment_ = 0;
+  std::vector<std::size_t> pending_;  // moves before all axes are known
+  EmitterState& state_;
+  std::optional<std::size_t> held_for_;      // the move in whose coordinates the held position is
+  bool group_in_xy_ = false;                 // the contour group that is being emitted
+  std::optional<GroupMotion> group_motion_;  // none: it holds the correction with which it was entered
+  TextPosition piece_held_{};                // where the pieces of the move that is being fitted have come
+  PlaceSolver solver_;
+};
+
+}  // namespace counterflex

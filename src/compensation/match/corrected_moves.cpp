@@ -1,0 +1,140 @@
+#include "compensation/match/corrected_moves.hpp"
+
+#include <algorithm>
+#include <string_view>
+#include <utility>
+
+#include "counterflex/program/program.hpp"
+
+namespace counterflex {
+namespace {
+
+// A Sinumerik's MCALL with a drilling cycle. It is written again before holes, which compare it.
+bool calls_modal_cycle(std::string_view line) {
+  const auto skip = [&line](std::string_view characters) {
+    line.remove_prefix(std::min(line.find_first_not_of(characters), line.size()));
+  };
+  skip(" \t");
+  if (line.starts_with('N') || line.starts_with('n')) line.remove_prefix(1), skip("0123456789"), skip(" \t");
+  return modal_drilling_cycle(line).has_value();
+}
+
+// The line without its Klartext block number and without the surface of a drilling cycle, which goes along
+// with its holes. Nothing of a CC, which belongs to the arc behind it.
+std::string statement_of(const Program& program, std::string_view line, bool& sets_surface) {
+  if (program.dialect != "heidenhain") return std::string(line);
+  line.remove_prefix(std::min(line.find_first_not_of(" \t"), line.size()));
+  const std::size_t digits = line.starts_with('N') || line.starts_with('n') ? 1 : 0;
+  if (digits < line.size() && line[digits] >= '0' && line[digits] <= '9') line.remove_prefix(digits);
+  line.remove_prefix(std::min(line.find_first_not_of(" \t0123456789"), line.size()));
+  if (line.starts_with("CC")) return {};
+  std::string statement(line);
+  const std::size_t surface = statement.find("Q203"),
+                    equals = statement.find_first_not_of(" \t", surface + 4);
+  if (surface == std::string::npos || equals == std::string::npos || statement[equals] != '=')
+    return statement;
+  const std::size_t number = std::min(statement.find_first_not_of(" \t", equals + 1), statement.size());
+  sets_surface = true;
+  statement.erase(surface, std::min(statement.find_first_of(" \t;~", number), statement.size()) - surface);
+  return statement;
+}
+
+// A comment of the header and nothing else.
+bool is_header(std::string_view line) {
+  if (line.starts_with("; COUNTERFLEX 1") || line.starts_with(";COUNTERFLEX 1")) return true;
+  return line.starts_with("(COUNTERFLEX 1") && line.find(')') == line.size() - 1;
+}
+
+// A '~' at the end of a line continues the statement in the next.
+bool continues(std::string_view line) {
+  const std::size_t last = line.find_last_not_of(" \t");
+  return last != std::string_view::npos && line[last] == '~';
+}
+
+// A line without a move that leaves the parameters of cycles as they are: comments, corners, M functions,
+// coordinates.
+bool keeps_parameters(std::string_view statement) {
+  for (const std::string_view head : {";", "(", "RND", "CHF", "CYCL", "M"})
+    if (statement.starts_with(head)) return true;
+  return false;
+}
+
+}  // namespace
+
+void OtherLines::end_statement() {
+  std::vector<std::string> texts;
+  for (const OtherLine& line : statement_) texts.push_back(line.text);
+  if (!sets_surface_ || texts != last_surface_) {
+    count_ += statement_.size();
+    lines.insert(lines.end(), statement_.begin(), statement_.end());
+  }
+  // To repeat a definition behind what may have changed its other parameters would set these back.
+  const bool defined = !last_surface_.empty() && last_surface_[0].starts_with("CYCL");
+  if (defined && !sets_surface_ && !texts.empty() && !keeps_parameters(texts[0])) last_surface_.clear();
+  if (sets_surface_) last_surface_ = std::move(texts);
+  sets_surface_ = false;
+  statement_.clear();
+}
+
+std::vector<std::size_t> OtherLines::add(const Program& window) {
+  std::vector<std::size_t> counts;
+  counts.reserve(window.moves.size());
+  const std::string_view text = window.text;
+  const bool klartext = window.dialect == "heidenhain", siemens = window.dialect == "siemens";
+  for (std::size_t begin = 0; begin < text.size(); ++lines_before_) {
+    const std::size_t end = std::min(text.find('\n', begin), text.size());
+    std::string_view line = text.substr(begin, end - begin);
+    begin = end + 1;
+    bool moves = false;
+    for (; counts.size() < window.moves.size() && window.moves[counts.size()].block.begin <= end;
+         moves = true)
+      counts.push_back(count_);
+    if (moves) {
+      end_statement();
+      continue;
+    }
+    if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
+    if (siemens && calls_modal_cycle(line)) continue;
+    std::string statement = statement_of(window, line, sets_surface_);
+    if (is_header(statement) || (klartext && statement.empty())) continue;
+    const bool ends = !klartext || !continues(statement);
+    statement_.push_back({line_of_file(window.expansion, lines_before_ + 1), std::move(statement)});
+    if (ends) end_statement();
+  }
+  end_statement();
+  return counts;
+}
+
+const CorrectedMove* CorrectedMoves::at(std::size_t index) {
+  while (first_ + index >= moves_.size())
+    if (!read_on()) return nullptr;
+  return &moves_[first_ + index];
+}
+
+void CorrectedMoves::drop(std::size_t count) {
+  first_ += count;
+  while (!windows_.empty() && (first_ == moves_.size() || moves_[first_].program != &windows_.front()))
+    windows_.pop_front();
+}
+
+bool CorrectedMoves::read_on() {
+  if (!read_) return false;
+  Program window;
+  if (!read_(window)) {
+    read_ = nullptr;
+    return false;
+  }
+  moves_.erase(moves_.begin(), moves_.begin() + static_cast<std::ptrdiff_t>(first_));
+  first_ = 0;
+  add(windows_.emplace_back(std::move(window)));
+  drop(0);
+  return true;
+}
+
+void CorrectedMoves::add(const Program& window) {
+  const std::vector<std::size_t> before = other_lines_.add(window);
+  moves_.reserve(moves_.size() + before.size());
+  for (std::size_t m = 0; m < before.size(); ++m) moves_.push_back({&window, &window.moves[m], before[m]});
+}
+
+}  // namespace counterflex

@@ -1,0 +1,236 @@
+// Whether matched moves go as the original: rapid, line or arc, in its plane, sense and number of turns.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "compensation/match/match_moves.hpp"
+#include "compensation/plan/arc_angles.hpp"
+#include "counterflex/compensation/windows.hpp"
+#include "counterflex/geometry/types.hpp"
+
+namespace counterflex {
+namespace {
+
+constexpr double sweep_room = std::numbers::pi / 2;  // less than any difference of turns or of sense
+constexpr double roundings = 4;                      // of a start, an end and a centre, and of the original's
+
+const char* name_of(const Move& move) {
+  if (move.cycle) return "a hole of a cycle";
+  if (move.motion == Motion::rapid) return "a rapid";
+  return move.arc ? "an arc" : "a line";
+}
+
+const char* plane_of(const ArcMove& arc) {
+  return arc.normal == 2 ? "X Y" : arc.normal == 1 ? "Z X" : "Y Z";
+}
+
+double in_plane(const Vector3& v, int normal) {
+  return (v - v[normal] * Vector3::Unit(normal)).norm();
+}
+
+// Compares the moves that command one move of the original.
+class KindComparison {
+ public:
+  KindComparison(const Job& job, const MatchedMoves& matched)
+      : matched_(matched),
+        original_(matched.original),
+        rounding_mm_(rounding_allowance(original_, job.options.write) / mm),
+        tolerance_mm_(job.options.tolerance / mm),
+        most_shift_mm_((job.options.max_correction + job.path.frames[original_.frame].datum_shift.norm()) /
+                       mm) {}
+
+  std::optional<Failure> run() {
+    for (std::size_t i = 0; i < matched_.found.size() && !failure_; ++i) compare(i);
+    if (original_.arc && !failure_) compare_sweeps();
+    const Move& last = *matched_.found.back().move;
+    if (!matched_.segment && !failure_) compare_unjudged(last);
+    if (!failure_) compare_shifts(last);
+    if (original_.cycle && last.cycle && !failure_) compare_cycle(last);
+    return std::move(failure_);
+  }
+
+ private:
+  void fail(const Move& found, std::string what) {
+    failure_ = Failure{Exit::not_compensated, original_.line, std::move(what), found.line};
+  }
+
+  void compare(std::size_t i) {
+    const Move& found = *matched_.found[i].move;
+    const bool last = i + 1 == matched_.found.size();
+    const bool jump = i == 0 && !last && !found.arc && found.motion == Motion::feed;
+    const bool same_motion = found.motion == original_.motion && !found.cycle == !original_.cycle;
+    if (jump && (!same_motion || !original_.arc)) return;  // what follows it is judged from its end on
+    if (!same_motion || (found.arc && !original_.arc)) return fail_kind(found);
+    if (!original_.arc) return;
+    if (!found.arc) return compare_chord(found, jump);
+    const ArcMove &wanted = *original_.arc, &arc = *found.arc;
+    if (arc.normal != wanted.normal)
+      return fail(found, fmt::format("this arc lies in the plane {}, that of the original in {}",
+                                     plane_of(arc), plane_of(wanted)));
+    if (arc.clockwise != wanted.clockwise)
+      return fail(found, fmt::format("this arc goes {}, that of the original {}",
+                                     arc.clockwise ? "clockwise" : "counter-clockwise",
+                                     wanted.clockwise ? "clockwise" : "counter-clockwise"));
+    if (matched_.found.size() == 1)
+      compare_one_arc(found);
+    else if (original_.handling == Handling::group)
+      compare_contour_piece(found);
+    add_sweep(found);
+  }
+
+  // About the centre where the correction at the start puts it.
+  void add_sweep(const Move& found) {
+    const Move& first = *matched_.found.front().move;
+    if (!all_known(original_.known_start) || !all_known(first.known_start)) return;
+    Arc axis = *curve_of(original_).arc;
+    axis.centre += first.start_mm - original_.start_mm;
+    sweep_ += angle_about(axis, curve_of(found));
+  }
+
+  void fail_kind(const Move& found) {
+    fail(found,
+         fmt::format("this block is {}, that of the original is {}", name_of(found), name_of(original_)));
+  }
+
+  double radius_mm() const {
+    return in_plane(original_.end_mm - original_.arc->centre_mm, original_.arc->normal);
+  }
+
+  // A contour's arc that is divided by its height is one arc in the plane.
+  void compare_contour_piece(const Move& found) {
+    const ArcMove &wanted = *original_.arc, &arc = *found.arc;
+    // A centre that follows from the ends and a radius is known less well than these; the angles are compared
+    // besides.
+    if (wanted.radius_word && arc.radius_word) {
+      const double miss = std::abs(std::abs(arc.radius_mm) - std::abs(wanted.radius_mm));
+      if (miss > roundings * rounding_mm_ + 1e-6)
+        fail(found, fmt::format("the radius of this arc is off by {:.4f} mm", miss));
+      return;
+    }
+    if (!centre_mm_) centre_mm_ = arc.centre_mm;
+    const auto radius_at = [](const ArcMove& a, const Vector3& p) {
+      return in_plane(p - a.centre_mm, a.normal);
+    };
+    const double low = std::min(radius_at(wanted, original_.start_mm), radius_at(wanted, original_.end_mm)),
+                 high = std::max(radius_at(wanted, original_.start_mm), radius_at(wanted, original_.end_mm)),
+                 room = roundings * rounding_mm_ + 1e-6;
+    double miss = in_plane(arc.centre_mm - *centre_mm_, wanted.normal);
+    for (const double radius : {radius_at(arc, found.start_mm), radius_at(arc, found.end_mm)})
+      miss = std::max({miss, low - radius, radius - high});
+    if (miss > room)
+      fail(found,
+           fmt::format("this piece of an arc of a contour leaves the circle of the original by {:.4f} mm",
+                       miss));
+  }
+
+  // A chord may replace a part of the arc from which it keeps within the tolerance.
+  void compare_chord(const Move& found, bool may_be_jump) {
+    const double radius = radius_mm(), chord = in_plane(found.end_mm - found.start_mm, original_.arc->normal);
+    const double half = std::asin(std::min(1.0, chord / 2 / radius)), sagitta = radius * (1 - std::cos(half));
+    const double room = tolerance_mm_ + roundings * rounding_mm_;
+    const bool known = all_known(found.known_start) && all_known(original_.known_start);
+    if (original_.handling == Handling::group && known && chord > roundings * rounding_mm_ + 1e-6)
+      return fail_kind(found);
+    if (may_be_jump && chord <= 2 * most_shift_mm_ && sagitta <= room) return;
+    if (!known || (sagitta > room && matched_.found.size() == 1)) return fail_kind(found);
+    const bool judged = matched_.segment && original_.handling == Handling::own && original_.may_split;
+    if (sagitta > room && !judged)
+      return fail(
+          found,
+          fmt::format("this chord leaves the arc of the original by {:.4f} mm, the tolerance is {:.4f} mm",
+                      sagitta, tolerance_mm_));
+    add_sweep(found);
+  }
+
+  // What is shifted as it is keeps its centre, seen from its start, and its radius.
+  void compare_one_arc(const Move& found) {
+    const ArcMove &wanted = *original_.arc, &arc = *found.arc;
+    const double room = roundings * rounding_mm_ + 1e-6;
+    if (arc.turns != wanted.turns)
+      return fail(found, fmt::format("this arc makes {} full turns more than the way to its end, that of the "
+                                     "original {}",
+                                     arc.turns, wanted.turns));
+    const bool rigid = original_.handling != Handling::own || !all_known(original_.known_start);
+    if (!rigid) return;
+    const Vector3 from = wanted.absolute_centre ? original_.end_mm : original_.start_mm,
+                  found_from = arc.absolute_centre ? found.end_mm : found.start_mm;
+    const Vector3 centre = arc.centre_mm - found_from, wanted_centre = wanted.centre_mm - from;
+    const bool by_radius = wanted.radius_word && arc.radius_word;
+    double miss = in_plane(centre - wanted_centre, wanted.normal);
+    if (by_radius) miss = std::abs(arc.radius_mm - wanted.radius_mm);
+    // A contour may turn.
+    if (!by_radius && original_.handling == Handling::group)
+      miss = std::abs(in_plane(centre, wanted.normal) - in_plane(wanted_centre, wanted.normal));
+    if (miss > room)
+      fail(found,
+           fmt::format("the {} of this arc is off by {:.4f} mm", by_radius ? "radius" : "centre", miss));
+  }
+
+  void compare_sweeps() {
+    const Move& found = *matched_.found.back().move;
+    if (!all_known(original_.known_start) || !all_known(found.known_start)) return;
+    const double wanted = curve_of(original_).arc->sweep, off = std::abs(sweep_ - wanted);
+    if (off <= sweep_room || off * radius_mm() <= roundings * tolerance_mm_) return;
+    fail(found, fmt::format("the arcs up to here turn by {:.1f} degrees, the arc of the original by {:.1f}",
+                            sweep_ / deg, wanted / deg));
+  }
+
+  // Moves that give no segment keep a correction: what stays where it is does so in both programs.
+  void compare_unjudged(const Move& found) {
+    const bool known = all_known(original_.known_start) && all_known(original_.known_end);
+    const bool steps = original_.handling == Handling::group;  // to the shift of its contour
+    if (!known || original_.cycle || steps || !all_known(found.known_start)) return;
+    const double way = (found.end_mm - found.start_mm).norm();
+    if (way > tolerance_mm_ + roundings * rounding_mm_)
+      fail(found, fmt::format("this move goes {:.4f} mm, that of the original stays where it is", way));
+  }
+
+  // Whatever is judged besides, no word is shifted by more than a correction may be.
+  void compare_shifts(const Move& found) {
+    const Vector3& start = matched_.found.front().move->start_mm;
+    for (std::size_t axis = 0; axis < 3 && !failure_; ++axis) {
+      const auto k = static_cast<Eigen::Index>(axis);
+      if (!original_.words[axis] || !found.words[axis] || original_.fixed[axis]) continue;
+      double shift = found.end_mm[k] - original_.end_mm[k];
+      if (is_relative(original_, axis) && is_relative(found, axis)) shift -= start[k] - original_.start_mm[k];
+      compare_shift(found, std::string(1, "XYZ"[axis]), shift);
+    }
+  }
+
+  // Depth and retract plane, also where an earlier hole has given them. Words of one block are shifted alike.
+  void compare_cycle(const Move& found) {
+    const CycleMove &wanted = *original_.cycle, &cycle = *found.cycle;
+    const double bottom = cycle.bottom_mm - wanted.bottom_mm, retract = cycle.retract_mm - wanted.retract_mm;
+    if (wanted.retract_word && !cycle.retract_word)
+      return fail(found, "the R of the original's hole is missing");
+    compare_shift(found, "the bottom of the hole", bottom);
+    if (!failure_) compare_shift(found, "the retract plane R", retract);
+    const bool both = wanted.retract_word && wanted.bottom_word && cycle.bottom_word;
+    if (!failure_ && both && std::abs(retract - bottom) > tolerance_mm_ + roundings * rounding_mm_)
+      fail(found,
+           fmt::format("the retract plane R is shifted by {:.4f} mm, the bottom of the hole by {:.4f} mm",
+                       retract, bottom));
+  }
+
+  void compare_shift(const Move& found, const std::string& what, double shift) {
+    if (std::abs(shift) > most_shift_mm_ + roundings * rounding_mm_)
+      fail(found, fmt::format("{} is shifted by {:.4f} mm, the limit of a correction is {:.4f} mm", what,
+                              shift, most_shift_mm_));
+  }
+
+  const MatchedMoves& matched_;
+  const Move& original_;
+  const double rounding_mm_, tolerance_mm_, most_shift_mm_;
+  std::optional<Vector3> centre_mm_{};  // of the first piece of a contour's arc
+  double sweep_ = 0;                    // of the arcs and chords so far
+  std::optional<Failure> failure_;
+};
+
+}  // namespace
+
+std::optional<Failure> kind_failure(const Job& job, const MatchedMoves& matched) {
+  return KindComparison(job, matched).run();
+}
+
+}  // namespace counterflex

@@ -1,0 +1,168 @@
+#include "compensation/match/match_moves.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "compensation/match/skeleton.hpp"
+#include "compensation/plan/arc_angles.hpp"
+#include "compensation/solve/commands.hpp"
+#include "counterflex/compensation/windows.hpp"
+#include "counterflex/geometry/types.hpp"
+
+namespace counterflex {
+namespace {
+
+constexpr double length_share = 0.1;  // a difference of lengths counts for less than one of places
+constexpr double nearer_mm = 1e-9;
+constexpr double digits_share = 1.5;  // of the rounding: an end that is as near as this is taken at once
+
+// A feed block whose words act at its beginning is itself the first piece: the others follow it.
+bool acts_first(const Move& original, const std::string& words) {
+  return original.motion == Motion::feed && !changes_height_inside(original) && !is_plain(words);
+}
+
+bool may_end(const Move& original, const std::string& words, const CorrectedMove& found, std::size_t j) {
+  if (found.move->motion != original.motion) return false;
+  const std::string held = skeleton(*found.program, *found.move);
+  return j > 0 && acts_first(original, words) ? is_plain(held) : held == words;
+}
+
+// Whether another piece of the same move may follow.
+bool may_go_on(const Move& original, const std::string& words, const CorrectedMove& found, std::size_t j) {
+  if (found.move->motion != Motion::feed && !(original.may_position && j == 0)) return false;
+  const std::string held = skeleton(*found.program, *found.move);
+  return j == 0 && acts_first(original, words) ? held == words : is_plain(held);
+}
+
+std::size_t most_moves(const Move& original, bool has_segment) {
+  if (!has_segment || original.handling == Handling::held || original.cycle) return 1;
+  if (original.motion == Motion::feed && (original.may_split || changes_height_inside(original)))
+    return std::numeric_limits<std::size_t>::max();
+  return original.may_jump || original.may_position ? 2 : 1;
+}
+
+}  // namespace
+
+std::optional<Vector3> MoveFinder::planned_shift_mm(const Move& original,
+                                                    std::optional<std::size_t> segment) const {
+  if (!segment || *segment >= ways_.size() || !ways_[*segment].end) return std::nullopt;
+  return in_words_mm(job_, original, *ways_[*segment].end) - original.end_mm;
+}
+
+// The shift of the move before, changed as planned: right for what was written as planned, and nearly right
+// for what was corrected otherwise, or not at all.
+Vector3 MoveFinder::expected_end_mm(const Move& original, const std::optional<Vector3>& planned_mm) const {
+  const Vector3 held = shift_mm_.value_or(Vector3::Zero());
+  if (!planned_mm) return original.end_mm + held;
+  if (!shift_mm_ || !planned_shift_mm_) return original.end_mm + *planned_mm;
+  return original.end_mm + held + *planned_mm - *planned_shift_mm_;
+}
+
+// The first moves that end where the original should, after a way that is about as long.
+std::size_t MoveFinder::count(const Move& original, std::optional<std::size_t> segment, std::size_t most,
+                              std::size_t others) {
+  const std::string words = skeleton(job_.program, original);
+  const Vector3 end_mm = expected_end_mm(original, planned_shift_mm(original, segment));
+  const Curve curve = curve_of(original);
+  const double length_mm = length(curve);
+  double slack_mm = 2 * job_.options.max_correction / mm;
+  // Every turn of a circle ends at the same place. An angle distinguishes them, also where corrections are
+  // larger than the radius.
+  Arc axis;
+  if (curve.arc) {
+    axis = *curve.arc;
+    axis.centre += shift_mm_.value_or(Vector3::Zero());
+    slack_mm = std::min(slack_mm, length_mm / axis.sweep * 3);
+  }
+  const bool turns_rigidly = curve.arc && original.handling == Handling::group;
+  const auto way_mm = [&](const Move& move) {
+    const Curve way = curve_of(move);
+    if (turns_rigidly) return way.arc ? way.arc->sweep * length_mm / axis.sweep : 0.0;
+    return curve.arc ? angle_about(axis, way) * length_mm / axis.sweep : length(way);
+  };
+  std::size_t best = 0;
+  double best_miss = std::numeric_limits<double>::infinity(), gone_mm = 0;
+  for (std::size_t j = 0; j < most; ++j) {
+    const CorrectedMove* found = found_.at(j);
+    if (found == nullptr || found->others != others) break;
+    if (j > 0 && next_number_ && found->move->block_number == next_number_) break;
+    gone_mm += way_mm(*found->move);
+    if ((!turns_rigidly || found->move->arc) && may_end(original, words, *found, j)) {
+      const double off = (found->move->end_mm - end_mm).norm(), surplus = std::abs(gone_mm - length_mm);
+      const double rounding_mm = std::max(rounding_mm_, rounding_as_read(*found->move) / mm);
+      if (!turns_rigidly && off <= digits_share * rounding_mm && surplus <= slack_mm) return j + 1;
+      // The end of a contour's piece is known up to its turn, its angle to the last digits.
+      const double miss = turns_rigidly ? surplus + length_share * off : off + length_share * surplus;
+      if (miss < best_miss - nearer_mm) best = j + 1, best_miss = miss;
+    }
+    if (!may_go_on(original, words, *found, j) || gone_mm > length_mm + 2 * job_.options.max_correction / mm)
+      break;
+  }
+  return best;
+}
+
+std::span<const CorrectedMove> MoveFinder::find(std::size_t m, std::optional<std::size_t> segment,
+                                                std::size_t others) {
+  const Move& original = job_.program.moves[m];
+  const CorrectedMove* first = found_.at(0);
+  if (first == nullptr || first->others != others) return {};
+  if (!shift_mm_ && all_known(original.known_start) && all_known(first->move->known_start))
+    shift_mm_ = first->move->start_mm - original.start_mm;
+  if (frame_ != original.frame) planned_shift_mm_.reset(), shift_mm_.reset();
+  next_number_.reset();
+  if (m + 1 < job_.program.moves.size()) next_number_ = job_.program.moves[m + 1].block_number;
+  if (next_number_ == original.block_number || job_.program.dialect == "heidenhain") next_number_.reset();
+  const std::size_t most = most_moves(original, segment.has_value());
+  const std::size_t count = most == 1 ? 1 : this->count(original, segment, most, others);
+  matched_.clear();
+  for (std::size_t j = 0; j < count; ++j) matched_.push_back(*found_.at(j));
+  if (count == 0) return {};
+  planned_shift_mm_ = planned_shift_mm(original, segment);
+  frame_ = original.frame;
+  const Move& last = *matched_.back().move;
+  if (all_known(original.known_end)) shift_mm_ = last.end_mm - original.end_mm;
+  rounding_mm_ = rounding_as_read(last) / mm;
+  return matched_;
+}
+
+std::optional<Failure> words_failure(const Job& job, const MatchedMoves& matched) {
+  const Move& original = matched.original;
+  const std::string wanted = skeleton(job.program, original);
+  const auto fail = [&](const CorrectedMove& found, std::string what) {
+    return Failure{Exit::not_compensated, original.line, std::move(what), found.move->line};
+  };
+  std::size_t own_blocks = 0;
+  // A restart at the number of a block runs the whole move. In Klartext all blocks are numbered in order.
+  const bool klartext = job.program.dialect == "heidenhain";
+  const auto is_numbered_rightly = [&](const Move& move, bool first) {
+    if (klartext) return true;
+    return first ? move.block_number == original.block_number : !move.block_number || original.block_number;
+  };
+  for (const CorrectedMove& found : matched.found) {
+    const Move& move = *found.move;
+    const std::string words = skeleton(*found.program, move);
+    if (words == wanted) ++own_blocks;
+    const bool plain = is_plain(words) && words.find_first_of("(;") == std::string::npos;
+    const bool same_feed = move.motion == Motion::rapid || move.feed_mode == FeedMode::inverse_time ||
+                           move.feed_mm_min == original.feed_mm_min;
+    if (matched.found.size() == 1 && words != wanted)
+      return fail(found, "the words besides coordinates are not those of the original's block");
+    if (words != wanted && !plain)
+      return fail(found, "an inserted block may hold motion, axes and the feed that acts, nothing else");
+    if (!is_numbered_rightly(move, &found == &matched.found.front()))
+      return fail(
+          found,
+          "the N of a block belongs to its first piece, and other pieces of a block without N have none");
+    if (!same_feed)
+      return fail(found, fmt::format("the feed is {:g} mm/min here, in the original {:g} mm/min",
+                                     move.feed_mm_min, original.feed_mm_min));
+  }
+  if (own_blocks == 0 || (own_blocks > 1 && !is_plain(wanted)))
+    return fail(matched.found.back(),
+                "the words of the original's block stand in no block here, or in several");
+  return std::nullopt;
+}
+
+}  // namespace counterflex

@@ -1,0 +1,59 @@
+#pragma once
+/// Which moves of a corrected program belong to one of the original.
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "compensation/match/match.hpp"
+
+namespace counterflex {
+
+/// A move of the original, the segment that it gives, and the moves of the corrected program that command it.
+struct MatchedMoves {
+  const Move& original;
+  std::optional<std::size_t> segment;
+  std::span<const CorrectedMove> found;  ///< the last one holds the block of the original, or its last piece
+};
+
+/// Finds them, move by move. Inserted blocks come before the block that they split, follow its path, and hold
+/// motion, axes and F.
+class MoveFinder {
+ public:
+  MoveFinder(const Job& job, const PlannedWays& ways, CorrectedMoves& found)
+      : job_(job), ways_(ways), found_(found) {}
+
+  /// Those of move `m`, with `others` lines without a move before it; empty if no move matches. They begin
+  /// at the first move that was not dropped.
+  std::span<const CorrectedMove> find(std::size_t m, std::optional<std::size_t> segment, std::size_t others);
+
+  /// By how much the correction of `found` shifts the end of the move that was found last (program
+  /// coordinates, mm).
+  const std::optional<Vector3>& shift_mm() const { return shift_mm_; }
+
+ private:
+  std::size_t count(const Move& original, std::optional<std::size_t> segment, std::size_t most,
+                    std::size_t others);
+  Vector3 expected_end_mm(const Move& original, const std::optional<Vector3>& planned_mm) const;
+  std::optional<Vector3> planned_shift_mm(const Move& original, std::optional<std::size_t> segment) const;
+
+  const Job& job_;
+  const PlannedWays& ways_;
+  CorrectedMoves& found_;
+  std::vector<CorrectedMove> matched_;
+  std::optional<Vector3> shift_mm_;          // of the move before
+  double rounding_mm_ = 0;                   // of that shift, as it was read
+  std::optional<Vector3> planned_shift_mm_;  // the same, as it was planned
+  std::size_t frame_ = 0;                    // of the move before
+  std::optional<long> next_number_;          // N of the next original
+};
+
+/// Whether matched moves go as the original, rapid, line or arc, in its plane, sense and number of turns: the
+/// failure of the first that does not. Chords of an arc are right where they follow it within the tolerance.
+/// Also the failure of moves that no piece judges and that are shifted by more than a correction may.
+std::optional<Failure> kind_failure(const Job& job, const MatchedMoves& matched);
+
+/// What an inserted block, or a piece of the original's block, must not hold; nothing where all is right.
+std::optional<Failure> words_failure(const Job& job, const MatchedMoves& matched);
+
+}  // namespace counterflex

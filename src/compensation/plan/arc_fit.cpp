@@ -1,0 +1,256 @@
+#include "compensation/plan/arc_fit.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "counterflex/geometry/types.hpp"
+
+namespace counterflex {
+namespace {
+
+constexpr int least_fit_samples = 16;
+constexpr double fit_angle = std::numbers::pi / 16;  // samples are at most so far apart, on all turns
+constexpr double flat_fit_angle = fit_angle / 4;     // the height that is missed bends as the arc does
+constexpr int fit_iterations = 4;
+constexpr double fit_step_mm = 1e-4;       // of numerical derivatives
+constexpr double pull_to_source = 4e-4;    // a centre that the curve hardly determines keeps its place
+constexpr double centre_kept_share = 0.5;  // of the tolerance: a centre that misses by less is kept
+constexpr double most_sweep_change = 0.1;  // rad
+constexpr double same_mm = 1e-9;
+
+// What the pieces of one arc are compared with.
+struct Sample {
+  double v;      // fraction of the piece
+  Vector3 p_mm;  // commanded
+};
+
+// The fraction of a written end of a piece: rounding moves it along the curve. The ends of the stretch keep
+// theirs.
+double fraction_at(const ArcTask& task, double u, const Vector3& written) {
+  if (u == task.begin || u == task.end) return u;
+  const double along_mm = (written - task.commanded(u)).dot(direction_at(task.source, u));
+  return u + along_mm / length(task.source);
+}
+
+// `u0` and `u1`: fractions at the ends of a piece.
+std::vector<Sample> samples_of(const ArcTask& task, double u0, double u1) {
+  std::vector<Sample> all;
+  const double span = u1 - u0;
+  const double angle = task.move.arc->flat ? flat_fit_angle : fit_angle;
+  const int by_angle = static_cast<int>(std::ceil(span * task.source.arc->sweep / angle)),
+            count = std::max(least_fit_samples, by_angle);
+  // The height of a flat arc may be off from its start on.
+  for (int k = task.move.arc->flat ? 0 : 1; k <= count; ++k) {
+    const double v = static_cast<double>(k) / count;
+    all.push_back({v, task.commanded(k == count ? u1 : u0 + v * span)});
+  }
+  for (double corner : task.corners)
+    if (corner > u0 && corner < u1) all.push_back({(corner - u0) / span, task.commanded(corner)});
+  return all;
+}
+
+// Two axes that span the plane, in any order.
+std::array<Eigen::Index, 2> plane_of(const Move& move) {
+  return {(move.arc->normal + 1) % 3, (move.arc->normal + 2) % 3};
+}
+
+double radius(const Arc& arc, const Vector3& p) {
+  const Vector3 arm = p - arc.centre;
+  return (arm - arm.dot(arc.normal) * arc.normal).norm();
+}
+
+double mismatch(const Curve& curve) {
+  return std::abs(radius(*curve.arc, curve.end) - radius(*curve.arc, curve.start));
+}
+
+double digit_mm(const ArcTask& task) {
+  const Decimals decimals = decimals_of(task.move, task.options);
+  int least = decimals.inserted;
+  for (const Eigen::Index axis : plane_of(task.move))
+    least = std::min(least, decimals.end[static_cast<std::size_t>(axis)]);
+  return std::pow(10.0, -least) * (task.move.unit == LengthUnit::inches ? inch / mm : 1);
+}
+
+// GRBL's rule; LinuxCNC's is wider.
+bool radii_are_accepted(const Curve& curve) {
+  const double miss = mismatch(curve);
+  return miss <= 0.005 || (miss <= 0.5 && miss <= 0.001 * radius(*curve.arc, curve.start));
+}
+
+bool is_sound(const ArcTask& task, const ArcPiece& piece, const Curve& read) {
+  if (!read.arc) return false;
+  const double sweep = (piece.u1 - piece.u0) * task.source.arc->sweep;
+  return std::abs(read.arc->sweep - sweep) < most_sweep_change &&
+         mismatch(read) <= mismatch(task.source) + digit_mm(task) + same_mm &&
+         (radii_are_accepted(read) || !radii_are_accepted(task.source));
+}
+
+// The way of a piece about the centre without the full turns that the last one makes.
+double one_turn_of(const ArcTask& task, double u0, double u1) {
+  const int turns = u1 == 1 && !task.move.arc->flat ? task.move.arc->turns : 0;
+  return (u1 - u0) * task.source.arc->sweep - 2 * std::numbers::pi * turns;
+}
+
+double miss_of(const Curve& curve, const std::vector<Sample>& wanted) {
+  double largest = 0;
+  for (const Sample& s : wanted) largest = std::max(largest, (point_at(curve, s.v) - s.p_mm).norm());
+  return largest;
+}
+
+// Everything that the fit of one piece needs.
+class PieceFit {
+ public:
+  PieceFit(const ArcTask& task, const ArcPiece& piece)
+      : task_(task), piece_(piece), plane_(plane_of(task.move)), end_(task.commanded(piece.u1)) {
+    for (Eigen::Index axis = 0; axis < 3; ++axis) start_[axis] = *piece.from[static_cast<std::size_t>(axis)];
+    const int normal = task.move.arc->normal;
+    if (task.move.arc->flat) end_[normal] = start_[normal];
+    kept_ = start_ + task.source.arc->centre - point_at(task.source, piece.u0);
+    const Vector3 read_end = as_written(task.move, piece.from, {end_, kept_}, piece.is_end, task.options).end;
+    samples_ = samples_of(task, fraction_at(task, piece.u0, start_), fraction_at(task, piece.u1, read_end));
+  }
+
+  FittedArc run() const {
+    FittedArc best = written(kept_);
+    if (best.sound && best.miss_mm <= centre_kept_share * task_.tolerance_mm) return best;
+    const Vector3 fitted = fitted_centre(best.read.arc ? best.read.end : end_);
+    take_better(written(fitted), best);
+    if (!best.sound || best.miss_mm > task_.tolerance_mm) try_neighbours(fitted, best);
+    return best;
+  }
+
+  FittedArc run_polar() const { return written(kept_, start_ + task_.source.end - task_.source.start); }
+
+ private:
+  FittedArc written(const Vector3& centre) const { return written(centre, end_); }
+
+  FittedArc written(const Vector3& centre, const Vector3& end) const {
+    FittedArc fit{.via = {end, centre}, .read = {}};
+    fit.read = as_written(task_.move, piece_.from, fit.via, piece_.is_end, task_.options);
+    fit.sound = is_sound(task_, piece_, fit.read);
+    fit.miss_mm = fit.read.arc ? miss_of(fit.read, samples_) : std::numeric_limits<double>::infinity();
+    return fit;
+  }
+
+  static void take_better(const FittedArc& other, FittedArc& best) {
+    if (other.sound != best.sound ? other.sound : other.miss_mm < best.miss_mm) best = other;
+  }
+
+  // The centre's own rounding may be what spoils the radii: the digits beside it.
+  void try_neighbours(const Vector3& centre, FittedArc& best) const {
+    const double digit = digit_mm(task_);
+    for (int a = -1; a <= 1; ++a)
+      for (int b = -1; b <= 1; ++b) {
+        Vector3 beside = centre;
+        beside[plane_[0]] += a * digit;
+        beside[plane_[1]] += b * digit;
+        if (a != 0 || b != 0) take_better(written(beside), best);
+      }
+  }
+
+  // Centres with the source's difference of radii to both ends lie on a line across the chord.
+  struct CentreLine {
+    Vector3 foot, across;
+  };
+
+  std::optional<CentreLine> centre_line(const Vector3& end) const {
+    const Arc& arc = *task_.source.arc;
+    Vector3 chord = end - start_;
+    chord -= chord.dot(arc.normal) * arc.normal;
+    const double size = chord.norm();
+    if (size < fit_step_mm) return std::nullopt;
+    const double difference =
+        (piece_.u1 - piece_.u0) * (radius(arc, task_.source.end) - radius(arc, task_.source.start));
+    Vector3 foot = start_ + chord / 2 - difference * radius(arc, task_.source.start) / size * (chord / size);
+    foot += (kept_ - foot).dot(arc.normal) * arc.normal;
+    return CentreLine{foot, arc.normal.cross(chord / size)};
+  }
+
+  void misses(const Vector3& centre, const Vector3& end, Eigen::VectorXd& r) const {
+    const Vector3& normal = task_.source.arc->normal;
+    const int turns = piece_.is_end && !task_.move.arc->flat ? task_.move.arc->turns : 0;
+    const Curve curve{start_, end, Arc{centre, normal, sweep_between(start_, end, centre, normal, turns)}};
+    r.resize(3 * static_cast<Eigen::Index>(samples_.size()));
+    for (std::size_t k = 0; k < samples_.size(); ++k)
+      r.segment<3>(3 * static_cast<Eigen::Index>(k)) = point_at(curve, samples_[k].v) - samples_[k].p_mm;
+  }
+
+  // Gauss-Newton on the mean square of the misses, pulled a little to the original centre.
+  Vector3 fitted_centre(const Vector3& end) const {
+    const std::optional<CentreLine> line = centre_line(end);
+    if (!line) return kept_;
+    const double h_kept = (kept_ - line->foot).dot(line->across);
+    const double pull = pull_to_source * static_cast<double>(samples_.size());
+    double h = h_kept;
+    Eigen::VectorXd r, beside;
+    for (int i = 0; i < fit_iterations; ++i) {
+      misses(line->foot + h * line->across, end, r);
+      misses(line->foot + (h + fit_step_mm) * line->across, end, beside);
+      const Eigen::VectorXd slope = (beside - r) / fit_step_mm;
+      h -= (slope.dot(r) + pull * (h - h_kept)) / (slope.squaredNorm() + pull);
+    }
+    return line->foot + h * line->across;
+  }
+
+  const ArcTask& task_;
+  const ArcPiece& piece_;
+  std::array<Eigen::Index, 2> plane_;
+  std::vector<Sample> samples_;
+  Vector3 start_ = Vector3::Zero(), end_;
+  Vector3 kept_ = Vector3::Zero();  // the original centre, seen from the start
+};
+
+}  // namespace
+
+FittedArc fit_arc(const ArcTask& task, const ArcPiece& piece) {
+  return PieceFit(task, piece).run();
+}
+
+FittedArc fit_polar_arc(const ArcTask& task, const TextPosition& from) {
+  return PieceFit(task, {0, 1, true, from}).run_polar();
+}
+
+bool keeps_words(const ArcTask& task, const ArcPiece& piece, const FittedArc& fit) {
+  if (!fit.read.arc) return false;
+  const Move& move = task.move;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto k = static_cast<Eigen::Index>(axis);
+    const bool absolute = move.words[axis] && !is_relative(move, axis);
+    const double stays = absolute
+                             ? move.end_mm[k]
+                             : *piece.from[axis] + (move.words[axis] ? move.end_mm[k] - move.start_mm[k] : 0);
+    if (std::abs(fit.read.end[k] - stays) > same_mm) return false;
+  }
+  if (move.arc->radius_word)
+    return std::abs(radius(*fit.read.arc, fit.read.start) - std::abs(move.arc->radius_mm)) < 1e-6;
+  const Vector3 before = move.arc->centre_mm - (move.arc->absolute_centre ? Vector3::Zero() : move.start_mm),
+                now = fit.read.arc->centre - (move.arc->absolute_centre ? Vector3::Zero() : fit.read.start);
+  for (const Eigen::Index axis : plane_of(move))
+    if (std::abs(now[axis] - before[axis]) > same_mm) return false;
+  return true;
+}
+
+double sweep_beside_turns(const Move& move, const Curve& source) {
+  return source.arc->sweep - 2 * std::numbers::pi * move.arc->turns;
+}
+
+bool can_be_one(const ArcTask& task, double u0, double u1) {
+  constexpr double turn = 2 * std::numbers::pi, rounding = 1e-9;
+  const double sweep = one_turn_of(task, u0, u1);
+  return sweep > 0 && sweep < turn + rounding;
+}
+
+bool must_halve(const ArcTask& task, double u0, double u1) {
+  constexpr double degree = std::numbers::pi / 180;
+  const Arc& arc = *task.source.arc;
+  const double sweep = one_turn_of(task, u0, u1), size = radius(arc, task.source.start);
+  Vector3 chord = point_at(task.source, u1) - point_at(task.source, u0);
+  chord -= chord.dot(arc.normal) * arc.normal;
+  if (sweep > 330 * degree || (sweep > 180 * degree && chord.norm() < 0.1 * size)) return true;
+  return task.move.arc->radius_word && sweep > 150 * degree && sweep < 210 * degree;
+}
+
+}  // namespace counterflex

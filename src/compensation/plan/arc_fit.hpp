@@ -1,0 +1,63 @@
+#pragma once
+/// Fits the words of an arc to a corrected one, judged on what a control reads.
+#include <functional>
+
+#include "compensation/plan/curve.hpp"
+#include "counterflex/program/rewrite.hpp"
+
+namespace counterflex {
+
+/// An arc of a program and the curve that its commands should follow.
+struct ArcTask {
+  const Move& move;
+  const WriteOptions& options;
+  Curve source;        ///< the move's own way, program coordinates (mm)
+  VectorAt commanded;  ///< wanted position and correction at a fraction of it, program coordinates (mm)
+  double begin = 0, end = 1;    ///< fractions between which `commanded` has no step
+  std::vector<double> corners;  ///< fractions where the correction has corners
+  double tolerance_mm = 0;      ///< of the commanded curve, at equal fractions
+  double chord_room_mm = 0;     ///< what chords may leave of it between their ends; 0: rounding takes it all
+};
+
+/// A piece of the arc between two fractions, from where the text holds the tool.
+struct ArcPiece {
+  double u0 = 0, u1 = 1;
+  bool is_end = true;  ///< it ends with the move's own end
+  TextPosition from;
+};
+
+/// An arc that could be written for a piece. Where the block takes no word along the normal of its plane the
+/// arc stays at the height of its start.
+struct FittedArc {
+  std::optional<Vector3> step_mm{};  ///< a line to this point, above or below the start, goes first
+  Via via;
+  Curve read;  ///< what a control reads
+  double miss_mm =
+      0;  ///< from the commanded curve, at corners and 16 places or more, at most 11.25 degrees apart
+  bool sound = false;  ///< radius rules of controls hold, and its sweep is the wanted one
+};
+
+/// The best arc for a piece: with the original centre, seen from the start, if that is good enough,
+/// else with a fitted one. The mismatch of its radii is at most the source's and one digit, else it is not
+/// sound.
+FittedArc fit_arc(const ArcTask& task, const ArcPiece& piece);
+
+/// The whole of an arc of polar coordinates, which keeps them: only its pole is shifted with its start.
+FittedArc fit_polar_arc(const ArcTask& task, const TextPosition& from);
+
+/// Whether nothing in the block's words changes when it is written as `fit`.
+bool keeps_words(const ArcTask& task, const ArcPiece& piece, const FittedArc& fit);
+
+/// The way of an arc about its centre (rad) from start to end, without the full turns that its block asks
+/// for: the last piece makes those.
+double sweep_beside_turns(const Move& move, const Curve& source);
+
+/// Whether the words of an arc can express the piece between two fractions at all: no piece but the last
+/// makes the full turns of its block, and that one has to.
+bool can_be_one(const ArcTask& task, double u0, double u1);
+
+/// Whether a piece that is rewritten must not be one arc: a small shift of its end could turn a full
+/// circle into nothing, or an R near half a turn into none at all.
+bool must_halve(const ArcTask& task, double u0, double u1);
+
+}  // namespace counterflex

@@ -1,0 +1,198 @@
+#include "compensation/plan/arc_pieces.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace counterflex {
+namespace {
+
+constexpr int first_halvings = 3, most_halvings = 6;
+constexpr int height_samples = 16;
+constexpr double polar_kept_share =
+    0.1;  // of the tolerance: what is off by more takes a line to the next block
+// Corners nearer to the ends of a piece do not divide it.
+constexpr double sliver_share = 0.05;  // of a piece, and where it might be one
+constexpr double sliver_mm = 0.1;      // at most
+
+// Divides from the start on; what follows a piece begins where the text holds the tool behind it.
+class ArcDivider {
+ public:
+  ArcDivider(const ArcTask& task, const TextPosition& from)
+      : task_(task), length_mm_(length(task.source)), held_(from) {}
+
+  ArcPieces run(double u0, double u1) {
+    divide(u0, u1, 0);
+    if (chords_) put_chords(u1);
+    result_.held = held_;
+    return std::move(result_);
+  }
+
+ private:
+  // Of a piece that no arc fits yet, from where it begins.
+  struct Chords {
+    double u0;
+    TextPosition from;
+  };
+
+  struct Division {
+    double u;
+    bool counts;  // as one of the halvings
+  };
+
+  void divide(double u0, double u1, int halvings) {
+    if (const auto fit = fitting(u0, u1)) return put_arc(u0, u1, *fit);
+    const Division division = division_of(u0, u1);
+    if (division.counts && ++halvings > first_halvings && !is_worth_halving(u0, u1, halvings))
+      return leave_to_chords(u0, u1);
+    divide(u0, division.u, halvings);
+    divide(division.u, u1, halvings);
+  }
+
+  // At the height where the text holds the tool, else, where the block takes no word for it, at the middle of
+  // the heights of the piece.
+  std::optional<FittedArc> fitting(double u0, double u1) const {
+    if (task_.move.polar && u0 == 0 && u1 == 1)
+      if (auto fit = fitting_as_polar()) return fit;
+    if (!can_be_one(task_, u0, u1)) return std::nullopt;
+    if (auto fit = fitting_from(held_, u0, u1)) return fit;
+    if (!task_.move.arc->flat) return std::nullopt;
+    const Vector3 step_mm = middle_height(u0, u1);
+    TextPosition raised = held_;
+    const Curve step = as_written(task_.move, held_, {step_mm}, false, task_.options);
+    const auto normal = task_.move.arc->normal;
+    raised[static_cast<std::size_t>(normal)] = step.end[normal];
+    auto fit = fitting_from(raised, u0, u1);
+    if (fit) fit->step_mm = step_mm;
+    return fit;
+  }
+
+  // What only polar words can express is kept wherever it is good enough.
+  std::optional<FittedArc> fitting_as_polar() const {
+    const bool only_polar = task_.move.arc->turns > 0 || !stays_flat(task_.move);
+    const double room_mm = (only_polar ? 1 : polar_kept_share) * task_.tolerance_mm;
+    FittedArc fit = fit_polar_arc(task_, held_);
+    if (!fit.sound || fit.miss_mm > room_mm) return std::nullopt;
+    return fit;
+  }
+
+  // Above or below where the text holds the tool.
+  Vector3 middle_height(double u0, double u1) const {
+    const int normal = task_.move.arc->normal;
+    double low = HUGE_VAL, high = -HUGE_VAL;
+    for (int k = 0; k <= height_samples; ++k) {
+      const double height = task_.commanded(u0 + (u1 - u0) * k / height_samples)[normal];
+      low = std::min(low, height);
+      high = std::max(high, height);
+    }
+    Vector3 p{*held_[0], *held_[1], *held_[2]};
+    p[normal] = (low + high) / 2;
+    return p;
+  }
+
+  std::optional<FittedArc> fitting_from(const TextPosition& from, double u0, double u1) const {
+    const ArcPiece piece{u0, u1, u1 == 1, from};
+    FittedArc fit = fit_arc(task_, piece);
+    if (!fit.sound || fit.miss_mm > task_.tolerance_mm) return std::nullopt;
+    const bool stays = u0 == 0 && u1 == 1 && keeps_words(task_, piece, fit);
+    if (!stays && must_halve(task_, u0, u1)) return std::nullopt;
+    return fit;
+  }
+
+  // An arc, and of a flat one the line to its height, are two blocks: fewer than the chords of half the
+  // piece.
+  bool is_worth_halving(double u0, double u1, int halvings) const {
+    if (halvings > most_halvings) return false;
+    const Arc& arc = *task_.source.arc;
+    const double size = (task_.source.start - arc.centre).norm(),
+                 chord = std::sqrt(8 * task_.tolerance_mm / size);
+    return (u1 - u0) / 2 * arc.sweep > 2 * chord;
+  }
+
+  // At the corner that is nearest the middle, else there. Full turns are left to the last piece. An arc of
+  // more than half a turn is two.
+  Division division_of(double u0, double u1) const {
+    const double sweep = task_.source.arc->sweep;
+    if (task_.move.arc->turns > 0 && u0 == 0 && u1 == 1)
+      return {sweep_beside_turns(task_.move, task_.source) / 2 / sweep, false};
+    const bool divided_anyway = !can_be_one(task_, u0, u1) || must_halve(task_, u0, u1);
+    const double middle = (u0 + u1) / 2, share = sliver_share * (u1 - u0),
+                 margin = divided_anyway ? share : std::min(share, sliver_mm / length_mm_);
+    std::optional<double> best;
+    for (const double corner : task_.corners) {
+      if (corner < u0 + margin || corner > u1 - margin) continue;
+      if (!best || std::abs(corner - middle) < std::abs(*best - middle)) best = corner;
+    }
+    const bool half_turn_at_most = (u1 - u0) * sweep < std::numbers::pi * (1 + 1e-9);
+    return {best.value_or(middle), !best && half_turn_at_most};
+  }
+
+  void put_arc(double u0, double u1, FittedArc fit) {
+    if (chords_) {
+      put_chords(u0);
+      const auto refit = fitting(u0, u1);  // from where the chords really end
+      if (!refit) return leave_to_chords(u0, u1);
+      fit = *refit;
+    }
+    if (fit.step_mm) put({*fit.step_mm}, u0, end_of({*fit.step_mm}, u0));
+    put(fit.via, u1, fit.read.end);
+  }
+
+  void leave_to_chords(double u0, double u1) {
+    if (!chords_) chords_ = Chords{u0, held_};
+    hold(end_of({task_.commanded(u1)}, u1));
+  }
+
+  void put_chords(double u1) {
+    held_ = chords_->from;
+    if (task_.chord_room_mm <= 0) {
+      result_.lack_digits = true;
+    } else {
+      // Knots are judged at sixteenths of the way between them, which must not be whole turns.
+      const double turns = (u1 - chords_->u0) * task_.source.arc->sweep / (2 * std::numbers::pi);
+      const int parts = std::max(1, static_cast<int>(std::ceil(turns - 1e-9)));
+      double begin = chords_->u0;
+      for (int k = 1; k <= parts; ++k) {
+        const double end = k == parts ? u1 : chords_->u0 + (u1 - chords_->u0) * k / parts;
+        put_chords_between(begin, end);
+        begin = end;
+      }
+    }
+    chords_.reset();
+  }
+
+  void put_chords_between(double u0, double u1) {
+    for (const double u : choose_knots(task_.commanded, u0, u1, task_.corners, task_.chord_room_mm)) {
+      const Via via{task_.commanded(u)};
+      put(via, u, end_of(via, u));
+    }
+  }
+
+  Vector3 end_of(const Via& via, double u) const {
+    return as_written(task_.move, held_, via, u == 1, task_.options).end;
+  }
+
+  void put(const Via& via, double u, const Vector3& end) {
+    result_.vias.push_back(via);
+    result_.ends.push_back(u);
+    hold(end);
+  }
+
+  void hold(const Vector3& end) {
+    for (std::size_t axis = 0; axis < 3; ++axis) held_[axis] = end[static_cast<Eigen::Index>(axis)];
+  }
+
+  const ArcTask& task_;
+  double length_mm_;
+  TextPosition held_;
+  std::optional<Chords> chords_;  // not yet put: the piece behind them may be left to chords, too
+  ArcPieces result_;
+};
+
+}  // namespace
+
+ArcPieces divide_arc(const ArcTask& task, double u0, double u1, const TextPosition& from) {
+  return ArcDivider(task, from).run(u0, u1);
+}
+
+}  // namespace counterflex

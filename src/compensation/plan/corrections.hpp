@@ -1,0 +1,59 @@
+#pragma once
+/// Corrections along segments of a path, solved in rounds: many requests, then all their answers.
+#include <vector>
+
+#include "compensation/plan/curve.hpp"
+#include "compensation/solve/solver.hpp"
+#include "counterflex/compensation/options.hpp"
+
+namespace counterflex {
+
+/// Number of a request, and of its answer.
+using Answer = std::size_t;
+inline constexpr Answer no_answer = static_cast<Answer>(-1);
+
+/// Requests in the order of the path, and the first failure along it: not converged, or a correction above
+/// the limit.
+class Corrections {
+ public:
+  Corrections(const Job& job, PlaceSolver& solver) : job_(job), solver_(solver) {}
+
+  /// Requests the correction at a fraction of a segment. A request is shared with the last one if that has
+  /// the same place and force.
+  Answer ask(std::size_t segment, double u, Side side);
+  Answer ask(std::size_t segment, double u, const Vector6& F);
+
+  /// The force at a fraction of a segment.
+  Vector6 force_at(std::size_t segment, double u, Side side) {
+    return job_.forces.at(segment, u, side, cursor_);
+  }
+
+  /// Solves what was requested since the last time.
+  void solve();
+
+  Vector3 correction(Answer a) const { return answers_[a].target - requests_[a].p_MT; }  ///< M (m)
+  Vector3 target(Answer a) const { return answers_[a].target; }                          ///< M (m)
+  const Vector6& force(Answer a) const { return requests_[a].F; }
+  CurveNode node(double u, Answer a) const { return {u, correction(a)}; }
+
+  /// Segments from this one on have no valid answers: it fails. `no_segment`: none fails.
+  std::size_t end() const { return end_; }
+  const std::optional<Failure>& failure() const { return failure_; }
+
+  ForceCursor& cursor() { return cursor_; }
+  PlaceSolver& solver() { return solver_; }
+
+ private:
+  std::optional<Failure> failure_of(Answer a) const;
+
+  const Job& job_;
+  PlaceSolver& solver_;
+  ForceCursor cursor_;
+  std::vector<TargetRequest> requests_;
+  std::vector<TargetAnswer> answers_;
+  std::vector<std::size_t> segments_;  // of the requests
+  std::size_t end_ = no_segment;
+  std::optional<Failure> failure_;
+};
+
+}  // namespace counterflex

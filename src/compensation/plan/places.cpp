@@ -1,0 +1,56 @@
+#include "compensation/plan/places.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "counterflex/geometry/types.hpp"
+
+namespace counterflex {
+namespace {
+
+constexpr double spacing = 5 * mm;
+constexpr int most_by_length = 64;  // a program of 100 kB may hold 20 000 moves across the whole machine
+constexpr double angle_between_places = std::numbers::pi / 8;
+constexpr double same_fraction = 1e-9;
+
+}  // namespace
+
+int steps_along(const Segment& segment) {
+  if (!segment.cutting) return 1;
+  const double by_length =
+      std::clamp(std::ceil((segment.s_end - segment.s_start) / spacing), 1.0, double{most_by_length});
+  const double by_angle =
+      segment.wanted.arc ? std::ceil(segment.wanted.arc->sweep / angle_between_places) : 1.0;
+  return static_cast<int>(std::max(by_length, by_angle));
+}
+
+void places_along(const Job& job, std::size_t index, ForceCursor& cursor, std::vector<double>& fractions) {
+  const Segment& segment = job.path.segments[index];
+  fractions.clear();
+  if (segment.cutting) {
+    job.forces.breaks(index, cursor, fractions);
+    const int steps = steps_along(segment);
+    for (int k = 1; k < steps; ++k) fractions.push_back(static_cast<double>(k) / steps);
+    std::sort(fractions.begin(), fractions.end());
+    const auto same = [](double a, double b) { return b - a < same_fraction; };
+    fractions.erase(std::unique(fractions.begin(), fractions.end(), same), fractions.end());
+  }
+  fractions.push_back(1);
+}
+
+std::vector<Vector6> force_bends(const Job& job, const ForceChord& stretch, std::span<const double> corners,
+                                 ForceCursor& cursor) {
+  std::vector<Vector6> bends;
+  const auto add = [&](double u) {
+    const double v = (u - stretch.u0) / (stretch.u1 - stretch.u0);
+    const Vector6 F = job.forces.at(stretch.segment, u, Side::before, cursor);
+    bends.emplace_back(F - (1 - v) * stretch.F0 - v * stretch.F1);
+  };
+  for (const double u : corners) add(u);
+  for (int k = 1; k < 8 && !job.forces.is_linear_between_breaks(); ++k)
+    add(stretch.u0 + k / 8.0 * (stretch.u1 - stretch.u0));
+  return bends;
+}
+
+}  // namespace counterflex

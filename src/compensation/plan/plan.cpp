@@ -1,0 +1,187 @@
+#include "compensation/plan/plan.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "compensation/plan/intervals.hpp"
+#include "compensation/plan/knots.hpp"
+#include "compensation/plan/places.hpp"
+#include "compensation/windows/parallel.hpp"
+#include "counterflex/compensation/windows.hpp"
+
+namespace counterflex {
+namespace {
+
+constexpr double curve_share = 0.01;  // of the tolerance: accuracy of the sampled curve
+constexpr double bend_share = 0.25;   // of the room for knots: a line that bends less is not sampled
+constexpr double sampled_angle = std::numbers::pi / 2;  // a wave of the correction around an arc is no line
+constexpr int group_samples = 8;                        // along each move of a contour group
+
+enum class Kind { held, group, end, cut };
+
+struct PlanTask {
+  std::size_t segment = 0;
+  Kind kind = Kind::held;
+  Answer start = no_answer, end = no_answer;
+  std::vector<Answer> group{};
+  std::vector<double> limits{};  // of a cut that is sampled: fractions between which it is
+};
+
+// What is requested along a slice of the path.
+struct Requests {
+  Corrections corrections;
+  std::vector<PlanTask> tasks;
+  std::vector<Interval> intervals;
+};
+
+// Where sampling begins again: at corners of the force, and often enough around an arc.
+void find_limits(const Job& job, std::size_t index, ForceCursor& cursor, std::vector<double>& limits) {
+  job.forces.breaks(index, cursor, limits);
+  const auto& arc = job.path.segments[index].wanted.arc;
+  if (!arc) return;
+  const int parts = static_cast<int>(std::ceil(arc->sweep / sampled_angle));
+  for (int k = 1; k < parts; ++k) limits.push_back(static_cast<double>(k) / parts);
+  std::sort(limits.begin(), limits.end());
+  limits.erase(std::unique(limits.begin(), limits.end()), limits.end());
+}
+
+// Whether the bound of its cell lets a line go straight between its ends. A step of the force divides it.
+bool bends_little(const Job& job, Corrections& corrections, const PlanTask& task, const Vector6& F1) {
+  const Segment& segment = job.path.segments[task.segment];
+  if (segment.wanted.arc || (job.options.blend == 0 && !task.limits.empty())) return false;
+  const ForceChord along{task.segment, 0, 1, corrections.force(task.start), F1};
+  const std::vector<Vector6> dF = force_bends(job, along, task.limits, corrections.cursor());
+  const LineBend bend = corrections.solver().bend_along(
+      model_of(job, segment), {segment.wanted.start, segment.wanted.end, along.F0, along.F1, dF});
+  return bend.command <= bend_share * room_for_knots(job, segment);
+}
+
+void ask_group(Requests& requests, PlanTask& task, bool cutting) {
+  const int count = cutting ? group_samples : 1;
+  // A rapid begins with what was before the group.
+  for (int k = cutting ? 0 : 1; k <= count; ++k)
+    task.group.push_back(requests.corrections.ask(task.segment, static_cast<double>(k) / count,
+                                                  k == count ? Side::before : Side::after));
+}
+
+// The inside of a cut, between its limits, and its end.
+void ask_inside(const Job& job, Requests& requests, PlanTask& task, const Vector6& F1) {
+  Corrections& corrections = requests.corrections;
+  const bool may_wave = job.path.segments[task.segment].wanted.arc.has_value();
+  double u0 = 0;
+  Answer a = task.start;
+  for (const double u : task.limits) {
+    const Vector6 F = corrections.force_at(task.segment, u, Side::before);
+    requests.intervals.push_back(open_interval(corrections, task.segment, u0, a, u, F, may_wave));
+    a = corrections.ask(task.segment, u, Side::after);
+    u0 = u;
+  }
+  requests.intervals.push_back(open_interval(corrections, task.segment, u0, a, 1, F1, may_wave));
+  task.end = requests.intervals.back().at[4];
+}
+
+// Cycles are solved at their bottom when they are written; what is held needs no solution.
+void ask_segment(const Job& job, Requests& requests, std::size_t index) {
+  Corrections& corrections = requests.corrections;
+  const Segment& segment = job.path.segments[index];
+  const Move& move = job.program.moves[segment.move];
+  PlanTask task{.segment = index};
+  if (move.handling == Handling::group) {
+    task.kind = Kind::group;
+    ask_group(requests, task, segment.cutting);
+  } else if (move.handling != Handling::held && !move.cycle) {
+    // With a blend a rapid starts where the cut ended.
+    if (segment.cutting || job.options.blend == 0) task.start = corrections.ask(index, 0, Side::after);
+    if (segment.cutting) find_limits(job, index, corrections.cursor(), task.limits);
+    const Vector6 F1 = corrections.force_at(index, 1, Side::before);
+    task.kind = !segment.cutting || bends_little(job, corrections, task, F1) ? Kind::end : Kind::cut;
+    if (task.kind == Kind::cut)
+      ask_inside(job, requests, task, F1);
+    else
+      task.end = corrections.ask(index, 1, F1);
+  }
+  requests.tasks.push_back(std::move(task));
+}
+
+// Continuous stretches between steps of the force, each with its own knots. `interval`: the first one of the
+// segment; then behind its last one.
+std::optional<Failure> finish_cut(const Job& job, Corrections& corrections, const PlanTask& task,
+                                  const Interval*& interval, PlannedSegment& planned) {
+  const Segment& segment = job.path.segments[task.segment];
+  std::vector<double> corners{0};
+  corners.insert(corners.end(), task.limits.begin(), task.limits.end());
+  corners.push_back(1);
+  CorrectionCurve stretch;
+  for (bool ends = false; !ends; ++interval) {
+    stretch.add(nodes_of(corrections, *interval));
+    ends = interval->at[4] == task.end;
+    const Vector3 b = corrections.correction(interval->at[4]);
+    const Vector3 a = ends ? b : corrections.correction(interval[1].at[0]);
+    const bool step = (a - b).norm() > jump_share * job.options.tolerance;
+    if (!step && !ends) continue;
+    if (segment.wanted.arc)
+      planned.arc.push_back(std::move(stretch));
+    else if (auto failure = add_knots(job, corrections.solver(), task.segment, stretch, corners, planned))
+      return failure;
+    if (step && !segment.wanted.arc)
+      planned.knots.push_back({interval->u[4], point_at(segment.wanted, interval->u[4]) + a});
+    stretch = {};
+  }
+  if (segment.wanted.arc) {
+    planned.knots = {{1, corrections.target(task.end)}};
+    return set_gain(job, corrections.solver(), task.segment, planned.gain);
+  }
+  if (!job.program.moves[segment.move].may_split) forbid_splitting(segment, planned);
+  return std::nullopt;
+}
+
+std::optional<Failure> finish(const Job& job, Corrections& corrections, const PlanTask& task,
+                              const Interval*& interval, PlannedSegment& planned) {
+  const Curve& wanted = job.path.segments[task.segment].wanted;
+  for (std::size_t k = 0; k < task.group.size(); ++k) {
+    const double u =
+        task.group.size() == 1 ? 1 : static_cast<double>(k) / static_cast<double>(task.group.size() - 1);
+    planned.group.push_back(corrections.node(u, task.group[k]));
+  }
+  if (task.kind == Kind::held || task.kind == Kind::group) return std::nullopt;
+  planned.starts_anywhere = task.start == no_answer;
+  planned.start_target = wanted.start;
+  if (task.start != no_answer) planned.start_target += corrections.correction(task.start);
+  if (task.kind == Kind::cut) return finish_cut(job, corrections, task, interval, planned);
+  planned.end = wanted.end + corrections.correction(task.end);
+  return std::nullopt;
+}
+
+// Segments [begin, end).
+std::optional<Failure> plan_slice(const Job& job, std::size_t begin, std::size_t end, Plan& plan) {
+  PlaceSolver solver(job);
+  Requests requests{Corrections(job, solver), {}, {}};
+  for (std::size_t i = begin; i < end; ++i) ask_segment(job, requests, i);
+  Corrections& corrections = requests.corrections;
+  const std::vector<Interval> intervals =
+      refine(corrections, std::move(requests.intervals), curve_share * job.options.tolerance);
+  const Interval* next = intervals.data();
+  for (const PlanTask& task : requests.tasks) {
+    if (task.segment >= corrections.end()) break;
+    if (auto failure = finish(job, corrections, task, next, plan.segments[task.segment])) return failure;
+  }
+  return corrections.failure();
+}
+
+}  // namespace
+
+Plan plan(const Job& job) {
+  const std::size_t count = job.path.segments.size();
+  Plan result;
+  result.segments.resize(count);
+  std::vector<std::optional<Failure>> failures(slice_count(count));
+  for_each_index(failures.size(), job.options.threads, [&](std::size_t i) {
+    failures[i] = plan_slice(job, i * slice_size, std::min(count, (i + 1) * slice_size), result);
+  });
+  const auto first = std::ranges::find_if(failures, [](const auto& failure) { return failure.has_value(); });
+  if (first != failures.end()) result.failure = std::move(*first);
+  return result;
+}
+
+}  // namespace counterflex

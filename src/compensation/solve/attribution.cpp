@@ -1,0 +1,79 @@
+#include "compensation/solve/attribution.hpp"
+
+#include <algorithm>
+
+namespace counterflex {
+namespace {
+
+// Waypoints, and what has been solved there.
+struct Solved {
+  PlaceSolver& solver;
+  std::span<const ForwardPlace> places;
+  std::span<Waypoint> waypoints;
+};
+
+// The perfect machine is compared with the command: the shift of a datum is a deviation of the real one.
+Pose reference(const ForwardPlace& place, const Stage& stage) {
+  return stage.errors == 0 ? Pose{place.wanted.R, place.original} : place.wanted;
+}
+
+// The deviation under `stage` of a command, where `before` is known.
+template <typename Result>  // Vector6&(Waypoint&)
+void deviations(const Solved& at, Vector3 ForwardPlace::*command, const Stage& stage, const Result& result) {
+  std::vector<std::size_t> asked;
+  std::vector<ForwardRequest> requests;
+  for (std::size_t i = 0; i < at.waypoints.size(); ++i) {
+    if (!knows_before(at.waypoints[i])) continue;
+    asked.push_back(i);
+    requests.push_back({at.places[i].model, at.places[i].*command, at.places[i].F, stage});
+  }
+  std::vector<ForwardAnswer> answers(requests.size());
+  at.solver.forwards(requests, answers);
+  for (std::size_t k = 0; k < asked.size(); ++k) {
+    Waypoint& w = at.waypoints[asked[k]];
+    w.iterations += answers[k].iterations;
+    if (answers[k].status == Status::converged)
+      result(w) = deviation(answers[k].X_MT, reference(at.places[asked[k]], stage));
+    else if (w.status == Status::converged)
+      w.status = answers[k].status;
+  }
+}
+
+void add_sources(const Solved& at) {
+  const auto add = [&](Vector3 ForwardPlace::*command, const Stage& stage, Vector6 Causes::*result) {
+    deviations(at, command, stage, [&](Waypoint& w) -> Vector6& { return (*w.causes).*result; });
+  };
+  add(&ForwardPlace::original, {.load = 0, .gravity = 0}, &Causes::geometry);
+  add(&ForwardPlace::original, {.errors = 0, .gravity = 0}, &Causes::load);
+  add(&ForwardPlace::emitted, {.load = 0}, &Causes::air);
+  const auto has_preloads = [](const ForwardPlace& place) { return has_preload(place.model->mechanism); };
+  if (std::ranges::any_of(at.places, has_preloads))
+    add(&ForwardPlace::original, {.errors = 0, .load = 0, .gravity = 0}, &Causes::superposition);
+  const auto weighs = [](const ForwardPlace& place) { return has_weight(place.model->mechanism); };
+  const bool weight = std::ranges::any_of(at.places, weighs);
+  if (weight) add(&ForwardPlace::original, {.errors = 0, .load = 0}, &Causes::gravity);
+  for (Waypoint& w : at.waypoints) {
+    if (!knows_before(w)) continue;
+    Causes& c = *w.causes;
+    const Vector6 preloads = c.superposition;  // act in each of the others, too
+    c.geometry -= preloads;
+    c.load -= preloads;
+    if (weight) c.gravity -= preloads;
+    c.superposition = preloads + c.geometry + c.load + c.gravity;
+  }
+}
+
+}  // namespace
+
+void add_before(PlaceSolver& solver, std::span<const ForwardPlace> places, std::span<Waypoint> waypoints) {
+  deviations({solver, places, waypoints}, &ForwardPlace::original, {},
+             [](Waypoint& w) -> Vector6& { return w.before; });
+}
+
+void add_causes(PlaceSolver& solver, std::span<const ForwardPlace> places, std::span<Waypoint> waypoints) {
+  for (Waypoint& w : waypoints)
+    if (knows_before(w)) w.causes.emplace();
+  add_sources({solver, places, waypoints});
+}
+
+}  // namespace counterflex

@@ -1,0 +1,25 @@
+#pragma once
+/// What the original program does at the waypoints of the corrected one, and where deviations come from.
+#include <span>
+
+#include "compensation/solve/solver.hpp"
+#include "counterflex/compensation/options.hpp"
+
+namespace counterflex {
+
+/// What has been solved at a waypoint.
+struct ForwardPlace {
+  const Model* model = nullptr;
+  Vector3 original = Vector3::Zero(), emitted = Vector3::Zero();  ///< targets, M (m)
+  Vector6 F = Vector6::Zero();
+  Pose wanted;  ///< X_MT
+};
+
+/// Fills `before` at the ends of pieces and at places; a status that is not converged goes to the waypoint.
+void add_before(PlaceSolver& solver, std::span<const ForwardPlace> places, std::span<Waypoint> waypoints);
+
+/// Fills the causes at the ends of pieces and at places. The shift of a datum that was touched off is part of
+/// geometry alone.
+void add_causes(PlaceSolver& solver, std::span<const ForwardPlace> places, std::span<Waypoint> waypoints);
+
+}  // namespace counterflex

@@ -1,0 +1,81 @@
+#include "compensation/solve/commands.hpp"
+
+#include "counterflex/geometry/types.hpp"
+
+namespace counterflex {
+
+Vector3 in_words_mm(const Job& job, const Move& move, const Vector3& target) {
+  return inverse(job.path.frames[move.frame].X_MW) * target / mm;
+}
+
+Vector3 position_of_words(const Job& job, const Move& move, const Vector3& words_mm) {
+  return job.path.frames[move.frame].X_MW * (words_mm * mm);
+}
+
+Vector3 original_command(const Job& job, std::size_t frame, const Vector3& p_MT) {
+  return p_MT - job.path.frames[frame].datum_shift;
+}
+
+Vector3 target_of(const Job& job, const Move& move) {
+  return position_of_words(job, move, move.end_mm);
+}
+
+Curve command_of(const Job& job, const Move& move) {
+  if (!move.arc)
+    return {position_of_words(job, move, move.start_mm), position_of_words(job, move, move.end_mm), {}};
+  Curve curve = curve_of(move);
+  curve.start *= mm;
+  curve.end *= mm;
+  curve.arc->centre *= mm;
+  return job.path.frames[move.frame].X_MW * curve;
+}
+
+Vector3 wanted_of(const Job& job, const Move& move) {
+  return wanted_frame(job.path.frames[move.frame]) * (move.end_mm * mm);
+}
+
+Vector3 bottom_of(const Move& move) {
+  return {move.end_mm.x(), move.end_mm.y(), move.cycle->bottom_mm};
+}
+
+namespace {
+
+Piece piece_of_end(const Move& original, const Vector3& commanded, const Vector3& wanted) {
+  return {.segment = no_segment,
+          .line = original.line,
+          .frame = original.frame,
+          .commanded = {commanded, commanded, {}},
+          .wanted = wanted,
+          .end_only = true,
+          .tool = original.tool};
+}
+
+}  // namespace
+
+Piece piece_of_hole(const Job& job, const Move& original, const Move& found) {
+  const WorkFrame& frame = job.path.frames[original.frame];
+  return piece_of_end(original, frame.X_MW * (bottom_of(found) * mm),
+                      wanted_frame(frame) * (bottom_of(original) * mm));
+}
+
+Piece piece_of_position(const Job& job, const Move& original, const Move& found) {
+  return piece_of_end(original, target_of(job, found), wanted_of(job, original));
+}
+
+std::array<bool, 3> lost_axes(const Program& program, std::size_t m) {
+  std::array<bool, 3> lost{};
+  const Move &move = program.moves[m], *last = move_before(program, m);
+  if (last == nullptr || last->block_delete || last->frame != move.frame) return lost;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    lost[axis] = last->known_end[axis] && !move.known_start[axis] && !move.moved_only_by_program[axis];
+  return lost;
+}
+
+bool leaves_doubt(const Move& move, bool doubtful) {
+  if (move.block_delete || (doubtful && !all_known(move.known_end))) return true;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    if (move.fixed[axis] || (move.known_start[axis] && !move.known_end[axis])) return true;
+  return false;
+}
+
+}  // namespace counterflex

@@ -1,0 +1,32 @@
+#pragma once
+/// Why a window cannot be compensated, with the line and what to do.
+#include "counterflex/compensation/loads_along.hpp"
+#include "counterflex/compensation/windows.hpp"
+
+namespace counterflex {
+
+/// What rounding must leave of the tolerance where points are inserted: a share of it.
+inline constexpr double least_share = 0.02;
+
+/// The failure of a target by its status: travel is a limit, every other status is not
+/// compensated.
+Failure status_failure(const Job& job, Status status, const CommandedPlace& at, int line);
+
+/// The same for a target (m, in M) of a segment.
+Failure status_failure(const Job& job, Status status, const Segment& segment, const Vector3& target);
+
+/// The failure of a correction (emitted minus commanded position, m) larger than the limit.
+std::optional<Failure> limit_failure(const Job& job, const Vector3& correction, int line);
+
+/// By how much the words of a move as read, and positions that it does not repeat, may be rounded: half of
+/// the last digit times sqrt 3 (m).
+double rounding_as_read(const Move& move);
+
+/// The failure of a move's words that are rounded too much for the tolerance.
+Failure few_decimals_failure(const Move& move, const CompensationOptions& options);
+
+/// The first place of the path that the nominal machine does not reach, or to which it does not come on its
+/// branch. Every answer has a nominal configuration of its own, so the path is checked from place to place.
+std::optional<Failure> branch_failure(const Job& job);
+
+}  // namespace counterflex

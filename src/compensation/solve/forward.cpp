@@ -1,0 +1,160 @@
+// Solves pieces forward, slice by slice: samples become waypoints.
+#include <algorithm>
+#include <iterator>
+
+#include "compensation/plan/places.hpp"
+#include "compensation/solve/attribution.hpp"
+#include "compensation/solve/commands.hpp"
+#include "compensation/solve/failures.hpp"
+#include "compensation/solve/piece_samples.hpp"
+#include "compensation/windows/parallel.hpp"
+
+namespace counterflex {
+namespace {
+
+std::size_t frame_of(const SampledPiece& sampled) {
+  return sampled.segment != nullptr ? sampled.segment->frame : sampled.piece->frame;
+}
+
+// `share`: of the way of the piece, from the sample before.
+Waypoint waypoint_of(const Job& job, const PieceSamples& all, std::size_t s, double share) {
+  const PieceSample& sample = all.samples[s];
+  const SampledPiece& sampled = all.piece_of(s);
+  const Piece& piece = *sampled.piece;
+  Waypoint w;
+  w.segment = piece.segment;
+  w.fraction = sample.u;
+  w.line = piece.line;
+  w.corrected_line = piece.corrected_line;
+  w.between = sample.between;
+  w.place = sample.place;
+  w.exempt = sample.between ? piece.exempt : piece.exempt_end;
+  w.p_MT = all.places[s].p_MT;
+  w.tool_axis = all.wanted[s].X_MT.R.col(2);
+  w.wrench = all.requests[s].F;
+  if (const Segment* segment = sampled.segment) {
+    w.line = segment->line;
+    w.cutting = segment->cutting;
+    w.weight = segment->cutting ? share * (piece.u1 - piece.u0) * length(segment->wanted) : 0;
+    w.s = segment->s_start + sample.u * (segment->s_end - segment->s_start);
+    w.direction = direction_at(segment->wanted, sample.u);
+  }
+  w.status = all.status(s);
+  w.iterations = all.answers[s].iterations;
+  w.rho = all.answers[s].rho;
+  if (w.status == Status::converged) w.after = deviation(all.answers[s].X_MT, all.wanted[s].X_MT);
+  w.correction.head<3>() = all.requests[s].target - original_command(job, frame_of(sampled), w.p_MT);
+  return w;
+}
+
+// A waypoint weighs the way from the sample before: so the weights between two places do not depend on what
+// is sampled between them.
+std::vector<Waypoint> waypoints_of(const Job& job, const PieceSamples& all) {
+  std::vector<Waypoint> waypoints;
+  waypoints.reserve(all.order.size());
+  const PieceSample* before = nullptr;
+  for (const std::size_t s : all.order) {
+    const PieceSample& sample = all.samples[s];
+    const bool joins = before != nullptr && before->piece == sample.piece;
+    waypoints.push_back(waypoint_of(job, all, s, sample.v - (joins ? before->v : 0)));
+    before = &sample;
+  }
+  return waypoints;
+}
+
+// What the original program does, and the causes, at the waypoints before the first that fails.
+void add_questions(const Job& job, PlaceSolver& solver, const PieceSamples& all, const Questions& questions,
+                   std::vector<Waypoint>& waypoints) {
+  std::vector<ForwardPlace> places;
+  places.reserve(all.order.size());
+  for (const std::size_t s : all.order) {
+    const ForwardRequest& request = all.requests[s];
+    const Vector3 original = original_command(job, frame_of(all.piece_of(s)), all.places[s].p_MT);
+    places.push_back({request.model, original, request.target, request.F, all.wanted[s].X_MT});
+  }
+  const auto solved = [&] {
+    const auto fails = [](const Waypoint& w) { return w.status != Status::converged; };
+    return static_cast<std::size_t>(std::ranges::find_if(waypoints, fails) - waypoints.begin());
+  };
+  if (questions.before)
+    add_before(solver, std::span(places).first(solved()), std::span(waypoints).first(solved()));
+  if (questions.attribution)
+    add_causes(solver, std::span(places).first(solved()), std::span(waypoints).first(solved()));
+  if (solved() < waypoints.size()) waypoints.resize(solved() + 1);
+}
+
+Failure failure_at(const Job& job, const PieceSamples& all, std::size_t s, const Waypoint& w) {
+  const SampledPiece& at = all.piece_of(s);
+  const long tool = at.segment != nullptr ? job.program.moves[at.segment->move].tool : at.piece->tool;
+  Failure failure = status_failure(
+      job, w.status, {*at.model, job.path.frames[frame_of(at)], tool, all.requests[s].target}, w.line);
+  failure.corrected_line = w.corrected_line;
+  return failure;
+}
+
+ForwardRun solve_slice(const Job& job, std::span<const Piece> pieces, const Questions& questions,
+                       const std::optional<Vector3>& command) {
+  PlaceSolver solver(job);
+  const PieceSamples all = sample_pieces(job, solver, pieces, questions, command);
+  ForwardRun run{waypoints_of(job, all), {}};
+  add_questions(job, solver, all, questions, run.waypoints);
+  if (!run.waypoints.empty() && run.waypoints.back().status != Status::converged)
+    run.failure = failure_at(job, all, all.order[run.waypoints.size() - 1], run.waypoints.back());
+  return run;
+}
+
+// Where slices of pieces begin, and their end: each has `slice_size` pieces, or fewer with about 2048 places.
+std::vector<std::size_t> slice_borders(const Job& job, std::span<const Piece> pieces,
+                                       const Questions& questions) {
+  constexpr double most_places = 8 * slice_size;
+  std::vector<std::size_t> borders{0};
+  double places = 0;
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    if (i - borders.back() == slice_size || places >= most_places) {
+      borders.push_back(i);
+      places = 0;
+    }
+    const Piece& piece = pieces[i];
+    const bool inside = questions.inside && !piece.end_only && piece.segment != no_segment;
+    places += 1 + (inside ? (piece.u1 - piece.u0) * steps_along(job.path.segments[piece.segment]) : 0.0);
+  }
+  borders.push_back(pieces.size());
+  return borders;
+}
+
+}  // namespace
+
+std::optional<Failure> solve_in_portions(const Job& job, std::span<const Piece> pieces,
+                                         const Questions& questions, const std::optional<Vector3>& command,
+                                         const WaypointTaker& take) {
+  const auto together =
+      static_cast<std::size_t>(std::max(4, job.options.threads));  // slices: of long lines each has 30 MB
+  const std::vector<std::size_t> borders = slice_borders(job, pieces, questions);
+  const std::size_t count = borders.size() - 1;
+  for (std::size_t first = 0; first < count; first += together) {
+    std::vector<ForwardRun> runs(std::min(together, count - first));
+    for_each_index(runs.size(), job.options.threads, [&](std::size_t i) {
+      const std::size_t begin = borders[first + i], end = borders[first + i + 1];
+      const std::optional<Vector3> last = begin == 0 ? command : pieces[begin - 1].commanded.end;
+      runs[i] = solve_slice(job, pieces.subspan(begin, end - begin), questions, last);
+    });
+    for (ForwardRun& run : runs) {
+      take(std::move(run.waypoints));
+      if (run.failure) return run.failure;
+    }
+  }
+  return std::nullopt;
+}
+
+ForwardRun solve_pieces(const Job& job, std::span<const Piece> pieces, const Questions& questions,
+                        const std::optional<Vector3>& command) {
+  ForwardRun all;
+  all.waypoints.reserve(pieces.size() + pieces.size() / 2);
+  all.failure = solve_in_portions(job, pieces, questions, command, [&](std::vector<Waypoint>&& some) {
+    all.waypoints.insert(all.waypoints.end(), std::make_move_iterator(some.begin()),
+                         std::make_move_iterator(some.end()));
+  });
+  return all;
+}
+
+}  // namespace counterflex

@@ -1,0 +1,252 @@
+#include "compensation/solve/piece_samples.hpp"
+
+#include <algorithm>
+
+#include "compensation/plan/places.hpp"
+
+namespace counterflex {
+namespace {
+
+constexpr int odd_sixteenths = 8;
+constexpr double straight_share = 0.1;  // of the tolerance: a stretch that bends more is sampled closer
+constexpr double near_share = 0.8;      // of the tolerance: so is one that comes so near to it
+
+constexpr std::size_t no_sample = static_cast<std::size_t>(-1);
+
+// Between two neighbouring places of a piece: samples at its ends and in its middle.
+struct Stretch {
+  std::size_t piece;
+  double v0, v1;
+  std::size_t a, b = no_sample, m = no_sample;
+  double bend = 0;  // of the tip, at most, where the middle is not sampled (m)
+};
+
+// Samples in progress.
+struct Slice : PieceSamples {
+  const Job& job;
+  const Questions& questions;
+  PlaceSolver& solver;
+  Vector3 judged = Vector3::Zero();  // 1 for axes of M in which the tip is judged, else 0
+  ForceCursor cursor{};
+  std::vector<Stretch> stretches{};
+  std::vector<double> fractions{};  // places of the segment `fractions_of`
+  std::size_t fractions_of = no_segment;
+  std::size_t end = no_sample;  // pieces from this one on have no valid answers: it fails
+
+  Slice(const Job& of, const Questions& asked, PlaceSolver& by) : job(of), questions(asked), solver(by) {
+    for (const Component c : job.model.mechanism.controlled)
+      if (c <= Component::z) judged[static_cast<int>(c)] = 1;
+  }
+
+  Vector3 wanted_at(const SampledPiece& sampled, double u) const {
+    return sampled.segment != nullptr ? point_at(sampled.segment->wanted, u) : sampled.piece->wanted;
+  }
+
+  // Position error of the tip in the axes in which it is judged (m).
+  Vector3 miss(std::size_t s) const { return (answers[s].X_MT.p - places[s].p_MT).cwiseProduct(judged); }
+};
+
+Vector6 force_at(Slice& slice, const PieceSample& sample) {
+  if (slice.pieces[sample.piece].segment == nullptr) return Vector6::Zero();
+  return slice.job.forces.at(slice.pieces[sample.piece].piece->segment, sample.u, sample.side, slice.cursor);
+}
+
+std::size_t add_sample(Slice& slice, const PieceSample& sample, const Vector6& F) {
+  const SampledPiece& sampled = slice.pieces[sample.piece];
+  slice.samples.push_back(sample);
+  slice.places.push_back({sampled.model, slice.wanted_at(sampled, sample.u)});
+  slice.requests.push_back({sampled.model, point_at(sampled.piece->commanded, sample.v), F, {}, true});
+  return slice.samples.size() - 1;
+}
+
+std::size_t add_sample(Slice& slice, const PieceSample& sample) {
+  return add_sample(slice, sample, force_at(slice, sample));
+}
+
+std::size_t add_inside(Slice& slice, std::size_t t, double v) {
+  const Piece& piece = *slice.pieces[t].piece;
+  return add_sample(slice, {.piece = t, .v = v, .u = piece.u0 + v * (piece.u1 - piece.u0), .between = true});
+}
+
+// Whether the end of the piece before, which was added last, is the start of this one, with the same force.
+bool is_where_the_last_ended(Slice& slice, const SampledPiece& sampled) {
+  if (slice.samples.empty() || slice.samples.back().between) return false;
+  const SampledPiece& last = slice.piece_of(slice.samples.size() - 1);
+  const Piece &piece = *sampled.piece, &before = *last.piece;
+  if (last.model != sampled.model || slice.places.back().p_MT != slice.wanted_at(sampled, piece.u0))
+    return false;
+  const bool follows = before.segment + 1 == piece.segment && before.u1 == 1 && piece.u0 == 0;
+  if (follows && slice.job.forces.follows(piece.segment)) return true;
+  return slice.requests.back().F == slice.job.forces.at(piece.segment, piece.u0, Side::after, slice.cursor);
+}
+
+// Without a blend the force may begin with a step. No end of a piece before shows it either.
+std::size_t add_start(Slice& slice, std::size_t t) {
+  const SampledPiece& sampled = slice.pieces[t];
+  const bool listed = sampled.begins_run || sampled.begins_elsewhere || slice.job.options.blend == 0;
+  if (!listed && is_where_the_last_ended(slice, sampled)) return slice.samples.size() - 1;
+  return add_sample(slice, {.piece = t,
+                            .v = 0,
+                            .u = sampled.piece->u0,
+                            .between = true,
+                            .place = sampled.begins_run,
+                            .listed = listed,
+                            .side = Side::after});
+}
+
+// The other side of a step of the force; the same sample where there is no step.
+std::size_t add_behind_step(Slice& slice, std::size_t before) {
+  if (slice.job.options.blend > 0) return before;
+  PieceSample behind = slice.samples[before];
+  behind.place = false;
+  behind.side = Side::after;
+  const std::size_t segment = slice.pieces[behind.piece].piece->segment;
+  if (slice.job.forces.at(segment, behind.u, Side::after, slice.cursor) == slice.requests[before].F)
+    return before;
+  return add_sample(slice, behind);
+}
+
+// By how much the tip bends between the sample `start`, at fraction `u0`, and `end` at most, while its
+// command goes straight (m). `F_end`: at the end. The sample may be shared with the segment before, of which
+// it is the end.
+double bend_between(Slice& slice, std::size_t start, double u0, const PieceSample& end,
+                    const Vector6& F_end) {
+  const SampledPiece& sampled = slice.pieces[end.piece];
+  if (sampled.segment->wanted.arc || sampled.piece->commanded.arc) return HUGE_VAL;
+  const ForceChord along{sampled.piece->segment, u0, end.u, slice.requests[start].F, F_end};
+  const std::vector<Vector6> dF = force_bends(slice.job, along, {}, slice.cursor);
+  const LineBend bend = slice.solver.bend_along(
+      *sampled.model, {slice.places[start].p_MT, slice.wanted_at(sampled, end.u), along.F0, along.F1, dF});
+  return bend.gain * bend.command;
+}
+
+// At the places of the original path inside the piece, and at its end; in the middle between neighbouring
+// ones where the bend between them is not small.
+void add_samples(Slice& slice, std::size_t t) {
+  const SampledPiece sampled = slice.pieces[t];
+  const Piece& piece = *sampled.piece;
+  if (sampled.segment != nullptr && slice.fractions_of != piece.segment) {
+    places_along(slice.job, piece.segment, slice.cursor, slice.fractions);
+    slice.fractions_of = piece.segment;
+  }
+  const bool ends_at_place =
+      sampled.segment != nullptr && std::ranges::binary_search(slice.fractions, piece.u1);
+  const PieceSample end{.piece = t, .v = 1, .u = piece.u1, .place = ends_at_place};
+  if (!slice.questions.inside || piece.end_only) {
+    if (slice.questions.before && sampled.begins_run) add_start(slice, t);
+    add_sample(slice, end);
+    return;
+  }
+  const double span = piece.u1 - piece.u0;
+  Stretch stretch{t, 0, 0, add_start(slice, t)};
+  auto next = std::ranges::upper_bound(slice.fractions, piece.u0);
+  for (bool last = false; !last; ++next) {
+    last = *next >= piece.u1;
+    stretch.v1 = last ? 1 : (*next - piece.u0) / span;
+    const PieceSample at_end =
+        last ? end : PieceSample{.piece = t, .v = stretch.v1, .u = *next, .between = true, .place = true};
+    const Vector6 F = force_at(slice, at_end);
+    stretch.bend = bend_between(slice, stretch.a, piece.u0 + stretch.v0 * span, at_end, F);
+    const bool bounded = stretch.bend <= near_share * slice.job.options.tolerance;
+    stretch.m = bounded ? no_sample : add_inside(slice, t, (stretch.v0 + stretch.v1) / 2);
+    stretch.b = add_sample(slice, at_end, F);
+    slice.stretches.push_back(stretch);
+    stretch.v0 = stretch.v1;
+    if (!last) stretch.a = add_behind_step(slice, stretch.b);
+  }
+}
+
+const Model& model_of(const Job& job, const Piece& piece) {
+  if (job.tools == nullptr || job.tools->empty()) return job.model;
+  return piece.segment == no_segment ? model_with(job.model, job.tools, piece.tool)
+                                     : model_of(job, job.path.segments[piece.segment]);
+}
+
+void add_pieces(Slice& slice, std::span<const Piece> pieces, const std::optional<Vector3>& command) {
+  const Vector3* last = command ? &*command : nullptr;
+  slice.pieces.reserve(pieces.size());
+  for (const Piece& piece : pieces) {
+    const bool position = piece.segment == no_segment;
+    slice.pieces.push_back(
+        {.piece = &piece,
+         .segment = position ? nullptr : &slice.job.path.segments[piece.segment],
+         .model = &model_of(slice.job, piece),
+         .begins_elsewhere = last == nullptr || *last != piece.commanded.start,
+         .begins_run = !position && piece.u0 == 0 && slice.job.forces.begins_run(piece.segment)});
+    last = &piece.commanded.end;
+    add_samples(slice, slice.pieces.size() - 1);
+  }
+}
+
+// Tasks behind the first that fails are left out from then on.
+void solve_added(Slice& slice) {
+  const std::size_t first = slice.answers.size(), count = slice.samples.size();
+  slice.wanted.resize(count);
+  slice.answers.resize(count);
+  slice.solver.wanted(std::span(slice.places).subspan(first), std::span(slice.wanted).subspan(first));
+  slice.solver.forwards(std::span(slice.requests).subspan(first), std::span(slice.answers).subspan(first));
+  for (std::size_t s = first; s < count; ++s) {
+    if (slice.status(s) == Status::converged) continue;
+    slice.samples[s].listed = true;
+    slice.end = std::min(slice.end, slice.samples[s].piece);
+  }
+}
+
+// Where the ends come too near to the tolerance for the bend between them, the middle is sampled.
+void sample_middles(Slice& slice) {
+  for (Stretch& stretch : slice.stretches) {
+    if (stretch.m != no_sample || stretch.piece >= slice.end) continue;
+    const double inside = std::max(slice.miss(stretch.a).norm(), slice.miss(stretch.b).norm()) + stretch.bend;
+    if (inside > near_share * slice.job.options.tolerance)
+      stretch.m = add_inside(slice, stretch.piece, (stretch.v0 + stretch.v1) / 2);
+  }
+}
+
+void sample_closer(Slice& slice) {
+  const double tolerance = slice.job.options.tolerance;
+  for (const Stretch& stretch : slice.stretches) {
+    if (stretch.m == no_sample || stretch.piece >= slice.end) continue;
+    const Vector3 a = slice.miss(stretch.a), m = slice.miss(stretch.m), b = slice.miss(stretch.b);
+    const bool is_safe = (m - (a + b) / 2).norm() <= straight_share * tolerance &&
+                         std::max({a.norm(), m.norm(), b.norm()}) <= near_share * tolerance;
+    for (int k = 0; k < odd_sixteenths && !is_safe; ++k) {
+      const double share = (2 * k + 1) / (2.0 * odd_sixteenths);
+      add_inside(slice, stretch.piece, stretch.v0 + share * (stretch.v1 - stretch.v0));
+    }
+  }
+}
+
+// Listed samples in order along the path, to the first that fails.
+std::vector<std::size_t> listed_samples(const Slice& slice) {
+  std::vector<std::size_t> order;
+  order.reserve(slice.samples.size());
+  for (std::size_t s = 0; s < slice.samples.size(); ++s)
+    if (slice.samples[s].listed && (slice.end == no_sample || slice.samples[s].piece <= slice.end))
+      order.push_back(s);
+  const auto before = [&](std::size_t a, std::size_t b) {
+    const PieceSample &x = slice.samples[a], &y = slice.samples[b];
+    return x.piece != y.piece ? x.piece < y.piece : x.v < y.v;
+  };
+  if (!std::ranges::is_sorted(order, before)) std::ranges::stable_sort(order, before);
+  const auto fails = [&](std::size_t s) { return slice.status(s) != Status::converged; };
+  if (const auto first = std::ranges::find_if(order, fails); first != order.end())
+    order.erase(first + 1, order.end());
+  return order;
+}
+
+}  // namespace
+
+PieceSamples sample_pieces(const Job& job, PlaceSolver& solver, std::span<const Piece> pieces,
+                           const Questions& questions, const std::optional<Vector3>& command) {
+  Slice slice(job, questions, solver);
+  add_pieces(slice, pieces, command);
+  solve_added(slice);
+  sample_middles(slice);
+  solve_added(slice);
+  sample_closer(slice);
+  solve_added(slice);
+  slice.order = listed_samples(slice);
+  return std::move(static_cast<PieceSamples&>(slice));
+}
+
+}  // namespace counterflex

@@ -1,0 +1,195 @@
+#include "compensation/windows/window_steps.hpp"
+
+#include "compensation/solve/commands.hpp"
+#include "compensation/solve/failures.hpp"
+#include "counterflex/geometry/types.hpp"
+
+namespace counterflex {
+namespace {
+
+constexpr double indistinct = 1e-10;  // m: of corrections that differ by rounding the first is named
+
+void note_correction(double size, int line, Compensation& result) {
+  if (result.largest_correction_line != 0 && size <= result.largest_correction + indistinct) return;
+  result.largest_correction = size;
+  result.largest_correction_line = line;
+}
+
+void note_planned_corrections(const Job& job, const Plan& plan, Compensation& result) {
+  for (std::size_t s = 0; s < plan.segments.size(); ++s) {
+    const Segment& segment = job.path.segments[s];
+    const auto note = [&](const Vector3& c) {
+      note_correction((c + job.path.frames[segment.frame].datum_shift).norm(), segment.line, result);
+    };
+    const PlannedSegment& planned = plan.segments[s];
+    if (planned.end) note(*planned.end - segment.wanted.end);
+    for (const Knot& knot : planned.knots) note(knot.target - point_at(segment.wanted, knot.u));
+    for (const CurveNode& node : planned.group) note(node.c);
+    for (const CorrectionCurve& curve : planned.arc)
+      for (const CurveInterval& interval : curve.intervals())
+        for (const CurveNode& node : interval.nodes) note(node.c);
+  }
+}
+
+// Positions that come from unknown ones, and holes, have no segment.
+void note_first_corrections(const Job& job, const Emission& emission, Compensation& result) {
+  for (const EmittedMove& emitted : emission.moves) {
+    if (emitted.kind != EmittedMove::Kind::alone) continue;
+    const Move& move = job.program.moves[emitted.edit.move];
+    Vector3 shift = emitted.edit.end_mm - move.end_mm;
+    if (emitted.edit.bottom_mm) shift.z() = *emitted.edit.bottom_mm - move.cycle->bottom_mm;
+    note_correction(shift.norm() * mm, move.line, result);
+  }
+}
+
+void count_moves(const Job& job, const Emission& emission, Compensation& result) {
+  OtherMoves& others = result.other_moves;
+  for (const EmittedMove& emitted : emission.moves) {
+    if (!emitted.in_part) {
+      ++result.corrected_moves;
+      continue;
+    }
+    const Handling handling = job.program.moves[emitted.edit.move].handling;
+    if (handling == Handling::group)
+      ++others.grouped;
+    else if (handling == Handling::own && emitted.kind != EmittedMove::Kind::shifted)
+      ++others.in_part;
+    else
+      ++others.held;
+  }
+  others.left += job.program.moves.size() - emission.moves.size();
+}
+
+// Where the last move ends; nothing where it comes from an unknown position.
+std::optional<Vector3> last_command(const Job& job, const Program& corrected) {
+  if (corrected.moves.empty()) return std::nullopt;
+  const Move& last = corrected.moves.back();
+  if (last.cycle || !all_known(last.known_start) || !all_known(last.known_end)) return std::nullopt;
+  return target_of(job, last);
+}
+
+void plan_window(const Job& job, WindowWork& work) {
+  Compensation& result = work.result;
+  result.failure = decimals_failure(job.program, job.path, job.options);
+  if (!result.failure) result.failure = branch_failure(job);
+  if (work.failed()) return;
+  work.plan = plan(job);
+  result.failure = work.plan.failure;
+  if (!work.failed()) note_planned_corrections(job, work.plan, result);
+}
+
+void write_window(const Job& job, WritingCarry& carry, WindowWork& work) {
+  Compensation& result = work.result;
+  Emission emission = emit(job, work.plan, carry.emitter);
+  work.ways = planned_ways(job, work.plan);
+  work.plan = {};
+  note_first_corrections(job, emission, result);
+  result.left_alone = std::move(emission.left_alone);
+  result.failure = emission.failure;
+  if (work.failed()) return;
+  count_moves(job, emission, result);
+  const std::vector<MoveEdit> edits = take_edits(emission);
+  result.counts = carry.rewriter.write(job.program, edits);
+  result.text = std::move(result.counts.text);
+  carry.corrected.read(result.text);
+  carry.corrected.take_window(result.corrected);
+  if (!job.program.moves.empty()) ignore_axes(result.corrected, job.program.moves.front().ignored);
+  work.command = carry.command;
+  carry.command = last_command(job, result.corrected);
+}
+
+void take(Matching matching, WindowWork& work) {
+  work.pieces = std::move(matching.pieces);
+  work.result.failure = std::move(matching.failure);
+}
+
+void match_written(const Job& job, WindowWork& work) {
+  CorrectedMoves found(work.result.corrected);
+  OtherLines lines;
+  Matching matching = match_window(job, work.ways, lines, found);
+  if (!matching.failure) matching.failure = match_end(lines, found);
+  take(std::move(matching), work);
+}
+
+// Where the plan fails the ends are not known. What is written may be right in spite of that.
+void plan_ends(const Job& job, WindowWork& work) {
+  work.result.failure = branch_failure(job);
+  if (work.failed()) return;
+  const Plan found = plan(job);
+  if (!found.failure) work.ways = planned_ways(job, found);
+}
+
+void carry_command(std::optional<Vector3>& command, WindowWork& work) {
+  work.command = command;
+  if (!work.pieces.empty()) command = work.pieces.back().commanded.end;
+}
+
+}  // namespace
+
+WindowSteps steps_of_prediction(std::optional<Vector3>& command) {
+  return {.questions = {.before = true, .attribution = true, .inside = false},
+          .prepare = [](const Job& job, WindowWork& work) { work.result.failure = branch_failure(job); },
+          .write =
+              [&command](const Job& job, WindowWork& work) {
+                work.pieces = original_pieces(job);
+                carry_command(command, work);
+              },
+          .match = [](const Job&, WindowWork&) {},
+          .judge = [](const Job&, WindowWork&, const std::optional<Failure>&) {}};
+}
+
+WindowSteps steps_of_compensation(WritingCarry& carry, bool attribution) {
+  return {.questions = {.attribution = attribution},
+          .prepare = plan_window,
+          .write = [&carry](const Job& job, WindowWork& work) { write_window(job, carry, work); },
+          .match = match_written,
+          .judge =
+              [](const Job&, WindowWork& work, const std::optional<Failure>& missed) {
+                if (!work.failed()) work.result.failure = missed;
+              }};
+}
+
+WindowSteps steps_of_verification(VerifyingCarry& carry, bool attribution) {
+  return {.questions = {.attribution = attribution},
+          .prepare = plan_ends,
+          .write =
+              [&carry](const Job& job, WindowWork& work) {
+                take(match_window(job, work.ways, carry.lines, carry.found), work);
+                carry_command(carry.command, work);
+              },
+          .match = [](const Job&, WindowWork&) {},
+          .judge =
+              [&carry](const Job&, WindowWork&, const std::optional<Failure>& missed) {
+                if (!carry.missed) carry.missed = missed;
+              }};
+}
+
+Compensation run_steps(const Job& job, const WindowSteps& steps) {
+  WindowWork work;
+  for (const WindowSteps::Step* step : {&steps.prepare, &steps.write, &steps.match})
+    if (!work.failed()) (*step)(job, work);
+  if (work.failed()) return std::move(work.result);
+  ForwardRun run = solve_pieces(job, work.pieces, steps.questions, work.command);
+  work.result.waypoints = std::move(run.waypoints);
+  work.result.failure = run.failure;
+  steps.judge(job, work, tolerance_failure(job, work.result.waypoints));
+  return std::move(work.result);
+}
+
+Compensation compensate(const Job& job, bool attribution) {
+  WritingCarry carry{Rewriter(job.options.write), TextReader(job.program, job.read)};
+  return run_steps(job, steps_of_compensation(carry, attribution));
+}
+
+Compensation verify(const Job& job, const Program& corrected, bool attribution) {
+  VerifyingCarry carry{CorrectedMoves(corrected)};
+  WindowSteps steps = steps_of_verification(carry, attribution);
+  steps.match = [&carry](const Job&, WindowWork& work) {
+    work.result.failure = match_end(carry.lines, carry.found);
+  };
+  Compensation result = run_steps(job, steps);
+  if (!result.failure) result.failure = carry.missed;
+  return result;
+}
+
+}  // namespace counterflex

@@ -1,0 +1,58 @@
+#pragma once
+/// What becomes of a window between its job and its verdict, step by step.
+#include <exception>
+
+#include "compensation/emit/emit.hpp"
+#include "compensation/match/match.hpp"
+#include "counterflex/compensation/windows.hpp"
+
+namespace counterflex {
+
+/// A window in progress.
+struct WindowWork {
+  Plan plan{};
+  PlannedWays ways{};
+  std::vector<Piece> pieces{};       ///< that are solved
+  std::optional<Vector3> command{};  ///< where the window before ended, if that is known
+  Compensation result{};
+
+  bool failed() const { return result.failure.has_value(); }
+};
+
+/// Steps of a run, in their order. `prepare` and `match` take any number of windows at once, `write` takes
+/// them in their order. A step is left out where one before it has failed.
+struct WindowSteps {
+  using Step = std::function<void(const Job&, WindowWork&)>;
+  Questions questions{};
+  Step prepare, write, match;
+  /// The first miss of the tolerance among the waypoints, if there is one.
+  std::function<void(const Job&, WindowWork&, const std::optional<Failure>& missed)> judge;
+};
+
+/// Carries the command where a window ends.
+WindowSteps steps_of_prediction(std::optional<Vector3>& command);
+
+/// What compensating carries from window to window.
+struct WritingCarry {
+  Rewriter rewriter;
+  TextReader corrected;
+  EmitterState emitter{};
+  std::optional<Vector3> command{};  ///< where the text ends, if that is known
+};
+
+WindowSteps steps_of_compensation(WritingCarry& carry, bool attribution);
+
+/// What verifying carries from window to window.
+struct VerifyingCarry {
+  CorrectedMoves found;
+  OtherLines lines{};
+  std::optional<Vector3> command{};
+  std::optional<Failure> missed{};  ///< the first miss of the tolerance
+};
+
+WindowSteps steps_of_verification(VerifyingCarry& carry, bool attribution);
+
+/// Takes a program that is one window through all steps.
+Compensation run_steps(const Job& job, const WindowSteps& steps);
+
+}  // namespace counterflex

@@ -1,0 +1,279 @@
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <limits>
+#include <span>
+
+#include "counterflex/forces/forces.hpp"
+#include "forces/path/alignment.hpp"
+#include "forces/path/raw_forces.hpp"
+#include "forces/turning_axes.hpp"
+
+namespace counterflex {
+namespace {
+
+constexpr std::size_t no_run = std::numeric_limits<std::size_t>::max();
+
+// Steps below this part of the wrench are rounding.
+constexpr double rounding = 1e-9;
+
+// Fractions closer than this to the end of a segment, or to each other, are the same place.
+constexpr double same_fraction = 1e-9;
+
+// Segments whose ends are closer than this join (m). Shorter blends are ignored.
+constexpr double joined_m = 1e-9;
+
+bool moves_rapidly(const Move& move) {
+  return move.motion == Motion::rapid && !(all_known(move.known_start) && all_known(move.known_end));
+}
+
+/// Whether moves [first, end) include a rapid without a segment.
+bool rapid_among(const Program& program, std::size_t first, std::size_t end) {
+  const auto moves = program.moves.begin();
+  return std::any_of(moves + static_cast<std::ptrdiff_t>(first), moves + static_cast<std::ptrdiff_t>(end),
+                     moves_rapidly);
+}
+
+bool joins(const Vector3& end, const Segment& segment) {
+  return segment.cutting && (segment.wanted.start - end).norm() <= joined_m;
+}
+
+/// Whether cutting continues from segment i - 1 to segment i, without a rapid between them, even one without
+/// a segment.
+bool joins_previous(const Program& program, const Toolpath& path, std::size_t i) {
+  const Segment& before = path.segments[i - 1];
+  const Segment& segment = path.segments[i];
+  return before.cutting && joins(before.wanted.end, segment) &&
+         !rapid_among(program, before.move + 1, segment.move);
+}
+
+/// From the start of the run to s.
+Vector6 integral(const ForcePiece& piece, double s) {
+  return piece.integral + (s - piece.s0) * value(piece, (piece.s0 + s) / 2);
+}
+
+bool differ(const Vector6& A, const Vector6& B) {
+  return (A - B).norm() > rounding * std::max(A.norm(), B.norm());
+}
+
+/// The first index in [first, end) that is not `before` the wanted place, else `end`; `hint` is the previous
+/// result.
+template <class Before>
+std::size_t first_not(std::size_t hint, std::size_t first, std::size_t end, const Before& before) {
+  constexpr int steps_beside = 6;
+  std::size_t i = std::clamp(hint, first, end);
+  for (int step = 0; step < steps_beside; ++step) {
+    if (i < end && before(i))
+      first = ++i;
+    else if (i > first && !before(i - 1))
+      end = --i;
+    else
+      return i;
+  }
+  while (first < end) {
+    const std::size_t half = first + (end - first) / 2;
+    before(half) ? first = half + 1 : end = half;
+  }
+  return first;
+}
+
+/// The piece of the run that contains s. Where two meet, the one on `side`.
+const ForcePiece& piece_at(const std::vector<ForcePiece>& pieces, const FeedRun& run, double s, Side side,
+                           std::size_t& hint) {
+  const std::size_t last = run.end_piece - 1;
+  hint = side == Side::before
+             ? first_not(hint, run.first_piece, last, [&](std::size_t i) { return pieces[i].s1 < s; })
+             : first_not(hint, run.first_piece, last, [&](std::size_t i) { return pieces[i].s1 <= s; });
+  return pieces[hint];
+}
+
+/// 1/b int_(s-b)^s f(u) du, f zero before the run.
+Vector6 mean(const std::vector<ForcePiece>& pieces, const FeedRun& run, double s, ForceCursor& cursor) {
+  const bool full = s - run.blend >= run.s0;
+  const double from = full ? s - run.blend : run.s0, part = full ? 1 : (s - run.s0) / run.blend;
+  const ForcePiece& first = piece_at(pieces, run, from, Side::after, cursor.from);
+  const ForcePiece& last = piece_at(pieces, run, s, Side::before, cursor.to);
+  if (from >= s) return Vector6::Zero();
+  // Within one piece the mean is the value in the middle, free of the rounding of long integrals.
+  if (&first == &last) return part * value(first, (from + s) / 2);
+  return (integral(last, s) - integral(first, from)) / run.blend;
+}
+
+/// Whether the feed run of the previous window continues in this one.
+bool continues_run(const std::optional<OpenRun>& before, const Program& window, const Toolpath& path) {
+  if (!before || path.segments.empty()) return false;
+  const Segment& first = path.segments.front();
+  return joins(before->end, first) && !rapid_among(window, 0, first.move);
+}
+
+ForceSource settled(ForceSource source, const Program& program, const Toolpath& path) {
+  ForceCover cover(source);
+  while (cover.needs_pass()) {
+    cover.add(program, path);
+    cover.end_pass();
+  }
+  return source;
+}
+
+}  // namespace
+
+PathForces::PathForces(const ForceSource& source, const Program& program, const Toolpath& path,
+                       const std::vector<Matrix3>& R_MT)
+    : PathForces(settled(source, program, path), program, path, R_MT, {}) {}
+
+PathForces::PathForces(const ForceSource& source, const Program& window, const Toolpath& path,
+                       const std::vector<Matrix3>& R_MT, const ForceTail& before)
+    : at_platform_(acts_at_platform(source)) {
+  tail_.block_number = before.block_number;
+  if (path.segments.empty() && !rapid_among(window, 0, window.moves.size())) tail_.open = before.open;
+  RawForces raw_forces(source, window, path, R_MT, tail_.block_number);
+  ForceRemarks remarks;
+  places_.reserve(path.segments.size());
+  pieces_.reserve(path.segments.size() + (before.open ? before.open->pieces.size() : 0));
+  bool open = continues_run(before.open, window, path);
+  if (open) take_up(*before.open);
+  for (std::size_t i = 0; i < path.segments.size(); ++i) {
+    const Segment& segment = path.segments[i];
+    if (i > 0 && open && !joins_previous(window, path, i)) {
+      close_run(source.blend);
+      open = false;
+    }
+    if (segment.cutting && !open) {
+      runs_.push_back({segment.s_start, segment.s_start, 0, pieces_.size(), 0, corners_.size(), 0});
+      open = true;
+    }
+    places_.push_back({segment.s_start, segment.s_end, open ? runs_.size() - 1 : no_run});
+    if (open) raw_forces.append_to(i, runs_.back().first_piece, pieces_, remarks);
+  }
+  notes_ = std::move(remarks.notes);
+  unforced_ = std::move(remarks.unforced);
+  if (!open) return;
+  close_run(source.blend);
+  leave_tail(window, path, source.blend);
+}
+
+void PathForces::take_up(const OpenRun& before) {
+  pieces_.assign(before.pieces.begin(), before.pieces.end());  // keeps the capacity
+  corners_ = before.corners;
+  taken_up_ = pieces_.size();
+  runs_.push_back(before.run);
+}
+
+void PathForces::close_run(double blend) {
+  FeedRun& run = runs_.back();
+  run.end_piece = pieces_.size();
+  run.s1 = pieces_.back().s1;
+  run.blend = std::min(blend, (run.s1 - run.s0) / 2);
+  if (run.blend < joined_m) run.blend = 0;
+  Vector6 sum = pieces_[run.first_piece].integral;
+  for (std::size_t i = run.first_piece; i < run.end_piece; ++i) {
+    pieces_[i].integral = sum;
+    pieces_[i].is_constant = pieces_[i].F0 == pieces_[i].F1;
+    is_linear_between_breaks_ = is_linear_between_breaks_ && pieces_[i].is_constant;
+    sum = integral(pieces_[i], pieces_[i].s1);
+  }
+  find_corners(run);
+}
+
+// The last run, and whether it can continue: a rapid ends it, even one without a segment.
+void PathForces::leave_tail(const Program& window, const Toolpath& path, double blend) {
+  const FeedRun& run = runs_.back();
+  const Segment& last = path.segments.back();
+  if (!last.cutting || rapid_among(window, last.move + 1, window.moves.size())) return;
+  const std::optional<Move>& after = window.after;
+  const bool ends = !after || (after->motion == Motion::rapid && after->start_mm != after->end_mm);
+  is_final_ = ends || run.s1 - run.s0 >= 2 * blend;
+  OpenRun open{run, last.wanted.end, {}, {}};
+  open.run.first_piece = open.run.first_corner = 0;
+  const double acts_from = run.s1 - blend;
+  for (std::size_t i = run.first_piece; i < run.end_piece; ++i)
+    if (pieces_[i].s1 >= acts_from) open.pieces.push_back(pieces_[i]);
+  for (std::size_t i = run.first_corner; i < run.end_corner; ++i)
+    if (corners_[i] >= acts_from) open.corners.push_back(corners_[i]);
+  tail_.open = std::move(open);
+}
+
+void PathForces::find_corners(FeedRun& run) {
+  std::size_t& steps = run.blend > 0 ? ramps_ : jumps_;
+  // Corners of pieces of an earlier window were reported there.
+  for (std::size_t i = std::max(run.first_piece, taken_up_); i < run.end_piece; ++i) {
+    if (pieces_[i].goes_on) continue;
+    const bool entry = i == run.first_piece;
+    const Vector6 before = entry ? Vector6::Zero() : pieces_[i - 1].F1;
+    const bool step = differ(before, pieces_[i].F0);
+    const bool bend = run.blend == 0 && !entry && differ(slope(pieces_[i - 1]), slope(pieces_[i]));
+    if (step) {
+      ++steps;
+      steps_.push_back(pieces_[i].s0);
+      largest_step_N_ = std::max(largest_step_N_, (pieces_[i].F0 - before).head<3>().norm());
+    }
+    if (step || bend) corners_.push_back(pieces_[i].s0);
+  }
+  run.end_corner = corners_.size();
+}
+
+bool PathForces::begins_run(std::size_t segment) const {
+  const std::size_t run = places_[segment].run;
+  if (run == no_run) return false;
+  return segment == 0 ? taken_up_ == 0 : places_[segment - 1].run != run;
+}
+
+bool PathForces::follows(std::size_t segment) const {
+  if (segment == 0 || places_[segment].run == no_run) return false;
+  const Place &place = places_[segment], &before = places_[segment - 1];
+  return place.run == before.run && place.s0 == before.s1 && runs_[place.run].blend > 0;
+}
+
+Vector6 PathForces::at(std::size_t segment, double fraction, Side side) const {
+  ForceCursor cursor;
+  return at(segment, fraction, side, cursor);
+}
+
+Vector6 PathForces::at(std::size_t segment, double fraction, Side side, ForceCursor& cursor) const {
+  const Place& place = places_[segment];
+  if (place.run == no_run) return Vector6::Zero();
+  const FeedRun& run = runs_[place.run];
+  if (fraction <= 0) side = Side::after;
+  if (fraction >= 1) side = Side::before;
+  const double inside = place.s0 + fraction * (place.s1 - place.s0);
+  const double s = fraction >= 1 ? place.s1 : std::clamp(inside, place.s0, place.s1);
+  if (run.blend > 0) return mean(pieces_, run, s, cursor);
+  // A fraction from `breaks` may round to the other side of its step.
+  const double margin = (side == Side::before ? -1 : 1) * same_fraction * (place.s1 - place.s0);
+  const double beside = std::clamp(s + margin, place.s0, place.s1);
+  const ForcePiece& piece = piece_at(pieces_, run, beside, side, cursor.to);
+  return value(piece, std::clamp(s, piece.s0, piece.s1));
+}
+
+std::vector<double> PathForces::breaks(std::size_t segment) const {
+  ForceCursor cursor;
+  std::vector<double> fractions;
+  breaks(segment, cursor, fractions);
+  return fractions;
+}
+
+void PathForces::breaks(std::size_t segment, ForceCursor& cursor, std::vector<double>& fractions) const {
+  fractions.clear();
+  const Place& place = places_[segment];
+  if (place.run == no_run) return;
+  const FeedRun& run = runs_[place.run];
+  const auto add = [&](double s) {
+    const double fraction = (s - place.s0) / (place.s1 - place.s0);
+    if (fraction > same_fraction && fraction < 1 - same_fraction) fractions.push_back(fraction);
+  };
+  const auto add_shifted = [&](double shift, std::size_t& hint) {
+    hint = first_not(hint, run.first_corner, run.end_corner,
+                     [&](std::size_t i) { return corners_[i] < place.s0 - shift; });
+    for (std::size_t i = hint; i < run.end_corner && corners_[i] + shift < place.s1; ++i)
+      add(corners_[i] + shift);
+  };
+  // A step at p changes the slope of the mean at p and at p + b.
+  add_shifted(0, cursor.corner);
+  if (run.blend > 0) add_shifted(run.blend, cursor.ramp_corner);
+  if (fractions.size() < 2) return;
+  std::sort(fractions.begin(), fractions.end());
+  const auto same = [](double a, double b) { return b - a < same_fraction; };
+  fractions.erase(std::unique(fractions.begin(), fractions.end(), same), fractions.end());
+}
+
+}  // namespace counterflex

@@ -1,0 +1,265 @@
+#include "forces/path/raw_forces.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "forces/path/profile_cover.hpp"
+#include "forces/turning_axes.hpp"
+
+namespace counterflex {
+namespace {
+
+// Sine of the angle between feed and tool below which the feed has no lateral direction. The noise of rounded
+// coordinates is larger.
+constexpr double parallel = 1e-6;
+
+constexpr std::string_view no_lateral_direction = "the feed is parallel to the tool axis";
+constexpr std::string_view given_zero = "the force given for it is zero";
+
+// Slopes closer than this give the same cutting force; number of places per piece of an arc where it is
+// computed.
+constexpr double same_slope = 1e-9;
+constexpr int slopes_per_piece = 10;
+
+// Keys closer than this to the end of a segment act at the end (m).
+constexpr double shortest_piece = 1e-9;
+
+/// The profile at `key`, in the interval that begins with `row`.
+Vector6 value(const ForceProfile& profile, std::size_t row, double key) {
+  const ForceRows& rows = profile.rows;
+  if (!profile.linear || row + 1 == rows.size() || rows.ends(row + 1)) return rows.wrench(row);
+  const ForceRow from = rows[row], to = rows[row + 1];
+  const double w = std::clamp((key - from.key) / (to.key - from.key), 0.0, 1.0);
+  return (1 - w) * from.F + w * to.F;
+}
+
+bool lateral(const Vector6& F) {
+  return F[0] != 0 || F[1] != 0 || F[3] != 0 || F[4] != 0;
+}
+
+bool axial(const Vector6& F) {
+  return F[2] != 0 || F[5] != 0;
+}
+
+/// For a force in the feed frame where the feed is parallel to the tool.
+bool loses(const ForcePiece& piece) {
+  return lateral(piece.F0) || lateral(piece.F1);
+}
+bool keeps(const ForcePiece& piece) {
+  return axial(piece.F0) || axial(piece.F1);
+}
+
+}  // namespace
+
+ForceAxes feed_axes(const Vector3& feed_M, const Matrix3& R_MT) {
+  const Vector3 z = R_MT.col(2), lateral = z.cross(feed_M.normalized());
+  ForceAxes axes;
+  if (lateral.norm() < parallel) return {R_MT, true};
+  axes.R_MF.col(1) = lateral.normalized();
+  axes.R_MF.col(0) = axes.R_MF.col(1).cross(z);
+  axes.R_MF.col(2) = z;
+  return axes;
+}
+
+ForceAxes axes_of(ForceFrame frame, const Vector3& feed_M, const Matrix3& R_MW, const Matrix3& R_MT) {
+  switch (frame) {
+    case ForceFrame::machine:
+      return {};
+    case ForceFrame::work:
+      return {R_MW, false};
+    case ForceFrame::tool:
+      return {R_MT, false};
+    case ForceFrame::feed:
+      break;
+  }
+  return feed_axes(feed_M, R_MT);
+}
+
+Vector6 in_machine_axes(const ForceAxes& axes, const Vector6& F) {
+  Vector6 F_M = F;
+  if (axes.only_z) F_M[0] = F_M[1] = F_M[3] = F_M[4] = 0;
+  F_M.head<3>() = (axes.R_MF * F_M.head<3>()).eval();
+  F_M.tail<3>() = (axes.R_MF * F_M.tail<3>()).eval();
+  return F_M;
+}
+
+void append_profile_pieces(const ForceProfile& profile, const KeySpan& keys, double s0, double s1,
+                           std::vector<ForcePiece>& pieces) {
+  const double length = s1 - s0, range = keys.end - keys.start;
+  if (range == 0) {  // a line or a block number
+    const Vector6 F = value(profile, row_at(profile, keys.start), keys.start);
+    pieces.push_back({s0, s1, F, F, Vector6::Zero()});
+    return;
+  }
+  const double margin = range * std::min(shortest_piece / length, 0.5);
+  const auto add = [&](double from, double to, double at, double end) {
+    const std::size_t row = row_at(profile, (from + to) / 2);
+    pieces.push_back({at, end, value(profile, row, from), value(profile, row, to), Vector6::Zero()});
+  };
+  double from = keys.start, at = s0;
+  for (std::size_t row = row_at(profile, keys.start); row < profile.rows.size(); ++row) {
+    const double key = profile.rows.key(row);
+    if (key <= keys.start + margin) continue;
+    if (key >= keys.end - margin) break;
+    const double s = s0 + (key - keys.start) / range * length;
+    add(from, key, at, s);
+    from = key;
+    at = s;
+  }
+  add(from, keys.end, at, s1);
+}
+
+void append(const ForcePiece& piece, std::size_t first, std::vector<ForcePiece>& pieces) {
+  if (pieces.size() > first) {
+    ForcePiece& last = pieces.back();
+    if (last.F0 == last.F1 && piece.F0 == piece.F1 && last.F1 == piece.F0) {
+      last.s1 = piece.s1;
+      return;
+    }
+  }
+  pieces.push_back(piece);
+}
+
+RawForces::RawForces(const ForceSource& source, const Program& program, const Toolpath& path,
+                     const std::vector<Matrix3>& R_MT, std::optional<long>& block_number)
+    : source_(source),
+      program_(program),
+      path_(path),
+      R_MT_(R_MT),
+      coverage_(source, program, path, block_number) {
+  assert(R_MT.size() == 1 || (!R_MT.empty() && R_MT.size() % path.segments.size() == 0));
+}
+
+void RawForces::append_to(std::size_t i, std::size_t first_piece, std::vector<ForcePiece>& pieces,
+                          ForceRemarks& remarks) {
+  const Segment& segment = path_.segments[i];
+  std::string why;
+  bool forced = false, lost = false;
+  const auto take = [&](const AxesAlong& axes, bool first) {
+    const bool only_z = stretch_.frame == ForceFrame::feed && axes.at(0.5, 1).only_z;
+    std::string why_none = stretch_.why;
+    if (why_none.empty() && is_zero(stretch_)) {
+      why_none = given_zero;
+    } else if (only_z && std::any_of(stretch_.pieces.begin(), stretch_.pieces.end(), loses)) {
+      lost = true;
+      if (std::none_of(stretch_.pieces.begin(), stretch_.pieces.end(), keeps))
+        why_none = no_lateral_direction;
+    }
+    forced = forced || why_none.empty();
+    if (why.empty()) why = why_none;
+    append_turned(segment, axes, first_piece, first, pieces);
+  };
+  const auto axes_in = [&](ForceFrame frame) {
+    return AxesAlong(frame, segment, path_.frames[segment.frame].X_MW.R, orientations(i));
+  };
+  if (in_air(source_, program_.moves[segment.move])) {
+    give_same(segment.s_start, segment.s_end, Vector6::Zero(), ForceFrame::machine);
+    stretch_.why = "it is wholly above --air-above";
+    take(axes_in(ForceFrame::machine), true);
+  } else {
+    for (const ForceStretch& stretch : coverage_.stretches(i)) {
+      const AxesAlong axes = axes_in(stretch.rule != nullptr ? frame_of(*stretch.rule) : ForceFrame::machine);
+      give(stretch, i, axes);
+      take(axes, stretch.from == 0);
+    }
+  }
+  if (lost)
+    remarks.notes.push_back({segment.line, fmt::format("{}: of the force in the feed frame only the z "
+                                                       "component acts",
+                                                       no_lateral_direction)});
+  if (!forced) remarks.unforced.push_back({segment.line, segment.s_end - segment.s_start, why});
+}
+
+bool RawForces::is_zero(const StretchForce& given) const {
+  const auto zero = [](const ForcePiece& piece) { return piece.F0.isZero(0) && piece.F1.isZero(0); };
+  return source_.scale == 0 || std::all_of(given.pieces.begin(), given.pieces.end(), zero);
+}
+
+void RawForces::give_same(double s0, double s1, const Vector6& F, ForceFrame frame) {
+  stretch_.pieces.clear();
+  stretch_.pieces.push_back({s0, s1, F, F, Vector6::Zero()});
+  stretch_.frame = frame;
+  stretch_.why.clear();
+}
+
+void RawForces::give(const ForceStretch& stretch, std::size_t i, const AxesAlong& axes) {
+  const Segment& segment = path_.segments[i];
+  const double length = segment.s_end - segment.s_start;
+  const double s0 = segment.s_start + stretch.from * length,
+               s1 = stretch.to == 1 ? segment.s_end : segment.s_start + stretch.to * length;
+  const ForceRule* rule = stretch.rule;
+  if (stretch.comment) return give_same(s0, s1, *program_.moves[segment.move].force, ForceFrame::machine);
+  if (rule == nullptr) {
+    give_same(s0, s1, Vector6::Zero(), ForceFrame::machine);
+    stretch_.why = "no force is given for it";
+    return;
+  }
+  if (const auto* force = std::get_if<ConstantForce>(&rule->content))
+    return give_same(s0, s1, force->F, force->frame);
+  if (const auto* response = std::get_if<CutResponse>(&rule->content))
+    return give_cut(*response, s0, s1, i, axes);
+  const auto& profile = std::get<ForceProfile>(rule->content);
+  const KeySpan& keys = coverage_.keys(*rule, i);
+  const double range = keys.end - keys.start;
+  const KeySpan here{stretch.from == 0 ? keys.start : keys.start + stretch.from * range,
+                     stretch.to == 1 ? keys.end : keys.start + stretch.to * range};
+  stretch_.pieces.clear();
+  stretch_.frame = profile.frame;
+  stretch_.why.clear();
+  append_profile_pieces(profile, here, s0, s1, stretch_.pieces);
+}
+
+// If the slope changes along the segment, as on an upright arc, the force is linear between close places.
+void RawForces::give_cut(const CutResponse& response, double s0, double s1, std::size_t i,
+                         const AxesAlong& axes) {
+  const Segment& segment = path_.segments[i];
+  const double rpm = program_.moves[segment.move].spindle_rpm;
+  const auto slope = [&](double s) {
+    const double u = (s - segment.s_start) / (segment.s_end - segment.s_start);
+    return direction_at(segment.wanted, u).dot(axes.at(u, 1).R_MF.col(2));
+  };
+  const auto force = [&](double s) { return cutting_force(response, segment.feed_m_s, rpm, slope(s)); };
+  const double middle = slope((s0 + s1) / 2);
+  const bool even = std::abs(slope(s0) - middle) < same_slope && std::abs(slope(s1) - middle) < same_slope;
+  const int parts = even ? 1 : slopes_per_piece * axes.pieces();
+  stretch_.pieces.clear();
+  stretch_.frame = ForceFrame::feed;
+  stretch_.why = force((s0 + s1) / 2).why;
+  for (int k = 0; k < parts; ++k) {
+    const auto at = [&](int end) { return end == parts ? s1 : s0 + (s1 - s0) * end / parts; };
+    const CutForce a = force(even ? (s0 + s1) / 2 : at(k)), b = even ? a : force(at(k + 1));
+    if (a.why.empty() || b.why.empty()) stretch_.why.clear();
+    stretch_.pieces.push_back({at(k), at(k + 1), a.F, b.F, Vector6::Zero(), k > 0});
+  }
+}
+
+void RawForces::append_turned(const Segment& segment, const AxesAlong& axes, std::size_t first_piece,
+                              bool first, std::vector<ForcePiece>& pieces) {
+  const bool turns = stretch_.frame == ForceFrame::feed || stretch_.frame == ForceFrame::tool;
+  for (const ForcePiece& part : stretch_.pieces) {
+    bool begins = true;
+    turn_pieces(part, segment, axes, turned_);
+    for (ForcePiece& piece : turned_) {
+      piece.F0 *= source_.scale;
+      piece.F1 *= source_.scale;
+      if (begins) piece.goes_on = part.goes_on;
+      // as at a tangential junction
+      if (first && turns && pieces.size() > first_piece)
+        piece.goes_on = nearly_same(pieces.back().F1, piece.F0);
+      begins = first = false;
+      append(piece, first_piece, pieces);
+    }
+  }
+}
+
+std::span<const Matrix3> RawForces::orientations(std::size_t i) const {
+  if (R_MT_.size() == 1) return R_MT_;
+  const std::size_t each = R_MT_.size() / path_.segments.size();
+  return std::span(R_MT_).subspan(i * each, each);
+}
+
+}  // namespace counterflex

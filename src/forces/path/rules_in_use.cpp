@@ -1,0 +1,62 @@
+#include "forces/path/rules_in_use.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "forces/read/selector_text.hpp"
+
+namespace counterflex {
+
+RulesInUse::RulesInUse(const std::vector<ForceRule>& rules) : index_(rules), rules_(rules) {
+  for (const ForceRule& rule : rules) {
+    const bool selects =
+        rank(rule) != ForceRank::program && !std::holds_alternative<ForceProfile>(rule.content);
+    idle_.push_back(selects && !is_zero(rule));
+  }
+  idle_count_ = static_cast<std::size_t>(std::count(idle_.begin(), idle_.end(), true));
+}
+
+void RulesInUse::add(const Program& window, const Toolpath& path) {
+  if (idle_count_ == 0) return;
+  kinds_.clear();
+  last_kind_.reset();
+  std::size_t next = 0;
+  const auto count_to = [&](std::size_t end) {
+    for (; next < end; ++next)
+      if (const auto& n = window.moves[next].block_number) block_number_ = n;
+  };
+  for (const Segment& segment : path.segments) {
+    count_to(segment.move + 1);
+    if (segment.cutting) see(window, window.moves[segment.move]);
+  }
+  count_to(window.moves.size());
+}
+
+void RulesInUse::see(const Program& window, const Move& move) {
+  cuts_ = true;
+  if (idle_count_ == 0) return;
+  found_.clear();
+  const std::uint64_t kind = (static_cast<std::uint64_t>(static_cast<std::uint32_t>(move.tool)) << 32) |
+                             static_cast<std::uint64_t>(move.operation);
+  if (last_kind_ != kind) {
+    last_kind_ = kind;
+    operation_ = folded(window.operations[move.operation]);
+    if (kinds_.insert(kind).second) index_.append_by_kind(move.tool, operation_, found_);
+  }
+  if (index_.by_range()) index_.append_by_place(move, operation_, block_number_, found_);
+  for (const ForceRule* rule : found_) {
+    const auto i = static_cast<std::size_t>(rule - rules_.data());
+    if (idle_[i]) --idle_count_;
+    idle_[i] = false;
+  }
+}
+
+void RulesInUse::refuse_idle() const {
+  const auto idle = std::find(idle_.begin(), idle_.end(), true);
+  if (!cuts_ || idle == idle_.end()) return;
+  const ForceRule& rule = rules_[static_cast<std::size_t>(idle - idle_.begin())];
+  fail_rule(rule, fmt::format("{} covers no feed move of the program", shown(rule.selector)));
+}
+
+}  // namespace counterflex

@@ -1,0 +1,150 @@
+#include "machine/read/read_joint.hpp"
+
+#include <fmt/format.h>
+
+#include "counterflex/geometry/types.hpp"
+#include "machine/read/read_spring.hpp"
+
+namespace counterflex::toml_file {
+namespace {
+
+/// The keys of a kind of joint, and the unit of its values.
+struct JointKeys {
+  JointKind kind;
+  std::string_view name;
+  double unit;
+  std::string_view min, max, home, preload, stiffness, compliance;
+};
+
+constexpr JointKeys prismatic = {
+    JointKind::prismatic, "prismatic",         mm, "min_mm", "max_mm", "home_mm", "preload_mm",
+    "stiffness_N_per_m",  "compliance_m_per_N"};
+constexpr JointKeys revolute = {JointKind::revolute,
+                                "revolute",
+                                deg,
+                                "min_deg",
+                                "max_deg",
+                                "home_deg",
+                                "preload_deg",
+                                "stiffness_Nm_per_rad",
+                                "compliance_rad_per_Nm"};
+
+std::string_view unit_of(const JointKeys& keys) {
+  return keys.kind == JointKind::prismatic ? "N/m" : "N m/rad";
+}
+
+const JointKeys& read_kind(const toml::table& table, std::string_view element, const Source& source) {
+  const toml::node& node = *table.get(element);
+  const std::string kind = as_text(node, element, source);
+  if (kind == prismatic.name) return prismatic;
+  if (kind == revolute.name) return revolute;
+  source.fail(node, fmt::format("{} is \"{}\"; it must be \"prismatic\" or \"revolute\"", element, kind));
+}
+
+Vector3 read_axis(const toml::node& node, const Reading& reading) {
+  if (const auto* text = node.as_string()) {
+    if (text->get() == "x") return Vector3::UnitX();
+    if (text->get() == "y") return Vector3::UnitY();
+    if (text->get() == "z") return Vector3::UnitZ();
+  }
+  if (!node.is_array() || node.as_array()->size() != 3)
+    reading.source.fail(node,
+                        fmt::format("axis must be \"x\", \"y\", \"z\" or 3 numbers, not {}", seen(node)));
+  const Vector3 axis = as_vector3(node, "axis", reading);
+  if (!(axis.stableNorm() > 0))
+    reading.source.fail(
+        node, fmt::format("axis is a zero vector{}; it must have a direction", filled_by(node, reading)));
+  return axis.stableNormalized();
+}
+
+Joint read_joint(const toml::table& table, const JointKeys& keys, std::string_view owner,
+                 const Reading& reading) {
+  return {keys.kind, read_axis(required(table, "axis", owner, table, reading.source), reading)};
+}
+
+/// The value under `key` in SI, or `otherwise`.
+double joint_value(const toml::table& table, std::string_view key, const JointKeys& keys, double otherwise,
+                   const Reading& reading) {
+  const toml::node* node = table.get(key);
+  return node == nullptr ? otherwise : as_number(*node, {key}, reading) * keys.unit;
+}
+
+template <class WithTravel>
+void read_travel(WithTravel& joint, const toml::table& table, const JointKeys& keys, const Reading& reading) {
+  joint.min = joint_value(table, keys.min, keys, joint.min, reading);
+  joint.max = joint_value(table, keys.max, keys, joint.max, reading);
+  if (joint.min < joint.max) return;
+  const toml::node& max = *table.get(keys.max);
+  std::string origin = filled_by(max, reading);
+  if (origin.empty()) origin = filled_by(*table.get(keys.min), reading);
+  reading.source.fail(max, fmt::format("{} = {:.9g} is not above {} = {:.9g}{}", keys.max,
+                                       joint.max / keys.unit, keys.min, joint.min / keys.unit, origin));
+}
+
+void read_preload(Passive& passive, const toml::table& table, const JointKeys& keys, std::string_view owner,
+                  const Reading& reading) {
+  const std::string_view form = one_of(table, {"preload", keys.preload}, owner, reading.source);
+  if (form.empty()) return;
+  if (!table.contains(keys.stiffness))
+    reading.source.fail(key_of(table, form), fmt::format("{} needs {}: a joint without a spring moves freely",
+                                                         form, keys.stiffness));
+  if (form == keys.preload) {
+    passive.rest = joint_value(table, form, keys, 0, reading);
+    return;
+  }
+  check_preload_home(*table.get(form), fmt::format(", or give {}", keys.preload), reading.source);
+  passive.rest_at_home = true;
+}
+
+}  // namespace
+
+Actuator read_actuator(const toml::table& table, const Reading& reading) {
+  const JointKeys& keys = read_kind(table, "actuator", reading.source);
+  const std::string owner = fmt::format("a {} actuator", keys.name);
+  check_keys(table, {"actuator", "axis", keys.min, keys.max, keys.home, "mass"}, owner, reading.source);
+  Actuator actuator;
+  actuator.joint = read_joint(table, keys, owner, reading);
+  read_travel(actuator, table, keys, reading);
+  actuator.home = joint_value(table, keys.home, keys, 0, reading);
+  return actuator;
+}
+
+Passive read_passive(const toml::table& table, const Reading& reading) {
+  const JointKeys& keys = read_kind(table, "passive", reading.source);
+  const std::string owner = fmt::format("a {} passive joint", keys.name);
+  check_keys(
+      table,
+      {"passive", "axis", keys.min, keys.max, keys.home, keys.stiffness, keys.preload, "preload", "mass"},
+      owner, reading.source);
+  Passive passive;
+  passive.joint = read_joint(table, keys, owner, reading);
+  read_travel(passive, table, keys, reading);
+  passive.home = joint_value(table, keys.home, keys, 0, reading);
+  if (const toml::node* node = table.get(keys.stiffness))
+    passive.stiffness = as_not_negative(*node, {keys.stiffness}, reading);
+  if (const toml::node* node = table.get(keys.stiffness))
+    refuse_too_stiff(passive.stiffness, owner, unit_of(keys), *node, reading.source);
+  read_preload(passive, table, keys, owner, reading);
+  return passive;
+}
+
+Compliance read_compliance(const toml::table& table, const Reading& reading) {
+  const JointKeys& keys = read_kind(table, "compliance", reading.source);
+  const std::string owner = fmt::format("a {} compliance", keys.name);
+  check_keys(table, {"compliance", "axis", keys.stiffness, keys.compliance, "preload", "mass"}, owner,
+             reading.source);
+  Compliance compliance;
+  compliance.joint = read_joint(table, keys, owner, reading);
+  const std::string_view form = one_of(table, {keys.stiffness, keys.compliance}, owner, reading.source);
+  if (form.empty())
+    reading.source.fail(table,
+                        fmt::format("{} has neither {} nor {}", owner, keys.stiffness, keys.compliance));
+  const double value = as_positive(*table.get(form), {form}, reading);
+  compliance.stiffness = form == keys.stiffness ? value : 1 / value;
+  refuse_too_stiff(compliance.stiffness, owner, unit_of(keys), *table.get(form), reading.source);
+  // In the nominal configuration its coordinate is 0, so that "home" is the default.
+  if (const toml::node* preload = table.get("preload")) check_preload_home(*preload, "", reading.source);
+  return compliance;
+}
+
+}  // namespace counterflex::toml_file

@@ -1,0 +1,75 @@
+#include <fmt/core.h>
+
+#include "counterflex/files/text.hpp"
+#include "counterflex/geometry/types.hpp"
+#include "report/analysis/analysis_parts.hpp"
+
+namespace counterflex {
+
+namespace {
+
+Json point_json(const CurvePoint& point) {
+  return {{"displacement_mm", number(point.displacement / mm, analysis_digits)},
+          {"force_N", significant(point.force, analysis_significant_digits)},
+          {"stiffness_N_per_m", significant(point.stiffness, analysis_significant_digits)},
+          {"stable", point.stable},
+          {"tip_mm", numbers(Vector3(point.X_MT.p / mm), analysis_digits)}};
+}
+
+Json points_json(const std::vector<CurvePoint>& points) {
+  Json list = Json::array();
+  for (const CurvePoint& point : points) list.push_back(point_json(point));
+  return list;
+}
+
+std::string curve_text(std::size_t index, const ForceCurve& curve) {
+  std::string text;
+  for (const CurvePoint& point : curve.points)
+    text += fmt::format("  {:>3}{:>18}{:>18}{:>18}   {}\n", index, format_fixed(point.displacement / mm, 6),
+                        format_fixed(point.force, 4), format_fixed(point.stiffness * um, 4),
+                        point.stable ? "stable" : "unstable");
+  for (const CurvePoint& point : curve.critical)
+    text += fmt::format("      critical load {} N at {} mm; beyond it unstable under a constant force\n",
+                        format_fixed(point.force, 4), format_fixed(point.displacement / mm, 6));
+  if (curve.status != Status::converged)
+    text += fmt::format("      {}: {}\n", to_string(curve.status),
+                        curve.points.empty() ? "the state without the force was not found"
+                                             : "the other points were not found");
+  return text;
+}
+
+}  // namespace
+
+Json curve_json(const ForceCurve& curve) {
+  return {{"status", to_string(curve.status)},
+          {"points", points_json(curve.points)},
+          {"critical", points_json(curve.critical)}};
+}
+
+std::string curves_text(const AnalysisReport& report) {
+  if (!report.curve) return "";
+  const Vector3& d = report.curve->direction;
+  std::string text =
+      fmt::format("\nForce over displacement of the tip along ({}, {}, {}), from its place without force\n",
+                  format_fixed(d.x(), 3), format_fixed(d.y(), 3), format_fixed(d.z(), 3));
+  text += fmt::format("  {:>3}{:>18}{:>18}{:>18}\n", "", "mm", "N", "tangent, N/um");
+  for (std::size_t i = 0; i < report.poses.size(); ++i)
+    if (report.poses[i].curve) text += curve_text(i + 1, *report.poses[i].curve);
+  return text;
+}
+
+std::string to_csv(const AnalysisReport& report) {
+  std::string text = std::string(curve_mark) + ",stiffness_N_per_m,stable,x_mm,y_mm,z_mm\n";
+  for (std::size_t i = 0; i < report.poses.size(); ++i) {
+    if (!report.poses[i].curve) continue;
+    for (const CurvePoint& point : report.poses[i].curve->points) {
+      const Vector3 p = point.X_MT.p / mm;
+      text +=
+          fmt::format("{},{:.9f},{:.12g},{:.12g},{},{:.9f},{:.9f},{:.9f}\n", i + 1, point.displacement / mm,
+                      point.force, point.stiffness, point.stable ? 1 : 0, p.x(), p.y(), p.z());
+    }
+  }
+  return text;
+}
+
+}  // namespace counterflex

@@ -1,0 +1,73 @@
+#include <array>
+
+#include "counterflex/compensation/options.hpp"
+#include "counterflex/geometry/types.hpp"
+#include "counterflex/report/formats.hpp"
+#include "report/json/fixed_digits.hpp"
+#include "report/tally/preloads.hpp"
+
+namespace counterflex {
+
+namespace {
+
+constexpr int length_digits = 7, angle_digits = 7, path_digits = 6, wrench_digits = 6;
+constexpr std::array deviation_names = {"dx_mm", "dy_mm", "dz_mm", "drx_deg", "dry_deg", "drz_deg"};
+constexpr std::array prefixes = {"before_",   "geometry_",      "load_",  "gravity_",
+                                 "preloads_", "superposition_", "after_", "air_"};
+
+void add(std::string& row, double value, int digits) {
+  row += ',';
+  append_fixed(row, value, digits);
+}
+
+void add_deviation(std::string& row, const Vector6& d, bool known) {
+  if (!known) {
+    row.append(6, ',');
+    return;
+  }
+  for (int i = 0; i < 3; ++i) add(row, d[i] / mm, length_digits);
+  for (int i = 3; i < 6; ++i) add(row, d[i] / deg, angle_digits);
+}
+
+// An unsolved waypoint has no deviations; zeros would look like perfection.
+void add_row(std::string& text, std::size_t index, const Waypoint& w, const CsvColumns& columns) {
+  const bool solved = w.status == Status::converged;
+  const bool attributed = solved && columns.attribution && w.causes;
+  static const Causes none;
+  const Causes& causes = attributed ? *w.causes : none;
+  text += std::to_string(index) + ',' + std::to_string(w.line) + (w.cutting ? ",1" : ",0");
+  add(text, w.s / mm, path_digits);
+  for (int i = 0; i < 3; ++i) add(text, w.p_MT[i] / mm, path_digits);
+  for (int i = 0; i < 6; ++i) add(text, w.wrench[i], wrench_digits);
+  add_deviation(text, w.before, solved);
+  add_deviation(text, causes.geometry, attributed);
+  add_deviation(text, causes.load, attributed);
+  add_deviation(text, causes.gravity, attributed);
+  add_deviation(text, preloads_of(causes), attributed);
+  add_deviation(text, causes.superposition, attributed);
+  add_deviation(text, w.after, solved && columns.corrected);
+  add_deviation(text, causes.air, attributed && columns.corrected);
+  add_deviation(text, w.correction, columns.corrected);
+  text.append(",").append(to_string(w.status)).append(",").append(std::to_string(w.iterations)).append("\n");
+}
+
+}  // namespace
+
+std::string csv_header() {
+  std::string row = "index,line,cutting,s_mm,x_mm,y_mm,z_mm,fx_N,fy_N,fz_N,mx_Nm,my_Nm,mz_Nm";
+  for (const char* prefix : prefixes)
+    for (const char* name : deviation_names) row.append(",").append(prefix).append(name);
+  for (const char* name : {"x_mm", "y_mm", "z_mm", "rx_deg", "ry_deg", "rz_deg"})
+    row.append(",correction_").append(name);
+  return row + ",status,iterations\n";
+}
+
+std::string csv_rows(std::span<const Waypoint> waypoints, const CsvColumns& columns,
+                     std::size_t& next_index) {
+  std::string text;
+  for (const Waypoint& w : waypoints)
+    if (!w.between) add_row(text, next_index++, w, columns);
+  return text;
+}
+
+}  // namespace counterflex

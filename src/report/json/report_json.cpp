@@ -1,0 +1,390 @@
+#include <fmt/core.h>
+
+#include "counterflex/files/text.hpp"
+#include "counterflex/geometry/types.hpp"
+#include "counterflex/report/formats.hpp"
+#include "report/json/json_numbers.hpp"
+#include "report/json/loads_json.hpp"
+#include "report/names.hpp"
+
+namespace counterflex {
+
+namespace {
+
+constexpr int digits = 7;  // 1e-7 mm, 1e-7 deg
+
+Json statistics_json(const DeviationStatistics& s) {
+  return {{"max_mm", number(s.max_mm, digits)},
+          {"rms_mm", number(s.rms_mm, digits)},
+          {"mean_mm", number(s.mean_mm, digits)},
+          {"p95_mm", number(s.p95_mm, digits)},
+          {"max_line", s.max_line},
+          {"max_axis_mm", numbers(s.max_axis_mm, digits)},
+          {"max_rotation_deg", number(s.max_rotation_deg, digits)},
+          {"max_along_mm", number(s.max_along_mm, digits)},
+          {"max_across_mm", number(s.max_across_mm, digits)},
+          {"max_tool_axis_mm", number(s.max_tool_axis_mm, digits)}};
+}
+
+Json optional_number(const std::optional<double>& value) {
+  return value ? number(*value, digits) : Json(nullptr);
+}
+
+Json optional_statistics(const std::optional<DeviationStatistics>& s) {
+  return s ? statistics_json(*s) : Json(nullptr);
+}
+
+Json inputs_json(const std::vector<InputFile>& inputs) {
+  Json result = Json::object();
+  for (const InputFile& input : inputs) result[input.name] = {{"path", input.path}, {"sha256", input.sha256}};
+  return result;
+}
+
+/// An option that is given several times has a list of values.
+Json options_json(const std::vector<OptionValue>& options) {
+  Json result = Json::object();
+  const auto add = [&](const std::string& name, const Json& value) {
+    if (!result.contains(name)) return void(result[name] = value);
+    if (!result[name].is_array()) result[name] = Json::array({result[name]});
+    result[name].push_back(value);
+  };
+  for (const OptionValue& option : options)
+    std::visit([&](const auto& value) { add(option.name, value); }, option.value);
+  return result;
+}
+
+Json largest_json(const std::optional<Largest>& largest) {
+  if (!largest) return nullptr;
+  return {{"max_mm", number(largest->mm, digits)}, {"line", largest->line}};
+}
+
+Json at_worst_json(const Sources& sources) {
+  if (!sources.at_worst) return nullptr;
+  const SourcesAtWorst& at = *sources.at_worst;
+  return {{"line", at.line},
+          {"place_mm", numbers(at.place_mm, digits)},
+          {"geometry_mm", numbers(at.geometry_mm, digits)},
+          {"load_mm", numbers(at.load_mm, digits)},
+          {"gravity_mm", sources.gravity ? numbers(at.gravity_mm, digits) : Json(nullptr)},
+          {"preloads_mm", sources.preloads ? numbers(at.preloads_mm, digits) : Json(nullptr)},
+          {"superposition_mm", numbers(at.superposition_mm, digits)},
+          {"before_mm", numbers(at.before_mm, digits)}};
+}
+
+Json sources_json(const std::optional<Sources>& sources) {
+  if (!sources) return nullptr;
+  return {{"geometry", statistics_json(sources->geometry)},
+          {"load", statistics_json(sources->load)},
+          {"gravity", optional_statistics(sources->gravity)},
+          {"superposition", statistics_json(sources->superposition)},
+          {"preloads", optional_statistics(sources->preloads)},
+          {"at_worst", at_worst_json(*sources)}};
+}
+
+/// Null if part of the path is unknown: its largest value would be misleading.
+Json other_force_json(const UnderOtherForce& other) {
+  return other.unsolved > 0 ? Json(nullptr) : statistics_json(other.deviation);
+}
+
+Json sensitivity_json(const std::optional<Sensitivity>& sensitivity) {
+  if (!sensitivity) return nullptr;
+  return {{"force_plus_30", other_force_json(sensitivity->higher)},
+          {"force_minus_30", other_force_json(sensitivity->lower)},
+          {"without_force", statistics_json(sensitivity->without)}};
+}
+
+Json common_shift_json(const std::optional<CommonShift>& shift) {
+  if (!shift) return nullptr;
+  Json offsets = Json::array();
+  for (const CommonShift::OfOffset& offset : shift->offsets)
+    offsets.push_back({{"work", offset.work.empty() ? Json(nullptr) : Json(offset.work)},
+                       {"shift_mm", numbers(offset.shift_mm, digits)}});
+  return {{"max_mm", number(shift->largest_mm(), digits)},
+          {"offsets", std::move(offsets)},
+          {"rest", statistics_json(shift->rest)}};
+}
+
+Json tool_deviation_json(const std::optional<ToolDeviation>& off) {
+  if (!off) return nullptr;
+  return {{"tip_mm", number(off->tip_mm, digits)},
+          {"rim_mm", optional_number(off->rim_mm)},
+          {"flank_mm", optional_number(off->flank_mm)},
+          {"tilt_deg", number(off->tilt_deg, digits)},
+          {"line", off->line}};
+}
+
+Json tools_off_json(const std::vector<ToolReport>& tools) {
+  const auto in_mm = [](const std::optional<double>& length) {
+    return length ? number(*length / mm, digits) : Json(nullptr);
+  };
+  Json list = Json::array();
+  for (const ToolReport& tool : tools)
+    list.push_back({{"tool", tool.size.number},
+                    {"diameter_mm", in_mm(tool.size.diameter)},
+                    {"flute_mm", in_mm(tool.size.flute)},
+                    {"before", tool_deviation_json(tool.before)},
+                    {"after", tool_deviation_json(tool.after)}});
+  return list;
+}
+
+Json summary_json(const RunReport& report) {
+  return {{"before", optional_statistics(report.before)},
+          {"after", optional_statistics(report.after)},
+          {"sources", sources_json(report.sources)},
+          {"sensitivity", sensitivity_json(report.sensitivity)},
+          {"air", largest_json(report.air)},
+          {"correction", largest_json(report.correction)},
+          {"corrected_percent", optional_number(report.corrected_percent)},
+          {"path_mm", number(report.path_mm, digits)},
+          {"common_shift", common_shift_json(report.common_shift)},
+          {"tool_deviations", tools_off_json(report.tools_off)}};
+}
+
+/// Unknown values are null, not zero.
+Json feed_moves_json(const RunReport& report) {
+  const FeedMoves& moves = report.feed_moves;
+  const bool judged = report.command != Command::predict;
+  const auto of_judged = [&](const Json& value) { return judged ? value : Json(nullptr); };
+  const bool solved = judged && moves.worst_line > 0;
+  return {{"count", moves.count},
+          {"within", of_judged(moves.within)},
+          {"missed", of_judged(moves.missed)},
+          {"unknown", moves.unknown},
+          {"unknown_length", moves.unknown_length},
+          {"length_mm", number(moves.length_mm, digits)},
+          {"within_mm", of_judged(number(moves.within_mm, digits))},
+          {"worst_mm", solved ? number(moves.worst_mm, digits) : Json(nullptr)},
+          {"worst_line", solved ? Json(moves.worst_line) : Json(nullptr)}};
+}
+
+Json without_force_json(const WithoutForce& without) {
+  Json reasons = Json::array(), rows = Json::array();
+  for (const WithoutForceReason& reason : without.reasons)
+    reasons.push_back({{"why", reason.why},
+                       {"moves", reason.moves},
+                       {"length_mm", number(reason.length_mm, digits)},
+                       {"first_line", reason.first_line}});
+  for (const WithoutForceRow& row : without.rows.rows)
+    rows.push_back({{"line", row.line}, {"length_mm", number(row.length_mm, digits)}, {"why", row.why}});
+  return {{"moves", without.moves},
+          {"length_mm", number(without.length_mm, digits)},
+          {"reasons", std::move(reasons)},
+          {"rows", std::move(rows)}};
+}
+
+Json forces_json(const RunReport& report) {
+  const ForceSummary& forces = report.forces;
+  const auto known = [&](double value) { return report.before ? number(value, 4) : Json(nullptr); };
+  return {{"largest_N", known(forces.largest_N)},
+          {"largest_Nm", known(forces.largest_Nm)},
+          {"ramps", forces.ramps},
+          {"jumps", forces.jumps},
+          {"largest_step_N", number(forces.largest_step_N, 4)},
+          {"without_force", without_force_json(forces.without)}};
+}
+
+Json blocks_json(const BlockCounts& blocks) {
+  Json left_alone = Json::array();
+  for (const LeftAlone& block : blocks.left_alone.rows)
+    left_alone.push_back({{"line", block.line}, {"why", block.why}});
+  const auto others = [&](std::size_t OtherMoves::*count) {
+    return blocks.others ? Json(*blocks.others.*count) : Json(nullptr);
+  };
+  return {{"total", blocks.total},
+          {"moves", blocks.moves},
+          {"corrected", blocks.corrected},
+          {"corrected_in_part", others(&OtherMoves::in_part)},
+          {"grouped", others(&OtherMoves::grouped)},
+          {"held", others(&OtherMoves::held)},
+          {"not_corrected", others(&OtherMoves::left)},
+          {"inserted", blocks.inserted},
+          {"left_alone_count", blocks.left_alone.count},
+          {"left_alone", std::move(left_alone)}};
+}
+
+Json text_json(const RunReport& report) {
+  const auto& after = report.text_after;
+  return {{"blocks_before", report.text_before.blocks},
+          {"blocks_after", after ? Json(after->blocks) : Json(nullptr)},
+          {"bytes_before", report.text_before.bytes},
+          {"bytes_after", after ? Json(after->bytes) : Json(nullptr)}};
+}
+
+Json short_blocks_json(const std::optional<ShortBlocks>& blocks) {
+  if (!blocks) return nullptr;
+  const bool any = blocks->count > 0;
+  return {{"limit_ms", number(blocks->limit_ms, 6)},
+          {"count", blocks->count},
+          {"first_line", any ? Json(blocks->first_line) : Json(nullptr)},
+          {"shortest_ms", any ? number(blocks->shortest_ms, 6) : Json(nullptr)},
+          {"shortest_line", any ? Json(blocks->shortest_line) : Json(nullptr)}};
+}
+
+Json lines_json(const std::optional<LineLengths>& lines) {
+  if (!lines || lines->limit == 0) return nullptr;
+  return {{"limit", lines->limit},
+          {"longest", lines->longest},
+          {"longest_line", lines->longest_line},
+          {"near_limit", lines->near}};
+}
+
+Json control_json(const ControlFacts& control) {
+  Json tolerances = Json::array();
+  for (const PathTolerance& t : control.tolerances)
+    tolerances.push_back({{"line", t.line},
+                          {"path_mm", optional_number(t.path_mm)},
+                          {"merge_mm", optional_number(t.merge_mm)}});
+  return {{"short_blocks", short_blocks_json(control.short_blocks)},
+          {"lines", lines_json(control.lines)},
+          {"path_tolerances", std::move(tolerances)},
+          {"plunges", control.plunges},
+          {"rapids", control.rapids}};
+}
+
+Json warnings_json(const std::vector<Remark>& warnings) {
+  Json list = Json::array();
+  for (const Remark& warning : warnings) list.push_back({{"line", warning.line}, {"what", warning.what}});
+  return list;
+}
+
+Json operations_json(const std::vector<OperationReport>& operations) {
+  Json list = Json::array();
+  for (const OperationReport& operation : operations)
+    list.push_back({{"tool", operation.tool},
+                    {"operation", operation.name},
+                    {"first_line", operation.first_line},
+                    {"last_line", operation.last_line},
+                    {"moves", operation.moves},
+                    {"length_mm", number(operation.length_mm, digits)},
+                    {"corrected_percent", optional_number(operation.corrected_percent)},
+                    {"before", optional_statistics(operation.before)},
+                    {"after", optional_statistics(operation.after)}});
+  return list;
+}
+
+Json parts_json(const std::optional<DeviationParts>& parts, bool weights, bool preloads) {
+  if (!parts) return nullptr;
+  return {{"geometry_mm", number(parts->geometry_mm, digits)},
+          {"load_mm", number(parts->load_mm, digits)},
+          {"gravity_mm", weights ? number(parts->gravity_mm, digits) : Json(nullptr)},
+          {"preloads_mm", preloads ? number(parts->preloads_mm, digits) : Json(nullptr)},
+          {"discrepancy_mm", number(parts->discrepancy_mm, digits)}};
+}
+
+/// The place of a row is the place of the deviation that orders the rows.
+Json worst_row_json(const RunReport& report, const WorstRow& row) {
+  const WorstPlace& place = report.after ? row.at_after : row.at_before;
+  const bool weights = report.sources && report.sources->gravity,
+             preloads = report.sources && report.sources->preloads;
+  Json json = {{"line", row.line},
+               {"before_mm", number(row.before_mm, digits)},
+               {"after_mm", report.after ? number(row.after_mm, digits) : Json(nullptr)},
+               {"s_mm", number(place.s_mm, digits)},
+               {"place_mm", numbers(place.place_mm, digits)},
+               {"force_N", number(place.force_N, 4)},
+               {"causes", parts_json(row.causes, weights, preloads)},
+               {"text", row.text}};
+  if (report.command == Command::verify) json["corrected_line"] = place.corrected_line;
+  if (place.operation < 0) return json;
+  const OperationReport& operation = report.operations[static_cast<std::size_t>(place.operation)];
+  json["tool"] = operation.tool;
+  json["operation"] = operation.name;
+  return json;
+}
+
+Json worst_json(const RunReport& report) {
+  Json list = Json::array();
+  for (const WorstRow& row : report.worst) list.push_back(worst_row_json(report, row));
+  return list;
+}
+
+/// The usual unit of lengths for this program and machine.
+Json units_json(const ShownUnits& units) {
+  const bool inch = units.program == LengthUnit::inches;
+  return {{"program", inch ? "inch" : "mm"}, {"shown", inch ? "inch" : units.revolute ? "mm" : "um"}};
+}
+
+Json assumptions_json(const RunReport& report) {
+  Json json = {{"work", report.work}, {"datum", report.datum}};
+  if (!report.tools.empty()) json["tools"] = report.tools_assumed;
+  if (!report.gravity.empty()) json["gravity"] = report.gravity;
+  json["not_modelled"] = report.not_modelled;
+  return json;
+}
+
+Json sanity_json(const SanityChecks& checks) {
+  Json list = Json::array();
+  for (const SanityCheck& check : checks)
+    list.push_back({{"check", check.name}, {"state", to_string(check.state)}, {"text", check.text}});
+  return list;
+}
+
+Json tools_json(const std::vector<UsedTool>& tools) {
+  Json list = Json::array();
+  for (const UsedTool& tool : tools)
+    list.push_back({{"number", tool.number},
+                    {"length_mm", optional_number(tool.length_mm)},
+                    {"radial_N_per_um", optional_number(tool.radial_N_per_um)},
+                    {"stiffness", tool.stiffness}});
+  return list;
+}
+
+Json failure_json(const RunReport& report) {
+  const std::optional<Failure>& failure = report.failure;
+  if (!failure) return nullptr;
+  Json json{{"exit", static_cast<int>(failure->exit)}, {"line", failure->line}, {"what", failure->what}};
+  if (report.command == Command::verify) json["corrected_line"] = failure->corrected_line;
+  return json;
+}
+
+}  // namespace
+
+std::string to_json(const SanityChecks& checks) {
+  return dump(sanity_json(checks));
+}
+
+std::string failed_json(Command command, std::string_view version, const InputError& error) {
+  const Location& where = error.where();
+  return dump({{"schema", report_schema},
+               {"tool", fmt::format("counterflex {}", version)},
+               {"command", name_of(command)},
+               {"verdict", to_string(Verdict::failed)},
+               {"verdict_reason", ""},
+               {"failure",
+                {{"exit", static_cast<int>(error.exit())},
+                 {"file", utf8_of_bytes(where.file)},
+                 {"line", where.line},
+                 {"what", utf8_of_bytes(error.what())}}}});
+}
+
+std::string to_json(const RunReport& report) {
+  const std::string& output = report.facts.output;
+  Json document = {{"schema", report_schema},
+                   {"tool", fmt::format("counterflex {}", report.facts.version)},
+                   {"command", name_of(report.command)},
+                   {"verdict", to_string(report.verdict)},
+                   {"verdict_reason", report.verdict_reason},
+                   {"machine", report.machine},
+                   {"inputs", inputs_json(report.facts.inputs)},
+                   {"output", output.empty() ? Json(nullptr) : Json(output)},
+                   {"options", options_json(report.facts.options)},
+                   {"failure", failure_json(report)},
+                   {"summary", summary_json(report)},
+                   {"feed_moves", feed_moves_json(report)},
+                   {"forces", forces_json(report)},
+                   {"loads", largest_loads_json(report.loads)},
+                   {"blocks", blocks_json(report.blocks)},
+                   {"text", text_json(report)},
+                   {"control", control_json(report.control)},
+                   {"assumptions", assumptions_json(report)},
+                   {"sanity", sanity_json(report.sanity)},
+                   {"warning_count", report.warnings.count},
+                   {"warnings", warnings_json(report.warnings.rows)},
+                   {"worst", worst_json(report)},
+                   {"operations", operations_json(report.operations)},
+                   {"units", units_json(report.units)}};
+  if (!report.tools.empty()) document["tools"] = tools_json(report.tools);
+  return dump(document);
+}
+
+}  // namespace counterflex

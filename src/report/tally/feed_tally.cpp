@@ -1,0 +1,119 @@
+#include <algorithm>
+
+#include "counterflex/geometry/types.hpp"
+#include "counterflex/report/statistics.hpp"
+
+namespace counterflex {
+namespace {
+
+bool any(const std::array<bool, 3>& axes) {
+  return axes[0] || axes[1] || axes[2];
+}
+
+bool rests(const Move& move) {
+  return move.handling != Handling::held && !move.arc && !any(move.fixed) && all_known(move.known_start) &&
+         all_known(move.known_end) && move.start_mm == move.end_mm;
+}
+
+// A block whose motion is not computed may cut: a call, or in Klartext a cycle that moves Z. Rapids to three
+// variables look the same and count, too, so that no cut is missed.
+bool may_cut(const Move& move, const Program& program) {
+  if (program.dialect == "heidenhain" && move.fixed[2]) return true;
+  return move.fixed[0] && move.fixed[1] && move.fixed[2];
+}
+
+// A cycle is called at its end, which is checked.
+bool cuts_at_end(const Move& move) {
+  return move.makes_hole || move.mills_at_end;
+}
+
+bool counts(const Move& move, const Program& program) {
+  if (cuts_at_end(move)) return true;
+  if (move.cycle) return move.cycle->repeats > 0;
+  if (move.motion == Motion::rapid) return may_cut(move, program);
+  return !rests(move);
+}
+
+// A hole is solved at its bottom; it is not part of the cutting length.
+bool is_known_hole(const Move& move) {
+  return move.cycle && move.handling == Handling::own && !any(move.fixed);
+}
+
+}  // namespace
+
+void FeedTally::add_window(const Job& window) {
+  for (const Move& move : window.program.moves) {
+    if (move.mills_at_end) ++moves_.count;  // the length milled around the end is unknown
+    if (!counts(move, window.program)) continue;
+    ++moves_.count;
+    const bool first_known = cuts_at_end(move) && !all_known(move.known_start) && all_known(move.known_end);
+    known_lengths_ += is_known_hole(move) || first_known;
+  }
+  for (const Segment& segment : window.path.segments) {
+    if (!segment.cutting && !cuts_at_end(window.program.moves[segment.move])) continue;
+    ++known_lengths_;
+    if (segment.cutting) moves_.length_mm += length(segment.wanted) / mm;
+  }
+  segment_.reset();
+  next_ = 0;
+}
+
+void FeedTally::add_measured(bool is_within) {
+  ++(is_within ? moves_.within : moves_.missed);
+}
+
+void FeedTally::add(const Waypoint& w, double miss, const Job& window) {
+  if (w.status != Status::converged) return;
+  const bool is_within = miss <= window.options.tolerance;
+  const Move* move = nullptr;
+  if (w.segment == no_segment) {
+    move = move_without_segment(w, window.program);
+  } else {
+    next_ = window.path.segments[w.segment].move;
+    move = &window.program.moves[next_];
+  }
+  // Of the move to a hole only the end counts, where the cycle is called.
+  const bool hole =
+      move != nullptr && (w.segment == no_segment ? move->cycle || cuts_at_end(*move)
+                                                  : cuts_at_end(*move) && !w.cutting && w.fraction == 1);
+  if (!w.cutting && !hole) {
+    const bool feed = w.segment == no_segment && move != nullptr && move->motion == Motion::feed;
+    ++(feed ? moves_.known_ends : moves_.rapid_ends);
+    return;
+  }
+  if (moves_.worst_line == 0 || miss / mm > moves_.worst_mm) {
+    moves_.worst_mm = miss / mm;
+    moves_.worst_line = w.line;
+  }
+  if (hole) return add_measured(is_within);
+  if (segment_ != w.segment) {
+    segment_ = w.segment;
+    missed_ = !is_within;
+    return add_measured(is_within);
+  }
+  if (is_within || missed_) return;
+  missed_ = true;
+  --moves_.within;
+  ++moves_.missed;
+}
+
+// A hole, or the first known position: both are solved at their end only.
+const Move* FeedTally::move_without_segment(const Waypoint& w, const Program& program) {
+  for (std::size_t m = next_; m < program.moves.size(); ++m) {
+    const Move& move = program.moves[m];
+    if (move.line != w.line || (!move.cycle && all_known(move.known_start))) continue;
+    next_ = m + 1;
+    return &move;
+  }
+  return nullptr;
+}
+
+FeedMoves FeedTally::moves() const {
+  FeedMoves moves = moves_;
+  const std::size_t measured = moves.within + moves.missed;
+  moves.unknown = moves.count - std::min(moves.count, measured);
+  moves.unknown_length = std::min(moves.unknown, moves.count - std::min(moves.count, known_lengths_));
+  return moves;
+}
+
+}  // namespace counterflex

@@ -1,0 +1,249 @@
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "counterflex/geometry/types.hpp"
+#include "counterflex/report/run_tally.hpp"
+#include "report/tally/preloads.hpp"
+
+namespace counterflex {
+namespace {
+
+constexpr double no_correction = 1e-12;  // m: rounding of coordinates that were moved to M and back
+constexpr std::size_t worst_rows = 10;
+constexpr std::size_t most_lines = 4096;
+
+DeviationSample sample(const Waypoint& w, const Vector6& deviation, double weight) {
+  return {deviation, w.direction, w.tool_axis, weight, w.line};
+}
+
+void keep(Largest& largest, double length, int line) {
+  if (largest.line == 0 || length / mm > largest.mm + indistinct_mm)
+    largest.line = line;  // the first of equal values
+  largest.mm = std::max(largest.mm, length / mm);
+}
+
+/// Whether `deviation` is the largest of its line so far. Keeps it with its place; keeps the first of equal
+/// values.
+bool keep_worst(double& largest_mm, WorstPlace& place, const Waypoint& w, const Vector6& deviation,
+                std::int32_t operation) {
+  const double here_mm = deviation.head<3>().norm() / mm;
+  if (place.known && here_mm <= largest_mm + indistinct_mm) {
+    largest_mm = std::max(largest_mm, here_mm);
+    return false;
+  }
+  largest_mm = here_mm;
+  place = {true, w.s / mm, w.p_MT / mm, operation, w.wrench.head<3>().norm(), w.corrected_line};
+  return true;
+}
+
+void keep_at_worst(const Waypoint& w, const Causes& causes, std::optional<SourcesAtWorst>& worst) {
+  const auto in_mm = [](const Vector6& deviation) { return Vector3(deviation.head<3>() / mm); };
+  if (worst && in_mm(w.before).norm() <= worst->before_mm.norm() + indistinct_mm) return;
+  worst = SourcesAtWorst{w.line,
+                         w.p_MT / mm,
+                         in_mm(causes.geometry),
+                         in_mm(causes.load),
+                         in_mm(causes.gravity),
+                         in_mm(preloads_of(causes)),
+                         in_mm(causes.superposition),
+                         in_mm(w.before)};
+}
+
+DeviationParts parts_of(const Waypoint& w, const Causes& causes) {
+  const auto size_mm = [](const Vector6& deviation) { return deviation.head<3>().norm() / mm; };
+  return {size_mm(causes.geometry), size_mm(causes.load), size_mm(causes.gravity),
+          size_mm(w.before - causes.superposition), size_mm(preloads_of(causes))};
+}
+
+bool before_line(const WorstRow& row, int line) {
+  return row.line < line;
+}
+
+}  // namespace
+
+// Nearly all lines are in order: the wanted one is the last one, or after it.
+WorstRow& WorstLines::row(int line) {
+  const auto place = [&] {
+    if (rows_.empty() || rows_.back().line < line) return rows_.end();
+    return std::lower_bound(rows_.begin(), rows_.end(), line, before_line);
+  };
+  auto found = place();
+  if (found == rows_.end() || found->line != line) {
+    if (rows_.size() >= most_lines) {
+      keep_the_worst();
+      found = place();
+    }
+    found = rows_.insert(found, WorstRow{.line = line});
+  }
+  if (line != last_) last_but_one_ = std::exchange(last_, line);
+  return *found;
+}
+
+std::vector<WorstRow> WorstLines::worst(double WorstRow::*key) const {
+  std::vector<WorstRow> rows(std::min(rows_.size(), worst_rows));
+  const auto size = [&](const WorstRow& row) { return std::round(row.*key / indistinct_mm); };
+  const auto worse = [&](const WorstRow& a, const WorstRow& b) {
+    return size(a) > size(b) || (size(a) == size(b) && a.line < b.line);
+  };
+  std::partial_sort_copy(rows_.begin(), rows_.end(), rows.begin(), rows.end(), worse);
+  return rows;
+}
+
+// The last line may still grow: everything of a piece except `after` is known at its end.
+void WorstLines::keep_the_worst() {
+  std::vector<int> lines{last_, last_but_one_};
+  for (const auto key : {&WorstRow::before_mm, &WorstRow::after_mm})
+    for (const WorstRow& row : worst(key)) lines.push_back(row.line);
+  std::erase_if(rows_, [&](const WorstRow& row) {
+    return std::find(lines.begin(), lines.end(), row.line) == lines.end();
+  });
+}
+
+void PathTally::add(const Waypoint& w, std::int32_t operation, const MoveFacts& facts, bool is_within) {
+  if (w.status != Status::converged) return;
+  if (!w.between) add_target(w);
+  if (w.cutting) return add_cutting(w, operation, facts, is_within);
+  finish_end();
+}
+
+Measures PathTally::measures() const {
+  PathTally whole = *this;
+  whole.finish_end();
+  return std::move(whole.m_);
+}
+
+std::vector<WorstRow> PathTally::worst(double WorstRow::*key) const {
+  PathTally whole = *this;
+  whole.finish_end();
+  return whole.lines_.worst(key);
+}
+
+std::vector<OperationTally> PathTally::operations() const {
+  PathTally whole = *this;
+  whole.finish_end();
+  return std::move(whole.operations_);
+}
+
+void PathTally::add_target(const Waypoint& w) {
+  const double length = w.correction.head<3>().norm();
+  keep(m_.correction, length, w.line);
+  const std::pair segment{w.segment, w.segment == no_segment ? 0 : w.line};
+  if (length < no_correction || last_changed_ == segment) return;
+  last_changed_ = segment;
+  ++m_.segments_changed;
+}
+
+void PathTally::add_cutting(const Waypoint& w, std::int32_t operation, const MoveFacts& facts,
+                            bool is_within) {
+  m_.after.add(sample(w, w.after, w.weight));
+  tally_of(facts.tool).after.add(facts.tool, w.after, w.tool_axis, w.line);
+  m_.path_mm += w.weight / mm;
+  m_.largest_N = std::max(m_.largest_N, w.wrench.head<3>().norm());
+  m_.largest_Nm = std::max(m_.largest_Nm, w.wrench.tail<3>().norm());
+  add_to_operation(w, operation);
+  WorstRow& row = lines_.row(w.line);
+  keep_worst(row.after_mm, row.at_after, w, w.after, operation);
+  piece_weight_ += w.weight;
+  piece_missed_ = piece_missed_ || !is_within;
+  if (!w.between) close_piece(w, operation);
+  place_weight_ += w.weight;
+  if (w.place) add_place(w, operation, facts);
+}
+
+// An inserted point is not a place of the original path: only the causes at the emitted target count.
+void PathTally::close_piece(const Waypoint& w, std::int32_t operation) {
+  const double corrected_mm = std::exchange(piece_missed_, false) ? 0 : piece_weight_ / mm;
+  m_.corrected_mm += corrected_mm;
+  if (OperationTally* tally = tally_of(operation)) tally->corrected_mm += corrected_mm;
+  piece_weight_ = 0;
+  if (w.place || !w.causes) return;
+  m_.without_force.add(sample(w, w.causes->air, 0));
+  keep(m_.air, w.causes->air.head<3>().norm(), w.line);
+}
+
+ToolTally& PathTally::tally_of(const ToolSize& tool) {
+  ToolTally& tally = m_.tools[tool.number];
+  tally.size = tool;
+  return tally;
+}
+
+OperationTally* PathTally::tally_of(std::int32_t operation) {
+  if (operation == no_operation) return nullptr;
+  const auto index = static_cast<std::size_t>(operation);
+  if (index >= operations_.size()) operations_.resize(index + 1);
+  return &operations_[index];
+}
+
+void PathTally::add_to_operation(const Waypoint& w, std::int32_t operation) {
+  OperationTally* tally = tally_of(operation);
+  if (tally == nullptr) return;
+  tally->after.add(sample(w, w.after, w.weight));
+  tally->length_mm += w.weight / mm;
+  tally->first_line = tally->first_line == 0 ? w.line : std::min(tally->first_line, w.line);
+  tally->last_line = std::max(tally->last_line, w.line);
+  const std::pair move{w.segment, w.line};
+  if (tally->last_move == move) return;
+  tally->last_move = move;
+  ++tally->moves;
+}
+
+// Trapezoidal rule: the length between two places counts half for each, or fully for the last one if the
+// other is unknown.
+void PathTally::add_place(const Waypoint& w, std::int32_t operation, const MoveFacts& facts) {
+  if (begins_feed_run(w)) {
+    finish_end();
+    end_ = End{w, operation, 0, 0, facts};
+    return;  // its length is part of the length to the next place
+  }
+  const double share = end_ ? place_weight_ / 2 : 0;
+  if (end_) share_piece(w, operation, share);
+  finish_end();
+  const double rest = place_weight_ - share;
+  end_ = End{w, operation, rest, rest, facts};
+  place_weight_ = 0;
+}
+
+// The first piece of an operation starts at the end of the previous one.
+void PathTally::share_piece(const Waypoint& w, std::int32_t operation, double share) {
+  end_->weight += share;
+  OperationTally* tally = tally_of(operation);
+  if (end_->operation == operation || tally == nullptr) return void(end_->weight_there += share);
+  Waypoint start = end_->at;
+  start.line = w.line;
+  start.direction = w.direction;
+  tally->before.add(sample(start, start.before, share));
+}
+
+void PathTally::finish_end() {
+  if (end_) measure_end(*end_);
+  end_.reset();
+}
+
+void PathTally::measure_causes(const Waypoint& w, const Causes& causes, double weight) {
+  m_.geometry.add(sample(w, causes.geometry, weight));
+  m_.load.add(sample(w, causes.load, weight));
+  m_.gravity.add(sample(w, causes.gravity, weight));
+  m_.preloads.add(sample(w, preloads_of(causes), weight));
+  m_.superposition.add(sample(w, causes.superposition, weight));
+  keep_at_worst(w, causes, m_.at_worst);
+  m_.without_force.add(sample(w, causes.air, weight));
+  keep(m_.air, causes.air.head<3>().norm(), w.line);
+}
+
+void PathTally::measure_end(const End& end) {
+  const Waypoint& w = end.at;
+  m_.before.add(sample(w, w.before, end.weight));
+  Vector6 rest = w.before;
+  rest.head<3>() -= end.facts.common_shift;
+  m_.rest.add(sample(w, rest, end.weight));
+  tally_of(end.facts.tool).before.add(end.facts.tool, w.before, w.tool_axis, w.line);
+  if (OperationTally* tally = tally_of(end.operation))
+    tally->before.add(sample(w, w.before, end.weight_there));
+  if (w.causes) measure_causes(w, *w.causes, end.weight);
+  WorstRow& row = lines_.row(w.line);
+  if (keep_worst(row.before_mm, row.at_before, w, w.before, end.operation) && w.causes)
+    row.causes = parts_of(w, *w.causes);
+}
+
+}  // namespace counterflex

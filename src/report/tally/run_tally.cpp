@@ -1,0 +1,115 @@
+#include "counterflex/report/run_tally.hpp"
+
+#include <algorithm>
+
+#include "counterflex/files/text.hpp"
+#include "counterflex/geometry/types.hpp"
+#include "report/text/control.hpp"
+
+namespace counterflex {
+
+std::int32_t OperationNames::number_of(const Program& window, const Move& move) {
+  const std::string operation = without_controls(window.operations[move.operation]);
+  const auto is_it = [&](const Name& name) { return name.tool == move.tool && name.operation == operation; };
+  if (last_ >= 0 && is_it(names_[static_cast<std::size_t>(last_)])) return last_;
+  std::size_t i =
+      static_cast<std::size_t>(std::find_if(names_.begin(), names_.end(), is_it) - names_.begin());
+  if (i == names_.size() && i < listed_at_most)
+    names_.push_back(i + 1 < listed_at_most ? Name{move.tool, operation} : Name{0, "other operations"});
+  i = std::min(i, listed_at_most - 1);
+  return last_ = static_cast<std::int32_t>(i);
+}
+
+RunTally::RunTally(double min_block_ms, std::optional<PathCurves> curves, std::vector<ToolSize> tools)
+    : min_block_ms_(min_block_ms), tools_(std::move(tools)), curves_(std::move(curves)) {}
+
+MoveFacts RunTally::facts_of(const Job& window, const Segment& segment) const {
+  const long number = window.program.moves[segment.move].tool;
+  const auto known =
+      std::find_if(tools_.begin(), tools_.end(), [&](const ToolSize& tool) { return tool.number == number; });
+  return {window.path.frames[segment.frame].common_shift.value_or(Vector3::Zero()),
+          known != tools_.end() ? *known : ToolSize{number, {}, {}}};
+}
+
+void RunTally::add(const Waypoint& w, std::int32_t operation, const MoveFacts& facts, bool is_within) {
+  path_.add(w, operation, facts, is_within);
+  feed_force_.add(w);
+  if (curves_) curves_->add(w, operation);
+}
+
+void RunTally::add_waypoints(const std::vector<Waypoint>& waypoints) {
+  for (const Waypoint& w : waypoints) add(w, PathTally::no_operation, {}, true);
+}
+
+void RunTally::add_waypoints(const std::vector<Waypoint>& waypoints, const Job& window) {
+  std::size_t segment = no_segment;
+  std::int32_t operation = PathTally::no_operation;
+  MoveFacts facts;
+  for (const Waypoint& w : waypoints) {
+    if (w.segment != segment) {
+      segment = w.segment;
+      operation = PathTally::no_operation;
+      if (segment != no_segment && w.cutting) {
+        const Segment& wanted = window.path.segments[segment];
+        const Move& move = window.program.moves[wanted.move];
+        facts = facts_of(window, wanted);
+        operation = operation_names_.number_of(window.program, move);
+        if (!unit_) unit_ = move.unit;
+      }
+    }
+    const double miss = position_miss(window, w);
+    feed_.add(w, miss, window);
+    add(w, operation, facts, miss <= window.options.tolerance);
+    if (segment != no_segment && w.status == Status::converged) add_to_travel(w, window);
+  }
+}
+
+void RunTally::add_to_travel(const Waypoint& w, const Job& window) {
+  const Model& model = model_of(window, window.path.segments[w.segment]);
+  if (model.mechanism.controlled.empty()) return;
+  travel_.add(model.mechanism, w.rho, w.line);
+}
+
+void RunTally::add_window(const Job& window) {
+  feed_.add_window(window);
+  add_forces(window.forces);
+}
+
+FeedMoves RunTally::feed_moves() const {
+  FeedMoves moves = feed_.moves();
+  moves.within_mm += path_.measures().corrected_mm;
+  return moves;
+}
+
+void RunTally::add_forces(const PathForces& forces) {
+  forces_.ramps += forces.ramps();
+  forces_.jumps += forces.jumps();
+  forces_.largest_step_N = std::max(forces_.largest_step_N, forces.largest_step_N());
+  if (curves_)
+    for (const double s : forces.steps()) curves_->add_force_step(s / mm);
+  for (const Unforced& move : forces.unforced()) add_unforced(forces_.without, move);
+  for (const ForceNote& note : forces.notes()) list(force_notes_, Remark{note.line, note.what});
+}
+
+void RunTally::add_compensation(const Compensation& compensation) {
+  corrected_moves_ += compensation.corrected_moves;
+  other_moves_.grouped += compensation.other_moves.grouped;
+  other_moves_.held += compensation.other_moves.held;
+  other_moves_.in_part += compensation.other_moves.in_part;
+  other_moves_.left += compensation.other_moves.left;
+  inserted_blocks_ += compensation.counts.inserted_blocks;
+  text_bytes_ += compensation.text.size();
+  for (const LeftAlone& block : compensation.left_alone) list(left_alone_, block);
+  const double correction_mm = compensation.largest_correction / mm;
+  if (largest_correction_.line == 0 || correction_mm > largest_correction_.mm + indistinct_mm)
+    largest_correction_ = {correction_mm, compensation.largest_correction_line};
+}
+
+void RunTally::add_corrected(const Program& corrected_window) {
+  if (!lines_) lines_.emplace();
+  if (!short_blocks_) short_blocks_.emplace().limit_ms = min_block_ms_;
+  add_lines(*lines_, corrected_window.text, corrected_window.dialect);
+  add_short_blocks(*short_blocks_, corrected_window);
+}
+
+}  // namespace counterflex

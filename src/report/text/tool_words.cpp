@@ -1,0 +1,62 @@
+#include "report/text/tool_words.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+
+#include "counterflex/files/text.hpp"
+#include "counterflex/geometry/types.hpp"
+#include "report/text/text_layout.hpp"
+
+namespace counterflex {
+namespace {
+
+constexpr std::size_t shown_tools = 3;
+
+std::string um1(const std::optional<double>& value_mm) {
+  return value_mm ? format_fixed(*value_mm * 1000, 1) : "";
+}
+
+std::string rows_of(const ToolReport& tool) {
+  const std::string name = name_of_tool(tool.size);
+  const ToolDeviation before = tool.before.value_or(ToolDeviation{});
+  const auto& after = tool.after;
+  if (!tool.size.diameter)
+    return before_after_row(name + ": diameter unknown, tilt deg", mm4(before.tilt_deg),
+                            after ? mm4(after->tilt_deg) : "");
+  std::string text =
+      before_after_row(name + ": tip, in um", um1(before.tip_mm), after ? um1(after->tip_mm) : "") +
+      before_after_row("  rim, in um", um1(before.rim_mm), after ? um1(after->rim_mm) : "");
+  if (tool.size.flute)
+    text += before_after_row(fmt::format("  flank, {:.6g} mm up, in um", *tool.size.flute / mm),
+                             um1(before.flank_mm), after ? um1(after->flank_mm) : "");
+  return text;
+}
+
+}  // namespace
+
+std::string name_of_tool(const ToolSize& tool) {
+  const std::string name = tool.number == 0 ? "[tool]" : fmt::format("T{}", tool.number);
+  return tool.diameter ? fmt::format("{} ({:.6g} mm)", name, *tool.diameter / mm) : name;
+}
+
+std::string tilt_in_words(const ToolReport& tool, double tolerance_mm) {
+  const ToolDeviation& after = *tool.after;
+  std::string parts;
+  if (after.rim_mm) parts = fmt::format("its rim is off by up to {} mm", mm4(*after.rim_mm));
+  if (after.flank_mm) parts += fmt::format(", its flank by {} mm", mm4(*after.flank_mm));
+  return fmt::format(
+      "{} stays tilted by up to {} deg: {}, its tip by {} mm; the tolerance of {} mm holds for the tip only",
+      name_of_tool(tool.size), mm4(after.tilt_deg), parts, mm4(after.tip_mm), mm4(tolerance_mm));
+}
+
+std::string tool_rows(const RunReport& report) {
+  std::string text;
+  const std::size_t shown = std::min(shown_tools, report.tools_off.size());
+  for (std::size_t i = 0; i < shown; ++i) text += rows_of(report.tools_off[i]);
+  if (report.tools_off.size() > shown)
+    text += fmt::format("  and {} more tools: see the report\n", report.tools_off.size() - shown);
+  return text;
+}
+
+}  // namespace counterflex
