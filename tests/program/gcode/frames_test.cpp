@@ -8,7 +8,7 @@ using namespace counterflex::test;
 
 namespace {
 
-const std::string start = "G21 G90 G17 G54 F100\nG0 X10. Y20. Z5.\n";
+const std::string frames_start = "G21 G90 G17 G54 F100\nG0 X10. Y20. Z5.\n";
 
 const ProgramFrame& frame_of_last(const Program& program) {
   return program.frames[program.moves.back().frame];
@@ -31,13 +31,13 @@ bool followed(const Program& program) {
 TEST_CASE("G52 shifts the coordinates of the offset by plain numbers, axis by axis, and ends with zeros") {
   for (const char* const dialect : {"fanuc", "haas", "linuxcnc", "mach3"}) {
     CAPTURE(dialect);
-    const Program shifted = read(start + "G52 X5. Y1.\nG52 Y2.\nG1 X1.\n", dialect);
+    const Program shifted = read(frames_start + "G52 X5. Y1.\nG52 Y2.\nG1 X1.\n", dialect);
     CHECK(followed(shifted));
     CHECK(shifted.left_alone.empty());
     CHECK((end_in_offset(shifted) - Vector3(6, 20, 5)).norm() < 1e-12);
     CHECK((shifted.moves.back().start_mm - Vector3(5, 18, 5)).norm() < 1e-12);
     CHECK(frame_of_last(shifted).work_offset == "G54");
-    const Program ended = read(start + "G52 X5. Y1.\nG1 X1.\nG52 X0. Y0. Z0.\nG1 X1.\n", dialect);
+    const Program ended = read(frames_start + "G52 X5. Y1.\nG1 X1.\nG52 X0. Y0. Z0.\nG1 X1.\n", dialect);
     CHECK(followed(ended));
     CHECK((end_in_offset(ended) - Vector3(1, 20, 5)).norm() < 1e-12);
   }
@@ -49,7 +49,7 @@ TEST_CASE(
     "corrections") {
   for (const char* const dialect : {"fanuc", "linuxcnc", "grbl"}) {
     CAPTURE(dialect);
-    const Program program = read(start + "G1 X12.3456\nG92 X0. Y1.\nG1 X1.\n", dialect);
+    const Program program = read(frames_start + "G1 X12.3456\nG92 X0. Y1.\nG1 X1.\n", dialect);
     CHECK(followed(program));
     CHECK((end_in_offset(program) - Vector3(13.3456, 20, 5)).norm() < 1e-12);
     REQUIRE(program.moves.size() == 4);
@@ -59,7 +59,7 @@ TEST_CASE(
     REQUIRE((set.words[0] && set.words[1]));
     CHECK_FALSE(set.words[2]);
     CHECK(set.words[0]->decimals == 4);
-    const Program ended = read(start + "G92 X0. Y1.\nG1 X1.\nG92.1\nG1 X1.\n", "linuxcnc");
+    const Program ended = read(frames_start + "G92 X0. Y1.\nG1 X1.\nG92.1\nG1 X1.\n", "linuxcnc");
     CHECK(followed(ended));
     CHECK((end_in_offset(ended) - Vector3(1, 20, 5)).norm() < 1e-12);
   }
@@ -78,7 +78,7 @@ TEST_CASE("G92 of zeros needs no unit") {
 }
 
 TEST_CASE("in LinuxCNC and Mach3 G52 replaces G92, on other controls it is added to G92") {
-  const std::string text = start + "G92 X0. Y0.\nG52 X3. Y4.\nG1 X1. Y1.\n";
+  const std::string text = frames_start + "G92 X0. Y0.\nG52 X3. Y4.\nG1 X1. Y1.\n";
   for (const char* const dialect : {"linuxcnc", "mach3"})
     CHECK((end_in_offset(read(text, dialect)) - Vector3(4, 5, 5)).norm() < 1e-12);
   CHECK((end_in_offset(read(text, "fanuc")) - Vector3(14, 25, 5)).norm() < 1e-12);
@@ -88,12 +88,12 @@ TEST_CASE(
     "G68 rotates the coordinates about its centre; X and Y are unknown until they are programmed, and after "
     "G69"
     "it") {
-  const Program program = read(start + "G68 X10. Y0. R90.\nG1 X20. Y0.\nG1 X30.\n", "fanuc");
+  const Program program = read(frames_start + "G68 X10. Y0. R90.\nG1 X20. Y0.\nG1 X30.\n", "fanuc");
   CHECK(followed(program));
   CHECK((end_in_offset(program) - Vector3(10, 20, 5)).norm() < 1e-12);
   CHECK(program.moves[1].known_start == std::array<bool, 3>{false, false, true});
   CHECK(program.moves[2].known_start == std::array<bool, 3>{true, true, true});
-  const Program ended = read(start + "G68 X10. Y0. R90.\nG1 X20. Y0.\nG69\nG1 X1. Y2.\n", "haas");
+  const Program ended = read(frames_start + "G68 X10. Y0. R90.\nG1 X20. Y0.\nG69\nG1 X1. Y2.\n", "haas");
   CHECK(followed(ended));
   CHECK((end_in_offset(ended) - Vector3(1, 2, 5)).norm() < 1e-12);
 }
@@ -106,11 +106,12 @@ TEST_CASE(
         "G53 Z0.\nG92 Z0.", "G68 X0. Y0. R30.\nG52 X1.", "IF[#1EQ1]THEN #2=1\nG52 X1.\nG55",
         "G16\nG52 X1."}) {
     CAPTURE(block);
-    const Program program = read(start + block + "\nX1. Y1.\n", "fanuc");
+    const Program program = read(frames_start + block + "\nX1. Y1.\n", "fanuc");
     CHECK_FALSE(followed(program));
     CHECK_FALSE(program.left_alone.empty());
   }
-  const Program in_body = read(start + "o1 if [#1 GT 2]\nG52 X1.\no1 endif\nX1. Y1. Z1.\n", "linuxcnc");
+  const Program in_body =
+      read(frames_start + "o1 if [#1 GT 2]\nG52 X1.\no1 endif\nX1. Y1. Z1.\n", "linuxcnc");
   CHECK_FALSE(followed(in_body));
 }
 
@@ -157,7 +158,7 @@ TEST_CASE("after a Sinumerik frame that is not followed, moves are unknown until
 TEST_CASE(
     "G10 L2 sets the position of an offset, axis by axis, and positions in it are unknown until they are "
     "programmed") {
-  const Program program = read(start + "G10 L2 P1 X7. Z-3.\nG1 Y1.\nG0 X2. Z4.\n");
+  const Program program = read(frames_start + "G10 L2 P1 X7. Z-3.\nG1 Y1.\nG0 X2. Z4.\n");
   CHECK(followed(program));
   CHECK(program.left_alone.empty());
   const ProgramFrame& frame = frame_of_last(program);
@@ -165,7 +166,7 @@ TEST_CASE(
   CHECK(frame.set_mm == std::array<std::optional<double>, 3>{7.0, std::nullopt, -3.0});
   CHECK(program.moves[1].known_start == std::array<bool, 3>{false, true, false});
   CHECK(is_set(frame));
-  const Program other = read(start + "G10 L2 P2 X7.\nG1 X1.\nG55 G0 X2. Y0 Z4.\n");
+  const Program other = read(frames_start + "G10 L2 P2 X7.\nG1 X1.\nG55 G0 X2. Y0 Z4.\n");
   CHECK_FALSE(is_set(other.frames[other.moves[1].frame]));
   CHECK(is_set(frame_of_last(other)));
 }
@@ -173,7 +174,7 @@ TEST_CASE(
 TEST_CASE(
     "G10 L20 moves the zero of the active offset to the tool's position, and its words are shifted with the "
     "correction") {
-  const Program program = read(start + "G10 L20 P1 X0\nG1 X5.\n");
+  const Program program = read(frames_start + "G10 L20 P1 X0\nG1 X5.\n");
   CHECK(followed(program));
   CHECK((end_in_offset(program) - Vector3(15, 20, 5)).norm() < 1e-12);
   REQUIRE(program.moves.size() == 3);
@@ -190,7 +191,8 @@ TEST_CASE(
   for (const char* block :
        {"G10 L2 P1 X1. R30.", "G91 G10 L2 P1 X1.", "G10 L20 P2 X0", "/G10 L2 P1 X1.", "G10 L2 P1 X#1"}) {
     CAPTURE(block);
-    CHECK_FALSE(read(start + block + "\nG90 G55 G1 X1. Y1. Z1.\nG54 X1. Y1. Z1.\n").left_alone.empty());
+    CHECK_FALSE(
+        read(frames_start + block + "\nG90 G55 G1 X1. Y1. Z1.\nG54 X1. Y1. Z1.\n").left_alone.empty());
   }
-  CHECK_FALSE(read(start + "G10 L2 P0 X1.\nG1 X1. Y1. Z1.\n", "fanuc").left_alone.empty());
+  CHECK_FALSE(read(frames_start + "G10 L2 P0 X1.\nG1 X1. Y1. Z1.\n", "fanuc").left_alone.empty());
 }
