@@ -90,7 +90,7 @@ TEST_CASE("notes name what is unusual in a machine") {
   CHECK(has_note(machine, "actuator 1 (chain ram, prismatic along z) has one limit only"));
   CHECK(has_note(machine, "starts at 120 mm, outside its travel below 100 mm"));
   CHECK(has_note(machine, "1 passive joint with limits"));
-  CHECK(has_note(machine, "parallel element of one branch, \"rod\""));
+  CHECK(has_note(machine, "parallel element with one branch, \"rod\""));
   CHECK(has_note(machine, "errors.mount of chain ram is large"));
 }
 

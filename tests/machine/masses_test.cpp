@@ -109,10 +109,10 @@ TEST_CASE("elements keep their numbers in a description with masses between them
 }
 
 TEST_CASE("masses without gravity are noted, and gravity without masses") {
-  CHECK(notes_with("weights", machine_of(heavy_axis)) ==
-        std::vector<std::string>{"masses of 12.5 kg but no gravity_m_s2: no weights act"});
-  CHECK(notes_with("weights", machine_of(x_axis, pulled)) ==
-        std::vector<std::string>{"gravity_m_s2 but no masses: no weights act"});
-  CHECK(notes_with("weights", machine_of(heavy_axis, pulled)).empty());
-  CHECK(notes_with("weights", machine_of(x_axis)).empty());
+  CHECK(notes_with("no weight", machine_of(heavy_axis)) ==
+        std::vector<std::string>{"masses of 12.5 kg but no gravity_m_s2: there is no weight"});
+  CHECK(notes_with("no weight", machine_of(x_axis, pulled)) ==
+        std::vector<std::string>{"gravity_m_s2 but no masses: there is no weight"});
+  CHECK(notes_with("no weight", machine_of(heavy_axis, pulled)).empty());
+  CHECK(notes_with("no weight", machine_of(x_axis)).empty());
 }
