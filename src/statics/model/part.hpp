@@ -18,7 +18,7 @@ Vector6 spring_deflection(const Part& spring, const SeriesState& state, const St
 double joint_deflection(const Part& joint, const SeriesState& state, const Stage& stage);
 
 /// One coordinate of a part (m or rad; N or N m).
-struct Coordinate {
+struct PartCoordinate {
   int component = -1;  ///< of a spring, 0 to 5; else -1
   bool angular = false;
   double value = 0;
@@ -26,17 +26,17 @@ struct Coordinate {
   double load = 0;    ///< dE/dx; zero for an actuator
 };
 
-/// Calls visit(Coordinate) for every coordinate of a joint, a compliance or a spring.
+/// Calls visit(PartCoordinate) for every coordinate of a joint, a compliance or a spring.
 template <class Visit>
 void visit_coordinates(const Part& part, const SeriesState& state, const Stage& stage, const Visit& visit) {
   if (part.kind == PartKind::spring) {
     const Vector6 theta = state.x.segment<6>(part.column),
                   tau = part.K * spring_deflection(part, state, stage);
-    for (int k = 0; k < 6; ++k) visit(Coordinate{k, k >= 3, theta[k], theta[k], tau[k]});
+    for (int k = 0; k < 6; ++k) visit(PartCoordinate{k, k >= 3, theta[k], theta[k], tau[k]});
   } else if (part.column >= 0 && part.kind != PartKind::group) {
     const double x = state.x[part.column];
     const double load = part.kind == PartKind::actuator ? 0 : part.k * joint_deflection(part, state, stage);
-    visit(Coordinate{-1, part.joint.kind == JointKind::revolute, x, x - state.x_nominal[part.column], load});
+    visit(PartCoordinate{-1, part.joint.kind == JointKind::revolute, x, x - state.x_nominal[part.column], load});
   }
 }
 

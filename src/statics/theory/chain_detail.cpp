@@ -18,7 +18,7 @@ struct Collector {
       if (part.kind == PartKind::group) group(series, part, state, element);
       if (part.column < 0 || part.kind == PartKind::group) continue;
       if (path.empty()) list_row(part);
-      visit_coordinates(part, state, everything, [&](const Coordinate& c) {
+      visit_coordinates(part, state, everything, [&](const PartCoordinate& c) {
         detail.coordinates.push_back({element, part.kind, c.component, c.angular, c.value, c.change, c.load});
       });
     }

@@ -26,7 +26,7 @@ std::optional<Matrix3> first_spring_axes(const Series& series, const SeriesState
   return std::nullopt;
 }
 
-void add_coordinate(PartKind kind, const Coordinate& c, ChainLoads& loads) {
+void add_coordinate(PartKind kind, const PartCoordinate& c, ChainLoads& loads) {
   if (kind == PartKind::passive && c.angular) raise(loads.passive_change_max, c.change);
   if (kind != PartKind::spring && kind != PartKind::compliance) return;
   raise(c.angular ? loads.spring_rotation_max : loads.spring_translation_max, c.value);
@@ -46,7 +46,7 @@ void add_series(const Series& series, int columns, const SeriesState& state, con
                 ChainLoads& loads) {
   for (const Part& part : series.parts) {
     if (part.column >= columns) continue;
-    visit_coordinates(part, state, stage, [&](const Coordinate& c) { add_coordinate(part.kind, c, loads); });
+    visit_coordinates(part, state, stage, [&](const PartCoordinate& c) { add_coordinate(part.kind, c, loads); });
     if (part.kind != PartKind::group) continue;
     add_group(series.groups[part.group], state.groups[part.group], stage, loads);
     for (std::size_t b = 0; b < state.groups[part.group].branches.size(); ++b) {
