@@ -3,6 +3,7 @@
 
 #include "compensation/emit/emitter.hpp"
 #include "compensation/plan/arc_pieces.hpp"
+#include "compensation/solve/failures.hpp"
 #include "counterflex/geometry/types.hpp"
 
 namespace counterflex {

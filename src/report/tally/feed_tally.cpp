@@ -6,12 +6,12 @@
 namespace counterflex {
 namespace {
 
-bool any(const std::array<bool, 3>& axes) {
+bool any_axis(const std::array<bool, 3>& axes) {
   return axes[0] || axes[1] || axes[2];
 }
 
 bool rests(const Move& move) {
-  return move.handling != Handling::held && !move.arc && !any(move.fixed) && all_known(move.known_start) &&
+  return move.handling != Handling::held && !move.arc && !any_axis(move.fixed) && all_known(move.known_start) &&
          all_known(move.known_end) && move.start_mm == move.end_mm;
 }
 
@@ -36,7 +36,7 @@ bool counts(const Move& move, const Program& program) {
 
 // A hole is solved at its bottom; it is not part of the cutting length.
 bool is_known_hole(const Move& move) {
-  return move.cycle && move.handling == Handling::own && !any(move.fixed);
+  return move.cycle && move.handling == Handling::own && !any_axis(move.fixed);
 }
 
 }  // namespace
