@@ -68,7 +68,7 @@ test('a run without a feed move is not shown as good', () => {
 
 test('the number of moves that are not included is shown', () => {
   const {text, kind} = verdict({before: of(0.1), after: of(0.001)}, 1);
-  assert.match(text, /1 move is not corrected, and left out of these numbers/);
+  assert.match(text, /1 move is not corrected and not included in these numbers/);
   assert.equal(kind, 'warn');
   assert.equal(verdict({before: of(0.1)}, 2).kind, 'warn');
   assert.equal(verdict({before: of(0.1)}).kind, 'neutral');

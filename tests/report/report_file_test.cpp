@@ -43,7 +43,7 @@ std::string without_tags(std::string text) {
 TEST_CASE("a report comes with the curves of the page beside it, if that shows the same report") {
   const Folder folder;
   const std::string json = write(folder, "run.json", small_report);
-  CHECK(contains(read_report_file(json, WithCurves::yes).remark, "is not there"));
+  CHECK(contains(read_report_file(json, WithCurves::yes).remark, "is missing"));
   CHECK(read_report_file(json, WithCurves::no).remark.empty());
 
   write(folder, "run.html", page_of(page_run(without_tags(small_report))));
@@ -90,7 +90,7 @@ TEST_CASE("with a foreign or broken page only the curves are missing") {
     CAPTURE(broken);
     write(folder, "run.html", broken);
     const ReportFile file = read_report_file(json, WithCurves::yes);
-    CHECK(contains(file.remark, "its curves are left out"));
+    CHECK(contains(file.remark, "the comparison has no curves of it"));
     CHECK(file.curves.empty());
   }
 }

@@ -39,7 +39,7 @@ TEST_CASE("a report lists the tools in use with their stiffness, if one of them 
   CHECK_FALSE(report.tools[1].radial_N_per_um.has_value());
   CHECK(report.tools_assumed ==
         "Tools in use: T1, stiffness from holder_N_per_um: 20 N/um at its tip; T2, rigid. Moves with another "
-        "tool, or none known, use [tool], rigid.");
+        "tool, or an unknown one, use [tool], rigid.");
   const std::string json = to_json(report);
   CHECK(contains(json, "\"radial_N_per_um\": 20.0"));
   CHECK(contains(json, "\"radial_N_per_um\": null"));

@@ -69,7 +69,7 @@ class TheWrapper(unittest.TestCase):
         FakePost("linuxcnc", os.path.join(work, "alone", "plate.ngc"))  # corrected already
         with open(self.out, "w") as file:
             file.write("kept")
-        with self.assertRaisesRegex(RuntimeError, "status 3.*already corrected"):
+        with self.assertRaisesRegex(RuntimeError, "status 3.*header of a corrected program"):
             counterflex_post.export(["job"], self.out, OPTIONS)
         self.assertEqual(read(self.out), "kept")
 

@@ -110,12 +110,12 @@ struct ForceCover::State {
     in_use.refuse_idle();
     if (source.rules.size() == 1 && !profile_ends.empty()) profile_ends[0].refuse_missing_ends(ends);
     if (uncovered == 0) return;
-    const std::string more = uncovered > 1 ? fmt::format(" and {} more", uncovered - 1) : "";
+    const std::string moves = uncovered > 1 ? fmt::format(" and {} more have", uncovered - 1) : " has";
     throw InputError(
         Exit::machine_or_force, {file, first_uncovered, 1},
-        fmt::format("this feed move{} has no force: add a row or section for it, with zeros where nothing is "
+        fmt::format("this feed move{} no force: add a row or section for it, with zeros where nothing is "
                     "cut, or give --force=0,0,0 for all moves without another force",
-                    more));
+                    moves));
   }
 
   void refuse_ranges_beyond() const {
