@@ -33,7 +33,7 @@ test('a page with thinned marks has a note', async () => {
   const {force_steps: steps} = data.runs[0].curves;
   steps.count = 64 * steps.s_mm.length;
   write_page('pocket', data, 'thinned');
-  await visit('thinned', async (page) => assert.match(await page.innerText('#curves'), /Of every 64 steps of the force one is marked/));
+  await visit('thinned', async (page) => assert.match(await page.innerText('#curves'), /One of every 64 steps of the force is marked/));
   await visit('pocket', async (page) => assert.doesNotMatch(await page.innerText('#curves'), /Of every/));
 });
 
