@@ -8,7 +8,7 @@ namespace {
 
 const char* const ramp = "0, 0, 0, 0\n31, 180, -90, -25\n";
 
-/// The feed moves of a corrected text that are no arcs, from its `first` move on.
+/// The feed moves of a corrected text that are not arcs, from its `first` move on.
 std::size_t chords_in(const std::string& text, std::size_t first) {
   std::size_t count = 0;
   const std::vector<Move> moves = moves_in(text);
@@ -84,7 +84,7 @@ TEST_CASE("a step of the force within an arc is one line between arcs") {
   }
 }
 
-TEST_CASE("a block without a motion word of its own says G2 or G3 again behind the line of a step") {
+TEST_CASE("a block without a motion word of its own repeats G2 or G3 behind the line of a step") {
   const Shop shop =
       shop_with(orthoglide_b,
                 "G21 G90 G17\nG0 X30. Y0. Z0.\nG3 X29.99 Y0.775 R30. F600\nX0. Y30. R30.\nX-30. Y0. R30.\n"
@@ -121,7 +121,7 @@ TEST_CASE("of a helix of several turns whose last piece cannot make them only th
   check_within_tolerance(shop, result);
 }
 
-TEST_CASE("the turns of a helix stand in its last piece, where the block itself is the first") {
+TEST_CASE("the turns of a helix are in its last piece, where the block itself is the first") {
   const std::string helix = "G21 G90 G17\nG0 X30. Y0. Z0.\nG3 X30. Y0. Z-3. I-30. J0. P3 F600 M8\nM30\n";
   const Compensation result = compensated(Shop({.machine = displaced_gantry(), .text = helix}));
   const std::vector<std::string> lines = lines_of(result.text);

@@ -88,7 +88,7 @@ TEST_CASE("full and nearly full circles that change are written as two halves, w
     ++a;
   }
   CHECK(a == after.size());
-  CHECK(a >= 7);  // one of the circles says no end, and may stay as it is
+  CHECK(a >= 7);  // one of the circles has no end point, and may stay as it is
 }
 
 TEST_CASE("arcs on a machine out of square stay within the tolerance everywhere") {
@@ -128,7 +128,8 @@ TEST_CASE("an arc that eight pieces cannot follow is divided into more") {
   CHECK(dense_miss(shop, result, 20).size <= 1e-6);
 }
 
-TEST_CASE("arcs follow a force that steps, ramps and turns the correction along them" * doctest::test_suite("long")) {
+TEST_CASE("arcs follow a force that steps, ramps and turns the correction along them" *
+          doctest::test_suite("long")) {
   for (const double blend : {0.0, 2e-3}) {
     CAPTURE(blend);
     const Shop shop(

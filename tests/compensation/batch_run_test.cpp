@@ -46,7 +46,8 @@ const char* const long_line = "G21 G90\nG0 X-73.65 Y-73.65 Z-73.65\nG1 Y126.35 F
 
 }  // namespace
 
-TEST_CASE("long lines are compensated side by side as they are one by one, forces or none" * doctest::test_suite("long")) {
+TEST_CASE("long lines are compensated side by side as they are one by one, forces or none" *
+          doctest::test_suite("long")) {
   for (const auto& [machine, blend] :
        {std::pair{orthoglide_a, 0.0}, {orthoglide_b, 2e-3}, {orthoglide_perfect, 0.0}}) {
     const auto& shown = machine;
@@ -58,7 +59,7 @@ TEST_CASE("long lines are compensated side by side as they are one by one, force
   CHECK(!check_same_run({.machine = load_machine(orthoglide_b), .text = long_line}).failure);
 }
 
-TEST_CASE("causes are told apart side by side as they are one by one") {
+TEST_CASE("causes are distinguished side by side as they are one by one") {
   const Order order{.machine = load_machine(orthoglide_b),
                     .text = "G21 G90\nG0 X0. Y0. Z0.\nG1 X10. F600\nG1 Y10.\nM30\n",
                     .force = constant_force(milling())};
@@ -124,7 +125,7 @@ TEST_CASE("the nested method finds side by side what it finds one by one") {
              .failure);
 }
 
-TEST_CASE("what is refused one by one is refused side by side, at the same line in the same words") {
+TEST_CASE("a program refused one by one is refused side by side, at the same line in the same words") {
   const char* const far_right = "G21 G90\nG0 X10. Y10. Z-240.\nG0 X399.5\nG1 X400.3 F100\nM30\n";
   CHECK(check_same_run({.machine = load_machine(mill), .text = far_right}).failure);
   const char* const above = "G21 G90\nG0 X10. Y10. Z-100.\nM30\n";
@@ -143,7 +144,7 @@ TEST_CASE("what is refused one by one is refused side by side, at the same line 
   CHECK(check_same_run(little).failure);
 }
 
-TEST_CASE("a load that the machine does not bear is refused side by side as it is one by one") {
+TEST_CASE("a load that the machine cannot carry is refused side by side as it is one by one") {
   Order order{.machine = load_machine(orthoglide_b),
               .text = "G21 G90\nG0 X0. Y0. Z0.\nG1 X5. F600\nG1 X10.\nM30\n"};
   order.max_correction = 0.1;

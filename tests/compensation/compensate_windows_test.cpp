@@ -31,7 +31,7 @@ void check_same_bytes(const WindowRun& a, const WindowRun& b) {
   }
 }
 
-/// Line and words of the failure; what was heard before it in `run`.
+/// Line and words of the failure; `run` gets the output received before it.
 std::string failure_of(const Order& order, WindowRun& run) {
   try {
     run_in_windows(order, 8, {}, run);
@@ -69,7 +69,7 @@ TEST_CASE("windows whose waypoints are solved side by side give the same bytes o
   }
 }
 
-TEST_CASE("the first window that fails is named on any number of threads, and none behind it is heard of") {
+TEST_CASE("the first window that fails is named on any number of threads, and none behind it is reported") {
   for (const char* wrong : {"X99999", "X1 F", "X1 X2"}) {
     CAPTURE(wrong);
     Order order = cuts(300, 150, wrong);
@@ -88,7 +88,7 @@ TEST_CASE("the first window that fails is named on any number of threads, and no
   }
 }
 
-TEST_CASE("a window that fails goes before what the reader finds behind it") {
+TEST_CASE("a failed window has priority over errors that the reader finds behind it") {
   Order order = cuts(300, 150, "X99999");
   order.text += "X1 F\n";
   for (const int threads : {1, 2, 4}) {
@@ -98,7 +98,7 @@ TEST_CASE("a window that fails goes before what the reader finds behind it") {
   }
 }
 
-TEST_CASE("what hears of a window that was read may refuse it, when its turn comes") {
+TEST_CASE("the function that receives a window that was read may refuse it, when its turn comes") {
   Order order = cuts(300);
   for (const int threads : {1, 3}) {
     order.threads = threads;

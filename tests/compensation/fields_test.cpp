@@ -31,7 +31,7 @@ TEST_CASE("a perfect machine without forces gives back lines that end in CR LF, 
   CHECK(compensated(shop).text == text);
 }
 
-TEST_CASE("a rigid gantry that stands displaced is sent back by exactly the displacement") {
+TEST_CASE("a rigid gantry that is displaced is sent back by exactly the displacement") {
   const Shop shop({.machine = displaced_gantry(), .text = part});
   const Compensation result = compensated(shop);
   CHECK(result.counts.inserted_blocks == 0);
@@ -74,9 +74,9 @@ TEST_CASE("a work offset turns the correction into program coordinates") {
 }
 
 TEST_CASE(
-    "words that round to their originals are untouched, others are inserted only where rounding asks for "
+    "words that round to their originals are untouched, others are inserted only where rounding needs "
     "them") {
-  // A tilt of Z against X alone: x moves by 1 um for each mm of z.
+  // A tilt of Z against X alone: x moves by 1 µm for each mm of z.
   const Shop shop({.machine = rigid_gantry("0, 0, 0", 0, 1e-3),
                    .text = "G21 G90\nG0 X0. Y0. Z0.\nG1 Z-0.4 F100\nG1 Z-40.\nX10.\nG1 Y5.\nZ0.\nM30\n"});
   const std::vector<std::string> lines = lines_of(compensated(shop).text);

@@ -45,7 +45,7 @@ double dense(const Shop& shop, const std::vector<Piece>& pieces, int inside) {
   return dense_miss(shop, all, inside).size;
 }
 
-/// A head that yields evenly, 10 um to 100 N.
+/// A head that deflects evenly, 10 µm under 100 N.
 Machine yielding_gantry() {
   Machine machine = perfect_gantry();
   Spring spring;
@@ -72,8 +72,8 @@ TEST_CASE("a narrow spike of the force inside a long block is found") {
   const double largest = dense(shop, pieces, 3000);
   CHECK(largest > 28e-6);
   CHECK(inside_of(shop, pieces) > 0.99 * largest);
-  CHECK(tolerance_failure(
-      shop.job(), solve_pieces(shop.job(), pieces, {.before = false, .inside = true}).waypoints));
+  CHECK(tolerance_failure(shop.job(),
+                          solve_pieces(shop.job(), pieces, {.before = false, .inside = true}).waypoints));
 }
 
 TEST_CASE("a spike inside one of many short blocks is found") {
@@ -104,7 +104,9 @@ TEST_CASE("a hump of the force between the samples of a long block is found by c
   CHECK(inside_of(shop, pieces) > 0.9 * largest);
 }
 
-TEST_CASE("without bounds every feed piece is sampled in its own middle, arcs every 11.25 degrees on all of their turns") {
+TEST_CASE(
+    "without bounds every feed piece is sampled in its own middle, arcs every 11.25 degrees on all of their "
+    "turns") {
   const Shop shop({.machine = perfect_gantry(),
                    .text =
                        "G21 G90 G17\nG0 X10 Y0 Z0\nG1 X10.5 F600\nX11\nX11.5\nX12\nG3 X12 Y0 Z-2 I-12 J0 P6\n"
@@ -129,9 +131,12 @@ TEST_CASE("without bounds every feed piece is sampled in its own middle, arcs ev
   }
 }
 
-TEST_CASE("a short line is judged by its ends where its cell bounds the rest, and inside where they leave too little") {
-  const Shop shop(
-      {.machine = load_machine(orthoglide_b), .text = blocks(40, 0.5), .force = constant_force(milling(), 0)});
+TEST_CASE(
+    "a short line is judged by its ends where its cell bounds the rest, and inside where they leave too "
+    "little") {
+  const Shop shop({.machine = load_machine(orthoglide_b),
+                   .text = blocks(40, 0.5),
+                   .force = constant_force(milling(), 0)});
   const auto miss_of_ends = [&](double miss) {
     std::vector<Piece> pieces = right_at_ends(shop);
     for (Piece& piece : pieces) {
@@ -143,7 +148,8 @@ TEST_CASE("a short line is judged by its ends where its cell bounds the rest, an
   const auto inside = [&](const std::vector<Piece>& pieces) {
     const ForwardRun run = solve_pieces(shop.job(), pieces, {.before = false});
     REQUIRE(!run.failure);
-    return std::ranges::count_if(run.waypoints, [](const Waypoint& w) { return w.between && !w.place && w.fraction > 0; });
+    return std::ranges::count_if(run.waypoints,
+                                 [](const Waypoint& w) { return w.between && !w.place && w.fraction > 0; });
   };
   const double tolerance = shop.options.tolerance;
   CHECK(inside(miss_of_ends(0.5 * tolerance)) == 0);
@@ -171,7 +177,8 @@ TEST_CASE("a correction that bends along a long block is found") {
   }
 }
 
-TEST_CASE("short blocks under a force of their own each are followed within the tolerance, inside too" * doctest::test_suite("long")) {
+TEST_CASE("short blocks under a force of their own each are followed within the tolerance, inside too" *
+          doctest::test_suite("long")) {
   std::string text = "G21 G90\nG0 X0 Y0 Z0\nG1 F600\n", rows = "# frame = machine\n# sense = on_tool\n";
   rows += "line,fx_N,fy_N,fz_N\n";
   for (int k = 1; k <= 300; ++k) {

@@ -18,7 +18,7 @@ struct Miss {
   double u = 0;
 };
 
-/// From home and from nothing: where the tip stands for a target.
+/// From home and from nothing: where the tip is for a target.
 inline Vector3 cold_tip(const Shop& shop, const Model& model, const Vector3& target, const Vector6& F,
                         const Stage& stage = {}) {
   const NominalResult nominal = follow(model, model.home, {tip(model.mechanism, model.home).R, target});

@@ -36,7 +36,7 @@ TEST_CASE("without a blend an extra feed move performs the jump into a cut and o
   CHECK((cold_tip(shop, moves[1].end_mm * mm, milling())).norm() < 1.5e-6);
 }
 
-TEST_CASE("a modal rapid after a jump says G0 itself") {
+TEST_CASE("a modal rapid after a jump has a G0 of its own") {
   const Shop shop({.machine = load_machine(orthoglide_b),
                    .text = "G21 G90\nG0 X0. Y0. Z0.\nG1 X2. F100\nG0 Z20.\nX0.\nG1 Z10.\nG0\nZ30.\nM30\n",
                    .force = constant_force(milling(), 0)});
@@ -104,7 +104,7 @@ TEST_CASE("under exact stop a move is not split: its ends are corrected, and it 
   }
 }
 
-TEST_CASE("a jump that an exact stop forbids is listed, even where nothing else asks for points") {
+TEST_CASE("a jump that an exact stop forbids is listed, even where nothing else needs points") {
   const Shop shop({.machine = load_machine(orthoglide_b),
                    .text = "G21 G90\nG0 X0. Y0. Z0.\nG61.1\nG1 X2. F100\nG0 Z20.\nM30\n",
                    .force = constant_force(milling(), 0)});

@@ -46,7 +46,7 @@ TEST_CASE("a first position counts among the corrections") {
   CHECK(result.largest_correction_line == 2);
 }
 
-TEST_CASE("an actuator that leaves its travel is a limit, whether the machine is told positions or poses") {
+TEST_CASE("an actuator that leaves its travel is a limit, whether the machine gets positions or poses") {
   Order order{.machine = load_machine(mill),
               .text = "G21 G90\nG0 X10. Y10. Z-240.\nG0 X399.5\nG1 X400.3 F100\nM30\n"};
   Failure failure = refused(order);

@@ -83,7 +83,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("the largest force of every part of a path is kept, wherever it stands and however short it is") {
+TEST_CASE("the largest force of every part of a path is kept, wherever it is and however short it is") {
   for (const int at : {0, 1, 511, 1020, 7'777, 19'999}) {
     CAPTURE(at);
     auto waypoints = equal_waypoints(20'000);
@@ -112,7 +112,7 @@ TEST_CASE("the largest moment and the largest deviation before are kept where th
   CHECK_FALSE(has_line(places, 3 + 4'003));
 }
 
-TEST_CASE("places weigh what the waypoints weigh that they stand for") {
+TEST_CASE("places weigh as much as the waypoints that they represent") {
   for (const int count : {10, 5'000}) {
     std::vector<Waypoint> waypoints = equal_waypoints(count);
     double sum = 0, kept_sum = 0;
@@ -167,7 +167,7 @@ TEST_CASE("a place has the target that was written, behind a datum that was touc
   CHECK(last.load.F == milling());
 }
 
-TEST_CASE("loads at a place are those of the machine that is told to go there, under the force there") {
+TEST_CASE("loads at a place are those of the machine that is commanded to go there, under the force there") {
   const Shop shop({.machine = read_machine(read_file(orthoglide_b), "orthoglide"),
                    .text = "G21 G90\nG0 X0 Y0 Z0\nG1 X20. Y5. F600\nG2 X10. Y-10. R15.\n",
                    .force = constant_force(milling())});
@@ -212,8 +212,7 @@ TEST_CASE("loads are the same to the last bit for any number of threads" * docte
                    .force = constant_force(milling())});
   const Job job = shop.job();
   LoadPlaces places;
-  places.add(
-      job, solve_pieces(job, original_pieces(job), {.attribution = true, .inside = false}).waypoints);
+  places.add(job, solve_pieces(job, original_pieces(job), {.attribution = true, .inside = false}).waypoints);
   REQUIRE(places.places().size() > 600);  // several chunks
   const LoadsAlong one = solve_loads(shop.model, places.places(), 1);
   CHECK(one.unsolved == 0);

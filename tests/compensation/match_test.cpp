@@ -19,7 +19,7 @@ double largest_after(const std::vector<Waypoint>& waypoints, int line) {
 
 }  // namespace
 
-TEST_CASE("a corrected program read anew deviates as its compensation says") {
+TEST_CASE("a corrected program read again deviates as its compensation states") {
   for (const double blend : {2e-3, 0.0}) {
     CAPTURE(blend);
     const Shop shop({.machine = load_machine(orthoglide_b),
@@ -45,7 +45,7 @@ TEST_CASE("steps of the force inside a move survive the judgement of the text") 
   if (run.failure) MESSAGE(run.failure->what);
 }
 
-TEST_CASE("blocks that act at their beginning are told from each other and from their pieces") {
+TEST_CASE("blocks that act at their beginning are distinguished from each other and from their pieces") {
   for (const std::string cuts : {"G1 X40. M8\nG1 Y40. M8\n", "G1 X40.\nG1 Y40. M8\nG1 X-40. M8\n",
                                  "G1 Z40. M8\nG1 Z40.\nG1 Z-30. M8\nG1 Y40. Z16.\n"}) {
     CAPTURE(cuts);
@@ -56,7 +56,8 @@ TEST_CASE("blocks that act at their beginning are told from each other and from 
   }
 }
 
-TEST_CASE("one coordinate that is changed by some hundredths is found, with its line" * doctest::test_suite("long")) {
+TEST_CASE("one coordinate that is changed by some hundredths is found, with its line" *
+          doctest::test_suite("long")) {
   const Shop shop(
       {.machine = load_machine(orthoglide_b), .text = two_feeds, .force = constant_force(milling())});
   const Compensation result = compensated(shop);
@@ -65,7 +66,7 @@ TEST_CASE("one coordinate that is changed by some hundredths is found, with its 
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const auto& word = corrected.moves[m].words[axis];
       if (!word) continue;
-      // Along the path an inserted point may stand elsewhere: the tip stays on the path.
+      // Along the path an inserted point may be elsewhere: the tip stays on the path.
       const Vector3 step = corrected.moves[m].end_mm - corrected.moves[m].start_mm;
       if (std::abs(step[static_cast<Eigen::Index>(axis)]) > 0.9 * step.norm()) continue;
       CAPTURE(corrected.moves[m].line);

@@ -1,4 +1,4 @@
-// The three methods: two that agree, and one that is an approximation and says so.
+// The three methods: two that agree, and one that is an approximation and states it.
 #include "judge.hpp"
 
 using namespace counterflex;

@@ -38,7 +38,7 @@ TEST_CASE("with a blend a rapid starts where the cut ended") {
   const std::string text = "G21 G90\nG0 X0. Y0. Z0.\nG1 X1. F100\nG1 X2.\nG0 Z20.\nM30\n";
   const Compensation result = on_orthoglide(text, constant_force(milling()));
   const std::vector<std::string> lines = lines_of(result.text);
-  // The rapid is the last move, and nothing stands between it and the end of the cut.
+  // The rapid is the last move, and nothing is between it and the end of the cut.
   CHECK(lines[lines.size() - 3].substr(0, 4) == "G0 Z");
   CHECK(lines[lines.size() - 4].find("G1") == 0);
   const auto moves = read_program(result.text, "c", {}).moves;
@@ -96,7 +96,7 @@ TEST_CASE("moves that go nowhere keep the correction that holds there") {
         {.machine = load_machine(orthoglide_b), .text = text, .force = constant_force(milling(), blend)});
     const Compensation result = compensated(shop);
     const auto moves = read_program(result.text, "c", {}).moves;
-    // In every block that stands still in the original the corrected program stands still as well.
+    // In every block without motion in the original the corrected program does not move either.
     int still = 0;
     for (const Move& move : moves) still += move.start_mm == move.end_mm && move.known_start[0];
     CHECK(still == 3);
@@ -105,7 +105,7 @@ TEST_CASE("moves that go nowhere keep the correction that holds there") {
 }
 
 TEST_CASE(
-    "a coordinate that a block omits follows when the correction asks for it, and so does the next block") {
+    "a coordinate that a block omits follows when the correction needs it, and so does the next block") {
   const std::string text = "G21 G90\nG0 X-60. Y-60. Z-60.\nG0 X100.\nG0 Y100.\nG0 Z80.\nM30\n";
   const Compensation result = on_orthoglide(text);
   const std::vector<Vector3> c = corrections(text, result.text);

@@ -36,7 +36,8 @@ std::string random_program(std::mt19937& random, double size) {
 
 }  // namespace
 
-TEST_CASE("whatever the program, a run is refused or leaves no more than the tolerance anywhere" * doctest::test_suite("long")) {
+TEST_CASE("for any program, a run is refused or leaves no more than the tolerance anywhere" *
+          doctest::test_suite("long")) {
   std::mt19937 random(20260401);
   int done = 0;
   for (int i = 0; i < 30; ++i) {

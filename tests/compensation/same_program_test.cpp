@@ -1,4 +1,4 @@
-// What verify refuses besides deviations: moves that nobody would judge, and other text that differs.
+// What verify refuses besides deviations: moves that no check would judge, and other text that differs.
 #include <fmt/format.h>
 
 #include <utility>
@@ -41,7 +41,8 @@ TEST_CASE("moves that leave the path and come back are refused") {
 }
 
 TEST_CASE("a line that holds no move has to stay as it is") {
-  const std::string differs = "this line differs from that of the original; it is no move and must stay as it is";
+  const std::string differs =
+      "this line differs from that of the original; it is not a move and must not change";
   CHECK(refusal(replaced("G54", "G55")) == "1, original 1: " + differs);
   CHECK(refusal(replaced("M5\n", "")) == "5, original 5: " + differs);
   CHECK(refusal(replaced("M30\n", "M30\nM3\n")) == "7, original 0: the original has no such line");
@@ -50,9 +51,10 @@ TEST_CASE("a line that holds no move has to stay as it is") {
 }
 
 TEST_CASE("words of a move that correction never changes have to stay") {
-  CHECK(refusal(replaced("F100", "F1000")) ==
-        "3, original 3: the moves from here on do not end where that of the original does, with the same words "
-        "(motion, F, S, M)");
+  CHECK(
+      refusal(replaced("F100", "F1000")) ==
+      "3, original 3: the moves from here on do not end where that of the original does, with the same words "
+      "(motion, F, S, M)");
 }
 
 TEST_CASE("the N of a block belongs to its first piece") {
@@ -78,10 +80,11 @@ TEST_CASE("the N of a block belongs to its first piece") {
 }
 
 TEST_CASE("numbers of a split Klartext program are those of its own order") {
-  const Shop shop({.machine = load_machine(small_mill),
-                   .text = "0 BEGIN PGM A MM\n1 TOOL CALL 1 Z S1000\n2 L X+0 Y+0 Z+0 R0 FMAX\n3 L X+250 F500\n4 L "
-                           "Y+250\n5 L X+0\n6 END PGM A MM\n",
-                   .force = step_profile("0, 50, 0, 0\n60, 215, -10, -25\n340, 20, 100, -25\n", 2e-3)});
+  const Shop shop(
+      {.machine = load_machine(small_mill),
+       .text = "0 BEGIN PGM A MM\n1 TOOL CALL 1 Z S1000\n2 L X+0 Y+0 Z+0 R0 FMAX\n3 L X+250 F500\n4 L "
+               "Y+250\n5 L X+0\n6 END PGM A MM\n",
+       .force = step_profile("0, 50, 0, 0\n60, 215, -10, -25\n340, 20, 100, -25\n", 2e-3)});
   const Compensation result = compensated(shop);
   REQUIRE(result.counts.inserted_blocks > 0);
   const auto failure = verify(shop.job(), read_program(result.text, "c.h", {}), false).failure;
@@ -107,15 +110,18 @@ TEST_CASE("the surface of a Klartext cycle goes along with its holes, and nowher
   CHECK(refused(program("+9.990", "+0")).find("surface of this hole's cycle") != std::string::npos);
 }
 
-TEST_CASE("a Klartext cycle that is defined again before a hole is accepted only where nothing else changes by it") {
+TEST_CASE(
+    "a Klartext cycle that is defined again before a hole is accepted only where nothing else changes by "
+    "it") {
   const auto program = [](const char* between, const char* again) {
     const std::string definition = "CYCL DEF 200 Q200=2 Q201=-5 Q203=+0 Q204=10\n";
-    return "BEGIN PGM A MM\nTOOL CALL 1 Z S1000\nL X+0 Y+0 Z+50 R0 FMAX\n" + definition + "L X+10 Y+5 FMAX M99\n" +
-           between + (*again ? definition : "") + "L X+20 FMAX M99\nEND PGM A MM\n";
+    return "BEGIN PGM A MM\nTOOL CALL 1 Z S1000\nL X+0 Y+0 Z+50 R0 FMAX\n" + definition +
+           "L X+10 Y+5 FMAX M99\n" + between + (*again ? definition : "") + "L X+20 FMAX M99\nEND PGM A MM\n";
   };
   const auto refused = [&](const char* between) {
     const Shop shop({.machine = rigid_gantry("0, 0, 0"), .text = program(between, "")});
-    return verify(shop.job(), read_program(program(between, "again"), "changed.h", {}), false).failure.has_value();
+    return verify(shop.job(), read_program(program(between, "again"), "changed.h", {}), false)
+        .failure.has_value();
   };
   CHECK_FALSE(refused(""));
   CHECK_FALSE(refused("; the next\n"));

@@ -22,7 +22,7 @@ inline const std::string hexapod = COUNTERFLEX_SOURCE_DIR "/tests/statics/data/h
 inline const std::string robot = COUNTERFLEX_SOURCE_DIR "/tests/statics/data/serial6r_joints.toml";
 inline const std::string strut = COUNTERFLEX_SOURCE_DIR "/tests/statics/data/bar_buckling.toml";
 inline const std::string mill = COUNTERFLEX_SOURCE_DIR "/samples/mill3/machine.toml";
-/// One axis not square, and a head that yields 20 um to 100 N.
+/// One axis not square, and a head that deflects 20 µm under 100 N.
 inline const std::string small_mill = COUNTERFLEX_SOURCE_DIR "/tests/cli/data/mill.toml";
 inline const std::string groove = COUNTERFLEX_SOURCE_DIR "/samples/orthoglide-groove/groove.ngc";
 
@@ -37,7 +37,7 @@ inline std::string replaced(std::string text, const std::string& what, const std
   return text.replace(at, what.size(), by);
 }
 
-/// What a test asks for; everything else is a run's default. Lengths in m.
+/// What a test requests; everything else is a run's default. Lengths in m.
 struct Order {
   Machine machine;
   std::string text;

@@ -1,4 +1,4 @@
-// What waypoints say: deviations and where they come from, datums, orientations, threads.
+// What waypoints state: deviations and where they come from, datums, orientations, threads.
 #include <fmt/format.h>
 
 #include "counterflex/compensation/loads_along.hpp"
@@ -120,7 +120,7 @@ TEST_CASE("with preloads each source is what it adds to them, and the superposit
   }
 }
 
-TEST_CASE("gravity without masses, and masses without gravity, are no source") {
+TEST_CASE("gravity without masses, and masses without gravity, are not a source") {
   Machine machine = load_machine(mill);
   machine.gravity.g = Vector3(0, 0, -9.81);
   CHECK_FALSE(has_weight(compile(machine)));
@@ -173,7 +173,7 @@ TEST_CASE("what more and less force do, between the ends of pieces too, is that 
   }
 }
 
-TEST_CASE("a force under which the machine would give way is no failure while it does not act") {
+TEST_CASE("a force under which the machine would buckle is not a failure while it does not act") {
   // A strut that buckles at 5000 N.
   Order order{.machine = load_machine(strut), .text = "G21 G90\nG0 X400. Y0. Z0.\nG1 X410. F100\nM30\n"};
   order.max_correction = 1;

@@ -65,7 +65,7 @@ std::vector<Vector3> first_shifts(const Shop& shop, const Compensation& result) 
 
 }  // namespace
 
-TEST_CASE("each move is shifted by what its own tool bends: F/k of it, where nothing else yields") {
+TEST_CASE("each move is shifted by what its own tool bends: F/k of it, where nothing else deflects") {
   const Shop shop(order_of(with_two_tools(perfect_gantry()), cut_with({1, 2, 9, 1})));
   const auto shifts = first_shifts(shop, compensated(shop));
   REQUIRE(shifts.size() == 4);
@@ -106,7 +106,8 @@ TEST_CASE("verify accepts what was compensated for its tools, and refuses what w
   CHECK_FALSE(refusal_of(Shop(order), text).empty());
 }
 
-TEST_CASE("with several tools, too, the bytes do not depend on the number of threads" * doctest::test_suite("long")) {
+TEST_CASE("with several tools, too, the bytes do not depend on the number of threads" *
+          doctest::test_suite("long")) {
   Order order = on_the_mill(cut_with({1, 2, 1, 7, 2}, 40), 2e-3);
   const Compensation one = compensated(Shop(order), true);
   order.threads = 3;

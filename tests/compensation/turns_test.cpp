@@ -58,7 +58,7 @@ TEST_CASE("a helix that begins where the datum was touched is followed") {
          .datum_shift = Vector3(-y * std::sin(out_of_square), y * (std::cos(out_of_square) - 1), 0)});
 }
 
-TEST_CASE("a helix of many turns is followed where the machine yields to the cut") {
+TEST_CASE("a helix of many turns is followed where the machine deflects under the cut") {
   for (const int turns : {8})
     for (const ForceSource& force : {ForceSource{}, constant_force(milling())})
       check_followed_around(

@@ -1,4 +1,4 @@
-// Positions that the text does not give: what is held, what is listed, and that no word is made up for them.
+// Positions that the text does not give: which are held, which are listed. No word is made up for them.
 #include "shop.hpp"
 
 using namespace counterflex;

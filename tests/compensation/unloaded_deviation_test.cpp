@@ -1,6 +1,5 @@
 // Common shifts: what touching off would remove of the deviation of a path.
 #include "counterflex/compensation/loads_along.hpp"
-
 #include "gantry.hpp"
 #include "judge.hpp"
 
@@ -49,7 +48,8 @@ TEST_CASE("places do not depend on how the program is cut into windows") {
   for (std::size_t begin = 0; begin < whole.moves.size(); begin += 37) {
     Program window = whole;
     const auto first = whole.moves.begin() + static_cast<std::ptrdiff_t>(begin);
-    window.moves.assign(first, first + static_cast<std::ptrdiff_t>(std::min<std::size_t>(37, whole.moves.size() - begin)));
+    window.moves.assign(
+        first, first + static_cast<std::ptrdiff_t>(std::min<std::size_t>(37, whole.moves.size() - begin)));
     in_parts.add(window);
   }
   const auto a = at_once.of("G54"), b = in_parts.of("G54");
@@ -73,15 +73,16 @@ TEST_CASE("the common shift is the mean deviation of the unloaded machine along 
   CHECK(shift->norm() > 0.1e-3);
 }
 
-TEST_CASE("a datum that is touched off where the deviation is the common shift leaves what is said to be the rest") {
+TEST_CASE(
+    "a datum that is touched off where the deviation is the common shift leaves the rest that the report "
+    "states") {
   const Machine machine = load_machine(orthoglide_b);
   const std::string text = "G21 G90\nG0 X-20. Y-40. Z10.\nG1 X20. F300\nM30\n";
   const Shop plain({.machine = machine, .text = text});
   const Vector3 shift = *common_shift(plain.model, {}, Pose{}, places_of(text).of(""));
   const Vector3 middle = Vector3(0, -40, 10) * mm;
-  const Shop touched({.machine = machine,
-                      .text = text,
-                      .datum_shift = cold_tip(plain, middle, Vector6::Zero()) - middle});
+  const Shop touched(
+      {.machine = machine, .text = text, .datum_shift = cold_tip(plain, middle, Vector6::Zero()) - middle});
   double rest = 0, before = 0, all = 0;
   for (const Waypoint& w : compensated(plain).waypoints) {
     if (w.between || !w.cutting) continue;

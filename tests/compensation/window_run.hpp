@@ -67,7 +67,7 @@ inline WindowEvents events_for(
           [&run](const Job&, const Compensation& done) { add(done, run); }};
 }
 
-/// `run` has what was heard even where something is thrown; `read` hears of windows that were read.
+/// `run` gets all output received, even if an exception follows; `read` receives each window that was read.
 inline void run_in_windows(
     const Order& order, std::size_t least_moves, const WriteOptions& write, WindowRun& run,
     const std::function<void(const Job&)>& read = [](const Job&) {}) {

@@ -113,7 +113,7 @@ TEST_CASE("windows keep the tool that is in the spindle, and its model") {
   }
 }
 
-TEST_CASE("forces in the tool's axes turn with [spindle] as with a [tool] that stands like it") {
+TEST_CASE("forces in the tool's axes turn with [spindle] as with a [tool] of the same orientation") {
   Order order{.machine = read_machine(read_file(COUNTERFLEX_SOURCE_DIR "/samples/robot-spindle/machine.toml"),
                                       "machine"),
               .text = "G21 G90 G17\nT1 M6\nG0 X0 Y0 Z0\nG1 X20 F600\nY15\nX5 Y5\n",
@@ -135,7 +135,7 @@ TEST_CASE("forces in the tool's axes turn with [spindle] as with a [tool] that s
   check_same(run, expected);
 }
 
-TEST_CASE("a window that cannot be compensated says the line, and those before it are done") {
+TEST_CASE("a window that cannot be compensated gives the line, and those before it are done") {
   std::string text = "G21 G90 G17\nG0 X0 Y0 Z0\nG1 F600\n";
   for (int k = 1; k <= 20; ++k) text += fmt::format("X{}\n", k);
   const Order order = on_mill(text + "X99999\nX1\n");

@@ -12,7 +12,7 @@ using namespace counterflex::test;
 
 namespace {
 
-/// Three passes over a wavy face in blocks of about 0.1 mm, as finishing programs have them, a rapid between
+/// Three passes along a wavy face in blocks of about 0.1 mm, as finishing programs have them, a rapid between
 /// two.
 Program wavy_face() {
   ProgramBuilder builder({0, 0, 9});

@@ -79,7 +79,7 @@ TEST_CASE("a position on an arc is found at its place") {
   check_places(places_mm(program, logged(log)), expected, 1e-2);
 }
 
-TEST_CASE("passes over the same place are distinguished by the order of the rows") {
+TEST_CASE("passes through the same place are distinguished by the order of the rows") {
   // there and back, and there again
   ProgramBuilder builder({0, 0, 0});
   builder.feed({20, 0, 0}, 600).feed({0, 0, 0}, 600).feed({20, 0, 0}, 600);

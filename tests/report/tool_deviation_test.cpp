@@ -111,9 +111,9 @@ TEST_CASE(
   const RunContext asked{context.machine, options, context.frames, context.program, context.facts};
   const RunReport report = report_compensation(asked, tally, std::nullopt);
   const std::string text = summary_text(report, false);
-  CHECK(contains(text, "[tool] (20 mm): tip, in um"));
-  CHECK(contains(text, "  rim, in um"));
-  CHECK(contains(text, "  flank, 30 mm up, in um"));
+  CHECK(contains(text, "[tool] (20 mm): tip"));
+  CHECK(contains(text, "  rim"));
+  CHECK(contains(text, "  flank, 30 mm up"));
   CHECK(contains(text, "[tool] (20 mm) stays tilted by up to 0.0573 deg: its rim is off by up to 0.0110 mm"));
   CHECK(contains(to_json(report), "\"rim_mm\": 0.011"));
 }

@@ -53,7 +53,8 @@ TEST_CASE("batches: an answer has the same bits in any batch, in any order, and 
     auto backwards = fresh.solve(question, whole, {path.rbegin(), path.rend()});
     std::reverse(backwards.begin(), backwards.end());
     CHECK(same_answers(backwards, together));
-    for (std::size_t i = 0; i < path.size(); i += 7) CHECK(same_answers(fresh.solve(question, whole, {path[i]}), {together[i]}));
+    for (std::size_t i = 0; i < path.size(); i += 7)
+      CHECK(same_answers(fresh.solve(question, whole, {path[i]}), {together[i]}));
   }
 }
 
@@ -66,7 +67,7 @@ TEST_CASE("batches: a cell that was forgotten is made again with the same bits")
   int known = 0;
   for (int i = 0; i < 1728; ++i)  // more cells than are kept
     known += bench.solver.nominal_near(bench.home().p +
-                                      cell * Vector3(i % 12 - 4, i / 12 % 12 - 4, i / 144 - 4)) != nullptr;
+                                       cell * Vector3(i % 12 - 4, i / 12 % 12 - 4, i / 144 - 4)) != nullptr;
   CHECK(known > 1500);
   CHECK(same_answers(bench.solve(BatchQuestion::target, whole, path), expected));
 }
@@ -97,16 +98,17 @@ TEST_CASE("batches: one table serves a model and a place of loads, for the whole
 }
 
 TEST_CASE(
-    "batches: a request that is no number, too far or too heavily loaded is not solved; its neighbours are") {
+    "batches: a request that is not a number, too far or too heavily loaded is not solved; its neighbours "
+    "are") {
   BatchBench bench(machine_of("orthoglide_case_b"));
   constexpr double infinity = std::numeric_limits<double>::infinity(),
                    nan = std::numeric_limits<double>::quiet_NaN();
   const Vector3 p = bench.home().p;
   const Vector6 none = Vector6::Zero();
   const std::vector<BatchRequest> bad{{Vector3(nan, 0, 0), none},       {Vector3(0, 1e300, 0), none},
-                                     {Vector3(0, 0, -infinity), none}, {p, Vector6::Constant(nan)},
-                                     {p, Vector6::Constant(infinity)}, {p, Vector6::Constant(1e300)},
-                                     {p, Vector6::Constant(1e9)}};
+                                      {Vector3(0, 0, -infinity), none}, {p, Vector6::Constant(nan)},
+                                      {p, Vector6::Constant(infinity)}, {p, Vector6::Constant(1e300)},
+                                      {p, Vector6::Constant(1e9)}};
   for (const BatchQuestion question : {BatchQuestion::forward, BatchQuestion::target})
     for (const BatchRequest& request : bad) {
       CAPTURE(request.p);
@@ -120,7 +122,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "batches: a straight way within the workspace joins its ends, one to where the machine does not reach does not") {
+    "batches: a straight way within the workspace joins its ends, one to where the machine does not reach "
+    "does not") {
   BatchBench bench(machine_of("orthoglide_case_b"));
   const Vector3 home = bench.home().p;
   for (const Vector3& way :

@@ -8,7 +8,7 @@ using namespace counterflex::laws;
 
 namespace {
 
-// A strut along the space diagonal, guided, behind two axes that stand far away. The spring between its
+// A strut along the space diagonal, guided, behind two axes that are far away. The spring between its
 // parts, k = 500 N m/rad, keeps it straight up to P = k (1 / a_1 + 1 / a_2); a_1 (m at home) is an actuator
 // and grows, so that P falls.
 constexpr double kink_stiffness = 500, second_part = 0.3;
@@ -57,7 +57,7 @@ double critical_load(double first_part) {
 const Vector3 along_strut = Vector3::Ones().normalized();
 
 // Asked for clusters about random places; every yes is checked alone. The number of yes, and of loads that
-// the machine does not bear.
+// the machine cannot carry.
 struct Tally {
   int solved = 0, refused = 0;
 };

@@ -8,7 +8,7 @@ using namespace counterflex::laws;
 
 namespace {
 
-// How far a chain's end is taken from where it stands unloaded, with its errors.
+// How far a chain's end is taken from where it is unloaded, with its errors.
 constexpr double shift = 0.5e-3, turn = 1 * deg;
 // The paper's iteration neglects Hessians; it needs smaller loads.
 constexpr double of_paper = 0.04;
@@ -64,7 +64,8 @@ void for_chains_at_random_ends(unsigned seed, int poses, const Check& check, dou
 
 }  // namespace
 
-TEST_CASE("a chain's wrench is the gradient of its energy with respect to its end pose" * doctest::test_suite("long")) {
+TEST_CASE("a chain's wrench is the gradient of its energy with respect to its end pose" *
+          doctest::test_suite("long")) {
   for_chains_at_random_ends(
       7, 3,
       [](const Model& model, std::size_t i, const Pose& X, const Configuration& nominal, StaticsWork& work) {
@@ -136,7 +137,7 @@ TEST_CASE(
   CHECK(found > all * 9 / 10);
 }
 
-TEST_CASE("a chain without load, error and preload stands in its nominal configuration, without energy") {
+TEST_CASE("a chain without load, error and preload is in its nominal configuration, without energy") {
   for (const Trial& trial : controlled_machines()) {
     CAPTURE(trial.name);
     const Model model = model_of(trial.name);

@@ -143,7 +143,7 @@ TEST_CASE("a chain that cannot be condensed deflects by the closed form: one ela
   CHECK(p.norm() == doctest::Approx(1.2).epsilon(1e-12));
 }
 
-TEST_CASE("a machine that a force finds loose is singular, and says along which twist") {
+TEST_CASE("a machine that a force finds loose is singular, and gives the twist") {
   const Model model = model_of_text(R"(controlled = []
 [springs.s]
 stiffness_diag_si = [1e6, 1e6, 1e6, 1e3, 1e3, 1e3]

@@ -1,7 +1,6 @@
-#include "counterflex/statics/tip_stiffness.hpp"
-
 #include <cmath>
 
+#include "counterflex/statics/tip_stiffness.hpp"
 #include "laws_support.hpp"
 
 using namespace counterflex;
@@ -11,7 +10,8 @@ namespace {
 
 constexpr double half_span = 0.3, height = 0.02, k_bar = 2e6;
 
-// Two bars, axially elastic, pinned 600 mm apart; their common end 20 mm above, guided so that it does not turn.
+// Two bars, axially elastic, pinned 600 mm apart; their common end 20 mm above, guided so that it does not
+// turn.
 const char* const truss = R"(
 controlled = []
 [home]
@@ -43,11 +43,13 @@ double truss_limit() {
   return height - std::sqrt(L * L - half_span * half_span);
 }
 
-// All translations are equally stiff: what the compression takes from the lever, the shear of the middle adds to it.
+// All translations are equally stiff: what the compression takes from the lever, the shear of the middle adds
+// to it.
 std::string strut(double rigid) {
   const std::string k = std::to_string(rigid), translations = k + ", " + k + ", " + k;
-  return "controlled = [\"x\"]\n[home]\nxyz_mm = [1000, 0, 0]\n[springs.mid]\nstiffness_diag_si = [" + translations +
-         ", 1e5, 1000, 1e5]\n[springs.guide]\nstiffness_diag_si = [" + translations + ", 1e5, 1e5, 1e5]\n" + R"([[chain]]
+  return "controlled = [\"x\"]\n[home]\nxyz_mm = [1000, 0, 0]\n[springs.mid]\nstiffness_diag_si = [" +
+         translations + ", 1e5, 1000, 1e5]\n[springs.guide]\nstiffness_diag_si = [" + translations +
+         ", 1e5, 1e5, 1e5]\n" + R"([[chain]]
 name = "strut"
 elements = [ { actuator = "prismatic", axis = "x" }, { passive = "revolute", axis = "y" }, { rigid = { xyz_mm = [500, 0, 0] } },
              { spring = "mid" }, { rigid = { xyz_mm = [500, 0, 0] } }, { passive = "revolute", axis = "y" } ]
@@ -82,7 +84,8 @@ TEST_CASE("the curve of a two-bar truss is its closed form, before its limit poi
   CHECK(curve.critical[0].force == doctest::Approx(truss_force(truss_limit())).epsilon(1e-6));
 }
 
-// Source: a pinned strut of two rigid halves of length a with a rotational spring k in its middle buckles at 2k/a.
+// Source: a pinned strut of two rigid halves of length a with a rotational spring k in its middle buckles at
+// 2k/a.
 TEST_CASE("the critical load of a pinned strut is 2k/a") {
   for (const double rigid : {1e6, 1e7}) {
     CAPTURE(rigid);
@@ -99,7 +102,7 @@ TEST_CASE("the critical load of a pinned strut is 2k/a") {
   }
 }
 
-TEST_CASE("the force of a curve puts the tip where the curve says") {
+TEST_CASE("the force of a curve puts the tip where the curve defines") {
   for (const char* name : {"orthoglide_case_b", "serial6r_joints", "hexapod_joint_springs"}) {
     CAPTURE(name);
     const Model model = model_of(name);

@@ -37,7 +37,7 @@ Model cantilever_of(int n) {
                   g, 1000.0 / n, elements));
 }
 
-// A mass at the end of a link that stands on a joint of stiffness `k` (N m/rad) or, at 0, on a free one.
+// A mass at the end of a link above a joint of stiffness `k` (N m/rad) or, at 0, on a free one.
 Model pendulum(double k, double length_mm, double kg) {
   const std::string joint =
       k > 0 ? fmt::format("{{ compliance = \"revolute\", axis = \"y\", stiffness_Nm_per_rad = {} }}", k)
@@ -151,7 +151,7 @@ TEST_CASE("a column buckles under the mass on its top at pi^2 EI / 4 L^2, with o
   CHECK(under_weight(column(1.02 * critical)).status == Status::unstable);
 }
 
-TEST_CASE("a pendulum that hangs on a free joint is stable, and one that stands on it is not") {
+TEST_CASE("a pendulum that hangs on a free joint is stable, and one that is upright on it is not") {
   const Model hanging = pendulum(0, -600, 5), standing = pendulum(0, 600, 5);
   CHECK(under_weight(hanging).status == Status::converged);
   CHECK(under_weight(standing).status == Status::unstable);

@@ -75,7 +75,7 @@ TEST_CASE("the asymmetry of the Hessian is m . (w_k x w_j) between any two coord
     const Eigen::MatrixXd H = chain_hessian(model, i, state, {}, work);
     const Eigen::MatrixXd w = chain_jacobian(model, i, state, {}, work).bottomRows(3);
     const Vector3 m = state.F.tail<3>();
-    std::vector<int> coordinates;  // a group's twist is none
+    std::vector<int> coordinates;  // a group's twist is not a coordinate
     for (const Part& part : series.parts) {
       if (part.column < 0 || part.kind == PartKind::group) continue;
       for (int k = 0; k < (part.kind == PartKind::spring ? 6 : 1); ++k)

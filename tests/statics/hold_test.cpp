@@ -1,5 +1,4 @@
 #include "counterflex/statics/chain.hpp"
-
 #include "laws_weights.hpp"
 
 using namespace counterflex;
@@ -48,7 +47,8 @@ TEST_CASE("the wrench that holds the platform is the gradient of the energy by i
   }
 }
 
-TEST_CASE("a platform held where the loaded machine stands needs that load, and its chains carry the same wrenches") {
+TEST_CASE(
+    "a platform held where the loaded machine is needs that load, and its chains carry the same wrenches") {
   for (const char* name : {"orthoglide_case_b", "serial6r_link6", "laws_mixed"}) {
     CAPTURE(name);
     const Model model = model_of(name);

@@ -80,7 +80,7 @@ TEST_CASE("configurations keep the commanded values: a home that is true needs n
 
 TEST_CASE("a zero set at home is the unloaded machine with its offsets commanded") {
   const std::string name =
-      "orthoglide_case_b";  // its passive joints have no springs that would tell the two apart
+      "orthoglide_case_b";  // its passive joints have no springs that would distinguish the two
   const Model held = held_at_home(name), unloaded = heavy_model_of(name, 2);
   StaticsWork work(held.mechanism), work_unloaded(unloaded.mechanism);
   const Load load{(Vector6() << 100, -60, 40, 0, 0, 0).finished(), false};
@@ -133,7 +133,7 @@ TEST_CASE("with a zero set at home, linear theory and nested targets agree with 
   }
 }
 
-TEST_CASE("a machine that cannot stand at home under its weight has no such zero, and says why") {
+TEST_CASE("a machine that cannot be held at home under its weight has no such zero, and gives the reason") {
   const std::string text = R"(controlled = ["x"]
 gravity_m_s2 = [0, 0, -9.81]
 gravity_reference = "home"
@@ -147,7 +147,8 @@ elements = [
   CHECK(model_of_text(text + "65 } }]").gravity_status == Status::unstable);
 }
 
-TEST_CASE("a zero set at home is continuous in the mass: a machine without masses is the limit of light ones") {
+TEST_CASE(
+    "a zero set at home is continuous in the mass: a machine without masses is the limit of light ones") {
   // Two preloaded springs against each other; the first one moves with the actuator.
   const auto machine = [](const std::string& mass) {
     return model_of_text(R"(controlled = ["x"]
@@ -162,7 +163,8 @@ preload_si = [3e-4, 0, 0, 0, 0, 0]
 stiffness_diag_si = [2e6, 2e6, 2e6, 1e5, 1e5, 1e5]
 [[chain]]
 name = "a"
-elements = [{ actuator = "prismatic", axis = "x" }, { spring = "a")" + mass + R"( }]
+elements = [{ actuator = "prismatic", axis = "x" }, { spring = "a")" +
+                         mass + R"( }]
 [[chain]]
 name = "b"
 elements = [{ passive = "prismatic", axis = "x", stiffness_N_per_m = 1e5, preload_mm = 0.1 }, { spring = "b" }])");

@@ -7,13 +7,13 @@
 
 namespace counterflex::laws {
 
-/// What the kernel is asked at one waypoint, and its answer.
+/// The kernel's input at one waypoint, and its result.
 struct KernelWaypoint {
   Configuration nominal;  ///< the start
   Pose X_MT;              ///< wanted tip
   Vector6 F = Vector6::Zero();
   std::vector<double> start{};
-  Eigen::VectorXd rho{};  ///< actuators, where they are held
+  Eigen::VectorXd rho{};                                             ///< actuators, where they are held
   const kernel::StartCell *cell = nullptr, *nominal_cell = nullptr;  ///< instead of `start`
 };
 
@@ -29,7 +29,8 @@ struct KernelAnswers {
   }
   /// Of unstable directions, actuators held.
   long negative_pivots(std::size_t w) const {
-    const auto n = static_cast<std::ptrdiff_t>(pivots.size() / accepted.size()), first = n * static_cast<std::ptrdiff_t>(w);
+    const auto n = static_cast<std::ptrdiff_t>(pivots.size() / accepted.size()),
+               first = n * static_cast<std::ptrdiff_t>(w);
     return std::count_if(pivots.begin() + first, pivots.begin() + first + n, [](double x) { return x < 0; }) -
            6 * rigid_closures;
   }

@@ -72,7 +72,8 @@ struct Random {
   Load load(const Trial& trial) { return {six(trial.force, trial.moment), number() > 0}; }
 };
 
-/// A tip pose about the home tip, and the nominal configuration there. Fails the test where there is none.
+/// A tip pose about the home tip, and the nominal configuration there. Fails the test where no such
+/// configuration exists.
 inline NominalResult somewhere(const Model& model, const Trial& trial, Random& random) {
   const Pose home = tip(model.mechanism, model.home);
   Vector6 step = random.six(trial.reach, trial.turn);

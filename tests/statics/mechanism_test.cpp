@@ -48,7 +48,7 @@ TEST_CASE("columns run from start to end: one a joint, six a spring or a group, 
   CHECK(driven.parts[1].theta_0 == unit(0));
 }
 
-TEST_CASE("actuators are numbered in the order of elements, a group's where the group stands") {
+TEST_CASE("actuators are numbered in the order of elements, a group's at the place of the group") {
   const Model model = model_of_text(every_kind);
   const Series& series = model.mechanism.chains.at(0);
   CHECK(series.actuators == std::vector<int>{0, 1, 2});

@@ -1,6 +1,5 @@
 /// The corrected target by Newton on (22), and by the paper's scheme (23): one answer.
 #include "counterflex/statics/theory.hpp"
-
 #include "laws_weights.hpp"
 
 using namespace counterflex;
@@ -48,7 +47,8 @@ void for_random_targets(unsigned seed, int count, const Check& check) {
 
 }  // namespace
 
-TEST_CASE("direct and nested targets agree to 1e-9 m over random poses, loads and errors" * doctest::test_suite("long")) {
+TEST_CASE("direct and nested targets agree to 1e-9 m over random poses, loads and errors" *
+          doctest::test_suite("long")) {
   for_random_targets(51, 6, [](const Model& model, const Solved& s, StaticsWork& work) {
     const Equilibrium nested = solve_target_nested(model, s.nominal, s.X_MT, s.load, s.stage, work);
     REQUIRE(nested.status == Status::converged);
@@ -71,7 +71,7 @@ TEST_CASE("a corrected target puts the tip of the loaded machine where it is wan
   });
 }
 
-TEST_CASE("an unloaded perfect machine without preload is where its nominal kinematics says") {
+TEST_CASE("an unloaded perfect machine without preload is where its nominal kinematics defines") {
   for (const Trial& trial : controlled_machines()) {
     CAPTURE(trial.name);
     const Model model = model_of(trial.name);
@@ -114,7 +114,7 @@ TEST_CASE("nested uses the whole system inside where a chain has no stiffness of
   const Equilibrium nested = solve_target_nested(model, at.configuration, X_MT, load, {}, work);
   REQUIRE(direct.status == Status::converged);
   REQUIRE(nested.status == Status::converged);
-  // The gear holds 1.2 m times the force across the arm, which stands at the wanted 0.2 rad.
+  // The gear holds 1.2 m times the force across the arm, which is at the wanted 0.2 rad.
   const double theta = (1.2 * 800 * std::cos(0.2) + 50) / 5000;
   CHECK(actuator_values(model.mechanism, direct.configuration)[0] ==
         doctest::Approx(0.2 - theta).epsilon(1e-11));

@@ -146,7 +146,7 @@ TEST_CASE("the condition of the actuator Jacobian measures lengths in units of l
   CHECK(jacobian.condition == doctest::Approx(sigma[0] / sigma[1]).epsilon(1e-9));
 }
 
-TEST_CASE("a serial arm stands at its joints' homes and keeps its elbow on that side") {
+TEST_CASE("a serial arm starts at its joints' homes and keeps its elbow on that side") {
   const Model model = model_of_text(two_links);
   CHECK(model.home_status == Status::converged);
   CHECK(actuator_values(model.mechanism, model.home).isApprox(Eigen::Vector2d(10 * deg, 60 * deg)));
@@ -177,8 +177,7 @@ TEST_CASE("a segment through a fold of the arm is singular, not a jump to anothe
   CHECK(follow(model, start.configuration, in_plane(0, 0.2)).status == Status::converged);
 }
 
-TEST_CASE("a segment close beside a fold keeps its branch, or is refused" *
-    doctest::test_suite("long")) {
+TEST_CASE("a segment close beside a fold keeps its branch, or is refused" * doctest::test_suite("long")) {
   std::string text = two_links;
   text.replace(text.find("xyz_mm = [300"), 13, "xyz_mm = [200");
   const Model model = model_of_text(text);
@@ -210,7 +209,7 @@ TEST_CASE("a path from target to target is what following each from the last one
   });
 }
 
-TEST_CASE("a path stays where it was when a target is not reached, and goes on from there") {
+TEST_CASE("a path stays where it was when a target is not reached, and continues from there") {
   const Model model = model_of_text(two_links);
   NominalPath path(model, model.home);
   REQUIRE(path.go_to(in_plane(0.3, 0.2)) == Status::converged);
@@ -226,7 +225,7 @@ TEST_CASE("a target at the edge of reach, where the arm is straight, is singular
   CHECK(edge.status != Status::converged);
 }
 
-TEST_CASE("a home that misses its closures is unreachable, and the gap says by how much") {
+TEST_CASE("a home that misses its closures is unreachable, and the gap shows by how much") {
   CHECK(model_of_text(two_rigid_chains(100)).home_status == Status::converged);
   const Model model = model_of_text(two_rigid_chains(101));
   CHECK(model.home_status == Status::unreachable);

@@ -1,5 +1,5 @@
 /// A pinned strut under an axial load P: two rigid halves of length a with a spring k about y between them.
-/// Straight, with the middle kinked by 2w/a, it keeps k (2w/a)^2 / 2 and gives way by w^2/a: stable below P =
+/// Straight, with the middle kinked by 2w/a, it keeps k (2w/a)^2 / 2 and shortens by w^2/a: stable below P =
 /// 2 k / a.
 #include <Eigen/LU>
 #include <cmath>
@@ -61,7 +61,7 @@ Configuration bent(const Configuration& nominal, double P, double al, int side) 
 
 }  // namespace
 
-TEST_CASE("a pinned strut stands straight below 2k/a and is unstable above, close on both sides") {
+TEST_CASE("a pinned strut is straight below 2k/a and is unstable above, close on both sides") {
   Bench bench(reference_machine("bar_buckling"));
   const Configuration nominal = bench.at(home);
   for (double part : {0.5, 0.99, 0.999}) {
@@ -78,7 +78,7 @@ TEST_CASE("a pinned strut stands straight below 2k/a and is unstable above, clos
   }
 }
 
-TEST_CASE("the straight strut loses definiteness at 2k/a exactly, whatever its axial spring") {
+TEST_CASE("the straight strut loses definiteness at 2k/a exactly, for any axial spring") {
   Bench bench(reference_machine("bar_buckling"));
   CHECK(std::abs(load_at_stability_limit(bench) - critical) < 1e-4);
 }
@@ -86,7 +86,7 @@ TEST_CASE("the straight strut loses definiteness at 2k/a exactly, whatever its a
 // With springs k_x along and k_z across the strut, halves at angles a1, a2, b = a - P / k_x:
 //     2 V = k_z (b a1 + a a2)^2 + k (a2 - a1)^2 + P (b a1^2 + 2 a a1 a2 - a a2^2)
 TEST_CASE(
-    "a spring softer along the strut than across moves the critical load as its second variation says") {
+    "a spring softer along the strut than across moves the critical load as its second variation shows") {
   constexpr double k_x = 1e7, k_z = 4e7;
   const auto determinant = [&](double P) {
     const double b = a - P / k_x;

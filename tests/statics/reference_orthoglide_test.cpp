@@ -26,8 +26,7 @@ Line milling_line(const std::string& machine) {
 
 }  // namespace
 
-TEST_CASE(
-    "the Orthoglide stands after assembly where an independent solver finds it, with its chain wrenches") {
+TEST_CASE("the Orthoglide is after assembly where an independent solver finds it, with its chain wrenches") {
   check_cases("orthoglide_assembly", 10);
 }
 

@@ -139,7 +139,7 @@ TEST_CASE("a soft direction is not a singular one") {
   CHECK(bench.tip(solved.configuration).p.z() == doctest::Approx(0.01).epsilon(1e-9));
 }
 
-TEST_CASE("an actuator beyond its range is outside the travel, whatever the statics say") {
+TEST_CASE("an actuator beyond its range is outside the travel, for any result of the statics") {
   const Bench bench(reference_machine("orthoglide_perfect"));
   const Mechanism& mechanism = bench.model.mechanism;
   CHECK(within_travel(mechanism, Eigen::Vector3d(0.26, -0.12, 0)));
@@ -166,9 +166,7 @@ TEST_CASE("a truss pushed past its snap-through does not pass for converged on i
 TEST_CASE("is_reached_by_load_alone is false beyond the snap-through of a lifted truss") {
   Bench bench(reference_machine("lifted_truss"));
   REQUIRE(bench.model.home_status == Status::converged);
-  const auto pushed = [&](double N) {
-    return Load{(Vector6() << 0, 0, -N, 0, 0, 0).finished()};
-  };
+  const auto pushed = [&](double N) { return Load{(Vector6() << 0, 0, -N, 0, 0, 0).finished()}; };
   const auto height = [&](const Load& load, bool& reached) {
     const Equilibrium found = solve_forward(bench.model, bench.model.home, load, all, bench.work);
     REQUIRE(found.status == Status::converged);

@@ -84,7 +84,8 @@ struct Condensed {
   Eigen::VectorXd next;
 };
 
-Condensed condensed_at(const Machine& machine, const Eigen::VectorXd& x, const Vector6& F, const Vector6& dxi) {
+Condensed condensed_at(const Machine& machine, const Eigen::VectorXd& x, const Vector6& F,
+                       const Vector6& dxi) {
   const Model model = prepare(machine);
   const Units units{model.mechanism.length};
   const Series& chain = model.mechanism.chains[0];
@@ -162,7 +163,7 @@ TEST_CASE(
 }
 
 TEST_CASE("a leaning branch's share in a collapse is that of the same elements in its chain") {
-  // Soft joints, each under a mass; the upper half may stand in a branch of its own, and with the next in
+  // Soft joints, each under a mass; the upper half may be in a branch of its own, and with the next in
   // another.
   const auto column = [](double kg, int groups) {
     const std::string lower =

@@ -77,7 +77,8 @@ Load turned(const Load& load, const Matrix3& R) {
 
 }  // namespace
 
-TEST_CASE("a bound on the condition is never below it, and is near for ordinary configurations" * doctest::test_suite("long")) {
+TEST_CASE("a bound on the condition is never below it, and is near for ordinary configurations" *
+          doctest::test_suite("long")) {
   int near = 0;
   for_any_configurations(
       72, [&](const Model& model, const Configuration& c, const Load& load, StaticsWork& work) {
@@ -95,7 +96,8 @@ TEST_CASE("the bound leaves room where a slender tool bends behind chains side b
   CHECK(condition_bound(whole_system_at(model, model.home, {}, work)) < 1e8);
 }
 
-TEST_CASE("machines at work are proved stable and well conditioned, with masses in branches that lean and without") {
+TEST_CASE(
+    "machines in use are proved stable and well conditioned, with masses in branches that lean and without") {
   for (const Trial& trial : controlled_machines())
     for (const double kg : {0.0, 1.0, 3.0}) {
       CAPTURE(trial.name);
@@ -203,7 +205,8 @@ TEST_CASE(
   }
 }
 
-// The spring between its halves is `stiff` along every axis, and 1000 N m/rad against the kink: P_cr = 2 k / a = 4000 N.
+// The spring between its halves is `stiff` along every axis, and 1000 N m/rad against the kink: P_cr = 2 k /
+// a = 4000 N.
 Model strut_beside(double stiff) {
   return model_of_text(fmt::format(R"(controlled = ["x"]
 [home]
@@ -228,7 +231,8 @@ elements = [{{ rigid = {{ xyz_mm = [1000, 0, 0] }} }}, {{ passive = "prismatic",
                                    stiff));
 }
 
-TEST_CASE("a stiff spring hides no buckled strut and condemns none that stands: right to 1e-4 of the critical load") {
+TEST_CASE(
+    "a stiff spring hides no buckled strut and rejects no straight one: right to 1e-4 of the critical load") {
   constexpr double critical = 4000;
   for (const double stiff : {1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14}) {
     CAPTURE(stiff);

@@ -137,7 +137,7 @@ TEST_CASE("the manipulator's stiffness is the sum of its chains'") {
       });
 }
 
-TEST_CASE("the pose yields to a wrench by the inverse of stiffness less the load's tangent") {
+TEST_CASE("the pose deflects under a wrench by the inverse of stiffness less the load's tangent") {
   for_loaded_machines(
       36, [](const Model& model, const Configuration& configuration, const Load& load, StaticsWork& work) {
         const Vector3 r =
@@ -189,7 +189,7 @@ TEST_CASE("moving the reference point moves the stiffness as a change of twists 
   }
 }
 
-TEST_CASE("a machine with a chain that has no stiffness of its own says so") {
+TEST_CASE("a machine with a chain that has no stiffness of its own reports it") {
   const Model model = model_of("arm");
   StaticsWork work(model.mechanism);
   const ManipulatorStiffness K = stiffness(model, model.home, {}, work);

@@ -1,11 +1,10 @@
-#include "counterflex/machine/machine.hpp"
-
 #include <doctest/doctest.h>
 
 #include <cmath>
 
 #include "counterflex/files/files.hpp"
 #include "counterflex/geometry/pose.hpp"
+#include "counterflex/machine/machine.hpp"
 #include "counterflex/machine/read_machine.hpp"
 #include "counterflex/statics/chain.hpp"
 #include "counterflex/statics/equilibrium.hpp"
@@ -50,7 +49,7 @@ Pose loaded_tip(const Model& model, const Vector3& p_MT, const Load& load) {
   return tip(model.mechanism, loaded(model, p_MT, load).configuration);
 }
 
-/// What a commanded target must be for the tip to stand at `p_MT`.
+/// What a commanded target must be for the tip to be at `p_MT`.
 Vector3 target_for(const Model& model, const Vector3& p_MT, const Load& load) {
   const Pose X_MT{tip(model.mechanism, model.home).R, p_MT};
   const NominalResult nominal = follow(model, model.home, X_MT);
@@ -92,7 +91,7 @@ TEST_CASE("a very stiff tool bends a machine as no tool does") {
   }
 }
 
-TEST_CASE("a machine with a tool stands at the home of the machine without, and goes where that goes") {
+TEST_CASE("a machine with a tool starts at the home of the machine without, and goes where that goes") {
   for (const Case& c : cases()) {
     CAPTURE(c.file);
     const Pair pair(load_machine(c.file), radial(20e6));
@@ -119,7 +118,7 @@ TEST_CASE("a machine with a tool stands at the home of the machine without, and 
   }
 }
 
-TEST_CASE("a radial stiffness adds F/k to a serial machine, in the axes of the tip where it stands") {
+TEST_CASE("a radial stiffness adds F/k to a serial machine, in the axes of the tip where it is") {
   const double k = 15e6;
   const Pair pair(load_machine(mill_file), radial(k));
   for (const Vector3& p : cases()[0].places) {
@@ -156,7 +155,7 @@ TEST_CASE("a radial stiffness adds exactly F/k where nothing below it turns") {
   }
 }
 
-TEST_CASE("the Orthoglide, too, yields by F/k more with a tool, to first order") {
+TEST_CASE("the Orthoglide, too, deflects by F/k more with a tool, to first order") {
   const double k = 10e6;
   const Pair pair(load_machine(orthoglide_file), radial(k));
   for (const Vector3& p : cases()[1].places) {
@@ -196,7 +195,7 @@ TEST_CASE("a cantilever bends by FL^3/3EI and turns by FL^2/2EI, in the sense of
   CHECK(turn_z.y() == doctest::Approx(0.5 * L / EI).epsilon(2e-3));
 }
 
-TEST_CASE("a length puts the tip below [spindle], for a rigid tool and one that yields") {
+TEST_CASE("a length puts the tip below [spindle], for a rigid tool and one that bends") {
   Machine machine = load_machine(mill_file);
   machine.X_PS = Pose{Matrix3::Identity(), {0, 0, -0.02}};
   machine.tools[0] = {.length = 0.3};  // no tool is known: [tool]
@@ -210,7 +209,7 @@ TEST_CASE("a length puts the tip below [spindle], for a rigid tool and one that 
   CHECK(height(3) - tip(base.mechanism, base.home).p.z() == doctest::Approx(0.08 - 0.12));
   CHECK(height(4) == doctest::Approx(height(3)).epsilon(1e-14));
   CHECK(height(5) - height(3) == doctest::Approx(0.04));
-  // A longer arm tilts the head more, which yields to moments about y by 1.5e6 N m/rad.
+  // A longer arm tilts the head more, which resists moments about y with 1.5e6 N m/rad.
   const Load load = pushing(100, 0, 0);
   const Vector3 p(0.2, 0.1, -0.2);
   const Pose longer = loaded_tip(models.at(4), p, load), shorter = loaded_tip(models.at(5), p, load);
@@ -243,7 +242,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("a wrench at the platform keeps the arm of the reference point when a tool yields") {
+TEST_CASE("a wrench at the platform keeps the arm of the reference point when a tool bends") {
   for (const Case& c : cases()) {
     CAPTURE(c.file);
     const Pair pair(load_machine(c.file), radial(1e12));
@@ -284,7 +283,7 @@ TEST_CASE("all methods agree on a machine with a tool, to which linear theory ad
 }
 
 TEST_CASE(
-    "what the platform exerts on a chain's end is at the reference point, behind a tool that yields, too") {
+    "what the platform exerts on a chain's end is at the reference point, behind a tool that bends, too") {
   const Machine machine = load_machine(mill_file);
   const Vector3 p_MT(0.2, 0.1, -0.2);
   const Load load = pushing(100, -30, 20);
@@ -295,7 +294,8 @@ TEST_CASE(
   CHECK((with - rigid).norm() < 1e-6);
 }
 
-TEST_CASE("loads without the tool are those of the machine's own chains, whatever yields behind them") {
+TEST_CASE(
+    "loads without the tool are those of the machine's own chains, for any tool that bends behind them") {
   const Load load = pushing(100, -30, 20);
   for (const auto& [file, p_MT] :
        {std::pair{mill_file, Vector3(0.2, 0.1, -0.2)}, {orthoglide_file, Vector3(0.02, 0.01, -0.05)}}) {
@@ -317,7 +317,7 @@ TEST_CASE("loads without the tool are those of the machine's own chains, whateve
   }
 }
 
-TEST_CASE("without a tool that yields, loads without the tool are all loads") {
+TEST_CASE("without a tool that bends, loads without the tool are all loads") {
   const Model model = prepare(load_machine(orthoglide_file));
   const Configuration c = loaded(model, Vector3(0.02, 0.01, -0.05), pushing(100, -30, 20)).configuration;
   const auto all = loads(model, c, {}), without = loads_without_tool(model.mechanism, model, c, {});

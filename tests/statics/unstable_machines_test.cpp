@@ -1,5 +1,5 @@
-/// Random machines up to buckling and beyond, some with springs of 1e9 to 1e13 N/m: what the module calls unstable, and what
-/// not, against a judge that shares no code with it.
+/// Random machines up to buckling and beyond, some with springs of 1e9 to 1e13 N/m: what the module calls
+/// unstable, and what not, against a judge that shares no code with it.
 #include <fmt/format.h>
 
 #include "laws_support.hpp"
@@ -37,7 +37,8 @@ elements = [ {{ actuator = "prismatic", axis = "x" }}, {{ passive = "revolute", 
 [[chain]]
 name = "guide"
 elements = [ {{ rigid = {{ xyz_mm = [{0}, 0, 0] }} }}, {{ passive = "prismatic", axis = "x" }}, {{ spring = "guide" }} ])",
-                     first + second, rigid_or_not(random), power(random, 1.5, 3), rigid_or_not(random), first, second);
+                     first + second, rigid_or_not(random), power(random, 1.5, 3), rigid_or_not(random), first,
+                     second);
 }
 
 /// Legs from a circle to the platform, each two hinges and a spring that is soft to some turns.
@@ -47,15 +48,20 @@ std::string random_parallel(Random& random) {
   const int legs = random.number() > 0 ? 3 : 2;
   std::string chains;
   for (int i = 0; i < legs; ++i) {
-    const double angle = 2 * 3.14159265358979 * i / legs, x = 300 * std::cos(angle), y = 300 * std::sin(angle);
-    text += fmt::format("[springs.s{0}]\nstiffness_diag_si = [{1}, {1}, {2}, {3}, {4}, {5}]\n", i, power(random, 5, 7),
-                        rigid_or_not(random), power(random, 2, 4), power(random, 2, 4), power(random, 2, 4));
+    const double angle = 2 * 3.14159265358979 * i / legs, x = 300 * std::cos(angle),
+                 y = 300 * std::sin(angle);
+    text += fmt::format("[springs.s{0}]\nstiffness_diag_si = [{1}, {1}, {2}, {3}, {4}, {5}]\n", i,
+                        power(random, 5, 7), rigid_or_not(random), power(random, 2, 4), power(random, 2, 4),
+                        power(random, 2, 4));
     chains += fmt::format(
-        "[[chain]]\nname = \"leg{0}\"\nelements = [ {{ rigid = {{ xyz_mm = [{1}, {2}, 0] }} }}, {{ error = \"e\" }}, "
-        "{{ passive = \"revolute\", axis = \"x\" }}, {{ rigid = {{ xyz_mm = [{3}, {4}, {5}] }} }}, {{ spring = \"s{0}\" }}, "
+        "[[chain]]\nname = \"leg{0}\"\nelements = [ {{ rigid = {{ xyz_mm = [{1}, {2}, 0] }} }}, {{ error = "
+        "\"e\" }}, "
+        "{{ passive = \"revolute\", axis = \"x\" }}, {{ rigid = {{ xyz_mm = [{3}, {4}, {5}] }} }}, {{ spring "
+        "= \"s{0}\" }}, "
         "{{ passive = \"revolute\", axis = \"y\", stiffness_Nm_per_rad = {6}, preload_deg = {7} }} ]\n"
         "errors.e = {{ rpy_deg = [{8}, {9}, 0] }}\n",
-        i, x, y, -x, -y, height, power(random, 1, 3), random.number(), 0.1 * random.number(), 0.1 * random.number());
+        i, x, y, -x, -y, height, power(random, 1, 3), random.number(), 0.1 * random.number(),
+        0.1 * random.number());
   }
   return text + chains;
 }
@@ -74,7 +80,8 @@ elements = [ {{ actuator = "prismatic", axis = "z" }}, {{ spring = "a" }}, {{ ri
   {{ compliance = "revolute", axis = "y", stiffness_Nm_per_rad = {6} }}, {{ rigid = {{ xyz_mm = [0, 0, {7}] }} }},
   {{ spring = "b" }}, {{ rigid = {{ xyz_mm = [10, 0, 100] }} }} ])",
                      rigid_or_not(random), power(random, 2, 4), 1e-3 * random.number(), rigid_or_not(random),
-                     power(random, 2, 4), 300 + 100 * random.number(), power(random, 2, 4), 300 + 100 * random.number());
+                     power(random, 2, 4), 300 + 100 * random.number(), power(random, 2, 4),
+                     300 + 100 * random.number());
 }
 
 struct Verdicts {
@@ -95,7 +102,8 @@ void compare(const Model& model, const Vector3& direction, Verdicts& verdicts) {
       ++verdicts.undecided;
       return;
     }
-    const auto least = static_cast<double>(independent::Judge(model, e.configuration, force * direction).least_eigenvalue());
+    const auto least =
+        static_cast<double>(independent::Judge(model, e.configuration, force * direction).least_eigenvalue());
     CAPTURE(least);
     if (std::abs(least) > band) CHECK((e.status == Status::unstable) == (least < 0));
     (e.status == Status::unstable ? verdicts.unstable : verdicts.stable)++;
@@ -106,18 +114,21 @@ void compare(const Model& model, const Vector3& direction, Verdicts& verdicts) {
 
 }  // namespace
 
-TEST_CASE("200 random machines are stable and unstable where an independent judge says so" *
-    doctest::test_suite("long")) {
+TEST_CASE("200 random machines are stable and unstable where an independent judge finds them so" *
+          doctest::test_suite("long")) {
   Verdicts verdicts;
   for (unsigned seed = 0; seed < 200; ++seed) {
     CAPTURE(seed);
     Random random(9000 + seed);
     const int kind = static_cast<int>(seed % 3);
-    const std::string text = kind == 0 ? random_strut(random) : kind == 1 ? random_parallel(random) : random_arm(random);
+    const std::string text = kind == 0   ? random_strut(random)
+                             : kind == 1 ? random_parallel(random)
+                                         : random_arm(random);
     CAPTURE(text);
     const Model model = model_of_text(text);
     REQUIRE(model.home_status == Status::converged);
-    Vector3 direction = kind == 0 ? Vector3(-1, 0, 0) : Vector3(0.01 * random.number(), 0.01 * random.number(), -1);
+    Vector3 direction =
+        kind == 0 ? Vector3(-1, 0, 0) : Vector3(0.01 * random.number(), 0.01 * random.number(), -1);
     compare(model, direction.normalized(), verdicts);
   }
   CHECK(verdicts.stable > 200);

@@ -74,7 +74,8 @@ TEST_CASE("with actuators unknown and a target, the whole system's solution is t
   }
 }
 
-TEST_CASE("coordinates are scaled by their own stiffness: the least eigenvalue of a body on one spring is 1") {
+TEST_CASE(
+    "coordinates are scaled by their own stiffness: the least eigenvalue of a body on one spring is 1") {
   const Model model = model_of_text(R"(controlled = []
 [springs.s]
 stiffness_diag_si = [1e6, 2e6, 4e6, 30000, 50000, 10000]
@@ -87,7 +88,7 @@ elements = [{ spring = "s" }, { rigid = { xyz_mm = [0, 0, 0] } }])");
 }
 
 TEST_CASE(
-    "a platform that ends elsewhere than foreseen by more than half of its way has jumped, unless it is by "
+    "a platform that ends elsewhere than predicted by more than half of its way has jumped, unless it is by "
     "next to nothing") {
   const Model model = model_of(controlled_machines().front().name);
   const double l = model.mechanism.length;

@@ -8,14 +8,14 @@
 namespace counterflex {
 
 enum class LockKind {
-  exclusive,  ///< nobody else
+  exclusive,  ///< no other holder
   shared,     ///< others that share it, too
 };
 
 /// A lock on FOLDER, by `flock` on FOLDER/.counterflex/lock: the system drops it when its holder is dead. It
 /// is inherited by `fork`, not by `exec`, and is free when the last of these processes has ended. While it is
-/// held exclusively the file's text, one line "HOST PID COMMAND", says by whom; else the file is empty: what
-/// a dead holder has left is emptied or replaced by the next one.
+/// held exclusively, the file's text, one line "HOST PID COMMAND", names the holder. Otherwise the file is
+/// empty: the next holder empties or replaces the text that a dead one has left.
 class FolderLock {
  public:
   /// Makes the folders that are missing. Does not wait: throws `InputError` (Exit::transient_io) naming the
@@ -27,7 +27,7 @@ class FolderLock {
   ~FolderLock();
   FolderLock(FolderLock&& other) noexcept;
 
-  /// False where the file system has no locks: nobody else is kept out.
+  /// False where the file system has no locks: other processes are not kept out.
   bool locked() const { return why_not_.empty(); }
   const std::string& why_not() const { return why_not_; }
 

@@ -1,7 +1,7 @@
 #pragma once
 /// What a batch has done, in a file that a later run can trust.
 ///
-/// JSON in lines, so that a person can read it and a program can say where it is wrong:
+/// JSON in lines, so that a person can read it and a program can report where it is wrong:
 ///
 ///     {"format":"counterflex-manifest 1","version":"0.1.0","plan":"<SHA-256>","jobs":[
 ///     {"key":"<SHA-256>","program":"parts/O1001.ngc","output":"corrected/O1001.ngc","exit":0, ...},
@@ -11,8 +11,8 @@
 ///
 /// The last line is the proof that nothing is missing and nothing was changed. A job's line holds the members
 /// of `JobOutcome` by their names, `inputs` and `outputs` as lists of {"path", "sha256"}, null where there is
-/// no number. Paths and diagnostics are bytes, JSON is UTF-8: a byte that is none is written as % and two
-/// hexadecimal digits, % as %25.
+/// no number. Paths and diagnostics are bytes, JSON is UTF-8: a byte that is not part of a UTF-8 character is
+/// written as % and two hexadecimal digits, % as %25.
 #include <cstddef>
 #include <map>
 #include <optional>
@@ -24,7 +24,7 @@
 
 namespace counterflex {
 
-// What became of one job of a batch: what the manifest keeps, and the summary shows.
+// The result of one job of a batch: the manifest keeps it, and the summary shows it.
 
 /// A file and the SHA-256 of its bytes (64 lower-case hexadecimal digits).
 struct FileHash {
@@ -69,13 +69,13 @@ std::string to_text(const Manifest& manifest);
 
 /// Takes only what `to_text` writes, byte for byte. Throws `InputError` (Exit::machine_or_force) with the
 /// place in `file` where `text` was cut off or changed, is of another format, or names a file that two jobs
-/// write; it says how to go on.
+/// write. The message states how to continue.
 Manifest read_manifest(std::string_view text, const std::string& file);
 
 /// Hashes of files, each read once, however many jobs share it.
 class FileHashes {
  public:
-  /// None where `path` is no regular file or cannot be read.
+  /// None where `path` is not a regular file or cannot be read.
   const std::optional<std::string>& of(const std::string& path);
 
  private:

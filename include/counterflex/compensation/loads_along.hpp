@@ -20,7 +20,7 @@ namespace counterflex {
 /// A place of a feed move, what is commanded and what acts there.
 struct LoadPlace {
   std::size_t number = 0;            ///< of its waypoint, counted from the beginning
-  Waypoint at;                       ///< it weighs what those weigh that it stands for
+  Waypoint at;                       ///< its weight is that of all waypoints it represents
   Vector3 target = Vector3::Zero();  ///< the written one, or the original where nothing was corrected; M (m)
   Load load;
   const Model* model = nullptr;  ///< with the tool in the spindle
@@ -29,7 +29,7 @@ struct LoadPlace {
 /// Takes the waypoints of a path in their order, those between the ends of pieces, too, and keeps a part of
 /// them: of each stretch of equally many the one with the largest force (the first of equal ones), and of all
 /// those with the largest force, moment and deviation before. Which are kept depends on the waypoints alone,
-/// not on where the path was cut into windows. Rapids and what was not solved are passed over.
+/// not on where the path was cut into windows. Rapids and unsolved waypoints are ignored.
 class LoadPlaces {
  public:
   static constexpr std::size_t most = 1024;
@@ -101,7 +101,7 @@ class PathPlaces {
   static constexpr std::size_t most = 64;
 
   /// The next window of the program. Moves whose start or end is not known, or whose offset the program sets,
-  /// are passed over.
+  /// are ignored.
   void add(const Program& window);
 
   /// Of the work offset of that name.

@@ -1,5 +1,5 @@
 #pragma once
-/// What a run is asked to do, and the data that all stages of compensation read.
+/// The options of a run, and the data that all stages of compensation read.
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -119,7 +119,7 @@ struct Waypoint {
   Vector6 after = Vector6::Zero();       ///< the emitted target, solved forward
   Vector6 correction = Vector6::Zero();  ///< emitted target minus the original program's
   Eigen::VectorXd rho;                   ///< actuators of the emitted target (m, rad)
-  BoxedOptional<Causes> causes;                   ///< where they were asked for and `before` is known
+  BoxedOptional<Causes> causes;          ///< where they were asked for and `before` is known
   Status status = Status::converged;
   int iterations = 0;
   int corrected_line = 0;  ///< of the corrected program; 0: none

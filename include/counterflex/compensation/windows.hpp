@@ -52,7 +52,7 @@ double position_miss(const Job& job, const Waypoint& w);
 /// `exempt`).
 std::optional<Failure> tolerance_failure(const Job& job, const std::vector<Waypoint>& waypoints);
 
-/// What is left of a tolerance when words are rounded to their digits: half of the last one times sqrt 3 (m).
+/// The part of a tolerance (m) that rounding words to their digits takes: half the last digit times sqrt 3.
 double rounding_allowance(const Move& move, const WriteOptions& options);
 
 /// What all windows of a run have in common. Borrowed: everything outlives it.

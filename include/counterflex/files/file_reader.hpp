@@ -8,7 +8,7 @@ namespace counterflex {
 
 /// A file's bytes from its beginning, as often as wanted; "-" is standard input. What can be read only once,
 /// a pipe, is copied to a nameless temporary file first. All members throw `InputError` where the file
-/// cannot be read: Exit::usage where there is none that may be read, Exit::transient_io where reading fails.
+/// cannot be read: Exit::usage where no file exists that may be read, Exit::transient_io where reading fails.
 class FileReader {
  public:
   explicit FileReader(const std::string& path);

@@ -21,7 +21,7 @@ class FileWriter {
   ~FileWriter();
   FileWriter(FileWriter&&) noexcept;
 
-  /// Before the first byte: what is written is hashed on the way.
+  /// Call it before the first byte: the bytes are then hashed as they are written.
   void hash_along();
 
   void write(std::string_view bytes);
@@ -33,14 +33,15 @@ class FileWriter {
   /// Completes it if need be.
   void publish();
 
-  /// Publishes files that are no streams: all are completed, then they get their names in this order, and at
+  /// Publishes files, not streams: all are completed, then they get their names in this order, and at
   /// last their folders are synced. Where one cannot get its name, those behind it do not get theirs.
   static void publish_files(const std::vector<FileWriter*>& files);
 
   bool is_stream() const;
   const std::string& path() const;
 
-  /// SHA-256 of what was written, whatever the disk makes of it; empty unless it is complete and hashed.
+  /// SHA-256 of the bytes passed to `write`, not of the bytes on disk; empty unless it is complete and
+  /// hashed.
   const std::string& sha256() const;
 
  private:
@@ -60,14 +61,16 @@ void remove_unpublished() noexcept;
 /// The name under which process `pid` writes its `counter`-th file before that becomes `path`.
 std::string temporary_name(const std::string& path, long pid, unsigned counter);
 
-/// What stands for the file `name` in the names of its temporary files: itself, where it is short enough.
+/// The part of the names of temporary files that identifies the file `name`: `name` itself, where it is short
+/// enough.
 std::string temporary_stem(const std::string& name);
 
-/// The `temporary_stem` of what a file of that name was to become; empty where it is no such name.
+/// The `temporary_stem` of the file that the temporary file `name` was to become; empty where `name` is not
+/// the name of a temporary file.
 std::string_view wanted_name(std::string_view name);
 
 /// Removes what writers that were killed have left of `paths`, and nothing else; how many files. The caller
-/// knows that nobody writes them now. What cannot be removed stays.
+/// knows that no process writes them now. Files that cannot be removed stay.
 std::size_t sweep_temporaries(const std::vector<std::string>& paths);
 
 /// The same where others may write these paths now: their files, which they have locked, stay.

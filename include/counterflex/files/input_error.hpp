@@ -1,5 +1,5 @@
 #pragma once
-/// What a reader throws when its input is wrong, and the exit status that it asks for.
+/// The exception that a reader throws when its input is wrong, with the exit status of the program.
 #include <stdexcept>
 #include <string>
 
@@ -18,7 +18,7 @@ enum class Exit : int {
   interrupted = 130,  ///< by SIGINT; other signals have 128 and their number
 };
 
-/// A place in a file; line and column count from 1, columns in bytes; 0 where there is none.
+/// A place in a file; line and column count from 1, columns in bytes; 0: not known.
 struct Location {
   std::string file;
   int line = 0;

@@ -11,17 +11,17 @@ namespace counterflex {
 
 // Numbers in text: read with from_chars, written with to_chars; never locale, never exponent, never "-0".
 
-/// The whole of `text` as a finite number; a leading "+" is allowed. Nothing where it is anything else
-/// (empty, "nan", trailing characters).
+/// The whole of `text` as a finite number; a leading "+" is allowed. Nothing for other text (empty,
+/// "nan", trailing characters).
 std::optional<double> read_number(std::string_view text);
 
-/// A tool's number, "3", "T3" or "t3": digits alone, at most 2147483647. Nothing where it is anything else.
+/// A tool's number, "3", "T3" or "t3": digits alone, at most 2147483647. Nothing for other text.
 std::optional<long> read_tool_number(std::string_view text);
 
 /// `value` with exactly `decimals` digits after the point, rounded to nearest; no exponent, no "-0".
 std::string format_fixed(double value, int decimals);
 
-/// The same with more digits where these do not tell it from `limit`, nine at most.
+/// The same with more digits, nine at most, where `decimals` digits do not distinguish it from `limit`.
 std::string format_beside(double value, double limit, int decimals);
 
 /// Powers of ten that are taken from a table.
@@ -63,7 +63,8 @@ std::string lines_without_controls(std::string_view text);
 /// where none begins there.
 std::string_view first_character(std::string_view text);
 
-/// Any bytes as UTF-8: a byte that is none is written as % and two hexadecimal digits, % itself as %25.
+/// Any bytes as UTF-8: a byte that is not part of a UTF-8 character is written as % and two hexadecimal
+/// digits, % itself as %25.
 std::string utf8_of_bytes(std::string_view bytes);
 
 /// The bytes that `utf8_of_bytes` was given, for what it writes.

@@ -1,6 +1,6 @@
 #pragma once
-/// Mechanistic cutting forces of an end mill: the mean wrench over a revolution, or that which acts while a
-/// tooth makes the wall.
+/// Mechanistic cutting forces of an end mill: the mean wrench over a revolution, or the wrench that acts
+/// while a tooth makes the wall.
 #include <array>
 #include <optional>
 #include <string>
@@ -35,7 +35,7 @@ struct CuttingCoefficients {
 };
 
 /// Right-hand cutter that turns clockwise, seen from the spindle. Angles of immersion count from the feed
-/// frame's y axis towards its x axis: a tooth at angle phi stands at (sin phi, cos phi) of the radius.
+/// frame's y axis towards its x axis: a tooth at angle phi is at (sin phi, cos phi) of the radius.
 struct EndMill {
   double diameter = 0;  ///< m
   int flutes = 0;
@@ -67,7 +67,7 @@ struct CutResponse {
   double diameter = 0;     ///< of the cutter (m)
 };
 
-/// The wrench on the tool at its tip, axes of the feed frame (N, N m), or why there is none.
+/// The wrench on the tool at its tip, axes of the feed frame (N, N m), or why no force acts.
 struct CutForce {
   Vector6 F = Vector6::Zero();
   double feed_per_tooth = 0;  ///< m; c
@@ -99,12 +99,12 @@ inline constexpr double steepest_ramp = 0.984807753012208;  // sin 80 deg
 CutResponse respond(const CuttingModel& model);
 
 /// The force of a cut at programmed feed (m/s, 0: none) and spindle speed (1/min, 0: none). What is left
-/// sideways of the feed makes the chips, c = feed sqrt(1 - slope^2) / (n N); a ramp is cut with that. There
-/// is no force where the feed is along the tool axis (beyond `steepest_ramp`), where no feed is programmed,
+/// sideways of the feed makes the chips, c = feed sqrt(1 - slope^2) / (n N); a ramp is cut with that. No
+/// force acts where the feed is along the tool axis (beyond `steepest_ramp`), where no feed is programmed,
 /// and where neither model nor program give a spindle speed.
 CutForce cutting_force(const CutResponse& response, double feed_m_s, double spindle_rpm, double slope);
 
-/// The same for a model that is asked once.
+/// The same for a model that is used once.
 CutForce cutting_force(const CuttingModel& model, double feed_m_s, double spindle_rpm, double slope);
 
 // Which forces act where: rules, of which the most specific one that covers a move acts.
@@ -135,7 +135,7 @@ struct ConstantForce {
 
 // Reading cutting models, and the coefficients that the tool brings along.
 
-/// What a file says of a part of the program: which, and how it is cut.
+/// The data in a file about a part of the program: which part, and how it is cut.
 struct CutSection {
   std::string name;  ///< `section 1`, counted from 1, unless the file gives one
   Location where;
@@ -145,10 +145,10 @@ struct CutSection {
 
 /// Reads a TOML file of cutting models (format = "counterflex-forces 1"):
 ///
-///     force_at = "mean" | "surface"      for all sections that do not say it; "mean" unless given
+///     force_at = "mean" | "surface"      for all sections without `force_at`; default "mean"
 ///     [cutters.NAME]                     diameter_mm, flutes, helix_deg (0 to 60)
 ///     [materials.NAME]                   Ktc_N_mm2 and Krc_N_mm2; Kac_N_mm2, Kte_N_mm, Kre_N_mm, Kae_N_mm, 0
-///                                        unless given; before the names of `published_coefficients`
+///                                        by default; override names of `published_coefficients`
 ///     [[section]]                        in any number:
 ///       name                             for messages
 ///       tool = "T3", op = "POCKET*", lines = [10, 200], blocks = [10, 90]
@@ -160,14 +160,14 @@ struct CutSection {
 ///       force_at
 ///
 /// A radial depth a_e enters at 0 and leaves at acos(1 - 2 a_e / D) in up milling, enters at pi less that and
-/// leaves at pi in down milling; a slot is cut from 0 to pi. The wall that `surface` asks for stands at the
+/// leaves at pi in down milling; a slot is cut from 0 to pi. The wall that `surface` refers to is at the
 /// entry in up milling, at the exit in down milling, on both sides of a slot; with angles, where the entry is
 /// 0 and the exit 180. Throws `InputError` (Exit::machine_or_force) at the first thing that is wrong.
 std::vector<CutSection> read_cutting_model(std::string_view text, const std::string& file);
 
 /// Coefficients from the literature: of a material, as a cutter cut it. Others differ by tens of percent.
 struct PublishedCoefficients {
-  std::string name;      ///< what `material` says in a file
+  std::string name;      ///< the value of `material` in a file
   std::string material;  ///< for people
   std::string cutter;
   std::string source;

@@ -11,7 +11,7 @@
 
 namespace counterflex {
 
-/// Where a row stands in its file; line and column count from 1, columns in bytes.
+/// The place of a row in its file; line and column count from 1, columns in bytes.
 struct RowPlace {
   int line = 0;
   int column = 0;

@@ -34,7 +34,7 @@ struct ForceProfile {
   std::string file{};                ///< that holds the rows; for messages
 };
 
-/// One wrench, profile or model, and which moves it is for. A profile says so by its rows, not by `selector`.
+/// One wrench, profile or model, and its moves. The rows of a profile select them, not `selector`.
 struct ForceRule {
   std::string name;  ///< as the command line has it, or the file's; for messages
   Location where{};  ///< no file: the command line
@@ -104,8 +104,8 @@ struct ForceNote {
   std::string what;
 };
 
-/// A feed move without a force, and why: none is given, or the given one is zero, or none can act there;
-/// `length` is that of the move (m).
+/// A feed move without a force, and why: no force is given, the given force is zero, or no force can act
+/// there; `length` is that of the move (m).
 struct Unforced {
   int line = 0;
   double length = 0;
@@ -120,7 +120,7 @@ struct ForcePiece {
   Vector6 F0 = Vector6::Zero();
   Vector6 F1 = Vector6::Zero();
   Vector6 integral = Vector6::Zero();
-  bool goes_on = false;      ///< smoothly from the piece before it: its start is no corner
+  bool goes_on = false;      ///< smoothly from the piece before it: its start is not a corner
   bool is_constant = false;  ///< known to be: F0 and F1 are the same
 };
 
@@ -135,7 +135,7 @@ struct FeedRun {
   std::size_t end_corner = 0;
 };
 
-/// Of a feed run that may go on behind a window: what still acts there.
+/// A feed run that may continue behind a window, and the wrench that still acts there.
 struct OpenRun {
   FeedRun run;
   Vector3 end = Vector3::Zero();   ///< where it has come, M (m)
@@ -149,19 +149,19 @@ struct ForceTail {
   std::optional<long> block_number;  ///< N of the moves so far
 };
 
-/// Where somebody stands who reads the forces of a path: what is asked for next is found at once where it is
-/// near. Any cursor gives the same answers.
+/// The place on a path where its forces were last read. The next read is fast where its place is near. Any
+/// cursor gives the same answers.
 struct ForceCursor {
   std::size_t from = 0, to = 0;             ///< pieces in which a mean begins and ends
   std::size_t corner = 0, ramp_corner = 0;  ///< corners behind a segment's start, and those a blend before
 };
 
-/// On which side of a step a wrench is asked for. A place within 1e-9 of a segment from a step is at the
+/// The side of a step on which a wrench is read. A place within 1e-9 of a segment from a step is at the
 /// step.
 enum class Side { before, after };
 
 /// The wrench along a toolpath, machine axes, blended. A wrench in the feed frame turns with the tangent of
-/// an arc: its pieces follow it to within 1e-4, and are no corners. Built once in linear time, then read from
+/// an arc: its pieces follow it to within 1e-4, without corners. Built once in linear time, then read from
 /// any thread; a query costs the logarithm of the number of moves.
 ///
 /// With b = min(blend, half of the feed run), u the path length and f the unblended wrench, zero before the
@@ -190,7 +190,7 @@ class PathForces {
   const ForceTail& tail() const { return tail_; }
 
   /// Wrench at `fraction` (0 to 1) of a segment; zero in rapid moves. Steps occur with blend 0 only. At the
-  /// ends of a segment the wrench is the segment's own, whatever `side`: `at(i, 1)` is that before a step
+  /// ends of a segment the wrench is the segment's own for any `side`: `at(i, 1)` is that before a step
   /// between two segments, `at(i + 1, 0)` that after it.
   Vector6 at(std::size_t segment, double fraction, Side side = Side::after) const;
   Vector6 at(std::size_t segment, double fraction, Side side, ForceCursor& cursor) const;
@@ -263,7 +263,7 @@ class PathForces {
 ///       cover.end_pass();
 ///     }
 ///
-/// Each function throws `InputError` (Exit::machine_or_force, or Exit::usage for what the command line says)
+/// Each function throws `InputError` (Exit::machine_or_force, or Exit::usage for the command line)
 /// at the row or section that is wrong: two of equal rank that cover one move; one that names what the
 /// program has not; a key that the program cannot have; a logged position far from the path or out of order.
 /// A feed move that no rule covers is named at its line.
@@ -305,13 +305,13 @@ struct MoveForce {
   double spindle_rpm = 0;        ///< the model's own where one acts, else the program's
   double feed_per_tooth = 0;     ///< m; 0: no cutting model acts
   Vector6 F = Vector6::Zero();   ///< on the tool, scaled, axes of the feed frame (N, N m)
-  bool only_z = false;           ///< the feed is parallel to the tool: of F only what is along it is known
+  bool only_z = false;           ///< the feed is parallel to the tool: only the part of F along it is known
   bool comment = false;          ///< the program's FORCE comment covers it
   bool comment_altered = false;  ///< and the scale, or a bound of the air, makes another force of its own
   bool changes = false;          ///< the wrench is not the same all along the move: `F` is that in the middle
   double largest_N = 0;          ///< of the force anywhere on the move
   std::vector<ForceStep> steps;  ///< what acts, from the start on; none where it changes between steps
-  std::string why;               ///< empty: F acts; else why there is none
+  std::string why;               ///< empty: F acts; else why no force acts
 };
 
 /// The feed moves of a window that is not the first: `block_number` is N of the moves before, and then of

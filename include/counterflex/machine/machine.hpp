@@ -1,5 +1,5 @@
 #pragma once
-/// A machine as data: what `machine.toml` says, checked, in SI units. A machine is a base, a platform and
+/// A machine as data: the values of `machine.toml`, checked, in SI units. A machine is a base, a platform and
 /// chains of elements between them; each element is a transform from the frame before it to the frame after
 /// it. Frames: machine M (the base), platform P (its origin is the reference point), tool tip T, work frame
 /// W.
@@ -19,8 +19,8 @@
 
 namespace counterflex {
 
-// What joints, springs and ends of chains may bear, as a machine file says it, and what the kinds of load
-// are called.
+// The load limits of joints, springs and ends of chains, as a machine file gives them, and the names of the
+// kinds of load.
 
 /// Of one chain; largest absolute components, as `ChainLoads` has them.
 enum class LoadKind : std::uint8_t {
@@ -77,7 +77,7 @@ struct AssemblyError {
 };
 
 /// A joint whose value is commanded. Actuators are numbered in the order of chains, then of elements (a
-/// group's branches in order, where the group stands).
+/// group's branches in order, at the place of the group).
 struct Actuator {
   Joint joint;
   double min = -std::numeric_limits<double>::infinity();
@@ -110,7 +110,7 @@ struct Compliance {
   double stiffness = 0;  ///< N/m or N m/rad, positive
 };
 
-/// A point mass fixed in the frame in which it stands: a file's `mass` beside an element follows that
+/// A point mass fixed in the frame at its place in the chain: a file's `mass` beside an element follows that
 /// element.
 struct PointMass {
   double kg = 0;                 ///< positive
@@ -137,11 +137,11 @@ using Chain = Branch;
 
 enum class ToolMaterial { carbide, steel };
 
-/// Where the stiffness of a tool at its tip is from: there is none, a radial stiffness, a 6x6 matrix, or the
+/// The source of a tool's stiffness at its tip: no source (rigid), a radial stiffness, a 6x6 matrix, or the
 /// cantilever that its diameter and stick-out make.
 enum class ToolStiffness { rigid, radial, matrix, cantilever };
 
-/// What the machine file says of a tool, and how its tip yields.
+/// The data of a tool in the machine file, and how its tip deflects.
 struct Tool {
   std::optional<double>
       length{};  ///< m: what G43 H adds to Z; from [spindle] to the tip, where that is given
@@ -171,26 +171,26 @@ struct WorkOffset {
   Datum datum;
 };
 
-/// How the control reads programs, where neither the program nor a flag says.
+/// How the control reads programs, where neither the program nor a flag defines it.
 struct ControlSettings {
   std::string dialect = "auto";
   std::string units;                                          ///< "mm", "inch" or empty: not known
   std::optional<std::vector<std::string>> tool_change_moves;  ///< axes; none: all
-  bool absolute_centres = false;                              ///< of arcs, until a program says otherwise
+  bool absolute_centres = false;                              ///< of arcs, until a program changes it
 };
 
 /// What pulls at masses, and when the controller's zero was set.
 struct Gravity {
   Vector3 g = Vector3::Zero();  ///< m/s2, axes of M; zero: no weights act
   bool true_at_home = false;    ///< the zero was set under the machine's own weight at home, not unloaded
-  Location reference_at;        ///< where the file says so
+  Location reference_at;        ///< where the file sets `true_at_home`
 };
 
 struct Machine {
   std::string name;
   std::vector<Component> controlled;       ///< as many as there are actuators, or none
   std::optional<Pose> home_X_MP;           ///< required for more than one chain
-  Location home_at;                        ///< where the file says home: [home], or else the first chain
+  Location home_at;                        ///< place of home in the file: [home], or else the first chain
   Pose X_PT;                               ///< tool tip in the platform frame
   Location tool_at;                        ///< [tool] in the file; without it the file alone
   bool allows_inverted_tool = false;       ///< the tip's z may point into the work
@@ -202,7 +202,7 @@ struct Machine {
   Gravity gravity;
   double max_correction = 1e-3;    ///< m
   Vector3 p_EP = Vector3::Zero();  ///< reference point in the frame where the chains end: not zero for a
-                                   ///< machine with a tool that yields (m)
+                                   ///< machine with a tool that bends (m)
   std::vector<Chain> chains;
   std::vector<LoadLimits> load_limits;  ///< by chain; empty: the file gives none
 };
@@ -243,7 +243,7 @@ std::vector<Element> radial_tool(double k);
 /// Annals 39 (1990).
 Spring cantilever_tool(double diameter, double stickout, ToolMaterial material);
 
-/// Force over displacement at the tip (N/m) in the direction of x or y in which it yields most; infinite for
+/// Force over displacement at the tip (N/m) in the direction of x or y in which it bends most; infinite for
 /// a rigid tool.
 double radial_stiffness(const Tool& tool);
 
@@ -254,7 +254,7 @@ Pose tip_of(const Machine& machine, const Tool& tool);
 /// Whether the machine with this tool is another than the machine with [tool].
 bool changes_model(const Machine& machine, const Tool& tool);
 
-/// The machine with `tool` in its spindle: its tip, and what yields as the last elements before it. A machine
+/// The machine with `tool` in its spindle: its tip, and its springs as the last elements before it. A machine
 /// of several chains becomes one chain that begins with a group of them; actuators keep their numbers, the
 /// platform is then the tip.
 Machine with_tool(const Machine& machine, const Tool& tool);
@@ -266,7 +266,7 @@ std::string stiffness_phrase(const Tool& tool);
 // Names of work offsets.
 
 /// The name as programs' offsets have it ("G54", "G59.1", "G54.1 P3", "G154 P12", "G505"), of one that may be
-/// in lower case, lack the blank before P or have zeros before the number; none where it is no work offset.
+/// in lower case, lack the blank before P or have zeros before the number; none for other text.
 std::optional<std::string> work_offset_name(std::string_view text);
 
 /// What `work_offset_name` takes, for diagnostics.

@@ -33,15 +33,16 @@ Freedoms freedoms(const Chain& chain);
 /// their travel, assembly errors. Lengths in mm, angles in degrees, stiffness in N/m and N m/rad.
 std::string describe(const Machine& machine);
 
-/// What is unusual, but not wrong, as far as the data show it (no kinematics is solved); one sentence each.
+/// Unusual, but not wrong, properties, as far as the data show them (no kinematics is solved); one sentence
+/// each.
 std::vector<std::string> structural_notes(const Machine& machine);
 
 // Tool lengths as LinuxCNC keeps them.
 
 /// Lengths of tools (m) by number. Each line of the table is words `T1 P1 Z50.0 D6`, blank, or a comment
 /// after
-/// `;`; lengths are Z, in mm, 0 where there is none. Throws `InputError` (Exit::machine_or_force) with line
-/// and column for words that a table does not have, a line without T, and a tool that stands there twice.
+/// `;`; lengths are Z, in mm, 0 where Z is missing. Throws `InputError` (Exit::machine_or_force) with line
+/// and column for words that a table does not have, a line without T, and a tool that it lists twice.
 std::map<long, double> read_tool_table(std::string_view text, const std::string& file);
 
 }  // namespace counterflex

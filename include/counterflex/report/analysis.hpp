@@ -84,7 +84,7 @@ struct AnalysisReport {
   std::string version;  ///< of the tool
   std::string machine;
   Load load;
-  std::vector<Travel> travel;  ///< by actuator: says mm or deg
+  std::vector<Travel> travel;  ///< by actuator: its kind gives the unit, mm or deg
   std::vector<PoseAnalysis> poses;
   std::string tool{};   ///< in the spindle, and its stiffness; empty: [tool]
   bool weighs = false;  ///< the machine's own weight acts, too

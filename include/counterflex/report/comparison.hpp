@@ -10,7 +10,7 @@
 
 namespace counterflex {
 
-/// What names one of the two runs. Empty texts: the report does not say.
+/// The data that identify one of the two runs. Empty texts: the report does not give them.
 struct ComparedRun {
   std::string name, path, sha256;
   std::string tool, command, machine, program, method;

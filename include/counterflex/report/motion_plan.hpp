@@ -1,5 +1,5 @@
 #pragma once
-/// What becomes of each block with motion, before any machine is known: which are corrected by themselves,
+/// The plan for each block with motion, before any machine is known: which are corrected by themselves,
 /// which hold a shift, which stay as they are, and why.
 #include <array>
 #include <map>

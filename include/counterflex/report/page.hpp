@@ -10,7 +10,7 @@
 
 namespace counterflex {
 
-/// A run as the page has it. Its members but the name are JSON documents; "null": there is none.
+/// A run as the page has it. Its members but the name are JSON documents; "null": no document.
 struct PageRun {
   std::string name;             ///< for people, where there are two
   std::string report;           ///< "counterflex-report 1", as `to_json` writes it

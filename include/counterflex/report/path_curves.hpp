@@ -76,7 +76,7 @@ struct Stretch {
   double s_mm = 0;     ///< cutting path length where it ends
   int first_line = 0;  ///< of the original program, in the order of the path
   int last_line = 0;
-  std::int32_t operation = -1;      ///< of its first waypoint, as the caller counts them; -1: not said
+  std::int32_t operation = -1;      ///< of its first waypoint, as the caller counts them; -1: not given
   bool begins_after_rapid = false;  ///< a rapid precedes a waypoint of it
   /// At the waypoint with the largest deviation `after` (of a prediction: `before`): the wanted tip, and the
   /// deviations there; NaN where unknown.
@@ -97,7 +97,7 @@ struct PathMarks {
   std::size_t stride_ = 1;
 };
 
-/// Gathers waypoints in the order of the path. Waypoints that were not solved are passed over. While there
+/// Gathers waypoints in the order of the path. Waypoints that were not solved are ignored. While there
 /// are at most `most_stretches` each has a stretch of its own; where there are more, neighbours are merged
 /// two by two, again and again, so that memory stays bounded.
 class PathCurves {
@@ -143,7 +143,7 @@ class PathCurves {
   PathMarks rapids_, force_steps_;
 };
 
-// Loads along a path as a report says them: the largest of every chain, and how near they come to the limits
+// Loads along a path as a report gives them: the largest of every chain, and how near they come to the limits
 // of the machine file. In the units of their keys (N, N m, mm, deg).
 
 /// A load in the unit of its kind's key.
@@ -152,7 +152,7 @@ double shown_value(const ChainLoads& loads, LoadKind kind);
 /// The largest load of a kind; of equal ones the first.
 struct LoadPeak {
   double value = 0;
-  int line = 0;  ///< of the original program; 0 where nothing bears such a load
+  int line = 0;  ///< of the original program; 0 where nothing carries such a load
   std::optional<double> limit{};
 };
 
@@ -183,7 +183,7 @@ std::string load_in_words(const LoadsOfChain& chain, LoadKind kind);
 std::string limit_in_words(const LoadsOfChain& chain, LoadKind kind);
 
 /// The loads over the path for a page: an object of lists `s_mm` and `line`, and for each of `chains` its
-/// `name` and a list of every kind; "null" where there are none. Seven significant digits.
+/// `name` and a list of every kind; "null" without loads. Seven significant digits.
 std::string loads_json(const std::optional<PathLoads>& loads);
 
 }  // namespace counterflex

@@ -1,5 +1,5 @@
 #pragma once
-/// What a run did, measured: everything that the report's JSON and the summary on the terminal say. Lengths
+/// What a run did, measured: all values in the report's JSON and the summary on the terminal. Lengths
 /// in mm, angles in degrees, as reports show them.
 #include <cstdint>
 #include <optional>
@@ -38,8 +38,8 @@ struct RunFacts {
   std::vector<OptionValue> options;
   std::vector<Remark>
       warnings;                 ///< besides the program's remarks and the forces' notes, which are added here
-  std::string output;           ///< path of the corrected program, if one is written; empty: there is none
-  bool accept_partial = false;  ///< PARTLY is no failure
+  std::string output;           ///< path of the corrected program; empty: no program is written
+  bool accept_partial = false;  ///< PARTLY does not count as a failure
   double min_block_ms = 2;      ///< what takes less time is a short block
   bool attribution =
       false;  ///< the waypoints' geometry, load, superposition, air, higher and lower were solved
@@ -143,7 +143,7 @@ struct BlockCounts {
   std::size_t total = 0;             ///< of the original program: lines with a word
   std::size_t moves = 0;             ///< of these, moves
   std::size_t corrected = 0;         ///< moves that are corrected each on its own
-  std::optional<OtherMoves> others;  ///< what became of the others; for `compensate` alone
+  std::optional<OtherMoves> others;  ///< the treatment of the others; for `compensate` alone
   std::size_t inserted = 0;          ///< blocks added
   Capped<LeftAlone> left_alone;
 };
@@ -151,7 +151,7 @@ struct BlockCounts {
 /// The moves of one tool in one operation.
 struct OperationReport {
   long tool = 0;                      ///< in the spindle; 0: none known
-  std::string name;                   ///< the comment that stood last alone in its line; empty: none
+  std::string name;                   ///< the last comment that was alone in its line; empty: none
   int first_line = 0, last_line = 0;  ///< the least and the largest of its feed moves
   std::size_t moves = 0;              ///< feed moves
   double length_mm = 0;
@@ -176,14 +176,14 @@ struct ShortBlocks {
 
 /// What a control may make of a program.
 struct ControlFacts {
-  std::optional<ShortBlocks> short_blocks;  ///< of the corrected program; none where there is none
+  std::optional<ShortBlocks> short_blocks;  ///< of the corrected program; empty without such a program
   std::optional<LineLengths> lines;         ///< likewise
   std::vector<PathTolerance> tolerances;    ///< of the original
   std::size_t plunges = 0;                  ///< feed moves of the original straight down in Z
   std::size_t rapids = 0;                   ///< and its rapids
 };
 
-/// A tool of the program that the machine file says something of.
+/// A tool of the program for which the machine file has data.
 struct UsedTool {
   long number = 0;
   std::optional<double> length_mm;
@@ -194,13 +194,13 @@ struct UsedTool {
 /// Lengths as the people of a program and a machine have them.
 struct ShownUnits {
   LengthUnit program = LengthUnit::millimetres;
-  bool revolute = false;  ///< the machine turns a joint: its deviations are shown in mm, not in um
+  bool revolute = false;  ///< the machine turns a joint: its deviations are shown in mm, not in µm
 };
 
 struct RunReport {
   Command command = Command::compensate;
   Verdict verdict = Verdict::failed;
-  std::string verdict_reason;  ///< what stands behind the word; empty for OK
+  std::string verdict_reason;  ///< the text behind the word; empty for OK
   Exit exit = Exit::internal;  ///< status with which the run ends; only with `done` is a program written
   FeedMoves feed_moves;
   RunFacts facts;  ///< its `warnings` stay the caller's own; all are in `warnings` below
@@ -219,7 +219,7 @@ struct RunReport {
   std::optional<Largest> correction;        ///< largest change of a target
   std::optional<double> corrected_percent;  ///< of `path_mm`: what is corrected and held to the tolerance
   std::vector<OperationReport> operations;  ///< in the order in which they are met; of many the last one
-                                            ///< stands for all others
+                                            ///< represents all others
   ShownUnits units;
   BlockCounts blocks;
   TextSize text_before;
@@ -244,7 +244,7 @@ struct RunContext {
   const Machine& machine;
   const CompensationOptions& options;
   const std::vector<WorkFrame>& frames;  ///< by index into the program's work offsets
-  const Overview& program;               ///< the original one, its axes that nobody corrects made known
+  const Overview& program;               ///< the original one, after `ignore_axes`
   const RunFacts& facts;
 };
 
@@ -293,7 +293,7 @@ enum class WithCurves { no, yes };
 
 /// Reads STEM.json, or STEM.html with the report in it; "-" is standard input, with JSON. Curves and loads of
 /// STEM.json are those of STEM.html beside it, where that page shows the same report. Throws `InputError`
-/// (Exit::usage) where the file cannot be read, at line and column where it is no JSON, and where it is
+/// (Exit::usage) where the file cannot be read, at line and column where it is not JSON, and where it is
 /// another document than the report of one run.
 ReportFile read_report_file(const std::string& path, WithCurves with);
 

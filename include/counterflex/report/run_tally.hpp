@@ -54,10 +54,10 @@ struct OperationTally {
 
 /// Rows by line, one a line, of which the worst are wanted. From the 4096th line on all are forgotten now and
 /// then but the worst and the two asked for last: lines that come in order lose nothing, and one that comes
-/// back much later (a subprogram called again) begins anew.
+/// back much later (a subprogram called again) starts again from zero.
 class WorstLines {
  public:
-  /// The row of `line`, made where there is none.
+  /// The row of `line`, made where it is missing.
   WorstRow& row(int line);
 
   /// At most ten rows, the largest `key` first; of equal ones the smaller line.
@@ -70,9 +70,9 @@ class WorstLines {
   int last_ = 0, last_but_one_ = 0;
 };
 
-/// Waypoints that were not solved are passed over. Feed moves alone, but for `correction` and
+/// Waypoints that were not solved are ignored. Feed moves alone, but for `correction` and
 /// `segments_changed`. They come in the order of the path; a segment is known by its number and line, so that
-/// numbers may begin anew with every window.
+/// numbers may start again with every window.
 class PathTally {
  public:
   /// `operation` counts from 0, as the caller does; `no_operation`: it is not known.
@@ -118,8 +118,8 @@ class PathTally {
   std::vector<OperationTally> operations_;
 };
 
-/// The tools and operations of a program as they are met, at most `listed_at_most`: the last one stands for
-/// all others then.
+/// The tools and operations of a program as they are met, at most `listed_at_most`: beyond that the last one
+/// represents all others.
 class OperationNames {
  public:
   struct Name {
@@ -162,8 +162,8 @@ class RunTally {
   /// nor its `corrected`.
   void add_compensation(const Compensation& compensation);
 
-  /// The next window of the corrected program as it was read back, its axes that nobody corrects made known
-  /// (`ignore_axes`): whole lines, with line numbers of the corrected program. An empty program counts, too:
+  /// The next window of the corrected program as it was read back, after `ignore_axes`: whole lines, with
+  /// line numbers of the corrected program. An empty program counts, too:
   /// nothing is added only where no program was written.
   void add_corrected(const Program& corrected_window);
 

@@ -44,7 +44,7 @@ struct DeviationSample {
 
 /// Parts of a position deviation, not negative, in its unit. `across` is square to path and tool axis; where
 /// these are parallel (a plunge) or the path has no direction, it is all that is square to the tool axis. The
-/// three are components of an orthogonal frame wherever the tool axis stands square on the path.
+/// three are components of an orthogonal frame wherever the tool axis is square to the path.
 struct DeviationSplit {
   double along = 0;
   double across = 0;
@@ -95,7 +95,7 @@ class DeviationTally {
 
 // What the tilt of a tool does beside its tip: at the rim of the cutter, and along its flank.
 
-/// How large a tool is (m); what is not known is empty.
+/// The size of a tool (m); unknown dimensions are empty.
 struct ToolSize {
   long number = 0;  ///< in the program; 0: none known
   std::optional<double> diameter{};
@@ -222,7 +222,7 @@ struct WithoutForce {
   std::size_t moves = 0;
   double length_mm = 0;
   std::vector<WithoutForceReason> reasons;  ///< as they were first met; where there are more than
-                                            ///< `listed_at_most` the last one stands for all others
+                                            ///< `listed_at_most` the last one represents all others
   Capped<WithoutForceRow> rows;
 };
 

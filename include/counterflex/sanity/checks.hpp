@@ -34,14 +34,14 @@ using SanityChecks = std::vector<SanityCheck>;
 // Checks of a machine and of what a run makes of it, before anything is solved along a path.
 
 /// The largest angle between the tip's z (from the tip to the spindle, at home) of `models` and the z axes of
-/// `frames`, or the machine's z where there are none. Above 90 deg the tool points into the work: wrong,
+/// `frames`, or the machine's z where `frames` is empty. Above 90 deg the tool points into the work: wrong,
 /// unless `allowed`. From 45 deg on it is doubtful for machines that turn no joint.
 SanityCheck check_tool_axis(const std::vector<const Model*>& models, const std::vector<WorkFrame>& frames,
                             bool turns_joints, bool allowed);
 
 /// Stiffness along x, y and z of the machine at its tip (N/m), the force over the displacement that it
-/// causes there; infinite where the tip does not yield. None where the machine has no equilibrium.
-/// `p_MT`: where the tip stands (m); none: home.
+/// causes there; infinite where the tip does not deflect. None where the machine has no equilibrium.
+/// `p_MT`: the position of the tip (m); none: home.
 std::optional<Vector3> tip_stiffness(const Model& model, const std::optional<Vector3>& p_MT);
 
 /// `where`: "at home", "at line 12". Doubtful below 0.05 and above 1000 N/um.
@@ -52,12 +52,12 @@ SanityCheck check_tip_stiffness(const std::optional<Vector3>& stiffness, const s
 SanityCheck check_tool_lengths(const std::map<long, double>& lengths_mm, const std::vector<long>& used,
                                bool has_spindle);
 
-/// Whether the offsets that a program selects ("" where it selects none) have a place: `known` says whether
+/// Whether the offsets that a program selects ("" where it selects none) have a place: `known` is true if
 /// the machine file or --work gives any.
 SanityCheck check_work_offset(const std::vector<std::string>& selected, bool known);
 
 /// Springs, masses, angles and lengths that hardly any machine has, each a doubtful check that names what
-/// holds it; one check that is ok where there is none.
+/// holds it; one check that is ok where no value is doubtful.
 SanityChecks check_magnitudes(const Machine& machine);
 
 // Checks of a run along its path, gathered waypoint by waypoint in memory that does not grow with it. They

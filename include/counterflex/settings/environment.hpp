@@ -9,11 +9,13 @@
 namespace counterflex {
 
 /// The settings among `variables`, "NAME=VALUE" each as `environ` has them, whose end is nullptr. Several
-/// values of one option stand with ':' between them, as in PATH; a report or plot may be "true" or "false",
-/// as in a project file; an empty value is none. Other variables are passed over. Values are not judged.
+/// values of one option have ':' between them, as in PATH; a report or plot may be "true" or "false",
+/// as in a project file; an empty value counts as not set. Other variables are ignored. Values are not
+/// judged.
 std::vector<Setting> read_environment(const char* const* variables);
 
-/// Variables that are no settings, but nearly are, each with what was probably meant: COUNTERFLEX_TOLERANCE.
+/// Variables whose names are nearly those of settings, each with what was probably meant:
+/// COUNTERFLEX_TOLERANCE.
 std::vector<std::pair<std::string, std::string>> misspelt_variables(const char* const* variables);
 
 }  // namespace counterflex

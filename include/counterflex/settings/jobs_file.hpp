@@ -38,17 +38,17 @@ JobsFile read_jobs(std::string_view text, const std::string& file);
 
 // Names of outputs that are made of the name of the program: `{name}_CF{ext}`.
 
-/// What stands for the words in braces, as far as it is known.
+/// The texts that replace the words in braces, as far as they are known.
 struct NameParts {
   std::optional<std::string> name;    ///< {name}: the program's file name without its extension
-  std::optional<std::string> ext;     ///< {ext}: the extension with its dot, empty where there is none
+  std::optional<std::string> ext;     ///< {ext}: the extension with its dot, empty without one
   std::optional<std::string> output;  ///< {output}: the path of the output without its extension
 };
 
 /// Whether `text` holds a word of letters in braces, known or not; other braces are parts of names.
 bool is_pattern(std::string_view text);
 
-/// The text that `fill` makes `path` of: "{{}" stands for a brace that begins a word.
+/// The text that `fill` makes `path` of: "{{}" is a brace that begins a word.
 std::string as_pattern(std::string_view path);
 
 /// The first word in braces that `allowed` does not have; empty: none.

@@ -10,22 +10,22 @@
 
 namespace counterflex {
 
-// What a file, the environment or a flag says about one option of the command line.
+// The value that a file, the environment or a flag gives to one option of the command line.
 
 enum class Origin { flag, environment, file, builtin };
 
 /// Values as the command line takes them, so that one piece of code judges them all. A switch has "true" or
 /// "false". Without values the option is as if it had never been given: `report = false` hides what the
-/// project file says of reports.
+/// project file sets for reports.
 struct Setting {
   std::string option;               ///< its long name without dashes: "tolerance-mm"
-  std::vector<std::string> values;  ///< paths of files are joined with the folder of the file that says them
+  std::vector<std::string> values;  ///< paths of files are joined with the folder of the file that gives them
   Location where;  ///< in a file: of the value; of the environment: the variable as a file without lines
   Origin origin = Origin::file;
   std::vector<Location> places{};  ///< in a file: of each value
 };
 
-/// Where value `i` stands.
+/// The place of value `i`.
 const Location& place_of(const Setting& setting, std::size_t i);
 
 /// What a person who wrote the setting calls it: "--tolerance-mm", "COUNTERFLEX_TOLERANCE_MM",
@@ -52,14 +52,14 @@ std::string shown_option(std::string_view option, Origin origin);
 /// (Exit::machine_or_force) with line and column.
 std::vector<Setting> read_project(std::string_view text, const std::string& file);
 
-/// A project file that says `settings`, each with its origin as a comment. A file of this text in the working
-/// directory gives the same values, numbers in their shortest form. Throws `InputError` for a value that is
-/// not UTF-8: Exit::machine_or_force at the place of a file's, else Exit::usage.
+/// A project file that gives `settings`, each with its origin as a comment. A file of this text in the
+/// working directory gives the same values, numbers in their shortest form. Throws `InputError` for a value
+/// that is not UTF-8: Exit::machine_or_force at the place of a file's, else Exit::usage.
 std::string to_project_text(const std::vector<Setting>& settings);
 
 /// The nearest `counterflex.toml` in the folder of `program` or above it; of the working directory where
 /// `program` is empty or "-". The path is relative to the working directory unless that is longer. Folders of
-/// that name are passed over, and so is the file that standard output is written to: the shell has emptied
+/// that name are ignored, and so is the file that standard output is written to: the shell has emptied
 /// it. Throws as `refuse_special_file` does; a link to nothing is found, to be missed by who reads it.
 std::optional<std::string> find_project_file(const std::string& program);
 

@@ -17,7 +17,7 @@ struct BatchRequest {
   Vector3 turn = Vector3::Zero();
 };
 
-/// Forward: where the tip stands when `p` is commanded. Target: what has to be commanded for the tip to be at
+/// Forward: where the tip is when `p` is commanded. Target: what has to be commanded for the tip to be at
 /// `p`. Orientations that the machine controls are commanded.
 enum class BatchQuestion { forward, target };
 
@@ -49,7 +49,7 @@ struct BatchLine {
 struct LineBend {
   double command;  ///< m: from the command to its chord, if the tip goes straight from p0 to p1
   double gain;     ///< m/m: of the tip for a change of the command; gain times command: from the tip to its
-                ///< chord, if the command goes straight
+                   ///< chord, if the command goes straight
 };
 
 /// The cells of a model in which the kernel starts. Each is made when it is first needed, from its place

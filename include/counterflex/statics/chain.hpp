@@ -91,13 +91,13 @@ struct ChainLoads {
   double passive_change_max = 0;
 };
 
-/// Of every chain of `model`. A tool that yields is part of the chain behind which it stands.
+/// Of every chain of `model`. A tool that bends is part of the chain to whose end it is attached.
 std::vector<ChainLoads> loads(const Model& model, const Configuration& configuration, const Stage& stage);
 
 /// Of every chain of the machine that `base` is without a tool, at a configuration of `model`, the same
-/// machine with one: a tool that yields has no load here, and chains that it has made the branches of one
-/// chain (`with_tool`) are chains again. What is exerted on their ends is at `base`'s reference point, where
-/// it is in the deflected machine.
+/// machine with one: a tool that bends has no load here, and chains that it has made the branches of one
+/// chain (`with_tool`) are chains again. The wrenches on their ends refer to `base`'s reference point, at its
+/// position in the deflected machine.
 std::vector<ChainLoads> loads_without_tool(const Mechanism& base, const Model& model,
                                            const Configuration& configuration, const Stage& stage);
 
@@ -125,8 +125,7 @@ struct ChainDetail {
   std::optional<Vector6> eps;        ///< of (14), first order; see `chain_eps`
   std::optional<Vector6> dt;         ///< (14): motion of the platform less eps
   double energy = 0;                 ///< (12), J: of springs, compliances and sprung joints
-  std::vector<CoordinateDetail>
-      coordinates;  ///< in the order of elements; a group's branches where it stands
+  std::vector<CoordinateDetail> coordinates;  ///< in the order of elements; a group's branches at its place
 };
 
 /// Where stiffness is taken: at the equilibrium itself, or for the linear theory at the nominal
@@ -136,8 +135,8 @@ struct StiffnessPlace {
   Stage stage;
 };
 
-/// Details of every chain of `model`; a tool that bends is part of the chain behind which it stands. `dt_P`
-/// is the motion of the reference point from the nominal configuration (m, rad; axes of M).
+/// Details of every chain of `model`; a tool that bends is part of the chain to whose end it is attached.
+/// `dt_P` is the motion of the reference point from the nominal configuration (m, rad; axes of M).
 std::vector<ChainDetail> chain_details(const Model& model, const Configuration& nominal,
                                        const Configuration& loaded, const Vector6& dt_P,
                                        const StiffnessPlace& stiff, StaticsWork& work);

@@ -1,5 +1,5 @@
 #pragma once
-/// Equilibrium of the whole manipulator: where the loaded, imperfect machine stands for given actuators
+/// Equilibrium of the whole manipulator: where the loaded, imperfect machine is for given actuators
 /// (17)-(21), and which actuators put its tip where it is wanted (22). The machine's own weight acts with
 /// `Stage::gravity`, also where there is no load. EQUATIONS.md, sections 5-8 and 10.
 #include <memory>
@@ -49,8 +49,8 @@ Equilibrium solve_forward(const Model& model, const Configuration& nominal, cons
 bool is_reached_by_load_alone(const Model& model, const Configuration& nominal, const Load& load,
                               const Stage& goal, const Equilibrium& loaded, StaticsWork& work);
 
-/// `solve_forward` from a start of the caller's choice (its x_nominal says what the springs' rest values are
-/// relative to), without the continuation: a warm start beside a solution, or a buckled one.
+/// `solve_forward` from a start of the caller's choice (the springs' rest values are relative to its
+/// x_nominal), without the continuation: a warm start beside a solution, or a buckled one.
 Equilibrium refine_forward(const Model& model, const Configuration& start, const Load& load,
                            const Stage& goal, StaticsWork& work);
 
@@ -75,7 +75,7 @@ ManipulatorStiffness stiffness(const Model& model, const Configuration& configur
 
 /// Least eigenvalue of the symmetric part of the reduced Hessian of energy (with weights) minus load, pose
 /// free, actuators held, each coordinate scaled by its own stiffness. Below 0 the configuration is unstable;
-/// what is within the rounding error is 0.
+/// values within the rounding error are given as 0.
 double stability(const Model& model, const Configuration& configuration, const Load& load, const Stage& stage,
                  StaticsWork& work);
 

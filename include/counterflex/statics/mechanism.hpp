@@ -56,7 +56,7 @@ struct Series {
 struct Travel {
   double min, max;
   JointKind kind;
-  std::string name{};  ///< see `actuator_names`; numbers alone for a machine with a tool that yields
+  std::string name{};  ///< see `actuator_names`; numbers alone for a machine with a tool that bends
 };
 
 struct Mechanism {
@@ -66,7 +66,7 @@ struct Mechanism {
   std::vector<Travel> travel;  ///< by actuator
   Pose X_PT;
   Vector3 p_EP = Vector3::Zero();     ///< reference point in the frame where the chains end: not zero with a
-                                      ///< tool that yields
+                                      ///< tool that bends
   Vector3 gravity = Vector3::Zero();  ///< m/s2, axes of M; zero where no weights act: then no part is a mass
   double length =
       0.1;  ///< l: mean distance of joint and spring frames from the reference point at home, >= 0.1 m

@@ -96,8 +96,8 @@ using ToolModels = std::map<long, Model>;
 /// same joints, on the same branch.
 Model prepare_with_tool(const Machine& machine, const Model& base, const Tool& tool);
 
-/// Of those of `numbers` that are in [tools] and change the model. Number 0 stands for no known tool, and has
-/// none.
+/// Of those of `numbers` that are in [tools] and change the model. Number 0 means that no tool is known, and
+/// has none.
 ToolModels prepare_tools(const Machine& machine, const Model& base, const std::vector<long>& numbers);
 
 /// A nominal configuration, and the model that it is one of.
@@ -109,8 +109,8 @@ struct NominalPlace {
 /// Where inverse kinematics of `model` starts.
 NominalPlace home_of(const Model& model);
 
-/// The nominal path of a machine whose tools change: it begins anew at home where the model does, and its tip
-/// is asked for the orientation that it has at that home.
+/// The nominal path of a machine whose tools change: it starts again at home where the model changes, and
+/// its tip keeps the orientation that it has at that home.
 class NominalToolPath {
  public:
   explicit NominalToolPath(const NominalPlace& start);
@@ -121,7 +121,7 @@ class NominalToolPath {
   const Configuration& configuration() const { return path_->configuration(); }
   NominalPlace place() const { return {model_, configuration()}; }
 
-  /// Orientation of the tip where the machine stands, in M.
+  /// Orientation of the tip at the current configuration, in M.
   Matrix3 orientation() const;
 
  private:

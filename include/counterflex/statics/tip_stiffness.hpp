@@ -29,7 +29,7 @@ std::optional<Matrix6> inverse_compliance(const Matrix6& compliance, double leng
 /// The tip is moved along a direction; the components across it, and its rotation, stay free.
 struct CurveRequest {
   Vector3 direction = Vector3::UnitX();  ///< unit vector, axes of M
-  double from = 0, to = 0;               ///< m, from where the tip stands without the force
+  double from = 0, to = 0;               ///< m, from the tip's position without the force
   int steps = 1;                         ///< points are `steps` + 1
   Load load{};                           ///< acts besides, constant
 };

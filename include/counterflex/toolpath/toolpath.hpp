@@ -1,5 +1,5 @@
 #pragma once
-/// Lines and arcs of the tool tip in the machine frame M: what a program asks for, without its text.
+/// Lines and arcs of the tool tip in the machine frame M: the path that a program defines, without its text.
 /// Lengths in m.
 #include <array>
 #include <optional>
@@ -34,11 +34,11 @@ struct Segment {
   bool cutting = false;   ///< a feed move (G1, G2, G3)
   std::size_t frame = 0;  ///< index into Toolpath::frames
   Curve wanted;           ///< of the tip, in M
-  double feed_m_s = 0;    ///< programmed feed, under G93 that of this move; 0 where none is programmed
+  double feed_m_s = 0;    ///< programmed feed, under G93 that of this move; 0 where no feed is programmed
   double s_start = 0;     ///< cutting path length at the start, from the program's start: feed moves only (m)
   double s_end = 0;
   double t_start =
-      0;  ///< time at the start at programmed feeds, feed moves only; stands still without a feed (s)
+      0;  ///< time at the start at programmed feeds, feed moves only; does not advance without a feed (s)
   double t_end = 0;
 };
 
@@ -73,7 +73,7 @@ struct Extent {
 };
 Extent extent_of(const Move& move);
 
-/// Places along a curve that tell how far it reaches: a line's ends, and points of an arc at most 22.5
+/// Places along a curve that show how far it reaches: a line's ends, and points of an arc at most 22.5
 /// degrees apart. Begins with the start and ends with the end.
 std::vector<Vector3> points_along(const Curve& curve);
 

@@ -39,7 +39,7 @@ struct EmitterState {
 /// Edits for all moves: segments as planned; moves that go nowhere keep the correction that holds there;
 /// moves made before all axes are known take that of the first position that is (look-ahead of 64 blocks).
 /// Arcs are fitted to what the text holds before them; holes get the correction at their bottom, contour
-/// groups one rigid motion; what is held keeps the correction with which it is entered. Where one cannot be
+/// groups one rigid motion; a held move keeps the correction at its start. Where one cannot be
 /// held the emission fails (Exit::program_text).
 Emission emit(const Job& job, const Plan& plan, EmitterState& state);
 

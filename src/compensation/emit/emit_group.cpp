@@ -1,4 +1,4 @@
-// Contour groups under G41 or G42: one rigid motion, so that the setter's offsets of the tool still work.
+// Contour groups under G41 or G42: one rigid motion, so that the operator's offsets of the tool still work.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -99,7 +99,7 @@ Vector3 Emitter::shifted_centre(const Move& move, const Vector3& shift) const {
 bool Emitter::find_group_motion(std::size_t m, std::size_t s) {
   constexpr double worth_a_turn = 0.1;  // of the tolerance: what the shift leaves
   const Move& first = job_.program.moves[m];
-  std::vector<GroupSample> cuts, others;  // what is beside the contour counts only where there is no cut
+  std::vector<GroupSample> cuts, others;  // samples beside the contour count only without a cut
   int last_line = first.line;
   for (; s < job_.path.segments.size(); ++s) {
     const Segment& segment = job_.path.segments[s];

@@ -14,7 +14,7 @@ constexpr std::size_t look_ahead = 64;  // blocks
 
 }  // namespace
 
-// The correction at a wanted position without cutting force; the emission fails where there is none.
+// The correction at a wanted position without cutting force; the emission fails without one.
 std::optional<Vector3> Emitter::solve_position(const Vector3& wanted, const Move& move) {
   const Model& model = model_with(job_.model, job_.tools, move.tool);
   const TargetRequest request{&model, wanted};

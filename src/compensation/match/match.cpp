@@ -88,7 +88,7 @@ class WindowMatcher {
       if (!judged && std::abs(shift) < unshifted_mm && std::abs(before) > job_.options.tolerance / mm)
         return Failure{
             Exit::not_compensated, original.line,
-            fmt::format("{} stands as in the original, though the moves before it are shifted by {:.4f} mm",
+            fmt::format("{} is the same as in the original, but the moves before it are shifted by {:.4f} mm",
                         "XYZ"[axis], before),
             found.line};
       shifts_mm_[axis] = shift;
@@ -283,7 +283,7 @@ std::optional<Failure> lines_failure(OtherLines& wanted, OtherLines& found) {
   for (; !wanted.lines.empty() && !found.lines.empty(); wanted.lines.pop_front(), found.lines.pop_front())
     if (wanted.lines.front().text != found.lines.front().text)
       return Failure{Exit::not_compensated, wanted.lines.front().line,
-                     "this line differs from that of the original; it is no move and must stay as it is",
+                     "this line differs from that of the original; it is not a move and must not change",
                      found.lines.front().line};
   return std::nullopt;
 }

@@ -143,7 +143,7 @@ class KindComparison {
     add_sweep(found);
   }
 
-  // What is shifted as it is keeps its centre, seen from its start, and its radius.
+  // An arc that is only shifted keeps its centre relative to its start, and its radius.
   void compare_one_arc(const Move& found) {
     const ArcMove &wanted = *original_.arc, &arc = *found.arc;
     const double room = roundings * rounding_mm_ + 1e-6;
@@ -186,7 +186,7 @@ class KindComparison {
       fail(found, fmt::format("this move goes {:.4f} mm, that of the original stays where it is", way));
   }
 
-  // Whatever is judged besides, no word is shifted by more than a correction may be.
+  // No word is shifted by more than the limit of corrections.
   void compare_shifts(const Move& found) {
     const Vector3& start = matched_.found.front().move->start_mm;
     for (std::size_t axis = 0; axis < 3 && !failure_; ++axis) {

@@ -161,7 +161,7 @@ std::optional<Failure> words_failure(const Job& job, const MatchedMoves& matched
   }
   if (own_blocks == 0 || (own_blocks > 1 && !is_plain(wanted)))
     return fail(matched.found.back(),
-                "the words of the original's block stand in no block here, or in several");
+                "the words of the original's block are in several blocks here, or in no block");
   return std::nullopt;
 }
 

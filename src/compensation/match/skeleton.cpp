@@ -15,7 +15,7 @@ bool is_digit(char c) {
   return c >= '0' && c <= '9';
 }
 
-// Whether it is no polar word: each of these gives two axes.
+// Whether it is a word of one axis: a polar word gives two.
 bool is_height(const Move& move, const PackedAxisWord& word) {
   std::size_t axes = 0;
   for (const auto& other : move.words) axes += word && other && other->number.begin == word->number.begin;
@@ -61,7 +61,7 @@ bool drop_letter(std::string& text, bool klartext) {
   return bracket;
 }
 
-// The end of a word of motion (G0 to G3, with zeros before the digit) at `i`; `i` where there is none.
+// The end of a word of motion (G0 to G3, with zeros before the digit) at `i`; `i` if it is missing.
 std::size_t motion_word_end(const std::string& text, std::size_t i) {
   if (upper(text[i]) != 'G') return i;
   std::size_t end = i + 1;
@@ -71,7 +71,7 @@ std::size_t motion_word_end(const std::string& text, std::size_t i) {
   return goes_on ? i : end + 1;
 }
 
-// The end of a word of that letter or name at `i`; `i` where there is none.
+// The end of a word of that letter or name at `i`; `i` if it is missing.
 std::size_t word_end(const std::string& text, std::size_t i, std::string_view name) {
   for (std::size_t k = 0; k < name.size(); ++k)
     if (i + k >= text.size() || upper(text[i + k]) != name[k]) return i;

@@ -10,7 +10,7 @@ namespace counterflex {
 double room_for_knots(const Job& job, const Segment& segment);
 
 /// Adds the knots of a stretch without steps of the correction along a line. `corners`: fractions of the
-/// segment. Returns why there are none.
+/// segment. Returns the reason if there are no knots.
 std::optional<Failure> add_knots(const Job& job, PlaceSolver& solver, std::size_t segment,
                                  const CorrectionCurve& stretch, const std::vector<double>& corners,
                                  PlannedSegment& planned);

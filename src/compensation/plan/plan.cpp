@@ -15,7 +15,7 @@ namespace {
 
 constexpr double curve_share = 0.01;  // of the tolerance: accuracy of the sampled curve
 constexpr double bend_share = 0.25;   // of the room for knots: a line that bends less is not sampled
-constexpr double sampled_angle = std::numbers::pi / 2;  // a wave of the correction around an arc is no line
+constexpr double sampled_angle = std::numbers::pi / 2;  // the correction around an arc is a wave
 constexpr int group_samples = 8;                        // along each move of a contour group
 
 enum class Kind { held, group, end, cut };

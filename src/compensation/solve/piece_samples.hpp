@@ -1,5 +1,5 @@
 #pragma once
-/// Samples of pieces, solved forward: their ends, and as many inside as the tolerance asks for.
+/// Samples of pieces, solved forward: their ends, and as many inside as the tolerance needs.
 #include <span>
 
 #include "compensation/solve/solver.hpp"

@@ -1,5 +1,5 @@
 #pragma once
-/// What becomes of a window between its job and its verdict, step by step.
+/// The steps of a window between its job and its verdict.
 #include <exception>
 
 #include "compensation/emit/emit.hpp"

@@ -13,8 +13,8 @@ namespace {
 
 constexpr std::size_t shown_tools = 3;
 
-std::string um1(const std::optional<double>& value_mm) {
-  return value_mm ? format_fixed(*value_mm * 1000, 1) : "";
+std::string if_known(const std::optional<double>& value_mm) {
+  return value_mm ? mm4(*value_mm) : "";
 }
 
 std::string rows_of(const ToolReport& tool) {
@@ -24,12 +24,11 @@ std::string rows_of(const ToolReport& tool) {
   if (!tool.size.diameter)
     return before_after_row(name + ": diameter unknown, tilt deg", mm4(before.tilt_deg),
                             after ? mm4(after->tilt_deg) : "");
-  std::string text =
-      before_after_row(name + ": tip, in um", um1(before.tip_mm), after ? um1(after->tip_mm) : "") +
-      before_after_row("  rim, in um", um1(before.rim_mm), after ? um1(after->rim_mm) : "");
+  std::string text = before_after_row(name + ": tip", mm4(before.tip_mm), after ? mm4(after->tip_mm) : "") +
+                     before_after_row("  rim", if_known(before.rim_mm), after ? if_known(after->rim_mm) : "");
   if (tool.size.flute)
-    text += before_after_row(fmt::format("  flank, {:.6g} mm up, in um", *tool.size.flute / mm),
-                             um1(before.flank_mm), after ? um1(after->flank_mm) : "");
+    text += before_after_row(fmt::format("  flank, {:.6g} mm up", *tool.size.flute / mm),
+                             if_known(before.flank_mm), after ? if_known(after->flank_mm) : "");
   return text;
 }
 

@@ -2,7 +2,7 @@
 /// A machine as flat arrays: what the kernel reads. Compiled from a Model by `flatten`. EQUATIONS.md,
 /// section 11.
 ///
-/// A series is a row of six-elements: springs, and groups of branches. Between two six-elements stands a
+/// A series is a row of six-elements: springs, and groups of branches. Between two six-elements is a
 /// node, whose pose is an unknown; the last element of a chain ends at the platform. Joints between a node
 /// and the element behind it
 /// (`front`) and between the element and the node at its end (`after`) belong to the element.
@@ -11,7 +11,7 @@
 
 namespace counterflex::kernel {
 
-/// A rigid transform; the flags say what of it is not zero.
+/// A rigid transform; the flags show which parts are not zero.
 struct Transform {
   std::array<double, 9> R{1, 0, 0, 0, 1, 0, 0, 0, 1};  ///< row by row
   std::array<double, 3> p{};                           ///< m
@@ -21,7 +21,7 @@ struct Transform {
 enum class StepKind { transform, slide, turn, weight };
 
 /// One step from frame to frame: a rigid transform, or a joint along or about a coordinate axis of the frame
-/// before. A weight is no step: it hangs there.
+/// before. A weight does not change the frame.
 struct FrameStep {
   StepKind kind = StepKind::transform;
   int weight = -1;       ///< index into FlatMachine::weights

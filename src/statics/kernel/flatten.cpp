@@ -248,7 +248,7 @@ class SeriesFlattener {
   }
 
   /// Joints without a six-element behind them: a spring K and a spring -K in series hold their end rigidly to
-  /// `node`. In tangents the second one is stiffer by a little: where the joints before it do not yield in all
+  /// `node`. In tangents the second one is stiffer by a little: where the joints before it do not move in all
   /// directions the node's pivots were zero else (EQUATIONS.md, section 11).
   void close_rigidly(std::size_t part, int node) {
     constexpr double surplus = 1e-8;
@@ -346,7 +346,7 @@ class SeriesFlattener {
   Parts& parts_;
   FlatMachine& machine_;
   std::vector<Element> elements_{};
-  Element element_{};          // the one that is being read, with the joints on both sides
+  Element element_{};  // the one that is being read, with the joints on both sides
   Stretch front_{}, after_{};
   bool has_six_ = false;
   bool at_start_ = true;          // this place rides with the start; in a chain, up to actuators

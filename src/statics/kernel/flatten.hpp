@@ -22,7 +22,7 @@ struct Flat {
   std::string why_not;  ///< the kernel cannot solve this machine; then `machine` means nothing
   std::vector<TransformProduct> transforms;
 
-  /// Where a number of the state stands in a Configuration: a column, or the frame before a part of a series.
+  /// The place of a number of the state in a Configuration: a column, or the frame before a part of a series.
   struct Place {
     int series = 0, index = 0;
   };

@@ -20,7 +20,7 @@ template <class T>
 struct Solved {
   Mask<T> accepted;  ///< the last step is small, and so is the residual at the solution
   T iterations;
-  T contraction;  ///< the second step over the first one; 0: there was none
+  T contraction;  ///< the second step over the first one; 0: a single step
 };
 
 /// Whether every unknown is a number.
@@ -42,7 +42,7 @@ COUNTERFLEX_INLINE bool has_tangent(const Schedule& schedule, int iteration) {
   return iteration > 31 || (schedule.tangents >> iteration & 1U) != 0;
 }
 
-/// The stress of the first tangent, at the state that was evaluated. Branches stand before their group.
+/// The stress of the first tangent, at the state that was evaluated. Branches are before their group.
 template <class T>
 void set_first_stress(FirstStress first, Work<T>& work) {
   for (int i = 0; i < static_cast<int>(work.machine.elements.size()); ++i) {

@@ -48,8 +48,8 @@ void get_stress(int l, const Work<T>& work, double* numbers) {
   }
 }
 
-/// Fills the lanes of a machine with waypoints from `first` on; the last waypoint stands in for those that
-/// are not there.
+/// Fills the lanes of a machine with waypoints from `first` on; the last waypoint fills the lanes that
+/// are left.
 template <class T>
 void put_waypoints(const Batch& batch, int first, Work<T>& work) {
   for (int l = 0; l < lane_count<T>; ++l) {

@@ -13,7 +13,7 @@ namespace {
 using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic>;
 
 constexpr double turn_step = 0.01;               // rad
-constexpr double force_step = 100;               // N: under it machines yield by micrometres to millimetres
+constexpr double force_step = 100;               // N: under it machines deflect by micrometres to millimetres
 constexpr double largest_turn_of_cells = 0.025;  // rad: half of a cell's edge
 /// Of a term at the rim of its cell (m; angles times l). With 1e-9 no machine of the bench takes fewer steps.
 constexpr double negligible_term = 2e-8;

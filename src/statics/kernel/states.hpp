@@ -6,7 +6,7 @@ namespace counterflex::kernel {
 
 /// A state of the kernel as numbers. Wrenches are in N and N m, axes of M.
 struct StateNumbers {
-  std::vector<double> state;    ///< as FlatMachine::state_size says
+  std::vector<double> state;    ///< FlatMachine::state_size numbers
   std::vector<double> nominal;  ///< by joint: x_nominal
   std::vector<double> stress;   ///< by element: force and moment about its end; of groups zero
   std::vector<double> ends;     ///< by series: wrench on its end, about the tip that is wanted

@@ -96,7 +96,7 @@ void relax_at_home(Series& series, const SeriesState& home) {
 
 // A controller whose zero was set at home, under the machine's own weight: finds the actuators' offsets with
 // which the perfect, preloaded machine without a load has the controlled components of its tip at home's
-// pose, or says in `gravity_status` why there are none. EQUATIONS.md, section 10.
+// pose, or gives the reason in `gravity_status`. EQUATIONS.md, section 10.
 void hold_home(Model& model) {
   StaticsWork work(model.mechanism);
   const Stage by_weight{.errors = 0, .load = 0};

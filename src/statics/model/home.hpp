@@ -4,7 +4,7 @@
 
 namespace counterflex {
 
-/// Fills what is relative to home in a compiled model whose home configuration is known.
+/// Fills the values relative to home in a compiled model. Its home configuration must be known.
 void settle_at_home(Model& model);
 
 /// What the controller adds to the commanded values while weights act (m, rad; by actuator): not zero where

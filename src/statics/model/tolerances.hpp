@@ -1,6 +1,6 @@
 #pragma once
 /// Constants of model, solve and theory: when an iteration has converged, what is zero, what is singular.
-/// Lengths and angles together, in m and rad. Each stands with other values that tests/statics was run with,
+/// Lengths and angles together, in m and rad. Beside each are other values that tests/statics was run with,
 /// batches and the kernel left out: "pass", or what fails.
 
 namespace counterflex {

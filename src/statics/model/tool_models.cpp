@@ -5,7 +5,7 @@
 namespace counterflex {
 namespace {
 
-// A chain that goes on behind its end: what is new stands at zero.
+// A chain that is longer than before: its new coordinates are zero.
 SeriesState extended(const Series& series, SeriesState shorter) {
   const Eigen::VectorXd x = shorter.x;
   shorter.x.setZero(series.columns);
@@ -21,7 +21,7 @@ SeriesState grouped(const Series& series, const Configuration& home) {
   return state;
 }
 
-// The joints of `home`, with a tool behind them that yields and whose tip is at `X_PT`.
+// The joints of `home`, with an elastic tool behind them, whose tip is at `X_PT`.
 Configuration with_tool_at_home(const Series& chain, const Configuration& home, const Pose& X_PT) {
   const bool one = home.chains.size() == 1;
   return {home.X_MP * X_PT, {one ? extended(chain, home.chains.front()) : grouped(chain, home)}};

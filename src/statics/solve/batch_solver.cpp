@@ -125,7 +125,7 @@ struct BatchSolver::Impl {
     return last_kinematics;
   }
 
-  /// The cell of the whole machine; null if there is none.
+  /// The cell of the whole machine; null if it has no cell.
   const kernel::StartCell* target_at(const Vector3& p) {
     const auto index = table.is_able ? table.index_of(p) : std::nullopt;
     if (index != line_index) line_cell = index ? table.target(*index, {}, work) : nullptr;

@@ -54,8 +54,8 @@ struct EquilibriumFollower {
            !solved.jumped;  // a jump: past a limit point, to an equilibrium on another branch
   }
 
-  // The next equilibrium, from where the last two point to. What is found there counts only if it is stable
-  // and where they point to: the last equilibrium decides otherwise.
+  // The next equilibrium, from where the last two point to. An equilibrium counts only if it is stable
+  // and near this place: the last equilibrium decides otherwise.
   bool steps_straight_on(const Problem& problem, const Followed& before, const Followed& now,
                          Followed& next) {
     const double ratio = (next.s - now.s) / (now.s - before.s);

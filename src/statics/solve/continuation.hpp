@@ -11,7 +11,7 @@ using EquilibriumSolver = std::function<NewtonResult(const Model&, const Problem
                                                      Configuration&)>;  ///< as `newton`
 
 /// What must be right of a step: the equilibria that it joins; or also that half of it leads about half of
-/// the way, since a step that is long enough passes over a limit point to another stable branch.
+/// the way, since a step that is long enough can cross a limit point to another stable branch.
 enum class Watch { equilibria, ways };
 
 /// Of every share, the part `s` of the way from one stage to another.

@@ -8,7 +8,7 @@ namespace counterflex {
 /// others.
 struct Stability {
   bool stable = false;
-  bool well_conditioned = false;  ///< proved; false says nothing
+  bool well_conditioned = false;  ///< proved; if false, it is not known
 };
 Stability judge_stability(const Model& model, const Configuration& configuration, const Problem& problem,
                           StaticsWork::Impl& work);

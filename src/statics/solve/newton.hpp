@@ -19,7 +19,7 @@ NewtonResult newton(const Model& model, const Problem& problem, StaticsWork::Imp
 NewtonResult newton_of_whole_system(const Model& model, const Problem& problem, StaticsWork::Impl& work,
                                     Configuration& configuration);
 
-/// Whether platform or actuators ended elsewhere than foreseen, by more than half of the way from `from`.
+/// Whether platform or actuators ended elsewhere than predicted, by more than half of the way from `from`.
 bool ends_elsewhere(const Mechanism& mechanism, const Configuration& from, const Configuration& foreseen,
                     const Configuration& found);
 

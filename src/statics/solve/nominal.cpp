@@ -113,7 +113,7 @@ NominalResult nominal_forward(const Model& model, const Configuration& from, con
 struct NominalPath::Impl {
   const Model& model;
   Kinematics moving, held;
-  std::optional<ActuatorJacobian> jacobian;  // where the path stands
+  std::optional<ActuatorJacobian> jacobian;  // at the present place of the path
 
   bool reaches(const Pose& X_MT, Configuration& configuration) {
     return moving.solve(&X_MT, configuration) < closure_tolerance * 10;

@@ -16,7 +16,7 @@ extern template Eigen::JacobiSVD<Eigen::MatrixXd>& Eigen::JacobiSVD<Eigen::Matri
 
 namespace counterflex {
 
-/// An orthonormal basis, as columns, of the vectors x with C x = 0; what is zero is judged as in Eigen's QR
+/// An orthonormal basis, as columns, of the vectors x with C x = 0; the limit of zero is that of Eigen's QR
 /// of C'.
 Eigen::MatrixXd null_space(const Eigen::MatrixXd& C, double threshold);
 

@@ -41,12 +41,13 @@ void add_group(const SeriesGroup& group, const GroupState& state, const Stage& s
   raise(loads.group_moment_max, largest(axes ? Vector3(axes->transpose() * moment) : moment));
 }
 
-// What stands in the first `columns` columns.
+// The parts in the first `columns` columns.
 void add_series(const Series& series, int columns, const SeriesState& state, const Stage& stage,
                 ChainLoads& loads) {
   for (const Part& part : series.parts) {
     if (part.column >= columns) continue;
-    visit_coordinates(part, state, stage, [&](const PartCoordinate& c) { add_coordinate(part.kind, c, loads); });
+    visit_coordinates(part, state, stage,
+                      [&](const PartCoordinate& c) { add_coordinate(part.kind, c, loads); });
     if (part.kind != PartKind::group) continue;
     add_group(series.groups[part.group], state.groups[part.group], stage, loads);
     for (std::size_t b = 0; b < state.groups[part.group].branches.size(); ++b) {

@@ -29,7 +29,7 @@ bool sum_stiffness(const Model& model, const Stage& stage, const Configuration& 
   return sum.available;
 }
 
-// (20)-(21): t <- t + (sum K_C - K_load)^-1 (F - f(t)), every chain anew at every t.
+// (20)-(21): t <- t + (sum K_C - K_load)^-1 (F - f(t)), every chain is solved again at every t.
 NewtonResult equilibrium_by_chains(const Model& model, const Problem& problem, Configuration& configuration,
                                    StaticsWork& work) {
   const Units units{model.mechanism.length};

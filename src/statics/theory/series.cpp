@@ -88,7 +88,7 @@ void subtract_hessian(const Series& series, const SeriesState& state, const Vect
   }
 }
 
-// The general formula was wrong inside a triple: its block is set anew.
+// The general formula was wrong inside a triple: its block is computed again.
 void mend_triples(const Series& series, const SeriesState& state, const Vector3& g, SeriesWork& work) {
   for (const Part& part : series.parts) {
     if (part.kind != PartKind::spring && part.kind != PartKind::group) continue;

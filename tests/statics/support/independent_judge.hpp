@@ -1,6 +1,7 @@
 #pragma once
-/// Stability of an equilibrium, judged without the module: own kinematics, multipliers by least squares, second differences of
-/// the Lagrangian, all in long double. For machines without groups and masses, under a force at the tip.
+/// Stability of an equilibrium, judged without the module: own kinematics, multipliers by least squares,
+/// second differences of the Lagrangian, all in long double. For machines without groups and masses, under a
+/// force at the tip.
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <Eigen/QR>
@@ -27,10 +28,11 @@ inline M3 turn(const V3& w) {
   return angle == 0 ? M3(M3::Identity()) : M3(Eigen::AngleAxis<Real>(angle, w / angle).toRotationMatrix());
 }
 
-/// All columns of the chains, one after another, then the platform's step from where it stands.
+/// All columns of the chains, one after another, then the platform's step from where it is.
 class Judge {
  public:
-  Judge(const Model& model, const Configuration& at, const Vector3& force) : model_(model), force_(force.cast<Real>()) {
+  Judge(const Model& model, const Configuration& at, const Vector3& force)
+      : model_(model), force_(force.cast<Real>()) {
     platform_ = {at.X_MP.R.cast<Real>(), at.X_MP.p.cast<Real>()};
     Eigen::Index count = 0;
     for (std::size_t c = 0; c < at.chains.size(); ++c) {
@@ -48,7 +50,8 @@ class Judge {
 
   /// Least eigenvalue, every coordinate scaled by its own stiffness.
   Real least_eigenvalue() const {
-    const auto n = static_cast<Eigen::Index>(free_.size()), closures = static_cast<Eigen::Index>(6 * first_.size());
+    const auto n = static_cast<Eigen::Index>(free_.size()),
+               closures = static_cast<Eigen::Index>(6 * first_.size());
     M C(closures, n), A = M::Zero(n, n);
     V gradient(n);
     for (Eigen::Index i = 0; i < n; ++i) {
@@ -113,7 +116,8 @@ class Judge {
           const Eigen::Matrix<Real, 6, 1> bent = x.segment<6>(column) - part.theta_0.cast<Real>();
           sum += bent.dot(part.K.cast<Real>() * bent) / 2;
         }
-        if (part.kind == PartKind::passive) sum += part.k * (x[column] - part.rest) * (x[column] - part.rest) / 2;
+        if (part.kind == PartKind::passive)
+          sum += part.k * (x[column] - part.rest) * (x[column] - part.rest) / 2;
         if (part.kind == PartKind::compliance) sum += part.k * x[column] * x[column] / 2;
       }
     return sum;
