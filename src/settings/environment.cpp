@@ -2,8 +2,8 @@
 
 #include <string_view>
 
+#include "counterflex/files/text.hpp"
 #include "settings/keys.hpp"
-#include "toml/suggest.hpp"
 
 namespace counterflex {
 namespace {
@@ -76,7 +76,7 @@ std::vector<std::pair<std::string, std::string>> misspelt_variables(const char* 
   for (; *variables != nullptr; ++variables) {
     const std::string_view variable = *variables, name = variable.substr(0, variable.find('='));
     if (!name.starts_with(prefix)) continue;
-    const std::string_view meant = toml_file::nearest(name.substr(prefix.size()), known);
+    const std::string_view meant = nearest(name.substr(prefix.size()), known);
     if (meant.empty() || name.substr(prefix.size()) == meant) continue;
     misspelt.emplace_back(name, std::string(prefix).append(meant));
   }

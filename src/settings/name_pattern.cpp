@@ -1,9 +1,8 @@
-#include "counterflex/settings/jobs_file.hpp"
-
 #include <algorithm>
 #include <cstddef>
 
-#include "toml/suggest.hpp"
+#include "counterflex/files/text.hpp"
+#include "counterflex/settings/jobs_file.hpp"
 
 namespace counterflex {
 namespace {
@@ -74,7 +73,7 @@ std::string unknown_placeholder(std::string_view pattern, const NameParts& allow
 std::string nearest_placeholder(std::string_view word) {
   std::string small(word);
   std::transform(small.begin(), small.end(), small.begin(), lower);
-  return std::string(toml_file::nearest(small, {"name", "ext", "output"}));
+  return std::string(nearest(small, {"name", "ext", "output"}));
 }
 
 std::string fill(std::string_view pattern, const NameParts& parts) {

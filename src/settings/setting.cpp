@@ -1,7 +1,6 @@
-#include "counterflex/settings/project_file.hpp"
-
 #include <algorithm>
 
+#include "counterflex/settings/project_file.hpp"
 #include "settings/keys.hpp"
 
 namespace counterflex {

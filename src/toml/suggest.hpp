@@ -6,10 +6,6 @@
 
 namespace counterflex::toml_file {
 
-/// The entry of `known` that `name` probably means, or empty. Few letters differ, or only the part after the
-/// first underscore (the unit); then the entry with the longest common beginning.
-std::string_view nearest(std::string_view name, const std::vector<std::string_view>& known);
-
 /// `; did you mean "..."? KIND: a, b, c` for the end of a message about an unknown name; without known names
 /// `; KIND: nothing`.
 std::string hint(std::string_view name, const std::vector<std::string_view>& known, std::string_view kind);

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace counterflex {
 
@@ -56,6 +57,10 @@ std::string without_controls(std::string_view text);
 
 /// The same for each line of `text`: its line ends stay.
 std::string lines_without_controls(std::string_view text);
+
+/// The entry of `known` that a misspelt `name` probably means, or empty. Few letters differ, or only the part
+/// after the first underscore (the unit); then the entry with the longest common beginning.
+std::string_view nearest(std::string_view name, const std::vector<std::string_view>& known);
 
 // Characters of text that need not be UTF-8, as the names of files and the comments of programs.
 

@@ -13,6 +13,8 @@
 #include "process/standard_output.hpp"
 #include "process/version.hpp"
 #include "settings/command_options.hpp"
+#include "settings/completion.hpp"
+#include "settings/help.hpp"
 #include "settings/layers.hpp"
 
 namespace counterflex::cli {
@@ -21,16 +23,16 @@ namespace {
 void describe_program(CLI::App& app) {
   app.description(
       "Corrects machining programs for the errors of assembly and the deflection of their machine, and "
-      "reports the\n"
-      "deviation before and after. counterflex PROGRAM is counterflex compensate PROGRAM.");
+      "reports "
+      "the deviation before and after.");
   app.footer(
-      "Exit status: 0 done, 1 internal error, 2 usage, 3 program text, 4 machine, force, job or project "
-      "file,\n"
-      "5 tolerance missed or not converged, 6 travel or correction limit, 75 input or output failed,\n"
-      "130 interrupted (143 by SIGTERM).");
+      "Exit status: 0 done, 1 internal error, 2 usage, 3 program text, 4 machine, force, job or\n"
+      "project file, 5 tolerance missed or not converged, 6 travel or correction limit,\n"
+      "75 input or output failed, 130 interrupted (143 by SIGTERM).");
   app.set_version_flag("--version", fmt::format("counterflex {}", version), "Print the version");
+  for (CLI::Option* option : app.get_options()) option->group(std::string(group::common));
   app.require_subcommand(1);
-  app.get_formatter()->column_width(38);
+  app.formatter(help_formatter());
 }
 
 /// Refuses an option with "=" and no value. CLI11 would take the next word as the value of "--output=", and
@@ -63,6 +65,31 @@ std::vector<std::string> joined(int argc, const char* const* argv) {
   return words;
 }
 
+std::vector<std::string_view> names_of_commands(const CLI::App& app) {
+  std::vector<std::string_view> names{"help"};
+  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
+    names.push_back(command->get_name());
+  return names;
+}
+
+/// "; did you mean compensate? See counterflex help", without the question if no name is near.
+std::string advice(std::string_view name, const std::vector<std::string_view>& known,
+                   const std::string& help) {
+  std::string_view meant = nearest(name, known);
+  for (const std::string_view candidate : known)
+    if (meant.empty() && candidate.starts_with(name)) meant = candidate;
+  const std::string see = "counterflex help" + help;
+  return meant.empty() ? fmt::format("; see {}", see) : fmt::format("; did you mean {}? See {}", meant, see);
+}
+
+/// "counterflex help compensate" is "counterflex compensate --help".
+void translate_help(std::vector<std::string>& words) {
+  if (words.empty() || words[0] != "help") return;
+  words.erase(words.begin());
+  words.resize(std::min<std::size_t>(words.size(), 1));
+  words.emplace_back("--help");
+}
+
 /// "counterflex O1001.NC" is "counterflex compensate O1001.NC". Throws `InputError` (Exit::usage) for a first
 /// word that is neither a command nor a file.
 void add_missing_command(std::vector<std::string>& words, const CLI::App& app) {
@@ -72,7 +99,8 @@ void add_missing_command(std::vector<std::string>& words, const CLI::App& app) {
   std::error_code ignored;
   if (words[0] != "-" && !std::filesystem::exists(words[0], ignored))
     throw InputError(Exit::usage, {},
-                     fmt::format("'{}' is neither a command nor a file; see counterflex --help", words[0]));
+                     fmt::format("'{}' is neither a command nor a file{}", words[0],
+                                 advice(words[0], names_of_commands(app), "")));
   words.insert(words.begin(), "compensate");
 }
 
@@ -89,12 +117,29 @@ void refuse_shard_of_program(const std::vector<std::string>& words) {
       "or list several programs in a jobs file and use counterflex batch JOBS.toml --shard I/N");
 }
 
+/// Throws `InputError` (Exit::usage) for the first option that the command does not have.
+void refuse_unknown_option(const std::vector<std::string>& words, const CLI::App& app) {
+  if (words.empty() || words[0].starts_with('-')) return;
+  const CLI::App* command = app.get_subcommand(words[0]);
+  std::vector<std::string> names;
+  for (const CLI::Option* option : command->get_options())
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  const auto end = std::ranges::find(words, "--");
+  for (auto word = words.begin() + 1; word != end; ++word) {
+    const std::string name = word->substr(0, word->find('='));
+    if (!name.starts_with("--") || std::ranges::find(names, name) != names.end()) continue;
+    throw InputError(Exit::usage, {},
+                     fmt::format("counterflex {} has no option {}{}", words[0], without_controls(name),
+                                 advice(name, {names.begin(), names.end()}, " " + words[0])));
+  }
+}
+
 Exit leave(const CLI::App& app, const CLI::ParseError& error) {
   if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success))
     return static_cast<Exit>(app.exit(error));
   const auto chosen = app.get_subcommands();
-  fmt::print(stderr, "error: {}\nSee counterflex {}--help.\n", without_controls(error.what()),
-             chosen.empty() ? "" : chosen.front()->get_name() + " ");
+  fmt::print(stderr, "error: {}\nSee counterflex help {}.\n", without_controls(error.what()),
+             chosen.empty() ? "COMMAND" : chosen.front()->get_name());
   return Exit::usage;
 }
 
@@ -137,8 +182,18 @@ std::variant<Options, Exit> read_command_line(int argc, const char* const* argv)
   add_commands(app, options);
   try {
     auto words = joined(argc, argv);
+    if (words.empty()) {
+      fmt::print(stderr, "{}", short_usage());
+      return Exit::usage;
+    }
+    if (words[0] == "completion" && words.size() == 2) {
+      write_result(completion_script(app, words[1]));
+      return Exit::done;
+    }
+    translate_help(words);
     add_missing_command(words, app);
     refuse_shard_of_program(words);
+    refuse_unknown_option(words, app);
     std::reverse(words.begin(), words.end());
     app.parse(std::move(words));
   } catch (const CLI::ParseError& error) {

@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <functional>
 
+#include "settings/help.hpp"
 #include "settings/setting_options.hpp"
 #include "settings/values.hpp"
 
@@ -25,15 +26,17 @@ void add_setting(CLI::App& app, Options& options, std::string_view name, std::st
   };
   const std::string names(setting.flags), type(setting.type);
   const std::string help(other_help.empty() ? setting.help : other_help);
+  CLI::Option* option = nullptr;
   if (type.empty())
-    app.add_flag_function(
+    option = app.add_flag_function(
         names, [keep](std::int64_t count) { keep({count > 0 ? "true" : "false"}); }, help);
   else if (setting.repeated)
-    app.add_option_function<std::vector<std::string>>(names, keep, help)
-        ->type_name(type)
-        ->allow_extra_args(false);
+    option = app.add_option_function<std::vector<std::string>>(names, keep, help)
+                 ->type_name(type)
+                 ->allow_extra_args(false);
   else
-    value_option(app, names, type, help, [keep](const std::string& value) { keep({value}); });
+    option = value_option(app, names, type, help, [keep](const std::string& value) { keep({value}); });
+  option->group(std::string(setting.group));
 }
 
 void add_settings(CLI::App& app, Options& options, std::initializer_list<std::string_view> names) {
@@ -53,16 +56,21 @@ void add_reading(CLI::App& app, Options& options) {
 void add_config(CLI::App& app, Options& options) {
   value_option(app, "--config", "FILE",
                "The project file (default: counterflex.toml beside the program or above)",
-               [&](const std::string& file) { options.sources.config = file; });
-  app.add_flag("--no-config", options.sources.no_config, "Ignore project files");
+               [&](const std::string& file) { options.sources.config = file; })
+      ->group(std::string(group::settings));
+  app.add_flag("--no-config", options.sources.no_config, "Ignore project files")
+      ->group(std::string(group::settings));
   app.add_flag("--print-config", options.print_config,
-               "Print the settings that apply and the origin of each, as a project file");
+               "Print the settings that apply and the origin of each, as a project file")
+      ->group(std::string(group::settings));
 }
 
 void add_output(CLI::App& app, Options& options) {
-  app.add_flag("--json", options.json, "One JSON document on standard output and nothing else");
-  app.add_flag("-q,--quiet", options.quiet, "Print only errors on standard error");
-  app.add_flag("-v,--verbose", options.verbose, "Print more details");
+  const std::string output(group::output);
+  app.add_flag("--json", options.json, "One JSON document on standard output and nothing else")
+      ->group(output);
+  app.add_flag("-q,--quiet", options.quiet, "Print nothing but errors")->group(output);
+  app.add_flag("-v,--verbose", options.verbose, "Print all details")->group(output);
 }
 
 CLI::Option* add_file(CLI::App& app, const std::string& name, std::string& file, const std::string& help) {
@@ -81,31 +89,42 @@ void add_run(CLI::App& app, Options& options) {
   add_output(app, options);
 }
 
+/// `examples`: lines of the help, which shows them after the usage line.
 CLI::App& add_command(CLI::App& app, Options& options, const std::string& name, Command command,
-                      const std::string& help) {
+                      const std::string& help, std::string_view examples) {
   CLI::App& subcommand = *app.add_subcommand(name, help);
+  subcommand.footer(std::string(examples));
+  subcommand.option_defaults()->group(std::string(group::common));
+  subcommand.get_help_ptr()->group(std::string(group::output));
   subcommand.callback([&options, command] { options.command = command; });
   return subcommand;
 }
 
 void add_compensate(CLI::App& app, Options& options) {
   CLI::App& command =
-      add_command(app, options, "compensate", Command::compensate, "Write the corrected program, verified");
+      add_command(app, options, "compensate", Command::compensate, "Write the corrected program, verified",
+                  "  counterflex compensate O1001.NC -m machine.toml --load-scale 0 --report O1001\n"
+                  "  counterflex compensate O1001.NC -m machine.toml -f forces.csv -o corrected/\n"
+                  "  counterflex compensate O1001.NC -m machine.toml --force=-120,0,-40");
   add_file(command, "PROGRAM", options.program, "The machining program; - is standard input");
   add_settings(command, options, {"output", "number-pieces"});
   add_run(command, options);
 }
 
 void add_predict(CLI::App& app, Options& options) {
-  CLI::App& command = add_command(app, options, "predict", Command::predict,
-                                  "Show the deviation of a program and its causes; write no program");
+  CLI::App& command =
+      add_command(app, options, "predict", Command::predict,
+                  "Show the deviation of a program and its causes; write no program",
+                  "  counterflex predict O1001.NC -m machine.toml --load-scale 0\n"
+                  "  counterflex predict O1001.NC -m machine.toml -f forces.csv --report O1001");
   add_file(command, "PROGRAM", options.program, "The machining program; - is standard input");
   add_run(command, options);
 }
 
 void add_verify(CLI::App& app, Options& options) {
   CLI::App& command =
-      add_command(app, options, "verify", Command::verify, "Check a corrected program against its original");
+      add_command(app, options, "verify", Command::verify, "Check a corrected program against its original",
+                  "  counterflex verify O1001.NC O1001.comp.NC -m machine.toml -f forces.csv");
   add_file(command, "ORIGINAL", options.program, "The original program");
   add_file(command, "CORRECTED", options.verify.corrected, "The corrected program");
   add_run(command, options);
@@ -113,7 +132,8 @@ void add_verify(CLI::App& app, Options& options) {
 
 void add_compare(CLI::App& app, Options& options) {
   CLI::App& command = add_command(app, options, "compare", Command::compare,
-                                  "Show the reports of two runs side by side: machines, methods, tolerances");
+                                  "Show the reports of two runs side by side: machines, methods, tolerances",
+                                  "  counterflex compare before.json after.json --report comparison");
   command
       .add_option("REPORT", options.compare.reports,
                   "Two reports, STEM.json or STEM.html, as --report wrote them")
@@ -132,9 +152,10 @@ void add_compare(CLI::App& app, Options& options) {
 }
 
 void add_analyze(CLI::App& app, Options& options) {
-  CLI::App& command =
-      add_command(app, options, "analyze", Command::analyze,
-                  "Stiffness, assembly, joint loads, deviation and corrected target at poses");
+  CLI::App& command = add_command(app, options, "analyze", Command::analyze,
+                                  "Stiffness, assembly, joint loads, deviation and corrected target at poses",
+                                  "  counterflex analyze -m machine.toml --at 0,0,-100 --force 0,0,-200\n"
+                                  "  counterflex analyze -m machine.toml --at 0,0,-100 --full");
   add_setting(command, options, "machine");
   command
       .add_option("--at", options.analyze.at,
@@ -166,7 +187,10 @@ void add_analyze(CLI::App& app, Options& options) {
 
 void add_show_forces(CLI::App& app, Options& options) {
   CLI::App& command = add_command(app, options, "forces", Command::forces,
-                                  "Show the wrench of every feed move, or write it as a force profile");
+                                  "Show the wrench of every feed move, or write it as a force profile",
+                                  "  counterflex forces O1001.NC -f cutting.toml -m machine.toml\n"
+                                  "  counterflex forces O1001.NC -f cutting.toml -o profile.csv\n"
+                                  "  counterflex forces --materials");
   command.add_option("PROGRAM", options.program, "The machining program; - is standard input")->type_name("");
   add_setting(command, options, "machine",
               "The machine on which the program runs (without it the tool is along z of the program)");
@@ -185,7 +209,10 @@ void add_show_forces(CLI::App& app, Options& options) {
 void add_check(CLI::App& app, Options& options) {
   CLI::App& command =
       add_command(app, options, "check", Command::check,
-                  "Read machine files (.toml) and programs, show what was understood, find mistakes");
+                  "Read machine files (.toml) and programs, show what was understood, find mistakes",
+                  "  counterflex check O1001.NC\n"
+                  "  counterflex check machine.toml\n"
+                  "  counterflex check O1001.NC -m machine.toml");
   command.add_option("FILE", options.check.files, "Machine files and programs")->required()->type_name("");
   add_setting(command, options, "machine",
               "The machine on which the programs run: is every point in its travel?");
@@ -196,7 +223,9 @@ void add_check(CLI::App& app, Options& options) {
 
 void add_batch(CLI::App& app, Options& options) {
   CLI::App& command = add_command(app, options, "batch", Command::batch,
-                                  "Correct all programs of a list of jobs and write a summary");
+                                  "Correct all programs of a list of jobs and write a summary",
+                                  "  counterflex batch jobs.toml\n"
+                                  "  counterflex batch jobs.toml --resume");
   add_file(command, "JOBS", options.batch.jobs, "The jobs file (.toml)");
   command.add_flag("--resume", options.batch.resume,
                    "Skip jobs whose options, inputs and outputs have not changed since the last run");
@@ -213,7 +242,9 @@ void add_batch(CLI::App& app, Options& options) {
 
 void add_watch(CLI::App& app, Options& options) {
   CLI::App& command = add_command(app, options, "watch", Command::watch,
-                                  "Correct the programs that a post-processor writes into a folder");
+                                  "Correct the programs that a post-processor writes into a folder",
+                                  "  counterflex watch posted/ -m machine.toml -o corrected/\n"
+                                  "  counterflex watch posted/ -m machine.toml --once");
   add_file(command, "DIR", options.watch.folder, "The folder");
   command
       .add_option("--pattern", options.watch.patterns,

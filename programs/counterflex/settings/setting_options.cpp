@@ -7,6 +7,7 @@
 
 #include "counterflex/geometry/types.hpp"
 #include "counterflex/program/read_program.hpp"
+#include "settings/help.hpp"
 #include "settings/output_names.hpp"
 #include "settings/values.hpp"
 
@@ -68,28 +69,29 @@ void take_report(const std::string& name, const std::string& text, Options& opti
 using Text = const std::string&;
 
 const std::array option_table{
-    SettingOption{"machine", "-m,--machine", "MACHINE", "The machine file (default: from the project file)",
-                  "", false, [](Text, Text text, Options& options) { options.machine = text; }},
-    SettingOption{"forces", "-f,--forces", "FORCES",
+    SettingOption{"machine", "-m,--machine", "MACHINE", group::common,
+                  "The machine file (default: from the project file)", "", false,
+                  [](Text, Text text, Options& options) { options.machine = text; }},
+    SettingOption{"forces", "-f,--forces", "FORCES", group::common,
                   "Forces by place, tool or operation (.csv), cutting models (.toml); may be repeated", "",
                   true, [](Text, Text text, Options& options) { options.forces.push_back(text); }},
     SettingOption{
-        "force", "--force", "[T3=]FX,FY,FZ[,MX,MY,MZ]",
+        "force", "--force", "[T3=]FX,FY,FZ[,MX,MY,MZ]", group::common,
         "A constant wrench on the tool at its tip in all feed moves, or in those of a tool: N and N m, "
         "machine "
         "frame; may be repeated",
         "", true,
         [](Text, Text text, Options& options) { options.force_rules.push_back(parse_force_rule(text)); }},
     SettingOption{
-        "load-scale", "--load-scale", "SCALE",
+        "load-scale", "--load-scale", "SCALE", group::common,
         "Multiplies all cutting forces (default 1); 0 corrects geometry and weight only", "1", false,
         [](Text name, Text text, Options& options) { options.load_scale = number_of(name, text, {0}); }},
     SettingOption{
-        "air-above", "--air-above", "Z", "Feed moves entirely above this Z of the program (mm) have no force",
-        "", false,
+        "air-above", "--air-above", "Z", group::forces,
+        "Feed moves entirely above this Z of the program (mm) have no force", "", false,
         [](Text name, Text text, Options& options) { options.air_above_mm = number_of(name, text); }},
     SettingOption{
-        "blend-mm", "--blend-mm", "LENGTH",
+        "blend-mm", "--blend-mm", "LENGTH", group::forces,
         "A step of the force acts as a ramp over this length in mm (default 2); 0: as a jump", "2", false,
         [](Text name, Text text, Options& options) {
           constexpr double least_mm = 0.01;  // words have hardly finer digits
@@ -100,83 +102,84 @@ const std::array option_table{
                 fmt::format("{} is '{}', must be 0 for jumps, or at least {}", name, text, least_mm));
           options.blend = blend_mm * mm;
         }},
-    SettingOption{"dialect", "--dialect", "NAME",
-                  "auto, linuxcnc, grbl, fanuc, haas, mach3, siemens or heidenhain (default: of the machine "
-                  "file, or auto)",
-                  "", false, take_dialect},
-    SettingOption{"units", "--units", "mm|inch", "Units before the program states its own", "", false,
-                  take_units},
-    SettingOption{"integer-words", "--integer-words", "units|increments",
+    SettingOption{"dialect", "--dialect", "auto|linuxcnc|grbl|fanuc|haas|mach3|siemens|heidenhain",
+                  group::reading, "The control (default: of the machine file, or auto)", "", false,
+                  take_dialect},
+    SettingOption{"units", "--units", "mm|inch", group::common, "Units before the program states its own", "",
+                  false, take_units},
+    SettingOption{"integer-words", "--integer-words", "units|increments", group::reading,
                   "The meaning of length words without a point on fanuc and haas controls", "", false,
                   take_integer_words},
     SettingOption{
-        "arc-centres", "--arc-centres", "incremental|absolute",
+        "arc-centres", "--arc-centres", "incremental|absolute", group::reading,
         "I, J and K of arcs before G90.1 or G91.1: distances from the start, or coordinates (default: of the "
         "machine file, or incremental)",
         "", false, take_arc_centres},
-    SettingOption{"evaluate", "--evaluate", "",
+    SettingOption{"evaluate", "--evaluate", "", group::reading,
                   "Compute variables that the program sets to constants, and expressions of them", "false",
                   false,
                   [](Text name, Text text, Options& options) { options.evaluate = truth_of(name, text); }},
     SettingOption{
-        "expand-subprograms", "--expand-subprograms", "",
+        "expand-subprograms", "--expand-subprograms", "", group::reading,
         "Replace calls of subprograms by their bodies, and loops, conditions and jumps of constants by what "
         "they execute",
         "false", false,
         [](Text name, Text text, Options& options) { options.expand_subprograms = truth_of(name, text); }},
     SettingOption{
-        "work", "--work", "G54=X,Y,Z[,RX,RY,RZ][/DATUM]",
+        "work", "--work", "G54=X,Y,Z[,RX,RY,RZ][/DATUM]", group::common,
         "A work offset in the machine frame, mm and degrees. DATUM is how it was found: machine or "
         "touched=X,Y,Z. May be repeated. --work machine: program coordinates are machine coordinates",
         "", true, take_work},
-    SettingOption{"tool-table", "--tool-table", "FILE", "Tool lengths in mm, in LinuxCNC's format", "", false,
+    SettingOption{"tool-table", "--tool-table", "FILE", group::reading,
+                  "Tool lengths in mm, in LinuxCNC's format", "", false,
                   [](Text, Text text, Options& options) { options.tool_table = text; }},
-    SettingOption{"tool-length", "--tool-length", "T1=LENGTH",
+    SettingOption{"tool-length", "--tool-length", "T1=LENGTH", group::reading,
                   "The length of a tool in mm; overrides tool table and machine file; may be repeated", "",
                   true, take_tool_length},
-    SettingOption{"method", "--method", "NAME",
-                  "How targets are solved: direct, nested or linear (default direct)", "direct", false,
-                  take_method},
-    SettingOption{"tolerance-mm", "--tolerance-mm", "LENGTH",
+    SettingOption{"method", "--method", "direct|nested|linear", group::correction,
+                  "How targets are solved (default direct)", "direct", false, take_method},
+    SettingOption{"tolerance-mm", "--tolerance-mm", "LENGTH", group::common,
                   "The largest deviation of the tip that may remain, in mm (default 0.005)", "0.005", false,
                   [](Text name, Text text, Options& options) {
                     options.tolerance = number_of(name, text, {0, true}) * mm;
                   }},
-    SettingOption{"max-correction-mm", "--max-correction-mm", "LENGTH",
+    SettingOption{"max-correction-mm", "--max-correction-mm", "LENGTH", group::common,
                   "The largest correction that is accepted, in mm (default: of the machine file, or 1)", "",
                   false,
                   [](Text name, Text text, Options& options) {
                     options.max_correction = number_of(name, text, {0, true}) * mm;
                   }},
     SettingOption{
-        "accept-partial", "--accept-partial", "",
+        "accept-partial", "--accept-partial", "", group::correction,
         "Accept the verdict PARTLY: write the program though some feed moves miss the tolerance", "false",
         false, [](Text name, Text text, Options& options) { options.accept_partial = truth_of(name, text); }},
     SettingOption{
-        "decimals", "--decimals", "N", "Decimals in corrected words (default: as in the program)", "", false,
+        "decimals", "--decimals", "N", group::correction,
+        "Decimals in corrected words (default: as in the program)", "", false,
         [](Text name, Text text, Options& options) { options.decimals = integer_of(name, text, 0, 9); }},
     SettingOption{
-        "number-pieces", "--number-pieces", "",
+        "number-pieces", "--number-pieces", "", group::correction,
         "Give the pieces of a split block Nn the numbers Nn+1, Nn+2 ..., if they are free", "", false,
         [](Text name, Text text, Options& options) { options.number_pieces = truth_of(name, text); }},
     SettingOption{
-        "threads", "--threads", "N", "Threads; the output does not depend on it (default: all processors)",
-        "", false,
+        "threads", "--threads", "N", group::correction,
+        "Threads; the output does not depend on it (default: all processors)", "", false,
         [](Text name, Text text, Options& options) { options.threads = integer_of(name, text, 1, 1024); }},
     SettingOption{
-        "min-block-ms", "--min-block-ms", "TIME", "Shorter feed moves produce a warning, in ms (default 2)",
-        "2", false,
+        "min-block-ms", "--min-block-ms", "TIME", group::correction,
+        "Shorter feed moves produce a warning, in ms (default 2)", "2", false,
         [](Text name, Text text, Options& options) { options.min_block_ms = number_of(name, text, {0}); }},
-    SettingOption{"report", "--report", "STEM", "Write STEM.html, STEM.json and STEM.csv", "", false,
-                  take_report},
-    SettingOption{"plot", "--plot", "FILE.svg",
+    SettingOption{"report", "--report", "STEM", group::common, "Write STEM.html, STEM.json and STEM.csv", "",
+                  false, take_report},
+    SettingOption{"plot", "--plot", "FILE.svg", group::output,
                   "Write the deviation along the path and its causes as a picture", "", false, take_plot},
     SettingOption{
-        "force-overwrite", "--force-overwrite", "", "Replace existing files that counterflex did not write",
-        "", false,
+        "force-overwrite", "--force-overwrite", "", group::output,
+        "Replace existing files that counterflex did not write", "", false,
         [](Text name, Text text, Options& options) { options.force_overwrite = truth_of(name, text); }},
     SettingOption{
-        "output", "-o,--output", "OUTPUT",
+        "output",
+        "-o,--output", "OUTPUT", group::common,
         "The corrected program, a folder for it (DIR/) or a pattern ({name}_CF{ext}); - is standard output "
         "(default: NAME.comp.EXT beside the input)",
         "", false, [](Text name, Text text, Options& options) {

@@ -14,6 +14,7 @@ struct SettingOption {
   std::string_view option;  ///< "machine"
   std::string_view flags;   ///< "-m,--machine"
   std::string_view type;    ///< of its value in the help; empty for a switch
+  std::string_view group;   ///< of the help
   std::string_view help;
   std::string_view builtin;  ///< the default value, if a file can state it
   bool repeated;             ///< may be given several times, for several values
