@@ -437,10 +437,31 @@ TEST_CASE("columns that were not computed keep their place and are empty") {
   CHECK(contains(lines[2], ",2.000000" + std::string(55, ',') + "singular,7"));
 }
 
-TEST_CASE("the summary shows before and after, and calls the remainder a model residual") {
+TEST_CASE("the summary has at most twelve lines: verdict, deviation, force, program, files") {
+  MadeUpRun run;
+  run.facts.warnings = {{0, "a general warning"}};
+  run.facts.attribution = true;
+  RunReport report = compensated(run, small_compensation());
+  report.sanity = {{"travel", SanityState::ok, "in range"},
+                   {"feed force", SanityState::doubtful, "backwards"}};
+  const std::string text = summary_text(report, {"r.html"}, false);
+  CAPTURE(text);
+  CHECK(lines_of(text).size() <= 12);
+  CHECK(contains(text, "\ncompensate made_up.ngc on Mill\n"));
+  CHECK(contains(text, "  before      0.5000 mm, line 4: geometry "));
+  CHECK(contains(text,
+                 "  after       0.0050 mm, line 4 (100 times smaller); by the model, tolerance 0.0050 mm\n"));
+  CHECK(contains(text, "; 30 % more: 0.0800 mm, 30 % less: 0.0700 mm, none: 0.2500 mm\n"));
+  CHECK(contains(text, "3 of 5 moves corrected individually, 1 with one shift for their contour, 1 held, 2"));
+  CHECK(contains(text, "  checks 1/2  feed force: backwards\n"));
+  CHECK(contains(text, "  written     no corrected program, r.html\n"));
+  CHECK(contains(text, "1 warning; -v shows all numbers\n"));
+}
+
+TEST_CASE("the details show before and after, and call the remainder a model residual") {
   MadeUpRun run;
   run.facts.warnings = {{0, "a general warning"}, {6, "a warning"}};
-  const std::string text = summary_text(compensated(run, small_compensation()), false);
+  const std::string text = details_text(compensated(run, small_compensation()), false);
   CAPTURE(text);
   CHECK(contains(text, "compensate made_up.ngc\n  on Mill\n  method direct, tolerance 0.0050 mm\n"));
   CHECK(contains(text, "  largest                                 0.5000        0.0050\n"));
@@ -464,9 +485,9 @@ TEST_CASE("the summary shows before and after, and calls the remainder a model r
   CHECK(contains(text, "Assumptions\n  Program coordinates were taken as machine coordinates"));
 }
 
-TEST_CASE("the summary of a prediction shows no residual") {
+TEST_CASE("the details of a prediction show no residual") {
   const MadeUpRun run;
-  const std::string text = summary_text(predicted(run, made_up_waypoints()), false);
+  const std::string text = details_text(predicted(run, made_up_waypoints()), false);
   CHECK(contains(text, "  largest                                 0.5000\n"));
   CHECK_FALSE(contains(text, "after"));
   CHECK_FALSE(contains(text, "residual"));
@@ -477,7 +498,7 @@ TEST_CASE("a machine that is unstable under more force is reported in summary, w
   const Compensation c = small_compensation();
   RunReport report = compensated(run, c);
   add_made_up_sensitivity(report, c.waypoints, Status::unstable);
-  const std::string text = summary_text(report, false);
+  const std::string text = details_text(report, false);
   CAPTURE(text);
   CHECK(
       contains(text, "With the force 30 % higher (wear, override) the machine has no stable equilibrium in"));
@@ -497,7 +518,7 @@ TEST_CASE("a machine with masses has a fifth row of sources") {
   c.waypoints[0].causes->gravity.head<3>() = Vector3(0, 0, -0.02) * mm;
   c.waypoints[0].causes->superposition.head<3>() += Vector3(0, 0, -0.02) * mm;
   const RunReport report = compensated(run, c);
-  const std::string text = summary_text(report, false);
+  const std::string text = details_text(report, false);
   CAPTURE(text);
   CHECK(contains(text,
                  "  gravity: weights alone                  0.0000      0.0000      0.0200      0.0200\n"
@@ -512,7 +533,7 @@ TEST_CASE("moves without a force are listed by reason, in the summary and the JS
   RunReport report = compensated(run, small_compensation());
   for (int line = 14; line < 24; ++line) add_unforced(report.forces.without, {line, 7.5 * mm, "a plunge"});
   add_unforced(report.forces.without, {12, 4.2 * mm, "no speed"});
-  const std::string text = summary_text(report, false), json = to_json(report);
+  const std::string text = details_text(report, false), json = to_json(report);
   CHECK(contains(text,
                  "  11 feed moves, 79.200 mm, cut without a force\n"
                  "    10 moves, 75.000 mm, from line 14 on: a plunge\n"
@@ -526,7 +547,7 @@ TEST_CASE("moves without a force are listed by reason, in the summary and the JS
 
 TEST_CASE("the summary of a prediction shows the effect of more and less force on the program") {
   const MadeUpRun run;
-  const std::string text = summary_text(predicted(run, made_up_waypoints()), false);
+  const std::string text = details_text(predicted(run, made_up_waypoints()), false);
   CAPTURE(text);
   CHECK(contains(text, "With the force 30 % higher (wear, override) the program is off by up to"));
   CHECK(
@@ -536,9 +557,9 @@ TEST_CASE("the summary of a prediction shows the effect of more and less force o
 TEST_CASE("a summary without causes names the option for them") {
   MadeUpRun run;
   const char* const how = "\nFor causes and sensitivity to the force add --report NAME or --json.\n";
-  CHECK_FALSE(contains(summary_text(compensated(run, small_compensation()), false), how));
+  CHECK_FALSE(contains(details_text(compensated(run, small_compensation()), false), how));
   run.facts.attribution = false;
-  const std::string text = summary_text(compensated(run, small_compensation()), false);
+  const std::string text = details_text(compensated(run, small_compensation()), false);
   CAPTURE(text);
   CHECK(contains(text, how));
   CHECK_FALSE(contains(text, "Causes of the deviation"));
@@ -549,7 +570,7 @@ TEST_CASE("the summary of a failure shows the failure and only known numbers") {
   const MadeUpRun run;
   Compensation none;
   none.failure = Failure{Exit::limit, 4, "the correction is too large"};
-  const std::string text = summary_text(compensated(run, none), false);
+  const std::string text = details_text(compensated(run, none), false);
   CHECK(text.starts_with("FAILED\n"));
   CHECK(contains(text,
                  "Failed (exit status 6)\n  line 4: the correction is too large\n  No corrected program was "
@@ -561,7 +582,7 @@ TEST_CASE("the summary of a failure shows the failure and only known numbers") {
 TEST_CASE("long lists are cut short in the summary, with their number") {
   MadeUpRun run;
   for (int line = 1; line <= 30; ++line) run.program.left_alone.push_back({line, "why"});
-  const std::string text = summary_text(predicted(run, {}), false);
+  const std::string text = details_text(predicted(run, {}), false);
   CHECK(contains(text, "Not or partly corrected: first lines and reasons\n  line 1: why\n"));
   CHECK(contains(text, "  line 5: why\n  and 25 more\n"));
 }
@@ -573,7 +594,7 @@ TEST_CASE("the summary is at most 100 characters wide and has no trailing blanks
   run.facts.warnings = {{123456, sentence}};
   run.machine.work["G54"].datum.touched_at = Vector3(1, 2, 3);
   run.path.frames[0].name = "G54";
-  const std::string text = summary_text(compensated(run, small_compensation()), false);
+  const std::string text = details_text(compensated(run, small_compensation()), false);
   for (const std::string& line : lines_of(text)) {
     CAPTURE(line);
     CHECK(line.size() <= 100);
@@ -584,7 +605,7 @@ TEST_CASE("the summary is at most 100 characters wide and has no trailing blanks
 TEST_CASE("colour adds only escape sequences") {
   const MadeUpRun run;
   const RunReport report = compensated(run, small_compensation());
-  const std::string plain = summary_text(report, false), coloured = summary_text(report, true);
+  const std::string plain = details_text(report, false), coloured = details_text(report, true);
   CHECK_FALSE(contains(plain, "\033"));
   std::string stripped;
   for (std::size_t i = 0; i < coloured.size(); ++i) {

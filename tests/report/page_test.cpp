@@ -151,5 +151,5 @@ TEST_CASE("a page shows the same files as the summary, without folders") {
   run.facts.inputs.push_back({"corrected", "out/made_up.comp.ngc", ""});
   const RunReport report = verified(run, run.program, made_up_waypoints());
   CHECK(page_title(report) == "made_up.comp.ngc for made_up.ngc on Mill");
-  CHECK(contains(summary_text(report, false), "verify out/made_up.comp.ngc for in/made_up.ngc\n"));
+  CHECK(contains(details_text(report, false), "verify out/made_up.comp.ngc for in/made_up.ngc\n"));
 }

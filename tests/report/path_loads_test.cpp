@@ -79,7 +79,7 @@ TEST_CASE(
 TEST_CASE("exceeding a limit is a warning at its line, reaching it is not") {
   const RunReport above = with_loads(limited(400, 39.9));
   CHECK(warnings_of_limits(above) == 2);
-  const std::string text = summary_text(above, false);
+  const std::string text = details_text(above, false);
   CHECK(contains(text, "line 4: chain left: spring force 430.3 N is above its limit of 400 N\n"));
   CHECK(contains(text, "line 4: chain right: spring force 40.00 N is above its limit of 39.9 N\n"));
   CHECK_FALSE(above.failure.has_value());
@@ -89,14 +89,14 @@ TEST_CASE("exceeding a limit is a warning at its line, reaching it is not") {
 
 TEST_CASE(
     "the summary has what comes nearest to a limit in every chain, and nothing where no limit is given") {
-  CHECK(contains(summary_text(with_loads(limited(500, 60)), false),
+  CHECK(contains(details_text(with_loads(limited(500, 60)), false),
                  "\nLoads nearest to their limits, at 3 places of the path\n"
                  "  chain left: spring force 430.3 N, 86 % of its limit of 500 N, line 4\n"
                  "  chain right: spring force 40.00 N, 67 % of its limit of 60 N, line 4\n  unknown at 2 "
                  "places more\n"));
-  CHECK(contains(summary_text(with_loads(limited(5000, 60)), false),
+  CHECK(contains(details_text(with_loads(limited(5000, 60)), false),
                  "  chain left: spring rotation 0.5000 deg, 25 % of its limit of 2 deg, line 3\n"));
-  CHECK_FALSE(contains(summary_text(with_loads(Machine{}), false), "Loads"));
+  CHECK_FALSE(contains(details_text(with_loads(Machine{}), false), "Loads"));
 }
 
 TEST_CASE("a report without loads has null, and loads are unknown without solved places") {

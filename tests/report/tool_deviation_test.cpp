@@ -110,7 +110,7 @@ TEST_CASE(
   options.tolerance = 5e-6;
   const RunContext asked{context.machine, options, context.frames, context.program, context.facts};
   const RunReport report = report_compensation(asked, tally, std::nullopt);
-  const std::string text = summary_text(report, false);
+  const std::string text = details_text(report, false);
   CHECK(contains(text, "[tool] (20 mm): tip"));
   CHECK(contains(text, "  rim"));
   CHECK(contains(text, "  flank, 30 mm up"));
@@ -128,7 +128,7 @@ TEST_CASE("a tool whose diameter is not known has a tilt and no rim") {
   CHECK(after.tilt_deg == doctest::Approx(1e-3 / deg));
   const Overview overview = overview_of(run.program);
   const RunReport report = report_compensation(run.context(overview), tally, std::nullopt);
-  const std::string text = summary_text(report, false);
+  const std::string text = details_text(report, false);
   CHECK(contains(text, "[tool]: diameter unknown, tilt deg"));
   CHECK_FALSE(contains(text, "stays tilted"));
   CHECK(contains(to_json(report), "\"rim_mm\": null"));
@@ -142,10 +142,10 @@ TEST_CASE("the deviation before is the common shift and the rest") {
   CHECK(report.common_shift->largest_mm() == doctest::Approx(0.3));
   // 0.3 mm along y become nothing, (0.3, 0, -0.4) and 0 become larger.
   CHECK(report.common_shift->rest.max_mm == doctest::Approx(std::hypot(0.5, 0.3)));
-  CHECK(contains(summary_text(report, false), "common shift (datum not stated)         0.3000"));
+  CHECK(contains(details_text(report, false), "common shift (datum not stated)         0.3000"));
   run.path.frames[0].common_shift.reset();
   const RunReport stated = predicted(run, made_up_waypoints());
   CHECK_FALSE(stated.common_shift);
-  CHECK_FALSE(contains(summary_text(stated, false), "common shift"));
+  CHECK_FALSE(contains(details_text(stated, false), "common shift"));
   CHECK(contains(to_json(stated), "\"common_shift\": null"));
 }

@@ -44,7 +44,7 @@ TEST_CASE("a report lists the tools in use with their stiffness, if one of them 
   CHECK(contains(json, "\"radial_N_per_um\": 20.0"));
   CHECK(contains(json, "\"radial_N_per_um\": null"));
   CHECK(contains(json, "\"tools\": \"Tools in use: T1"));
-  CHECK(contains(summary_text(report, false), "  Tools in use: T1, stiffness from"));
+  CHECK(contains(details_text(report, false), "  Tools in use: T1, stiffness from"));
 }
 
 TEST_CASE("a report does not mention tools unless a tool in use changes the machine") {
@@ -53,7 +53,7 @@ TEST_CASE("a report does not mention tools unless a tool in use changes the mach
         with_tools({{0, radial(1e6)}, {1, radial(20e6)}, {2, {.length = 0.05}}}, numbers);
     CHECK(report.tools.empty());
     CHECK_FALSE(contains(to_json(report), "\"tools\""));
-    CHECK_FALSE(contains(summary_text(report, false), "Tools in use"));
+    CHECK_FALSE(contains(details_text(report, false), "Tools in use"));
   }
 }
 

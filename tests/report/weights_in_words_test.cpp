@@ -27,18 +27,18 @@ TEST_CASE("a report states which weights act and when the control's zero was set
   const RunReport unloaded = with_weight(40, {.g = g});
   CHECK(unloaded.gravity.ends_with("the control's zero was set unloaded."));
   CHECK(to_json(unloaded).find("\"gravity\": \"The machine's 40 kg") != std::string::npos);
-  CHECK(summary_text(unloaded, false).find("  The machine's 40 kg weigh") != std::string::npos);
+  CHECK(details_text(unloaded, false).find("  The machine's 40 kg weigh") != std::string::npos);
 }
 
 TEST_CASE("without a force weight is named beside the geometry") {
   MadeUpRun run;
   std::vector<Waypoint> waypoints = made_up_waypoints();
   for (Waypoint& w : waypoints) w.wrench.setZero();
-  CHECK(summary_text(predicted(run, waypoints, {}), false)
+  CHECK(details_text(predicted(run, waypoints, {}), false)
             .find("no cutting force given: only geometric errors count") != std::string::npos);
   run.machine.chains.push_back({"arm", {PointMass{40, Vector3::Zero()}}});
   run.machine.gravity.g = {0, 0, -9.81};
-  CHECK(summary_text(predicted(run, waypoints, {}), false)
+  CHECK(details_text(predicted(run, waypoints, {}), false)
             .find("no cutting force given: only geometric errors and weight count") != std::string::npos);
 }
 

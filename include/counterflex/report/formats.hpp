@@ -37,10 +37,14 @@ std::string csv_header();
 /// as correction_rx_deg, correction_ry_deg, correction_rz_deg.
 std::string csv_rows(std::span<const Waypoint> waypoints, const CsvColumns& columns, std::size_t& next_index);
 
-/// The summary that a person reads: lines of at most 100 characters (paths and other long words stay whole).
-/// Deviations in mm with four decimals. `colour` adds ANSI sequences, nothing else; `marks`: the terminal
-/// shows UTF-8.
-std::string summary_text(const RunReport& report, bool colour, bool marks = false);
+/// The summary that a person reads first, at most twelve lines of at most 100 characters (paths and other
+/// long words stay whole): verdict, deviation before and after with its line and causes there, force,
+/// program, checks, `files` that were written. Deviations in mm with four decimals. `colour` adds ANSI
+/// sequences, nothing else.
+std::string summary_text(const RunReport& report, const std::vector<std::string>& files, bool colour);
+
+/// The same run in all details. `marks`: the terminal shows UTF-8.
+std::string details_text(const RunReport& report, bool colour, bool marks = false);
 
 /// The sanity block, a line for each check; empty without checks.
 std::string sanity_block(const SanityChecks& checks, bool colour, bool marks);

@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "batch/globs.hpp"
-#include "counterflex/files/files.hpp"
 #include "counterflex/files/file_writer.hpp"
+#include "counterflex/files/files.hpp"
 
 namespace counterflex::cli {
 namespace {

@@ -25,15 +25,12 @@ class BatchProgress {
   std::string text() const;
 
  private:
-  double time_left(double elapsed) const;
+  double done_work() const;
 
   std::vector<double> work_, done_;  // by job
   double all_work_ = 0;
   std::size_t ended_ = 0, failed_ = 0, waypoints_ = 0;
   std::chrono::steady_clock::time_point begun_ = std::chrono::steady_clock::now();
 };
-
-/// "40 s", "3 min", "2 h 10 min".
-std::string duration_text(double seconds);
 
 }  // namespace counterflex::cli

@@ -6,8 +6,8 @@
 #include "counterflex/files/text.hpp"
 #include "counterflex/geometry/spectrum.hpp"
 #include "counterflex/geometry/types.hpp"
-#include "counterflex/machine/read_machine.hpp"
 #include "counterflex/machine/machine.hpp"
+#include "counterflex/machine/read_machine.hpp"
 #include "counterflex/statics/chain.hpp"
 #include "run/sanity.hpp"
 

@@ -23,6 +23,7 @@ std::optional<Failure> predict_all(Run& run, RunTally& tally, RunFiles& files, C
     run.load_places.add(job, waypoints);
     tally.add_waypoints(waypoints, job);
     files.add_waypoints(waypoints);
+    console.solved(waypoints.size());
   };
   const auto done = [](const Job&, const Compensation&) {};
   return predict_windows(windows.jobs(), run.options.threads, {read, begun, solved, done});

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "counterflex/files/text.hpp"
+#include "process/progress.hpp"
 
 namespace counterflex::cli {
 namespace {
@@ -62,6 +63,7 @@ Console::Console(Loudness loudness, ConsoleListener listener)
       quiet_(loudness.quiet),
       verbose_(loudness.verbose && !loudness.quiet),
       terminal_(::isatty(STDERR_FILENO) == 1),
+      one_terminal_(terminal_ && ::isatty(STDOUT_FILENO) == 1),
       colour_(colours_on(STDERR_FILENO)),
       colour_out_(colours_on(STDOUT_FILENO)),
       marks_out_(shows_utf8(STDOUT_FILENO)),
@@ -77,11 +79,10 @@ void Console::erase_progress() {
 }
 
 void Console::warning(const std::string& file, int line, std::string_view what) {
-  if (quiet_ || ++warnings_[file] > warnings_shown) return;
-  erase_progress();
-  if (terminal_ && ::isatty(STDOUT_FILENO) == 1) shown_.emplace(what);
   const std::string text = without_controls(line > 0 ? fmt::format("{}:{}: warning: {}", file, line, what)
                                                      : fmt::format("{}: warning: {}", file, what));
+  if (quiet_ || !texts_.insert(text).second || ++warnings_[file] > warnings_shown) return;
+  erase_progress();
   write_error((colour_ ? painted(text, "warning", 35) : text) + "\n");
 }
 
@@ -123,11 +124,19 @@ void Console::progress_line(std::string_view line) {
 
 void Console::solving(int line, int lines) {
   if (listener_.solving) return listener_.solving(line, lines);
-  progress(fmt::format("solving line {} of {}", line, lines));
+  using Clock = std::chrono::steady_clock;
+  constexpr std::chrono::milliseconds between(100);
+  const auto now = Clock::now();
+  if (!begun_) begun_ = now;
+  if (showing_progress_ && now - shown_at_ < between) return;
+  shown_at_ = now;
+  const double share = lines > 0 ? static_cast<double>(line) / lines : 0;
+  progress_line(progress_bar({share, waypoints_, std::chrono::duration<double>(now - *begun_).count()}));
 }
 
-void Console::solved(std::size_t waypoints) const {
-  if (listener_.solved) listener_.solved(waypoints);
+void Console::solved(std::size_t waypoints) {
+  if (listener_.solved) return listener_.solved(waypoints);
+  waypoints_ += waypoints;
 }
 
 void Console::error(std::string_view diagnostic) {

@@ -1,8 +1,11 @@
 #pragma once
 /// Standard error: warnings, progress and errors. Results go to standard output, not through here.
+#include <atomic>
+#include <chrono>
 #include <cstddef>
 #include <functional>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <string_view>
@@ -31,11 +34,9 @@ class Console {
   Console(const Console&) = delete;
   Console& operator=(const Console&) = delete;
 
-  /// "file:line: warning: what", without the line if it is 0. At most 20 for each file; `finish_warnings`
-  /// prints the number of others.
+  /// "file:line: warning: what", without the line if it is 0. A warning of the same text is printed once. At
+  /// most 20 for each file; `finish_warnings` prints the number of others.
   void warning(const std::string& file, int line, std::string_view what);
-  /// Whether this warning is already on the terminal that also shows standard output.
-  bool has_shown(std::string_view what) const { return shown_.count(what) > 0; }
   void more_warnings(const std::string& file, std::size_t count);  ///< counted, not shown
   void finish_warnings();  ///< called before a result; clears the line of progress, too
 
@@ -50,12 +51,16 @@ class Console {
   void progress(std::string_view what);
   void progress_line(std::string_view line);  ///< the same, unchanged
 
-  /// Progress of a run through its program.
+  /// Progress of a run through its program: a bar with percentage, rate and time left. `solved` may be called
+  /// by another thread.
   void solving(int line, int lines);
-  void solved(std::size_t waypoints) const;
+  void solved(std::size_t waypoints);
 
   /// A diagnostic as `InputError::what()` returns it.
   void error(std::string_view diagnostic);
+
+  /// Whether one terminal shows standard output and standard error.
+  bool is_one_terminal() const { return one_terminal_; }
 
   /// Whether text on standard output may hold colours.
   bool colour_out() const { return colour_out_; }
@@ -71,10 +76,13 @@ class Console {
   void erase_progress();
 
   ConsoleListener listener_;
-  bool quiet_, verbose_, terminal_, colour_, colour_out_, marks_out_, marks_error_;
+  bool quiet_, verbose_, terminal_, one_terminal_, colour_, colour_out_, marks_out_, marks_error_;
   bool showing_progress_ = false;
+  std::atomic<std::size_t> waypoints_ = 0;  ///< solved
+  std::optional<std::chrono::steady_clock::time_point> begun_;
+  std::chrono::steady_clock::time_point shown_at_;
   std::map<std::string, std::size_t> warnings_;
-  std::set<std::string, std::less<>> shown_;  ///< where both streams are terminals
+  std::set<std::string, std::less<>> texts_;  ///< of warnings, with their file and line
 };
 
 /// "file:line:1: error: what"; without a line "file: error: what".

@@ -85,9 +85,9 @@ Exit compensate_program(const Options& options, Console& console, const ReportEn
   run->facts.output = without_controls(paths.program);  // the report omits it if no program is written
   if (failure && failure->exit == Exit::usage)
     return exit_of(*run, failure, console);  // no result: an option is wrong
-  return report_end(*run,
-              finish_run(options, *run, report_compensation(run->context(), tally, failure), tally, files),
-              files);
+  return report_end(
+      *run, finish_run(options, *run, report_compensation(run->context(), tally, failure), tally, files),
+      files);
 }
 
 }  // namespace counterflex::cli

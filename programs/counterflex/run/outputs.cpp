@@ -8,10 +8,10 @@
 #include <filesystem>
 
 #include "counterflex/files/file_reader.hpp"
+#include "counterflex/files/file_writer.hpp"
 #include "counterflex/files/files.hpp"
 #include "counterflex/files/input_error.hpp"
 #include "counterflex/files/text.hpp"
-#include "counterflex/files/file_writer.hpp"
 #include "counterflex/report/page.hpp"
 #include "counterflex/report/report.hpp"
 #include "process/signals.hpp"

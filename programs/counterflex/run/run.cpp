@@ -139,14 +139,18 @@ void warn_of_run(Run& run, Command command, Console& console) {
   warn_of(program, command, console);
   if (!run.work.assumption.empty()) run.facts.warnings.push_back({0, run.work.assumption});
   for (const Remark& warning : run.facts.warnings) console.warning(program.file, warning.line, warning.what);
-  console.detail(fmt::format("{}: dialect {}, {} blocks, {} moves", program.file, program.dialect,
-                             program.blocks, program.moves));
+}
+
+/// Prints the warnings of the report that the run has not printed.
+void print_warnings(const Run& run, const RunReport& report, Console& console) {
+  for (const Remark& warning : report.warnings.rows)
+    console.warning(run.program.file, warning.line, warning.what);
 }
 
 /// A terminal that shows both streams shows each warning once.
-RunReport without_shown_warnings(RunReport report, const Console& console) {
-  auto& [rows, count] = report.warnings;
-  count -= std::erase_if(rows, [&](const Remark& warning) { return console.has_shown(warning.what); });
+RunReport without_warnings(RunReport report) {
+  report.warnings.rows.clear();
+  report.warnings.count = 0;
   return report;
 }
 
@@ -307,16 +311,31 @@ RunEnd finish_run(const Options& options, Run& run, RunReport report, const RunT
   return {std::move(report), std::move(json)};
 }
 
+namespace {
+
+/// The result on a stream that `colour` and `marks` describe.
+std::string result_text(const Options& options, const RunReport& report, const RunFiles& files, bool colour,
+                        bool marks) {
+  if (options.verbose) return details_text(report, colour, marks);
+  std::vector<std::string> names;
+  for (const FileHash& file : files.published()) names.push_back(file.path);
+  return summary_text(report, names, colour);
+}
+
+}  // namespace
+
 Exit tell_result(const Options& options, const Run& run, const RunEnd& end, const RunFiles& files,
                  Console& console) {
+  print_warnings(run, end.report, console);
   console.finish_warnings();
   if (options.json)
     write_result(end.json);
   else if (files.program_to_stdout())
-    console.note(summary_text(end.report, console.colour_error(), console.marks_error()));
-  else
-    write_painted_result(
-        summary_text(without_shown_warnings(end.report, console), console.colour_out(), console.marks_out()));
+    console.note(result_text(options, end.report, files, console.colour_error(), console.marks_error()));
+  else if (!options.quiet)
+    write_painted_result(result_text(options,
+                                     console.is_one_terminal() ? without_warnings(end.report) : end.report,
+                                     files, console.colour_out(), console.marks_out()));
   return exit_of(run, end.report, console);
 }
 

@@ -1,3 +1,5 @@
+#include "report/text/report_text.hpp"
+
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -23,19 +25,6 @@ std::string file_name(const RunReport& report, const std::string& role) {
   for (const InputFile& input : report.facts.inputs)
     if (input.name == role) return input.path == "-" ? "standard input" : without_controls(input.path);
   return "the program";
-}
-
-std::string what_was_done(const RunReport& report) {
-  const std::string program = file_name(report, "program");
-  if (report.command == Command::verify)
-    return fmt::format("verify {} for {}", file_name(report, "corrected"), program);
-  return fmt::format("{} {}", name_of(report.command), program);
-}
-
-std::string verdict_line(const RunReport& report, const Ink& ink) {
-  const std::string text = verdict_text(report.verdict, report.verdict_reason) + "\n";
-  if (report.verdict == Verdict::ok) return ink.good(text);
-  return report.verdict == Verdict::partly ? ink.warning(text) : ink.bad(text);
 }
 
 std::string title(const RunReport& report, const Ink& ink) {
@@ -157,19 +146,6 @@ std::string worst_text(const RunReport& report, const Ink& ink) {
   return text;
 }
 
-// The handling of moves that are not corrected individually.
-std::string others_text(const OtherMoves& moves) {
-  std::string text;
-  const auto add = [&](std::size_t count, const char* handling) {
-    if (count > 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, handling);
-  };
-  add(moves.grouped, "with one shift for their contour");
-  add(moves.in_part, "in part");
-  add(moves.held, "held");
-  add(moves.left, "not corrected");
-  return text;
-}
-
 std::string program_text(const RunReport& report, const Ink& ink) {
   const BlockCounts& blocks = report.blocks;
   if (report.failure && !report.text_after) return "";
@@ -240,7 +216,32 @@ std::string assumptions_text(const RunReport& report, const Ink& ink) {
 
 }  // namespace
 
-std::string summary_text(const RunReport& report, bool colour, bool marks) {
+std::string what_was_done(const RunReport& report) {
+  const std::string program = file_name(report, "program");
+  if (report.command == Command::verify)
+    return fmt::format("verify {} for {}", file_name(report, "corrected"), program);
+  return fmt::format("{} {}", name_of(report.command), program);
+}
+
+std::string verdict_line(const RunReport& report, const Ink& ink) {
+  const std::string text = verdict_text(report.verdict, report.verdict_reason) + "\n";
+  if (report.verdict == Verdict::ok) return ink.good(text);
+  return report.verdict == Verdict::partly ? ink.warning(text) : ink.bad(text);
+}
+
+std::string others_text(const OtherMoves& moves) {
+  std::string text;
+  const auto add = [&](std::size_t count, const char* handling) {
+    if (count > 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, handling);
+  };
+  add(moves.grouped, "with one shift for their contour");
+  add(moves.in_part, "in part");
+  add(moves.held, "held");
+  add(moves.left, "not corrected");
+  return text;
+}
+
+std::string details_text(const RunReport& report, bool colour, bool marks) {
   const Ink ink{colour, marks};
   std::string text = verdict_line(report, ink) + title(report, ink) + failure_text(report, ink);
   text += deviation_table(report, ink) + sources_text(report, ink) + worst_text(report, ink);

@@ -1,0 +1,19 @@
+#pragma once
+/// Parts that the summary and the details of a run share.
+#include <string>
+
+#include "counterflex/report/report.hpp"
+#include "report/text/text_layout.hpp"
+
+namespace counterflex {
+
+/// "verify B.ngc for A.ngc".
+std::string what_was_done(const RunReport& report);
+
+/// The verdict in its colour, with a newline.
+std::string verdict_line(const RunReport& report, const Ink& ink);
+
+/// The handling of moves that are not corrected individually; empty without such moves.
+std::string others_text(const OtherMoves& moves);
+
+}  // namespace counterflex

@@ -1,0 +1,146 @@
+// The summary of a run in at most twelve lines.
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "counterflex/files/text.hpp"
+#include "counterflex/report/formats.hpp"
+#include "report/names.hpp"
+#include "report/text/report_text.hpp"
+#include "report/text/text_layout.hpp"
+
+namespace counterflex {
+namespace {
+
+constexpr std::size_t label_width = 14;
+constexpr std::size_t shown_files = 4;
+
+/// A labelled paragraph, cut after two lines.
+std::string item(std::string_view label, const std::string& text) {
+  std::string lines = wrapped(fmt::format("  {:<{}}", label, label_width - 2), text, label_width);
+  const std::size_t second = lines.find('\n', lines.find('\n') + 1);
+  if (second + 1 >= lines.size() || second == std::string::npos) return lines;
+  lines.resize(second);
+  return lines + " ...\n";
+}
+
+std::string headline(const RunReport& report, const Ink& ink) {
+  const std::string machine = report.machine.empty() ? "an unnamed machine" : report.machine;
+  const std::string method =
+      report.method == Method::direct ? "" : fmt::format(", method {}", to_string(report.method));
+  return wrapped("", ink.bold(what_was_done(report)) + " on " + machine + method, 2);
+}
+
+std::string causes_text(const SourcesAtWorst& at, const Sources& sources) {
+  std::string text = fmt::format("geometry {}, load {}", mm4(at.geometry_mm.norm()), mm4(at.load_mm.norm()));
+  if (sources.gravity) text += ", gravity " + mm4(at.gravity_mm.norm());
+  if (sources.preloads) text += ", preloads " + mm4(at.preloads_mm.norm());
+  return text;
+}
+
+std::string before_text(const RunReport& report) {
+  if (!report.before) return "";
+  std::string text = fmt::format("{} mm, line {}", mm4(report.before->max_mm), report.before->max_line);
+  if (report.sources && report.sources->at_worst)
+    text += ": " + causes_text(*report.sources->at_worst, *report.sources);
+  if (report.common_shift)
+    text += fmt::format("; without the common shift {}", mm4(report.common_shift->rest.max_mm));
+  return item(report.after ? "before" : "deviation", text);
+}
+
+std::string after_text(const RunReport& report) {
+  if (!report.after || !report.before) return "";
+  const double before = report.before->max_mm, after = report.after->max_mm;
+  std::string text = fmt::format("{} mm, line {}", mm4(after), report.after->max_line);
+  if (after > 0 && before >= 10 * after)
+    text += fmt::format(" ({} times smaller)", format_fixed(before / after, 0));
+  return item("after", text + fmt::format("; by the model, tolerance {} mm", mm4(report.tolerance_mm)));
+}
+
+std::string other_force(const UnderOtherForce& other) {
+  return other.unsolved > 0 ? "no stable equilibrium" : mm4(other.deviation.max_mm) + " mm";
+}
+
+std::string force_line(const RunReport& report) {
+  if (!report.before) return "";
+  const ForceSummary& forces = report.forces;
+  if (forces.largest_N == 0 && forces.largest_Nm == 0)
+    return item("force", report.gravity.empty() ? "none given: geometric errors only"
+                                                : "none given: geometric errors and weight only");
+  std::string text = fmt::format("up to {} N", format_fixed(forces.largest_N, 1));
+  if (forces.without.moves > 0)
+    text += fmt::format(", {} without", counted(forces.without.moves, "feed move"));
+  if (const auto& s = report.sensitivity)
+    text += fmt::format("; {0} % more: {1}, {0} % less: {2}, none: {3} mm", std::lround(100 * force_change),
+                        other_force(s->higher), other_force(s->lower), mm4(s->without.max_mm));
+  return item("force", text);
+}
+
+/// "fanuc; ", as the program was read.
+std::string dialect_text(const RunReport& report) {
+  for (const OptionValue& option : report.facts.options)
+    if (const auto* name = std::get_if<std::string>(&option.value);
+        option.name == "dialect" && name != nullptr)
+      return *name + "; ";
+  return "";
+}
+
+std::string moves_line(const RunReport& report) {
+  const BlockCounts& blocks = report.blocks;
+  if (report.failure && !report.text_after) return "";
+  if (report.command != Command::compensate)
+    return item("program",
+                dialect_text(report) + fmt::format("{} mm of feed moves, {}", format_fixed(report.path_mm, 1),
+                                                   counted(blocks.moves, "move")));
+  const std::string others = blocks.others ? others_text(*blocks.others) : "";
+  std::string text = dialect_text(report) + fmt::format("{} of {} corrected{}", blocks.corrected,
+                                                        counted(blocks.moves, "move"),
+                                                        others.empty() ? "" : " individually, " + others);
+  text += fmt::format(", {} added", counted(blocks.inserted, "point"));
+  if (report.correction && report.correction->mm > 0)
+    text += fmt::format(", largest correction {} mm", mm4(report.correction->mm));
+  if (const auto& brief = report.control.short_blocks; brief && brief->count > 0)
+    text += fmt::format(", shortest block {} ms", format_fixed(brief->shortest_ms, 1));
+  return item("program", text);
+}
+
+/// The checks that did not pass, by name; details are in the other text.
+std::string sanity_line(const RunReport& report, const Ink& ink) {
+  if (report.sanity.empty()) return "";
+  const auto passed = [](const SanityCheck& check) { return check.state == SanityState::ok; };
+  const auto count = static_cast<std::size_t>(std::ranges::count_if(report.sanity, passed));
+  if (count == report.sanity.size()) return item("checks", fmt::format("all {} passed", count));
+  std::string text;
+  for (const SanityCheck& check : report.sanity)
+    if (!passed(check)) text += (text.empty() ? "" : "; ") + check.name + ": " + check.text;
+  std::string lines = item(fmt::format("checks {}/{}", count, report.sanity.size()), text);
+  return ink.colour ? ink.warning(lines) : lines;
+}
+
+std::string files_line(const RunReport& report, const std::vector<std::string>& files) {
+  const bool no_program = report.command == Command::compensate && report.exit != Exit::done;
+  std::string text = no_program ? "no corrected program" : "";
+  for (std::size_t i = 0; i < std::min(files.size(), shown_files + 1); ++i)
+    text += (text.empty() ? "" : ", ") + without_controls(files[i]);
+  return text.empty() ? "" : wrapped(fmt::format("  {:<{}}", "written", label_width - 2), text, label_width);
+}
+
+std::string more_line(const RunReport& report) {
+  const bool attributed = report.facts.attribution || !report.before;
+  std::string text = "-v shows all numbers";
+  if (!attributed) text += "; --report NAME adds causes and a page";
+  if (report.warnings.count > 0) text = counted(report.warnings.count, "warning") + "; " + text;
+  return item("more", text);
+}
+
+}  // namespace
+
+std::string summary_text(const RunReport& report, const std::vector<std::string>& files, bool colour) {
+  const Ink ink{colour};
+  return verdict_line(report, ink) + headline(report, ink) + before_text(report) + after_text(report) +
+         force_line(report) + moves_line(report) + sanity_line(report, ink) + files_line(report, files) +
+         more_line(report);
+}
+
+}  // namespace counterflex
