@@ -91,17 +91,23 @@ LoadsAlong solve_loads(const Model& base, const std::vector<LoadPlace>& places, 
                        const StartTables* starts) {
   std::vector<LoadsAtPlace> solved(places.size());
   for_each_index(slice_count(places.size()), threads, [&](std::size_t slice) {
-    const std::size_t begin = slice * slice_size, end = std::min(places.size(), begin + slice_size);
+    const std::size_t begin = slice * slice_size, count = std::min(places.size() - begin, slice_size);
     PlaceSolver solver(starts, places[begin].load.at_platform);
-    for (std::size_t i = begin; i < end; ++i) {
-      const LoadPlace& place = places[i];
-      const NominalResult commanded = solver.nominal(*place.model, place.target);
+    std::vector<ForwardRequest> requests;
+    for (const LoadPlace& place : std::span(places).subspan(begin, count))
+      requests.push_back({place.model, place.target, place.load.F});
+    std::vector<ForwardAnswer> answers(count);
+    solver.forwards(requests, answers, StopAt::end);
+    for (std::size_t i = 0; i < count; ++i) {
+      if (answers[i].status != Status::converged) continue;
+      const LoadPlace& place = places[begin + i];
+      const NominalResult commanded = solver.nominal(*place.model, place.target, answers[i].rho);
       if (commanded.status != Status::converged) continue;
       StaticsWork work(place.model->mechanism);
       const Equilibrium loaded = solve_forward(*place.model, commanded.configuration, place.load, {}, work);
       if (loaded.status == Status::converged)
-        solved[i] = {place.at.s, place.at.line,
-                     loads_without_tool(base.mechanism, *place.model, loaded.configuration, {})};
+        solved[begin + i] = {place.at.s, place.at.line,
+                             loads_without_tool(base.mechanism, *place.model, loaded.configuration, {})};
     }
   });
   LoadsAlong along;

@@ -1,6 +1,7 @@
 #include "compensation/solve/attribution.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace counterflex {
 namespace {
@@ -39,6 +40,14 @@ void deviations(const Solved& at, Vector3 ForwardPlace::*command, const Stage& s
   }
 }
 
+// Places come in runs with one machine.
+bool any_machine(std::span<const ForwardPlace> places, bool (*is)(const Mechanism&)) {
+  const Model* last = nullptr;
+  for (const ForwardPlace& place : places)
+    if (place.model != std::exchange(last, place.model) && is(place.model->mechanism)) return true;
+  return false;
+}
+
 void add_sources(const Solved& at) {
   const auto add = [&](Vector3 ForwardPlace::*command, const Stage& stage, Vector6 Causes::*result) {
     deviations(at, command, stage, [&](Waypoint& w) -> Vector6& { return (*w.causes).*result; });
@@ -46,11 +55,9 @@ void add_sources(const Solved& at) {
   add(&ForwardPlace::original, {.load = 0, .gravity = 0}, &Causes::geometry);
   add(&ForwardPlace::original, {.errors = 0, .gravity = 0}, &Causes::load);
   add(&ForwardPlace::emitted, {.load = 0}, &Causes::air);
-  const auto has_preloads = [](const ForwardPlace& place) { return has_preload(place.model->mechanism); };
-  if (std::ranges::any_of(at.places, has_preloads))
+  if (any_machine(at.places, has_preload))
     add(&ForwardPlace::original, {.errors = 0, .load = 0, .gravity = 0}, &Causes::superposition);
-  const auto weighs = [](const ForwardPlace& place) { return has_weight(place.model->mechanism); };
-  const bool weight = std::ranges::any_of(at.places, weighs);
+  const bool weight = any_machine(at.places, has_weight);
   if (weight) add(&ForwardPlace::original, {.errors = 0, .load = 0}, &Causes::gravity);
   for (Waypoint& w : at.waypoints) {
     if (!knows_before(w)) continue;

@@ -139,8 +139,16 @@ NominalResult PlaceSolver::nominal(const Model& model, const Vector3& p_MT) {
 }
 
 NominalResult PlaceSolver::nominal(OfModel& m, const Vector3& p_MT) {
+  return follow(m.model, nominal_near(m, p_MT), {m.R_home, p_MT});
+}
+
+NominalResult PlaceSolver::nominal(const Model& model, const Vector3& p_MT, const Eigen::VectorXd& rho) {
+  return nominal_forward(model, nominal_near(of(model), p_MT), rho);
+}
+
+const Configuration& PlaceSolver::nominal_near(OfModel& m, const Vector3& p_MT) {
   const Configuration* near = m.batch ? m.batch->nominal_near(p_MT) : nullptr;
-  return follow(m.model, near != nullptr ? *near : m.model.home, {m.R_home, p_MT});
+  return near != nullptr ? *near : m.model.home;
 }
 
 Status PlaceSolver::join(const Model& model, const Vector3& from, const Vector3& to) {
