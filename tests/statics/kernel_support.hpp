@@ -12,7 +12,7 @@ struct KernelWaypoint {
   Configuration nominal;  ///< the start
   Pose X_MT;              ///< wanted tip
   Vector6 F = Vector6::Zero();
-  std::vector<double> start{};
+  std::vector<double> start{}, nominal_start{};
   Eigen::VectorXd rho{};                                             ///< actuators, where they are held
   const kernel::StartCell *cell = nullptr, *nominal_cell = nullptr;  ///< instead of `start`
 };
@@ -49,32 +49,40 @@ struct KernelAnswers {
 /// A machine with its flat form.
 struct FlatBench {
   Model model;
-  kernel::Flat flat;
-  std::vector<kernel::Transform> perfect, real;
+  kernel::Flat flat, rigid;
+  std::vector<kernel::Transform> perfect, real, rigid_transforms;
   StaticsWork work{model.mechanism};
 
-  explicit FlatBench(Model m) : model(std::move(m)), flat(kernel::flatten(model, false)) {
+  explicit FlatBench(Model m)
+      : model(std::move(m)),
+        flat(kernel::flatten(model.mechanism, false)),
+        rigid(kernel::flatten_rigid(model.mechanism)) {
+    rigid_transforms = kernel::transforms_at(rigid, 0);
     perfect = kernel::transforms_at(flat, 0);
     real = kernel::transforms_at(flat, 1);
   }
   FlatBench(const FlatBench&) = delete;
 
   kernel::Question question(const Stage& stage = {}) const {
-    kernel::Question q;
+    kernel::Question q{.machine = &flat.machine};
     q.transforms = stage.errors == 0 ? &perfect : &real;
     q.load = stage.load, q.preload = stage.preload, q.gravity = stage.gravity;
     return q;
   }
-  kernel::Problem kinematics() const { return {.real = {}, .nominal = kernel::nominal_question(perfect)}; }
+  kernel::Question nominal() const { return kernel::nominal_question(rigid.machine, rigid_transforms); }
+  kernel::Problem kinematics() const { return {.real = {}, .nominal = nominal()}; }
   kernel::Problem held(const Stage& stage = {}) const { return {.real = question(stage), .nominal = {}}; }
   /// All controlled components are wanted of the real tip.
   kernel::Problem target(const Stage& stage = {}) const {
-    return {.real = question(stage), .nominal = kernel::nominal_question(perfect)};
+    return {.real = question(stage), .nominal = nominal()};
   }
 
   KernelWaypoint waypoint(const NominalResult& nominal, const Vector6& F) const {
-    return {nominal.configuration, tip(model.mechanism, nominal.configuration), F,
-            kernel::state_of(model, flat, nominal.configuration, 0),
+    return {nominal.configuration,
+            tip(model.mechanism, nominal.configuration),
+            F,
+            kernel::state_of(model.mechanism, flat, nominal.configuration, 0),
+            kernel::state_of(model.mechanism, rigid, nominal.configuration, 0),
             actuator_values(model.mechanism, nominal.configuration)};
   }
 
@@ -82,28 +90,32 @@ struct FlatBench {
                       const kernel::Instance& instance = kernel::scalar_instance,
                       const kernel::Schedule& schedule = {}) const {
     const std::size_t n = waypoints.size(), actuators = model.mechanism.travel.size();
-    const auto states = static_cast<std::size_t>(flat.machine.state_size());
-    std::vector<double> p, R, F, rho, start;
+    const kernel::FlatMachine& machine = problem.machine();
+    const auto states = static_cast<std::size_t>(machine.state_size());
+    std::vector<double> p, R, F, rho, start, nominal_start;
     for (const KernelWaypoint& w : waypoints) {
       for (int i = 0; i < 3; ++i) p.push_back(w.X_MT.p[i]);
       for (int i = 0; i < 9; ++i) R.push_back(w.X_MT.R(i / 3, i % 3));
       for (int i = 0; i < 6; ++i) F.push_back(w.F[i]);
       rho.insert(rho.end(), w.rho.begin(), w.rho.end());
       start.insert(start.end(), w.start.begin(), w.start.end());
+      nominal_start.insert(nominal_start.end(), w.nominal_start.begin(), w.nominal_start.end());
     }
     KernelAnswers a;
     a.accepted.resize(n), a.iterations.resize(n), a.actuators.resize(n * actuators);
     a.tips.resize(12 * n), a.nominal_tips.resize(12 * n), a.states.resize(n * states);
-    a.pivots.resize(n * static_cast<std::size_t>(flat.machine.pivots()));
-    a.rigid_closures = flat.machine.rigid_closures;
+    a.pivots.resize(n * static_cast<std::size_t>(machine.pivots()));
+    a.rigid_closures = machine.rigid_closures;
     kernel::Batch batch;
     batch.count = static_cast<int>(n);
     batch.p = p.data(), batch.R = R.data(), batch.F = F.data(), batch.rho = rho.data();
-    batch.start = start.data(), batch.start_stride = static_cast<long>(states);
+    batch.start = start.data(), batch.start_stride = static_cast<long>(start.size() / n);
+    batch.nominal_start = nominal_start.data();
+    batch.nominal_start_stride = static_cast<long>(nominal_start.size() / n);
     std::vector<const kernel::StartCell*> cells, nominal_cells;
     for (const KernelWaypoint& w : waypoints) cells.push_back(w.cell);
     if (!cells.empty() && cells[0] != nullptr) {
-      batch.start = nullptr;
+      batch.start = batch.nominal_start = nullptr;
       batch.cells = cells.data();
       for (const KernelWaypoint& w : waypoints) nominal_cells.push_back(w.nominal_cell);
       batch.nominal_cells = nominal_cells.data();
@@ -112,7 +124,7 @@ struct FlatBench {
     batch.actuators = a.actuators.data();
     batch.tip = a.tips.data(), batch.nominal_tip = a.nominal_tips.data(), batch.state = a.states.data(),
     batch.pivots = a.pivots.data();
-    instance.solve(flat.machine, problem, schedule, batch);
+    instance.solve(problem, schedule, batch);
     return a;
   }
 };

@@ -36,7 +36,8 @@ std::vector<KernelWaypoint> waypoints_of(const FlatBench& bench, const Trial& tr
 }
 
 /// The same waypoints with the actuators of the answers, held.
-std::vector<KernelWaypoint> with_actuators(std::vector<KernelWaypoint> waypoints, const KernelAnswers& answers) {
+std::vector<KernelWaypoint> with_actuators(std::vector<KernelWaypoint> waypoints,
+                                           const KernelAnswers& answers) {
   for (std::size_t w = 0; w < waypoints.size(); ++w) waypoints[w].rho = answers.rho(w);
   return waypoints;
 }
@@ -49,8 +50,8 @@ TEST_CASE("kernel: nominal kinematics from home has the actuators of single wayp
     FlatBench bench(of.model);
     REQUIRE(bench.flat.why_not == "");
     auto waypoints = waypoints_of(bench, of.trial, 8, 3);
-    const auto home = kernel::state_of(bench.model, bench.flat, bench.model.home, 0);
-    for (KernelWaypoint& w : waypoints) w.start = home;
+    const auto home = kernel::state_of(bench.model.mechanism, bench.rigid, bench.model.home, 0);
+    for (KernelWaypoint& w : waypoints) w.nominal_start = home;
     const KernelAnswers answers = bench.solve(bench.kinematics(), waypoints);
     for (std::size_t w = 0; w < waypoints.size(); ++w) {
       CAPTURE(answers.iterations[w]);
@@ -91,12 +92,15 @@ TEST_CASE("kernel: targets and forward solutions are those of single waypoints")
       CHECK(deviation(forward.tip(w), tip(bench.model.mechanism, alone.configuration)).cwiseAbs().maxCoeff() <
             1e-10);
       const NominalResult command = nominal_forward(bench.model, waypoints[w].nominal, targets.rho(w));
-      CHECK(deviation(targets.nominal_tip(w), tip(bench.model.mechanism, command.configuration)).norm() < 1e-10);
+      CHECK(deviation(targets.nominal_tip(w), tip(bench.model.mechanism, command.configuration)).norm() <
+            1e-10);
     }
   }
 }
 
-TEST_CASE("kernel: components that are wanted of the command are those of the nominal tip, the others the real tip's") {
+TEST_CASE(
+    "kernel: components that are wanted of the command are those of the nominal tip, the others the real "
+    "tip's") {
   for (KernelTrial& of : kernel_trials()) {
     CAPTURE(of.trial.name);
     FlatBench bench(of.model);
@@ -114,7 +118,8 @@ TEST_CASE("kernel: components that are wanted of the command are those of the no
                       of_tip = deviation(answers.tip(w), waypoints[w].X_MT);
         for (Eigen::Index j = 0; j < 6; ++j)
           if (controlled[static_cast<std::size_t>(j)])
-            CHECK(std::abs(problem.of_command[static_cast<std::size_t>(j)] ? of_command[j] : of_tip[j]) < 1e-10);
+            CHECK(std::abs(problem.of_command[static_cast<std::size_t>(j)] ? of_command[j] : of_tip[j]) <
+                  1e-10);
         CHECK(deviation(held.tip(w), answers.tip(w)).norm() < 1e-10);
       }
     }
@@ -163,7 +168,7 @@ TEST_CASE(
         const Equilibrium e = refine_forward(bench.model, nominal.configuration, load, {}, bench.work);
         if (e.status != Status::converged && e.status != Status::unstable) continue;
         KernelWaypoint waypoint = bench.waypoint(nominal, load.F);
-        waypoint.start = kernel::state_of(bench.model, bench.flat, e.configuration, 1);
+        waypoint.start = kernel::state_of(bench.model.mechanism, bench.flat, e.configuration, 1);
         const KernelAnswers answer = bench.solve(bench.held(), {waypoint}, kernel::scalar_instance,
                                                  {.first = kernel::FirstStress::of_elements});
         if (!answer.accepted[0] ||
@@ -223,10 +228,10 @@ CellPair cells_at(const FlatBench& bench, const Vector3& centre, double step) {
   REQUIRE(nominal.status == Status::converged);
   const bool turns = bench.model.mechanism.controlled.size() > 3;
   const kernel::CellPlace place{R_home, turns, centre, step};
-  auto kinematics = kernel::make_kinematics_cell(bench.flat.machine, bench.perfect, place,
-                                                 kernel::state_of(bench.model, bench.flat, nominal.configuration, 0));
+  const KernelWaypoint start = bench.waypoint(nominal, Vector6::Zero());
+  auto kinematics = kernel::make_kinematics_cell(bench.nominal(), place, start.nominal_start);
   REQUIRE(kinematics);
-  auto target = kernel::make_target_cell(bench.flat.machine, bench.question(), bench.perfect, place, *kinematics);
+  auto target = kernel::make_target_cell(bench.question(), bench.nominal(), place, start.start, *kinematics);
   REQUIRE(target);
   return {std::move(*kinematics), std::move(*target)};
 }
@@ -293,7 +298,8 @@ TEST_CASE("kernel: a cell predicts the command of a tip that is moved, turned an
       const KernelAnswers answers = bench.solve(bench.target(), {bench.waypoint(nominal, F)});
       REQUIRE(answers.accepted[0] == 1);
       const Vector6 offset = kernel::command_offset(cells.target, answers.tip(0).p, turn, F);
-      const Vector6 at_centre = kernel::command_offset(cells.target, home.p + of.trial.centre, Vector3::Zero(), Vector6::Zero());
+      const Vector6 at_centre =
+          kernel::command_offset(cells.target, home.p + of.trial.centre, Vector3::Zero(), Vector6::Zero());
       Vector6 found;
       found << answers.nominal_tip(0).p - answers.tip(0).p,
           log_so3(Matrix3(answers.nominal_tip(0).R * answers.tip(0).R.transpose()));
@@ -308,5 +314,5 @@ TEST_CASE("kernel: a chain with more actuators than it has room for is refused")
   for (int i = 0; i < 13; ++i)
     chain += "  { actuator = \"prismatic\", axis = \"x\", min_mm = -1, max_mm = 1 },\n";
   const Model model = model_of_text(chain + "]\n");
-  CHECK(kernel::flatten(model, false).why_not == "one of its chains has too many actuators");
+  CHECK(kernel::flatten(model.mechanism, false).why_not == "one of its chains has too many actuators");
 }

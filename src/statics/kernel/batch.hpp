@@ -53,18 +53,22 @@ struct Problem {
   std::optional<Question> real;     ///< none: nominal kinematics alone
   std::optional<Question> nominal;  ///< none: actuators are held
   std::array<bool, 6> of_command{};
+
+  /// The machine whose results are given out.
+  const FlatMachine& machine() const { return *(real ? real : nominal)->machine; }
 };
 
 /// Numbers of waypoint after waypoint; what is not asked for may be null.
 struct Batch {
   int count = 0;
-  const double* p = nullptr;      ///< 3 each: wanted tip, or a place near it (m)
-  const double* R = nullptr;      ///< 9 each: wanted orientation, row by row; where it is controlled
-  const double* F = nullptr;      ///< 6 each: wrench on the machine (N, N m), axes of M
-  const double* rho = nullptr;    ///< commanded actuator values; where they are held
-  const double* start = nullptr;  ///< states, of both machines
-  long start_stride = 0;          ///< numbers from start to start; 0: all have the same
-  // Instead of `start`: a cell of each waypoint for each machine.
+  const double* p = nullptr;    ///< 3 each: wanted tip, or a place near it (m)
+  const double* R = nullptr;    ///< 9 each: wanted orientation, row by row; where it is controlled
+  const double* F = nullptr;    ///< 6 each: wrench on the machine (N, N m), axes of M
+  const double* rho = nullptr;  ///< commanded actuator values; where they are held
+  // States of each machine; `stride`: numbers from start to start; 0: all have the same.
+  const double *start = nullptr, *nominal_start = nullptr;
+  long start_stride = 0, nominal_start_stride = 0;
+  // Instead: a cell of each waypoint for each machine.
   const StartCell *const *cells = nullptr, *const *nominal_cells = nullptr;
 
   unsigned char* accepted = nullptr;
@@ -101,7 +105,7 @@ struct Schedule {
 
 /// The kernel for one kind of numbers.
 struct Instance {
-  void (*solve)(const FlatMachine&, const Problem&, const Schedule&, Batch&);
+  void (*solve)(const Problem&, const Schedule&, Batch&);
   int lanes;
 };
 

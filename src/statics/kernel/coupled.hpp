@@ -10,15 +10,16 @@ struct Phase {
   bool real = false, nominal = false, moves_actuators = false;
 };
 
-/// A problem in phases. Where all components are commanded, or none, one machine has the actuators, and the other one follows.
-inline std::vector<Phase> phases_of(const FlatMachine& machine, const Problem& problem) {
+/// A problem in phases. Where all components are commanded, or none, one machine has the actuators, and the
+/// other one follows.
+inline std::vector<Phase> phases_of(const Problem& problem) {
   if (!problem.nominal) return {{.real = true}};
   constexpr Phase kinematics{.nominal = true, .moves_actuators = true};
   if (!problem.real) return {kinematics};
   int controlled = 0, commanded = 0;
   for (int j = 0; j < 6; ++j) {
-    controlled += at(machine.controlled, j);
-    commanded += at(machine.controlled, j) && at(problem.of_command, j);
+    controlled += at(problem.machine().controlled, j);
+    commanded += at(problem.machine().controlled, j) && at(problem.of_command, j);
   }
   if (commanded == controlled) return {kinematics, {.real = true}};
   if (commanded == 0) return {{.real = true, .moves_actuators = true}, {.nominal = true}};
@@ -32,18 +33,19 @@ struct Coupled {
   const Problem& problem;
   Work<T> real, nominal;
   Phase phase{};
-  // Each controlled component of the real or of the nominal tip, as actuators move it: an LU decomposition with
-  // exchange of rows, lane by lane.
+  // Each controlled component of the real or of the nominal tip, as actuators move it: an LU decomposition
+  // with exchange of rows, lane by lane.
   std::vector<T> lu{};
   struct Swap {
     Mask<T> lanes;
   };
   std::vector<Swap> swaps{};
 
-  Coupled(const FlatMachine& machine, const Problem& p) : problem(p), real(machine), nominal(machine) {
+  explicit Coupled(const Problem& p)
+      : problem(p), real(p.machine()), nominal(p.nominal ? *p.nominal->machine : p.machine()) {
     if (problem.real) real.question = *problem.real;
     if (problem.nominal) nominal.question = *problem.nominal;
-    const std::size_t n = machine.actuator_joint.size();
+    const std::size_t n = real.machine.actuator_joint.size();
     lu.resize(n * n), swaps.resize(n * n);
     begin({problem.real.has_value(), problem.nominal.has_value(), problem.nominal.has_value()});
   }
@@ -142,7 +144,8 @@ void find_step(Coupled<T>& coupled) {
     std::vector<T>& ways = coupled.first().step.actuators;
     for_each_controlled(machine, [&](int row, int j) {
       const Work<T>& owner = coupled.owner(j);
-      at(ways, row) = (owner.step.platform[j] - owner.equations.tip_error[j]) * (j < 3 ? 1.0 : machine.length);
+      at(ways, row) =
+          (owner.step.platform[j] - owner.equations.tip_error[j]) * (j < 3 ? 1.0 : machine.length);
     });
     solve_actuators(coupled, ways.data());
     coupled.for_each([&](Work<T>& work) {

@@ -33,7 +33,8 @@ struct FrameStep {
   int actuator = -1;     ///< number of the actuator; -1: the joint is free
   double k = 0;          ///< of a free joint: N/m or N m/rad
   double rest = 0;       ///< value without force (m, rad)
-  bool passive = false;  ///< its spring does not act in nominal kinematics
+  bool passive =
+      false;  ///< its spring is relaxed in the nominal configuration, as far as preloads do not act
   int coupling =
       0;  ///< of a free joint: first of its stored couplings, one for each actuator that is eliminated before
   int actuators_before = 0;

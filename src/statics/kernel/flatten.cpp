@@ -141,7 +141,8 @@ class SeriesFlattener {
       : series_(series), number_(number), is_chain_(is_chain), parts_(parts), machine_(parts.flat.machine) {}
 
   void run() {
-    for (std::size_t k = 0; k < series_.parts.size(); ++k) add(series_.parts[k], k);
+    for (std::size_t k = 0; k < series_.parts.size(); ++k)
+      if (!is_left_out(series_.parts[k])) add(series_.parts[k], k);
     if (has_six_)
       close_element(-1);
     else
@@ -150,6 +151,11 @@ class SeriesFlattener {
   }
 
  private:
+  bool is_left_out(const Part& part) const {
+    return parts_.flat.rigid && (part.kind == PartKind::spring || part.kind == PartKind::compliance ||
+                                 part.kind == PartKind::mass);
+  }
+
   void add(const Part& part, std::size_t k) {
     if (is_rigid(part)) {
       stretch().open.push_back(factor_of(part));
@@ -157,7 +163,7 @@ class SeriesFlattener {
     } else if (is_joint(part)) {
       add_joint(part);
       leave_frame(part);
-    } else if (is_six(part)) {
+    } else if (is_six(parts_.flat, part)) {
       if (has_six_) close_element(add_node(k));
       begin_six(part);
       leave_frame(part);
@@ -186,7 +192,7 @@ class SeriesFlattener {
     stretch().close();
     step.actuator = part.actuator;
     step.passive = part.kind == PartKind::passive;
-    step.k = part.k;
+    step.k = parts_.flat.rigid ? 0 : part.k;
     step.rest = step.passive ? part.rest : 0;
     if (part.kind == PartKind::actuator) at(machine_.actuator_offset, part.actuator) = part.offset;
     stretch().items.push_back({step, {}, {number_, part.column}});
@@ -213,8 +219,8 @@ class SeriesFlattener {
   void add_mass(const Part& part, std::size_t k) {
     if (is_chain_ && at_start_) return;  // only actuators move it: no equilibrium depends on it
     const auto behind = series_.parts.begin() + static_cast<std::ptrdiff_t>(k) + 1;
-    const bool at_end =
-        std::none_of(behind, series_.parts.end(), [](const Part& p) { return is_joint(p) || is_six(p); });
+    const bool at_end = std::none_of(behind, series_.parts.end(),
+                                     [&](const Part& p) { return is_joint(p) || is_six(parts_.flat, p); });
     machine_.has_hanging_weights =
         machine_.has_hanging_weights || !is_chain_ || !(has_six_ || at_end || node_ >= 0);
     if (at_start_) return place_weight(Frames::starts, number_, part, from_node_);
@@ -252,16 +258,20 @@ class SeriesFlattener {
   /// directions the node's pivots were zero else (EQUATIONS.md, section 11).
   void close_rigidly(std::size_t part, int node) {
     constexpr double surplus = 1e-8;
-    const double k = machine_.stiffest, l = machine_.length;
-    for (const double sign : {1.0, -1.0}) {
-      Spring spring;
-      spring.shape = SpringShape::isotropic;
-      if (sign < 0) spring.tangent_factor = 1 + surplus;
-      for (int i = 0; i < 6; ++i) at(spring.K, 7 * i) = sign * k * (i < 3 ? 1 : l * l);
-      element_.spring = parts_.add_spring(spring);
-      close_element(sign > 0 ? add_node(part) : node);
-    }
+    if (parts_.flat.rigid) return close_by_spring(1, 1, node);
+    close_by_spring(1, 1, add_node(part));
+    close_by_spring(-1, 1 + surplus, node);
     ++machine_.rigid_closures;
+  }
+
+  void close_by_spring(double sign, double tangent_factor, int node) {
+    const double k = sign * machine_.stiffest, l = machine_.length;
+    Spring spring;
+    spring.shape = SpringShape::isotropic;
+    spring.tangent_factor = tangent_factor;
+    for (int i = 0; i < 6; ++i) at(spring.K, 7 * i) = k * (i < 3 ? 1 : l * l);
+    element_.spring = parts_.add_spring(spring);
+    close_element(node);
   }
 
   void close_element(int node) {
@@ -354,16 +364,16 @@ class SeriesFlattener {
   TransformProduct from_node_{};  // from that node, or from the start
 };
 
-}  // namespace
-
-Flat flatten(const Mechanism& mechanism, bool load_at_platform) {
+Flat flatten(const Mechanism& mechanism, bool load_at_platform, bool rigid) {
   Parts parts;
+  parts.flat.rigid = rigid;
   FlatMachine& machine = parts.flat.machine;
   machine.chains = static_cast<int>(mechanism.chains.size());
   machine.series.resize(mechanism.chains.size());
   machine.length = mechanism.length;
-  constexpr double rigid_machine = 1e9;  // N/m: any stiffness does
-  machine.stiffest = mechanism.stiffest > 0 ? mechanism.stiffest : rigid_machine;
+  // N/m. Any stiffness does without loads, but rounding errors of pivots should be far below `least_pivot`.
+  constexpr double rigid_machine = 1e9, kinematics = 1e3;
+  machine.stiffest = rigid ? kinematics : mechanism.stiffest > 0 ? mechanism.stiffest : rigid_machine;
   machine.actuator_joint.resize(mechanism.travel.size(), -1);
   machine.actuator_offset.resize(mechanism.travel.size(), 0);
   for (const Component c : mechanism.controlled) machine.controlled[static_cast<std::size_t>(c)] = true;
@@ -378,6 +388,15 @@ Flat flatten(const Mechanism& mechanism, bool load_at_platform) {
     at(machine.series, s).at_end = parts.place_weights(Frames::ends, s);
   }
   return std::move(parts.flat);
+}
+
+}  // namespace
+
+Flat flatten(const Mechanism& mechanism, bool load_at_platform) {
+  return flatten(mechanism, load_at_platform, false);
+}
+Flat flatten_rigid(const Mechanism& mechanism) {
+  return flatten(mechanism, false, true);
 }
 
 std::vector<Transform> transforms_at(const Flat& flat, double errors) {

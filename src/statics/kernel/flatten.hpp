@@ -20,6 +20,7 @@ using TransformProduct = std::vector<TransformFactor>;
 struct Flat {
   FlatMachine machine;
   std::string why_not;  ///< the kernel cannot solve this machine; then `machine` means nothing
+  bool rigid = false;   ///< springs, compliances and masses are left out, passive joints are free
   std::vector<TransformProduct> transforms;
 
   /// The place of a number of the state in a Configuration: a column, or the frame before a part of a series.
@@ -30,22 +31,23 @@ struct Flat {
 };
 
 /// Whether a part is a six-element. Those of a series are its first elements, in order.
-inline bool is_six(const Part& part) {
-  return part.kind == PartKind::spring || part.kind == PartKind::group;
+inline bool is_six(const Flat& flat, const Part& part) {
+  return (part.kind == PartKind::spring && !flat.rigid) || part.kind == PartKind::group;
 }
 
 /// The machine of a mechanism, its load at the tip or at the reference point.
 Flat flatten(const Mechanism& mechanism, bool load_at_platform);
-inline Flat flatten(const Model& model, bool load_at_platform) {
-  return flatten(model.mechanism, load_at_platform);
-}
+
+/// The machine of nominal kinematics. Every series without groups is closed by one spring: where its energy
+/// is zero the closures hold.
+Flat flatten_rigid(const Mechanism& mechanism);
 
 /// The table of transforms with a share of the errors: s p, Exp(s Log R) of each.
 std::vector<Transform> transforms_at(const Flat& flat, double errors);
 
 /// FlatMachine::state_size numbers: joints, then R row by row and p (m, in M) of each node and of the
 /// platform.
-std::vector<double> state_of(const Model& model, const Flat& flat, const Configuration& configuration,
+std::vector<double> state_of(const Mechanism& mechanism, const Flat& flat, const Configuration& configuration,
                              double errors);
 
 }  // namespace counterflex::kernel

@@ -140,8 +140,7 @@ template <class T>
 COUNTERFLEX_INLINE void evaluate_joint(const FrameStep& step, const Vec6<T>& phi, Work<T>& work) {
   if (!step.is_joint() || step.actuator >= 0) return;
   JointTerms<T>& joint = at(work.equations.joints, step.joint);
-  const double k = step.passive && work.question.nominal ? 0 : step.k;
-  joint.r = k * (at(work.state.joints, step.joint).q - step.rest) - dot(joint.s, phi);
+  joint.r = step.k * (at(work.state.joints, step.joint).q - step.rest) - dot(joint.s, phi);
   work.equations.largest_force =
       larger(work.equations.largest_force,
              magnitude(joint.r) * (step.kind == StepKind::turn ? 1 / work.machine.length : 1.0));

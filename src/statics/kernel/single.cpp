@@ -36,15 +36,14 @@ bool turns_are_in_range(const Work<double>& work) {
 
 struct Single::Impl {
   Flat flat;
-  Problem problem{.real = Question{}, .nominal = {}};
+  Problem problem{.real = Question{.machine = &flat.machine}, .nominal = {}};
   Coupled<double> coupled;
   std::vector<Transform> transforms;  // with this share of the errors
   double errors = -1;
   std::vector<double> rests;  // by step, preloads acting
   StateNumbers numbers;
 
-  explicit Impl(const Mechanism& mechanism)
-      : flat(flatten(mechanism, false)), coupled(flat.machine, problem) {
+  explicit Impl(const Mechanism& mechanism) : flat(flatten(mechanism, false)), coupled(problem) {
     for (const FrameStep& step : flat.machine.steps) rests.push_back(step.rest);
   }
 
@@ -68,8 +67,11 @@ struct Single::Impl {
     read_state(mechanism, flat, start, stage, numbers);
     put_rests(stage.preload);
     Work<double>& w = work();
-    w.question = {
-        .transforms = &transforms, .load = stage.load, .preload = stage.preload, .gravity = stage.gravity};
+    w.question = {.machine = &machine,
+                  .transforms = &transforms,
+                  .load = stage.load,
+                  .preload = stage.preload,
+                  .gravity = stage.gravity};
     coupled.begin({.real = true, .moves_actuators = waypoint.X_MT != nullptr});
     w.load = vec6(waypoint.load.F.data());
     const Pose X_MT = waypoint.X_MT ? *waypoint.X_MT : start.X_MP * mechanism.X_PT;

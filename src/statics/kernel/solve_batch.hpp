@@ -48,17 +48,26 @@ void get_stress(int l, const Work<T>& work, double* numbers) {
   }
 }
 
-/// Fills the lanes of a machine with waypoints from `first` on; the last waypoint fills the lanes that
-/// are left.
+/// The waypoint of a lane. The last one fills the lanes that are left.
+inline int waypoint_of(const Batch& batch, int first, int lane) {
+  return first + lane < batch.count ? first + lane : batch.count - 1;
+}
+
+template <class T>
+void put_states(const Batch& batch, int first, const double* states, long stride, Work<T>& work) {
+  for (int l = 0; l < lane_count<T>; ++l)
+    put_state(work.machine, l, states + stride * waypoint_of(batch, first, l), work);
+}
+
+/// Fills the lanes of a machine with waypoints from `first` on.
 template <class T>
 void put_waypoints(const Batch& batch, int first, Work<T>& work) {
   for (int l = 0; l < lane_count<T>; ++l) {
-    const int w = first + l < batch.count ? first + l : batch.count - 1;
+    const int w = waypoint_of(batch, first, l);
     for (int i = 0; i < 3; ++i) lane(work.origin[i], l) = batch.p[3 * w + i];
     for (int i = 0; i < 6 && batch.F != nullptr; ++i) lane(work.load[i], l) = batch.F[6 * w + i];
     if (batch.R != nullptr)
       for (int i = 0; i < 9; ++i) lane(work.wanted_R.c[i], l) = batch.R[9 * w + i];
-    if (batch.start != nullptr) put_state(work.machine, l, batch.start + batch.start_stride * w, work);
   }
 }
 
@@ -79,8 +88,8 @@ template <class T>
 void copy_actuators(const Work<T>& from, Work<T>& to) {
   const FlatMachine& machine = to.machine;
   for (int a = 0; a < static_cast<int>(machine.actuator_joint.size()); ++a) {
-    const int j = at(machine.actuator_joint, a);
-    at(to.state.joints, j) = at(from.state.joints, j);
+    at(to.state.joints, at(machine.actuator_joint, a)) =
+        at(from.state.joints, at(from.machine.actuator_joint, a));
     if (at(machine.actuator_offset, a) == 0 || from.question.gravity == to.question.gravity) continue;
     for (int l = 0; l < lane_count<T>; ++l) put_actuator(a, l, get_actuator(a, l, from), to);
   }
@@ -91,7 +100,7 @@ template <class T>
 void put_held_actuators(const Batch& batch, int first, Work<T>& real) {
   const int actuators = static_cast<int>(real.machine.actuator_joint.size());
   for (int l = 0; l < lane_count<T>; ++l) {
-    const int w = first + l < batch.count ? first + l : batch.count - 1;
+    const int w = waypoint_of(batch, first, l);
     for (int a = 0; a < actuators; ++a) put_actuator(a, l, batch.rho[actuators * w + a], real);
   }
 }
@@ -115,9 +124,7 @@ void get_pivots(const Batch& batch, int first, const Work<T>& work) {
 /// do not count.
 template <class T>
 Mask<T> keeps_pivots(const Batch& batch, int first, const Work<T>& work) {
-  const auto cell_of = [&](int l) -> const StartCell& {
-    return *batch.cells[first + l < batch.count ? first + l : batch.count - 1];
-  };
+  const auto cell_of = [&](int l) -> const StartCell& { return *batch.cells[waypoint_of(batch, first, l)]; };
   T least = all<T>(1), most{};
   visit_pivots(work, [&](int i, const T& inverse) {
     const T unloaded = gather<T>([&](int l) { return at(cell_of(l).pivots, i); });
@@ -132,8 +139,7 @@ Mask<T> keeps_pivots(const Batch& batch, int first, const Work<T>& work) {
 /// change.
 template <class T>
 void get_responses(const Batch& batch, int first, Coupled<T>& coupled) {
-  const FlatMachine& machine = coupled.real.machine;
-  const long size = machine.unknowns() + (coupled.problem.real ? 6 : 0);
+  const long size = coupled.problem.machine().unknowns() + (coupled.problem.real ? 6 : 0);
   const int variables = batch.response_to.count();
   coupled.for_each([](Work<T>& work) {
     Equations<T>& equations = work.equations;
@@ -195,16 +201,21 @@ Solved<T> solve_phases(const std::vector<Phase>& phases, const Schedule& schedul
 }
 
 template <class T>
-void solve_batch(const FlatMachine& machine, const Problem& problem, const Schedule& schedule, Batch& batch) {
-  Coupled<T> coupled(machine, problem);
+void solve_batch(const Problem& problem, const Schedule& schedule, Batch& batch) {
+  const FlatMachine& machine = problem.machine();
+  Coupled<T> coupled(problem);
   const Phase whole = coupled.phase;
-  const std::vector<Phase> phases = phases_of(machine, problem);
+  const std::vector<Phase> phases = phases_of(problem);
   const int actuators = static_cast<int>(machine.actuator_joint.size());
   for (int first = 0; first < batch.count; first += lane_count<T>) {
     coupled.begin(whole);
     const Work<T>& first_work = coupled.first();
     coupled.for_each([&](Work<T>& work) { put_waypoints(batch, first, work); });
-    if (batch.start == nullptr) put_from_cells(batch, first, coupled);
+    const bool has_cells = batch.start == nullptr && batch.nominal_start == nullptr;
+    if (has_cells) put_from_cells(batch, first, coupled);
+    if (!has_cells && problem.real) put_states(batch, first, batch.start, batch.start_stride, coupled.real);
+    if (!has_cells && problem.nominal)
+      put_states(batch, first, batch.nominal_start, batch.nominal_start_stride, coupled.nominal);
     if (!problem.nominal)
       put_held_actuators(batch, first, coupled.real);
     else if (phases.front().real && phases.front().nominal)

@@ -126,20 +126,44 @@ inline constexpr double largest_turn = 0.5;
 /// Up to this turn (rad) `log_so3` is good to the last digit.
 inline constexpr double largest_spring_turn = 0.2;
 
+/// c[0] + c[1] y + ...: neighbours in pairs, and those in pairs, for short chains of operations.
+template <int count, class T>
+COUNTERFLEX_INLINE T polynomial(const double* c, const T& y) {
+  if constexpr (count == 1) {
+    return all<T>(c[0]);
+  } else if constexpr (count == 2) {
+    return c[0] + c[1] * y;
+  } else {
+    constexpr int half = count > 8 ? 8 : count > 4 ? 4 : 2;
+    T power = y * y;
+    for (int i = 2; i < half; i *= 2) power = power * power;
+    return polynomial<half>(c, y) + power * polynomial<count - half>(c + half, y);
+  }
+}
+
+/// sin x / x, (1 - cos x) / x^2, arcsin x / x, y = x^2
+template <class T>
+COUNTERFLEX_INLINE T sine_series(const T& y) {
+  constexpr double c[]{1, -1. / 6, 1. / 120, -1. / 5040, 1. / 362880, -1. / 39916800, 1. / 6227020800};
+  return polynomial<7>(c, y);
+}
+template <class T>
+COUNTERFLEX_INLINE T versine_series(const T& y) {
+  constexpr double c[]{1. / 2,       -1. / 24,        1. / 720,        -1. / 40320,
+                       1. / 3628800, -1. / 479001600, 1. / 87178291200};
+  return polynomial<7>(c, y);
+}
+template <class T>
+COUNTERFLEX_INLINE T arcsine_series(const T& y) {
+  constexpr double c[]{1,          1. / 6,       3. / 40,      5. / 112,       35. / 1152,
+                       63. / 2816, 231. / 13312, 143. / 10240, 6435. / 557056, 12155. / 1245184};
+  return polynomial<10>(c, y);
+}
+
 /// Exp(w) for a w of at most `largest_turn`.
 template <class T>
 COUNTERFLEX_INLINE Mat3<T> exp_so3(const Vec3<T>& w) {
-  const T y = dot(w, w);
-  const T a =
-      1 -
-      y * (1. / 6) *
-          (1 - y * (1. / 20) *
-                   (1 - y * (1. / 42) * (1 - y * (1. / 72) * (1 - y * (1. / 110) * (1 - y * (1. / 156))))));
-  const T b =
-      0.5 -
-      y * (1. / 24) *
-          (1 - y * (1. / 30) *
-                   (1 - y * (1. / 56) * (1 - y * (1. / 90) * (1 - y * (1. / 132) * (1 - y * (1. / 182))))));
+  const T y = dot(w, w), a = sine_series(y), b = versine_series(y);
   Mat3<T> E;
   E(0, 0) = 1 - b * (w[1] * w[1] + w[2] * w[2]);
   E(1, 1) = 1 - b * (w[0] * w[0] + w[2] * w[2]);
@@ -158,18 +182,7 @@ COUNTERFLEX_INLINE Mat3<T> exp_so3(const Vec3<T>& w) {
 template <class T>
 COUNTERFLEX_INLINE Vec3<T> log_so3(const Mat3<T>& R) {
   const Vec3<T> a{{0.5 * (R(2, 1) - R(1, 2)), 0.5 * (R(0, 2) - R(2, 0)), 0.5 * (R(1, 0) - R(0, 1))}};
-  const T y = dot(a, a);
-  const T s =
-      1 + y * (1. / 6) *
-              (1 + y * (9. / 20) *
-                       (1 + y * (25. / 42) *
-                                (1 + y * (49. / 72) *
-                                         (1 + y * (81. / 110) *
-                                                  (1 + y * (121. / 156) *
-                                                           (1 + y * (169. / 210) *
-                                                                    (1 + y * (225. / 272) *
-                                                                             (1 + y * (289. / 342)))))))));
-  return a * s;
+  return a * arcsine_series(dot(a, a));
 }
 
 /// h(s) with phi.[xi, s] = h(s).xi for the bracket of twists.

@@ -88,15 +88,16 @@ struct Solutions {
   std::vector<double> states, stress, pivots, commands, responses, contractions;
 };
 
-/// Where samples begin: a state of all of them, or cells.
+/// Where samples begin: a state of all of them for each machine, or cells.
 struct SampleStart {
-  const double* state = nullptr;
+  const double *state = nullptr, *nominal_state = nullptr;
   const StartCell *cell = nullptr, *kinematics = nullptr;
 };
 
-std::optional<Solutions> solve_samples(const FlatMachine& machine, const Problem& problem,
-                                       const CellPlace& place, const std::vector<Sample>& samples,
-                                       const SampleStart& start, std::optional<Variables> response_to) {
+std::optional<Solutions> solve_samples(const Problem& problem, const CellPlace& place,
+                                       const std::vector<Sample>& samples, const SampleStart& start,
+                                       std::optional<Variables> response_to) {
+  const FlatMachine& machine = problem.machine();
   std::vector<double> p, R, F;
   for (const Sample& sample : samples) {
     p.insert(p.end(), sample.p.begin(), sample.p.end());
@@ -116,8 +117,8 @@ std::optional<Solutions> solve_samples(const FlatMachine& machine, const Problem
   Batch batch;
   batch.count = static_cast<int>(samples.size());
   batch.p = p.data(), batch.R = R.data(), batch.F = F.data(), batch.accepted = accepted.data();
-  batch.start = start.state;
-  if (start.state == nullptr) batch.cells = cells.data(), batch.nominal_cells = kinematics.data();
+  batch.start = start.state, batch.nominal_start = start.nominal_state;
+  if (start.cell != nullptr) batch.cells = cells.data(), batch.nominal_cells = kinematics.data();
   batch.state = solutions.states.data(), batch.stress = solutions.stress.data();
   batch.nominal_tip = solutions.commands.data(), batch.contraction = solutions.contractions.data();
   if (response_to) {
@@ -127,8 +128,7 @@ std::optional<Solutions> solve_samples(const FlatMachine& machine, const Problem
     batch.pivots = solutions.pivots.data();
     batch.responses = solutions.responses.data(), batch.response_to = *response_to;
   }
-  instance_for(samples.size())
-      .solve(machine, problem, start.state == nullptr ? cell_schedule : Schedule{}, batch);
+  instance_for(samples.size()).solve(problem, start.cell != nullptr ? cell_schedule : Schedule{}, batch);
   for (const unsigned char is_accepted : accepted)
     if (is_accepted == 0) return std::nullopt;
   return solutions;
@@ -332,11 +332,12 @@ StartCell cell_of(const FlatMachine& machine, const CellPlace& place, const Vari
 
 /// Measures at corners what the expansion of the offset misses, and how steps from the cell contract. No line
 /// is bounded if one of them is not solved.
-void measure_at_corners(const FlatMachine& machine, const Problem& target, const CellPlace& place,
-                        const StartCell& kinematics, StartCell& cell) {
+void measure_at_corners(const Problem& target, const CellPlace& place, const StartCell& kinematics,
+                        StartCell& cell) {
+  const FlatMachine& machine = target.machine();
   cell.bounds = offset_bounds(cell, reach_of_lines * place.step, load_of_lines, machine.length);
   const std::vector<Sample> corners = corners_about(place, machine.length);
-  const auto solved = solve_samples(machine, target, place, corners, {nullptr, &cell, &kinematics}, {});
+  const auto solved = solve_samples(target, place, corners, {nullptr, nullptr, &cell, &kinematics}, {});
   if (!solved) {
     cell.bounds.remainder.fill(std::numeric_limits<double>::infinity());
     return;
@@ -356,25 +357,26 @@ void measure_at_corners(const FlatMachine& machine, const Problem& target, const
 
 }  // namespace
 
-std::optional<StartCell> make_kinematics_cell(const FlatMachine& machine,
-                                              const std::vector<Transform>& perfect, const CellPlace& place,
+std::optional<StartCell> make_kinematics_cell(const Question& nominal, const CellPlace& place,
                                               const std::vector<double>& start) {
+  const FlatMachine& machine = *nominal.machine;
   const Variables variables{place.turns, false};
   const Samples samples = samples_about(place, variables, machine.length);
-  const Problem kinematics{.real = {}, .nominal = nominal_question(perfect)};
-  const auto solutions = solve_samples(machine, kinematics, place, samples.all, {start.data()}, variables);
+  const Problem kinematics{.real = {}, .nominal = nominal};
+  const auto solutions = solve_samples(kinematics, place, samples.all, {nullptr, start.data()}, variables);
   if (!solutions) return std::nullopt;
   return cell_of(machine, place, variables, {machine, place, variables, samples, *solutions});
 }
 
-std::optional<StartCell> make_target_cell(const FlatMachine& machine, const Question& real,
-                                          const std::vector<Transform>& perfect, const CellPlace& place,
+std::optional<StartCell> make_target_cell(const Question& real, const Question& nominal,
+                                          const CellPlace& place, const std::vector<double>& start,
                                           const StartCell& kinematics) {
+  const FlatMachine& machine = *real.machine;
   const Variables variables{place.turns, true};
   const Samples samples = samples_about(place, variables, machine.length);
-  const Problem target{.real = real, .nominal = nominal_question(perfect)};
+  const Problem target{.real = real, .nominal = nominal};
   const auto solutions =
-      solve_samples(machine, target, place, samples.all, {kinematics.state.data()}, variables);
+      solve_samples(target, place, samples.all, {start.data(), kinematics.state.data()}, variables);
   if (!solutions) return std::nullopt;
   const CellSamples of(machine, place, variables, samples, *solutions);
   StartCell cell = cell_of(machine, place, variables, of);
@@ -384,7 +386,7 @@ std::optional<StartCell> make_target_cell(const FlatMachine& machine, const Ques
   cell.pivots.assign(solutions->pivots.begin(), solutions->pivots.begin() + machine.pivots());
   const Vector6 offset = offset_of(place, samples.all[0], solutions->commands.data());
   for (int i = 0; i < 6; ++i) at(cell.offset, i) = offset[i];
-  measure_at_corners(machine, target, place, kinematics, cell);
+  measure_at_corners(target, place, kinematics, cell);
   return cell;
 }
 

@@ -20,16 +20,16 @@ struct CellPlace {
   double step = 0;     ///< half of the cell's edge: distance of the samples (m)
 };
 
-/// The cell of nominal kinematics. `perfect`: transforms without errors; `start`: a state of the nominal
-/// machine at the centre. None where a sample is not solved.
-std::optional<StartCell> make_kinematics_cell(const FlatMachine& machine,
-                                              const std::vector<Transform>& perfect, const CellPlace& place,
+/// The cell of nominal kinematics. `start`: a state of the nominal machine at the centre. None where a
+/// sample is not solved.
+std::optional<StartCell> make_kinematics_cell(const Question& nominal, const CellPlace& place,
                                               const std::vector<double>& start);
 
 /// The cell of a real machine whose tip is wanted at a place, with its loads, pivots and offsets to the
-/// command. `kinematics`: the cell of nominal kinematics there. None where a sample is not solved.
-std::optional<StartCell> make_target_cell(const FlatMachine& machine, const Question& real,
-                                          const std::vector<Transform>& perfect, const CellPlace& place,
+/// command. `start`: a state of the real machine near that at the centre; `kinematics`: the cell of nominal
+/// kinematics there. None where a sample is not solved.
+std::optional<StartCell> make_target_cell(const Question& real, const Question& nominal,
+                                          const CellPlace& place, const std::vector<double>& start,
                                           const StartCell& kinematics);
 
 /// From a tip at `p` (m), turned against the cell's centre by the rotation vector `turn` (rad), under the

@@ -18,7 +18,7 @@ void collect(const Flat& flat, const ModelSeries& series, State& state, int s, s
   at(all, s) = &state;
   int e = at(flat.machine.series, s).first;
   for (const Part& part : series.parts) {
-    if (!is_six(part)) continue;
+    if (!is_six(flat, part)) continue;
     const Element& element = at(flat.machine.elements, e++);
     for (int b = 0; b < element.branches; ++b)
       collect(flat, at(at(series.groups, part.group).branches, b),
@@ -81,7 +81,7 @@ struct Reader {
       note_nodes(s, k, X);
       const Pose X_before = X;
       X = X * part_pose(part, state, stage);
-      if (part.kind == PartKind::spring) put_stress(X.p);
+      if (part.kind == PartKind::spring && is_six(flat, part)) put_stress(X.p);
       if (part.kind != PartKind::group) continue;
       const Element& element = at(flat.machine.elements, e++);
       for (int b = 0; b < element.branches; ++b)
@@ -121,7 +121,7 @@ struct Writer {
     Pose X = X_start;
     for (int k = 0; k < static_cast<int>(series.parts.size()); ++k) {
       const Part& part = at(series.parts, k);
-      if (!is_six(part)) {
+      if (!is_six(flat, part)) {
         X = X * part_pose(part, state, stage);
         continue;
       }
@@ -181,10 +181,10 @@ void write_state(const Mechanism& mechanism, const Flat& flat, const StateNumber
     writer.series(at(mechanism.chains, s), at(configuration.chains, s), s, {}, configuration.X_MP);
 }
 
-std::vector<double> state_of(const Model& model, const Flat& flat, const Configuration& configuration,
+std::vector<double> state_of(const Mechanism& mechanism, const Flat& flat, const Configuration& configuration,
                              double errors) {
   StateNumbers numbers;
-  read_state(model.mechanism, flat, configuration, {.errors = errors, .load = 0, .preload = 0, .gravity = 0},
+  read_state(mechanism, flat, configuration, {.errors = errors, .load = 0, .preload = 0, .gravity = 0},
              numbers);
   return numbers.state;
 }

@@ -169,18 +169,7 @@ template <class T>
 COUNTERFLEX_INLINE void move_joint(T dq, bool turns, JointState<T>& joint) {
   joint.q += dq;
   if (!turns) return;
-  const T y = dq * dq;
-  const T s =
-      dq * (1 - y * (1. / 6) *
-                    (1 - y * (1. / 20) *
-                             (1 - y * (1. / 42) *
-                                      (1 - y * (1. / 72) * (1 - y * (1. / 110) * (1 - y * (1. / 156)))))));
-  const T c =
-      1 - y * 0.5 *
-              (1 - y * (1. / 12) *
-                       (1 - y * (1. / 30) *
-                                (1 - y * (1. / 56) *
-                                         (1 - y * (1. / 90) * (1 - y * (1. / 132) * (1 - y * (1. / 182)))))));
+  const T y = dq * dq, s = dq * sine_series(y), c = 1 - y * versine_series(y);
   const T cosine = joint.cosine, sine = joint.sine;
   joint.cosine = cosine * c - sine * s;
   joint.sine = sine * c + cosine * s;

@@ -53,10 +53,32 @@ COUNTERFLEX_INLINE Mat3<T> times_block(const Mat3<T>& A, const Spring& spring, i
   return B;
 }
 
-/// The tangent of a spring in the twist of its end less that of its start: T' K T + G(f, p).
+/// T' K T of an isotropic spring: N N' = 1 + b [phi]^2.
 template <class T>
-COUNTERFLEX_INLINE Sym6<T> spring_tangent(const Spring& spring, const ElementTerms<T>& terms) {
-  const Vec3<T>&p = terms.p, &f = terms.stress.v, &phi = terms.turn;
+COUNTERFLEX_INLINE Sym6<T> isotropic_tangent(const Spring& spring, const ElementTerms<T>& terms) {
+  const Vec3<T>& p = terms.p;
+  const double k = spring.K[0] * spring.tangent_factor, k_turn = spring.K[21] * spring.tangent_factor;
+  const T y = dot(terms.turn, terms.turn), c = jacobian_coefficient(y);
+  const Vec3<T> phi = terms.R * terms.turn, bent = phi * (k_turn * (2 * c - 0.25 - c * c * y));
+  const T diagonal = k_turn - dot(bent, phi) + k * dot(p, p);
+  Sym6<T> K{};
+  COUNTERFLEX_UNROLL
+  for (int i = 0; i < 3; ++i) {
+    K(i, i) = all<T>(k);
+    COUNTERFLEX_UNROLL
+    for (int j = 0; j <= i; ++j) K(3 + i, 3 + j) = bent[i] * phi[j] - k * p[i] * p[j];
+    K(3 + i, 3 + i) += diagonal;
+  }
+  K(3, 1) = p[2] * -k, K(3, 2) = p[1] * k;
+  K(4, 0) = p[2] * k, K(4, 2) = p[0] * -k;
+  K(5, 0) = p[1] * -k, K(5, 1) = p[0] * k;
+  return K;
+}
+
+/// T' K T of any spring.
+template <class T>
+COUNTERFLEX_INLINE Sym6<T> general_tangent(const Spring& spring, const ElementTerms<T>& terms) {
+  const Vec3<T>&p = terms.p, &phi = terms.turn;
   const T y = dot(phi, phi), c = jacobian_coefficient(y);
   Mat3<T> N;  // J_l^-T = 1 + [phi] / 2 + c [phi]^2
   COUNTERFLEX_UNROLL
@@ -67,18 +89,10 @@ COUNTERFLEX_INLINE Sym6<T> spring_tangent(const Spring& spring, const ElementTer
   N(0, 1) -= 0.5 * phi[2], N(0, 2) += 0.5 * phi[1], N(1, 0) += 0.5 * phi[2];
   N(1, 2) -= 0.5 * phi[0], N(2, 0) -= 0.5 * phi[1], N(2, 1) += 0.5 * phi[0];
   const Mat3<T> Q = terms.R * N;
-  Mat3<T> vv{}, vw{}, ww;
-  if (spring.shape == SpringShape::isotropic) {
-    ww = times_transposed(Q, Q);
-    COUNTERFLEX_UNROLL
-    for (int i = 0; i < 9; ++i) ww.c[i] = ww.c[i] * (spring.K[21] * spring.tangent_factor);
-    COUNTERFLEX_UNROLL
-    for (int i = 0; i < 3; ++i) vv(i, i) = all<T>(spring.K[0] * spring.tangent_factor);
-  } else {
-    vv = times_transposed(times_block(terms.R, spring, 0, 0), terms.R);
-    ww = times_transposed(times_block(Q, spring, 3, 3), Q);
-    if (spring.shape != SpringShape::diagonal) vw = times_transposed(times_block(terms.R, spring, 0, 3), Q);
-  }
+  const Mat3<T> vv = times_transposed(times_block(terms.R, spring, 0, 0), terms.R),
+                ww = times_transposed(times_block(Q, spring, 3, 3), Q);
+  Mat3<T> vw{};
+  if (spring.shape != SpringShape::diagonal) vw = times_transposed(times_block(terms.R, spring, 0, 3), Q);
   // Strains of the position are R'(v - [p] w).
   Mat3<T> shifted = times_skew(vv, p);
   COUNTERFLEX_UNROLL
@@ -95,7 +109,15 @@ COUNTERFLEX_INLINE Sym6<T> spring_tangent(const Spring& spring, const ElementTer
     COUNTERFLEX_UNROLL
     for (int j = 0; j < 3; ++j) K(3 + i, j) = shifted(j, i);
   }
-  add_force_hessian(f, p, K);
+  return K;
+}
+
+/// The tangent of a spring in the twist of its end less that of its start: T' K T + G(f, p).
+template <class T>
+COUNTERFLEX_INLINE Sym6<T> spring_tangent(const Spring& spring, const ElementTerms<T>& terms, bool stressed) {
+  Sym6<T> K = spring.shape == SpringShape::isotropic ? isotropic_tangent(spring, terms)
+                                                     : general_tangent(spring, terms);
+  if (stressed) add_force_hessian(terms.stress.v, terms.p, K);
   return K;
 }
 
@@ -118,7 +140,7 @@ COUNTERFLEX_INLINE void eliminate_joint(const FrameStep& step, double side, cons
     return;
   }
   constexpr double least_pivot = 1e-9;  // N/m or N m: a strut may turn about itself
-  const T pivot = dot(s, u) + (step.passive && work.question.nominal ? 0.0 : step.k);
+  const T pivot = dot(s, u) + step.k;
   JointFactor<T>& factor = at(work.factors.joints, step.joint);
   factor.inverse = select<T>(magnitude(pivot) > least_pivot, 1.0 / pivot, T{});
   factor.u = u * factor.inverse;
@@ -156,7 +178,7 @@ void factor_element(int id, Work<T>& work, Sym6<T>& K, Columns<T>& columns) {
         columns.c[at(machine.slots, element.slots + eliminated++)] = columns_of_branch.c[i];
     }
   } else {
-    K = spring_tangent(at(machine.springs, element.spring), terms);
+    K = spring_tangent(at(machine.springs, element.spring), terms, work.stressed);
   }
   for (int i = element.front + element.fronts - 1; i >= element.front; --i)
     if (const FrameStep& step = at(machine.steps, i); step.is_joint())

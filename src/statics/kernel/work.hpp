@@ -10,17 +10,17 @@ namespace counterflex::kernel {
 
 inline constexpr int most_actuators_of_series = 12;
 
-/// What acts on a machine.
+/// A machine, and what acts on it.
 struct Question {
+  const FlatMachine* machine = nullptr;
   const std::vector<Transform>* transforms =
       nullptr;                                ///< rigid transforms, with as much of the errors as acts
-  bool nominal = false;                       ///< kinematics: passive springs do not act, nor anything below
   double load = 1, preload = 1, gravity = 1;  ///< how much of them acts
 };
 
-/// The kinematics of the perfect machine, of which `transforms` are.
-inline Question nominal_question(const std::vector<Transform>& transforms) {
-  return {.transforms = &transforms, .nominal = true, .load = 0, .preload = 0, .gravity = 0};
+/// The kinematics of a rigid machine without errors, of which `transforms` are.
+inline Question nominal_question(const FlatMachine& rigid, const std::vector<Transform>& transforms) {
+  return {.machine = &rigid, .transforms = &transforms, .load = 0, .preload = 0, .gravity = 0};
 }
 
 /// Unknowns. Positions are from the common point, the wanted tip.

@@ -43,10 +43,10 @@ struct KernelBatch {
     nominal_cells.push_back(&nominal_cell);
   }
 
-  void solve(const kernel::FlatMachine& machine, const kernel::Problem& problem) {
+  void solve(const kernel::Problem& problem) {
     const std::size_t count = nominal_cells.size();
     if (count == 0) return;
-    rho.resize(machine.actuator_joint.size() * count), tips.resize(12 * count),
+    rho.resize(problem.machine().actuator_joint.size() * count), tips.resize(12 * count),
         nominal_tips.resize(12 * count);
     accepted.resize(count), is_stiff.resize(count), iterations.resize(count);
     kernel::Batch batch;
@@ -58,7 +58,7 @@ struct KernelBatch {
       batch.F = F.data(), batch.cells = cells.data();
       batch.tip = tips.data(), batch.is_stiff = is_stiff.data();
     }
-    kernel::instance_for(count).solve(machine, problem, kernel::cell_schedule, batch);
+    kernel::instance_for(count).solve(problem, kernel::cell_schedule, batch);
   }
 
   Eigen::VectorXd rho_of(std::size_t i) const {
@@ -168,18 +168,15 @@ struct BatchSolver::Impl {
     batch.cells.push_back(w.target.get());
   }
 
-  void solve_kinematics() {
-    batch.solve(table.flat.machine, {.real = {}, .nominal = kernel::nominal_question(table.perfect)});
-  }
+  void solve_kinematics() { batch.solve({.real = {}, .nominal = table.nominal()}); }
 
   void solve(BatchQuestion question, Acting acting, std::span<BatchAnswer> answers) {
     const bool is_target = question == BatchQuestion::target;
     batch.clear();
     for (const Waypoint& w : waypoints) add(w);
-    kernel::Problem problem{.real = table.question(acting),
-                            .nominal = kernel::nominal_question(table.perfect)};
+    kernel::Problem problem{.real = table.question(acting), .nominal = table.nominal()};
     for (std::size_t j = 0; j < 6; ++j) problem.of_command[j] = !is_target || j >= 3;
-    batch.solve(table.flat.machine, problem);
+    batch.solve(problem);
     for (std::size_t i = 0; i < waypoints.size(); ++i) {
       const Waypoint& w = waypoints[i];
       BatchAnswer& answer = answers[w.request];

@@ -54,9 +54,11 @@ std::optional<Acting> acting_in(const Stage& stage, bool has_weight) {
 StartTable::Impl::Impl(const Model& m, bool platform)
     : model(m),
       at_platform(platform),
-      flat(kernel::flatten(m, platform)),
+      flat(kernel::flatten(m.mechanism, platform)),
+      rigid(kernel::flatten_rigid(m.mechanism)),
       perfect(kernel::transforms_at(flat, 0)),
       real(kernel::transforms_at(flat, 1)),
+      rigid_transforms(kernel::transforms_at(rigid, 0)),
       R_home(tip(m.mechanism, m.home).R),
       is_able(flat.why_not.empty() && m.mechanism.controlled.size() == m.mechanism.travel.size() &&
               controls(m.mechanism, Component::x) && controls(m.mechanism, Component::y) &&
@@ -90,7 +92,7 @@ kernel::CellPlace StartTable::Impl::place_of(const CellIndex& index) const {
 }
 
 kernel::Question StartTable::Impl::question(Acting acting) const {
-  kernel::Question question;
+  kernel::Question question{.machine = &flat.machine};
   question.transforms = acting.errors ? &real : &perfect;
   question.gravity = acting.gravity ? 1 : 0;
   return question;
@@ -112,8 +114,8 @@ std::shared_ptr<const KinematicsCell> StartTable::Impl::make_kinematics(const Ce
   if (nominal.status != Status::converged) return nullptr;
   if (!(actuator_jacobian(model, nominal.configuration).condition < largest_kinematic_condition))
     return nullptr;
-  auto start =
-      make_kinematics_cell(flat.machine, perfect, place, state_of(model, flat, nominal.configuration, 0));
+  auto start = make_kinematics_cell(this->nominal(), place,
+                                    state_of(model.mechanism, rigid, nominal.configuration, 0));
   if (!start) return nullptr;
   std::optional<Matrix3> R_MT;
   if (start->only_translates) R_MT = tip(model.mechanism, nominal.configuration).R;
@@ -125,17 +127,18 @@ std::shared_ptr<const KinematicsCell> StartTable::Impl::make_kinematics(const Ce
 // compares pivots with those of the centre.
 std::shared_ptr<const kernel::StartCell> StartTable::Impl::make_target(const CellIndex& index, Acting acting,
                                                                        StaticsWork& work) {
-  const auto nominal = kinematics(index);
-  if (!nominal) return nullptr;
+  const auto near = kinematics(index);
+  if (!near) return nullptr;
   const kernel::CellPlace place = place_of(index);
-  auto cell = make_target_cell(flat.machine, question(acting), perfect, place, nominal->start);
+  auto cell = make_target_cell(question(acting), nominal(), place,
+                               state_of(model.mechanism, flat, near->nominal, 0), near->start);
   if (!cell) return nullptr;
   Stage stage;
   stage.errors = acting.errors ? 1 : 0;
   stage.gravity = acting.gravity ? 1 : 0;
   const Pose X_MT{place.R, place.centre};
   const Equilibrium alone =
-      solve_target(model, nominal->nominal, X_MT, {Vector6::Zero(), at_platform}, stage, work);
+      solve_target(model, near->nominal, X_MT, {Vector6::Zero(), at_platform}, stage, work);
   if (alone.status != Status::converged) return nullptr;
   const Eigen::VectorXd rho = actuator_values(model.mechanism, alone.configuration);
   for (Eigen::Index a = 0; a < rho.size(); ++a) {

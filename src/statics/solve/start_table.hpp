@@ -87,8 +87,8 @@ class CellCache {
 struct StartTable::Impl {
   const Model& model;
   const bool at_platform;
-  const kernel::Flat flat;
-  const std::vector<kernel::Transform> perfect, real;
+  const kernel::Flat flat, rigid;
+  const std::vector<kernel::Transform> perfect, real, rigid_transforms;
   const Matrix3 R_home;
   const bool is_able;             ///< the kernel solves the machine, which controls x, y and z
   const bool controls_positions;  ///< and no orientation
@@ -104,8 +104,9 @@ struct StartTable::Impl {
   std::shared_ptr<const KinematicsCell> kinematics(const CellIndex& index);
   std::shared_ptr<const kernel::StartCell> target(const CellIndex& index, Acting acting, StaticsWork& work);
 
-  /// What acts on the real machine.
+  /// The real machine, and the nominal one.
   kernel::Question question(Acting acting) const;
+  kernel::Question nominal() const { return kernel::nominal_question(rigid.machine, rigid_transforms); }
 
  private:
   std::shared_ptr<const KinematicsCell> make_kinematics(const CellIndex& index) const;
