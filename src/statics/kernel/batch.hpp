@@ -30,22 +30,17 @@ struct StartCell {
   Polynomials changes;  ///< of the joints, filled up with zeros, of the twists of nodes and platform, of a
                         ///< target's offset
 
-  bool only_translates =
-      false;  ///< the platform does not turn with the position, to 1e-11 rad in a cell of 1 cm
+  bool only_translates = false;  ///< the platform does not turn with the position, to 1e-11 rad in the cell
 
   // Of a target's cell:
-  std::vector<double> stress;  ///< by element, six numbers: at the centre
-  Polynomials stress_changes;  ///< by element a block: first-order terms alone
-  std::vector<double> pivots;  ///< at the centre without a load, actuators held
-  double contraction = 1;  ///< bound of the second step over the first one, with the tangent of this start
+  std::vector<double> stress;      ///< by element, six numbers: at the centre
+  Polynomials stress_changes;      ///< by element a block: first-order terms alone
+  std::vector<double> pivots;      ///< at the centre without a load, actuators held
+  double contraction = 1;          ///< the second step over the first one, with the tangent of this start
   std::array<double, 6> offset{};  ///< from the tip to the command: position (m), rotation vector (rad)
   Polynomials offset_changes;      ///< all terms
   OffsetBounds bounds{};
 };
-
-/// A machine whose pivots keep at least this share of their unloaded values is stable and as well conditioned
-/// as without the load, up to this factor.
-inline constexpr double least_stiffness = 0.5;
 
 /// What is solved. Of the controlled components of a tip, those `of_command` are wanted of the nominal
 /// machine: they are commanded. The others are wanted of the real one.

@@ -257,10 +257,9 @@ class SeriesFlattener {
   /// `node`. In tangents the second one is stiffer by a little: where the joints before it do not move in all
   /// directions the node's pivots were zero else (EQUATIONS.md, section 11).
   void close_rigidly(std::size_t part, int node) {
-    constexpr double surplus = 1e-8;
     if (parts_.flat.rigid) return close_by_spring(1, 1, node);
     close_by_spring(1, 1, add_node(part));
-    close_by_spring(-1, 1 + surplus, node);
+    close_by_spring(-1, 1 + closure_surplus, node);
     ++machine_.rigid_closures;
   }
 
@@ -371,9 +370,8 @@ Flat flatten(const Mechanism& mechanism, bool load_at_platform, bool rigid) {
   machine.chains = static_cast<int>(mechanism.chains.size());
   machine.series.resize(mechanism.chains.size());
   machine.length = mechanism.length;
-  // N/m. Any stiffness does without loads, but rounding errors of pivots should be far below `least_pivot`.
-  constexpr double rigid_machine = 1e9, kinematics = 1e3;
-  machine.stiffest = rigid ? kinematics : mechanism.stiffest > 0 ? mechanism.stiffest : rigid_machine;
+  const double stiffest = mechanism.stiffest > 0 ? mechanism.stiffest : stiff_enough;
+  machine.stiffest = rigid ? kinematic_stiffness : stiffest;
   machine.actuator_joint.resize(mechanism.travel.size(), -1);
   machine.actuator_offset.resize(mechanism.travel.size(), 0);
   for (const Component c : mechanism.controlled) machine.controlled[static_cast<std::size_t>(c)] = true;

@@ -4,18 +4,6 @@
 
 namespace counterflex::kernel {
 
-inline constexpr double step_tolerance = 1e-11;  ///< largest component of the last step (m; angles times l)
-inline constexpr double predicted_tolerance = 1e-12;  ///< of a step that need not be taken
-/// Chords contract less evenly: they have to be small, too, and tangents complete. With both, answers from
-/// different starts agree to 1e-11 (tests/statics/kernel_test.cpp); where tangents leave out hanging weights,
-/// 9e-11 were seen.
-inline constexpr double small_chord = 1e-9;
-inline constexpr double predicted_first_step =
-    4e-12;  ///< of a step behind the first one, by a bound of the contraction
-inline constexpr double force_tolerance = 1e-9;  ///< of the residual forces, against those that act
-inline constexpr double deflection_tolerance =
-    1e-12;  ///< and what the stiffest spring has at this deflection (m)
-
 template <class T>
 struct Solved {
   Mask<T> accepted;  ///< the last step is small, and so is the residual at the solution
@@ -71,7 +59,7 @@ template <class T>
 Mask<T> is_balanced(const Work<T>& work) {
   const Equations<T>& e = work.equations;
   return (e.largest_force <=
-          force_tolerance * e.largest_wrench + deflection_tolerance * work.machine.stiffest) &
+          residual_tolerance * e.largest_wrench + closure_tolerance * work.machine.stiffest) &
          (e.largest_turn_squared <= largest_spring_turn * largest_spring_turn) & is_finite(work.state);
 }
 
@@ -113,7 +101,8 @@ Solved<T> iterate(const Schedule& schedule, Mask<T> active, const T& contraction
       is_small = is_small | predicted;
     else if (is_exact)
       is_small = is_small | (predicted & (size <= small_chord));
-    if (k == 0) is_small = is_small | (contraction * size <= predicted_first_step);
+    if (k == 0)
+      is_small = is_small | (size * (contraction + size * (1 / first.machine.length)) <= predicted_tolerance);
     if (k == 1) solved.contraction = select<T>(active, size / larger(last, all<T>(1e-300)), T{});
     last = size;
     coupled.for_each([&](Work<T>& work) { take_step<T>(active, work); });

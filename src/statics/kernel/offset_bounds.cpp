@@ -83,7 +83,6 @@ OffsetBounds offset_bounds(const StartCell& cell, double reach, double load, dou
 //     |o(u) - (1 - u) o(0) - u o(1)| <= |D2 o| |step|^2 / 8 + |D_F o| kink + what the remainder bends
 ChordBounds chord_bounds(const OffsetBounds& bounds, const LineSizes& line) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
-  constexpr double least_following = 0.1;  // of the tip, for a change of the command
   const double excess = std::max(1.0, line.load / bounds.load);
   // The first derivatives anywhere in the cell, under the load.
   const auto first = [&](int r, int v) {
@@ -92,7 +91,7 @@ ChordBounds chord_bounds(const OffsetBounds& bounds, const LineSizes& line) {
            excess * (std::sqrt(3.0) * bounds.reach * second[position] + line.load * second[load]);
   };
   const double turn_follows = 1 - first(1, turn);
-  if (!(turn_follows > least_following)) return {infinity, infinity};
+  if (!(turn_follows > 0)) return {infinity, infinity};
   const std::array<double, 3> step{
       line.way, (first(1, position) * line.way + first(1, load) * line.load_change) / turn_follows,
       line.load_change};
@@ -109,7 +108,7 @@ ChordBounds chord_bounds(const OffsetBounds& bounds, const LineSizes& line) {
   }
   const double by_turn = first(0, turn) / turn_follows;
   const double follows = 1 - first(0, position) - by_turn * first(1, position);
-  if (!(follows > least_following)) return {infinity, infinity};
+  if (!(follows > 0)) return {infinity, infinity};
   return {off[0] + by_turn * off[1], 1 / follows};
 }
 

@@ -9,7 +9,6 @@
 namespace counterflex::kernel {
 namespace {
 
-constexpr double stiff_enough = 1e9;  // N/m
 constexpr double unknown_contraction = std::numeric_limits<double>::infinity();
 
 Vec6<double> vec6(const double* x) {
@@ -148,11 +147,10 @@ struct Single::Impl {
 
   // A displacement of all unknowns by about a millionth of l.
   void displace() {
-    constexpr double size = 1e-6;
     const FlatMachine& machine = flat.machine;
     Work<double>& w = work();
     int i = 0;
-    const auto next = [&] { return size * std::sin(++i); };
+    const auto next = [&] { return test_displacement * std::sin(++i); };
     const auto twist = [&] {
       Vec6<double> xi;
       for (int k = 0; k < 6; ++k) xi[k] = next() * (k < 3 ? machine.length : 1);
@@ -164,14 +162,13 @@ struct Single::Impl {
     }
     for (Vec6<double>& node : w.step.nodes) node = twist();
     w.step.platform = twist();
-    w.step.turn = size;
+    w.step.turn = test_displacement;
     take_step<double>(true, w);
   }
 
   // Whether steps by the last factors, actuators held, take a displacement away by far. With A the tangent
   // and E what it leaves out, they leave -A^-1 E of it; where that contracts, A + E has the inertia of A.
   bool contracts() {
-    constexpr double much = 0.3, negligible = 1e-3;
     Work<double>& w = work();
     displace();
     double last = 0, ratio = 0;
@@ -181,8 +178,8 @@ struct Single::Impl {
       find_inner_steps(w);
       take_step<double>(true, w);
       if (i > 0) ratio = w.step.size / last;
-      if (i > 0 && !(ratio < much)) return false;
-      if (ratio < negligible && i > 0) return true;
+      if (i > 0 && !(ratio < judging_contraction)) return false;
+      if (ratio < negligible_contraction && i > 0) return true;
       last = w.step.size;
     }
     return true;

@@ -12,18 +12,6 @@ namespace {
 
 using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic>;
 
-constexpr double turn_step = 0.01;               // rad
-constexpr double force_step = 100;               // N: under it machines deflect by micrometres to millimetres
-constexpr double largest_turn_of_cells = 0.025;  // rad: half of a cell's edge
-/// Of a term at the rim of its cell (m; angles times l). With 1e-9 no machine of the bench takes fewer steps.
-constexpr double negligible_term = 2e-8;
-/// Ends of a line lie so far beyond the cell that holds its middle, in half edges.
-constexpr double reach_of_lines = 1.25;
-constexpr double load_of_lines = 250;  // N
-constexpr double least_contraction = 1e-6;
-constexpr double contraction_margin = 4;  // corners are where starts miss most, but for larger loads
-constexpr double remainder_margin = 2;  // for loads in other directions (tests/statics/batch_lines_test.cpp)
-
 /// A place at which a cell's question is solved.
 struct Sample {
   Vector3 p;
@@ -39,7 +27,7 @@ struct Samples {
 
 Vector6 unit_loads(double length) {
   Vector6 F;
-  F << Vector3::Constant(force_step), Vector3::Constant(force_step * length);
+  F << Vector3::Constant(force_of_samples), Vector3::Constant(force_of_samples * length);
   return F;
 }
 
@@ -47,7 +35,7 @@ Samples samples_about(const CellPlace& place, const Variables& variables, double
   Samples samples{{{place.centre}}, {}};
   for (int k = 0; k < variables.count(); ++k) {
     const int load = k - variables.first_load();
-    const double step = load >= 0 ? unit_loads(length)[load] : k < 3 ? place.step : turn_step;
+    const double step = load >= 0 ? unit_loads(length)[load] : k < 3 ? place.step : turn_of_samples;
     samples.steps.push_back(step);
     for (const double way : {step, -step}) {
       Sample sample{place.centre};
@@ -240,7 +228,7 @@ class CellSamples {
     Point<double> extents;
     for (int k = 0; k < variables_.count(); ++k)
       extents[k] = variables_.is_position(k)         ? place_.step
-                   : variables_.is_turn(k)           ? largest_turn_of_cells
+                   : variables_.is_turn(k)           ? turn_edge / 2
                    : k < variables_.first_load() + 3 ? load_of_lines
                                                      : load_of_lines * machine_.length;
     std::vector<Term> terms;
@@ -290,14 +278,13 @@ Eigen::VectorXd units_of_twists(Eigen::Index twists, double length) {
   return units.replicate(twists, 1);
 }
 
-bool only_translates(const Rows& changes, const Variables& variables) {
-  constexpr double least_slope = 1e-9, least_bend = 1e-7;  // rad/m, rad/m2
+bool only_translates(const Rows& changes, const Variables& variables, double step) {
   for (const Term& term : terms_of(variables)) {
     const auto [i, j, k] = term.of;
     if (k != no_variable || !variables.is_position(i) || !(j == no_variable || variables.is_position(j)))
       continue;
     const double turns = changes.bottomRows<3>().col(term.number).cwiseAbs().maxCoeff();
-    if (turns > (j == no_variable ? least_slope : least_bend)) return false;
+    if (turns * (j == no_variable ? step : step * step) > step_tolerance) return false;
   }
   return true;
 }
@@ -315,7 +302,7 @@ StartCell cell_of(const FlatMachine& machine, const CellPlace& place, const Vari
     cell.sine.push_back(std::sin(at(cell.state, j)));
   }
   Rows changes = samples.expanded([&](int sample) { return samples.state_jacobian(sample); });
-  cell.only_translates = only_translates(changes, variables);
+  cell.only_translates = only_translates(changes, variables, place.step);
   if (variables.loads) {
     const Rows offset = samples.expanded([&](int sample) { return samples.offset_jacobian(sample); });
     cell.offset_changes = samples.all_of(offset);
@@ -342,7 +329,6 @@ void measure_at_corners(const Problem& target, const CellPlace& place, const Sta
     cell.bounds.remainder.fill(std::numeric_limits<double>::infinity());
     return;
   }
-  double contraction = 0;
   for (std::size_t k = 0; k < corners.size(); ++k) {
     const Vector6 found = offset_of(place, corners[k], solved->commands.data() + 12 * k);
     const Vector6 missed =
@@ -350,9 +336,9 @@ void measure_at_corners(const Problem& target, const CellPlace& place, const Sta
     cell.bounds.remainder[0] = std::max(cell.bounds.remainder[0], missed.head<3>().norm());
     if (cell.variables.turns)
       cell.bounds.remainder[1] = std::max(cell.bounds.remainder[1], missed.tail<3>().norm());
-    contraction = std::max(contraction, solved->contractions[k]);
   }
-  if (contraction > 0) cell.contraction = contraction_margin * std::max(contraction, least_contraction);
+  // Corners are where starts miss most, but for larger loads.
+  cell.contraction = *std::max_element(solved->contractions.begin(), solved->contractions.end());
 }
 
 }  // namespace

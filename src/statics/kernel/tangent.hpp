@@ -139,7 +139,6 @@ COUNTERFLEX_INLINE void eliminate_joint(const FrameStep& step, double side, cons
     columns.c[slots[eliminated++]] = u * -1.0;
     return;
   }
-  constexpr double least_pivot = 1e-9;  // N/m or N m: a strut may turn about itself
   const T pivot = dot(s, u) + step.k;
   JointFactor<T>& factor = at(work.factors.joints, step.joint);
   factor.inverse = select<T>(magnitude(pivot) > least_pivot, 1.0 / pivot, T{});

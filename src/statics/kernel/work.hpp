@@ -5,6 +5,7 @@
 
 #include "flat_machine.hpp"
 #include "spatial.hpp"
+#include "statics/model/tolerances.hpp"
 
 namespace counterflex::kernel {
 

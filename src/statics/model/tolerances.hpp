@@ -1,18 +1,29 @@
 #pragma once
-/// Constants of model, solve and theory: when an iteration has converged, what is zero, what is singular.
-/// Lengths and angles together, in m and rad. Beside each are other values that tests/statics was run with,
-/// batches and the kernel left out: "pass", or what fails.
+/// Constants of statics: when an iteration has converged, what is zero, what is singular, where the kernel
+/// starts. Lengths and angles together, in m and rad. Beside each are other values that tests/statics was run
+/// with, batches and the kernel left out: "pass", or what fails.
+#include <cstddef>
 
 namespace counterflex {
 
 // Convergence.
-inline constexpr double closure_tolerance = 1e-12;  ///< of every closure. 1e-13, 1e-11: pass.
+/// Of every closure; and forces of the kernel may be those of the stiffest spring at it. 1e-13, 1e-11: pass.
+inline constexpr double closure_tolerance = 1e-12;
 inline constexpr double step_tolerance =
     1e-11;  ///< of the last step's largest component. 1e-12, 1e-10: pass.
-/// Of iterations that converge quadratically. 30: pass.
+/// Of iterations that converge quadratically. 30: pass; 100: Newton's method finds a state beyond a limit
+/// point, and the test of analyses that states it fails.
 inline constexpr int most_newton_steps = 60;
 /// Of the paper's (2) without Hessians, and of (23). 100: pass.
 inline constexpr int most_linear_steps = 200;
+/// Of the kernel's residual forces, against those that act.
+inline constexpr double residual_tolerance = 1e-9;
+/// Of a step that need not be taken, by the contraction that was seen or measured.
+inline constexpr double predicted_tolerance = 1e-12;
+/// Chords contract less evenly: they have to be small, too, and tangents complete. With both, answers from
+/// different starts agree to 1e-11 (tests/statics/kernel_test.cpp); where tangents leave out hanging weights,
+/// 9e-11 were seen.
+inline constexpr double small_chord = 1e-9;
 /// Per step of nominal kinematics: a linearisation that does not reach it is made again. 0.01: pass; 0.5: the
 /// test of perfect machines without a load fails.
 inline constexpr double slow_contraction = 0.1;
@@ -27,15 +38,23 @@ inline constexpr double same_way = 0.5;
 inline constexpr double jump_floor = 1e-4;
 inline constexpr double largest_step =
     0.5;  ///< of an actuator in nominal kinematics, l or rad. 0.1 and 2: pass.
-inline constexpr double same_place = 1e-6;  ///< two ways end there, in units of l. 1e-4: pass.
+/// Two ways end there, or two cells have it, in units of l: another branch is further away. 1e-4: pass.
+inline constexpr double same_place = 1e-6;
 inline constexpr double bracket =
     1e-9;  ///< of the displacement of a critical state: what the header promises
 
 // Zero.
-/// Of the largest pivot, in closures and sums of stiffnesses. 1e-13 and 1e-9: pass.
-inline constexpr double rank_threshold = 1e-11;
-/// Of the largest pivot, where springs up to 1e14 N/m meet soft joints. 1e-14 and 1e-11: pass.
-inline constexpr double rounding_threshold = 1e-13;
+/// Of the largest pivot, in closures, and in stiffnesses where springs up to 1e14 N/m meet soft joints. 1e-13
+/// and 1e-11: pass.
+inline constexpr double rank_threshold = 1e-12;
+/// N/m or N m: smaller pivots of the kernel are those of struts that turn about themselves.
+inline constexpr double least_pivot = 1e-9;
+/// By which the second spring of a rigid closure is stiffer in tangents: without it some node has pivots of
+/// zero.
+inline constexpr double closure_surplus = 1e-8;
+/// N/m, of the springs that close series of nominal kinematics. Any stiffness does; its rounding errors are
+/// far below `least_pivot`.
+inline constexpr double kinematic_stiffness = 1e3;
 inline constexpr double moves_platform = 1e-6;  ///< share of a zero mode. 1e-9 and 1e-3: pass.
 /// m/N, at the tip: 1e15 N/m and more is infinite. 1e-12: pass.
 inline constexpr double rigid_compliance = 1e-15;
@@ -55,5 +74,27 @@ inline constexpr double clear_eigenvalue =
 /// N/m: what is stiffer counts as this, and hides no condition. 1e7: pass; 1e11: the test of a
 /// strut beside a stiff spring fails.
 inline constexpr double stiff_enough = 1e9;
+/// A pivot of the kernel that keeps this share of its unloaded value is as stable and as well conditioned as
+/// without the load, up to this factor.
+inline constexpr double least_stiffness = 0.5;
+/// Where tangents leave out how hanging weights turn, their pivots judge stability if a displacement (in
+/// units of l) contracts by less than the first share in each of four steps, or by less than the second one.
+inline constexpr double test_displacement = 1e-6, judging_contraction = 0.3, negligible_contraction = 1e-3;
+
+// Cells.
+/// Edges, in units of l; straight: one chain only slides, so that nominal kinematics does not bend.
+inline constexpr double bent_edge = 1.0 / 24, straight_edge = 1.0 / 8;
+inline constexpr double turn_edge = 0.05;        ///< rad: a start misses by some micrometres at half of it
+inline constexpr double turn_of_samples = 0.01;  ///< rad. 0.025: pass, with the same steps.
+/// N: under it machines deflect by micrometres to millimetres. 250: pass, with the same steps.
+inline constexpr double force_of_samples = 100;
+/// Lines are bounded under loads of 250 N, up to 1.25 half edges from the centre, so that their ends may lie
+/// beyond the cell that holds their middle. What polynomials miss under loads in other directions is within
+/// twice what is measured (tests/statics/batch_lines_test.cpp).
+inline constexpr double load_of_lines = 250, reach_of_lines = 1.25, remainder_margin = 2;
+/// Of a term at the rim of its cell (m; angles times l). Steps of a waypoint of the bench's hexapod: 1.1;
+/// with 1e-9 the same; with 1e-7 1.2, with 5e-7 1.9 (4.1, 4.1, 4.2 and 4.7 us). Other machines do not differ.
+inline constexpr double negligible_term = 2e-8;
+inline constexpr std::size_t bytes_of_cells = 12'000'000;  ///< that are kept, of each kind
 
 }  // namespace counterflex

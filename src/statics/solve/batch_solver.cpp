@@ -11,8 +11,6 @@
 namespace counterflex {
 namespace {
 
-constexpr double same_branch = 1e-3;  // l or rad: another branch is further away
-
 template <int n>
 void append(const Eigen::Matrix<double, n, 1>& v, std::vector<double>& numbers) {
   numbers.insert(numbers.end(), v.begin(), v.end());
@@ -96,12 +94,8 @@ const StartTable& StartTables::of(const Model& model, bool at_platform) const {
 }
 
 struct BatchSolver::Impl {
-  /// A request that has cells.
-  struct Waypoint {
-    std::size_t request;
-    Vector3 p;
-    Vector6 F;
-    Matrix3 R;
+  /// The cells of a waypoint, as long as the batch refers to them.
+  struct Cells {
     std::shared_ptr<const KinematicsCell> kinematics;
     std::shared_ptr<const kernel::StartCell> target;
   };
@@ -109,7 +103,8 @@ struct BatchSolver::Impl {
   StartTable::Impl& table;
   StaticsWork work;
   KernelBatch batch;
-  std::vector<Waypoint> waypoints;
+  std::vector<std::size_t> asked;  ///< requests that have cells
+  std::vector<Cells> cells;
   std::shared_ptr<const KinematicsCell> near;
   std::optional<CellIndex> last_index;  ///< of the cell that was looked for last
   std::shared_ptr<const KinematicsCell> last_kinematics;
@@ -134,22 +129,24 @@ struct BatchSolver::Impl {
   }
 
   void collect(std::span<const BatchRequest> requests, Acting acting) {
-    waypoints.clear();
+    batch.clear(), asked.clear(), cells.clear();
     std::optional<CellIndex> last;
-    Waypoint waypoint{};
     for (std::size_t i = 0; i < requests.size(); ++i) {
       const auto index = table.index_of(requests[i].p, requests[i].turn);
       if (!index || !requests[i].F.allFinite()) continue;
       if (index != last) {
-        waypoint.kinematics = table.kinematics(*index);
-        waypoint.target = waypoint.kinematics ? table.target(*index, acting, work) : nullptr;
+        Cells& found = cells.emplace_back();
+        found.kinematics = table.kinematics(*index);
+        if (found.kinematics) found.target = table.target(*index, acting, work);
         last = index;
       }
-      if (!waypoint.target) continue;
-      waypoint.request = i, waypoint.p = requests[i].p, waypoint.F = requests[i].F;
-      waypoint.R =
-          requests[i].turn.isZero(0) ? table.R_home : Matrix3(exp_so3(requests[i].turn) * table.R_home);
-      waypoints.push_back(waypoint);
+      if (!cells.back().target) continue;
+      const bool turns = !requests[i].turn.isZero(0);
+      batch.add(requests[i].p, turns ? Matrix3(exp_so3(requests[i].turn) * table.R_home) : table.R_home,
+                cells.back().kinematics->start);
+      append(requests[i].F, batch.F);
+      batch.cells.push_back(cells.back().target.get());
+      asked.push_back(i);
     }
   }
 
@@ -162,26 +159,19 @@ struct BatchSolver::Impl {
     return true;
   }
 
-  void add(const Waypoint& w) {
-    batch.add(w.p, w.R, w.kinematics->start);
-    append(w.F, batch.F);
-    batch.cells.push_back(w.target.get());
-  }
-
   void solve_kinematics() { batch.solve({.real = {}, .nominal = table.nominal()}); }
 
-  void solve(BatchQuestion question, Acting acting, std::span<BatchAnswer> answers) {
+  void solve(BatchQuestion question, Acting acting, std::span<const BatchRequest> requests,
+             std::span<BatchAnswer> answers) {
+    collect(requests, acting);
     const bool is_target = question == BatchQuestion::target;
-    batch.clear();
-    for (const Waypoint& w : waypoints) add(w);
     kernel::Problem problem{.real = table.question(acting), .nominal = table.nominal()};
     for (std::size_t j = 0; j < 6; ++j) problem.of_command[j] = !is_target || j >= 3;
     batch.solve(problem);
-    for (std::size_t i = 0; i < waypoints.size(); ++i) {
-      const Waypoint& w = waypoints[i];
-      BatchAnswer& answer = answers[w.request];
+    for (std::size_t i = 0; i < asked.size(); ++i) {
+      BatchAnswer& answer = answers[asked[i]];
       answer.solved = batch.accepted[i] != 0 && batch.is_stiff[i] != 0 && in_travel(i);
-      answer.command = is_target ? pose_of(&batch.nominal_tips[12 * i]).p : w.p;
+      answer.command = is_target ? pose_of(&batch.nominal_tips[12 * i]).p : requests[asked[i]].p;
       answer.X_MT = pose_of(&batch.tips[12 * i]);
       answer.iterations = batch.iterations[i];
       if (!is_target) answer.rho = batch.rho_of(i);
@@ -198,8 +188,7 @@ void BatchSolver::solve(BatchQuestion question, const Stage& stage, std::span<co
   std::fill(answers.begin(), answers.end(), BatchAnswer{});
   const auto acting = acting_in(stage, impl_->table.has_weights);
   if (!acting || !impl_->table.is_able) return;
-  impl_->collect(requests, *acting);
-  impl_->solve(question, *acting, answers);
+  impl_->solve(question, *acting, requests, answers);
 }
 
 void BatchSolver::nominal_tips(std::span<const Vector3> p, std::span<NominalAnswer> answers) {
@@ -255,7 +244,7 @@ bool BatchSolver::joins(const Vector3& from, const Vector3& to) {
   batch.clear();
   for (const auto& cell : {end, begin}) batch.add(to, table.R_home, cell->start);
   impl_->solve_kinematics();
-  const double limit = same_branch * table.model.mechanism.length;
+  const double limit = same_place * table.model.mechanism.length;
   const bool are_neighbours = (from - to).cwiseAbs().maxCoeff() <= table.edge;
   if (are_neighbours && batch.accepted[0] != 0 && batch.accepted[1] != 0 &&
       (batch.rho_of(0) - batch.rho_of(1)).norm() < limit)

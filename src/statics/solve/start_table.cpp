@@ -8,15 +8,7 @@
 namespace counterflex {
 namespace {
 
-/// Edge of a cell, in units of l. One chain that only slides has nominal kinematics without bends.
-constexpr double bent_edge = 1.0 / 24, straight_edge = 1.0 / 8;
-constexpr double turn_edge = 0.05;                  // rad: a start misses by some micrometres at half of it
-constexpr double farthest_cell = 1e6;               // from the origin of M, in edges
-constexpr std::size_t bytes_of_cells = 12'000'000;  // of each kind
-constexpr std::size_t least_cells = 64, most_cells = 4096;
-constexpr double largest_kinematic_condition = 1e4;  // of the nominal Jacobian: far from a singularity
-constexpr double same_solution = 1e-8;               // l or rad: another branch is further away
-constexpr double least_pivot = 1e-9;                 // of the largest one: smaller ones are rounding errors
+constexpr double farthest_cell = 1e9;  // from the origin of M, in edges: their numbers fit
 
 bool controls(const Mechanism& mechanism, Component c) {
   return std::count(mechanism.controlled.begin(), mechanism.controlled.end(), c) > 0;
@@ -38,7 +30,7 @@ std::size_t kept_cells(const kernel::FlatMachine& machine, bool turns) {
   const kernel::Variables variables{turns, true};
   const std::size_t numbers = unknowns * (kernel::terms_of(variables).size() + 4) +
                               6 * machine.elements.size() * static_cast<std::size_t>(1 + variables.count());
-  return std::clamp(bytes_of_cells / (sizeof(double) * numbers), least_cells, most_cells);
+  return std::max<std::size_t>(2, bytes_of_cells / (sizeof(double) * numbers));
 }
 
 }  // namespace
@@ -112,8 +104,6 @@ std::shared_ptr<const KinematicsCell> StartTable::Impl::make_kinematics(const Ce
   const kernel::CellPlace place = place_of(index);
   NominalResult nominal = follow(model, model.home, {place.R, place.centre});
   if (nominal.status != Status::converged) return nullptr;
-  if (!(actuator_jacobian(model, nominal.configuration).condition < largest_kinematic_condition))
-    return nullptr;
   auto start = make_kinematics_cell(this->nominal(), place,
                                     state_of(model.mechanism, rigid, nominal.configuration, 0));
   if (!start) return nullptr;
@@ -146,7 +136,7 @@ std::shared_ptr<const kernel::StartCell> StartTable::Impl::make_target(const Cel
         cell->state[static_cast<std::size_t>(flat.machine.actuator_joint[static_cast<std::size_t>(a)])];
     const double offset =
         (acting.gravity ? 1 : 0) * flat.machine.actuator_offset[static_cast<std::size_t>(a)];
-    if (!(std::abs(found - offset - rho[a]) < same_solution)) return nullptr;
+    if (!(std::abs(found - offset - rho[a]) < same_place * model.mechanism.length)) return nullptr;
   }
   return std::make_shared<const kernel::StartCell>(std::move(*cell));
 }

@@ -81,7 +81,7 @@ void finish_lean(const Series& series, const Units& units, SeriesWork& work) {
 bool factor(SeriesWork& work) {
   work.lu.compute(work.bordered);
   const auto pivots = work.lu.matrixLU().diagonal().cwiseAbs();
-  return pivots.minCoeff() > rounding_threshold * pivots.maxCoeff();
+  return pivots.minCoeff() > rank_threshold * pivots.maxCoeff();
 }
 
 }  // namespace

@@ -32,7 +32,7 @@ Eigen::VectorXd solved(const Eigen::CompleteOrthogonalDecomposition<Eigen::Matri
 
 std::optional<Matrix6> inverse_in_units(const Matrix6& M, const Vector6& units) {
   Eigen::FullPivLU<Matrix6> lu(units.asDiagonal() * M * units.asDiagonal());
-  lu.setThreshold(rounding_threshold);
+  lu.setThreshold(rank_threshold);
   if (!lu.isInvertible()) return std::nullopt;
   return units.asDiagonal() * lu.inverse() * units.asDiagonal();
 }

@@ -210,7 +210,7 @@ WholeStep solve_whole(const WholeSystem& system, const std::optional<Controlled>
     rhs.tail(n) = controlled->rhs;
   }
   Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> decomposition;
-  decomposition.setThreshold(rounding_threshold);
+  decomposition.setThreshold(rank_threshold);
   decomposition.compute(B);
   const Eigen::VectorXd x = solved(decomposition, rhs);
   WholeStep step;
@@ -242,7 +242,7 @@ Condition condition(const WholeSystem& system, const Units& units) {
   const auto& sigma = svd.singularValues();
   const auto n = sigma.size(), pose = static_cast<Eigen::Index>(columns.size()) - 6;
   Eigen::Index rank = n;
-  while (rank > 1 && sigma[rank - 1] <= rounding_threshold * sigma[0]) --rank;
+  while (rank > 1 && sigma[rank - 1] <= rank_threshold * sigma[0]) --rank;
   Condition result;
   const auto twist = [&](Eigen::Index i) { return Vector6(svd.matrixV().block<6, 1>(pose, i)); };
   result.weakest = twist(rank - 1);
