@@ -1,7 +1,9 @@
 #include "counterflex/compensation/loads_along.hpp"
 
 #include <algorithm>
+#include <array>
 
+#include "compensation/solve/attribution.hpp"
 #include "compensation/solve/commands.hpp"
 #include "compensation/solve/solver.hpp"
 #include "compensation/windows/parallel.hpp"
@@ -115,6 +117,19 @@ LoadsAlong solve_loads(const Model& base, const std::vector<LoadPlace>& places, 
     if (!at.chains.empty()) along.places.push_back(std::move(at));
   along.unsolved = places.size() - along.places.size();
   return along;
+}
+
+std::optional<Causes> solve_causes(const LoadPlace& place, const StartTables* starts) {
+  PlaceSolver solver(starts, place.load.at_platform);
+  std::array<TipPosition, 1> position{{{place.model, place.at.p_MT}}};
+  std::array<WantedPose, 1> wanted;
+  solver.wanted(position, wanted);
+  if (wanted[0].status != Status::converged) return std::nullopt;
+  const Vector3 original = place.target - place.at.correction.head<3>();
+  std::array<ForwardPlace, 1> solved{{{place.model, original, place.target, place.load.F, wanted[0].X_MT}}};
+  std::array<Waypoint, 1> at{place.at};
+  add_causes(solver, solved, at);
+  return at[0].status == Status::converged ? std::optional(*at[0].causes) : std::nullopt;
 }
 
 std::vector<OtherForce> solve_other_force(const std::vector<LoadPlace>& places, double factor, int threads,

@@ -8,6 +8,7 @@
 
 #include "counterflex/geometry/types.hpp"
 #include "counterflex/report/run_tally.hpp"
+#include "report/tally/causes.hpp"
 #include "report/text/assumptions.hpp"
 #include "report/text/control.hpp"
 #include "report/text/tool_words.hpp"
@@ -69,7 +70,6 @@ Sources sources(const Measures& measures, bool weights) {
   if (weights) result.gravity = measures.gravity.statistics();
   if (const auto preloads = measures.preloads.statistics(); preloads.max_mm > 1e-9)
     result.preloads = preloads;
-  result.at_worst = measures.at_worst;
   return result;
 }
 
@@ -141,6 +141,7 @@ RunReport common(const RunContext& context, const RunTally& tally, const Measure
   report.path_mm = measures.path_mm;
   report.before = known(measures.before);
   if (context.facts.attribution && report.before) report.sources = sources(measures, weighs(context.machine));
+  report.at_worst = measures.at_worst;
   if (!failure) report.corrected_percent = percent_of(measures.corrected_mm, measures.path_mm);
   report.common_shift = common_shift(context, measures);
   report.operations = operation_reports(tally, failure.has_value());
@@ -151,7 +152,7 @@ RunReport common(const RunContext& context, const RunTally& tally, const Measure
   report.text_before = {context.program.blocks, context.program.bytes};
   report.forces = force_summary(tally, measures);
   const bool acts = report.forces.largest_N > 0 || report.forces.largest_Nm > 0;
-  if (report.sources && acts) report.sensitivity = {.without = measures.without_force.statistics()};
+  if (report.before && acts) report.sensitivity = {.without = measures.without_force.statistics()};
   report.control = control_facts(context.program, tally);
   report.work = work_in_words(context.machine, context.frames);
   report.datum = datum_in_words(context.machine, context.frames);
@@ -288,6 +289,18 @@ RunReport report_verification(const RunContext& context, const RunTally& tally, 
   report.warnings = all_warnings(context, tally, report);
   add_verdict(report, tally);
   return report;
+}
+
+void add_at_worst(RunReport& report, const LoadPlace& place, const Causes& causes) {
+  report.at_worst = sources_at(place.at, causes);
+}
+
+void add_sensitivity(RunReport& report, const std::vector<LoadPlace>& places,
+                     const std::vector<OtherForce>& higher, const std::vector<OtherForce>& lower,
+                     const std::vector<OtherForce>& without) {
+  if (!report.sensitivity) return;
+  report.sensitivity->without = under_other_force(places, without).deviation;
+  add_sensitivity(report, places, higher, lower);
 }
 
 void add_sensitivity(RunReport& report, const std::vector<LoadPlace>& places,

@@ -556,14 +556,14 @@ TEST_CASE("the summary of a prediction shows the effect of more and less force o
 
 TEST_CASE("a summary without causes names the option for them") {
   MadeUpRun run;
-  const char* const how = "\nFor causes and sensitivity to the force add --report NAME or --json.\n";
+  const char* const how = "\nFor causes along the path add --report NAME or --json.\n";
   CHECK_FALSE(contains(details_text(compensated(run, small_compensation()), false), how));
   run.facts.attribution = false;
   const std::string text = details_text(compensated(run, small_compensation()), false);
   CAPTURE(text);
   CHECK(contains(text, how));
   CHECK_FALSE(contains(text, "Causes of the deviation"));
-  CHECK_FALSE(contains(text, "30 %"));
+  CHECK(contains(text, "30 % higher"));
 }
 
 TEST_CASE("the summary of a failure shows the failure and only known numbers") {

@@ -40,6 +40,9 @@ class LoadPlaces {
   /// At most `most`, in order.
   std::vector<LoadPlace> places() const;
 
+  /// The one with the largest deviation before; null without one.
+  const LoadPlace* worst_before() const { return before_.place ? &*before_.place : nullptr; }
+
  private:
   struct Peak {
     double value = 0;
@@ -71,6 +74,9 @@ struct LoadsAlong {
 /// `starts`: as for a job. The result does not depend on `threads`.
 LoadsAlong solve_loads(const Model& base, const std::vector<LoadPlace>& places, int threads,
                        const StartTables* starts = nullptr);
+
+/// The causes of the deviation before at a place. Nothing where they cannot be solved.
+std::optional<Causes> solve_causes(const LoadPlace& place, const StartTables* starts = nullptr);
 
 /// By how much the force of a sensitivity is higher or lower than the given one: wear, overrides.
 inline constexpr double force_change = 0.3;

@@ -77,7 +77,6 @@ struct Largest {
   int line = 0;
 };
 
-/// Where each part of the deviation before comes from.
 /// Where the deviation before is largest: what each source has in it there (axes of M).
 struct SourcesAtWorst {
   int line = 0;
@@ -88,12 +87,12 @@ struct SourcesAtWorst {
   Vector3 before_mm = Vector3::Zero();
 };
 
+/// Where each part of the deviation before comes from.
 struct Sources {
   DeviationStatistics geometry, load;
   std::optional<DeviationStatistics> gravity;  ///< none for a machine without masses
   DeviationStatistics superposition;
   std::optional<DeviationStatistics> preloads{};  ///< none where preloads move nothing
-  std::optional<SourcesAtWorst> at_worst{};
 };
 
 /// The deviation under a force that is higher or lower by `force_change`. Places where the machine has no
@@ -211,7 +210,8 @@ struct RunReport {
   std::optional<DeviationStatistics> before;  ///< none where a run failed before anything was solved
   std::optional<DeviationStatistics> after;   ///< model residual; none for `predict`, and like `before`
   std::optional<Sources> sources;             ///< with attribution
-  std::optional<Sensitivity> sensitivity;     ///< with attribution, where a force acts
+  std::optional<SourcesAtWorst> at_worst;     ///< where `before` is largest
+  std::optional<Sensitivity> sensitivity;     ///< where a force acts
   std::optional<Largest>
       air;  ///< largest deviation of a feed move of the corrected program without the force
   std::optional<CommonShift> common_shift;  ///< none: all datums are stated, or nothing was solved
@@ -255,6 +255,14 @@ void add_loads(RunReport& report, LoadsAlong along, const Machine& machine);
 /// stable equilibrium. `higher`, `lower`: by place.
 void add_sensitivity(RunReport& report, const std::vector<LoadPlace>& places,
                      const std::vector<OtherForce>& higher, const std::vector<OtherForce>& lower);
+
+/// Fills the causes where the deviation before is largest in the report of a run without attribution.
+void add_at_worst(RunReport& report, const LoadPlace& place, const Causes& causes);
+
+/// The sensitivity of a run without attribution: also without the force it is solved at `places` only.
+void add_sensitivity(RunReport& report, const std::vector<LoadPlace>& places,
+                     const std::vector<OtherForce>& higher, const std::vector<OtherForce>& lower,
+                     const std::vector<OtherForce>& without);
 
 /// Why a run without a failure of its own ends with another status than `done`: the verdict, and what to do.
 std::optional<Failure> refusal_of(const RunReport& report);

@@ -31,7 +31,7 @@ std::string BatchProgress::text() const {
   const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun_).count();
   std::string text = fmt::format("{} of {} jobs", ended_, work_.size());
   if (failed_ > 0) text += fmt::format(", {} failed", failed_);
-  return text + rate_text({all_work_ > 0 ? done_work() / all_work_ : 0, waypoints_, elapsed});
+  return progress_bar({all_work_ > 0 ? done_work() / all_work_ : 0, waypoints_, elapsed}) + ", " + text;
 }
 
 }  // namespace counterflex::cli

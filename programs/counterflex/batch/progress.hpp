@@ -21,7 +21,7 @@ class BatchProgress {
   /// A job has ended.
   void end(std::size_t job, bool done);
 
-  /// "12 of 200 jobs, 1 failed, 34000 waypoints/s, 2 min left".
+  /// "[##------------------]  12 %, 34000 waypoints/s, 2 min left, 12 of 200 jobs, 1 failed".
   std::string text() const;
 
  private:

@@ -51,7 +51,7 @@ std::optional<Failure> compensate_all(Run& run, RunTally& tally, RunFiles& files
     tally.add_window(job);
   };
   const auto solved = [&](const Job& job, const std::vector<Waypoint>& waypoints) {
-    if (wants_loads(run)) run.load_places.add(job, waypoints);
+    run.load_places.add(job, waypoints);
     tally.add_waypoints(waypoints, job);
     files.add_waypoints(waypoints);
     console.solved(waypoints.size());

@@ -295,11 +295,18 @@ RunEnd finish_run(const Options& options, Run& run, RunReport report, const RunT
                   RunFiles& files) {
   const MachineInput& on = run.machine;
   const std::vector<LoadPlace> places = run.load_places.places();
-  const LoadsAlong loads = solve_loads(on.model, places, run.options.threads, &*run.starts);
+  LoadsAlong loads;
+  if (wants_loads(run)) loads = solve_loads(on.model, places, run.options.threads, &*run.starts);
   const auto under = [&](double factor) {
     return solve_other_force(places, factor, run.options.threads, &*run.starts);
   };
-  if (report.sensitivity) add_sensitivity(report, places, under(1 + force_change), under(1 - force_change));
+  const LoadPlace* worst = run.load_places.worst_before();
+  if (worst != nullptr && report.before && !report.at_worst)
+    if (const auto causes = solve_causes(*worst, &*run.starts)) add_at_worst(report, *worst, *causes);
+  if (report.facts.attribution)
+    add_sensitivity(report, places, under(1 + force_change), under(1 - force_change));
+  else if (report.sensitivity)
+    add_sensitivity(report, places, under(1 + force_change), under(1 - force_change), under(0));
   run.starts.reset();  // the solvers are done; frees memory for the report
   report.sanity = run_sanity(run, report, tally);
   add_loads(report, loads, on.machine);

@@ -186,8 +186,8 @@ std::variant<Options, Exit> read_command_line(int argc, const char* const* argv)
       fmt::print(stderr, "{}", short_usage());
       return Exit::usage;
     }
-    if (words[0] == "completion" && words.size() == 2) {
-      write_result(completion_script(app, words[1]));
+    if (words[0] == "completion") {
+      write_result(completion_script(app, words.size() > 1 ? words[1] : ""));
       return Exit::done;
     }
     translate_help(words);

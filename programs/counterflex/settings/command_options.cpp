@@ -65,11 +65,12 @@ void add_config(CLI::App& app, Options& options) {
       ->group(std::string(group::settings));
 }
 
-void add_output(CLI::App& app, Options& options) {
+void add_output(CLI::App& app, Options& options,
+                std::string_view quiet = "Print no warnings and no progress") {
   const std::string output(group::output);
   app.add_flag("--json", options.json, "One JSON document on standard output and nothing else")
       ->group(output);
-  app.add_flag("-q,--quiet", options.quiet, "Print nothing but errors")->group(output);
+  app.add_flag("-q,--quiet", options.quiet, std::string(quiet))->group(output);
   app.add_flag("-v,--verbose", options.verbose, "Print all details")->group(output);
 }
 
@@ -86,7 +87,7 @@ void add_run(CLI::App& app, Options& options) {
                {"method", "tolerance-mm", "max-correction-mm", "accept-partial", "decimals", "threads",
                 "min-block-ms", "report", "plot", "force-overwrite"});
   add_config(app, options);
-  add_output(app, options);
+  add_output(app, options, "Print nothing but errors");
 }
 
 /// `examples`: lines of the help, which shows them after the usage line.

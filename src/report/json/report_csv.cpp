@@ -4,7 +4,7 @@
 #include "counterflex/geometry/types.hpp"
 #include "counterflex/report/formats.hpp"
 #include "report/json/fixed_digits.hpp"
-#include "report/tally/preloads.hpp"
+#include "report/tally/causes.hpp"
 
 namespace counterflex {
 

@@ -58,9 +58,9 @@ Json largest_json(const std::optional<Largest>& largest) {
   return {{"max_mm", number(largest->mm, digits)}, {"line", largest->line}};
 }
 
-Json at_worst_json(const Sources& sources) {
-  if (!sources.at_worst) return nullptr;
-  const SourcesAtWorst& at = *sources.at_worst;
+Json at_worst_json(const Sources& sources, const std::optional<SourcesAtWorst>& worst) {
+  if (!worst) return nullptr;
+  const SourcesAtWorst& at = *worst;
   return {{"line", at.line},
           {"place_mm", numbers(at.place_mm, digits)},
           {"geometry_mm", numbers(at.geometry_mm, digits)},
@@ -71,14 +71,15 @@ Json at_worst_json(const Sources& sources) {
           {"before_mm", numbers(at.before_mm, digits)}};
 }
 
-Json sources_json(const std::optional<Sources>& sources) {
+Json sources_json(const RunReport& report) {
+  const std::optional<Sources>& sources = report.sources;
   if (!sources) return nullptr;
   return {{"geometry", statistics_json(sources->geometry)},
           {"load", statistics_json(sources->load)},
           {"gravity", optional_statistics(sources->gravity)},
           {"superposition", statistics_json(sources->superposition)},
           {"preloads", optional_statistics(sources->preloads)},
-          {"at_worst", at_worst_json(*sources)}};
+          {"at_worst", at_worst_json(*sources, report.at_worst)}};
 }
 
 /// Null if part of the path is unknown: its largest value would be misleading.
@@ -130,7 +131,7 @@ Json tools_off_json(const std::vector<ToolReport>& tools) {
 Json summary_json(const RunReport& report) {
   return {{"before", optional_statistics(report.before)},
           {"after", optional_statistics(report.after)},
-          {"sources", sources_json(report.sources)},
+          {"sources", sources_json(report)},
           {"sensitivity", sensitivity_json(report.sensitivity)},
           {"air", largest_json(report.air)},
           {"correction", largest_json(report.correction)},

@@ -11,8 +11,8 @@ bool any_axis(const std::array<bool, 3>& axes) {
 }
 
 bool rests(const Move& move) {
-  return move.handling != Handling::held && !move.arc && !any_axis(move.fixed) && all_known(move.known_start) &&
-         all_known(move.known_end) && move.start_mm == move.end_mm;
+  return move.handling != Handling::held && !move.arc && !any_axis(move.fixed) &&
+         all_known(move.known_start) && all_known(move.known_end) && move.start_mm == move.end_mm;
 }
 
 // A block whose motion is not computed may cut: a call, or in Klartext a cycle that moves Z. Rapids to three

@@ -7,7 +7,7 @@
 
 #include "counterflex/geometry/types.hpp"
 #include "counterflex/report/statistics.hpp"
-#include "report/tally/preloads.hpp"
+#include "report/tally/causes.hpp"
 
 namespace counterflex {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "counterflex/geometry/types.hpp"
 #include "counterflex/report/run_tally.hpp"
-#include "report/tally/preloads.hpp"
+#include "report/tally/causes.hpp"
 
 namespace counterflex {
 namespace {
@@ -38,16 +38,8 @@ bool keep_worst(double& largest_mm, WorstPlace& place, const Waypoint& w, const 
 }
 
 void keep_at_worst(const Waypoint& w, const Causes& causes, std::optional<SourcesAtWorst>& worst) {
-  const auto in_mm = [](const Vector6& deviation) { return Vector3(deviation.head<3>() / mm); };
-  if (worst && in_mm(w.before).norm() <= worst->before_mm.norm() + indistinct_mm) return;
-  worst = SourcesAtWorst{w.line,
-                         w.p_MT / mm,
-                         in_mm(causes.geometry),
-                         in_mm(causes.load),
-                         in_mm(causes.gravity),
-                         in_mm(preloads_of(causes)),
-                         in_mm(causes.superposition),
-                         in_mm(w.before)};
+  const SourcesAtWorst here = sources_at(w, causes);
+  if (!worst || here.before_mm.norm() > worst->before_mm.norm() + indistinct_mm) worst = here;
 }
 
 DeviationParts parts_of(const Waypoint& w, const Causes& causes) {
@@ -61,6 +53,18 @@ bool before_line(const WorstRow& row, int line) {
 }
 
 }  // namespace
+
+SourcesAtWorst sources_at(const Waypoint& w, const Causes& causes) {
+  const auto in_mm = [](const Vector6& deviation) { return Vector3(deviation.head<3>() / mm); };
+  return {w.line,
+          w.p_MT / mm,
+          in_mm(causes.geometry),
+          in_mm(causes.load),
+          in_mm(causes.gravity),
+          in_mm(preloads_of(causes)),
+          in_mm(causes.superposition),
+          in_mm(w.before)};
+}
 
 // Nearly all lines are in order: the wanted one is the last one, or after it.
 WorstRow& WorstLines::row(int line) {

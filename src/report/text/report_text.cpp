@@ -104,9 +104,10 @@ std::string source_row(const char* label, const Vector3& d_mm) {
                      mm4(d_mm.norm()));
 }
 
-std::string at_worst_text(const Sources& sources, const char* together) {
-  if (!sources.at_worst) return "";
-  const SourcesAtWorst& at = *sources.at_worst;
+std::string at_worst_text(const RunReport& report, const char* together) {
+  if (!report.at_worst) return "";
+  const Sources& sources = *report.sources;
+  const SourcesAtWorst& at = *report.at_worst;
   std::string text = fmt::format("  where the deviation is largest, line {}:\n", at.line);
   text += source_row("geometry", at.geometry_mm) + source_row("load", at.load_mm);
   if (sources.gravity) text += source_row("gravity", at.gravity_mm);
@@ -116,7 +117,7 @@ std::string at_worst_text(const Sources& sources, const char* together) {
 
 std::string sources_text(const RunReport& report, const Ink& ink) {
   if (report.before && !report.facts.attribution)
-    return line_break() + "For causes and sensitivity to the force add --report NAME or --json.\n";
+    return line_break() + "For causes along the path add --report NAME or --json.\n";
   if (!report.sources) return "";
   const Sources& sources = *report.sources;
   const bool two = !sources.gravity && !sources.preloads;
@@ -129,7 +130,7 @@ std::string sources_text(const RunReport& report, const Ink& ink) {
   if (sources.gravity) text += source_row("gravity: weights alone", *sources.gravity);
   if (sources.preloads) text += source_row("preloads alone", *sources.preloads);
   text += source_row("superposition: sums at each place", sources.superposition);
-  return text + source_row(together, *report.before) + at_worst_text(sources, together);
+  return text + source_row(together, *report.before) + at_worst_text(report, together);
 }
 
 std::string worst_text(const RunReport& report, const Ink& ink) {

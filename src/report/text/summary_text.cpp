@@ -29,21 +29,20 @@ std::string headline(const RunReport& report, const Ink& ink) {
   const std::string machine = report.machine.empty() ? "an unnamed machine" : report.machine;
   const std::string method =
       report.method == Method::direct ? "" : fmt::format(", method {}", to_string(report.method));
-  return wrapped("", ink.bold(what_was_done(report)) + " on " + machine + method, 2);
+  return ink.bold(what_was_done(report)) + " on " + without_controls(machine) + method + "\n";
 }
 
-std::string causes_text(const SourcesAtWorst& at, const Sources& sources) {
+std::string causes_text(const SourcesAtWorst& at) {
   std::string text = fmt::format("geometry {}, load {}", mm4(at.geometry_mm.norm()), mm4(at.load_mm.norm()));
-  if (sources.gravity) text += ", gravity " + mm4(at.gravity_mm.norm());
-  if (sources.preloads) text += ", preloads " + mm4(at.preloads_mm.norm());
+  if (!at.gravity_mm.isZero()) text += ", gravity " + mm4(at.gravity_mm.norm());
+  if (!at.preloads_mm.isZero(1e-9)) text += ", preloads " + mm4(at.preloads_mm.norm());
   return text;
 }
 
 std::string before_text(const RunReport& report) {
   if (!report.before) return "";
   std::string text = fmt::format("{} mm, line {}", mm4(report.before->max_mm), report.before->max_line);
-  if (report.sources && report.sources->at_worst)
-    text += ": " + causes_text(*report.sources->at_worst, *report.sources);
+  if (report.at_worst) text += ": " + causes_text(*report.at_worst);
   if (report.common_shift)
     text += fmt::format("; without the common shift {}", mm4(report.common_shift->rest.max_mm));
   return item(report.after ? "before" : "deviation", text);
@@ -127,9 +126,8 @@ std::string files_line(const RunReport& report, const std::vector<std::string>& 
 }
 
 std::string more_line(const RunReport& report) {
-  const bool attributed = report.facts.attribution || !report.before;
   std::string text = "-v shows all numbers";
-  if (!attributed) text += "; --report NAME adds causes and a page";
+  if (report.before && !report.facts.attribution) text += ", --report NAME draws them";
   if (report.warnings.count > 0) text = counted(report.warnings.count, "warning") + "; " + text;
   return item("more", text);
 }
