@@ -14,8 +14,8 @@ trap 'rm -rf "$work"' EXIT
 cp -r "$top/samples" "$work/samples"
 mkdir "$work/.bin" && ln -s "$counterflex" "$work/.bin/counterflex"
 pages=(README.md programs/guide/*.md samples/*/README.md)
-picture=samples/orthoglide-groove/deviation.svg  # of the first page; a page of these draws it
-rm "$work/$picture"
+pictures=(samples/orthoglide-groove/{deviation,case-a}.svg)  # commands of a page draw them
+for picture in "${pictures[@]}"; do rm -f "$work/$picture"; done
 
 run_command() (
   cd "$work/$1" || exit 1
