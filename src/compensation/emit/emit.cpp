@@ -60,9 +60,6 @@ void Emitter::emit_segment(std::size_t s) {
 
 namespace {
 
-constexpr double flat_share =
-    0.7;  // of the tolerance: what the flat parts beside corners may miss; the rest is for other deviations
-
 Vector3 without_height(const WorkFrame& frame, int axis, const Vector3& step) {
   const Vector3 normal = frame.X_MW.R.col(axis);
   return step - step.dot(normal) * normal;
@@ -83,7 +80,7 @@ bool Emitter::put_jump(const Segment& segment, const PlannedSegment& planned, Em
   else if (!segment.cutting && last != nullptr && stays_flat(*last))
     step = without_height(frame(move), last->arc->normal, step);
   jump = planned.starts_anywhere || !state_.correction_known ? 0 : step.norm();
-  const bool jumps = jump > jump_share * job_.options.tolerance;
+  const bool jumps = jump > small_share * job_.options.tolerance;
   if (jumps || segment.wanted.arc) piece_held_ = before(move);
   if (!jumps) return false;
   if (!move.may_jump && !move.may_split) return true;
@@ -109,7 +106,8 @@ void Emitter::emit_line(const Segment& segment, const PlannedSegment& planned, E
     emitted.edit.inserted.push_back({above});
   }
   const double miss_mm = set_height_inside(index_of(segment), in_words_mm(job_, move, end), emitted.edit);
-  if (miss_mm * mm > flat_share * job_.options.tolerance) unsplit_miss = std::max(unsplit_miss, miss_mm * mm);
+  if (miss_mm * mm > (1 - height_share) * job_.options.tolerance)
+    unsplit_miss = std::max(unsplit_miss, miss_mm * mm);
 }
 
 void Emitter::finish_segment(const Segment& segment, const PlannedSegment& planned, double unsplit_miss,

@@ -97,7 +97,6 @@ Vector3 Emitter::shifted_centre(const Move& move, const Vector3& shift) const {
 // One shift, and one turn about Z where that leaves less than half as much; nothing where no move of the
 // group has a known start and end. What it leaves is listed.
 bool Emitter::find_group_motion(std::size_t m, std::size_t s) {
-  constexpr double worth_a_turn = 0.1;  // of the tolerance: what the shift leaves
   const Move& first = job_.program.moves[m];
   std::vector<GroupSample> cuts, others;  // samples beside the contour count only without a cut
   int last_line = first.line;
@@ -117,7 +116,7 @@ bool Emitter::find_group_motion(std::size_t m, std::size_t s) {
   if (samples.empty()) return false;
   GroupMotion motion;
   Vector3 residual = choose_shift(samples, motion);
-  if (residual.head<2>().norm() * mm > worth_a_turn * job_.options.tolerance && group_may_turn(m)) {
+  if (residual.head<2>().norm() * mm > small_share * job_.options.tolerance && group_may_turn(m)) {
     GroupMotion with_turn = best_turn(samples);
     const Vector3 left = choose_shift(samples, with_turn);
     if (2 * left.head<2>().norm() < residual.head<2>().norm()) motion = with_turn, residual = left;
@@ -208,7 +207,6 @@ double half_range(const std::vector<double>& heights, std::size_t stride) {
 // The height of a contour's arc need not change in proportion to its angle, and a flat arc has one height: it
 // is divided into 2, 4 or 8 arcs then, which are one in the plane. Lines along Z lead to those that are flat.
 void Emitter::divide_by_height(const Move& move, std::size_t s, MoveEdit& edit) const {
-  constexpr double height_share = 0.3;  // of the tolerance
   const std::vector<CurveNode>& nodes = plan_.segments[s].group;
   if (!move.may_split || !group_in_xy_ || nodes.size() < 3 || move.arc->turns > 0) return;
   const bool flat = stays_flat(move);

@@ -5,6 +5,7 @@
 #include "compensation/plan/arc_fit.hpp"
 #include "compensation/solve/commands.hpp"
 #include "compensation/solve/solver.hpp"
+#include "compensation/tuning.hpp"
 
 namespace counterflex {
 

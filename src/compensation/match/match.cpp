@@ -8,6 +8,7 @@
 
 #include "compensation/match/match_pieces.hpp"
 #include "compensation/solve/commands.hpp"
+#include "compensation/tuning.hpp"
 #include "counterflex/compensation/windows.hpp"
 #include "counterflex/geometry/types.hpp"
 
@@ -104,7 +105,7 @@ class WindowMatcher {
     if (!inside || !all_known(original.known_start) || !all_known(original.known_end) ||
         !all_known(first.known_start))
       return std::nullopt;
-    const double rounding_mm = 4 * std::max(rounding_as_read(original), rounding_as_read(found)) / mm;
+    const double rounding_mm = roundings * std::max(rounding_as_read(original), rounding_as_read(found)) / mm;
     const double off = (found.end_mm - first.start_mm).head<2>().norm() -
                        (original.end_mm - original.start_mm).head<2>().norm();
     if (std::abs(off) <= rounding_mm + 1e-6) return std::nullopt;

@@ -6,6 +6,7 @@
 
 #include "compensation/match/match_moves.hpp"
 #include "compensation/plan/arc_angles.hpp"
+#include "compensation/tuning.hpp"
 #include "counterflex/compensation/windows.hpp"
 #include "counterflex/geometry/types.hpp"
 
@@ -13,7 +14,6 @@ namespace counterflex {
 namespace {
 
 constexpr double sweep_room = std::numbers::pi / 2;  // less than any difference of turns or of sense
-constexpr double roundings = 4;                      // of a start, an end and a centre, and of the original's
 
 const char* name_of(const Move& move) {
   if (move.cycle) return "a hole of a cycle";

@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 
+#include "compensation/tuning.hpp"
 #include "counterflex/geometry/types.hpp"
 
 namespace counterflex {
@@ -16,8 +17,6 @@ constexpr double fit_angle = std::numbers::pi / 16;  // samples are at most so f
 constexpr double flat_fit_angle = fit_angle / 4;     // the height that is missed bends as the arc does
 constexpr int fit_iterations = 4;
 constexpr double fit_step_mm = 1e-4;       // of numerical derivatives
-constexpr double pull_to_source = 4e-4;    // a centre that the curve hardly determines keeps its place
-constexpr double centre_kept_share = 0.5;  // of the tolerance: a centre that misses by less is kept
 constexpr double most_sweep_change = 0.1;  // rad
 constexpr double same_mm = 1e-9;
 

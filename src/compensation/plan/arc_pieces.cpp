@@ -4,13 +4,13 @@
 #include <cmath>
 #include <numbers>
 
+#include "compensation/tuning.hpp"
+
 namespace counterflex {
 namespace {
 
-constexpr int first_halvings = 3, most_halvings = 6;
+constexpr int most_halvings = 2 * first_halvings;
 constexpr int height_samples = 16;
-constexpr double polar_kept_share =
-    0.1;  // of the tolerance: what is off by more takes a line to the next block
 // Corners nearer to the ends of a piece do not divide it.
 constexpr double sliver_share = 0.05;  // of a piece, and where it might be one
 constexpr double sliver_mm = 0.1;      // at most
@@ -70,7 +70,7 @@ class ArcDivider {
   // What only polar words can express is kept wherever it is good enough.
   std::optional<FittedArc> fitting_as_polar() const {
     const bool only_polar = task_.move.arc->turns > 0 || !stays_flat(task_.move);
-    const double room_mm = (only_polar ? 1 : polar_kept_share) * task_.tolerance_mm;
+    const double room_mm = (only_polar ? 1 : small_share) * task_.tolerance_mm;
     FittedArc fit = fit_polar_arc(task_, held_);
     if (!fit.sound || fit.miss_mm > room_mm) return std::nullopt;
     return fit;

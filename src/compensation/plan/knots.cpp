@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "compensation/solve/failures.hpp"
+#include "compensation/tuning.hpp"
 
 namespace counterflex {
 namespace {

@@ -48,8 +48,8 @@ std::vector<Vector6> force_bends(const Job& job, const ForceChord& stretch, std:
     bends.emplace_back(F - (1 - v) * stretch.F0 - v * stretch.F1);
   };
   for (const double u : corners) add(u);
-  for (int k = 1; k < 8 && !job.forces.is_linear_between_breaks(); ++k)
-    add(stretch.u0 + k / 8.0 * (stretch.u1 - stretch.u0));
+  for (int k = 1; k < eighths && !job.forces.is_linear_between_breaks(); ++k)
+    add(stretch.u0 + static_cast<double>(k) / eighths * (stretch.u1 - stretch.u0));
   return bends;
 }
 

@@ -7,6 +7,9 @@
 
 namespace counterflex {
 
+/// Parts of a stretch without places, at whose ends it is looked at where it may curve.
+inline constexpr int eighths = 8;
+
 /// Equal steps along a feed move; a rapid is one.
 int steps_along(const Segment& segment);
 

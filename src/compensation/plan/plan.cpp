@@ -7,16 +7,14 @@
 #include "compensation/plan/intervals.hpp"
 #include "compensation/plan/knots.hpp"
 #include "compensation/plan/places.hpp"
+#include "compensation/tuning.hpp"
 #include "compensation/windows/parallel.hpp"
 #include "counterflex/compensation/windows.hpp"
 
 namespace counterflex {
 namespace {
 
-constexpr double curve_share = 0.01;  // of the tolerance: accuracy of the sampled curve
-constexpr double bend_share = 0.25;   // of the room for knots: a line that bends less is not sampled
-constexpr double sampled_angle = std::numbers::pi / 2;  // the correction around an arc is a wave
-constexpr int group_samples = 8;                        // along each move of a contour group
+constexpr double sampled_angle = std::numbers::pi / 2;  // of a wave, two samples on each side of an extreme
 
 enum class Kind { held, group, end, cut };
 
@@ -58,7 +56,7 @@ bool bends_little(const Job& job, Corrections& corrections, const PlanTask& task
 }
 
 void ask_group(Requests& requests, PlanTask& task, bool cutting) {
-  const int count = cutting ? group_samples : 1;
+  const int count = cutting ? eighths : 1;
   // A rapid begins with what was before the group.
   for (int k = cutting ? 0 : 1; k <= count; ++k)
     task.group.push_back(requests.corrections.ask(task.segment, static_cast<double>(k) / count,
@@ -118,7 +116,7 @@ std::optional<Failure> finish_cut(const Job& job, Corrections& corrections, cons
     ends = interval->at[4] == task.end;
     const Vector3 b = corrections.correction(interval->at[4]);
     const Vector3 a = ends ? b : corrections.correction(interval[1].at[0]);
-    const bool step = (a - b).norm() > jump_share * job.options.tolerance;
+    const bool step = (a - b).norm() > small_share * job.options.tolerance;
     if (!step && !ends) continue;
     if (segment.wanted.arc)
       planned.arc.push_back(std::move(stretch));

@@ -5,9 +5,6 @@
 
 namespace counterflex {
 
-/// Of the tolerance: a correction that steps by more is commanded by a jump of its own.
-inline constexpr double jump_share = 0.1;
-
 struct Knot {
   double u = 1;                      ///< fraction of the segment
   Vector3 target = Vector3::Zero();  ///< M (m)

@@ -5,9 +5,6 @@
 
 namespace counterflex {
 
-/// What rounding must leave of the tolerance where points are inserted: a share of it.
-inline constexpr double least_share = 0.02;
-
 /// The failure of a target by its status: travel is a limit, every other status is not
 /// compensated.
 Failure status_failure(const Job& job, Status status, const CommandedPlace& at, int line);

@@ -103,14 +103,13 @@ ForwardRun solve_slice(const Job& job, std::span<const Piece> pieces, const Ques
   return run;
 }
 
-// Where slices of pieces begin, and their end: each has `slice_size` pieces, or fewer with about 2048 places.
+// Where slices of pieces begin, and their end: each has `slice_size` places, and those of its last piece.
 std::vector<std::size_t> slice_borders(const Job& job, std::span<const Piece> pieces,
                                        const Questions& questions) {
-  constexpr double most_places = 8 * slice_size;
   std::vector<std::size_t> borders{0};
   double places = 0;
   for (std::size_t i = 0; i < pieces.size(); ++i) {
-    if (i - borders.back() == slice_size || places >= most_places) {
+    if (places >= slice_size) {
       borders.push_back(i);
       places = 0;
     }
@@ -127,8 +126,7 @@ std::vector<std::size_t> slice_borders(const Job& job, std::span<const Piece> pi
 std::optional<Failure> solve_in_portions(const Job& job, std::span<const Piece> pieces,
                                          const Questions& questions, const std::optional<Vector3>& command,
                                          const WaypointTaker& take) {
-  const auto together =
-      static_cast<std::size_t>(std::max(4, job.options.threads));  // slices: of long lines each has 30 MB
+  const std::size_t together = 4 * static_cast<std::size_t>(std::max(1, job.options.threads));  // slices
   const std::vector<std::size_t> borders = slice_borders(job, pieces, questions);
   const std::size_t count = borders.size() - 1;
   for (std::size_t first = 0; first < count; first += together) {

@@ -3,13 +3,10 @@
 #include <algorithm>
 
 #include "compensation/plan/places.hpp"
+#include "compensation/tuning.hpp"
 
 namespace counterflex {
 namespace {
-
-constexpr int odd_sixteenths = 8;
-constexpr double straight_share = 0.1;  // of the tolerance: a stretch that bends more is sampled closer
-constexpr double near_share = 0.8;      // of the tolerance: so is one that comes so near to it
 
 constexpr std::size_t no_sample = static_cast<std::size_t>(-1);
 
@@ -207,10 +204,10 @@ void sample_closer(Slice& slice) {
   for (const Stretch& stretch : slice.stretches) {
     if (stretch.m == no_sample || stretch.piece >= slice.end) continue;
     const Vector3 a = slice.miss(stretch.a), m = slice.miss(stretch.m), b = slice.miss(stretch.b);
-    const bool is_safe = (m - (a + b) / 2).norm() <= straight_share * tolerance &&
+    const bool is_safe = (m - (a + b) / 2).norm() <= small_share * tolerance &&
                          std::max({a.norm(), m.norm(), b.norm()}) <= near_share * tolerance;
-    for (int k = 0; k < odd_sixteenths && !is_safe; ++k) {
-      const double share = (2 * k + 1) / (2.0 * odd_sixteenths);
+    for (int k = 0; k < eighths && !is_safe; ++k) {
+      const double share = (2 * k + 1) / (2.0 * eighths);
       add_inside(slice, stretch.piece, stretch.v0 + share * (stretch.v1 - stretch.v0));
     }
   }

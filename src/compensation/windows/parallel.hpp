@@ -3,11 +3,9 @@
 #include <cstddef>
 #include <functional>
 
-namespace counterflex {
+#include "compensation/tuning.hpp"
 
-/// Segments or pieces that one thread works on: enough for full batches of waypoints, few enough that a
-/// window keeps several threads busy.
-inline constexpr std::size_t slice_size = 256;
+namespace counterflex {
 
 inline std::size_t slice_count(std::size_t items) {
   return (items + slice_size - 1) / slice_size;
