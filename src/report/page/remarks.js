@@ -17,7 +17,7 @@
     if (checks.length === 0) return null;
     const rows = checks.map(({check, state, text}) =>
       Object.assign([`${marks[state]} ${check}`, state, text], {mark: state === 'ok' ? '' : 'different'}));
-    return table(words.ofRun(run, 'Sanity'), [{title: 'Check'}, textColumn('State'), textColumn('Found')], rows);
+    return table(words.ofRun(run, 'Checks'), [{title: 'Check'}, textColumn('State'), textColumn('Found')], rows);
   }
 
   function warnings(run, link) {

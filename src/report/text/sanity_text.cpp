@@ -30,7 +30,7 @@ std::string line(SanityState state, const std::string& text, const Ink& ink) {
 
 std::string sanity_text(const SanityChecks& checks, const Ink& ink) {
   if (checks.empty()) return "";
-  std::string text = line_break() + ink.bold("Sanity") + "\n";
+  std::string text = line_break() + ink.bold("Checks") + "\n";
   for (const SanityCheck& check : checks) text += line(check.state, check.name + ": " + check.text, ink);
   return text;
 }
