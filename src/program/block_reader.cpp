@@ -67,6 +67,7 @@ void BlockReader::take_window(Program& to) {
   to.after = program_.after;
   to.frames = program_.frames;
   to.operations = program_.operations;
+  to.operation_titles = program_.operation_titles;
   to.block_count = program_.block_count;
   to.evaluated = program_.evaluated;
   to.expansion = program_.expansion;

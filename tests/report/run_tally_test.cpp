@@ -260,8 +260,10 @@ TEST_CASE("operations are distinguished by tool and comment, and their sum is th
       "(ROUGH)\n"
       "T1 M6\n"
       "G1 X100 F600\n"
+      "(REMARK)\n"
       "T2 M6\n"
       "Y50\n"
+      "\n"
       "(FINISH)\n"
       "X90\n"
       "M30\n";
@@ -287,7 +289,7 @@ TEST_CASE("operations are distinguished by tool and comment, and their sum is th
   CHECK(report.operations[1].tool == 2);
   CHECK(report.operations[1].name == "ROUGH");
   CHECK(report.operations[2].name == "FINISH");
-  CHECK(report.operations[2].first_line == 8);
+  CHECK(report.operations[2].first_line == 10);
   double sum_mm = 0;
   for (const OperationReport& operation : report.operations) {
     CHECK(operation.moves == 1);
@@ -302,16 +304,16 @@ TEST_CASE("operations are distinguished by tool and comment, and their sum is th
 
 TEST_CASE("two operations without a rapid between them both include the place between them") {
   MadeUpRun run;
-  run.program = read_program("G21 G90 G0 X0 Y0 Z0\n(A)\nG1 X10 F600\n(B)\nY30\nM30\n", "two.ngc", {});
+  run.program = read_program("G21 G90 G0 X0 Y0 Z0\n(A)\nG1 X10 F600\n\n(B)\nY30\nM30\n", "two.ngc", {});
   run.path = build_toolpath(run.program, one_frame(run.program, {}));
   RunTally tally(2);
-  tally.add_waypoints({cut(0, 3, 10, Vector3(0.1, 0, 0)), cut(1, 5, 30, Vector3(0.05, 0, 0))}, run.job);
+  tally.add_waypoints({cut(0, 3, 10, Vector3(0.1, 0, 0)), cut(1, 6, 30, Vector3(0.05, 0, 0))}, run.job);
   const std::vector<OperationTally> operations = tally.path().operations();
   REQUIRE(operations.size() == 2);
   CHECK(operations[0].before.statistics().max_mm == doctest::Approx(0.1));
   CHECK(operations[0].before.statistics().mean_mm == doctest::Approx(0.1));
   CHECK(operations[1].before.statistics().max_mm == doctest::Approx(0.1));
-  CHECK(operations[1].before.statistics().max_line == 5);
+  CHECK(operations[1].before.statistics().max_line == 6);
   CHECK(operations[1].before.statistics().mean_mm == doctest::Approx(0.075));
   CHECK(tally.path().measures().before.statistics().mean_mm == doctest::Approx((0.1 * 25 + 0.05 * 15) / 40));
 }
@@ -344,7 +346,7 @@ TEST_CASE("a failed run has no corrected share, and operations without solved wa
 TEST_CASE("with too many operations the last row collects all others") {
   std::string text = "G21 G90 G0 X0 Y0 Z0\n";
   for (int i = 1; i <= 150; ++i)
-    text += "(PART " + std::to_string(i) + ")\nG1 X" + std::to_string(i) + " F600\n";
+    text += "\n(PART " + std::to_string(i) + ")\nG1 X" + std::to_string(i) + " F600\n";
   const Program program = read_program(text, "made_up.ngc", {});
   OperationNames names;
   for (int twice = 0; twice < 2; ++twice)

@@ -327,6 +327,8 @@ struct Program {
   std::vector<ProgramFrame> frames{{}};
   std::vector<std::string> operations{""};  ///< comments that are alone in their lines, of this
                                             ///< window; the first: the last one before the window
+  /// The title of each of `operations`: the first comment after a tool change, a blank line or a rapid move.
+  std::vector<std::string> operation_titles{""};
   std::vector<LeftAlone> left_alone;
   std::vector<Remark> remarks;
   std::vector<PathTolerance> path_tolerances;  ///< each different one once

@@ -16,20 +16,28 @@
 #include "program/siemens/cycles.hpp"
 #include "program/siemens/statements.hpp"
 #include "program/text/force_comment.hpp"
+#include "program/text/scanner.hpp"
 
 namespace counterflex {
 namespace {
 
+bool is_blank_line(std::string_view line) {
+  return std::all_of(line.begin(), line.end(), [](char c) { return is_blank(c) || is_ignored(c); });
+}
+
 /// If several comments are alone in a line, the first one with a name is the operation.
 void apply_comments(const Block& block, Reading& r) {
-  if (block.comments.empty()) return;
   const std::string_view text = r.program.text;
+  if (block.comments.empty()) {
+    if (is_blank_line(part(text, block.span))) r.operation.expect_title();
+    return;
+  }
   bool may_name = has_comments_alone(text, block);
   for (const Span& comment : block.comments) {
     if (const auto force = read_force_comment(text, r.program.file, block, comment))
       r.state.force = force->F;
     else if (may_name)
-      may_name = !r.operation.name(part(text, comment));
+      may_name = !r.operation.name(part(text, comment), as_tool(r.state.tool));
   }
 }
 

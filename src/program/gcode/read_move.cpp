@@ -213,7 +213,7 @@ Move& begin_move(const Block& block, Reading& r, Motion motion) {
   move.spindle_rpm = r.state.spindle_rpm;
   move.frame = static_cast<std::uint32_t>(r.state.frame);
   move.tool = tool_of(r);
-  move.operation = r.operation.index_in(r.program);
+  move.operation = r.operation.index_in(r.program, motion, as_tool(r.state.tool));
   if (r.state.force) move.force = r.state.force;
   move.exact_stop = r.state.exact_stop;
   return move;

@@ -348,7 +348,7 @@ Move begin_klartext_move(const KlartextBlock& block, KlartextReading& r) {
     move.block_number = number;
   }
   move.tool = as_tool(state.tool);
-  move.operation = r.operation.index_in(r.program);
+  move.operation = r.operation.index_in(r.program, move.motion, move.tool);
   move.may_insert_words = false;
   move.force = state.force;
   move.block_delete = !empty(block.block_delete);

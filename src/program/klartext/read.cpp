@@ -161,8 +161,15 @@ void refuse_conflict_marker(const KlartextBlock& block, const KlartextReading& r
                       fmt::format("'{}' is a conflict marker of a version control system", marker));
 }
 
-/// A comment alone in its line names the operation, and so does a structure line, "* - POCKET".
+/// A structure line, "* - POCKET", is always a title.
+void name_operation(std::string_view comment, KlartextReading& r) {
+  if (comment.starts_with('*')) r.operation.expect_title();
+  r.operation.name(comment, as_tool(r.state.tool));
+}
+
+/// A comment alone in its line names the operation, and so does a structure line.
 void read_comments(const KlartextBlock& block, KlartextReading& r) {
+  if (block.comments.empty() && block.parts.empty()) r.operation.expect_title();
   Block place;
   place.line = block.line;
   place.span = block.span;
@@ -170,7 +177,7 @@ void read_comments(const KlartextBlock& block, KlartextReading& r) {
     if (const auto force = read_force_comment(r.program.text, r.program.file, place, comment))
       r.state.force = force->F;
     else if (block.parts.empty())
-      r.operation.name(part(r.program.text, comment));
+      name_operation(part(r.program.text, comment), r);
   }
 }
 

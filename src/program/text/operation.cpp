@@ -66,32 +66,41 @@ std::string_view operation_name(std::string_view comment) {
   return is_active(name) ? std::string_view{} : name;
 }
 
-bool CurrentOperation::name(std::string_view comment) {
+bool CurrentOperation::name(std::string_view comment, std::int32_t tool) {
   const std::string_view name = operation_name(comment);
   if (name.empty()) return false;
-  if (name != text_) {
-    text_ = name;
-    is_new_ = true;
-  }
+  const bool is_title = expects_title_ || (tool != tool_ && !has_title_);
+  is_new_ = is_new_ || name != text_ || (is_title && name != title_);
+  text_ = name;
+  if (is_title) title_ = name;
+  has_title_ = has_title_ || is_title;
+  tool_ = tool;
+  expects_title_ = false;
   return true;
 }
 
 void CurrentOperation::add_to(Program& program) {
   is_new_ = false;
-  if (program.operations.back() != text_) program.operations.push_back(text_);
+  if (program.operations.back() != text_ || program.operation_titles.back() != title_) {
+    program.operations.push_back(text_);
+    program.operation_titles.push_back(title_);
+  }
   index_ = static_cast<std::uint32_t>(program.operations.size() - 1);
 }
 
 void CurrentOperation::begin_window(Program& program) {
   std::optional<Move>& before = program.before;
   std::string of_before = before ? program.operations[before->operation] : text_;
+  std::string title_before = before ? program.operation_titles[before->operation] : title_;
   program.operations.assign(1, text_);
+  program.operation_titles.assign(1, title_);
   index_ = 0;
   is_new_ = false;
   if (!before) return;
   before->operation = 0;
-  if (of_before == text_) return;
+  if (of_before == text_ && title_before == title_) return;
   program.operations.push_back(std::move(of_before));
+  program.operation_titles.push_back(std::move(title_before));
   before->operation = 1;
 }
 

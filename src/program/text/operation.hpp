@@ -25,16 +25,24 @@ bool has_comments_alone(std::string_view text, const Block& block);
 /// only and for lines of a header.
 std::string_view operation_name(std::string_view comment);
 
-/// The active operation. It is added to `Program::operations` with its first move.
+/// The active operation. It is added to `Program::operations` with its first move. Its title is the first
+/// comment after a tool change, a blank line or a rapid move, before the next feed move. Other comments are
+/// remarks: the title stays.
 class CurrentOperation {
  public:
   /// Sets the operation to `comment`, which is alone in its line and not a FORCE comment. False if it has no
-  /// name.
-  bool name(std::string_view comment);
+  /// name. `tool`: the tool in the spindle.
+  bool name(std::string_view comment, std::int32_t tool);
 
-  /// Index into `Program::operations`. Once a move has the active operation, it is the last entry.
-  std::uint32_t index_in(Program& program) {
+  /// The next comment may be a title: after a blank line, and for a structure line.
+  void expect_title() { expects_title_ = true; }
+
+  /// Index into `Program::operations` for a move. Once a move has the active operation, it is the last entry.
+  std::uint32_t index_in(Program& program, Motion motion, std::int32_t tool) {
     if (is_new_) add_to(program);
+    expects_title_ = motion == Motion::rapid;
+    has_title_ = false;
+    tool_ = tool;
     return index_;
   }
 
@@ -44,9 +52,11 @@ class CurrentOperation {
  private:
   void add_to(Program& program);
 
-  std::string text_;
+  std::string text_, title_;
   std::uint32_t index_ = 0;
-  bool is_new_ = false;
+  std::int32_t tool_ = 0;  ///< at the last comment or move
+  bool is_new_ = false, expects_title_ = false;
+  bool has_title_ = false;  ///< since the last move
 };
 
 }  // namespace counterflex

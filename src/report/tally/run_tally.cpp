@@ -9,7 +9,7 @@
 namespace counterflex {
 
 std::int32_t OperationNames::number_of(const Program& window, const Move& move) {
-  const std::string operation = without_controls(window.operations[move.operation]);
+  const std::string operation = without_controls(window.operation_titles[move.operation]);
   const auto is_it = [&](const Name& name) { return name.tool == move.tool && name.operation == operation; };
   if (last_ >= 0 && is_it(names_[static_cast<std::size_t>(last_)])) return last_;
   std::size_t i =

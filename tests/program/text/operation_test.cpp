@@ -120,15 +120,40 @@ TEST_CASE("comments of a subprogram name the moves that replace its call") {
 }
 
 TEST_CASE("only operations with moves are kept, again each time that one begins") {
-  const Program program = read("G21 G0 X0\n(A)\n(B)\nX1\n(C)\n(B)\nX2\n(A)\nX3\n(D)\n");
+  const Program program = read("G21 F9 G1 X0\n(A)\n(B)\nX1\n(C)\n(B)\nX2\n(A)\nX3\n(D)\n");
   CHECK(program.operations == Names{"", "B", "A"});
   CHECK(operations_in(program) == Names{"", "B", "B", "A"});
+}
+
+Names titles_in(const std::string& text, const std::string& dialect = "auto") {
+  const Program program = read(text, dialect);
+  Names titles;
+  for (const Move& move : program.moves) titles.push_back(program.operation_titles.at(move.operation));
+  return titles;
+}
+
+TEST_CASE("a title is the first comment after a tool change, a blank line or a rapid move") {
+  CHECK(titles_in("(PART)\n(REMARK)\nG21 G90 F100\nG1 X1\n") == Names{""});
+  CHECK(titles_in("(PART)\nG21 G90 F100\nT1 M6\nS100 M3\n(POCKET)\n(SPEED 100)\nG1 X1\n(REMARK)\nX2\n") ==
+        Names{"POCKET", "POCKET"});
+  CHECK(titles_in("G21 G90 F100\n\n(POCKET)\n(SPEED 100)\nG1 X1\n \r\n(SLOT)\nX2\n") ==
+        Names{"POCKET", "SLOT"});
+  CHECK(titles_in("G21 G90 F100\nG1 X1\nG0 X9\n(STEP)\nG1 X2\n") == Names{"", "", "STEP"});
+  CHECK(titles_in("G21 G90 F100\n\n(POCKET)\nT1 M6\n(SPEED 100)\nG1 X1\nT2 M6\nX2\n(REMARK)\nX3\n") ==
+        Names{"POCKET", "POCKET", "POCKET"});
+}
+
+TEST_CASE("a structure line of a Klartext program is a title, another comment only as in other dialects") {
+  CHECK(titles_in("0 BEGIN PGM A MM\n1 ; PART\n2 L X+1 F100\n3 * - ROUGHING\n4 ; REMARK\n5 L X+2\n6 TOOL "
+                  "CALL 3 Z S500\n"
+                  "7 ; Slot 3\n8 L X+3\n") == Names{"", "ROUGHING", "Slot 3"});
 }
 
 TEST_CASE("a window has its own operations, independent of the windows before it") {
   std::string text = "(FIRST)\nG21 G90 G17\nG0 X0 Y0 Z5\nG1 Z-1 F100\n";
   for (int i = 0; i < 3000; ++i)
-    text += fmt::format("{}X{} Y{}\n", i % 3 == 1 ? fmt::format("(OP {})\n", i / 9) : "", i % 50, i / 50);
+    text += fmt::format("{}{}X{} Y{}\n", i % 18 == 1 ? "\n" : "",
+                        i % 3 == 1 ? fmt::format("(OP {})\n", i / 9) : "", i % 50, i / 50);
   const Program whole = read(text);
   for (const std::size_t least : {1, 7, 100}) {
     CAPTURE(least);
@@ -140,8 +165,11 @@ TEST_CASE("a window has its own operations, independent of the windows before it
       CHECK(window.operations.size() <= window.moves.size() + 3);
       if (window.before)
         CHECK(operation_of(window, *window.before) == operation_of(whole, whole.moves.at(index - 1)));
-      for (const Move& move : window.moves)
+      for (const Move& move : window.moves) {
+        CHECK(window.operation_titles.at(move.operation) ==
+              whole.operation_titles.at(whole.moves.at(index).operation));
         CHECK(operation_of(window, move) == operation_of(whole, whole.moves.at(index++)));
+      }
       if (window.after)
         CHECK(operation_of(window, *window.after) == operation_of(whole, whole.moves.at(index)));
     }
