@@ -57,8 +57,10 @@ void write_data(const std::vector<PageRun>& runs, const std::string& conclusion,
     take(separator);
     take("{\"name\": ");
     write_text(run.name, take);
-    for (const auto& [key, json] :
-         {std::pair{"report", &run.report}, {"curves", &run.curves}, {"loads", &run.loads}}) {
+    for (const auto& [key, json] : {std::pair{"report", &run.report},
+                                    {"curves", &run.curves},
+                                    {"loads", &run.loads},
+                                    {"source", &run.source}}) {
       take(fmt::format(",\n\"{}\": ", key));
       write_json(*json, take);
     }

@@ -8,7 +8,6 @@
 
 #include "counterflex/geometry/types.hpp"
 #include "counterflex/report/run_tally.hpp"
-#include "report/tally/causes.hpp"
 #include "report/text/assumptions.hpp"
 #include "report/text/control.hpp"
 #include "report/text/tool_words.hpp"
@@ -289,10 +288,6 @@ RunReport report_verification(const RunContext& context, const RunTally& tally, 
   report.warnings = all_warnings(context, tally, report);
   add_verdict(report, tally);
   return report;
-}
-
-void add_at_worst(RunReport& report, const LoadPlace& place, const Causes& causes) {
-  report.at_worst = sources_at(place.at, causes);
 }
 
 void add_sensitivity(RunReport& report, const std::vector<LoadPlace>& places,

@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "counterflex/files/file_reader.hpp"
@@ -303,13 +304,13 @@ TEST_CASE("the JSON of a compensation has every key, in this order") {
       },
       "text": "G1 X100 F600",
       "tool": 0,
-      "operation": "made up"
+      "operation": ""
     }
   ],
   "operations": [
     {
       "tool": 0,
-      "operation": "made up",
+      "operation": "",
       "first_line": 4,
       "last_line": 4,
       "moves": 1,
@@ -564,6 +565,22 @@ TEST_CASE("a summary without causes names the option for them") {
   CHECK(contains(text, how));
   CHECK_FALSE(contains(text, "Causes of the deviation"));
   CHECK(contains(text, "30 % higher"));
+}
+
+TEST_CASE("the JSON of a failure has the deviation there by its causes, if it was solved") {
+  RunReport report;
+  report.failure = Failure{Exit::limit, 4, "too far"};
+  CHECK_FALSE(contains(to_json(report), "\"at\""));
+  report.failure_place = SourcesAtWorst{.line = 4,
+                                        .place_mm = {1, 2, 3},
+                                        .geometry_mm = {0.5, 0, 0},
+                                        .load_mm = {0, 0.25, 0},
+                                        .superposition_mm = {0.5, 0.25, 0},
+                                        .before_mm = {0.5, 0.25, 0}};
+  const auto at = nlohmann::json::parse(to_json(report))["failure"]["at"];
+  CHECK(at["geometry_mm"] == nlohmann::json({0.5, 0.0, 0.0}));
+  CHECK(at["before_mm"] == nlohmann::json({0.5, 0.25, 0.0}));
+  CHECK(at["gravity_mm"].is_null());
 }
 
 TEST_CASE("the summary of a failure shows the failure and only known numbers") {

@@ -127,6 +127,34 @@ TEST_CASE("curves are written as the bytes of their numbers") {
   CHECK(array_of<float>(document["place_mm"]).size() == 3 * n);
 }
 
+TEST_CASE("directions are written while each stretch has one waypoint") {
+  PathCurves curves(true);
+  for (const Waypoint& w : made_up_waypoints()) curves.add(w, 0);
+  const auto document = nlohmann::json::parse(curves_json(curves));
+  CHECK(array_of<float>(document["direction"]).size() == 3 * curves.stretches().size());
+  PathCurves merged(true);
+  for (std::size_t i = 0; i <= PathCurves::most_stretches; ++i) merged.add(made_up_waypoints().back(), 0);
+  CHECK_FALSE(nlohmann::json::parse(curves_json(merged)).contains("direction"));
+}
+
+TEST_CASE("the page has the whole program, unless it is too long, and the full path of the written one") {
+  const MadeUpRun run;
+  RunReport report = predicted(run, made_up_waypoints());
+  const auto source = [&](const std::string& text) {
+    FileReader program = FileReader::of_bytes(text);
+    return nlohmann::json::parse(source_json(program, report));
+  };
+  CHECK(source("%\r\nG1 X1\xFF\n")["text"] == "%\nG1 X1\uFFFD\n");
+  CHECK_FALSE(contains(source("(\033[31m)\n")["text"].get<std::string>(), "\033"));
+  CHECK(source(std::string(longest_program_text, ' '))["text"].is_string());
+  CHECK(source(std::string(longest_program_text + 1, ' '))["text"].is_null());
+  CHECK(source("")["output"].is_null());
+  report.facts.output = "out/part.nc";
+  const std::string output = source("")["output"];
+  CHECK(output.starts_with('/'));
+  CHECK(output.ends_with("/out/part.nc"));
+}
+
 TEST_CASE("a quantity without known values has no array") {
   PathCurves curves(false);
   Waypoint w = cut(1, 4, 75, Vector3(0, 0.3, 0));

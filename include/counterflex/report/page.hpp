@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "counterflex/files/file_reader.hpp"
 #include "counterflex/report/path_curves.hpp"
 #include "counterflex/report/report.hpp"
 
@@ -16,7 +17,13 @@ struct PageRun {
   std::string report;           ///< "counterflex-report 1", as `to_json` writes it
   std::string curves = "null";  ///< as `curves_json` writes them
   std::string loads = "null";   ///< as `loads_json` writes them
+  std::string source = "null";  ///< as `source_json` writes it
 };
+
+/// The texts that the page shows beside the path: {"text": the original program, or null if it has more than
+/// `longest_program_text` bytes; "output": the absolute path of the corrected program, or null}.
+std::string source_json(FileReader& program, const RunReport& report);
+inline constexpr std::size_t longest_program_text = 2 << 20;
 
 /// The curves of a path: arrays of numbers as base64 of their bytes, little-endian. Lengths in mm, angles in
 /// degrees, forces in N; NaN where a quantity is not known, and no array for one that is known nowhere.
@@ -24,6 +31,7 @@ struct PageRun {
 ///     {"waypoints", "stretches": n, "waypoints_per_stretch",
 ///      "s_mm": float64[n], "first_line", "last_line", "operation": int32[n], "after_rapid": uint8[n],
 ///      "place_mm", "place_before_mm", "place_after_mm": float32[3n],
+///      "direction": float32[3n], only with one waypoint per stretch: arcs are drawn with it
 ///      "quantities": {name: {"least", "largest": float32[n]}},    "least" is left out where both are the
 ///      same "rapids", "force_steps": {"count", "s_mm": [...]}}
 std::string curves_json(const PathCurves& curves);
@@ -32,7 +40,8 @@ std::string curves_json(const PathCurves& curves);
 /// loads nothing: what it runs is in it, and its security policy allows nothing else. The data of all runs
 /// are one JSON document, "counterflex-page 1", in the element `counterflex-data`:
 ///
-///     {"schema", "runs": [{"name", "report", "curves", "loads"}], "conclusion": what to take home, in words}
+///     {"schema", "runs": [{"name", "report", "curves", "loads", "source"}], "conclusion": what to take home,
+///     in words}
 ///
 /// without the last key where `conclusion` is empty.
 void write_page(const std::string& title, const std::vector<PageRun>& runs,

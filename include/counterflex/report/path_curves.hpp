@@ -81,6 +81,7 @@ struct Stretch {
   /// At the waypoint with the largest deviation `after` (of a prediction: `before`): the wanted tip, and the
   /// deviations there; NaN where unknown.
   std::array<float, 3> place{}, before{}, after{};
+  std::array<float, 3> direction{};  ///< unit vector of the wanted path at its last waypoint; zero if unknown
   std::array<float, quantity_count> least{}, largest{};  ///< NaN where nothing is known
 };
 

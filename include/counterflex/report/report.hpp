@@ -87,6 +87,9 @@ struct SourcesAtWorst {
   Vector3 before_mm = Vector3::Zero();
 };
 
+/// Of a waypoint with causes.
+SourcesAtWorst sources_at(const Waypoint& w, const Causes& causes);
+
 /// Where each part of the deviation before comes from.
 struct Sources {
   DeviationStatistics geometry, load;
@@ -150,7 +153,7 @@ struct BlockCounts {
 /// The moves of one tool in one operation.
 struct OperationReport {
   long tool = 0;                      ///< in the spindle; 0: none known
-  std::string name;                   ///< the last comment that was alone in its line; empty: none
+  std::string name;                   ///< title, see Program::operation_titles; empty: none
   int first_line = 0, last_line = 0;  ///< the least and the largest of its feed moves
   std::size_t moves = 0;              ///< feed moves
   double length_mm = 0;
@@ -237,6 +240,7 @@ struct RunReport {
   std::vector<std::string> not_modelled;  ///< what else moves the tip of a real machine, one phrase each
   SanityChecks sanity{};                  ///< filled by the caller, who knows the machine's model
   std::optional<Failure> failure;
+  std::optional<SourcesAtWorst> failure_place{};  ///< where the original program is off most in its line
 };
 
 /// What a report is about besides what was measured. Borrowed: everything outlives it.
@@ -255,9 +259,6 @@ void add_loads(RunReport& report, LoadsAlong along, const Machine& machine);
 /// stable equilibrium. `higher`, `lower`: by place.
 void add_sensitivity(RunReport& report, const std::vector<LoadPlace>& places,
                      const std::vector<OtherForce>& higher, const std::vector<OtherForce>& lower);
-
-/// Fills the causes where the deviation before is largest in the report of a run without attribution.
-void add_at_worst(RunReport& report, const LoadPlace& place, const Causes& causes);
 
 /// The sensitivity of a run without attribution: also without the force it is solved at `places` only.
 void add_sensitivity(RunReport& report, const std::vector<LoadPlace>& places,
@@ -294,6 +295,7 @@ struct ReportFile {
   std::string report;  ///< "counterflex-report 1", JSON
   std::string curves;  ///< JSON, as the page's data has it; empty: none
   std::string loads;   ///< likewise
+  std::string source;  ///< likewise
   std::string remark;  ///< why there are no curves though they were asked for; empty: nothing to remark
 };
 

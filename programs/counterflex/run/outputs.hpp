@@ -74,8 +74,9 @@ class RunFiles {
   void add_program(std::string_view text);
   void add_waypoints(const std::vector<Waypoint>& waypoints);
 
-  /// Writes report and plot, if requested, when the run has ended.
-  void add_report(const RunReport& report, const std::string& report_json, const PathCurves& curves);
+  /// Writes report and plot, if requested, when the run has ended. `program`: the original one.
+  void add_report(const RunReport& report, const std::string& report_json, const PathCurves& curves,
+                  FileReader& program);
 
   /// Publishes all files together, with the corrected program if `with_program`.
   void publish(bool with_program);

@@ -13,6 +13,7 @@
 #include "counterflex/report/formats.hpp"
 #include "process/standard_output.hpp"
 #include "run/facts.hpp"
+#include "run/failed_line.hpp"
 #include "run/header.hpp"
 #include "run/reading.hpp"
 #include "run/sanity.hpp"
@@ -302,18 +303,21 @@ RunEnd finish_run(const Options& options, Run& run, RunReport report, const RunT
   };
   const LoadPlace* worst = run.load_places.worst_before();
   if (worst != nullptr && report.before && !report.at_worst)
-    if (const auto causes = solve_causes(*worst, &*run.starts)) add_at_worst(report, *worst, *causes);
+    if (const auto causes = solve_causes(*worst, &*run.starts))
+      report.at_worst = sources_at(worst->at, *causes);
   if (report.facts.attribution)
     add_sensitivity(report, places, under(1 + force_change), under(1 - force_change));
   else if (report.sensitivity)
     add_sensitivity(report, places, under(1 + force_change), under(1 - force_change), under(0));
+  if (report.failure && options.command != Command::verify && (options.report || options.json))
+    report.failure_place = solve_failed_line(run, report.failure->line);
   run.starts.reset();  // the solvers are done; frees memory for the report
   report.sanity = run_sanity(run, report, tally);
   add_loads(report, loads, on.machine);
   if (options.report || options.json) add_texts(report, run.file.bytes);
-  run.file.bytes.refuse_change();  // the file was read more than once
   std::string json = to_json(report);
-  if (tally.curves()) files.add_report(report, json, *tally.curves());
+  if (tally.curves()) files.add_report(report, json, *tally.curves(), run.file.bytes);
+  run.file.bytes.refuse_change();  // the file was read more than once
   files.publish(report.exit == Exit::done);
   return {std::move(report), std::move(json)};
 }

@@ -93,6 +93,8 @@ void add_places(const PathCurves& curves, Members& members) {
   members.add_array("place_mm", vectors(curves, &Stretch::place));
   members.add_array("place_before_mm", vectors(curves, &Stretch::before));
   members.add_array("place_after_mm", vectors(curves, &Stretch::after));
+  if (curves.waypoints_per_stretch() == 1)
+    members.add_array("direction", vectors(curves, &Stretch::direction));
 }
 
 }  // namespace

@@ -39,7 +39,7 @@ void require_schema(const Json& document, std::string_view schema, std::string_v
                                any ? found->dump() : "missing", report_schema));
 }
 
-/// The data of a page that shows one run: {"report", "curves", "loads"}.
+/// The data of a page that shows one run: {"report", "curves", "loads", "source"}.
 Json run_of_page(std::string_view html, const std::string& file) {
   const std::size_t tag = html.find(data_begins);
   if (tag == std::string_view::npos)
@@ -64,6 +64,7 @@ std::string text_of_part(const Json& run, const char* part) {
 void take_curves(const Json& run, ReportFile& file) {
   file.curves = text_of_part(run, "curves");
   file.loads = text_of_part(run, "loads");
+  file.source = text_of_part(run, "source");
 }
 
 ReportFile read_page(const std::string& path, WithCurves with) {

@@ -58,17 +58,21 @@ Json largest_json(const std::optional<Largest>& largest) {
   return {{"max_mm", number(largest->mm, digits)}, {"line", largest->line}};
 }
 
-Json at_worst_json(const Sources& sources, const std::optional<SourcesAtWorst>& worst) {
-  if (!worst) return nullptr;
-  const SourcesAtWorst& at = *worst;
+/// A cause that acts nowhere is null.
+Json sources_at_json(const SourcesAtWorst& at, bool weights, bool preloads) {
   return {{"line", at.line},
           {"place_mm", numbers(at.place_mm, digits)},
           {"geometry_mm", numbers(at.geometry_mm, digits)},
           {"load_mm", numbers(at.load_mm, digits)},
-          {"gravity_mm", sources.gravity ? numbers(at.gravity_mm, digits) : Json(nullptr)},
-          {"preloads_mm", sources.preloads ? numbers(at.preloads_mm, digits) : Json(nullptr)},
+          {"gravity_mm", weights ? numbers(at.gravity_mm, digits) : Json(nullptr)},
+          {"preloads_mm", preloads ? numbers(at.preloads_mm, digits) : Json(nullptr)},
           {"superposition_mm", numbers(at.superposition_mm, digits)},
           {"before_mm", numbers(at.before_mm, digits)}};
+}
+
+Json at_worst_json(const Sources& sources, const std::optional<SourcesAtWorst>& worst) {
+  if (!worst) return nullptr;
+  return sources_at_json(*worst, sources.gravity.has_value(), sources.preloads.has_value());
 }
 
 Json sources_json(const RunReport& report) {
@@ -335,6 +339,8 @@ Json failure_json(const RunReport& report) {
   if (!failure) return nullptr;
   Json json{{"exit", static_cast<int>(failure->exit)}, {"line", failure->line}, {"what", failure->what}};
   if (report.command == Command::verify) json["corrected_line"] = failure->corrected_line;
+  if (const auto& at = report.failure_place)
+    json["at"] = sources_at_json(*at, !at->gravity_mm.isZero(0), !at->preloads_mm.isZero(0));
   return json;
 }
 

@@ -1,7 +1,6 @@
 #pragma once
 /// Causes of a deviation, as reports show them.
 #include "counterflex/compensation/options.hpp"
-#include "counterflex/report/report.hpp"
 
 namespace counterflex {
 
@@ -11,8 +10,5 @@ inline Vector6 preloads_of(const Causes& causes) {
   const Vector6 rest = causes.superposition - causes.geometry - causes.load - causes.gravity;
   return rest.cwiseAbs().maxCoeff() < 1e-12 ? Vector6(Vector6::Zero()) : rest;
 }
-
-/// The causes at a waypoint, in mm.
-SourcesAtWorst sources_at(const Waypoint& w, const Causes& causes);
 
 }  // namespace counterflex

@@ -123,6 +123,7 @@ Stretch stretch_of(const Waypoint& w, PathCurves::Known known) {
   stretch.s_mm = w.s / mm;
   stretch.first_line = stretch.last_line = w.line;
   stretch.place = floats(w.p_MT / mm);
+  stretch.direction = floats(w.direction);
   stretch.before.fill(unknown);
   stretch.after.fill(unknown);
   if (w.place) stretch.before = floats(w.before.head<3>() / mm);

@@ -38,8 +38,9 @@ bool keep_worst(double& largest_mm, WorstPlace& place, const Waypoint& w, const 
 }
 
 void keep_at_worst(const Waypoint& w, const Causes& causes, std::optional<SourcesAtWorst>& worst) {
-  const SourcesAtWorst here = sources_at(w, causes);
-  if (!worst || here.before_mm.norm() > worst->before_mm.norm() + indistinct_mm) worst = here;
+  const double size_mm = w.before.head<3>().norm() / mm;
+  if (worst && size_mm <= worst->before_mm.norm() + indistinct_mm) return;
+  worst = sources_at(w, causes);
 }
 
 DeviationParts parts_of(const Waypoint& w, const Causes& causes) {
